@@ -285,27 +285,23 @@ static void allocations_may_fail(standard_run *run_it, double of_share, int stay
     print_message("# %g of %ld allocations\n", tried, all);
 }
 
-static void one_failed_allocation_ends_a_run_with_its_status(void **unused)
+TEST_WITH(one_failed_allocation_ends_a_run_with_its_status, NULL, remove_outputs)
 {
-    (void)unused;
     allocations_may_fail(run, 1.0, 0);
 }
 
-static void memory_that_stays_away_ends_a_run_with_its_status(void **unused)
+TEST_WITH(memory_that_stays_away_ends_a_run_with_its_status, NULL, remove_outputs)
 {
-    (void)unused;
     allocations_may_fail(run, 1.0, 1);
 }
 
-static void one_failed_allocation_loses_no_record(void **unused)
+TEST_WITH(one_failed_allocation_loses_no_record, NULL, remove_outputs)
 {
-    (void)unused;
     allocations_may_fail(run_with_records, segment_share, 0);
 }
 
-static void memory_that_stays_away_loses_no_record(void **unused)
+TEST_WITH(memory_that_stays_away_loses_no_record, NULL, remove_outputs)
 {
-    (void)unused;
     allocations_may_fail(run_with_records, segment_share, 1);
 }
 
@@ -342,11 +338,10 @@ static dem_status fall(double **now, dem_index *n, long failing_one)
     return status;
 }
 
-static void a_run_goes_on_where_memory_ran_out_to_the_same_bits(void **unused)
+TEST(a_run_goes_on_where_memory_ran_out_to_the_same_bits)
 {
     double *undisturbed, *now;
     dem_index n;
-    (void)unused;
     from_then_on = 0;
     assert_int_equal(fall(&undisturbed, &n, 0), DEM_OK);
     const long all = allocations;
@@ -361,13 +356,6 @@ static void a_run_goes_on_where_memory_ran_out_to_the_same_bits(void **unused)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(one_failed_allocation_ends_a_run_with_its_status, remove_outputs),
-        cmocka_unit_test_teardown(memory_that_stays_away_ends_a_run_with_its_status, remove_outputs),
-        cmocka_unit_test_teardown(one_failed_allocation_loses_no_record, remove_outputs),
-        cmocka_unit_test_teardown(memory_that_stays_away_loses_no_record, remove_outputs),
-        cmocka_unit_test(a_run_goes_on_where_memory_ran_out_to_the_same_bits),
-    };
     if (argc > 1) share = strtod(argv[1], NULL);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

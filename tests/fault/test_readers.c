@@ -74,23 +74,14 @@ static void each_allocation_may_fail(int stays_so)
     assert_int_equal(read_once(message, sizeof message), DECK_OK);
 }
 
-static void one_failed_allocation_ends_reading_with_its_status(void **state)
+TEST(one_failed_allocation_ends_reading_with_its_status)
 {
-    (void)state;
     each_allocation_may_fail(0);
 }
 
-static void memory_that_stays_away_ends_reading_with_its_status(void **state)
+TEST(memory_that_stays_away_ends_reading_with_its_status)
 {
-    (void)state;
     each_allocation_may_fail(1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_failed_allocation_ends_reading_with_its_status),
-        cmocka_unit_test(memory_that_stays_away_ends_reading_with_its_status),
-    };
-    return cmocka_run_group_tests(tests, write_files, remove_files);
-}
+TEST_GROUP(write_files, remove_files);

@@ -130,10 +130,9 @@ static void check_manner(unsigned long seed, dem_method method, const picture *a
 }
 
 /* Each by Fehlberg's method; some by methods with steps of one length, Verlet's parabolas among them. */
-static void nobody_leaves_a_trace(void **state)
+TEST(nobody_leaves_a_trace)
 {
     static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET, DEM_METHOD_RK4};
-    (void)state;
     for (long k = 0; k < n_cases; k++)
         for (int m = 0; m < (k % 4 == 0 ? 3 : 1); m++) {
             const unsigned long seed = (unsigned long)(first_seed + k);
@@ -177,9 +176,8 @@ static picture run_strip(int threads)
     return p;
 }
 
-static void threads_that_share_the_candidates_leave_no_trace(void **state)
+TEST(threads_that_share_the_candidates_leave_no_trace)
 {
-    (void)state;
     picture alone = run_strip(1);
     for (int threads = 2; threads <= 3; threads++) {
         picture p = run_strip(threads);
@@ -192,11 +190,7 @@ static void threads_that_share_the_candidates_leave_no_trace(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nobody_leaves_a_trace),
-        cmocka_unit_test(threads_that_share_the_candidates_leave_no_trace),
-    };
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

@@ -156,10 +156,9 @@ static void check(unsigned long seed, manner how)
     }
 }
 
-static void every_record_leads_to_the_same_end(void **state)
+TEST(every_record_leads_to_the_same_end)
 {
     static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET, DEM_METHOD_RK4};
-    (void)state;
     for (long k = 0; k < n_cases; k++)
         for (int m = 0; m < (k % 4 == 0 ? 3 : 1); m++)
             for (int c = 0; c < 2; c++)
@@ -171,9 +170,8 @@ static void every_record_leads_to_the_same_end(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_record_leads_to_the_same_end)};
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
     if (argc > 3) every = atol(argv[3]);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

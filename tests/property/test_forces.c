@@ -126,10 +126,9 @@ static void judge(const watch *w, const stage *s, unsigned long seed)
 
 static const dem_contact_method contacts[2] = {DEM_CONTACT_LOCAL, DEM_CONTACT_EXACT};
 
-static void the_ledger_stays_closed(void **state)
+TEST(the_ledger_stays_closed)
 {
     long n_events = 0;
-    (void)state;
     for (long k = 0; k < 2 * n_cases; k++) {
         const unsigned long seed = (unsigned long)(first_seed + k / 2);
         stage s;
@@ -174,10 +173,9 @@ static int kick(stage *s, gsl_rng *rng)
     return status == DEM_OK;
 }
 
-static void kicks_enter_the_ledger(void **state)
+TEST(kicks_enter_the_ledger)
 {
     long n_moved = 0, n_events = 0;
-    (void)state;
     for (long k = 0; k < 2 * n_cases; k++) {
         const unsigned long seed = (unsigned long)(first_seed + k / 2);
         gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -222,10 +220,9 @@ static void go(stage *s, unsigned long seed, manner how, const dem_checkpoint *c
     assert_ok(dem_simulation_advance(s->simulation, t_end));
 }
 
-static void nobody_leaves_a_trace(void **state)
+TEST(nobody_leaves_a_trace)
 {
     static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET, DEM_METHOD_HEUN12};
-    (void)state;
     for (long k = 0; k < n_cases; k++) {
         const unsigned long seed = (unsigned long)(first_seed + k);
         const manner how = {methods[k % 3], contacts[k % 2], 1, 0};
@@ -331,13 +328,12 @@ static void stumble(const diary *d, unsigned long seed, manner how, long call, d
     close_stage(&s);
 }
 
-static void a_force_that_fails_leaves_the_last_state(void **state)
+TEST(a_force_that_fails_leaves_the_last_state)
 {
     static const dem_status statuses[3] = {DEM_STOPPED, DEM_OK, DEM_ERROR_IO};
     static const dem_method methods[3] = {DEM_METHOD_RK4, DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
     static diary d;
     enum { most = 10 };
-    (void)state;
     for (long k = 0; k < n_cases; k++) {
         const unsigned long seed = (unsigned long)(first_seed + k);
         const manner how = {methods[k % 3], contacts[k % 2], 1, 0};
@@ -355,13 +351,7 @@ static void a_force_that_fails_leaves_the_last_state(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_ledger_stays_closed),
-        cmocka_unit_test(kicks_enter_the_ledger),
-        cmocka_unit_test(nobody_leaves_a_trace),
-        cmocka_unit_test(a_force_that_fails_leaves_the_last_state),
-    };
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

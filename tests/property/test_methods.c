@@ -128,10 +128,9 @@ static void judge_hits(unsigned long seed, census *all)
     }
 }
 
-static void the_first_impacts_are_the_same_up_to_the_steps_error(void **state)
+TEST(the_first_impacts_are_the_same_up_to_the_steps_error)
 {
     census all = {0};
-    (void)state;
     for (long seed = first_seed; seed < first_seed + n_cases; seed++) judge_hits((unsigned long)seed, &all);
     print_message(
         "# parted by at most %.2g, %.2g, %.2g steps' errors at rtol 1e-6, 1e-8, 1e-10; %ld of %ld sensitive\n",
@@ -193,11 +192,10 @@ static double apart(dem_index a, dem_index b)
 /* Momentum to rounding of the sums, and where the root finder's stops are interpolated to 1e-8; the ledger as the
  * property suite's, a hundredth of it at this rtol. Single runs may part where something hangs in the balance: one in
  * twenty. The sums of the counts must not. */
-static void whole_runs_have_the_same_ledger(void **state)
+TEST(whole_runs_have_the_same_ledger)
 {
     dem_index impacts[2] = {0, 0}, releases[2] = {0, 0};
     long parted = 0;
-    (void)state;
     for (long seed = first_seed; seed < first_seed + n_cases; seed++) {
         outcome o[2];
         for (int m = 0; m < 2; m++) {
@@ -220,9 +218,7 @@ static void whole_runs_have_the_same_ledger(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_first_impacts_are_the_same_up_to_the_steps_error),
-                                       cmocka_unit_test(whole_runs_have_the_same_ledger)};
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

@@ -287,10 +287,9 @@ static void print_census(const census *all)
                   all->parted, all->chaotic);
 }
 
-static void random_bodies_neither_sink_in_nor_gain_energy_in_any_order(void **unused)
+TEST(random_bodies_neither_sink_in_nor_gain_energy_in_any_order)
 {
     census all = {0};
-    (void)unused;
     for (long seed = first_seed; seed < first_seed + n_cases; seed++) run_case((unsigned long)seed, &all);
     print_census(&all);
     assert_int_equal(n_faults, 0);
@@ -304,12 +303,11 @@ static void random_bodies_neither_sink_in_nor_gain_energy_in_any_order(void **un
 
 /* Corners of bodies cut within a step, storms of rounding, notches, second vertices on an edge, sweeps by number; tips
  * that a node went through; places from before a notch. */
-static void what_once_failed_stays_mended(void **unused)
+TEST(what_once_failed_stays_mended)
 {
     static const unsigned long seeds[] = {2,    3,    17,   56,   79,   92,   132,  2536, 2723,  3299,
                                           3511, 3570, 3584, 4562, 5370, 6568, 6875, 8914, 61338, 62158};
     census all = {0};
-    (void)unused;
     n_faults = 0;
     for (size_t k = 0; k < sizeof seeds / sizeof *seeds; k++) run_case(seeds[k], &all);
     assert_int_equal(n_faults, 0);
@@ -317,9 +315,7 @@ static void what_once_failed_stays_mended(void **unused)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_bodies_neither_sink_in_nor_gain_energy_in_any_order),
-                                       cmocka_unit_test(what_once_failed_stays_mended)};
     if (argc > 1) n_cases = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

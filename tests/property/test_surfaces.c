@@ -164,11 +164,10 @@ static dem_index check_scene(unsigned long seed, gsl_rng *rng)
     return changes;
 }
 
-static void candidates_that_come_and_go_leave_no_trace(void **state)
+TEST(candidates_that_come_and_go_leave_no_trace)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     dem_index changes = 0;
-    (void)state;
     for (long k = 0; k < n_cases; k++) changes += check_scene((unsigned long)(first_seed + k), rng);
     print_message("# %lld candidates came or went\n", (long long)changes);
     assert_true(changes > 5 * n_cases);
@@ -177,8 +176,7 @@ static void candidates_that_come_and_go_leave_no_trace(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(candidates_that_come_and_go_leave_no_trace)};
     if (argc > 1) n_cases = strtol(argv[1], NULL, 10);
     if (argc > 2) first_seed = strtol(argv[2], NULL, 10);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

@@ -153,10 +153,9 @@ static void check_message(const job *j)
     assert_non_null(strstr(j->missing, nowhere));
 }
 
-static void runs_at_once_are_runs_one_after_the_other(void **state)
+TEST(runs_at_once_are_runs_one_after_the_other)
 {
     static char after[] = "together_after_XXXXXX", at_once[] = "together_at_once_XXXXXX";
-    (void)state;
     assert_non_null(mkdtemp(after));
     assert_non_null(mkdtemp(at_once));
     for (long round = 0; round < n_rounds; round++) {
@@ -189,8 +188,7 @@ static void runs_at_once_are_runs_one_after_the_other(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(runs_at_once_are_runs_one_after_the_other)};
     if (argc > 1) n_rounds = atol(argv[1]);
     if (argc > 2) first_seed = atol(argv[2]);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

@@ -1,15 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* CMocka in its order of includes, and comparison of doubles as doubles (CMocka 1.1.5 compares floats). */
+/* Comparison of doubles as doubles: CMocka 1.1.5 compares floats. */
 #ifndef DEM_TEST_CLOSE_H
 #define DEM_TEST_CLOSE_H
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "harness/test.h"
 
 /** Fails unless |actual - expected| <= tolerance; a NaN fails. */
 #define assert_close(actual, expected, tolerance)                                                                      \

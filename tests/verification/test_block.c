@@ -120,9 +120,8 @@ static void check_loaded(const dem_model *model, const block *b)
     free(held);
 }
 
-static void springs_have_the_strain_of_hookes_law(void **state)
+TEST(springs_have_the_strain_of_hookes_law)
 {
-    (void)state;
     for (int k = 0; k < n_diagonals * 2 * n_ratios; k++) {
         const block b = block_of(k);
         if (!is_stable(&b)) continue;
@@ -147,9 +146,8 @@ static void check_constants(const dem_constants *c, const block *b)
     assert_close(c->anisotropy, 1.0, 1e-9);
 }
 
-static void constants_measured_are_those_stated(void **state)
+TEST(constants_measured_are_those_stated)
 {
-    (void)state;
     for (int k = 0; k < n_diagonals * 2 * n_ratios; k++) {
         const block b = block_of(k);
         if (!is_stable(&b)) continue;
@@ -159,13 +157,4 @@ static void constants_measured_are_those_stated(void **state)
         check_constants(&c, &b);
         dem_model_destroy(model);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(springs_have_the_strain_of_hookes_law),
-        cmocka_unit_test(constants_measured_are_those_stated),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -55,43 +55,38 @@ static void check_bounces(double eta, const double times[8], double t_star)
     support_close(&run);
 }
 
-static void a_ball_of_restitution_one_half_follows_the_geometric_series_and_rests(void **unused)
+TEST(a_ball_of_restitution_one_half_follows_the_geometric_series_and_rests)
 {
     static const double times[8] = {0.4515236409857309, 0.9030472819714618, 1.1288091024643272, 1.24169001271076,
                                     1.2981304678339762, 1.3263506953955846, 1.3404608091763885, 1.3475158660667905};
-    (void)unused;
     check_bounces(0.5, times, 1.3545709229571927);
 }
 
-static void a_ball_of_restitution_three_tenths_follows_the_geometric_series_and_rests(void **unused)
+TEST(a_ball_of_restitution_three_tenths_follows_the_geometric_series_and_rests)
 {
     static const double times[8] = {0.4515236409857309, 0.7224378255771695, 0.8037120809546011, 0.8280943575678305,
                                     0.8354090405517993, 0.83760344544699,   0.8382617669155471, 0.8384592633561143};
-    (void)unused;
     check_bounces(0.3, times, 0.8385439046877861);
 }
 
-static void a_ball_of_restitution_four_fifths_follows_the_geometric_series_and_rests(void **unused)
+TEST(a_ball_of_restitution_four_fifths_follows_the_geometric_series_and_rests)
 {
     static const double times[8] = {0.4515236409857309, 1.1739614665629003, 1.7519117270246358, 2.214271935394024,
                                     2.5841601020895353, 2.880070635445944,  3.116799062131071,  3.3061818034791726};
-    (void)unused;
     check_bounces(0.8, times, 4.063712768871579);
 }
 
-static void a_ball_of_restitution_nine_tenths_follows_the_geometric_series_and_rests(void **unused)
+TEST(a_ball_of_restitution_nine_tenths_follows_the_geometric_series_and_rests)
 {
     static const double times[8] = {0.4515236409857309, 1.2642661947600464, 1.9957344931569305, 2.6540559617141257,
                                     3.2465452834156032, 3.779785672946931,  4.259702023525127,  4.691626739045502};
-    (void)unused;
     check_bounces(0.9, times, 8.578949178728887);
 }
 
-static void an_elastic_ball_returns_to_its_height_for_ever(void **unused)
+TEST(an_elastic_ball_returns_to_its_height_for_ever)
 {
     const double t0 = sqrt(2.0 * height / g);
     support_run run;
-    (void)unused;
     drop(&run, 1.0);
     for (int k = 1; k <= 20; k++) {
         const dem_state state = support_at(&run, 2.0 * k * t0);
@@ -103,11 +98,10 @@ static void an_elastic_ball_returns_to_its_height_for_ever(void **unused)
     support_close(&run);
 }
 
-static void a_plastic_ball_stays_where_it_falls(void **unused)
+TEST(a_plastic_ball_stays_where_it_falls)
 {
     const double t0 = sqrt(2.0 * height / g);
     support_run run;
-    (void)unused;
     drop(&run, 0.0);
     dem_state state = support_at(&run, 0.5 * t0);
     assert_close(state.x[1], height - 0.125 * g * t0 * t0, 1e-12);
@@ -202,11 +196,10 @@ static void check_estimates(bool pair, double root, double acceleration, double 
     }
 }
 
-static void the_linear_estimate_of_a_contact_is_of_second_order_and_the_root_is_exact(void **unused)
+TEST(the_linear_estimate_of_a_contact_is_of_second_order_and_the_root_is_exact)
 {
     const double fall = sqrt(2.0 * height / g), root = pair_root();
     support_run run;
-    (void)unused;
     open_fall(&run, false, true, 0.0);
     (void)support_at(&run, fall + 0.001);
     assert_close(run.impacts[0].t, fall, 1e-12);
@@ -219,11 +212,10 @@ static void the_linear_estimate_of_a_contact_is_of_second_order_and_the_root_is_
     support_close(&run);
 }
 
-static void a_ball_starting_at_rest_on_the_floor_stays_there(void **unused)
+TEST(a_ball_starting_at_rest_on_the_floor_stays_there)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {0.5, 0.0};
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, floor_points, 2, 0.5);
     const dem_state state = support_at(&run, 1.0);
     assert_close(state.x[0], 0.5, 1e-12);
@@ -231,19 +223,4 @@ static void a_ball_starting_at_rest_on_the_floor_stays_there(void **unused)
     assert_int_equal(run.n_impacts, 0);
     assert_int_equal(state.n_contacts, 1);
     support_close(&run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_ball_of_restitution_one_half_follows_the_geometric_series_and_rests),
-        cmocka_unit_test(a_ball_of_restitution_three_tenths_follows_the_geometric_series_and_rests),
-        cmocka_unit_test(a_ball_of_restitution_four_fifths_follows_the_geometric_series_and_rests),
-        cmocka_unit_test(a_ball_of_restitution_nine_tenths_follows_the_geometric_series_and_rests),
-        cmocka_unit_test(an_elastic_ball_returns_to_its_height_for_ever),
-        cmocka_unit_test(a_plastic_ball_stays_where_it_falls),
-        cmocka_unit_test(a_ball_starting_at_rest_on_the_floor_stays_there),
-        cmocka_unit_test(the_linear_estimate_of_a_contact_is_of_second_order_and_the_root_is_exact),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -157,9 +157,8 @@ static const row rows[7] = {{10, {1.02461, 0.928146}},  {20, {1.01615, 0.957383}
                             {80, {1.006736, 0.984139}}, {160, {1.004294, 0.990173}}, {320, {1.002724, 0.993875}},
                             {640, {1.001724, 0.996168}}};
 
-static void the_contact_and_rebound_of_a_chain_are_those_of_its_modes_and_of_the_table(void **unused)
+TEST(the_contact_and_rebound_of_a_chain_are_those_of_its_modes_and_of_the_table)
 {
-    (void)unused;
     for (int k = 0; k < 7; k++) {
         const answer exact = closed_form(rows[k].n);
         assert_close(exact.contact, rows[k].table.contact, k < 2 ? 5e-6 : 1e-6);
@@ -171,9 +170,8 @@ static void the_contact_and_rebound_of_a_chain_are_those_of_its_modes_and_of_the
     }
 }
 
-static void a_chain_that_flies_to_a_wall_does_as_one_that_starts_there(void **unused)
+TEST(a_chain_that_flies_to_a_wall_does_as_one_that_starts_there)
 {
-    (void)unused;
     const answer exact = closed_form(20);
     for (int lying = 0; lying < 2; lying++) {
         const answer run = measure(20, 0.0123, lying == 1);
@@ -183,10 +181,9 @@ static void a_chain_that_flies_to_a_wall_does_as_one_that_starts_there(void **un
 }
 
 /* Least squares of ln(excess) on ln N, over sizes that are near the limit of -2/3: from N = 10 on it is -0.63. */
-static void the_excess_of_the_contact_time_falls_with_the_power_two_thirds_of_the_springs(void **unused)
+TEST(the_excess_of_the_contact_time_falls_with_the_power_two_thirds_of_the_springs)
 {
     double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-    (void)unused;
     for (int k = 2; k < 7; k++) {
         const double x = log(rows[k].n);
         const double y = log(closed_form(rows[k].n).contact - 1.0); /* of the runs to 1e-8 */
@@ -196,14 +193,4 @@ static void the_excess_of_the_contact_time_falls_with_the_power_two_thirds_of_th
         sxy += x * y;
     }
     assert_close((5.0 * sxy - sx * sy) / (5.0 * sxx - sx * sx), -0.66, 0.03);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_contact_and_rebound_of_a_chain_are_those_of_its_modes_and_of_the_table),
-        cmocka_unit_test(a_chain_that_flies_to_a_wall_does_as_one_that_starts_there),
-        cmocka_unit_test(the_excess_of_the_contact_time_falls_with_the_power_two_thirds_of_the_springs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

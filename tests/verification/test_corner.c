@@ -18,11 +18,10 @@ static const double roof[6] = {-1.0, -1.0, 0.0, 0.0, 1.0, -1.0};
 
 /* On the ridge of a roof both flanks are approached alike: the one that ends there is met, and turns (0, -u) into
  * (-u, 0). */
-static void a_node_falling_on_a_ridge_meets_the_flank_that_ends_there(void **unused)
+TEST(a_node_falling_on_a_ridge_meets_the_flank_that_ends_there)
 {
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g), u = g * fall;
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, roof, 3, 1.0);
     const dem_state state = support_at(&run, fall + 0.01);
     assert_int_equal(run.n_impacts, 1);
@@ -32,12 +31,11 @@ static void a_node_falling_on_a_ridge_meets_the_flank_that_ends_there(void **unu
 }
 
 /* With a velocity towards one flank that flank is approached faster. */
-static void a_node_moving_sideways_over_a_ridge_meets_the_flank_it_runs_into(void **unused)
+TEST(a_node_moving_sideways_over_a_ridge_meets_the_flank_it_runs_into)
 {
     const double fall = sqrt(2.0 * 0.5 / g), u = g * fall, drift = -0.5;
     const double x[2] = {-drift * fall, 0.5}, v[2] = {drift, 0.0};
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, roof, 3, 1.0);
     (void)support_at(&run, fall + 0.01);
     assert_int_equal(run.n_impacts, 1);
@@ -48,13 +46,12 @@ static void a_node_moving_sideways_over_a_ridge_meets_the_flank_it_runs_into(voi
     support_close(&run);
 }
 
-static void a_plastic_node_on_a_ridge_slides_down_one_flank(void **unused)
+TEST(a_plastic_node_on_a_ridge_slides_down_one_flank)
 {
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g), u = g * fall, t = 0.1;
     const double along =
         0.5 * sqrt(2.0) * u * t + 0.25 * sqrt(2.0) * g * t * t; /* starts with u sin 45, gains g sin 45 */
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, roof, 3, 0.0);
     const dem_state state = support_at(&run, fall + t);
     assert_int_equal(state.n_contacts, 1);
@@ -64,11 +61,10 @@ static void a_plastic_node_on_a_ridge_slides_down_one_flank(void **unused)
     support_close(&run);
 }
 
-static void a_node_sliding_off_a_free_end_flies_on(void **unused)
+TEST(a_node_sliding_off_a_free_end_flies_on)
 {
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0}, v[2] = {2.0, 0.0}, t = 0.3;
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, points, 2, 0.5);
     const dem_state state = support_at(&run, 0.5 + t);
     check_state(state, 1.0 + 2.0 * t, -0.5 * g * t * t, 2.0, -g * t, 1e-9);
@@ -79,12 +75,11 @@ static void a_node_sliding_off_a_free_end_flies_on(void **unused)
 
 /* Off a convex end on to a slope of 45 degrees below: flight of 2 u/g, then it slides with what the slope leaves of
  * its speed. */
-static void a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope(void **unused)
+TEST(a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope)
 {
     const double points[6] = {-1.0, 0.0, 0.0, 0.0, 5.0, -5.0}, x[2] = {-0.5, 0.0}, v[2] = {1.0, 0.0};
     const double flight = 2.0 / g, root = sqrt(0.5), t = 0.2;
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
     const dem_state state = support_at(&run, 0.5 + flight + t);
     assert_int_equal(run.n_impacts, 1);
@@ -95,12 +90,11 @@ static void a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope(void 
     support_close(&run);
 }
 
-static void a_node_glides_over_a_vertex_without_a_bend(void **unused)
+TEST(a_node_glides_over_a_vertex_without_a_bend)
 {
     const double points[8] = {-1.0, -0.5, 0.0, 0.0, 1.0, 0.5, 2.0, 1.0}, x[2] = {1.5, 0.75}, v[2] = {0.0, 0.0};
     const double sine = 1.0 / sqrt(5.0), cosine = 2.0 / sqrt(5.0), t = 0.95; /* 0.5 g sine t^2 = 1.98 m down the line */
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, points, 4, 0.3);
     const dem_state state = support_at(&run, t);
     const double along = 0.5 * g * sine * t * t;
@@ -111,12 +105,11 @@ static void a_node_glides_over_a_vertex_without_a_bend(void **unused)
 }
 
 /* A floor that turns up by 30 degrees: plastic keeps cos 30 of the speed at each passage, elastic reflects. */
-static void a_node_running_into_a_concave_bend_takes_its_impact(void **unused)
+TEST(a_node_running_into_a_concave_bend_takes_its_impact)
 {
     const double c = cos(M_PI / 6.0), s = sin(M_PI / 6.0), points[6] = {-9.0, 0.0, 0.0, 0.0, 4.0 * c, 4.0 * s};
     const double x[2] = {-1.0, 0.0}, v[2] = {2.0, 0.0}, up_and_down = 2.0 * 2.0 * c / (g * s);
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
     dem_state state = support_at(&run, 0.5 + 0.1);
     const double along = 2.0 * c * 0.1 - 0.5 * g * s * 0.01;
@@ -134,11 +127,10 @@ static void a_node_running_into_a_concave_bend_takes_its_impact(void **unused)
 
 static const double groove[6] = {-1.0, 1.0, 0.0, 0.0, 1.0, 1.0};
 
-static void a_plastic_node_falling_into_a_groove_is_held_by_both_flanks(void **unused)
+TEST(a_plastic_node_falling_into_a_groove_is_held_by_both_flanks)
 {
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0};
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, groove, 3, 0.0);
     const dem_state state = support_at(&run, 1.5);
     check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
@@ -148,11 +140,10 @@ static void a_plastic_node_falling_into_a_groove_is_held_by_both_flanks(void **u
 }
 
 /* By Moreau's law both normals act and the velocity is reversed, less restitution. */
-static void an_elastic_node_falling_into_a_groove_comes_straight_back(void **unused)
+TEST(an_elastic_node_falling_into_a_groove_comes_straight_back)
 {
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g);
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, groove, 3, 1.0);
     const dem_state state = support_at(&run, 2.0 * fall);
     check_state(state, 0.0, 0.5, 0.0, 0.0, 1e-8);
@@ -161,13 +152,12 @@ static void an_elastic_node_falling_into_a_groove_comes_straight_back(void **unu
 
 /* Back and forth in a plastic V groove the speed falls by cos(bend) at each passage of the bottom, a series with an
  * end: rest. */
-static void a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom(void **unused)
+TEST(a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom)
 {
     const double points[6] = {-2.0, 1.0, 0.0, 0.0, 2.0, 1.0}, x[2] = {-1.0, 0.5}, v[2] = {0.0, 0.0};
     const double s = 1.0 / sqrt(5.0), keep = 0.6; /* cos of twice the angle of slope 1/2 */
     const double down = sqrt(2.0 * sqrt(1.25) / (g * s)), end = down + 2.0 * down * keep / (1.0 - keep);
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
     const dem_state state = support_at(&run, end + 0.01);
     check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
@@ -177,7 +167,7 @@ static void a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom(void **unused
     support_close(&run);
 }
 
-static void a_wall_of_another_obstacle_stops_a_sliding_node(void **unused)
+TEST(a_wall_of_another_obstacle_stops_a_sliding_node)
 {
     const double x[2] = {-0.5, 0.0}, v[2] = {1.0, 0.0}, mass = 2.0;
     const double ground[4] = {-1.0, 0.0, 1.0, 0.0}, wall[4] = {0.5, -1.0, 0.5, 1.0};
@@ -186,7 +176,6 @@ static void a_wall_of_another_obstacle_stops_a_sliding_node(void **unused)
     dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
-    (void)unused;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;
@@ -204,12 +193,11 @@ static void a_wall_of_another_obstacle_stops_a_sliding_node(void **unused)
 }
 
 /* Round the free end from below, up through the back unhindered, and down on the front. */
-static void a_node_coming_from_behind_passes_and_then_lands_on_the_front(void **unused)
+TEST(a_node_coming_from_behind_passes_and_then_lands_on_the_front)
 {
     const double points[4] = {0.0, 0.0, 4.0, 0.0}, x[2] = {-0.05, -0.5}, v[2] = {1.0, 5.0};
     const double through = (5.0 - sqrt(25.0 - 2.0 * g * 0.5)) / g, lands = (5.0 + sqrt(25.0 - 2.0 * g * 0.5)) / g;
     support_run run;
-    (void)unused;
     support_point(&run, 1.0, x, v, points, 2, 0.0);
     (void)support_at(&run, 0.5 * (0.05 + through));
     assert_int_equal(dem_simulation_counts(run.simulation).behind, 1);
@@ -225,12 +213,11 @@ static void a_node_coming_from_behind_passes_and_then_lands_on_the_front(void **
 
 /* Rest at the bottom of valleys from nearly straight to narrow, and in a right corner turned by any angle: held for
  * ever. */
-static void a_node_at_rest_in_a_corner_stays(void **unused)
+TEST(a_node_at_rest_in_a_corner_stays)
 {
     static const double slopes[4] = {1e-6, 4e-3, 1.0, 100.0};
     const double v[2] = {0.0, 0.0};
     support_run run;
-    (void)unused;
     for (int k = 0; k < 4; k++) {
         const double x[2] = {0.0, 0.0}, valley[6] = {-1.0 / slopes[k], 1.0, 0.0, 0.0, 1.0 / slopes[k], 1.0};
         support_point(&run, 1.0, x, v, valley, 3, 0.0);
@@ -272,9 +259,8 @@ static void open_block(support_run *run, double restitution, double rest_speed)
 }
 
 /* Whatever its contacts keep up: plastic ones by the corner, others by their rebounds. */
-static void a_rest_speed_below_the_rule_changes_no_bit(void **unused)
+TEST(a_rest_speed_below_the_rule_changes_no_bit)
 {
-    (void)unused;
     for (int k = 0; k < 3; k++) {
         support_run ruled, slow;
         open_block(&ruled, 0.3 * k, 0.0);
@@ -292,9 +278,8 @@ static void a_rest_speed_below_the_rule_changes_no_bit(void **unused)
 
 /* Floor and wall are two obstacles, the wall stands on the floor or leans over it: at any tilt nothing slips through
  * the joint. */
-static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
+TEST(a_wall_that_stands_on_another_obstacle_leaves_no_gap)
 {
-    (void)unused;
     for (int k = 0; k < 24; k++) {
         const double angle = 0.1 * (k / 2), c = cos(angle), s = sin(angle), lean = k % 2 == 0 ? 0.0 : -0.1;
         const double ground[4] = {-2.0 * c, -2.0 * s, 2.0 * c, 2.0 * s};
@@ -319,26 +304,4 @@ static void a_wall_that_stands_on_another_obstacle_leaves_no_gap(void **unused)
                      1e-6); /* 100 penetration tolerances: the lean makes ten of one */
         support_close(&run);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_node_falling_on_a_ridge_meets_the_flank_that_ends_there),
-        cmocka_unit_test(a_node_moving_sideways_over_a_ridge_meets_the_flank_it_runs_into),
-        cmocka_unit_test(a_plastic_node_on_a_ridge_slides_down_one_flank),
-        cmocka_unit_test(a_node_sliding_off_a_free_end_flies_on),
-        cmocka_unit_test(a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope),
-        cmocka_unit_test(a_node_glides_over_a_vertex_without_a_bend),
-        cmocka_unit_test(a_node_running_into_a_concave_bend_takes_its_impact),
-        cmocka_unit_test(a_plastic_node_falling_into_a_groove_is_held_by_both_flanks),
-        cmocka_unit_test(an_elastic_node_falling_into_a_groove_comes_straight_back),
-        cmocka_unit_test(a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom),
-        cmocka_unit_test(a_wall_of_another_obstacle_stops_a_sliding_node),
-        cmocka_unit_test(a_node_coming_from_behind_passes_and_then_lands_on_the_front),
-        cmocka_unit_test(a_node_at_rest_in_a_corner_stays),
-        cmocka_unit_test(a_rest_speed_below_the_rule_changes_no_bit),
-        cmocka_unit_test(a_wall_that_stands_on_another_obstacle_leaves_no_gap),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

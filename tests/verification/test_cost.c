@@ -174,23 +174,20 @@ static void compare_all(int duration)
     dem_lattice_free(&block);
 }
 
-static void errors_at_2_ms_are_those_known(void **unused)
+TEST(errors_at_2_ms_are_those_known)
 {
-    (void)unused;
     compare_all(0);
 }
 
-static void errors_at_20_ms_are_those_known(void **unused)
+TEST(errors_at_20_ms_are_those_known)
 {
-    (void)unused;
     compare_all(1);
 }
 
 /* A thousand periods of the slowest vibration. Verlet's energy stays where it is, Fehlberg's grows. */
-static void energies_at_200_ms_are_those_known(void **unused)
+TEST(energies_at_200_ms_are_those_known)
 {
     dem_lattice block;
-    (void)unused;
     support_block(&block);
     for (const line *l = lines; l < lines + n_lines; l++) {
         const bool verlet = l->method == DEM_METHOD_VERLET;
@@ -206,11 +203,6 @@ static void energies_at_200_ms_are_those_known(void **unused)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(errors_at_2_ms_are_those_known),
-        cmocka_unit_test(errors_at_20_ms_are_those_known),
-        cmocka_unit_test(energies_at_200_ms_are_those_known),
-    };
     is_long = argc > 1 && strcmp(argv[1], "long") == 0;
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

@@ -89,35 +89,32 @@ static void follow_oscillator(const pair *p, double end)
 }
 
 /* omega = 11.55/s; the damping ratios rate/(2 omega) are 0.12 and 0.06 + 0.04 = 0.10. */
-static void a_damped_spring_swings_as_the_closed_form_at_any_amplitude(void **unused)
+TEST(a_damped_spring_swings_as_the_closed_form_at_any_amplitude)
 {
     const pair pairs[4] = {{2.0, 0.0, 1.001, {0.0, 0.0}, 0.0},
                            {2.0, 0.0, 1.3, {0.0, 0.0}, 0.0},
                            {2.0, 0.0, 0.9, {3.0, 0.0}, 0.5},
                            {1.0, 1.0, 1.2, {-1.0, 0.0}, 0.5}};
-    (void)unused;
     for (int k = 0; k < 4; k++) follow_oscillator(&pairs[k], 3.0);
 }
 
 /* Damping ratios 2 and, to rounding, 1: 2 sqrt(100 * 0.75) N s. */
-static void an_overdamped_spring_creeps_back_as_the_closed_form(void **unused)
+TEST(an_overdamped_spring_creeps_back_as_the_closed_form)
 {
     const double critical = 2.0 * sqrt(stiffness * rest_length * reduced_mass);
     const pair pairs[3] = {{2.0 * critical, 0.0, 1.4, {0.0, 0.0}, 0.0},
                            {2.0 * critical, 0.0, 0.8, {5.0, 0.0}, -0.3},
                            {critical, 0.0, 1.4, {-2.0, 0.0}, 0.0}};
-    (void)unused;
     for (int k = 0; k < 3; k++) follow_oscillator(&pairs[k], 1.5);
 }
 
 /* v(t) = g/alpha + (v0 - g/alpha) exp(-alpha t). */
-static void a_node_under_mass_damping_falls_at_last_with_g_over_alpha(void **unused)
+TEST(a_node_under_mass_damping_falls_at_last_with_g_over_alpha)
 {
     const double x[2] = {1.0, 2.0}, v[2] = {3.0, 1.0}, g = -9.81, alpha = 2.5, mass = 0.3;
     dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
-    (void)unused;
     options.rtol = 1e-13;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.05;
@@ -138,12 +135,11 @@ static void a_node_under_mass_damping_falls_at_last_with_g_over_alpha(void **unu
 }
 
 /* At 1.2 m the spring pulls with 20 N = mu d w^2. The orbit is the exact solution for every viscosity. */
-static void a_pair_that_turns_at_constant_distance_is_not_damped(void **unused)
+TEST(a_pair_that_turns_at_constant_distance_is_not_damped)
 {
     const double distance = 1.2, w = sqrt(stiffness * (distance - rest_length) / rest_length / reduced_mass / distance);
     const pair p = {5.0, 0.0, distance, {0.0, w * distance}, 0.0};
     support_run run;
-    (void)unused;
     open_pair(&run, &p);
     for (int k = 1; k <= 20; k++) {
         const double t = M_PI / w * (double)k; /* ten turns */
@@ -156,13 +152,12 @@ static void a_pair_that_turns_at_constant_distance_is_not_damped(void **unused)
 
 /* Its angular momentum is L = mu d u for ever; it ends where E (r - d0)/d0 = L^2/(mu r^3). The ring of the spring, rate
  * c/(d0 mu) and slower by the turning, has decayed by exp(-40) and more at the end. */
-static void a_turning_pair_comes_to_the_distance_that_its_angular_momentum_holds(void **unused)
+TEST(a_turning_pair_comes_to_the_distance_that_its_angular_momentum_holds)
 {
     const pair p = {12.0, 0.0, 1.3, {-2.0, 4.0}, 0.0};
     const double spin = reduced_mass * p.distance * p.relative[1];
     double r = rest_length; /* Newton's */
     support_run run;
-    (void)unused;
     for (int k = 0; k < 50; k++)
         r -= (stiffness * (r - rest_length) / rest_length - spin * spin / reduced_mass / (r * r * r)) /
              (stiffness / rest_length + 3.0 * spin * spin / reduced_mass / (r * r * r * r));
@@ -209,14 +204,13 @@ static double energy_of_vibration(const dem_simulation *simulation, const dem_st
  * energy at the rate tau omega^2 = 1e3/s, all but exp(-30); 1e-12 is also above the rounding of 21 J beside 0.4 J. A
  * sum of forces that vanishes keeps the linear momentum to rounding; the angular one, no linear invariant, has the
  * error of steps of 0.5/omega_max: 1e-10, and below 1e-12 with steps half as long. */
-static void a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta(void **unused)
+TEST(a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta)
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-4};
     dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
-    (void)unused;
     options.gravity[1] = 0.0;
     assert_ok(dem_lattice_rectangle(&lattice, 0.08, 0.06, 0.01));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
@@ -235,17 +229,4 @@ static void a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta(void **un
     assert_true(vibration > 0.1 && fabs(first.angular_momentum) > 0.01);
     assert_close(energy_of_vibration(run.simulation, &state) / vibration, 0.0, 1e-12);
     support_close(&run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_damped_spring_swings_as_the_closed_form_at_any_amplitude),
-        cmocka_unit_test(an_overdamped_spring_creeps_back_as_the_closed_form),
-        cmocka_unit_test(a_node_under_mass_damping_falls_at_last_with_g_over_alpha),
-        cmocka_unit_test(a_pair_that_turns_at_constant_distance_is_not_damped),
-        cmocka_unit_test(a_turning_pair_comes_to_the_distance_that_its_angular_momentum_holds),
-        cmocka_unit_test(a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,18 +72,16 @@ static double run_deck(const char *name, double restitution, double rtol)
 
 /* 2e-3 is what the ledger is asked to hold at rtol 1e-6; Fehlberg's weak instability leaves about 1e-4 of it in 20
  * ms. */
-static void plastic_bodies_never_sink_in_and_close_their_ledger(void **unused)
+TEST(plastic_bodies_never_sink_in_and_close_their_ledger)
 {
-    (void)unused;
     assert_true(run_deck("rectangle", 0.0, 1e-6) < 2e-3);
     assert_true(run_deck("disc", 0.0, 1e-6) < 2e-3);
     assert_true(run_deck("porous", 0.0, 1e-6) < 2e-3);
 }
 
-static void elastic_bodies_never_sink_in_and_close_their_ledger_better_as_rtol_falls(void **unused)
+TEST(elastic_bodies_never_sink_in_and_close_their_ledger_better_as_rtol_falls)
 {
     static const char *const names[3] = {"rectangle", "disc", "porous"};
-    (void)unused;
     for (int k = 0; k < 3; k++) {
         const double loose = run_deck(names[k], 1.0, 1e-6), tight = run_deck(names[k], 1.0, 1e-8);
         assert_true(loose < 2e-3);
@@ -93,11 +91,7 @@ static void elastic_bodies_never_sink_in_and_close_their_ledger_better_as_rtol_f
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(plastic_bodies_never_sink_in_and_close_their_ledger),
-        cmocka_unit_test(elastic_bodies_never_sink_in_and_close_their_ledger_better_as_rtol_falls),
-    };
     inputs = argc > 1 ? argv[1] : "inputs";
     if (argc > 2) spacing = atof(argv[2]);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

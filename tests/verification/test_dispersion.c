@@ -144,10 +144,9 @@ static void check(const wave *w)
     assert_true(error < 1e-6); /* 1e-4 is what is asked for; rtol 1e-9 over some ten steps */
 }
 
-static void waves_in_triangles_have_the_frequency_of_the_infinite_lattice(void **state)
+TEST(waves_in_triangles_have_the_frequency_of_the_infinite_lattice)
 {
     static const double ratios[] = {0.0, 1.0 / 3.0, 1.0 / 3.0, 0.45}, lengths[] = {1.0, 0.5, 1.0, 1.0};
-    (void)state;
     for (int k = 0; k < 16; k++) {
         const wave w = {.nu = ratios[k / 4],
                         .q = lengths[k / 4],
@@ -158,10 +157,9 @@ static void waves_in_triangles_have_the_frequency_of_the_infinite_lattice(void *
 }
 
 /* Without area term, whose triangles make every second cell another one. */
-static void waves_in_squares_have_the_frequency_of_the_infinite_lattice(void **state)
+TEST(waves_in_squares_have_the_frequency_of_the_infinite_lattice)
 {
     static const double diagonals[] = {0.5, 0.3};
-    (void)state;
     for (int k = 0; k < 8; k++) {
         const wave w = {.squares = true,
                         .diagonal = diagonals[k / 4],
@@ -174,12 +172,11 @@ static void waves_in_squares_have_the_frequency_of_the_infinite_lattice(void **s
 }
 
 /* omega over that of long waves, c q, from an independent program: triangles at nu = 1/3, along and across bonds. */
-static void the_relation_is_that_of_an_independent_program(void **state)
+TEST(the_relation_is_that_of_an_independent_program)
 {
     static const struct {
         double q, direction, transverse, longitudinal;
     } table[] = {{0.5, 0.0, 0.99740, 0.99048}, {1.0, 0.0, 0.98962, 0.96232}, {1.0, 30.0, 0.96904, 0.96904}};
-    (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
         for (int longitudinal = 0; longitudinal < 2; longitudinal++) {
             const wave w = {
@@ -189,14 +186,4 @@ static void the_relation_is_that_of_an_independent_program(void **state)
             assert_close(omega_of(&w, e) * a / (c * w.q), longitudinal ? table[k].longitudinal : table[k].transverse,
                          6e-6);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_relation_is_that_of_an_independent_program),
-        cmocka_unit_test(waves_in_triangles_have_the_frequency_of_the_infinite_lattice),
-        cmocka_unit_test(waves_in_squares_have_the_frequency_of_the_infinite_lattice),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,7 @@ static void check_work(const dem_state *s, const field *f, double tolerance)
 
 /* x - c = -c cos(w t) + v0/w sin(w t), w^2 = k/m. With w h = 0.05 Fehlberg's pair has an error of 1e-12 a step or less,
  * of 400 steps; Verlet's method one of (w h)^2/24 of the phase. */
-static void a_trap_swings_a_node(void **unused)
+TEST(a_trap_swings_a_node)
 {
     const struct {
         dem_method method;
@@ -83,7 +83,6 @@ static void a_trap_swings_a_node(void **unused)
                  {DEM_METHOD_RK4, 1e-6},
                  {DEM_METHOD_VERLET, 25.0 * 4.0 * 0.05 * 0.05 / 24.0},
                  {DEM_METHOD_DOPRI45, 1e-9}};
-    (void)unused;
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         field f = {.centre = {0.3, -0.2}, .stiffness = 50.0};
         const double v[2] = {1.0, 0.5}, w = sqrt(f.stiffness / mass), tolerance = cases[k].tolerance;
@@ -102,12 +101,11 @@ static void a_trap_swings_a_node(void **unused)
 }
 
 /* m v' = -c v: v = v0 exp(-c t/m), and the work is the kinetic energy that is gone. */
-static void a_drag_slows_a_node(void **unused)
+TEST(a_drag_slows_a_node)
 {
     field f = {.drag = 3.0};
     const double v[2] = {4.0, -1.0}, rate = f.drag / mass;
     support_run run;
-    (void)unused;
     open_node(&run, v, NULL, DEM_METHOD_FEHLBERG45, &f);
     for (double t = 0.0; t < 3.0; t += 0.31) {
         const dem_state s = support_at(&run, t);
@@ -126,14 +124,13 @@ static const double floor_points[4] = {-10.0, 0.0, 100.0, 0.0};
 
 /* At rest, pressed by P and pulled along by R t: N = P, and friction holds until R t = mu P; then m a = R t - mu P. The
  * root of the grip is found to rounding of the time. */
-static void friction_holds_until_the_force_exceeds_it(void **unused)
+TEST(friction_holds_until_the_force_exceeds_it)
 {
     const double mu = 0.4;
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .friction = mu};
     field f = {.push = {0.0, -25.0}, .rise = 8.0};
     const double slips = mu * 25.0 / f.rise;
     support_run run;
-    (void)unused;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
     const dem_state before = support_at(&run, slips * (1.0 - 1e-12));
     assert_close(before.v[0], 0.0, 0.0);
@@ -153,13 +150,12 @@ static void friction_holds_until_the_force_exceeds_it(void **unused)
 }
 
 /* A lift that grows with time takes it off when it has become the weight. */
-static void a_contact_opens_when_the_force_lifts_it(void **unused)
+TEST(a_contact_opens_when_the_force_lifts_it)
 {
     const double wall[4] = {0.0, 10.0, 0.0, -10.0}; /* bodies on the right: the force along x lifts */
     const dem_obstacle ground = {.n_points = 2, .points = wall};
     field f = {.push = {-6.0, 0.0}, .rise = 4.0};
     support_run run;
-    (void)unused;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
     const double opens = 6.0 / f.rise;
     assert_int_equal(support_at(&run, opens - 1e-9).n_contacts, 1);
@@ -173,14 +169,13 @@ static void a_contact_opens_when_the_force_lifts_it(void **unused)
 
 /* Under a push P down from height h with restitution eta the node is back on the floor after t1 = sqrt(2 h m/P), then
  * after 2 eta t1, 2 eta^2 t1 ... as under a weight. */
-static void a_pushed_node_bounces(void **unused)
+TEST(a_pushed_node_bounces)
 {
     const double eta = 0.5, h = 0.7, points[4] = {-10.0, -0.7, 10.0, -0.7};
     const dem_obstacle ground = {.n_points = 2, .points = points, .restitution = eta};
     field f = {.push = {0.0, -5.0}};
     const double a = 5.0 / mass, t1 = sqrt(2.0 * h / a);
     support_run run;
-    (void)unused;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
     const dem_state s = support_at(&run, 2.9 * t1);
     assert_true(run.n_impacts >= 3);
@@ -236,13 +231,12 @@ static const double low[4] = {-1.0, -0.028, 1.0, -0.028};
 
 /* Both fall 1 mm at 200 m/s^2, hit and lie for a while. Roundings apart it is the same motion: 1e-9 of the spacing,
  * and what a change in the last digits grows to in the impacts. */
-static void a_force_in_proportion_to_mass_is_a_weight(void **unused)
+TEST(a_force_in_proportion_to_mass_is_a_weight)
 {
     static const double any = 1.0;
     const dem_obstacle ground = {.n_points = 2, .points = low, .friction = 0.3};
     field f = {.push = {0.0, -200.0}, .mass = &any};
     support_run heavy, pushed;
-    (void)unused;
     open_block(&heavy, 0.0, &ground, (load){.gravity = -200.0});
     open_block(&pushed, 0.0, &ground, (load){.field = &f});
     const double ledger = dem_energy_ledger(dem_simulation_energy(pushed.simulation));
@@ -261,13 +255,12 @@ static void a_force_in_proportion_to_mass_is_a_weight(void **unused)
 }
 
 /* The library's own drag, with its work under another name. */
-static void a_drag_in_proportion_to_mass_is_mass_damping(void **unused)
+TEST(a_drag_in_proportion_to_mass_is_mass_damping)
 {
     static const double any = 1.0;
     const dem_obstacle ground = {.n_points = 2, .points = low};
     field f = {.drag = 300.0, .mass = &any};
     support_run damped, dragged;
-    (void)unused;
     open_block(&damped, 0.0, &ground, (load){.gravity = -200.0, .mass_damping = 300.0});
     open_block(&dragged, 0.0, &ground, (load){.gravity = -200.0, .field = &f});
     for (double t = 1e-3; t < 9e-3; t += 1e-3) {
@@ -343,10 +336,9 @@ static void compare_with_boundaries(const dem_index *order)
     dem_lattice_free(&again);
 }
 
-static void forces_of_boundaries_do_the_same(void **unused)
+TEST(forces_of_boundaries_do_the_same)
 {
     dem_index order[137];
-    (void)unused;
     for (dem_index i = 0; i < 137; i++) order[i] = i;
     compare_with_boundaries(order);
     for (dem_index i = 0; i < 137; i++) order[i] = (i * 50) % 137;
@@ -355,13 +347,12 @@ static void forces_of_boundaries_do_the_same(void **unused)
 
 /* What a floor has given is what momentum asks for at any time, M v = (W + F) t + impulse, in every frame; and at rest
  * its reaction is W + F. Sums of 1e4 steps of terms of order F t. */
-static void a_floor_bears_weight_and_force(void **unused)
+TEST(a_floor_bears_weight_and_force)
 {
     static const double any = 1.0;
     const dem_obstacle ground = {.n_points = 2, .points = low, .friction = 0.2};
     field f = {.push = {10.0, -100.0}, .mass = &any}; /* friction holds it */
     support_run run;
-    (void)unused;
     open_block(&run, 0.0, &ground, (load){.gravity = -150.0, .field = &f});
     const double m = dem_model_mass(run.model), scale = m * 250.0 * 0.02;
     for (double t = 1e-3; t < 0.02; t += 1.7e-3) {
@@ -383,13 +374,12 @@ static void a_floor_bears_weight_and_force(void **unused)
 /* ---- both methods of contact ---- */
 
 /* A trap drives the block into the floor again and again, until the first impacts have parted the runs. */
-static void the_ledger_of_a_trap_closes(void **unused)
+TEST(the_ledger_of_a_trap_closes)
 {
     static const double any = 1.0;
     const dem_obstacle ground = {.n_points = 2, .points = low, .restitution = 0.5, .friction = 0.3};
     field f = {.centre = {0.02, -0.01}, .stiffness = 4e4, .drag = 5.0, .mass = &any};
     support_run run;
-    (void)unused;
     open_block(&run, 0.0, &ground, (load){.gravity = -100.0, .field = &f});
     const double ledger = dem_energy_ledger(dem_simulation_energy(run.simulation));
     double scale = 0.0;
@@ -401,21 +391,4 @@ static void the_ledger_of_a_trap_closes(void **unused)
     print_message("# %lld\n", (long long)run.n_impacts);
     assert_true(run.n_impacts > 50);
     support_close(&run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_trap_swings_a_node),
-        cmocka_unit_test(a_drag_slows_a_node),
-        cmocka_unit_test(friction_holds_until_the_force_exceeds_it),
-        cmocka_unit_test(a_contact_opens_when_the_force_lifts_it),
-        cmocka_unit_test(a_pushed_node_bounces),
-        cmocka_unit_test(a_force_in_proportion_to_mass_is_a_weight),
-        cmocka_unit_test(a_drag_in_proportion_to_mass_is_mass_damping),
-        cmocka_unit_test(forces_of_boundaries_do_the_same),
-        cmocka_unit_test(a_floor_bears_weight_and_force),
-        cmocka_unit_test(the_ledger_of_a_trap_closes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

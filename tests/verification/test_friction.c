@@ -126,11 +126,10 @@ static void check_place(slide *s, double t, double way, double speed, double tol
     assert_close(dot(state.v, s->normal), 0.0, 1e-12);
 }
 
-static void a_block_above_the_friction_angle_slides_down_from_rest_with_the_exact_acceleration(void **unused)
+TEST(a_block_above_the_friction_angle_slides_down_from_rest_with_the_exact_acceleration)
 {
     static const double mu[3] = {0.0, 0.2, 0.577}; /* tan 30 = 0.57735 */
     static slide s;
-    (void)unused;
     for (int k = 0; k < 3; k++) {
         const double a = acceleration(mu[k]);
         open_incline(&s, mu[k], 0.0);
@@ -149,11 +148,10 @@ static void a_block_above_the_friction_angle_slides_down_from_rest_with_the_exac
     support_close(&s.run);
 }
 
-static void a_block_below_the_friction_angle_sticks_from_the_start(void **unused)
+TEST(a_block_below_the_friction_angle_sticks_from_the_start)
 {
     static const double mu[2] = {0.7, 0.5774}; /* tan 30 = 0.57735 */
     static slide s;
-    (void)unused;
     for (int k = 0; k < 2; k++) {
         open_incline(&s, mu[k], 0.0);
         dem_state state = slide_at(&s, 0.0);
@@ -173,10 +171,9 @@ static void a_block_below_the_friction_angle_sticks_from_the_start(void **unused
     }
 }
 
-static void a_sliding_block_stops_after_the_exact_way_and_sticks_for_ever(void **unused)
+TEST(a_sliding_block_stops_after_the_exact_way_and_sticks_for_ever)
 {
     static slide s;
-    (void)unused;
     open_incline(&s, 0.7, 3.0);
     check_place(&s, 1.5, 3.327753996238792, 1.437005328318389, 1e-8);
     check_place(&s, 3.0, 4.318632764587572, 0.0, 1e-8);
@@ -201,11 +198,10 @@ static void a_sliding_block_stops_after_the_exact_way_and_sticks_for_ever(void *
     support_close(&s.run);
 }
 
-static void a_block_sent_up_turns_back_where_friction_cannot_hold_it(void **unused)
+TEST(a_block_sent_up_turns_back_where_friction_cannot_hold_it)
 {
     const double up = g * (sine + 0.2 * cos(M_PI / 6.0)), turn = 2.0 / up, height = 2.0 / up;
     static slide s;
-    (void)unused;
     open_incline(&s, 0.2, -2.0);
     check_place(&s, 0.1, -0.2 + 0.5 * up * 0.01, -2.0 + up * 0.1, 1e-10);
     const double down = 1.5 - turn, a = acceleration(0.2);
@@ -239,12 +235,11 @@ static void check_impulses(const slide *s)
     }
 }
 
-static void a_bouncing_block_slides_down_as_fast_as_one_that_stays_whatever_the_restitution(void **unused)
+TEST(a_bouncing_block_slides_down_as_fast_as_one_that_stays_whatever_the_restitution)
 {
     static const double eta[5] = {0.0, 0.3, 0.5, 0.7, 0.8}; /* the last ends its bouncing at 0.98 s */
     static const double v0[2] = {1.0, 0.0};
     static slide s;
-    (void)unused;
     for (int k = 0; k < 5; k++) {
         open_slide(&s, M_PI / 6.0, &(dem_obstacle){.friction = 0.2, .restitution = eta[k]}, 0.05, v0, g);
         const dem_state state = slide_at(&s, 1.5);
@@ -291,9 +286,8 @@ static void check_oblique(const oblique *row, double angle, double side)
     support_close(&s.run);
 }
 
-static void an_oblique_impact_follows_each_law_of_friction(void **unused)
+TEST(an_oblique_impact_follows_each_law_of_friction)
 {
-    (void)unused;
     for (int k = 0; k < 5; k++) {
         check_oblique(&rows[k], 0.0, 1.0);
         check_oblique(&rows[k], 0.0, -1.0);
@@ -303,12 +297,11 @@ static void an_oblique_impact_follows_each_law_of_friction(void **unused)
 }
 
 /* (10) acts once, at the impact that closes the contact: from then on the node slides freely. */
-static void the_law_of_the_paper_has_no_sustained_friction(void **unused)
+TEST(the_law_of_the_paper_has_no_sustained_friction)
 {
     static const double v0[2] = {3.0, 0.0};
     const double fall = sqrt(2.0 * 0.2 / g);
     static slide s;
-    (void)unused;
     open_slide(&s, 0.0, &(dem_obstacle){.friction = 0.3, .friction_law = DEM_FRICTION_PAPER}, 0.2, v0, g);
     check_place(&s, fall + 1.0, 3.0 * fall + 0.9, 0.9, 1e-10);
     check_place(&s, fall + 5.0, 3.0 * fall + 4.5, 0.9, 1e-10);
@@ -322,18 +315,4 @@ static void the_law_of_the_paper_has_no_sustained_friction(void **unused)
                (double[2]){0.0, 0.0}, g);
     check_place(&s, 1.0, 0.25 * g, 0.5 * g, 1e-10);
     support_close(&s.run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_block_above_the_friction_angle_slides_down_from_rest_with_the_exact_acceleration),
-        cmocka_unit_test(a_block_below_the_friction_angle_sticks_from_the_start),
-        cmocka_unit_test(a_sliding_block_stops_after_the_exact_way_and_sticks_for_ever),
-        cmocka_unit_test(a_block_sent_up_turns_back_where_friction_cannot_hold_it),
-        cmocka_unit_test(a_bouncing_block_slides_down_as_fast_as_one_that_stays_whatever_the_restitution),
-        cmocka_unit_test(an_oblique_impact_follows_each_law_of_friction),
-        cmocka_unit_test(the_law_of_the_paper_has_no_sustained_friction),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

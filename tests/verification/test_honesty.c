@@ -293,10 +293,9 @@ static double judge_run(const drop *d)
 
 /* The first impact hits a body at rest in itself, whose free step has no error: without the estimate of the events
  * it would be accepted however wrong it is. */
-static void what_is_estimated_is_what_is_wrong(void **state)
+TEST(what_is_estimated_is_what_is_wrong)
 {
     double missed = 0.0;
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const drop d = {&grounds[k / 2], k % 2 == 0 ? 1e-6 : 1e-8, k < 2 ? 1.5 : 0.5, 10.0, 0.2, 5e-4};
         missed = fmax(missed, judge_run(&d));
@@ -307,10 +306,9 @@ static void what_is_estimated_is_what_is_wrong(void **state)
 /* A step that begins a time tau after a node was hit, at rest but for that, is estimated by h^5 K^3 v (tau (1/104 -
  * 1/120) - h/2080), and wrong by h^6 K^3 v (1/720 - 1/2080): for tau = 0.375 h nothing is seen. So events say how long
  * the next step may be. A slow body, for which velocities count most, meets the floor at any share of a step. */
-static void the_step_after_an_impact_is_not_blind(void **state)
+TEST(the_step_after_an_impact_is_not_blind)
 {
     double worst = 0.0, blind = 0.0;
-    (void)state;
     for (int k = 0; k < 24; k++) {
         const drop d = {&grounds[0], 1e-8, 0.5, 0.5, 0.02 + k / 24.0 * 0.25 / omega / spacing, 2.5e-4};
         support_run run;
@@ -331,11 +329,4 @@ static void the_step_after_an_impact_is_not_blind(void **state)
     print_message("# after a first impact: true error at most %.2f tolerances, %.1f times what is estimated\n", worst,
                   blind);
     assert_true(worst <= 2.1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_estimated_is_what_is_wrong),
-                                       cmocka_unit_test(the_step_after_an_impact_is_not_blind)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,7 +44,7 @@ static dem_lattice make_jittered(bool squares, double nu, double share, uint64_t
 /* A triangle's error is of first order in how far it is from equilateral, and so are the forces inside that it leaves;
  * what their equilibrium takes off the energy is of second order: E falls by share^2 times a number, which is larger
  * the smaller nu is. Bands from 0.7 to 1.5 times what five seeds gave on the mean; their scatter is a tenth. */
-static void jitter_softens_by_its_square(void **state)
+TEST(jitter_softens_by_its_square)
 {
     static const struct {
         bool squares;
@@ -52,7 +52,6 @@ static void jitter_softens_by_its_square(void **state)
     } cases[] = {{false, 0.0, 1.42},       {false, 0.1, 1.22},      {false, 0.2, 1.04},
                  {false, 1.0 / 3.0, 0.87}, {false, 0.45, 0.76},     {true, 0.1, 1.6},
                  {true, 0.2, 1.0},         {true, 1.0 / 3.0, 0.50}, {true, 0.45, 0.20}};
-    (void)state;
     for (size_t k = 0; k < 2 * sizeof cases / sizeof cases[0]; k++) {
         const double share = k % 2 == 0 ? 0.1 : 0.2, nu = cases[k / 2].nu;
         dem_lattice lattice = make_jittered(cases[k / 2].squares, nu, share, 1 + k);
@@ -117,10 +116,9 @@ static void make_rings(dem_lattice *l)
 }
 
 /* Angles from 45 to 88 degrees: 5 to 10 % softer, nu to 0.02, and isotropic by its sixfold symmetry. */
-static void a_disc_of_rings_is_softer_within_a_band(void **state)
+TEST(a_disc_of_rings_is_softer_within_a_band)
 {
     static const double ratios[] = {0.1, 1.0 / 3.0, 0.45};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const dem_material solid = solid_of(ratios[k]);
         dem_lattice lattice;
@@ -141,11 +139,10 @@ static void a_disc_of_rings_is_softer_within_a_band(void **state)
 /* Squares cut into two triangles each, by the rule of triangles: springs E h along the sides, and E h/4 on the mean
  * along either diagonal (legs (4/3) G h, hypotenuse (2/3) G h of each triangle, the mean of both diagonals). Cubic,
  * with the average E and nu of the isotropic solid and E110/E100 = 4 k2 (k1 + k2)/(k1 (k1 + 4 k2)) = 5/8. */
-static void right_angled_triangles_are_anisotropic(void **state)
+TEST(right_angled_triangles_are_anisotropic)
 {
     const dem_material solid = solid_of(1.0 / 3.0);
     dem_lattice lattice;
-    (void)state;
     assert_ok(dem_lattice_squares(&lattice, 20.0, 20.0, 1.0));
     assert_ok(dem_lattice_assemble(&lattice, &solid));
     const dem_constants c = measure(&lattice);
@@ -157,11 +154,10 @@ static void right_angled_triangles_are_anisotropic(void **state)
 
 /* Springs of one stiffness, as the paper draws them, E_ij = sqrt(3)/2 E h a: the boundary has twice what it should, and
  * E is too high by (boundary length) a/(area) times a number; nu of the inside, 1/3. */
-static void equal_springs_are_too_stiff_by_the_order_of_spacing_over_width(void **state)
+TEST(equal_springs_are_too_stiff_by_the_order_of_spacing_over_width)
 {
     const dem_material raw = {.bond_stiffness = sqrt(3.0) / 2.0 * E * 0.5, .density = 1050.0, .thickness = 0.5};
     double excess[2];
-    (void)state;
     for (int k = 0; k < 2; k++) {
         const double width = k == 0 ? 16.0 : 32.0;
         dem_lattice lattice;
@@ -176,15 +172,4 @@ static void equal_springs_are_too_stiff_by_the_order_of_spacing_over_width(void 
     }
     assert_in_band(excess[0], 0.02, 0.1);
     assert_in_band(excess[0] / excess[1], 1.8, 2.2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(jitter_softens_by_its_square),
-        cmocka_unit_test(a_disc_of_rings_is_softer_within_a_band),
-        cmocka_unit_test(right_angled_triangles_are_anisotropic),
-        cmocka_unit_test(equal_springs_are_too_stiff_by_the_order_of_spacing_over_width),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -98,9 +98,8 @@ static double exact_stress(double y, void *context)
 }
 
 /* Of a plate of 100 R finite size is left, of the order (1/100)^2. */
-static void a_large_plate_is_kirschs(void **state)
+TEST(a_large_plate_is_kirschs)
 {
-    (void)state;
     plate p = solve_plate(100.0, 100.0);
     for (int k = 0; k <= 40; k++) {
         const double y = 1.0 + 0.1 * k;
@@ -109,9 +108,8 @@ static void a_large_plate_is_kirschs(void **state)
 }
 
 /* What the ligament carries is the load; the series is as good as what it leaves on the edges. */
-static void the_ligament_of_the_series_carries_the_load(void **state)
+TEST(the_ligament_of_the_series_carries_the_load)
 {
-    (void)state;
     gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(60);
     for (int k = 2; k <= 5; k++) {
         plate p = solve_plate(k, k);
@@ -236,10 +234,9 @@ static double *pull(dem_lattice *l, double spacing)
 static const dem_material sheet = {
     .youngs_modulus = modulus, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0};
 
-static void without_a_hole_the_tension_is_uniform(void **state)
+TEST(without_a_hole_the_tension_is_uniform)
 {
     const double spacing = 0.3;
-    (void)state;
     dem_lattice lattice = make_block(spacing);
     assert_ok(dem_lattice_assemble(&lattice, &sheet));
     double *stress = pull(&lattice, spacing);
@@ -298,10 +295,9 @@ static errors measure(double spacing)
 
 /* Four spacings near each other make four kinds of steps. Found for 30 spacings from R/5 to R/30: mean 0.04 to 0.31
  * a/R, 0.12 a/R on the whole; far 0.14 to 0.36 a/R; nearest 0.01 to 0.27, in no order. */
-static void errors_along_the_ligament_are_of_first_order_in_the_spacing(void **state)
+TEST(errors_along_the_ligament_are_of_first_order_in_the_spacing)
 {
     static const double coarsest[3] = {0.16, 0.08, 0.04};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         double mean = 0.0, far = 0.0, nearest = 0.0, peak = 0.0;
         for (int s = 0; s < 4; s++) {
@@ -317,15 +313,4 @@ static void errors_along_the_ligament_are_of_first_order_in_the_spacing(void **s
         assert_true(mean < 0.25);
         assert_true(far < 0.4);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_large_plate_is_kirschs),
-        cmocka_unit_test(the_ligament_of_the_series_carries_the_load),
-        cmocka_unit_test(without_a_hole_the_tension_is_uniform),
-        cmocka_unit_test(errors_along_the_ligament_are_of_first_order_in_the_spacing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

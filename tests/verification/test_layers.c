@@ -104,33 +104,20 @@ static void check(layers l)
     }
 }
 
-static void layers_side_by_side_share_their_strain(void **state)
+TEST(layers_side_by_side_share_their_strain)
 {
-    (void)state;
     check((layers){
         .E = {1e7, 4e7}, .nu = {0.2, 0.2}, .stress = {{1e3, 0.0, 0.0}, {4e3, 0.0, 0.0}}, .strain_scale = 1e-4});
 }
 
-static void layers_one_behind_the_other_share_their_stress(void **state)
+TEST(layers_one_behind_the_other_share_their_stress)
 {
-    (void)state;
     check((layers){
         .E = {1e7, 4e7}, .nu = {0.1, 0.4}, .stress = {{0.0, 1e3, 0.0}, {0.0, 1e3, 0.0}}, .strain_scale = 1e-4});
 }
 
-static void sheared_layers_share_their_stress(void **state)
+TEST(sheared_layers_share_their_stress)
 {
-    (void)state;
     check((layers){
         .E = {1e7, 4e7}, .nu = {0.1, 0.45}, .stress = {{0.0, 0.0, 1e3}, {0.0, 0.0, 1e3}}, .strain_scale = 1e-4});
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layers_side_by_side_share_their_strain),
-        cmocka_unit_test(layers_one_behind_the_other_share_their_stress),
-        cmocka_unit_test(sheared_layers_share_their_stress),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

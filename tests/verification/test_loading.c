@@ -32,7 +32,7 @@ static double closure(const dem_simulation *simulation, double start)
 /* Node 0 goes with V from t = 0: node 1 follows by V (t - sin(w t)/w), w^2 = E/(d0 m); the spring pulls the driven node
  * with m V w sin(w t), and the work is m V^2 (1 - cos(w t)). Errors of rtol 1e-11 of the spacing over 20 periods: twice
  * that of the way, 1e-8 of the rest. */
-static void a_mass_follows_a_driven_one(void **unused)
+TEST(a_mass_follows_a_driven_one)
 {
     static const dem_index node[] = {0};
     const double v = 0.01, w = sqrt(stiffness / (length * mass));
@@ -40,7 +40,6 @@ static void a_mass_follows_a_driven_one(void **unused)
     const dem_boundary drive = {
         .components = DEM_COMPONENT_X | DEM_COMPONENT_Y, .n_nodes = 1, .nodes = node, .value = {v, 0.0}};
     support_run run;
-    (void)unused;
     open_pair(&run, &drive, NULL);
     const double initial = dem_energy_ledger(dem_simulation_energy(run.simulation));
     assert_close(initial, 0.5 * 3.0 * start[0] * start[0], 1e-18); /* it moves from the start */
@@ -59,7 +58,7 @@ static void a_mass_follows_a_driven_one(void **unused)
 
 /* A displacement by a ramp is its polynomial to rounding, whatever the steps: a method of order 5 is exact for it, but
  * for the step in which the ramp ends, where the fourth derivative jumps. */
-static void a_ramp_is_followed(void **unused)
+TEST(a_ramp_is_followed)
 {
     static const dem_index node[] = {0};
     const double way = 0.02, ramp = 1.5;
@@ -70,7 +69,6 @@ static void a_ramp_is_followed(void **unused)
                                 .value = {way, 0.0},
                                 .ramp = ramp};
     support_run run;
-    (void)unused;
     open_pair(&run, &drive, NULL);
     const double initial = dem_energy_ledger(dem_simulation_energy(run.simulation));
     for (double t = 0.1; t < 4.0; t += 0.1) {
@@ -83,7 +81,7 @@ static void a_ramp_is_followed(void **unused)
 }
 
 /* A force F on node 1 from t = 0, node 0 held: F/k (1 - cos(w t)), k = E/d0; the force's work is F times the way. */
-static void a_sudden_force_swings_to_twice_the_static_way(void **unused)
+TEST(a_sudden_force_swings_to_twice_the_static_way)
 {
     static const dem_index held[] = {0}, pulled[] = {1};
     const double force = 0.05, k = stiffness / length, w = sqrt(k / mass);
@@ -94,7 +92,6 @@ static void a_sudden_force_swings_to_twice_the_static_way(void **unused)
     dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
-    (void)unused;
     options.gravity[1] = 0.0;
     options.rtol = 1e-11;
     options.v_scale = force / k * w;
@@ -116,7 +113,7 @@ static void a_sudden_force_swings_to_twice_the_static_way(void **unused)
 
 /* A mass on a floor, pushed along it by a ramp: friction holds it until F r(t) = mu m g, and not longer. The root of
  * the grip is found to rounding of the time; then it slides with m a = F r(t) - mu m g. */
-static void friction_holds_until_the_force_exceeds_it(void **unused)
+TEST(friction_holds_until_the_force_exceeds_it)
 {
     static const dem_index node[] = {0};
     const double x[] = {0.0, 0.0}, one[] = {mass}, floor[] = {-10.0, 0.0, 100.0, 0.0};
@@ -127,7 +124,6 @@ static void friction_holds_until_the_force_exceeds_it(void **unused)
     dem_options options = support_options();
     dem_lattice lattice;
     support_run run;
-    (void)unused;
     options.gravity[1] = -g;
     options.rtol = 1e-10;
     options.spacing = options.v_scale = 1.0;
@@ -162,7 +158,7 @@ static void friction_holds_until_the_force_exceeds_it(void **unused)
  * long and as wide as E and nu = 1/3 ask for. Its sides are zigzags, so the outermost nodes of its head carry the
  * stress of a quarter of a spacing: a half, less what their slanted edge would take if the stress went on beyond it.
  * The strain of 1e-7 is the error of small strains; rounding of the coordinates is 1e-9 of it. */
-static void a_pulled_block_comes_to_rest_with_its_modulus(void **unused)
+TEST(a_pulled_block_comes_to_rest_with_its_modulus)
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 0.5};
@@ -170,7 +166,6 @@ static void a_pulled_block_comes_to_rest_with_its_modulus(void **unused)
     dem_lattice lattice;
     dem_index foot[32], head[32], corner[1] = {0}, n_foot = 0, n_head = 0;
     double share[32], top = 0.0;
-    (void)unused;
     assert_ok(dem_lattice_rectangle(&lattice, width, 0.09, a));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
     for (dem_index i = 0; i < lattice.n_nodes; i++) top = fmax(top, lattice.x[2 * i + 1]);
@@ -201,16 +196,4 @@ static void a_pulled_block_comes_to_rest_with_its_modulus(void **unused)
     assert_close(dem_simulation_boundary(run.simulation, 0).force[1], -pull, 1e-6 * pull);
     support_close(&run);
     dem_lattice_free(&lattice);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mass_follows_a_driven_one),
-        cmocka_unit_test(a_ramp_is_followed),
-        cmocka_unit_test(a_sudden_force_swings_to_twice_the_static_way),
-        cmocka_unit_test(friction_holds_until_the_force_exceeds_it),
-        cmocka_unit_test(a_pulled_block_comes_to_rest_with_its_modulus),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -75,21 +75,19 @@ static void check_modes(dem_lattice *body, const double *expected, size_t n_mode
     dem_model_destroy(model);
 }
 
-static void a_triangle_has_its_three_modes(void **state)
+TEST(a_triangle_has_its_three_modes)
 {
     const double x[6] = {0.0, 0.0, 1.0, 0.0, 0.5, sqrt(3.0) / 2.0};
     dem_lattice body;
-    (void)state;
     make_body(&body, 3, x);
     check_modes(&body, of_triangle, 3);
     dem_lattice_free(&body);
 }
 
-static void a_hexagon_has_its_eleven_modes(void **state)
+TEST(a_hexagon_has_its_eleven_modes)
 {
     double x[14] = {0.0};
     dem_lattice body;
-    (void)state;
     for (int i = 0; i < 6; i++) {
         x[2 * i + 2] = cos(M_PI / 3.0 * i);
         x[2 * i + 3] = sin(M_PI / 3.0 * i);
@@ -97,13 +95,4 @@ static void a_hexagon_has_its_eleven_modes(void **state)
     make_body(&body, 7, x);
     check_modes(&body, of_hexagon, 11);
     dem_lattice_free(&body);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_triangle_has_its_three_modes),
-        cmocka_unit_test(a_hexagon_has_its_eleven_modes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,11 +32,10 @@ static void open_node(support_run *run, const double x[2], const dem_obstacle *o
     dem_lattice_free(&lattice);
 }
 
-static void a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta(void **state)
+TEST(a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta)
 {
     static const double upright[4] = {-1.0, 9.0, -1.0, -9.0}, x[2] = {0.0, 0.0}, eta[3] = {0.0, 0.5, 1.0};
     const double speed = 3.0;
-    (void)state;
     for (int k = 0; k < 3; k++) {
         support_run run;
         const dem_obstacle obstacle = {
@@ -64,14 +63,13 @@ static void a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta(void **state)
 
 /* It slides under mu m g till it is as fast as the belt, then sticks: half of the belt's work m U^2 goes to
  * friction. */
-static void a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost(void **state)
+TEST(a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost)
 {
     static const double belt[4] = {-9.0, 0.0, 9.0, 0.0}, x[2] = {0.0, 0.0};
     const double mu = 0.4, speed = 1.5, t = speed / (mu * g);
     for (int side = -1; side <= 1; side += 2) {
         support_run run;
         const dem_obstacle obstacle = {.n_points = 2, .points = belt, .friction = mu, .velocity = {side * speed, 0.0}};
-        (void)state;
         open_node(&run, x, &obstacle, 1, g);
         dem_state s = support_at(&run, 0.5 * t);
         assert_int_equal(s.n_contacts, 1);
@@ -91,12 +89,11 @@ static void a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost(void
 }
 
 /* A lift carries what rests on it, with the weight as force and m g U as power. */
-static void a_floor_that_rises_carries_a_node_and_does_the_work_of_its_weight(void **state)
+TEST(a_floor_that_rises_carries_a_node_and_does_the_work_of_its_weight)
 {
     static const double level[4] = {-9.0, 0.0, 9.0, 0.0}, x[2] = {0.0, 0.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = level, .velocity = {0.0, 2.0}};
     support_run run;
-    (void)state;
     open_node(&run, x, &obstacle, 1, g);
     const dem_state s = support_at(&run, 3.0);
     assert_int_equal(s.n_contacts, 1);
@@ -111,14 +108,13 @@ static void a_floor_that_rises_carries_a_node_and_does_the_work_of_its_weight(vo
 
 /* Between two walls, one at rest and one that comes: each elastic impact on it adds 2 U to the speed, so that the gap
  * times the speed relative to it halfway stays. */
-static void a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_time(void **state)
+TEST(a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_time)
 {
     static const double right[4] = {1.0, -9.0, 1.0, 9.0}, left[4] = {0.0, 9.0, 0.0, -9.0}, x[2] = {0.5, 0.0};
     const dem_obstacle list[2] = {{.n_points = 2, .points = left, .restitution = 1.0},
                                   {.n_points = 2, .points = right, .restitution = 1.0, .velocity = {-0.1, 0.0}}};
     support_run run;
     double at = 0.5, t = 0.0, v = 0.0;
-    (void)state;
     open_node(&run, x, list, 2, 0.0);
     const dem_state s = support_at(&run, 9.7);
     assert_true(run.n_impacts >= 6);
@@ -140,13 +136,12 @@ static void a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_
 
 /* In the corner of a floor at rest and a wall that comes, plastic: the corner takes the node along, and the wall does
  * m U^2 at once and nothing after. With Coulomb friction on the floor the contact is one of a corner: held without. */
-static void the_corner_of_a_floor_and_a_wall_that_comes_takes_a_node_along(void **state)
+TEST(the_corner_of_a_floor_and_a_wall_that_comes_takes_a_node_along)
 {
     static const double level[4] = {-9.0, 0.0, 9.0, 0.0}, wall[4] = {-1.0, 9.0, -1.0, -0.5}, x[2] = {0.0, 0.0};
     const dem_obstacle list[2] = {{.n_points = 2, .points = level},
                                   {.n_points = 2, .points = wall, .velocity = {2.0, 0.0}}};
     support_run run;
-    (void)state;
     open_node(&run, x, list, 2, g);
     const dem_state s = support_at(&run, 2.0);
     assert_close(s.x[0], 3.0, 1e-11);
@@ -266,25 +261,22 @@ static const view views[] = {
 
 static const double frames[2][2] = {{-1.0, 3.0}, {4.7, -0.6}};
 
-static void what_happens_does_not_depend_on_who_looks(void **state)
+TEST(what_happens_does_not_depend_on_who_looks)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof views / sizeof *views; k++)
         for (int f = 0; f < 2; f++) compare_views(&views[k], frames[f], DEM_METHOD_FEHLBERG45);
 }
 
-static void nor_with_fixed_steps(void **state)
+TEST(nor_with_fixed_steps)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof views / sizeof *views; k++)
         compare_views(&views[k], frames[0], k % 2 == 0 ? DEM_METHOD_VERLET : DEM_METHOD_RK4);
 }
 
 /* ---- checkpoints ---- */
 
-static void a_run_goes_on_from_its_record_to_the_same_bits(void **state)
+TEST(a_run_goes_on_from_its_record_to_the_same_bits)
 {
-    (void)state;
     for (size_t k = 0; k < sizeof views / sizeof *views; k++) {
         const view *v = &views[k];
         support_run run;
@@ -308,11 +300,10 @@ static void a_run_goes_on_from_its_record_to_the_same_bits(void **state)
     }
 }
 
-static void a_record_of_another_velocity_is_refused(void **state)
+TEST(a_record_of_another_velocity_is_refused)
 {
     support_run run, other;
     dem_simulation *resumed = NULL;
-    (void)state;
     open_view(&run, &views[1], frames[0], DEM_METHOD_FEHLBERG45);
     open_view(&other, &views[1], frames[1], DEM_METHOD_FEHLBERG45);
     (void)support_at(&run, 0.001);
@@ -326,28 +317,10 @@ static void a_record_of_another_velocity_is_refused(void **state)
     support_close(&other);
 }
 
-static void a_velocity_that_is_not_finite_is_refused(void **state)
+TEST(a_velocity_that_is_not_finite_is_refused)
 {
     const dem_obstacle nan = {.n_points = 2, .points = flat, .velocity = {0.0, NAN}};
     dem_index segments[2];
-    (void)state;
     assert_int_equal(dem_obstacle_check(&nan, segments), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "obstacle 0: velocity of nan m/s is not finite");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta),
-        cmocka_unit_test(a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost),
-        cmocka_unit_test(a_floor_that_rises_carries_a_node_and_does_the_work_of_its_weight),
-        cmocka_unit_test(a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_time),
-        cmocka_unit_test(the_corner_of_a_floor_and_a_wall_that_comes_takes_a_node_along),
-        cmocka_unit_test(what_happens_does_not_depend_on_who_looks),
-        cmocka_unit_test(nor_with_fixed_steps),
-        cmocka_unit_test(a_run_goes_on_from_its_record_to_the_same_bits),
-        cmocka_unit_test(a_record_of_another_velocity_is_refused),
-        cmocka_unit_test(a_velocity_that_is_not_finite_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

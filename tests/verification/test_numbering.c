@@ -95,18 +95,16 @@ static double difference(double width, double height, double spacing, const dem_
 
 /* 1e-12 m: the sums at a node have another order, 1e-16 of forces of 1e5 N/m times coordinates, over some hundred
  * steps. 3000 nodes, for which the model finds a numbering of its own. */
-static void a_free_body_moves_alike(void **state)
+TEST(a_free_body_moves_alike)
 {
-    (void)state;
     assert_close(difference(0.3, 0.2, 5e-3, NULL, 1e-3), 0.0, 1e-12);
 }
 
 /* Plastic impacts: rounding is not amplified from one to the next. */
-static void a_body_that_hits_the_ground_moves_alike(void **state)
+TEST(a_body_that_hits_the_ground_moves_alike)
 {
     const double points[4] = {-1.0, -0.004, 1.0, -0.004};
     const dem_obstacle ground = {.n_points = 2, .points = points, .restitution = 0.0, .friction = 0.3};
-    (void)state;
     assert_close(difference(0.1, 0.06, 1e-2, &ground, 2e-3), 0.0, 1e-12);
 }
 
@@ -170,9 +168,8 @@ static void reverse_springs(dem_lattice *l)
     free(springs);
 }
 
-static void energies_and_mean_motion_are_the_same_to_the_bit(void **state)
+TEST(energies_and_mean_motion_are_the_same_to_the_bit)
 {
-    (void)state;
     dem_lattice lattice = make_irregular();
     dem_index *number = shuffle(lattice.n_nodes);
     const sums usual = sums_of(&lattice);
@@ -186,14 +183,4 @@ static void energies_and_mean_motion_are_the_same_to_the_bit(void **state)
     assert_close(usual.mass, shuffled.mass, 0.0);
     dem_lattice_free(&lattice);
     free(number);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_free_body_moves_alike),
-        cmocka_unit_test(a_body_that_hits_the_ground_moves_alike),
-        cmocka_unit_test(energies_and_mean_motion_are_the_same_to_the_bit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

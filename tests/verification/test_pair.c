@@ -41,10 +41,9 @@ static void separation(const dem_state *state, double d[2], double u[2])
     }
 }
 
-static void a_collinear_pair_has_the_harmonic_period_at_any_amplitude(void **unused)
+TEST(a_collinear_pair_has_the_harmonic_period_at_any_amplitude)
 {
     const double period = 0.544139809270265, amplitudes[2] = {1e-3, 0.3}, omega = 2.0 * M_PI / period;
-    (void)unused;
     for (int k = 0; k < 2; k++) {
         support_run run;
         double d[2], u[2];
@@ -57,12 +56,11 @@ static void a_collinear_pair_has_the_harmonic_period_at_any_amplitude(void **unu
     }
 }
 
-static void a_rotating_pair_turns_at_the_exact_time_angle_and_distance(void **unused)
+TEST(a_rotating_pair_turns_at_the_exact_time_angle_and_distance)
 {
     static const double speed[3] = {0.5, 2.0, 5.0}, other_turn[3] = {0.805792167598, 0.880505568874, 1.1383462295};
     static const double period[3] = {0.54175230220117, 0.51478871808614, 0.45436992222068};
     static const double angle[3] = {0.34276879750215, 1.1813598398255, 1.9961595833541};
-    (void)unused;
     for (int k = 0; k < 3; k++) {
         support_run run;
         double d[2], u[2];
@@ -83,7 +81,7 @@ static void a_rotating_pair_turns_at_the_exact_time_angle_and_distance(void **un
     }
 }
 
-static void a_mass_between_fixed_ends_swings_across_with_the_exact_period(void **unused)
+TEST(a_mass_between_fixed_ends_swings_across_with_the_exact_period)
 {
     static const double amplitude[4] = {0.01, 0.1, 0.5, 1.0};
     static const double period[4] = {74.1651848905, 7.43822303668, 1.58707476235, 0.92396292578};
@@ -91,7 +89,6 @@ static void a_mass_between_fixed_ends_swings_across_with_the_exact_period(void *
     static const dem_index ends[4] = {0, 1, 1, 2};
     static const unsigned char fixed[3] = {1, 0, 1};
     const dem_options options = tight_options();
-    (void)unused;
     for (int k = 0; k < 4; k++) {
         const double start[6] = {-1.0, 0.0, 0.0, amplitude[k], 1.0, 0.0};
         support_run run;
@@ -109,14 +106,4 @@ static void a_mass_between_fixed_ends_swings_across_with_the_exact_period(void *
         assert_close(state.x[3] / amplitude[k], 1.0, 1e-7);
         support_close(&run);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_collinear_pair_has_the_harmonic_period_at_any_amplitude),
-        cmocka_unit_test(a_rotating_pair_turns_at_the_exact_time_angle_and_distance),
-        cmocka_unit_test(a_mass_between_fixed_ends_swings_across_with_the_exact_period),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

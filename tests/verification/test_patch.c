@@ -123,9 +123,8 @@ static void check_block(dem_lattice *lattice, const law *d)
     dem_lattice_free(lattice);
 }
 
-static void every_node_of_a_triangular_block_has_the_exact_stress(void **state)
+TEST(every_node_of_a_triangular_block_has_the_exact_stress)
 {
-    (void)state;
     for (int k = 0; k < n_ratios; k++) {
         const law d = triangular(ratios[k]);
         dem_lattice lattice = make_triangular(ratios[k], DEM_PLANE_STRESS);
@@ -138,10 +137,9 @@ static bool is_warping(double nu, double r)
     return 2.0 * r * (1.0 - nu) >= 1.0 + nu;
 }
 
-static void every_node_of_a_square_block_has_the_exact_stress(void **state)
+TEST(every_node_of_a_square_block_has_the_exact_stress)
 {
     static const double diagonals[] = {0.5, 0.3, 0.8};
-    (void)state;
     for (int k = 0; k < 3 * n_ratios; k++) {
         if (is_warping(ratios[k % n_ratios], diagonals[k / n_ratios])) continue;
         const law d = square(ratios[k % n_ratios], diagonals[k / n_ratios]);
@@ -166,9 +164,8 @@ static void check_hooke(dem_lattice *lattice, double E, double nu)
 }
 
 /* In plane strain with E/(1 - nu^2) and nu/(1 - nu) in place of E and nu. */
-static void small_strains_follow_hookes_law(void **state)
+TEST(small_strains_follow_hookes_law)
 {
-    (void)state;
     for (int k = 0; k < n_ratios; k++) {
         const double nu = ratios[k];
         if (!is_warping(nu, 0.5)) {
@@ -182,11 +179,10 @@ static void small_strains_follow_hookes_law(void **state)
 }
 
 /* Turning a strained body turns its stress: S(Q F) = Q S(F) Q^T; Q by an angle of 3-4-5. */
-static void stress_turns_with_the_body(void **state)
+TEST(stress_turns_with_the_body)
 {
     const double c = 0.8, s = 0.6, F[4] = {1.1, 0.2, -0.1, 0.9};
     const double turned[4] = {c * F[0] - s * F[2], c * F[1] - s * F[3], s * F[0] + c * F[2], s * F[1] + c * F[3]};
-    (void)state;
     dem_lattice lattice = make_triangular(0.45, DEM_PLANE_STRESS);
     double *before = stresses(&lattice, F), *after = stresses(&lattice, turned);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
@@ -198,15 +194,4 @@ static void stress_turns_with_the_body(void **state)
     free(before);
     free(after);
     dem_lattice_free(&lattice);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_node_of_a_triangular_block_has_the_exact_stress),
-        cmocka_unit_test(every_node_of_a_square_block_has_the_exact_stress),
-        cmocka_unit_test(small_strains_follow_hookes_law),
-        cmocka_unit_test(stress_turns_with_the_body),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -158,18 +158,16 @@ static dem_obstacle straight(const double *points, double friction)
     return (dem_obstacle){.n_points = 2, .points = points, .friction = friction};
 }
 
-static void a_block_on_a_floor_rests(void **unused)
+TEST(a_block_on_a_floor_rests)
 {
     static const double mu[3] = {0.0, 0.05, 0.3};
-    (void)unused;
     for (int k = 0; k < 3; k++) check_rest(&(scene){.obstacle = straight(flat, mu[k]), .mass_damping = 400.0}, 5);
 }
 
 /* Its corner is held, two sides of it lie on the flanks. */
-static void a_block_in_a_groove_rests(void **unused)
+TEST(a_block_in_a_groove_rests)
 {
     scene s = {.angle = 0.25 * M_PI, .offset = 2.0 * spacing, .mass_damping = 400.0};
-    (void)unused;
     s.obstacle = (dem_obstacle){.n_points = 3, .points = groove};
     check_rest(&s, 8);
     s.obstacle.friction = 0.3;
@@ -182,12 +180,11 @@ typedef struct incline {
 } incline;
 
 /* Nodes that have slid to where they rest stay at the limit of friction, where rounding decides whether they stick. */
-static void a_block_below_the_friction_angle_rests_be_it_soft_or_hard(void **unused)
+TEST(a_block_below_the_friction_angle_rests_be_it_soft_or_hard)
 {
     static const incline rows[9] = {{5.0, 0.5, 1.0, 5},  {15.0, 0.5, 1.0, 5}, {20.0, 0.5, 1.0, 4},
                                     {17.0, 0.8, 1.0, 5}, {25.0, 1.2, 1.0, 4}, {8.0, 0.3, 1e4, 5},
                                     {12.0, 0.4, 1e4, 5}, {17.0, 0.5, 1e4, 5}, {25.0, 0.5, 1e4, 4}};
-    (void)unused;
     for (int k = 0; k < 9; k++) {
         const double a = rows[k].degrees * M_PI / 180.0;
         const double points[4] = {-9.0 * cos(a), 9.0 * sin(a), 9.0 * cos(a), -9.0 * sin(a)};
@@ -198,18 +195,16 @@ static void a_block_below_the_friction_angle_rests_be_it_soft_or_hard(void **unu
 }
 
 /* Vertices under its bottom edges carry it. */
-static void a_block_on_two_pegs_rests(void **unused)
+TEST(a_block_on_two_pegs_rests)
 {
     static const double pegs[10] = {-1.0, -0.1, -0.13, 0.0, 0.0, -0.1, 0.12, 0.0, 1.0, -0.1};
-    (void)unused;
     check_rest(&(scene){.obstacle = {.n_points = 5, .points = pegs, .friction = 0.3}, .mass_damping = 400.0}, 2);
 }
 
 /* The springs and friction alone take the energy. */
-static void a_dropped_block_comes_to_rest_by_the_damping_of_its_springs(void **unused)
+TEST(a_dropped_block_comes_to_rest_by_the_damping_of_its_springs)
 {
     static const double eta[2] = {0.0, 0.5};
-    (void)unused;
     for (int k = 0; k < 2; k++) {
         scene s = {.height = 0.2 * spacing, .damping_time = 2e-3, .obstacle = straight(flat, 0.3)};
         s.obstacle.restitution = eta[k];
@@ -218,12 +213,11 @@ static void a_dropped_block_comes_to_rest_by_the_damping_of_its_springs(void **u
 }
 
 /* Once the springs' damping has taken its waves the block slides as a point would. */
-static void a_block_above_the_friction_angle_slides_down_with_the_exact_acceleration(void **unused)
+TEST(a_block_above_the_friction_angle_slides_down_with_the_exact_acceleration)
 {
     static const double mu[2] = {0.2, 0.3};
     const double a = M_PI / 6.0, tangent[2] = {cos(a), -sin(a)};
     const double points[4] = {-9.0 * cos(a), 9.0 * sin(a), 9.0 * cos(a), -9.0 * sin(a)};
-    (void)unused;
     for (int k = 0; k < 2; k++) {
         const scene s = {.angle = -a, .obstacle = straight(points, mu[k]), .damping_time = 2e-3};
         block b;
@@ -243,17 +237,4 @@ static void a_block_above_the_friction_angle_slides_down_with_the_exact_accelera
         assert_close(b.drift, 0.0, 1e-6 * dem_model_mass(b.model) * g * 3.5 * spacing);
         close_block(&b);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_block_on_a_floor_rests),
-        cmocka_unit_test(a_block_in_a_groove_rests),
-        cmocka_unit_test(a_block_below_the_friction_angle_rests_be_it_soft_or_hard),
-        cmocka_unit_test(a_block_on_two_pegs_rests),
-        cmocka_unit_test(a_dropped_block_comes_to_rest_by_the_damping_of_its_springs),
-        cmocka_unit_test(a_block_above_the_friction_angle_slides_down_with_the_exact_acceleration),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -131,23 +131,12 @@ static void check_ringing(bool squares)
     dem_lattice_free(&l);
 }
 
-static void a_rectangle_of_triangles_rings_with_its_eigenfrequencies(void **state)
+TEST(a_rectangle_of_triangles_rings_with_its_eigenfrequencies)
 {
-    (void)state;
     check_ringing(false);
 }
 
-static void a_rectangle_of_squares_rings_with_its_eigenfrequencies(void **state)
+TEST(a_rectangle_of_squares_rings_with_its_eigenfrequencies)
 {
-    (void)state;
     check_ringing(true);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rectangle_of_triangles_rings_with_its_eigenfrequencies),
-        cmocka_unit_test(a_rectangle_of_squares_rings_with_its_eigenfrequencies),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static void check_frequencies(const dem_model *model, double nu)
 static const double ratios[] = {-0.5, 0.0, 0.1, 0.2, 1.0 / 3.0, 0.45};
 enum { n_ratios = sizeof ratios / sizeof ratios[0] };
 
-static void blocks_are_stable_and_the_bound_is_above_their_frequencies(void **state)
+TEST(blocks_are_stable_and_the_bound_is_above_their_frequencies)
 {
-    (void)state;
     for (int k = 0; k < n_ratios; k++) {
         dem_lattice lattice;
         assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, spacing));
@@ -58,9 +57,8 @@ static void blocks_are_stable_and_the_bound_is_above_their_frequencies(void **st
     }
 }
 
-static void discs_are_stable_and_the_bound_is_above_their_frequencies(void **state)
+TEST(discs_are_stable_and_the_bound_is_above_their_frequencies)
 {
-    (void)state;
     for (int k = 0; k < n_ratios; k++) {
         dem_lattice lattice;
         assert_ok(dem_lattice_disc(&lattice, 0.02, spacing));
@@ -72,11 +70,10 @@ static void discs_are_stable_and_the_bound_is_above_their_frequencies(void **sta
 
 /* (omega_max a/c)^2 of blocks, by an independent program, to its digits. The highest mode sits in a corner, so that the
  * size of the block does not matter; but at nu = 0 it spreads, and the last digit depends on the size. */
-static void the_highest_frequency_of_a_block_is_that_of_an_independent_program(void **state)
+TEST(the_highest_frequency_of_a_block_is_that_of_an_independent_program)
 {
     static const double table[][2] = {{0.0, 5.47},  {0.1, 5.56}, {0.2, 5.85}, {1.0 / 3.0, 6.55},
                                       {0.45, 7.58}, {0.5, 8.19}, {0.7, 12.86}};
-    (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
         dem_lattice lattice;
         assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, spacing));
@@ -92,10 +89,9 @@ static void the_highest_frequency_of_a_block_is_that_of_an_independent_program(v
 /* Corners that move by turns along one diagonal, h each: the sides have the energy 2 k h^2, k = E h/(1 + nu), the
  * area term 4 kappa h^2, the motion 1/2 m h'^2. So omega^2 = 4 (k + 2 kappa)/m; along the other diagonal, which the
  * triangles share, no area changes. Below r = (1 + nu)/(2 (1 - nu)) it is > 0. */
-static void a_square_cell_warps_with_the_frequency_of_its_sides_and_areas(void **state)
+TEST(a_square_cell_warps_with_the_frequency_of_its_sides_and_areas)
 {
     static const double table[][2] = {{0.0, 0.49}, {0.2, 0.7}, {1.0 / 3.0, 0.5}, {0.45, 1.3}, {-0.5, 0.16}};
-    (void)state;
     for (size_t j = 0; j < sizeof table / sizeof table[0]; j++) {
         const double nu = table[j][0], r = table[j][1], k = 1e7 / (1.0 + nu);
         const double kappa = 1e7 * ((1.0 + r) * nu - r) / (1.0 - nu * nu), m = 1050.0 * spacing * spacing;
@@ -116,15 +112,4 @@ static void a_square_cell_warps_with_the_frequency_of_its_sides_and_areas(void *
         gsl_vector_free(squared);
         dem_model_destroy(model);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_are_stable_and_the_bound_is_above_their_frequencies),
-        cmocka_unit_test(discs_are_stable_and_the_bound_is_above_their_frequencies),
-        cmocka_unit_test(a_square_cell_warps_with_the_frequency_of_its_sides_and_areas),
-        cmocka_unit_test(the_highest_frequency_of_a_block_is_that_of_an_independent_program),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

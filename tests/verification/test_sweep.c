@@ -192,11 +192,10 @@ static void judge(int restitution, int friction, int kind, const outcome *loose,
                   fault);
 }
 
-static void blocks_on_every_ground_close_their_ledger(void **unused)
+TEST(blocks_on_every_ground_close_their_ledger)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(rng);
-    (void)unused;
     print_message(
         "# spacing %g mm; rtol 1e-6: closure; rtol 1e-8: the rest\n# eta  friction  ground   impact  vert stick "
         " slip  late    depth closure6 closure8  steps   time\n",
@@ -217,9 +216,8 @@ static void blocks_on_every_ground_close_their_ledger(void **unused)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(blocks_on_every_ground_close_their_ledger)};
     if (argc > 1) spacing = atof(argv[1]);
     if (argc > 2) share = atof(argv[2]);
     if (argc > 3) window = atof(argv[3]);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

@@ -45,23 +45,21 @@ static void check_errors(const dem_lattice *body, const dem_obstacle *floor, dou
     free(x);
 }
 
-static void the_error_of_a_free_block_falls_with_the_tolerance(void **unused)
+TEST(the_error_of_a_free_block_falls_with_the_tolerance)
 {
     dem_lattice block;
-    (void)unused;
     support_block(&block);
     check_errors(&block, NULL, 2e-3);
     dem_lattice_free(&block);
 }
 
 /* It lands at 5 m/s with 2 m/s across, flat or on a corner, plastically, mu = 0.3; nodes slide, turn and stick. */
-static void the_error_of_a_block_dropped_with_friction_falls_too(void **unused)
+TEST(the_error_of_a_block_dropped_with_friction_falls_too)
 {
     static const double angles[2] = {0.0, 0.3}, velocity[2] = {2.0, -5.0}, points[4] = {-1.0, 0.0, 1.0, 0.0};
     const dem_obstacle floor = {.n_points = 2, .points = points, .restitution = 0.0, .friction = 0.3};
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
-    (void)unused;
     for (int k = 0; k < 2; k++) {
         dem_lattice block;
         const double none[2] = {0.0, 0.0};
@@ -75,13 +73,4 @@ static void the_error_of_a_block_dropped_with_friction_falls_too(void **unused)
         check_errors(&block, &floor, 2e-3);
         dem_lattice_free(&block);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_error_of_a_free_block_falls_with_the_tolerance),
-        cmocka_unit_test(the_error_of_a_block_dropped_with_friction_falls_too),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,9 +128,8 @@ static void check_fall(const fall *f)
     assert_int_equal(o.event.segment, 0);
 }
 
-static void an_edge_on_an_apex_gets_the_impulse_of_its_weights(void **unused)
+TEST(an_edge_on_an_apex_gets_the_impulse_of_its_weights)
 {
-    (void)unused;
     for (int k = 0; k <= 4; k++)
         for (int spring = 0; spring < 2; spring++) {
             const double eta = 0.25 * k;
@@ -140,18 +139,16 @@ static void an_edge_on_an_apex_gets_the_impulse_of_its_weights(void **unused)
 }
 
 /* An edge that turns as it falls, by at most 0.02 rad on the way: without a spring both nodes fly straight. */
-static void a_turning_edge_on_an_apex_gets_the_impulse_of_its_point(void **unused)
+TEST(a_turning_edge_on_an_apex_gets_the_impulse_of_its_point)
 {
-    (void)unused;
     for (int k = 0; k <= 4; k++) {
         check_fall(&(fall){0.0, {0.0, -2.0}, {0.0, -0.5}, 0.25 * k, 0.0, DEM_FRICTION_COULOMB, false});
         check_fall(&(fall){-0.3, {0.2, -0.7}, {-0.4, -1.5}, 0.25 * k, 0.3, DEM_FRICTION_COULOMB, false});
     }
 }
 
-static void friction_of_an_edge_on_an_apex_is_capped_by_coulomb(void **unused)
+TEST(friction_of_an_edge_on_an_apex_is_capped_by_coulomb)
 {
-    (void)unused;
     for (int k = 0; k <= 10; k++)
         for (int side = -1; side <= 1; side += 2) {
             const double mu = 0.1 * k, u = 0.9 * side;
@@ -161,9 +158,8 @@ static void friction_of_an_edge_on_an_apex_is_capped_by_coulomb(void **unused)
         }
 }
 
-static void friction_of_an_edge_on_an_apex_follows_the_papers_law(void **unused)
+TEST(friction_of_an_edge_on_an_apex_follows_the_papers_law)
 {
-    (void)unused;
     for (int k = 0; k <= 4; k++)
         check_fall(&(fall){0.1, {0.8, -1.0}, {0.8, -1.0}, 0.5, 0.25 * k, DEM_FRICTION_PAPER, true});
 }
@@ -332,9 +328,8 @@ static const double flanks[3] = {30.0, 60.0, 80.0}, landing = 4e-3;
 
 /* Mirror symmetry holds to rounding as long as the apex stays on the middle edge: one contact, and nothing to its
  * right is done before its left. */
-static void an_apex_midway_between_two_nodes_never_sinks_in(void **unused)
+TEST(an_apex_midway_between_two_nodes_never_sinks_in)
 {
-    (void)unused;
     for (int k = 0; k < 3; k++)
         for (int e = 0; e <= 2; e++) {
             const verdict v = check_wedge(&(wedge){flanks[k], 0.0, 0.5 * e, 0.0, 1e-6, 9, 1}, landing);
@@ -343,9 +338,8 @@ static void an_apex_midway_between_two_nodes_never_sinks_in(void **unused)
         }
 }
 
-static void the_ledger_on_an_apex_closes_better_as_rtol_falls(void **unused)
+TEST(the_ledger_on_an_apex_closes_better_as_rtol_falls)
 {
-    (void)unused;
     for (int e = 0; e <= 2; e++) {
         const verdict loose = check_wedge(&(wedge){60.0, 0.0, 0.5 * e, 0.0, 1e-6, 9, 1}, landing);
         const verdict tight = check_wedge(&(wedge){60.0, 0.0, 0.5 * e, 0.0, 1e-8, 9, 1}, landing);
@@ -355,9 +349,8 @@ static void the_ledger_on_an_apex_closes_better_as_rtol_falls(void **unused)
 }
 
 /* Along the edge, and at 0.5 exactly under a node; the longer runs go over all of it. */
-static void an_apex_anywhere_under_the_face_never_sinks_in(void **unused)
+TEST(an_apex_anywhere_under_the_face_never_sinks_in)
 {
-    (void)unused;
     for (int k = 0; k <= (everything ? 40 : 5); k++)
         for (int f = 0; f < (everything ? 3 : 1); f++)
             for (int e = 0; e <= 2; e++) {
@@ -368,34 +361,21 @@ static void an_apex_anywhere_under_the_face_never_sinks_in(void **unused)
 
 /* The apex hits the middle node: what a perfect symmetry leaves open is decided by the order of candidates, so there is
  * no mirror image to compare with. The face lies on the apex, not the node on a flank: the first normal is upright. */
-static void an_apex_exactly_under_the_middle_node_never_sinks_in(void **unused)
+TEST(an_apex_exactly_under_the_middle_node_never_sinks_in)
 {
-    (void)unused;
     for (int k = 0; k < 3; k++)
         for (int e = 0; e <= 2; e++) (void)check_wedge(&(wedge){flanks[k], 0.0, 0.5 * e, 0.0, 1e-6, 10, 1}, landing);
 }
 
 /* With nodes alone the wedge is deep in the body before a node touches it, which the polygon test notices. */
-static void without_vertices_the_apex_is_seen_to_sink_in(void **unused)
+TEST(without_vertices_the_apex_is_seen_to_sink_in)
 {
-    (void)unused;
     assert_true(run_wedge(&(wedge){30.0, 0.0, 0.0, 0.0, 1e-6, 9, 0}, landing).apex > 0.1e6);
     assert_true(run_wedge(&(wedge){80.0, 0.0, 0.0, 0.0, 1e-6, 9, 0}, landing).apex > 0.5e6);
 }
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_edge_on_an_apex_gets_the_impulse_of_its_weights),
-        cmocka_unit_test(a_turning_edge_on_an_apex_gets_the_impulse_of_its_point),
-        cmocka_unit_test(friction_of_an_edge_on_an_apex_is_capped_by_coulomb),
-        cmocka_unit_test(friction_of_an_edge_on_an_apex_follows_the_papers_law),
-        cmocka_unit_test(an_apex_midway_between_two_nodes_never_sinks_in),
-        cmocka_unit_test(the_ledger_on_an_apex_closes_better_as_rtol_falls),
-        cmocka_unit_test(an_apex_anywhere_under_the_face_never_sinks_in),
-        cmocka_unit_test(an_apex_exactly_under_the_middle_node_never_sinks_in),
-        cmocka_unit_test(without_vertices_the_apex_is_seen_to_sink_in),
-    };
     everything = argc > 1 && argv[1][0] != '\0';
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

@@ -277,10 +277,9 @@ static triangle make_triangle(double mu, int sign)
 
 /* It turns by up to 0.5 rad and slides by 0.2 m: 2 omega v_t is some 4 m/s^2, a part of the reaction that would be
  * missed at once. */
-static void a_triangle_slides_over_a_point_as_the_constrained_equations_say(void **unused)
+TEST(a_triangle_slides_over_a_point_as_the_constrained_equations_say)
 {
     double y[12];
-    (void)unused;
     for (int k = 0; k < 4; k++)
         for (int sign = -1; sign <= 1; sign += 2)
             for (double spin = -2.0; spin < 2.5; spin += 2.0) {
@@ -292,10 +291,9 @@ static void a_triangle_slides_over_a_point_as_the_constrained_equations_say(void
 }
 
 /* Friction holds as long as |T| <= mu N, which is asked of the simulation by its state. */
-static void a_triangle_turns_on_a_point_where_friction_holds_it(void **unused)
+TEST(a_triangle_turns_on_a_point_where_friction_holds_it)
 {
     double y[12];
-    (void)unused;
     for (double spin = -1.0; spin < 1.5; spin += 1.0) {
         triangle q = make_triangle(1.5, 0);
         q.s = 0.6;
@@ -305,11 +303,10 @@ static void a_triangle_turns_on_a_point_where_friction_holds_it(void **unused)
 }
 
 /* Slow enough to stop; its own vibration then breaks it loose and stops it again. */
-static void a_triangle_stops_and_slips_on_a_point_as_the_reference_does(void **unused)
+TEST(a_triangle_stops_and_slips_on_a_point_as_the_reference_does)
 {
     double y[12];
     int changes = 0;
-    (void)unused;
     for (int k = 0; k < 6; k++) {
         triangle q = make_triangle(0.1 + 0.1 * k, 1);
         place_triangle(0.5, -0.1, 0.3, 0.5, y);
@@ -317,14 +314,4 @@ static void a_triangle_stops_and_slips_on_a_point_as_the_reference_does(void **u
         changes += follow(&q, y, 0.2);
     }
     assert_true(changes > 6);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_triangle_slides_over_a_point_as_the_constrained_equations_say),
-        cmocka_unit_test(a_triangle_turns_on_a_point_where_friction_holds_it),
-        cmocka_unit_test(a_triangle_stops_and_slips_on_a_point_as_the_reference_does),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -113,21 +113,19 @@ static void check_rest(const rack *r)
     dem_lattice_free(&lattice);
 }
 
-static void a_block_rests_on_two_apexes_without_friction(void **unused)
+TEST(a_block_rests_on_two_apexes_without_friction)
 {
     const rack wide = make_rack(-0.0113, 0.0, 0.0113, 0.0, 0.0, 8),
                narrow = make_rack(-0.0013, 0.0, 0.0013, 0.0, 0.0, 7);
-    (void)unused;
     check_rest(&wide);
     check_rest(&narrow);
 }
 
-static void a_block_rests_on_two_apexes_with_friction(void **unused)
+TEST(a_block_rests_on_two_apexes_with_friction)
 {
     const rack level = make_rack(-0.0113, 0.0, 0.0071, 0.0, 0.5, 8),
                tilted = make_rack(-0.0113, 0.001, 0.0087, -0.003, 0.5, 8);
     const rack narrow = make_rack(-0.0013, 0.0, 0.0013, 0.0, 0.5, 7);
-    (void)unused;
     check_rest(&level);
     check_rest(&tilted);
     check_rest(&narrow);
@@ -260,11 +258,10 @@ static void open_slide(support_run *run, slide *w, double friction, double speed
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
 
-static void a_block_slides_with_friction_over_apexes_past_its_nodes(void **unused)
+TEST(a_block_slides_with_friction_over_apexes_past_its_nodes)
 {
     support_run run;
     slide w;
-    (void)unused;
     open_slide(&run, &w, 0.2, 0.3);
     const double kinetic = dem_simulation_energy(run.simulation).kinetic;
     const double from = dem_simulation_body(run.simulation, 0).centre[0];
@@ -369,21 +366,9 @@ static void check_drop(double slope, double friction, double speed)
     support_close(&run);
 }
 
-static void a_body_that_slides_off_an_apex_falls_on_the_flank_with_its_corner(void **unused)
+TEST(a_body_that_slides_off_an_apex_falls_on_the_flank_with_its_corner)
 {
-    (void)unused;
     check_drop(0.3, 0.0, 0.3);
     check_drop(0.3, 0.3, 0.5);
     check_drop(1.0, 0.0, 0.2);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_block_rests_on_two_apexes_without_friction),
-        cmocka_unit_test(a_block_rests_on_two_apexes_with_friction),
-        cmocka_unit_test(a_block_slides_with_friction_over_apexes_past_its_nodes),
-        cmocka_unit_test(a_body_that_slides_off_an_apex_falls_on_the_flank_with_its_corner),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,11 +44,10 @@ static void with_gsl(dem_lattice *block, dem_method method, double h, double *y)
 
 /* Both take 500 equal steps with the same weights, so that only rounding differs: 500 steps times a few 1e-16 of
  * 0.06 m, times what the motion amplifies. 1e-9 m is what the comparison is asked to hold. */
-static void fixed_steps_agree_with_gsl(void **unused)
+TEST(fixed_steps_agree_with_gsl)
 {
     static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_RK4, DEM_METHOD_VERLET};
     dem_lattice block;
-    (void)unused;
     support_block(&block);
     double *y = malloc(4 * (size_t)block.n_nodes * sizeof *y);
     assert_non_null(y);
@@ -75,13 +74,12 @@ static double duration = 2e-3;        /* s; with 'long' 100 periods */
 
 /* A free body keeps its linear momentum to rounding, its angular momentum and energy to the tolerance: row d allows
  * 1e-6 of the energy in 100 fundamental periods at rtol 1e-9; found in as many: 1.9e-7. */
-static void a_free_body_keeps_its_momenta_and_energy(void **unused)
+TEST(a_free_body_keeps_its_momenta_and_energy)
 {
     dem_lattice block;
     support_run run;
     dem_options options = support_options();
     const double velocity[2] = {3.0, -2.0};
-    (void)unused;
     support_block(&block);
     assert_ok(dem_lattice_launch(&block, velocity));
     options.gravity[1] = 0.0;
@@ -105,9 +103,5 @@ static void a_free_body_keeps_its_momenta_and_energy(void **unused)
 int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "long") == 0) duration = 100.0 * period;
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fixed_steps_agree_with_gsl),
-        cmocka_unit_test(a_free_body_keeps_its_momenta_and_energy),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

@@ -91,10 +91,9 @@ static void open_run(support_run *run, const dem_lattice *chain, const line *l)
     support_open(run, chain, walls, 2, &options);
 }
 
-static void located_contacts_keep_the_energy_as_known(void **unused)
+TEST(located_contacts_keep_the_energy_as_known)
 {
     dem_lattice chain;
-    (void)unused;
     make_chain(&chain);
     for (const line *l = lines; l < lines + n_lines; l++) {
         support_run run;
@@ -257,9 +256,8 @@ static const double steps[4] = {1.0, 0.5, 0.25, 0.1}; /* omega h */
 /* A cut step in the formula as it stands gives every mass a wrong velocity. For unequal steps the formula is sound, but
  * its velocity, the way of the last step over its length, is of first order. In both an end that is pressed on a wall
  * bounces in ever shorter steps: time stands still after thousands of impacts, and no step is short enough. */
-static void the_two_step_formula_fails_at_contacts(void **unused)
+TEST(the_two_step_formula_fails_at_contacts)
 {
-    (void)unused;
     for (int k = 0; k < 4; k++) {
         const outcome printed = cut_steps(AS_PRINTED, steps[k] / omega_max());
         const outcome unequal = cut_steps(UNEQUAL_STEPS, steps[k] / omega_max());
@@ -272,9 +270,8 @@ static void the_two_step_formula_fails_at_contacts(void **unused)
 
 /* So it is the two-step form that fails, not Verlet's method: with its velocity of second order it bears the same cuts.
  * Its error is that of (7), h^2, as is Runge and Kutta's then. */
-static void velocity_verlet_bears_cut_steps(void **unused)
+TEST(velocity_verlet_bears_cut_steps)
 {
-    (void)unused;
     for (int k = 0; k < 4; k++) {
         const outcome verlet = cut_steps(VELOCITY_VERLET, steps[k] / omega_max());
         const outcome kutta = cut_steps(RUNGE_KUTTA, steps[k] / omega_max());
@@ -283,14 +280,4 @@ static void velocity_verlet_bears_cut_steps(void **unused)
         assert_true(verlet.t >= t_end);
         assert_true(fabs(verlet.drift) < allowed * lines[k].drift);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(located_contacts_keep_the_energy_as_known),
-        cmocka_unit_test(the_two_step_formula_fails_at_contacts),
-        cmocka_unit_test(velocity_verlet_bears_cut_steps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

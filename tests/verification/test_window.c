@@ -35,10 +35,9 @@ static void open_masses(support_run *run, dem_index n, const double *height, dou
 
 /* The first arrives after sqrt(2/g) s with sqrt(2 g); 1 mm behind it the second needs 0.23 ms more, the third, 10 mm
  * behind, 2.3 ms. A window of 1 ms turns the second where it is: y = 1 mm + eta v t - g t^2/2 from there. */
-static void what_is_taken_together_rebounds_where_it_is(void **state)
+TEST(what_is_taken_together_rebounds_where_it_is)
 {
     const double height[3] = {1.0, 1.001, 1.01}, eta = 0.5, first = sqrt(2.0 / g), v = sqrt(2.0 * g);
-    (void)state;
     for (int k = 0; k < 2; k++) {
         support_run run;
         open_masses(&run, 3, height, eta, k == 0 ? 1e-3 : 0.0);
@@ -59,11 +58,10 @@ static void what_is_taken_together_rebounds_where_it_is(void **state)
 
 /* Plastic, the second stops 1 mm above the floor and falls from there: it comes down sqrt(2 mm/g) later, with
  * sqrt(2 g 1 mm), and lies on the floor from then on. */
-static void what_is_taken_together_without_rebound_stays_above_until_it_has_fallen(void **state)
+TEST(what_is_taken_together_without_rebound_stays_above_until_it_has_fallen)
 {
     const double height[2] = {1.0, 1.001}, first = sqrt(2.0 / g), fall = sqrt(2e-3 / g);
     support_run run;
-    (void)state;
     open_masses(&run, 2, height, 0.0, 1e-3);
     assert_close(support_at(&run, first + 0.5 * fall).x[3], 1e-3 * 0.75, 1e-12);
     assert_int_equal(dem_simulation_counts(run.simulation).closings, 1);
@@ -77,10 +75,9 @@ static void what_is_taken_together_without_rebound_stays_above_until_it_has_fall
 
 /* Rebounds of eta^n sqrt(2 g): the first whose hop of 2 v/g is at most twice the window is none. With 10 ms that is
  * the 6th, 0.5^6 4.43 m/s = 0.069 m/s < 0.098 m/s. Without a window it goes on. */
-static void a_hop_of_less_than_twice_the_window_is_the_last(void **state)
+TEST(a_hop_of_less_than_twice_the_window_is_the_last)
 {
     const double height = 1.0, total = sqrt(2.0 / g) * (1.0 + 2.0 * (0.5 + 0.25 + 0.125 + 0.0625 + 0.03125));
-    (void)state;
     for (int k = 0; k < 2; k++) {
         support_run run;
         open_masses(&run, 1, &height, 0.5, k == 0 ? 0.01 : 0.0);
@@ -183,10 +180,9 @@ static double drop_block(double eta, double friction, double kappa, dem_counts *
 
 /* Of the rebound: 1e-3 where impacts take energy; with eta = 1 the motion is chaotic and only its mean counts, to which
  * halving the spacing makes a difference of several percent. */
-static void a_block_keeps_its_ledger_closed_and_its_depth_with_any_window(void **state)
+TEST(a_block_keeps_its_ledger_closed_and_its_depth_with_any_window)
 {
     static const double etas[3] = {0.0, 0.5, 1.0}, kappas[4] = {0.01, -1.0, 0.3, 1.0}, share[3] = {1e-3, 1e-3, 0.03};
-    (void)state;
     for (int e = 0; e < 6; e++) {
         const double eta = etas[e % 3], friction = e < 3 ? 0.0 : 0.3;
         dem_counts single, counts;
@@ -200,15 +196,4 @@ static void a_block_keeps_its_ledger_closed_and_its_depth_with_any_window(void *
             if (k == 1) assert_true(counts.events < single.events);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_taken_together_rebounds_where_it_is),
-        cmocka_unit_test(what_is_taken_together_without_rebound_stays_above_until_it_has_fallen),
-        cmocka_unit_test(a_hop_of_less_than_twice_the_window_is_the_last),
-        cmocka_unit_test(a_block_keeps_its_ledger_closed_and_its_depth_with_any_window),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,11 +34,10 @@ static int fill(void **state)
 }
 
 /* Equal to the bit: from the first term on. What lies behind the end is not touched. */
-static void combinations_are_sums_from_the_first_term_on(void **state)
+TEST(combinations_are_sums_from_the_first_term_on)
 {
     double c[n_inputs];
     const double *from[n_inputs];
-    (void)state;
     for (int p = 0; p < n_inputs; p++) {
         c[p] = 1.0 / (1.0 + p);
         from[p] = in[p];
@@ -65,9 +64,8 @@ static double value(const array_ops *b, const double *x, const double *w, double
 }
 
 /* Each square is off by 2^-61, and a sum in long double by less. */
-static void relative_changes_of_lengths_are_those_of_each_one(void **state)
+TEST(relative_changes_of_lengths_are_those_of_each_one)
 {
-    (void)state;
     for (int t = 0; t < n_tables; t++)
         for (int n = 0; n < 40; n++) {
             double lengths[40], reference[40];
@@ -81,9 +79,8 @@ static void relative_changes_of_lengths_are_those_of_each_one(void **state)
         }
 }
 
-static void squares_add_up(void **state)
+TEST(squares_add_up)
 {
-    (void)state;
     for (int t = 0; t < n_tables; t++)
         for (int s = 0; s < n_sizes && dem_kernel_check(kinds[t]) == DEM_OK; s++) {
             long double sum = 0.0L;
@@ -97,9 +94,8 @@ static void squares_add_up(void **state)
 }
 
 /* Backwards, and in parts that are added in another order: the same bits. */
-static void the_order_of_squares_does_not_matter(void **state)
+TEST(the_order_of_squares_does_not_matter)
 {
-    (void)state;
     for (dem_index k = 0; k < most; k++) {
         out[k] = in[0][most - 1 - k];
         other[k] = in[1][most - 1 - k];
@@ -117,10 +113,9 @@ static void the_order_of_squares_does_not_matter(void **state)
 }
 
 /* 32^2 is the largest square that may be added; its sums are exact, and so are those of squares down to 2^-60. */
-static void squares_of_all_sizes_are_exact(void **state)
+TEST(squares_of_all_sizes_are_exact)
 {
     const double numbers[] = {32.0, 0x1p-10, 0x1p-30, 3.0 * 0x1p-29};
-    (void)state;
     for (int q = 0; q < 4; q++)
         for (dem_index k = 0; k < most; k++) {
             out[k] = numbers[q];
@@ -132,9 +127,8 @@ static void squares_of_all_sizes_are_exact(void **state)
         }
 }
 
-static void the_largest_square_is_known_and_what_is_no_number_is_reported(void **state)
+TEST(the_largest_square_is_known_and_what_is_no_number_is_reported)
 {
-    (void)state;
     for (int t = 0; t < n_tables; t++)
         for (dem_index at = 0; at < 5000; at += 501) {
             array_ops_sum sum = {0};
@@ -155,10 +149,9 @@ static void the_largest_square_is_known_and_what_is_no_number_is_reported(void *
         }
 }
 
-static void verlets_step_is_drift_and_kick(void **state)
+TEST(verlets_step_is_drift_and_kick)
 {
     const double h = 0.3, *const start[3] = {in[0], in[1], in[2]};
-    (void)state;
     for (int t = 0; t < n_tables; t++)
         for (int s = 0; s < n_sizes && dem_kernel_check(kinds[t]) == DEM_OK; s++) {
             tables[t]->drift(out, other, start, h, sizes[s]);
@@ -194,9 +187,8 @@ static void assert_splits_without_error(const double *terms, int n)
 }
 
 /* Random terms alike, and 2^-120 to 1 of that, in blocks of all lengths. */
-static void terms_are_split_without_an_error(void **state)
+TEST(terms_are_split_without_an_error)
 {
-    (void)state;
     for (int n = ARRAY_OPS_LANES; n <= ARRAY_OPS_TERMS; n += ARRAY_OPS_LANES) {
         assert_splits_without_error(in[n % n_inputs], n);
         for (int k = 0; k < n; k++) out[k] = ldexp(in[n % n_inputs][k], -(k * 7 % 121));
@@ -206,12 +198,11 @@ static void terms_are_split_without_an_error(void **state)
 
 /* A full block of the same term adds up to the most that its parts may: mantissas of ones, ties, subnormal numbers, the
  * largest ones; all of one sign, and one half against the other. */
-static void full_blocks_of_equal_terms_are_split_without_an_error(void **state)
+TEST(full_blocks_of_equal_terms_are_split_without_an_error)
 {
     static const double equal[] = {
         0x1.fffffffffffffp0,     1.0,       0x1.0000000000001p0,    0x1.00000004p-3,       0x1.000000000001p9,
         0x1.fffffffffffffp-1022, 0x1p-1074, 0x1.fffffffffffffp-970, 0x1.fffffffffffffp1008};
-    (void)state;
     for (size_t e = 0; e < sizeof equal / sizeof equal[0]; e++)
         for (int half = 0; half < 2; half++) {
             for (int k = 0; k < ARRAY_OPS_TERMS; k++) out[k] = half && k % 2 ? -equal[e] : equal[e];
@@ -220,9 +211,8 @@ static void full_blocks_of_equal_terms_are_split_without_an_error(void **state)
 }
 
 /* Halves of the last places of both parts, on top of the largest term, decide which way each of them is rounded. */
-static void what_lies_half_way_between_is_split_without_an_error(void **state)
+TEST(what_lies_half_way_between_is_split_without_an_error)
 {
-    (void)state;
     for (int low = -110; low < -40; low++) {
         for (int k = 0; k < ARRAY_OPS_TERMS; k++) out[k] = k % 3 ? ldexp(1.0, low) : -ldexp(3.0, low);
         out[17] = 1.0;
@@ -230,19 +220,4 @@ static void what_lies_half_way_between_is_split_without_an_error(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(combinations_are_sums_from_the_first_term_on),
-        cmocka_unit_test(relative_changes_of_lengths_are_those_of_each_one),
-        cmocka_unit_test(squares_add_up),
-        cmocka_unit_test(the_order_of_squares_does_not_matter),
-        cmocka_unit_test(squares_of_all_sizes_are_exact),
-        cmocka_unit_test(the_largest_square_is_known_and_what_is_no_number_is_reported),
-        cmocka_unit_test(verlets_step_is_drift_and_kick),
-        cmocka_unit_test(terms_are_split_without_an_error),
-        cmocka_unit_test(full_blocks_of_equal_terms_are_split_without_an_error),
-        cmocka_unit_test(what_lies_half_way_between_is_split_without_an_error),
-    };
-    return cmocka_run_group_tests(tests, fill, NULL);
-}
+TEST_GROUP(fill, NULL);

@@ -58,12 +58,11 @@ static void check(const dem_checkpoint *checkpoint)
 
 /* ---- entries ---- */
 
-static void entries_are_copied_replaced_and_found(void **state)
+TEST(entries_are_copied_replaced_and_found)
 {
     dem_checkpoint *checkpoint = make(), *other;
     int number = 3;
     size_t size = 1;
-    (void)state;
     check(checkpoint);
     assert_ok(dem_checkpoint_put(checkpoint, "word", &number, sizeof number));
     number = 4;
@@ -86,11 +85,10 @@ static void refuse(dem_status got, dem_status status, const char *message)
     assert_string_equal(dem_status_message(), message);
 }
 
-static void what_is_no_entry_is_refused(void **state)
+TEST(what_is_no_entry_is_refused)
 {
     dem_checkpoint *checkpoint = make();
     int number = 0;
-    (void)state;
     refuse(dem_checkpoint_get(checkpoint, "words", &number, 4), DEM_ERROR_IO, "the checkpoint has no words");
     refuse(dem_checkpoint_get(checkpoint, "word", &number, 4), DEM_ERROR_IO,
            "the checkpoint has 5 bytes of word, 4 are expected");
@@ -118,10 +116,9 @@ static long size_of(const char *path)
     return stat(path, &about) == 0 ? (long)about.st_size : -1;
 }
 
-static void a_file_holds_all_and_the_one_before_is_kept(void **state)
+TEST(a_file_holds_all_and_the_one_before_is_kept)
 {
     dem_checkpoint *checkpoint = make(), *back;
-    (void)state;
     (void)unlink(FILE_NAME);
     (void)unlink(PREVIOUS);
     assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
@@ -158,11 +155,10 @@ static void refuse_file(const unsigned char *bytes, size_t size, const char *mes
 }
 
 /* Every bit counts, and every byte that lacks or is too many. */
-static void damaged_files_are_refused(void **state)
+TEST(damaged_files_are_refused)
 {
     dem_checkpoint *checkpoint, *back;
     unsigned char bytes[512];
-    (void)state;
     assert_ok(dem_checkpoint_create(&checkpoint));
     assert_ok(dem_checkpoint_put(checkpoint, "word", "spring", 6));
     assert_ok(dem_checkpoint_put(checkpoint, "number", "12345678", 8));
@@ -199,10 +195,9 @@ static void damaged_files_are_refused(void **state)
     dem_checkpoint_destroy(checkpoint);
 }
 
-static void files_that_are_none_are_refused(void **state)
+TEST(files_that_are_none_are_refused)
 {
     dem_checkpoint *checkpoint = make(), *back;
-    (void)state;
     refuse(dem_checkpoint_read(&back, "no/file"), DEM_ERROR_IO,
            "no/file: cannot be opened (No such file or directory)");
     refuse(dem_checkpoint_read(&back, "/tmp"), DEM_ERROR_IO, "/tmp: is not a regular file");
@@ -221,11 +216,10 @@ static void files_that_are_none_are_refused(void **state)
 }
 
 /* RLIMIT_FSIZE stands in for a full disk; what is short comes to the disk as the file is closed. */
-static void a_disk_that_is_full_leaves_the_file_of_before(void **state)
+TEST(a_disk_that_is_full_leaves_the_file_of_before)
 {
     dem_checkpoint *checkpoint = make(), *little;
     struct rlimit kept, small;
-    (void)state;
     assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
     assert_ok(dem_checkpoint_create(&little));
     assert_ok(dem_checkpoint_put(little, "word", "spring", 5));
@@ -245,15 +239,4 @@ static void a_disk_that_is_full_leaves_the_file_of_before(void **state)
     dem_checkpoint_destroy(checkpoint);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(entries_are_copied_replaced_and_found),
-        cmocka_unit_test(what_is_no_entry_is_refused),
-        cmocka_unit_test(a_file_holds_all_and_the_one_before_is_kept),
-        cmocka_unit_test(damaged_files_are_refused),
-        cmocka_unit_test(files_that_are_none_are_refused),
-        cmocka_unit_test(a_disk_that_is_full_leaves_the_file_of_before),
-    };
-    return cmocka_run_group_tests(tests, enter_folder, scratch_remove);
-}
+TEST_GROUP(enter_folder, scratch_remove);

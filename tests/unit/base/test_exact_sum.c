@@ -58,7 +58,7 @@ static void shuffle(uint64_t state, int n)
 /* ---- tests ---- */
 
 /* Expected is float(sum(map(Fraction, terms))): over all exponents, near each other, subnormal, near overflow. */
-static void a_sum_is_the_double_nearest_to_the_sum_of_fractions(void **state)
+TEST(a_sum_is_the_double_nearest_to_the_sum_of_fractions)
 {
     static const struct {
         uint64_t seed;
@@ -70,16 +70,14 @@ static void a_sum_is_the_double_nearest_to_the_sum_of_fractions(void **state)
         {5, 2, -1074, -1020, -0x1.9aef4881914a9p-998},     {6, 3000, 900, 908, 0x1.fa0bdb50ca191p+961},
         {7, 100, -1126, 918, 0x1.73db8aa16e501p+950},      {8, 100, -53, -52, 0x1.4cce64a4b6d13p+2},
     };
-    (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         fill(cases[k].seed, cases[k].n, cases[k].low, cases[k].high);
         assert_same(sum_of(terms, cases[k].n), cases[k].expected);
     }
 }
 
-static void the_order_of_the_terms_does_not_matter(void **state)
+TEST(the_order_of_the_terms_does_not_matter)
 {
-    (void)state;
     for (uint64_t seed = 10; seed < 30; seed++) {
         const int low = seed % 2 ? -1126 : -30, high = seed % 2 ? 900 : 30;
         fill(seed, most, low, high);
@@ -93,9 +91,8 @@ static void the_order_of_the_terms_does_not_matter(void **state)
 
 /* What is left of the sum without its rounded value is at most half a unit of its last place. With that taken away too,
  * and so on, nothing is left: the sum is known to its last bit. */
-static void what_rounding_leaves_is_at_most_half_a_unit(void **state)
+TEST(what_rounding_leaves_is_at_most_half_a_unit)
 {
-    (void)state;
     for (uint64_t seed = 40; seed < 60; seed++) {
         exact_sum s = {0};
         int n_parts = 0;
@@ -111,10 +108,9 @@ static void what_rounding_leaves_is_at_most_half_a_unit(void **state)
     }
 }
 
-static void small_terms_outlive_large_ones_that_cancel(void **state)
+TEST(small_terms_outlive_large_ones_that_cancel)
 {
     const double large[] = {1e300, 1.0, -1e300}, all[] = {DBL_MAX, 1e-300, DBL_MAX, -DBL_MAX, 0x1p-1074, -DBL_MAX};
-    (void)state;
     assert_same(sum_of(large, 3), 1.0);
     assert_same(sum_of(all, 6), 1e-300);
     terms[0] = 1.0;
@@ -122,11 +118,10 @@ static void small_terms_outlive_large_ones_that_cancel(void **state)
     assert_same(sum_of(terms, most - 1), 1.0);
 }
 
-static void ties_go_to_the_even_double(void **state)
+TEST(ties_go_to_the_even_double)
 {
     const double down[] = {1.0, 0x1p-53}, up[] = {1.0 + 0x1p-52, 0x1p-53}, above[] = {1.0, 0x1p-53, 0x1p-1074},
                  below[] = {-1.0, -0x1p-53, 0x1p-1074}, carry[] = {0x1.fffffffffffffp0, 0x1p-53};
-    (void)state;
     assert_same(sum_of(down, 2), 1.0);
     assert_same(sum_of(up, 2), 1.0 + 0x1p-51);
     assert_same(sum_of(above, 3), 1.0 + 0x1p-52);
@@ -134,10 +129,9 @@ static void ties_go_to_the_even_double(void **state)
     assert_same(sum_of(carry, 2), 2.0);
 }
 
-static void subnormal_numbers_are_terms_and_sums_like_others(void **state)
+TEST(subnormal_numbers_are_terms_and_sums_like_others)
 {
     const double least[] = {0x1p-1074, 0x1p-1074, -0x1p-1073}, gradual[] = {DBL_MIN, -0x1p-1074};
-    (void)state;
     for (int k = 0; k < most; k++) terms[k] = 0x1p-1074;
     assert_same(sum_of(terms, most), most * 0x1p-1074);
     assert_same(sum_of(least, 1), 0x1p-1074);
@@ -145,10 +139,9 @@ static void subnormal_numbers_are_terms_and_sums_like_others(void **state)
     assert_same(sum_of(gradual, 2), DBL_MIN - 0x1p-1074);
 }
 
-static void a_sum_that_is_zero_is_plus_zero(void **state)
+TEST(a_sum_that_is_zero_is_plus_zero)
 {
     const double zeros[] = {-0.0, -0.0}, opposite[] = {-3.0, 3.0};
-    (void)state;
     assert_same(sum_of(zeros, 0), 0.0);
     assert_same(sum_of(zeros, 2), 0.0);
     assert_same(sum_of(opposite, 2), 0.0);
@@ -156,9 +149,8 @@ static void a_sum_that_is_zero_is_plus_zero(void **state)
 
 /* More of the largest mantissa than limbs have room for without carries, at every place in a limb: a power of two times
  * a term is a double. */
-static void limbs_do_not_overflow(void **state)
+TEST(limbs_do_not_overflow)
 {
-    (void)state;
     for (int exponent = 0; exponent < 32; exponent++) {
         exact_sum s = {0};
         const double term = ldexp(0x1.fffffffffffffp0, exponent);
@@ -167,10 +159,9 @@ static void limbs_do_not_overflow(void **state)
     }
 }
 
-static void many_large_terms_overflow_only_when_they_are_read(void **state)
+TEST(many_large_terms_overflow_only_when_they_are_read)
 {
     exact_sum s = {0};
-    (void)state;
     for (int k = 0; k < 3 * EXACT_SUM_MOST; k++) exact_sum_add(&s, DBL_MAX);
     assert_same(exact_sum_value(&s), INFINITY);
     for (int k = 0; k < 3 * EXACT_SUM_MOST - 1; k++) exact_sum_add(&s, -DBL_MAX);
@@ -182,11 +173,10 @@ static void many_large_terms_overflow_only_when_they_are_read(void **state)
     assert_same(sum_of(less, 2), DBL_MAX);
 }
 
-static void terms_that_are_not_finite_count_in_any_order(void **state)
+TEST(terms_that_are_not_finite_count_in_any_order)
 {
     const double up[] = {1.0, INFINITY, -DBL_MAX}, down[] = {-INFINITY, -INFINITY, 5.0},
                  both[] = {-INFINITY, 1.0, INFINITY}, none[] = {INFINITY, NAN, 1.0};
-    (void)state;
     assert_same(sum_of(up, 3), INFINITY);
     assert_same(sum_of(down, 3), -INFINITY);
     assert_true(isnan(sum_of(both, 3)));
@@ -216,11 +206,10 @@ static void assert_many_are_like_one_by_one(int n)
 }
 
 /* All exponents, as far as 2^86 apart, alike, subnormal, near overflow; lengths at the ends of lanes and blocks. */
-static void many_terms_add_up_like_one_by_one(void **state)
+TEST(many_terms_add_up_like_one_by_one)
 {
     static const int ranges[][2] = {{-1126, 918}, {-1050, 945}, {-40, 46}, {-53, -52}, {-1126, -1074}, {900, 970}};
     static const int lengths[] = {0, 1, 15, 16, 17, 255, 256, 257, 512, 1000, most};
-    (void)state;
     for (size_t r = 0; r < sizeof ranges / sizeof ranges[0]; r++)
         for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
             fill(70 + r, lengths[k], ranges[r][0], ranges[r][1]);
@@ -230,11 +219,10 @@ static void many_terms_add_up_like_one_by_one(void **state)
 
 /* A full block of the same term, whose multiples add up to the most that they can; all bits of its mantissa are set,
  * or rounding to multiples is a tie. */
-static void blocks_of_equal_terms_are_exact(void **state)
+TEST(blocks_of_equal_terms_are_exact)
 {
     static const double equal[] = {0x1.fffffffffffffp0, 1.0, 0x1.0000000000001p0, 0x1.00000004p-3,
                                    0x1.fffffffffffffp-1022};
-    (void)state;
     for (size_t e = 0; e < sizeof equal / sizeof equal[0]; e++)
         for (int n = EXACT_SUM_BLOCK - 1; n <= EXACT_SUM_BLOCK + 1; n++) {
             for (int k = 0; k < n; k++) terms[k] = equal[e];
@@ -242,9 +230,8 @@ static void blocks_of_equal_terms_are_exact(void **state)
         }
 }
 
-static void many_terms_that_cancel_leave_what_is_left(void **state)
+TEST(many_terms_that_cancel_leave_what_is_left)
 {
-    (void)state;
     for (uint64_t seed = 80; seed < 90; seed++) {
         exact_sum s = {0};
         fill(seed, most / 2, seed % 2 ? -1050 : -60, seed % 2 ? 945 : 60);
@@ -258,9 +245,8 @@ static void many_terms_that_cancel_leave_what_is_left(void **state)
 }
 
 /* Blocks whose magnitudes overflow when they are added up, and those with terms that are not finite. */
-static void blocks_that_overflow_are_added_one_by_one(void **state)
+TEST(blocks_that_overflow_are_added_one_by_one)
 {
-    (void)state;
     fill(90, most, 960, 971);
     assert_many_are_like_one_by_one(most);
     for (int k = 0; k < most; k++) terms[k] = k % 3 ? -DBL_MAX : DBL_MAX;
@@ -272,25 +258,4 @@ static void blocks_that_overflow_are_added_one_by_one(void **state)
     terms[0] = NAN;
     exact_sum_add_array(&none, terms, most);
     assert_true(isnan(exact_sum_value(&none)));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sum_is_the_double_nearest_to_the_sum_of_fractions),
-        cmocka_unit_test(the_order_of_the_terms_does_not_matter),
-        cmocka_unit_test(what_rounding_leaves_is_at_most_half_a_unit),
-        cmocka_unit_test(small_terms_outlive_large_ones_that_cancel),
-        cmocka_unit_test(ties_go_to_the_even_double),
-        cmocka_unit_test(subnormal_numbers_are_terms_and_sums_like_others),
-        cmocka_unit_test(a_sum_that_is_zero_is_plus_zero),
-        cmocka_unit_test(limbs_do_not_overflow),
-        cmocka_unit_test(many_large_terms_overflow_only_when_they_are_read),
-        cmocka_unit_test(terms_that_are_not_finite_count_in_any_order),
-        cmocka_unit_test(many_terms_add_up_like_one_by_one),
-        cmocka_unit_test(blocks_of_equal_terms_are_exact),
-        cmocka_unit_test(many_terms_that_cancel_leave_what_is_left),
-        cmocka_unit_test(blocks_that_overflow_are_added_one_by_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

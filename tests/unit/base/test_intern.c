@@ -47,9 +47,8 @@ static void assert_holds(const intern *p, const kept *list)
     if (list->n > 0) assert_memory_equal(items + list->span.first, list->items, (size_t)list->n * sizeof(pair));
 }
 
-static void a_list_is_held_once(void **state)
+TEST(a_list_is_held_once)
 {
-    (void)state;
     gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     intern p = {.unit = sizeof(pair)};
     dem_index n_items = 0;
@@ -75,9 +74,8 @@ static void a_list_is_held_once(void **state)
 }
 
 /* 0.0 and -0.0 are equal numbers, but not the same. */
-static void lists_are_distinguished_by_their_bits(void **state)
+TEST(lists_are_distinguished_by_their_bits)
 {
-    (void)state;
     const double plus = 0.0, minus = -0.0;
     intern p = {.unit = sizeof(double)};
     intern_span a, b, none;
@@ -89,21 +87,10 @@ static void lists_are_distinguished_by_their_bits(void **state)
     intern_free(&p);
 }
 
-static void an_empty_pool_settles(void **state)
+TEST(an_empty_pool_settles)
 {
-    (void)state;
     intern p = {.unit = sizeof(double)};
     assert_int_equal(intern_settle(&p), DEM_OK);
     assert_int_equal(p.n, 0);
     intern_free(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_list_is_held_once),
-        cmocka_unit_test(lists_are_distinguished_by_their_bits),
-        cmocka_unit_test(an_empty_pool_settles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,10 +7,9 @@
 enum { dim_most = STATE_DIM_MOST, most_numbers = 1024 };
 
 /* 5 nodes, 3 rows of padding, 3 impulses, 3 of friction, 2 rows of totals: checkpoints of states have them so. */
-static void two_components_stand_where_records_have_them(void **state)
+TEST(two_components_stand_where_records_have_them)
 {
     const state_layout l = state_layout_of(2, 5, 3);
-    (void)state;
     assert_int_equal(l.n_nodes, 5);
     assert_int_equal(l.n_rows, 16);
     assert_int_equal(state_velocities(&l), 32);
@@ -24,10 +23,9 @@ static void two_components_stand_where_records_have_them(void **state)
     assert_int_equal(state_total_index(&l, STATE_TIME), 31); /* the last of all */
 }
 
-static void velocities_begin_at_a_cache_line_behind_as_few_rows_as_will_do(void **state)
+TEST(velocities_begin_at_a_cache_line_behind_as_few_rows_as_will_do)
 {
     const dem_index line = ALIGNED_TO / sizeof(double);
-    (void)state;
     for (int dim = 2; dim <= dim_most; dim++)
         for (dem_index n = 1; n < 20; n++)
             for (dem_index obstacles = 0; obstacles < 6; obstacles++) {
@@ -53,9 +51,8 @@ static void count_uses(const state_layout *l, int *uses)
     for (int which = 0; which < STATE_TOTALS; which++) uses[state_total_index(l, (state_total)which)]++;
 }
 
-static void nothing_shares_its_place(void **state)
+TEST(nothing_shares_its_place)
 {
-    (void)state;
     for (int dim = 2; dim <= dim_most; dim++)
         for (dem_index obstacles = 0; obstacles < 4; obstacles++) {
             const state_layout l = state_layout_of(dim, 7, obstacles);
@@ -72,9 +69,8 @@ static void nothing_shares_its_place(void **state)
 }
 
 /* Numbers that are their indices. */
-static void values_are_those_at_their_indices(void **state)
+TEST(values_are_those_at_their_indices)
 {
-    (void)state;
     for (int dim = 2; dim <= dim_most; dim++) {
         const state_layout l = state_layout_of(dim, 7, 2);
         double y[most_numbers];
@@ -85,15 +81,4 @@ static void values_are_those_at_their_indices(void **state)
         assert_close(state_time(&l, y), state_total_of(&l, y, STATE_WORK) + 1.0, 0.0);
         assert_true(state_time(&l, y) >= (double)(state_size(&l) - dim)); /* in the last row */
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_components_stand_where_records_have_them),
-        cmocka_unit_test(velocities_begin_at_a_cache_line_behind_as_few_rows_as_will_do),
-        cmocka_unit_test(nothing_shares_its_place),
-        cmocka_unit_test(values_are_those_at_their_indices),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

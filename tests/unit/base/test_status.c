@@ -7,19 +7,17 @@
 
 #include "base/status.h"
 
-static void a_failure_stores_its_text_and_gives_its_status_back(void **state)
+TEST(a_failure_stores_its_text_and_gives_its_status_back)
 {
-    (void)state;
     assert_int_equal(status_fail(DEM_ERROR_CONTACT, "node %d at %g m", 7, 0.25), DEM_ERROR_CONTACT);
     assert_string_equal(dem_status_message(), "node 7 at 0.25 m");
     assert_int_equal(status_fail(DEM_ERROR_IO, "gone"), DEM_ERROR_IO);
     assert_string_equal(dem_status_message(), "gone");
 }
 
-static void a_message_too_long_is_cut_and_terminated(void **state)
+TEST(a_message_too_long_is_cut_and_terminated)
 {
     char text[2000];
-    (void)state;
     memset(text, 'a', sizeof text - 1);
     text[sizeof text - 1] = '\0';
     (void)status_fail(DEM_ERROR_MODEL, "%s", text);
@@ -37,11 +35,10 @@ static void *fail_elsewhere(void *seen)
     return NULL;
 }
 
-static void each_thread_has_a_message_of_its_own_that_starts_empty(void **state)
+TEST(each_thread_has_a_message_of_its_own_that_starts_empty)
 {
     pthread_t thread;
     const char *before = NULL;
-    (void)state;
     (void)status_fail(DEM_ERROR_MODEL, "here");
     assert_int_equal(pthread_create(&thread, NULL, fail_elsewhere, &before), 0);
     assert_int_equal(pthread_join(thread, NULL), 0);
@@ -56,10 +53,9 @@ static dem_status pass_up(dem_status status, int *reached)
     return DEM_OK;
 }
 
-static void try_returns_what_is_not_ok_and_goes_on_otherwise(void **state)
+TEST(try_returns_what_is_not_ok_and_goes_on_otherwise)
 {
     int reached = 0;
-    (void)state;
     assert_int_equal(pass_up(DEM_STOPPED, &reached), DEM_STOPPED);
     assert_int_equal(pass_up(DEM_ERROR_IO, &reached), DEM_ERROR_IO);
     assert_int_equal(reached, 0);
@@ -79,9 +75,8 @@ static dem_status check_memory(const void *pointer)
     return DEM_OK;
 }
 
-static void check_fails_with_its_message_unless_the_condition_holds(void **state)
+TEST(check_fails_with_its_message_unless_the_condition_holds)
 {
-    (void)state;
     (void)status_fail(DEM_ERROR_IO, "earlier");
     assert_int_equal(check_positive(1.0), DEM_OK);
     assert_string_equal(dem_status_message(), "earlier");
@@ -92,11 +87,10 @@ static void check_fails_with_its_message_unless_the_condition_holds(void **state
     assert_string_equal(dem_status_message(), "out of memory");
 }
 
-static void every_status_has_the_name_of_its_constant(void **state)
+TEST(every_status_has_the_name_of_its_constant)
 {
     static const char *const errors[] = {"DEM_ERROR_MEMORY",     "DEM_ERROR_ARGUMENT", "DEM_ERROR_MODEL",
                                          "DEM_ERROR_INTEGRATOR", "DEM_ERROR_CONTACT",  "DEM_ERROR_IO"};
-    (void)state;
     assert_string_equal(dem_status_name(DEM_OK), "DEM_OK");
     assert_string_equal(dem_status_name(DEM_STOPPED), "DEM_STOPPED");
     for (int k = 0; k < 6; k++) assert_string_equal(dem_status_name((dem_status)(DEM_ERROR_MEMORY - k)), errors[k]);
@@ -104,22 +98,7 @@ static void every_status_has_the_name_of_its_constant(void **state)
     assert_null(dem_status_name((dem_status)(DEM_ERROR_IO - 1)));
 }
 
-static void the_version_is_the_one_of_the_build(void **state)
+TEST(the_version_is_the_one_of_the_build)
 {
-    (void)state;
     assert_string_equal(dem_version(), DEM_VERSION);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_failure_stores_its_text_and_gives_its_status_back),
-        cmocka_unit_test(a_message_too_long_is_cut_and_terminated),
-        cmocka_unit_test(each_thread_has_a_message_of_its_own_that_starts_empty),
-        cmocka_unit_test(try_returns_what_is_not_ok_and_goes_on_otherwise),
-        cmocka_unit_test(check_fails_with_its_message_unless_the_condition_holds),
-        cmocka_unit_test(every_status_has_the_name_of_its_constant),
-        cmocka_unit_test(the_version_is_the_one_of_the_build),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,22 +38,19 @@ static void check_read(size_t size, const thing *expected)
     free(theirs);
 }
 
-static void what_an_older_caller_does_not_know_keeps_its_default(void **state)
+TEST(what_an_older_caller_does_not_know_keeps_its_default)
 {
-    (void)state;
     check_read(16, &(thing){sizeof(thing), 0.0, {2.0, 3.0}});
     check_read(24, &(thing){sizeof(thing), 0.0, {0.0, 3.0}});
 }
 
-static void a_caller_of_the_same_version_sets_all(void **state)
+TEST(a_caller_of_the_same_version_sets_all)
 {
-    (void)state;
     check_read(sizeof(thing), &(thing){sizeof(thing), 0.0, {0.0, 0.0}});
 }
 
-static void a_newer_caller_may_leave_what_is_unknown_here_at_zero(void **state)
+TEST(a_newer_caller_may_leave_what_is_unknown_here_at_zero)
 {
-    (void)state;
     check_read(sizeof(thing) + 8, &(thing){sizeof(thing), 0.0, {0.0, 0.0}});
     check_read(STRUCT_SIZE_MOST, &(thing){sizeof(thing), 0.0, {0.0, 0.0}});
 }
@@ -69,18 +66,16 @@ static void refuse(size_t size, unsigned char last, const char *message)
     free(theirs);
 }
 
-static void a_newer_caller_may_not_set_what_is_unknown_here(void **state)
+TEST(a_newer_caller_may_not_set_what_is_unknown_here)
 {
-    (void)state;
     refuse(sizeof(thing) + 8, 1,
            "thing: struct_size is 40, and what is set at byte 39 is unknown to this library, whose own has 32");
 }
 
-static void sizes_of_no_version_are_refused(void **state)
+TEST(sizes_of_no_version_are_refused)
 {
     size_t none = 0;
     thing out = ours;
-    (void)state;
     refuse(sizeof(size_t), 0, "thing: struct_size is 8, at least 16 expected");
     refuse(15, 0, "thing: struct_size is 15, at least 16 expected");
     refuse(STRUCT_SIZE_MOST + 1, 0, "thing: struct_size is 4097, at most 4096 expected");
@@ -89,10 +84,9 @@ static void sizes_of_no_version_are_refused(void **state)
 }
 
 /* All bytes are 0xff where nothing has been written: a member of which not all bytes lie within is left alone. */
-static void what_is_written_ends_where_the_callers_struct_ends(void **state)
+TEST(what_is_written_ends_where_the_callers_struct_ends)
 {
     const double written[3] = {1.0, 2.0, 3.0};
-    (void)state;
     for (size_t size = sizeof(size_t); size <= sizeof(thing) + 16; size++) {
         unsigned char *theirs = make_theirs(size, 0xff), *expected = make_theirs(size, 0xff);
         const size_t whole = size < sizeof(thing) ? size - size % sizeof(double) : sizeof(thing);
@@ -103,17 +97,4 @@ static void what_is_written_ends_where_the_callers_struct_ends(void **state)
         free(expected);
         free(theirs);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_an_older_caller_does_not_know_keeps_its_default),
-        cmocka_unit_test(a_caller_of_the_same_version_sets_all),
-        cmocka_unit_test(a_newer_caller_may_leave_what_is_unknown_here_at_zero),
-        cmocka_unit_test(a_newer_caller_may_not_set_what_is_unknown_here),
-        cmocka_unit_test(what_is_written_ends_where_the_callers_struct_ends),
-        cmocka_unit_test(sizes_of_no_version_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,10 +3,9 @@
  * are worked out by hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
 #include "unit/resets.h"
 
-static void touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not(void **state)
+TEST(touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not)
 {
     scene s;
-    (void)state;
     open_scene(&s, 2, &half, 1);
     scene_put(&s, 0, 0.5, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 1.5, -penetration_tolerance, 0.0, 0.0);
@@ -21,11 +20,10 @@ static void touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_
 
 enum { most_nodes = SCENE_NODES };
 
-static void at_the_start_touching_is_enough_for_a_contact(void **state)
+TEST(at_the_start_touching_is_enough_for_a_contact)
 {
     scene s;
     dem_index n;
-    (void)state;
     open_scene(&s, 3, &half, 1);
     scene_put(&s, 0, 0.0, 0.0, 3.0, 0.0);
     scene_put(&s, 1, 1.0, 0.0, 0.0, -2.0);
@@ -44,10 +42,9 @@ static void at_the_start_touching_is_enough_for_a_contact(void **state)
     scene_close(&s);
 }
 
-static void a_node_that_leaves_the_surface_at_the_start_is_free(void **state)
+TEST(a_node_that_leaves_the_surface_at_the_start_is_free)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.5);
     assert_ok(scene_take_up(&s));
@@ -61,10 +58,9 @@ static void a_node_that_leaves_the_surface_at_the_start_is_free(void **state)
 
 /* 2 kg at (3, -4) m/s on a floor of eta = 1/2: rises with 2 m/s, the floor gives 2 * 6 N s and takes 2/2 (16 - 4) =
  * 12 J; the lift by the penetration tolerance d costs 2 g d. */
-static void an_impact_is_reflected_reported_and_entered(void **state)
+TEST(an_impact_is_reflected_reported_and_entered)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
     assert_ok(scene_resolve(&s, 0.125));
@@ -90,11 +86,10 @@ static void an_impact_is_reflected_reported_and_entered(void **state)
     scene_close(&s);
 }
 
-static void a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force(void **state)
+TEST(a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force)
 {
     scene s;
     dem_index n;
-    (void)state;
     open_scene(&s, 1, &plastic, 1);
     scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
     assert_ok(scene_resolve(&s, 0.125));
@@ -112,10 +107,9 @@ static void a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force(void
     scene_close(&s);
 }
 
-static void a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone(void **state)
+TEST(a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.25, -0.98 * penetration_tolerance, 3.0, -4.0);
     assert_ok(scene_resolve(&s, 0.0));
@@ -140,10 +134,9 @@ static void land(double eta, double speed, double rest_speed, int closed)
 /* At rest is what rises no higher than the position error; or than twice the hop that impacts at a depth d, the
  * penetration tolerance, keep up: d eta^2/(1 - eta^2), a third of d at eta = 1/2 and 1e-4 of it at 1/100. And what is
  * not faster than the rest speed that is given, which takes nothing from these limits. */
-static void a_rebound_too_slow_becomes_a_contact(void **state)
+TEST(a_rebound_too_slow_becomes_a_contact)
 {
     const double error = sqrt(2.0 * g * 1e-9), kept_up = sqrt(2.0 * g * 2.0 * penetration_tolerance / 3.0);
-    (void)state;
     for (int k = 0; k < 2; k++) {
         const double rest_speed = k * 1e-9; /* less than either */
         land(0.01, 0.99 * error, rest_speed, 1);
@@ -155,10 +148,9 @@ static void a_rebound_too_slow_becomes_a_contact(void **state)
     land(0.5, 0.101, 0.1, 0);
 }
 
-static void a_contact_does_not_last_where_nothing_presses(void **state)
+TEST(a_contact_does_not_last_where_nothing_presses)
 {
     const double pull[4] = {0.1, 0.1, 0.0, 0.0}, rest_speed[4] = {0.0, 0.1, 0.0, 0.1};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         scene s;
         open_scene(&s, 1, &plastic, 1);
@@ -173,10 +165,9 @@ static void a_contact_does_not_last_where_nothing_presses(void **state)
     }
 }
 
-static void simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes(void **state)
+TEST(simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes)
 {
     scene s;
-    (void)state;
     open_scene(&s, 3, &half, 1);
     scene_put(&s, 0, 2.0, -penetration_tolerance, 0.0, -1.0);
     scene_put(&s, 1, 1.0, -0.995 * penetration_tolerance, 0.0,
@@ -192,10 +183,9 @@ static void simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes(void 
     scene_close(&s);
 }
 
-static void the_status_of_a_listener_that_stops_is_returned(void **state)
+TEST(the_status_of_a_listener_that_stops_is_returned)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &half, 1);
     s.value = DEM_STOPPED;
     scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
@@ -204,12 +194,11 @@ static void the_status_of_a_listener_that_stops_is_returned(void **state)
 }
 
 /* Floor of eta 1/2 and wall of eta 1/4 as two obstacles; the wall's solid is on its right, x > 2. */
-static void in_a_corner_each_obstacle_gets_the_impulse_along_its_normal(void **state)
+TEST(in_a_corner_each_obstacle_gets_the_impulse_along_its_normal)
 {
     const dem_obstacle corner[2] = {{.n_points = 2, .points = wall_points, .restitution = 0.25},
                                     {.n_points = 2, .points = floor_points, .restitution = 0.5}};
     scene s;
-    (void)state;
     open_scene(&s, 1, corner, 2);
     scene_put(&s, 0, 2.0 + penetration_tolerance, -penetration_tolerance, 4.0, -3.0);
     assert_ok(scene_resolve(&s, 0.0));
@@ -226,10 +215,9 @@ static void in_a_corner_each_obstacle_gets_the_impulse_along_its_normal(void **s
 
 /* ---- lasting contacts ---- */
 
-static void a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity(void **state)
+TEST(a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity)
 {
     scene s;
-    (void)state;
     open_pair(&s);
     scene_put(&s, 1, 0.0, 1.19, 0.5, 2.0); /* pulls with 19 N against 20 N */
     assert_ok(scene_resolve(&s, 0.1));
@@ -244,12 +232,11 @@ static void a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity(vo
     scene_close(&s);
 }
 
-static void closed_contacts_hold_the_acceleration_along_their_normals(void **state)
+TEST(closed_contacts_hold_the_acceleration_along_their_normals)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0}; /* a groove of 90 degrees */
     const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
     scene s;
-    (void)state;
     open_scene(&s, 3, &groove, 1);
     scene_put(&s, 0, 0.5, 3.0, 0.0, 0.0);
     scene_put(&s, 1, 1.0, 1.0, 0.0, 0.0);
@@ -264,13 +251,12 @@ static void closed_contacts_hold_the_acceleration_along_their_normals(void **sta
     scene_close(&s);
 }
 
-static void contacts_are_listed_in_the_order_of_nodes(void **state)
+TEST(contacts_are_listed_in_the_order_of_nodes)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
     const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
     dem_index n;
     scene s;
-    (void)state;
     open_scene(&s, 3, &groove, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 0.5, 3.0, 0.0, 0.0);
@@ -289,12 +275,11 @@ static void contacts_are_listed_in_the_order_of_nodes(void **state)
 
 /* With gravity along (1, -1) the right flank alone is pressed; along (1, 1)/2 none is, and what is left of the pair
  * goes too. */
-static void a_held_node_lets_go_of_the_wall_that_would_pull(void **state)
+TEST(a_held_node_lets_go_of_the_wall_that_would_pull)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
     const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
     scene s;
-    (void)state;
     open_scene(&s, 1, &groove, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
@@ -316,12 +301,11 @@ static void a_held_node_lets_go_of_the_wall_that_would_pull(void **state)
 
 /* At the bottom of the groove, up its right flank: gravity's part along it, g sin 45, brings back what is slower than
  * sqrt(2 g sin 45 position_error), and that is at rest. */
-static void a_corner_holds_only_what_is_at_rest_in_it(void **state)
+TEST(a_corner_holds_only_what_is_at_rest_in_it)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0}, root = sqrt(0.5);
     const double limit = sqrt(2.0 * g * root * 1e-9), speed[2] = {0.99 * limit, 1.01 * limit};
     const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
         const double u = k == 0 ? 0.0 : root * speed[k];
@@ -335,10 +319,9 @@ static void a_corner_holds_only_what_is_at_rest_in_it(void **state)
     }
 }
 
-static void a_closed_node_is_put_back_where_rounding_has_taken_it_from(void **state)
+TEST(a_closed_node_is_put_back_where_rounding_has_taken_it_from)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &plastic, 1);
     scene_put(&s, 0, 0.5, 0.0, 1.0, 0.0);
     assert_ok(scene_take_up(&s));
@@ -354,10 +337,9 @@ static void a_closed_node_is_put_back_where_rounding_has_taken_it_from(void **st
 /* ---- slip and stick ---- */
 
 /* N = 20 N and 10 N of friction, which take 10 W from 1 m/s, and nothing where it sticks. */
-static void forces_and_friction_power_are_reported_as_rates(void **state)
+TEST(forces_and_friction_power_are_reported_as_rates)
 {
     const double u[3] = {1.0, -1.0, 0.0}, wind[3] = {0.0, 0.0, 0.3 * g}, T[3] = {-10.0, 10.0, -6.0};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
         double a[2] = {wind[k], -g}, rate[6] = {100.0, 100.0, 100.0, 100.0, 100.0, 100.0};
@@ -374,10 +356,9 @@ static void forces_and_friction_power_are_reported_as_rates(void **state)
 
 /* ---- edges on vertices ---- */
 
-static void an_edge_may_touch_a_vertex_but_not_start_with_it_inside(void **state)
+TEST(an_edge_may_touch_a_vertex_but_not_start_with_it_inside)
 {
     scene s;
-    (void)state;
     open_side(&s, &roof, 0.25, -0.9 * penetration_tolerance, 0.0);
     assert_ok(automaton_check_start(&s.c, 0.0, s.y));
     scene_close(&s);
@@ -389,10 +370,9 @@ static void an_edge_may_touch_a_vertex_but_not_start_with_it_inside(void **state
 }
 
 /* At rest, sliding and falling on the ridge; and a nanometre above it. */
-static void at_the_start_a_touching_edge_is_in_contact(void **state)
+TEST(at_the_start_a_touching_edge_is_in_contact)
 {
     const double u[4] = {0.0, 0.5, -0.5, 0.5}, v[4] = {0.0, 0.0, -1.0, 0.0}, y[4] = {0.0, 0.0, 0.0, 1e-9};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         scene s;
         open_side(&s, &rough_roof, 0.25, y[k], 0.0);
@@ -410,12 +390,11 @@ static void at_the_start_a_touching_edge_is_in_contact(void **state)
 }
 
 /* Ridges at s = 1/4 and 3/4 share the weight of both nodes. */
-static void at_the_start_an_edge_may_touch_two_vertices(void **state)
+TEST(at_the_start_an_edge_may_touch_two_vertices)
 {
     const double points[10] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5, 1.0, 0.0, 5.0, -4.0}, mass[3] = {2.0, 2.0, 2.0};
     const dem_obstacle ridges = {.n_points = 5, .points = points};
     scene s;
-    (void)state;
     scene_open_triangle(&s, mass, -0.5, 0.0, &ridges, 1);
     assert_ok(scene_take_up(&s));
     const contact_candidate *edge = &s.c.set.list[scene_edge(&s, 0, 1)];
@@ -426,10 +405,9 @@ static void at_the_start_an_edge_may_touch_two_vertices(void **state)
 
 /* ---- what must not happen ---- */
 
-static void events_that_change_nothing_end_the_run_after_a_while(void **state)
+TEST(events_that_change_nothing_end_the_run_after_a_while)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     assert_ok(scene_resolve(&s, 0.1));
@@ -446,9 +424,8 @@ static void events_that_change_nothing_end_the_run_after_a_while(void **state)
 
 /* After an impact what would arrive within 0.1 s is reflected where it is; what comes later, or goes away, is not.
  * Without an impact nothing is. */
-static void what_arrives_within_the_window_of_an_impact_is_reflected_with_it(void **state)
+TEST(what_arrives_within_the_window_of_an_impact_is_reflected_with_it)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
         open_scene(&s, 3, &half, 1);
@@ -465,14 +442,13 @@ static void what_arrives_within_the_window_of_an_impact_is_reflected_with_it(voi
     }
 }
 
-static void an_edge_is_reflected_early_too(void **state)
+TEST(an_edge_is_reflected_early_too)
 {
     const dem_obstacle two[2] = {{.n_points = 3, .points = roof_points, .restitution = 0.5},
                                  {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
     const double x[8] = {-0.75, 0.099, 1.25, 0.099, 0.25, 1.0, -6.0, -4.0 - penetration_tolerance},
                  mass[4] = {2.0, 2.0, 2.0, 2.0};
     scene s;
-    (void)state;
     scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 2);
     s.c.set.scene.rule.window = 0.1;
     launch(&s, 0.0, -2.0);
@@ -488,11 +464,10 @@ static void an_edge_is_reflected_early_too(void **state)
 
 /* The node above the ridge nears it with 0.6 m/s and would be there in 0.083 s; it goes on with 8 m/s along, where the
  * roof falls away: it passes. Straight down it does not. */
-static void what_passes_a_vertex_within_the_window_is_not_reflected(void **state)
+TEST(what_passes_a_vertex_within_the_window_is_not_reflected)
 {
     const dem_obstacle two[2] = {{.n_points = 3, .points = roof_points, .restitution = 0.5},
                                  {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         const double along = k == 0 ? 8.0 : 0.0;
         scene s;
@@ -509,10 +484,9 @@ static void what_passes_a_vertex_within_the_window_is_not_reflected(void **state
 
 /* The same three in any order, by both laws of friction: the same velocities, and the ledger closes. Of 2 kg that near
  * with (3, -4) m/s, eta = 1/2 and mu = 1/4 leave 1.5 m/s along by Coulomb's law and 0.75 by the paper's. */
-static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **state)
+TEST(an_early_reflection_takes_what_an_impact_takes_in_any_order)
 {
     static const double height[3] = {-1e-6, 0.3, 0.35};
-    (void)state;
     for (int k = 0; k < 6; k++) {
         const bool paper = k >= 3;
         const dem_obstacle gritty = {.n_points = 2,
@@ -541,14 +515,13 @@ static void an_early_reflection_takes_what_an_impact_takes_in_any_order(void **s
 }
 
 /* An edge rests on the ridge. Its first node nears a floor below it within the window: it is left to the group. */
-static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(void **state)
+TEST(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early)
 {
     const double low_points[4] = {-3.0, -0.05, -0.5, -0.05};
     const dem_obstacle two[3] = {{.n_points = 3, .points = roof_points, .restitution = 0.0},
                                  {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5},
                                  {.n_points = 2, .points = low_points, .restitution = 0.5}};
     const double x[8] = {-1.0, 0.0, 1.0, 0.0, 0.0, 1.0, -6.0, 0.0}, mass[4] = {2.0, 2.0, 2.0, 2.0};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
         scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 3);
@@ -567,38 +540,4 @@ static void what_shares_a_node_with_a_lasting_contact_is_not_reflected_early(voi
         assert_close(scene_v(&s)[1], k == 0 ? -1.0 : 0.5, 1e-14);
         scene_close(&s);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not),
-        cmocka_unit_test(at_the_start_touching_is_enough_for_a_contact),
-        cmocka_unit_test(a_node_that_leaves_the_surface_at_the_start_is_free),
-        cmocka_unit_test(an_impact_is_reflected_reported_and_entered),
-        cmocka_unit_test(a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force),
-        cmocka_unit_test(a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone),
-        cmocka_unit_test(a_rebound_too_slow_becomes_a_contact),
-        cmocka_unit_test(a_contact_does_not_last_where_nothing_presses),
-        cmocka_unit_test(simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes),
-        cmocka_unit_test(the_status_of_a_listener_that_stops_is_returned),
-        cmocka_unit_test(in_a_corner_each_obstacle_gets_the_impulse_along_its_normal),
-        cmocka_unit_test(a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity),
-        cmocka_unit_test(closed_contacts_hold_the_acceleration_along_their_normals),
-        cmocka_unit_test(contacts_are_listed_in_the_order_of_nodes),
-        cmocka_unit_test(a_held_node_lets_go_of_the_wall_that_would_pull),
-        cmocka_unit_test(a_corner_holds_only_what_is_at_rest_in_it),
-        cmocka_unit_test(a_closed_node_is_put_back_where_rounding_has_taken_it_from),
-        cmocka_unit_test(forces_and_friction_power_are_reported_as_rates),
-        cmocka_unit_test(an_edge_may_touch_a_vertex_but_not_start_with_it_inside),
-        cmocka_unit_test(at_the_start_a_touching_edge_is_in_contact),
-        cmocka_unit_test(at_the_start_an_edge_may_touch_two_vertices),
-        cmocka_unit_test(events_that_change_nothing_end_the_run_after_a_while),
-        cmocka_unit_test(what_arrives_within_the_window_of_an_impact_is_reflected_with_it),
-        cmocka_unit_test(an_edge_is_reflected_early_too),
-        cmocka_unit_test(what_passes_a_vertex_within_the_window_is_not_reflected),
-        cmocka_unit_test(an_early_reflection_takes_what_an_impact_takes_in_any_order),
-        cmocka_unit_test(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

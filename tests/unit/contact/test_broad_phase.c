@@ -26,13 +26,12 @@ static void look(scene *s, double speed)
     assert_close(s->c.broad_phase.speed, speed, 0.0);
 }
 
-static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
+TEST(the_fastest_of_the_nodes_that_may_touch_counts)
 {
     const double x[6] = {0.0, 1.0, 1.0, 1.0, 2.0, 1.0};
     const unsigned char fixed[3] = {0, 0, 1};
     dem_lattice lattice;
     scene s;
-    (void)state;
     support_lattice(&lattice, 3, x, masses, 2, (dem_index[]){0, 1, 1, 2}, 1.0, 1.0, fixed);
     lattice.flags[0] = 0;
     scene_start(&s, &lattice, &plane, 1);
@@ -45,11 +44,10 @@ static void the_fastest_of_the_nodes_that_may_touch_counts(void **state)
 
 /* With 10 m/s 1.25 steps' way is 0.125 m; the margins of free ends, twenty penetration tolerances, go off what is
  * clear. */
-static void a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive(void **state)
+TEST(a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive)
 {
     const double far = 0.125 + 20.0 * penetration_tolerance, x[6] = {0.0, 0.99 * far, 1.0, 1.01 * far, 2.0, 3.0};
     scene s;
-    (void)state;
     open_nodes(&s, 3, x);
     look(&s, 10.0);
     assert_int_equal(s.c.broad_phase.n, 1);
@@ -61,11 +59,10 @@ static void a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive(
     scene_close(&s);
 }
 
-static void what_is_closed_is_always_active(void **state)
+TEST(what_is_closed_is_always_active)
 {
     const double x[4] = {0.0, 0.0, 1.0, 3.0};
     scene s;
-    (void)state;
     open_nodes(&s, 2, x);
     assert_ok(scene_take_up(&s));
     assert_int_equal(s.c.broad_phase.n, 1);
@@ -74,11 +71,10 @@ static void what_is_closed_is_always_active(void **state)
 }
 
 /* The node falls from 3 m while nothing looks at it until the way that the fastest may have gone is enough. */
-static void an_inactive_candidate_becomes_active_when_the_bodies_may_have_gone_far_enough(void **state)
+TEST(an_inactive_candidate_becomes_active_when_the_bodies_may_have_gone_far_enough)
 {
     const double x[4] = {0.0, 3.0, 2.0, 9.0};
     scene s;
-    (void)state;
     open_nodes(&s, 2, x);
     look(&s, 1.0);
     const contact_candidate *candidate = &s.c.set.list[0];
@@ -102,12 +98,11 @@ static void an_inactive_candidate_becomes_active_when_the_bodies_may_have_gone_f
 }
 
 /* An accepted step of h counts twice its length times the larger of the speeds at its ends. */
-static void a_step_counts_as_twice_what_the_fastest_goes(void **state)
+TEST(a_step_counts_as_twice_what_the_fastest_goes)
 {
     const double x[2] = {0.0, 3.0};
     scene s;
     scene_flight f;
-    (void)state;
     open_nodes(&s, 1, x);
     scene_put(&s, 0, 0.0, 3.0, 0.0, -1.0);
     look(&s, 1.0);
@@ -119,10 +114,9 @@ static void a_step_counts_as_twice_what_the_fastest_goes(void **state)
 }
 
 /* Body far above: its edges are inactive as its nodes are, and active again before the ridge can be reached. */
-static void edges_may_be_inactive_too(void **state)
+TEST(edges_may_be_inactive_too)
 {
     scene s;
-    (void)state;
     scene_open_triangle(&s, masses, -1.0, 1.2, &roof, 1);
     look(&s, 10.0);
     assert_int_equal(s.c.broad_phase.n, 0);
@@ -136,13 +130,12 @@ static void edges_may_be_inactive_too(void **state)
 
 /* From rest, or slowly, a step may take a node further than what counts as near at the speed of its start: the
  * crossing is found all the same, and the node hits. */
-static void an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it(void **state)
+TEST(an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it)
 {
     const double x[2] = {0.0, 2e-4};
     scene s;
     scene_flight f;
     double y[4];
-    (void)state;
     open_nodes(&s, 1, x);
     assert_ok(scene_take_up(&s));
     assert_int_equal(s.c.broad_phase.n, 0); /* at rest nothing is in reach */
@@ -161,10 +154,9 @@ static void an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_i
 
 /* 1.044 m from the free end at (4, 0), below it, a node is in front; a little less to the left it is inside: it has
  * come round the end, active or not. One that may have touched since it was seen to be clear has not. */
-static void a_node_found_inside_has_come_round_a_free_end_and_may_come_back(void **state)
+TEST(a_node_found_inside_has_come_round_a_free_end_and_may_come_back)
 {
     const double x[4] = {4.3, -1.0, -3.0, 3.0}, travelled[4] = {1.04, 1.05, 1.04, 1.04};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const bool comes_round = k == 0 || k == 3;
         scene s;
@@ -189,13 +181,12 @@ static void a_node_found_inside_has_come_round_a_free_end_and_may_come_back(void
 }
 
 /* Masses 0 and 1 are far from the floor, 2 is near it; 1 goes and comes back. */
-static void who_is_active_stays_so_under_another_number(void **state)
+TEST(who_is_active_stays_so_under_another_number)
 {
     const double x[6] = {0.0, 2.0, 1.0, 1.0, 2.0, 0.0};
     dem_index outer_nodes[2] = {0, 2};
     const surface outer = {.n_nodes = 2, .nodes = outer_nodes};
     scene s;
-    (void)state;
     open_nodes(&s, 3, x);
     const broad_phase *w = &s.c.broad_phase;
     look(&s, 10.0);
@@ -211,20 +202,4 @@ static void who_is_active_stays_so_under_another_number(void **state)
     assert_int_equal(w->active[0], 1);
     assert_int_equal(w->active[1], 2);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_fastest_of_the_nodes_that_may_touch_counts),
-        cmocka_unit_test(a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive),
-        cmocka_unit_test(what_is_closed_is_always_active),
-        cmocka_unit_test(an_inactive_candidate_becomes_active_when_the_bodies_may_have_gone_far_enough),
-        cmocka_unit_test(a_step_counts_as_twice_what_the_fastest_goes),
-        cmocka_unit_test(edges_may_be_inactive_too),
-        cmocka_unit_test(an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it),
-        cmocka_unit_test(a_node_found_inside_has_come_round_a_free_end_and_may_come_back),
-        cmocka_unit_test(who_is_active_stays_so_under_another_number),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

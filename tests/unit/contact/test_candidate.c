@@ -77,10 +77,9 @@ static void check_free(const contact_scene *world, const contact_candidate *cand
     check_roots(world, candidate, &s, (double[]){expected, 1.0, 1.0, 1.0});
 }
 
-static void a_free_candidate_has_a_root_at_the_penetration_tolerance(void **state)
+TEST(a_free_candidate_has_a_root_at_the_penetration_tolerance)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     const contact_candidate candidate = free_candidate();
     check_free(world, &candidate, 1.0, 0.25, 0.25 + penetration_tolerance);
@@ -91,10 +90,9 @@ static void a_free_candidate_has_a_root_at_the_penetration_tolerance(void **stat
     scene_close(&s);
 }
 
-static void far_from_everything_its_root_function_is_finite(void **state)
+TEST(far_from_everything_its_root_function_is_finite)
 {
     scene s, empty;
-    (void)state;
     const contact_scene *world = open_node(&s, room, 2), *nothing = open_node(&empty, NULL, 0);
     const contact_candidate candidate = free_candidate();
     check_free(world, &candidate, -50.0, 1.0, 1.0 + penetration_tolerance);
@@ -103,10 +101,9 @@ static void far_from_everything_its_root_function_is_finite(void **state)
     scene_close(&empty);
 }
 
-static void a_candidate_behind_an_obstacle_does_not_see_it(void **state)
+TEST(a_candidate_behind_an_obstacle_does_not_see_it)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     contact_candidate candidate = free_candidate();
     candidate.behind[0] = 0;
@@ -122,10 +119,9 @@ static void a_candidate_behind_an_obstacle_does_not_see_it(void **state)
 
 /* The reaction, the nearer end, the other obstacle above: min(3 - 0, 1) + penetration tolerance; 3 m to the ceiling
  * count as 1. Without friction the speed of sliding does not matter. */
-static void a_sliding_candidate_has_root_functions_of_force_end_and_other_obstacles(void **state)
+TEST(a_sliding_candidate_has_root_functions_of_force_end_and_other_obstacles)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     const contact_candidate on_floor = closed_candidate(0, 1), on_ceiling = closed_candidate(1, 1);
     const double x[5] = {1.5, 3.75, 4.5, 3.5, 4.0}, y[5] = {0.0, 0.0, 0.0, 2.75, 3.0};
@@ -142,10 +138,9 @@ static void a_sliding_candidate_has_root_functions_of_force_end_and_other_obstac
 }
 
 /* The tangent of the floor is (1, 0). */
-static void a_candidate_that_slides_with_friction_has_one_of_its_speed_too(void **state)
+TEST(a_candidate_that_slides_with_friction_has_one_of_its_speed_too)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate along = closed_candidate(0, 1), against = closed_candidate(0, -1);
     const node_state forwards = {{1.5, 0.0}, {0.75, 0.25}, {{20.0, -10.0}, {0.0, 0.0}}};
@@ -162,10 +157,9 @@ static void a_candidate_that_slides_with_friction_has_one_of_its_speed_too(void 
 }
 
 /* mu = 1/2: 20 N allow 10 N, either way. The end of the floor is of no matter to it. */
-static void a_sticking_candidate_has_a_root_function_of_its_grip(void **state)
+TEST(a_sticking_candidate_has_a_root_function_of_its_grip)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate candidate = closed_candidate(0, 0);
     const double tangent[4] = {3.0, -3.0, 12.5, -12.5}, grip[4] = {7.0, 7.0, -2.5, -2.5};
@@ -176,10 +170,9 @@ static void a_sticking_candidate_has_a_root_function_of_its_grip(void **state)
     scene_close(&s);
 }
 
-static void a_held_candidate_has_one_of_the_lesser_normal_force(void **state)
+TEST(a_held_candidate_has_one_of_the_lesser_normal_force)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, &groove, 1);
     const contact_candidate candidate = held_candidate();
     const node_state first = {{0.0, 0.0}, {0.0, 0.0}, {{3.0, 0.0}, {14.0, 0.0}}};
@@ -197,10 +190,9 @@ static double grip(const contact_scene *world, const contact_candidate *candidat
     return candidate_grip(world, candidate, 0, &f, &force, x);
 }
 
-static void only_what_sticks_by_friction_has_a_grip(void **state)
+TEST(only_what_sticks_by_friction_has_a_grip)
 {
     scene s, t;
-    (void)state;
     const contact_scene *world = open_node(&s, &rough, 1), *corner = open_node(&t, &groove, 1);
     const contact_candidate sticks = closed_candidate(0, 0), slides = closed_candidate(0, 1), held = held_candidate();
     assert_close(grip(world, &sticks), 6.0, 1e-14);
@@ -218,10 +210,9 @@ static bool turns(const contact_scene *world, int sign, double speed)
     return candidate_turns(world, &candidate, 0, &f, v);
 }
 
-static void what_slides_with_friction_turns_when_it_goes_the_other_way(void **state)
+TEST(what_slides_with_friction_turns_when_it_goes_the_other_way)
 {
     scene s, smooth;
-    (void)state;
     const contact_scene *world = open_node(&s, &rough, 1), *without = open_node(&smooth, room, 1);
     assert_false(turns(world, 1, 1e-6));
     assert_false(turns(world, 1, 0.0));
@@ -243,10 +234,9 @@ static int end_passed(const contact_scene *world, double x, double vx)
     return candidate_end_passed(world, &candidate, 0, (scene_state){0.0, at, v});
 }
 
-static void an_end_is_passed_by_the_penetration_tolerance_heading_out(void **state)
+TEST(an_end_is_passed_by_the_penetration_tolerance_heading_out)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     assert_int_equal(end_passed(world, 2.0, 5.0), 0);
     assert_int_equal(end_passed(world, 4.0 + 0.99 * penetration_tolerance, 1.0), 0);
@@ -259,10 +249,9 @@ static void an_end_is_passed_by_the_penetration_tolerance_heading_out(void **sta
     scene_close(&s);
 }
 
-static void at_rest_the_force_tells_where_it_heads(void **state)
+TEST(at_rest_the_force_tells_where_it_heads)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     double *gravity = s.acting.gravity;
     assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 0.0), 0);
@@ -275,11 +264,10 @@ static void at_rest_the_force_tells_where_it_heads(void **state)
     scene_close(&s);
 }
 
-static void what_sticks_passes_no_end(void **state)
+TEST(what_sticks_passes_no_end)
 {
     scene s;
     const double at[2] = {4.5, 0.0}, v[2] = {1.0, 0.0};
-    (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate sticks = closed_candidate(0, 0), slides = closed_candidate(0, 1);
     assert_int_equal(candidate_end_passed(world, &sticks, 0, (scene_state){0.0, at, v}), 0);
@@ -292,10 +280,9 @@ static bool due(const contact_scene *world, const contact_candidate *candidate, 
     return candidate_due(world, candidate, s->force, (scene_state){0.0, s->x, s->v});
 }
 
-static void a_sliding_candidate_is_due_when_pulled_at_an_end_or_on_another_obstacle(void **state)
+TEST(a_sliding_candidate_is_due_when_pulled_at_an_end_or_on_another_obstacle)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, room, 2);
     const contact_candidate candidate = closed_candidate(0, 1);
     node_state at = {{2.0, 0.0}, {1.0, 0.0}, {{20.0, 0.0}, {0.0, 0.0}}};
@@ -316,10 +303,9 @@ static void a_sliding_candidate_is_due_when_pulled_at_an_end_or_on_another_obsta
     scene_close(&s);
 }
 
-static void with_friction_a_candidate_is_due_when_it_turns_back_or_loses_its_grip(void **state)
+TEST(with_friction_a_candidate_is_due_when_it_turns_back_or_loses_its_grip)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate slides = closed_candidate(0, 1), sticks = closed_candidate(0, 0);
     node_state at = {{2.0, 0.0}, {1e-3, 0.0}, {{20.0, -10.0}, {0.0, 0.0}}};
@@ -336,10 +322,9 @@ static void with_friction_a_candidate_is_due_when_it_turns_back_or_loses_its_gri
     scene_close(&s);
 }
 
-static void a_held_candidate_is_due_when_either_normal_force_ceases(void **state)
+TEST(a_held_candidate_is_due_when_either_normal_force_ceases)
 {
     scene s;
-    (void)state;
     const contact_scene *world = open_node(&s, &groove, 1);
     const contact_candidate candidate = held_candidate();
     node_state at = {{0.0, 0.0}, {0.0, 0.0}, {{1.0, 0.0}, {1.0, 0.0}}};
@@ -391,7 +376,7 @@ static void move_all(scene *s, double x, double y, double u)
 
 /* Vertices are looked at 1 m in front of it, half its length, and half a metre behind; along it up to the penetration
  * tolerance beyond its ends. */
-static void a_free_edge_has_a_root_function_of_the_gap_to_the_convex_vertex_below_it(void **state)
+TEST(a_free_edge_has_a_root_function_of_the_gap_to_the_convex_vertex_below_it)
 {
     const double x[10] = {-1.5,
                           -1.5,
@@ -406,7 +391,6 @@ static void a_free_edge_has_a_root_function_of_the_gap_to_the_convex_vertex_belo
     const double y[10] = {0.25, 0.0, -penetration_tolerance, 1.01, 0.25, 0.25, 0.25, 0.25, -0.51, -0.49};
     const double gap[10] = {0.25, 0.0, -penetration_tolerance, 1.0, 0.25, 1.0, 0.25, 1.0, 1.0, -0.49};
     scene s;
-    (void)state;
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     for (int k = 0; k < 10; k++) {
         move_all(&s, x[k], y[k], 0.0);
@@ -418,10 +402,9 @@ static void a_free_edge_has_a_root_function_of_the_gap_to_the_convex_vertex_belo
 
 /* From (-1.5, 0.5) to (0.1, 1.7), 2 m long at a slope of 3 to 4: the ridge is 0.8 * 1.625 m away and out of reach; once
  * the edge is 1.125 m lower it is 0.8 * 0.5 m. */
-static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
+TEST(the_gap_of_a_sloping_edge_is_along_its_normal)
 {
     scene s;
-    (void)state;
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     scene_put(&s, 0, -1.5, 0.5 - 1.125, 0.0, 0.0);
     scene_put(&s, 1, 0.1, 1.7 - 1.125, 0.0, 0.0);
@@ -437,10 +420,9 @@ static void the_gap_of_a_sloping_edge_is_along_its_normal(void **state)
 }
 
 /* On the ridge of the first roof 0.5 m from its end; the second one's is 0.25 m below it. */
-static void a_closed_edge_has_root_functions_of_force_end_and_other_vertices(void **state)
+TEST(a_closed_edge_has_root_functions_of_force_end_and_other_vertices)
 {
     scene s, rubbed;
-    (void)state;
     contact_candidate *edge = open_edge(&s, -1.5, 0.0, roofs, 2);
     edge->n_closed = 1;
     edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
@@ -463,10 +445,9 @@ static void a_closed_edge_has_root_functions_of_force_end_and_other_vertices(voi
     scene_close(&rubbed);
 }
 
-static void an_edge_on_two_vertices_has_those_of_the_lesser_of_each_and_no_gap(void **state)
+TEST(an_edge_on_two_vertices_has_those_of_the_lesser_of_each_and_no_gap)
 {
     scene s;
-    (void)state;
     contact_candidate *edge = open_edge(&s, -0.25, 0.0, roofs, 2);
     edge->n_closed = 2;
     edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
@@ -478,7 +459,7 @@ static void an_edge_on_two_vertices_has_those_of_the_lesser_of_each_and_no_gap(v
 }
 
 /* A body that goes right takes its start to the vertex. */
-static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **state)
+TEST(a_vertex_passes_an_edges_end_against_the_motion_of_the_body)
 {
     const double x[6] = {1.01 * penetration_tolerance,        1.01 * penetration_tolerance,
                          0.99 * penetration_tolerance,        -2.0 - 1.01 * penetration_tolerance,
@@ -486,7 +467,6 @@ static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **s
     const double u[6] = {1.0, -1.0, 1.0, -1.0, 1.0, 1.0};
     const int passed[6] = {-1, 0, 0, 1, 0, 0};
     scene s;
-    (void)state;
     contact_candidate *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
     edge->n_closed = 1;
     edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
@@ -506,11 +486,10 @@ static void a_vertex_passes_an_edges_end_against_the_motion_of_the_body(void **s
 
 /* The body's edge from node 1 at (2, 0) to node 2 at (1, 1) falls away by 45 degrees: what is 0.03 m above the lower
  * edge's line is outside where x + y > 2, and inside the body where it is less. */
-static void a_vertex_round_a_convex_corner_of_the_body_is_not_inside(void **state)
+TEST(a_vertex_round_a_convex_corner_of_the_body_is_not_inside)
 {
     const double x[4] = {-1.99, -1.9, -0.01, -0.1}, gap[4] = {1.0, -0.03, 1.0, -0.03};
     scene s;
-    (void)state;
     contact_candidate *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
     assert_int_equal(edge->next, 2);
     assert_int_equal(edge->previous, 2);
@@ -521,10 +500,9 @@ static void a_vertex_round_a_convex_corner_of_the_body_is_not_inside(void **stat
     scene_close(&s);
 }
 
-static void an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices(void **state)
+TEST(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices)
 {
     scene s;
-    (void)state;
     contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     check_edge(&s, edge, (double[]){0.25 + penetration_tolerance, 1.0, 1.0, 1.0});
     for (int k = 0; k < 2; k++) {
@@ -561,11 +539,10 @@ static void open_ragged(scene *s, unsigned *seed, bool triangle)
 
 /* The clearance less the way gone is never more than what is there, but for the margin of ten penetration tolerances
  * by which free ends count as longer; and it is of use: most of what is looked at is decided by it. */
-static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
+TEST(nothing_is_nearer_to_a_node_than_its_clearance)
 {
     unsigned seed = 7;
     int inside = 0;
-    (void)state;
     for (int k = 0; k < 200; k++) {
         scene s;
         dem_index nearest;
@@ -591,11 +568,10 @@ static void nothing_is_nearer_to_a_node_than_its_clearance(void **state)
 }
 
 /* The same of an edge that turns and stretches: its ends go different ways. The ridges are steeper than it gets. */
-static void no_vertex_is_nearer_to_an_edge_than_its_clearance(void **state)
+TEST(no_vertex_is_nearer_to_an_edge_than_its_clearance)
 {
     unsigned seed = 11;
     int inside = 0;
-    (void)state;
     for (int k = 0; k < 200; k++) {
         scene s;
         dem_index nearest;
@@ -620,12 +596,11 @@ static void no_vertex_is_nearer_to_an_edge_than_its_clearance(void **state)
 }
 
 /* Half the edge's length, 1 m, is as far as is looked; beyond that the distance of its node less its length counts. */
-static void a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it(void **state)
+TEST(a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it)
 {
     const double y[4] = {0.25, 0.9, 1.1, 5.0}, clear[4] = {0.25, 0.9, 1.0, sqrt(27.25) - 2.0};
     scene s;
     dem_index nearest;
-    (void)state;
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     for (int k = 0; k < 4; k++) {
         move_all(&s, -1.5, y[k], 0.0);
@@ -636,10 +611,9 @@ static void a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it(v
 }
 
 /* The ridge is 0.3 m beyond the end of the edge, and 0.4 m below it. */
-static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
+TEST(a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap)
 {
     scene s;
-    (void)state;
     const contact_candidate *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
     const candidate_positions spot = candidate_place(edge, 0.0, s.y);
     assert_int_equal(candidate_gap(&s.c.set.scene, edge, &spot).feature, -1);
@@ -647,37 +621,4 @@ static void a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap(void **state)
     assert_false(candidate_around(&s.c.set.scene, edge, &spot, 0.29).feature >= 0);
     assert_false(candidate_around(&s.c.set.scene, edge, &spot, 0.39).feature >= 0);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_free_candidate_has_a_root_at_the_penetration_tolerance),
-        cmocka_unit_test(far_from_everything_its_root_function_is_finite),
-        cmocka_unit_test(a_candidate_behind_an_obstacle_does_not_see_it),
-        cmocka_unit_test(a_sliding_candidate_has_root_functions_of_force_end_and_other_obstacles),
-        cmocka_unit_test(a_candidate_that_slides_with_friction_has_one_of_its_speed_too),
-        cmocka_unit_test(a_sticking_candidate_has_a_root_function_of_its_grip),
-        cmocka_unit_test(a_held_candidate_has_one_of_the_lesser_normal_force),
-        cmocka_unit_test(only_what_sticks_by_friction_has_a_grip),
-        cmocka_unit_test(what_slides_with_friction_turns_when_it_goes_the_other_way),
-        cmocka_unit_test(an_end_is_passed_by_the_penetration_tolerance_heading_out),
-        cmocka_unit_test(at_rest_the_force_tells_where_it_heads),
-        cmocka_unit_test(what_sticks_passes_no_end),
-        cmocka_unit_test(a_sliding_candidate_is_due_when_pulled_at_an_end_or_on_another_obstacle),
-        cmocka_unit_test(with_friction_a_candidate_is_due_when_it_turns_back_or_loses_its_grip),
-        cmocka_unit_test(a_held_candidate_is_due_when_either_normal_force_ceases),
-        cmocka_unit_test(a_free_edge_has_a_root_function_of_the_gap_to_the_convex_vertex_below_it),
-        cmocka_unit_test(the_gap_of_a_sloping_edge_is_along_its_normal),
-        cmocka_unit_test(a_closed_edge_has_root_functions_of_force_end_and_other_vertices),
-        cmocka_unit_test(an_edge_on_two_vertices_has_those_of_the_lesser_of_each_and_no_gap),
-        cmocka_unit_test(a_vertex_passes_an_edges_end_against_the_motion_of_the_body),
-        cmocka_unit_test(a_vertex_round_a_convex_corner_of_the_body_is_not_inside),
-        cmocka_unit_test(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices),
-        cmocka_unit_test(nothing_is_nearer_to_a_node_than_its_clearance),
-        cmocka_unit_test(no_vertex_is_nearer_to_an_edge_than_its_clearance),
-        cmocka_unit_test(a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it),
-        cmocka_unit_test(a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

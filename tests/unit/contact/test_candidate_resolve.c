@@ -9,10 +9,9 @@
 static const double terrace_points[8] = {-4.0, 0.0, 0.0, 0.0, 2.0, 0.0, 4.0, -2.0};
 static const dem_obstacle terrace = {.n_points = 4, .points = terrace_points, .restitution = 0.0};
 
-static void a_sliding_node_glides_on_where_the_line_goes_on(void **state)
+TEST(a_sliding_node_glides_on_where_the_line_goes_on)
 {
     scene s;
-    (void)state;
     slide(&s, &terrace, -1.0, 1.5);
     scene_put(&s, 0, 1.01 * penetration_tolerance, 0.0, 1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
@@ -26,10 +25,9 @@ static void a_sliding_node_glides_on_where_the_line_goes_on(void **state)
     scene_close(&s);
 }
 
-static void a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end(void **state)
+TEST(a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end)
 {
     scene s;
-    (void)state;
     slide(&s, &terrace, 1.0, 1.5);
     scene_put(&s, 0, 2.0 + 1.01 * penetration_tolerance, 0.0, 1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
@@ -46,12 +44,11 @@ static void a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end(void **sta
 }
 
 /* A rise by 30 degrees: the plastic impact leaves the part of the speed along it, u cos 30. */
-static void a_sliding_node_takes_its_impact_at_a_concave_bend(void **state)
+TEST(a_sliding_node_takes_its_impact_at_a_concave_bend)
 {
     const double cosine = sqrt(0.75), ramp_points[6] = {-4.0, 0.0, 0.0, 0.0, 2.0 * cosine, 1.0};
     const dem_obstacle ramp = {.n_points = 3, .points = ramp_points, .restitution = 0.0};
     scene s;
-    (void)state;
     slide(&s, &ramp, -1.0, 2.0);
     scene_put(&s, 0, 1.01 * penetration_tolerance, 0.0, 2.0, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
@@ -63,12 +60,11 @@ static void a_sliding_node_takes_its_impact_at_a_concave_bend(void **state)
     scene_close(&s);
 }
 
-static void another_obstacle_stops_a_sliding_node(void **state)
+TEST(another_obstacle_stops_a_sliding_node)
 {
     const dem_obstacle corner[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.0},
                                     {.n_points = 2, .points = wall_points, .restitution = 0.5}};
     scene s;
-    (void)state;
     open_scene(&s, 1, corner, 2);
     scene_put(&s, 0, 1.0, 0.0, 3.0, 0.0);
     assert_ok(scene_take_up(&s));
@@ -90,10 +86,9 @@ static void set_wind(scene *s, double a)
 }
 
 /* mu = 1/2 holds a wind of up to g/2. */
-static void a_sliding_node_stops_and_starts_again_when_it_is_driven(void **state)
+TEST(a_sliding_node_stops_and_starts_again_when_it_is_driven)
 {
     scene s;
-    (void)state;
     rub(&s, 0.5);
     assert_close(s.c.set.list[0].closed[0].friction, -10.0, 1e-14);
     assert_ok(scene_resolve(&s, 0.1));
@@ -119,9 +114,8 @@ static void a_sliding_node_stops_and_starts_again_when_it_is_driven(void **state
 }
 
 /* A wind of 0.6 g brings it back: it stops and goes on the other way at once. */
-static void a_sliding_node_turns_back_where_friction_cannot_hold_it(void **state)
+TEST(a_sliding_node_turns_back_where_friction_cannot_hold_it)
 {
-    (void)state;
     for (int k = -1; k <= 1; k += 2) {
         scene s;
         rub(&s, 0.5 * k);
@@ -138,9 +132,8 @@ static void a_sliding_node_turns_back_where_friction_cannot_hold_it(void **state
 }
 
 /* What is not pressed any more goes, whatever else is due: no stick, no slip, and the velocity stays as it is. */
-static void release_comes_before_stick_and_slip(void **state)
+TEST(release_comes_before_stick_and_slip)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
         rub(&s, k == 0 ? 0.5 : 0.0);
@@ -155,11 +148,10 @@ static void release_comes_before_stick_and_slip(void **state)
     }
 }
 
-static void a_sticking_node_does_not_move_in_any_wind_it_withstands(void **state)
+TEST(a_sticking_node_does_not_move_in_any_wind_it_withstands)
 {
     scene s;
     double a[2] = {0.3 * g, -g};
-    (void)state;
     rub(&s, 0.0);
     automaton_constrain(&s.c, 0.0, s.y, a);
     assert_close(a[0], 0.0, 0.0);
@@ -178,11 +170,10 @@ static void a_sticking_node_does_not_move_in_any_wind_it_withstands(void **state
 
 /* The ridge under 3/4 of edge 0-1, of masses 1 and 3: W = 1/16 + 9/48 = 1/4, so that N = 40 N; mu = 1/2. A wind of
  * 0.6 g drives the point against friction with 0.6 g/W = 24 N. */
-static void an_edge_slides_stops_and_slides_on_a_vertex(void **state)
+TEST(an_edge_slides_stops_and_slides_on_a_vertex)
 {
     scene s;
     double rate[6] = {0.0};
-    (void)state;
     open_side(&s, &rough_roof, 0.25, 0.0, 0.0);
     launch(&s, 0.5, 0.0);
     assert_ok(scene_take_up(&s));
@@ -221,10 +212,9 @@ static void slide_on(scene *s, double bend, double u)
     assert_ok(contact_set_close(&s->c.set, scene_edge(s, 1, 2), (contact_point){.feature = 0, .slide = 1}));
 }
 
-static void a_vertex_glides_from_edge_to_edge_of_a_flat_side(void **state)
+TEST(a_vertex_glides_from_edge_to_edge_of_a_flat_side)
 {
     scene s;
-    (void)state;
     slide_on(&s, 0.0, 0.5);
     const contact_candidate *from = &s.c.set.list[scene_edge(&s, 1, 2)], *to = &s.c.set.list[scene_edge(&s, 0, 1)];
     assert_ok(scene_resolve(&s, 0.1));
@@ -244,10 +234,9 @@ static void a_vertex_glides_from_edge_to_edge_of_a_flat_side(void **state)
 }
 
 /* The next edge falls away by 1/4 to the other side: nothing holds. */
-static void a_vertex_leaves_a_convex_corner_of_the_body(void **state)
+TEST(a_vertex_leaves_a_convex_corner_of_the_body)
 {
     scene s;
-    (void)state;
     slide_on(&s, 0.25, 0.5);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.n_events, 2);
@@ -260,11 +249,10 @@ static void a_vertex_leaves_a_convex_corner_of_the_body(void **state)
 
 /* The next edge, of normal n = (-1/4, 1)/L, stands in the way: the plastic impact takes v.n = -1/4/L from node 1, where
  * the vertex is, and the contact goes on with that edge. */
-static void a_vertex_hits_the_next_edge_where_the_body_bends_in(void **state)
+TEST(a_vertex_hits_the_next_edge_where_the_body_bends_in)
 {
     const double L = sqrt(1.0625), n[2] = {-0.25 / L, 1.0 / L}, vn = -0.25 / L;
     scene s;
-    (void)state;
     slide_on(&s, -0.25, 0.5);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.n_events, 3);
@@ -284,11 +272,10 @@ static void a_vertex_hits_the_next_edge_where_the_body_bends_in(void **state)
 
 /* Too slow to rise above the position error: both edges hold the vertex, each with half the weight of node 1 over its
  * normal's cosine 1/L; and on, when that is pulled up. */
-static void a_vertex_comes_to_rest_where_the_body_bends_in(void **state)
+TEST(a_vertex_comes_to_rest_where_the_body_bends_in)
 {
     const double L = sqrt(1.0625);
     scene s;
-    (void)state;
     slide_on(&s, -0.25, 1e-5);
     assert_ok(scene_resolve(&s, 0.1));
     const contact_candidate *left = &s.c.set.list[scene_edge(&s, 0, 1)], *right = &s.c.set.list[scene_edge(&s, 1, 2)];
@@ -307,9 +294,8 @@ static void a_vertex_comes_to_rest_where_the_body_bends_in(void **state)
 
 /* Held in a notch there is no friction; when the wind has lifted one side off, the vertex sticks to the other where it
  * is, at its start, and not where it stuck there before it slid into the notch. */
-static void a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is(void **state)
+TEST(a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is)
 {
-    (void)state;
     for (int k = 1; k < 8; k++) {
         scene s;
         open_side(&s, &rough_roof, 1.01 * penetration_tolerance, -0.05 * k * 1.01 * penetration_tolerance, -0.05 * k);
@@ -329,11 +315,10 @@ static void a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_
 }
 
 /* The node hits first, but it is the side that has come down on the ridge. */
-static void a_flat_side_comes_down_on_an_apex_with_its_own_normal(void **state)
+TEST(a_flat_side_comes_down_on_an_apex_with_its_own_normal)
 {
     const dem_obstacle springy = {.n_points = 3, .points = roof_points, .restitution = 0.5};
     const double x[3] = {0.0, 0.1 * penetration_tolerance, -0.1 * penetration_tolerance};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
         open_side(&s, &springy, x[k], -1.7 * penetration_tolerance,
@@ -352,10 +337,9 @@ static void a_flat_side_comes_down_on_an_apex_with_its_own_normal(void **state)
 
 /* ---- what must not happen ---- */
 
-static void a_node_found_deep_inside_is_an_error(void **state)
+TEST(a_node_found_deep_inside_is_an_error)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.5, -0.125, 0.0, -1.0);
     assert_int_equal(scene_resolve(&s, 0.25), DEM_ERROR_CONTACT);
@@ -363,10 +347,9 @@ static void a_node_found_deep_inside_is_an_error(void **state)
     scene_close(&s);
 }
 
-static void too_many_changes_of_one_node_in_a_short_time_are_a_storm(void **state)
+TEST(too_many_changes_of_one_node_in_a_short_time_are_a_storm)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 3; k++) {
@@ -378,10 +361,9 @@ static void too_many_changes_of_one_node_in_a_short_time_are_a_storm(void **stat
     scene_close(&s);
 }
 
-static void changes_further_apart_are_no_storm(void **state)
+TEST(changes_further_apart_are_no_storm)
 {
     scene s;
-    (void)state;
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 20; k++) {
@@ -391,10 +373,9 @@ static void changes_further_apart_are_no_storm(void **state)
     scene_close(&s);
 }
 
-static void a_vertex_found_deep_inside_a_body_is_an_error(void **state)
+TEST(a_vertex_found_deep_inside_a_body_is_an_error)
 {
     scene s;
-    (void)state;
     open_side(&s, &roof, 0.25, -0.125, 0.0);
     assert_int_equal(scene_resolve(&s, 0.25), DEM_ERROR_CONTACT);
     assert_string_equal(dem_status_message(), "the vertex at (0, 0) m of obstacle 0 is 0.125 m inside the body, behind "
@@ -402,10 +383,9 @@ static void a_vertex_found_deep_inside_a_body_is_an_error(void **state)
     scene_close(&s);
 }
 
-static void too_many_changes_of_one_edge_in_a_short_time_are_a_storm(void **state)
+TEST(too_many_changes_of_one_edge_in_a_short_time_are_a_storm)
 {
     scene s;
-    (void)state;
     open_side(&s, &roof, 0.5, 0.0, 0.0);
     s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 3; k++) {
@@ -422,45 +402,16 @@ static void too_many_changes_of_one_edge_in_a_short_time_are_a_storm(void **stat
 
 /* ---- the check after a step ---- */
 
-static void a_nearly_straight_concave_bend_moves_the_node_by_no_more_than_rounding(void **state)
+TEST(a_nearly_straight_concave_bend_moves_the_node_by_no_more_than_rounding)
 {
     const double c = cos(0.3), s = sin(0.3), ox = 0.37, oy = 0.21, turn = 2e-9, t = 0.35;
     const double points[6] = {ox - 2.0 * c, oy - 2.0 * s, ox, oy, ox + 2.0 * (c - turn * s), oy + 2.0 * (s + turn * c)};
     const double x[2] = {ox + 0.5 * (c - turn * s), oy + 0.5 * (s + turn * c)}, v[2] = {-c, -s};
     support_run run;
-    (void)state;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
     const dem_state now = support_at(&run, t);
     const double along = (now.x[0] - ox) * c + (now.x[1] - oy) * s, lift = now.energy.projection;
     support_close(&run);
     assert_close(lift, 0.0, 1e-11);
     assert_close(along, 0.5 - t - 0.5 * 9.81 * s * t * t, 1e-8);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sliding_node_glides_on_where_the_line_goes_on),
-        cmocka_unit_test(a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end),
-        cmocka_unit_test(a_sliding_node_takes_its_impact_at_a_concave_bend),
-        cmocka_unit_test(another_obstacle_stops_a_sliding_node),
-        cmocka_unit_test(a_sliding_node_stops_and_starts_again_when_it_is_driven),
-        cmocka_unit_test(a_sliding_node_turns_back_where_friction_cannot_hold_it),
-        cmocka_unit_test(release_comes_before_stick_and_slip),
-        cmocka_unit_test(a_sticking_node_does_not_move_in_any_wind_it_withstands),
-        cmocka_unit_test(an_edge_slides_stops_and_slides_on_a_vertex),
-        cmocka_unit_test(a_vertex_glides_from_edge_to_edge_of_a_flat_side),
-        cmocka_unit_test(a_vertex_leaves_a_convex_corner_of_the_body),
-        cmocka_unit_test(a_vertex_hits_the_next_edge_where_the_body_bends_in),
-        cmocka_unit_test(a_vertex_comes_to_rest_where_the_body_bends_in),
-        cmocka_unit_test(a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is),
-        cmocka_unit_test(a_flat_side_comes_down_on_an_apex_with_its_own_normal),
-        cmocka_unit_test(a_node_found_deep_inside_is_an_error),
-        cmocka_unit_test(too_many_changes_of_one_node_in_a_short_time_are_a_storm),
-        cmocka_unit_test(changes_further_apart_are_no_storm),
-        cmocka_unit_test(a_vertex_found_deep_inside_a_body_is_an_error),
-        cmocka_unit_test(too_many_changes_of_one_edge_in_a_short_time_are_a_storm),
-        cmocka_unit_test(a_nearly_straight_concave_bend_moves_the_node_by_no_more_than_rounding),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,11 +51,10 @@ static dem_index n_candidates(const contact_forces *r, dem_index group)
     return n;
 }
 
-static void without_closed_contacts_there_are_no_groups(void **state)
+TEST(without_closed_contacts_there_are_no_groups)
 {
     bench b;
     contact_forces r;
-    (void)state;
     open_row(&b, 4);
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 0);
@@ -64,12 +63,11 @@ static void without_closed_contacts_there_are_no_groups(void **state)
 }
 
 /* Nodes 0 and 1 touch, but the edge between them does not; node 3 is in a corner. */
-static void nodes_that_no_closed_edge_joins_are_groups_of_their_own(void **state)
+TEST(nodes_that_no_closed_edge_joins_are_groups_of_their_own)
 {
     static const dem_index members[3] = {0, 1, 3};
     bench b;
     contact_forces r;
-    (void)state;
     open_row(&b, 4);
     bench_touch(&b, 1, 0, 1.5, 1);
     bench_touch(&b, 0, 0, 1.5, 0);
@@ -82,12 +80,11 @@ static void nodes_that_no_closed_edge_joins_are_groups_of_their_own(void **state
 
 /* Of the row 0 .. 6 edges 0-1, 1-2 and 4-5 touch, and nodes 2, 3 and 5. Members come in the order of the boundary, a
  * node before the edge that starts there; a node that no edge starts at comes last. */
-static void edges_that_share_nodes_and_nodes_at_their_ends_are_one_group(void **state)
+TEST(edges_that_share_nodes_and_nodes_at_their_ends_are_one_group)
 {
     static const dem_index first[3] = {7, 8, 2}, second[1] = {3}, third[2] = {11, 5};
     bench b;
     contact_forces r;
-    (void)state;
     open_row(&b, 7);
     bench_touch(&b, 7, 0, 0.5, 1);
     bench_touch(&b, 8, 0, 0.5, 1);
@@ -103,12 +100,11 @@ static void edges_that_share_nodes_and_nodes_at_their_ends_are_one_group(void **
     contact_forces_destroy(&r);
 }
 
-static void opening_a_contact_splits_its_group(void **state)
+TEST(opening_a_contact_splits_its_group)
 {
     static const dem_index whole[3] = {4, 5, 6}, left[1] = {4}, right[1] = {6};
     bench b;
     contact_forces r;
-    (void)state;
     open_row(&b, 4);
     for (dem_index k = 4; k < 7; k++) bench_touch(&b, k, 0, 0.5, 1);
     regroup(&b, &r);
@@ -122,12 +118,11 @@ static void opening_a_contact_splits_its_group(void **state)
     contact_forces_destroy(&r);
 }
 
-static void a_closed_ring_is_one_group(void **state)
+TEST(a_closed_ring_is_one_group)
 {
     static const dem_index members[4] = {3, 4, 5, 0};
     bench b;
     contact_forces r;
-    (void)state;
     open_row(&b, 3);
     bench_edge(&b, 2, 0);
     for (dem_index k = 3; k < 6; k++) bench_touch(&b, k, 0, 0.5, 1);
@@ -151,14 +146,13 @@ static void check_same_groups(const contact_forces *r, const contact_forces *exp
 
 /* Two rings of nodes and edges, of which up to four candidates at a time open or close: the second ring's numbers lie
  * between those of the first, so that groups interleave. */
-static void groups_found_again_near_a_change_are_those_found_from_nothing(void **state)
+TEST(groups_found_again_near_a_change_are_those_found_from_nothing)
 {
     enum { n = 12 };
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     bench b;
     contact_forces r;
     dem_index most = 0;
-    (void)state;
     bench_open(&b, n);
     for (dem_index i = 0; i < n; i++) bench_edge(&b, i, (i + 2) % n);
     regroup(&b, &r);
@@ -184,10 +178,9 @@ static void groups_found_again_near_a_change_are_those_found_from_nothing(void *
 /* ---- by hand ---- */
 
 /* 2 kg on an incline of 30 degrees in a field of 10 m/s^2: N = 20 cos 30, T = mu N up or down, or what gravity asks. */
-static void a_node_on_an_incline_slides_or_sticks(void **state)
+TEST(a_node_on_an_incline_slides_or_sticks)
 {
     const double normal = 20.0 * cos(M_PI / 6.0), along = 20.0 * sin(M_PI / 6.0);
-    (void)state;
     for (int sign = -1; sign <= 1; sign++) {
         bench b;
         contact_forces r;
@@ -208,12 +201,11 @@ static void a_node_on_an_incline_slides_or_sticks(void **state)
 }
 
 /* 3 kg in a groove of 45 degrees, pulled down and to the right. */
-static void a_corner_holds_its_node_with_two_normal_forces(void **state)
+TEST(a_corner_holds_its_node_with_two_normal_forces)
 {
     bench b;
     contact_forces r;
     double a[2] = {2.0, -10.0};
-    (void)state;
     bench_open(&b, 1);
     bench_mass(&b, 0, 3.0);
     bench_corner(&b, 0, 0.25 * M_PI, 0.75 * M_PI);
@@ -230,13 +222,12 @@ static void a_corner_holds_its_node_with_two_normal_forces(void **state)
 
 /* An edge of 1 and 4 kg lies level with a vertex under its quarter: W = (3/4)^2/1 + (1/4)^2/4 = 37/64, N = g/W; with
  * mu = 0.3 it slides to the right. */
-static void an_edge_balances_on_a_vertex(void **state)
+TEST(an_edge_balances_on_a_vertex)
 {
     const double force = 9.25 * 64.0 / 37.0;
     bench b;
     contact_forces r;
     double a[4] = {0.0, -9.25, 0.0, -9.25};
-    (void)state;
     open_row(&b, 2);
     bench_mass(&b, 1, 4.0);
     bench_touch(&b, 2, 1, 0.25, 1);
@@ -252,12 +243,11 @@ static void an_edge_balances_on_a_vertex(void **state)
 
 /* Steps of 0.1 s: what has drifted is drawn back with beta = 1/s, -(2 v + beta off) along both. The edge lies on the x
  * axis and sticks 0.02 m behind its vertex and 0.01 m above it; P moves (-0.05, 0.3) m/s. */
-static void a_sticking_edge_that_has_drifted_is_accelerated_back(void **state)
+TEST(a_sticking_edge_that_has_drifted_is_accelerated_back)
 {
     bench b;
     contact_forces r;
     double a[4] = {3.0, -10.0, 5.0, 2.0};
-    (void)state;
     open_row(&b, 2);
     b.scene.rule.max_step = 0.1;
     for (dem_index i = 0; i < 2; i++) vec2_put(b.v, i, (vec2){-0.05, 0.3});
@@ -274,12 +264,11 @@ static void a_sticking_edge_that_has_drifted_is_accelerated_back(void **state)
 
 /* Both ends of a level edge lie on level segments and a vertex is under it: three contacts for two motions. The one
  * that comes last is redundant: 0. The vertex carries node 1, node 0 what is left. */
-static void a_contact_that_the_others_hold_already_gets_no_force(void **state)
+TEST(a_contact_that_the_others_hold_already_gets_no_force)
 {
     bench b;
     contact_forces r;
     double a[4] = {0.0, -10.0, 0.0, -10.0};
-    (void)state;
     open_row(&b, 2);
     bench_mass(&b, 1, 3.0);
     bench_touch(&b, 0, 0, 0.5 * M_PI, 1);
@@ -507,11 +496,10 @@ static void tally(const mix *w, int kinds[2][4])
     }
 }
 
-static void forces_and_accelerations_agree_with_a_dense_solution(void **state)
+TEST(forces_and_accelerations_agree_with_a_dense_solution)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     int n_solved = 0, n_coupled = 0, kinds[2][4] = {{0}};
-    (void)state;
     for (int k = 0; k < 4000; k++) {
         double solution[MOST_UNKNOWNS];
         contact_forces r;
@@ -533,11 +521,10 @@ static void forces_and_accelerations_agree_with_a_dense_solution(void **state)
 }
 
 /* The free accelerations of gravity and drag, taken by contact_forces_solve from the model itself. */
-static void solving_a_group_starts_from_the_accelerations_of_the_model(void **state)
+TEST(solving_a_group_starts_from_the_accelerations_of_the_model)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     int n_solved = 0;
-    (void)state;
     for (int k = 0; k < 500; k++) {
         double solution[MOST_UNKNOWNS];
         contact_forces r;
@@ -560,11 +547,10 @@ static void solving_a_group_starts_from_the_accelerations_of_the_model(void **st
     gsl_rng_free(w.rng);
 }
 
-static void what_is_held_has_the_acceleration_asked_for(void **state)
+TEST(what_is_held_has_the_acceleration_asked_for)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     int n_checked = 0;
-    (void)state;
     for (int k = 0; k < 2000; k++) {
         double solution[MOST_UNKNOWNS];
         contact_forces r;
@@ -601,10 +587,9 @@ static void shuffle(gsl_rng *rng, const bench *from, bench *to, dem_index *place
     to->n_candidates = from->n_candidates;
 }
 
-static void the_order_in_which_candidates_are_listed_does_not_matter(void **state)
+TEST(the_order_in_which_candidates_are_listed_does_not_matter)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    (void)state;
     for (int k = 0; k < 1000; k++) {
         double solution[MOST_UNKNOWNS], a[2 * BENCH_NODES];
         dem_index place[BENCH_CANDIDATES];
@@ -645,11 +630,10 @@ static void stop_all(mix *w, contact_forces *r, double *v)
 }
 
 /* Also where contacts are redundant: rest is always allowed. */
-static void after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks(void **state)
+TEST(after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     int n_checked = 0;
-    (void)state;
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES];
         contact_forces r;
@@ -670,10 +654,9 @@ static void after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks(
 
 /* A stop is the smallest change, in the measure of kinetic energy, that does what is asked: what is left and what is
  * taken are orthogonal, T before = T after + T of the change. Friction takes no part. */
-static void a_stop_takes_the_energy_of_the_change_and_gives_none(void **state)
+TEST(a_stop_takes_the_energy_of_the_change_and_gives_none)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    (void)state;
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES], before = 0.0, after = 0.0, change = 0.0, largest = 1.0;
         contact_forces r;
@@ -700,10 +683,9 @@ static void a_stop_takes_the_energy_of_the_change_and_gives_none(void **state)
 
 /* What the contacts give to every node is its change of momentum; nodes of no group are left alone. A corner's impulse
  * is in the parts along the first segment. */
-static void impulses_account_for_the_momentum_of_every_node(void **state)
+TEST(impulses_account_for_the_momentum_of_every_node)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    (void)state;
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES], given[2 * BENCH_NODES] = {0.0}, largest = 1.0;
         contact_forces r;
@@ -734,12 +716,11 @@ static void impulses_account_for_the_momentum_of_every_node(void **state)
 }
 
 /* The groups leave each other's nodes, and the nodes of open candidates, bit for bit. */
-static void stopping_one_group_leaves_the_others_alone(void **state)
+TEST(stopping_one_group_leaves_the_others_alone)
 {
     bench b;
     contact_forces r;
     double v[8];
-    (void)state;
     open_row(&b, 4);
     for (dem_index i = 0; i < 4; i++) vec2_put(b.v, i, (vec2){0.3, -1.0});
     memcpy(v, b.v, sizeof v);
@@ -761,11 +742,10 @@ static void stopping_one_group_leaves_the_others_alone(void **state)
 
 /* An edge of 1 and 3 kg 0.1 m above a vertex under its middle falls so that P comes down by 0.1 m: W = 1/4 + 1/12, and
  * the ends by 0.1 w/(m W) = 0.15 and 0.05 m. A fixed end stays, the other does it all. */
-static void a_shift_closes_the_gap_with_the_light_node_moving_more(void **state)
+TEST(a_shift_closes_the_gap_with_the_light_node_moving_more)
 {
     bench b;
     contact_forces r;
-    (void)state;
     open_row(&b, 2);
     bench_mass(&b, 1, 3.0);
     contact_point *point = bench_touch(&b, 2, 1, 0.5, 1);
@@ -784,11 +764,10 @@ static void a_shift_closes_the_gap_with_the_light_node_moving_more(void **state)
 
 /* An upright edge whose lower end sticks to the floor, 0.2 m beside its vertex: both ends go 0.2 m, the lower one along
  * the floor. */
-static void a_shift_lets_what_sticks_slide(void **state)
+TEST(a_shift_lets_what_sticks_slide)
 {
     bench b;
     contact_forces r;
-    (void)state;
     open_row(&b, 2);
     vec2_put(b.x, 1, (vec2){0.0, 1.0});
     bench_touch(&b, 0, 1, 0.5 * M_PI, 0);
@@ -839,11 +818,10 @@ static double left_after_shift(const mix *w, double size)
 /* What is left is of second order, from the turning of edges: one of length L whose ends go ways up to d turns by up to
  * 2 d/L, and P slides on it by up to 2 d; most of our edges are longer than 0.4 m, and the worst of both at once is not
  * met. What a wrong solution leaves is a part of d, and over its square a part of 1e4 to 1e6 per metre. */
-static void a_shift_closes_the_gaps_to_first_order(void **state)
+TEST(a_shift_closes_the_gaps_to_first_order)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     int n_checked = 0;
-    (void)state;
     for (int k = 0; k < 2000; k++) {
         double solution[MOST_UNKNOWNS];
         mix_next(&w);
@@ -854,33 +832,4 @@ static void a_shift_closes_the_gaps_to_first_order(void **state)
     }
     assert_true(n_checked > 500);
     gsl_rng_free(w.rng);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(without_closed_contacts_there_are_no_groups),
-        cmocka_unit_test(nodes_that_no_closed_edge_joins_are_groups_of_their_own),
-        cmocka_unit_test(edges_that_share_nodes_and_nodes_at_their_ends_are_one_group),
-        cmocka_unit_test(opening_a_contact_splits_its_group),
-        cmocka_unit_test(a_closed_ring_is_one_group),
-        cmocka_unit_test(groups_found_again_near_a_change_are_those_found_from_nothing),
-        cmocka_unit_test(a_node_on_an_incline_slides_or_sticks),
-        cmocka_unit_test(a_corner_holds_its_node_with_two_normal_forces),
-        cmocka_unit_test(an_edge_balances_on_a_vertex),
-        cmocka_unit_test(a_sticking_edge_that_has_drifted_is_accelerated_back),
-        cmocka_unit_test(a_contact_that_the_others_hold_already_gets_no_force),
-        cmocka_unit_test(forces_and_accelerations_agree_with_a_dense_solution),
-        cmocka_unit_test(solving_a_group_starts_from_the_accelerations_of_the_model),
-        cmocka_unit_test(what_is_held_has_the_acceleration_asked_for),
-        cmocka_unit_test(the_order_in_which_candidates_are_listed_does_not_matter),
-        cmocka_unit_test(after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks),
-        cmocka_unit_test(a_stop_takes_the_energy_of_the_change_and_gives_none),
-        cmocka_unit_test(impulses_account_for_the_momentum_of_every_node),
-        cmocka_unit_test(stopping_one_group_leaves_the_others_alone),
-        cmocka_unit_test(a_shift_closes_the_gap_with_the_light_node_moving_more),
-        cmocka_unit_test(a_shift_lets_what_sticks_slide),
-        cmocka_unit_test(a_shift_closes_the_gaps_to_first_order),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,10 +13,9 @@ static void check_vector(vec2 actual, double x, double y, double tolerance)
 /* ---- by hand ---- */
 
 /* A node of 4 kg 0.5 m in front of a segment of slope 3/4 that starts at (1, 2). */
-static void the_frame_of_a_node_is_that_of_its_segment(void **state)
+TEST(the_frame_of_a_node_is_that_of_its_segment)
 {
     bench b;
-    (void)state;
     bench_open(&b, 2);
     bench_mass(&b, 1, 4.0);
     bench_touch(&b, 1, 0, 0.0, 1);
@@ -41,10 +40,9 @@ static void the_frame_of_a_node_is_that_of_its_segment(void **state)
 
 /* An edge from (1, 1) to (1, 5): the body on its left, at smaller x; the vertex 1 m along, 0.25 m inside. The point at
  * a quarter has 3/4 of the first node's velocity; turning 2 rad/s clockwise, sliding 1.5 m/s along. */
-static void the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body(void **state)
+TEST(the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body)
 {
     bench b;
-    (void)state;
     bench_open(&b, 2);
     bench_mass(&b, 0, 3.0);
     bench_mass(&b, 1, 0.5);
@@ -80,10 +78,9 @@ static void move(bench *b, dem_index obstacle, vec2 velocity)
 }
 
 /* The segment of the node, 5 m long, has gone (2, -3) m in 0.5 s. */
-static void on_an_obstacle_that_moves_velocities_are_relative_to_it(void **state)
+TEST(on_an_obstacle_that_moves_velocities_are_relative_to_it)
 {
     bench b;
-    (void)state;
     bench_open(&b, 2);
     b.segments[2] = (segment){.start = {1.0, 2.0}, .normal = {-0.6, 0.8}, .tangent = {0.8, 0.6}, .length = 5.0};
     move(&b, 0, (vec2){4.0, -6.0});
@@ -101,10 +98,9 @@ static void on_an_obstacle_that_moves_velocities_are_relative_to_it(void **state
 }
 
 /* The node has sunk in by 0.04 m and leaves the wall behind at (-0.2, 0.3) m/s; beta = 1/s for steps of 0.1 s. */
-static void a_node_that_has_drifted_is_drawn_back_where_obstacles_accelerate(void **state)
+TEST(a_node_that_has_drifted_is_drawn_back_where_obstacles_accelerate)
 {
     bench b;
-    (void)state;
     bench_open(&b, 1);
     b.scene.rule.max_step = 0.1;
     b.segments[0] = (segment){.normal = {0.0, 1.0}, .tangent = {1.0, 0.0}, .length = 9.0};
@@ -123,11 +119,10 @@ static void a_node_that_has_drifted_is_drawn_back_where_obstacles_accelerate(voi
 }
 
 /* A floor that moves along and a wall that comes: the corner has the floor's height and the wall's speed. */
-static void the_corner_of_two_obstacles_moves_along_the_normals_as_they_do(void **state)
+TEST(the_corner_of_two_obstacles_moves_along_the_normals_as_they_do)
 {
     bench b;
     const dem_index both[2] = {0, 1};
-    (void)state;
     bench_open(&b, 1);
     b.segments[0] = (segment){.normal = {0.0, 1.0}, .tangent = {1.0, 0.0}, .length = 1.0};
     b.segments[1] = (segment){.normal = {1.0, 0.0}, .tangent = {0.0, -1.0}, .length = 1.0, .obstacle = 1};
@@ -140,10 +135,9 @@ static void the_corner_of_two_obstacles_moves_along_the_normals_as_they_do(void 
     assert_close(corner.velocity.y, 0.5, 0.0);
 }
 
-static void a_fixed_node_has_no_mobility(void **state)
+TEST(a_fixed_node_has_no_mobility)
 {
     bench b;
-    (void)state;
     bench_open(&b, 2);
     b.inverse_mass[0] = 0.0;
     vec2_put(b.x, 1, (vec2){1.0, 0.0});
@@ -154,10 +148,9 @@ static void a_fixed_node_has_no_mobility(void **state)
 
 /* The edge lies on the x axis, the vertex 0.02 m ahead of where it sticks and 0.01 m below; beta = 1/s for steps of
  * 0.1 s. The point moves (-0.05, 0.3) m/s. */
-static void a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps(void **state)
+TEST(a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps)
 {
     bench b;
-    (void)state;
     bench_open(&b, 2);
     b.scene.rule.max_step = 0.1;
     vec2_put(b.x, 1, (vec2){1.0, 0.0});
@@ -269,11 +262,10 @@ static edge_motion move_anyhow(moving_edge *e, double place)
 }
 
 /* g' = v_P.N and s' = -v_P.t/L; with the accelerations of the ends g'' = a_P.N - keep: 0 if a_P.N is what is asked. */
-static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void **state)
+TEST(a_sliding_contact_stays_closed_under_the_acceleration_asked_for)
 {
     moving_edge e;
     double largest = 0.0;
-    (void)state;
     open_moving_edge(&e, 1);
     for (int k = 0; k < 2000; k++) {
         seen first, second;
@@ -297,10 +289,9 @@ static void a_sliding_contact_stays_closed_under_the_acceleration_asked_for(void
 
 /* A material point that is at rest and is not accelerated stays on the vertex: nothing is asked for, however the edge
  * turns and stretches about it. */
-static void a_sticking_contact_asks_for_no_acceleration(void **state)
+TEST(a_sticking_contact_asks_for_no_acceleration)
 {
     moving_edge e;
-    (void)state;
     open_moving_edge(&e, 0);
     for (int k = 0; k < 2000; k++) {
         const double place = 0.1 + 0.8 * gsl_rng_uniform(e.rng);
@@ -325,10 +316,9 @@ static void a_sticking_contact_asks_for_no_acceleration(void **state)
 }
 
 /* Wherever its nodes are, and however its vertex lies, an edge that sticks touches with the same point of it. */
-static void a_sticking_contact_keeps_its_place(void **state)
+TEST(a_sticking_contact_keeps_its_place)
 {
     moving_edge e;
-    (void)state;
     open_moving_edge(&e, 0);
     for (int k = 0; k < 100; k++) {
         const edge_motion m = move_anyhow(&e, 0.375);
@@ -346,19 +336,17 @@ static void a_sticking_contact_keeps_its_place(void **state)
 
 /* ---- what a contact is on ---- */
 
-static void a_scene_knows_its_margin_and_where_velocities_begin(void **state)
+TEST(a_scene_knows_its_margin_and_where_velocities_begin)
 {
     bench b;
-    (void)state;
     bench_open(&b, 2);
     assert_close(scene_margin(&b.scene), 1e-5, 1e-20); /* ten penetration tolerances, rounded */
     assert_int_equal(scene_layout(&b.scene)->n_nodes, 2);
 }
 
-static void only_coulombs_law_has_sustained_friction(void **state)
+TEST(only_coulombs_law_has_sustained_friction)
 {
     bench b;
-    (void)state;
     bench_open(&b, 1);
     for (dem_index s = 0; s < 3; s++) b.segments[s].obstacle = s;
     assert_close(contact_point_friction(&b.scene, &b.candidates[0], 0), 0.0, 0.0);
@@ -366,10 +354,9 @@ static void only_coulombs_law_has_sustained_friction(void **state)
     assert_close(contact_point_friction(&b.scene, &b.candidates[0], 2), 0.0, 0.0); /* (10) */
 }
 
-static void a_contact_reports_where_it_is_and_what_it_carries(void **state)
+TEST(a_contact_reports_where_it_is_and_what_it_carries)
 {
     bench b;
-    (void)state;
     bench_open(&b, 3);
     vec2_put(b.x, 1, (vec2){0.25, 0.5});
     vec2_put(b.x, 2, (vec2){4.25, 0.5});
@@ -395,10 +382,9 @@ static void a_contact_reports_where_it_is_and_what_it_carries(void **state)
     assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, 0.0, b.x).state, DEM_CONTACT_STICK);
 }
 
-static void the_second_contact_of_an_edge_reports_its_own_vertex(void **state)
+TEST(the_second_contact_of_an_edge_reports_its_own_vertex)
 {
     bench b;
-    (void)state;
     bench_open(&b, 3);
     vec2_put(b.x, 1, (vec2){0.25, 0.5});
     vec2_put(b.x, 2, (vec2){4.25, 0.5});
@@ -417,25 +403,4 @@ static void the_second_contact_of_an_edge_reports_its_own_vertex(void **state)
     check_vector((vec2){c.x[0], c.x[1]}, 3.25, 0.5, 0.0);
     check_vector((vec2){c.normal[0], c.normal[1]}, 0.0, 1.0, 0.0);
     assert_close(c.force, 9.0, 0.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_frame_of_a_node_is_that_of_its_segment),
-        cmocka_unit_test(the_frame_of_an_edge_weighs_its_nodes_and_points_into_the_body),
-        cmocka_unit_test(on_an_obstacle_that_moves_velocities_are_relative_to_it),
-        cmocka_unit_test(a_node_that_has_drifted_is_drawn_back_where_obstacles_accelerate),
-        cmocka_unit_test(the_corner_of_two_obstacles_moves_along_the_normals_as_they_do),
-        cmocka_unit_test(a_fixed_node_has_no_mobility),
-        cmocka_unit_test(a_vertex_contact_that_has_drifted_is_drawn_back_within_ten_steps),
-        cmocka_unit_test(a_sliding_contact_stays_closed_under_the_acceleration_asked_for),
-        cmocka_unit_test(a_sticking_contact_asks_for_no_acceleration),
-        cmocka_unit_test(a_sticking_contact_keeps_its_place),
-        cmocka_unit_test(a_scene_knows_its_margin_and_where_velocities_begin),
-        cmocka_unit_test(only_coulombs_law_has_sustained_friction),
-        cmocka_unit_test(a_contact_reports_where_it_is_and_what_it_carries),
-        cmocka_unit_test(the_second_contact_of_an_edge_reports_its_own_vertex),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

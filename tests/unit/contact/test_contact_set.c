@@ -40,10 +40,9 @@ static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
 
 /* ---- the list ---- */
 
-static void nodes_come_first_and_then_edges_that_know_their_neighbours(void **state)
+TEST(nodes_come_first_and_then_edges_that_know_their_neighbours)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     const contact_set *c = &s.c.set;
     assert_int_equal(c->n, 8);
@@ -63,11 +62,10 @@ static void nodes_come_first_and_then_edges_that_know_their_neighbours(void **st
     scene_close(&s);
 }
 
-static void edges_are_candidates_only_where_there_are_vertices_and_if_asked_for(void **state)
+TEST(edges_are_candidates_only_where_there_are_vertices_and_if_asked_for)
 {
     scene flat, s;
     automaton without;
-    (void)state;
     open_square(&flat, &plane, 1);
     open_square(&s, roofs, 2);
     assert_int_equal(flat.c.set.n, 4);
@@ -80,13 +78,12 @@ static void edges_are_candidates_only_where_there_are_vertices_and_if_asked_for(
     scene_close(&s);
 }
 
-static void a_node_that_may_not_touch_is_no_candidate(void **state)
+TEST(a_node_that_may_not_touch_is_no_candidate)
 {
     const double x[4] = {0.0, 1.0, 1.0, 1.0};
     const unsigned char fixed[2] = {1, 0};
     dem_lattice lattice;
     scene s;
-    (void)state;
     support_lattice(&lattice, 2, x, masses, 1, (dem_index[]){0, 1}, 1.0, 1.0, fixed);
     scene_start(&s, &lattice, &plane, 1);
     dem_lattice_free(&lattice);
@@ -97,10 +94,9 @@ static void a_node_that_may_not_touch_is_no_candidate(void **state)
 }
 
 /* An edge runs one way, and 0-2 is inside. */
-static void a_key_finds_its_candidate_and_no_other(void **state)
+TEST(a_key_finds_its_candidate_and_no_other)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     const contact_set *c = &s.c.set;
     for (dem_index k = 0; k < c->n; k++) assert_int_equal(contact_set_find(c, candidate_key(&c->list[k])), k);
@@ -124,10 +120,9 @@ static surface half_surface(const scene *s)
     return half;
 }
 
-static void candidates_of_both_surfaces_stay_what_they_are_under_new_numbers(void **state)
+TEST(candidates_of_both_surfaces_stay_what_they_are_under_new_numbers)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     contact_set *c = &s.c.set;
     surface half = half_surface(&s);
@@ -172,10 +167,9 @@ static void candidates_of_both_surfaces_stay_what_they_are_under_new_numbers(voi
 }
 
 /* A vertex in the notch between edges 1-2 and 2-3, and node 3 on a floor beside it. */
-static void contacts_of_candidates_that_go_are_open(void **state)
+TEST(contacts_of_candidates_that_go_are_open)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     contact_set *c = &s.c.set;
     surface half = half_surface(&s);
@@ -193,10 +187,9 @@ static void contacts_of_candidates_that_go_are_open(void **state)
     scene_close(&s);
 }
 
-static void a_new_edge_knows_what_its_nodes_are_behind(void **state)
+TEST(a_new_edge_knows_what_its_nodes_are_behind)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     contact_set *c = &s.c.set;
     surface half = half_surface(&s);
@@ -213,10 +206,9 @@ static void a_new_edge_knows_what_its_nodes_are_behind(void **state)
 
 /* ---- opening and closing ---- */
 
-static void a_candidate_reports_which_of_its_contacts_is_on_a_feature(void **state)
+TEST(a_candidate_reports_which_of_its_contacts_is_on_a_feature)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     const contact_candidate *edge = &s.c.set.list[k];
@@ -228,10 +220,9 @@ static void a_candidate_reports_which_of_its_contacts_is_on_a_feature(void **sta
     scene_close(&s);
 }
 
-static void closing_appends_and_opening_keeps_the_other(void **state)
+TEST(closing_appends_and_opening_keeps_the_other)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     contact_candidate *edge = &s.c.set.list[k];
@@ -257,10 +248,9 @@ static void closing_appends_and_opening_keeps_the_other(void **state)
 }
 
 /* Edge 0-1 joins its nodes; edge 2-3 is a group of its own until 1-2 closes as well. */
-static void contacts_that_share_nodes_are_one_group(void **state)
+TEST(contacts_that_share_nodes_are_one_group)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     const contact_set *c = &s.c.set;
     const dem_index low = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2), high = scene_edge(&s, 2, 3);
@@ -296,9 +286,8 @@ static void check_touch(const contact_point *point, bool held, int sign)
 }
 
 /* One that stays when the other opens is at rest: with friction it sticks, without it slides. */
-static void a_node_on_two_segments_is_held_by_both(void **state)
+TEST(a_node_on_two_segments_is_held_by_both)
 {
-    (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
         open_square(&s, k == 0 ? &groove : &rough_groove, 1);
@@ -316,9 +305,8 @@ static void a_node_on_two_segments_is_held_by_both(void **state)
 }
 
 /* A vertex in the notch between edges 0-1 and 1-2. */
-static void a_vertex_on_two_edges_that_meet_is_held_by_both(void **state)
+TEST(a_vertex_on_two_edges_that_meet_is_held_by_both)
 {
-    (void)state;
     for (dem_index feature = 0; feature < 2; feature++) {
         scene s;
         open_square(&s, roofs, 2);
@@ -337,10 +325,9 @@ static void a_vertex_on_two_edges_that_meet_is_held_by_both(void **state)
     }
 }
 
-static void a_vertex_on_opposite_edges_is_not_held(void **state)
+TEST(a_vertex_on_opposite_edges_is_not_held)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     const dem_index low = scene_edge(&s, 0, 1), high = scene_edge(&s, 2, 3);
     close_contact(&s, low, 0, 1);
@@ -352,10 +339,9 @@ static void a_vertex_on_opposite_edges_is_not_held(void **state)
 
 /* ---- behind ---- */
 
-static void what_a_node_is_behind_its_edges_know(void **state)
+TEST(what_a_node_is_behind_its_edges_know)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     contact_candidate *list = s.c.set.list;
     const dem_index before = scene_edge(&s, 0, 1), after = scene_edge(&s, 1, 2), far = scene_edge(&s, 2, 3);
@@ -393,10 +379,9 @@ static void open_stretched(scene *s)
 }
 
 /* The upper node moved by (0, -0.25): m g dy = 2 * 10 * -0.25 and the spring's 50 (0.25^2 - 0.5^2). */
-static void a_move_enters_the_energy_that_it_puts_in(void **state)
+TEST(a_move_enters_the_energy_that_it_puts_in)
 {
     scene s;
-    (void)state;
     open_stretched(&s);
     s.c.set.ledger.projection = 1.0;
     contact_set_move(&s.c.set, 1, (vec2){0.0, -0.25}, s.y);
@@ -408,10 +393,9 @@ static void a_move_enters_the_energy_that_it_puts_in(void **state)
 
 /* The spring, stretched to 1.5 m, pulls node 0 up with 50 N against its 30 N of weight, and nothing holds it down; a
  * sideways gravity of 0.5 m/s^2 does nothing to a smooth floor. */
-static void the_force_on_a_contact_is_elastic_and_weight(void **state)
+TEST(the_force_on_a_contact_is_elastic_and_weight)
 {
     scene s;
-    (void)state;
     open_stretched(&s);
     s.acting.gravity[0] = 0.5;
     close_contact(&s, 0, 0, 1);
@@ -424,11 +408,10 @@ static void the_force_on_a_contact_is_elastic_and_weight(void **state)
 
 /* The rough roof's ridge under (1 - s, s) of edge 0-1, masses 1 and 3 kg, that slides with u: N from
  * W N = g, W = (1 - s)^2/1 + s^2/3; friction -sign N/2. */
-static void a_sliding_edge_stores_force_and_friction(void **state)
+TEST(a_sliding_edge_stores_force_and_friction)
 {
     const double fraction = 0.25, W = 0.5625 + 0.0625 / 3.0, u = -0.8;
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     for (dem_index i = 0; i < 4; i++) {
@@ -445,10 +428,9 @@ static void a_sliding_edge_stores_force_and_friction(void **state)
 
 /* ---- events ---- */
 
-static void an_event_of_a_node_reports_where_it_is_and_how_it_moves(void **state)
+TEST(an_event_of_a_node_reports_where_it_is_and_how_it_moves)
 {
     scene s;
-    (void)state;
     open_square(&s, &rough_groove, 1);
     scene_put(&s, 2, 3.0, 3.0, 0.5, -0.25);
     const contact_instant now = {.t = 0.5, .x = s.y, .v = scene_v(&s)};
@@ -478,10 +460,9 @@ static void an_event_of_a_node_reports_where_it_is_and_how_it_moves(void **state
 
 /* The second roof's ridge, the end of its first segment, under 0.75 of edge 0-1; the velocity is 1/4 and 3/4 of the
  * nodes'. */
-static void an_event_of_an_edge_reports_the_vertex_and_the_weight_of_its_second_node(void **state)
+TEST(an_event_of_an_edge_reports_the_vertex_and_the_weight_of_its_second_node)
 {
     scene s;
-    (void)state;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     scene_put(&s, 0, 0.25, 0.0, 0.5, 0.0);
@@ -497,30 +478,4 @@ static void an_event_of_an_edge_reports_the_vertex_and_the_weight_of_its_second_
                               event.normal[1], event.before[0], event.before[1]};
     for (int q = 0; q < 7; q++) assert_close(actual[q], expected[q], 1e-15);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_come_first_and_then_edges_that_know_their_neighbours),
-        cmocka_unit_test(edges_are_candidates_only_where_there_are_vertices_and_if_asked_for),
-        cmocka_unit_test(a_node_that_may_not_touch_is_no_candidate),
-        cmocka_unit_test(a_key_finds_its_candidate_and_no_other),
-        cmocka_unit_test(candidates_of_both_surfaces_stay_what_they_are_under_new_numbers),
-        cmocka_unit_test(contacts_of_candidates_that_go_are_open),
-        cmocka_unit_test(a_new_edge_knows_what_its_nodes_are_behind),
-        cmocka_unit_test(a_candidate_reports_which_of_its_contacts_is_on_a_feature),
-        cmocka_unit_test(closing_appends_and_opening_keeps_the_other),
-        cmocka_unit_test(contacts_that_share_nodes_are_one_group),
-        cmocka_unit_test(a_node_on_two_segments_is_held_by_both),
-        cmocka_unit_test(a_vertex_on_two_edges_that_meet_is_held_by_both),
-        cmocka_unit_test(a_vertex_on_opposite_edges_is_not_held),
-        cmocka_unit_test(what_a_node_is_behind_its_edges_know),
-        cmocka_unit_test(a_move_enters_the_energy_that_it_puts_in),
-        cmocka_unit_test(the_force_on_a_contact_is_elastic_and_weight),
-        cmocka_unit_test(a_sliding_edge_stores_force_and_friction),
-        cmocka_unit_test(an_event_of_a_node_reports_where_it_is_and_how_it_moves),
-        cmocka_unit_test(an_event_of_an_edge_reports_the_vertex_and_the_weight_of_its_second_node),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

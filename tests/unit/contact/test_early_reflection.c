@@ -7,13 +7,12 @@
 
 /* ---- early reflection ---- */
 
-static void an_early_reflection_leaves_a_node_where_it_is(void **state)
+TEST(an_early_reflection_leaves_a_node_where_it_is)
 {
     const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
     const contact_gap gap = {0.1, 0, 0.0, {0.0, 1.0}};
     event_listener listener;
     scene s;
-    (void)state;
     open_node(&s, &rough, 1, 3.0, -4.0);
     scene_put(&s, 0, 0.25, 0.1, 3.0, -4.0);
     contact_instant now = moment(&s, &listener);
@@ -31,13 +30,12 @@ static void an_early_reflection_leaves_a_node_where_it_is(void **state)
 }
 
 /* Near a vertex the gap's normal is no segment's: 5 m/s down are 4 m/s along (0.6, 0.8), and 6 n more turn that. */
-static void an_early_reflection_goes_along_the_normal_of_the_gap(void **state)
+TEST(an_early_reflection_goes_along_the_normal_of_the_gap)
 {
     const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
     const contact_gap gap = {0.1, 0, 0.0, {0.6, 0.8}};
     event_listener listener;
     scene s;
-    (void)state;
     open_node(&s, &smooth, 1, 0.0, -5.0);
     contact_instant now = moment(&s, &listener);
     early_reflection_of(&s.c.set, 0, &gap, &now);
@@ -47,14 +45,13 @@ static void an_early_reflection_goes_along_the_normal_of_the_gap(void **state)
     scene_close(&s);
 }
 
-static void an_early_reflection_of_an_edge_shares_its_impulse_too(void **state)
+TEST(an_early_reflection_of_an_edge_shares_its_impulse_too)
 {
     const double q = 0.25, J = 1.5 / mobility(q);
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     const contact_gap gap = {0.1, 0, q, {0.0, 1.0}};
     event_listener listener;
     scene s;
-    (void)state;
     const dem_index edge = open_edge(&s, &roof, q, 0.0);
     for (dem_index i = 0; i < 3; i++) scene_put(&s, i, s.y[2 * i], s.y[2 * i + 1] + 0.1, 0.5, -1.0);
     const double before = kinetic(&s);
@@ -66,14 +63,4 @@ static void an_early_reflection_of_an_edge_shares_its_impulse_too(void **state)
     assert_close(s.impacts[0].weight, q, 1e-14);
     assert_int_equal(s.c.set.ledger.counts.vertex_impacts, 1);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_early_reflection_leaves_a_node_where_it_is),
-        cmocka_unit_test(an_early_reflection_goes_along_the_normal_of_the_gap),
-        cmocka_unit_test(an_early_reflection_of_an_edge_shares_its_impulse_too),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,10 +36,9 @@ static double crossing(const scene *s, dem_index k, const dense_output *p)
     return event_location_crossing(&s->c.set.scene, &s->c.set.list[k], p, p->t0);
 }
 
-static void times_are_located_to_a_hundred_units_of_rounding(void **state)
+TEST(times_are_located_to_a_hundred_units_of_rounding)
 {
     const dense_output p = {.t0 = -3.0, .t1 = -2.5}, q = {.t0 = 6.0, .t1 = 8.0};
-    (void)state;
     assert_close(event_location_resolution(&p), 300.0 * DBL_EPSILON, 1e-28);
     assert_close(event_location_resolution(&q), 1000.0 * DBL_EPSILON, 1e-28);
 }
@@ -48,12 +47,11 @@ static void times_are_located_to_a_hundred_units_of_rounding(void **state)
 
 /* Falls from 0.2 m: as deep as the penetration tolerance d after sqrt(2 (0.2 + d)/g). The time found is on the deep
  * side. */
-static void a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall(void **state)
+TEST(a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall)
 {
     const double start = 7.0, t = sqrt(2.0 * (0.2 + penetration_tolerance) / g);
     scene s;
     scene_flight f;
-    (void)state;
     open_node(&s, 1.0, 0.2, 0.3, 0.0);
     scene_fly(&s, (vec2){0.0, -g}, start, 0.3, &f);
     const double found = crossing(&s, 0, &f.dense);
@@ -64,12 +62,11 @@ static void a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall(vo
     scene_close(&s);
 }
 
-static void a_crossing_just_before_the_end_is_found(void **state)
+TEST(a_crossing_just_before_the_end_is_found)
 {
     const double t = sqrt(2.0 * (0.2 + penetration_tolerance) / g);
     scene s;
     scene_flight f;
-    (void)state;
     open_node(&s, 1.0, 0.2, 0.0, 0.0);
     scene_fly(&s, (vec2){0.0, -g}, 0.0, 0.3, &f);
     f.dense.end = t * (1.0 + 1e-12);
@@ -80,12 +77,11 @@ static void a_crossing_just_before_the_end_is_found(void **state)
 }
 
 /* Thrown down against an upward pull: inside from 0.24 t1 to 0.76 t1, outside at both ends. */
-static void a_dip_within_the_step_is_found(void **state)
+TEST(a_dip_within_the_step_is_found)
 {
     const double depth = 0.05, a = 10.0, bottom = 0.2; /* y = -depth + a (t - bottom)^2/2 */
     scene s;
     scene_flight f;
-    (void)state;
     open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
     scene_fly(&s, (vec2){0.0, a}, 0.0, 2.0 * bottom, &f);
     assert_true(f.dense.y0[1] > 0.0 && f.dense.y1[1] > 0.0);
@@ -96,10 +92,9 @@ static void a_dip_within_the_step_is_found(void **state)
 /* A parabola whose bottom, wherever between two of the eight samples, is a micrometre deeper than the penetration
  * tolerance for 1/500 of the step; one that stays as much above it is none. Times to rounding over a vertical speed of
  * 4.5 mm/s. */
-static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
+TEST(the_shortest_dip_is_found_and_a_near_miss_is_none)
 {
     const double a = 10.0, end = 0.45;
-    (void)state;
     for (int k = 0; k < 20; k++) {
         const double depth = penetration_tolerance + (k % 2 == 0 ? 1e-6 : -1e-6), bottom = 0.172 + 0.0025 * k;
         scene s;
@@ -117,12 +112,11 @@ static void the_shortest_dip_is_found_and_a_near_miss_is_none(void **state)
 
 /* Level with 1 m/s through the tip of the roof, 1 cm below it, in the first eighth of the step. That nothing was within
  * 5 cm of its start says less about its gap than the roof does. */
-static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **state)
+TEST(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap)
 {
     const double at[2] = {-0.1, -0.01};
     scene s;
     scene_flight f;
-    (void)state;
     scene_open(&s, 1, at, masses, 0, NULL, &roof, 1);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 0, at[0], at[1], 1.0, 0.0);
@@ -134,13 +128,12 @@ static void a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap(void **st
 }
 
 /* Up from the floor with 2 m/s through a plate at 0.3 m, a fifth of the way thick: the gap grows at both ends. */
-static void a_plate_between_two_ends_that_recede_is_found(void **state)
+TEST(a_plate_between_two_ends_that_recede_is_found)
 {
     const double points[10] = {2.0, 0.3, 0.0, 0.3, 0.0, 0.5, 2.0, 0.5, 2.0, 0.3}, at[2] = {1.0, 0.05};
     const dem_obstacle floor_and_plate[2] = {plane, {.n_points = 5, .points = points}};
     scene s;
     scene_flight f;
-    (void)state;
     scene_open(&s, 1, at, masses, 0, NULL, floor_and_plate, 2);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 0, at[0], at[1], 0.0, 2.0);
@@ -149,11 +142,10 @@ static void a_plate_between_two_ends_that_recede_is_found(void **state)
     scene_close(&s);
 }
 
-static void a_candidate_out_of_reach_never_crosses(void **state)
+TEST(a_candidate_out_of_reach_never_crosses)
 {
     scene s;
     scene_flight f;
-    (void)state;
     open_node(&s, 1.0, 0.9, 4.0, 0.0);
     scene_fly(&s, nothing, 0.0, 0.1, &f);
     assert_true(isinf(crossing(&s, 0, &f.dense)) != 0);
@@ -170,12 +162,11 @@ static dem_index open_edge(scene *s, double y)
     return scene_edge(s, 0, 1);
 }
 
-static void a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall(void **state)
+TEST(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall)
 {
     const double start = 3.0, t = sqrt(2.0 * (0.1 + penetration_tolerance) / g);
     scene s;
     scene_flight f;
-    (void)state;
     const dem_index k = open_edge(&s, 0.1);
     scene_fly(&s, (vec2){0.0, -g}, start, 0.2, &f);
     assert_close(crossing(&s, k, &f.dense), start + t, 200.0 * DBL_EPSILON * (start + 0.2));
@@ -186,14 +177,13 @@ static void a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall(void **state)
 /* Node 1 falls with 2 m/s from 0.3 m, node 0 stays there. With w = 2 t the edge's point over the ridge is 0.75 w - 0.3
  * below it, along the normal that times 2/sqrt(4 + w^2). That is the penetration tolerance d where
  * (4 * 0.5625 - d^2) w^2 - 1.8 w + 0.36 - 4 d^2 = 0. */
-static void a_turning_edge_meets_a_ridge_where_its_line_does(void **state)
+TEST(a_turning_edge_meets_a_ridge_where_its_line_does)
 {
     const double a = 2.25 - penetration_tolerance * penetration_tolerance,
                  c = 0.36 - 4.0 * penetration_tolerance * penetration_tolerance;
     const double w = (1.8 + sqrt(1.8 * 1.8 - 4.0 * a * c)) / (2.0 * a);
     scene s;
     scene_flight f;
-    (void)state;
     const dem_index k = open_edge(&s, 0.3);
     scene_put(&s, 1, 0.5, 0.3, 0.0, -2.0);
     scene_fly(&s, nothing, 0.0, 0.3, &f);
@@ -202,12 +192,11 @@ static void a_turning_edge_meets_a_ridge_where_its_line_does(void **state)
 }
 
 /* As for a node: 1 cm deep at the bottom, outside at both ends. */
-static void a_dip_of_an_edge_within_the_step_is_found(void **state)
+TEST(a_dip_of_an_edge_within_the_step_is_found)
 {
     const double depth = 0.01, a = 10.0, bottom = 0.11;
     scene s;
     scene_flight f;
-    (void)state;
     const dem_index k = open_edge(&s, -depth + 0.5 * a * bottom * bottom);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.0, -a * bottom});
     scene_fly(&s, (vec2){0.0, a}, 0.0, 0.2, &f);
@@ -218,11 +207,10 @@ static void a_dip_of_an_edge_within_the_step_is_found(void **state)
 
 /* Down and left with 1 m/s each way: the ridge goes in through the edge 1 cm before its end, and is beyond that by the
  * next sample. */
-static void a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found(void **state)
+TEST(a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found)
 {
     scene s;
     scene_flight f;
-    (void)state;
     scene_open_triangle(&s, masses, -2.0 + 0.03, 0.02, &roof, 1);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-1.0, -1.0});
@@ -233,12 +221,11 @@ static void a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found(voi
 
 /* Near node 1, at s = 0.9, the edge dips while node 0 rises all the time: h + a t^2/2 - 0.9 a b t is lowest at 0.9 b,
  * between two samples, where it is 1 mm deeper than the penetration tolerance and nothing else would tell. */
-static void a_dip_at_one_end_of_a_turning_edge_is_found(void **state)
+TEST(a_dip_at_one_end_of_a_turning_edge_is_found)
 {
     const double a = 10.0, b = 0.1, low = 0.405 * a * b * b, depth = 2.0 * penetration_tolerance;
     scene s;
     scene_flight f;
-    (void)state;
     scene_open_triangle(&s, masses, -1.8, low - depth, &roof, 1);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 1, 0.2, low - depth, 0.0, -a * b);
@@ -275,11 +262,10 @@ static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
 
 /* Slides from x = 3 with 2 m/s: beyond the end by the penetration tolerance after half a second and the time for
  * that. */
-static void a_sliding_candidate_is_first_due_when_it_reaches_the_end(void **state)
+TEST(a_sliding_candidate_is_first_due_when_it_reaches_the_end)
 {
     scene s;
     scene_flight f;
-    (void)state;
     open_node(&s, 3.0, 0.0, 2.0, 0.0);
     close_contact(&s, 0, 0, 1);
     scene_fly(&s, nothing, 1.0, 0.7, &f);
@@ -289,11 +275,10 @@ static void a_sliding_candidate_is_first_due_when_it_reaches_the_end(void **stat
 
 /* The ridge is 0.5 m before the edge's end and the body goes left with 2 m/s: it passes the end by the penetration
  * tolerance. */
-static void a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end(void **state)
+TEST(a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end)
 {
     scene s;
     scene_flight f;
-    (void)state;
     const dem_index k = open_edge(&s, 0.0);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-2.0, 0.0});
     close_contact(&s, k, 0, 1);
@@ -304,11 +289,10 @@ static void a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end(void **s
 
 /* Node 0 on the ledge, the edge on the ridge at s: that takes m g/s for node 1, and so node 0 presses the ledge with
  * m g - (1 - s) m g/s, which is nothing where s = 1/2. The body goes right with 2 m/s from s = 0.75. */
-static void a_node_is_first_due_when_the_edge_beside_it_takes_its_weight(void **state)
+TEST(a_node_is_first_due_when_the_edge_beside_it_takes_its_weight)
 {
     scene s;
     scene_flight f;
-    (void)state;
     scene_open_triangle(&s, masses, -1.5, 0.0, roof_and_ledge, 2);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, 0.0});
@@ -323,7 +307,7 @@ static void a_node_is_first_due_when_the_edge_beside_it_takes_its_weight(void **
 
 /* A square 0 to 3, of which edge 0-1 is closed, and two more nodes: those of the group, and the edge's neighbours, are
  * where the dense output has them; others are not looked at. */
-static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void **state)
+TEST(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours)
 {
     const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
     const double mass[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
@@ -331,7 +315,6 @@ static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void 
     scene s;
     scene_flight f;
     double y[24];
-    (void)state;
     scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
     scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
     close_contact(&s, scene_edge(&s, 0, 1), 0, 1);
@@ -344,7 +327,7 @@ static void the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours(void 
 }
 
 /* A square 0 to 3 and two more nodes: the gap of an edge depends on its nodes and on those before and after it. */
-static void the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them(void **state)
+TEST(the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them)
 {
     const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
     const double mass[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
@@ -352,7 +335,6 @@ static void the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them(
     scene s;
     scene_flight f;
     double y[24];
-    (void)state;
     scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
     scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
     dense_output_state(&f.dense, 0.3, y);
@@ -362,29 +344,4 @@ static void the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them(
     event_location_place(&s.c.set.list[scene_edge(&s, 0, 1)], &f.dense, 0.3, f.scratch);
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k < 8 ? y[k] : 77.0, 0.0);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(times_are_located_to_a_hundred_units_of_rounding),
-        cmocka_unit_test(a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall),
-        cmocka_unit_test(a_crossing_just_before_the_end_is_found),
-        cmocka_unit_test(a_dip_within_the_step_is_found),
-        cmocka_unit_test(the_shortest_dip_is_found_and_a_near_miss_is_none),
-        cmocka_unit_test(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap),
-        cmocka_unit_test(a_plate_between_two_ends_that_recede_is_found),
-        cmocka_unit_test(a_candidate_out_of_reach_never_crosses),
-        cmocka_unit_test(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall),
-        cmocka_unit_test(a_turning_edge_meets_a_ridge_where_its_line_does),
-        cmocka_unit_test(a_dip_of_an_edge_within_the_step_is_found),
-        cmocka_unit_test(a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found),
-        cmocka_unit_test(a_dip_at_one_end_of_a_turning_edge_is_found),
-        cmocka_unit_test(a_sliding_candidate_is_first_due_when_it_reaches_the_end),
-        cmocka_unit_test(a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end),
-        cmocka_unit_test(a_node_is_first_due_when_the_edge_beside_it_takes_its_weight),
-        cmocka_unit_test(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours),
-        cmocka_unit_test(the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,11 +14,10 @@ static vec2 momentum(scene *s)
 }
 
 /* J = -(1 + eta) v_n/W, shared as 1 - s and s, W = (1 - s)^2/m_0 + s^2/m_1. */
-static void an_edge_on_a_vertex_shares_its_impulse_by_the_place(void **state)
+TEST(an_edge_on_a_vertex_shares_its_impulse_by_the_place)
 {
     const double fraction[3] = {0.25, 0.5, 1.0};
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
-    (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
         const double q = fraction[k], vn = -2.0 * (1.0 - q) - q, J = -1.5 * vn / mobility(q);
@@ -49,12 +48,11 @@ static void an_edge_on_a_vertex_shares_its_impulse_by_the_place(void **state)
 
 /* Turned by 0.3: all along the edge's own normal and tangent. mu = 1/4 gives mu J against the sliding, or what stops
  * the point if that is less: v_t/W. */
-static void friction_on_a_vertex_has_coulombs_limit(void **state)
+TEST(friction_on_a_vertex_has_coulombs_limit)
 {
     const double q = 0.25, angle = 0.3, vn = -2.0, W = mobility(q), J = 1.5 * 2.0 / W, along[3] = {2.0, -2.0, 0.5};
     const vec2 t = {cos(angle), sin(angle)}, n = {-t.y, t.x};
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.25);
-    (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
         const double vt = along[k], Jt = k == 2 ? -vt / W : (k == 0 ? -0.25 * J : 0.25 * J);
@@ -77,12 +75,11 @@ static void friction_on_a_vertex_has_coulombs_limit(void **state)
 }
 
 /* (10): mu v_t is left of the point's tangential velocity. */
-static void the_papers_friction_on_a_vertex_leaves_its_share(void **state)
+TEST(the_papers_friction_on_a_vertex_leaves_its_share)
 {
     const double q = 0.25, W = mobility(q);
     dem_obstacle roof = obstacle(3, roof_points, 1.0, 0.25);
     scene s;
-    (void)state;
     roof.friction_law = DEM_FRICTION_PAPER;
     const dem_index edge = open_edge(&s, &roof, q, 0.0);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, -1.0});
@@ -95,10 +92,9 @@ static void the_papers_friction_on_a_vertex_leaves_its_share(void **state)
 /* The edge is put back on the ridge, its nodes by their parts in it and their mobilities: the lift of node i is d
  * w_i/m_i/W, d the penetration tolerance. Falling at rest otherwise, it stays: a contact that slides or, with friction,
  * sticks at its place. */
-static void a_plastic_impact_leaves_an_edge_closed_on_the_vertex(void **state)
+TEST(a_plastic_impact_leaves_an_edge_closed_on_the_vertex)
 {
     const double q = 0.25, W = mobility(q), mu[2] = {0.0, 2.0};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
         const dem_obstacle roof = obstacle(3, roof_points, 0.0, mu[k]);
@@ -125,12 +121,11 @@ static void a_plastic_impact_leaves_an_edge_closed_on_the_vertex(void **state)
 }
 
 /* As for a node: J = 1/W without the rebound, and 1/4 of it along. */
-static void what_closes_on_a_vertex_has_not_rebounded(void **state)
+TEST(what_closes_on_a_vertex_has_not_rebounded)
 {
     const double q = 0.25, J = 1.0 / mobility(q);
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.25);
     scene s;
-    (void)state;
     const dem_index edge = open_edge(&s, &roof, q, 0.0);
     s.c.set.scene.rule.rest_speed = 10.0;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, -1.0});
@@ -146,11 +141,10 @@ static void what_closes_on_a_vertex_has_not_rebounded(void **state)
 }
 
 /* What was kept of one impact would make the contact of the next look new, or as if it had opened. */
-static void nothing_is_left_of_an_impact_for_the_next(void **state)
+TEST(nothing_is_left_of_an_impact_for_the_next)
 {
     const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
     scene s;
-    (void)state;
     const dem_index edge = open_edge(&s, &roof, 0.25, 0.0);
     hit(&s, edge, 1, 0, 0);
     assert_int_equal(s.c.set.list[edge].n_closed, 1);
@@ -162,10 +156,9 @@ static void nothing_is_left_of_an_impact_for_the_next(void **state)
 
 /* Nothing presses but the edge's own turning: stopped at the ridge it turns with omega < 0, and sliding with v_t < 0
  * it would have to be accelerated by 2 omega v_t > 0 to keep its distance: it stays. The other way it leaves. */
-static void a_turning_edge_that_slides_towards_the_vertex_stays_on_it(void **state)
+TEST(a_turning_edge_that_slides_towards_the_vertex_stays_on_it)
 {
     const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
-    (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
         const dem_index edge = open_edge(&s, &roof, 0.25, 0.0);
@@ -194,10 +187,9 @@ static dem_index open_clamp(scene *s, double fraction, double eta, double mu)
 
 /* Each of the sweeps leaves (1 - s)^2/m_0/W of what was before, at s = 1/4 0.964: they do not come to an end. Nothing
  * moves on: the ridge gives J = m_1/s so that node 1 stops, the plate (1 - s) J down on node 0. */
-static void a_plastic_group_stops_what_approaches(void **state)
+TEST(a_plastic_group_stops_what_approaches)
 {
     const double fraction[3] = {0.75, 0.5, 0.25};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
         const dem_index edge = open_clamp(&s, fraction[k], 0.0, 0.0);
@@ -216,10 +208,9 @@ static void a_plastic_group_stops_what_approaches(void **state)
     }
 }
 
-static void an_elastic_group_keeps_its_energy_and_leaves_no_approach(void **state)
+TEST(an_elastic_group_keeps_its_energy_and_leaves_no_approach)
 {
     const double fraction[3] = {0.75, 0.5, 0.25};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
         const double q = fraction[k];
@@ -238,10 +229,9 @@ static void an_elastic_group_keeps_its_energy_and_leaves_no_approach(void **stat
 }
 
 /* Between the two energy goes, momentum is what both gave, and nothing approaches. */
-static void a_group_with_friction_enters_what_it_loses(void **state)
+TEST(a_group_with_friction_enters_what_it_loses)
 {
     scene s;
-    (void)state;
     const dem_index edge = open_clamp(&s, 0.6, 0.5, 0.3);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.4, i == 0 ? 0.0 : -1.0});
     const double before = kinetic(&s);
@@ -254,21 +244,4 @@ static void a_group_with_friction_enters_what_it_loses(void **state)
     assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-12);
     assert_true(velocity(&s, 0).y <= 1e-11 && 0.4 * velocity(&s, 0).y + 0.6 * velocity(&s, 1).y >= -1e-11);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_edge_on_a_vertex_shares_its_impulse_by_the_place),
-        cmocka_unit_test(friction_on_a_vertex_has_coulombs_limit),
-        cmocka_unit_test(the_papers_friction_on_a_vertex_leaves_its_share),
-        cmocka_unit_test(a_plastic_impact_leaves_an_edge_closed_on_the_vertex),
-        cmocka_unit_test(what_closes_on_a_vertex_has_not_rebounded),
-        cmocka_unit_test(nothing_is_left_of_an_impact_for_the_next),
-        cmocka_unit_test(a_turning_edge_that_slides_towards_the_vertex_stays_on_it),
-        cmocka_unit_test(a_plastic_group_stops_what_approaches),
-        cmocka_unit_test(an_elastic_group_keeps_its_energy_and_leaves_no_approach),
-        cmocka_unit_test(a_group_with_friction_enters_what_it_loses),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

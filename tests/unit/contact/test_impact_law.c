@@ -44,36 +44,32 @@ static vec2 rebound(const impact_surface *surface, int n, vec2 v)
 
 /* ---- one surface ---- */
 
-static void an_elastic_impact_reflects_at_the_surface(void **state)
+TEST(an_elastic_impact_reflects_at_the_surface)
 {
     const impact_surface level = smooth(0.0, 1.0, 1.0), tilted = smooth(sqrt(0.5), sqrt(0.5), 1.0);
-    (void)state;
     check_vector(rebound(&level, 1, (vec2){3.0, -4.0}), 3.0, 4.0, 0.0);     /* (8) */
     check_vector(rebound(&tilted, 1, (vec2){-3.0, 0.5}), -0.5, 3.0, 1e-15); /* swaps and turns the components */
 }
 
-static void restitution_scales_the_normal_part_and_leaves_the_tangential_one(void **state)
+TEST(restitution_scales_the_normal_part_and_leaves_the_tangential_one)
 {
     const impact_surface level = smooth(0.0, 1.0, 0.25), plastic = smooth(0.0, 1.0, 0.0);
-    (void)state;
     check_vector(rebound(&level, 1, (vec2){3.0, -4.0}), 3.0, 1.0, 0.0); /* (9) */
     check_vector(rebound(&plastic, 1, (vec2){3.0, -4.0}), 3.0, 0.0, 0.0);
 }
 
-static void what_does_not_approach_is_not_changed(void **state)
+TEST(what_does_not_approach_is_not_changed)
 {
     const impact_surface level = smooth(0.0, 1.0, 0.5);
-    (void)state;
     check_vector(rebound(&level, 1, (vec2){3.0, 4.0}), 3.0, 4.0, 0.0);
     check_vector(rebound(&level, 1, (vec2){3.0, 0.0}), 3.0, 0.0, 0.0);
 }
 
 /* A push of 1 m/s^2 on what is reflected 1 m below the surface and put back on it, again and again: the height of its
  * hops at last. At eta = 0.995 it would be 99 m; it is not followed beyond 50 m. */
-static void hops_kept_up_by_the_depth_of_impacts_reach_their_height(void **state)
+TEST(hops_kept_up_by_the_depth_of_impacts_reach_their_height)
 {
     static const double eta[4] = {0.0, 0.3, 0.5, 0.9};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const impact_surface level = smooth(0.0, 1.0, eta[k]);
         double speed = 0.0;
@@ -91,10 +87,9 @@ static void hops_kept_up_by_the_depth_of_impacts_reach_their_height(void **state
 
 /* ---- two surfaces ---- */
 
-static void a_corner_turns_back_only_what_approaches_each_wall(void **state)
+TEST(a_corner_turns_back_only_what_approaches_each_wall)
 {
     const impact_surface walls[2] = {smooth(0.0, 1.0, 0.5), smooth(-1.0, 0.0, 0.25)};
-    (void)state;
     check_vector(rebound(walls, 2, (vec2){-1.0, -2.0}), -1.0, 1.0, 0.0); /* the floor alone */
     check_vector(rebound(walls, 2, (vec2){2.0, 1.0}), -0.5, 1.0, 0.0);   /* the wall alone */
     check_vector(rebound(walls, 2, (vec2){2.0, -4.0}), -0.5, 2.0, 0.0);  /* both */
@@ -102,21 +97,19 @@ static void a_corner_turns_back_only_what_approaches_each_wall(void **state)
 }
 
 /* Walls at 60 degrees to the vertical, a groove: straight in, both act and the velocity is -eta v. */
-static void a_groove_sends_a_velocity_inside_its_cone_straight_back(void **state)
+TEST(a_groove_sends_a_velocity_inside_its_cone_straight_back)
 {
     const impact_surface walls[2] = {smooth(0.5 * sqrt(3.0), 0.5, 0.5), smooth(-0.5 * sqrt(3.0), 0.5, 0.5)};
-    (void)state;
     check_vector(rebound(walls, 2, (vec2){0.3, -2.0}), -0.15, 1.0, 1e-15);
 }
 
 /* In a blunt corner a velocity outside the cone of the inward normals meets one wall, whatever the order of the two,
  * although it approaches both: the plastic impact leaves it gliding off the other. */
-static void a_velocity_outside_the_cone_meets_one_wall_only(void **state)
+TEST(a_velocity_outside_the_cone_meets_one_wall_only)
 {
     const vec2 n0 = direction(1.8), n1 = direction(1.2), v = direction(1.5 - 2.0);
     const impact_surface order[2] = {smooth(n0.x, n0.y, 0.0), smooth(n1.x, n1.y, 0.0)},
                          reverse[2] = {smooth(n1.x, n1.y, 0.0), smooth(n0.x, n0.y, 0.0)};
-    (void)state;
     assert_true(vec2_dot(v, n0) < 0.0 && vec2_dot(v, n1) < 0.0);
     const vec2 first = rebound(order, 2, v), second = rebound(reverse, 2, v);
     const vec2 alone = rebound(&order[0], 1, v);
@@ -126,11 +119,10 @@ static void a_velocity_outside_the_cone_meets_one_wall_only(void **state)
 }
 
 /* 8e-10 rad apart: what one of them leaves of the velocity runs into the other, by 1.6e-19 of it. */
-static void two_walls_as_good_as_parallel_are_one(void **state)
+TEST(two_walls_as_good_as_parallel_are_one)
 {
     const impact_surface walls[2] = {smooth(4e-10, 1.0, 0.5), smooth(-4e-10, 1.0, 0.5)},
                          exchanged[2] = {walls[1], walls[0]};
-    (void)state;
     check_vector(rebound(walls, 2, (vec2){0.0, -1.0}), 6e-10, 0.5, 1e-15);
     check_vector(rebound(exchanged, 2, (vec2){0.0, -1.0}), -6e-10, 0.5, 1e-15);
 }
@@ -138,10 +130,9 @@ static void two_walls_as_good_as_parallel_are_one(void **state)
 /* ---- friction ---- */
 
 /* (eta, mu) and the tangential velocities of the exact case f3 of the verification suite, v = (3, -2). */
-static void coulomb_friction_takes_up_to_mu_times_the_normal_change_from_what_slides(void **state)
+TEST(coulomb_friction_takes_up_to_mu_times_the_normal_change_from_what_slides)
 {
     static const double eta[3] = {0.5, 0.5, 0.8}, mu[3] = {0.3, 0.9, 1.5}, slides[3] = {2.1, 0.3, 0.0};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const impact_surface level = rough((vec2){0.0, 1.0}, eta[k], mu[k], DEM_FRICTION_COULOMB);
         check_vector(rebound(&level, 1, (vec2){3.0, -2.0}), slides[k], 2.0 * eta[k], 1e-15); /* rounding of products */
@@ -152,10 +143,9 @@ static void coulomb_friction_takes_up_to_mu_times_the_normal_change_from_what_sl
 }
 
 /* Kept is mu v_t, whatever the restitution and the normal velocity: mu = 1 is smooth, mu = 0 sticks. */
-static void the_law_of_the_paper_keeps_mu_times_the_tangential_velocity(void **state)
+TEST(the_law_of_the_paper_keeps_mu_times_the_tangential_velocity)
 {
     static const double mu[3] = {0.3, 0.0, 1.0};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const impact_surface level = rough((vec2){0.0, 1.0}, 0.5, mu[k], DEM_FRICTION_PAPER);
         check_vector(rebound(&level, 1, (vec2){3.0, -2.0}), 3.0 * mu[k], 1.0, 1e-15); /* (10); rounding of 0.9 */
@@ -166,12 +156,11 @@ static void the_law_of_the_paper_keeps_mu_times_the_tangential_velocity(void **s
 
 /* In a corner friction acts on the one wall that acts: the floor rubs what comes from the right, the wall what comes
  * from above; where both act there is none, and the kicks go along the normals. */
-static void in_a_corner_friction_acts_where_one_wall_acts_alone(void **state)
+TEST(in_a_corner_friction_acts_where_one_wall_acts_alone)
 {
     const impact_surface walls[2] = {rough((vec2){0.0, 1.0}, 0.5, 0.1, DEM_FRICTION_COULOMB),
                                      rough((vec2){-1.0, 0.0}, 0.25, 0.6, DEM_FRICTION_PAPER)};
     vec2 kick[2];
-    (void)state;
     /* rounding of velocities of order 1 in all */
     check_vector(impact_law_rebound(walls, 2, (vec2){-1.0, -2.0}, kick), -0.7, 1.0, 1e-15); /* 0.1 of 3 m/s */
     check_vector(kick[0], 0.3, 3.0, 1e-15);
@@ -188,13 +177,12 @@ static void in_a_corner_friction_acts_where_one_wall_acts_alone(void **state)
 }
 
 /* An acute corner where both act takes the smaller restitution in the kicks as well. */
-static void the_kicks_of_an_acute_corner_have_the_smaller_restitution(void **state)
+TEST(the_kicks_of_an_acute_corner_have_the_smaller_restitution)
 {
     const vec2 n[2] = {{0.0, 1.0}, {sin(0.4), -cos(0.4)}};
     const impact_surface wedge[2] = {smooth(n[0].x, n[0].y, 1.0), smooth(n[1].x, n[1].y, 0.25)};
     const vec2 v = vec2_along(vec2_scale(-2.0, n[0]), -3.0, n[1]);
     vec2 kick[2];
-    (void)state;
     /* rounding of velocities of order 1 over the sine of the corner, 0.39 */
     check_vector(impact_law_rebound(wedge, 2, v, kick), -0.25 * v.x, -0.25 * v.y, 1e-14);
     check_vector(kick[0], 2.5 * n[0].x, 2.5 * n[0].y, 1e-14);
@@ -232,10 +220,9 @@ static void sweep_friction(sweep *w)
     }
 }
 
-static void energy_never_grows(void **state)
+TEST(energy_never_grows)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    (void)state;
     for (int k = 0; k < 40000; k++) {
         sweep_next(&w);
         if (k >= 20000) sweep_friction(&w);
@@ -249,17 +236,15 @@ static void energy_never_grows(void **state)
 
 /* A wedge of 0.4 rad with an elastic and a plastic wall: with its own restitution for each wall the energy would
  * grow sevenfold. */
-static void an_acute_corner_takes_the_smaller_restitution(void **state)
+TEST(an_acute_corner_takes_the_smaller_restitution)
 {
     const impact_surface wedge[2] = {smooth(0.0, 1.0, 1.0), smooth(sin(0.4), -cos(0.4), 0.0)};
-    (void)state;
     check_vector(rebound(wedge, 2, (vec2){-1.0, -0.5}), 0.0, 0.0, 1e-15);
 }
 
-static void an_elastic_corner_keeps_the_energy(void **state)
+TEST(an_elastic_corner_keeps_the_energy)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    (void)state;
     for (int k = 0; k < 20000; k++) {
         sweep_next(&w);
         w.s[0].restitution = w.s[1].restitution = 1.0;
@@ -271,11 +256,10 @@ static void an_elastic_corner_keeps_the_energy(void **state)
 
 /* After a plastic impact nothing approaches either wall, what was taken is a push out of them, and no more than
  * needed: where a wall pushes, the node glides along it. */
-static void a_plastic_corner_leaves_what_does_not_approach(void **state)
+TEST(a_plastic_corner_leaves_what_does_not_approach)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     int n_both = 0;
-    (void)state;
     for (int k = 0; k < 20000; k++) {
         double push[2];
         sweep_next(&w);
@@ -295,11 +279,10 @@ static void a_plastic_corner_leaves_what_does_not_approach(void **state)
 
 /* Coulomb's law as inequalities: friction opposes sliding, is no more than mu times the normal kick, and is less only
  * where it stops the sliding. */
-static void friction_is_in_coulombs_cone_and_at_its_rim_where_it_slides_on(void **state)
+TEST(friction_is_in_coulombs_cone_and_at_its_rim_where_it_slides_on)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     int n_stuck = 0, n_slid = 0;
-    (void)state;
     for (int k = 0; k < 20000; k++) {
         sweep_next(&w);
         sweep_friction(&w);
@@ -319,10 +302,9 @@ static void friction_is_in_coulombs_cone_and_at_its_rim_where_it_slides_on(void 
 }
 
 /* The walls of a corner have no order. */
-static void exchanging_the_walls_exchanges_the_kicks(void **state)
+TEST(exchanging_the_walls_exchanges_the_kicks)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    (void)state;
     for (int k = 0; k < 20000; k++) {
         vec2 kick[2], other[2];
         sweep_next(&w);
@@ -335,10 +317,9 @@ static void exchanging_the_walls_exchanges_the_kicks(void **state)
     gsl_rng_free(w.rng);
 }
 
-static void momentum_along_a_smooth_surface_is_kept(void **state)
+TEST(momentum_along_a_smooth_surface_is_kept)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    (void)state;
     for (int k = 0; k < 5000; k++) {
         sweep_next(&w);
         const vec2 n = w.s[0].normal, after = rebound(w.s, 1, w.v);
@@ -351,11 +332,10 @@ static void momentum_along_a_smooth_surface_is_kept(void **state)
 
 /* ---- holding ---- */
 
-static void a_surface_holds_what_presses_on_it(void **state)
+TEST(a_surface_holds_what_presses_on_it)
 {
     const impact_surface level = smooth(0.0, 1.0, 0.5);
     double reaction[2] = {77.0, 77.0};
-    (void)state;
     assert_int_equal(impact_law_holding(&level, 1, (vec2){3.0, -4.0}, reaction), 1);
     assert_close(reaction[0], 4.0, 0.0);
     assert_int_equal(impact_law_holding(&level, 1, (vec2){3.0, 4.0}, reaction), 0);
@@ -363,11 +343,10 @@ static void a_surface_holds_what_presses_on_it(void **state)
     assert_int_equal(impact_law_holding(&level, 1, (vec2){3.0, 0.0}, reaction), 0);
 }
 
-static void the_walls_of_a_corner_hold_together_or_alone(void **state)
+TEST(the_walls_of_a_corner_hold_together_or_alone)
 {
     const impact_surface walls[2] = {smooth(0.0, 1.0, 0.5), smooth(-1.0, 0.0, 0.25)};
     double reaction[2];
-    (void)state;
     assert_int_equal(impact_law_holding(walls, 2, (vec2){2.0, -4.0}, reaction), 3);
     assert_close(reaction[0], 4.0, 0.0);
     assert_close(reaction[1], 2.0, 0.0);
@@ -380,11 +359,10 @@ static void the_walls_of_a_corner_hold_together_or_alone(void **state)
 
 /* Complementarity: no reaction pulls, what is left does not press inwards, and a wall that reacts has nothing left
  * along its normal. Restitution has no say in it. */
-static void reactions_and_what_is_left_are_complementary(void **state)
+TEST(reactions_and_what_is_left_are_complementary)
 {
     sweep w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     int n_of[4] = {0};
-    (void)state;
     for (int k = 0; k < 20000; k++) {
         double reaction[2];
         sweep_next(&w);
@@ -401,33 +379,4 @@ static void reactions_and_what_is_left_are_complementary(void **state)
     }
     for (int q = 0; q < 4; q++) assert_true(n_of[q] > 1000);
     gsl_rng_free(w.rng);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_elastic_impact_reflects_at_the_surface),
-        cmocka_unit_test(restitution_scales_the_normal_part_and_leaves_the_tangential_one),
-        cmocka_unit_test(what_does_not_approach_is_not_changed),
-        cmocka_unit_test(hops_kept_up_by_the_depth_of_impacts_reach_their_height),
-        cmocka_unit_test(a_corner_turns_back_only_what_approaches_each_wall),
-        cmocka_unit_test(a_groove_sends_a_velocity_inside_its_cone_straight_back),
-        cmocka_unit_test(a_velocity_outside_the_cone_meets_one_wall_only),
-        cmocka_unit_test(two_walls_as_good_as_parallel_are_one),
-        cmocka_unit_test(coulomb_friction_takes_up_to_mu_times_the_normal_change_from_what_slides),
-        cmocka_unit_test(the_law_of_the_paper_keeps_mu_times_the_tangential_velocity),
-        cmocka_unit_test(in_a_corner_friction_acts_where_one_wall_acts_alone),
-        cmocka_unit_test(the_kicks_of_an_acute_corner_have_the_smaller_restitution),
-        cmocka_unit_test(energy_never_grows),
-        cmocka_unit_test(an_acute_corner_takes_the_smaller_restitution),
-        cmocka_unit_test(an_elastic_corner_keeps_the_energy),
-        cmocka_unit_test(a_plastic_corner_leaves_what_does_not_approach),
-        cmocka_unit_test(friction_is_in_coulombs_cone_and_at_its_rim_where_it_slides_on),
-        cmocka_unit_test(exchanging_the_walls_exchanges_the_kicks),
-        cmocka_unit_test(momentum_along_a_smooth_surface_is_kept),
-        cmocka_unit_test(a_surface_holds_what_presses_on_it),
-        cmocka_unit_test(the_walls_of_a_corner_hold_together_or_alone),
-        cmocka_unit_test(reactions_and_what_is_left_are_complementary),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,11 +6,10 @@
 /* ---- a node by itself ---- */
 
 /* eta = 1/2, mu = 1/4: 4 m/s down give 2 * 6 N s, of which a quarter takes 1.5 m/s of the 3 along, or all of 1. */
-static void coulomb_friction_takes_at_most_its_share_of_the_normal_impulse(void **state)
+TEST(coulomb_friction_takes_at_most_its_share_of_the_normal_impulse)
 {
     const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
     const double u[4] = {3.0, -3.0, 1.0, 1.5}, after[4] = {1.5, -1.5, 0.0, 0.0};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         scene s;
         open_node(&s, &rough, 1, u[k], -4.0);
@@ -29,12 +28,11 @@ static void coulomb_friction_takes_at_most_its_share_of_the_normal_impulse(void 
 }
 
 /* mu = 1/4 leaves 3 - 1 of 3 m/s when 4 m/s end in it, and nothing of 0.5. */
-static void a_plastic_impact_closes_a_contact_that_slides_or_sticks(void **state)
+TEST(a_plastic_impact_closes_a_contact_that_slides_or_sticks)
 {
     const dem_obstacle rough = obstacle(2, floor_points, 0.0, 0.25);
     const double u[3] = {3.0, -3.0, 0.5}, after[3] = {2.0, -2.0, 0.0};
     const int sign[3] = {1, -1, 0};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         scene s;
         open_node(&s, &rough, 1, u[k], -4.0);
@@ -50,11 +48,10 @@ static void a_plastic_impact_closes_a_contact_that_slides_or_sticks(void **state
 }
 
 /* A rebound of 2 m/s that counts as rest is none: the floor gives 2 * 4 N s, and friction a quarter of that. */
-static void what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_given(void **state)
+TEST(what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_given)
 {
     const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
     scene s;
-    (void)state;
     open_node(&s, &rough, 1, 3.0, -4.0);
     s.c.set.scene.rule.rest_speed = 10.0;
     hit(&s, 0, 1, 0, 0);
@@ -66,10 +63,9 @@ static void what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_giv
 
 /* A window of 1 ms takes hops of up to 2 ms for rest, which start with g times that. A smaller speed of rest does not
  * change that. */
-static void a_hop_of_less_than_twice_the_window_is_rest(void **state)
+TEST(a_hop_of_less_than_twice_the_window_is_rest)
 {
     const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const bool rests = k % 2 == 0;
         scene s;
@@ -84,11 +80,10 @@ static void a_hop_of_less_than_twice_the_window_is_rest(void **state)
 }
 
 /* At rest on the floor nothing is hit: the contact closes without an impact. */
-static void a_node_that_is_laid_down_closes_without_an_impact(void **state)
+TEST(a_node_that_is_laid_down_closes_without_an_impact)
 {
     const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
     scene s;
-    (void)state;
     open_node(&s, &smooth, 1, 2.0, 0.0);
     hit(&s, 0, 1, 0, 0);
     scene_check(&s, 0, 0.25, 0.0, 2.0, 0.0);
@@ -102,10 +97,9 @@ static void a_node_that_is_laid_down_closes_without_an_impact(void **state)
 
 /* Floor and wall, plastic: driven into both it is held; without a wind the wall does not press and the node stays on
  * the floor alone. */
-static void a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it(void **state)
+TEST(a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it)
 {
     const dem_obstacle corner[2] = {obstacle(2, floor_points, 0.0, 0.0), obstacle(2, wall_points, 0.0, 0.0)};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         scene s;
         open_node(&s, corner, 2, 3.0, -4.0);
@@ -119,17 +113,4 @@ static void a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it(voi
         assert_close(s.c.set.ledger.impulse[2], -6.0, 1e-15);
         scene_close(&s);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coulomb_friction_takes_at_most_its_share_of_the_normal_impulse),
-        cmocka_unit_test(a_plastic_impact_closes_a_contact_that_slides_or_sticks),
-        cmocka_unit_test(what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_given),
-        cmocka_unit_test(a_hop_of_less_than_twice_the_window_is_rest),
-        cmocka_unit_test(a_node_that_is_laid_down_closes_without_an_impact),
-        cmocka_unit_test(a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

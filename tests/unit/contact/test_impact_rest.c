@@ -9,12 +9,11 @@
 
 /* The side bends in at node 1 by 1/4 to either side. Pressed down by the weight it comes to rest in the notch if it
  * would not rise by more than eight penetration tolerances; what weighs up, or flies fast, does not. */
-static void a_vertex_comes_to_rest_in_a_notch_it_would_not_leave(void **state)
+TEST(a_vertex_comes_to_rest_in_a_notch_it_would_not_leave)
 {
     const double limit = sqrt(2.0 * g * 8.0 * penetration_tolerance), v[4] = {0.0, 0.99 * limit, 1.01 * limit, 0.0};
     const bool rests[4] = {true, true, false, false};
     const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
-    (void)state;
     for (int k = 0; k < 4; k++) {
         scene s;
         event_listener listener;
@@ -33,12 +32,4 @@ static void a_vertex_comes_to_rest_in_a_notch_it_would_not_leave(void **state)
         assert_false(impact_rest_in_notch(&s.c.set, scene_edge(&s, 0, 1), scene_edge(&s, 1, 2), &flat));
         scene_close(&s);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_vertex_comes_to_rest_in_a_notch_it_would_not_leave),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

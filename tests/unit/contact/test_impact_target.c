@@ -6,7 +6,7 @@
 /* ---- a node by itself ---- */
 
 /* The segment approached faster comes first; between two in line, or at a convex bend, there is only one. */
-static void what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a_corner_with_it(void **state)
+TEST(what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a_corner_with_it)
 {
     const double bent_points[8] = {-4.0, -1.0, 0.0, 0.0, 2.0, 0.0, 4.0, 2.0}; /* convex at 0, concave at 2 */
     const dem_obstacle bent = obstacle(4, bent_points, 0.5, 0.0);
@@ -15,7 +15,6 @@ static void what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a
     const dem_index first[5] = {1, 1, 2, 0, 1}; /* speeds -v.n at 0: (u/4 + 1)/1.03 of the slope and 1 of the level */
     scene s;
     event_listener listener;
-    (void)state;
     open_node(&s, &bent, 1, 0.0, 0.0);
     for (int k = 0; k < 5; k++) {
         scene_put(&s, 0, x[k], -0.5 * penetration_tolerance, u[k], -1.0);
@@ -29,13 +28,12 @@ static void what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a
 }
 
 /* Segments 0 and 1 are neighbours, the wall's 2 stands across 1; the ceiling's 3 is parallel to 1. */
-static void neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross(void **state)
+TEST(neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross)
 {
     const double bent_points[6] = {-4.0, 4.0, 0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = {4.0, 2.0, -1.0, 2.0};
     const dem_obstacle three[3] = {obstacle(3, bent_points, 0.5, 0.0), obstacle(2, wall_points, 0.5, 0.0),
                                    obstacle(2, ceiling_points, 0.5, 0.0)};
     scene s;
-    (void)state;
     open_node(&s, three, 3, 0.0, 0.0);
     const contact_set *c = &s.c.set;
     assert_true(impact_target_is_corner(c, 0, 1, (surface_query){0.0, (vec2){3.9 * penetration_tolerance, 0.0}},
@@ -49,13 +47,12 @@ static void neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross
 }
 
 /* Twice the penetration tolerance, and the way in ten times 100 units of rounding of 0.5 s and a step of 0.01 s. */
-static void an_impact_can_be_as_deep_as_events_are_located(void **state)
+TEST(an_impact_can_be_as_deep_as_events_are_located)
 {
     const double located = 1000.0 * DBL_EPSILON * 0.51;
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     scene s;
     event_listener listener;
-    (void)state;
     scene_open_triangle(&s, masses, -0.5, 0.0, &roof, 1);
     scene_put(&s, 0, -0.5, 0.0, 3e6, -4e6);
     scene_put(&s, 1, 1.5, 0.0, 6e6, 8e6);
@@ -70,13 +67,12 @@ static void an_impact_can_be_as_deep_as_events_are_located(void **state)
 
 /* Right on the ridge the side's normal, up, lies between those of the flanks; two penetration tolerances beside it, or
  * when the side's nodes recede, it is not the side that meets it. */
-static void a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side(void **state)
+TEST(a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side)
 {
     const double x[5] = {0.0, 0.5 * penetration_tolerance, -0.5 * penetration_tolerance, 6.0 * penetration_tolerance,
                          -6.0 * penetration_tolerance},
                  y[3] = {0.0, -0.5 * penetration_tolerance, -penetration_tolerance};
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
-    (void)state;
     for (int k = 0; k < 15; k++) {
         scene s;
         event_listener listener;
@@ -97,13 +93,12 @@ static void a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side(void **s
 }
 
 /* The body's corner is sharper than the roof: neither side's normal lies between those of the flanks. */
-static void a_sharp_corner_of_the_body_on_an_apex_is_a_node(void **state)
+TEST(a_sharp_corner_of_the_body_on_an_apex_is_a_node)
 {
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     scene s;
     event_listener listener;
     dem_index at;
-    (void)state;
     open_side(&s, &roof, 0.0, 0.0, 0.9);
     const contact_instant now = moment(&s, &listener);
     assert_true(impact_target_edge(&s.c.set, 1, &now, &at) >= 0); /* sides at 42 degrees, flanks at 45 */
@@ -118,16 +113,4 @@ static void a_sharp_corner_of_the_body_on_an_apex_is_a_node(void **state)
     const contact_instant last = moment(&s, &listener);
     assert_int_equal(impact_target_edge(&s.c.set, 1, &last, &at), -1);
     scene_close(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a_corner_with_it),
-        cmocka_unit_test(neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross),
-        cmocka_unit_test(an_impact_can_be_as_deep_as_events_are_located),
-        cmocka_unit_test(a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side),
-        cmocka_unit_test(a_sharp_corner_of_the_body_on_an_apex_is_a_node),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

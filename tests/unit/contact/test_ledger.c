@@ -21,10 +21,9 @@ static dem_status hear(void *context, const dem_event *event)
     return h->says[h->n_heard++];
 }
 
-static void a_new_ledger_is_empty(void **state)
+TEST(a_new_ledger_is_empty)
 {
     contact_ledger b;
-    (void)state;
     assert_ok(ledger_create(&b, 3));
     for (int k = 0; k < 6; k++) {
         assert_close(b.impulse[k], 0.0, 0.0);
@@ -39,11 +38,10 @@ static void a_new_ledger_is_empty(void **state)
     ledger_destroy(&b);
 }
 
-static void impulses_add_up_for_each_obstacle_by_itself(void **state)
+TEST(impulses_add_up_for_each_obstacle_by_itself)
 {
     static const double impulse[6] = {1.0, -2.0, 0.0, 0.0, 4.0, 8.0}, friction[6] = {0.5, 0.25, 0.0, 0.0, -1.0, 2.0};
     contact_ledger b;
-    (void)state;
     assert_ok(ledger_create(&b, 3));
     ledger_add_impulse(&b, 0, (vec2){1.0, -2.0}, (vec2){0.5, 0.25});
     ledger_add_impulse(&b, 2, (vec2){1.0, 3.0}, (vec2){-2.0, 1.5});
@@ -65,10 +63,9 @@ static void enter(contact_ledger *b, dem_event_kind kind, dem_index other, int t
 }
 
 /* Every kind another number of times, so that no two can be exchanged unseen. */
-static void every_kind_of_event_has_its_count(void **state)
+TEST(every_kind_of_event_has_its_count)
 {
     contact_ledger b;
-    (void)state;
     assert_ok(ledger_create(&b, 1));
     enter(&b, DEM_EVENT_IMPACT, -1, 3);
     enter(&b, DEM_EVENT_IMPACT, 0, 2); /* node 0 is a node: an edge on a vertex */
@@ -87,7 +84,7 @@ static void every_kind_of_event_has_its_count(void **state)
     ledger_destroy(&b);
 }
 
-static void a_close_event_is_reported_but_counted_where_it_is_done(void **state)
+TEST(a_close_event_is_reported_but_counted_where_it_is_done)
 {
     const dem_event event = {.kind = DEM_EVENT_CLOSE, .other = 4};
     hearer h = {0};
@@ -95,7 +92,6 @@ static void a_close_event_is_reported_but_counted_where_it_is_done(void **state)
     contact_instant now = {.listener = &listener};
     const dem_counts none = {0};
     contact_ledger b;
-    (void)state;
     assert_ok(ledger_create(&b, 1));
     ledger_enter(&b, &event, &now);
     assert_memory_equal(&b.counts, &none, sizeof none);
@@ -105,14 +101,13 @@ static void a_close_event_is_reported_but_counted_where_it_is_done(void **state)
 }
 
 /* The later ones are heard all the same, and do not replace the first. */
-static void the_first_status_other_than_ok_is_kept(void **state)
+TEST(the_first_status_other_than_ok_is_kept)
 {
     const dem_event event = {.kind = DEM_EVENT_SLIP, .other = -1};
     hearer h = {.says = {DEM_OK, DEM_STOPPED, DEM_ERROR_IO, DEM_OK}};
     const event_listener listener = {hear, &h};
     contact_instant now = {.listener = &listener};
     contact_ledger b;
-    (void)state;
     assert_ok(ledger_create(&b, 1));
     ledger_enter(&b, &event, &now);
     assert_int_equal(now.listener_status, DEM_OK);
@@ -123,16 +118,4 @@ static void the_first_status_other_than_ok_is_kept(void **state)
     assert_int_equal(h.n_heard, SCRIPT);
     assert_int_equal(b.counts.slips, SCRIPT);
     ledger_destroy(&b);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_new_ledger_is_empty),
-        cmocka_unit_test(impulses_add_up_for_each_obstacle_by_itself),
-        cmocka_unit_test(every_kind_of_event_has_its_count),
-        cmocka_unit_test(a_close_event_is_reported_but_counted_where_it_is_done),
-        cmocka_unit_test(the_first_status_other_than_ok_is_kept),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

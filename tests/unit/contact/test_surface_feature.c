@@ -2,10 +2,9 @@
 /* surface_feature.c: what contacts ask of surfaces. Tolerances of 0 are copies. */
 #include "unit/bench.h"
 
-static void a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there(void **state)
+TEST(a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there)
 {
     bench b;
-    (void)state;
     bench_open(&b, 2);
     const dem_index edge = bench_edge(&b, 0, 1);
     b.segments[3].obstacle = 2;
@@ -21,10 +20,9 @@ static void a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there(void
     assert_true(candidate_is_edge(&b.candidates[edge]));
 }
 
-static void a_law_is_that_of_the_obstacle(void **state)
+TEST(a_law_is_that_of_the_obstacle)
 {
     bench b;
-    (void)state;
     bench_open(&b, 1);
     b.list[2].restitution = 0.25;
     const contact_law law = contact_law_of(&b.scene, 2);
@@ -36,11 +34,10 @@ static void a_law_is_that_of_the_obstacle(void **state)
 }
 
 /* Free at its start, buried by 1 mm at its end, and one that goes on at both. */
-static void a_free_end_counts_as_far_as_the_segment_is_buried(void **state)
+TEST(a_free_end_counts_as_far_as_the_segment_is_buried)
 {
     const double tolerance = 1e-6, margin = 11e-6; /* ten penetration tolerances, and the tolerance */
     bench b;
-    (void)state;
     bench_open(&b, 1);
     b.segments[0] = (segment){.length = 1.0, .before = -1, .after = -1, .buried = {0.0, 1e-3}};
     b.segments[1] = (segment){.length = 1.0, .before = 0, .after = 2};
@@ -53,10 +50,9 @@ static void a_free_end_counts_as_far_as_the_segment_is_buried(void **state)
     assert_false(surface_at_free_end(&b.scene, 1, 1.0, tolerance));
 }
 
-static void the_cone_of_a_vertex_lies_between_the_normals_of_its_segments(void **state)
+TEST(the_cone_of_a_vertex_lies_between_the_normals_of_its_segments)
 {
     bench b;
-    (void)state;
     bench_open(&b, 1);
     b.segments[0].normal = (vec2){-0.6, 0.8};
     b.segments[1].normal = (vec2){0.6, 0.8};
@@ -65,15 +61,4 @@ static void the_cone_of_a_vertex_lies_between_the_normals_of_its_segments(void *
     assert_true(surface_in_cone(&b.scene, 4, 0.0, (vec2){0.6, 0.8}));
     assert_false(surface_in_cone(&b.scene, 4, 0.0, (vec2){0.8, 0.6}));
     assert_false(surface_in_cone(&b.scene, 4, 0.0, (vec2){-0.8, 0.6}));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there),
-        cmocka_unit_test(a_law_is_that_of_the_obstacle),
-        cmocka_unit_test(a_free_end_counts_as_far_as_the_segment_is_buried),
-        cmocka_unit_test(the_cone_of_a_vertex_lies_between_the_normals_of_its_segments),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,10 +10,9 @@ static dem_index ends[10] = {0, 1, 1, 2, 2, 0, 1, 3, 3, 2}, corners[6] = {0, 1, 
 static const dem_lattice lattice = {
     .dim = 2, .n_nodes = 4, .n_springs = 5, .n_triangles = 2, .ends = ends, .triangles = corners};
 
-static void all_are_whole_at_first(void **state)
+TEST(all_are_whole_at_first)
 {
     element_state s;
-    (void)state;
     assert_ok(element_state_create(&s, &lattice));
     assert_int_equal(s.n_damaged, 0);
     for (dem_index k = 0; k < 5; k++) assert_int_equal(s.spring[k], 0);
@@ -24,19 +23,17 @@ static void all_are_whole_at_first(void **state)
     assert_null(s.spring);
 }
 
-static void no_state_is_one_of_whole_elements(void **state)
+TEST(no_state_is_one_of_whole_elements)
 {
-    (void)state;
     assert_null(element_state_at(NULL, 3));
     assert_null(element_state_springs(NULL));
     assert_null(element_state_triangles(NULL));
 }
 
-static void a_node_beside_what_is_broken_is_listed_once(void **state)
+TEST(a_node_beside_what_is_broken_is_listed_once)
 {
     const dem_index expected[4] = {1, 3, 2, 0};
     element_state s;
-    (void)state;
     assert_ok(element_state_create(&s, &lattice));
     element_state_break_spring(&s, &lattice, 3); /* 1 - 3 */
     assert_int_equal(s.n_damaged, 2);
@@ -53,14 +50,4 @@ static void a_node_beside_what_is_broken_is_listed_once(void **state)
     assert_ptr_equal(element_state_triangles(&s), s.triangle);
     assert_memory_equal(s.triangle, ((const unsigned char[2]){0, 1}), 2);
     element_state_destroy(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_are_whole_at_first),
-        cmocka_unit_test(no_state_is_one_of_whole_elements),
-        cmocka_unit_test(a_node_beside_what_is_broken_is_listed_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

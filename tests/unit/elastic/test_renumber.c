@@ -48,9 +48,8 @@ static void shuffle(dem_index *at, unsigned long seed)
 }
 
 /* Numbered along themselves, neighbours are next to each other: span 1; wherever the list of springs begins. */
-static void shuffled_chains_are_numbered_along_themselves(void **state)
+TEST(shuffled_chains_are_numbered_along_themselves)
 {
-    (void)state;
     for (unsigned long seed = 1; seed <= 20; seed++) {
         dem_index at[n];
         chain c;
@@ -64,11 +63,10 @@ static void shuffled_chains_are_numbered_along_themselves(void **state)
     }
 }
 
-static void nodes_without_springs_are_numbered_too(void **state)
+TEST(nodes_without_springs_are_numbered_too)
 {
     dem_index at[n];
     chain c;
-    (void)state;
     shuffle(at, 1);
     make_chains(&c, at);
     springs_free(&c.springs);
@@ -78,13 +76,4 @@ static void nodes_without_springs_are_numbered_too(void **state)
     assert_int_equal(renumber_span(&c.springs, c.place), 0);
     for (dem_index q = 0; q < n; q++) assert_int_equal(c.place[c.order[q]], q);
     springs_free(&c.springs);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shuffled_chains_are_numbered_along_themselves),
-        cmocka_unit_test(nodes_without_springs_are_numbered_too),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,10 +72,9 @@ static void stir(double *x, dem_index n, double by, unsigned long seed)
 }
 
 /* Strain and force of every spring in the order of the lattice, and r x f, from the two ends by hand. */
-static void strain_force_and_virial_are_those_of_each_spring(void **state)
+TEST(strain_force_and_virial_are_those_of_each_spring)
 {
     double x[2 * n_nodes], strain[n_springs], force[n_springs], virial[3];
-    (void)state;
     dem_lattice lattice = make_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.3, 5);
@@ -97,12 +96,11 @@ static void strain_force_and_virial_are_those_of_each_spring(void **state)
 
 /* ---- rows ---- */
 
-static void rows_list_the_neighbours_in_ascending_order(void **state)
+TEST(rows_list_the_neighbours_in_ascending_order)
 {
     static const dem_index row[n_nodes + 1] = {0, 3, 6, 8, 9, 12};
     static const dem_index neighbour[2 * n_springs] = {1, 3, 4, 0, 2, 4, 1, 4, 0, 0, 1, 2};
     static const dem_index spring[2 * n_springs] = {4, 1, 0, 4, 3, 2, 3, 5, 1, 0, 2, 5};
-    (void)state;
     springs s = compile_net();
     assert_int_equal(s.n_nodes, n_nodes);
     assert_int_equal(s.n_springs, n_springs);
@@ -119,12 +117,11 @@ static void rows_list_the_neighbours_in_ascending_order(void **state)
     assert_null(s.viscosity);
 }
 
-static void two_springs_between_the_same_nodes_are_named(void **state)
+TEST(two_springs_between_the_same_nodes_are_named)
 {
     static const dem_index alike[8] = {0, 1, 2, 1, 0, 2, 2, 1}, turned[8] = {2, 1, 0, 1, 2, 0, 1, 0};
     dem_lattice lattice;
     springs s = {.n_nodes = 77};
-    (void)state;
     support_lattice(&lattice, 3, corners, masses, 4, alike, 1.0, 1.0, NULL);
     assert_int_equal(springs_compile(&s, &lattice), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "springs 1 and 3 both join nodes 1 and 2");
@@ -136,11 +133,10 @@ static void two_springs_between_the_same_nodes_are_named(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void nodes_without_springs_feel_nothing(void **state)
+TEST(nodes_without_springs_feel_nothing)
 {
     dem_lattice lattice;
     springs s;
-    (void)state;
     support_lattice(&lattice, n_nodes, corners, masses, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(springs_compile(&s, &lattice));
     for (dem_index i = 0; i < n_nodes; i++) {
@@ -157,10 +153,9 @@ static void nodes_without_springs_feel_nothing(void **state)
 
 /* E = 100 N, d0 = 2 m, d = 5 m: 100 N (5 - 2)/2 = 150 N along (3, 4)/5; energy 100 * 2/2 * 1.5^2 = 225 J. Rounding
  * only. */
-static void a_stretched_spring_pulls_with_stiffness_times_strain(void **state)
+TEST(a_stretched_spring_pulls_with_stiffness_times_strain)
 {
     const double x[4] = {1.0, -1.0, 4.0, 3.0};
-    (void)state;
     dem_lattice lattice = make_pair(x, 2.0, 100.0);
     springs s = compile_pair(x, 2.0, 100.0);
     const vec2 first = springs_force(&s, NULL, 0, x), second = springs_force(&s, NULL, 1, x);
@@ -174,10 +169,9 @@ static void a_stretched_spring_pulls_with_stiffness_times_strain(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_compressed_spring_pushes(void **state)
+TEST(a_compressed_spring_pushes)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.5};
-    (void)state;
     springs s = compile_pair(x, 2.0, 100.0);
     assert_close(springs_force(&s, NULL, 0, x).y, -25.0, 0.0);
     assert_close(springs_force(&s, NULL, 1, x).y, 25.0, 0.0);
@@ -187,11 +181,10 @@ static void a_compressed_spring_pushes(void **state)
 
 /* Central differences over 1e-5 m: truncation of order 1e-10 times E/d^3 = 1e3 N/m^3, rounding of order 1e-16 * 100
  * J/1e-5 m. */
-static void the_force_is_minus_the_gradient_of_the_energy(void **state)
+TEST(the_force_is_minus_the_gradient_of_the_energy)
 {
     const double step = 1e-5;
     double x[2 * n_nodes];
-    (void)state;
     dem_lattice lattice = make_net();
     springs s = compile_net();
     memcpy(x, corners, sizeof x);
@@ -214,11 +207,10 @@ static void the_force_is_minus_the_gradient_of_the_energy(void **state)
 }
 
 /* Rounding of sums of a dozen terms of about 100 N. */
-static void springs_exert_no_force_and_no_torque_on_the_whole(void **state)
+TEST(springs_exert_no_force_and_no_torque_on_the_whole)
 {
     double x[2 * n_nodes], torque = 0.0, energy = 0.0;
     vec2 total = {0.0, 0.0};
-    (void)state;
     dem_lattice lattice = make_net();
     springs s = compile_net();
     memcpy(x, corners, sizeof x);
@@ -238,10 +230,9 @@ static void springs_exert_no_force_and_no_torque_on_the_whole(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void nodes_that_coincide_give_a_force_that_is_no_number(void **state)
+TEST(nodes_that_coincide_give_a_force_that_is_no_number)
 {
     const double apart[4] = {0.0, 0.0, 1.0, 0.0}, together[4] = {0.3, 0.7, 0.3, 0.7};
-    (void)state;
     dem_lattice lattice = make_pair(apart, 1.0, 10.0);
     springs s = compile_pair(apart, 1.0, 10.0);
     assert_true(isnan(springs_force(&s, NULL, 0, together).x) != 0);
@@ -253,10 +244,9 @@ static void nodes_that_coincide_give_a_force_that_is_no_number(void **state)
 
 /* ---- damping ---- */
 
-static void springs_without_viscosities_stay_without(void **state)
+TEST(springs_without_viscosities_stay_without)
 {
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, v[4] = {0.0, 0.0, 1.0, 0.0}, inverse_mass[2] = {1.0, 1.0};
-    (void)state;
     springs s = compile_pair(x, 1.0, 10.0);
     assert_null(s.viscosity);
     assert_close(springs_damping_power(&s, NULL, x, v), 0.0, 0.0);
@@ -280,10 +270,9 @@ static springs compile_damped_pair(const double x[4], double rest_length, double
 
 /* c = 6 N s, d0 = 2 m, d = 5 m along (3, 4)/5. The ends part with (7, -1) m/s, along the spring (21 - 4)/5 = 3.4 m/s:
  * 6 N s * 3.4/2 = 10.2 N along (3, 4)/5, that takes 10.2 N * 3.4 m/s. Rounding only. */
-static void a_lengthening_spring_pulls_with_viscosity_times_strain_rate(void **state)
+TEST(a_lengthening_spring_pulls_with_viscosity_times_strain_rate)
 {
     const double x[4] = {1.0, -1.0, 4.0, 3.0}, v[4] = {-2.0, 5.0, 5.0, 4.0};
-    (void)state;
     springs s = compile_damped_pair(x, 2.0, 6.0);
     const vec2 first = springs_damping(&s, NULL, 0, x, v), second = springs_damping(&s, NULL, 1, x, v);
     assert_close(first.x, 6.12, 1e-14);
@@ -294,11 +283,10 @@ static void a_lengthening_spring_pulls_with_viscosity_times_strain_rate(void **s
 }
 
 /* Rounding of sums of a dozen terms of about 10 N at 1 m/s. */
-static void damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power(void **state)
+TEST(damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power)
 {
     double x[2 * n_nodes], v[2 * n_nodes] = {0}, torque = 0.0, given = 0.0;
     vec2 total = {0.0, 0.0};
-    (void)state;
     springs s = compile_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 3);
@@ -318,10 +306,9 @@ static void damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power(
 }
 
 /* However much it is strained: each force is of the rounding of 10 N. */
-static void a_rigid_motion_is_not_damped(void **state)
+TEST(a_rigid_motion_is_not_damped)
 {
     double x[2 * n_nodes], v[2 * n_nodes];
-    (void)state;
     springs s = compile_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 5);
@@ -338,10 +325,9 @@ static void a_rigid_motion_is_not_damped(void **state)
 /* ---- frequencies ---- */
 
 /* A pair on k = E/d0 = 50 N/m along (3, 4)/5: k n n^T of either node. */
-static void the_block_of_a_pair_is_its_stiffness_along_it(void **state)
+TEST(the_block_of_a_pair_is_its_stiffness_along_it)
 {
     const double x[4] = {0.0, 0.0, 1.2, 1.6};
-    (void)state;
     springs s = compile_pair(x, 2.0, 100.0);
     for (dem_index i = 0; i < 2; i++) {
         const sym2 block = springs_block(&s, s.stiffness, i, x);
@@ -355,10 +341,9 @@ static void the_block_of_a_pair_is_its_stiffness_along_it(void **state)
 
 /* C/d0 = 6 N s/2 m = 3 kg/s: relative motion of 1 and 2 kg along the spring decays with 3 (1 + 1/2) = 4.5/s; the bound
  * is 2 * 3/m of the lighter that may move. */
-static void the_damping_bound_of_a_pair_is_twice_its_damping_over_the_mass(void **state)
+TEST(the_damping_bound_of_a_pair_is_twice_its_damping_over_the_mass)
 {
     const double x[4] = {0.0, 0.0, 1.2, 1.6}, both[2] = {1.0, 0.5}, held[2] = {0.0, 0.5};
-    (void)state;
     springs s = compile_damped_pair(x, 2.0, 6.0);
     assert_close(springs_damping_bound(&s, x, both), 6.0, 1e-14);
     assert_close(springs_damping_bound(&s, x, held), 3.0, 1e-14);
@@ -406,12 +391,11 @@ static double highest_damping_rate(const springs *s, const dem_lattice *lattice)
 }
 
 /* About the rest shape C = damping_time K, so that the bound follows that of the frequency: see verify_spectrum. */
-static void the_damping_bound_is_above_the_highest_rate_by_less_than_six_tenths(void **state)
+TEST(the_damping_bound_is_above_the_highest_rate_by_less_than_six_tenths)
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-5};
     const double sizes[3][2] = {{0.02, 0.02}, {0.04, 0.06}, {0.08, 0.03}};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         dem_lattice lattice;
         springs s;
@@ -431,10 +415,9 @@ static void the_damping_bound_is_above_the_highest_rate_by_less_than_six_tenths(
 }
 
 /* Viscosities of its own for every spring, one of them 0. */
-static void the_damping_bound_of_a_net_is_above_the_highest_rate(void **state)
+TEST(the_damping_bound_of_a_net_is_above_the_highest_rate)
 {
     double inverse_mass[n_nodes];
-    (void)state;
     dem_lattice lattice = make_net();
     springs s = compile_net();
     for (int i = 0; i < n_nodes; i++) inverse_mass[i] = 1.0 / masses[i];
@@ -443,28 +426,4 @@ static void the_damping_bound_of_a_net_is_above_the_highest_rate(void **state)
     assert_true(bound <= 2.0 * rate); /* no rate is below those of single nodes, |S_i|/m_i */
     dem_lattice_free(&lattice);
     springs_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(strain_force_and_virial_are_those_of_each_spring),
-        cmocka_unit_test(rows_list_the_neighbours_in_ascending_order),
-        cmocka_unit_test(two_springs_between_the_same_nodes_are_named),
-        cmocka_unit_test(nodes_without_springs_feel_nothing),
-        cmocka_unit_test(a_stretched_spring_pulls_with_stiffness_times_strain),
-        cmocka_unit_test(a_compressed_spring_pushes),
-        cmocka_unit_test(the_force_is_minus_the_gradient_of_the_energy),
-        cmocka_unit_test(springs_exert_no_force_and_no_torque_on_the_whole),
-        cmocka_unit_test(nodes_that_coincide_give_a_force_that_is_no_number),
-        cmocka_unit_test(springs_without_viscosities_stay_without),
-        cmocka_unit_test(a_lengthening_spring_pulls_with_viscosity_times_strain_rate),
-        cmocka_unit_test(damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power),
-        cmocka_unit_test(a_rigid_motion_is_not_damped),
-        cmocka_unit_test(the_block_of_a_pair_is_its_stiffness_along_it),
-        cmocka_unit_test(the_damping_bound_of_a_pair_is_twice_its_damping_over_the_mass),
-        cmocka_unit_test(the_damping_bound_of_a_net_is_above_the_highest_rate),
-        cmocka_unit_test(the_damping_bound_is_above_the_highest_rate_by_less_than_six_tenths),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,10 +23,9 @@ static double slope_at(double ratio)
 
 /* ---- the law ---- */
 
-static void the_guard_is_exactly_zero_from_its_onset_on(void **state)
+TEST(the_guard_is_exactly_zero_from_its_onset_on)
 {
     const double ratios[5] = {0.4, 0.5, 1.0, 3.0, 1e300};
-    (void)state;
     for (int k = 0; k < 5; k++) {
         assert_close(energy_at(ratios[k]), 0.0, 0.0);
         assert_close(slope_at(ratios[k]), 0.0, 0.0);
@@ -37,9 +36,8 @@ static void the_guard_is_exactly_zero_from_its_onset_on(void **state)
 
 /* Near the onset w = (d/0.4)^3 (1 + 3/2 d/0.4 + ...) at the distance d below it: value, slope and curvature vanish.
  * The next term of the series is what the tolerance leaves out. */
-static void the_guard_sets_in_with_the_third_power_of_the_distance(void **state)
+TEST(the_guard_sets_in_with_the_third_power_of_the_distance)
 {
-    (void)state;
     for (double d = 1e-3; d > 1e-7; d *= 0.1) {
         const double s = (onset - (onset - d)) / onset; /* d as rounded in 0.4 - d */
         assert_close(energy_at(onset - d) / (s * s * s), 1.0, 2.0 * s);
@@ -48,10 +46,9 @@ static void the_guard_sets_in_with_the_third_power_of_the_distance(void **state)
 }
 
 /* The cube root brings the law back to its logarithm, and a third of the two roundings of the cube. */
-static void its_logarithm_agrees_with_libm(void **state)
+TEST(its_logarithm_agrees_with_libm)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    (void)state;
     for (int k = 0; k < 20000; k++) {
         const double ratio = taylor_below + (onset - taylor_below) * gsl_rng_uniform_pos(rng);
         if (ratio >= onset) continue;
@@ -62,10 +59,9 @@ static void its_logarithm_agrees_with_libm(void **state)
 }
 
 /* Central differences over d = 1e-6: d^2 w'''/6 with |w'''| < 6e5 at 0.05, and rounding of 1e-15 w/d. */
-static void its_slope_is_the_derivative_of_its_energy(void **state)
+TEST(its_slope_is_the_derivative_of_its_energy)
 {
     const double d = 1e-6;
-    (void)state;
     for (double ratio = -1.0; ratio < 0.5; ratio += 0.00701)
         assert_close((energy_at(ratio + d) - energy_at(ratio - d)) / (2.0 * d), slope_at(ratio),
                      1e-6 + 1e-15 * energy_at(ratio) / d);
@@ -73,10 +69,9 @@ static void its_slope_is_the_derivative_of_its_energy(void **state)
 
 /* Central differences of the slope over d = 1e-6: d^2 w''''/6 with |w''''| < 3e7 at 0.05, and rounding of 1e-15 w'/d;
  * not across 0.05, where the third derivative jumps. */
-static void its_curvature_is_the_derivative_of_its_slope(void **state)
+TEST(its_curvature_is_the_derivative_of_its_slope)
 {
     const double d = 1e-6;
-    (void)state;
     for (double ratio = -1.0; ratio < 0.5; ratio += 0.00701) {
         if (fabs(ratio - taylor_below) < 2.0 * d || fabs(ratio - onset) < 2.0 * d) continue;
         assert_close((slope_at(ratio + d) - slope_at(ratio - d)) / (2.0 * d), triangles_guard_law(ratio).curvature,
@@ -86,10 +81,9 @@ static void its_curvature_is_the_derivative_of_its_slope(void **state)
 
 /* Where the polynomial takes over: values, slopes and difference quotients of slopes from the two sides. The
  * curvature is (6 L + 3 L^2)/J^2, L = ln 8; over d = 1e-7 it varies by w''' d = 0.06. */
-static void the_polynomial_takes_over_twice_continuously_differentiable(void **state)
+TEST(the_polynomial_takes_over_twice_continuously_differentiable)
 {
     const double J = taylor_below, d = 1e-7, L = log(8.0), curvature = (6.0 * L + 3.0 * L * L) / (J * J);
-    (void)state;
     assert_close(energy_at(J), L * L * L, 1e-14);
     assert_close(slope_at(J), -3.0 * L * L / J, 1e-12);
     assert_close(energy_at(J + d) - energy_at(J - d), 2.0 * d * slope_at(J), 1e-13);
@@ -99,12 +93,11 @@ static void the_polynomial_takes_over_twice_continuously_differentiable(void **s
 }
 
 /* w and w' of the polynomial are written out with L = ln 8 at J = 0.05. Rounding only. */
-static void it_is_a_finite_rising_parabola_down_to_inverted_triangles(void **state)
+TEST(it_is_a_finite_rising_parabola_down_to_inverted_triangles)
 {
     const double L = log(8.0), w = L * L * L, w1 = -3.0 * L * L / 0.05, w2 = (6.0 * L + 3.0 * L * L) / 0.0025;
     const double ratios[5] = {0.0499, 0.0, -0.01, -1.0, -50.0};
     double above = energy_at(0.05);
-    (void)state;
     for (int k = 0; k < 5; k++) {
         const double b = ratios[k] - 0.05, expected = w + w1 * b + 0.5 * w2 * b * b;
         assert_close(energy_at(ratios[k]), expected, 1e-14 * expected);
@@ -156,13 +149,12 @@ static double energy_of(const triangles *t, const double *x)
     return area + guard;
 }
 
-static void rows_hold_the_guarded_triangles_of_each_node_in_order(void **state)
+TEST(rows_hold_the_guarded_triangles_of_each_node_in_order)
 {
     const double some[n_triangles] = {2.0, 0.0, 5.0, 7.0};
     static const dem_index row[n_nodes + 1] = {0, 2, 3, 4, 6, 9};
     static const dem_index next[9] = {1, 4, 4, 3, 4, 0, 0, 2, 3}, last[9] = {4, 3, 0, 4, 2, 4, 1, 3, 0};
     static const double strength[9] = {2.0, 7.0, 2.0, 5.0, 5.0, 7.0, 2.0, 5.0, 7.0};
-    (void)state;
     triangles t = compile_fan(some, NULL);
     assert_memory_equal(t.row, row, sizeof row);
     assert_memory_equal(t.next, next, sizeof next);
@@ -175,12 +167,11 @@ static void rows_hold_the_guarded_triangles_of_each_node_in_order(void **state)
     assert_null(t.row);
 }
 
-static void rows_hold_triangles_with_area_stiffness_or_guard(void **state)
+TEST(rows_hold_triangles_with_area_stiffness_or_guard)
 {
     const double some[n_triangles] = {0.0, 0.0, 0.0, 7.0}, stiff[n_triangles] = {0.0, -3.0, 0.0, 0.0};
     static const dem_index row[n_nodes + 1] = {0, 1, 2, 3, 4, 6}, next[6] = {4, 2, 4, 0, 1, 3};
     static const double guard[6] = {7.0, 0.0, 0.0, 7.0, 0.0, 7.0}, kappa[6] = {0.0, -3.0, -3.0, 0.0, -3.0, 0.0};
-    (void)state;
     triangles t = compile_fan(some, stiff);
     assert_memory_equal(t.row, row, sizeof row);
     assert_memory_equal(t.next, next, sizeof next);
@@ -191,11 +182,10 @@ static void rows_hold_triangles_with_area_stiffness_or_guard(void **state)
     triangles_free(&t);
 }
 
-static void without_guards_every_row_is_empty(void **state)
+TEST(without_guards_every_row_is_empty)
 {
     const double none[n_triangles] = {0.0, 0.0, 0.0, 0.0};
     const double *const cases[2] = {NULL, none};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         triangles t = compile_fan(cases[k], cases[k]);
         for (int i = 0; i <= n_nodes; i++) assert_int_equal(t.row[i], 0);
@@ -205,9 +195,8 @@ static void without_guards_every_row_is_empty(void **state)
 }
 
 /* Exactly: the area over the rest area is 1 from every corner. */
-static void a_lattice_at_rest_feels_nothing(void **state)
+TEST(a_lattice_at_rest_feels_nothing)
 {
-    (void)state;
     triangles t = compile_fan(strengths, kappas);
     for (dem_index i = 0; i < n_nodes; i++) {
         const vec2 force = triangles_force(&t, NULL, i, corners);
@@ -219,11 +208,10 @@ static void a_lattice_at_rest_feels_nothing(void **state)
 
 /* The centre at (0.5, y) leaves the lower triangle the share 2 y of its area, the upper one 2 - 2 y, the others theirs:
  * W = A0 kappa/2 (J - 1)^2 each, dA/dy = 1/2 and -1/2. Rounding only. */
-static void the_area_term_is_linear_in_the_area(void **state)
+TEST(the_area_term_is_linear_in_the_area)
 {
     const double stiff[n_triangles] = {300.0, 0.0, -50.0, 0.0};
     double x[2 * n_nodes];
-    (void)state;
     triangles t = compile_fan(NULL, stiff);
     memcpy(x, corners, sizeof x);
     for (double y = -1.0; y < 2.0; y += 0.3) {
@@ -242,9 +230,8 @@ static void the_area_term_is_linear_in_the_area(void **state)
 
 /* kappa/A0 g g^T, |g| half the opposite side: the centre has g = (0, 1/2) of the lower triangle, (0, -1/2) of the upper
  * one and (-1/2, 0), (1/2, 0) of those at the sides; a negative kappa does not count. */
-static void the_block_of_a_node_has_the_triangles_that_stiffen_it(void **state)
+TEST(the_block_of_a_node_has_the_triangles_that_stiffen_it)
 {
-    (void)state;
     triangles t = compile_fan(NULL, kappas);
     const sym2 block = triangles_block(&t, 4, corners);
     assert_close(block.xx, 70.0 / 0.25 * 0.25, 1e-13);
@@ -258,11 +245,10 @@ static void the_block_of_a_node_has_the_triangles_that_stiffen_it(void **state)
 
 /* The centre at (0.5, y) leaves the lower triangle the share 2 y of its area: W = A0 g w(2 y), force -g w'(2 y)
  * dA/dy with dA/dy = 1/2, as the others are above the onset. Rounding only. */
-static void a_squeezed_triangle_pushes_its_corner_back(void **state)
+TEST(a_squeezed_triangle_pushes_its_corner_back)
 {
     const double ratios[3] = {0.1, 0.02, -0.3};
     double x[2 * n_nodes];
-    (void)state;
     triangles t = compile_fan(strengths, NULL);
     memcpy(x, corners, sizeof x);
     for (int k = 0; k < 3; k++) {
@@ -289,12 +275,11 @@ static void squeeze(double *x, gsl_rng *rng)
 
 /* Central differences over 1e-7 m: truncation 1e-14 g w''' A0 (dJ/dx)^3 = 1e-6 N at worst, rounding 1e-15 * 1e3
  * J/1e-7 m. */
-static void forces_are_minus_the_gradient_of_the_energy(void **state)
+TEST(forces_are_minus_the_gradient_of_the_energy)
 {
     const double step = 1e-7;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes];
-    (void)state;
     triangles t = compile_fan(strengths, kappas);
     for (int trial = 0; trial < 50; trial++) {
         squeeze(x, rng);
@@ -316,12 +301,11 @@ static void forces_are_minus_the_gradient_of_the_energy(void **state)
 
 /* Second differences of the guard's energy along any direction u never exceed the sum of bound_i u_i^2, and come
  * within a factor of 3 of it along the force; it is 0 where no triangle is squeezed. */
-static void the_bound_of_the_guard_is_above_its_second_variation(void **state)
+TEST(the_bound_of_the_guard_is_above_its_second_variation)
 {
     const double step = 1e-4;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes], closest = 0.0;
-    (void)state;
     triangles t = compile_fan(strengths, NULL);
     for (dem_index i = 0; i < n_nodes; i++) assert_close(triangles_guard_bound(&t, NULL, i, corners), 0.0, 0.0);
     for (int trial = 0; trial < 2000; trial++) {
@@ -350,12 +334,11 @@ static void the_bound_of_the_guard_is_above_its_second_variation(void **state)
 
 /* Central differences of the forces along a random motion, over 1e-6 m: truncation 1e-12 g w'''' A0 (dJ/dx)^4 = 1e-4
  * N/m at worst where nothing crosses the ends of the polynomial, rounding 1e-15 * 1e5 N/1e-6 m. */
-static void the_tangent_is_the_derivative_of_the_force(void **state)
+TEST(the_tangent_is_the_derivative_of_the_force)
 {
     const double step = 1e-6;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes], u[2 * n_nodes], above[2 * n_nodes], below[2 * n_nodes];
-    (void)state;
     triangles t = compile_fan(strengths, kappas);
     for (int trial = 0; trial < 50; trial++) {
         squeeze(x, rng);
@@ -377,11 +360,10 @@ static void the_tangent_is_the_derivative_of_the_force(void **state)
 }
 
 /* Rounding of sums of 12 terms, against the largest force. */
-static void triangles_exert_no_force_and_no_torque_on_the_whole(void **state)
+TEST(triangles_exert_no_force_and_no_torque_on_the_whole)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes];
-    (void)state;
     triangles t = compile_fan(strengths, kappas);
     for (int trial = 0; trial < 50; trial++) {
         double torque = 0.0, largest = 0.0, energy = 0.0;
@@ -403,37 +385,10 @@ static void triangles_exert_no_force_and_no_torque_on_the_whole(void **state)
     gsl_rng_free(rng);
 }
 
-static void area_is_positive_counter_clockwise(void **state)
+TEST(area_is_positive_counter_clockwise)
 {
     const vec2 a = {1.0, 1.0}, b = {4.0, 1.0}, c = {2.0, 3.0};
-    (void)state;
     assert_close(vec2_triangle_area(a, b, c), 3.0, 0.0);
     assert_close(vec2_triangle_area(b, c, a), 3.0, 0.0);
     assert_close(vec2_triangle_area(a, c, b), -3.0, 0.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_guard_is_exactly_zero_from_its_onset_on),
-        cmocka_unit_test(the_guard_sets_in_with_the_third_power_of_the_distance),
-        cmocka_unit_test(its_logarithm_agrees_with_libm),
-        cmocka_unit_test(its_slope_is_the_derivative_of_its_energy),
-        cmocka_unit_test(its_curvature_is_the_derivative_of_its_slope),
-        cmocka_unit_test(the_polynomial_takes_over_twice_continuously_differentiable),
-        cmocka_unit_test(it_is_a_finite_rising_parabola_down_to_inverted_triangles),
-        cmocka_unit_test(rows_hold_the_guarded_triangles_of_each_node_in_order),
-        cmocka_unit_test(rows_hold_triangles_with_area_stiffness_or_guard),
-        cmocka_unit_test(without_guards_every_row_is_empty),
-        cmocka_unit_test(a_lattice_at_rest_feels_nothing),
-        cmocka_unit_test(the_area_term_is_linear_in_the_area),
-        cmocka_unit_test(the_block_of_a_node_has_the_triangles_that_stiffen_it),
-        cmocka_unit_test(a_squeezed_triangle_pushes_its_corner_back),
-        cmocka_unit_test(forces_are_minus_the_gradient_of_the_energy),
-        cmocka_unit_test(the_tangent_is_the_derivative_of_the_force),
-        cmocka_unit_test(the_bound_of_the_guard_is_above_its_second_variation),
-        cmocka_unit_test(triangles_exert_no_force_and_no_torque_on_the_whole),
-        cmocka_unit_test(area_is_positive_counter_clockwise),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

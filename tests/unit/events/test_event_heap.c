@@ -6,10 +6,9 @@
 
 #include "events/event_heap.h"
 
-static void what_is_due_first_comes_first_and_of_equals_the_lowest(void **state)
+TEST(what_is_due_first_comes_first_and_of_equals_the_lowest)
 {
     event_heap h;
-    (void)state;
     assert_ok(event_heap_create(&h, 4));
     assert_int_equal(event_heap_first(&h), -1);
     event_heap_set(&h, 3, 1.0);
@@ -24,10 +23,9 @@ static void what_is_due_first_comes_first_and_of_equals_the_lowest(void **state)
     event_heap_destroy(&h);
 }
 
-static void what_is_never_due_is_not_there(void **state)
+TEST(what_is_never_due_is_not_there)
 {
     event_heap h;
-    (void)state;
     assert_ok(event_heap_create(&h, 2));
     event_heap_set(&h, 0, (double)INFINITY);
     assert_int_equal(event_heap_first(&h), -1);
@@ -40,10 +38,9 @@ static void what_is_never_due_is_not_there(void **state)
     event_heap_destroy(&h);
 }
 
-static void a_cleared_heap_is_empty_and_can_be_filled_again(void **state)
+TEST(a_cleared_heap_is_empty_and_can_be_filled_again)
 {
     event_heap h;
-    (void)state;
     assert_ok(event_heap_create(&h, 3));
     for (dem_index k = 0; k < 3; k++) event_heap_set(&h, k, 1.0);
     event_heap_clear(&h);
@@ -65,12 +62,11 @@ static dem_index first_of(const double *due)
 }
 
 /* Times are whole numbers up to 20, so that many are equal. */
-static void any_changes_leave_the_first_that_a_search_finds(void **state)
+TEST(any_changes_leave_the_first_that_a_search_finds)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double due[n_keys];
     event_heap h;
-    (void)state;
     assert_ok(event_heap_create(&h, n_keys));
     for (dem_index k = 0; k < n_keys; k++) due[k] = (double)INFINITY;
     for (int turn = 0; turn < 100000; turn++) {
@@ -81,15 +77,4 @@ static void any_changes_leave_the_first_that_a_search_finds(void **state)
     }
     event_heap_destroy(&h);
     gsl_rng_free(rng);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_due_first_comes_first_and_of_equals_the_lowest),
-        cmocka_unit_test(what_is_never_due_is_not_there),
-        cmocka_unit_test(a_cleared_heap_is_empty_and_can_be_filled_again),
-        cmocka_unit_test(any_changes_leave_the_first_that_a_search_finds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

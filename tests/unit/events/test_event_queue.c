@@ -169,12 +169,11 @@ static void assert_same(const snapshot *a, const snapshot *b)
 
 /* ---- order ---- */
 
-static void events_come_in_the_order_of_time(void **state)
+TEST(events_come_in_the_order_of_time)
 {
     const double heights[5] = {0.03, 0.02, 0.05, 0.025, 0.04};
     const dem_index order[5] = {1, 3, 0, 4, 2};
     rig r;
-    (void)state;
     open_masses(&r, 5, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.11);
     show(&r, 0.11);
@@ -193,13 +192,12 @@ static void events_come_in_the_order_of_time(void **state)
 }
 
 /* Those of equal height at once, the lowest number first, whichever is looked at first. */
-static void events_at_the_same_time_come_in_the_order_of_candidates(void **state)
+TEST(events_at_the_same_time_come_in_the_order_of_candidates)
 {
     const double heights[6] = {0.03, 0.02, 0.03, 0.02, 0.03, 0.02};
     const dem_index order[6] = {1, 3, 5, 0, 2, 4};
     double due[6];
     rig r;
-    (void)state;
     open_masses(&r, 6, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
     for (dem_index k = 0; k < 6; k++) due[k] = r.contact.heap.due[k];
@@ -215,12 +213,11 @@ static void events_at_the_same_time_come_in_the_order_of_candidates(void **state
 }
 
 /* Bounces at t, t + 2 eta v/g, t + 2 (eta + eta^2) v/g, ... : the same node again and again within one step. */
-static void a_node_may_bounce_many_times_in_a_step(void **state)
+TEST(a_node_may_bounce_many_times_in_a_step)
 {
     const double height = 0.02, eta = 0.5, t = time_of_fall(height), v = g * t;
     double due = t, up = v;
     rig r;
-    (void)state;
     open_masses(&r, 1, &height, eta, 0.0);
     fall(&r, 0.0, 0.18);
     show(&r, 0.18);
@@ -325,13 +322,12 @@ static event_source kicks_events(kicks *s)
 
 /* Masses 0 and 1 hit the floor. Mass 2 is kicked between both impacts, by the last key, and twice at the time of the
  * second: after the impact, for contact is the first source, and in the order of keys. */
-static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **state)
+TEST(events_of_sources_come_in_the_order_of_time_kind_and_key)
 {
     const double heights[3] = {0.02, 0.03, 0.05}, h = 0.1, between = 0.07;
     const dem_index nodes[5] = {0, 2, 1, 2, 2}, keys[5] = {0, 2, 0, 0, 1};
     kicks jumps = {.node = 2, .jump = {0.0, 0.25}};
     rig r;
-    (void)state;
     open_masses(&r, 3, heights, 0.5, 0.0);
     assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
@@ -354,12 +350,11 @@ static void events_of_sources_come_in_the_order_of_time_kind_and_key(void **stat
 }
 
 /* The kick keeps mass 1 off the floor: contact looks at it anew, and back in time finds the impact of before. */
-static void sources_are_undone_and_redone_to_the_bit(void **state)
+TEST(sources_are_undone_and_redone_to_the_bit)
 {
     const double heights[2] = {0.02, 0.03}, h = 0.1;
     kicks jumps = {.node = 1, .t = {0.07, (double)INFINITY, (double)INFINITY}, .jump = {0.0, 1.0}};
     rig r;
-    (void)state;
     open_masses(&r, 2, heights, 0.5, 0.0);
     assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
@@ -431,13 +426,12 @@ static void take_kicked_step(kicked_chain *s, int dim, const int *axes)
     dense_output_state(&s->chain.step, 0.5 * chain_step, s->middle);
 }
 
-static void in_three_dimensions_each_component_is_that_of_two(void **state)
+TEST(in_three_dimensions_each_component_is_that_of_two)
 {
     static const int axes[3] = {0, 1, 2}, others[2] = {2, 0};
     static const dem_index nodes[4] = {5, 8, 5, 8};
     kicked_chain three, two[2];
     chain untouched;
-    (void)state;
     take_kicked_step(&three, 3, axes);
     take_kicked_step(&two[0], 2, axes);
     take_kicked_step(&two[1], 2, others);
@@ -459,12 +453,11 @@ static void in_three_dimensions_each_component_is_that_of_two(void **state)
 
 /* Derivatives at the end are those of the state there, but for the prescribed component of node 9, which keeps its
  * velocity. */
-static void the_end_of_a_step_in_three_dimensions_has_its_own_derivative(void **state)
+TEST(the_end_of_a_step_in_three_dimensions_has_its_own_derivative)
 {
     static const int axes[3] = {0, 1, 2};
     double f[CHAIN_STATE];
     kicked_chain s;
-    (void)state;
     take_kicked_step(&s, 3, axes);
     const state_layout *l = &s.chain.layout;
     chain_derive(&s.chain, s.chain.y1, f);
@@ -476,13 +469,12 @@ static void the_end_of_a_step_in_three_dimensions_has_its_own_derivative(void **
 }
 
 /* Taken back, and taken again by sources that come back from a checkpoint. */
-static void a_step_in_three_dimensions_is_undone_and_redone_to_the_bit(void **state)
+TEST(a_step_in_three_dimensions_is_undone_and_redone_to_the_bit)
 {
     static const int axes[3] = {0, 1, 2};
     static chain before, after;
     kicked_chain s;
     dem_checkpoint *checkpoint;
-    (void)state;
     open_kicked_chain(&s, 3, axes);
     memcpy(&before, &s.chain, sizeof before);
     assert_ok(event_queue_show(&s.q, chain_step));
@@ -576,12 +568,11 @@ static void open_exposed(rig *r, exposure *s, const surface *before, const surfa
 static dem_index every_node[3] = {0, 1, 2}, outer_nodes[2] = {0, 2};
 
 /* 0 and 1 land together, in the order of nodes, though 1 has come last. */
-static void a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there(void **state)
+TEST(a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there)
 {
     const surface all = {.n_nodes = 3, .nodes = every_node}, outer = {.n_nodes = 2, .nodes = outer_nodes};
     exposure late, early;
     rig r, whole;
-    (void)state;
     open_exposed(&r, &late, &outer, &all);
     open_exposed(&whole, &early, &all, &all);
     const contact_candidate first = r.c.set.list[1];
@@ -610,12 +601,11 @@ static void a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been
 }
 
 /* Mass 1 falls through the floor, on which 0 bounces. */
-static void a_candidate_that_goes_within_a_step_touches_no_more(void **state)
+TEST(a_candidate_that_goes_within_a_step_touches_no_more)
 {
     const surface all = {.n_nodes = 3, .nodes = every_node}, outer = {.n_nodes = 2, .nodes = outer_nodes};
     exposure late, early;
     rig r, without;
-    (void)state;
     open_exposed(&r, &late, &all, &outer);
     open_exposed(&without, &early, &outer, &outer);
     show(&r, 0.1);
@@ -630,11 +620,10 @@ static void a_candidate_that_goes_within_a_step_touches_no_more(void **state)
 
 /* ---- any time ---- */
 
-static void a_step_without_events_is_left_as_it_is(void **state)
+TEST(a_step_without_events_is_left_as_it_is)
 {
     const double height = 5.0;
     rig r;
-    (void)state;
     open_masses(&r, 1, &height, 0.5, 0.0);
     fall(&r, 1.0, 0.1);
     const snapshot before = take_snapshot(&r, 1.05);
@@ -647,12 +636,11 @@ static void a_step_without_events_is_left_as_it_is(void **state)
 }
 
 /* Between the impacts of the lower and the higher mass: one has happened, the other not, in motion and in ledger. */
-static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
+TEST(a_step_shown_at_a_time_is_what_it_is_then)
 {
     const double heights[2] = {0.02, 0.04}, t = time_of_fall(0.02), v = 0.5 * g * t, now = 0.08;
     double y[most_state];
     rig r;
-    (void)state;
     open_masses(&r, 2, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
     show(&r, now);
@@ -678,11 +666,10 @@ static void a_step_shown_at_a_time_is_what_it_is_then(void **state)
 }
 
 /* Some bounce, some stay and slide; forwards, backwards, to the end and back again. */
-static void any_way_to_a_time_gives_the_same_bits(void **state)
+TEST(any_way_to_a_time_gives_the_same_bits)
 {
     static const double heights[6] = {0.03, 0.01, 0.05, 0.01, 0.0, 0.03},
                         way[10] = {0.11, 0.02, 0.07, 0.07, 0.0, 0.11, 0.065, 0.09, 0.01, 0.11};
-    (void)state;
     for (int eta = 0; eta < 2; eta++) {
         rig direct, r;
         open_masses(&r, 6, heights, 0.6 * eta, 0.3);
@@ -705,10 +692,9 @@ static void any_way_to_a_time_gives_the_same_bits(void **state)
     }
 }
 
-static void undoing_brings_every_bit_back(void **state)
+TEST(undoing_brings_every_bit_back)
 {
     static const double heights[6] = {0.03, 0.01, 0.05, 0.01, 0.0, 0.03};
-    (void)state;
     for (int eta = 0; eta < 2; eta++) {
         rig r;
         open_masses(&r, 6, heights, 0.6 * eta, 0.3);
@@ -731,12 +717,11 @@ static void undoing_brings_every_bit_back(void **state)
 /* ---- at the ends of the step ---- */
 
 /* Found three penetration tolerances deep as the step begins, and reflected there once; what follows is free flight. */
-static void an_event_at_the_very_start_happens_once(void **state)
+TEST(an_event_at_the_very_start_happens_once)
 {
     const double height = 0.0, h = 0.01;
     rig r;
     double y[most_state], v[STATE_DIM_MOST];
-    (void)state;
     open_masses(&r, 1, &height, 0.5, 0.0);
     r.y0[1] = -1.5 * penetration_tolerance;
     r.y0[2 * r.n_all + 1] = -2.0;
@@ -755,10 +740,9 @@ static void an_event_at_the_very_start_happens_once(void **state)
 }
 
 /* The step ends a few units of rounding after the impact. */
-static void an_event_at_the_very_end_is_in_the_state_there(void **state)
+TEST(an_event_at_the_very_end_is_in_the_state_there)
 {
     const double height = 0.02, t = time_of_fall(height);
-    (void)state;
     for (int k = 0; k < 4; k++) {
         rig r;
         open_masses(&r, 1, &height, 0.5, 0.0);
@@ -826,13 +810,12 @@ static double impact_time(dem_lattice *lattice, int node, double *y)
 
 /* The spring is turned by the impact of the first mass and pulls otherwise at the second: it hits at another time
  * than the step without impacts has it, by GSL's account too. */
-static void the_neighbours_events_are_looked_for_anew(void **state)
+TEST(the_neighbours_events_are_looked_for_anew)
 {
     const double h = 0.16;
     dem_lattice lattice;
     rig r;
     double y[8];
-    (void)state;
     open_pair(&r, &lattice, NULL);
     swing(&r, &lattice, h);
     const double alone = r.contact.heap.due[1];
@@ -851,10 +834,9 @@ static void the_neighbours_events_are_looked_for_anew(void **state)
 }
 
 /* The same with ever shorter steps, the impacts in one of them. */
-static void times_and_motion_converge_with_the_step(void **state)
+TEST(times_and_motion_converge_with_the_step)
 {
     double wrong[2];
-    (void)state;
     for (int k = 0; k < 2; k++) {
         const double h = 0.08 / (1 << k);
         dem_lattice lattice;
@@ -882,10 +864,9 @@ static void times_and_motion_converge_with_the_step(void **state)
 
 /* With a tolerance out of reach the first event ends it, and all can be taken back; without control the error is of no
  * account. */
-static void an_error_beyond_what_is_allowed_ends_the_step(void **state)
+TEST(an_error_beyond_what_is_allowed_ends_the_step)
 {
     static const double strict[2] = {1e-12, 1e-12}, lax[2] = {1.0, 1.0};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         dem_lattice lattice;
         rig r;
@@ -907,10 +888,9 @@ static void an_error_beyond_what_is_allowed_ends_the_step(void **state)
 
 /* Hit at a fifth of the step, the pair could go on for as long with an error (5/4)^6 times as large; where that is
  * too much the next step has to be shorter. */
-static void what_events_have_done_bounds_the_next_step(void **state)
+TEST(what_events_have_done_bounds_the_next_step)
 {
     double error = 0.0;
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const double one = k == 0 ? 1.0 : error * (k == 1 ? 1.5 : 30.0), tolerance[2] = {one, one};
         dem_lattice lattice;
@@ -930,11 +910,10 @@ static void what_events_have_done_bounds_the_next_step(void **state)
 }
 
 /* More bounces than are allowed: DEM_ERROR_CONTACT, and all can be taken back. */
-static void a_storm_can_be_taken_back(void **state)
+TEST(a_storm_can_be_taken_back)
 {
     const double heights[2] = {0.02, 0.001};
     rig r;
-    (void)state;
     open_masses(&r, 2, heights, 0.9, 0.0);
     r.c.set.scene.rule.max_impacts = 3;
     fall(&r, 0.0, 0.2);
@@ -948,11 +927,10 @@ static void a_storm_can_be_taken_back(void **state)
 }
 
 /* The next step knows nothing of the events of the last. */
-static void the_next_step_begins_anew(void **state)
+TEST(the_next_step_begins_anew)
 {
     const double height = 0.02, t = time_of_fall(height);
     rig r;
-    (void)state;
     open_masses(&r, 1, &height, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
     show(&r, 0.1);
@@ -969,33 +947,4 @@ static void the_next_step_begins_anew(void **state)
     event_queue_undo(&r.q);
     assert_int_equal(r.c.set.ledger.counts.impacts, n_impacts);
     close_rig(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(events_come_in_the_order_of_time),
-        cmocka_unit_test(events_at_the_same_time_come_in_the_order_of_candidates),
-        cmocka_unit_test(a_node_may_bounce_many_times_in_a_step),
-        cmocka_unit_test(events_of_sources_come_in_the_order_of_time_kind_and_key),
-        cmocka_unit_test(sources_are_undone_and_redone_to_the_bit),
-        cmocka_unit_test(in_three_dimensions_each_component_is_that_of_two),
-        cmocka_unit_test(the_end_of_a_step_in_three_dimensions_has_its_own_derivative),
-        cmocka_unit_test(a_step_in_three_dimensions_is_undone_and_redone_to_the_bit),
-        cmocka_unit_test(a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there),
-        cmocka_unit_test(a_candidate_that_goes_within_a_step_touches_no_more),
-        cmocka_unit_test(a_step_without_events_is_left_as_it_is),
-        cmocka_unit_test(a_step_shown_at_a_time_is_what_it_is_then),
-        cmocka_unit_test(any_way_to_a_time_gives_the_same_bits),
-        cmocka_unit_test(undoing_brings_every_bit_back),
-        cmocka_unit_test(an_event_at_the_very_start_happens_once),
-        cmocka_unit_test(an_event_at_the_very_end_is_in_the_state_there),
-        cmocka_unit_test(the_neighbours_events_are_looked_for_anew),
-        cmocka_unit_test(times_and_motion_converge_with_the_step),
-        cmocka_unit_test(an_error_beyond_what_is_allowed_ends_the_step),
-        cmocka_unit_test(what_events_have_done_bounds_the_next_step),
-        cmocka_unit_test(a_storm_can_be_taken_back),
-        cmocka_unit_test(the_next_step_begins_anew),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -391,10 +391,9 @@ static dem_index lower_node(const step *s, double x)
 }
 
 /* Anywhere on the lower edge, a corner too, early and late in the step. */
-static void an_impact_changes_three_rings_as_a_step_of_the_whole_body_would(void **state)
+TEST(an_impact_changes_three_rings_as_a_step_of_the_whole_body_would)
 {
     static const double places[3] = {0.0, -0.075, 0.04}, shares[4] = {0.0, 0.3, 0.7, 0.999};
-    (void)state;
     for (int p = 0; p < 3; p++)
         for (int q = 0; q < 4; q++) {
             step s;
@@ -407,10 +406,9 @@ static void an_impact_changes_three_rings_as_a_step_of_the_whole_body_would(void
         }
 }
 
-static void so_it_does_with_area_terms_and_mass_damping(void **state)
+TEST(so_it_does_with_area_terms_and_mass_damping)
 {
     step s;
-    (void)state;
     open_step(&s, (kind){.nu = 0.2, .mass_damping = 200.0});
     go(&s);
     begin(&s, lower_node(&s, 0.02), 0.25);
@@ -418,10 +416,9 @@ static void so_it_does_with_area_terms_and_mass_damping(void **state)
     close_step(&s);
 }
 
-static void damped_springs_carry_it_over_six_rings(void **state)
+TEST(damped_springs_carry_it_over_six_rings)
 {
     step s;
-    (void)state;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .damping_time = 1e-4});
     go(&s);
     begin(&s, lower_node(&s, -0.075), 0.25);
@@ -455,10 +452,9 @@ static void check_parabolas(step *s)
 }
 
 /* The way of Verlet's method, whose next event starts from parabolas as well. */
-static void a_step_of_parabolas_goes_on_in_parabolas(void **state)
+TEST(a_step_of_parabolas_goes_on_in_parabolas)
 {
     step s;
-    (void)state;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .parabolic = true});
     go(&s);
     begin(&s, lower_node(&s, 0.0), 0.4);
@@ -471,11 +467,10 @@ static void a_step_of_parabolas_goes_on_in_parabolas(void **state)
 }
 
 /* What a boundary prescribes keeps its slope: no force accelerates it. */
-static void prescribed_nodes_keep_their_parabolas(void **state)
+TEST(prescribed_nodes_keep_their_parabolas)
 {
     step s;
     double error;
-    (void)state;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .drives = true, .parabolic = true});
     go(&s);
     const dem_index k = lower_node(&s, 0.0), i = s.c.set.list[k].node, next = node_near(&s, 0.005, 0.0087);
@@ -496,11 +491,10 @@ static void prescribed_nodes_keep_their_parabolas(void **state)
 }
 
 /* One component given, a force that grows: their work is in the quadratures. */
-static void prescribed_nodes_stay_on_their_way(void **state)
+TEST(prescribed_nodes_stay_on_their_way)
 {
     step s;
     double was[2];
-    (void)state;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .drives = true});
     go(&s);
     const dem_index driven = node_near(&s, 0.0, 0.017), work = s.n_all - 1;
@@ -513,9 +507,8 @@ static void prescribed_nodes_stay_on_their_way(void **state)
 }
 
 /* A neighbour slides, another sticks; the node between them hits, closes and slides, or sticks, or opens. */
-static void contacts_near_by_hold_and_rub(void **state)
+TEST(contacts_near_by_hold_and_rub)
 {
-    (void)state;
     for (int after = -1; after <= 2; after++) { /* sign of the contact; 2: it is released */
         step s;
         open_step(&s, plain);
@@ -535,10 +528,9 @@ static void contacts_near_by_hold_and_rub(void **state)
     }
 }
 
-static void so_they_do_where_springs_are_damped(void **state)
+TEST(so_they_do_where_springs_are_damped)
 {
     step s;
-    (void)state;
     open_step(&s, (kind){.nu = 0.3, .damping_time = 1e-4, .mass_damping = 50.0, .drives = true});
     const dem_index k = lower_node(&s, 0.03);
     touch(&s, lower_node(&s, 0.03 + spacing), 0, 1, true);
@@ -550,10 +542,9 @@ static void so_they_do_where_springs_are_damped(void **state)
 }
 
 /* Edges on two ridges are two groups, of two nodes each; a node near them hits. */
-static void edges_on_vertices_move_together(void **state)
+TEST(edges_on_vertices_move_together)
 {
     step s;
-    (void)state;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .ridges = true});
     const dem_index k = lower_node(&s, 0.0), n_nodes = s.model->surface.n_nodes;
     dem_index left = -1, right = -1;
@@ -575,10 +566,9 @@ static void edges_on_vertices_move_together(void **state)
 }
 
 /* What the first has done is part of the way to which the second adds. */
-static void a_second_event_adds_to_the_first(void **state)
+TEST(a_second_event_adds_to_the_first)
 {
     step s;
-    (void)state;
     open_step(&s, plain);
     const dem_index k = lower_node(&s, 0.0), next = lower_node(&s, spacing);
     go(&s);
@@ -595,7 +585,7 @@ static void a_second_event_adds_to_the_first(void **state)
 
 /* A node by itself lands on the floor and slides: m g holds it, mu m g slows it; the quadratures have what that comes
  * to. */
-static void the_ledger_of_a_node_that_lands_has_closed_forms(void **state)
+TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
 {
     const double h = 0.1, at = 0.04, m = 2.0, g = 9.81, mu = 0.3, v = 1.5, tau = h - at;
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0};
@@ -608,7 +598,6 @@ static void the_ledger_of_a_node_that_lands_has_closed_forms(void **state)
     local_correction near;
     local_springs local;
     changed_motion tr;
-    (void)state;
     support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
     dem_lattice_free(&lattice);
@@ -705,11 +694,10 @@ static void errors_of_jump(double h, double *at_end, double *inside)
 }
 
 /* Local errors of a method of order 5, and of the quintic: h^6 at least. */
-static void its_error_falls_with_the_sixth_power_of_the_step(void **state)
+TEST(its_error_falls_with_the_sixth_power_of_the_step)
 {
     const double omega = 239.0 / spacing;
     double end[3], inside[3];
-    (void)state;
     for (int k = 0; k < 3; k++) errors_of_jump(2.0 / omega / (1 << k), &end[k], &inside[k]);
     for (int k = 0; k < 2; k++) {
         print_message("# order %.2f at the end, %.2f within; error %.1e spacings\n", log2(end[k] / end[k + 1]),
@@ -751,11 +739,10 @@ static void kick_chain(chain_correction *s, int dim, const int *axes, int order)
 }
 
 /* Node 7, of which one component is prescribed, is in the first ring. */
-static void in_three_dimensions_each_component_is_that_of_two(void **state)
+TEST(in_three_dimensions_each_component_is_that_of_two)
 {
     static const int axes[3] = {0, 1, 2}, others[2] = {2, 0};
     static const int orders[2] = {2, 5};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         chain_correction three, two, other;
         kick_chain(&three, 3, axes, orders[k]);
@@ -775,24 +762,4 @@ static void in_three_dimensions_each_component_is_that_of_two(void **state)
         /* what the springs take of the kick of 3 m/s until the end: h^2 omega^2 of it, 0.2 */
         assert_close(state_v(l, three.chain.y1, 6)[2] - state_v(l, untouched.y1, 6)[2], 3.0, 3.0 * 0.25);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_impact_changes_three_rings_as_a_step_of_the_whole_body_would),
-        cmocka_unit_test(so_it_does_with_area_terms_and_mass_damping),
-        cmocka_unit_test(damped_springs_carry_it_over_six_rings),
-        cmocka_unit_test(a_step_of_parabolas_goes_on_in_parabolas),
-        cmocka_unit_test(prescribed_nodes_keep_their_parabolas),
-        cmocka_unit_test(prescribed_nodes_stay_on_their_way),
-        cmocka_unit_test(contacts_near_by_hold_and_rub),
-        cmocka_unit_test(so_they_do_where_springs_are_damped),
-        cmocka_unit_test(edges_on_vertices_move_together),
-        cmocka_unit_test(a_second_event_adds_to_the_first),
-        cmocka_unit_test(the_ledger_of_a_node_that_lands_has_closed_forms),
-        cmocka_unit_test(its_error_falls_with_the_sixth_power_of_the_step),
-        cmocka_unit_test(in_three_dimensions_each_component_is_that_of_two),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,10 +104,9 @@ static int *distances(const rig *r, dem_index from)
     return d;
 }
 
-static void rings_are_distances(void **state)
+TEST(rings_are_distances)
 {
     rig r;
-    (void)state;
     open_rig(&r, 4);
     const dem_index candidate = bottom_candidate(&r);
     for (int turn = 0; turn < 2; turn++) { /* the second forgets the first */
@@ -146,10 +145,9 @@ static void check_accelerations(rig *r)
     free(y);
 }
 
-static void a_closed_contact_holds_its_node(void **state)
+TEST(a_closed_contact_holds_its_node)
 {
     rig r;
-    (void)state;
     open_rig(&r, 4);
     const dem_index candidate = bottom_candidate(&r);
     assert_ok(gather(&r, candidate));
@@ -203,11 +201,10 @@ static constraints tie_constraints(tie *s, chain *of)
 }
 
 /* Round node 6: 5 and 7; 4 and 8, with 9, to which it is tied; 3 and 10. */
-static void tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension(void **state)
+TEST(tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension)
 {
     static const int axes[3] = {0, 1, 2};
     static const dem_index order[8] = {6, 5, 7, 4, 8, 9, 3, 10}, end[4] = {1, 3, 6, 8}, seed = 6;
-    (void)state;
     for (int dim = 2; dim <= 3; dim++) {
         chain s;
         tie t;
@@ -238,14 +235,4 @@ static void tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension(vo
         }
         neighbourhood_destroy(&b);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rings_are_distances),
-        cmocka_unit_test(a_closed_contact_holds_its_node),
-        cmocka_unit_test(tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,25 +38,23 @@ static void open_list(source_list *s, counter counters[2])
     for (int k = 0; k < 2; k++) assert_ok(source_list_add(s, counter_source(&counters[k])));
 }
 
-static void sources_keep_the_order_in_which_they_were_added(void **state)
+TEST(sources_keep_the_order_in_which_they_were_added)
 {
     counter counters[2] = {{.entry = "one"}, {.entry = "two"}};
     source_list s;
-    (void)state;
     open_list(&s, counters);
     assert_int_equal(s.n, 2);
     for (int k = 0; k < 2; k++) assert_ptr_equal(s.list[k].self, &counters[k]);
     source_list_destroy(&s);
 }
 
-static void each_source_comes_back_from_its_own_entry(void **state)
+TEST(each_source_comes_back_from_its_own_entry)
 {
     counter from[2] = {{.entry = "one", .count = 7}, {.entry = "two", .count = -3}},
             to[2] = {{.entry = "one"}, {.entry = "two"}};
     const double y = 0.25;
     source_list s;
     dem_checkpoint *checkpoint;
-    (void)state;
     assert_ok(dem_checkpoint_create(&checkpoint));
     open_list(&s, from);
     assert_ok(source_list_save(&s, checkpoint));
@@ -72,13 +70,12 @@ static void each_source_comes_back_from_its_own_entry(void **state)
     dem_checkpoint_destroy(checkpoint);
 }
 
-static void a_record_without_the_entry_of_a_source_is_refused(void **state)
+TEST(a_record_without_the_entry_of_a_source_is_refused)
 {
     counter one = {.entry = "one", .count = 7}, both[2] = {{.entry = "one"}, {.entry = "two"}};
     const double y = 0.0;
     source_list s = {0};
     dem_checkpoint *checkpoint;
-    (void)state;
     assert_ok(dem_checkpoint_create(&checkpoint));
     assert_ok(source_list_add(&s, counter_source(&one)));
     assert_ok(source_list_save(&s, checkpoint));
@@ -88,14 +85,4 @@ static void a_record_without_the_entry_of_a_source_is_refused(void **state)
     assert_non_null(strstr(dem_status_message(), "two"));
     source_list_destroy(&s);
     dem_checkpoint_destroy(checkpoint);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sources_keep_the_order_in_which_they_were_added),
-        cmocka_unit_test(each_source_comes_back_from_its_own_entry),
-        cmocka_unit_test(a_record_without_the_entry_of_a_source_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

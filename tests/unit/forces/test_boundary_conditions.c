@@ -16,10 +16,9 @@ static void compiled(boundary_conditions *out, const dem_boundary *list, dem_ind
 }
 
 /* The ramp rises from 0 to 1 as its symmetric polynomial does, and stays there. */
-static void a_ramp_rises_smoothly_from_0_to_1(void **unused)
+TEST(a_ramp_rises_smoothly_from_0_to_1)
 {
     const boundary_condition b = {.ramp = 2.0}, none = {.ramp = 0.0};
-    (void)unused;
     assert_close(boundary_condition_ramp(&b, 0.0), 0.0, 0.0);
     assert_close(boundary_condition_ramp(&b, 0.5), 53.0 / 512.0, 1e-16);
     assert_close(boundary_condition_ramp(&b, 1.0), 0.5, 1e-16);
@@ -31,11 +30,10 @@ static void a_ramp_rises_smoothly_from_0_to_1(void **unused)
 
 /* Central differences of the way give velocity and acceleration, before, on and beyond the ramp; their error is h^2/6
  * times a derivative of at most 360/ramp^3 and 1080/ramp^4. */
-static void velocity_and_acceleration_are_derivatives_of_the_way(void **unused)
+TEST(velocity_and_acceleration_are_derivatives_of_the_way)
 {
     static const double times[] = {0.2, 0.9, 1.3, 1.9, 2.7};
     const double h = 1e-4;
-    (void)unused;
     for (int kind = DEM_BOUNDARY_VELOCITY; kind <= DEM_BOUNDARY_DISPLACEMENT; kind++)
         for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
             const boundary_condition b = {.kind = (dem_boundary_kind)kind, .value = {3.0, -2.0}, .ramp = 2.0};
@@ -50,11 +48,10 @@ static void velocity_and_acceleration_are_derivatives_of_the_way(void **unused)
         }
 }
 
-static void a_constant_velocity_goes_on_from_half_its_ramp(void **unused)
+TEST(a_constant_velocity_goes_on_from_half_its_ramp)
 {
     const boundary_condition ramped = {.kind = DEM_BOUNDARY_VELOCITY, .value = {3.0, 0.0}, .ramp = 2.0};
     const boundary_condition sudden = {.kind = DEM_BOUNDARY_VELOCITY, .value = {3.0, 0.0}};
-    (void)unused;
     assert_close(boundary_condition_displacement(&ramped, 2.0).x, 3.0, 1e-15);
     assert_close(boundary_condition_displacement(&ramped, 5.0).x, 12.0, 1e-15);
     assert_close(boundary_condition_displacement(&sudden, 5.0).x, 15.0, 1e-15);
@@ -62,7 +59,7 @@ static void a_constant_velocity_goes_on_from_half_its_ramp(void **unused)
     assert_close(boundary_condition_acceleration(&sudden, 0.0).x, 0.0, 0.0);
 }
 
-static void forces_add_up_on_a_node_and_follow_their_ramps(void **unused)
+TEST(forces_add_up_on_a_node_and_follow_their_ramps)
 {
     static const dem_index nodes[] = {0, 2}, one[] = {2};
     static const double share[] = {0.25, 3.0};
@@ -70,7 +67,6 @@ static void forces_add_up_on_a_node_and_follow_their_ramps(void **unused)
         {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = nodes, .share = share, .value = {4.0, 8.0}, .ramp = 2.0},
         {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = one, .value = {0.0, 1.0}}};
     boundary_conditions b;
-    (void)unused;
     compiled(&b, list, 2);
     assert_close(boundary_conditions_force(&b, 0, 1.0).x, 0.5, 1e-15);
     assert_close(boundary_conditions_force(&b, 1, 1.0).x, 0.0, 0.0);
@@ -84,7 +80,7 @@ static void forces_add_up_on_a_node_and_follow_their_ramps(void **unused)
 }
 
 /* Only the component named is prescribed; the power is what its force, m times the change of acceleration, does. */
-static void a_prescribed_component_leaves_the_other_one_free(void **unused)
+TEST(a_prescribed_component_leaves_the_other_one_free)
 {
     static const dem_index nodes[] = {1};
     const dem_boundary list[] = {{.kind = DEM_BOUNDARY_VELOCITY,
@@ -95,7 +91,6 @@ static void a_prescribed_component_leaves_the_other_one_free(void **unused)
     const double mass[n_nodes] = {1.0, 2.0, 1.0, 1.0};
     double v[2 * n_nodes] = {0.0}, f[2 * n_nodes] = {0.0}, a[2 * n_nodes] = {0.0};
     boundary_conditions b;
-    (void)unused;
     compiled(&b, list, 1);
     boundary_conditions_begin(&b, v);
     assert_close(v[2], 0.0, 0.0);
@@ -111,7 +106,7 @@ static void a_prescribed_component_leaves_the_other_one_free(void **unused)
 }
 
 /* The fastest point of a displacement's ramp is its middle. */
-static void the_speed_of_a_displacement_is_that_of_its_middle(void **unused)
+TEST(the_speed_of_a_displacement_is_that_of_its_middle)
 {
     static const dem_index nodes[] = {1};
     const dem_boundary list[] = {{.kind = DEM_BOUNDARY_DISPLACEMENT,
@@ -121,7 +116,6 @@ static void the_speed_of_a_displacement_is_that_of_its_middle(void **unused)
                                   .value = {-4.0, 0.0},
                                   .ramp = 2.0}};
     boundary_conditions b;
-    (void)unused;
     compiled(&b, list, 1);
     assert_close(boundary_conditions_speed(&b), -boundary_condition_velocity(&b.list[0], 1.0).x, 1e-15);
     boundary_conditions_free(&b);
@@ -135,13 +129,12 @@ static void refused(dem_boundary one, dem_status status, const char *message)
     assert_null(b.list);
 }
 
-static void faults_are_named(void **unused)
+TEST(faults_are_named)
 {
     static const dem_index nodes[] = {1, 2}, twice[] = {2, 2}, beyond[] = {4}, touching[] = {0}, fixed[] = {3};
     const dem_boundary good = {
         .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 2, .nodes = nodes};
     dem_boundary bad = good;
-    (void)unused;
     bad.kind = (dem_boundary_kind)9;
     refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: unknown kind 9");
     bad = good, bad.n_nodes = 0;
@@ -166,32 +159,16 @@ static void faults_are_named(void **unused)
     refused(bad, DEM_ERROR_MODEL, "boundary 0: node 3 is fixed already");
 }
 
-static void a_component_is_prescribed_once(void **unused)
+TEST(a_component_is_prescribed_once)
 {
     static const dem_index nodes[] = {1, 2};
     dem_boundary list[] = {
         {.kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 2, .nodes = nodes},
         {.kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_Y, .n_nodes = 2, .nodes = nodes}};
     boundary_conditions b;
-    (void)unused;
     compiled(&b, list, 2);
     boundary_conditions_free(&b);
     list[1].components = DEM_COMPONENT_X | DEM_COMPONENT_Y;
     assert_int_equal(boundary_conditions_compile(&b, list, 2, &lattice, 1), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "boundary 1: the motion of node 1 is prescribed by another one already");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_ramp_rises_smoothly_from_0_to_1),
-        cmocka_unit_test(velocity_and_acceleration_are_derivatives_of_the_way),
-        cmocka_unit_test(a_constant_velocity_goes_on_from_half_its_ramp),
-        cmocka_unit_test(forces_add_up_on_a_node_and_follow_their_ramps),
-        cmocka_unit_test(a_prescribed_component_leaves_the_other_one_free),
-        cmocka_unit_test(the_speed_of_a_displacement_is_that_of_its_middle),
-        cmocka_unit_test(faults_are_named),
-        cmocka_unit_test(a_component_is_prescribed_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -109,10 +109,9 @@ static dem_strain strain_of(const dem_model *model, const double *x)
 }
 
 /* Relative rounding of sums of some 30 terms; the elastic energy is of the order of E h A eps^2. */
-static void a_rigid_motion_has_kinetic_and_gravity_energy_only(void **state)
+TEST(a_rigid_motion_has_kinetic_and_gravity_energy_only)
 {
     double kinetic = 0.0, weight = 0.0;
-    (void)state;
     moving m = make_moving();
     for (int b = 0; b < 2; b++) {
         const inertia body = inertia_of(&m.model->lattice, b);
@@ -129,9 +128,8 @@ static void a_rigid_motion_has_kinetic_and_gravity_energy_only(void **state)
     free_moving(&m);
 }
 
-static void each_body_has_the_mean_motion_it_was_given(void **state)
+TEST(each_body_has_the_mean_motion_it_was_given)
 {
-    (void)state;
     moving m = make_moving();
     for (int b = 0; b < 2; b++) {
         const inertia body = inertia_of(&m.model->lattice, b);
@@ -146,9 +144,8 @@ static void each_body_has_the_mean_motion_it_was_given(void **state)
     free_moving(&m);
 }
 
-static void a_rigid_motion_strains_nothing(void **state)
+TEST(a_rigid_motion_strains_nothing)
 {
-    (void)state;
     moving m = make_moving();
     const dem_strain strain = strain_of(m.model, m.x);
     assert_close(strain.min, 0.0, 1e-13); /* rounding of positions of 1 m over 0.1 m */
@@ -187,10 +184,9 @@ static dem_model *make_square(void)
 
 /* Node 3 at (0.25, 0.5): spring 1 (3-0) has sqrt(0.3125), spring 0 (2-3) sqrt(0.8125) m; spring 2 sqrt 2 of 2 m. The
  * triangle 0 2 3 keeps a quarter of its area, the other all of its. */
-static void extremes_of_strain_are_found_with_their_springs(void **state)
+TEST(extremes_of_strain_are_found_with_their_springs)
 {
     const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.25, 0.5};
-    (void)state;
     dem_model *model = make_square();
     dem_strain strain = strain_of(model, x);
     assert_close(strain.min, sqrt(0.3125) - 1.0, 1e-15);
@@ -215,10 +211,9 @@ static void extremes_of_strain_are_found_with_their_springs(void **state)
 
 /* Node 1 across the diagonal, at (0.1, 0.9): triangle 0 1 2 has -0.8 of its area and no guard; node 3 at its mirror
  * image. */
-static void inverted_triangles_have_negative_areas_and_count(void **state)
+TEST(inverted_triangles_have_negative_areas_and_count)
 {
     double x[8] = {0.0, 0.0, 0.1, 0.9, 1.0, 1.0, 0.0, 1.0};
-    (void)state;
     dem_model *model = make_square();
     dem_strain strain = strain_of(model, x);
     assert_close(strain.area_min, -0.8, 1e-15);
@@ -234,10 +229,9 @@ static void inverted_triangles_have_negative_areas_and_count(void **state)
     dem_model_destroy(model);
 }
 
-static void elastic_energy_is_that_of_the_springs(void **state)
+TEST(elastic_energy_is_that_of_the_springs)
 {
     const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0}, v[8] = {0.0};
-    (void)state;
     dem_model *model = make_square();
     const double strain = 0.5 * sqrt(2.0) - 1.0; /* of the diagonal alone */
     assert_close(energy_of(model, x, v).elastic, 0.5 * 10.0 * 2.0 * strain * strain, 1e-14);
@@ -246,10 +240,9 @@ static void elastic_energy_is_that_of_the_springs(void **state)
 
 /* Node 3 at (0.25, 0.5) leaves the triangle 0 2 3, of kappa -2 N/m, a quarter of its area, node 1 at (1.5, 0) gives the
  * other, of 6 N/m, half as much again: A0 kappa/2 (J - 1)^2 each. */
-static void area_energy_is_that_of_the_triangles(void **state)
+TEST(area_energy_is_that_of_the_triangles)
 {
     const double x[8] = {0.0, 0.0, 1.5, 0.0, 1.0, 1.0, 0.25, 0.5}, v[8] = {0.0};
-    (void)state;
     dem_model *model = make_square();
     const dem_energy energy = energy_of(model, x, v);
     assert_close(energy.area, 0.5 * (3.0 * 0.25 - 1.0 * 0.5625), 1e-15);
@@ -257,12 +250,11 @@ static void area_energy_is_that_of_the_triangles(void **state)
     dem_model_destroy(model);
 }
 
-static void without_springs_and_triangles_there_is_no_strain(void **state)
+TEST(without_springs_and_triangles_there_is_no_strain)
 {
     const double x[2] = {1.0, 2.0}, v[2] = {3.0, 4.0}, mass = 2.0;
     dem_lattice lattice;
     dem_model *model;
-    (void)state;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     dem_lattice_free(&lattice);
@@ -335,9 +327,8 @@ static double power_of_damping_forces(const moving *m, double mass_damping)
 }
 
 /* Relative rounding of sums of some hundred terms. */
-static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
+TEST(the_power_of_damping_is_minus_that_of_its_forces)
 {
-    (void)state;
     moving m = make_damped(1e-3);
     const forces loads[2] = {{.model = m.model, .gravity = {0.5, -10.0}},
                              {.model = m.model, .gravity = {0.5, -10.0}, .mass_damping = 40.0}};
@@ -350,10 +341,9 @@ static void the_power_of_damping_is_minus_that_of_its_forces(void **state)
 }
 
 /* It is also what the accelerations of damped and undamped motion differ by; fixed nodes have none, whatever v is. */
-static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
+TEST(the_power_of_damping_is_what_the_accelerations_lack)
 {
     double lacking = 0.0;
-    (void)state;
     moving m = make_damped(1e-3), plain = make_damped(0.0);
     const forces load = {.model = m.model, .gravity = {0.5, -10.0}, .mass_damping = 40.0};
     const forces free_of_it = {.model = plain.model, .gravity = {0.5, -10.0}};
@@ -369,9 +359,8 @@ static void the_power_of_damping_is_what_the_accelerations_lack(void **state)
     free_moving(&plain);
 }
 
-static void mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves(void **state)
+TEST(mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves)
 {
-    (void)state;
     moving m = make_damped(0.0);
     const forces load = {.model = m.model, .mass_damping = 3.0};
     m.v[0] = 100.0; /* of a fixed node */
@@ -379,22 +368,4 @@ static void mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_move
     const double fixed = 0.5 * m.model->lattice.mass[0] * 100.0 * 100.0;
     assert_close(forces_damping_power(&load, m.x, m.v), 6.0 * (kinetic - fixed), 1e-12 * 6.0 * kinetic);
     free_moving(&m);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rigid_motion_has_kinetic_and_gravity_energy_only),
-        cmocka_unit_test(each_body_has_the_mean_motion_it_was_given),
-        cmocka_unit_test(a_rigid_motion_strains_nothing),
-        cmocka_unit_test(extremes_of_strain_are_found_with_their_springs),
-        cmocka_unit_test(inverted_triangles_have_negative_areas_and_count),
-        cmocka_unit_test(elastic_energy_is_that_of_the_springs),
-        cmocka_unit_test(area_energy_is_that_of_the_triangles),
-        cmocka_unit_test(without_springs_and_triangles_there_is_no_strain),
-        cmocka_unit_test(the_power_of_damping_is_minus_that_of_its_forces),
-        cmocka_unit_test(the_power_of_damping_is_what_the_accelerations_lack),
-        cmocka_unit_test(mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

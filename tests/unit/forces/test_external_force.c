@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "unit/both_dimensions.h"
 #include "unit/close.h"
 
 enum { n_nodes = 4 };
@@ -15,8 +16,6 @@ typedef struct source {
     double bad_value;
     dem_status status;
 } source;
-
-static int dim; /* of the test that runs */
 
 static void right(dem_index node, double t, const double *x, const double *v, double *force)
 {
@@ -55,21 +54,19 @@ static void ask_all(external_force *c, double t)
     external_force_evaluate(c, &(dem_force_query){t, n_nodes, c->all, x, v});
 }
 
-static void without_a_force_there_is_no_coupling(void **state)
+TEST_IN_BOTH(without_a_force_there_is_no_coupling)
 {
     const dem_options options = dem_options_default();
     external_force *c = (external_force *)1;
-    (void)state;
     assert_int_equal(external_force_create(&c, &options, dim, n_nodes), DEM_OK);
     assert_null(c);
     assert_false(external_force_failed(NULL));
     external_force_destroy(NULL);
 }
 
-static void one_node_has_the_same_answer_as_all(void **state)
+TEST_IN_BOTH(one_node_has_the_same_answer_as_all)
 {
     source s;
-    (void)state;
     external_force *c = make(&s);
     ask_all(c, 0.25);
     assert_int_equal(s.calls, 1);
@@ -85,11 +82,10 @@ static void one_node_has_the_same_answer_as_all(void **state)
     external_force_destroy(c);
 }
 
-static void power_is_force_times_velocity(void **state)
+TEST_IN_BOTH(power_is_force_times_velocity)
 {
     source s;
     double power = 0.0;
-    (void)state;
     external_force *c = make(&s);
     ask_all(c, 2.0);
     for (dem_index i = 0; i < n_nodes; i++) {
@@ -125,11 +121,10 @@ static void fail_and_recover(external_force *c, source *s, dem_status status, co
     assert_int_equal(s->calls, 1);
 }
 
-static void a_failure_lasts_until_it_is_reported(void **state)
+TEST_IN_BOTH(a_failure_lasts_until_it_is_reported)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     source s;
-    (void)state;
     external_force *c = make(&s);
     s.status = DEM_STOPPED;
     fail_and_recover(c, &s, DEM_STOPPED, "the external force was refused at t = 0.5 s");
@@ -141,31 +136,4 @@ static void a_failure_lasts_until_it_is_reported(void **state)
         fail_and_recover(c, &s, DEM_ERROR_INTEGRATOR, "the external force on node 2 is not finite at t = 0.5 s");
     }
     external_force_destroy(c);
-}
-
-static int in_two_dimensions(void **state)
-{
-    (void)state;
-    dim = 2;
-    return 0;
-}
-
-static int in_three_dimensions(void **state)
-{
-    (void)state;
-    dim = 3;
-    return 0;
-}
-
-#define IN_BOTH(test) cmocka_unit_test_setup(test, in_two_dimensions), cmocka_unit_test_setup(test, in_three_dimensions)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        IN_BOTH(without_a_force_there_is_no_coupling),
-        IN_BOTH(one_node_has_the_same_answer_as_all),
-        IN_BOTH(power_is_force_times_velocity),
-        IN_BOTH(a_failure_lasts_until_it_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -176,9 +176,8 @@ static double pull_of_energy(body *b, dem_index i, int c)
 
 /* Energies of some 1e3 J in rounding 1e-16 over 2e-8 m: 1e-5 N of forces of up to 1e6 N; truncation 1e-16 * 1e12 N/m^2
  * where a triangle is all but flat. */
-static void forces_are_minus_the_gradient_of_the_energy_at_a_node(void **state)
+TEST(forces_are_minus_the_gradient_of_the_energy_at_a_node)
 {
-    (void)state;
     for (int broken = 0; broken < 2; broken++) {
         body b;
         open_body(&b, 0.0);
@@ -194,10 +193,9 @@ static void forces_are_minus_the_gradient_of_the_energy_at_a_node(void **state)
 
 /* The energy of all nodes moved at once by their velocities times 1e-8 s: sums of some 1e4 J, rounding 1e-16 each, over
  * 2e-8 s; the power is 1.6e6 W. */
-static void the_power_of_all_forces_is_what_the_energy_loses(void **state)
+TEST(the_power_of_all_forces_is_what_the_energy_loses)
 {
     const double tau = 1e-8;
-    (void)state;
     for (int broken = 0; broken < 2; broken++) {
         body b;
         double power = 0.0, moved[2][2 * MOST_NODES], stored[2];
@@ -219,9 +217,8 @@ static void the_power_of_all_forces_is_what_the_energy_loses(void **state)
 
 /* The force on a node that is driven and damped, times its velocity, is that of its energy, less what damping takes,
  * with what is put in. Some 5e6 W in rounding 1e-16, some ten terms. */
-static void the_power_of_a_node_is_its_force_times_its_velocity(void **state)
+TEST(the_power_of_a_node_is_its_force_times_its_velocity)
 {
-    (void)state;
     for (int broken = 0; broken < 2; broken++) {
         body b;
         open_body(&b, 1e-4);
@@ -245,9 +242,8 @@ static void the_power_of_a_node_is_its_force_times_its_velocity(void **state)
 }
 
 /* Terms of up to 5e6 W: rounding. What the prescribed acceleration takes itself is in the sum over all alone. */
-static void the_power_of_all_is_the_sum_over_nodes(void **state)
+TEST(the_power_of_all_is_the_sum_over_nodes)
 {
-    (void)state;
     for (int broken = 0; broken < 2; broken++) {
         body b;
         double u[2 * MOST_NODES], a[2 * MOST_NODES], damping = 0.0, work = 0.0;
@@ -296,9 +292,8 @@ static bool matters(body *b, dem_index i, dem_index other)
     return before.x != after.x || before.y != after.y;
 }
 
-static void the_neighbours_of_a_node_are_all_that_matter_to_it(void **state)
+TEST(the_neighbours_of_a_node_are_all_that_matter_to_it)
 {
-    (void)state;
     for (int broken = 0; broken < 2; broken++) {
         body b;
         dem_index n_pairs = 0;
@@ -322,10 +317,9 @@ static void the_neighbours_of_a_node_are_all_that_matter_to_it(void **state)
 /* ---- what is broken ---- */
 
 /* To the bit: sums have the same terms in the same order. */
-static void what_is_broken_is_as_if_it_had_never_been(void **state)
+TEST(what_is_broken_is_as_if_it_had_never_been)
 {
     body b, without;
-    (void)state;
     open_body(&b, 1e-4);
     open_without(&without, 1e-4);
     break_some(&b);
@@ -352,10 +346,9 @@ static void what_is_broken_is_as_if_it_had_never_been(void **state)
 }
 
 /* Strains and forces that are reported of each spring: those that are whole have their own, the others 0. */
-static void a_broken_spring_has_no_strain_and_no_force(void **state)
+TEST(a_broken_spring_has_no_strain_and_no_force)
 {
     body b;
-    (void)state;
     open_body(&b, 0.0);
     break_some(&b);
     double *whole = calloc(3 * (size_t)b.lattice.n_springs, sizeof *whole);
@@ -371,18 +364,4 @@ static void a_broken_spring_has_no_strain_and_no_force(void **state)
     }
     free(whole);
     close_body(&b);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forces_are_minus_the_gradient_of_the_energy_at_a_node),
-        cmocka_unit_test(the_power_of_all_forces_is_what_the_energy_loses),
-        cmocka_unit_test(the_power_of_a_node_is_its_force_times_its_velocity),
-        cmocka_unit_test(the_power_of_all_is_the_sum_over_nodes),
-        cmocka_unit_test(the_neighbours_of_a_node_are_all_that_matter_to_it),
-        cmocka_unit_test(what_is_broken_is_as_if_it_had_never_been),
-        cmocka_unit_test(a_broken_spring_has_no_strain_and_no_force),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -169,9 +169,8 @@ static dem_lattice make_solid(double width, double height, const dem_material *m
 }
 
 /* From one cell to rows longer than several blocks, with every number of nodes left over. */
-static void rectangles_of_all_sizes_agree(void **state)
+TEST(rectangles_of_all_sizes_agree)
 {
-    (void)state;
     for (int rows = 1; rows <= 5; rows += 2)
         for (int columns = 1; columns <= 21; columns++) {
             dem_lattice lattice = make_solid(1e-2 * columns + 1e-4, 0.9e-2 * rows + 1e-2, &rubber);
@@ -197,9 +196,8 @@ static dem_lattice make_holed(const dem_material *material)
 }
 
 /* Discs with holes; every law there is: with and without area term, guard and damping of the springs. */
-static void every_law_agrees_on_bodies_with_holes(void **state)
+TEST(every_law_agrees_on_bodies_with_holes)
 {
-    (void)state;
     for (int laws = 0; laws < 8; laws++) {
         dem_material material = rubber;
         if (laws & 1) material.poissons_ratio = 0.45;
@@ -212,9 +210,8 @@ static void every_law_agrees_on_bodies_with_holes(void **state)
 }
 
 /* Moved by up to 0.6 of a spacing, many triangles are below the guard's onset, and some are inverted. */
-static void squeezed_triangles_agree(void **state)
+TEST(squeezed_triangles_agree)
 {
-    (void)state;
     for (int stiff = 0; stiff < 2; stiff++) {
         dem_material material = rubber;
         if (stiff) material.poissons_ratio = 0.2;
@@ -228,9 +225,8 @@ static void squeezed_triangles_agree(void **state)
 }
 
 /* Every seventh spring and every fifth triangle; what is left of the guard stiffens less. */
-static void broken_elements_agree(void **state)
+TEST(broken_elements_agree)
 {
-    (void)state;
     for (int laws = 0; laws < 8; laws++) {
         dem_material material = rubber;
         if (laws & 1) material.poissons_ratio = 0.45;
@@ -253,11 +249,10 @@ static void broken_elements_agree(void **state)
 }
 
 /* The sweep evaluates what is broken too, and has no number for it; a spring that is whole has none either. */
-static void the_ends_of_a_broken_spring_may_meet(void **state)
+TEST(the_ends_of_a_broken_spring_may_meet)
 {
     dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
     element_state broken;
-    (void)state;
     assert_ok(element_state_create(&broken, &lattice));
     for (dem_index k = 0; k < lattice.n_springs; k++) {
         scene s = make_scene(&lattice, 0.1);
@@ -276,11 +271,10 @@ static void the_ends_of_a_broken_spring_may_meet(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void squares_agree(void **state)
+TEST(squares_agree)
 {
     const dem_material raw = {.bond_stiffness = 1e3, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-6};
     dem_lattice lattice;
-    (void)state;
     assert_ok(dem_lattice_squares(&lattice, 0.2, 0.13, 0.01));
     assert_ok(dem_lattice_assemble_squares(&lattice, &raw, 0.5));
     check_lattice(&lattice, 0.2);
@@ -318,9 +312,8 @@ static dem_index *shuffled(dem_index n)
 }
 
 /* The second and third body have so many nodes that the model finds a better numbering for itself. */
-static void any_numbering_agrees(void **state)
+TEST(any_numbering_agrees)
 {
-    (void)state;
     for (int k = 0; k < 3; k++) {
         const int large = k > 0;
         dem_material material = rubber;
@@ -339,7 +332,7 @@ static void any_numbering_agrees(void **state)
 }
 
 /* Springs of stiffness and length of their own between random nodes. */
-static void random_springs_agree(void **state)
+TEST(random_springs_agree)
 {
     enum { n = 203, most = 4 * n };
     static double x[2 * n], mass[n], rest_length[most], stiffness[most], viscosity[most];
@@ -354,7 +347,6 @@ static void random_springs_agree(void **state)
                            .rest_length = rest_length,
                            .stiffness = stiffness,
                            .viscosity = viscosity};
-    (void)state;
     for (dem_index i = 0; i < n; i++) {
         x[2 * i] = 20.0 * gsl_rng_uniform(r);
         x[2 * i + 1] = 20.0 * gsl_rng_uniform(r);
@@ -374,10 +366,9 @@ static void random_springs_agree(void **state)
 }
 
 /* A wheel: one node has a spring to each other. A layout of it would take n^2 of memory, and is not made. */
-static void a_hub_of_many_springs_agrees(void **state)
+TEST(a_hub_of_many_springs_agrees)
 {
     const dem_index sizes[] = {40, 3000};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         const dem_index n = sizes[k];
         double *x = malloc(2 * (size_t)n * sizeof *x), *mass = malloc((size_t)n * sizeof *mass);
@@ -414,14 +405,13 @@ static void a_hub_of_many_springs_agrees(void **state)
 /* ---- what is done from outside ---- */
 
 /* Fixed nodes stay, pushed ones are pushed, some of them twice. */
-static void fixed_and_pushed_nodes_agree(void **state)
+TEST(fixed_and_pushed_nodes_agree)
 {
     dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
     const dem_index pushed[] = {3, 17, 40}, others[] = {17, 5};
     const dem_boundary list[] = {{.kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = pushed, .value = {1e3, -2e3}},
                                  {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = others, .value = {5.0, 1.0}}};
     boundary_conditions pushes;
-    (void)state;
     lattice.flags = calloc((size_t)lattice.n_nodes, sizeof *lattice.flags);
     assert_non_null(lattice.flags);
     for (dem_index i = 0; i < lattice.n_nodes; i += 7) lattice.flags[i] = DEM_NODE_FIXED;
@@ -436,11 +426,10 @@ static void fixed_and_pushed_nodes_agree(void **state)
 }
 
 /* Springs along rows only, triangles between rows: these reach further. */
-static void triangles_may_reach_further_than_springs(void **state)
+TEST(triangles_may_reach_further_than_springs)
 {
     const forces load = {.gravity = {0.5, -9.81}};
     dem_material material = rubber;
-    (void)state;
     material.poissons_ratio = 0.2;
     dem_lattice lattice = make_solid(0.6, 0.6, &material);
     dem_index kept = 0;
@@ -461,12 +450,11 @@ static void triangles_may_reach_further_than_springs(void **state)
 }
 
 /* Not where something asks for velocities, or pushes, or the nodes are renumbered. */
-static void what_depends_on_more_than_positions_is_not_fused(void **state)
+TEST(what_depends_on_more_than_positions_is_not_fused)
 {
     dem_index none = -1;
     const boundary_conditions pushes = {.first = &none};
     const forces plain = {.gravity = {0.5, -9.81}}, drag = {.mass_damping = 1.0}, pushed = {.boundaries = &pushes};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         dem_material material = rubber;
         if (k == 1) material.damping_time = 1e-5;
@@ -483,12 +471,11 @@ static void what_depends_on_more_than_positions_is_not_fused(void **state)
     }
 }
 
-static void a_number_that_is_not_finite_shows_in_the_sum(void **state)
+TEST(a_number_that_is_not_finite_shows_in_the_sum)
 {
     dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
     scene s = make_scene(&lattice, 0.1);
     const forces load = {.model = s.model, .gravity = {0.0, -9.81}};
-    (void)state;
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++) {
         kernel k;
         if (dem_kernel_check(kind) != DEM_OK) continue;
@@ -511,7 +498,7 @@ static void a_number_that_is_not_finite_shows_in_the_sum(void **state)
 /* A triangle squeezed to a fifth along y: J = 0.2, ln(J/0.4) = -ln 2. Opposite to node 2 is the side of 1 m, to node 1
  * the diagonal, to node 0 the side of 0.2 m; each in turn is so light that it decides. What the guard adds stands
  * beside omega_max^2. */
-static void the_guard_stiffens_what_it_squeezes(void **state)
+TEST(the_guard_stiffens_what_it_squeezes)
 {
     double rest[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0}, mass[3] = {1.0, 2.0, 3.0}, length[2] = {1.0, 1.0};
     double stiffness[2] = {10.0, 10.0}, guard[1] = {10.0};
@@ -531,7 +518,6 @@ static void the_guard_stiffens_what_it_squeezes(void **state)
                                  .stiffness = stiffness,
                                  .triangles = corners,
                                  .guard = guard};
-    (void)state;
     for (int light = -1; light < 3; light++) {
         double added = 0.0;
         for (int i = 0; i < 3; i++) mass[i] = i == light ? 0.1 : 1.0 + i;
@@ -551,10 +537,9 @@ static void the_guard_stiffens_what_it_squeezes(void **state)
 
 /* ---- names ---- */
 
-static void kernels_have_names(void **state)
+TEST(kernels_have_names)
 {
     dem_kernel kind;
-    (void)state;
     for (dem_kernel k = DEM_KERNEL_AUTO; k <= DEM_KERNEL_AVX512; k++) {
         assert_ok(dem_kernel_find(&kind, dem_kernel_name(k)));
         assert_int_equal(kind, k);
@@ -567,12 +552,11 @@ static void kernels_have_names(void **state)
     assert_ok(dem_kernel_check(DEM_KERNEL_PORTABLE));
 }
 
-static void the_choice_left_open_is_the_last_that_runs(void **state)
+TEST(the_choice_left_open_is_the_last_that_runs)
 {
     dem_lattice lattice = make_solid(0.05, 0.05, &rubber);
     scene s = make_scene(&lattice, 0.1);
     kernel k;
-    (void)state;
     assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
     assert_ok(dem_kernel_check(k.kind));
     assert_true(k.kind != DEM_KERNEL_AUTO);
@@ -581,27 +565,4 @@ static void the_choice_left_open_is_the_last_that_runs(void **state)
     assert_int_equal(kernel_create(&k, s.model, (dem_kernel)99, 1), DEM_ERROR_ARGUMENT);
     free_scene(&s);
     dem_lattice_free(&lattice);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rectangles_of_all_sizes_agree),
-        cmocka_unit_test(every_law_agrees_on_bodies_with_holes),
-        cmocka_unit_test(squeezed_triangles_agree),
-        cmocka_unit_test(broken_elements_agree),
-        cmocka_unit_test(the_ends_of_a_broken_spring_may_meet),
-        cmocka_unit_test(squares_agree),
-        cmocka_unit_test(any_numbering_agrees),
-        cmocka_unit_test(random_springs_agree),
-        cmocka_unit_test(a_hub_of_many_springs_agrees),
-        cmocka_unit_test(fixed_and_pushed_nodes_agree),
-        cmocka_unit_test(triangles_may_reach_further_than_springs),
-        cmocka_unit_test(what_depends_on_more_than_positions_is_not_fused),
-        cmocka_unit_test(a_number_that_is_not_finite_shows_in_the_sum),
-        cmocka_unit_test(the_guard_stiffens_what_it_squeezes),
-        cmocka_unit_test(kernels_have_names),
-        cmocka_unit_test(the_choice_left_open_is_the_last_that_runs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,9 +93,8 @@ static void check_accelerations(rig *r)
     }
 }
 
-static void accelerations_are_those_of_the_model(void **state)
+TEST(accelerations_are_those_of_the_model)
 {
-    (void)state;
     for (int area = 0; area < 2; area++) {
         rig r;
         open_rig(&r, area ? 0.2 : 1.0 / 3.0);
@@ -107,11 +106,10 @@ static void accelerations_are_those_of_the_model(void **state)
 }
 
 /* Half of the springs are broken, those with an odd number. */
-static void broken_springs_do_not_pull(void **state)
+TEST(broken_springs_do_not_pull)
 {
     rig r;
     element_state broken;
-    (void)state;
     open_rig(&r, 1.0 / 3.0);
     assert_ok(element_state_create(&broken, &r.model->lattice));
     for (dem_index k = 1; k < r.model->lattice.n_springs; k += 2)
@@ -123,10 +121,9 @@ static void broken_springs_do_not_pull(void **state)
 }
 
 /* Every node has its number, in the nearest ring; those gathered before are forgotten. */
-static void nodes_have_their_numbers_in_rings(void **state)
+TEST(nodes_have_their_numbers_in_rings)
 {
     rig r;
-    (void)state;
     open_rig(&r, 1.0 / 3.0);
     gather(&r, 0);
     gather(&r, r.layout.n_nodes / 2);
@@ -144,11 +141,10 @@ static void nodes_have_their_numbers_in_rings(void **state)
 }
 
 /* The damping of masses takes alpha m v^2 of each. */
-static void power_is_summed_over_rings(void **state)
+TEST(power_is_summed_over_rings)
 {
     double totals[STATE_TOTALS] = {0.0}, expected = 0.0;
     rig r;
-    (void)state;
     open_rig(&r, 1.0 / 3.0);
     gather(&r, r.layout.n_nodes / 2);
     assert_true(r.near.have_power);
@@ -160,15 +156,4 @@ static void power_is_summed_over_rings(void **state)
     assert_close(totals[STATE_DAMPING], expected, 1e-14 * expected);
     assert_close(totals[STATE_WORK], 0.0, 0.0);
     close_rig(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(accelerations_are_those_of_the_model),
-        cmocka_unit_test(broken_springs_do_not_pull),
-        cmocka_unit_test(nodes_have_their_numbers_in_rings),
-        cmocka_unit_test(power_is_summed_over_rings),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,9 +27,8 @@ static int triangles_at(const dem_lattice *lattice, dem_index spring)
 
 /* ---- triangulations ---- */
 
-static void springs_come_by_lower_then_upper_node_without_duplicates(void **state)
+TEST(springs_come_by_lower_then_upper_node_without_duplicates)
 {
-    (void)state;
     dem_lattice lattice = make_solid(0.03, 0.03, spacing);
     assert_int_equal(lattice.n_nodes - lattice.n_springs + lattice.n_triangles, 1); /* Euler */
     for (dem_index k = 0; k < lattice.n_springs; k++) {
@@ -41,9 +40,8 @@ static void springs_come_by_lower_then_upper_node_without_duplicates(void **stat
     dem_lattice_free(&lattice);
 }
 
-static void stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary(void **state)
+TEST(stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary)
 {
-    (void)state;
     const double inside = sqrt(3.0) / 2.0 * rubber.youngs_modulus * rubber.thickness * spacing;
     dem_lattice lattice = make_solid(0.03, 0.03, spacing);
     dem_index n_boundary = 0;
@@ -57,9 +55,8 @@ static void stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary(
     dem_lattice_free(&lattice);
 }
 
-static void masses_guard_thickness_and_modulus_are_those_of_the_triangles(void **state)
+TEST(masses_guard_thickness_and_modulus_are_those_of_the_triangles)
 {
-    (void)state;
     dem_lattice lattice = make_solid(0.08, 0.13, spacing);
     const double share = rubber.density * rubber.thickness * sqrt(3.0) / 12.0 * spacing * spacing;
     double mass = 0.0;
@@ -75,9 +72,8 @@ static void masses_guard_thickness_and_modulus_are_those_of_the_triangles(void *
     dem_lattice_free(&lattice);
 }
 
-static void a_material_without_guard_leaves_guard_NULL(void **state)
+TEST(a_material_without_guard_leaves_guard_NULL)
 {
-    (void)state;
     dem_material plain = rubber;
     plain.guard = 0.0;
     dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
@@ -87,9 +83,8 @@ static void a_material_without_guard_leaves_guard_NULL(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void viscosity_is_damping_time_times_stiffness(void **state)
+TEST(viscosity_is_damping_time_times_stiffness)
 {
-    (void)state;
     dem_material damped = rubber;
     damped.damping_time = 3e-5;
     dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
@@ -137,9 +132,8 @@ static void expect_energy_of(const dem_material *solid, const double e[3])
     dem_lattice_free(&lattice);
 }
 
-static void a_uniformly_strained_block_has_the_energy_of_its_solid(void **state)
+TEST(a_uniformly_strained_block_has_the_energy_of_its_solid)
 {
-    (void)state;
     static const double strains[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, 0}, {1, 1, 0}, {0.3, -0.7, 0.5}};
     static const double ratios[] = {-0.3, 0.0, 0.1, 0.25, 1.0 / 3.0, 0.45};
     dem_material solid = rubber;
@@ -153,9 +147,8 @@ static void a_uniformly_strained_block_has_the_energy_of_its_solid(void **state)
 }
 
 /* kappa = E h (3 nu - 1)/(2 (1 - nu^2)): at 0.5 E h/3; springs alone have 1/3 in plane stress, 1/4 in plane strain. */
-static void area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it(void **state)
+TEST(area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it)
 {
-    (void)state;
     const dem_plane planes[3] = {DEM_PLANE_STRESS, DEM_PLANE_STRESS, DEM_PLANE_STRAIN};
     const double ratios[3] = {0.5, 1.0 / 3.0, 0.25};
     for (int k = 0; k < 3; k++) {
@@ -174,9 +167,8 @@ static void area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have
 
 /* All of E_ij, on the boundary too; no area term. The guard is that of the E h for which the rule of triangles gives
  * E_ij inside: E_ij = sqrt(3)/2 E h a. */
-static void every_spring_may_have_the_same_stiffness(void **state)
+TEST(every_spring_may_have_the_same_stiffness)
 {
-    (void)state;
     const dem_material raw = {
         .bond_stiffness = 300.0, .density = 1050.0, .thickness = 0.5, .guard = 0.02, .damping_time = 1e-3};
     dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
@@ -206,9 +198,8 @@ static dem_lattice make_squares(double width, double height)
 }
 
 /* Sides k = E h/(1 + nu), half of it on the boundary; diagonals r k; times their lengths. Masses: quarters of cells. */
-static void squares_have_sides_and_both_diagonals(void **state)
+TEST(squares_have_sides_and_both_diagonals)
 {
-    (void)state;
     const double r = 0.3, k = 1e7 * 0.5 / (1.0 + 1.0 / 3.0), cell = 1050.0 * 0.5 * spacing * spacing;
     dem_lattice lattice = make_squares(4.0 * spacing, 3.0 * spacing);
     dem_index n_sides = 0, n_diagonals = 0;
@@ -236,9 +227,8 @@ static void squares_have_sides_and_both_diagonals(void **state)
 
 /* C11 = E/(1 - nu^2), C12 = nu C11, C66 = r E/(1 + nu) of plane stress: per area
  * 1/2 (C11 (xx^2 + yy^2) + 2 C12 xx yy + 4 C66 xy^2). Fourth order as above. */
-static void a_uniformly_strained_block_of_squares_is_cubic(void **state)
+TEST(a_uniformly_strained_block_of_squares_is_cubic)
 {
-    (void)state;
     static const double strains[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {0.3, -0.7, 0.5}};
     static const double solids[][2] = {{-0.3, 0.2},      {0.0, 0.2},  {0.0, 0.45},
                                        {1.0 / 3.0, 0.5}, {0.45, 0.5}, {0.45, 1.3}};
@@ -262,9 +252,8 @@ static void a_uniformly_strained_block_of_squares_is_cubic(void **state)
 }
 
 /* nu = r/(1 + r), up to rounding; at r = 1/2, nu = 1/3 exactly. */
-static void squares_need_no_area_term_at_the_ratio_of_their_diagonals(void **state)
+TEST(squares_need_no_area_term_at_the_ratio_of_their_diagonals)
 {
-    (void)state;
     dem_material solid = rubber;
     dem_lattice lattice = make_squares(0.03, 0.03);
     assert_int_equal(dem_lattice_assemble_squares(&lattice, &solid, 0.5), DEM_OK);
@@ -279,9 +268,8 @@ static void squares_need_no_area_term_at_the_ratio_of_their_diagonals(void **sta
 }
 
 /* A rhombus and a trapezium: all mass and no more, springs along all six lines. */
-static void cells_may_be_any_convex_quadrilaterals(void **state)
+TEST(cells_may_be_any_convex_quadrilaterals)
 {
-    (void)state;
     dem_lattice lattice = make_squares(2.0 * spacing, spacing);
     lattice.x[2 * 1] += 0.3 * spacing;
     lattice.x[2 * 4 + 1] -= 0.2 * spacing;
@@ -294,9 +282,8 @@ static void cells_may_be_any_convex_quadrilaterals(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void squares_refuse_what_is_no_cell(void **state)
+TEST(squares_refuse_what_is_no_cell)
 {
-    (void)state;
     dem_lattice lattice = make_squares(2.0 * spacing, 2.0 * spacing);
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.0), DEM_ERROR_ARGUMENT,
                    "the stiffness of a diagonal over a side's must be > 0: 0");
@@ -371,9 +358,8 @@ static void expect_mean_on_the_seam(const dem_lattice *mixed, const dem_lattice 
     }
 }
 
-static void a_spring_between_two_materials_is_half_of_each(void **state)
+TEST(a_spring_between_two_materials_is_half_of_each)
 {
-    (void)state;
     const dem_material both[2] = {rubber, steel};
     dem_lattice mixed = make_squares(6.0 * spacing, 4.0 * spacing), left = make_squares(6.0 * spacing, 4.0 * spacing),
                 right = make_squares(6.0 * spacing, 4.0 * spacing);
@@ -389,9 +375,8 @@ static void a_spring_between_two_materials_is_half_of_each(void **state)
     dem_lattice_free(&right);
 }
 
-static void a_mixture_refuses_what_cannot_be_mixed(void **state)
+TEST(a_mixture_refuses_what_cannot_be_mixed)
 {
-    (void)state;
     dem_material both[2] = {rubber, steel};
     dem_lattice lattice = make_squares(spacing, spacing);
     dem_index of[2] = {0, 1};
@@ -420,9 +405,8 @@ static void a_mixture_refuses_what_cannot_be_mixed(void **state)
 
 /* ---- faults ---- */
 
-static void assembling_refuses_what_is_not_a_triangulation(void **state)
+TEST(assembling_refuses_what_is_not_a_triangulation)
 {
-    (void)state;
     dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     const dem_index corner = lattice.triangles[0];
     lattice.triangles[0] = lattice.triangles[1];
@@ -445,9 +429,8 @@ static void assembling_refuses_what_is_not_a_triangulation(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void assembling_refuses_impossible_materials(void **state)
+TEST(assembling_refuses_impossible_materials)
 {
-    (void)state;
     dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     dem_material m = rubber;
     m.youngs_modulus = 0.0;
@@ -479,28 +462,4 @@ static void assembling_refuses_impossible_materials(void **state)
     assert_refused(dem_lattice_assemble(&lattice, NULL), DEM_ERROR_ARGUMENT, "material is NULL");
     assert_refused(dem_lattice_assemble(NULL, &rubber), DEM_ERROR_ARGUMENT, "lattice is NULL");
     dem_lattice_free(&lattice);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(springs_come_by_lower_then_upper_node_without_duplicates),
-        cmocka_unit_test(stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary),
-        cmocka_unit_test(masses_guard_thickness_and_modulus_are_those_of_the_triangles),
-        cmocka_unit_test(a_material_without_guard_leaves_guard_NULL),
-        cmocka_unit_test(viscosity_is_damping_time_times_stiffness),
-        cmocka_unit_test(a_uniformly_strained_block_has_the_energy_of_its_solid),
-        cmocka_unit_test(area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it),
-        cmocka_unit_test(every_spring_may_have_the_same_stiffness),
-        cmocka_unit_test(squares_have_sides_and_both_diagonals),
-        cmocka_unit_test(a_uniformly_strained_block_of_squares_is_cubic),
-        cmocka_unit_test(squares_need_no_area_term_at_the_ratio_of_their_diagonals),
-        cmocka_unit_test(cells_may_be_any_convex_quadrilaterals),
-        cmocka_unit_test(squares_refuse_what_is_no_cell),
-        cmocka_unit_test(a_spring_between_two_materials_is_half_of_each),
-        cmocka_unit_test(a_mixture_refuses_what_cannot_be_mixed),
-        cmocka_unit_test(assembling_refuses_what_is_not_a_triangulation),
-        cmocka_unit_test(assembling_refuses_impossible_materials),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,9 +14,8 @@ static const double spacing = 2.5e-3; /* m */
 
 /* ---- rectangle ---- */
 
-static void the_papers_rectangle_has_1983_nodes_in_61_rows(void **state)
+TEST(the_papers_rectangle_has_1983_nodes_in_61_rows)
 {
-    (void)state;
     dem_lattice lattice = make_rectangle(0.08, 0.13, spacing);
     dem_index rows = 1;
     for (dem_index i = 1; i < lattice.n_nodes; i++) rows += lattice.x[2 * i + 1] > lattice.x[2 * i - 1];
@@ -32,9 +31,8 @@ static void the_papers_rectangle_has_1983_nodes_in_61_rows(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void every_triangle_is_equilateral_and_counter_clockwise(void **state)
+TEST(every_triangle_is_equilateral_and_counter_clockwise)
 {
-    (void)state;
     const double expected = sqrt(3.0) / 4.0 * spacing * spacing;
     dem_lattice shapes[2] = {make_rectangle(0.04, 0.03, spacing)};
     assert_int_equal(dem_lattice_disc(&shapes[1], 0.03, spacing), DEM_OK);
@@ -51,9 +49,8 @@ static void every_triangle_is_equilateral_and_counter_clockwise(void **state)
     }
 }
 
-static void rows_are_mirror_symmetric_to_the_bit(void **state)
+TEST(rows_are_mirror_symmetric_to_the_bit)
 {
-    (void)state;
     dem_lattice lattice = make_rectangle(0.0811, 0.13, 1.7e-3);
     for (dem_index first = 0; first < lattice.n_nodes;) {
         dem_index end = first;
@@ -65,18 +62,16 @@ static void rows_are_mirror_symmetric_to_the_bit(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_rectangle_of_one_spacing_is_one_triangle(void **state)
+TEST(a_rectangle_of_one_spacing_is_one_triangle)
 {
-    (void)state;
     dem_lattice lattice = make_rectangle(1.0, 1.0, 1.0);
     assert_int_equal(lattice.n_nodes, 3);
     assert_int_equal(lattice.n_triangles, 1);
     dem_lattice_free(&lattice);
 }
 
-static void a_rectangle_refuses_impossible_sizes(void **state)
+TEST(a_rectangle_refuses_impossible_sizes)
 {
-    (void)state;
     dem_lattice lattice = {.n_nodes = 7};
     assert_refused(dem_lattice_rectangle(&lattice, 1.0, 1.0, 2.0), DEM_ERROR_ARGUMENT,
                    "a rectangle of 1 m x 1 m cannot have the spacing 2 m");
@@ -96,9 +91,8 @@ static void a_rectangle_refuses_impossible_sizes(void **state)
 
 /* ---- disc ---- */
 
-static void a_disc_fills_its_radius_and_has_a_node_at_the_centre(void **state)
+TEST(a_disc_fills_its_radius_and_has_a_node_at_the_centre)
 {
-    (void)state;
     const double radius = 25.0 * spacing, cell = sqrt(0.75) * spacing * spacing;
     int at_centre = 0, on_rim = 0;
     dem_lattice lattice;
@@ -115,9 +109,8 @@ static void a_disc_fills_its_radius_and_has_a_node_at_the_centre(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_disc_is_mirror_symmetric_about_both_axes(void **state)
+TEST(a_disc_is_mirror_symmetric_about_both_axes)
 {
-    (void)state;
     for (int k = 0; k < 20; k++) {
         dem_lattice lattice;
         dem_index mirrored = 0;
@@ -133,9 +126,8 @@ static void a_disc_is_mirror_symmetric_about_both_axes(void **state)
     }
 }
 
-static void a_disc_of_one_spacing_is_a_hexagon(void **state)
+TEST(a_disc_of_one_spacing_is_a_hexagon)
 {
-    (void)state;
     dem_lattice lattice;
     assert_int_equal(dem_lattice_disc(&lattice, spacing, spacing), DEM_OK);
     assert_int_equal(lattice.n_nodes, 7);
@@ -143,9 +135,8 @@ static void a_disc_of_one_spacing_is_a_hexagon(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_disc_refuses_impossible_sizes(void **state)
+TEST(a_disc_refuses_impossible_sizes)
 {
-    (void)state;
     dem_lattice lattice = {.n_nodes = 7};
     assert_refused(dem_lattice_disc(&lattice, 1.0, 1.5), DEM_ERROR_ARGUMENT,
                    "a disc of radius 1 m cannot have the spacing 1.5 m");
@@ -169,9 +160,8 @@ static int outside_hole(void *context, const double x[2])
     return hypot(x[0] - h->x, x[1] - h->y) > h->radius;
 }
 
-static void cutting_a_hole_leaves_the_triangles_outside_it(void **state)
+TEST(cutting_a_hole_leaves_the_triangles_outside_it)
 {
-    (void)state;
     hole h = {.x = 0.002, .y = 0.03, .radius = 0.01};
     dem_lattice lattice = make_rectangle(0.06, 0.06, spacing);
     const dem_index before = lattice.n_triangles;
@@ -190,9 +180,8 @@ static int is_not_lower_left(void *context, const double x[2])
     return !(x[1] < 0.1 && x[0] < 0.1);
 }
 
-static void a_cut_drops_nodes_left_without_a_triangle(void **state)
+TEST(a_cut_drops_nodes_left_without_a_triangle)
 {
-    (void)state;
     dem_lattice lattice =
         make_rectangle(1.0, 1.6, 1.0); /* two triangles: lower and upper edge of 2, one node between */
     assert_int_equal(lattice.n_nodes, 5);
@@ -209,9 +198,8 @@ static int keep_nothing(void *context, const double x[2])
     return 0;
 }
 
-static void a_cut_refuses_to_leave_nothing_and_to_cut_springs(void **state)
+TEST(a_cut_refuses_to_leave_nothing_and_to_cut_springs)
 {
-    (void)state;
     dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     assert_refused(dem_lattice_cut(&lattice, keep_nothing, NULL), DEM_ERROR_MODEL, "none of 5 nodes is left");
     assert_int_equal(lattice.n_nodes, 5);
@@ -225,9 +213,8 @@ static void a_cut_refuses_to_leave_nothing_and_to_cut_springs(void **state)
 
 /* ---- squares ---- */
 
-static void squares_are_two_triangles_each_that_meet_along_turning_diagonals(void **state)
+TEST(squares_are_two_triangles_each_that_meet_along_turning_diagonals)
 {
-    (void)state;
     dem_lattice lattice;
     assert_int_equal(dem_lattice_squares(&lattice, 0.031, 0.024, 0.01), DEM_OK); /* 3 x 2 cells */
     assert_int_equal(lattice.n_nodes, 12);
@@ -251,9 +238,8 @@ static void squares_are_two_triangles_each_that_meet_along_turning_diagonals(voi
     dem_lattice_free(&lattice);
 }
 
-static void squares_refuse_impossible_sizes(void **state)
+TEST(squares_refuse_impossible_sizes)
 {
-    (void)state;
     dem_lattice lattice;
     assert_refused(dem_lattice_squares(&lattice, 1.0, 1.0, 1.5), DEM_ERROR_ARGUMENT,
                    "a rectangle of 1 m x 1 m cannot have the spacing 1.5 m");
@@ -270,9 +256,8 @@ static bool is_inside(const dem_lattice *lattice, dem_index i)
     return fabs(x[0]) < 0.02 - 0.9 * spacing && x[1] > 0.5 * spacing && x[1] < 0.03 - 0.5 * spacing;
 }
 
-static void jitter_moves_the_nodes_inside_within_its_radius_and_no_other(void **state)
+TEST(jitter_moves_the_nodes_inside_within_its_radius_and_no_other)
 {
-    (void)state;
     const double radius = 0.2 * spacing;
     dem_lattice lattice = make_rectangle(0.04, 0.03, spacing), before = make_rectangle(0.04, 0.03, spacing);
     double mean[2] = {0.0, 0.0}, squares = 0.0;
@@ -296,9 +281,8 @@ static void jitter_moves_the_nodes_inside_within_its_radius_and_no_other(void **
     dem_lattice_free(&before);
 }
 
-static void jitter_depends_on_its_seed_alone(void **state)
+TEST(jitter_depends_on_its_seed_alone)
 {
-    (void)state;
     dem_lattice one = make_rectangle(0.04, 0.03, spacing), same = make_rectangle(0.04, 0.03, spacing),
                 other = make_rectangle(0.04, 0.03, spacing);
     const size_t size = 2 * (size_t)one.n_nodes * sizeof *one.x;
@@ -313,9 +297,8 @@ static void jitter_depends_on_its_seed_alone(void **state)
 }
 
 /* Two spacings would fold nearly all of them. */
-static void no_triangle_keeps_less_than_a_tenth_of_its_area(void **state)
+TEST(no_triangle_keeps_less_than_a_tenth_of_its_area)
 {
-    (void)state;
     dem_lattice lattice = make_rectangle(0.04, 0.03, spacing);
     const double before = area_of(&lattice, 0);
     double least = 1.0;
@@ -325,9 +308,8 @@ static void no_triangle_keeps_less_than_a_tenth_of_its_area(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void jitter_refuses_what_it_cannot_move(void **state)
+TEST(jitter_refuses_what_it_cannot_move)
 {
-    (void)state;
     dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     assert_refused(dem_lattice_jitter(&lattice, -0.1, 1), DEM_ERROR_ARGUMENT,
                    "the radius of the jitter must be >= 0: -0.1 m");
@@ -342,29 +324,4 @@ static void jitter_refuses_what_it_cannot_move(void **state)
     dem_lattice_free(&lattice);
     assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
                    "a lattice without triangles cannot be jittered");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_papers_rectangle_has_1983_nodes_in_61_rows),
-        cmocka_unit_test(every_triangle_is_equilateral_and_counter_clockwise),
-        cmocka_unit_test(rows_are_mirror_symmetric_to_the_bit),
-        cmocka_unit_test(a_rectangle_of_one_spacing_is_one_triangle),
-        cmocka_unit_test(a_rectangle_refuses_impossible_sizes),
-        cmocka_unit_test(a_disc_fills_its_radius_and_has_a_node_at_the_centre),
-        cmocka_unit_test(a_disc_is_mirror_symmetric_about_both_axes),
-        cmocka_unit_test(a_disc_of_one_spacing_is_a_hexagon),
-        cmocka_unit_test(a_disc_refuses_impossible_sizes),
-        cmocka_unit_test(cutting_a_hole_leaves_the_triangles_outside_it),
-        cmocka_unit_test(a_cut_drops_nodes_left_without_a_triangle),
-        cmocka_unit_test(a_cut_refuses_to_leave_nothing_and_to_cut_springs),
-        cmocka_unit_test(squares_are_two_triangles_each_that_meet_along_turning_diagonals),
-        cmocka_unit_test(squares_refuse_impossible_sizes),
-        cmocka_unit_test(jitter_moves_the_nodes_inside_within_its_radius_and_no_other),
-        cmocka_unit_test(jitter_depends_on_its_seed_alone),
-        cmocka_unit_test(no_triangle_keeps_less_than_a_tenth_of_its_area),
-        cmocka_unit_test(jitter_refuses_what_it_cannot_move),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

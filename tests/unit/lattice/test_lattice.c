@@ -29,9 +29,8 @@ static void give_area_stiffness(dem_lattice *lattice)
 
 /* ---- parts, select ---- */
 
-static void parts_are_numbered_by_their_lowest_nodes(void **state)
+TEST(parts_are_numbered_by_their_lowest_nodes)
 {
-    (void)state;
     const dem_index expected[7] = {0, 1, 0, 2, 1, 1, 3};
     double x[14] = {0}, ones[3] = {1, 1, 1};
     dem_index ends[6] = {2, 0, 5, 4, 4, 1}, part[7], n_parts;
@@ -49,9 +48,8 @@ static void parts_are_numbered_by_their_lowest_nodes(void **state)
                    "spring 1 has node 7, but there are 7 nodes");
 }
 
-static void select_keeps_every_array_in_step(void **state)
+TEST(select_keeps_every_array_in_step)
 {
-    (void)state;
     const double v[2] = {3.0, -2.0}, offset[2] = {0.0, 0.0};
     dem_lattice lattice = make_solid(1.0, 1.6, 1.0);
     const double top_mass = lattice.mass[4], stiffness = lattice.stiffness[5];
@@ -95,9 +93,8 @@ static void select_keeps_every_array_in_step(void **state)
 }
 
 /* Two columns and two strips of spacing 1: two triangles that meet in node 2 alone, an hourglass. */
-static void pieces_share_edges_and_a_hinge_has_more_than_two_rims(void **state)
+TEST(pieces_share_edges_and_a_hinge_has_more_than_two_rims)
 {
-    (void)state;
     const dem_index expected[2] = {0, 1}, rims[5] = {2, 2, 4, 2, 2};
     dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     dem_index n, piece[2], n_edges[5];
@@ -114,9 +111,8 @@ static void pieces_share_edges_and_a_hinge_has_more_than_two_rims(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_hexagon_is_one_piece_without_a_rim_at_its_centre(void **state)
+TEST(a_hexagon_is_one_piece_without_a_rim_at_its_centre)
 {
-    (void)state;
     dem_lattice lattice;
     dem_index n, n_edges[7];
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
@@ -128,9 +124,8 @@ static void a_hexagon_is_one_piece_without_a_rim_at_its_centre(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void trimming_keeps_triangles_with_their_nodes(void **state)
+TEST(trimming_keeps_triangles_with_their_nodes)
 {
-    (void)state;
     const unsigned char upper[2] = {0, 3}, none[2] = {0, 0};
     const dem_index expected[3] = {0, 2, 1};
     dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
@@ -154,9 +149,8 @@ static void trimming_keeps_triangles_with_their_nodes(void **state)
 }
 
 /* Nodes can lose triangles and all stay: here two of six, opposite to each other. */
-static void a_node_stays_with_what_is_left_of_its_triangles(void **state)
+TEST(a_node_stays_with_what_is_left_of_its_triangles)
 {
-    (void)state;
     const unsigned char keep[6] = {0, 1, 1, 1, 1, 0};
     dem_lattice lattice;
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
@@ -170,9 +164,8 @@ static void a_node_stays_with_what_is_left_of_its_triangles(void **state)
 /* ---- move, launch, append ---- */
 
 /* Masses 1 and 3 kg at 0 and 4 m turn about 3 m: at 2 rad/s the first goes down with 6 m/s, the second up with 2. */
-static void spin_turns_about_the_centre_of_mass(void **state)
+TEST(spin_turns_about_the_centre_of_mass)
 {
-    (void)state;
     double x[4] = {7.0, 0.0, 7.0, 0.0}, position[4] = {0.0, 5.0, 4.0, 5.0}, mass[2] = {1.0, 3.0};
     const double v[2] = {0.5, 0.25};
     dem_lattice lattice;
@@ -192,9 +185,8 @@ static void spin_turns_about_the_centre_of_mass(void **state)
     free(lattice.velocity);
 }
 
-static void move_turns_about_the_origin_then_shifts(void **state)
+TEST(move_turns_about_the_origin_then_shifts)
 {
-    (void)state;
     const double quarter = 1.5707963267948966, offset[2] = {10.0, 20.0}, v[2] = {1.0, 2.0};
     dem_lattice lattice = make_rectangle(2.0, 2.0, 1.0);
     const double x0 = lattice.x[0], y0 = lattice.x[1];
@@ -213,9 +205,8 @@ static void move_turns_about_the_origin_then_shifts(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void launch_refuses_what_is_no_velocity(void **state)
+TEST(launch_refuses_what_is_no_velocity)
 {
-    (void)state;
     const double bad[2] = {0.0, (double)NAN};
     dem_lattice lattice = make_rectangle(1.0, 1.0, 1.0);
     assert_refused(dem_lattice_launch(&lattice, bad), DEM_ERROR_ARGUMENT, "the velocity must be two finite numbers");
@@ -224,9 +215,8 @@ static void launch_refuses_what_is_no_velocity(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void append_numbers_nodes_and_bodies_behind_the_others(void **state)
+TEST(append_numbers_nodes_and_bodies_behind_the_others)
 {
-    (void)state;
     const double v[2] = {0.0, -1.0};
     dem_lattice all, part = make_solid(1.0, 1.6, 1.0);
     dem_lattice_init(&all);
@@ -258,9 +248,8 @@ static void append_numbers_nodes_and_bodies_behind_the_others(void **state)
     dem_lattice_free(&part);
 }
 
-static void append_keeps_who_may_touch_and_where_the_motion_starts(void **state)
+TEST(append_keeps_who_may_touch_and_where_the_motion_starts)
 {
-    (void)state;
     const double offset[2] = {4.0, 0.0};
     dem_lattice block = make_solid(2.0, 2.0, 1.0), point;
     dem_lattice_init(&point);
@@ -288,9 +277,8 @@ static void append_keeps_who_may_touch_and_where_the_motion_starts(void **state)
     dem_lattice_free(&point);
 }
 
-static void append_gives_undamped_springs_no_viscosity_beside_damped_ones(void **state)
+TEST(append_gives_undamped_springs_no_viscosity_beside_damped_ones)
 {
-    (void)state;
     dem_lattice all, damped = make_solid(1.0, 1.6, 1.0), plain = make_solid(1.0, 1.0, 1.0);
     dem_lattice_init(&all);
     give_viscosity(&damped);
@@ -307,9 +295,8 @@ static void append_gives_undamped_springs_no_viscosity_beside_damped_ones(void *
     dem_lattice_free(&plain);
 }
 
-static void append_gives_thickness_and_modulus_1_beside_given_ones(void **state)
+TEST(append_gives_thickness_and_modulus_1_beside_given_ones)
 {
-    (void)state;
     dem_lattice all, given = make_solid(1.0, 1.6, 1.0), plain = make_rectangle(1.0, 1.0, 1.0);
     dem_lattice_init(&all);
     plain.mass = calloc(3, sizeof *plain.mass);
@@ -331,9 +318,8 @@ static void append_gives_thickness_and_modulus_1_beside_given_ones(void **state)
     dem_lattice_free(&plain);
 }
 
-static void append_refuses_mixed_and_broken_lattices(void **state)
+TEST(append_refuses_mixed_and_broken_lattices)
 {
-    (void)state;
     dem_lattice solid = make_solid(1.0, 1.0, 1.0), bare = make_rectangle(1.0, 1.0, 1.0), broken;
     assert_refused(dem_lattice_append(&solid, &bare), DEM_ERROR_MODEL, "one lattice has masses, the other has none");
     assert_refused(dem_lattice_append(NULL, &bare), DEM_ERROR_ARGUMENT, "lattice is NULL");
@@ -350,25 +336,4 @@ static void append_refuses_mixed_and_broken_lattices(void **state)
     dem_lattice_free(&solid);
     dem_lattice_free(&bare);
     dem_lattice_free(NULL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_are_numbered_by_their_lowest_nodes),
-        cmocka_unit_test(select_keeps_every_array_in_step),
-        cmocka_unit_test(pieces_share_edges_and_a_hinge_has_more_than_two_rims),
-        cmocka_unit_test(a_hexagon_is_one_piece_without_a_rim_at_its_centre),
-        cmocka_unit_test(trimming_keeps_triangles_with_their_nodes),
-        cmocka_unit_test(a_node_stays_with_what_is_left_of_its_triangles),
-        cmocka_unit_test(spin_turns_about_the_centre_of_mass),
-        cmocka_unit_test(move_turns_about_the_origin_then_shifts),
-        cmocka_unit_test(launch_refuses_what_is_no_velocity),
-        cmocka_unit_test(append_numbers_nodes_and_bodies_behind_the_others),
-        cmocka_unit_test(append_keeps_who_may_touch_and_where_the_motion_starts),
-        cmocka_unit_test(append_gives_undamped_springs_no_viscosity_beside_damped_ones),
-        cmocka_unit_test(append_gives_thickness_and_modulus_1_beside_given_ones),
-        cmocka_unit_test(append_refuses_mixed_and_broken_lattices),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,12 +20,11 @@ static dem_lattice square(void)
                          .triangles = square_corners};
 }
 
-static void sides_are_sorted_by_lower_node_then_upper_node_then_triangle(void **state)
+TEST(sides_are_sorted_by_lower_node_then_upper_node_then_triangle)
 {
     static const dem_index row[5] = {0, 4, 5, 6, 6}, upper[6] = {1, 2, 2, 3, 2, 3}, triangle[6] = {0, 0, 1, 1, 0, 1};
     const dem_lattice lattice = square();
     mesh_edges s;
-    (void)state;
     assert_ok(mesh_edges_create(&s, &lattice));
     assert_memory_equal(s.row, row, sizeof row);
     for (int p = 0; p < 6; p++) {
@@ -36,12 +35,11 @@ static void sides_are_sorted_by_lower_node_then_upper_node_then_triangle(void **
     assert_null(s.list);
 }
 
-static void an_edge_between_two_triangles_begins_once(void **state)
+TEST(an_edge_between_two_triangles_begins_once)
 {
     static const int begins[4] = {1, 1, 0, 1};
     const dem_lattice lattice = square();
     mesh_edges s;
-    (void)state;
     assert_ok(mesh_edges_create(&s, &lattice));
     for (int p = 0; p < 4; p++) assert_int_equal(mesh_edges_is_first(&s, 0, p), begins[p]);
     assert_true(mesh_edges_is_first(&s, 1, 4)); /* also where the row before ends with the same upper node */
@@ -52,12 +50,11 @@ static void an_edge_between_two_triangles_begins_once(void **state)
 }
 
 /* Slots counted as the documentation says: a hexagon of 6 triangles has 12 edges, 6 of them inside. */
-static void every_triangle_has_its_three_sides_in_the_list(void **state)
+TEST(every_triangle_has_its_three_sides_in_the_list)
 {
     dem_lattice lattice;
     mesh_edges s;
     int slots = 0, edges = 0, of_triangle[6] = {0};
-    (void)state;
     assert_ok(dem_lattice_disc(&lattice, 1.0, 1.0));
     assert_int_equal(lattice.n_triangles, 6);
     assert_ok(mesh_edges_create(&s, &lattice));
@@ -75,11 +72,10 @@ static void every_triangle_has_its_three_sides_in_the_list(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void the_nodes_of_boundary_edges_may_touch_and_those_inside_may_not(void **state)
+TEST(the_nodes_of_boundary_edges_may_touch_and_those_inside_may_not)
 {
     unsigned char flags[7];
     dem_lattice lattice;
-    (void)state;
     assert_ok(dem_lattice_disc(&lattice, 1.0, 1.0));
     memset(flags, 0xff, sizeof flags);
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
@@ -98,11 +94,10 @@ static int away_from_the_middle(void *context, const double x[2])
 
 /* Around a hole of one node the six neighbours come to lie on a boundary: all nodes of the second ring and the
  * first. */
-static void the_rim_of_a_hole_is_boundary_too(void **state)
+TEST(the_rim_of_a_hole_is_boundary_too)
 {
     unsigned char flags[19];
     dem_lattice lattice;
-    (void)state;
     assert_ok(dem_lattice_disc(&lattice, 2.0, 1.0));
     assert_int_equal(lattice.n_nodes, 19);
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
@@ -116,36 +111,20 @@ static void the_rim_of_a_hole_is_boundary_too(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_node_of_no_triangle_may_not_touch_where_others_have_some(void **state)
+TEST(a_node_of_no_triangle_may_not_touch_where_others_have_some)
 {
     unsigned char flags[4] = {9, 9, 9, 9};
     dem_lattice lattice = square();
-    (void)state;
     lattice.n_triangles = 1;
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
     for (int i = 0; i < 4; i++) assert_int_equal(flags[i], i == 3 ? 0 : DEM_NODE_CONTACT);
 }
 
-static void every_node_may_touch_where_there_are_no_triangles(void **state)
+TEST(every_node_may_touch_where_there_are_no_triangles)
 {
     unsigned char flags[4] = {9, 9, 9, 9};
     dem_lattice lattice = square();
-    (void)state;
     lattice.n_triangles = 0;
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
     for (int i = 0; i < 4; i++) assert_int_equal(flags[i], DEM_NODE_CONTACT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sides_are_sorted_by_lower_node_then_upper_node_then_triangle),
-        cmocka_unit_test(an_edge_between_two_triangles_begins_once),
-        cmocka_unit_test(every_triangle_has_its_three_sides_in_the_list),
-        cmocka_unit_test(the_nodes_of_boundary_edges_may_touch_and_those_inside_may_not),
-        cmocka_unit_test(the_rim_of_a_hole_is_boundary_too),
-        cmocka_unit_test(a_node_of_no_triangle_may_not_touch_where_others_have_some),
-        cmocka_unit_test(every_node_may_touch_where_there_are_no_triangles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,11 +30,10 @@ static dem_model *make_model(dem_lattice *lattice)
 }
 
 /* C of plane stress; waves sqrt(C11/rho) and sqrt(G/rho); rounding only. */
-static void a_regular_block_is_measured_exactly(void **state)
+TEST(a_regular_block_is_measured_exactly)
 {
     const double nu = 0.1, E = 1e7, G = 0.5 * E / (1.0 + nu), C11 = E / (1.0 - nu * nu);
     dem_constants c;
-    (void)state;
     dem_lattice lattice = make_body(nu, 1e7);
     const double volume = 0.5 * (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing;
     dem_model *model = make_model(&lattice);
@@ -51,11 +50,10 @@ static void a_regular_block_is_measured_exactly(void **state)
     dem_model_destroy(model);
 }
 
-static void bodies_are_measured_apart_fixed_nodes_or_not(void **state)
+TEST(bodies_are_measured_apart_fixed_nodes_or_not)
 {
     const double away[2] = {0.2, 0.1};
     dem_constants soft, stiff;
-    (void)state;
     dem_lattice lattice = make_body(1.0 / 3.0, 1e7), other = make_body(0.2, 3e7);
     dem_lattice_move(&other, 0.4, away);
     other.flags = calloc((size_t)other.n_nodes, 1);
@@ -80,10 +78,9 @@ static int is_outside(void *context, const double x[2])
 }
 
 /* Pores do not count, since their rims are held: the material's constants. */
-static void a_hole_does_not_change_the_material(void **state)
+TEST(a_hole_does_not_change_the_material)
 {
     dem_constants c;
-    (void)state;
     dem_lattice lattice = make_rectangle(0.08, 0.07, spacing);
     const dem_index n = lattice.n_nodes;
     assert_ok(dem_lattice_cut(&lattice, is_outside, NULL));
@@ -131,12 +128,11 @@ static double dense_energy(const dem_model *model, const unsigned char *inside, 
 
 /* Springs of one stiffness all over: the boundary is too stiff, and the inside of random stiffness moves. e.C e is
  * compared with the dense solution to what the residual of 1e-4 leaves, its square times a few. */
-static void an_irregular_body_has_the_energy_of_a_dense_factorization(void **state)
+TEST(an_irregular_body_has_the_energy_of_a_dense_factorization)
 {
     static const double strains[4][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {0.5, -0.3, 0.8}};
     uint32_t random = 1;
     dem_constants c;
-    (void)state;
     dem_lattice lattice = make_body(0.45, 1e7);
     unsigned char inside[200];
     for (dem_index k = 0; k < lattice.n_springs; k++) {
@@ -161,14 +157,13 @@ static void an_irregular_body_has_the_energy_of_a_dense_factorization(void **sta
     dem_model_destroy(model);
 }
 
-static void what_cannot_be_measured_is_refused(void **state)
+TEST(what_cannot_be_measured_is_refused)
 {
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
     dem_lattice lattice;
     dem_model *model;
     dem_constants c = {.youngs_modulus = 7.0};
-    (void)state;
     support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 1.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     dem_lattice_free(&lattice);
@@ -190,16 +185,4 @@ static void what_cannot_be_measured_is_refused(void **state)
         assert_close(c.youngs_modulus, 7.0, 0.0);
         dem_model_destroy(model);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_regular_block_is_measured_exactly),
-        cmocka_unit_test(bodies_are_measured_apart_fixed_nodes_or_not),
-        cmocka_unit_test(a_hole_does_not_change_the_material),
-        cmocka_unit_test(an_irregular_body_has_the_energy_of_a_dense_factorization),
-        cmocka_unit_test(what_cannot_be_measured_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,12 +5,11 @@
 #include <string.h>
 
 /* sqrt(E/d0 (1/m1 + 1/m2)); one fixed: sqrt(E/d0/m2). */
-static void a_pair_has_the_frequency_of_its_reduced_mass(void **state)
+TEST(a_pair_has_the_frequency_of_its_reduced_mass)
 {
     const double x[4] = {0.0, 0.0, 1.2, 1.6}, mass[2] = {1.0, 3.0};
     const dem_index ends[2] = {0, 1};
     const unsigned char fixed[2] = {1, 0};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         dem_lattice lattice;
         dem_model *model;
@@ -28,7 +27,7 @@ enum { n_chain = 400 };
 
 /* 2 sqrt(k/m) sin(pi j/(2 (N + 1))) of a chain between fixed ends: the highest of 400 are 1e-5 apart, which is what the
  * residual allows; the error is of second order in it where it can tell them apart. */
-static void a_chain_has_the_frequency_of_its_highest_mode(void **state)
+TEST(a_chain_has_the_frequency_of_its_highest_mode)
 {
     static double x[2 * (n_chain + 2)], mass[n_chain + 2];
     static dem_index ends[2 * (n_chain + 1)];
@@ -36,7 +35,6 @@ static void a_chain_has_the_frequency_of_its_highest_mode(void **state)
     dem_lattice lattice;
     dem_model *model;
     double omega, again;
-    (void)state;
     for (int i = 0; i < n_chain + 2; i++) {
         x[2 * i] = i;
         mass[i] = 2.0;
@@ -54,10 +52,9 @@ static void a_chain_has_the_frequency_of_its_highest_mode(void **state)
 }
 
 /* From below, to the 1e-6 of the residual; K by differences is good to 1e-8. */
-static void solids_have_the_highest_frequency_that_gsl_finds(void **state)
+TEST(solids_have_the_highest_frequency_that_gsl_finds)
 {
     static const double ratios[3] = {0.0, 1.0 / 3.0, 0.45};
-    (void)state;
     for (int k = 0; k < 6; k++) {
         const dem_material solid = {
             .youngs_modulus = 1e7, .poissons_ratio = ratios[k / 2], .density = 1050.0, .thickness = 1.0};
@@ -78,12 +75,11 @@ static void solids_have_the_highest_frequency_that_gsl_finds(void **state)
     }
 }
 
-static void without_springs_or_with_all_nodes_fixed_it_is_zero(void **state)
+TEST(without_springs_or_with_all_nodes_fixed_it_is_zero)
 {
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
     const unsigned char fixed[2] = {1, 1};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         dem_lattice lattice;
         dem_model *model;
@@ -97,15 +93,4 @@ static void without_springs_or_with_all_nodes_fixed_it_is_zero(void **state)
         dem_lattice_free(&lattice);
         dem_model_destroy(model);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_pair_has_the_frequency_of_its_reduced_mass),
-        cmocka_unit_test(a_chain_has_the_frequency_of_its_highest_mode),
-        cmocka_unit_test(solids_have_the_highest_frequency_that_gsl_finds),
-        cmocka_unit_test(without_springs_or_with_all_nodes_fixed_it_is_zero),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,13 +69,12 @@ static const double not_a_number = (double)NAN, infinite = (double)INFINITY;
 
 /* ---- validation ---- */
 
-static void null_arguments_are_named(void **state)
+TEST(null_arguments_are_named)
 {
     const double points[4] = {0.0, 0.0, 1.0, 0.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.0};
     dem_model *model;
     square s;
-    (void)state;
     make_square(&s);
     assert_int_equal(dem_model_create(NULL, &s.lattice, NULL, 0), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "dem_model_create: out is NULL");
@@ -88,10 +87,9 @@ static void null_arguments_are_named(void **state)
     dem_model_destroy(NULL);
 }
 
-static void a_lattice_needs_two_dimensions_nodes_and_masses(void **state)
+TEST(a_lattice_needs_two_dimensions_nodes_and_masses)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.struct_size = 0;
     refuse(&s, DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is 0, at least 160 expected");
@@ -108,10 +106,9 @@ static void a_lattice_needs_two_dimensions_nodes_and_masses(void **state)
     refuse(&s, DEM_ERROR_ARGUMENT, "the lattice has no array of positions");
 }
 
-static void coordinates_and_velocities_must_be_finite(void **state)
+TEST(coordinates_and_velocities_must_be_finite)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.x[3] = not_a_number;
     refuse(&s, DEM_ERROR_MODEL, "node 1: rest position (1, nan) is not finite");
@@ -125,13 +122,12 @@ static void coordinates_and_velocities_must_be_finite(void **state)
     refuse(&s, DEM_ERROR_MODEL, "node 3: initial velocity (inf, 8) is not finite");
 }
 
-static void masses_must_be_positive(void **state)
+TEST(masses_must_be_positive)
 {
     const double wrong[4] = {0.0, -1.5, infinite, not_a_number};
     const char *const message[4] = {"node 2: mass must be > 0, got 0 kg", "node 2: mass must be > 0, got -1.5 kg",
                                     "node 2: mass must be > 0, got inf kg", "node 2: mass must be > 0, got nan kg"};
     square s;
-    (void)state;
     make_square(&s);
     for (int k = 0; k < 4; k++) {
         s.mass[2] = wrong[k];
@@ -141,10 +137,9 @@ static void masses_must_be_positive(void **state)
     refuse(&s, DEM_ERROR_MODEL, "node 1: mass must be > 0, got 0 kg");
 }
 
-static void bodies_are_numbered_below_the_number_of_nodes(void **state)
+TEST(bodies_are_numbered_below_the_number_of_nodes)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.body = s.body;
     s.body[0] = 4;
@@ -153,10 +148,9 @@ static void bodies_are_numbered_below_the_number_of_nodes(void **state)
     refuse(&s, DEM_ERROR_MODEL, "node 0: body number -1 is not in 0 to 3");
 }
 
-static void springs_join_two_nodes_of_one_body_with_length_and_stiffness(void **state)
+TEST(springs_join_two_nodes_of_one_body_with_length_and_stiffness)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.ends[4] = 9;
     refuse(&s, DEM_ERROR_MODEL, "spring 2 has node 9, but there are 4 nodes");
@@ -183,10 +177,9 @@ static void springs_join_two_nodes_of_one_body_with_length_and_stiffness(void **
     refuse(&s, DEM_ERROR_MODEL, "springs 1 and 4 both join nodes 1 and 2");
 }
 
-static void viscosities_are_finite_and_not_negative(void **state)
+TEST(viscosities_are_finite_and_not_negative)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.viscosity = s.viscosity;
     s.viscosity[4] = -0.5;
@@ -197,10 +190,9 @@ static void viscosities_are_finite_and_not_negative(void **state)
     refuse(&s, DEM_ERROR_MODEL, "spring 3: viscosity must be >= 0, got nan N s");
 }
 
-static void spring_and_triangle_arrays_must_be_there(void **state)
+TEST(spring_and_triangle_arrays_must_be_there)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.n_springs = -1;
     refuse(&s, DEM_ERROR_ARGUMENT, "the number of springs is negative: -1");
@@ -215,10 +207,9 @@ static void spring_and_triangle_arrays_must_be_there(void **state)
     refuse(&s, DEM_ERROR_ARGUMENT, "2 triangles, but their nodes are NULL");
 }
 
-static void triangles_are_counter_clockwise_with_numbers_in_range(void **state)
+TEST(triangles_are_counter_clockwise_with_numbers_in_range)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.triangles[3] = 2;
     s.triangles[4] = 0;
@@ -245,10 +236,9 @@ static void triangles_are_counter_clockwise_with_numbers_in_range(void **state)
     refuse(&s, DEM_ERROR_MODEL, "triangle 0: modulus must be > 0, got -3 Pa");
 }
 
-static void a_node_without_springs_must_be_a_body_of_its_own(void **state)
+TEST(a_node_without_springs_must_be_a_body_of_its_own)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.n_springs = 2; /* 0-1 and 1-2 are left */
     refuse(&s, DEM_ERROR_MODEL, "node 3 at (0, 1) m has no springs, though body 0 has other nodes");
@@ -262,23 +252,21 @@ static void a_node_without_springs_must_be_a_body_of_its_own(void **state)
     dem_model_destroy(model);
 }
 
-static void body_numbers_have_no_holes(void **state)
+TEST(body_numbers_have_no_holes)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.body = s.body;
     for (int i = 0; i < 4; i++) s.body[i] = 1;
     refuse(&s, DEM_ERROR_MODEL, "body 0 has no nodes, though there are bodies up to 1");
 }
 
-static void obstacles_are_validated_too(void **state)
+TEST(obstacles_are_validated_too)
 {
     const double points[4] = {0.0, 0.0, 0.0, 0.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.0};
     dem_model *model;
     square s;
-    (void)state;
     make_square(&s);
     assert_int_equal(dem_model_create(&model, &s.lattice, &obstacle, 1), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "obstacle 0: segment 0 has length 0 m");
@@ -286,10 +274,9 @@ static void obstacles_are_validated_too(void **state)
 
 /* ---- what the model holds ---- */
 
-static void absent_arrays_get_their_defaults(void **state)
+TEST(absent_arrays_get_their_defaults)
 {
     square s;
-    (void)state;
     make_square(&s);
     dem_model *model = compile(&s);
     const dem_lattice *l = dem_model_lattice(model);
@@ -304,13 +291,12 @@ static void absent_arrays_get_their_defaults(void **state)
     dem_model_destroy(model);
 }
 
-static void by_default_the_boundary_may_touch(void **state)
+TEST(by_default_the_boundary_may_touch)
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
     dem_lattice lattice;
     dem_model *model;
-    (void)state;
     assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
@@ -329,10 +315,9 @@ static void by_default_the_boundary_may_touch(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void fixed_nodes_are_at_rest_take_no_force_and_never_touch(void **state)
+TEST(fixed_nodes_are_at_rest_take_no_force_and_never_touch)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.flags = s.flags;
     s.lattice.velocity = s.velocity;
@@ -351,7 +336,7 @@ static void fixed_nodes_are_at_rest_take_no_force_and_never_touch(void **state)
     dem_model_destroy(model);
 }
 
-static void the_model_is_independent_of_what_it_was_made_from(void **state)
+TEST(the_model_is_independent_of_what_it_was_made_from)
 {
     double points[4] = {-5.0, 0.0, 5.0, 0.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.25};
@@ -359,7 +344,6 @@ static void the_model_is_independent_of_what_it_was_made_from(void **state)
     dem_model *model;
     dem_index n;
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.position = s.position;
     s.lattice.viscosity = s.viscosity;
@@ -385,7 +369,7 @@ static void the_model_is_independent_of_what_it_was_made_from(void **state)
     dem_model_destroy(model);
 }
 
-static void sizes_and_csr_tell_what_is_there(void **state)
+TEST(sizes_and_csr_tell_what_is_there)
 {
     const double points[6] = {-5.0, 0.0, 0.0, 0.0, 5.0, 0.0};
     const dem_obstacle obstacles[2] = {{.n_points = 3, .points = points, .restitution = 0.0},
@@ -395,7 +379,6 @@ static void sizes_and_csr_tell_what_is_there(void **state)
     static const dem_index spring[2 * n_springs] = {0, 4, 3, 0, 1, 4, 1, 2, 3, 2};
     dem_model *model;
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.viscosity = s.viscosity;
     assert_ok(dem_model_create(&model, &s.lattice, obstacles, 2));
@@ -419,10 +402,9 @@ static void sizes_and_csr_tell_what_is_there(void **state)
 
 /* Springs 0-1 (k = 10 N/m) and 1-2 (20 N/m) at a right angle: node 0 of 1 kg has 2 * 10, node 1 of 2 kg 2 * 20/2,
  * node 2 of 3 kg less; a fixed node does not count. */
-static void spacing_mass_and_the_frequency_bound_are_those_of_the_springs(void **state)
+TEST(spacing_mass_and_the_frequency_bound_are_those_of_the_springs)
 {
     square s;
-    (void)state;
     make_square(&s);
     dem_model *model = compile(&s);
     assert_close(dem_model_spacing(model), 0.5, 0.0);
@@ -445,10 +427,9 @@ static void spacing_mass_and_the_frequency_bound_are_those_of_the_springs(void *
 
 /* The triangle 0 1 2 of 0.5 m^2: |g| is half the opposite side, so that node 0, of 1 kg, with its spring along x and
  * g = (-1/2, 0), has 2 * 10 + 3 * 40/0.5 * 1/4; a negative stiffness counts as none. */
-static void area_stiffness_raises_the_frequency_bound(void **state)
+TEST(area_stiffness_raises_the_frequency_bound)
 {
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.area_stiffness = s.area_stiffness;
     s.area_stiffness[0] = 40.0;
@@ -464,11 +445,10 @@ static void area_stiffness_raises_the_frequency_bound(void **state)
     dem_model_destroy(model);
 }
 
-static void without_springs_spacing_and_frequency_are_zero(void **state)
+TEST(without_springs_spacing_and_frequency_are_zero)
 {
     const double anywhere[2] = {3.0, 4.0};
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.n_nodes = 1;
     s.lattice.n_springs = s.lattice.n_triangles = 0;
@@ -484,13 +464,12 @@ static void without_springs_spacing_and_frequency_are_zero(void **state)
 /* Central differences over 1e-6 m: truncation of order 1e-12 * 1e3 N/m^2, rounding 1e-16 * 1e3 J/1e-6 m. Node 2
  * moved so that triangle 0 1 2 is squeezed to 0.1: springs, area
  * term, guard and weight all act. */
-static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void **state)
+TEST(force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node)
 {
     const double step = 1e-6, v[2 * n_nodes] = {0};
     const double gravity[2] = {0.5, -9.81};
     double x[2 * n_nodes];
     square s;
-    (void)state;
     make_square(&s);
     s.guard[0] = 30.0;
     s.lattice.area_stiffness = s.area_stiffness;
@@ -517,11 +496,10 @@ static void force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node(void
 
 /* Node 1 of 2 kg moves with (3, 4) m/s away from node 0 (c = 1 N s) and along the spring to node 2 (c = 2 N s), both
  * of 1 m: damping (-1 * 3, -2 * 4) N, and -0.5/s of the velocity. Exact. */
-static void damping_of_springs_and_mass_slow_a_node(void **state)
+TEST(damping_of_springs_and_mass_slow_a_node)
 {
     const double v[2 * n_nodes] = {0.0, 0.0, 3.0, 4.0};
     square s;
-    (void)state;
     make_square(&s);
     s.lattice.viscosity = s.viscosity;
     dem_model *model = compile(&s);
@@ -532,33 +510,4 @@ static void damping_of_springs_and_mass_slow_a_node(void **state)
     assert_close(a.x, -3.0 / 2.0 - 0.5 * 3.0, 0.0);
     assert_close(a.y, -8.0 / 2.0 - 0.5 * 4.0 - 10.0, 0.0);
     dem_model_destroy(model);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(null_arguments_are_named),
-        cmocka_unit_test(a_lattice_needs_two_dimensions_nodes_and_masses),
-        cmocka_unit_test(coordinates_and_velocities_must_be_finite),
-        cmocka_unit_test(masses_must_be_positive),
-        cmocka_unit_test(bodies_are_numbered_below_the_number_of_nodes),
-        cmocka_unit_test(springs_join_two_nodes_of_one_body_with_length_and_stiffness),
-        cmocka_unit_test(viscosities_are_finite_and_not_negative),
-        cmocka_unit_test(spring_and_triangle_arrays_must_be_there),
-        cmocka_unit_test(triangles_are_counter_clockwise_with_numbers_in_range),
-        cmocka_unit_test(a_node_without_springs_must_be_a_body_of_its_own),
-        cmocka_unit_test(body_numbers_have_no_holes),
-        cmocka_unit_test(obstacles_are_validated_too),
-        cmocka_unit_test(absent_arrays_get_their_defaults),
-        cmocka_unit_test(by_default_the_boundary_may_touch),
-        cmocka_unit_test(fixed_nodes_are_at_rest_take_no_force_and_never_touch),
-        cmocka_unit_test(the_model_is_independent_of_what_it_was_made_from),
-        cmocka_unit_test(sizes_and_csr_tell_what_is_there),
-        cmocka_unit_test(spacing_mass_and_the_frequency_bound_are_those_of_the_springs),
-        cmocka_unit_test(area_stiffness_raises_the_frequency_bound),
-        cmocka_unit_test(without_springs_spacing_and_frequency_are_zero),
-        cmocka_unit_test(force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node),
-        cmocka_unit_test(damping_of_springs_and_mass_slow_a_node),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,12 +34,11 @@ static dem_index count_pairs(const dem_lattice *l, const unsigned char *flags, c
     return n;
 }
 
-static void every_pair_is_counted(void **unused)
+TEST(every_pair_is_counted)
 {
     dem_lattice l;
     overlap o;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    (void)unused;
     make_discs(&l);
     assert_non_null(rng);
     assert_ok(dem_lattice_exclude(&l, NULL, 0)); /* fills the flags */
@@ -65,11 +64,10 @@ static void every_pair_is_counted(void **unused)
     dem_lattice_free(&l);
 }
 
-static void the_first_is_kept(void **unused)
+TEST(the_first_is_kept)
 {
     dem_lattice l;
     overlap o;
-    (void)unused;
     make_discs(&l);
     assert_ok(overlap_create(&o, &l));
     overlap_look(&o, &l, 1.0, l.x);
@@ -93,11 +91,10 @@ static void the_first_is_kept(void **unused)
 }
 
 /* A body turned and moved as a whole does not overlap itself: touching is not inside. */
-static void a_whole_body_does_not_overlap_itself(void **unused)
+TEST(a_whole_body_does_not_overlap_itself)
 {
     dem_lattice l;
     overlap o;
-    (void)unused;
     assert_ok(dem_lattice_rectangle(&l, 5.0, 5.0, 1.0));
     assert_ok(overlap_create(&o, &l));
     for (int k = 0; k < 10; k++) {
@@ -107,14 +104,4 @@ static void a_whole_body_does_not_overlap_itself(void **unused)
     }
     overlap_destroy(&o);
     dem_lattice_free(&l);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pair_is_counted),
-        cmocka_unit_test(the_first_is_kept),
-        cmocka_unit_test(a_whole_body_does_not_overlap_itself),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

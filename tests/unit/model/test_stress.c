@@ -90,9 +90,8 @@ static double triangles_energy_at(const dem_model *m, const double *x)
 
 /* ---- sums ---- */
 
-static void volumes_add_up_to_that_of_the_triangles(void **state)
+TEST(volumes_add_up_to_that_of_the_triangles)
 {
-    (void)state;
     dem_model *model = make_holed(0.0, 1.0 / 3.0);
     double volume = 0.0, corner = 0.0;
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) volume += dem_model_volumes(model)[i];
@@ -105,9 +104,8 @@ static void volumes_add_up_to_that_of_the_triangles(void **state)
 }
 
 /* Shares of a spring, times the volumes: each is given once, whole. */
-static void every_spring_is_shared_out_whole(void **state)
+TEST(every_spring_is_shared_out_whole)
 {
-    (void)state;
     dem_model *model = make_holed(0.0, 1.0 / 3.0);
     const stress_map *map = &model->stress;
     double *given = calloc((size_t)model->lattice.n_springs, sizeof *given);
@@ -121,9 +119,8 @@ static void every_spring_is_shared_out_whole(void **state)
 }
 
 /* The same spring from two triangles stands in a row once: an inner node has its 6 springs and the 6 opposite. */
-static void a_row_has_every_spring_once(void **state)
+TEST(a_row_has_every_spring_once)
 {
-    (void)state;
     dem_lattice lattice = make_solid(0.03, 0.04, 2.5e-3);
     dem_model *model = make_model(&lattice);
     const stress_map *map = &model->stress;
@@ -135,9 +132,8 @@ static void a_row_has_every_spring_once(void **state)
 }
 
 /* sum V sigma = sum of r x f over the springs, summed here by pairs from the CSR; rounding of some 800 terms. */
-static void the_sum_over_nodes_is_that_of_r_times_f(void **state)
+TEST(the_sum_over_nodes_is_that_of_r_times_f)
 {
-    (void)state;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     dem_model *model = make_holed(0.0, 1.0 / 3.0);
     const dem_csr csr = dem_model_csr(model);
@@ -162,9 +158,8 @@ static void the_sum_over_nodes_is_that_of_r_times_f(void **state)
 
 /* The same by the forces on the nodes, of area term and guard too: sum V sigma = - sum x_i f_i, symmetric since
  * they have no torque. Here every triangle is below the onset, some are inverted. */
-static void the_sum_over_nodes_is_minus_that_of_places_times_forces(void **state)
+TEST(the_sum_over_nodes_is_minus_that_of_places_times_forces)
 {
-    (void)state;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     dem_model *model = make_holed(0.02, 0.45);
     double *v = calloc(2 * (size_t)model->lattice.n_nodes, sizeof *v);
@@ -205,11 +200,10 @@ static double energy_of(const dem_model *model, const double *x, const double F[
 
 /* sum V sigma_ab = dW/de_ab under x -> (1 + e) x, for the shear by both halves; central differences of 1e-6: W is of
  * third derivatives like 1e3 W where the guard acts, so 1e-9 W, and rounding 1e-16 W/1e-6. */
-static void it_is_the_derivative_of_the_energy_by_the_strain(void **state)
+TEST(it_is_the_derivative_of_the_energy_by_the_strain)
 {
     static const double heights[3] = {0.95, 0.35, 0.15};
     const double h = 1e-6;
-    (void)state;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     dem_model *model = make_holed(0.02, 0.1);
     for (int trial = 0; trial < 3; trial++) {
@@ -234,10 +228,9 @@ static void it_is_the_derivative_of_the_energy_by_the_strain(void **state)
 
 /* Squeezed to J = 0.3 all round every triangle pushes back with sigma = J g w'(J)/h, at every node the same, beside the
  * springs, whose stress is that without a guard. Rounding. */
-static void the_guard_adds_a_pressure(void **state)
+TEST(the_guard_adds_a_pressure)
 {
     const double s = sqrt(0.3), F[4] = {s, 0.0, 0.0, s};
-    (void)state;
     dem_model *model = make_holed(0.02, 1.0 / 3.0), *bare = make_holed(0.0, 1.0 / 3.0);
     double *x = copy_positions(model);
     deform(x, model->lattice.n_nodes, F);
@@ -281,12 +274,11 @@ static void make_two_materials(dem_lattice *lattice, const double modulus[2], co
 
 /* With a uniform strain a triangle has the stress of its own material, and so has every node whose triangles are all of
  * one; a node between them has the mean by volume. */
-static void materials_do_not_take_each_others_stress(void **state)
+TEST(materials_do_not_take_each_others_stress)
 {
     static const double modulus[2] = {1e7, 1e9}, thickness[2] = {0.5, 0.02}, F[4] = {1.02, 0.03, 0.0, 0.99};
     double sample[2][3];
     dem_lattice lattice;
-    (void)state;
     for (int side = 0; side < 2; side++) {
         dem_material material = rubber;
         material.youngs_modulus = modulus[side];
@@ -324,13 +316,12 @@ static void materials_do_not_take_each_others_stress(void **state)
 
 /* A spring that hangs on a triangle: half of its r x f at the corner, over the corner's volume; its other end is in no
  * triangle and has no stress. Thickness and modulus are left out: 1. */
-static void a_spring_outside_of_triangles_gives_half_to_each_end(void **state)
+TEST(a_spring_outside_of_triangles_gives_half_to_each_end)
 {
     static const double at[8] = {0.0, 0.0, 3.0, 0.0, 0.0, 2.0, 7.0, 0.0}, mass[4] = {1.0, 1.0, 1.0, 1.0};
     static const dem_index ends[8] = {0, 1, 1, 2, 2, 0, 1, 3};
     double stress[3];
     dem_lattice lattice;
-    (void)state;
     support_lattice(&lattice, 4, at, mass, 4, ends, 1.0, 10.0, NULL);
     lattice.rest_length[0] = 3.0, lattice.rest_length[1] = sqrt(13.0), lattice.rest_length[2] = 2.0;
     lattice.rest_length[3] = 2.0; /* stretched to 4: a force of 10 N */
@@ -351,13 +342,12 @@ static void a_spring_outside_of_triangles_gives_half_to_each_end(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void without_triangles_there_is_no_stress(void **state)
+TEST(without_triangles_there_is_no_stress)
 {
     static const double at[4] = {0.0, 0.0, 2.0, 0.0}, mass[2] = {1.0, 1.0};
     static const dem_index ends[2] = {0, 1};
     double stress[3];
     dem_lattice lattice;
-    (void)state;
     support_lattice(&lattice, 2, at, mass, 1, ends, 1.0, 10.0, NULL);
     dem_model *model = make_model(&lattice);
     stress_at(model, 0, model->lattice.x, stress);
@@ -368,9 +358,8 @@ static void without_triangles_there_is_no_stress(void **state)
 
 /* ---- what is made of a stress ---- */
 
-static void von_mises_is_that_of_plane_stress(void **state)
+TEST(von_mises_is_that_of_plane_stress)
 {
-    (void)state;
     assert_close(dem_stress_von_mises((double[3]){-5.0, 0.0, 0.0}), 5.0, 1e-15); /* uniaxial */
     assert_close(dem_stress_von_mises((double[3]){7.0, 7.0, 0.0}), 7.0, 1e-15);  /* equal in both directions */
     assert_close(dem_stress_von_mises((double[3]){0.0, 0.0, 2.0}), 2.0 * sqrt(3.0), 1e-15); /* shear */
@@ -378,10 +367,9 @@ static void von_mises_is_that_of_plane_stress(void **state)
 }
 
 /* A tensor of given values and direction: rounding of a few operations. */
-static void principal_values_come_back_with_their_direction(void **state)
+TEST(principal_values_come_back_with_their_direction)
 {
     static const double pairs[4][2] = {{3.0, 1.0}, {2.0, -5.0}, {-1.0, -1.5}, {1e6, 1e6 - 1.0}};
-    (void)state;
     for (int k = 0; k < 4; k++)
         for (int degrees = -89; degrees <= 90; degrees++) {
             const double angle = M_PI / 180.0 * degrees, c = cos(angle), s = sin(angle), p = pairs[k][0],
@@ -398,12 +386,11 @@ static void principal_values_come_back_with_their_direction(void **state)
         }
 }
 
-static void principal_directions_point_right_or_up(void **state)
+TEST(principal_directions_point_right_or_up)
 {
     static const double cases[4][5] = {
         {2.0, 2.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0, 0.0}, {-3.0, 1.0, 0.0, 0.0, 1.0}, {1.0, -3.0, 0.0, 1.0, 0.0}};
     double value[2], direction[2];
-    (void)state;
     for (int k = 0; k < 4; k++) {
         dem_stress_principal(cases[k], value, direction);
         assert_close(direction[0], cases[k][3], 0.0);
@@ -411,24 +398,4 @@ static void principal_directions_point_right_or_up(void **state)
         assert_close(value[0], fmax(cases[k][0], cases[k][1]), 0.0);
         assert_close(value[1], fmin(cases[k][0], cases[k][1]), 0.0);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(volumes_add_up_to_that_of_the_triangles),
-        cmocka_unit_test(every_spring_is_shared_out_whole),
-        cmocka_unit_test(a_row_has_every_spring_once),
-        cmocka_unit_test(the_sum_over_nodes_is_that_of_r_times_f),
-        cmocka_unit_test(the_sum_over_nodes_is_minus_that_of_places_times_forces),
-        cmocka_unit_test(it_is_the_derivative_of_the_energy_by_the_strain),
-        cmocka_unit_test(the_guard_adds_a_pressure),
-        cmocka_unit_test(materials_do_not_take_each_others_stress),
-        cmocka_unit_test(a_spring_outside_of_triangles_gives_half_to_each_end),
-        cmocka_unit_test(without_triangles_there_is_no_stress),
-        cmocka_unit_test(von_mises_is_that_of_plane_stress),
-        cmocka_unit_test(principal_values_come_back_with_their_direction),
-        cmocka_unit_test(principal_directions_point_right_or_up),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,13 +88,12 @@ static double swept(const surface *s, const double *x, dem_index first, dem_inde
     return sum;
 }
 
-static void a_square_has_its_four_sides_in_the_order_of_a_walk(void **state)
+TEST(a_square_has_its_four_sides_in_the_order_of_a_walk)
 {
     static const dem_index ends[8] = {0, 1, 1, 2, 2, 3, 3, 0}, row[5] = {0, 2, 4, 6, 8};
     static const dem_index at[8] = {0, 3, 0, 1, 1, 2, 2, 3};
     body b;
     surface s;
-    (void)state;
     open_square(&b);
     assert_ok(surface_compile(&s, &b.lattice));
     check_ends(&s, 4, ends);
@@ -108,11 +107,10 @@ static void a_square_has_its_four_sides_in_the_order_of_a_walk(void **state)
 }
 
 /* Every numbering of the corners of one triangle that turns counter-clockwise gives edges that do. */
-static void an_edge_has_the_body_on_its_left(void **state)
+TEST(an_edge_has_the_body_on_its_left)
 {
     static const double at[6] = {0.0, 0.0, 2.0, 0.5, 0.5, 1.0};
     static const dem_index names[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-    (void)state;
     for (int k = 0; k < 6; k++) {
         double x[6];
         body b;
@@ -139,13 +137,12 @@ static int away_from_the_middle(void *context, const double x[2])
     return hypot(x[0], x[1]) > 0.5;
 }
 
-static void a_ring_has_two_boundaries_that_run_opposite_ways(void **state)
+TEST(a_ring_has_two_boundaries_that_run_opposite_ways)
 {
     const double hexagon = 1.5 * sqrt(3.0);
     unsigned char flags[18];
     dem_lattice ring;
     surface s;
-    (void)state;
     assert_ok(dem_lattice_disc(&ring, 2.0, 1.0));
     assert_ok(dem_lattice_cut(&ring, away_from_the_middle, NULL));
     assert_ok(mesh_edges_contact_flags(flags, &ring));
@@ -167,14 +164,13 @@ static void a_ring_has_two_boundaries_that_run_opposite_ways(void **state)
 }
 
 /* Two squares whose nodes are numbered in turns: the boundary of one comes wholly before that of the other. */
-static void the_boundaries_of_two_bodies_follow_one_another(void **state)
+TEST(the_boundaries_of_two_bodies_follow_one_another)
 {
     static const double x[16] = {0, 0, 5, 0, 1, 0, 6, 0, 1, 1, 6, 1, 0, 1, 5, 1};
     static const dem_index triangles[12] = {0, 2, 4, 1, 3, 5, 0, 4, 6, 1, 5, 7};
     static const dem_index ends[16] = {0, 2, 2, 4, 4, 6, 6, 0, 1, 3, 3, 5, 5, 7, 7, 1};
     body b;
     surface s;
-    (void)state;
     body_open(&b, 8, x, 4, triangles);
     assert_ok(surface_compile(&s, &b.lattice));
     check_ends(&s, 8, ends);
@@ -185,14 +181,13 @@ static void the_boundaries_of_two_bodies_follow_one_another(void **state)
 
 /* Two triangles that share node 2 only: it has four edges, two that end there and two that start there, and the walks
  * close whichever they take. */
-static void at_a_pinch_node_two_boundaries_meet(void **state)
+TEST(at_a_pinch_node_two_boundaries_meet)
 {
     static const double x[10] = {-1, 1, -1, -1, 0, 0, 1, -1, 1, 1};
     static const dem_index triangles[6] = {0, 1, 2, 3, 4, 2};
     int starts = 0, stops = 0;
     body b;
     surface s;
-    (void)state;
     body_open(&b, 5, x, 2, triangles);
     assert_ok(surface_compile(&s, &b.lattice));
     assert_int_equal(s.n_edges, 6);
@@ -209,12 +204,11 @@ static void at_a_pinch_node_two_boundaries_meet(void **state)
     surface_free(&s);
 }
 
-static void an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not(void **state)
+TEST(an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not)
 {
     static const dem_index base[6] = {1, 2, 2, 3, 3, 0};
     body b;
     surface s;
-    (void)state;
     open_square(&b);
     b.flags[1] |= DEM_NODE_FIXED;
     assert_ok(surface_compile(&s, &b.lattice));
@@ -232,12 +226,11 @@ static void an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not(
     surface_free(&s);
 }
 
-static void an_edge_needs_two_nodes_that_may_touch(void **state)
+TEST(an_edge_needs_two_nodes_that_may_touch)
 {
     static const dem_index ends[4] = {0, 1, 1, 2};
     body b;
     surface s;
-    (void)state;
     open_square(&b);
     b.flags[3] = 0;
     assert_ok(surface_compile(&s, &b.lattice));
@@ -252,30 +245,14 @@ static void an_edge_needs_two_nodes_that_may_touch(void **state)
     surface_free(&s);
 }
 
-static void nodes_without_triangles_have_no_edges(void **state)
+TEST(nodes_without_triangles_have_no_edges)
 {
     body b;
     surface s;
-    (void)state;
     open_square(&b);
     b.lattice.n_triangles = 0;
     assert_ok(surface_compile(&s, &b.lattice));
     assert_int_equal(s.n_edges, 0);
     for (int i = 0; i <= 4; i++) assert_int_equal(s.row[i], 0);
     surface_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_square_has_its_four_sides_in_the_order_of_a_walk),
-        cmocka_unit_test(an_edge_has_the_body_on_its_left),
-        cmocka_unit_test(a_ring_has_two_boundaries_that_run_opposite_ways),
-        cmocka_unit_test(the_boundaries_of_two_bodies_follow_one_another),
-        cmocka_unit_test(at_a_pinch_node_two_boundaries_meet),
-        cmocka_unit_test(an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not),
-        cmocka_unit_test(an_edge_needs_two_nodes_that_may_touch),
-        cmocka_unit_test(nodes_without_triangles_have_no_edges),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,9 +58,8 @@ static double *squeezed(const dem_model *model, unsigned long seed)
 
 /* Central differences of forces_of_elements() over 1e-7 spacings along a motion: rounding 1e-16 * 1e5 N/1e-7 against
  * forces of 1e7 N/m times unit displacements, truncation smaller. */
-static void it_is_the_derivative_of_the_forces_about_any_state(void **state)
+TEST(it_is_the_derivative_of_the_forces_about_any_state)
 {
-    (void)state;
     for (unsigned long trial = 1; trial <= 10; trial++) {
         dem_model *model = make_block(trial % 2 == 0 ? 0.1 : 0.45);
         const dem_index n = model->lattice.n_nodes;
@@ -92,9 +91,8 @@ static double product(const dem_model *model, const double *a, const double *b)
     return sum;
 }
 
-static void it_is_symmetric(void **state)
+TEST(it_is_symmetric)
 {
-    (void)state;
     dem_model *model = make_block(0.45);
     double *x = squeezed(model, 7), *u = random_field(model, 8, 1.0), *v = random_field(model, 9, 1.0);
     double *ku = zeros(model), *kv = zeros(model);
@@ -107,9 +105,8 @@ static void it_is_symmetric(void **state)
 }
 
 /* Shifted, or turned about the origin, a lattice at rest feels nothing: rounding of k u, 1e7 N/m times 0.1 m. */
-static void rigid_motions_take_no_force_at_rest(void **state)
+TEST(rigid_motions_take_no_force_at_rest)
 {
-    (void)state;
     dem_model *model = make_block(0.1);
     double *u = zeros(model), *out = zeros(model);
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
@@ -152,9 +149,8 @@ static gsl_vector *dense_solution(const dem_model *model, const unsigned char *h
 
 /* The dense matrix is of central differences: 1e-10 by their truncation, 1e-11 by rounding, of displacements of 1e-7
  * m, times the condition of 1e3. */
-static void equilibrium_is_that_of_a_dense_factorization(void **state)
+TEST(equilibrium_is_that_of_a_dense_factorization)
 {
-    (void)state;
     dem_model *model = make_block(0.1);
     unsigned char *held = hold_below(model);
     double *f = random_field(model, 3, 1.0), *u = zeros(model), *image = zeros(model), residual = 0.0;
@@ -173,9 +169,8 @@ static void equilibrium_is_that_of_a_dense_factorization(void **state)
     dem_model_destroy(model);
 }
 
-static void nothing_is_done_where_forces_are_below_the_residual(void **state)
+TEST(nothing_is_done_where_forces_are_below_the_residual)
 {
-    (void)state;
     dem_model *model = make_block(0.1);
     unsigned char *held = hold_below(model);
     double *u = zeros(model);
@@ -187,7 +182,7 @@ static void nothing_is_done_where_forces_are_below_the_residual(void **state)
 }
 
 /* Springs under pressure push a bowed chain further out. */
-static void an_unstable_state_is_refused(void **state)
+TEST(an_unstable_state_is_refused)
 {
     const double x[6] = {0.0, 0.0, 0.5, 0.0, 1.0, 0.0}, mass[3] = {1.0, 1.0, 1.0};
     const dem_index ends[4] = {0, 1, 1, 2};
@@ -195,7 +190,6 @@ static void an_unstable_state_is_refused(void **state)
     double u[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0};
     dem_lattice lattice;
     dem_model *model;
-    (void)state;
     support_lattice(&lattice, 3, x, mass, 2, ends, 1.0, 100.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     assert_int_equal(tangent_solve(model, x, held, 1e-9, u), DEM_ERROR_MODEL);
@@ -203,17 +197,4 @@ static void an_unstable_state_is_refused(void **state)
                         "the lattice is not stable: a displacement of 1 free nodes takes no energy");
     dem_lattice_free(&lattice);
     dem_model_destroy(model);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_the_derivative_of_the_forces_about_any_state),
-        cmocka_unit_test(it_is_symmetric),
-        cmocka_unit_test(rigid_motions_take_no_force_at_rest),
-        cmocka_unit_test(equilibrium_is_that_of_a_dense_factorization),
-        cmocka_unit_test(nothing_is_done_where_forces_are_below_the_residual),
-        cmocka_unit_test(an_unstable_state_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

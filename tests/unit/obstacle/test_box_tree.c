@@ -47,10 +47,9 @@ static int contains(const box *a, const box *b)
 }
 
 /* 1e-14 of the coordinates' sum of 10 and 11 m. */
-static void a_box_holds_its_segment_with_its_reach_and_a_little_more(void **state)
+TEST(a_box_holds_its_segment_with_its_reach_and_a_little_more)
 {
     const vec2 a = {3.0, -2.0}, b = {1.0, 4.0};
-    (void)state;
     const box bare = box_around(a, b, 0.0), wide = box_around(b, a, 1.0);
     assert_true(bare.low.x < 1.0 && bare.low.y < -2.0 && bare.high.x > 3.0 && bare.high.y > 4.0);
     assert_close(bare.low.x, 1.0, 2e-13);
@@ -60,9 +59,8 @@ static void a_box_holds_its_segment_with_its_reach_and_a_little_more(void **stat
     assert_close(wide.high.x, 4.0, 2e-13);
 }
 
-static void leaves_deal_out_the_items_evenly_and_in_order(void **state)
+TEST(leaves_deal_out_the_items_evenly_and_in_order)
 {
-    (void)state;
     for (dem_index n = 0; n < 300; n++) {
         box_tree t;
         assert_ok(box_tree_create(&t, n));
@@ -79,10 +77,9 @@ static void leaves_deal_out_the_items_evenly_and_in_order(void **state)
     }
 }
 
-static void every_node_covers_its_items_and_its_children(void **state)
+TEST(every_node_covers_its_items_and_its_children)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    (void)state;
     for (dem_index n = 1; n < 100; n++) {
         row r = random_row(rng, n);
         const dem_index leaf = (dem_index)1 << r.tree.depth;
@@ -98,11 +95,10 @@ static void every_node_covers_its_items_and_its_children(void **state)
     gsl_rng_free(rng);
 }
 
-static void a_window_finds_all_items_that_it_meets_in_order(void **state)
+TEST(a_window_finds_all_items_that_it_meets_in_order)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     dem_index met = 0, found = 0, in_order = 0;
-    (void)state;
     for (dem_index n = 0; n < 200; n++) {
         row r = random_row(rng, n);
         for (int k = 0; k < 50; k++) {
@@ -127,13 +123,12 @@ static void a_window_finds_all_items_that_it_meets_in_order(void **state)
     gsl_rng_free(rng);
 }
 
-static void a_window_on_one_side_finds_nothing(void **state)
+TEST(a_window_on_one_side_finds_nothing)
 {
     static const double sides[4][2] = {{-2.0, 0.0}, {2.0, 0.0}, {0.0, -2.0}, {0.0, 2.0}};
     const vec2 a = {-0.5, -0.5}, b = {0.5, 0.5};
     const box item = box_around(a, b, 0.0);
     box_tree t;
-    (void)state;
     assert_ok(box_tree_create(&t, 1));
     box_tree_cover(&t, 0, &item);
     for (int k = 0; k < 4; k++) {
@@ -171,10 +166,9 @@ static double walk_to_nearest(const row *r, vec2 x, int *visits)
     return walk.limit;
 }
 
-static void a_walk_comes_to_the_item_with_the_smallest_bound(void **state)
+TEST(a_walk_comes_to_the_item_with_the_smallest_bound)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    (void)state;
     for (dem_index n = 0; n < 200; n++) {
         row r = random_row(rng, n);
         for (int k = 0; k < 50; k++) {
@@ -190,13 +184,12 @@ static void a_walk_comes_to_the_item_with_the_smallest_bound(void **state)
 }
 
 /* 2^15 leaves along a line, points 0.3 to 10 items off it: down once and little more. */
-static void a_walk_costs_little_more_than_the_depth_of_the_tree(void **state)
+TEST(a_walk_costs_little_more_than_the_depth_of_the_tree)
 {
     const dem_index n = 65536;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     row r = {.items = calloc((size_t)n, sizeof *r.items)};
     int most = 0;
-    (void)state;
     assert_ok(box_tree_create(&r.tree, n));
     assert_int_equal(r.tree.depth, 15);
     for (dem_index k = 0; k < n; k++) {
@@ -214,10 +207,9 @@ static void a_walk_costs_little_more_than_the_depth_of_the_tree(void **state)
     gsl_rng_free(rng);
 }
 
-static void siblings_are_visited_by_bound_and_not_above_the_limit(void **state)
+TEST(siblings_are_visited_by_bound_and_not_above_the_limit)
 {
     box_tree_walk walk;
-    (void)state;
     assert_int_equal(box_tree_start(&walk, 10.0), 1);
     assert_int_equal(box_tree_down(&walk, 1, 3.0, 2.0), 3);
     assert_int_equal(box_tree_down(&walk, 3, 11.0, (double)INFINITY), 2); /* nothing there: back */
@@ -233,19 +225,4 @@ static void siblings_are_visited_by_bound_and_not_above_the_limit(void **state)
     assert_int_equal(box_tree_start(&walk, 10.0), 1);
     assert_int_equal(box_tree_down(&walk, 1, 10.0, (double)NAN), 2); /* the limit itself is not above it */
     assert_int_equal(box_tree_back(&walk), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_box_holds_its_segment_with_its_reach_and_a_little_more),
-        cmocka_unit_test(leaves_deal_out_the_items_evenly_and_in_order),
-        cmocka_unit_test(every_node_covers_its_items_and_its_children),
-        cmocka_unit_test(a_window_finds_all_items_that_it_meets_in_order),
-        cmocka_unit_test(a_window_on_one_side_finds_nothing),
-        cmocka_unit_test(a_walk_comes_to_the_item_with_the_smallest_bound),
-        cmocka_unit_test(a_walk_costs_little_more_than_the_depth_of_the_tree),
-        cmocka_unit_test(siblings_are_visited_by_bound_and_not_above_the_limit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

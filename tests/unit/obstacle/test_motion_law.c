@@ -22,11 +22,10 @@ static void assert_near(vec2 actual, vec2 expected, double tolerance)
     assert_close(actual.y, expected.y, tolerance);
 }
 
-static void what_goes_in_comes_out_where_it_was(void **state)
+TEST(what_goes_in_comes_out_where_it_was)
 {
     const pose at = turning(0.8);
     const vec2 x = {0.4, -1.7};
-    (void)state;
     assert_near(pose_outside(&at, pose_inside(&at, x)), x, 1e-15);
     assert_near(pose_inside(&at, at.centre), (vec2){0.0, 0.0}, 0.0);
     const vec2 turned = pose_turn(&at, (vec2){1.0, 0.0});
@@ -36,24 +35,22 @@ static void what_goes_in_comes_out_where_it_was(void **state)
 
 /* A point of the body, followed over 2e-4 s; differences are of second order: 1e-8 of the third derivatives, rounding
  * 1e-16/1e-8 of the second. */
-static void velocity_and_acceleration_are_those_of_a_point_of_the_body(void **state)
+TEST(velocity_and_acceleration_are_those_of_a_point_of_the_body)
 {
     const double t = 0.8, h = 1e-4;
     const vec2 of_body = {0.4, -1.7};
     const pose before = turning(t - h), at = turning(t), after = turning(t + h);
     const vec2 a = pose_outside(&before, of_body), b = pose_outside(&at, of_body), c = pose_outside(&after, of_body);
-    (void)state;
     assert_near(pose_velocity(&at, b), vec2_scale(0.5 / h, vec2_sub(c, a)), 1e-7);
     assert_near(pose_acceleration(&at, b), vec2_scale(1.0 / (h * h), vec2_sub(vec2_add(a, c), vec2_scale(2.0, b))),
                 1e-6);
 }
 
-static void a_constant_velocity_carries_everything_along(void **state)
+TEST(a_constant_velocity_carries_everything_along)
 {
     const dem_obstacle obstacle = {.velocity = {3.0, -4.0}}, rest = {.n_points = 0}, same = {.velocity = {3.0, -4.0}};
     const motion_law law = motion_law_of(&obstacle), none = motion_law_of(&rest), other = motion_law_of(&same);
     const pose at = motion_law_pose(&law, 0.5);
-    (void)state;
     assert_true(law.moves && !none.moves);
     const motion_bounds bounds = motion_law_bounds(&law);
     assert_true(bounds.speed == 5.0 && bounds.acceleration == 0.0 && bounds.rate == 0.0);
@@ -65,25 +62,23 @@ static void a_constant_velocity_carries_everything_along(void **state)
     assert_near(pose_outside(&(pose){.axis = {1.0, 0.0}}, (vec2){1.0, 1.0}), (vec2){1.0, 1.0}, 0.0);
 }
 
-static void points_go_where_the_obstacle_has_gone_also_in_place(void **state)
+TEST(points_go_where_the_obstacle_has_gone_also_in_place)
 {
     const double given[4] = {1.0, 2.0, -3.0, 4.0};
     double points[4] = {1.0, 2.0, -3.0, 4.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = points, .velocity = {3.0, -4.0}},
                        rest = {.n_points = 2, .points = given};
-    (void)state;
     dem_obstacle_points(&obstacle, 0.5, points);
     assert_true(points[0] == 2.5 && points[1] == 0.0 && points[2] == -1.5 && points[3] == 2.0);
     dem_obstacle_points(&rest, 0.5, points);
     assert_memory_equal(points, given, sizeof given);
 }
 
-static void fields_are_listed_one_by_one(void **state)
+TEST(fields_are_listed_one_by_one)
 {
     const dem_obstacle moves = {.velocity = {1.0, 0.0}}, rest = {.n_points = 0};
     const dem_motion_field *field = dem_motion_field_at(0), copy = *field, other = {.n = 1, .offset = 0};
     dem_index k = 0;
-    (void)state;
     assert_true(field->n == 2 && field->offset == offsetof(dem_obstacle, velocity));
     assert_string_equal(field->name, "velocity");
     assert_string_equal(field->unit, "m/s");
@@ -96,26 +91,12 @@ static void fields_are_listed_one_by_one(void **state)
     assert_true(k >= 1);
 }
 
-static void a_motion_that_cannot_be_computed_with_is_refused(void **state)
+TEST(a_motion_that_cannot_be_computed_with_is_refused)
 {
     const dem_obstacle unknown = {.velocity = {0.0, (double)NAN}}, fast = {.velocity = {1e300, 1e300}};
-    (void)state;
     assert_int_equal(motion_law_check(&unknown, 3), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "obstacle 3: velocity of nan m/s is not finite");
     assert_int_equal(motion_law_check(&fast, 3), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "obstacle 3: velocity makes it move by up to inf m/s and 0 m/s^2, which "
                                               "cannot be computed with");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_goes_in_comes_out_where_it_was),
-        cmocka_unit_test(velocity_and_acceleration_are_those_of_a_point_of_the_body),
-        cmocka_unit_test(a_constant_velocity_carries_everything_along),
-        cmocka_unit_test(points_go_where_the_obstacle_has_gone_also_in_place),
-        cmocka_unit_test(fields_are_listed_one_by_one),
-        cmocka_unit_test(a_motion_that_cannot_be_computed_with_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,10 +2,9 @@
 /* obstacle.c: places along segments, and bends. Tolerances of 1e-15 are the rounding of coordinates of order 1 m. */
 #include "unit/obstacle/landscape.h"
 
-static void height_and_place_are_measured_from_the_start(void **state)
+TEST(height_and_place_are_measured_from_the_start)
 {
     const vec2 x = {0.5 + 0.1, -0.5 + 0.1};
-    (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     assert_close(segment_place(&o.segments[1], x), sqrt(0.5), 1e-15);
     assert_close(segment_height(&o.segments[1], x), 0.1 * sqrt(2.0), 1e-15);
@@ -19,9 +18,8 @@ static void check_bend(const obstacle_set *o, dem_index s, bool backwards, obsta
     assert_int_equal(beyond, expected);
 }
 
-static void bends_are_reported_from_both_sides_alike(void **state)
+TEST(bends_are_reported_from_both_sides_alike)
 {
-    (void)state;
     obstacle_set o = compile_both();
     check_bend(&o, 0, true, OBSTACLE_FREE_END, -1);
     check_bend(&o, 0, false, OBSTACLE_CONVEX, 1);
@@ -35,10 +33,9 @@ static void bends_are_reported_from_both_sides_alike(void **state)
 }
 
 /* Straight is a sine of the bend below 1e-9; a line that turns back is none, though its sine is 0. */
-static void a_bend_below_1e_9_is_straight(void **state)
+TEST(a_bend_below_1e_9_is_straight)
 {
     const double points[10] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.5e-9, 3.0, 3.0e-9, 4.0, 3.0e-9};
-    (void)state;
     obstacle_set o = compile(points, 5, 0.0);
     check_bend(&o, 0, false, OBSTACLE_STRAIGHT, 1);
     check_bend(&o, 1, true, OBSTACLE_STRAIGHT, 0);
@@ -47,12 +44,11 @@ static void a_bend_below_1e_9_is_straight(void **state)
     obstacles_free(&o);
 }
 
-static void segments_and_vertices_are_where_their_obstacle_has_gone(void **state)
+TEST(segments_and_vertices_are_where_their_obstacle_has_gone)
 {
     const vec2 velocity = {-3.0, -0.5};
     segment moved;
     vec2 shared;
-    (void)state;
     obstacle_set o = compile_moving(velocity, (vec2){0.0, 0.0});
     assert_ptr_equal(obstacles_segment(&o, 1, 2.0, &moved), &o.segments[1]);
     const segment *left = obstacles_segment(&o, 3, 2.0, &moved);
@@ -69,11 +65,10 @@ static void segments_and_vertices_are_where_their_obstacle_has_gone(void **state
 }
 
 /* The foot of a wall that stands on the valley's floor is buried in it only if both go the same way. */
-static void ends_are_buried_in_what_goes_along(void **state)
+TEST(ends_are_buried_in_what_goes_along)
 {
     const double wall[4] = {2.0, 1.0, 2.0, -1.0};
     dem_obstacle list[2] = {{.n_points = 4, .points = valley}, {.n_points = 2, .points = wall}};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         obstacle_set o;
         list[1].velocity[0] = k > 0 ? 1.0 : 0.0;
@@ -82,16 +77,4 @@ static void ends_are_buried_in_what_goes_along(void **state)
         assert_true((o.segments[3].buried[1] > 0.0) == (k != 1));
         obstacles_free(&o);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(height_and_place_are_measured_from_the_start),
-        cmocka_unit_test(bends_are_reported_from_both_sides_alike),
-        cmocka_unit_test(a_bend_below_1e_9_is_straight),
-        cmocka_unit_test(segments_and_vertices_are_where_their_obstacle_has_gone),
-        cmocka_unit_test(ends_are_buried_in_what_goes_along),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

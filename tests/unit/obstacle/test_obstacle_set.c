@@ -3,11 +3,10 @@
  * coordinates of order 1 m. */
 #include "unit/obstacle/landscape.h"
 
-static void segments_are_numbered_obstacle_by_obstacle(void **state)
+TEST(segments_are_numbered_obstacle_by_obstacle)
 {
     static const dem_index obstacle[7] = {0, 0, 0, 1, 1, 1, 1}, index[7] = {0, 1, 2, 0, 1, 2, 3};
     static const dem_index before[7] = {-1, 0, 1, 6, 3, 4, 5}, after[7] = {1, 2, -1, 4, 5, 6, 3};
-    (void)state;
     obstacle_set o = compile_both();
     assert_int_equal(o.n, 2);
     assert_int_equal(o.n_segments, 7);
@@ -29,10 +28,9 @@ static void segments_are_numbered_obstacle_by_obstacle(void **state)
     assert_null(o.segments);
 }
 
-static void the_set_keeps_copies_of_the_points(void **state)
+TEST(the_set_keeps_copies_of_the_points)
 {
     double points[4] = {0.0, 0.0, 1.0, 0.0};
-    (void)state;
     obstacle_set o = compile(points, 2, 0.0);
     points[1] = points[3] = 100.0;
     assert_close(o.list[0].points[1], 0.0, 0.0);
@@ -47,10 +45,9 @@ static void check_vertex(const obstacle_set *o, dem_index k, dem_index before, d
     assert_true(o->vertices[k].at.x == x && o->vertices[k].at.y == y);
 }
 
-static void vertices_are_where_the_solid_sticks_out(void **state)
+TEST(vertices_are_where_the_solid_sticks_out)
 {
     const double points[14] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.5e-9, 3.0, 3.0e-9, 4.0, 3.0e-9, 4.0, -1.0, 5.0, -1.0};
-    (void)state;
     obstacle_set o = compile_both();
     assert_int_equal(o.n_vertices, 5);
     check_vertex(&o, 0, 0, 1, 0.0, 0.0); /* of the valley; (1, -1) is a bay, the ends are free */
@@ -68,9 +65,8 @@ static void vertices_are_where_the_solid_sticks_out(void **state)
     obstacles_free(&o);
 }
 
-static void an_obstacle_is_checked_by_itself(void **state)
+TEST(an_obstacle_is_checked_by_itself)
 {
-    (void)state;
     static const double crossing[] = {0, 0, 2, 0, 2, -1, 1, 1}, back[] = {0, 0, 2, 0, 1, 0}, point[] = {1, 1, 1, 1};
     static const struct {
         dem_obstacle obstacle;
@@ -90,15 +86,4 @@ static void an_obstacle_is_checked_by_itself(void **state)
     }
     assert_int_equal(dem_obstacle_check(NULL, pair), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_obstacle_check(&cases[0].obstacle, NULL), DEM_ERROR_ARGUMENT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(segments_are_numbered_obstacle_by_obstacle),
-        cmocka_unit_test(the_set_keeps_copies_of_the_points),
-        cmocka_unit_test(vertices_are_where_the_solid_sticks_out),
-        cmocka_unit_test(an_obstacle_is_checked_by_itself),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

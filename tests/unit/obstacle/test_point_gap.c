@@ -13,10 +13,9 @@ static void check_gap(const obstacle_set *o, double x, double y, double distance
     assert_close(gap.normal.y, ny, 1e-14);
 }
 
-static void the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it(void **state)
+TEST(the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it)
 {
     const double r = sqrt(0.5);
-    (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     check_gap(&o, -1.0, 0.3, 0.3, 0, 0.0, 1.0);
     check_gap(&o, -1.0, -0.3, -0.3, 0, 0.0, 1.0);
@@ -29,9 +28,8 @@ static void the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it(vo
 
 /* Off the convex vertex (0, 0) the nearest point is the vertex, in front; behind the concave one (1, -1) likewise,
  * inside. */
-static void at_a_vertex_the_distance_is_to_the_vertex(void **state)
+TEST(at_a_vertex_the_distance_is_to_the_vertex)
 {
-    (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     obstacle_gap gap = gap_at(&o, 0.3, 0.4);
     assert_close(gap.distance, 0.5, 1e-15);
@@ -44,9 +42,8 @@ static void at_a_vertex_the_distance_is_to_the_vertex(void **state)
     obstacles_free(&o);
 }
 
-static void round_a_free_end_every_point_is_in_front(void **state)
+TEST(round_a_free_end_every_point_is_in_front)
 {
-    (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     check_gap(&o, -2.3, 0.4, 0.5, 0, -0.6, 0.8);
     check_gap(&o, -2.3, -0.4, 0.5, 0, -0.6, -0.8);
@@ -55,18 +52,16 @@ static void round_a_free_end_every_point_is_in_front(void **state)
     obstacles_free(&o);
 }
 
-static void on_the_vertex_itself_the_gap_is_zero_and_the_normal_that_of_a_segment(void **state)
+TEST(on_the_vertex_itself_the_gap_is_zero_and_the_normal_that_of_a_segment)
 {
-    (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     check_gap(&o, 0.0, 0.0, 0.0, 0, 0.0, 1.0);
     obstacles_free(&o);
 }
 
-static void a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise(void **state)
+TEST(a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise)
 {
     double vessel[10];
-    (void)state;
     obstacle_set o = compile(block, 5, 0.0);
     check_gap(&o, 5.5, 0.9, -0.1, 1, 0.0, 1.0);
     check_gap(&o, 5.1, 0.5, -0.1, 0, -1.0, 0.0);
@@ -83,10 +78,9 @@ static void a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise
     obstacles_free(&o);
 }
 
-static void without_obstacles_the_gap_is_infinite(void **state)
+TEST(without_obstacles_the_gap_is_infinite)
 {
     obstacle_set o;
-    (void)state;
     assert_ok(obstacles_compile(&o, NULL, 0));
     const obstacle_gap gap = gap_at(&o, 1.0, 2.0);
     assert_true(gap.distance == (double)INFINITY);
@@ -94,10 +88,9 @@ static void without_obstacles_the_gap_is_infinite(void **state)
     obstacles_free(&o);
 }
 
-static void obstacles_can_be_left_out_or_asked_alone(void **state)
+TEST(obstacles_can_be_left_out_or_asked_alone)
 {
     const vec2 x = {4.5, -0.25}; /* 0.56 m from the block's corner, 1.68 m from the valley's end */
-    (void)state;
     obstacle_set o = compile_both();
     assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, -1, -1).segment, 3);
     assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, 1, -1).segment, 2);
@@ -110,13 +103,12 @@ static void obstacles_can_be_left_out_or_asked_alone(void **state)
 }
 
 /* 0.1 m in front of the floor, 0.3 m inside the wall: the smaller signed distance, not the nearer surface. */
-static void inside_one_of_several_obstacles_is_inside(void **state)
+TEST(inside_one_of_several_obstacles_is_inside)
 {
     const double ground[4] = {-4.0, 0.0, 4.0, 0.0}, wall[4] = {2.0, -1.0, 2.0, 3.0};
     const dem_obstacle list[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
                                   {.n_points = 2, .points = wall, .restitution = 0.0}};
     obstacle_set o;
-    (void)state;
     assert_ok(obstacles_compile(&o, list, 2));
     check_gap(&o, 2.3, 0.1, -0.3, 1, -1.0, 0.0);
     check_gap(&o, 2.1, -0.3, -0.3, 0, 0.0, 1.0);
@@ -157,11 +149,10 @@ static vec2 random_point(gsl_rng *rng)
     return (vec2){x, 8.0 * gsl_rng_uniform(rng) - 4.0};
 }
 
-static void the_gap_is_the_distance_with_the_sign_of_the_side(void **state)
+TEST(the_gap_is_the_distance_with_the_sign_of_the_side)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_inside = 0;
-    (void)state;
     obstacle_set o = compile(star, 13, 0.0);
     for (int k = 0; k < 20000; k++) {
         const vec2 x = random_point(rng);
@@ -177,12 +168,11 @@ static void the_gap_is_the_distance_with_the_sign_of_the_side(void **state)
 /* Central differences over 1e-6 m: curvature 1/distance < 1e3 away from vertices gives 1e-9, rounding 1e-15/1e-6.
  * Where two features are equally near there is no gradient: such points are recognised by one-sided differences that
  * disagree, and are few. */
-static void the_normal_is_the_gradient_of_the_gap(void **state)
+TEST(the_normal_is_the_gradient_of_the_gap)
 {
     const double h = 1e-6;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_kinks = 0;
-    (void)state;
     obstacle_set o = compile(star, 13, 0.0);
     for (int k = 0; k < 5000; k++) {
         const vec2 x = random_point(rng);
@@ -265,11 +255,10 @@ static int compare_touching(const obstacle_set *o, vec2 x, const obstacle_touch 
     return n;
 }
 
-static void the_tree_finds_what_a_loop_finds_to_the_bit(void **state)
+TEST(the_tree_finds_what_a_loop_finds_to_the_bit)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_buried = 0, n_touched = 0;
-    (void)state;
     for (int c = 0; c < 200; c++) {
         landscape l = random_landscape(rng);
         n_buried += l.set.segments[l.set.n_segments - 1].buried[1] > 0.0;
@@ -288,11 +277,10 @@ static void the_tree_finds_what_a_loop_finds_to_the_bit(void **state)
 
 /* From the middle of a square or a square standing on its tip, of 40 segments, features are as far away as rounding
  * lets them be. */
-static void rounding_does_not_hide_a_segment(void **state)
+TEST(rounding_does_not_hide_a_segment)
 {
     static const double corner[2][2] = {{1.0, 1.0}, {1.0, 0.0}};
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    (void)state;
     for (int c = 0; c < 2000; c++) {
         double points[2 * 41];
         const double size = pow(10.0, uniform(rng, -4.0, 1.0));
@@ -313,12 +301,11 @@ static void rounding_does_not_hide_a_segment(void **state)
 
 /* A hook whose start points along its shank, and a point off the start's prolongation, 1.5 m from the start and 0.8 m
  * from the shank; turned to all four sides. */
-static void a_free_end_is_longer_by_the_margin_where_another_part_is_nearer(void **state)
+TEST(a_free_end_is_longer_by_the_margin_where_another_part_is_nearer)
 {
     static const double hook[2 * 8] = {0.0, 0.0, -1.0, 0.0, -1.0, 1.0, 0.0, 1.0,
                                        1.0, 1.0, 2.0,  1.0, 3.0,  1.0, 4.0, 1.0};
     vec2 axis = {1.0, 0.0};
-    (void)state;
     for (int side = 0; side < 4; side++, axis = (vec2){-axis.y, axis.x}) {
         double points[2 * 8];
         for (int k = 0; k < 8; k++)
@@ -333,10 +320,9 @@ static void a_free_end_is_longer_by_the_margin_where_another_part_is_nearer(void
 }
 
 /* The end of one segment and the start of the next are the same point; where a ring closes the first comes first. */
-static void of_equally_near_segments_the_first_counts(void **state)
+TEST(of_equally_near_segments_the_first_counts)
 {
     double comb[2 * 40];
-    (void)state;
     obstacle_set o = compile(block, 5, 0.0);
     assert_int_equal(gap_at(&o, 5.5, 0.5).segment, 0); /* the middle of a square */
     assert_int_equal(gap_at(&o, 4.7, -0.4).segment, 0);
@@ -352,13 +338,12 @@ static void of_equally_near_segments_the_first_counts(void **state)
     obstacles_free(&o);
 }
 
-static void a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends(void **state)
+TEST(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends)
 {
     const vec2 past = {3.0005, -1.0}, vertex = {0.0, 0.0}, on_one = {-1.0, 0.0005}, above = {-1.0, 0.002},
                beyond = {-2.0005, 0.0}, further = {-2.002, 0.0};
     const obstacle_touch all = {1e-3, 0.0, -1}, other = {1e-3, 0.0, 0}, longer = {1e-3, 2e-3, -1};
     dem_index hits[4] = {-1, -1, -1, -1};
-    (void)state;
     obstacle_set o = compile_both();
     assert_int_equal(obstacles_touching(&o, 0.0, vertex, &all, hits, 4), 2);
     assert_int_equal(hits[0], 0);
@@ -376,13 +361,12 @@ static void a_point_touches_the_segments_within_the_tolerance_of_their_line_and_
 }
 
 /* 1e-14: rounding of coordinates of order 10 m. */
-static void what_moves_is_met_where_it_is(void **state)
+TEST(what_moves_is_met_where_it_is)
 {
     const vec2 velocity = {-3.0, -0.5};
     const double t = 1.25;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_hits = 0;
-    (void)state;
     obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0}),
                  there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
     for (int k = 0; k < 2000; k++) {
@@ -403,27 +387,4 @@ static void what_moves_is_met_where_it_is(void **state)
     obstacles_free(&moving);
     obstacles_free(&there);
     gsl_rng_free(rng);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it),
-        cmocka_unit_test(at_a_vertex_the_distance_is_to_the_vertex),
-        cmocka_unit_test(round_a_free_end_every_point_is_in_front),
-        cmocka_unit_test(on_the_vertex_itself_the_gap_is_zero_and_the_normal_that_of_a_segment),
-        cmocka_unit_test(a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise),
-        cmocka_unit_test(without_obstacles_the_gap_is_infinite),
-        cmocka_unit_test(obstacles_can_be_left_out_or_asked_alone),
-        cmocka_unit_test(inside_one_of_several_obstacles_is_inside),
-        cmocka_unit_test(the_gap_is_the_distance_with_the_sign_of_the_side),
-        cmocka_unit_test(the_normal_is_the_gradient_of_the_gap),
-        cmocka_unit_test(the_tree_finds_what_a_loop_finds_to_the_bit),
-        cmocka_unit_test(rounding_does_not_hide_a_segment),
-        cmocka_unit_test(a_free_end_is_longer_by_the_margin_where_another_part_is_nearer),
-        cmocka_unit_test(of_equally_near_segments_the_first_counts),
-        cmocka_unit_test(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends),
-        cmocka_unit_test(what_moves_is_met_where_it_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

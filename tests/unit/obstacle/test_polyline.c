@@ -2,38 +2,35 @@
 /* polyline.c: what is no obstacle, and which segments of one meet. */
 #include "unit/obstacle/landscape.h"
 
-static void an_obstacle_of_one_point_or_none_is_refused(void **state)
+TEST(an_obstacle_of_one_point_or_none_is_refused)
 {
     const dem_obstacle list[2] = {{.n_points = 4, .points = valley, .restitution = 0.0},
                                   {.n_points = 1, .points = valley, .restitution = 0.0}},
                        none = {.n_points = 2, .points = NULL, .restitution = 0.0};
-    (void)state;
     refuse(list, 2, "obstacle 1 has 1 points, at least 2 are needed");
     refuse(&none, 1, "obstacle 0 has 2 points, at least 2 are needed");
 }
 
-static void restitution_must_lie_between_0_and_1(void **state)
+TEST(restitution_must_lie_between_0_and_1)
 {
     const dem_obstacle above = {.n_points = 4, .points = valley, .restitution = 1.5},
                        below = {.n_points = 4, .points = valley, .restitution = -0.25},
                        nan = {.n_points = 4, .points = valley, .restitution = fabs((double)NAN)};
-    (void)state;
     refuse(&above, 1, "obstacle 0: restitution must be in [0, 1], got 1.5");
     refuse(&below, 1, "obstacle 0: restitution must be in [0, 1], got -0.25");
     refuse(&nan, 1, "obstacle 0: restitution must be in [0, 1], got nan");
 }
 
-static void a_point_that_is_not_finite_is_named(void **state)
+TEST(a_point_that_is_not_finite_is_named)
 {
     const double infinite[6] = {0.0, 0.0, 1.0, 0.0, 2.0, (double)INFINITY}, nan[4] = {0.0, 0.0, (double)NAN, 0.0};
     const dem_obstacle first = {.n_points = 3, .points = infinite, .restitution = 0.0},
                        second = {.n_points = 2, .points = nan, .restitution = 0.0};
-    (void)state;
     refuse(&first, 1, "obstacle 0: point 2 is not finite");
     refuse(&second, 1, "obstacle 0: point 1 is not finite");
 }
 
-static void a_segment_without_length_is_named(void **state)
+TEST(a_segment_without_length_is_named)
 {
     const double twice[6] = {0.0, 0.0, 1.0, 0.0, 1.0, 0.0}, far[4] = {-1e308, 0.0, 1e308, 0.0},
                  near[4] = {0.0, 0.0, 0.0, 1e-160}; /* its square has lost its digits */
@@ -41,13 +38,12 @@ static void a_segment_without_length_is_named(void **state)
                                   {.n_points = 3, .points = twice, .restitution = 0.0}},
                        wide = {.n_points = 2, .points = far, .restitution = 0.0},
                        narrow = {.n_points = 2, .points = near, .restitution = 0.0};
-    (void)state;
     refuse(list, 2, "obstacle 1: segment 1 has length 0 m");
     refuse(&wide, 1, "obstacle 0: segment 0 has length inf m");
     refuse(&narrow, 1, "obstacle 0: segment 0 has length 1e-160 m");
 }
 
-static void a_polyline_that_meets_itself_is_refused(void **state)
+TEST(a_polyline_that_meets_itself_is_refused)
 {
     static const double crossing[8] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 1.0, -1.0},
                         back[6] = {0.0, 0.0, 2.0, 0.0, 1.0, 0.0};
@@ -58,7 +54,6 @@ static void a_polyline_that_meets_itself_is_refused(void **state)
     static const char *const messages[3] = {"obstacle 0: segments 0 and 2 meet",
                                             "obstacle 0: segment 1 goes back over segment 0",
                                             "obstacle 0: segments 0 and 3 meet"};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         obstacle_set o;
         assert_int_equal(obstacles_compile(&o, &list[k], 1), DEM_ERROR_MODEL);
@@ -68,11 +63,10 @@ static void a_polyline_that_meets_itself_is_refused(void **state)
 
 /* Equal steps in one direction that is none of the axes': segments far apart on a line do not meet, although rounding
  * makes the lines cross. */
-static void segments_in_line_do_not_meet(void **state)
+TEST(segments_in_line_do_not_meet)
 {
     enum { n = 201 };
     double points[2 * n];
-    (void)state;
     for (int slope = 1; slope < 100; slope++) {
         for (int k = 0; k < n; k++) vec2_put(points, k, (vec2){0.001 * k, 0.001 * k * slope / 100.0});
         obstacle_set o = compile(points, n, 0.0);
@@ -81,30 +75,15 @@ static void segments_in_line_do_not_meet(void **state)
 }
 
 /* The refused pair is the first one with the smallest first segment. */
-static void of_10000_segments_the_pair_that_meets_is_named(void **state)
+TEST(of_10000_segments_the_pair_that_meets_is_named)
 {
     enum { n = 10001 };
     static double points[2 * n];
     const dem_obstacle obstacle = {.n_points = n, .points = points, .restitution = 0.0};
-    (void)state;
     for (int k = 0; k < n; k++) vec2_put(points, k, (vec2){1e-4 * k, k % 2 == 0 ? 0.0 : 1e-3});
     obstacle_set o = compile(points, n, 0.0);
     assert_int_equal(obstacles_gap(&o, 0.0, (vec2){0.77770001, 2e-3}, 0.0, -1, -1).segment, 7776);
     obstacles_free(&o);
     vec2_put(points, n - 1, (vec2){0.5, 0.9e-3});
     refuse(&obstacle, 1, "obstacle 0: segments 5000 and 9999 meet");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_obstacle_of_one_point_or_none_is_refused),
-        cmocka_unit_test(restitution_must_lie_between_0_and_1),
-        cmocka_unit_test(a_point_that_is_not_finite_is_named),
-        cmocka_unit_test(a_segment_without_length_is_named),
-        cmocka_unit_test(a_polyline_that_meets_itself_is_refused),
-        cmocka_unit_test(segments_in_line_do_not_meet),
-        cmocka_unit_test(of_10000_segments_the_pair_that_meets_is_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,9 +26,8 @@ static void assert_no_gap(const obstacle_set *o, const obstacle_edge *edge)
     assert_true(gap.distance == (double)INFINITY);
 }
 
-static void a_vertex_pokes_an_edge_from_the_front_or_from_behind(void **state)
+TEST(a_vertex_pokes_an_edge_from_the_front_or_from_behind)
 {
-    (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     obstacle_edge edge = edge_between(-1.0, 0.25, 3.0, 0.25);
     obstacle_vertex_gap gap = obstacles_vertex_gap(&o, 0.0, &edge);
@@ -46,9 +45,8 @@ static void a_vertex_pokes_an_edge_from_the_front_or_from_behind(void **state)
     obstacles_free(&o);
 }
 
-static void a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_gap(void **state)
+TEST(a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_gap)
 {
-    (void)state;
     obstacle_set o = compile(valley, 4, 0.0);
     obstacle_edge edge = edge_between(0.125, 0.25, 1.0, 0.25);
     assert_no_gap(&o, &edge);
@@ -74,11 +72,10 @@ static void a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_ga
 }
 
 /* Teeth whose tips are at y = 0, but the fifth which is 0.125 m lower and the ninth 0.125 m higher. */
-static void of_several_vertices_the_deepest_pokes_and_of_equals_the_first(void **state)
+TEST(of_several_vertices_the_deepest_pokes_and_of_equals_the_first)
 {
     enum { n = 25 };
     double points[2 * n];
-    (void)state;
     for (int k = 0; k < n; k++)
         vec2_put(points, k, (vec2){k, k % 2 == 0 ? -1.0 : (k == 9 ? -0.125 : (k == 17 ? 0.125 : 0.0))});
     obstacle_set o = compile(points, n, 0.0);
@@ -144,11 +141,10 @@ static obstacle_vertex_gap gap_by_loop(const obstacle_set *o, const obstacle_edg
 }
 
 /* Edges between telling points: many pass exactly through vertices, end on their foot, or lie along segments. */
-static void the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit(void **state)
+TEST(the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_gaps = 0;
-    (void)state;
     for (int c = 0; c < 200; c++) {
         landscape l = random_landscape(rng);
         const double size = vec2_norm(l.axis);
@@ -176,13 +172,12 @@ static void the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit(void **state)
 }
 
 /* 1e-14: rounding of coordinates of order 10 m. */
-static void what_moves_is_met_where_it_is(void **state)
+TEST(what_moves_is_met_where_it_is)
 {
     const vec2 velocity = {-3.0, -0.5};
     const double t = 1.25;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_of_valley = 0, n_of_block = 0;
-    (void)state;
     obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0}),
                  there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
     for (int k = 0; k < 4000; k++) {
@@ -204,16 +199,4 @@ static void what_moves_is_met_where_it_is(void **state)
     obstacles_free(&moving);
     obstacles_free(&there);
     gsl_rng_free(rng);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_vertex_pokes_an_edge_from_the_front_or_from_behind),
-        cmocka_unit_test(a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_gap),
-        cmocka_unit_test(of_several_vertices_the_deepest_pokes_and_of_equals_the_first),
-        cmocka_unit_test(the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit),
-        cmocka_unit_test(what_moves_is_met_where_it_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,9 +93,8 @@ static stored two_events(void)
     return s;
 }
 
-static void a_row_tells_what_happened_and_where(void **state)
+TEST(a_row_tells_what_happened_and_where)
 {
-    (void)state;
     stored s = two_events();
     expect_number(&s, "t", H5T_IEEE_F64LE, 0, 0.5);
     expect_number(&s, "kind", H5T_STD_I8LE, 0, 0.0);
@@ -114,9 +113,8 @@ static void a_row_tells_what_happened_and_where(void **state)
 }
 
 /* (-3, 29) = 25 (-0.6, 0.8) + 15 (0.8, 0.6) */
-static void impulses_are_along_the_normal_and_the_tangent(void **state)
+TEST(impulses_are_along_the_normal_and_the_tangent)
 {
-    (void)state;
     stored s = two_events();
     expect_number(&s, "normal_impulse", H5T_IEEE_F64LE, 0, 25.0);
     expect_number(&s, "tangential_impulse", H5T_IEEE_F64LE, 0, 15.0);
@@ -125,9 +123,8 @@ static void impulses_are_along_the_normal_and_the_tangent(void **state)
     end(&s);
 }
 
-static void a_node_alone_has_no_other(void **state)
+TEST(a_node_alone_has_no_other)
 {
-    (void)state;
     stored s = two_events();
     expect_number(&s, "t", H5T_IEEE_F64LE, 1, 0.75);
     expect_number(&s, "kind", H5T_STD_I8LE, 1, 2.0);
@@ -152,9 +149,8 @@ static void expect_name(const stored *s, const char *name, int code, const char 
     assert_string_equal(word, expected);
 }
 
-static void codes_have_their_names_beside_them(void **state)
+TEST(codes_have_their_names_beside_them)
 {
-    (void)state;
     stored s = two_events();
     expect_name(&s, "/events/kind", DEM_EVENT_IMPACT, "impact");
     expect_name(&s, "/events/kind", DEM_EVENT_CLOSE, "close");
@@ -168,13 +164,4 @@ static void codes_have_their_names_beside_them(void **state)
     end(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_row_tells_what_happened_and_where),
-        cmocka_unit_test(impulses_are_along_the_normal_and_the_tangent),
-        cmocka_unit_test(a_node_alone_has_no_other),
-        cmocka_unit_test(codes_have_their_names_beside_them),
-    };
-    return cmocka_run_group_tests(tests, make_path, NULL);
-}
+TEST_GROUP(make_path, NULL);

@@ -70,10 +70,9 @@ static const struct {
               {"CellData/broken", 0}};
 enum { n_arrays = sizeof arrays / sizeof arrays[0] };
 
-static void a_file_has_the_arrays_that_are_wanted_and_their_offsets(void **state)
+TEST(a_file_has_the_arrays_that_are_wanted_and_their_offsets)
 {
     static const uint32_t wishes[4] = {0, DEM_FIELD_PRINCIPAL | DEM_FIELD_STRAIN, DEM_FIELD_ALL, DEM_FIELD_STRESS};
-    (void)state;
     for (int w = 0; w < 4; w++) {
         reader *f = shoot(wishes[w], 0);
         for (int k = 0; k < n_arrays; k++) {
@@ -93,9 +92,8 @@ static void a_file_has_the_arrays_that_are_wanted_and_their_offsets(void **state
 }
 
 /* The last frame is the simulation's state. */
-static void stresses_are_those_of_the_simulation(void **state)
+TEST(stresses_are_those_of_the_simulation)
 {
-    (void)state;
     for (int is_double = 0; is_double < 2; is_double++) {
         reader *f = shoot(DEM_FIELD_ALL, is_double);
         const hsize_t n = (hsize_t)f->frames.n_nodes;
@@ -128,9 +126,8 @@ static void stresses_are_those_of_the_simulation(void **state)
     }
 }
 
-static void forces_are_stiffness_times_strain(void **state)
+TEST(forces_are_stiffness_times_strain)
 {
-    (void)state;
     reader *f = shoot(DEM_FIELD_ALL, 1);
     const hsize_t m = (hsize_t)f->frames.n_springs;
     double strain[STORED_VALUES];
@@ -141,10 +138,9 @@ static void forces_are_stiffness_times_strain(void **state)
     put_away(f);
 }
 
-static void a_constant_is_in_all_frames(void **state)
+TEST(a_constant_is_in_all_frames)
 {
     const frames_constant constants[2] = {{"PointData", "peak", HDF5_F64, 2}, {"CellData", "time", HDF5_F32, 1}};
-    (void)state;
     reader *f = shoot(0, 0);
     const hsize_t n = (hsize_t)f->frames.n_nodes, m = (hsize_t)f->frames.n_springs;
     for (hsize_t k = 0; k < 2 * n || k < m; k++) f->frames.scratch[k] = (double)k;
@@ -157,15 +153,4 @@ static void a_constant_is_in_all_frames(void **state)
     offset = stored_values(&f->stored, "/VTKHDF/Steps/CellDataOffsets/time", 2, 1, 8);
     assert_true(offset[0] == 0.0 && offset[1] == 0.0);
     put_away(f);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_file_has_the_arrays_that_are_wanted_and_their_offsets),
-        cmocka_unit_test(stresses_are_those_of_the_simulation),
-        cmocka_unit_test(forces_are_stiffness_times_strain),
-        cmocka_unit_test(a_constant_is_in_all_frames),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,9 +108,8 @@ static hsize_t stored_bytes(const hdf5_file *file, const char *name)
 
 /* ---- rows ---- */
 
-static void rows_come_back_as_they_were_appended(void **state)
+TEST_WITH(rows_come_back_as_they_were_appended, NULL, scratch_sweep)
 {
-    (void)state;
     static const double value[12] = {0.1, -2.0, 3.0, 4.5, 1e300, 6.0, 7.0, 8.0, -0.0, 10.0, 11.0, 12.0};
     const hdf5_rows flat = {"/flat", HDF5_F64, 1, {0, 0}, 4, 0}, pairs = {"/a/pairs", HDF5_F64, 2, {2, 0}, 3, 5};
     const hdf5_rows deep = {"/a/b/deep", HDF5_F64, 3, {3, 2}, 1, 0};
@@ -133,9 +132,8 @@ static void rows_come_back_as_they_were_appended(void **state)
     finish(&file);
 }
 
-static void what_is_appended_are_the_last_rows(void **state)
+TEST_WITH(what_is_appended_are_the_last_rows, NULL, scratch_sweep)
 {
-    (void)state;
     static const double value[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, less[3] = {1.0, 2.0, 9.0}, new[1] = {9.0};
     const hdf5_rows rows = {"/r", HDF5_F64, 1, {0, 0}, 4, 0};
     hdf5_file file = open_new();
@@ -148,9 +146,8 @@ static void what_is_appended_are_the_last_rows(void **state)
     finish(&file);
 }
 
-static void a_linked_dataset_has_the_same_rows_under_both_names(void **state)
+TEST_WITH(a_linked_dataset_has_the_same_rows_under_both_names, NULL, scratch_sweep)
 {
-    (void)state;
     const double value[3] = {1.0, -2.0, 3.0};
     const hdf5_rows rows = {"/a/rows", HDF5_F64, 1, {0, 0}, 4, 0};
     hdf5_file file = open_new();
@@ -166,9 +163,8 @@ static void a_linked_dataset_has_the_same_rows_under_both_names(void **state)
     finish(&file);
 }
 
-static void numbers_are_stored_little_endian_in_their_own_width(void **state)
+TEST_WITH(numbers_are_stored_little_endian_in_their_own_width, NULL, scratch_sweep)
 {
-    (void)state;
     const double reals[2] = {0.1, -4.0};
     const int64_t wide[2] = {INT64_C(1) << 40, -7};
     const int64_t codes[2] = {127, -1};
@@ -201,9 +197,8 @@ static void numbers_are_stored_little_endian_in_their_own_width(void **state)
     finish(&file);
 }
 
-static void a_chunk_has_the_rows_asked_for(void **state)
+TEST_WITH(a_chunk_has_the_rows_asked_for, NULL, scratch_sweep)
 {
-    (void)state;
     const double value[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
     const hdf5_rows none = {"/none", HDF5_F64, 1, {0, 0}, 0, 0}, three = {"/three", HDF5_F64, 2, {2, 0}, 3, 0};
     hdf5_file file = open_new();
@@ -222,9 +217,8 @@ static void a_chunk_has_the_rows_asked_for(void **state)
     finish(&file);
 }
 
-static void deflated_rows_take_less_room_and_come_back_the_same(void **state)
+TEST_WITH(deflated_rows_take_less_room_and_come_back_the_same, NULL, scratch_sweep)
 {
-    (void)state;
     static double value[4096];
     static double back[4096];
     const hdf5_rows plain = {"/plain", HDF5_F64, 1, {0, 0}, 0, 0}, small = {"/small", HDF5_F64, 1, {0, 0}, 0, 9};
@@ -241,9 +235,8 @@ static void deflated_rows_take_less_room_and_come_back_the_same(void **state)
     finish(&file);
 }
 
-static void rows_that_cannot_be_stored_are_named(void **state)
+TEST_WITH(rows_that_cannot_be_stored_are_named, NULL, scratch_sweep)
 {
-    (void)state;
     const double value = 1.0;
     const hdf5_rows rows = {"/a/r", HDF5_F64, 1, {0, 0}, 1, 0}, below = {"/a/r/x", HDF5_F64, 1, {0, 0}, 1, 0};
     const hdf5_rows bad = {"/bad", HDF5_F64, 1, {0, 0}, 1, 10};
@@ -261,9 +254,8 @@ static void rows_that_cannot_be_stored_are_named(void **state)
     finish(&file);
 }
 
-static void a_lost_row_and_another_type_are_noticed(void **state)
+TEST_WITH(a_lost_row_and_another_type_are_noticed, NULL, scratch_sweep)
 {
-    (void)state;
     const double value[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
     const hdf5_rows rows = {"/r", HDF5_F64, 2, {2, 0}, 1, 0}, none = {"/s", HDF5_F64, 1, {0, 0}, 1, 0};
     const hdf5_rows others[] = {{"/r", HDF5_F32, 2, {2, 0}, 1, 0},
@@ -290,9 +282,8 @@ static void a_lost_row_and_another_type_are_noticed(void **state)
 }
 
 /* Of five rows in chunks of two, those from 1 to 4 go behind the one that is there, so no block begins with a chunk. */
-static void rows_are_read_and_copied(void **state)
+TEST_WITH(rows_are_read_and_copied, NULL, scratch_sweep)
 {
-    (void)state;
     const double reals[10] = {0.5, 1.5, 2.5, 3.5, NAN, -0.0, INFINITY, 7.5, 8.5, 9.5};
     const int64_t bytes[5] = {-128, -1, 0, 1, 127};
     const hdf5_rows real = {"/a/r", HDF5_F32, 2, {2, 0}, 2, 1}, byte = {"/b", HDF5_I8, 1, {0, 0}, 2, 0};
@@ -327,9 +318,8 @@ static void rows_are_read_and_copied(void **state)
 
 /* ---- attributes ---- */
 
-static void attributes_are_made_and_overwritten(void **state)
+TEST_WITH(attributes_are_made_and_overwritten, NULL, scratch_sweep)
 {
-    (void)state;
     const int64_t version[2] = {2, 0}, one = 1, two = 2;
     int64_t stored[2] = {0, 0};
     hdf5_file file = open_new();
@@ -346,9 +336,8 @@ static void attributes_are_made_and_overwritten(void **state)
     finish(&file);
 }
 
-static void a_wrong_or_missing_attribute_is_noticed(void **state)
+TEST_WITH(a_wrong_or_missing_attribute_is_noticed, NULL, scratch_sweep)
 {
-    (void)state;
     const int64_t three = 3;
     hdf5_file file = open_new();
     assert_ok(hdf5_write_attribute(&file, "/g", "n", HDF5_I64, 1, &three));
@@ -364,9 +353,8 @@ static void a_wrong_or_missing_attribute_is_noticed(void **state)
     finish(&file);
 }
 
-static void a_text_attribute_has_its_characters_and_no_terminator(void **state)
+TEST_WITH(a_text_attribute_has_its_characters_and_no_terminator, NULL, scratch_sweep)
 {
-    (void)state;
     char text[20] = "                   ";
     hdf5_file file = open_new();
     assert_ok(hdf5_write_attribute_text(&file, "/VTK", "Type", "UnstructuredGrid"));
@@ -392,9 +380,8 @@ static void expect_text(const hdf5_file *file, const char *name, const char *exp
     assert_string_equal(text, expected);
 }
 
-static void texts_are_kept_and_replaced_by_longer_and_shorter_ones(void **state)
+TEST_WITH(texts_are_kept_and_replaced_by_longer_and_shorter_ones, NULL, scratch_sweep)
 {
-    (void)state;
     hdf5_file file = open_new();
     static const char *const texts[] = {"two words", "\xC3\xA9t\xC3\xA9 of more words,\nin two lines", "x", ""};
     for (size_t k = 0; k < 4; k++) {
@@ -411,9 +398,8 @@ static void texts_are_kept_and_replaced_by_longer_and_shorter_ones(void **state)
     finish(&file);
 }
 
-static void a_text_needs_room_for_its_end(void **state)
+TEST_WITH(a_text_needs_room_for_its_end, NULL, scratch_sweep)
 {
-    (void)state;
     char text[6] = "#####";
     hdf5_file file = open_new();
     assert_ok(hdf5_write_text(&file, "/t", "12345"));
@@ -425,9 +411,8 @@ static void a_text_needs_room_for_its_end(void **state)
     finish(&file);
 }
 
-static void what_is_no_text_is_not_read_as_one(void **state)
+TEST_WITH(what_is_no_text_is_not_read_as_one, NULL, scratch_sweep)
 {
-    (void)state;
     const double value = 1.0;
     const char *const variable = "of variable length";
     char text[64];
@@ -451,9 +436,8 @@ static void what_is_no_text_is_not_read_as_one(void **state)
 
 /* ---- opening and closing ---- */
 
-static void a_file_that_cannot_be_opened_is_named_with_the_systems_cause(void **state)
+TEST_WITH(a_file_that_cannot_be_opened_is_named_with_the_systems_cause, NULL, scratch_sweep)
 {
-    (void)state;
     hdf5_file file;
     assert_int_equal(hdf5_open_read(&file, path), DEM_ERROR_IO);
     assert_message(": cannot be opened (No such file or directory)");
@@ -464,9 +448,8 @@ static void a_file_that_cannot_be_opened_is_named_with_the_systems_cause(void **
     assert_int_equal(access(path, F_OK), -1);
 }
 
-static void a_file_of_another_kind_is_refused_and_left_alone(void **state)
+TEST_WITH(a_file_of_another_kind_is_refused_and_left_alone, NULL, scratch_sweep)
 {
-    (void)state;
     hdf5_file file;
     FILE *text = fopen(path, "w");
     assert_non_null(text);
@@ -476,9 +459,8 @@ static void a_file_of_another_kind_is_refused_and_left_alone(void **state)
     assert_message(": cannot be opened (file signature not found)");
 }
 
-static void a_new_file_replaces_an_older_one(void **state)
+TEST_WITH(a_new_file_replaces_an_older_one, NULL, scratch_sweep)
 {
-    (void)state;
     hdf5_file file = open_new();
     assert_ok(hdf5_write_text(&file, "/old", "x"));
     finish(&file);
@@ -488,9 +470,8 @@ static void a_new_file_replaces_an_older_one(void **state)
 }
 
 /* The room claimed is given back: a file is as long as what it holds, however much was asked for. */
-static void room_that_was_not_used_is_given_back(void **state)
+TEST_WITH(room_that_was_not_used_is_given_back, NULL, scratch_sweep)
 {
-    (void)state;
     struct stat plain, roomy;
     hdf5_file file = open_new();
     assert_ok(hdf5_write_text(&file, "/t", "x"));
@@ -506,9 +487,8 @@ static void room_that_was_not_used_is_given_back(void **state)
 }
 
 /* RLIMIT_FSIZE stands in for a full disk. */
-static void without_room_a_file_stays_as_it_was(void **state)
+TEST_WITH(without_room_a_file_stays_as_it_was, NULL, scratch_sweep)
 {
-    (void)state;
     struct rlimit kept, small;
     struct stat before, after;
     hdf5_file file = open_new();
@@ -532,9 +512,8 @@ static void without_room_a_file_stays_as_it_was(void **state)
     finish(&file);
 }
 
-static void closing_passes_a_failure_on(void **state)
+TEST_WITH(closing_passes_a_failure_on, NULL, scratch_sweep)
 {
-    (void)state;
     hdf5_file file = open_new();
     assert_int_equal(hdf5_close(&file, status_fail(DEM_ERROR_MODEL, "something else")), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "something else");
@@ -556,9 +535,8 @@ static void expect_printing(H5E_auto2_t function, const void *data)
     assert_true(now == function && now_data == data);
 }
 
-static void hdf5_is_silent_while_a_file_is_open_and_prints_again_afterwards(void **state)
+TEST_WITH(hdf5_is_silent_while_a_file_is_open_and_prints_again_afterwards, NULL, scratch_sweep)
 {
-    (void)state;
     H5E_auto2_t kept;
     void *kept_data;
     int mark;
@@ -584,9 +562,8 @@ static unsigned plugins(void)
     return loaded;
 }
 
-static void no_plugin_is_loaded_while_a_file_is_open(void **state)
+TEST_WITH(no_plugin_is_loaded_while_a_file_is_open, NULL, scratch_sweep)
 {
-    (void)state;
     static const unsigned before[] = {H5PL_ALL_PLUGIN, 0};
     for (int k = 0; k < 2; k++) {
         hdf5_file file;
@@ -629,9 +606,8 @@ static size_t read_bytes_of(const char *name, unsigned char **bytes)
     return n;
 }
 
-static void equal_data_makes_equal_files(void **state)
+TEST_WITH(equal_data_makes_equal_files, NULL, scratch_sweep)
 {
-    (void)state;
     unsigned char *a, *b;
     H5O_info_t about;
     hdf5_file file;
@@ -666,10 +642,9 @@ static void *open_and_close(void *unused)
     return faulty;
 }
 
-static void threads_take_turns(void **state)
+TEST_WITH(threads_take_turns, NULL, scratch_sweep)
 {
     pthread_t threads[2];
-    (void)state;
     fill("text");
     const unsigned before = plugins();
     for (int k = 0; k < 2; k++)
@@ -682,9 +657,8 @@ static void threads_take_turns(void **state)
     assert_int_equal(plugins(), before);
 }
 
-static void publishing_renames_and_replaces(void **state)
+TEST_WITH(publishing_renames_and_replaces, NULL, scratch_sweep)
 {
-    (void)state;
     hdf5_file file;
     fill("old");
     assert_ok(hdf5_publish(path, other));
@@ -716,9 +690,8 @@ static void spoil_a_chunk(void)
     assert_int_equal(close(descriptor), 0);
 }
 
-static void what_cannot_be_read_back_is_not_published(void **state)
+TEST_WITH(what_cannot_be_read_back_is_not_published, NULL, scratch_sweep)
 {
-    (void)state;
     fill("old");
     assert_ok(hdf5_publish(path, other));
     fill("new");
@@ -732,9 +705,8 @@ static void what_cannot_be_read_back_is_not_published(void **state)
     finish(&file);
 }
 
-static void a_file_cut_short_is_not_published(void **state)
+TEST_WITH(a_file_cut_short_is_not_published, NULL, scratch_sweep)
 {
-    (void)state;
     struct stat about;
     fill("x");
     assert_int_equal(stat(path, &about), 0);
@@ -744,9 +716,8 @@ static void a_file_cut_short_is_not_published(void **state)
     assert_int_equal(access(other, F_OK), -1);
 }
 
-static void what_is_not_there_or_has_no_place_is_not_published(void **state)
+TEST_WITH(what_is_not_there_or_has_no_place_is_not_published, NULL, scratch_sweep)
 {
-    (void)state;
     assert_int_equal(hdf5_publish(path, other), DEM_ERROR_IO);
     assert_message(": cannot be opened to sync it (No such file or directory)");
     fill("x");
@@ -755,40 +726,4 @@ static void what_is_not_there_or_has_no_place_is_not_published(void **state)
     assert_int_equal(access(path, F_OK), 0);
 }
 
-#define CASE(name) cmocka_unit_test_teardown(name, scratch_sweep)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        CASE(rows_come_back_as_they_were_appended),
-        CASE(what_is_appended_are_the_last_rows),
-        CASE(a_linked_dataset_has_the_same_rows_under_both_names),
-        CASE(numbers_are_stored_little_endian_in_their_own_width),
-        CASE(a_chunk_has_the_rows_asked_for),
-        CASE(deflated_rows_take_less_room_and_come_back_the_same),
-        CASE(rows_that_cannot_be_stored_are_named),
-        CASE(a_lost_row_and_another_type_are_noticed),
-        CASE(rows_are_read_and_copied),
-        CASE(attributes_are_made_and_overwritten),
-        CASE(a_wrong_or_missing_attribute_is_noticed),
-        CASE(a_text_attribute_has_its_characters_and_no_terminator),
-        CASE(texts_are_kept_and_replaced_by_longer_and_shorter_ones),
-        CASE(a_text_needs_room_for_its_end),
-        CASE(what_is_no_text_is_not_read_as_one),
-        CASE(a_file_that_cannot_be_opened_is_named_with_the_systems_cause),
-        CASE(a_file_of_another_kind_is_refused_and_left_alone),
-        CASE(a_new_file_replaces_an_older_one),
-        CASE(room_that_was_not_used_is_given_back),
-        CASE(without_room_a_file_stays_as_it_was),
-        CASE(closing_passes_a_failure_on),
-        CASE(hdf5_is_silent_while_a_file_is_open_and_prints_again_afterwards),
-        CASE(no_plugin_is_loaded_while_a_file_is_open),
-        CASE(threads_take_turns),
-        CASE(equal_data_makes_equal_files),
-        CASE(publishing_renames_and_replaces),
-        CASE(what_cannot_be_read_back_is_not_published),
-        CASE(a_file_cut_short_is_not_published),
-        CASE(what_is_not_there_or_has_no_place_is_not_published),
-    };
-    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
-}
+TEST_GROUP(make_folder, scratch_remove);

@@ -39,9 +39,9 @@ static void make(const stored *s, const char *name, hid_t type, hid_t space, hid
     (void)H5Sclose(space);
 }
 
-static void shape_and_numbers_are_found(void **state)
+TEST_WITH(shape_and_numbers_are_found, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     hdf5_untrusted_shape shape;
     double found[8] = {0.0};
     bool present = false;
@@ -60,9 +60,9 @@ static void shape_and_numbers_are_found(void **state)
             "cannot be read");
 }
 
-static void a_number_that_does_not_fit_is_refused(void **state)
+TEST_WITH(a_number_that_does_not_fit_is_refused, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     const int64_t wholes[2] = {255, 256};
     unsigned char found[2] = {0};
     assert_ok(hdf5_write(&s->file, (hdf5_rows){"/c", HDF5_I64, 1, {0}, 0, 0}, 2, wholes));
@@ -72,9 +72,9 @@ static void a_number_that_does_not_fit_is_refused(void **state)
             "/c: cannot be read (can't handle conversion exception)");
 }
 
-static void what_is_not_there_is_absent(void **state)
+TEST_WITH(what_is_not_there_is_absent, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     static const char *const names[] = {"/b", "/a/c", "/a/c/d", "/a/b/of_three/d"};
     hdf5_untrusted_shape shape;
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
@@ -85,9 +85,9 @@ static void what_is_not_there_is_absent(void **state)
     REFUSED(hdf5_untrusted_measure(&s->file, "/a/c", HDF5_F64, &shape), "/a/c: is not a readable dataset");
 }
 
-static void links_on_the_way_are_refused(void **state)
+TEST_WITH(links_on_the_way_are_refused, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     bool present;
     assert_true(H5Lcreate_soft("/a", s->file.id, "/soft", H5P_DEFAULT, H5P_DEFAULT) >= 0);
     assert_true(H5Lcreate_external("other.h5", "/a", s->file.id, "/a/out", H5P_DEFAULT, H5P_DEFAULT) >= 0);
@@ -95,9 +95,9 @@ static void links_on_the_way_are_refused(void **state)
     REFUSED(hdf5_untrusted_find(&s->file, "/a/out", &present), "/a/out: is a soft or external link");
 }
 
-static void types_are_reported_and_checked(void **state)
+TEST_WITH(types_are_reported_and_checked, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     const struct {
         hid_t type;
         hdf5_kind stored;
@@ -122,9 +122,9 @@ static void types_are_reported_and_checked(void **state)
     }
 }
 
-static void a_shape_of_another_kind_has_no_rank(void **state)
+TEST_WITH(a_shape_of_another_kind_has_no_rank, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     const hid_t spaces[] = {H5Screate(H5S_SCALAR), H5Screate(H5S_NULL),
                             H5Screate_simple(4, (hsize_t[]){1, 1, 1, 1}, NULL)};
     for (size_t k = 0; k < sizeof spaces / sizeof spaces[0]; k++) {
@@ -137,9 +137,9 @@ static void a_shape_of_another_kind_has_no_rank(void **state)
     }
 }
 
-static void sizes_are_borne_out_by_bytes(void **state)
+TEST_WITH(sizes_are_borne_out_by_bytes, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     const hsize_t large[2] = {(hsize_t)1 << 41, 2}, wide[2] = {1, (hsize_t)1 << 45}, some[1] = {4},
                   chunk[1] = {1 << 20};
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
@@ -163,9 +163,9 @@ static void sizes_are_borne_out_by_bytes(void **state)
     (void)H5Pclose(layout);
 }
 
-static void attributes_are_single_and_of_their_kind(void **state)
+TEST_WITH(attributes_are_single_and_of_their_kind, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     const double half = 0.5, pair[2] = {1.0, 2.0};
     const int64_t seven = 7;
     double real = 0.0;
@@ -200,9 +200,9 @@ static dem_status count_names(void *context, const char *name)
     return --*left >= 0 ? DEM_OK : DEM_STOPPED;
 }
 
-static void names_are_listed_until_one_is_not_taken(void **state)
+TEST_WITH(names_are_listed_until_one_is_not_taken, open_stored, close_stored)
 {
-    const stored *s = *state;
+    const stored *s = *test_state;
     int left = 2;
     assert_ok(hdf5_write(&s->file, (hdf5_rows){"/b", HDF5_F64, 1, {0}, 0, 0}, 1, numbers));
     assert_ok(hdf5_untrusted_list(&s->file, "/", count_names, &left));
@@ -211,9 +211,8 @@ static void names_are_listed_until_one_is_not_taken(void **state)
     REFUSED(hdf5_untrusted_list(&s->file, "/b", count_names, &left), "/b: is not a readable group");
 }
 
-static void names_are_printed_safely_and_in_part(void **state)
+TEST(names_are_printed_safely_and_in_part)
 {
-    (void)state;
     char out[HDF5_UNTRUSTED_PRINTABLE];
     hdf5_untrusted_print(out, "a b\n\x1b[0m\xff");
     assert_string_equal(out, "a?b??[0m?");
@@ -221,30 +220,9 @@ static void names_are_printed_safely_and_in_part(void **state)
     assert_string_equal(out, "0123456789012345678901234567890123456789");
 }
 
-static void only_regular_files_are_opened(void **state)
+TEST(only_regular_files_are_opened)
 {
-    (void)state;
     hdf5_file file;
     REFUSED(hdf5_untrusted_open(&file, "."), ".: is not a regular file");
     REFUSED(hdf5_untrusted_open(&file, "none.h5"), "none.h5: cannot be opened (No such file or directory)");
-}
-
-#define STORED(test) cmocka_unit_test_setup_teardown(test, open_stored, close_stored)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        STORED(shape_and_numbers_are_found),
-        STORED(a_number_that_does_not_fit_is_refused),
-        STORED(what_is_not_there_is_absent),
-        STORED(links_on_the_way_are_refused),
-        STORED(types_are_reported_and_checked),
-        STORED(a_shape_of_another_kind_has_no_rank),
-        STORED(sizes_are_borne_out_by_bytes),
-        STORED(attributes_are_single_and_of_their_kind),
-        STORED(names_are_listed_until_one_is_not_taken),
-        cmocka_unit_test(names_are_printed_safely_and_in_part),
-        cmocka_unit_test(only_regular_files_are_opened),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

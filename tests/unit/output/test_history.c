@@ -127,9 +127,8 @@ static void expect_number(const flight *f, const char *column, hsize_t row, doub
 
 /* ---- rows ---- */
 
-static void a_row_has_the_numbers_of_its_instant(void **state)
+TEST(a_row_has_the_numbers_of_its_instant)
 {
-    (void)state;
     flight *f = new_flight(0);
     for (int k = 0; k < 4; k++) record_at(f, 0.1 * k);
     assert_ok(table_flush(&f->history.table, &f->file));
@@ -160,9 +159,8 @@ static dem_status record_step(void *context, const dem_simulation *simulation)
 }
 
 /* As a trajectory does it, at accepted steps. */
-static void a_row_has_the_loads_of_its_obstacles(void **state)
+TEST(a_row_has_the_loads_of_its_obstacles)
 {
-    (void)state;
     flight *f = new_flight(2);
     const dem_observer observer = {.step = record_step, .context = f};
     assert_ok(dem_simulation_observe(f->run.simulation, &observer));
@@ -194,9 +192,8 @@ static flight *new_landing(void)
     return f;
 }
 
-static void every_energy_has_its_column(void **state)
+TEST(every_energy_has_its_column)
 {
-    (void)state;
     flight *f = new_landing();
     const dem_energy *e = &f->energy;
     const struct {
@@ -211,9 +208,8 @@ static void every_energy_has_its_column(void **state)
     drop(f);
 }
 
-static void every_count_has_its_column(void **state)
+TEST(every_count_has_its_column)
 {
-    (void)state;
     flight *f = new_landing();
     const dem_counts *n = &f->counts;
     const struct {
@@ -229,9 +225,8 @@ static void every_count_has_its_column(void **state)
     drop(f);
 }
 
-static void every_part_of_a_load_has_its_column(void **state)
+TEST(every_part_of_a_load_has_its_column)
 {
-    (void)state;
     flight *f = new_landing();
     const dem_obstacle_load *a = &f->load[0], *b = &f->load[1];
     const struct {
@@ -248,9 +243,8 @@ static void every_part_of_a_load_has_its_column(void **state)
 }
 
 /* One index for what a row tells of, one for the components of a vector; counts are integers. */
-static void columns_have_the_shapes_of_what_they_tell(void **state)
+TEST(columns_have_the_shapes_of_what_they_tell)
 {
-    (void)state;
     static const struct {
         const char *column;
         int is_integer, rank;
@@ -278,9 +272,8 @@ static void columns_have_the_shapes_of_what_they_tell(void **state)
     drop(f);
 }
 
-static void without_obstacles_there_are_no_columns_of_them(void **state)
+TEST(without_obstacles_there_are_no_columns_of_them)
 {
-    (void)state;
     flight *f = new_flight(0);
     record_at(f, 0.0);
     assert_ok(table_flush(&f->history.table, &f->file));
@@ -290,9 +283,8 @@ static void without_obstacles_there_are_no_columns_of_them(void **state)
     drop(f);
 }
 
-static void an_instant_has_one_row(void **state)
+TEST(an_instant_has_one_row)
 {
-    (void)state;
     flight *f = new_flight(0);
     for (int k = 0; k < 3; k++) history_record(&f->history, f->run.simulation);
     assert_int_equal(f->history.table.buffered, 1);
@@ -304,17 +296,4 @@ static void an_instant_has_one_row(void **state)
     drop(f);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_row_has_the_numbers_of_its_instant),
-        cmocka_unit_test(a_row_has_the_loads_of_its_obstacles),
-        cmocka_unit_test(every_energy_has_its_column),
-        cmocka_unit_test(every_count_has_its_column),
-        cmocka_unit_test(every_part_of_a_load_has_its_column),
-        cmocka_unit_test(columns_have_the_shapes_of_what_they_tell),
-        cmocka_unit_test(without_obstacles_there_are_no_columns_of_them),
-        cmocka_unit_test(an_instant_has_one_row),
-    };
-    return cmocka_run_group_tests(tests, make_path, NULL);
-}
+TEST_GROUP(make_path, NULL);

@@ -120,9 +120,8 @@ static void assert_refused(const char *file, dem_status status, const char *mess
 
 /* ---- accepted ---- */
 
-static void what_is_not_there_is_null(void **state)
+TEST_WITH(what_is_not_there_is_null, write_lattice, remove_lattice)
 {
-    (void)state;
     dem_lattice lattice = read_lattice();
     assert_int_equal(lattice.n_nodes, 5);
     assert_int_equal(lattice.n_springs, 6);
@@ -142,9 +141,8 @@ static void what_is_not_there_is_null(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void any_width_of_number_is_read(void **state)
+TEST_WITH(any_width_of_number_is_read, write_lattice, remove_lattice)
 {
-    (void)state;
     const double body[5] = {0, 0, 0, 1, 1};
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     assert_true(H5Pset_chunk(layout, 2, (hsize_t[2]){2, 1}) >= 0);
@@ -161,9 +159,8 @@ static void any_width_of_number_is_read(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void integers_do_for_reals(void **state)
+TEST_WITH(integers_do_for_reals, write_lattice, remove_lattice)
 {
-    (void)state;
     put_whole("mass", 5, 0, (int64_t[5]){1, 2, 3, 4, 5});
     put_as("velocity", H5P_DEFAULT, H5T_STD_I16BE, H5T_NATIVE_INT64, 5, 2, ends);
     dem_lattice lattice = read_lattice();
@@ -172,9 +169,8 @@ static void integers_do_for_reals(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void optional_numbers_are_read_and_come_back_as_they_were_written(void **state)
+TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_lattice, remove_lattice)
 {
-    (void)state;
     const double viscosity[6] = {0.5, 0.0, 1e-3, 2.0, 3.0, 4.0}, thickness[2] = {0.1, 3.0}, modulus[2] = {1e7, 2e9};
     put_real("viscosity", 6, 0, viscosity);
     put_whole("triangles", 2, 3, corners);
@@ -205,9 +201,8 @@ static void assert_flags(const unsigned char expected[5])
     dem_lattice_free(&lattice);
 }
 
-static void fixed_nodes_leave_the_rule_of_contact_as_it_is(void **state)
+TEST_WITH(fixed_nodes_leave_the_rule_of_contact_as_it_is, write_lattice, remove_lattice)
 {
-    (void)state;
     enum { F = DEM_NODE_FIXED, C = DEM_NODE_CONTACT };
     put_whole("fixed", 5, 0, (int64_t[5]){0, 2, 0, 0, 1});
     assert_flags((unsigned char[5]){C, F | C, C, C, F | C});
@@ -223,9 +218,8 @@ static void fixed_nodes_leave_the_rule_of_contact_as_it_is(void **state)
     assert_flags((unsigned char[5]){0});
 }
 
-static void a_body_of_one_node_needs_no_springs(void **state)
+TEST_WITH(a_body_of_one_node_needs_no_springs, write_lattice, remove_lattice)
 {
-    (void)state;
     put_real("x", 1, 2, x);
     put_real("mass", 1, 0, ones);
     put_whole("ends", 0, 2, NULL);
@@ -242,9 +236,8 @@ static void a_body_of_one_node_needs_no_springs(void **state)
 
 /* ---- refused ---- */
 
-static void files_that_are_none_are_refused(void **state)
+TEST_WITH(files_that_are_none_are_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     (void)fputs("node,x,y\n0,0,0\n", file);
@@ -258,9 +251,8 @@ static void files_that_are_none_are_refused(void **state)
     assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: is not a regular file"); /* and nobody waits */
 }
 
-static void missing_datasets_are_refused(void **state)
+TEST_WITH(missing_datasets_are_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     static const char *const names[] = {"x", "mass", "ends", "rest_length", "stiffness"};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
         char message[80];
@@ -274,9 +266,8 @@ static void missing_datasets_are_refused(void **state)
     assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: /lattice: is missing");
 }
 
-static void unknown_names_are_refused(void **state)
+TEST_WITH(unknown_names_are_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     static const char *const names[][2] = {
         {"velocities", "velocities"}, {"Fixed", "Fixed"}, {"a\nb \xff", "a?b??"}, {"m", "m"}};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
@@ -292,9 +283,8 @@ static void unknown_names_are_refused(void **state)
     }
 }
 
-static void wrong_types_and_shapes_are_refused(void **state)
+TEST_WITH(wrong_types_and_shapes_are_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     put_real("ends", 6, 2, (double[12]){0});
     REFUSED("ends: is not integer");
     put_whole("ends", 6, 2, ends);
@@ -322,9 +312,8 @@ static void wrong_types_and_shapes_are_refused(void **state)
     REFUSED("area_stiffness: is there without triangles");
 }
 
-static void a_number_that_does_not_fit_is_refused(void **state)
+TEST_WITH(a_number_that_does_not_fit_is_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     dem_lattice lattice;
     put_whole("body", 5, 0, (int64_t[5]){0, 0, 5000000000, 0, 0});
     assert_int_equal(dem_lattice_read(&lattice, path), DEM_ERROR_IO);
@@ -335,9 +324,8 @@ static void a_number_that_does_not_fit_is_refused(void **state)
     assert_non_null(strstr(dem_status_message(), "/lattice/fixed: cannot be read"));
 }
 
-static void inconsistent_extents_and_indices_are_refused(void **state)
+TEST_WITH(inconsistent_extents_and_indices_are_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     put_real("mass", 4, 0, ones);
     INCONSISTENT("/mass: has 4 rows where the datasets before it have 5");
     put_real("mass", 5, 0, ones);
@@ -363,9 +351,8 @@ static void inconsistent_extents_and_indices_are_refused(void **state)
     INCONSISTENT("/x: has no nodes");
 }
 
-static void links_are_refused(void **state)
+TEST_WITH(links_are_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     hid_t group = open_group();
     assert_true(H5Lmove(group, "x", group, "/elsewhere", H5P_DEFAULT, H5P_DEFAULT) >= 0);
     assert_true(H5Lcreate_soft("/elsewhere", group, "x", H5P_DEFAULT, H5P_DEFAULT) >= 0);
@@ -383,9 +370,8 @@ static void links_are_refused(void **state)
     assert_refused(path, DEM_ERROR_IO, "test_lattice_file.h5: /lattice: is a soft or external link");
 }
 
-static void a_group_in_place_of_a_dataset_is_refused(void **state)
+TEST_WITH(a_group_in_place_of_a_dataset_is_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     dem_lattice lattice;
     drop("x");
     const hid_t group = open_group(), inner = H5Gcreate2(group, "x", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -395,9 +381,8 @@ static void a_group_in_place_of_a_dataset_is_refused(void **state)
     assert_non_null(strstr(dem_status_message(), "/lattice/x: is not a readable dataset"));
 }
 
-static void storage_elsewhere_is_refused(void **state)
+TEST_WITH(storage_elsewhere_is_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     assert_true(H5Pset_external(layout, "test_lattice_file.raw", 0, 80) >= 0);
     put_as("x", layout, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 5, 2, NULL);
@@ -412,9 +397,8 @@ static void storage_elsewhere_is_refused(void **state)
     REFUSED("x: has a virtual or unknown layout");
 }
 
-static void other_filters_are_refused(void **state)
+TEST_WITH(other_filters_are_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     assert_true(H5Pset_chunk(layout, 2, (hsize_t[2]){6, 2}) >= 0);
     assert_true(H5Pset_scaleoffset(layout, H5Z_SO_INT, 0) >= 0);
@@ -423,9 +407,8 @@ static void other_filters_are_refused(void **state)
     REFUSED("ends: uses a filter other than deflate, shuffle and fletcher32");
 }
 
-static void sizes_without_data_behind_them_are_refused(void **state)
+TEST_WITH(sizes_without_data_behind_them_are_refused, write_lattice, remove_lattice)
 {
-    (void)state;
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     assert_true(H5Pset_chunk(layout, 2, (hsize_t[2]){64, 2}) >= 0);
     put_as("x", layout, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, (hsize_t)1 << 39, 2, NULL);
@@ -435,9 +418,8 @@ static void sizes_without_data_behind_them_are_refused(void **state)
     (void)H5Pclose(layout);
 }
 
-static void a_lattice_is_measured_without_its_numbers(void **state)
+TEST_WITH(a_lattice_is_measured_without_its_numbers, write_lattice, remove_lattice)
 {
-    (void)state;
     dem_index n_nodes, n_springs;
     put_whole("ends", 6, 2, (int64_t[12]){99});
     assert_int_equal(dem_lattice_measure(path, &n_nodes, &n_springs), DEM_OK);
@@ -447,41 +429,12 @@ static void a_lattice_is_measured_without_its_numbers(void **state)
     assert_int_equal(dem_lattice_measure(path, &n_nodes, NULL), DEM_ERROR_ARGUMENT);
 }
 
-static void plugins_are_as_they_were(void **state)
+TEST_WITH(plugins_are_as_they_were, write_lattice, remove_lattice)
 {
-    (void)state;
     unsigned before = 0, after = 1;
     assert_true(H5PLget_loading_state(&before) >= 0);
     dem_lattice lattice = read_lattice();
     assert_true(H5PLget_loading_state(&after) >= 0);
     assert_int_equal(after, before);
     dem_lattice_free(&lattice);
-}
-
-#define WITH_FILE(test) cmocka_unit_test_setup_teardown(test, write_lattice, remove_lattice)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        WITH_FILE(what_is_not_there_is_null),
-        WITH_FILE(any_width_of_number_is_read),
-        WITH_FILE(integers_do_for_reals),
-        WITH_FILE(optional_numbers_are_read_and_come_back_as_they_were_written),
-        WITH_FILE(fixed_nodes_leave_the_rule_of_contact_as_it_is),
-        WITH_FILE(a_body_of_one_node_needs_no_springs),
-        WITH_FILE(files_that_are_none_are_refused),
-        WITH_FILE(missing_datasets_are_refused),
-        WITH_FILE(unknown_names_are_refused),
-        WITH_FILE(wrong_types_and_shapes_are_refused),
-        WITH_FILE(a_number_that_does_not_fit_is_refused),
-        WITH_FILE(inconsistent_extents_and_indices_are_refused),
-        WITH_FILE(links_are_refused),
-        WITH_FILE(a_group_in_place_of_a_dataset_is_refused),
-        WITH_FILE(storage_elsewhere_is_refused),
-        WITH_FILE(other_filters_are_refused),
-        WITH_FILE(sizes_without_data_behind_them_are_refused),
-        WITH_FILE(a_lattice_is_measured_without_its_numbers),
-        WITH_FILE(plugins_are_as_they_were),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,9 +50,8 @@ static void expect_number(const hdf5_file *file, const char *group, const char *
     assert_close(value, expected, 0.0);
 }
 
-static void the_group_has_points_and_laws(void **state)
+TEST(the_group_has_points_and_laws)
 {
-    (void)state;
     dem_model *model = make_model();
     hdf5_file file;
     assert_ok(hdf5_open_new(&file, path, 4096));
@@ -71,9 +70,8 @@ static void the_group_has_points_and_laws(void **state)
     dem_model_destroy(model);
 }
 
-static void they_are_read_back(void **state)
+TEST(they_are_read_back)
 {
-    (void)state;
     dem_model *model = make_model();
     hdf5_file file;
     dem_obstacle *found = NULL;
@@ -96,9 +94,8 @@ static void they_are_read_back(void **state)
     dem_model_destroy(model);
 }
 
-static void what_is_no_obstacle_is_refused(void **state)
+TEST(what_is_no_obstacle_is_refused)
 {
-    (void)state;
     dem_model *model = make_model();
     hdf5_file file;
     dem_obstacle *found = NULL;
@@ -115,9 +112,8 @@ static void what_is_no_obstacle_is_refused(void **state)
     dem_model_destroy(model);
 }
 
-static void the_file_has_them_as_lines(void **state)
+TEST(the_file_has_them_as_lines)
 {
-    (void)state;
     const double points[15] = {-1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0, 4.0, -2.0, 0.0};
     dem_model *model = make_model();
     hdf5_file file;
@@ -132,9 +128,8 @@ static void the_file_has_them_as_lines(void **state)
 }
 
 /* The second obstacle moves with (1.5, -2) m/s. */
-static void with_times_the_file_has_steps_with_points_of_their_own(void **state)
+TEST(with_times_the_file_has_steps_with_points_of_their_own)
 {
-    (void)state;
     const double times[2] = {0.5, 2.0};
     const double points[30] = {-1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 3.75, -3.0, 0.0, 4.75, -3.0, 0.0,
                                -1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 6.0,  -6.0, 0.0, 7.0,  -6.0, 0.0};
@@ -153,9 +148,8 @@ static void with_times_the_file_has_steps_with_points_of_their_own(void **state)
     dem_model_destroy(model);
 }
 
-static void a_part_that_cannot_be_published_is_taken_away(void **state)
+TEST(a_part_that_cannot_be_published_is_taken_away)
 {
-    (void)state;
     dem_model *model = make_model();
     assert_int_equal(obstacle_file_publish(part, "no/such/folder/a.h5", model, (obstacle_file_times){0, NULL}, 1),
                      DEM_ERROR_IO);
@@ -163,15 +157,4 @@ static void a_part_that_cannot_be_published_is_taken_away(void **state)
     dem_model_destroy(model);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_group_has_points_and_laws),
-        cmocka_unit_test(they_are_read_back),
-        cmocka_unit_test(what_is_no_obstacle_is_refused),
-        cmocka_unit_test(the_file_has_them_as_lines),
-        cmocka_unit_test(with_times_the_file_has_steps_with_points_of_their_own),
-        cmocka_unit_test(a_part_that_cannot_be_published_is_taken_away),
-    };
-    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
-}
+TEST_GROUP(make_folder, scratch_remove);

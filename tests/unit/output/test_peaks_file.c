@@ -50,9 +50,8 @@ static void end(stress_case *c)
     free(c);
 }
 
-static void arrays_hold_every_peak(void **state)
+TEST(arrays_hold_every_peak)
 {
-    (void)state;
     stress_case *c = begin(3);
     assert_ok(peaks_file_write_arrays(&c->stored.file, &c->report, &c->frames));
     const hsize_t n = (hsize_t)c->frames.n_nodes, m = (hsize_t)c->frames.n_springs;
@@ -74,10 +73,9 @@ static void arrays_hold_every_peak(void **state)
     end(c);
 }
 
-static void lists_have_the_most_stressed_with_place_and_time(void **state)
+TEST(lists_have_the_most_stressed_with_place_and_time)
 {
     dem_index nodes[3], springs[3];
-    (void)state;
     stress_case *c = begin(3);
     const dem_lattice *l = c->report.lattice;
     assert_ok(peaks_file_write_lists(&c->stored.file, &c->report));
@@ -107,9 +105,8 @@ static void lists_have_the_most_stressed_with_place_and_time(void **state)
     end(c);
 }
 
-static void a_list_is_no_longer_than_there_are_and_may_be_empty(void **state)
+TEST(a_list_is_no_longer_than_there_are_and_may_be_empty)
 {
-    (void)state;
     stress_case *all = begin(1000000000000), *none = begin(0);
     assert_ok(peaks_file_write_lists(&all->stored.file, &all->report));
     assert_ok(peaks_file_write_lists(&none->stored.file, &none->report));
@@ -119,14 +116,4 @@ static void a_list_is_no_longer_than_there_are_and_may_be_empty(void **state)
     (void)stored_values(&none->stored, "/most_stressed/springs/x", 0, 2, 8);
     end(all);
     end(none);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(arrays_hold_every_peak),
-        cmocka_unit_test(lists_have_the_most_stressed_with_place_and_time),
-        cmocka_unit_test(a_list_is_no_longer_than_there_are_and_may_be_empty),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

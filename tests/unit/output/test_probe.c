@@ -79,9 +79,8 @@ static void drop(journal *j)
     free(j);
 }
 
-static void a_node_tells_its_motion_and_stress(void **state)
+TEST(a_node_tells_its_motion_and_stress)
 {
-    (void)state;
     journal *j = keep();
     const double *t = stored_values(&j->stored, "/probes/a_node/t", j->n, 1, 8);
     for (hsize_t k = 0; k < j->n; k++) assert_close(t[k], j->t[k], 0.0);
@@ -97,9 +96,8 @@ static void a_node_tells_its_motion_and_stress(void **state)
     drop(j);
 }
 
-static void springs_and_gauges_tell_strains_every_so_many_steps(void **state)
+TEST(springs_and_gauges_tell_strains_every_so_many_steps)
 {
-    (void)state;
     journal *j = keep();
     const hsize_t n = (j->n + 2) / 3, m = (j->n + 1) / 2;
     const dem_lattice *l = dem_model_lattice(j->run.model);
@@ -117,9 +115,8 @@ static void springs_and_gauges_tell_strains_every_so_many_steps(void **state)
     drop(j);
 }
 
-static void columns_have_units_and_the_group_says_what_is_probed(void **state)
+TEST(columns_have_units_and_the_group_says_what_is_probed)
 {
-    (void)state;
     journal *j = keep();
     found_text(&j->stored.file, "/probes/a_node", "kind", "node");
     found_text(&j->stored.file, "/probes/a-spring", "kind", "spring");
@@ -134,7 +131,7 @@ static void columns_have_units_and_the_group_says_what_is_probed(void **state)
     drop(j);
 }
 
-static void what_cannot_be_probed_is_refused(void **state)
+TEST(what_cannot_be_probed_is_refused)
 {
     static const char name[] = "123456789_123456789_123456789_123456789_123456789_123456789_123";
     const struct {
@@ -156,7 +153,6 @@ static void what_cannot_be_probed_is_refused(void **state)
         {{"p", DEM_PROBE_GAUGE, {2, 2}, 1}, "probe p: a gauge from node 2 to node 2 has no length"},
     };
     probe p;
-    (void)state;
     dem_lattice lattice = make_solid(1.0, 1.0, 1.0);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         assert_int_equal(probe_init(&p, &cases[k].probe, &lattice), DEM_ERROR_ARGUMENT);
@@ -169,15 +165,4 @@ static void what_cannot_be_probed_is_refused(void **state)
     assert_ptr_not_equal(p.what.name, name);
     probe_free(&p);
     dem_lattice_free(&lattice);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_node_tells_its_motion_and_stress),
-        cmocka_unit_test(springs_and_gauges_tell_strains_every_so_many_steps),
-        cmocka_unit_test(columns_have_units_and_the_group_says_what_is_probed),
-        cmocka_unit_test(what_cannot_be_probed_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,9 +18,8 @@ static void assert_note(const stored *s, const char *path, const char *expected)
     assert_string_equal(text, expected);
 }
 
-static void notes_are_written_to_every_file_and_replaced_by_name(void **state)
+TEST(notes_are_written_to_every_file_and_replaced_by_name)
 {
-    (void)state;
     provenance all = {0};
     put(&all, "title", "first");
     put(&all, "deck", "&run\n/");
@@ -41,9 +40,8 @@ static void notes_are_written_to_every_file_and_replaced_by_name(void **state)
 }
 
 /* A thousand notes and a long one: room is asked for all of it. */
-static void the_bytes_of_notes_are_bounded(void **state)
+TEST(the_bytes_of_notes_are_bounded)
 {
-    (void)state;
     provenance all = {0};
     stored s;
     hsize_t size = 0;
@@ -65,9 +63,8 @@ static void the_bytes_of_notes_are_bounded(void **state)
     free(text);
 }
 
-static void a_bad_name_is_refused(void **state)
+TEST(a_bad_name_is_refused)
 {
-    (void)state;
     char path[PROVENANCE_PATH], name[65];
     static const char *const bad[] = {"", "a/b", ".", "a.b"};
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
@@ -79,14 +76,4 @@ static void a_bad_name_is_refused(void **state)
     assert_int_equal(provenance_path(path, name), DEM_ERROR_ARGUMENT);
     assert_ok(provenance_path(path, name + 1));
     assert_int_equal(strlen(path), 63 + strlen("/provenance/"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(notes_are_written_to_every_file_and_replaced_by_name),
-        cmocka_unit_test(the_bytes_of_notes_are_bounded),
-        cmocka_unit_test(a_bad_name_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -129,9 +129,8 @@ static hsize_t stored_bytes(const stored *s)
 /* ---- columns ---- */
 
 /* One index for what a row tells of, one for the components of a vector; counts are integers. */
-static void columns_have_the_shapes_of_what_they_tell(void **state)
+TEST(columns_have_the_shapes_of_what_they_tell)
 {
-    (void)state;
     static const struct {
         int is_integer, rank;
         hsize_t extent[3];
@@ -150,9 +149,8 @@ static void columns_have_the_shapes_of_what_they_tell(void **state)
     end(&s);
 }
 
-static void what_there_is_none_of_has_no_column(void **state)
+TEST(what_there_is_none_of_has_no_column)
 {
-    (void)state;
     stored s = begin(2, 0);
     add_rows(&s, 0, 2);
     assert_ok(table_flush(&s.table, &s.file));
@@ -163,9 +161,8 @@ static void what_there_is_none_of_has_no_column(void **state)
     end(&s);
 }
 
-static void a_table_without_columns_is_never_written(void **state)
+TEST(a_table_without_columns_is_never_written)
 {
-    (void)state;
     stored s = begin(1, 1);
     table none = {0};
     assert_int_equal(table_bytes(&none), 0);
@@ -176,9 +173,8 @@ static void a_table_without_columns_is_never_written(void **state)
     end(&s);
 }
 
-static void columns_are_made_once(void **state)
+TEST(columns_are_made_once)
 {
-    (void)state;
     stored s = begin(1, 1);
     assert_int_equal(table_create(&s.table, &s.file), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/rows/real: cannot be created"));
@@ -186,9 +182,8 @@ static void columns_are_made_once(void **state)
 }
 
 /* The last chunk is written again at every flush: deflated it would move and leave a hole. */
-static void a_chunk_is_a_buffer_and_stored_plain(void **state)
+TEST(a_chunk_is_a_buffer_and_stored_plain)
 {
-    (void)state;
     hsize_t chunk[3] = {0};
     stored s = begin(2, 1);
     const hid_t id = H5Dopen2(s.file.id, "/rows/vectors", H5P_DEFAULT), layout = H5Dget_create_plist(id);
@@ -202,9 +197,8 @@ static void a_chunk_is_a_buffer_and_stored_plain(void **state)
 
 /* ---- buffer ---- */
 
-static void flushing_goes_on_where_it_ended(void **state)
+TEST(flushing_goes_on_where_it_ended)
 {
-    (void)state;
     stored s = begin(2, 3);
     hsize_t n = 0;
     for (hsize_t piece = 0; piece < 4; n += piece++) {
@@ -219,9 +213,8 @@ static void flushing_goes_on_where_it_ended(void **state)
     end(&s);
 }
 
-static void a_full_buffer_is_written_and_takes_no_more_room_than_said(void **state)
+TEST(a_full_buffer_is_written_and_takes_no_more_room_than_said)
 {
-    (void)state;
     stored s = begin(2, 1);
     hsize_t before = 0, n = 0;
     for (int piece = 0; piece < 3; piece++) {
@@ -251,9 +244,8 @@ static void cut(const stored *s, const char *name, hsize_t rows)
     (void)H5Dclose(id);
 }
 
-static void a_lost_row_or_column_is_noticed(void **state)
+TEST(a_lost_row_or_column_is_noticed)
 {
-    (void)state;
     stored s = begin(1, 1);
     add_rows(&s, 0, 3);
     assert_ok(table_flush(&s.table, &s.file));
@@ -266,9 +258,8 @@ static void a_lost_row_or_column_is_noticed(void **state)
     end(&s);
 }
 
-static void rows_that_could_not_be_written_stay_in_the_buffer(void **state)
+TEST(rows_that_could_not_be_written_stay_in_the_buffer)
 {
-    (void)state;
     stored s = begin(1, 1);
     add_rows(&s, 0, 2);
     assert_ok(hdf5_close(&s.file, DEM_OK));
@@ -285,18 +276,4 @@ static void rows_that_could_not_be_written_stay_in_the_buffer(void **state)
     end(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_have_the_shapes_of_what_they_tell),
-        cmocka_unit_test(what_there_is_none_of_has_no_column),
-        cmocka_unit_test(a_table_without_columns_is_never_written),
-        cmocka_unit_test(columns_are_made_once),
-        cmocka_unit_test(a_chunk_is_a_buffer_and_stored_plain),
-        cmocka_unit_test(flushing_goes_on_where_it_ended),
-        cmocka_unit_test(a_full_buffer_is_written_and_takes_no_more_room_than_said),
-        cmocka_unit_test(a_lost_row_or_column_is_noticed),
-        cmocka_unit_test(rows_that_could_not_be_written_stay_in_the_buffer),
-    };
-    return cmocka_run_group_tests(tests, make_path, NULL);
-}
+TEST_GROUP(make_path, NULL);

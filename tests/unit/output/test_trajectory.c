@@ -228,9 +228,8 @@ static void assert_last_strain_is_the_states(const run *r, hsize_t n_frames, dou
     free(force.value);
 }
 
-static void a_frame_holds_the_state(void **state)
+TEST(a_frame_holds_the_state)
 {
-    (void)state;
     for (int is_double = 0; is_double <= 1; is_double++) {
         dem_trajectory_options options = every_frame();
         options.double_precision = is_double, options.deflate = is_double ? 0 : 9;
@@ -248,9 +247,8 @@ static void a_frame_holds_the_state(void **state)
     }
 }
 
-static void offsets_tell_where_a_frame_begins(void **state)
+TEST(offsets_tell_where_a_frame_begins)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     const dem_model_size size = dem_model_sizes(r.model);
@@ -280,9 +278,8 @@ static void offsets_tell_where_a_frame_begins(void **state)
     end(&r);
 }
 
-static void a_frame_is_not_written_twice(void **state)
+TEST(a_frame_is_not_written_twice)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     const dem_observer observer = dem_trajectory_observer(r.trajectory);
@@ -309,9 +306,8 @@ static dem_status look_at_part(void *context, const dem_simulation *simulation)
 }
 
 /* A long run, so that their rows go to the file in several parts. */
-static void probes_and_peaks_are_in_the_file_in_the_end(void **state)
+TEST(probes_and_peaks_are_in_the_file_in_the_end)
 {
-    (void)state;
     const dem_probe probes[2] = {{"node", DEM_PROBE_NODE, {3, 0}, 1}, {"gauge", DEM_PROBE_GAUGE, {0, 3}, 4}};
     dem_peaks *peaks;
     for (int with_frames = 0; with_frames < 2; with_frames++) {
@@ -340,9 +336,8 @@ static void probes_and_peaks_are_in_the_file_in_the_end(void **state)
     }
 }
 
-static void the_part_can_be_looked_at_while_the_run_goes_on(void **state)
+TEST(the_part_can_be_looked_at_while_the_run_goes_on)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     const dem_observer observer = {.interval = interval, .frame = look_at_part, .context = &r};
@@ -351,9 +346,8 @@ static void the_part_can_be_looked_at_while_the_run_goes_on(void **state)
     end(&r);
 }
 
-static void a_reader_does_not_stop_the_run(void **state)
+TEST(a_reader_does_not_stop_the_run)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     const int lock = open(r.part, O_RDONLY);
@@ -364,9 +358,8 @@ static void a_reader_does_not_stop_the_run(void **state)
     end(&r);
 }
 
-static void a_body_of_one_node_has_points_and_no_cells(void **state)
+TEST(a_body_of_one_node_has_points_and_no_cells)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r;
     make_folder(&r);
@@ -385,9 +378,8 @@ static void a_body_of_one_node_has_points_and_no_cells(void **state)
 
 /* ---- history ---- */
 
-static void history_has_a_row_for_every_accepted_step(void **state)
+TEST(history_has_a_row_for_every_accepted_step)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
@@ -435,9 +427,8 @@ static void history_has_a_row_for_every_accepted_step(void **state)
     end(&r);
 }
 
-static void history_tells_bodies_and_obstacles_apart(void **state)
+TEST(history_tells_bodies_and_obstacles_apart)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
@@ -458,9 +449,8 @@ static void history_tells_bodies_and_obstacles_apart(void **state)
     end(&r);
 }
 
-static void without_frames_there_is_only_the_history(void **state)
+TEST(without_frames_there_is_only_the_history)
 {
-    (void)state;
     const dem_trajectory_options options = dem_trajectory_options_default();
     run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, 0.03), DEM_OK);
@@ -482,9 +472,8 @@ static dem_trajectory_options with_events(void)
     return options;
 }
 
-static void every_event_has_a_row_in_the_order_of_time(void **state)
+TEST(every_event_has_a_row_in_the_order_of_time)
 {
-    (void)state;
     const dem_trajectory_options options = with_events();
     run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
@@ -503,9 +492,8 @@ static void every_event_has_a_row_in_the_order_of_time(void **state)
     end(&r);
 }
 
-static void events_are_written_only_where_they_are_wanted(void **state)
+TEST(events_are_written_only_where_they_are_wanted)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     assert_null(dem_trajectory_observer(r.trajectory).event);
@@ -514,9 +502,8 @@ static void events_are_written_only_where_they_are_wanted(void **state)
     end(&r);
 }
 
-static void without_an_event_the_table_is_there_and_empty(void **state)
+TEST(without_an_event_the_table_is_there_and_empty)
 {
-    (void)state;
     const dem_trajectory_options options = with_events();
     run r = begin(&options);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
@@ -524,9 +511,8 @@ static void without_an_event_the_table_is_there_and_empty(void **state)
     end(&r);
 }
 
-static void events_reach_the_file_with_a_frame_or_a_full_buffer(void **state)
+TEST(events_reach_the_file_with_a_frame_or_a_full_buffer)
 {
-    (void)state;
     const dem_trajectory_options options = with_events();
     run r = begin(&options);
     const dem_observer observer = dem_trajectory_observer(r.trajectory);
@@ -549,9 +535,8 @@ static void events_reach_the_file_with_a_frame_or_a_full_buffer(void **state)
     end(&r);
 }
 
-static void a_lost_event_is_not_published(void **state)
+TEST(a_lost_event_is_not_published)
 {
-    (void)state;
     const dem_trajectory_options options = with_events();
     run r = begin(&options);
     const hid_t file = H5Fopen(r.part, H5F_ACC_RDWR, H5P_DEFAULT);
@@ -565,9 +550,8 @@ static void a_lost_event_is_not_published(void **state)
 
 /* ---- lattice, obstacles, notes ---- */
 
-static void the_lattice_comes_back(void **state)
+TEST(the_lattice_comes_back)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     dem_lattice back;
@@ -594,9 +578,8 @@ static void the_lattice_comes_back(void **state)
     end(&r);
 }
 
-static void obstacles_are_in_a_file_beside_the_run(void **state)
+TEST(obstacles_are_in_a_file_beside_the_run)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     const double ends[8] = {0, 1, 1, 2, 2, 3, 4, 5}, owner[4] = {0, 0, 0, 1};
@@ -613,9 +596,8 @@ static void obstacles_are_in_a_file_beside_the_run(void **state)
     end(&r);
 }
 
-static void notes_are_kept_and_replaced(void **state)
+TEST(notes_are_kept_and_replaced)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     char text[16] = "unchanged";
@@ -651,9 +633,8 @@ static char *read_bytes(const char *path, size_t *size)
     return bytes;
 }
 
-static void two_runs_make_the_same_bytes(void **state)
+TEST(two_runs_make_the_same_bytes)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r[2];
     char *bytes[2];
@@ -676,9 +657,8 @@ static void two_runs_make_the_same_bytes(void **state)
 
 /* ---- failures ---- */
 
-static void finishing_replaces_an_older_run(void **state)
+TEST(finishing_replaces_an_older_run)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     FILE *old = fopen(r.path, "w");
@@ -692,9 +672,8 @@ static void finishing_replaces_an_older_run(void **state)
     end(&r);
 }
 
-static void a_finished_trajectory_takes_nothing_more(void **state)
+TEST(a_finished_trajectory_takes_nothing_more)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
@@ -715,9 +694,8 @@ static void assert_create_fails(const run *r, const char *path, const dem_trajec
     if (strstr(dem_status_message(), words) == NULL) fail_msg("\"%s\" lacks \"%s\"", dem_status_message(), words);
 }
 
-static void bad_arguments_are_refused(void **state)
+TEST(bad_arguments_are_refused)
 {
-    (void)state;
     run r;
     dem_trajectory_options options = every_frame();
     make_folder(&r);
@@ -753,9 +731,8 @@ static void bad_arguments_are_refused(void **state)
     end(&r);
 }
 
-static void a_lost_part_ends_the_run_with_its_name(void **state)
+TEST(a_lost_part_ends_the_run_with_its_name)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, interval), DEM_OK);
@@ -768,9 +745,8 @@ static void a_lost_part_ends_the_run_with_its_name(void **state)
 }
 
 /* Overwrites the middle of the file, where deflated frames lie: HDF5 opens it all the same. */
-static void a_damaged_part_is_not_published(void **state)
+TEST(a_damaged_part_is_not_published)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     char junk[4096];
@@ -796,9 +772,8 @@ static void a_damaged_part_is_not_published(void **state)
 }
 
 /* RLIMIT_FSIZE stands in for a full disk. */
-static void a_full_disk_leaves_the_frames_before_it(void **state)
+TEST(a_full_disk_leaves_the_frames_before_it)
 {
-    (void)state;
     const dem_trajectory_options options = every_frame();
     run r = begin(&options);
     struct rlimit kept, small;
@@ -822,45 +797,11 @@ static void a_full_disk_leaves_the_frames_before_it(void **state)
     end(&r);
 }
 
-static void the_version_is_that_of_the_library(void **state)
+TEST(the_version_is_that_of_the_library)
 {
-    (void)state;
     unsigned number[3];
     char expected[48];
     assert_true(H5get_libversion(&number[0], &number[1], &number[2]) >= 0);
     (void)snprintf(expected, sizeof expected, "%u.%u.%u", number[0], number[1], number[2]);
     assert_string_equal(dem_version_hdf5(), expected);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_frame_holds_the_state),
-        cmocka_unit_test(offsets_tell_where_a_frame_begins),
-        cmocka_unit_test(a_frame_is_not_written_twice),
-        cmocka_unit_test(probes_and_peaks_are_in_the_file_in_the_end),
-        cmocka_unit_test(the_part_can_be_looked_at_while_the_run_goes_on),
-        cmocka_unit_test(a_reader_does_not_stop_the_run),
-        cmocka_unit_test(a_body_of_one_node_has_points_and_no_cells),
-        cmocka_unit_test(history_has_a_row_for_every_accepted_step),
-        cmocka_unit_test(history_tells_bodies_and_obstacles_apart),
-        cmocka_unit_test(without_frames_there_is_only_the_history),
-        cmocka_unit_test(every_event_has_a_row_in_the_order_of_time),
-        cmocka_unit_test(events_are_written_only_where_they_are_wanted),
-        cmocka_unit_test(without_an_event_the_table_is_there_and_empty),
-        cmocka_unit_test(events_reach_the_file_with_a_frame_or_a_full_buffer),
-        cmocka_unit_test(a_lost_event_is_not_published),
-        cmocka_unit_test(the_lattice_comes_back),
-        cmocka_unit_test(obstacles_are_in_a_file_beside_the_run),
-        cmocka_unit_test(notes_are_kept_and_replaced),
-        cmocka_unit_test(two_runs_make_the_same_bytes),
-        cmocka_unit_test(finishing_replaces_an_older_run),
-        cmocka_unit_test(a_finished_trajectory_takes_nothing_more),
-        cmocka_unit_test(bad_arguments_are_refused),
-        cmocka_unit_test(a_lost_part_ends_the_run_with_its_name),
-        cmocka_unit_test(a_damaged_part_is_not_published),
-        cmocka_unit_test(a_full_disk_leaves_the_frames_before_it),
-        cmocka_unit_test(the_version_is_that_of_the_library),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -365,7 +365,7 @@ static void tell(const place *p, const story *s)
     for (int k = 0; k < most_sessions; k++) dem_checkpoint_destroy(points[k].checkpoint);
 }
 
-static void a_run_that_was_cut_has_the_data_of_one_that_was_not(void **state)
+TEST(a_run_that_was_cut_has_the_data_of_one_that_was_not)
 {
     static const story stories[] = {
         {"killed right behind the segment", {{-1, {40, 40, 40}}, {0, {70, 70, 70}}, {1, {0, 0, 0}}}},
@@ -377,7 +377,6 @@ static void a_run_that_was_cut_has_the_data_of_one_that_was_not(void **state)
          {{-1, {40, 40, 60}}, {0, {70, 70, 80}}, {0, {71, 73, 85}}, {2, {0, 0, 0}}}},
         {"no segment yet", {{-1, {40, 0, 60}}, {-1, {30, 30, 50}}, {1, {0, 0, 0}}}},
     };
-    (void)state;
     place p = open_place();
     run_quietly(&p);
     assert_true(count_rows(&p, "quiet.vtkhdf", "/history/t") > 130);
@@ -437,9 +436,8 @@ static void assert_is_whole(const place *p, const char *name)
 }
 
 /* Three sessions: what is in the part when the last of them is killed. */
-static void a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record(void **state)
+TEST(a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record)
 {
-    (void)state;
     place p = open_place();
     run_quietly(&p);
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 58, 58}), b = run(&p, "run.vtkhdf", &a, (plan){80, 80, 80});
@@ -499,9 +497,8 @@ static void assert_says(const char *words)
     if (strstr(dem_status_message(), words) == NULL) fail_msg("\"%s\" lacks \"%s\"", dem_status_message(), words);
 }
 
-static void the_segment_of_a_record_is_made_once(void **state)
+TEST(the_segment_of_a_record_is_made_once)
 {
-    (void)state;
     place p = open_place();
     const dem_trajectory_options options = everything();
     opened o = open_run(&p, &options);
@@ -529,9 +526,8 @@ static void the_segment_of_a_record_is_made_once(void **state)
 }
 
 /* Without frames, events and probes. */
-static void a_bare_run_is_cut_as_well(void **state)
+TEST(a_bare_run_is_cut_as_well)
 {
-    (void)state;
     place p = open_place();
     dem_trajectory_options options = dem_trajectory_options_default();
     options.fields = 0;
@@ -548,10 +544,9 @@ static void a_bare_run_is_cut_as_well(void **state)
 /* ---- going on ---- */
 
 /* The first run ends with a frame at its end, which is none of the longer run's. */
-static void a_finished_run_is_continued_from_its_own_file(void **state)
+TEST(a_finished_run_is_continued_from_its_own_file)
 {
     static const double ends[] = {7.3e-4, 12e-4, 21.9e-4};
-    (void)state;
     place p = open_place();
     run_quietly(&p);
     for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
@@ -580,9 +575,8 @@ static void assert_resume_fails(const place *p, const point *from, dem_trajector
     dem_simulation_destroy(simulation);
 }
 
-static void other_options_are_refused(void **state)
+TEST(other_options_are_refused)
 {
-    (void)state;
     place p = open_place();
     dem_probe other[n_probes];
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
@@ -661,7 +655,7 @@ static void take_anothers(const place *p)
     change(p, "/history/t", 50, 49, 1.0);
 }
 
-static void a_segment_that_is_not_right_is_named(void **state)
+TEST(a_segment_that_is_not_right_is_named)
 {
     static const struct {
         void (*spoil)(const place *p);
@@ -674,7 +668,6 @@ static void a_segment_that_is_not_right_is_named(void **state)
         {lose_a_column, "run.00002.vtkhdf: /probes/corner/stress: cannot be opened ("},
         {take_anothers, "run.00002.vtkhdf: is of another run: row 49 of its history is at t = 1 s"},
     };
-    (void)state;
     place p = open_place();
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", &a, (plan){90, 90, 99});
     copy_file(&p, "run.00002.vtkhdf", "kept");
@@ -697,9 +690,8 @@ static void a_segment_that_is_not_right_is_named(void **state)
 }
 
 /* A checkpoint between two segments: the second of them goes beyond it. */
-static void a_record_that_no_segment_ends_at_is_refused(void **state)
+TEST(a_record_that_no_segment_ends_at_is_refused)
 {
-    (void)state;
     place p = open_place();
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", NULL, (plan){30, 0, 35});
     const point c = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
@@ -713,9 +705,8 @@ static void a_record_that_no_segment_ends_at_is_refused(void **state)
 
 /* ---- whose files they are ---- */
 
-static void a_new_run_removes_the_segments_of_an_old_one_and_nothing_else(void **state)
+TEST(a_new_run_removes_the_segments_of_an_old_one_and_nothing_else)
 {
-    (void)state;
     place p = open_place();
     const dem_trajectory_options options = everything();
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", &a, (plan){90, 90, 99});
@@ -739,9 +730,8 @@ static void a_new_run_removes_the_segments_of_an_old_one_and_nothing_else(void *
 }
 
 /* What a kill leaves that hits a run while it removes what it has joined. */
-static void a_whole_stands_for_segments_that_are_gone(void **state)
+TEST(a_whole_stands_for_segments_that_are_gone)
 {
-    (void)state;
     place p = open_place();
     run_quietly(&p);
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
@@ -770,9 +760,8 @@ static void run_on(const place *p, opened *o, const char *name)
 }
 
 /* Without or with rows behind the checkpoint, each renaming in turn; then it works, or is not tried again. */
-static void a_segment_that_fails_changes_nothing(void **state)
+TEST(a_segment_that_fails_changes_nothing)
 {
-    (void)state;
     place p = open_place();
     const dem_trajectory_options options = everything();
     opened o = open_run(&p, &options);
@@ -796,9 +785,8 @@ static void a_segment_that_fails_changes_nothing(void **state)
     close_place(&p);
 }
 
-static void a_finish_that_failed_works_the_second_time(void **state)
+TEST(a_finish_that_failed_works_the_second_time)
 {
-    (void)state;
     place p = open_place();
     dem_peaks *peaks;
     dem_trajectory_options options = everything();
@@ -848,9 +836,8 @@ static bool run_in_child(const place *p, int deadly)
 
 /* It goes on from a checkpoint that may be on the disk then: in turn from that of the last segment that was finished,
  * and from the one before. */
-static void a_kill_between_two_names_loses_nothing(void **state)
+TEST(a_kill_between_two_names_loses_nothing)
 {
-    (void)state;
     place p = open_place();
     FILE *shared = tmpfile();
     assert_true(shared != NULL && ftruncate(fileno(shared), sizeof *progress) == 0);
@@ -926,9 +913,8 @@ static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoin
     return last;
 }
 
-static void a_run_goes_on_from_the_records_of_its_simulation(void **state)
+TEST(a_run_goes_on_from_the_records_of_its_simulation)
 {
-    (void)state;
     place p = open_place();
     assert_null(follow_to(&p, NULL, end));
     assert_int_equal(rename(name_in(&p, "run.vtkhdf"), name_in(&p, "quiet.vtkhdf")), 0);
@@ -940,25 +926,4 @@ static void a_run_goes_on_from_the_records_of_its_simulation(void **state)
     }
     assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
     close_place(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_run_that_was_cut_has_the_data_of_one_that_was_not),
-        cmocka_unit_test(a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record),
-        cmocka_unit_test(the_segment_of_a_record_is_made_once),
-        cmocka_unit_test(a_bare_run_is_cut_as_well),
-        cmocka_unit_test(a_finished_run_is_continued_from_its_own_file),
-        cmocka_unit_test(other_options_are_refused),
-        cmocka_unit_test(a_segment_that_is_not_right_is_named),
-        cmocka_unit_test(a_record_that_no_segment_ends_at_is_refused),
-        cmocka_unit_test(a_new_run_removes_the_segments_of_an_old_one_and_nothing_else),
-        cmocka_unit_test(a_whole_stands_for_segments_that_are_gone),
-        cmocka_unit_test(a_segment_that_fails_changes_nothing),
-        cmocka_unit_test(a_finish_that_failed_works_the_second_time),
-        cmocka_unit_test(a_kill_between_two_names_loses_nothing),
-        cmocka_unit_test(a_run_goes_on_from_the_records_of_its_simulation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -229,9 +229,8 @@ static void assert_frames(const dem_reader *reader, const run *r, double roundin
     }
 }
 
-static void frames_are_what_was_seen(void **state)
+TEST(frames_are_what_was_seen)
 {
-    (void)state;
     for (int in_double = 0; in_double < 2; in_double++) {
         dem_trajectory_options options = everything();
         options.double_precision = in_double;
@@ -247,9 +246,8 @@ static void frames_are_what_was_seen(void **state)
     }
 }
 
-static void any_fields_may_be_there(void **state)
+TEST(any_fields_may_be_there)
 {
-    (void)state;
     const uint32_t some[] = {0, DEM_FIELD_VELOCITY | DEM_FIELD_FORCE, DEM_FIELD_STRAIN | DEM_FIELD_PRINCIPAL};
     for (size_t k = 0; k < sizeof some / sizeof some[0]; k++) {
         dem_trajectory_options options = everything();
@@ -266,9 +264,8 @@ static void any_fields_may_be_there(void **state)
     }
 }
 
-static void arrays_are_listed_with_what_they_are(void **state)
+TEST(arrays_are_listed_with_what_they_are)
 {
-    (void)state;
     const dem_reader_array expected[] = {
         {"body", "", DEM_READER_I32, 0, 1, 1},
         {"displacement", "m", DEM_READER_F64, 0, 3, 0},
@@ -311,9 +308,8 @@ static void arrays_are_listed_with_what_they_are(void **state)
     }
 }
 
-static void constants_are_the_same_in_all_frames(void **state)
+TEST(constants_are_the_same_in_all_frames)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
@@ -379,9 +375,8 @@ static void assert_column(const dem_reader *reader, const char *path, const dem_
     free(values);
 }
 
-static void tables_are_what_hdf5_finds(void **state)
+TEST(tables_are_what_hdf5_finds)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
@@ -418,9 +413,8 @@ static void expect_column(const dem_reader *reader, const dem_reader_column *exp
     assert_int_equal(c->width, expected->items * expected->components);
 }
 
-static void columns_have_items_and_components(void **state)
+TEST(columns_have_items_and_components)
 {
-    (void)state;
     const dem_reader_column expected[] = {
         {"frames", "kinetic_energy", "J", DEM_READER_F64, 0, 1, 1, 0},
         {"history", "t", "s", DEM_READER_F64, 0, 1, 1, 0},
@@ -446,9 +440,8 @@ static void columns_have_items_and_components(void **state)
 
 /* ---- the model ---- */
 
-static void lattice_and_obstacles_are_the_models(void **state)
+TEST(lattice_and_obstacles_are_the_models)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
@@ -474,9 +467,8 @@ static void lattice_and_obstacles_are_the_models(void **state)
 
 /* ---- runs of other kinds ---- */
 
-static void a_point_without_springs_and_obstacles_is_read(void **state)
+TEST(a_point_without_springs_and_obstacles_is_read)
 {
-    (void)state;
     dem_trajectory_options options = everything();
     options.n_probes = 0;
     run r;
@@ -497,9 +489,8 @@ static void a_point_without_springs_and_obstacles_is_read(void **state)
     end(&r);
 }
 
-static void a_run_without_frames_has_its_tables(void **state)
+TEST(a_run_without_frames_has_its_tables)
 {
-    (void)state;
     dem_trajectory_options options = everything();
     options.frame_interval = 0.0, options.events = 0;
     run r;
@@ -518,9 +509,8 @@ static void a_run_without_frames_has_its_tables(void **state)
     end(&r);
 }
 
-static void a_part_is_seen_as_it_was_when_it_was_opened(void **state)
+TEST(a_part_is_seen_as_it_was_when_it_was_opened)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     begin(&r, &options);
@@ -545,9 +535,8 @@ static void a_part_is_seen_as_it_was_when_it_was_opened(void **state)
     end(&r);
 }
 
-static void segment_and_part_follow_each_other(void **state)
+TEST(segment_and_part_follow_each_other)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     begin(&r, &options);
@@ -570,9 +559,8 @@ static void segment_and_part_follow_each_other(void **state)
     end(&r);
 }
 
-static void what_is_not_there_cannot_be_read(void **state)
+TEST(what_is_not_there_cannot_be_read)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
@@ -749,9 +737,8 @@ static void copy_file(const char *from, const char *to)
     assert_int_equal(system(command), 0);
 }
 
-static void damaged_files_are_refused(void **state)
+TEST(damaged_files_are_refused)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
@@ -771,9 +758,8 @@ static void damaged_files_are_refused(void **state)
     end(&r);
 }
 
-static void what_has_changed_since_is_refused(void **state)
+TEST(what_has_changed_since_is_refused)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
@@ -800,9 +786,8 @@ static void what_has_changed_since_is_refused(void **state)
 }
 
 /* What others have put there is read as well; the rows of a table are those that all columns have. */
-static void other_arrays_and_uneven_tables_are_read(void **state)
+TEST(other_arrays_and_uneven_tables_are_read)
 {
-    (void)state;
     const dem_trajectory_options options = everything();
     run r;
     make(&r, &options);
@@ -824,26 +809,4 @@ static void other_arrays_and_uneven_tables_are_read(void **state)
     free(found);
     dem_reader_close(reader);
     end(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(frames_are_what_was_seen),
-        cmocka_unit_test(any_fields_may_be_there),
-        cmocka_unit_test(arrays_are_listed_with_what_they_are),
-        cmocka_unit_test(constants_are_the_same_in_all_frames),
-        cmocka_unit_test(tables_are_what_hdf5_finds),
-        cmocka_unit_test(columns_have_items_and_components),
-        cmocka_unit_test(lattice_and_obstacles_are_the_models),
-        cmocka_unit_test(a_point_without_springs_and_obstacles_is_read),
-        cmocka_unit_test(a_run_without_frames_has_its_tables),
-        cmocka_unit_test(a_part_is_seen_as_it_was_when_it_was_opened),
-        cmocka_unit_test(segment_and_part_follow_each_other),
-        cmocka_unit_test(what_is_not_there_cannot_be_read),
-        cmocka_unit_test(damaged_files_are_refused),
-        cmocka_unit_test(what_has_changed_since_is_refused),
-        cmocka_unit_test(other_arrays_and_uneven_tables_are_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,9 +51,8 @@ static void put_away(shot *s)
     free(s);
 }
 
-static void rows_are_those_of_the_file_and_of_files_before(void **state)
+TEST(rows_are_those_of_the_file_and_of_files_before)
 {
-    (void)state;
     static const hsize_t rows[n_kinds] = {1, 1, 2, 1, 1};
     static const char *const names[n_kinds] = {"frames", "history", "events", "node", "gauge"};
     shot *s = shoot();
@@ -77,9 +76,8 @@ static void rows_are_those_of_the_file_and_of_files_before(void **state)
 }
 
 /* Twice the same rows, one behind the other: the second frame begins behind the first. */
-static void rows_go_behind_those_that_are_there(void **state)
+TEST(rows_go_behind_those_that_are_there)
 {
-    (void)state;
     shot *s = shoot();
     stored other;
     hdf5_span spans[n_kinds];
@@ -101,13 +99,4 @@ static void rows_go_behind_those_that_are_there(void **state)
     for (hsize_t k = 0; k < 3 * n; k++) assert_close(points[3 * n + k], points[k], 0.0);
     stored_close(&other);
     put_away(s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rows_are_those_of_the_file_and_of_files_before),
-        cmocka_unit_test(rows_go_behind_those_that_are_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 
 #include "output/units.h"
 
-static void a_name_has_its_unit(void **state)
+TEST(a_name_has_its_unit)
 {
-    (void)state;
     assert_string_equal(units_of("t"), "s");
     assert_string_equal(units_of("boundary_energy"), "J");
     assert_string_equal(units_of("body_angular_momentum"), "kg m^2/s");
@@ -15,19 +14,9 @@ static void a_name_has_its_unit(void **state)
     assert_string_equal(units_of("friction"), "J");
 }
 
-static void what_counts_or_is_unknown_has_none(void **state)
+TEST(what_counts_or_is_unknown_has_none)
 {
-    (void)state;
     assert_string_equal(units_of("steps"), "");
     assert_string_equal(units_of("stres"), "");
     assert_string_equal(units_of(""), "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_name_has_its_unit),
-        cmocka_unit_test(what_counts_or_is_unknown_has_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,9 +34,8 @@ static hdf5_file write_one(const grid *g, int deflate)
     return file;
 }
 
-static void cells_are_lines_between_points(void **state)
+TEST(cells_are_lines_between_points)
 {
-    (void)state;
     const dem_index ends[4] = {0, 1, 2, 1};
     const grid g = {3, 2, ends};
     hdf5_file file = write_one(&g, 1);
@@ -49,9 +48,8 @@ static void cells_are_lines_between_points(void **state)
     assert_ok(hdf5_close(&file, DEM_OK));
 }
 
-static void a_grid_may_have_no_cells(void **state)
+TEST(a_grid_may_have_no_cells)
 {
-    (void)state;
     const grid g = {1, 0, NULL};
     hdf5_file file = write_one(&g, 0);
     found_reals(&file, GRID "Connectivity", NULL, 0);
@@ -60,11 +58,4 @@ static void a_grid_may_have_no_cells(void **state)
     assert_ok(hdf5_close(&file, DEM_OK));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cells_are_lines_between_points),
-        cmocka_unit_test(a_grid_may_have_no_cells),
-    };
-    return cmocka_run_group_tests(tests, make_path, remove_path);
-}
+TEST_GROUP(make_path, remove_path);

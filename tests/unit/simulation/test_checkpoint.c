@@ -76,11 +76,10 @@ static void same_memory(const dem_simulation *a, const dem_simulation *b)
     assert_memory_equal(a->y, b->y, (size_t)state_size(&a->layout) * sizeof *a->y);
 }
 
-static void everything_comes_back(void **state)
+TEST(everything_comes_back)
 {
     pair p;
     dem_index n_stuck = 0;
-    (void)state;
     open_pair(&p);
     assert_ok(dem_simulation_advance(p.from, 0.05));
     contact_set *c = &p.from->automaton.set;
@@ -130,11 +129,10 @@ static event_source counter_source(counter *c)
     return (event_source){.name = "count", .self = c, .save = counter_save, .restore = counter_restore};
 }
 
-static void every_source_comes_back(void **state)
+TEST(every_source_comes_back)
 {
     counter from = {.count = 5}, to = {.count = 0};
     pair p;
-    (void)state;
     open_pair(&p);
     assert_ok(dem_simulation_advance(p.from, 1e-3));
     assert_ok(source_list_add(&p.from->sources, counter_source(&from)));
@@ -163,13 +161,12 @@ static void refuse(pair *p, const char *name, void *entry, size_t size, const ch
     free(kept);
 }
 
-static void sizes_numbers_and_states_that_cannot_be_are_refused(void **state)
+TEST(sizes_numbers_and_states_that_cannot_be_are_refused)
 {
     pair p;
     size_t n;
     const double before = -1.0;
     dem_index sizes[8], numbers[10];
-    (void)state;
     open_pair(&p);
     assert_ok(checkpoint_take(p.from, p.checkpoint));
     assert_ok(dem_checkpoint_get(p.checkpoint, "sizes", sizes, sizeof sizes));
@@ -217,12 +214,11 @@ static void refuse_candidate(pair *p, raw_candidate candidate)
     refuse(p, "contacts", &candidate, sizeof candidate, "entry 0 of the contacts in the checkpoint is impossible");
 }
 
-static void candidates_that_cannot_be_are_refused(void **state)
+TEST(candidates_that_cannot_be_are_refused)
 {
     pair p;
     const raw_candidate good = {.k = 0, .n_closed = 1, .behind = {-1, -1}, .closed = {{.feature = 1, .slide = 1}}};
     raw_candidate bad[2] = {good, good};
-    (void)state;
     open_pair(&p);
     assert_ok(checkpoint_take(p.from, p.checkpoint));
     assert_ok(dem_checkpoint_put(p.checkpoint, "contacts", &good, sizeof good));
@@ -258,15 +254,4 @@ static void candidates_that_cannot_be_are_refused(void **state)
            "entry 1 of the contacts in the checkpoint is impossible"); /* twice the same */
     refuse(&p, "contacts", bad, 17, "the checkpoint has no contacts");
     close_pair(&p);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(everything_comes_back),
-        cmocka_unit_test(every_source_comes_back),
-        cmocka_unit_test(sizes_numbers_and_states_that_cannot_be_are_refused),
-        cmocka_unit_test(candidates_that_cannot_be_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

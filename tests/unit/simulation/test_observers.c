@@ -58,23 +58,21 @@ static void expect(const char *text)
 
 /* ---- joining ---- */
 
-static void at_most_eight_are_admitted(void **state)
+TEST(at_most_eight_are_admitted)
 {
     observers a = {0};
     voice v = {'a', DEM_OK};
     const dem_observer one_more = {.interval = 1.0};
-    (void)state;
     for (int k = 0; k < OBSERVERS_MOST; k++) join(&a, &v, 1.0);
     assert_int_equal(observers_add(&a, &one_more, -1.0), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "at most 8 observers");
     assert_int_equal(a.n, 8);
 }
 
-static void an_interval_is_finite(void **state)
+TEST(an_interval_is_finite)
 {
     observers a = {0};
     const dem_observer endless = {.interval = (double)INFINITY}, none = {.interval = fabs((double)NAN)};
-    (void)state;
     assert_int_equal(observers_add(&a, &endless, -1.0), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "the interval between frames is inf s");
     assert_int_equal(observers_add(&a, &none, -1.0), DEM_ERROR_ARGUMENT);
@@ -82,11 +80,10 @@ static void an_interval_is_finite(void **state)
 }
 
 /* The search for the first frame later than a time that a damaged checkpoint gave once went on without end. */
-static void frames_too_many_to_be_numbered_are_refused(void **state)
+TEST(frames_too_many_to_be_numbered_are_refused)
 {
     observers a = {0};
     const dem_observer dense = {.interval = 1e-3};
-    (void)state;
     assert_int_equal(observers_add(&a, &dense, 1e300), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "frames 0.001 s apart cannot be numbered at 1e+300 s");
     assert_int_equal(a.n, 0);
@@ -96,12 +93,11 @@ static void frames_too_many_to_be_numbered_are_refused(void **state)
 
 /* ---- telling ---- */
 
-static void all_are_called_in_the_order_in_which_they_came(void **state)
+TEST(all_are_called_in_the_order_in_which_they_came)
 {
     observers a = {0};
     voice first = {'1', DEM_OK}, second = {'2', DEM_OK};
     const dem_event event = {.t = 0.75};
-    (void)state;
     assert_false(observers_want_events(&a));
     join(&a, &first, 0.0);
     join(&a, &second, 0.0);
@@ -112,14 +108,13 @@ static void all_are_called_in_the_order_in_which_they_came(void **state)
     expect("e1e2s1s2f2");
 }
 
-static void observers_without_a_function_are_left_out(void **state)
+TEST(observers_without_a_function_are_left_out)
 {
     observers a = {0};
     voice v = {'v', DEM_OK};
     const dem_observer deaf = {.interval = 1.0};
     const dem_event event = {.t = 0.75};
     double t = -1.0;
-    (void)state;
     assert_ok(observers_add(&a, &deaf, -1.0));
     assert_false(observers_want_events(&a));
     assert_ok(observers_event(&a, NULL, &event));
@@ -133,12 +128,11 @@ static void observers_without_a_function_are_left_out(void **state)
 }
 
 /* An observer that comes later is called all the same. */
-static void the_first_status_that_is_not_ok_is_returned(void **state)
+TEST(the_first_status_that_is_not_ok_is_returned)
 {
     observers a = {0};
     voice content = {'1', DEM_OK}, stops = {'2', DEM_STOPPED}, fails = {'3', DEM_ERROR_MEMORY};
     const dem_event event = {.t = 0.75};
-    (void)state;
     join(&a, &content, 1.0);
     join(&a, &stops, 1.0);
     join(&a, &fails, 1.0);
@@ -152,14 +146,13 @@ static void the_first_status_that_is_not_ok_is_returned(void **state)
 /* ---- frames ---- */
 
 /* Intervals 3 and 2, shown up to 6: at 0, 0, 2, 3, 4, 6, 6; of two at once the first to come. */
-static void frames_come_in_the_order_of_time(void **state)
+TEST(frames_come_in_the_order_of_time)
 {
     static const double times[7] = {0.0, 0.0, 2.0, 3.0, 4.0, 6.0, 6.0};
     static const int whose[7] = {0, 1, 1, 0, 1, 0, 1};
     observers a = {0};
     voice first = {'1', DEM_OK}, second = {'2', DEM_OK};
     double t;
-    (void)state;
     join(&a, &first, 3.0);
     join(&a, &second, 2.0);
     for (int k = 0; k < 7; k++) {
@@ -174,12 +167,11 @@ static void frames_come_in_the_order_of_time(void **state)
 }
 
 /* 3 * 0.1 is above 0.3 by rounding; the frame is shown where the step reaches as far. */
-static void a_frame_at_the_end_is_not_lost_to_rounding(void **state)
+TEST(a_frame_at_the_end_is_not_lost_to_rounding)
 {
     observers a = {0};
     voice v = {'v', DEM_OK};
     double t;
-    (void)state;
     join(&a, &v, 0.1);
     a.members[0].next_frame = 3;
     assert_true(3 * 0.1 > 0.3);
@@ -187,19 +179,4 @@ static void a_frame_at_the_end_is_not_lost_to_rounding(void **state)
     assert_close(t, 3 * 0.1, 0.0);
     assert_int_equal(observers_due(&a, 0.3, 0.3, &t), -1);
     assert_int_equal(observers_due(&a, 0.4, 0.3 - 1e-9, &t), -1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_most_eight_are_admitted),
-        cmocka_unit_test(an_interval_is_finite),
-        cmocka_unit_test(all_are_called_in_the_order_in_which_they_came),
-        cmocka_unit_test(observers_without_a_function_are_left_out),
-        cmocka_unit_test(frames_too_many_to_be_numbered_are_refused),
-        cmocka_unit_test(the_first_status_that_is_not_ok_is_returned),
-        cmocka_unit_test(frames_come_in_the_order_of_time),
-        cmocka_unit_test(a_frame_at_the_end_is_not_lost_to_rounding),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,11 +59,10 @@ static void refuse(const dem_options *options, const char *message)
 }
 
 /* What an older or newer header gives is test_struct_size.c's business. */
-static void options_of_a_size_that_no_version_has_are_refused(void **state)
+TEST(options_of_a_size_that_no_version_has_are_refused)
 {
     char message[128];
     dem_options own, options = point_options();
-    (void)state;
     options.struct_size = 3;
     (void)snprintf(message, sizeof message, "dem_options: struct_size is 3, at least %zu expected", sizeof options);
     assert_int_equal(options_read(&own, &options), DEM_ERROR_ARGUMENT);
@@ -74,12 +73,11 @@ static void options_of_a_size_that_no_version_has_are_refused(void **state)
     assert_string_equal(dem_status_message(), "rtol must be in [1e-13, 0.1], got 0.2");
 }
 
-static void lengths_times_and_speeds_are_finite_and_not_negative(void **state)
+TEST(lengths_times_and_speeds_are_finite_and_not_negative)
 {
     static const char *const names[6] = {"spacing",   "v_scale", "max_step", "fixed_step", "penetration_tolerance",
                                          "rest_speed"};
     char message[128];
-    (void)state;
     for (int k = 0; k < 6; k++) {
         dem_options options = point_options();
         double *const lengths[6] = {&options.spacing,
@@ -99,9 +97,8 @@ static void lengths_times_and_speeds_are_finite_and_not_negative(void **state)
     }
 }
 
-static void options_outside_their_ranges_are_named(void **state)
+TEST(options_outside_their_ranges_are_named)
 {
-    (void)state;
     dem_options options = point_options();
     assert_ok(options_check(&options));
     options.gravity[0] = fabs((double)NAN);
@@ -138,9 +135,8 @@ static void refuse_filling(const dem_model *model, dem_options options, const ch
     assert_string_equal(dem_status_message(), message);
 }
 
-static void a_model_without_springs_needs_its_scales(void **state)
+TEST(a_model_without_springs_needs_its_scales)
 {
-    (void)state;
     dem_model *model = make_point(NULL);
     dem_options options = point_options();
     options.spacing = 0.0;
@@ -159,9 +155,8 @@ static void a_model_without_springs_needs_its_scales(void **state)
 
 /* ---- defaults ---- */
 
-static void defaults_come_from_the_model(void **state)
+TEST(defaults_come_from_the_model)
 {
-    (void)state;
     dem_model *model = make_rectangle(0.0, 4.0);
     dem_options options = dem_options_default();
     assert_ok(options_fill(&options, model, &no_boundaries));
@@ -180,9 +175,8 @@ static void defaults_come_from_the_model(void **state)
     dem_model_destroy(model);
 }
 
-static void what_is_given_counts(void **state)
+TEST(what_is_given_counts)
 {
-    (void)state;
     dem_model *model = make_rectangle(0.0, 4.0);
     dem_options options = dem_options_default();
     options.spacing = 0.125;
@@ -201,10 +195,9 @@ static void what_is_given_counts(void **state)
 }
 
 /* An eighth of the stability bound where omega_max is known. */
-static void methods_without_error_estimate_take_steps_of_one_length(void **state)
+TEST(methods_without_error_estimate_take_steps_of_one_length)
 {
     static const dem_method methods[3] = {DEM_METHOD_RK4, DEM_METHOD_KNOTHWOLKE3, DEM_METHOD_VERLET};
-    (void)state;
     dem_model *model = make_rectangle(0.0, 4.0);
     for (int k = 0; k < 3; k++) {
         dem_options options = dem_options_default();
@@ -227,9 +220,8 @@ static void methods_without_error_estimate_take_steps_of_one_length(void **state
 }
 
 /* Where damping is faster than the springs it sets the longest step, 1/(2 (rate + mass damping)). */
-static void strong_damping_shortens_the_longest_step(void **state)
+TEST(strong_damping_shortens_the_longest_step)
 {
-    (void)state;
     dem_model *model = make_rectangle(1e-2, 4.0);
     dem_options options = dem_options_default();
     assert_ok(options_fill(&options, model, &no_boundaries));
@@ -244,9 +236,8 @@ static void strong_damping_shortens_the_longest_step(void **state)
 
 /* Contacts taken where they happen need no window; the whole body's stops are as long as a tenth of 1/omega_max, or of
  * twice the longest step. */
-static void the_window_is_for_stops_of_the_whole_body(void **state)
+TEST(the_window_is_for_stops_of_the_whole_body)
 {
-    (void)state;
     dem_model *model = make_rectangle(0.0, 4.0);
     dem_options options = dem_options_default();
     const double omega = dem_model_omega_max(model);
@@ -266,14 +257,13 @@ static void the_window_is_for_stops_of_the_whole_body(void **state)
 
 /* Without an initial speed: the drop of 1 m to the floor; a body at rest without obstacles: a thousandth of
  * omega_max a/2; what a boundary drives: its speed. */
-static void the_scale_of_speed_is_the_largest_at_hand(void **state)
+TEST(the_scale_of_speed_is_the_largest_at_hand)
 {
     const double v[2] = {30.0, 40.0};
     const dem_index first = 0;
     const dem_boundary driven = {
         .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &first, .value = {70.0}};
     boundary_conditions b;
-    (void)state;
     dem_model *model = make_point(NULL);
     dem_options options = point_options();
     assert_ok(options_fill(&options, model, &no_boundaries));
@@ -297,10 +287,9 @@ static void the_scale_of_speed_is_the_largest_at_hand(void **state)
 }
 
 /* omega_max is that of the rectangle; an obstacle that shakes ten times as fast is followed alike. */
-static void steps_follow_obstacles_that_shake(void **state)
+TEST(steps_follow_obstacles_that_shake)
 {
     char message[160];
-    (void)state;
     dem_model *model = make_rectangle(0.0, 4.0);
     const double rate = 10.0 * dem_model_omega_max(model);
     dem_options options = dem_options_default();
@@ -313,22 +302,4 @@ static void steps_follow_obstacles_that_shake(void **state)
                    rate, options.max_step);
     refuse_filling(model, options, message);
     dem_model_destroy(model);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(options_of_a_size_that_no_version_has_are_refused),
-        cmocka_unit_test(lengths_times_and_speeds_are_finite_and_not_negative),
-        cmocka_unit_test(options_outside_their_ranges_are_named),
-        cmocka_unit_test(a_model_without_springs_needs_its_scales),
-        cmocka_unit_test(defaults_come_from_the_model),
-        cmocka_unit_test(what_is_given_counts),
-        cmocka_unit_test(steps_follow_obstacles_that_shake),
-        cmocka_unit_test(methods_without_error_estimate_take_steps_of_one_length),
-        cmocka_unit_test(strong_damping_shortens_the_longest_step),
-        cmocka_unit_test(the_window_is_for_stops_of_the_whole_body),
-        cmocka_unit_test(the_scale_of_speed_is_the_largest_at_hand),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,9 +73,8 @@ static void free_fall(fall *f)
     free(f);
 }
 
-static void peaks_are_the_largest_values_of_the_steps_looked_at(void **state)
+TEST(peaks_are_the_largest_values_of_the_steps_looked_at)
 {
-    (void)state;
     for (dem_index every = 1; every <= 3; every += 2) {
         fall *f = make_fall(every);
         (void)support_at(&f->run, 2e-3);
@@ -95,10 +94,9 @@ static void peaks_are_the_largest_values_of_the_steps_looked_at(void **state)
     }
 }
 
-static void ranks_begin_with_the_largest(void **state)
+TEST(ranks_begin_with_the_largest)
 {
     dem_index nodes[most_nodes], springs[most_springs], first[3];
-    (void)state;
     fall *f = make_fall(1);
     (void)support_at(&f->run, 1e-3);
     const dem_index n = f->witness.n_nodes, m = f->witness.n_springs;
@@ -124,7 +122,7 @@ static void ranks_begin_with_the_largest(void **state)
 }
 
 /* Two springs of one stretch, to the bit, and one that is not stretched. */
-static void equals_are_ranked_by_number_and_what_was_never_strained_not_at_all(void **state)
+TEST(equals_are_ranked_by_number_and_what_was_never_strained_not_at_all)
 {
     static const double x[6] = {0.0, 0.0, 2.0, 0.0, 4.0, 0.0}, mass[3] = {1.0, 1.0, 1.0};
     static const dem_index ends[6] = {1, 2, 0, 1, 0, 2};
@@ -133,7 +131,6 @@ static void equals_are_ranked_by_number_and_what_was_never_strained_not_at_all(v
     support_run run;
     dem_peaks *peaks;
     const dem_options options = dem_options_default();
-    (void)state;
     support_lattice(&lattice, 3, x, mass, 3, ends, 1.0, 10.0, NULL);
     lattice.rest_length[2] = 4.0;
     support_open(&run, &lattice, NULL, 0, &options);
@@ -151,10 +148,9 @@ static void equals_are_ranked_by_number_and_what_was_never_strained_not_at_all(v
     dem_lattice_free(&lattice);
 }
 
-static void impossible_arguments_are_refused(void **state)
+TEST(impossible_arguments_are_refused)
 {
     dem_peaks *peaks = NULL;
-    (void)state;
     fall *f = make_fall(1);
     assert_int_equal(dem_peaks_create(NULL, f->run.model, 1), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "dem_peaks_create: out is NULL");
@@ -165,15 +161,4 @@ static void impossible_arguments_are_refused(void **state)
     assert_null(peaks);
     dem_peaks_destroy(NULL);
     free_fall(f);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(peaks_are_the_largest_values_of_the_steps_looked_at),
-        cmocka_unit_test(ranks_begin_with_the_largest),
-        cmocka_unit_test(equals_are_ranked_by_number_and_what_was_never_strained_not_at_all),
-        cmocka_unit_test(impossible_arguments_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,12 +5,11 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-static void a_new_simulation_shows_the_initial_state(void **state)
+TEST(a_new_simulation_shows_the_initial_state)
 {
     const double v[2] = {3.0, 4.0};
     const dem_options options = point_options();
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     dem_model *model = make_point(v, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     dem_simulation_state(simulation, &now);
@@ -26,11 +25,10 @@ static void a_new_simulation_shows_the_initial_state(void **state)
 
 /* A caller of an older header has a shorter struct, allocated here with its size so that a memory checker sees what is
  * written beyond. */
-static void a_state_is_written_as_far_as_the_callers_struct_goes(void **state)
+TEST(a_state_is_written_as_far_as_the_callers_struct_goes)
 {
     const dem_options options = point_options();
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 0.1));
@@ -47,11 +45,10 @@ static void a_state_is_written_as_far_as_the_callers_struct_goes(void **state)
     end_run(simulation, model);
 }
 
-static void a_state_without_a_size_is_refused_and_left_alone(void **state)
+TEST(a_state_without_a_size_is_refused_and_left_alone)
 {
     const dem_options options = point_options();
     dem_state now = {.struct_size = 15, .t = 7.0};
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(dem_simulation_state(simulation, &now), DEM_ERROR_ARGUMENT);
@@ -69,11 +66,10 @@ static void a_state_without_a_size_is_refused_and_left_alone(void **state)
 
 /* At rest on the floor after the plastic impact: m g, and m g t of impulse from the beginning on, up to the step in
  * hand. */
-static void an_obstacle_feels_the_weight_that_rests_on_it(void **state)
+TEST(an_obstacle_feels_the_weight_that_rests_on_it)
 {
     const dem_options options = point_options();
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     dem_model *model = make_point(NULL, 0.0);
     dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 2.0));
@@ -111,12 +107,11 @@ static dem_status see(void *context, const dem_simulation *simulation)
 
 /* Frames at 0 and 0.4 s are before the impact, the end at 0.6 s is after it; eta = 0.5 leaves a quarter of the energy
  * m g h, to the penetration tolerance of 1e-6 m. */
-static void what_is_seen_within_a_step_is_without_later_events(void **state)
+TEST(what_is_seen_within_a_step_is_without_later_events)
 {
     dem_options options = point_options();
     look seen = {.n = 0};
     const dem_observer observer = {.interval = 0.4, .frame = see, .context = &seen};
-    (void)state;
     options.method = DEM_METHOD_RK4;
     options.max_step = options.fixed_step = 0.8;
     dem_model *model = make_point(NULL, 0.5);
@@ -134,10 +129,9 @@ static void what_is_seen_within_a_step_is_without_later_events(void **state)
 }
 
 /* Numbers from -1 to 1 of a model that has one of each, and no boundary. */
-static void what_is_not_there_has_no_numbers_but_a_message(void **state)
+TEST(what_is_not_there_has_no_numbers_but_a_message)
 {
     const dem_options options = point_options();
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     for (dem_index k = -1; k <= 1; k++) {
@@ -252,9 +246,8 @@ static dem_observer looker(pusher *p)
 
 enum { n_advances = 12 }; /* of 0.01 s each, with the impact after some 0.03 s */
 
-static void no_getter_asks_the_external_force(void **state)
+TEST(no_getter_asks_the_external_force)
 {
-    (void)state;
     for (int contact = DEM_CONTACT_LOCAL; contact <= DEM_CONTACT_EXACT; contact++) {
         pusher p = {0};
         const dem_observer observer = looker(&p);
@@ -276,9 +269,8 @@ static void no_getter_asks_the_external_force(void **state)
 }
 
 /* Whichever call fails, the advance that makes it returns its status. */
-static void a_force_that_fails_is_reported_by_the_advance_that_asked(void **state)
+TEST(a_force_that_fails_is_reported_by_the_advance_that_asked)
 {
-    (void)state;
     for (int contact = DEM_CONTACT_LOCAL; contact <= DEM_CONTACT_EXACT; contact++) {
         bool failed = true;
         for (long call = 1; failed; call++) {
@@ -297,19 +289,4 @@ static void a_force_that_fails_is_reported_by_the_advance_that_asked(void **stat
             end_run(simulation, model);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_new_simulation_shows_the_initial_state),
-        cmocka_unit_test(a_state_is_written_as_far_as_the_callers_struct_goes),
-        cmocka_unit_test(a_state_without_a_size_is_refused_and_left_alone),
-        cmocka_unit_test(an_obstacle_feels_the_weight_that_rests_on_it),
-        cmocka_unit_test(what_is_seen_within_a_step_is_without_later_events),
-        cmocka_unit_test(what_is_not_there_has_no_numbers_but_a_message),
-        cmocka_unit_test(no_getter_asks_the_external_force),
-        cmocka_unit_test(a_force_that_fails_is_reported_by_the_advance_that_asked),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

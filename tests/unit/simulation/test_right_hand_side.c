@@ -31,12 +31,11 @@ static dem_simulation *start_falling(dem_model **model, double y[2 * MOST])
 
 /* A stretched rectangle in the air: as it is far from the slope, every node has the acceleration that the forces on it
  * give. Sweeps have the bits of forces_acceleration(). */
-static void free_nodes_have_the_acceleration_of_their_forces(void **state)
+TEST(free_nodes_have_the_acceleration_of_their_forces)
 {
     double y[2 * MOST];
     slopes at;
     dem_model *model;
-    (void)state;
     dem_simulation *s = start_falling(&model, y);
     for (dem_index k = 0; k < 2 * s->layout.n_nodes; k++) y[k] *= 1.0 + 1e-3 * (double)(k % 7);
     const double *v = y + state_velocities(&s->layout);
@@ -51,12 +50,11 @@ static void free_nodes_have_the_acceleration_of_their_forces(void **state)
 
 /* m v' = -m g - c m v with m = 2 kg, c = 0.5 1/s, v = (3, 4) m/s: damping takes c m v^2 = 25 W. Time is integrated at
  * a rate of 1. */
-static void quadratures_have_their_rates(void **state)
+TEST(quadratures_have_their_rates)
 {
     const double v[2] = {3.0, 4.0};
     dem_options options = point_options();
     slopes at;
-    (void)state;
     options.mass_damping = 0.5;
     dem_model *model = make_point(v, 0.5);
     dem_simulation *s = simulate(model, &options);
@@ -71,11 +69,10 @@ static void quadratures_have_their_rates(void **state)
 }
 
 /* At rest on the floor after a plastic impact: m g goes into the row of the obstacle's impulse. */
-static void a_closed_contact_holds_its_node_and_gives_an_impulse(void **state)
+TEST(a_closed_contact_holds_its_node_and_gives_an_impulse)
 {
     const dem_options options = point_options();
     slopes at;
-    (void)state;
     dem_model *model = make_point(NULL, 0.0);
     dem_simulation *s = simulate(model, &options);
     assert_ok(dem_simulation_advance(s, 2.0));
@@ -87,12 +84,11 @@ static void a_closed_contact_holds_its_node_and_gives_an_impulse(void **state)
     end_run(s, model);
 }
 
-static void the_node_is_named_whose_velocity_is_not_finite(void **state)
+TEST(the_node_is_named_whose_velocity_is_not_finite)
 {
     double y[2 * MOST];
     slopes at;
     dem_model *model;
-    (void)state;
     dem_simulation *s = start_falling(&model, y);
     y[state_velocities(&s->layout) + 2 * 5] = (double)NAN;
     assert_int_equal(derive(s, y, &at), 1);
@@ -104,12 +100,11 @@ static void the_node_is_named_whose_velocity_is_not_finite(void **state)
  * 0.125 m above the floor, is fast enough to reach it in a step, and is tried a quarter of the penetration tolerance of
  * 1e-6 m deep. At the start its gap counts as 20 tolerances less, for it is known to be clear by that much at least.
  * With 'local' there is no root function. */
-static void only_exact_contacts_have_a_root_function(void **state)
+TEST(only_exact_contacts_have_a_root_function)
 {
     const double down[2] = {0.0, -8.0};
     dem_options options = point_options();
     double y[2 * MOST], f[2 * MOST] = {0.0};
-    (void)state;
     dem_model *model = make_point_at(0.125, down, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     assert_true(right_hand_side_problem(simulation).begin_roots == NULL);
@@ -136,10 +131,9 @@ static int fuse(dem_simulation *s)
     return problem.fused_step(&step, problem.context);
 }
 
-static void a_closed_contact_or_damping_allows_no_fused_step(void **state)
+TEST(a_closed_contact_or_damping_allows_no_fused_step)
 {
     dem_options options = point_options();
-    (void)state;
     dem_model *model = make_point(NULL, 0.0);
     dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(fuse(simulation), 0);
@@ -153,9 +147,8 @@ static void a_closed_contact_or_damping_allows_no_fused_step(void **state)
 }
 
 /* A force of nothing on a node inside: steps of Verlet's method are taken part by part then, and not in one pass. */
-static void steps_in_one_pass_are_those_in_parts(void **state)
+TEST(steps_in_one_pass_are_those_in_parts)
 {
-    (void)state;
     for (int elastic = 0; elastic < 2; elastic++) { /* without restitution contacts last, and end */
         dem_model *model = make_falling(0.7 * elastic);
         snapshot run[2];
@@ -182,7 +175,7 @@ static void steps_in_one_pass_are_those_in_parts(void **state)
     }
 }
 
-static void nodes_that_coincide_end_the_run_with_the_node_named(void **state)
+TEST(nodes_that_coincide_end_the_run_with_the_node_named)
 {
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, start[4] = {0.5, 0.25, 0.5, 0.25}, mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
@@ -190,7 +183,6 @@ static void nodes_that_coincide_end_the_run_with_the_node_named(void **state)
     dem_lattice lattice;
     dem_model *model;
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 10.0, NULL);
     support_start(&lattice, start, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
@@ -202,19 +194,4 @@ static void nodes_that_coincide_end_the_run_with_the_node_named(void **state)
     assert_close(now.t, 0.0, 0.0);
     assert_close(now.x[0], 0.5, 0.0);
     end_run(simulation, model);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(free_nodes_have_the_acceleration_of_their_forces),
-        cmocka_unit_test(quadratures_have_their_rates),
-        cmocka_unit_test(a_closed_contact_holds_its_node_and_gives_an_impulse),
-        cmocka_unit_test(the_node_is_named_whose_velocity_is_not_finite),
-        cmocka_unit_test(only_exact_contacts_have_a_root_function),
-        cmocka_unit_test(a_closed_contact_or_damping_allows_no_fused_step),
-        cmocka_unit_test(steps_in_one_pass_are_those_in_parts),
-        cmocka_unit_test(nodes_that_coincide_end_the_run_with_the_node_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

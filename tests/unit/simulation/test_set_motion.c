@@ -23,11 +23,10 @@ static double ledger(const support_run *run)
 }
 
 /* From any instant on it goes as from a start there, and what that takes is counted as work. */
-static void a_node_goes_on_from_where_it_is_put(void **state)
+TEST(a_node_goes_on_from_where_it_is_put)
 {
     const double x[2] = {3.0, 0.5}, v[2] = {-1.0, 2.0}, lands = (2.0 + sqrt(4.0 + g)) / g;
     support_run run;
-    (void)state;
     open_point(&run, 0.5);
     const double start = ledger(&run);
     const dem_state before = support_at(&run, 0.3);
@@ -50,11 +49,10 @@ static void a_node_goes_on_from_where_it_is_put(void **state)
 }
 
 /* Before the first advance as well. */
-static void the_start_may_be_another(void **state)
+TEST(the_start_may_be_another)
 {
     const double v[2] = {1.5, 0.0};
     support_run run;
-    (void)state;
     open_point(&run, 0.5);
     const double start = ledger(&run);
     assert_ok(dem_simulation_set_motion(run.simulation, NULL, v));
@@ -66,11 +64,10 @@ static void the_start_may_be_another(void **state)
 }
 
 /* What lies on the floor is lifted, hangs in the air, is put back, and rests there again. */
-static void contacts_are_found_anew(void **state)
+TEST(contacts_are_found_anew)
 {
     const double up[2] = {0.0, 0.5}, down[2] = {1.0, 0.0}, still[2] = {0.0, 0.0};
     support_run run;
-    (void)state;
     open_point(&run, 0.0);
     dem_state s = support_at(&run, 1.0);
     assert_int_equal(s.n_contacts, 1);
@@ -123,10 +120,9 @@ static void open_row(support_run *run)
     dem_lattice_free(&row);
 }
 
-static void what_cannot_be_is_refused_and_changes_nothing(void **state)
+TEST(what_cannot_be_is_refused_and_changes_nothing)
 {
     support_run run, untouched;
-    (void)state;
     open_row(&run);
     open_row(&untouched);
     const dem_observer observer = {.step = set_from_within, .context = &run.simulation};
@@ -193,7 +189,7 @@ static void same(const dem_simulation *a, const dem_simulation *b)
 }
 
 /* A checkpoint from before leads on to what was; the one that the next advance takes, to what is now. */
-static void a_record_is_of_one_motion(void **state)
+TEST(a_record_is_of_one_motion)
 {
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .restitution = 0.5, .friction = 0.2};
     const double lift[2] = {0.0, 0.027};
@@ -203,7 +199,6 @@ static void a_record_is_of_one_motion(void **state)
     dem_checkpoint *before, *after;
     support_run run;
     dem_state s = {.struct_size = sizeof s};
-    (void)state;
     (void)scratch_file("a.checkpoint.prev");
     support_block(&block);
     for (dem_index i = 0; i < block.n_nodes; i++) block.position[2 * i + 1] += lift[1] + 1e-3;
@@ -243,12 +238,11 @@ static void a_record_is_of_one_motion(void **state)
 }
 
 /* The state of one simulation put into another, at another time: they go the same way, to the tolerance. */
-static void a_state_is_taken_over(void **state)
+TEST(a_state_is_taken_over)
 {
     dem_options options = support_options();
     dem_lattice block;
     support_run from, to;
-    (void)state;
     support_block(&block);
     options.gravity[1] = 0.0;
     options.rtol = 1e-9;
@@ -270,15 +264,4 @@ static void a_state_is_taken_over(void **state)
     dem_lattice_free(&block);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_node_goes_on_from_where_it_is_put),
-        cmocka_unit_test(the_start_may_be_another),
-        cmocka_unit_test(contacts_are_found_anew),
-        cmocka_unit_test(what_cannot_be_is_refused_and_changes_nothing),
-        cmocka_unit_test(a_record_is_of_one_motion),
-        cmocka_unit_test(a_state_is_taken_over),
-    };
-    return cmocka_run_group_tests(tests, scratch_make, scratch_remove);
-}
+TEST_GROUP(scratch_make, scratch_remove);

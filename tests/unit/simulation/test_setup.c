@@ -10,9 +10,8 @@ static void refuse(const dem_model *model, const dem_options *options, const cha
     assert_null(simulation);
 }
 
-static void options_that_cannot_be_leave_no_simulation(void **state)
+TEST(options_that_cannot_be_leave_no_simulation)
 {
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_options options = point_options();
     options.rtol = 0.2;
@@ -26,11 +25,10 @@ static void options_that_cannot_be_leave_no_simulation(void **state)
     dem_model_destroy(model);
 }
 
-static void null_arguments_are_named(void **state)
+TEST(null_arguments_are_named)
 {
     const dem_options options = point_options();
     dem_simulation *simulation;
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     assert_int_equal(dem_simulation_create(NULL, model, &options), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "dem_simulation_create: out is NULL");
@@ -49,7 +47,7 @@ static void null_arguments_are_named(void **state)
     dem_model_destroy(model);
 }
 
-static void a_start_deeper_than_the_penetration_tolerance_is_refused(void **state)
+TEST(a_start_deeper_than_the_penetration_tolerance_is_refused)
 {
     const double x[2] = {0.25, -0.125}, mass = 2.0;
     const dem_obstacle obstacle = {.n_points = 2, .points = floor_points, .restitution = 0.5};
@@ -57,7 +55,6 @@ static void a_start_deeper_than_the_penetration_tolerance_is_refused(void **stat
     dem_simulation *simulation = NULL;
     dem_lattice lattice;
     dem_model *model;
-    (void)state;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, &obstacle, 1));
     dem_lattice_free(&lattice);
@@ -70,10 +67,9 @@ static void a_start_deeper_than_the_penetration_tolerance_is_refused(void **stat
     dem_model_destroy(model);
 }
 
-static void the_options_in_force_have_no_defaults_left(void **state)
+TEST(the_options_in_force_have_no_defaults_left)
 {
     const dem_options asked = dem_options_default();
-    (void)state;
     dem_model *model = make_falling(0.5);
     dem_simulation *simulation = simulate(model, &asked);
     const dem_options options = dem_simulation_options(simulation);
@@ -85,11 +81,10 @@ static void the_options_in_force_have_no_defaults_left(void **state)
     end_run(simulation, model);
 }
 
-static void methods_without_error_estimate_take_steps_of_one_length(void **state)
+TEST(methods_without_error_estimate_take_steps_of_one_length)
 {
     static const dem_method methods[2] = {DEM_METHOD_RK4, DEM_METHOD_KNOTHWOLKE3};
     dem_options options = dem_options_default();
-    (void)state;
     dem_model *model = make_falling(0.0);
     for (int k = 0; k < 2; k++) {
         dem_method_traits traits;
@@ -105,11 +100,10 @@ static void methods_without_error_estimate_take_steps_of_one_length(void **state
     dem_model_destroy(model);
 }
 
-static void two_simulations_of_a_model_do_not_disturb_each_other(void **state)
+TEST(two_simulations_of_a_model_do_not_disturb_each_other)
 {
     const dem_options options = dem_options_default();
     dem_options other_options = options;
-    (void)state;
     dem_model *model = make_falling(0.5);
     const snapshot alone = run_whole(model);
     other_options.gravity[0] = 100.0;
@@ -125,11 +119,10 @@ static void two_simulations_of_a_model_do_not_disturb_each_other(void **state)
     end_run(simulation, model);
 }
 
-static void there_are_at_most_8_observers_and_none_after_the_first_advance(void **state)
+TEST(there_are_at_most_8_observers_and_none_after_the_first_advance)
 {
     const dem_options options = point_options();
     const dem_observer observer = {.interval = 0.1};
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     for (int k = 0; k < 8; k++) assert_ok(dem_simulation_observe(simulation, &observer));
@@ -139,18 +132,4 @@ static void there_are_at_most_8_observers_and_none_after_the_first_advance(void 
     assert_int_equal(dem_simulation_observe(simulation, &observer), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "observers come before the first advance");
     end_run(simulation, model);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(options_that_cannot_be_leave_no_simulation),
-        cmocka_unit_test(null_arguments_are_named),
-        cmocka_unit_test(a_start_deeper_than_the_penetration_tolerance_is_refused),
-        cmocka_unit_test(the_options_in_force_have_no_defaults_left),
-        cmocka_unit_test(methods_without_error_estimate_take_steps_of_one_length),
-        cmocka_unit_test(two_simulations_of_a_model_do_not_disturb_each_other),
-        cmocka_unit_test(there_are_at_most_8_observers_and_none_after_the_first_advance),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

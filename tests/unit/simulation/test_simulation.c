@@ -8,11 +8,10 @@
 
 /* ---- the same bits ---- */
 
-static void a_run_cut_anywhere_is_the_whole_run_bit_for_bit(void **state)
+TEST(a_run_cut_anywhere_is_the_whole_run_bit_for_bit)
 {
     const dem_options options = dem_options_default();
     const double restitution[2] = {0.0, 0.7};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         dem_model *model = make_falling(restitution[k]);
         const snapshot whole = run_whole(model);
@@ -26,9 +25,8 @@ static void a_run_cut_anywhere_is_the_whole_run_bit_for_bit(void **state)
     }
 }
 
-static void kernels_and_threads_leave_no_trace_in_the_run(void **state)
+TEST(kernels_and_threads_leave_no_trace_in_the_run)
 {
-    (void)state;
     dem_model *model = make_falling(0.7);
     for (int verlet = 0; verlet < 2; verlet++) {
         dem_options options = dem_options_default();
@@ -51,10 +49,9 @@ static void kernels_and_threads_leave_no_trace_in_the_run(void **state)
 }
 
 /* What the run starts with is there at its end: at rtol 1e-6 to the 2e-3 that issue 2 allows. */
-static void the_energy_ledger_closes(void **state)
+TEST(the_energy_ledger_closes)
 {
     const dem_options options = dem_options_default();
-    (void)state;
     dem_model *model = make_falling(0.5);
     dem_simulation *simulation = simulate(model, &options);
     const dem_energy start = dem_simulation_energy(simulation);
@@ -141,11 +138,10 @@ static void expect_undisturbed(dem_simulation *simulation, dem_model *model)
 }
 
 /* A fall from rest: y = 1 - g t^2/2 at each frame, exact but for rounding in the integrator and the dense output. */
-static void frames_come_at_multiples_of_the_interval_from_start_to_end(void **state)
+TEST(frames_come_at_multiples_of_the_interval_from_start_to_end)
 {
     const dem_options options = point_options();
     diary d;
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = observed(model, &options, &d, 0.1);
     assert_ok(dem_simulation_advance(simulation, 0.3)); /* 3 * 0.1 is above 0.3 by rounding */
@@ -161,11 +157,10 @@ static void frames_come_at_multiples_of_the_interval_from_start_to_end(void **st
     end_run(simulation, model);
 }
 
-static void without_an_interval_there_are_no_frames(void **state)
+TEST(without_an_interval_there_are_no_frames)
 {
     const dem_options options = point_options();
     diary d;
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = observed(model, &options, &d, 0.0);
     assert_ok(dem_simulation_advance(simulation, 0.3));
@@ -174,11 +169,10 @@ static void without_an_interval_there_are_no_frames(void **state)
     end_run(simulation, model);
 }
 
-static void observers_see_everything_in_the_order_of_time(void **state)
+TEST(observers_see_everything_in_the_order_of_time)
 {
     const dem_options options = dem_options_default();
     diary first, second;
-    (void)state;
     dem_model *model = make_falling(0.5);
     dem_simulation *simulation = simulate(model, &options);
     watch(simulation, &first, t_whole / 20.0);
@@ -200,11 +194,10 @@ static void observers_see_everything_in_the_order_of_time(void **state)
 }
 
 /* Two observers with one diary and several frames within each step of 0.03 s. */
-static void frames_of_all_observers_come_in_the_order_of_time(void **state)
+TEST(frames_of_all_observers_come_in_the_order_of_time)
 {
     const dem_options options = point_options();
     diary d;
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     watch(simulation, &d, 0.011);
@@ -215,13 +208,12 @@ static void frames_of_all_observers_come_in_the_order_of_time(void **state)
     end_run(simulation, model);
 }
 
-static void an_impact_at_the_start_comes_before_everything_else(void **state)
+TEST(an_impact_at_the_start_comes_before_everything_else)
 {
     const double v[2] = {1.0, -2.0};
     const dem_options options = point_options();
     diary d;
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     dem_model *model = make_point_at(0.0, v, 0.5);
     dem_simulation *simulation = observed(model, &options, &d, 0.1);
     assert_ok(dem_simulation_advance(simulation, 0.0));
@@ -233,11 +225,10 @@ static void an_impact_at_the_start_comes_before_everything_else(void **state)
     end_run(simulation, model);
 }
 
-static void observers_leave_no_trace_in_the_run(void **state)
+TEST(observers_leave_no_trace_in_the_run)
 {
     const dem_options options = dem_options_default();
     diary d;
-    (void)state;
     dem_model *model = make_falling(0.5);
     dem_simulation *simulation = observed(model, &options, &d, t_whole / 33.0);
     assert_ok(dem_simulation_advance(simulation, t_whole));
@@ -245,11 +236,10 @@ static void observers_leave_no_trace_in_the_run(void **state)
 }
 
 /* Stopped at a frame, at a step, then run to the end. */
-static void a_run_stopped_by_an_observer_can_go_on_to_the_same_bits(void **state)
+TEST(a_run_stopped_by_an_observer_can_go_on_to_the_same_bits)
 {
     const dem_options options = dem_options_default();
     diary d;
-    (void)state;
     dem_model *model = make_falling(0.5);
     dem_simulation *simulation = observed(model, &options, &d, t_whole / 20.0);
     d.stop_at_frame = 12;
@@ -270,11 +260,10 @@ static dem_status fail_with_memory(void *context, const dem_simulation *simulati
     return DEM_ERROR_MEMORY;
 }
 
-static void whatever_status_an_observer_gives_is_returned(void **state)
+TEST(whatever_status_an_observer_gives_is_returned)
 {
     const dem_options options = point_options();
     const dem_observer observer = {.step = fail_with_memory};
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_observe(simulation, &observer));
@@ -284,10 +273,9 @@ static void whatever_status_an_observer_gives_is_returned(void **state)
 
 /* ---- motion ---- */
 
-static void time_does_not_run_backwards(void **state)
+TEST(time_does_not_run_backwards)
 {
     const dem_options options = point_options();
-    (void)state;
     dem_model *model = make_point(NULL, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 0.25));
@@ -303,14 +291,13 @@ static void time_does_not_run_backwards(void **state)
 
 /* The springs' rest lengths are the distances to rounding, so that forces are 1e-16 E h: 1e-9 N on 1e-2 kg over 10
  * ms. */
-static void a_body_without_forces_drifts_in_a_straight_line(void **state)
+TEST(a_body_without_forces_drifts_in_a_straight_line)
 {
     const double v[2] = {3.0, -2.0};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     dem_model *model;
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     options.gravity[1] = 0.0;
     make_rectangle(&lattice, 0.0);
     assert_ok(dem_lattice_launch(&lattice, v));
@@ -330,12 +317,11 @@ static void a_body_without_forces_drifts_in_a_straight_line(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_single_node_without_forces_drifts_exactly(void **state)
+TEST(a_single_node_without_forces_drifts_exactly)
 {
     const double v[2] = {0.75, 0.5};
     dem_options options = point_options();
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     options.gravity[1] = 0.0;
     dem_model *model = make_point(v, 0.5);
     dem_simulation *simulation = simulate(model, &options);
@@ -348,7 +334,7 @@ static void a_single_node_without_forces_drifts_exactly(void **state)
     end_run(simulation, model);
 }
 
-static void fixed_nodes_do_not_move(void **state)
+TEST(fixed_nodes_do_not_move)
 {
     const double down[2] = {0.0, -3.0};
     const dem_options options = dem_options_default();
@@ -356,7 +342,6 @@ static void fixed_nodes_do_not_move(void **state)
     dem_model *model;
     dem_state now = {.struct_size = sizeof now};
     dem_index n_fixed = 0, n_moved = 0;
-    (void)state;
     make_rectangle(&lattice, 0.0);
     assert_ok(dem_lattice_launch(&lattice, down));
     lattice.flags = calloc((size_t)lattice.n_nodes, 1);
@@ -385,12 +370,11 @@ static void fixed_nodes_do_not_move(void **state)
 /* ---- failures ---- */
 
 /* Two bounces in two maximal steps of 0.3 s are more than one. */
-static void a_storm_of_impacts_ends_the_run(void **state)
+TEST(a_storm_of_impacts_ends_the_run)
 {
     const double v[2] = {0.0, -100.0};
     dem_options options = point_options();
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     options.max_step = 0.3;
     options.max_impacts = 1;
     dem_model *model = make_point(v, 0.02);
@@ -405,11 +389,10 @@ static void a_storm_of_impacts_ends_the_run(void **state)
 }
 
 /* What comes after a step that contacts have refused is the same step again. */
-static void a_run_that_a_storm_has_ended_does_not_go_on_without_contacts(void **state)
+TEST(a_run_that_a_storm_has_ended_does_not_go_on_without_contacts)
 {
     static const dem_method methods[2] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
     const double v[2] = {0.0, -100.0};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         dem_options options = point_options();
         dem_state now = {.struct_size = sizeof now};
@@ -434,7 +417,7 @@ static void a_run_that_a_storm_has_ended_does_not_go_on_without_contacts(void **
 }
 
 /* Node 0 hits the floor at 1 s; the other end of a spring far too stiff for the step follows. */
-static void a_contact_event_after_which_the_motion_overflows_ends_the_run(void **state)
+TEST(a_contact_event_after_which_the_motion_overflows_ends_the_run)
 {
     const double x[4] = {0.0, 1.0, 0.0, 2.0}, v[4] = {0.0, -1.0, 0.0, -1.0}, mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
@@ -443,7 +426,6 @@ static void a_contact_event_after_which_the_motion_overflows_ends_the_run(void *
     dem_lattice lattice;
     dem_model *model;
     dem_state now = {.struct_size = sizeof now};
-    (void)state;
     options.gravity[1] = 0.0;
     options.fixed_step = 4.0;
     support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 1e100, NULL);
@@ -480,41 +462,12 @@ static void stop_at_impact(double clearance)
     expect_undisturbed(simulation, model);
 }
 
-static void a_stop_within_a_batch_of_impacts_leaves_no_trace(void **state)
+TEST(a_stop_within_a_batch_of_impacts_leaves_no_trace)
 {
-    (void)state;
     stop_at_impact(0.004);
 }
 
-static void a_stop_at_an_impact_at_the_start_leaves_no_trace(void **state)
+TEST(a_stop_at_an_impact_at_the_start_leaves_no_trace)
 {
-    (void)state;
     stop_at_impact(0.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_run_cut_anywhere_is_the_whole_run_bit_for_bit),
-        cmocka_unit_test(kernels_and_threads_leave_no_trace_in_the_run),
-        cmocka_unit_test(the_energy_ledger_closes),
-        cmocka_unit_test(frames_come_at_multiples_of_the_interval_from_start_to_end),
-        cmocka_unit_test(without_an_interval_there_are_no_frames),
-        cmocka_unit_test(observers_see_everything_in_the_order_of_time),
-        cmocka_unit_test(frames_of_all_observers_come_in_the_order_of_time),
-        cmocka_unit_test(an_impact_at_the_start_comes_before_everything_else),
-        cmocka_unit_test(observers_leave_no_trace_in_the_run),
-        cmocka_unit_test(a_run_stopped_by_an_observer_can_go_on_to_the_same_bits),
-        cmocka_unit_test(whatever_status_an_observer_gives_is_returned),
-        cmocka_unit_test(time_does_not_run_backwards),
-        cmocka_unit_test(a_body_without_forces_drifts_in_a_straight_line),
-        cmocka_unit_test(a_single_node_without_forces_drifts_exactly),
-        cmocka_unit_test(fixed_nodes_do_not_move),
-        cmocka_unit_test(a_storm_of_impacts_ends_the_run),
-        cmocka_unit_test(a_run_that_a_storm_has_ended_does_not_go_on_without_contacts),
-        cmocka_unit_test(a_contact_event_after_which_the_motion_overflows_ends_the_run),
-        cmocka_unit_test(a_stop_within_a_batch_of_impacts_leaves_no_trace),
-        cmocka_unit_test(a_stop_at_an_impact_at_the_start_leaves_no_trace),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -137,10 +137,9 @@ static double error_of_fixed_steps(dem_method method, int n, int evaluations)
 
 /* Slope of the error over a doubling of the steps, which are as many as keep it above rounding. A third lower would be
  * another order; on this equation some are better than theirs. */
-static void each_method_has_its_order(void **state)
+TEST(each_method_has_its_order)
 {
     static const int steps[10] = {0, 0, 400, 400, 480, 120, 60, 30, 20, 16};
-    (void)state;
     for (int method = DEM_METHOD_FEHLBERG45; method < DEM_METHOD_VERLET; method++) {
         dem_method_traits traits;
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) {
@@ -157,10 +156,9 @@ static void each_method_has_its_order(void **state)
 }
 
 /* Errors of 1e-10 per step over about 100 steps; none of them may be as coarse as the capped step alone would be. */
-static void adaptive_steps_keep_the_error_they_are_given(void **state)
+TEST(adaptive_steps_keep_the_error_they_are_given)
 {
     const double errors[2] = {1e-6, 1e-10};
-    (void)state;
     for (int k = 0; k < 2; k++) {
         world w = {.fails_after = 1e9};
         dense_output p = {0};
@@ -199,15 +197,14 @@ static int steps_with_errors(double position, double velocity)
 }
 
 /* 60 of the longest steps make up 6 s; the first is a tenth of it. */
-static void errors_of_positions_and_of_velocities_both_count(void **state)
+TEST(errors_of_positions_and_of_velocities_both_count)
 {
-    (void)state;
     assert_true(steps_with_errors(1.0, 1.0) <= 62);
     assert_true(steps_with_errors(1e-11, 1.0) > 100);
     assert_true(steps_with_errors(1.0, 1e-11) > 100);
 }
 
-static void an_unknown_method_is_refused(void **state)
+TEST(an_unknown_method_is_refused)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
@@ -218,7 +215,6 @@ static void an_unknown_method_is_refused(void **state)
                                  .velocity_error = 1.0,
                                  .max_step = 1.0};
     integrator i;
-    (void)state;
     assert_int_equal(integrator_create(&i, &problem, 0.0, at_rest), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "unknown method 77");
     assert_null(i.self);
@@ -228,12 +224,11 @@ static void an_unknown_method_is_refused(void **state)
 /* ---- the dense output of a step ---- */
 
 /* ARKODE's interpolant gives the derivatives at its ends back to rounding. */
-static void a_step_starts_where_the_last_one_ended_and_holds_the_derivatives(void **state)
+TEST(a_step_starts_where_the_last_one_ended_and_holds_the_derivatives)
 {
     world w = {.fails_after = 1e9};
     dense_output p;
     double t = 0.0, y[4], f[4];
-    (void)state;
     memcpy(y, at_rest, sizeof y);
     integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
     for (int k = 0; k < 30; k++) {
@@ -253,14 +248,13 @@ static void a_step_starts_where_the_last_one_ended_and_holds_the_derivatives(voi
     integrator_destroy(&i);
 }
 
-static void after_a_restart_the_dense_output_has_the_derivatives_of_the_new_state(void **state)
+TEST(after_a_restart_the_dense_output_has_the_derivatives_of_the_new_state)
 {
     const double elsewhere[4] = {0.3, -0.7, 1.5, 2.5};
     world w = {.fails_after = 1e9};
     dense_output p;
     double f[4];
     bool rooted;
-    (void)state;
     integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
     for (int k = 0; k < 3; k++) assert_ok(integrator_step(&i, &p, &rooted));
     assert_ok(integrator_restart(&i, p.t1, elsewhere));
@@ -271,10 +265,9 @@ static void after_a_restart_the_dense_output_has_the_derivatives_of_the_new_stat
     integrator_destroy(&i);
 }
 
-static void evaluations_are_counted(void **state)
+TEST(evaluations_are_counted)
 {
     world w = {.fails_after = 1e9};
-    (void)state;
     integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
     for (int k = 0; k < 10; k++) {
         dense_output p;
@@ -321,13 +314,12 @@ static void step_to_root(integrator *i, dense_output *p)
 
 /* From 0.9 m to a floor at 0.2 m, with time and place to 1e-12: ARKODE's 100 units of rounding of the time, and
  * rounding of the motion. */
-static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
+TEST(the_floor_is_hit_at_the_time_of_free_fall)
 {
     const double y[4] = {0.0, 0.9, 1.0, 0.0}, t = sqrt(2.0 * 0.7 / g);
     world w = {.fails_after = 1e9, .walls.floor = 0.2};
     dense_output p;
     double end[4];
-    (void)state;
     integrator i = make_fall(&w, y);
     step_to_root(&i, &p);
     assert_close(p.end, t, 1e-12);
@@ -339,12 +331,11 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
 
 /* Starts below the floor and rises through it, which is no root; then the ceiling is one, from below, where its
  * root function falls. */
-static void a_root_is_looked_for_only_as_the_function_falls(void **state)
+TEST(a_root_is_looked_for_only_as_the_function_falls)
 {
     const double y[4] = {0.0, -0.5, 0.0, 10.0};
     world w = {.fails_after = 1e9, .walls.floor = 0.0};
     dense_output p;
-    (void)state;
     integrator i = make_fall(&w, y);
     step_to_root(&i, &p);
     assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-12);
@@ -353,14 +344,13 @@ static void a_root_is_looked_for_only_as_the_function_falls(void **state)
 
 /* Reflected at the floor it comes down again after 2 v/g; the penetration tolerance of 1e-9 m below the restart makes
  * the root function positive there. The first step after the restart is as long as before. */
-static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state)
+TEST(a_restart_goes_on_from_the_new_state_with_the_step_kept)
 {
     const double y[4] = {0.0, 0.5, 1.0, 0.0}, penetration_tolerance = 1e-9, u = sqrt(2.0 * g * 0.5);
     world w = {.fails_after = 1e9, .walls.floor = -penetration_tolerance};
     double reflected[4];
     dense_output p;
     bool rooted;
-    (void)state;
     integrator i = make_fall(&w, y);
     step_to_root(&i, &p);
     const double first = p.end;
@@ -380,13 +370,12 @@ static void a_restart_goes_on_from_the_new_state_with_the_step_kept(void **state
 }
 
 /* Without a restart a step that was cut short at a root goes on to its end. */
-static void without_a_restart_it_goes_on_through_a_root(void **state)
+TEST(without_a_restart_it_goes_on_through_a_root)
 {
     const double y[4] = {0.0, 0.5, 1.0, 0.0};
     world w = {.fails_after = 1e9, .walls.floor = 0.0};
     dense_output p;
     bool rooted;
-    (void)state;
     integrator i = make_fall(&w, y);
     step_to_root(&i, &p);
     const double t1 = p.t1;
@@ -398,14 +387,13 @@ static void without_a_restart_it_goes_on_through_a_root(void **state)
 
 /* ---- failures ---- */
 
-static void a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_state(void **state)
+TEST(a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_state)
 {
     world w = {.fails_after = 0.25, .failures_left = -1};
     dense_output p = {0};
     bool rooted;
     dem_status status = DEM_OK;
     double last = 0.0;
-    (void)state;
     integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-6, 0.0, at_rest);
     for (int k = 0; k < 1000 && status == DEM_OK; k++) {
         last = p.t1;
@@ -422,11 +410,10 @@ static void a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_s
     integrator_destroy(&i);
 }
 
-static void a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_steps(void **state)
+TEST(a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_steps)
 {
     world w = {.fails_after = 0.25, .failures_left = 3};
     dense_output p = {0};
-    (void)state;
     integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
     while (p.t1 < 1.0) {
         bool rooted;
@@ -438,12 +425,11 @@ static void a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_step
     integrator_destroy(&i);
 }
 
-static void fixed_steps_are_not_tried_again(void **state)
+TEST(fixed_steps_are_not_tried_again)
 {
     world w = {.fails_after = 0.25, .failures_left = 1};
     dense_output p = {0};
     bool rooted;
-    (void)state;
     integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-6, 0.1, at_rest);
     assert_ok(integrator_step(&i, &p, &rooted));
     assert_ok(integrator_step(&i, &p, &rooted));
@@ -453,12 +439,11 @@ static void fixed_steps_are_not_tried_again(void **state)
     integrator_destroy(&i);
 }
 
-static void a_tolerance_out_of_reach_is_reported(void **state)
+TEST(a_tolerance_out_of_reach_is_reported)
 {
     world w = {.fails_after = 1e9};
     dense_output p;
     bool rooted;
-    (void)state;
     integrator i = make(&w, rattle, DEM_METHOD_FEHLBERG45, 1e-12, 0.0, at_rest);
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the step from t = 0 s fails: no step is short enough for rtol");
@@ -466,59 +451,31 @@ static void a_tolerance_out_of_reach_is_reported(void **state)
     integrator_destroy(&i);
 }
 
-static void a_tolerance_below_rounding_is_reported(void **state)
+TEST(a_tolerance_below_rounding_is_reported)
 {
     world w = {.fails_after = 1e9};
     dense_output p;
     bool rooted;
-    (void)state;
     integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-17, 0.0, at_rest);
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the step from t = 0 s fails: rounding alone is more than rtol allows");
     integrator_destroy(&i);
 }
 
-static void a_root_function_that_is_no_number_is_an_error(void **state)
+TEST(a_root_function_that_is_no_number_is_an_error)
 {
     world w = {.fails_after = 1e9, .walls.broken = true};
     dense_output p;
     bool rooted;
-    (void)state;
     integrator i = make_fall(&w, at_rest);
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the step from t = 0 s fails: the root function is not finite");
     integrator_destroy(&i);
 }
 
-static void the_version_of_sundials_has_three_numbers(void **state)
+TEST(the_version_of_sundials_has_three_numbers)
 {
     int number[3] = {-1, -1, -1}, length = 0;
-    (void)state;
     assert_int_equal(sscanf(dem_version_sundials(), "%d.%d.%d%n", &number[0], &number[1], &number[2], &length), 3);
     assert_true(number[0] >= 6 && number[1] >= 0 && number[2] >= 0 && length >= 5);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_method_has_its_order),
-        cmocka_unit_test(adaptive_steps_keep_the_error_they_are_given),
-        cmocka_unit_test(errors_of_positions_and_of_velocities_both_count),
-        cmocka_unit_test(an_unknown_method_is_refused),
-        cmocka_unit_test(a_step_starts_where_the_last_one_ended_and_holds_the_derivatives),
-        cmocka_unit_test(after_a_restart_the_dense_output_has_the_derivatives_of_the_new_state),
-        cmocka_unit_test(evaluations_are_counted),
-        cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
-        cmocka_unit_test(a_root_is_looked_for_only_as_the_function_falls),
-        cmocka_unit_test(a_restart_goes_on_from_the_new_state_with_the_step_kept),
-        cmocka_unit_test(without_a_restart_it_goes_on_through_a_root),
-        cmocka_unit_test(a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_state),
-        cmocka_unit_test(a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_steps),
-        cmocka_unit_test(fixed_steps_are_not_tried_again),
-        cmocka_unit_test(a_tolerance_out_of_reach_is_reported),
-        cmocka_unit_test(a_tolerance_below_rounding_is_reported),
-        cmocka_unit_test(a_root_function_that_is_no_number_is_an_error),
-        cmocka_unit_test(the_version_of_sundials_has_three_numbers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,10 +8,9 @@
 
 #include "time/butcher.h"
 
-static void every_method_has_a_name_by_which_it_is_found(void **state)
+TEST(every_method_has_a_name_by_which_it_is_found)
 {
     dem_method found;
-    (void)state;
     for (int k = 0; k <= DEM_METHOD_VERLET; k++) {
         dem_method_traits traits;
         if (dem_method_describe(&traits, (dem_method)k) != DEM_OK) continue;
@@ -24,12 +23,11 @@ static void every_method_has_a_name_by_which_it_is_found(void **state)
     assert_string_equal(dem_status_message(), "no method is called 'euler'");
 }
 
-static void what_is_not_there_is_refused_with_the_reason(void **state)
+TEST(what_is_not_there_is_refused_with_the_reason)
 {
     dem_method_traits traits;
     butcher_table table;
     int number[2] = {0, 0};
-    (void)state;
     assert_int_equal(dem_method_describe(&traits, (dem_method)20), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "unknown method 20");
     assert_int_equal(butcher_load(&table, (dem_method)-1), DEM_ERROR_ARGUMENT);
@@ -45,9 +43,8 @@ static void what_is_not_there_is_refused_with_the_reason(void **state)
 
 /* A last stage at the end of the step is the solution; the stages before are consistent, c_i = sum of a_ij; the weights
  * are those of a quadrature that is exact for a linear rate. */
-static void a_last_stage_at_the_end_of_the_step_is_the_solution(void **state)
+TEST(a_last_stage_at_the_end_of_the_step_is_the_solution)
 {
-    (void)state;
     for (int k = 0; k < DEM_METHOD_VERLET; k++) {
         butcher_table t;
         double sum = 0.0, moment = 0.0;
@@ -67,10 +64,9 @@ static void a_last_stage_at_the_end_of_the_step_is_the_solution(void **state)
 }
 
 /* R(z) of s = p stages is the exponential series: |R|^2 = 1 - z^4/12 + z^6/36 for p = 3, 1 - z^6/72 + z^8/576 for 4. */
-static void growth_is_that_of_the_stability_polynomials(void **state)
+TEST(growth_is_that_of_the_stability_polynomials)
 {
     static const double z[] = {0.1, 0.5, 1.0, 2.0, 2.8, 3.0};
-    (void)state;
     for (size_t k = 0; k < sizeof z / sizeof *z; k++) {
         const double z2 = z[k] * z[k], z6 = z2 * z2 * z2;
         assert_close(dem_method_growth(DEM_METHOD_BS23, z[k]), sqrt(1.0 - z2 * z2 / 12.0 + z6 / 36.0), 1e-13);
@@ -83,7 +79,7 @@ static void growth_is_that_of_the_stability_polynomials(void **state)
 
 /* To the thousandth that is searched. Fehlberg's grows by 9.1e-4 z^6 from the start, Dormand and Prince's is damped up
  * to 0.997. */
-static void the_stability_bounds_are_those_known(void **state)
+TEST(the_stability_bounds_are_those_known)
 {
     static const struct {
         dem_method method;
@@ -92,7 +88,6 @@ static void the_stability_bounds_are_those_known(void **state)
                  {DEM_METHOD_CASHKARP45, 0.0, 1.25}, {DEM_METHOD_ZONNEVELD34, 2.8284, 2.829},
                  {DEM_METHOD_BS23, 1.7320, 1.734},   {DEM_METHOD_RK4, 2.8284, 2.829},
                  {DEM_METHOD_VERLET, 2.0, 2.0}};
-    (void)state;
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
         dem_method_traits traits;
         assert_ok(dem_method_describe(&traits, known[k].method));
@@ -100,16 +95,4 @@ static void the_stability_bounds_are_those_known(void **state)
         assert_close(traits.usable, known[k].usable, 1.1e-3);
     }
     assert_close(dem_method_growth(DEM_METHOD_FEHLBERG45, 0.1) - 1.0, 9.1e-10, 0.1e-10);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_method_has_a_name_by_which_it_is_found),
-        cmocka_unit_test(what_is_not_there_is_refused_with_the_reason),
-        cmocka_unit_test(a_last_stage_at_the_end_of_the_step_is_the_solution),
-        cmocka_unit_test(growth_is_that_of_the_stability_polynomials),
-        cmocka_unit_test(the_stability_bounds_are_those_known),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,10 +6,9 @@
 #include <string.h>
 
 #include "time/changed_motion.h"
+#include "unit/both_dimensions.h"
 
 enum { n_nodes = 3, dim_most = STATE_DIM_MOST, n_state = 2 * dim_most * n_nodes };
-
-static int dim; /* of the test that runs */
 
 /* A motion along all axes: coefficients of powers of t, other ones for each. */
 static const double motions[dim_most][MOTION_TERMS] = {
@@ -82,11 +81,10 @@ static void check_motion(const changed_motion *tr, dem_index node, double t, dou
 
 /* ---- polynomials ---- */
 
-static void a_motion_is_the_polynomial_of_its_coefficients(void **state)
+TEST_IN_BOTH(a_motion_is_the_polynomial_of_its_coefficients)
 {
     const motion_polynomial whole = written_from(0.25, 1.5);
     step s;
-    (void)state;
     open_step(&s, 1.5);
     assert_false(changed_motion_has(&s.changed, 1));
     assert_ok(changed_motion_set(&s.changed, 1, &whole));
@@ -96,10 +94,9 @@ static void a_motion_is_the_polynomial_of_its_coefficients(void **state)
     changed_motion_destroy(&s.changed);
 }
 
-static void the_same_motion_can_be_written_from_any_later_time_on(void **state)
+TEST_IN_BOTH(the_same_motion_can_be_written_from_any_later_time_on)
 {
     const motion_polynomial whole = written_from(0.25, 1.5);
-    (void)state;
     for (double from = 0.25; from <= 1.5; from += 0.3125) {
         const motion_polynomial expected = written_from(from, 1.5);
         motion_polynomial later = whole;
@@ -112,11 +109,10 @@ static void the_same_motion_can_be_written_from_any_later_time_on(void **state)
 }
 
 /* Ten times in a row, each from the one before: rounding does not add up to more than ten times one. */
-static void written_anew_again_and_again_it_stays_the_same(void **state)
+TEST_IN_BOTH(written_anew_again_and_again_it_stays_the_same)
 {
     motion_polynomial m = written_from(0.25, 1.5);
     step s;
-    (void)state;
     open_step(&s, 1.5);
     for (int k = 1; k <= 10; k++) {
         motion_polynomial_restart(&m, 0.25 + 0.1 * k, 1.5);
@@ -133,7 +129,7 @@ static void written_anew_again_and_again_it_stays_the_same(void **state)
 
 /* A change with position, velocity and acceleration given at both ends is the one quintic that has them; here it is
  * the motion itself, bent out of nothing. */
-static void a_bend_is_the_quintic_through_both_ends(void **state)
+TEST_IN_BOTH(a_bend_is_the_quintic_through_both_ends)
 {
     const double from = 0.5, end = 1.25;
     const motion_change at = change_at(from);
@@ -141,7 +137,6 @@ static void a_bend_is_the_quintic_through_both_ends(void **state)
     for (int c = 0; c < dim; c++) by.x[c] -= at.x[c], by.v[c] -= at.v[c], by.a[c] -= at.a[c];
     motion_polynomial m = {.from = from, .dim = dim};
     step s;
-    (void)state;
     open_step(&s, end);
     motion_polynomial_add(&m, end, &at, &by);
     assert_ok(changed_motion_set(&s.changed, 2, &m));
@@ -154,13 +149,12 @@ static void a_bend_is_the_quintic_through_both_ends(void **state)
 
 /* As a parabolic dense output: x and v do not know of each other but at the start; the acceleration at the end is not
  * looked at. */
-static void parabolas_go_through_what_they_are_given(void **state)
+TEST_IN_BOTH(parabolas_go_through_what_they_are_given)
 {
     const double from = 0.5, end = 2.5; /* shares of it are exact */
     const motion_change at = {{1.0, -2.0, 4.0}, {3.0, 0.5, -1.0}, {-4.0, 8.0, 2.0}},
                         by = {{5.0, 7.0, 1.0}, {-6.0, 1.0, 4.0}, {1e9, 1e9, 1e9}};
     motion_polynomial m = {.from = from, .dim = dim};
-    (void)state;
     for (int n = 1; n <= 2; n++) { /* and adds to what there is */
         motion_polynomial_add_parabolas(&m, end, &at, &by);
         for (int c = 0; c < dim; c++)
@@ -176,9 +170,8 @@ static void parabolas_go_through_what_they_are_given(void **state)
 
 /* A jump of the velocity that nothing follows, as of a node by itself: straight on, x + v (t - from), however little of
  * the step is left. */
-static void a_node_by_itself_goes_straight_on_after_a_jump(void **state)
+TEST_IN_BOTH(a_node_by_itself_goes_straight_on_after_a_jump)
 {
-    (void)state;
     for (double h = 1.0; h > 1e-12; h *= 0.1) {
         const double end = 2.0, from = end - h;
         const double speed[dim_most] = {3.0, -1.0, 0.5};
@@ -204,14 +197,13 @@ static void a_node_by_itself_goes_straight_on_after_a_jump(void **state)
 }
 
 /* An event at the end of the step leaves nothing to go on with. */
-static void a_motion_without_length_is_the_state_at_its_time(void **state)
+TEST_IN_BOTH(a_motion_without_length_is_the_state_at_its_time)
 {
     const motion_change at = {.x = {0.25, 0.5, 1.0}, .v = {3.0, -1.0, 2.0}, .a = {7.0, 8.0, 9.0}}, by = {.x = {0.0}};
     const motion_polynomial whole = written_from(0.25, 1.5);
     motion_polynomial m = whole;
     double x[dim_most], v[dim_most];
     step s;
-    (void)state;
     motion_polynomial_restart(&m, 1.5, 1.5);
     open_step(&s, 1.5);
     assert_ok(changed_motion_set(&s.changed, 1, &whole));
@@ -227,11 +219,10 @@ static void a_motion_without_length_is_the_state_at_its_time(void **state)
 }
 
 /* Each adds 1 m/s to the velocity; the end of the step is kept once. */
-static void the_last_motion_of_a_node_holds(void **state)
+TEST_IN_BOTH(the_last_motion_of_a_node_holds)
 {
     enum { n = 400 };
     step s;
-    (void)state;
     open_step(&s, 4.0);
     for (dem_index node = 0; node < 2; node++) {
         motion_polynomial m = {.dim = dim};
@@ -256,12 +247,11 @@ static void the_last_motion_of_a_node_holds(void **state)
 /* ---- the end of the step ---- */
 
 /* A node that is kept can change there, and be kept again, though its motion has not. */
-static void a_node_can_be_kept_without_a_motion(void **state)
+TEST_IN_BOTH(a_node_can_be_kept_without_a_motion)
 {
     const motion_polynomial still = {.dim = dim};
     const motion_change jump = {{0.5, 0.25, 0.125}, {2.0, 4.0, 6.0}, {8.0, 16.0, 32.0}};
     step s, before;
-    (void)state;
     open_step(&s, 1.0);
     before = s;
     assert_ok(changed_motion_keep(&s.changed, 2));
@@ -279,12 +269,11 @@ static void a_node_can_be_kept_without_a_motion(void **state)
     changed_motion_destroy(&s.changed);
 }
 
-static void a_jump_at_the_end_changes_the_state_and_its_derivative(void **state)
+TEST_IN_BOTH(a_jump_at_the_end_changes_the_state_and_its_derivative)
 {
     const motion_change jump = {{0.5, 0.25, 0.125}, {2.0, 4.0, 6.0}, {8.0, 16.0, 32.0}};
     const motion_polynomial still = {.dim = dim};
     step s, before;
-    (void)state;
     open_step(&s, 1.0);
     before = s;
     assert_ok(changed_motion_set(&s.changed, 1, &still));
@@ -299,11 +288,10 @@ static void a_jump_at_the_end_changes_the_state_and_its_derivative(void **state)
 }
 
 /* Jumps that are lost and won in rounding: adding and taking away would not do. */
-static void undoing_brings_every_bit_back(void **state)
+TEST_IN_BOTH(undoing_brings_every_bit_back)
 {
     const motion_polynomial still = {.dim = dim};
     step s, before;
-    (void)state;
     open_step(&s, 1.0);
     before = s;
     for (int round = 0; round < 3; round++) {
@@ -325,11 +313,10 @@ static void undoing_brings_every_bit_back(void **state)
     changed_motion_destroy(&s.changed);
 }
 
-static void the_next_step_knows_nothing_of_the_last_which_stays_as_it_is(void **state)
+TEST_IN_BOTH(the_next_step_knows_nothing_of_the_last_which_stays_as_it_is)
 {
     const motion_polynomial still = {.dim = dim};
     step s, next;
-    (void)state;
     open_step(&s, 1.0);
     assert_ok(changed_motion_set(&s.changed, 2, &still));
     changed_motion_move_end(&s.changed, 2, &(motion_change){.x = {1.0, 1.0, 1.0}});
@@ -341,39 +328,4 @@ static void the_next_step_knows_nothing_of_the_last_which_stays_as_it_is(void **
     assert_memory_equal(s.y1, next.y1, sizeof s.y1);
     assert_close(s.y1[2 * dim], 1.0 / (3.0 + 2 * dim) + 1.0, 1e-15);
     changed_motion_destroy(&s.changed);
-}
-
-static int in_two_dimensions(void **state)
-{
-    (void)state;
-    dim = 2;
-    return 0;
-}
-
-static int in_three_dimensions(void **state)
-{
-    (void)state;
-    dim = 3;
-    return 0;
-}
-
-#define IN_BOTH(test) cmocka_unit_test_setup(test, in_two_dimensions), cmocka_unit_test_setup(test, in_three_dimensions)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        IN_BOTH(a_motion_is_the_polynomial_of_its_coefficients),
-        IN_BOTH(the_same_motion_can_be_written_from_any_later_time_on),
-        IN_BOTH(written_anew_again_and_again_it_stays_the_same),
-        IN_BOTH(a_bend_is_the_quintic_through_both_ends),
-        IN_BOTH(parabolas_go_through_what_they_are_given),
-        IN_BOTH(a_node_by_itself_goes_straight_on_after_a_jump),
-        IN_BOTH(a_motion_without_length_is_the_state_at_its_time),
-        IN_BOTH(the_last_motion_of_a_node_holds),
-        IN_BOTH(a_node_can_be_kept_without_a_motion),
-        IN_BOTH(a_jump_at_the_end_changes_the_state_and_its_derivative),
-        IN_BOTH(undoing_brings_every_bit_back),
-        IN_BOTH(the_next_step_knows_nothing_of_the_last_which_stays_as_it_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

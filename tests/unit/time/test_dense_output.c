@@ -97,9 +97,8 @@ static void same_motion(const motion *m, const dense_output *p, const double *y,
 }
 
 /* Ends that no interpolation would reproduce: positions and velocities have nothing to do with each other. */
-static void the_ends_are_the_states_to_the_bit(void **state)
+TEST(the_ends_are_the_states_to_the_bit)
 {
-    (void)state;
     for (int q = 1; q <= 20; q++) {
         step s;
         double y[n_state];
@@ -120,10 +119,9 @@ static void the_ends_are_the_states_to_the_bit(void **state)
 }
 
 /* Rounding of a dozen terms of order 10. */
-static void motions_of_degree_5_are_exact_with_their_velocities(void **state)
+TEST(motions_of_degree_5_are_exact_with_their_velocities)
 {
     const double starts[3] = {0.0, -0.7, 0.9}, lengths[3] = {1.0, 1.3, 0.25};
-    (void)state;
     for (int q = 0; q < 6; q++) {
         step s;
         const int dim = 2 + q / 3;
@@ -140,9 +138,8 @@ static void motions_of_degree_5_are_exact_with_their_velocities(void **state)
 }
 
 /* In powers of s, from the start on: rounding of six terms of order 10. */
-static void the_motion_of_a_node_is_the_same_as_a_polynomial(void **state)
+TEST(the_motion_of_a_node_is_the_same_as_a_polynomial)
 {
-    (void)state;
     for (int q = 0; q < 4; q++) {
         step s;
         motion_polynomial m;
@@ -181,10 +178,9 @@ static void errors_of_swing(double h, double *position, double *velocity)
 }
 
 /* Hermite's remainder: x'''''' s^3 (1 - s)^3 h^6/720, at most 4/46080 h^6; its order is 6, of the velocities 5. */
-static void other_motions_are_interpolated_to_sixth_order(void **state)
+TEST(other_motions_are_interpolated_to_sixth_order)
 {
     double x[2], v[2];
-    (void)state;
     errors_of_swing(0.4, &x[0], &v[0]);
     errors_of_swing(0.2, &x[1], &v[1]);
     assert_true(x[0] <= 4.0 / 46080.0 * pow(0.4, 6.0));
@@ -192,11 +188,10 @@ static void other_motions_are_interpolated_to_sixth_order(void **state)
     assert_close(log2(v[0] / v[1]), 5.0, 0.2);
 }
 
-static void the_whole_state_is_made_of_the_same_numbers_to_the_bit(void **state)
+TEST(the_whole_state_is_made_of_the_same_numbers_to_the_bit)
 {
     step s;
     double y[n_state];
-    (void)state;
     for (int q = 0; q < 4; q++) {
         make_step(&s, 2 + q / 2, &swing, 1.0, 1.37);
         s.dense.parabolic = q % 2 == 1;
@@ -211,10 +206,9 @@ static void the_whole_state_is_made_of_the_same_numbers_to_the_bit(void **state)
 }
 
 /* One unit of rounding of t inside either end: the state differs by that time's motion and by rounding. */
-static void it_is_continuous_at_its_ends(void **state)
+TEST(it_is_continuous_at_its_ends)
 {
     step s;
-    (void)state;
     make_step(&s, 3, &swing, 1.0, 1.5);
     const double first = nextafter(1.0, 2.0), last = nextafter(1.5, 1.0);
     for (dem_index i = 0; i < n_nodes; i++) {
@@ -230,9 +224,8 @@ static void it_is_continuous_at_its_ends(void **state)
 
 /* The positions' rounding of 1e-16 m over a step of 1e-15 to 1e-9 s would be a velocity of 0.1 m/s down to 1e-7 m/s.
  * What is left is the change of the velocity over the step, 4 m/s^2 times h, and its rounding. */
-static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_step(void **state)
+TEST(rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_step)
 {
-    (void)state;
     for (double h = 1e-15; h < 1e-8; h *= 10.0) {
         step s;
         make_step(&s, 2, &swing, 0.7, 0.7 + h);
@@ -246,11 +239,10 @@ static void rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_st
 }
 
 /* A displacement that the velocities do not explain is followed: at rest at both ends, 0.1 m apart. */
-static void a_displacement_beyond_rounding_is_followed(void **state)
+TEST(a_displacement_beyond_rounding_is_followed)
 {
     double y0[4] = {1.0, 2.0, 0.0, 0.0}, y1[4] = {1.1, 2.0, 0.0, 0.0}, f[4] = {0.0, 0.0, 0.0, 0.0};
     const dense_output p = {{2, 1, 0, 0, 1}, 0.0, 2.0, 2.0, y0, f, y1, f, false, NULL};
-    (void)state;
     assert_close(motion_at(&p, 1.0, 0).x[0], 1.05, 1e-15);
     assert_close(motion_at(&p, 1.0, 0).v[0], 0.1 * 30.0 / 16.0 / 2.0, 1e-15); /* B'(1/2) = 30/16 over h */
     assert_close(motion_at(&p, 1.0, 0).x[1], 2.0, 0.0);
@@ -258,12 +250,11 @@ static void a_displacement_beyond_rounding_is_followed(void **state)
 }
 
 /* From 1 with velocity 3 to 2, and from 3 m/s with 4 m/s^2 to 5 m/s, in 2 s: accelerations at the end do not count. */
-static void a_parabolic_output_matches_what_a_method_of_order_2_knows(void **state)
+TEST(a_parabolic_output_matches_what_a_method_of_order_2_knows)
 {
     double y0[4] = {1.0, 0.0, 3.0, 0.0}, y1[4] = {2.0, 0.0, 5.0, 0.0}, f0[4] = {3.0, 0.0, 4.0, 0.0};
     double f1[4] = {5.0, 0.0, 99.0, 0.0}, y[4];
     const dense_output p = {{2, 1, 0, 0, 1}, 0.0, 2.0, 2.0, y0, f0, y1, f1, true, NULL};
-    (void)state;
     assert_close(motion_at(&p, 1.0, 0).x[0], 1.0 + 3.0 - 1.25, 1e-15);
     assert_close(motion_at(&p, 1.0, 0).v[0], 3.0 + 4.0 - 1.5, 1e-15);
     assert_close((motion_at(&p, 1e-6, 0).x[0] - 1.0) / 1e-6, 3.0, 1e-5);
@@ -275,20 +266,4 @@ static void a_parabolic_output_matches_what_a_method_of_order_2_knows(void **sta
     dense_output_state(&p, 0.5, y);
     assert_close(y[0], motion_at(&p, 0.5, 0).x[0], 0.0);
     assert_close(y[2], motion_at(&p, 0.5, 0).v[0], 0.0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_ends_are_the_states_to_the_bit),
-        cmocka_unit_test(motions_of_degree_5_are_exact_with_their_velocities),
-        cmocka_unit_test(the_motion_of_a_node_is_the_same_as_a_polynomial),
-        cmocka_unit_test(other_motions_are_interpolated_to_sixth_order),
-        cmocka_unit_test(the_whole_state_is_made_of_the_same_numbers_to_the_bit),
-        cmocka_unit_test(it_is_continuous_at_its_ends),
-        cmocka_unit_test(rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_step),
-        cmocka_unit_test(a_displacement_beyond_rounding_is_followed),
-        cmocka_unit_test(a_parabolic_output_matches_what_a_method_of_order_2_knows),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,10 +37,9 @@ static double root_function(const dense_output *step, void *context)
     return floor_and_ceiling_root(&w->walls, step);
 }
 
-static void every_method_finds_the_bounces_of_a_ball(void **state)
+TEST(every_method_finds_the_bounces_of_a_ball)
 {
     const double y0[4] = {0.0, 0.5, 1.0, 0.0}, u = sqrt(2.0 * g * 0.5);
-    (void)state;
     for (int method = 0; method <= DEM_METHOD_VERLET; method++) {
         dem_method_traits traits;
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
@@ -81,11 +80,10 @@ static void every_method_finds_the_bounces_of_a_ball(void **state)
 }
 
 /* Settled after each step and reflected where the state is; after a root nobody has to change anything. */
-static void steps_are_settled_and_states_changed_where_they_are(void **state)
+TEST(steps_are_settled_and_states_changed_where_they_are)
 {
     const double y0[4] = {0.0, 0.5, 1.0, 0.0}, u = sqrt(2.0 * g * 0.5);
     const dem_method methods[] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
-    (void)state;
     for (int m = 0; m < 2; m++) {
         world w = {.walls.floor = -penetration_tolerance};
         int bounces = 0;
@@ -178,9 +176,8 @@ static void swing(dem_method method, state_layout l, double y[most_numbers])
     integrator_destroy(&e);
 }
 
-static void a_third_component_goes_as_the_others_do_to_the_bit(void **state)
+TEST(a_third_component_goes_as_the_others_do_to_the_bit)
 {
-    (void)state;
     for (int method = 0; method <= DEM_METHOD_VERLET; method++) {
         const state_layout plane = {.dim = 2, .n_nodes = 2, .n_rows = rows},
                            space = {.dim = 3, .n_nodes = 2, .n_rows = rows};
@@ -197,7 +194,7 @@ static void a_third_component_goes_as_the_others_do_to_the_bit(void **state)
     }
 }
 
-static void what_cannot_be_made_is_reported(void **state)
+TEST(what_cannot_be_made_is_reported)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
@@ -207,18 +204,6 @@ static void what_cannot_be_made_is_reported(void **state)
                                  .method = (dem_method)99};
     const double y0[4] = {0.0};
     integrator e;
-    (void)state;
     assert_int_equal(integrator_create(&e, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
     integrator_destroy(&e);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_method_finds_the_bounces_of_a_ball),
-        cmocka_unit_test(steps_are_settled_and_states_changed_where_they_are),
-        cmocka_unit_test(a_third_component_goes_as_the_others_do_to_the_bit),
-        cmocka_unit_test(what_cannot_be_made_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

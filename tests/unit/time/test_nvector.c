@@ -51,9 +51,8 @@ static void assert_is(N_Vector v, int which)
     for (dem_index k = 0; k < n; k++) assert_close(nvector_values(v)[k], number(which, k), 0.0);
 }
 
-static void a_copy_shares_numbers_until_one_is_given_others(void **state)
+TEST(a_copy_shares_numbers_until_one_is_given_others)
 {
-    (void)state;
     bench b = make_bench(1);
     N_VScale(1.0, b.v[0], b.v[1]);
     nvector_share(b.v[0], b.v[2]);
@@ -75,9 +74,8 @@ static void a_copy_shares_numbers_until_one_is_given_others(void **state)
 }
 
 /* Every vector shared and parted again, many times: no buffer is lost, none has two owners. */
-static void buffers_go_round(void **state)
+TEST(buffers_go_round)
 {
-    (void)state;
     bench b = make_bench(1);
     for (int round = 0; round < 1000; round++) {
         const int from = (7 * round) % n_vectors, to = (3 * round + round / n_vectors) % n_vectors;
@@ -90,9 +88,8 @@ static void buffers_go_round(void **state)
     free_bench(&b);
 }
 
-static void combinations_leave_out_zeros_and_may_go_where_an_operand_is(void **state)
+TEST(combinations_leave_out_zeros_and_may_go_where_an_operand_is)
 {
-    (void)state;
     for (int n_threads = 1; n_threads <= 3; n_threads++) {
         bench b = make_bench(n_threads);
         double c[4] = {2.0, 0.0, -3.0, 1.0};
@@ -117,9 +114,8 @@ static void combinations_leave_out_zeros_and_may_go_where_an_operand_is(void **s
 /* sqrt(sum of (x w)^2/n), within 1e-9: at the lower end of a range the largest number is 3e-5, and its square is
  * rounded to 2^-60; below 1e-3 that is 1e-6 of them. One number far above the others, where a sample does not see
  * it; and the same bits for any number of threads. */
-static void norms_of_all_sizes_are_right(void **state)
+TEST(norms_of_all_sizes_are_right)
 {
-    (void)state;
     for (double size = 1e-6; size < 1e201; size *= 1e3)
         for (int peak = 0; peak < 2; peak++) {
             double first = 0.0;
@@ -142,9 +138,8 @@ static void norms_of_all_sizes_are_right(void **state)
         }
 }
 
-static void the_norm_of_what_is_no_number_is_infinite(void **state)
+TEST(the_norm_of_what_is_no_number_is_infinite)
 {
-    (void)state;
     bench b = make_bench(2);
     nvector_fresh(b.v[0])[700] = (double)NAN;
     assert_true(N_VWrmsNorm(b.v[0], b.v[1]) > 1e300);
@@ -156,9 +151,8 @@ static void the_norm_of_what_is_no_number_is_infinite(void **state)
 }
 
 /* What ARKODE asks a vector to have. */
-static void the_rest_goes_number_by_number(void **state)
+TEST(the_rest_goes_number_by_number)
 {
-    (void)state;
     bench b = make_bench(1);
     N_VDiv(b.v[0], b.v[1], b.v[2]);
     assert_close(nvector_values(b.v[2])[3], number(0, 3) / number(1, 3), 0.0);
@@ -172,17 +166,4 @@ static void the_rest_goes_number_by_number(void **state)
     assert_close(N_VMaxNorm(b.v[3]), 7.0, 0.0);
     assert_int_equal(N_VGetVectorID(b.v[0]), SUNDIALS_NVEC_CUSTOM);
     free_bench(&b);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_copy_shares_numbers_until_one_is_given_others),
-        cmocka_unit_test(buffers_go_round),
-        cmocka_unit_test(combinations_leave_out_zeros_and_may_go_where_an_operand_is),
-        cmocka_unit_test(norms_of_all_sizes_are_right),
-        cmocka_unit_test(the_norm_of_what_is_no_number_is_infinite),
-        cmocka_unit_test(the_rest_goes_number_by_number),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,11 +104,10 @@ static void run(world w, double h, int n, const double *y0, double *y)
 /* ---- the step ---- */
 
 /* x1 = x0 + h v0 + h^2/2 a0, v1 = v0 + h (a0 + a1)/2. */
-static void a_step_is_a_kick_a_drift_and_a_kick(void **state)
+TEST(a_step_is_a_kick_a_drift_and_a_kick)
 {
     const double y0[4] = {0.4, 1.0, -0.3, 2.0}, h = 0.2, a0 = -sin(0.4);
     double y[4];
-    (void)state;
     run(plain, h, 1, y0, y);
     assert_close(y[0], 0.4 - 0.3 * h + 0.5 * h * h * a0, 1e-16);
     assert_close(y[2], -0.3 + 0.5 * h * (a0 - sin(y[0])), 1e-16);
@@ -146,10 +145,9 @@ static int fused_from_above(const ode_fused_step *s, void *context)
     return flag;
 }
 
-static void a_step_in_one_pass_is_that_in_parts(void **state)
+TEST(a_step_in_one_pass_is_that_in_parts)
 {
     const double start[8] = {0.4, 1.0, 7.0, -7.0, -0.3, 2.0, 3.0, 5.0}, h = 0.05;
-    (void)state;
     for (int k = 0; k < 2; k++) {
         world worlds[2] = {plain, plain};
         dense_output p[2];
@@ -184,10 +182,9 @@ static void a_step_in_one_pass_is_that_in_parts(void **state)
 
 /* With damping too, whose velocity is extrapolated: halving the step quarters the difference, to what the next order
  * adds. */
-static void the_order_is_two_with_forces_of_any_kind(void **state)
+TEST(the_order_is_two_with_forces_of_any_kind)
 {
     const double y0[4] = {1.0, 0.0, 0.5, 0.0};
-    (void)state;
     for (int damped = 0; damped < 2; damped++) {
         world w = plain;
         double y[3][4];
@@ -198,11 +195,10 @@ static void the_order_is_two_with_forces_of_any_kind(void **state)
 }
 
 /* Back to the start, but for rounding, when the velocity is turned round: that is what keeps the energy. */
-static void it_runs_backwards(void **state)
+TEST(it_runs_backwards)
 {
     const double y0[4] = {1.0, 0.0, 0.5, 3.0};
     double y[4], back[4];
-    (void)state;
     run(plain, 0.3, 1000, y0, y);
     const double turned[4] = {y[0], y[1], -y[2], -y[3]};
     run(plain, 0.3, 1000, turned, back);
@@ -222,10 +218,9 @@ static double amplitude(double omega, double gamma, double h)
 }
 
 /* Stable up to (omega h)^2 = 4 (1 - gamma h). */
-static void the_stability_bound_is_that_of_the_characteristic_equation(void **state)
+TEST(the_stability_bound_is_that_of_the_characteristic_equation)
 {
     static const double damping[4] = {0.0, 0.1, 0.5, 0.9};
-    (void)state;
     for (int k = 0; k < 4; k++) {
         const double bound = 2.0 * sqrt(1.0 - damping[k]);
         assert_true(amplitude(0.99 * bound, damping[k], 1.0) < 100.0);
@@ -234,12 +229,11 @@ static void the_stability_bound_is_that_of_the_characteristic_equation(void **st
 }
 
 /* The step is halved twice for a stiffening of 3, and is whole again after. */
-static void stiffening_halves_the_step(void **state)
+TEST(stiffening_halves_the_step)
 {
     const double y0[4] = {0.9, 0.0, -1.0, 0.0};
     world w = plain;
     dense_output p = {0};
-    (void)state;
     w.stiff_below = 0.5;
     w.omega = 3.0;
     integrator V = make(&w, 0.1, false, y0);
@@ -261,20 +255,18 @@ static double endless(const double *y, void *context)
     return (double)INFINITY;
 }
 
-static void no_stiffening_stops_the_time(void **state)
+TEST(no_stiffening_stops_the_time)
 {
     const ode_problem problem = {.fixed_step = 0.1, .stiffening = endless};
-    (void)state;
     assert_true(ode_problem_fixed_step(&problem, NULL) > 1e-12);
 }
 
 /* What the derivative gives in place of a velocity is taken over, at rest or not. */
-static void prescribed_velocities_are_taken_over(void **state)
+TEST(prescribed_velocities_are_taken_over)
 {
     const double y0[4] = {0.0, 0.0, 0.25, 0.0};
     double y[4];
     world w = plain;
-    (void)state;
     w.pulled = 0.5;
     run(w, 0.1, 10, y0, y);
     assert_close(y[2], 0.5, 0.0);
@@ -285,11 +277,10 @@ static void prescribed_velocities_are_taken_over(void **state)
 
 /* Up to any time within a step it is where a step of that length would go; its velocity there differs in the third
  * order. */
-static void the_dense_output_of_a_step_is_that_of_shorter_steps(void **state)
+TEST(the_dense_output_of_a_step_is_that_of_shorter_steps)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0}, h = 0.1;
     world w = plain;
-    (void)state;
     integrator V = make(&w, h, false, y0);
     const dense_output p = take(&V, 1);
     for (int k = 0; k <= 10; k++) {
@@ -301,12 +292,11 @@ static void the_dense_output_of_a_step_is_that_of_shorter_steps(void **state)
     integrator_destroy(&V);
 }
 
-static void a_step_starts_where_the_last_one_ended(void **state)
+TEST(a_step_starts_where_the_last_one_ended)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0};
     world w = plain;
     double t = 0.0, y[4], a[2];
-    (void)state;
     memcpy(y, y0, sizeof y);
     integrator V = make(&w, 0.1, true, y0);
     w.walls.floor = -1e3;
@@ -338,13 +328,12 @@ static void step_to_root(integrator *V, dense_output *p)
 }
 
 /* Free fall is a parabola, so that time and place are exact to the 100 units of rounding to which roots are found. */
-static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
+TEST(the_floor_is_hit_at_the_time_of_free_fall)
 {
     const double y0[4] = {0.0, 0.9, 0.0, 0.0}, t = sqrt(2.0 * 0.7 / g);
     world w = plain;
     dense_output p;
     double y[4];
-    (void)state;
     w.walls.floor = 0.2;
     integrator V = make(&w, 0.1, true, y0);
     step_to_root(&V, &p);
@@ -357,12 +346,11 @@ static void the_floor_is_hit_at_the_time_of_free_fall(void **state)
 }
 
 /* From below through the floor is none, the ceiling above it is. */
-static void a_root_is_looked_for_only_as_the_function_falls(void **state)
+TEST(a_root_is_looked_for_only_as_the_function_falls)
 {
     const double y0[4] = {0.0, -0.5, 0.0, 10.0};
     world w = plain;
     dense_output p;
-    (void)state;
     integrator V = make(&w, 0.04, true, y0);
     step_to_root(&V, &p);
     assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-13);
@@ -371,11 +359,10 @@ static void a_root_is_looked_for_only_as_the_function_falls(void **state)
 
 /* Reflected a penetration tolerance above the floor it comes back after the time of the throw. Without a restart it
  * goes on through. */
-static void it_goes_on_from_a_new_state_or_through_the_root(void **state)
+TEST(it_goes_on_from_a_new_state_or_through_the_root)
 {
     const double y0[4] = {0.0, 0.5, 0.0, 0.0}, penetration_tolerance = 1e-9, u = sqrt(2.0 * g * 0.5);
     double reflected[4];
-    (void)state;
     for (int restarted = 0; restarted < 2; restarted++) {
         world w = plain;
         dense_output p;
@@ -403,14 +390,13 @@ static void it_goes_on_from_a_new_state_or_through_the_root(void **state)
 
 /* ---- failures ---- */
 
-static void a_derivative_that_fails_leaves_the_last_state(void **state)
+TEST(a_derivative_that_fails_leaves_the_last_state)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0};
     world w = plain;
     dense_output p = {0};
     bool rooted;
     double y[4];
-    (void)state;
     w.fails_after = 0.55;
     integrator V = make(&w, 0.1, false, y0);
     p = take(&V, 5);
@@ -424,13 +410,12 @@ static void a_derivative_that_fails_leaves_the_last_state(void **state)
     integrator_destroy(&(integrator){0});
 }
 
-static void a_root_function_that_is_no_number_is_an_error(void **state)
+TEST(a_root_function_that_is_no_number_is_an_error)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0};
     world w = plain;
     dense_output p;
     bool rooted;
-    (void)state;
     integrator V = make(&w, 0.1, true, y0);
     assert_ok(integrator_step(&V, &p, &rooted));
     w.walls.broken = true;
@@ -439,7 +424,7 @@ static void a_root_function_that_is_no_number_is_an_error(void **state)
     integrator_destroy(&V);
 }
 
-static void without_a_fixed_step_it_is_refused(void **state)
+TEST(without_a_fixed_step_it_is_refused)
 {
     const ode_problem problem = {.method = DEM_METHOD_VERLET,
                                  .layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
@@ -449,30 +434,6 @@ static void without_a_fixed_step_it_is_refused(void **state)
                                  .max_step = 1.0};
     const double y0[4] = {0.0};
     integrator V;
-    (void)state;
     assert_int_equal(integrator_create(&V, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
     assert_null(V.self);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_step_is_a_kick_a_drift_and_a_kick),
-        cmocka_unit_test(a_step_in_one_pass_is_that_in_parts),
-        cmocka_unit_test(the_order_is_two_with_forces_of_any_kind),
-        cmocka_unit_test(it_runs_backwards),
-        cmocka_unit_test(the_stability_bound_is_that_of_the_characteristic_equation),
-        cmocka_unit_test(stiffening_halves_the_step),
-        cmocka_unit_test(no_stiffening_stops_the_time),
-        cmocka_unit_test(prescribed_velocities_are_taken_over),
-        cmocka_unit_test(the_dense_output_of_a_step_is_that_of_shorter_steps),
-        cmocka_unit_test(a_step_starts_where_the_last_one_ended),
-        cmocka_unit_test(the_floor_is_hit_at_the_time_of_free_fall),
-        cmocka_unit_test(a_root_is_looked_for_only_as_the_function_falls),
-        cmocka_unit_test(it_goes_on_from_a_new_state_or_through_the_root),
-        cmocka_unit_test(a_derivative_that_fails_leaves_the_last_state),
-        cmocka_unit_test(a_root_function_that_is_no_number_is_an_error),
-        cmocka_unit_test(without_a_fixed_step_it_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

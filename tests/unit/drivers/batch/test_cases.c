@@ -25,9 +25,8 @@ static command ask(const char **decks, size_t n, long index)
     return (command){.decks = decks, .n_decks = n, .index = index};
 }
 
-static void lists_stand_for_their_decks(void **state)
+TEST(lists_stand_for_their_decks)
 {
-    (void)state;
     const char *decks[] = {"a", listed, "f"};
     char b[SCRATCH_PATH], e[SCRATCH_PATH];
     (void)snprintf(b, sizeof b, "%s/b #1", scratch_folder);
@@ -45,9 +44,8 @@ static void lists_stand_for_their_decks(void **state)
     }
 }
 
-static void what_is_not_there_is_a_fault(void **state)
+TEST(what_is_not_there_is_a_fault)
 {
-    (void)state;
     const char *decks[] = {listed, "@/no/list"};
     const command past = ask(decks, 1, 4), missing = ask(decks, 2, 1);
     outcome o = {0};
@@ -61,9 +59,4 @@ static void what_is_not_there_is_a_fault(void **state)
     cases_free(&all);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_stand_for_their_decks),
-                                       cmocka_unit_test(what_is_not_there_is_a_fault)};
-    return cmocka_run_group_tests(tests, make_list, scratch_remove);
-}
+TEST_GROUP(make_list, scratch_remove);

@@ -53,15 +53,13 @@ static void expect(checkpoint_state expected, bool anyway, const char *why)
     checkpoint_file_source_free(&source);
 }
 
-static void none_is_found_where_there_is_none(void **state)
+TEST_WITH(none_is_found_where_there_is_none, NULL, scratch_sweep)
 {
-    (void)state;
     expect(CHECKPOINT_NONE, false, "");
 }
 
-static void that_of_the_same_course_is_found(void **state)
+TEST_WITH(that_of_the_same_course_is_found, NULL, scratch_sweep)
 {
-    (void)state;
     checkpoint_source source;
     char reason[OUTPUT_REASON];
     leave(course, versions(), 1.5);
@@ -77,9 +75,8 @@ static void that_of_the_same_course_is_found(void **state)
     expect(CHECKPOINT_OTHER, false, "the run is at 2.5 s already, beyond t_end = 2 s");
 }
 
-static void the_first_difference_is_named(void **state)
+TEST_WITH(the_first_difference_is_named, NULL, scratch_sweep)
 {
-    (void)state;
     leave("&run\n    gravity = 0, -9.81\n/\n&material\n    density = 1001\n/\n", versions(), 1.0);
     expect(CHECKPOINT_OTHER, true, "it is of has density = 1001 in &material, this one has density = 1000; move");
     leave("&run\n    gravity = 0, -9.81\n/\n", versions(), 1.0);
@@ -88,9 +85,8 @@ static void the_first_difference_is_named(void **state)
     expect(CHECKPOINT_OTHER, false, "has &body in &material, this one has nothing");
 }
 
-static void another_version_is_refused_unless_it_will_do(void **state)
+TEST_WITH(another_version_is_refused_unless_it_will_do, NULL, scratch_sweep)
 {
-    (void)state;
     checkpoint_source source;
     char reason[OUTPUT_REASON], lineage[512];
     leave(course, "dem 0.0.1\ndem 0.0.2", 1.0);
@@ -103,9 +99,8 @@ static void another_version_is_refused_unless_it_will_do(void **state)
     expect(CHECKPOINT_FOUND, false, "");
 }
 
-static void a_damaged_one_gives_way_to_the_one_before(void **state)
+TEST_WITH(a_damaged_one_gives_way_to_the_one_before, NULL, scratch_sweep)
 {
-    (void)state;
     checkpoint_source source;
     char reason[OUTPUT_REASON];
     leave(course, versions(), 1.0);
@@ -125,9 +120,8 @@ static void a_damaged_one_gives_way_to_the_one_before(void **state)
     expect(CHECKPOINT_FOUND, false, "");
 }
 
-static void a_record_of_another_program_is_refused(void **state)
+TEST_WITH(a_record_of_another_program_is_refused, NULL, scratch_sweep)
 {
-    (void)state;
     dem_checkpoint *checkpoint;
     assert_ok(dem_checkpoint_create(&checkpoint));
     assert_ok(dem_checkpoint_put(checkpoint, "driver.course", course, 5)); /* without its end */
@@ -136,17 +130,4 @@ static void a_record_of_another_program_is_refused(void **state)
     expect(CHECKPOINT_OTHER, true, "it is not of this program");
 }
 
-#define CASE(name) cmocka_unit_test_teardown(name, scratch_sweep)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        CASE(none_is_found_where_there_is_none),
-        CASE(that_of_the_same_course_is_found),
-        CASE(the_first_difference_is_named),
-        CASE(another_version_is_refused_unless_it_will_do),
-        CASE(a_damaged_one_gives_way_to_the_one_before),
-        CASE(a_record_of_another_program_is_refused),
-    };
-    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
-}
+TEST_GROUP(make_folder, scratch_remove);

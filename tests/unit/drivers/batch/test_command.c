@@ -4,9 +4,8 @@
 
 #include "command.h"
 
-static void words_come_in_any_order(void **state)
+TEST(words_come_in_any_order)
 {
-    (void)state;
     char *words[] = {"dem_batch", "b.nml",   "--set", "run.t_end=1", "--check", "--outdir",    "f",
                      "@list",     "--index", "3",     "--set",       "a(2).b=", "--overwrite", NULL};
     command c;
@@ -24,9 +23,8 @@ static void words_come_in_any_order(void **state)
     command_free(&c);
 }
 
-static void without_words_it_runs_here(void **state)
+TEST(without_words_it_runs_here)
 {
-    (void)state;
     char *words[] = {"dem_batch", "a", NULL};
     command c;
     assert_int_equal(command_parse(&c, 2, words), EXIT_DONE);
@@ -37,19 +35,10 @@ static void without_words_it_runs_here(void **state)
     command_free(&c);
 }
 
-static void what_is_wrong_is_usage(void **state)
+TEST(what_is_wrong_is_usage)
 {
-    (void)state;
     char *words[] = {"dem_batch", "a", "--index", "0", NULL};
     command c;
     assert_int_equal(command_parse(&c, 4, words), EXIT_USAGE);
     command_free(&c);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(words_come_in_any_order),
-                                       cmocka_unit_test(without_words_it_runs_here),
-                                       cmocka_unit_test(what_is_wrong_is_usage)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

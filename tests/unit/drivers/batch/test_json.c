@@ -27,9 +27,8 @@ static void expect(text *t, const char *expected)
     free(t->bytes);
 }
 
-static void values_stand_in_objects_and_arrays(void **state)
+TEST(values_stand_in_objects_and_arrays)
 {
-    (void)state;
     const double pair[] = {0.5, -2.0};
     text t;
     begin(&t);
@@ -50,9 +49,8 @@ static void values_stand_in_objects_and_arrays(void **state)
     expect(&t, "{\"n\":-9223372036854775808,\"empty\":[],\"x\":[0.5,-2],\"o\":{},\"list\":[{\"a\":\"b\"},null]}");
 }
 
-static void what_is_not_finite_is_null(void **state)
+TEST(what_is_not_finite_is_null)
 {
-    (void)state;
     const double x[] = {(double)INFINITY, -(double)INFINITY, (double)NAN, -0.0, 1e-300};
     text t;
     begin(&t);
@@ -68,20 +66,11 @@ static void expect_escaped(const char *from, const char *expected)
     expect(&t, expected);
 }
 
-static void strings_are_escaped(void **state)
+TEST(strings_are_escaped)
 {
-    (void)state;
     expect_escaped("", "\"\"");
     expect_escaped("a\"b\\c/", "\"a\\\"b\\\\c/\"");
     expect_escaped("\x01\t\r\n\r\x1f\x7f", "\"\\u0001\\u0009\\u000d\\u000a\\u000d\\u001f\\u007f\"");
     expect_escaped("\xce\xb1\xf0\x9f\x98\x80", "\"\xce\xb1\xf0\x9f\x98\x80\"");
     expect_escaped("\xff\xce", "\"\\ufffd\\ufffd\"");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(values_stand_in_objects_and_arrays),
-                                       cmocka_unit_test(what_is_not_finite_is_null),
-                                       cmocka_unit_test(strings_are_escaped)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,9 +43,8 @@ static lock_status status_elsewhere(char why[256])
     return (lock_status)WEXITSTATUS(ended);
 }
 
-static void only_one_process_holds_it(void **state)
+TEST(only_one_process_holds_it)
 {
-    (void)state;
     char why[256], expected[64];
     lock l = {.file = -1};
     assert_int_equal(lock_take(&l, path, why, sizeof why), LOCK_HELD);
@@ -60,9 +59,8 @@ static void only_one_process_holds_it(void **state)
 }
 
 /* A file that a killed process has left behind locks nobody out, whatever is in it. */
-static void what_is_left_behind_is_no_lock(void **state)
+TEST(what_is_left_behind_is_no_lock)
 {
-    (void)state;
     char why[256];
     lock l = {.file = -1};
     FILE *file = fopen(path, "w");
@@ -76,9 +74,8 @@ static void what_is_left_behind_is_no_lock(void **state)
     assert_int_not_equal(access(path, F_OK), 0);
 }
 
-static void a_folder_that_is_not_there_has_none(void **state)
+TEST(a_folder_that_is_not_there_has_none)
 {
-    (void)state;
     char why[256];
     lock l = {.file = -1};
     assert_int_equal(lock_take(&l, "no/such/folder.lock", why, sizeof why), LOCK_FAILED);
@@ -88,9 +85,8 @@ static void a_folder_that_is_not_there_has_none(void **state)
 
 /* Each child takes the lock, or finds that it is taken, many times; who has it finds nobody else's mark, though files
  * come and go all the time. */
-static void no_two_hold_it_at_any_time(void **state)
+TEST(no_two_hold_it_at_any_time)
 {
-    (void)state;
     enum { children = 4, rounds = 200 };
     const char *mark = scratch_file("mark");
     for (int c = 0; c < children; c++) {
@@ -117,10 +113,4 @@ static void no_two_hold_it_at_any_time(void **state)
     assert_int_not_equal(access(path, F_OK), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(only_one_process_holds_it), cmocka_unit_test(what_is_left_behind_is_no_lock),
-        cmocka_unit_test(a_folder_that_is_not_there_has_none), cmocka_unit_test(no_two_hold_it_at_any_time)};
-    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
-}
+TEST_GROUP(make_folder, scratch_remove);

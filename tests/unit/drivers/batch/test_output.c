@@ -83,9 +83,8 @@ static void expect_claim(output_state expected)
 
 /* ---- names ---- */
 
-static void a_hash_has_sixteen_digits(void **state)
+TEST_WITH(a_hash_has_sixteen_digits, NULL, scratch_sweep)
 {
-    (void)state;
     char text[OUTPUT_HASH];
     output_print_hash(text, UINT64_C(0x0123456789abcdef));
     assert_string_equal(text, "0123456789abcdef");
@@ -95,9 +94,8 @@ static void a_hash_has_sixteen_digits(void **state)
     assert_string_equal(text, "ffffffffffffffff");
 }
 
-static void an_output_lies_in_its_folder(void **state)
+TEST_WITH(an_output_lies_in_its_folder, NULL, scratch_sweep)
 {
-    (void)state;
     char text[64];
     assert_true(output_path(text, sizeof text, ".", "drop"));
     assert_string_equal(text, "drop.vtkhdf");
@@ -108,9 +106,8 @@ static void an_output_lies_in_its_folder(void **state)
 }
 
 /* The part's name is longer by ".part": what is accepted leaves room for it. */
-static void a_path_that_does_not_fit_is_refused(void **state)
+TEST_WITH(a_path_that_does_not_fit_is_refused, NULL, scratch_sweep)
 {
-    (void)state;
     char text[64], name[64] = "";
     for (size_t n = 0; n < sizeof name - 1; n++) {
         name[n] = 'x';
@@ -124,22 +121,19 @@ static void a_path_that_does_not_fit_is_refused(void **state)
 
 /* ---- what is found ---- */
 
-static void an_empty_folder_is_free(void **state)
+TEST_WITH(an_empty_folder_is_free, NULL, scratch_sweep)
 {
-    (void)state;
     expect_claim(OUTPUT_FREE);
 }
 
-static void the_same_run_is_done(void **state)
+TEST_WITH(the_same_run_is_done, NULL, scratch_sweep)
 {
-    (void)state;
     leave_run(&mine, 1);
     expect_claim(OUTPUT_DONE);
 }
 
-static void another_run_of_the_same_problem_may_go_on_to_a_later_end(void **state)
+TEST_WITH(another_run_of_the_same_problem_may_go_on_to_a_later_end, NULL, scratch_sweep)
 {
-    (void)state;
     const deck shorter = {.hash = mine.hash, .run_hash = 5, .t_end = 0.75};
     const deck as_long = {.hash = mine.hash, .run_hash = 5, .t_end = mine.t_end};
     const deck longer = {.hash = mine.hash, .run_hash = 5, .t_end = 1.5};
@@ -151,24 +145,21 @@ static void another_run_of_the_same_problem_may_go_on_to_a_later_end(void **stat
     expect_claim(OUTPUT_TAKEN);
 }
 
-static void another_problem_is_not_replaced(void **state)
+TEST_WITH(another_problem_is_not_replaced, NULL, scratch_sweep)
 {
-    (void)state;
     const deck other = {.hash = 5, .run_hash = mine.run_hash};
     leave_run(&other, 1);
     expect_claim(OUTPUT_TAKEN);
 }
 
-static void a_file_of_another_kind_is_not_replaced(void **state)
+TEST_WITH(a_file_of_another_kind_is_not_replaced, NULL, scratch_sweep)
 {
-    (void)state;
     leave_text(path);
     expect_claim(OUTPUT_TAKEN);
 }
 
-static void a_part_of_the_same_problem_may_be_replaced(void **state)
+TEST_WITH(a_part_of_the_same_problem_may_be_replaced, NULL, scratch_sweep)
 {
-    (void)state;
     const deck longer = {.hash = mine.hash, .run_hash = 5};
     leave_run(&mine, 0);
     expect_claim(OUTPUT_FREE);
@@ -176,36 +167,32 @@ static void a_part_of_the_same_problem_may_be_replaced(void **state)
     expect_claim(OUTPUT_FREE);
 }
 
-static void a_part_of_another_problem_is_not_replaced(void **state)
+TEST_WITH(a_part_of_another_problem_is_not_replaced, NULL, scratch_sweep)
 {
-    (void)state;
     const deck other = {.hash = 5, .run_hash = mine.run_hash};
     leave_run(&other, 0);
     expect_claim(OUTPUT_TAKEN);
 }
 
-static void a_part_cut_off_at_its_beginning_may_be_replaced(void **state)
+TEST_WITH(a_part_cut_off_at_its_beginning_may_be_replaced, NULL, scratch_sweep)
 {
-    (void)state;
     leave_run(&mine, 0);
     assert_int_equal(truncate(part, 100), 0);
     expect_claim(OUTPUT_FREE);
 }
 
-static void the_result_counts_more_than_a_part(void **state)
+TEST_WITH(the_result_counts_more_than_a_part, NULL, scratch_sweep)
 {
-    (void)state;
     const deck other = {.hash = 5, .run_hash = 5};
     leave_run(&mine, 1);
     leave_run(&other, 0);
     expect_claim(OUTPUT_DONE);
 }
 
-static void folders_are_made_down_to_the_last(void **state)
+TEST_WITH(folders_are_made_down_to_the_last, NULL, scratch_sweep)
 {
     char deep[SCRATCH_PATH], deeper[SCRATCH_PATH + 8], at[OUTPUT_PATH], reason[OUTPUT_REASON];
     struct stat found;
-    (void)state;
     (void)snprintf(deep, sizeof deep, "%s/x", scratch_folder);
     (void)snprintf(deeper, sizeof deeper, "%s//y/", deep);
     assert_true(output_make_folder(".", at, reason));
@@ -219,10 +206,9 @@ static void folders_are_made_down_to_the_last(void **state)
     assert_int_equal(rmdir(deep), 0);
 }
 
-static void what_is_in_the_way_of_a_folder_is_named(void **state)
+TEST_WITH(what_is_in_the_way_of_a_folder_is_named, NULL, scratch_sweep)
 {
     char below[80], at[OUTPUT_PATH], reason[OUTPUT_REASON];
-    (void)state;
     leave_text(path);
     (void)snprintf(below, sizeof below, "%s/x", path);
     assert_false(output_make_folder(below, at, reason));
@@ -235,25 +221,4 @@ static void what_is_in_the_way_of_a_folder_is_named(void **state)
     assert_string_equal(reason, "the folder cannot be made (No such file or directory)");
 }
 
-#define CASE(name) cmocka_unit_test_teardown(name, scratch_sweep)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        CASE(a_hash_has_sixteen_digits),
-        CASE(an_output_lies_in_its_folder),
-        CASE(a_path_that_does_not_fit_is_refused),
-        CASE(an_empty_folder_is_free),
-        CASE(the_same_run_is_done),
-        CASE(another_run_of_the_same_problem_may_go_on_to_a_later_end),
-        CASE(another_problem_is_not_replaced),
-        CASE(a_file_of_another_kind_is_not_replaced),
-        CASE(a_part_of_the_same_problem_may_be_replaced),
-        CASE(a_part_of_another_problem_is_not_replaced),
-        CASE(a_part_cut_off_at_its_beginning_may_be_replaced),
-        CASE(the_result_counts_more_than_a_part),
-        CASE(folders_are_made_down_to_the_last),
-        CASE(what_is_in_the_way_of_a_folder_is_named),
-    };
-    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
-}
+TEST_GROUP(make_folder, scratch_remove);

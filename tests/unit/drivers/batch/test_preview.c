@@ -4,9 +4,8 @@
 
 #include "unit/logged.h"
 
-static void the_preview_tells_what_is_about_to_run(void **state)
+TEST(the_preview_tells_what_is_about_to_run)
 {
-    (void)state;
     char name[] = "drops/drop.nml", title[] = "A title";
     const deck d = {.path = name, .title = title, .hash = 0xabc, .t_end = 0.25, .frame_interval = 0.01};
     logged *l = drop_node(false, d.t_end);
@@ -29,13 +28,12 @@ static void the_preview_tells_what_is_about_to_run(void **state)
 }
 
 /* Under a g of 5 m/s^2 a penetration tolerance of 1e-5 m keeps up hops of 1e-2 m/s. */
-static void the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up(void **state)
+TEST(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up)
 {
     static const double rest_speed[3] = {0.0, 9.9e-3, 1.01e-2};
     const double x[2] = {0.0, 1.0}, one = 1.0;
     char name[] = "a.nml", title[] = "";
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
-    (void)state;
     for (int k = 0; k < 3; k++) {
         dem_options options = dem_options_default();
         dem_lattice node;
@@ -62,9 +60,8 @@ static void the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_kee
     }
 }
 
-static void the_preview_tells_what_is_probed_and_where(void **state)
+TEST(the_preview_tells_what_is_probed_and_where)
 {
-    (void)state;
     char name[] = "a.nml", title[] = "";
     dem_probe probes[3] = {{"foot", DEM_PROBE_NODE, {2, 0}, 1},
                            {"strut", DEM_PROBE_SPRING, {1, 0}, 30},
@@ -86,9 +83,8 @@ static void the_preview_tells_what_is_probed_and_where(void **state)
 }
 
 /* A block of nu = 0.1 and a node of its own: E, nu and waves of plane stress, and what cannot be measured. */
-static void the_preview_tells_what_was_measured_of_each_body(void **state)
+TEST(the_preview_tells_what_was_measured_of_each_body)
 {
-    (void)state;
     const dem_material solid = {.youngs_modulus = 1e7, .poissons_ratio = 0.1, .density = 1000.0, .thickness = 0.5};
     char name[] = "a.nml", title[] = "";
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
@@ -120,9 +116,8 @@ static void the_preview_tells_what_was_measured_of_each_body(void **state)
 }
 
 /* A slice of a long body: its own E and nu, not those of the plate that moves alike. */
-static void the_preview_tells_the_constants_of_a_slice(void **state)
+TEST(the_preview_tells_the_constants_of_a_slice)
 {
-    (void)state;
     const dem_material slice = {
         .youngs_modulus = 1e7, .poissons_ratio = 0.45, .plane = DEM_PLANE_STRAIN, .density = 1000.0, .thickness = 1.0};
     char name[] = "a.nml", title[] = "";
@@ -146,9 +141,8 @@ static void the_preview_tells_the_constants_of_a_slice(void **state)
 }
 
 /* A body with everything that there may be to tell, and one from a file. */
-static void the_preview_tells_how_bodies_came_out(void **state)
+TEST(the_preview_tells_how_bodies_came_out)
 {
-    (void)state;
     char name[] = "a.nml", title[] = "";
     body_facts bodies[2] = {
         {.mass = 2.5,
@@ -177,9 +171,8 @@ static void the_preview_tells_how_bodies_came_out(void **state)
     drop_logged(l);
 }
 
-static void a_long_list_of_bodies_is_cut(void **state)
+TEST(a_long_list_of_bodies_is_cut)
 {
-    (void)state;
     char name[] = "a.nml", title[] = "";
     body_facts bodies[17];
     for (int k = 0; k < 17; k++) bodies[k] = (body_facts){.mass = 1.0, .true_mass = 2.0};
@@ -194,9 +187,8 @@ static void a_long_list_of_bodies_is_cut(void **state)
     drop_logged(l);
 }
 
-static void without_an_output_none_is_reported(void **state)
+TEST(without_an_output_none_is_reported)
 {
-    (void)state;
     char name[] = "a.nml", title[] = "";
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
     logged *l = drop_node(false, d.t_end);
@@ -207,9 +199,8 @@ static void without_an_output_none_is_reported(void **state)
     drop_logged(l);
 }
 
-static void versions_are_those_in_use(void **state)
+TEST(versions_are_those_in_use)
 {
-    (void)state;
     char text[512], cut[16];
     preview_versions(text, sizeof text);
     assert_null(strchr(text, '\n'));
@@ -228,9 +219,8 @@ static void print_header(logged *l)
     read_log(l);
 }
 
-static void the_preview_tells_the_rules_of_impact(void **state)
+TEST(the_preview_tells_the_rules_of_impact)
 {
-    (void)state;
     dem_obstacle floor = {0};
     dem_options options = dem_options_default();
     for (int on = 0; on <= 1; on++) {
@@ -245,9 +235,8 @@ static void the_preview_tells_the_rules_of_impact(void **state)
     }
 }
 
-static void the_preview_tells_friction_and_damping(void **state)
+TEST(the_preview_tells_friction_and_damping)
 {
-    (void)state;
     dem_obstacle floors[4] = {{.friction = 0.3},
                               {.friction = 0.0, .velocity = {0.5, -2.0}},
                               {.friction = 0.5, .friction_law = DEM_FRICTION_PAPER},
@@ -262,9 +251,8 @@ static void the_preview_tells_friction_and_damping(void **state)
     drop_logged(l);
 }
 
-static void the_preview_tells_the_damping_of_springs(void **state)
+TEST(the_preview_tells_the_damping_of_springs)
 {
-    (void)state;
     const dem_material solid = {
         .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0, .damping_time = 2e-6};
     const dem_options options = dem_options_default();
@@ -281,9 +269,8 @@ static void the_preview_tells_the_damping_of_springs(void **state)
     drop_logged(l);
 }
 
-static void of_many_obstacles_only_the_first_are_listed(void **state)
+TEST(of_many_obstacles_only_the_first_are_listed)
 {
-    (void)state;
     dem_obstacle floors[20];
     for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25, .velocity = {1.0, 0.0}};
     const dem_options options = dem_options_default();
@@ -295,32 +282,10 @@ static void of_many_obstacles_only_the_first_are_listed(void **state)
     drop_logged(l);
 }
 
-static void of_many_bodies_only_the_first_are_measured(void **state)
+TEST(of_many_bodies_only_the_first_are_measured)
 {
-    (void)state;
     logged *l = new_held();
     print_header(l);
     assert_non_null(strstr(l->text, "\nconstants  bodies 17 to 20: not measured\n"));
     drop_logged(l);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_preview_tells_what_is_about_to_run),
-        cmocka_unit_test(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up),
-        cmocka_unit_test(the_preview_tells_what_is_probed_and_where),
-        cmocka_unit_test(the_preview_tells_what_was_measured_of_each_body),
-        cmocka_unit_test(the_preview_tells_the_constants_of_a_slice),
-        cmocka_unit_test(the_preview_tells_how_bodies_came_out),
-        cmocka_unit_test(a_long_list_of_bodies_is_cut),
-        cmocka_unit_test(without_an_output_none_is_reported),
-        cmocka_unit_test(versions_are_those_in_use),
-        cmocka_unit_test(the_preview_tells_the_rules_of_impact),
-        cmocka_unit_test(the_preview_tells_friction_and_damping),
-        cmocka_unit_test(the_preview_tells_the_damping_of_springs),
-        cmocka_unit_test(of_many_obstacles_only_the_first_are_listed),
-        cmocka_unit_test(of_many_bodies_only_the_first_are_measured),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

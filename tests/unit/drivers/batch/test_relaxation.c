@@ -21,13 +21,12 @@ static void open_weight(support_run *run, dem_options *options)
 }
 
 /* The residual r is of the spring's force of 20 N, so that the weight is r 20 N/(200 N/m) off at most, and as slow. */
-static void a_weight_comes_to_rest_where_it_hangs(void **unused)
+TEST(a_weight_comes_to_rest_where_it_hangs)
 {
     const double residual = 1e-8;
     dem_options options = dem_options_default();
     support_run run;
     dem_state state = {.struct_size = sizeof state};
-    (void)unused;
     open_weight(&run, &options);
     relaxation r = relaxation_start(residual, &options);
     const dem_observer observer = relaxation_observer(&r);
@@ -41,11 +40,10 @@ static void a_weight_comes_to_rest_where_it_hangs(void **unused)
     support_close(&run);
 }
 
-static void what_is_not_at_rest_goes_on(void **unused)
+TEST(what_is_not_at_rest_goes_on)
 {
     dem_options options = dem_options_default();
     support_run run;
-    (void)unused;
     open_weight(&run, &options);
     relaxation r = relaxation_start(1e-8, &options);
     const dem_observer observer = relaxation_observer(&r);
@@ -57,7 +55,7 @@ static void what_is_not_at_rest_goes_on(void **unused)
 }
 
 /* A force that ends its ramp at 10 s: the weight follows it so slowly that it is nearly at rest all the time. */
-static void ramps_are_waited_for(void **unused)
+TEST(ramps_are_waited_for)
 {
     static const dem_index node[] = {1};
     const dem_boundary pull = {
@@ -65,7 +63,6 @@ static void ramps_are_waited_for(void **unused)
     dem_options options = dem_options_default();
     support_run run;
     dem_state state = {.struct_size = sizeof state};
-    (void)unused;
     options.n_boundaries = 1;
     options.boundaries = &pull;
     open_weight(&run, &options);
@@ -81,25 +78,23 @@ static void ramps_are_waited_for(void **unused)
 }
 
 /* omega_max is a bound of the pair's sqrt(E/d0 (1/m1 + 1/m2)) or above; the rest is pi c/L, c = omega_max d0/2. */
-static void damping_is_critical_for_the_slowest_stretch(void **unused)
+TEST(damping_is_critical_for_the_slowest_stretch)
 {
     dem_options options = dem_options_default();
     support_run run;
-    (void)unused;
     open_weight(&run, &options);
     assert_close(relaxation_damping(run.model), M_PI * 0.5 * dem_model_omega_max(run.model), 1e-12);
     support_close(&run);
 }
 
 /* Of two springs, one of four times the other's slowness, waves run in the mean at 2/(1 + 4) of the faster one's. */
-static void soft_parts_make_the_slowest_stretch_slower(void **unused)
+TEST(soft_parts_make_the_slowest_stretch_slower)
 {
     const double x[] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.0}, equal[] = {1.0, 1.0, 1.0};
     const dem_index both[] = {0, 1, 1, 2};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     support_run run;
-    (void)unused;
     support_lattice(&lattice, 3, x, equal, 2, both, 1.0, 100.0, NULL);
     lattice.stiffness[1] /= 16.0;
     options.v_scale = 1.0;
@@ -107,16 +102,4 @@ static void soft_parts_make_the_slowest_stretch_slower(void **unused)
     dem_lattice_free(&lattice);
     assert_close(relaxation_damping(run.model), 0.4 * M_PI / 2.0 * 0.5 * dem_model_omega_max(run.model), 1e-12);
     support_close(&run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_weight_comes_to_rest_where_it_hangs),
-        cmocka_unit_test(what_is_not_at_rest_goes_on),
-        cmocka_unit_test(ramps_are_waited_for),
-        cmocka_unit_test(damping_is_critical_for_the_slowest_stretch),
-        cmocka_unit_test(soft_parts_make_the_slowest_stretch_slower),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

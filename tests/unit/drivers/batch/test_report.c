@@ -34,9 +34,8 @@ static double first_touch(void)
     return sqrt(2.0 * drop / g);
 }
 
-static void one_bounce_is_first_and_last_contact(void **state)
+TEST(one_bounce_is_first_and_last_contact)
 {
-    (void)state;
     const double t1 = first_touch(), v1 = g * t1, t_end = t1 + 0.5 * eta * v1 / g;
     logged *l = drop_node(false, t_end);
     finish(l, t_end);
@@ -50,9 +49,8 @@ static void one_bounce_is_first_and_last_contact(void **state)
     drop_logged(l);
 }
 
-static void two_bounces_are_first_and_last_contact(void **state)
+TEST(two_bounces_are_first_and_last_contact)
 {
-    (void)state;
     const double t1 = first_touch(), v1 = g * t1, t2 = t1 + 2.0 * eta * v1 / g, v2 = eta * eta * v1;
     logged *l = drop_node(false, t2 + v2 / g);
     finish(l, t2 + v2 / g);
@@ -63,9 +61,8 @@ static void two_bounces_are_first_and_last_contact(void **state)
     drop_logged(l);
 }
 
-static void without_a_touch_there_is_no_contact(void **state)
+TEST(without_a_touch_there_is_no_contact)
 {
-    (void)state;
     logged *l = drop_node(false, 0.9 * first_touch());
     finish(l, 0.9 * first_touch());
     assert_true(has_line(l->text, "contact"));
@@ -75,9 +72,8 @@ static void without_a_touch_there_is_no_contact(void **state)
     drop_logged(l);
 }
 
-static void what_rests_at_the_end_is_still_touching(void **state)
+TEST(what_rests_at_the_end_is_still_touching)
 {
-    (void)state;
     const double x[2] = {0.0, 0.0};
     logged *l = calloc(1, sizeof *l);
     assert_non_null(l);
@@ -91,9 +87,8 @@ static void what_rests_at_the_end_is_still_touching(void **state)
 }
 
 /* Gravity to the left, a wall at x = 0: upwards is to the right. */
-static void the_rebound_is_measured_against_gravity(void **state)
+TEST(the_rebound_is_measured_against_gravity)
 {
-    (void)state;
     const double wall[4] = {0.0, 9.0, 0.0, -9.0}, x[4] = {drop, 0.0, 50.0, 1.0}, m[2] = {1.0, 3.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = wall, .restitution = eta};
     const double t1 = sqrt(2.0 * drop / 4.0), v1 = 4.0 * t1, centre = (m[0] * eta * v1 - m[1] * v1) / 4.0;
@@ -118,9 +113,8 @@ static void the_rebound_is_measured_against_gravity(void **state)
 
 /* ---- energy ---- */
 
-static void the_ledger_closes(void **state)
+TEST(the_ledger_closes)
 {
-    (void)state;
     const double t1 = first_touch(), v1 = g * t1, t_end = t1 + 0.25 * v1 / g, v = eta * v1 - g * (t_end - t1);
     const double start = mass * g * drop + 0.5 * mass * 0.25 * 0.25, taken = 0.5 * mass * (1.0 - eta * eta) * v1 * v1;
     logged *l = drop_node(false, t_end);
@@ -134,9 +128,8 @@ static void the_ledger_closes(void **state)
     drop_logged(l);
 }
 
-static void what_friction_and_damping_took_is_reported_if_they_did(void **state)
+TEST(what_friction_and_damping_took_is_reported_if_they_did)
 {
-    (void)state;
     const dem_energy e = {.kinetic = 5.0, .impact = 1.0, .friction = 2.5, .damping = 0.75, .projection = 0.125};
     logged *l = drop_node(false, 0.1);
     l->report.so_far.energy_start = 9.125, l->report.so_far.energy_max = 10.0;
@@ -155,9 +148,8 @@ static void what_friction_and_damping_took_is_reported_if_they_did(void **state)
 /* ---- obstacles ---- */
 
 /* m g t in all, of which the impacts and the reaction are parts. */
-static void an_obstacle_tells_its_impulse(void **state)
+TEST(an_obstacle_tells_its_impulse)
 {
-    (void)state;
     const double t1 = first_touch(), v1 = g * t1;
     logged *l = drop_node(false, 1.1 * t1);
     finish(l, 1.1 * t1);
@@ -169,9 +161,8 @@ static void an_obstacle_tells_its_impulse(void **state)
     drop_logged(l);
 }
 
-static void an_obstacle_in_contact_tells_its_resultant(void **state)
+TEST(an_obstacle_in_contact_tells_its_resultant)
 {
-    (void)state;
     const double x[2] = {0.0, 0.0};
     logged *l = calloc(1, sizeof *l);
     assert_non_null(l);
@@ -185,9 +176,8 @@ static void an_obstacle_in_contact_tells_its_resultant(void **state)
 /* ---- strains ---- */
 
 /* Two nodes of mass m pulled apart by a tenth: strain 0.1 cos(omega t), omega^2 = 2 E/(m d0). */
-static void strains_have_the_extremes_of_a_vibration(void **state)
+TEST(strains_have_the_extremes_of_a_vibration)
 {
-    (void)state;
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, pulled[4] = {-0.05, 0.0, 1.05, 0.0}, m[2] = {2.0, 2.0};
     const double omega = 10.0, period = 2.0 * M_PI / omega;
     const dem_index ends[2] = {0, 1};
@@ -211,9 +201,8 @@ static void strains_have_the_extremes_of_a_vibration(void **state)
     drop_logged(l);
 }
 
-static void without_springs_there_is_no_strain(void **state)
+TEST(without_springs_there_is_no_strain)
 {
-    (void)state;
     logged *l = drop_node(false, 0.1);
     finish(l, 0.1);
     assert_false(has_line(l->text, "strain"));
@@ -222,9 +211,8 @@ static void without_springs_there_is_no_strain(void **state)
 }
 
 /* Pressed together to nine tenths, it only expands at first. */
-static void the_smallest_triangle_is_reported(void **state)
+TEST(the_smallest_triangle_is_reported)
 {
-    (void)state;
     logged *l = press(1e-5);
     finish(l, 1e-5);
     assert_close(number_in(l->text, "triangles", "area"), 0.9, 6e-5);
@@ -242,12 +230,11 @@ static int count_lines(const char *text, const char *topic)
 /* Pressed as above: a stretch of 0.9 along y, by the law of the patch test sqrt(3) of its springs too, one of 3: the
  * stress is largest at the start, of all nodes alike, so that the first ones are reported. With l^2 = 0.25 + 0.75 0.81
  * of the slanting springs and c = E (l - 1)/l: xx = 2 c 0.25, yy = 2 c 0.75 0.81. */
-static void the_most_stressed_are_reported_with_place_and_time(void **state)
+TEST(the_most_stressed_are_reported_with_place_and_time)
 {
     const double stretch = sqrt(0.25 + 0.75 * 0.81), c = 1e7 * (stretch - 1.0) / stretch;
     const double xx = 0.5 * c, yy = 1.5 * 0.81 * c, size = sqrt(xx * xx - xx * yy + yy * yy);
     dem_peaks *peaks;
-    (void)state;
     logged *l = press(1e-4);
     assert_ok(dem_peaks_create(&peaks, l->run.model, 1));
     const dem_observer observer = dem_peaks_observer(peaks);
@@ -269,9 +256,8 @@ static void the_most_stressed_are_reported_with_place_and_time(void **state)
 
 /* ---- progress ---- */
 
-static void in_a_file_progress_is_a_line_every_twentieth(void **state)
+TEST(in_a_file_progress_is_a_line_every_twentieth)
 {
-    (void)state;
     logged *l = drop_node(false, 1.0);
     assert_ok(dem_simulation_advance(l->run.simulation, 1.0));
     read_log(l);
@@ -291,9 +277,8 @@ static void in_a_file_progress_is_a_line_every_twentieth(void **state)
     drop_logged(l);
 }
 
-static void on_a_terminal_progress_is_rewritten_in_place(void **state)
+TEST(on_a_terminal_progress_is_rewritten_in_place)
 {
-    (void)state;
     logged *l = drop_node(true, 1.0);
     l->report.wall_shown -= 10.0; /* as if it had been shown long ago */
     assert_ok(dem_simulation_advance(l->run.simulation, 0.5));
@@ -306,9 +291,8 @@ static void on_a_terminal_progress_is_rewritten_in_place(void **state)
     drop_logged(l);
 }
 
-static void of_many_obstacles_only_the_first_are_listed(void **state)
+TEST(of_many_obstacles_only_the_first_are_listed)
 {
-    (void)state;
     dem_obstacle floors[20];
     for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25};
     const dem_options options = dem_options_default();
@@ -321,9 +305,8 @@ static void of_many_obstacles_only_the_first_are_listed(void **state)
 
 /* ---- counts ---- */
 
-static void an_open_ledger_is_warned_of_once(void **state)
+TEST(an_open_ledger_is_warned_of_once)
 {
-    (void)state;
     for (int terminal = 0; terminal < 2; terminal++) {
         logged *l = drop_node(terminal, 0.5);
         l->report.closure = 1e-300; /* rounding is enough */
@@ -337,9 +320,8 @@ static void an_open_ledger_is_warned_of_once(void **state)
 }
 
 /* While a force grows the first steps may miss all of the little energy there is: that is reported only if it lasts. */
-static void a_ledger_is_not_judged_while_a_ramp_grows(void **state)
+TEST(a_ledger_is_not_judged_while_a_ramp_grows)
 {
-    (void)state;
     static const dem_index node[] = {0};
     const dem_boundary push = {
         .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node, .value = {1.0, 0.0}, .ramp = 0.2};
@@ -365,9 +347,8 @@ static void a_ledger_is_not_judged_while_a_ramp_grows(void **state)
     }
 }
 
-static void of_many_boundaries_only_the_first_are_listed(void **state)
+TEST(of_many_boundaries_only_the_first_are_listed)
 {
-    (void)state;
     logged *l = new_held();
     finish(l, 0.1);
     assert_non_null(strstr(l->text, "\nboundary   16: force (0, 9.81) N, moved by (0, 0) m\n"));
@@ -375,9 +356,8 @@ static void of_many_boundaries_only_the_first_are_listed(void **state)
     drop_logged(l);
 }
 
-static void counts_are_those_of_the_simulation(void **state)
+TEST(counts_are_those_of_the_simulation)
 {
-    (void)state;
     logged *l = drop_node(false, 1.0);
     finish(l, 1.0);
     const dem_counts n = dem_simulation_counts(l->run.simulation);
@@ -391,9 +371,8 @@ static void counts_are_those_of_the_simulation(void **state)
     drop_logged(l);
 }
 
-static void every_kind_of_event_is_reported(void **state)
+TEST(every_kind_of_event_is_reported)
 {
-    (void)state;
     const dem_counts n = {.events = 11,
                           .impacts = 12,
                           .vertex_impacts = 13,
@@ -415,32 +394,4 @@ static void every_kind_of_event_is_reported(void **state)
                                     "lasting    15 closings, 16 releases, 17 slips, 18 sticks, 19 ends passed\n"));
     assert_non_null(strstr(l->text, " 22 retried, "));
     drop_logged(l);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_bounce_is_first_and_last_contact),
-        cmocka_unit_test(two_bounces_are_first_and_last_contact),
-        cmocka_unit_test(without_a_touch_there_is_no_contact),
-        cmocka_unit_test(what_rests_at_the_end_is_still_touching),
-        cmocka_unit_test(the_rebound_is_measured_against_gravity),
-        cmocka_unit_test(the_ledger_closes),
-        cmocka_unit_test(what_friction_and_damping_took_is_reported_if_they_did),
-        cmocka_unit_test(an_obstacle_tells_its_impulse),
-        cmocka_unit_test(an_obstacle_in_contact_tells_its_resultant),
-        cmocka_unit_test(strains_have_the_extremes_of_a_vibration),
-        cmocka_unit_test(without_springs_there_is_no_strain),
-        cmocka_unit_test(the_smallest_triangle_is_reported),
-        cmocka_unit_test(the_most_stressed_are_reported_with_place_and_time),
-        cmocka_unit_test(in_a_file_progress_is_a_line_every_twentieth),
-        cmocka_unit_test(on_a_terminal_progress_is_rewritten_in_place),
-        cmocka_unit_test(of_many_obstacles_only_the_first_are_listed),
-        cmocka_unit_test(an_open_ledger_is_warned_of_once),
-        cmocka_unit_test(a_ledger_is_not_judged_while_a_ramp_grows),
-        cmocka_unit_test(of_many_boundaries_only_the_first_are_listed),
-        cmocka_unit_test(counts_are_those_of_the_simulation),
-        cmocka_unit_test(every_kind_of_event_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

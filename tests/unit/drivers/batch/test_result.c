@@ -19,9 +19,8 @@ static int make_folder(void **state)
     return 0;
 }
 
-static void a_case_without_a_deck_has_a_line(void **state)
+TEST(a_case_without_a_deck_has_a_line)
 {
-    (void)state;
     command c = {0};
     setting s = {.text = "run.title='\"'"};
     outcome o = {.code = EXIT_INVALID, .message = "a.nml:1:1: error: what"};
@@ -38,9 +37,8 @@ static void a_case_without_a_deck_has_a_line(void **state)
     free(line);
 }
 
-static void only_a_run_that_is_done_is_found_again(void **state)
+TEST(only_a_run_that_is_done_is_found_again)
 {
-    (void)state;
     static const struct {
         const char *line;
         int found;
@@ -62,19 +60,12 @@ static void only_a_run_that_is_done_is_found_again(void **state)
     assert_int_equal(unlink(path), 0);
 }
 
-static void what_cannot_be_written_is_reported(void **state)
+TEST(what_cannot_be_written_is_reported)
 {
-    (void)state;
     outcome o = {0};
     result_write("no/such/folder.json", "{}\n", &o);
     assert_int_equal(o.code, EXIT_IO);
     assert_string_equal(o.message, "no/such/folder.json.part: error: cannot be written (No such file or directory)");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_case_without_a_deck_has_a_line),
-                                       cmocka_unit_test(only_a_run_that_is_done_is_found_again),
-                                       cmocka_unit_test(what_cannot_be_written_is_reported)};
-    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
-}
+TEST_GROUP(make_folder, scratch_remove);

@@ -6,9 +6,8 @@
 
 #include "signals.h"
 
-static void a_checkpoint_is_wanted_once(void **state)
+TEST(a_checkpoint_is_wanted_once)
 {
-    (void)state;
     assert_false(signals_checkpoint());
     assert_int_equal(raise(SIGUSR1), 0);
     assert_true(signals_checkpoint());
@@ -16,9 +15,8 @@ static void a_checkpoint_is_wanted_once(void **state)
     assert_null(signals_end());
 }
 
-static void the_signal_that_asks_for_the_end_is_named(void **state)
+TEST(the_signal_that_asks_for_the_end_is_named)
 {
-    (void)state;
     static const struct {
         int number;
         const char *name;
@@ -31,9 +29,8 @@ static void the_signal_that_asks_for_the_end_is_named(void **state)
     assert_int_equal(raise(SIGXFSZ), 0);
 }
 
-static void what_is_ignored_stays_so(void **state)
+TEST(what_is_ignored_stays_so)
 {
-    (void)state;
     struct sigaction now;
     assert_true(signal(SIGINT, SIG_IGN) != SIG_ERR);
     signals_catch();
@@ -43,9 +40,6 @@ static void what_is_ignored_stays_so(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_checkpoint_is_wanted_once),
-                                       cmocka_unit_test(the_signal_that_asks_for_the_end_is_named),
-                                       cmocka_unit_test(what_is_ignored_stays_so)};
     signals_catch();
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run();
 }

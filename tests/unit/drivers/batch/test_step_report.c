@@ -45,10 +45,9 @@ static void print_plan(const dem_options *options)
     read_log(file);
 }
 
-static void the_bound_is_that_of_the_method(void **state)
+TEST(the_bound_is_that_of_the_method)
 {
     dem_options options = dem_options_default();
-    (void)state;
     options.kernel = DEM_KERNEL_PORTABLE;
     print_plan(&options);
     assert_string_equal(
@@ -69,10 +68,9 @@ static void the_bound_is_that_of_the_method(void **state)
 }
 
 /* A fixed step above the bound: reported whatever (6) says. */
-static void a_step_beyond_the_bound_is_warned_of(void **state)
+TEST(a_step_beyond_the_bound_is_warned_of)
 {
     dem_options options = dem_options_default();
-    (void)state;
     options.method = DEM_METHOD_VERLET;
     for (int above = 0; above < 2; above++) {
         options.fixed_step = above ? 0.2001 : 0.1999;
@@ -83,11 +81,10 @@ static void a_step_beyond_the_bound_is_warned_of(void **state)
 
 /* At 2.7 the fastest is damped with Fehlberg's weights, but slower ones grow: at 2 as in the closed form of |R|,
  * R the exponential series to z^5/120 and z^6/2080. */
-static void the_growth_is_that_of_the_worst_oscillation(void **state)
+TEST(the_growth_is_that_of_the_worst_oscillation)
 {
     dem_options options = dem_options_default();
     double largest = 0.0;
-    (void)state;
     for (double z = 0.0; z < 2.7; z += 1e-3) {
         const double z2 = z * z, re = 1.0 - z2 / 2.0 + z2 * z2 / 24.0 - z2 * z2 * z2 / 2080.0;
         largest = fmax(largest, hypot(re, z * (1.0 - z2 / 6.0 + z2 * z2 / 120.0)) - 1.0);
@@ -101,12 +98,11 @@ static void the_growth_is_that_of_the_worst_oscillation(void **state)
     assert_non_null(strstr(text, " in one; WARNING: from 1.09 on the run may blow up\n"));
 }
 
-static void without_springs_nothing_bounds_the_step(void **state)
+TEST(without_springs_nothing_bounds_the_step)
 {
     const double x[2] = {0.0, 1.0}, v[2] = {1.0, 0.0};
     support_run run;
     FILE *file = open_log();
-    (void)state;
     support_point(&run, 1.0, x, v, (const double[4]){-1.0, 0.0, 1.0, 0.0}, 2, 0.5);
     step_report_print(file, 1.0, run.simulation);
     support_close(&run);
@@ -124,7 +120,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 }
 
 /* Thrown up, so that the first step is the fastest. */
-static void the_largest_value_of_6_is_that_of_the_fastest_step(void **state)
+TEST(the_largest_value_of_6_is_that_of_the_fastest_step)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {-3.0, 4.0}, mass = 2.0, h = 0.01, g = 9.81;
     dem_options options = dem_options_default();
@@ -132,7 +128,6 @@ static void the_largest_value_of_6_is_that_of_the_fastest_step(void **state)
     support_run run;
     step_report p = {0};
     const dem_observer observer = {.step = follow, .context = &p};
-    (void)state;
     options.fixed_step = h, options.spacing = 0.5;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
@@ -147,16 +142,4 @@ static void the_largest_value_of_6_is_that_of_the_fastest_step(void **state)
     step_report_print_largest(file, &p);
     read_log(file);
     assert_string_equal(text, "formula 6  (|v_x| + |v_y|) h/spacing was 0.138 at most, at 1.0000e-02 s\n");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_bound_is_that_of_the_method),
-        cmocka_unit_test(a_step_beyond_the_bound_is_warned_of),
-        cmocka_unit_test(the_growth_is_that_of_the_worst_oscillation),
-        cmocka_unit_test(without_springs_nothing_bounds_the_step),
-        cmocka_unit_test(the_largest_value_of_6_is_that_of_the_fastest_step),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

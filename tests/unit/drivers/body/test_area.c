@@ -15,9 +15,8 @@ static double less(outline o, outline *voids, size_t n)
 static const outline block = {.kind = OUTLINE_RECTANGLE, .centre = {0.0, 2.0}, .size = {6.0, 4.0}};
 static const outline disc = {.kind = OUTLINE_DISC, .radius = 5.0};
 
-static void straight_edges_are_exact(void **state)
+TEST(straight_edges_are_exact)
 {
-    (void)state;
     double points[] = {0, 0, 4, 0, 4, 4, 3, 4, 2, 1, 1, 4, 0, 4}, tilted[] = {-1, 1.5, 0, 0.5, 1, 1.5, 0, 2.5};
     const outline notched = {.kind = OUTLINE_POLYGON, .n_points = 7, .points = points};
     outline voids[] = {{.kind = OUTLINE_RECTANGLE, .centre = {0.5, 1.0}, .size = {1.0, 1.0}},
@@ -31,9 +30,8 @@ static void straight_edges_are_exact(void **state)
     assert_close(less(block, voids, 3), 24.0 - 1.25 - 2.0 + 0.5, 1e-13);
 }
 
-static void circles_are_near_to_their_formulas(void **state)
+TEST(circles_are_near_to_their_formulas)
 {
-    (void)state;
     const outline ring = {.kind = OUTLINE_RING, .radius = 5.0, .inner = 4.9};
     outline hole = {.kind = OUTLINE_DISC, .centre = {1.0, 0.5}, .radius = 2.0};
     assert_close(less(disc, NULL, 0), 25.0 * pi, 1e-5 * 25.0 * pi);
@@ -42,9 +40,8 @@ static void circles_are_near_to_their_formulas(void **state)
 }
 
 /* Two discs of radius 1 whose centres are 1 apart share 2 pi/3 - sqrt(3)/2; a ring's void leaves its core. */
-static void what_voids_share_counts_once(void **state)
+TEST(what_voids_share_counts_once)
 {
-    (void)state;
     outline two[] = {{.kind = OUTLINE_DISC, .centre = {0.0, 0.0}, .radius = 1.0},
                      {.kind = OUTLINE_DISC, .centre = {0.6, 0.8}, .radius = 1.0}};
     outline moat = {.kind = OUTLINE_RING, .centre = {0.0, 2.0}, .radius = 1.5, .inner = 1.0};
@@ -55,9 +52,8 @@ static void what_voids_share_counts_once(void **state)
 }
 
 /* Forty discs at random places, against the share of a grid of points that lies in the material. */
-static void many_overlapping_voids_agree_with_counted_points(void **state)
+TEST(many_overlapping_voids_agree_with_counted_points)
 {
-    (void)state;
     enum { n = 40, grid = 1500 };
     outline voids[n];
     unsigned random = 1;
@@ -80,9 +76,8 @@ static void many_overlapping_voids_agree_with_counted_points(void **state)
 }
 
 /* 3 x 2 pixels, of which 4 are solid: the upper row all, of the lower row the right one. */
-static void pixels_are_counted(void **state)
+TEST(pixels_are_counted)
 {
-    (void)state;
     unsigned char solid[] = {0, 0, 1, 1, 1, 1};
     outline hole = {.kind = OUTLINE_RECTANGLE, .centre = {0.5, 1.0}, .size = {1.0, 1.0}};
     const outline frame = {.kind = OUTLINE_RECTANGLE, .centre = {0.0, 1.0}, .size = {3.0, 2.0}};
@@ -91,16 +86,4 @@ static void pixels_are_counted(void **state)
     s.n_voids = 1;
     s.voids = &hole; /* takes a half of the upper middle, a quarter of each on the right; x from 0 to 1 */
     assert_close(area_of(&s), 4.0 - 0.25 - 0.25 - 0.25, 1e-13);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(straight_edges_are_exact),
-        cmocka_unit_test(circles_are_near_to_their_formulas),
-        cmocka_unit_test(what_voids_share_counts_once),
-        cmocka_unit_test(many_overlapping_voids_agree_with_counted_points),
-        cmocka_unit_test(pixels_are_counted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,9 +88,8 @@ static const double height = 5.0 * 0.5 * 0.86602540378443865;
 
 /* ---- shape, material ---- */
 
-static void a_rectangle_stands_on_its_origin_and_turns_about_it(void **state)
+TEST(a_rectangle_stands_on_its_origin_and_turns_about_it)
 {
-    (void)state;
     built b;
     build_good(&b, RUN RUBBER BLOCK ", position = 10, 20 /", NULL, 0);
     expect_box(&b.lattice, 8.0, 20.0, 12.0, 20.0 + height);
@@ -100,9 +99,8 @@ static void a_rectangle_stands_on_its_origin_and_turns_about_it(void **state)
     drop_built(&b);
 }
 
-static void a_disc_is_placed_by_its_centre(void **state)
+TEST(a_disc_is_placed_by_its_centre)
 {
-    (void)state;
     built b;
     build_good(&b, RUN RUBBER DISC ", position = -3, 2, angle = 33 /", NULL, 0);
     assert_close(distance_to(&b.lattice, -3.0, 2.0), 0.0, tiny);
@@ -112,9 +110,8 @@ static void a_disc_is_placed_by_its_centre(void **state)
 }
 
 /* 5 rows of 8 and 7 triangles in turn, upwards and downwards: the sawteeth of the sides are missing. */
-static void mass_is_density_times_thickness_times_area(void **state)
+TEST(mass_is_density_times_thickness_times_area)
 {
-    (void)state;
     built b;
     const double triangle = 0.25 * 0.43301270189221932; /* spacing^2 sqrt(3)/4, m^2 */
     build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
@@ -124,9 +121,8 @@ static void mass_is_density_times_thickness_times_area(void **state)
     drop_built(&b);
 }
 
-static void the_material_is_found_by_its_name(void **state)
+TEST(the_material_is_found_by_its_name)
 {
-    (void)state;
     built b, c;
     const char *others = RUN "&material youngs_modulus = 1, density = 3000, thickness = 0.5 /\n" RUBBER;
     char text[512];
@@ -140,9 +136,8 @@ static void the_material_is_found_by_its_name(void **state)
 }
 
 /* k = E h/(1 + nu) of a side between two cells, times its length; r k, times its length, of a diagonal. */
-static void squares_have_the_springs_of_their_diagonal(void **state)
+TEST(squares_have_the_springs_of_their_diagonal)
 {
-    (void)state;
     built b;
     build_good(&b, RUN RUBBER BLOCK ", lattice = 'square', diagonal = 0.25 /", NULL, 0);
     const double k = 1e7 * 0.5 / (4.0 / 3.0);
@@ -156,9 +151,8 @@ static void squares_have_the_springs_of_their_diagonal(void **state)
     drop_built(&b);
 }
 
-static void a_bond_stiffness_is_that_of_every_spring(void **state)
+TEST(a_bond_stiffness_is_that_of_every_spring)
 {
-    (void)state;
     built b;
     build_good(&b, RUN "&material name = 'rubber', bond_stiffness = 700, density = 1000 /\n" BLOCK " /", NULL, 0);
     for (dem_index s = 0; s < b.lattice.n_springs; s++) assert_close(b.lattice.stiffness[s], 700.0, 0.0);
@@ -167,9 +161,8 @@ static void a_bond_stiffness_is_that_of_every_spring(void **state)
 }
 
 /* By the centres of triangles: 1500 kg/m^2 for 500 in as many of them as the report says. */
-static void an_inclusion_has_its_own_material(void **state)
+TEST(an_inclusion_has_its_own_material)
 {
-    (void)state;
     built b;
     const double triangle = 0.25 * 0.43301270189221932;
     build_good(&b,
@@ -182,9 +175,8 @@ static void an_inclusion_has_its_own_material(void **state)
     drop_built(&b);
 }
 
-static void all_nodes_have_the_velocity(void **state)
+TEST(all_nodes_have_the_velocity)
 {
-    (void)state;
     built b;
     build_good(&b, RUN RUBBER BLOCK ", velocity = 3, -4, angle = 45 /", NULL, 0);
     assert_non_null(b.lattice.velocity);
@@ -195,9 +187,8 @@ static void all_nodes_have_the_velocity(void **state)
 
 /* ---- voids and pores ---- */
 
-static void a_void_turns_with_its_body(void **state)
+TEST(a_void_turns_with_its_body)
 {
-    (void)state;
     built b;
     build_good(&b, RUN RUBBER BLOCK ", position = 10, 20, angle = 90 /\n&void centre = 1, 1, radius = 0.6 /", NULL, 0);
     const double hole = distance_to(&b.lattice, 10.0 - 1.0, 20.0 + 1.0); /* (1, 1) turned by a quarter */
@@ -206,9 +197,8 @@ static void a_void_turns_with_its_body(void **state)
     drop_built(&b);
 }
 
-static void voids_and_pores_of_other_bodies_do_nothing(void **state)
+TEST(voids_and_pores_of_other_bodies_do_nothing)
 {
-    (void)state;
     built b, c;
     build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
     build_good(&c,
@@ -221,9 +211,8 @@ static void voids_and_pores_of_other_bodies_do_nothing(void **state)
     drop_built(&c);
 }
 
-static void the_seed_makes_the_pores(void **state)
+TEST(the_seed_makes_the_pores)
 {
-    (void)state;
     static const char *const seeds[] = {"7", "7", "8"};
     built b[3];
     for (int k = 0; k < 3; k++) {
@@ -244,9 +233,8 @@ static void the_seed_makes_the_pores(void **state)
 /* ---- how it starts ---- */
 
 /* Turned counter-clockwise by a little, the left lower corner sinks. */
-static void the_start_is_that_of_the_lowest_node(void **state)
+TEST(the_start_is_that_of_the_lowest_node)
 {
-    (void)state;
     built b;
     build_good(&b, RUN RUBBER BLOCK ", position = 1, 0.25, angle = 1e-3 /", flat_floors, 2);
     const double sunk = 2.0 * sin(1e-3 * quarter / 90.0);
@@ -260,9 +248,8 @@ static void the_start_is_that_of_the_lowest_node(void **state)
 }
 
 /* Gravity along (3, -4)/5: a move by s changes the gap by 0.8 s and x by 0.6 s. */
-static void clearance_moves_along_gravity(void **state)
+TEST(clearance_moves_along_gravity)
 {
-    (void)state;
     built b;
     build_good(&b, "&run t_end = 1, gravity = 6, -8 /\n" RUBBER BLOCK ", position = 0, 4, clearance = 0.5 /\n" FLOOR,
                flat_floors + 1, 1);
@@ -274,9 +261,8 @@ static void clearance_moves_along_gravity(void **state)
     drop_built(&b);
 }
 
-static void a_start_is_refused_if_deeper_than_the_penetration_tolerance(void **state)
+TEST(a_start_is_refused_if_deeper_than_the_penetration_tolerance)
 {
-    (void)state;
     built b;
     build_good(&b, RUN RUBBER BLOCK ", position = 0, -0.25 /", flat_floors, 2);
     assert_close(b.start.depth, 0.25, tiny);
@@ -306,9 +292,8 @@ static void expect_fault(const char *text, size_t k, int line, const char *word)
     drop_built(&b);
 }
 
-static void a_fault_is_placed_and_leaves_no_lattice(void **state)
+TEST(a_fault_is_placed_and_leaves_no_lattice)
 {
-    (void)state;
     const char *two = RUN RUBBER BLOCK " /\n" DISC ", position = 0, 9 /\n";
     char text[512];
     (void)snprintf(text, sizeof text, "%s&void body = 2, centre = 0, 0, radius = 5 /", two);
@@ -340,9 +325,8 @@ static void assert_checked(const char *text, int line, const char *word)
     drop_resolved(&r);
 }
 
-static void sizes_of_the_spacing_and_more_pass(void **state)
+TEST(sizes_of_the_spacing_and_more_pass)
 {
-    (void)state;
     assert_checked(RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber' /", 0, NULL);
     assert_checked(RUN RUBBER "&body shape = 'rectangle', size = 1, 1, spacing = 1, material = 'rubber' /", 0, NULL);
     assert_checked(RUN RUBBER "&body shape = 'rectangle', size = 9, 1,\n spacing = 1.01, material = 'rubber' /", 4,
@@ -351,17 +335,15 @@ static void sizes_of_the_spacing_and_more_pass(void **state)
                    "spacing");
 }
 
-static void files_need_no_material_and_others_do(void **state)
+TEST(files_need_no_material_and_others_do)
 {
-    (void)state;
     assert_checked(RUN "&body shape = 'file', file = 'a.h5' /", 0, NULL);
     assert_checked(RUN "&body shape = 'file', file = '' /", 2, "file");
     assert_checked(RUN "&body shape = 'disc', radius = 1, spacing = 1 /", 1, "material");
 }
 
-static void a_long_list_of_materials_is_cut(void **state)
+TEST(a_long_list_of_materials_is_cut)
 {
-    (void)state;
     static const char name[] = "a_name_of_more_than_forty_characters_and_then_some";
     char text[16384] = RUN;
     for (int k = 0; k < 70; k++) {
@@ -371,29 +353,4 @@ static void a_long_list_of_materials_is_cut(void **state)
     }
     (void)strcat(text, "&body shape = 'disc', radius = 1, spacing = 1, material = 'x' /");
     assert_checked(text, 72, "...");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rectangle_stands_on_its_origin_and_turns_about_it),
-        cmocka_unit_test(a_disc_is_placed_by_its_centre),
-        cmocka_unit_test(mass_is_density_times_thickness_times_area),
-        cmocka_unit_test(the_material_is_found_by_its_name),
-        cmocka_unit_test(squares_have_the_springs_of_their_diagonal),
-        cmocka_unit_test(a_bond_stiffness_is_that_of_every_spring),
-        cmocka_unit_test(an_inclusion_has_its_own_material),
-        cmocka_unit_test(all_nodes_have_the_velocity),
-        cmocka_unit_test(a_void_turns_with_its_body),
-        cmocka_unit_test(voids_and_pores_of_other_bodies_do_nothing),
-        cmocka_unit_test(the_seed_makes_the_pores),
-        cmocka_unit_test(the_start_is_that_of_the_lowest_node),
-        cmocka_unit_test(clearance_moves_along_gravity),
-        cmocka_unit_test(a_start_is_refused_if_deeper_than_the_penetration_tolerance),
-        cmocka_unit_test(a_fault_is_placed_and_leaves_no_lattice),
-        cmocka_unit_test(sizes_of_the_spacing_and_more_pass),
-        cmocka_unit_test(files_need_no_material_and_others_do),
-        cmocka_unit_test(a_long_list_of_materials_is_cut),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

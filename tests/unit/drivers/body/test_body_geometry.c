@@ -89,9 +89,8 @@ static void expect_area(const char *text, double area, double off)
     dem_lattice_free(&f.lattice);
 }
 
-static void every_shape_has_its_area(void **state)
+TEST(every_shape_has_its_area)
 {
-    (void)state;
     expect_area(BLOCK, 8.0, 0.05);
     expect_area(DISC, pi, 0.12);
     expect_area(BODY "'ring', radius = 2, inner_radius = 1 /", 3.0 * pi, 0.15);
@@ -99,9 +98,8 @@ static void every_shape_has_its_area(void **state)
     expect_area(BODY "'polygon', points = 0,4, 1,4, 2,1, 3,4, 4,4, 4,0, 0,0, 0,4 /", 13.0, 0.08); /* back, closed */
 }
 
-static void voids_of_every_shape_are_turned_and_placed(void **state)
+TEST(voids_of_every_shape_are_turned_and_placed)
 {
-    (void)state;
     expect_area(BLOCK "&void shape = 'rectangle', centre = 0, 1, size = 1, 0.5, angle = 30 /", 8.0 - 0.5, 0.08);
     expect_area(BLOCK "&void shape = 'polygon', centre = 0, 1, points = 0,0, 1,0, 0,1 /", 8.0 - 0.5, 0.08);
     expect_area(BLOCK "&void shape = 'ring', centre = 0, 1, radius = 0.8, inner_radius = 0.4 /", 8.0 - 0.48 * pi, 0.1);
@@ -117,9 +115,8 @@ static void voids_of_every_shape_are_turned_and_placed(void **state)
 
 /* ---- pores ---- */
 
-static void a_porosity_is_met_to_half_a_pore(void **state)
+TEST(a_porosity_is_met_to_half_a_pore)
 {
-    (void)state;
     formed f =
         build_good(BODY "'disc', radius = 10 /\n&void centre = 0, 0, radius = 2 /\n&pores porosity = 0.2, radius = "
                         "0.4, 0.9, wall = 0.2, distribution = 'lognormal', mean = 0.5, deviation = 0.2 /");
@@ -129,9 +126,8 @@ static void a_porosity_is_met_to_half_a_pore(void **state)
     dem_lattice_free(&f.lattice);
 }
 
-static void groups_of_pores_add_up(void **state)
+TEST(groups_of_pores_add_up)
 {
-    (void)state;
     formed f = build_good(BLOCK "&pores number = 2, radius = 0.2, 0.2, wall = 0.1 /\n"
                                 "&pores number = 3, radius = 0.1, 0.1, wall = 0.1, seed = 2 /");
     assert_int_equal(f.geometry.n_pores, 5);
@@ -140,9 +136,8 @@ static void groups_of_pores_add_up(void **state)
     dem_lattice_free(&f.lattice);
 }
 
-static void pores_without_a_place_or_a_radius_are_reported(void **state)
+TEST(pores_without_a_place_or_a_radius_are_reported)
 {
-    (void)state;
     expect_fault(BLOCK "&pores porosity = 0.9, radius = 0.2, 0.2 /", 0, 2, "finds no place");
     expect_fault(BLOCK "&pores porosity = 0.5, radius = 1e-3, 1e-3 /", 0, 2, "10000");
     expect_fault(BLOCK "&pores number = 1, radius = 0.1, 0.2, distribution = 'normal',\nmean = 9, deviation = 1e-3 /",
@@ -163,9 +158,8 @@ static const char *with_file(const char *head, const char *content, const char *
     return text;
 }
 
-static void a_mask_stands_on_its_lower_edge(void **state)
+TEST(a_mask_stands_on_its_lower_edge)
 {
-    (void)state;
     formed f = build_good(with_file(MASK, "P2 4 2 1  0 0 1 1  1 1 1 1", " /"));
     assert_close(f.geometry.area, 6.0 * 0.25, 0.0);
     assert_close(distance_to(&f.lattice, -1.0, 0.0), 0.0, 1e-12);
@@ -186,9 +180,8 @@ static void a_mask_stands_on_its_lower_edge(void **state)
     "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n"         \
     "$EndNodes\n$Elements\n1 2 1 2\n2 1 2 2\n1 1 2 3\n2 1 3 4\n$EndElements\n"
 
-static void a_mesh_is_scaled_and_may_have_cracks(void **state)
+TEST(a_mesh_is_scaled_and_may_have_cracks)
 {
-    (void)state;
     formed f = build_good(with_file(MESH, SQUARE, " /"));
     assert_close(f.geometry.area, 1.0, 1e-15);
     assert_close(f.geometry.spacing * f.geometry.spacing * 0.25 * sqrt(3.0), 0.5, 1e-15);
@@ -205,9 +198,8 @@ static void a_mesh_is_scaled_and_may_have_cracks(void **state)
     expect_fault(with_file(MESH, SQUARE, " /\n&crack points = 0.1, 0.8, 0.8, 0.1 /"), 0, 1, "cracks leave none of 2");
 }
 
-static void cracks_are_for_their_body_and_must_meet_it(void **state)
+TEST(cracks_are_for_their_body_and_must_meet_it)
 {
-    (void)state;
     formed whole = build_good(BLOCK DISC), f = build_good(BLOCK DISC "&crack body = 2, points = 0,0, 1,0 /");
     assert_int_equal(whole.lattice.n_triangles, f.lattice.n_triangles);
     dem_lattice_free(&f.lattice);
@@ -223,27 +215,24 @@ static void cracks_are_for_their_body_and_must_meet_it(void **state)
 
 #define SQUARES BODY "'rectangle', size = 4, 2, lattice = 'square'"
 
-static void every_shape_may_be_of_squares(void **state)
+TEST(every_shape_may_be_of_squares)
 {
-    (void)state;
     expect_area(SQUARES " /", 8.0, 1e-12);
     expect_area(BODY "'disc', radius = 1, lattice = 'square' /", pi, 0.13);
     expect_area(BODY "'ring', radius = 2, inner_radius = 1, lattice = 'square' /", 3.0 * pi, 0.15);
     expect_area(SQUARES " /\n&void centre = 0, 1, radius = 0.5 /", 8.0 - 0.25 * pi, 0.05);
 }
 
-static void cracks_take_whole_cells(void **state)
+TEST(cracks_take_whole_cells)
 {
-    (void)state;
     formed f = build_good(SQUARES " /\n&crack points = -0.27,1.02, -0.23,1.04 /"); /* a corner of one triangle */
     assert_int_equal(f.geometry.n_cracked, 2);
     dem_lattice_free(&f.lattice);
 }
 
 /* By at most the share of the spacing, the same for the same seed. */
-static void jitter_moves_nodes_that_are_not_on_the_boundary(void **state)
+TEST(jitter_moves_nodes_that_are_not_on_the_boundary)
 {
-    (void)state;
     formed f = build_good(BLOCK), g = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2 /"),
            h = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 1 /"),
            other = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 2 /");
@@ -286,9 +275,8 @@ static dem_index *mark(formed *f, const char *text, size_t n)
     return of;
 }
 
-static void triangles_with_their_centres_in_an_inclusion_are_of_it(void **state)
+TEST(triangles_with_their_centres_in_an_inclusion_are_of_it)
 {
-    (void)state;
     formed f;
     dem_index *of = mark(&f,
                          HEAVY BLOCK DISC "&inclusion material = 'heavy', centre = 0, 1, radius = 0.6 /\n"
@@ -306,9 +294,8 @@ static void triangles_with_their_centres_in_an_inclusion_are_of_it(void **state)
     dem_lattice_free(&f.lattice);
 }
 
-static void of_squares_whole_cells_are_of_an_inclusion(void **state)
+TEST(of_squares_whole_cells_are_of_an_inclusion)
 {
-    (void)state;
     formed f;
     dem_index n = 0,
               *of =
@@ -323,9 +310,8 @@ static void of_squares_whole_cells_are_of_an_inclusion(void **state)
 }
 
 /* Ring of 3000 * 0.5 in 1000, a quarter of which a void takes; overlaps count once, what is outside does not. */
-static void the_true_mass_is_that_of_all_materials(void **state)
+TEST(the_true_mass_is_that_of_all_materials)
 {
-    (void)state;
     formed f = build_good(BLOCK);
     assert_close(f.geometry.mass, 8000.0, 1e-9);
     dem_lattice_free(&f.lattice);
@@ -342,9 +328,8 @@ static void the_true_mass_is_that_of_all_materials(void **state)
     dem_lattice_free(&f.lattice);
 }
 
-static void an_inclusion_without_a_triangle_is_reported(void **state)
+TEST(an_inclusion_without_a_triangle_is_reported)
 {
-    (void)state;
     namelist_errors errors = {0};
     formed f = build_good(BLOCK);
     resolved r = resolve_clean(RUN RUBBER BLOCK "&inclusion material = 'rubber', centre = 0, 5, radius = 1 /");
@@ -379,9 +364,8 @@ static void assert_checked(const char *text, int line, const char *word)
     drop_resolved(&r);
 }
 
-static void sizes_at_the_limit_pass(void **state)
+TEST(sizes_at_the_limit_pass)
 {
-    (void)state;
     const char *head = "&body material = 'rubber', shape = ";
     static const struct {
         const char *keys;
@@ -407,9 +391,8 @@ static void sizes_at_the_limit_pass(void **state)
     }
 }
 
-static void groups_name_a_body_that_can_have_them(void **state)
+TEST(groups_name_a_body_that_can_have_them)
 {
-    (void)state;
     assert_checked(BLOCK DISC "&void body = 2, centre = 0, 0, radius = 1 /", 0, NULL);
     assert_checked(BLOCK DISC "&void body = 3, centre = 0, 0, radius = 1 /", 3, "3");
     assert_checked(BLOCK "&pores number = 3, radius = 1, 1, body = 2 /", 2, "2");
@@ -425,9 +408,8 @@ static void groups_name_a_body_that_can_have_them(void **state)
     assert_checked(MESH "'' /", 1, "a mesh");
 }
 
-static void pores_have_a_number_or_a_porosity(void **state)
+TEST(pores_have_a_number_or_a_porosity)
 {
-    (void)state;
     assert_checked(BLOCK "&pores number = 3, radius = 1, 1 /", 0, NULL);
     assert_checked(BLOCK "&pores porosity = 0.3, radius = 1, 1 /", 0, NULL);
     assert_checked(BLOCK "&pores number = 3, radius = 1.1, 1 /", 2, "radius");
@@ -436,17 +418,15 @@ static void pores_have_a_number_or_a_porosity(void **state)
     assert_checked(BLOCK "&pores number = 1, radius = 1, 1, mean = 1 /", 2, "'mean' in &pores is not used");
 }
 
-static void cracks_have_points_that_are_apart(void **state)
+TEST(cracks_have_points_that_are_apart)
 {
-    (void)state;
     assert_checked(BLOCK "&crack points = 0,0, 1,0, 0,0 /", 0, NULL); /* may meet itself */
     assert_checked(BLOCK "&crack points = 0,0, 1,0, 1,0 /", 2, "from point 2");
     assert_checked(BLOCK "&crack points = 0,0, 1,0, 1 /", 2, "pairs");
 }
 
-static void relative_files_start_at_the_decks_folder(void **state)
+TEST(relative_files_start_at_the_decks_folder)
 {
-    (void)state;
     resolved r = resolve_clean(RUN "&body shape = 'file', file = 'a/b.h5' /\n&body shape = 'file', file = '/c.h5' /");
     char *relative = body_geometry_file("decks/", schema_get(&r.deck, "body", 0));
     char *absolute = body_geometry_file("decks/", schema_get(&r.deck, "body", 1));
@@ -462,30 +442,8 @@ static void relative_files_start_at_the_decks_folder(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_shape_has_its_area),
-        cmocka_unit_test(voids_of_every_shape_are_turned_and_placed),
-        cmocka_unit_test(a_porosity_is_met_to_half_a_pore),
-        cmocka_unit_test(groups_of_pores_add_up),
-        cmocka_unit_test(pores_without_a_place_or_a_radius_are_reported),
-        cmocka_unit_test(a_mask_stands_on_its_lower_edge),
-        cmocka_unit_test(a_mesh_is_scaled_and_may_have_cracks),
-        cmocka_unit_test(cracks_are_for_their_body_and_must_meet_it),
-        cmocka_unit_test(every_shape_may_be_of_squares),
-        cmocka_unit_test(cracks_take_whole_cells),
-        cmocka_unit_test(jitter_moves_nodes_that_are_not_on_the_boundary),
-        cmocka_unit_test(triangles_with_their_centres_in_an_inclusion_are_of_it),
-        cmocka_unit_test(of_squares_whole_cells_are_of_an_inclusion),
-        cmocka_unit_test(the_true_mass_is_that_of_all_materials),
-        cmocka_unit_test(an_inclusion_without_a_triangle_is_reported),
-        cmocka_unit_test(sizes_at_the_limit_pass),
-        cmocka_unit_test(groups_name_a_body_that_can_have_them),
-        cmocka_unit_test(pores_have_a_number_or_a_porosity),
-        cmocka_unit_test(cracks_have_points_that_are_apart),
-        cmocka_unit_test(relative_files_start_at_the_decks_folder),
-    };
     const int file = mkstemp(path);
     if (file < 0 || close(file) != 0) return 1;
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = test_run();
     return unlink(path) == 0 ? failed : 1;
 }

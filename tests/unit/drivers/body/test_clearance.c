@@ -68,9 +68,8 @@ static bool shift_to(double shift[2], const dem_model *model, const double gravi
 }
 
 /* An apex under the middle of the lower side: from far above, with the apex inside, and nearer than some clearances. */
-static void an_apex_between_nodes_is_met_at_the_clearance(void **state)
+TEST(an_apex_between_nodes_is_met_at_the_clearance)
 {
-    (void)state;
     const double apex[] = {-9.0, -9.0, 0.49, -1.0, 0.5, 0.2, 0.51, -1.0, 9.0, -9.0};
     const double clearances[] = {0.0, 1e-3, 0.1};
     for (int k = 0; k < 9; k++) {
@@ -83,9 +82,8 @@ static void an_apex_between_nodes_is_met_at_the_clearance(void **state)
     }
 }
 
-static void a_body_above_a_floor_goes_down_to_it(void **state)
+TEST(a_body_above_a_floor_goes_down_to_it)
 {
-    (void)state;
     const double floor[] = {-9.0, 0.5, 9.0, 0.5};
     double shift[2];
     scene s = make_scene(0.0, 3.0, floor, 2);
@@ -97,9 +95,8 @@ static void a_body_above_a_floor_goes_down_to_it(void **state)
     free_scene(&s);
 }
 
-static void a_body_in_or_under_a_floor_goes_up_to_it(void **state)
+TEST(a_body_in_or_under_a_floor_goes_up_to_it)
 {
-    (void)state;
     const double floor[] = {-90.0, 0.5, 90.0, 0.5};
     double shift[2];
     for (int k = 0; k < 2; k++) {
@@ -110,9 +107,8 @@ static void a_body_in_or_under_a_floor_goes_up_to_it(void **state)
     }
 }
 
-static void slopes_and_vertices_are_met_at_the_clearance_exactly(void **state)
+TEST(slopes_and_vertices_are_met_at_the_clearance_exactly)
 {
-    (void)state;
     const double rough[] = {-30.0, 0.2, -0.3, 0.1, 0.4, 0.7, 0.41, -2.0, 0.9, -1.5, 1.3, 0.9, 30.0, -5.0};
     const double gravities[][2] = {{0.0, -9.81}, {3.0, -9.0}, {-2.0, -1.0}};
     const double clearances[] = {0.0, 2e-4, 0.3};
@@ -129,9 +125,8 @@ static void slopes_and_vertices_are_met_at_the_clearance_exactly(void **state)
     }
 }
 
-static void a_body_inside_a_closed_obstacle_stays_inside(void **state)
+TEST(a_body_inside_a_closed_obstacle_stays_inside)
 {
-    (void)state;
     const double box[] = {-5.0, 0.0, 5.0, 0.0, 5.0, 8.0, -5.0, 8.0, -5.0, 0.0};
     double shift[2];
     scene s = make_scene(0.0, 4.0, box, 5);
@@ -140,9 +135,8 @@ static void a_body_inside_a_closed_obstacle_stays_inside(void **state)
     free_scene(&s);
 }
 
-static void a_vertex_exactly_below_a_node_is_not_missed(void **state)
+TEST(a_vertex_exactly_below_a_node_is_not_missed)
 {
-    (void)state;
     const double peak[] = {-9.0, -9.0, 0.1, 0.3, 9.0, -9.0};
     double shift[2];
     scene s = make_scene(0.1, 5.0, peak, 3);
@@ -153,9 +147,8 @@ static void a_vertex_exactly_below_a_node_is_not_missed(void **state)
     free_scene(&s);
 }
 
-static void a_body_that_touches_already_stays(void **state)
+TEST(a_body_that_touches_already_stays)
 {
-    (void)state;
     const double floor[] = {-9.0, 0.5, 9.0, 0.5}, slope[] = {-9.0, -9.0, 9.0, 9.0},
                  peak[] = {-9.0, -9.0, 0.1, 0.3, 9.0, -9.0};
     const struct {
@@ -183,9 +176,8 @@ static clearance_spike find_spike(const dem_lattice *lattice, const double *poin
     return spike;
 }
 
-static void the_point_deepest_between_nodes_is_found(void **state)
+TEST(the_point_deepest_between_nodes_is_found)
 {
-    (void)state;
     const double spikes[] = {-0.1, -1.0, 0.0, 0.02, 0.1, -1.0, 0.2, 0.01, 0.3, -1.0};
     const double inner[] = {-0.5, -1.0, -0.5, 0.25, 0.4, -1.0}; /* on the side that two triangles share */
     const dem_material material = {
@@ -209,9 +201,8 @@ static void the_point_deepest_between_nodes_is_found(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void points_on_rims_and_in_fixed_triangles_are_no_spikes(void **state)
+TEST(points_on_rims_and_in_fixed_triangles_are_no_spikes)
 {
-    (void)state;
     double x[] = {0, 0, 1, 0, 0, 1}, mass[] = {1, 1, 1};
     dem_index corners[] = {0, 1, 2};
     unsigned char fixed[] = {DEM_NODE_FIXED, DEM_NODE_FIXED, DEM_NODE_FIXED};
@@ -234,9 +225,8 @@ static void points_on_rims_and_in_fixed_triangles_are_no_spikes(void **state)
     assert_close(find_spike(&lattice, inside, 3).depth, 0.0, 0.0);
 }
 
-static void without_an_obstacle_below_there_is_no_place(void **state)
+TEST(without_an_obstacle_below_there_is_no_place)
 {
-    (void)state;
     const double aside[] = {3.0, 0.0, 9.0, 0.0};
     const double up[2] = {0.0, 9.81};
     double shift[2];
@@ -247,21 +237,4 @@ static void without_an_obstacle_below_there_is_no_place(void **state)
     assert_true(shift_to(shift, s.model, down, 0.1));
     assert_false(shift_to(shift, s.model, up, 0.1));
     free_scene(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_apex_between_nodes_is_met_at_the_clearance),
-        cmocka_unit_test(a_body_above_a_floor_goes_down_to_it),
-        cmocka_unit_test(a_body_in_or_under_a_floor_goes_up_to_it),
-        cmocka_unit_test(slopes_and_vertices_are_met_at_the_clearance_exactly),
-        cmocka_unit_test(a_body_inside_a_closed_obstacle_stays_inside),
-        cmocka_unit_test(a_vertex_exactly_below_a_node_is_not_missed),
-        cmocka_unit_test(a_body_that_touches_already_stays),
-        cmocka_unit_test(the_point_deepest_between_nodes_is_found),
-        cmocka_unit_test(points_on_rims_and_in_fixed_triangles_are_no_spikes),
-        cmocka_unit_test(without_an_obstacle_below_there_is_no_place),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,9 +49,8 @@ static void expect_separate(const dem_lattice *lattice)
 }
 
 /* A strip of 8 x 7 rows; row 3 is at 3 sqrt(3)/2. */
-static void a_crack_along_a_row_takes_the_triangles_on_its_left(void **state)
+TEST(a_crack_along_a_row_takes_the_triangles_on_its_left)
 {
-    (void)state;
     const double right[4] = {-9.0, 3.0 * row, 9.0, 3.0 * row}, left[4] = {9.0, 3.0 * row, -9.0, 3.0 * row};
     dem_lattice up = make_rectangle(8.0, 6.0 * row, 1.0), down = make_rectangle(8.0, 6.0 * row, 1.0);
     assert_int_equal(cut(&up, right, 2), 15);
@@ -72,9 +71,8 @@ static void a_crack_along_a_row_takes_the_triangles_on_its_left(void **state)
 }
 
 /* Two triangles of each strip, on the left; the nodes that it passes through stay, on the right face. */
-static void a_crack_through_nodes_leaves_them_to_its_right(void **state)
+TEST(a_crack_through_nodes_leaves_them_to_its_right)
 {
-    (void)state;
     const double up[4] = {0.0, -1.0, 0.0, 9.0};
     dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
     dem_index passed = 0;
@@ -86,9 +84,8 @@ static void a_crack_through_nodes_leaves_them_to_its_right(void **state)
 }
 
 /* Through nodes, along edges, between them, bent at a node both ways, bent anywhere: two pieces, no common node. */
-static void a_crack_through_the_whole_body_separates_it(void **state)
+TEST(a_crack_through_the_whole_body_separates_it)
 {
-    (void)state;
     static const double cracks[][8] = {
         {0.0, -1.0, 0.0, 0.1, 0.0, 3.0, 0.0, 9.0},                         /* upright, through nodes and edges */
         {-2.0, -1.0, -1.0, 0.0, 0.0, 2.0 * 0.86602540378443864676, 5, 9},  /* bends at nodes, to the right */
@@ -111,9 +108,8 @@ static void a_crack_through_the_whole_body_separates_it(void **state)
 }
 
 /* Seeded random polylines from below the block to above it; small flakes between bends may come off as well. */
-static void random_cracks_separate_left_from_right(void **state)
+TEST(random_cracks_separate_left_from_right)
 {
-    (void)state;
     unsigned random = 7;
     for (int k = 0; k < 200; k++) {
         double points[10];
@@ -138,9 +134,8 @@ static void random_cracks_separate_left_from_right(void **state)
     }
 }
 
-static void a_crack_that_ends_inside_leaves_one_piece_with_two_faces(void **state)
+TEST(a_crack_that_ends_inside_leaves_one_piece_with_two_faces)
 {
-    (void)state;
     const double points[4] = {-9.0, 3.0 * row, 0.0, 3.0 * row};
     dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
     dem_index upper = 0, lower = 0;
@@ -162,9 +157,8 @@ static void a_crack_that_ends_inside_leaves_one_piece_with_two_faces(void **stat
 }
 
 /* E h A/|e| for the one triangle that an edge on a face has: half of that inside. */
-static void the_faces_have_half_the_stiffness(void **state)
+TEST(the_faces_have_half_the_stiffness)
 {
-    (void)state;
     const double points[4] = {-9.0, 3.0 * row, 9.0, 3.0 * row};
     const double half = rubber.youngs_modulus * rubber.thickness * 0.5 * row;
     dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
@@ -183,25 +177,10 @@ static void the_faces_have_half_the_stiffness(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_crack_elsewhere_takes_nothing(void **state)
+TEST(a_crack_elsewhere_takes_nothing)
 {
-    (void)state;
     const double points[6] = {-9.0, -0.5, 9.0, -0.5, 4.5, 9.0};
     dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
     assert_int_equal(cut(&lattice, points, 3), 0);
     dem_lattice_free(&lattice);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_crack_along_a_row_takes_the_triangles_on_its_left),
-        cmocka_unit_test(a_crack_through_nodes_leaves_them_to_its_right),
-        cmocka_unit_test(a_crack_through_the_whole_body_separates_it),
-        cmocka_unit_test(random_cracks_separate_left_from_right),
-        cmocka_unit_test(a_crack_that_ends_inside_leaves_one_piece_with_two_faces),
-        cmocka_unit_test(the_faces_have_half_the_stiffness),
-        cmocka_unit_test(a_crack_elsewhere_takes_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 
 #include "image.h"
 
-static void an_image_is_black_at_first_and_empty_at_last(void **state)
+TEST(an_image_is_black_at_first_and_empty_at_last)
 {
-    (void)state;
     image picture = {.width = 3, .height = 2, .white = 9};
     assert_true(image_create(&picture));
     for (int k = 0; k < 6; k++) assert_int_equal(picture.grey[k], 0);
@@ -14,10 +13,4 @@ static void an_image_is_black_at_first_and_empty_at_last(void **state)
     assert_null(picture.grey);
     assert_int_equal(picture.width, 0);
     image_free(&picture);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(an_image_is_black_at_first_and_empty_at_last)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,9 +31,8 @@ static mask read_steps(double threshold)
     return m;
 }
 
-static void bright_pixels_are_material_and_the_top_row_comes_first(void **state)
+TEST(bright_pixels_are_material_and_the_top_row_comes_first)
 {
-    (void)state;
     static const unsigned char expected[12] = {1, 1, 1, 1, 1, 1, 0, 0, 1, 1, 0, 1};
     mask m = read_steps(0.5);
     assert_memory_equal(m.solid, expected, sizeof expected);
@@ -50,9 +49,8 @@ static bool has(const mask *m, double x, double y)
     return mask_has(m, (const double[]){x, y}, 1e-9);
 }
 
-static void edges_of_pixels_belong_to_the_material(void **state)
+TEST(edges_of_pixels_belong_to_the_material)
 {
-    (void)state;
     mask m = read_steps(0.5);
     assert_true(has(&m, 0.25, 0.25) && has(&m, -0.75, 1.25) && has(&m, 0.75, 1.25));
     assert_false(has(&m, 0.25, 0.75) || has(&m, 0.25, 1.25) || has(&m, 0.75, 0.75));
@@ -67,9 +65,8 @@ static bool fits(const mask *m, double x, double y, double radius)
     return mask_fits(m, (const double[]){x, y}, radius);
 }
 
-static void a_disc_fits_as_far_as_the_nearest_dark_pixel(void **state)
+TEST(a_disc_fits_as_far_as_the_nearest_dark_pixel)
 {
-    (void)state;
     mask m = read_steps(0.5);
     assert_true(fits(&m, -0.5, 0.75, 0.4999));
     assert_false(fits(&m, -0.5, 0.75, 0.5001)); /* the edge at x = 0, and that of the image */
@@ -81,9 +78,8 @@ static void a_disc_fits_as_far_as_the_nearest_dark_pixel(void **state)
     mask_free(&m);
 }
 
-static void rows_are_sliced_into_runs(void **state)
+TEST(rows_are_sliced_into_runs)
 {
-    (void)state;
     double x[5];
     mask m = read_steps(0.5);
     assert_int_equal(mask_slice(&m, 0, x), 2);
@@ -107,9 +103,8 @@ static void expect_fault(const char *name, const char *expected)
     assert_null(m.solid);
 }
 
-static void files_at_fault_are_refused(void **state)
+TEST(files_at_fault_are_refused)
 {
-    (void)state;
     expect_fault("/no/such/image.pgm", " No such file or directory");
     put(TEXT("GIF89a"));
     expect_fault(path, " neither a PGM image (P2, P5) nor a PNG image");
@@ -123,9 +118,8 @@ static void files_at_fault_are_refused(void **state)
     assert_non_null(strstr(fault, "PNG image"));
 }
 
-static void an_image_is_measured_by_its_first_bytes(void **state)
+TEST(an_image_is_measured_by_its_first_bytes)
 {
-    (void)state;
     double size[2];
     put(TEXT("P5\n# wide\n40 30\n255\n")); /* and no pixel */
     assert_true(mask_measure(size, path, 0.5));
@@ -142,16 +136,8 @@ static void an_image_is_measured_by_its_first_bytes(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_image_is_measured_by_its_first_bytes),
-        cmocka_unit_test(bright_pixels_are_material_and_the_top_row_comes_first),
-        cmocka_unit_test(edges_of_pixels_belong_to_the_material),
-        cmocka_unit_test(a_disc_fits_as_far_as_the_nearest_dark_pixel),
-        cmocka_unit_test(rows_are_sliced_into_runs),
-        cmocka_unit_test(files_at_fault_are_refused),
-    };
     const int file = mkstemp(path);
     if (file < 0 || close(file) != 0) return 1;
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = test_run();
     return unlink(path) == 0 ? failed : 1;
 }

@@ -7,9 +7,8 @@
 #define RUN    "&run t_end = 1 /\n"
 #define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
 
-static void a_material_is_read_by_its_name(void **state)
+TEST(a_material_is_read_by_its_name)
 {
-    (void)state;
     resolved r = resolve_clean(RUN RUBBER "&material name = 'steel', youngs_modulus = 2e11, poissons_ratio = 0.3,\n"
                                           "  plane = 'strain', density = 7800, thickness = 0.5, guard = 0.1,\n"
                                           "  damping_time = 1e-6 /\n&body shape = 'disc', material = 'steel' /");
@@ -28,9 +27,8 @@ static void a_material_is_read_by_its_name(void **state)
 }
 
 /* Of equal springs no nu is left to mean anything. */
-static void a_bond_stiffness_stands_for_all_of_elasticity(void **state)
+TEST(a_bond_stiffness_stands_for_all_of_elasticity)
 {
-    (void)state;
     resolved r =
         resolve_clean(RUN "&material name = 'raw', bond_stiffness = 3, density = 1 /\n" RUBBER
                           "&body shape = 'disc', material = 'raw' /\n&body shape = 'disc', material = 'rubber' /");
@@ -60,9 +58,8 @@ static void assert_checked(const char *text, const char *expected)
 
 #define BODY "&body shape = 'disc', material = 'rubber' /"
 
-static void either_modulus_or_bond_stiffness_is_given(void **state)
+TEST(either_modulus_or_bond_stiffness_is_given)
 {
-    (void)state;
     assert_checked(RUN RUBBER BODY, "");
     assert_checked(RUN "&material name = 'rubber', bond_stiffness = 1, density = 1 /\n" BODY, "");
     assert_checked(RUN "&material name = 'rubber', density = 1 /\n" BODY,
@@ -75,9 +72,8 @@ static void either_modulus_or_bond_stiffness_is_given(void **state)
                    "3:1 'plane' in &material does not go with 'bond_stiffness'");
 }
 
-static void names_are_given_once_and_found(void **state)
+TEST(names_are_given_once_and_found)
 {
-    (void)state;
     assert_checked(RUN RUBBER RUBBER BODY, "3:11 material 'rubber' is given twice, first in line 2");
     assert_checked(RUN RUBBER "&body shape = 'disc', material = 'rubbr' /",
                    "3:23 there is no material 'rubbr' (did you mean 'rubber'?)");
@@ -86,23 +82,10 @@ static void names_are_given_once_and_found(void **state)
     assert_checked(RUN "&body shape = 'disc', material = 'rubber' /", ""); /* that there is none is reported once */
 }
 
-static void the_range_of_nu_is_that_of_the_plane(void **state)
+TEST(the_range_of_nu_is_that_of_the_plane)
 {
-    (void)state;
     assert_checked(RUN "&material name = 'rubber', youngs_modulus = 1, density = 1, plane = 'strain',\n"
                        "poissons_ratio = 0.5 /\n" BODY,
                    "3:1 'poissons_ratio' in &material must be < 0.5 in plane strain, got 0.5");
     assert_checked(RUN "&material name = 'rubber', youngs_modulus = 1, density = 1, poissons_ratio = 0.5 /\n" BODY, "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_material_is_read_by_its_name),
-        cmocka_unit_test(a_bond_stiffness_stands_for_all_of_elasticity),
-        cmocka_unit_test(either_modulus_or_bond_stiffness_is_given),
-        cmocka_unit_test(names_are_given_once_and_found),
-        cmocka_unit_test(the_range_of_nu_is_that_of_the_plane),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,9 +39,8 @@ static void expect_fault(const char *text, const char *expected)
     assert_null(lattice.triangles);
 }
 
-static void a_mesh_becomes_a_counter_clockwise_triangulation(void **state)
+TEST(a_mesh_becomes_a_counter_clockwise_triangulation)
 {
-    (void)state;
     static const double x[8] = {0, 1, 0, 0, 1, 0, 1, 1}; /* in the order of the file, without node 9 */
     static const dem_index triangles[6] = {1, 2, 3, 1, 3, 0};
     dem_lattice lattice = read_good(FORMAT ENTITIES NODES ELEMENTS);
@@ -53,9 +52,8 @@ static void a_mesh_becomes_a_counter_clockwise_triangulation(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void other_sections_and_parameters_are_passed_over(void **state)
+TEST(other_sections_and_parameters_are_passed_over)
 {
-    (void)state;
     dem_lattice lattice = read_good(
         FORMAT "$PhysicalNames\n1\n2 1 \"a name with blanks,"
                "and_more_bytes_than_any_word_that_is_read_may_have,_and_in_it_$EndPhysicalNames\"\n"
@@ -68,9 +66,8 @@ static void other_sections_and_parameters_are_passed_over(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void formats_at_fault_are_refused(void **state)
+TEST(formats_at_fault_are_refused)
 {
-    (void)state;
     expect_fault("", "1: the text ends where $MeshFormat is expected");
     expect_fault("\x7f"
                  "ELF",
@@ -88,9 +85,8 @@ static void formats_at_fault_are_refused(void **state)
 }
 
 /* Nothing of such a size is asked for. */
-static void absurd_counts_are_refused(void **state)
+TEST(absurd_counts_are_refused)
 {
-    (void)state;
     expect_fault(FORMAT "$Nodes\n1 1000000000 1 5\n2 1 0 1\n1\n0 0 0\n",
                  "5: 1000000000 nodes do not fit in the 21 bytes that follow");
     expect_fault(FORMAT "$Nodes\n9223372036854775807 1 1 5\n2 1 0 1\n1\n0 0 0\n",
@@ -101,9 +97,8 @@ static void absurd_counts_are_refused(void **state)
                  "6: the number of nodes in a block must be in [0, 1], got 7");
 }
 
-static void nodes_at_fault_are_refused(void **state)
+TEST(nodes_at_fault_are_refused)
 {
-    (void)state;
     expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 0 0.1\n$EndNodes",
                  "8: the mesh must lie in the plane z = 0, but a node has z = 0.1");
     expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 nan 0\n$EndNodes", "8: y must be a finite number, got 'nan'");
@@ -118,9 +113,8 @@ static void nodes_at_fault_are_refused(void **state)
 
 #define SQUARE FORMAT NODES "$Elements\n" /* the counts stand in line 20 */
 
-static void elements_at_fault_are_refused(void **state)
+TEST(elements_at_fault_are_refused)
 {
-    (void)state;
     expect_fault(SQUARE "1 1 1 1\n2 1 3 1\n1 10 20 30 40\n$EndElements\n",
                  "21: elements of type 3; only triangles of 3 nodes, type 2, can be read");
     expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20 31\n$EndElements\n", "22: there is no node 31");
@@ -134,9 +128,8 @@ static void elements_at_fault_are_refused(void **state)
     expect_fault(SQUARE "1 1 1 1\n1 1 1 1\n1 10 20\n$EndElements\n", "24: the mesh has no triangles");
 }
 
-static void triangles_on_the_same_side_of_an_edge_are_refused(void **state)
+TEST(triangles_on_the_same_side_of_an_edge_are_refused)
 {
-    (void)state;
     expect_fault(SQUARE "1 2 1 2\n2 1 2 2\n1 10 20 30\n2 30 20 10\n$EndElements\n",
                  "23: this triangle overlaps that of line 22");
     expect_fault(SQUARE "1 2 1 2\n2 1 2 2\n1 10 20 30\n2 10 20 40\n$EndElements\n",
@@ -144,9 +137,8 @@ static void triangles_on_the_same_side_of_an_edge_are_refused(void **state)
 }
 
 /* Every beginning of a good mesh is refused, or is one. */
-static void no_beginning_of_a_mesh_is_harmful(void **state)
+TEST(no_beginning_of_a_mesh_is_harmful)
 {
-    (void)state;
     static const char text[] = FORMAT ENTITIES NODES ELEMENTS;
     for (size_t n = 0; n + 1 < sizeof text; n++) {
         char fault[MSH_FAULT] = "", *part = malloc(n + 1); /* exact: what reads beyond is seen */
@@ -161,9 +153,8 @@ static void no_beginning_of_a_mesh_is_harmful(void **state)
     }
 }
 
-static void a_file_is_read_as_its_text_is(void **state)
+TEST(a_file_is_read_as_its_text_is)
 {
-    (void)state;
     char path[] = "/tmp/test_msh_XXXXXX", fault[MSH_FAULT] = "";
     const char text[] = FORMAT NODES ELEMENTS;
     dem_lattice lattice;
@@ -176,20 +167,4 @@ static void a_file_is_read_as_its_text_is(void **state)
     assert_int_equal(msh_read(&lattice, fault, path), DEM_ERROR_MODEL);
     assert_string_equal(fault, " No such file or directory");
     assert_null(lattice.x);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_mesh_becomes_a_counter_clockwise_triangulation),
-        cmocka_unit_test(other_sections_and_parameters_are_passed_over),
-        cmocka_unit_test(formats_at_fault_are_refused),
-        cmocka_unit_test(absurd_counts_are_refused),
-        cmocka_unit_test(nodes_at_fault_are_refused),
-        cmocka_unit_test(elements_at_fault_are_refused),
-        cmocka_unit_test(triangles_on_the_same_side_of_an_edge_are_refused),
-        cmocka_unit_test(no_beginning_of_a_mesh_is_harmful),
-        cmocka_unit_test(a_file_is_read_as_its_text_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

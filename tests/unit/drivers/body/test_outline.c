@@ -17,18 +17,16 @@ static const outline ring = {.kind = OUTLINE_RING, .centre = {1.0, 2.0}, .radius
 static double notched_points[] = {0, 0, 4, 0, 4, 4, 3, 4, 2, 1, 1, 4, 0, 4};
 static const outline notched = {.kind = OUTLINE_POLYGON, .n_points = 7, .points = notched_points};
 
-static void a_rectangle_is_as_far_as_its_nearest_side_or_corner(void **state)
+TEST(a_rectangle_is_as_far_as_its_nearest_side_or_corner)
 {
-    (void)state;
     assert_close(outline_distance(&block, 1.0, 2.0), -2.0, tiny);
     assert_close(outline_distance(&block, 3.5, 2.0), -0.5, tiny);
     assert_close(outline_distance(&block, 1.0, 5.0), 1.0, tiny);
     assert_close(outline_distance(&block, 4.0 + 3.0, 4.0 + 4.0), 5.0, tiny); /* 3-4-5 */
 }
 
-static void discs_and_rings_are_counted_from_their_rims(void **state)
+TEST(discs_and_rings_are_counted_from_their_rims)
 {
-    (void)state;
     assert_close(outline_distance(&disc, 1.0 + 3.0, 2.0 - 4.0), 0.0, tiny);
     assert_close(outline_distance(&disc, 1.0, 2.0), -5.0, tiny);
     assert_close(outline_distance(&ring, 1.0, 2.0), 3.0, tiny);
@@ -38,9 +36,8 @@ static void discs_and_rings_are_counted_from_their_rims(void **state)
 }
 
 /* The notch has slopes of 3: (2, 2) is 1 above its tip, 1/sqrt(10) from its sides. */
-static void a_polygon_need_not_be_convex(void **state)
+TEST(a_polygon_need_not_be_convex)
 {
-    (void)state;
     assert_close(outline_distance(&notched, 2.0, 2.0), 1.0 / sqrt(10.0), tiny);
     assert_close(outline_distance(&notched, 2.0, 0.75), -0.25, tiny);
     assert_close(outline_distance(&notched, 0.5, 3.5), -0.5, tiny);
@@ -50,9 +47,8 @@ static void a_polygon_need_not_be_convex(void **state)
 }
 
 /* A ray through corners must not count them twice or never. */
-static void inside_is_found_right_at_the_height_of_a_corner(void **state)
+TEST(inside_is_found_right_at_the_height_of_a_corner)
 {
-    (void)state;
     double points[] = {0, 0, 2, -1, 4, 0, 2, 1};
     const outline rhombus = {.kind = OUTLINE_POLYGON, .n_points = 4, .points = points};
     assert_true(outline_distance(&rhombus, 1.0, 0.0) < 0.0);
@@ -65,9 +61,8 @@ static void inside_is_found_right_at_the_height_of_a_corner(void **state)
     assert_true(outline_distance(&notched, -1.0, 4.0) > 0.0);
 }
 
-static void the_way_round_does_not_matter(void **state)
+TEST(the_way_round_does_not_matter)
 {
-    (void)state;
     double points[14];
     for (int k = 0; k < 7; k++) memcpy(points + 2 * k, notched_points + 2 * (6 - k), 2 * sizeof *points);
     const outline back = {.kind = OUTLINE_POLYGON, .n_points = 7, .points = points};
@@ -87,9 +82,8 @@ static void expect_box(const outline *o, double left, double bottom, double righ
     assert_close(box[3], top, tiny);
 }
 
-static void boxes_touch_all_sides(void **state)
+TEST(boxes_touch_all_sides)
 {
-    (void)state;
     expect_box(&block, -2.0, 0.0, 4.0, 4.0);
     expect_box(&disc, -4.0, -3.0, 6.0, 7.0);
     expect_box(&ring, -4.0, -3.0, 6.0, 7.0);
@@ -104,9 +98,8 @@ static void expect_slice(const outline *o, double y, size_t n, const double *exp
     for (size_t k = 0; k < n; k++) assert_close(x[k], expected[k], 4 * tiny);
 }
 
-static void slices_enter_and_leave(void **state)
+TEST(slices_enter_and_leave)
 {
-    (void)state;
     expect_slice(&block, 3.9, 2, (const double[]){-2.0, 4.0});
     expect_slice(&block, 4.1, 0, NULL);
     expect_slice(&disc, 2.0 + 3.0, 2, (const double[]){-3.0, 5.0});
@@ -117,9 +110,8 @@ static void slices_enter_and_leave(void **state)
     expect_slice(&notched, 2.5, 4, (const double[]){0.0, 1.5, 2.5, 4.0});
 }
 
-static void levels_are_where_slices_change(void **state)
+TEST(levels_are_where_slices_change)
 {
-    (void)state;
     double y[7];
     assert_int_equal(outline_levels(&block, y), 2);
     assert_close(y[0] + y[1], 4.0, tiny);
@@ -132,9 +124,8 @@ static void levels_are_where_slices_change(void **state)
     assert_close(y[4], 1.0, tiny);
 }
 
-static void placing_turns_and_then_shifts(void **state)
+TEST(placing_turns_and_then_shifts)
 {
-    (void)state;
     outline o = {.size = {4.0, 2.0}};
     const double quarter[2] = {0.0, 1.0}, shift[2] = {10.0, 20.0};
     assert_true(outline_place(&o, quarter, shift));
@@ -156,9 +147,8 @@ static void expect_crossing(double *points, size_t n, size_t first, size_t secon
     assert_int_equal(edges[1], second);
 }
 
-static void polygons_that_meet_themselves_are_found(void **state)
+TEST(polygons_that_meet_themselves_are_found)
 {
-    (void)state;
     size_t edges[2];
     double bow[] = {0, 0, 1, 1, 1, 0, 0, 1}, back[] = {0, 0, 2, 0, 1, 0, 1, 1}, spike[] = {0, 0, 2, 0, 2, 2, 1, 0};
     double hair[] = {0, 0, 1, 0, 1, 1, 0, 1, 0, -1}, flat[] = {0, 0, 1, 0, 2, 0};
@@ -168,21 +158,4 @@ static void polygons_that_meet_themselves_are_found(void **state)
     expect_crossing(hair, 5, 0, 3);  /* passes the first point */
     expect_crossing(flat, 3, 0, 2);
     assert_false(outline_crossing(&notched, edges));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rectangle_is_as_far_as_its_nearest_side_or_corner),
-        cmocka_unit_test(discs_and_rings_are_counted_from_their_rims),
-        cmocka_unit_test(a_polygon_need_not_be_convex),
-        cmocka_unit_test(inside_is_found_right_at_the_height_of_a_corner),
-        cmocka_unit_test(the_way_round_does_not_matter),
-        cmocka_unit_test(boxes_touch_all_sides),
-        cmocka_unit_test(slices_enter_and_leave),
-        cmocka_unit_test(levels_are_where_slices_change),
-        cmocka_unit_test(placing_turns_and_then_shifts),
-        cmocka_unit_test(polygons_that_meet_themselves_are_found),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

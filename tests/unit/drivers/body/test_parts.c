@@ -19,9 +19,8 @@ static dem_lattice make_lattice(int32_t *body)
     return lattice;
 }
 
-static void the_largest_part_of_a_body_is_the_main_one(void **state)
+TEST(the_largest_part_of_a_body_is_the_main_one)
 {
-    (void)state;
     const unsigned char expected[9] = {1, 0, 0, 0, 0, 0, 0, 1, 1}; /* of two with three nodes the one with node 0 */
     const dem_lattice lattice = make_lattice(NULL);
     unsigned char kept[9];
@@ -36,9 +35,8 @@ static void the_largest_part_of_a_body_is_the_main_one(void **state)
     assert_close(loose.x[0][1], -3.0, 0.0);
 }
 
-static void every_body_has_a_main_part(void **state)
+TEST(every_body_has_a_main_part)
 {
-    (void)state;
     const unsigned char expected[9] = {1, 1, 1, 1, 1, 1, 0, 1, 1};
     int32_t body[9] = {0, 5, 5, 2, 2, 2, 0, 0, 0};
     const dem_lattice lattice = make_lattice(body);
@@ -50,9 +48,8 @@ static void every_body_has_a_main_part(void **state)
     assert_close(loose.x[0][0], 6.0, 0.0);
 }
 
-static void a_lattice_without_nodes_has_no_parts(void **state)
+TEST(a_lattice_without_nodes_has_no_parts)
 {
-    (void)state;
     unsigned char kept[1];
     dem_lattice lattice;
     parts_loose loose;
@@ -61,9 +58,8 @@ static void a_lattice_without_nodes_has_no_parts(void **state)
     assert_int_equal(loose.n, 0);
 }
 
-static void more_parts_than_are_listed_are_counted(void **state)
+TEST(more_parts_than_are_listed_are_counted)
 {
-    (void)state;
     dem_lattice lattice = make_lattice(NULL);
     unsigned char kept[9];
     parts_loose loose;
@@ -77,9 +73,8 @@ static void more_parts_than_are_listed_are_counted(void **state)
                         "1 node at (1, -1), 1 at (2, -2), 1 at (3, -3), 1 at (4, -4), 1 at (5, -5), 1 at (6, -6), ...");
 }
 
-static void a_spring_to_nowhere_is_an_error(void **state)
+TEST(a_spring_to_nowhere_is_an_error)
 {
-    (void)state;
     dem_lattice lattice = make_lattice(NULL);
     unsigned char kept[9];
     parts_loose loose;
@@ -102,9 +97,8 @@ static dem_lattice make_fan(void)
     return lattice;
 }
 
-static void triangles_that_share_but_a_node_are_parts_of_their_own(void **state)
+TEST(triangles_that_share_but_a_node_are_parts_of_their_own)
 {
-    (void)state;
     const unsigned char expected[3] = {0, 1, 1};
     const dem_lattice lattice = make_fan();
     unsigned char kept[3];
@@ -123,9 +117,8 @@ static void triangles_that_share_but_a_node_are_parts_of_their_own(void **state)
     assert_string_equal(text, "");
 }
 
-static void the_longest_list_has_room(void **state)
+TEST(the_longest_list_has_room)
 {
-    (void)state;
     char text[PARTS_LIST];
     parts_loose loose = {.n = 99};
     for (int k = 0; k < PARTS_LISTED; k++) {
@@ -136,9 +129,8 @@ static void the_longest_list_has_room(void **state)
     assert_string_equal(text + strlen(text) - 5, ", ...");
 }
 
-static void a_node_with_two_fans_is_a_hinge(void **state)
+TEST(a_node_with_two_fans_is_a_hinge)
 {
-    (void)state;
     const dem_lattice lattice = make_fan();
     dem_lattice two = make_fan();
     parts_hinges hinges;
@@ -152,19 +144,4 @@ static void a_node_with_two_fans_is_a_hinge(void **state)
     assert_int_equal(hinges.n, 0);
     two.n_nodes = 2;
     assert_int_equal(parts_find_hinges(&hinges, &two), DEM_ERROR_MODEL);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_largest_part_of_a_body_is_the_main_one),
-        cmocka_unit_test(every_body_has_a_main_part),
-        cmocka_unit_test(a_lattice_without_nodes_has_no_parts),
-        cmocka_unit_test(more_parts_than_are_listed_are_counted),
-        cmocka_unit_test(a_spring_to_nowhere_is_an_error),
-        cmocka_unit_test(triangles_that_share_but_a_node_are_parts_of_their_own),
-        cmocka_unit_test(the_longest_list_has_room),
-        cmocka_unit_test(a_node_with_two_fans_is_a_hinge),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,9 +35,8 @@ static void expect_fault(const char *bytes, size_t size, const char *expected)
 
 #define TEXT(text) (text), sizeof(text) - 1
 
-static void text_of_8_and_16_bits_is_read(void **state)
+TEST(text_of_8_and_16_bits_is_read)
 {
-    (void)state;
     image small = read_good(TEXT("P2\n# by hand\n3 2 # size\n255\n0 128 255\n1 2 3\n"));
     image deep = read_good(TEXT("P2 1 2 65535 65535\n258"));
     image bits = read_good(TEXT("P2 2 1 1 0 1"));
@@ -47,18 +46,16 @@ static void text_of_8_and_16_bits_is_read(void **state)
 }
 
 /* A blank ends the header; the first pixel may look like one, or like a comment. */
-static void bytes_of_8_and_16_bits_are_read(void **state)
+TEST(bytes_of_8_and_16_bits_are_read)
 {
-    (void)state;
     image small = read_good(TEXT("P5 3 1 255\n\n#\xff"));
     image deep = read_good(TEXT("P5\n# deep\n2 1\n256\n\x01\x00\x00\xff"));
     expect_grey(&small, 3, 1, 255, (const unsigned[]){10, 35, 255});
     expect_grey(&deep, 2, 1, 256, (const unsigned[]){256, 255});
 }
 
-static void headers_at_fault_are_refused(void **state)
+TEST(headers_at_fault_are_refused)
 {
-    (void)state;
     expect_fault(TEXT(""), "1: 'P2' or 'P5' is expected at the beginning");
     expect_fault(TEXT("P6 1 1 255 x"), "1: 'P2' or 'P5' is expected at the beginning");
     expect_fault(TEXT("P25 1 1"), "1: 'P2' or 'P5' is expected at the beginning");
@@ -71,18 +68,16 @@ static void headers_at_fault_are_refused(void **state)
 }
 
 /* Before anything of that size is asked for. */
-static void pixels_that_the_bytes_cannot_hold_are_refused(void **state)
+TEST(pixels_that_the_bytes_cannot_hold_are_refused)
 {
-    (void)state;
     expect_fault(TEXT("P5 32768 32768 65535\nxyz"),
                  "1: 32768 x 32768 pixels take 2147483648 bytes, but 3 follow the header");
     expect_fault(TEXT("P2 32768 32768 65535\n1 2"), "1: 4 bytes cannot hold 32768 x 32768 pixels");
     expect_fault(TEXT("P5 2 1 255\nabc"), "1: 2 x 1 pixels take 2 bytes, but 3 follow the header");
 }
 
-static void pixels_at_fault_are_refused(void **state)
+TEST(pixels_at_fault_are_refused)
 {
-    (void)state;
     expect_fault(TEXT("P2 2 2 9\n1 2\n3 10"), "3: a pixel must be in [0, 9], got 10");
     expect_fault(TEXT("P2 2 2 9\n1 2\n-3 1"), "3: a pixel must be in [0, 9], got -3");
     expect_fault(TEXT("P2 2 2 9\n1 2\n3x 1"), "3: a pixel must be an integer, got '3x'");
@@ -91,24 +86,10 @@ static void pixels_at_fault_are_refused(void **state)
     expect_fault(TEXT("P5 2 2 9 \x01\x02\x03\x0a"), "1: the pixel in column 2 of row 2 is 10, larger than 9");
 }
 
-static void beginnings_are_known(void **state)
+TEST(beginnings_are_known)
 {
-    (void)state;
     assert_true(pgm_begins(TEXT("P2 ")));
     assert_true(pgm_begins(TEXT("P5\n")));
     assert_false(pgm_begins(TEXT("P6\n")));
     assert_false(pgm_begins(TEXT("P5")));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_of_8_and_16_bits_is_read),
-        cmocka_unit_test(bytes_of_8_and_16_bits_are_read),
-        cmocka_unit_test(headers_at_fault_are_refused),
-        cmocka_unit_test(pixels_that_the_bytes_cannot_hold_are_refused),
-        cmocka_unit_test(pixels_at_fault_are_refused),
-        cmocka_unit_test(beginnings_are_known),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -38,9 +38,8 @@ static const char *text_of(const unsigned char *bytes)
     return (const char *)bytes;
 }
 
-static void beginnings_are_known(void **state)
+TEST(beginnings_are_known)
 {
-    (void)state;
     assert_true(png_begins(text_of(grey8), sizeof grey8));
     assert_false(png_begins(text_of(grey8), 7));
     assert_false(png_begins("P5 1 1 255 ", 11));
@@ -59,9 +58,8 @@ static void expect_grey(const unsigned char *bytes, size_t size, size_t width, c
 }
 
 /* Rec. 601: 0.299, 0.587 and 0.114 of 255. Of sixteen bits the upper eight count: 0x00ff, 0x0100, 0x7fff, ... */
-static void images_become_grey(void **state)
+TEST(images_become_grey)
 {
-    (void)state;
     expect_grey(grey8, sizeof grey8, 3, (const unsigned[]){0, 128, 255, 1, 2, 3});
     expect_grey(grey16, sizeof grey16, 6, (const unsigned[]){0, 1, 127, 128, 254, 255});
     expect_grey(colours, sizeof colours, 4, (const unsigned[]){77, 149, 29, 255});
@@ -77,9 +75,8 @@ static void expect_fault(const unsigned char *bytes, size_t size, const char *ex
     assert_null(out.grey);
 }
 
-static void damaged_images_are_refused(void **state)
+TEST(damaged_images_are_refused)
 {
-    (void)state;
     unsigned char bytes[sizeof grey8];
     expect_fault(grey8, 23, "the PNG image ends too early");
     for (size_t size = 24; size < sizeof grey8 - 12; size++) expect_fault(grey8, size, "the PNG image is damaged");
@@ -88,9 +85,8 @@ static void damaged_images_are_refused(void **state)
     expect_fault(bytes, sizeof bytes, "the PNG image is damaged");
 }
 
-static void stated_sizes_are_limited(void **state)
+TEST(stated_sizes_are_limited)
 {
-    (void)state;
     unsigned char bytes[sizeof grey8];
     memcpy(bytes, grey8, sizeof bytes);
     bytes[16] = 0x7f;
@@ -101,9 +97,8 @@ static void stated_sizes_are_limited(void **state)
 }
 
 /* A chunk that libpng skips would state another size than the image has, and let any size pass. */
-static void an_image_begins_with_its_header(void **state)
+TEST(an_image_begins_with_its_header)
 {
-    (void)state;
     static const unsigned char chunk[] = {0, 0, 0, 8, 'p', 'A', 'D', 'd', 0, 0, 0, 3, 0, 0, 0, 2, 0, 0, 0, 0};
     unsigned char bytes[sizeof grey8 + sizeof chunk];
     memcpy(bytes, grey8, 8);
@@ -112,9 +107,8 @@ static void an_image_begins_with_its_header(void **state)
     expect_fault(bytes, sizeof bytes, "the PNG image does not begin with its header");
 }
 #else
-static void without_cairo_none_is_read(void **state)
+TEST(without_cairo_none_is_read)
 {
-    (void)state;
     image out;
     char fault[IMAGE_FAULT] = "";
     assert_int_equal(png_parse(&out, fault, text_of(grey8), sizeof grey8), IMAGE_REFUSED);
@@ -122,17 +116,3 @@ static void without_cairo_none_is_read(void **state)
     assert_null(out.grey);
 }
 #endif
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(beginnings_are_known),
-#ifdef DEM_CAIRO
-        cmocka_unit_test(images_become_grey),       cmocka_unit_test(damaged_images_are_refused),
-        cmocka_unit_test(stated_sizes_are_limited), cmocka_unit_test(an_image_begins_with_its_header),
-#else
-        cmocka_unit_test(without_cairo_none_is_read),
-#endif
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}

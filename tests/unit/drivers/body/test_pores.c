@@ -27,9 +27,8 @@ static pores place(const pores_recipe *recipe)
     return out;
 }
 
-static void pores_keep_the_wall_between_them_and_the_boundary(void **state)
+TEST(pores_keep_the_wall_between_them_and_the_boundary)
 {
-    (void)state;
     double half = 0.055;
     const pores p = place(&fourteen);
     for (int i = 0; i < 14; i++) {
@@ -46,9 +45,8 @@ static void pores_keep_the_wall_between_them_and_the_boundary(void **state)
 }
 
 /* MT19937 with seed 5489, as in the C++ standard's mt19937, begins 3499211612, 581869302, 3890346734. */
-static void a_seed_gives_the_numbers_of_the_published_generator(void **state)
+TEST(a_seed_gives_the_numbers_of_the_published_generator)
 {
-    (void)state;
     const double scale = 4294967296.0;
     double half = 0.5;
     const pores_recipe recipe = {
@@ -61,9 +59,8 @@ static void a_seed_gives_the_numbers_of_the_published_generator(void **state)
     free(p.list);
 }
 
-static void the_same_seed_gives_the_same_pores_and_another_one_others(void **state)
+TEST(the_same_seed_gives_the_same_pores_and_another_one_others)
 {
-    (void)state;
     pores_recipe other = fourteen;
     other.seed = 2;
     const pores a = place(&fourteen), b = place(&fourteen), c = place(&other);
@@ -74,9 +71,8 @@ static void the_same_seed_gives_the_same_pores_and_another_one_others(void **sta
     free(c.list);
 }
 
-static void equal_radii_are_legal_and_no_pores_are_too(void **state)
+TEST(equal_radii_are_legal_and_no_pores_are_too)
 {
-    (void)state;
     pores_recipe recipe = fourteen;
     recipe.radius_max = recipe.radius_min;
     const pores p = place(&recipe);
@@ -88,9 +84,8 @@ static void equal_radii_are_legal_and_no_pores_are_too(void **state)
     free(none.list);
 }
 
-static void a_pore_that_finds_no_place_is_reported_with_its_radius(void **state)
+TEST(a_pore_that_finds_no_place_is_reported_with_its_radius)
 {
-    (void)state;
     double half = 0.055;
     pores_recipe recipe = fourteen;
     pores p;
@@ -112,9 +107,8 @@ static double area_of_all(const pores *p)
     return area;
 }
 
-static void an_area_is_met_to_half_a_pore(void **state)
+TEST(an_area_is_met_to_half_a_pore)
 {
-    (void)state;
     for (unsigned long seed = 1; seed <= 20; seed++) {
         const pores_recipe recipe = {.box = {-0.055, 0.0, 0.055, 0.11},
                                      .area = 0.3 * 0.11 * 0.11,
@@ -135,9 +129,8 @@ static bool anywhere(void *context, const double x[2], double radius)
     return isfinite(x[0] + x[1] + radius);
 }
 
-static void an_area_that_needs_too_many_pores_is_refused(void **state)
+TEST(an_area_that_needs_too_many_pores_is_refused)
 {
-    (void)state;
     const double most = PORES_MAX * pi * 1e-6;
     pores_recipe recipe = {
         .box = {-9.0, -9.0, 9.0, 9.0}, .area = most * (1.0 - 1e-9), .radius_min = 1e-3, .radius_max = 1e-3};
@@ -195,9 +188,8 @@ static double below_uniform(double radius)
     return radius;
 }
 
-static void radii_are_distributed_as_stated_between_their_limits(void **state)
+TEST(radii_are_distributed_as_stated_between_their_limits)
 {
-    (void)state;
     pores_recipe recipe = {.radius_min = 2.0, .radius_max = 9.0, .mean = 5.0, .deviation = 2.0};
     expect_distribution(&recipe, below_uniform);
     recipe.distribution = PORES_NORMAL;
@@ -207,9 +199,8 @@ static void radii_are_distributed_as_stated_between_their_limits(void **state)
 }
 
 /* Rounded to single precision, their digits are those of any libm. */
-static void radii_that_need_a_libm_are_rounded(void **state)
+TEST(radii_that_need_a_libm_are_rounded)
 {
-    (void)state;
     for (int k = 1; k <= 2; k++) {
         pores_recipe recipe = fourteen;
         recipe.distribution = (pores_distribution)k;
@@ -220,9 +211,8 @@ static void radii_that_need_a_libm_are_rounded(void **state)
     }
 }
 
-static void radii_that_hardly_ever_come_are_refused(void **state)
+TEST(radii_that_hardly_ever_come_are_refused)
 {
-    (void)state;
     pores_recipe recipe = fourteen;
     pores p;
     recipe.distribution = PORES_NORMAL;
@@ -234,9 +224,8 @@ static void radii_that_hardly_ever_come_are_refused(void **state)
     assert_null(p.list);
 }
 
-static void impossible_recipes_are_refused(void **state)
+TEST(impossible_recipes_are_refused)
 {
-    (void)state;
     pores_recipe bad[10];
     pores p;
     for (int k = 0; k < 10; k++) bad[k] = fourteen;
@@ -251,22 +240,4 @@ static void impossible_recipes_are_refused(void **state)
     bad[8].distribution = PORES_NORMAL, bad[8].mean = 1.0;
     bad[9].distribution = PORES_LOGNORMAL, bad[9].deviation = 1.0;
     for (int k = 0; k < 10; k++) assert_int_equal(pores_place(&p, &bad[k], anywhere, NULL), PORES_UNSOUND);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pores_keep_the_wall_between_them_and_the_boundary),
-        cmocka_unit_test(a_seed_gives_the_numbers_of_the_published_generator),
-        cmocka_unit_test(the_same_seed_gives_the_same_pores_and_another_one_others),
-        cmocka_unit_test(equal_radii_are_legal_and_no_pores_are_too),
-        cmocka_unit_test(a_pore_that_finds_no_place_is_reported_with_its_radius),
-        cmocka_unit_test(an_area_is_met_to_half_a_pore),
-        cmocka_unit_test(an_area_that_needs_too_many_pores_is_refused),
-        cmocka_unit_test(radii_are_distributed_as_stated_between_their_limits),
-        cmocka_unit_test(radii_that_need_a_libm_are_rounded),
-        cmocka_unit_test(radii_that_hardly_ever_come_are_refused),
-        cmocka_unit_test(impossible_recipes_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

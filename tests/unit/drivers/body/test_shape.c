@@ -30,9 +30,8 @@ static void expect_depth(const shape *s, double x, double y, double depth)
     assert_false(shape_fits(s, point, depth + 1e-12));
 }
 
-static void depth_in_a_rectangle_is_the_distance_to_its_nearest_edge(void **state)
+TEST(depth_in_a_rectangle_is_the_distance_to_its_nearest_edge)
 {
-    (void)state;
     const shape s = make_rectangle();
     expect_depth(&s, 0.0, 4.0, 3.0);
     expect_depth(&s, 2.5, 4.0, 0.5);
@@ -40,17 +39,15 @@ static void depth_in_a_rectangle_is_the_distance_to_its_nearest_edge(void **stat
     expect_depth(&s, -6.0, -4.0, -5.0);
 }
 
-static void depth_in_a_disc_is_counted_from_its_rim(void **state)
+TEST(depth_in_a_disc_is_counted_from_its_rim)
 {
-    (void)state;
     const shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 2.0}, .spacing = 0.1};
     expect_depth(&s, 0.6, -0.8, 1.0);
     expect_depth(&s, 3.0, 0.0, -1.0);
 }
 
-static void voids_are_not_material(void **state)
+TEST(voids_are_not_material)
 {
-    (void)state;
     shape s = make_rectangle();
     add(&s, round_void);
     add(&s, square_void);
@@ -61,9 +58,8 @@ static void voids_are_not_material(void **state)
     shape_free(&s);
 }
 
-static void the_lattice_leaves_voids_out(void **state)
+TEST(the_lattice_leaves_voids_out)
 {
-    (void)state;
     shape s = make_rectangle();
     dem_lattice lattice;
     double mass = 0.0;
@@ -84,9 +80,8 @@ static void the_lattice_leaves_voids_out(void **state)
     shape_free(&s);
 }
 
-static void a_void_takes_nodes_only_where_they_are(void **state)
+TEST(a_void_takes_nodes_only_where_they_are)
 {
-    (void)state;
     const outline between = {.kind = OUTLINE_DISC, .centre = {0.05, 0.03}, .radius = 0.04};
     const outline outside = {.kind = OUTLINE_DISC, .centre = {0.0, -1.0}, .radius = 0.5};
     const double edge[2] = {3.0, 8.0};
@@ -103,9 +98,8 @@ static void a_void_takes_nodes_only_where_they_are(void **state)
     dem_lattice_free(&lattice);
 }
 
-static void a_void_of_everything_leaves_no_lattice(void **state)
+TEST(a_void_of_everything_leaves_no_lattice)
 {
-    (void)state;
     shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 1.0}, .spacing = 0.5};
     dem_lattice lattice;
     assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
@@ -118,9 +112,8 @@ static void a_void_of_everything_leaves_no_lattice(void **state)
     shape_free(&s);
 }
 
-static void pores_keep_away_from_edges_and_voids(void **state)
+TEST(pores_keep_away_from_edges_and_voids)
 {
-    (void)state;
     for (int disc = 0; disc < 2; disc++) {
         shape s = make_rectangle();
         pores_recipe recipe = {.number = 6, .radius_min = 0.3, .radius_max = 0.4, .wall = 0.2, .seed = 3};
@@ -139,9 +132,8 @@ static void pores_keep_away_from_edges_and_voids(void **state)
     }
 }
 
-static void a_pore_without_a_place_is_reported(void **state)
+TEST(a_pore_without_a_place_is_reported)
 {
-    (void)state;
     shape s = make_rectangle();
     pores_recipe recipe = {.number = 3, .radius_min = 2.0, .radius_max = 2.0, .wall = 0.2, .seed = 3};
     pores p;
@@ -179,9 +171,8 @@ static void expect_inside(const dem_lattice *lattice, const outline *o, double s
         assert_true(outline_distance(o, lattice->x[2 * i], lattice->x[2 * i + 1]) <= 1e-9 * spacing);
 }
 
-static void a_ring_is_hollow(void **state)
+TEST(a_ring_is_hollow)
 {
-    (void)state;
     const shape s = {.outline = {.kind = OUTLINE_RING, .radius = 2.0, .inner = 1.0}, .spacing = 0.05};
     dem_lattice lattice = make_lattice(&s);
     expect_inside(&lattice, &s.outline, s.spacing);
@@ -190,9 +181,8 @@ static void a_ring_is_hollow(void **state)
 }
 
 /* Its lower edge stands on a row; its notch is free of triangles, whose middles are all inside. */
-static void a_polygon_need_not_be_convex(void **state)
+TEST(a_polygon_need_not_be_convex)
 {
-    (void)state;
     double points[] = {10, 5, 14, 5, 14, 9, 13, 9, 12, 6, 11, 9, 10, 9};
     const shape s = {.outline = {.kind = OUTLINE_POLYGON, .n_points = 7, .points = points}, .spacing = 0.1};
     dem_lattice lattice = make_lattice(&s);
@@ -210,9 +200,8 @@ static void a_polygon_need_not_be_convex(void **state)
 }
 
 /* Six pixels of 1 m, the lower left one is empty. */
-static void a_mask_has_nodes_in_its_bright_pixels_only(void **state)
+TEST(a_mask_has_nodes_in_its_bright_pixels_only)
 {
-    (void)state;
     unsigned char solid[] = {0, 1, 1, 1, 1, 1};
     const shape s = {.outline = {.centre = {0.0, 1.0}, .size = {3.0, 2.0}},
                      .mask = {.width = 3, .height = 2, .n_solid = 5, .scale = 1.0, .solid = solid},
@@ -233,9 +222,8 @@ static void a_mask_has_nodes_in_its_bright_pixels_only(void **state)
 
 /* ---- squares ---- */
 
-static void a_rectangle_of_squares_has_its_size(void **state)
+TEST(a_rectangle_of_squares_has_its_size)
 {
-    (void)state;
     const shape s = {.outline = {.centre = {0.0, 0.5}, .size = {2.0, 1.0}}, .spacing = 0.1, .squares = true};
     dem_lattice lattice = make_lattice(&s);
     assert_int_equal(lattice.n_nodes, 21 * 11);
@@ -245,9 +233,8 @@ static void a_rectangle_of_squares_has_its_size(void **state)
 }
 
 /* Whole cells: all four of their corners are inside, none in a void. */
-static void a_disc_of_squares_has_whole_cells_about_its_centre(void **state)
+TEST(a_disc_of_squares_has_whole_cells_about_its_centre)
 {
-    (void)state;
     shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 0.5}, .spacing = 0.1, .squares = true};
     dem_lattice lattice = make_lattice(&s);
     dem_index n_cells = 0;
@@ -276,32 +263,10 @@ static void a_disc_of_squares_has_whole_cells_about_its_centre(void **state)
     shape_free(&s);
 }
 
-static void of_a_cell_both_triangles_are_kept_or_none(void **state)
+TEST(of_a_cell_both_triangles_are_kept_or_none)
 {
-    (void)state;
     unsigned char keep[8] = {1, 1, 0, 1, 1, 0, 0, 0};
     static const unsigned char expected[8] = {1, 1, 0, 0, 0, 0, 0, 0};
     shape_keep_cells(keep, 8);
     assert_memory_equal(keep, expected, 8);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(depth_in_a_rectangle_is_the_distance_to_its_nearest_edge),
-        cmocka_unit_test(depth_in_a_disc_is_counted_from_its_rim),
-        cmocka_unit_test(voids_are_not_material),
-        cmocka_unit_test(the_lattice_leaves_voids_out),
-        cmocka_unit_test(a_void_takes_nodes_only_where_they_are),
-        cmocka_unit_test(a_void_of_everything_leaves_no_lattice),
-        cmocka_unit_test(pores_keep_away_from_edges_and_voids),
-        cmocka_unit_test(a_pore_without_a_place_is_reported),
-        cmocka_unit_test(a_ring_is_hollow),
-        cmocka_unit_test(a_polygon_need_not_be_convex),
-        cmocka_unit_test(a_mask_has_nodes_in_its_bright_pixels_only),
-        cmocka_unit_test(a_rectangle_of_squares_has_its_size),
-        cmocka_unit_test(a_disc_of_squares_has_whole_cells_about_its_centre),
-        cmocka_unit_test(of_a_cell_both_triangles_are_kept_or_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

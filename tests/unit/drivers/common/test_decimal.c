@@ -16,9 +16,8 @@ static void expect(double x, const char *expected)
     assert_string_equal(text, expected);
 }
 
-static void few_digits_where_few_do(void **state)
+TEST(few_digits_where_few_do)
 {
-    (void)state;
     expect(0.1, "0.1");
     expect(1e22, "1e+22");
     expect(-3.0, "-3");
@@ -28,9 +27,8 @@ static void few_digits_where_few_do(void **state)
 }
 
 /* Random bits, so that all exponents come up. */
-static void every_number_reads_back(void **state)
+TEST(every_number_reads_back)
 {
-    (void)state;
     uint64_t bits = UINT64_C(88172645463325252);
     for (int k = 0; k < 20000; k++) {
         char text[DECIMAL_SIZE];
@@ -44,11 +42,4 @@ static void every_number_reads_back(void **state)
     }
     expect(DBL_MAX, "1.7976931348623157e+308");
     expect(5e-324, "4.94065645841247e-324");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(few_digits_where_few_do),
-                                       cmocka_unit_test(every_number_reads_back)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

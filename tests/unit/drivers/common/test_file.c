@@ -29,9 +29,8 @@ static void expect_refused(const char *name, size_t most, const char *expected)
     assert_null(bytes);
 }
 
-static void all_bytes_are_read_with_a_nul_behind(void **state)
+TEST(all_bytes_are_read_with_a_nul_behind)
 {
-    (void)state;
     char *bytes, why[FILE_WHY];
     size_t size;
     put("a\0b", 3);
@@ -41,9 +40,8 @@ static void all_bytes_are_read_with_a_nul_behind(void **state)
     free(bytes);
 }
 
-static void what_is_too_large_or_empty_is_refused(void **state)
+TEST(what_is_too_large_or_empty_is_refused)
 {
-    (void)state;
     char *large = calloc((1 << 20) + 1, 1);
     assert_non_null(large);
     put(large, (1 << 20) + 1);
@@ -53,9 +51,8 @@ static void what_is_too_large_or_empty_is_refused(void **state)
     free(large);
 }
 
-static void what_is_no_file_is_refused(void **state)
+TEST(what_is_no_file_is_refused)
 {
-    (void)state;
     char fifo[64];
     expect_refused("/tmp", 1 << 20, "not a regular file");
     expect_refused("/no/such/file", 1 << 20, "No such file or directory");
@@ -65,9 +62,8 @@ static void what_is_no_file_is_refused(void **state)
     assert_int_equal(unlink(fifo), 0);
 }
 
-static void the_beginning_and_the_size_of_a_file_are_reported(void **state)
+TEST(the_beginning_and_the_size_of_a_file_are_reported)
 {
-    (void)state;
     char bytes[4] = "";
     put("abcdef", 6);
     assert_int_equal(file_begin(bytes, 4, path), 4);
@@ -84,14 +80,8 @@ static void the_beginning_and_the_size_of_a_file_are_reported(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_bytes_are_read_with_a_nul_behind),
-        cmocka_unit_test(what_is_too_large_or_empty_is_refused),
-        cmocka_unit_test(what_is_no_file_is_refused),
-        cmocka_unit_test(the_beginning_and_the_size_of_a_file_are_reported),
-    };
     const int file = mkstemp(path);
     if (file < 0 || close(file) != 0) return 1;
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = test_run();
     return unlink(path) == 0 ? failed : 1;
 }

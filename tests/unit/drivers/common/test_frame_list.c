@@ -23,9 +23,8 @@ static void expect_parsed(const char *text, size_t n, const dem_index *frames)
     expect(&m, n, frames);
 }
 
-static void lists_and_ranges_are_taken_in_their_order(void **state)
+TEST(lists_and_ranges_are_taken_in_their_order)
 {
-    (void)state;
     expect_parsed("7", 1, (const dem_index[]){7});
     expect_parsed("5,0,5", 3, (const dem_index[]){5, 0, 5});
     expect_parsed("0:2,-1", 4, (const dem_index[]){0, 1, 2, 20});
@@ -33,9 +32,8 @@ static void lists_and_ranges_are_taken_in_their_order(void **state)
     expect_parsed("-3:-1", 3, (const dem_index[]){18, 19, 20});
 }
 
-static void what_is_no_list_is_refused(void **state)
+TEST(what_is_no_list_is_refused)
 {
-    (void)state;
     static const char *const texts[] = {"",    "a",   "1,",    ",1",     "1,,2",
                                         "1;2", "0:",  "0:5:0", "0:5:-1", "5:0",
                                         "21",  "-22", "1.5",   "0:21",   "99999999999999999999"};
@@ -47,9 +45,8 @@ static void what_is_no_list_is_refused(void **state)
     }
 }
 
-static void times_are_those_of_the_nearest_frames(void **state)
+TEST(times_are_those_of_the_nearest_frames)
 {
-    (void)state;
     const double t[] = {0.0, 1e-3, 2e-3, 4e-3};
     frame_list m;
     const char *fault = NULL;
@@ -67,9 +64,8 @@ static void expect_usual(dem_index n_frames, dem_index middle, size_t n, const d
     expect(&m, n, frames);
 }
 
-static void usual_ones_mirror_about_the_greatest_compression(void **state)
+TEST(usual_ones_mirror_about_the_greatest_compression)
 {
-    (void)state;
     expect_usual(21, 4, 6, (const dem_index[]){0, 2, 4, 6, 8, 20});
     expect_usual(21, 3, 6, (const dem_index[]){0, 2, 3, 5, 6, 20});
     expect_usual(21, 9, 6, (const dem_index[]){0, 5, 9, 14, 18, 20});
@@ -82,9 +78,8 @@ static void usual_ones_mirror_about_the_greatest_compression(void **state)
 }
 
 /* Whatever the trajectory: the first, the middle and the last, each once, in order. */
-static void usual_ones_have_first_middle_and_last(void **state)
+TEST(usual_ones_have_first_middle_and_last)
 {
-    (void)state;
     for (dem_index n = 7; n < 60; n++)
         for (dem_index middle = 1; middle < n - 1; middle++) {
             frame_list m;
@@ -102,21 +97,9 @@ static void usual_ones_have_first_middle_and_last(void **state)
         }
 }
 
-static void all_are_all(void **state)
+TEST(all_are_all)
 {
-    (void)state;
     frame_list m;
     assert_true(frame_list_all(&m, 3));
     expect(&m, 3, (const dem_index[]){0, 1, 2});
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lists_and_ranges_are_taken_in_their_order),
-                                       cmocka_unit_test(what_is_no_list_is_refused),
-                                       cmocka_unit_test(times_are_those_of_the_nearest_frames),
-                                       cmocka_unit_test(usual_ones_mirror_about_the_greatest_compression),
-                                       cmocka_unit_test(usual_ones_have_first_middle_and_last),
-                                       cmocka_unit_test(all_are_all)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

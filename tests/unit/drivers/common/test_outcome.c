@@ -9,9 +9,8 @@
 
 #include "outcome.h"
 
-static void the_first_fault_is_the_outcome(void **state)
+TEST(the_first_fault_is_the_outcome)
 {
-    (void)state;
     outcome o = {0};
     outcome_fail(&o, EXIT_IO, "a.nml:1:2", "no %s", "disk");
     outcome_fail(&o, EXIT_MEMORY, "b.nml", "none");
@@ -19,9 +18,8 @@ static void the_first_fault_is_the_outcome(void **state)
     assert_string_equal(o.message, "a.nml:1:2: error: no disk");
 }
 
-static void a_failure_of_the_library_has_its_code(void **state)
+TEST(a_failure_of_the_library_has_its_code)
 {
-    (void)state;
     static const struct {
         dem_status status;
         exit_code code;
@@ -40,21 +38,12 @@ static void a_failure_of_the_library_has_its_code(void **state)
     }
 }
 
-static void a_long_message_is_cut(void **state)
+TEST(a_long_message_is_cut)
 {
-    (void)state;
     char where[OUTCOME_MESSAGE + 10];
     outcome o = {0};
     memset(where, 'x', sizeof where);
     where[sizeof where - 1] = '\0';
     outcome_fail(&o, EXIT_IO, where, "y");
     assert_true(strlen(o.message) < OUTCOME_MESSAGE);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_first_fault_is_the_outcome),
-                                       cmocka_unit_test(a_failure_of_the_library_has_its_code),
-                                       cmocka_unit_test(a_long_message_is_cut)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

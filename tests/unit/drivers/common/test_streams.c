@@ -29,26 +29,15 @@ static int exit_of(int number, const char *path, exit_code code)
     return WEXITSTATUS(status);
 }
 
-static void what_cannot_be_printed_is_a_fault(void **state)
+TEST(what_cannot_be_printed_is_a_fault)
 {
-    (void)state;
     assert_int_equal(exit_of(STDOUT_FILENO, "/dev/null", EXIT_DONE), EXIT_DONE);
     assert_int_equal(exit_of(STDOUT_FILENO, "/dev/full", EXIT_DONE), EXIT_IO);
     assert_int_equal(exit_of(STDOUT_FILENO, "/dev/full", EXIT_INVALID), EXIT_INVALID);
 }
 
-static void closed_streams_are_filled(void **state)
+TEST(closed_streams_are_filled)
 {
-    (void)state;
     assert_int_equal(exit_of(STDOUT_FILENO, NULL, EXIT_DONE), EXIT_IO);
     assert_int_equal(exit_of(STDIN_FILENO, NULL, EXIT_DONE), EXIT_DONE);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_cannot_be_printed_is_a_fault),
-        cmocka_unit_test(closed_streams_are_filled),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

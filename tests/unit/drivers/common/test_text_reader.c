@@ -11,9 +11,8 @@ static text_reader begin(const char *text, char comment)
     return text_reader_begin(text, strlen(text), comment);
 }
 
-static void text_reader_stand_between_blanks(void **state)
+TEST(text_reader_stand_between_blanks)
 {
-    (void)state;
     static const char *const expected[] = {"a", "bc", "#d", "e"};
     static const size_t line[] = {1, 2, 2, 4};
     char word[TEXT_READER_LONGEST + 1];
@@ -28,9 +27,8 @@ static void text_reader_stand_between_blanks(void **state)
     assert_int_equal(text_reader_left(&w), 0);
 }
 
-static void comments_last_to_the_end_of_their_line(void **state)
+TEST(comments_last_to_the_end_of_their_line)
 {
-    (void)state;
     char word[TEXT_READER_LONGEST + 1];
     text_reader w = begin("# one\na#two\n#\nb#", '#');
     assert_true(text_reader_next(&w, word));
@@ -43,9 +41,8 @@ static void comments_last_to_the_end_of_their_line(void **state)
     assert_string_equal(w.fault, "");
 }
 
-static void numbers_are_read_as_such(void **state)
+TEST(numbers_are_read_as_such)
 {
-    (void)state;
     int64_t n;
     double x;
     text_reader w = begin("-7 9223372036854775807 1.5e-3 .5 4", '\0');
@@ -76,9 +73,8 @@ static void expect_real_fault(const char *text, const char *fault)
     assert_string_equal(w.fault, fault);
 }
 
-static void what_is_no_number_is_reported(void **state)
+TEST(what_is_no_number_is_reported)
 {
-    (void)state;
     expect_integer_fault("", "the text ends where n is expected");
     expect_integer_fault("1.0", "n must be an integer, got '1.0'");
     expect_integer_fault("0x1", "n must be an integer, got '0x1'");
@@ -95,9 +91,8 @@ static void what_is_no_number_is_reported(void **state)
     expect_real_fault("+", "x must be a finite number, got '+'");
 }
 
-static void the_first_fault_stays(void **state)
+TEST(the_first_fault_stays)
 {
-    (void)state;
     char word[TEXT_READER_LONGEST + 1], text[200];
     text_reader w = begin("a b", '\0');
     assert_true(text_reader_expect(&w, "a"));
@@ -114,9 +109,8 @@ static void the_first_fault_stays(void **state)
     assert_string_equal(w.fault, "a word of more than 63 bytes");
 }
 
-static void seeking_goes_behind_a_lines_beginning(void **state)
+TEST(seeking_goes_behind_a_lines_beginning)
 {
-    (void)state;
     char word[TEXT_READER_LONGEST + 1];
     text_reader w = begin("$A\n x $EndA\n$EndB\n$EndA\nnext", '\0');
     assert_true(text_reader_next(&w, word));
@@ -128,17 +122,4 @@ static void seeking_goes_behind_a_lines_beginning(void **state)
     assert_string_equal(w.fault, "the text ends where a line '$EndA' is expected");
     w = begin("", '\0');
     assert_false(text_reader_seek(&w, "$EndA"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_reader_stand_between_blanks),
-        cmocka_unit_test(comments_last_to_the_end_of_their_line),
-        cmocka_unit_test(numbers_are_read_as_such),
-        cmocka_unit_test(what_is_no_number_is_reported),
-        cmocka_unit_test(the_first_fault_stays),
-        cmocka_unit_test(seeking_goes_behind_a_lines_beginning),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,9 +90,8 @@ static void expect_errors(const char *text, const char *expected)
 
 /* ---- decks that mean something ---- */
 
-static void every_key_finds_its_place(void **state)
+TEST(every_key_finds_its_place)
 {
-    (void)state;
     deck d = good_deck("&run title = 'A title', t_end = 2.5, gravity = 1, -2 /\n" RUBBER
                        "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber', velocity = 4, -5 /\n"
                        "&obstacle points = 0, -1, 1, -2, 2, -1, restitution = 0.25 /\n" FLOOR
@@ -137,9 +136,8 @@ static void every_key_finds_its_place(void **state)
 
 #define BODY "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', clearance = 1 /\n"
 
-static void friction_window_vertices_and_damping_find_their_places(void **state)
+TEST(friction_window_vertices_and_damping_find_their_places)
 {
-    (void)state;
     deck d =
         good_deck(RUN RUBBER BODY "&obstacle points = -9, 0, 9, 0, friction = 1.5 /\n"
                                   "&obstacle points = -9, -1, 9, -1, friction = 0.25, friction_law = 'paper' /\n" FLOOR
@@ -160,9 +158,8 @@ static void friction_window_vertices_and_damping_find_their_places(void **state)
 /* The window is the library's if it is not given; stated, 0 is 0. */
 /* kappa = E h (3 nu - 1)/(2 (1 - nu^2)) of plane stress; a solid of nu = 1/3 in plane strain is a plate of 9/8 E and
  * 1/2, that is 9/8 E h/3. The default has none. */
-static void poissons_ratio_and_plane_make_the_area_term(void **state)
+TEST(poissons_ratio_and_plane_make_the_area_term)
 {
-    (void)state;
     static const char *const keys[3] = {"", "poissons_ratio = 0.5 ", "plane = 'strain' "};
     const double kappa[3] = {0.0, 1e7 / 3.0, 9.0 / 8.0 * 1e7 / 3.0};
     for (int k = 0; k < 3; k++) {
@@ -178,9 +175,8 @@ static void poissons_ratio_and_plane_make_the_area_term(void **state)
     }
 }
 
-static void what_the_output_shows_finds_its_place(void **state)
+TEST(what_the_output_shows_finds_its_place)
 {
-    (void)state;
     deck d =
         good_deck(RUN RUBBER
                   "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber' /\n"
@@ -205,9 +201,8 @@ static void what_the_output_shows_finds_its_place(void **state)
 }
 
 /* The clearance moves the body by some metres; the place goes with it. */
-static void a_probe_s_place_moves_with_the_clearance(void **state)
+TEST(a_probe_s_place_moves_with_the_clearance)
 {
-    (void)state;
     deck d = good_deck(RUN RUBBER FLOOR "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', "
                                         "position = 3, 50, clearance = 1 /\n&probe name = 'top', place = 0, 2 /\n");
     const dem_index top = d.probes[0].number[0];
@@ -217,9 +212,8 @@ static void a_probe_s_place_moves_with_the_clearance(void **state)
     deck_free(&d);
 }
 
-static void faults_of_probes_come_with_the_others(void **state)
+TEST(faults_of_probes_come_with_the_others)
 {
-    (void)state;
     expect_errors(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
                              "&probe name = 'a' /\n&probe name = 'b', number = 1, place = 0, 0 /\n",
                   "4:1: &probe needs 'place' or 'number'\n"
@@ -230,9 +224,8 @@ static void faults_of_probes_come_with_the_others(void **state)
 }
 
 /* The echo once stated the default of 'body' for a probe by number, which is not used there. */
-static void the_echo_of_a_probe_by_number_is_a_deck(void **state)
+TEST(the_echo_of_a_probe_by_number_is_a_deck)
 {
-    (void)state;
     deck d = good_deck(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
                                   "&probe name = 'a', number = 1 /\n");
     deck again = good_deck(d.echo);
@@ -242,9 +235,8 @@ static void the_echo_of_a_probe_by_number_is_a_deck(void **state)
     deck_free(&d);
 }
 
-static void a_window_of_zero_is_not_the_default(void **state)
+TEST(a_window_of_zero_is_not_the_default)
 {
-    (void)state;
     deck chosen = good_deck(RUN RUBBER BODY FLOOR), single = good_deck(RUN RUBBER BODY FLOOR "&contact window = 0 /\n");
     assert_close(chosen.options.window, dem_options_default().window, 0.0);
     assert_true(chosen.options.window < 0.0);
@@ -260,9 +252,8 @@ static void a_window_of_zero_is_not_the_default(void **state)
     deck_free(&single);
 }
 
-static void friction_goes_with_its_law(void **state)
+TEST(friction_goes_with_its_law)
 {
-    (void)state;
     expect_errors(RUN RUBBER BODY "&obstacle points = -9, 0, 9, 0, friction_law = 'paper' /\n"
                                   "&obstacle points = -9, 0, 9, 0, friction = 1.5, friction_law = 'paper' /\n"
                                   "&obstacle points = -9, 0, 9, 0, friction = 'high', friction_law = 'paper' /\n"
@@ -275,9 +266,8 @@ static void friction_goes_with_its_law(void **state)
                   "'paper'?)\n");
 }
 
-static void keys_not_given_are_left_to_the_library(void **state)
+TEST(keys_not_given_are_left_to_the_library)
 {
-    (void)state;
     deck d = good_deck(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n");
     const dem_options expected = dem_options_default();
     assert_int_equal(d.options.method, expected.method);
@@ -302,9 +292,8 @@ static void keys_not_given_are_left_to_the_library(void **state)
     deck_free(&d);
 }
 
-static void bodies_come_in_their_order_turned_and_placed(void **state)
+TEST(bodies_come_in_their_order_turned_and_placed)
 {
-    (void)state;
     deck d = good_deck(RUN RUBBER
                        "&body shape = 'rectangle', size = 4, 3, spacing = 1, material = 'rubber', position = 10, 20,\n"
                        "      angle = 90 /\n"
@@ -330,9 +319,8 @@ static double least_gap(const deck *d)
     return least;
 }
 
-static void clearance_is_the_smallest_gap_and_leaves_x_alone(void **state)
+TEST(clearance_is_the_smallest_gap_and_leaves_x_alone)
 {
-    (void)state;
     deck d = good_deck(RUN RUBBER
                        "&body shape = 'disc', radius = 2, spacing = 0.25, material = 'rubber', position = 0.3, 0,\n"
                        "      clearance = 1e-3, angle = 17 /\n"
@@ -344,9 +332,8 @@ static void clearance_is_the_smallest_gap_and_leaves_x_alone(void **state)
     deck_free(&d);
 }
 
-static void voids_and_pores_leave_holes_in_their_body_only(void **state)
+TEST(voids_and_pores_leave_holes_in_their_body_only)
 {
-    (void)state;
     const char *bodies =
         RUN RUBBER "&body shape = 'rectangle', size = 4, 4, spacing = 0.1, material = 'rubber' /\n"
                    "&body shape = 'rectangle', size = 4, 4, spacing = 0.1, material = 'rubber', position = 9, 0 /\n"
@@ -370,9 +357,8 @@ static void voids_and_pores_leave_holes_in_their_body_only(void **state)
     deck_free(&with);
 }
 
-static void the_hash_is_of_the_physics_alone(void **state)
+TEST(the_hash_is_of_the_physics_alone)
 {
-    (void)state;
     const char *rest = RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n";
     const char *heads[4] = {"&run t_end = 1 /\n",
                             "! another text\n&run t_end = 3, title = 'x' /\n&output name = 'y' /\n",
@@ -394,9 +380,8 @@ static void the_hash_is_of_the_physics_alone(void **state)
     assert_true(run_hash[0] != run_hash[1] && run_hash[0] != run_hash[2]);
 }
 
-static void the_echo_is_a_deck_of_the_same_problem(void **state)
+TEST(the_echo_is_a_deck_of_the_same_problem)
 {
-    (void)state;
     deck d = good_deck(RUN RUBBER
                        "&body shape = 'disc', radius = 2, spacing = 0.3, material = 'rubber', clearance = 1e-3 /\n"
                        "&void centre = 0, 0.1, radius = 0.7 /\n" FLOOR);
@@ -416,9 +401,8 @@ static void the_echo_is_a_deck_of_the_same_problem(void **state)
     RUN RUBBER "&body shape = 'rectangle', size = 6, 2, spacing = 1, material = 'rubber'" wish " /\n"                  \
                "&void shape = 'rectangle', centre = 1, 1, size = 0.9, 4 /\n"
 
-static void disconnected_parts_are_refused_removed_or_kept(void **state)
+TEST(disconnected_parts_are_refused_removed_or_kept)
 {
-    (void)state;
     expect_errors(BAR(""),
                   "3:1: body 1 has 1 part that shares no edge with its largest, of 4 triangles at (2, 0) m in its own "
                   "coordinates; 'disconnected' can remove or keep such parts\n");
@@ -431,9 +415,8 @@ static void disconnected_parts_are_refused_removed_or_kept(void **state)
 
 /* ---- faults without geometry ---- */
 
-static void keys_that_a_shape_lacks_or_does_not_use_are_named(void **state)
+TEST(keys_that_a_shape_lacks_or_does_not_use_are_named)
 {
-    (void)state;
     expect_errors(RUN RUBBER "&body shape = 'disc', size = 1, 1, material = 'rubber' /\n"
                              "&body shape = 'rectangle', radius = 1, material = 'rubber' /\n"
                              "&body shape = 'file', spacing = 1,\n"
@@ -456,9 +439,8 @@ static void keys_that_a_shape_lacks_or_does_not_use_are_named(void **state)
                   "8:43: 'radius' in &void is not used by shape 'rectangle'\n");
 }
 
-static void names_that_refer_to_nothing_are_named(void **state)
+TEST(names_that_refer_to_nothing_are_named)
 {
-    (void)state;
     expect_errors(RUN RUBBER RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'ruber' /\n"
                                     "&body shape = 'disc', radius = 1, spacing = 1 /\n",
                   "3:11: material 'rubber' is given twice, first in line 2\n"
@@ -467,9 +449,8 @@ static void names_that_refer_to_nothing_are_named(void **state)
                   "'rubber'\n");
 }
 
-static void voids_and_pores_need_a_body_that_can_have_them(void **state)
+TEST(voids_and_pores_need_a_body_that_can_have_them)
 {
-    (void)state;
     expect_errors(RUN RUBBER "&body shape = 'file', file = 'x.h5' /\n"
                              "&void body = 2, centre = 0, 0, radius = 1 /\n"
                              "&pores number = 20000, radius = 2, 1 /\n",
@@ -479,9 +460,8 @@ static void voids_and_pores_need_a_body_that_can_have_them(void **state)
                   "5:24: 'radius' in &pores must be the smallest, then the largest one, got 2, 1\n");
 }
 
-static void numbers_that_do_not_go_together_are_named(void **state)
+TEST(numbers_that_do_not_go_together_are_named)
 {
-    (void)state;
     expect_errors("&run t_end = 1, gravity = 0, 0 /\n" RUBBER
                   "&body shape = 'rectangle', size = 4, 1, spacing = 2, material = 'rubber', clearance = 1 /\n"
                   "&body shape = 'disc', radius = 1, spacing = 2, material = 'rubber' /\n"
@@ -493,9 +473,8 @@ static void numbers_that_do_not_go_together_are_named(void **state)
                   "5:9: 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'\n");
 }
 
-static void obstacles_must_be_polylines(void **state)
+TEST(obstacles_must_be_polylines)
 {
-    (void)state;
     expect_errors(RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber' /\n"
                              "&obstacle points = 0, 0, 1, 1, 2 /\n"
                              "&obstacle points = 0, 0, 0.5, 1, 0.5, 1, 2, 2, 2, 2 /\n",
@@ -514,9 +493,8 @@ static void obstacles_must_be_polylines(void **state)
 
 #define LIFTED "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', clearance = 3 /\n"
 
-static void a_polyline_is_taken_as_it_is(void **state)
+TEST(a_polyline_is_taken_as_it_is)
 {
-    (void)state;
     deck d = good_deck(RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 0, 9, -1, 8, -1, profile = 'polyline' /\n");
     const double expected[8] = {-9, 0, 9, 0, 9, -1, 8, -1};
     assert_int_equal(d.obstacles[0].n_points, 4);
@@ -528,9 +506,8 @@ static void a_polyline_is_taken_as_it_is(void **state)
 }
 
 /* By hand: Steffen's slopes are 1, 0, -1; half-way up he is at 1/2 + (1 - 0)/8. */
-static void a_smooth_profile_is_compiled_to_segments(void **state)
+TEST(a_smooth_profile_is_compiled_to_segments)
 {
-    (void)state;
     const char *points = "&obstacle points = -1, 0, 0, 1, 1, 0, restitution = 0.25, profile = 'smooth'";
     char text[600];
     (void)snprintf(text, sizeof text, "%s%s /\n", RUN RUBBER LIFTED, points);
@@ -548,9 +525,8 @@ static void a_smooth_profile_is_compiled_to_segments(void **state)
 }
 
 /* 18/0.018 is 1000 and a little in floating point: no segment more. */
-static void a_rough_profile_is_compiled_to_segments(void **state)
+TEST(a_rough_profile_is_compiled_to_segments)
 {
-    (void)state;
     const char *deck_text = RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 1.8, profile = 'rough', roughness = 0.1,\n"
                                               "  correlation = 0.5, resolution = 0.018";
     uint64_t hash[2];
@@ -576,9 +552,8 @@ static void a_rough_profile_is_compiled_to_segments(void **state)
     assert_true(hash[0] != hash[1] && y[0] != y[1]);
 }
 
-static void keys_of_another_profile_are_refused(void **state)
+TEST(keys_of_another_profile_are_refused)
 {
-    (void)state;
     expect_errors(RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 0, resolution = 1, roughness = 1,\n"
                                     "  correlation = 1, seed = 1 /\n"
                                     "&obstacle points = -9, 0, 9, 0, profile = 'smooth', roughness = 1,\n"
@@ -599,9 +574,8 @@ static void keys_of_another_profile_are_refused(void **state)
 }
 
 /* Their extent was once asked for all the same. */
-static void a_profile_without_points_lacks_them(void **state)
+TEST(a_profile_without_points_lacks_them)
 {
-    (void)state;
     expect_errors(RUN RUBBER LIFTED "&obstacle profile = 'smooth', resolution = 1 /\n"
                                     "&obstacle points = 0, profile = 'smooth', resolution = 1 /\n",
                   "4:1: 'points' in &obstacle must be given\n"
@@ -611,9 +585,8 @@ static void a_profile_without_points_lacks_them(void **state)
 #define SMOOTH "profile = 'smooth'"
 #define ROUGH  "profile = 'rough', roughness = 1e-3, correlation = 0.1"
 
-static void profiles_that_cannot_be_compiled_are_named(void **state)
+TEST(profiles_that_cannot_be_compiled_are_named)
 {
-    (void)state;
     expect_errors(RUN RUBBER LIFTED "&obstacle points = 0, 0, 1, 0, 0.5, 1, 0.5, 2, " SMOOTH " /\n"
                                     "&obstacle points = 0, 0, 1, 0, 1, 0, " SMOOTH " /\n"
                                     "&obstacle points = 0, 0, 1, 0, " SMOOTH ", resolution = 1.5 /\n"
@@ -640,18 +613,16 @@ static void profiles_that_cannot_be_compiled_are_named(void **state)
 }
 
 /* Heights beyond what can be squared are found when they are there. */
-static void a_profile_of_endless_segments_is_refused(void **state)
+TEST(a_profile_of_endless_segments_is_refused)
 {
-    (void)state;
     expect_errors(RUN RUBBER LIFTED "&obstacle points = 0, 0, 1, 0, profile = 'rough', roughness = 1e200,\n"
                                     "  correlation = 2, resolution = 1, seed = 5489 /\n",
                   "4:11: 'points' in &obstacle: segment 1 of obstacle 1, from (0, -7.20663e+199) to (1, "
                   "-1.90369e+199) m, is too long\n");
 }
 
-static void faults_of_syntax_keys_and_meaning_come_together_sorted(void **state)
+TEST(faults_of_syntax_keys_and_meaning_come_together_sorted)
 {
-    (void)state;
     expect_errors("&run t_end = -1 /\n"
                   "&body shape = 'disc', size = 1, 1, radius = 1, spacing = 1, material = 'rubber' /\n"
                   "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
@@ -666,9 +637,8 @@ static void faults_of_syntax_keys_and_meaning_come_together_sorted(void **state)
 
 #define REVERSED ", or reverse the obstacle's points: bodies live on the left of each segment"
 
-static void faults_of_geometry_are_reported_for_all_bodies(void **state)
+TEST(faults_of_geometry_are_reported_for_all_bodies)
 {
-    (void)state;
     expect_errors(
         RUN RUBBER
         "&body shape = 'rectangle', size = 1, 1, spacing = 1e-9, material = 'rubber' /\n"
@@ -690,9 +660,8 @@ static void faults_of_geometry_are_reported_for_all_bodies(void **state)
 
 #define DISC(keys) "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber'" keys " /\n"
 
-static void bodies_that_start_in_an_obstacle_are_named(void **state)
+TEST(bodies_that_start_in_an_obstacle_are_named)
 {
-    (void)state;
     const char *bodies = RUN RUBBER DISC("") DISC(", position = 0, 1")
         DISC(", position = 0, 8.5") "&obstacle points = 2, 9, -2, 9 /\n" FLOOR
                                     "&contact penetration_tolerance = 0.25 /\n";
@@ -711,9 +680,8 @@ static void bodies_that_start_in_an_obstacle_are_named(void **state)
     deck_free(&d);
 }
 
-static void sizes_that_cannot_be_computed_with_are_named(void **state)
+TEST(sizes_that_cannot_be_computed_with_are_named)
 {
-    (void)state;
     expect_errors(
         RUN RUBBER "&material youngs_modulus = 1, density = 1e-308, thickness = 1e-308 /\n"
                    "&material name = 'soft', youngs_modulus = 1e-308, density = 1, thickness = 1e-9 /\n"
@@ -728,9 +696,8 @@ static void sizes_that_cannot_be_computed_with_are_named(void **state)
         "8:69: body 4 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 1 m\n");
 }
 
-static void one_fault_is_reported_once(void **state)
+TEST(one_fault_is_reported_once)
 {
-    (void)state;
     expect_errors(RUN RUBBER "&body shape = 'disc', radus = 1, spacng = 1, material = 'rubber' /\n"
                              "&body shape = 'rectangle', size(0) = 1, spacing = 1, material = 'rubber' /\n",
                   "3:23: unknown key 'radus' in &body (did you mean 'radius'?)\n"
@@ -747,9 +714,8 @@ static void one_fault_is_reported_once(void **state)
                   "4:1: unknown group &boby (did you mean &body?)\n");
 }
 
-static void names_and_numbers_of_the_output_are_checked(void **state)
+TEST(names_and_numbers_of_the_output_are_checked)
 {
-    (void)state;
     const char *message = "'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: "
                           "other files are called so\n";
     char expected[200];
@@ -799,9 +765,8 @@ static void write_lattice(const char *name, double mass, const int32_t *body)
     assert_true(H5Gclose(group) >= 0 && H5Fclose(file) >= 0);
 }
 
-static void a_lattice_file_is_turned_placed_cleared_and_launched(void **state)
+TEST(a_lattice_file_is_turned_placed_cleared_and_launched)
 {
-    (void)state;
     const int32_t bodies[5] = {0, 0, 0, 1, 1};
     write_lattice("a.h5", 1.0, bodies);
     deck d =
@@ -819,9 +784,8 @@ static void a_lattice_file_is_turned_placed_cleared_and_launched(void **state)
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
-static void a_material_is_needed_by_meshes_only(void **state)
+TEST(a_material_is_needed_by_meshes_only)
 {
-    (void)state;
     expect_errors(RUN DISC(""), "1:1: &material must be given\n");
     write_lattice("a.h5", 1.0, NULL);
     deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n");
@@ -829,9 +793,8 @@ static void a_material_is_needed_by_meshes_only(void **state)
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
-static void the_hash_is_of_the_lattice_file_too(void **state)
+TEST(the_hash_is_of_the_lattice_file_too)
 {
-    (void)state;
     const char *text = RUN RUBBER "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n";
     uint64_t hash[3], run_hash[3];
     for (int k = 0; k < 3; k++) {
@@ -847,9 +810,8 @@ static void the_hash_is_of_the_lattice_file_too(void **state)
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
-static void the_echo_names_a_lattice_file_by_its_whole_path(void **state)
+TEST(the_echo_names_a_lattice_file_by_its_whole_path)
 {
-    (void)state;
     namelist_errors errors = {0};
     write_lattice("a.h5", 1.0, NULL);
     deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n"), again;
@@ -871,9 +833,8 @@ static void the_echo_names_a_lattice_file_by_its_whole_path(void **state)
     namelist_errors_free(&errors);
 }
 
-static void what_is_wrong_with_a_lattice_file_is_reported_at_its_key(void **state)
+TEST(what_is_wrong_with_a_lattice_file_is_reported_at_its_key)
 {
-    (void)state;
     namelist_errors errors = {0};
     deck d;
     write_lattice("a.h5", -1.0, NULL);
@@ -908,9 +869,8 @@ static void expect_unreadable(const char *path, const char *expected)
     namelist_errors_free(&errors);
 }
 
-static void what_is_no_readable_file_is_refused(void **state)
+TEST(what_is_no_readable_file_is_refused)
 {
-    (void)state;
     const size_t size = NAMELIST_MAX_FILE + 1;
     char *big = calloc(1, size);
     assert_non_null(big);
@@ -929,49 +889,4 @@ static void what_is_no_readable_file_is_refused(void **state)
     free(big);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_key_finds_its_place),
-        cmocka_unit_test(friction_window_vertices_and_damping_find_their_places),
-        cmocka_unit_test(poissons_ratio_and_plane_make_the_area_term),
-        cmocka_unit_test(what_the_output_shows_finds_its_place),
-        cmocka_unit_test(a_probe_s_place_moves_with_the_clearance),
-        cmocka_unit_test(faults_of_probes_come_with_the_others),
-        cmocka_unit_test(the_echo_of_a_probe_by_number_is_a_deck),
-        cmocka_unit_test(a_window_of_zero_is_not_the_default),
-        cmocka_unit_test(friction_goes_with_its_law),
-        cmocka_unit_test(keys_not_given_are_left_to_the_library),
-        cmocka_unit_test(bodies_come_in_their_order_turned_and_placed),
-        cmocka_unit_test(clearance_is_the_smallest_gap_and_leaves_x_alone),
-        cmocka_unit_test(voids_and_pores_leave_holes_in_their_body_only),
-        cmocka_unit_test(the_hash_is_of_the_physics_alone),
-        cmocka_unit_test(the_echo_is_a_deck_of_the_same_problem),
-        cmocka_unit_test(disconnected_parts_are_refused_removed_or_kept),
-        cmocka_unit_test(keys_that_a_shape_lacks_or_does_not_use_are_named),
-        cmocka_unit_test(names_that_refer_to_nothing_are_named),
-        cmocka_unit_test(voids_and_pores_need_a_body_that_can_have_them),
-        cmocka_unit_test(numbers_that_do_not_go_together_are_named),
-        cmocka_unit_test(obstacles_must_be_polylines),
-        cmocka_unit_test(a_polyline_is_taken_as_it_is),
-        cmocka_unit_test(a_smooth_profile_is_compiled_to_segments),
-        cmocka_unit_test(a_rough_profile_is_compiled_to_segments),
-        cmocka_unit_test(keys_of_another_profile_are_refused),
-        cmocka_unit_test(a_profile_without_points_lacks_them),
-        cmocka_unit_test(profiles_that_cannot_be_compiled_are_named),
-        cmocka_unit_test(a_profile_of_endless_segments_is_refused),
-        cmocka_unit_test(faults_of_syntax_keys_and_meaning_come_together_sorted),
-        cmocka_unit_test(faults_of_geometry_are_reported_for_all_bodies),
-        cmocka_unit_test(bodies_that_start_in_an_obstacle_are_named),
-        cmocka_unit_test(sizes_that_cannot_be_computed_with_are_named),
-        cmocka_unit_test(one_fault_is_reported_once),
-        cmocka_unit_test(a_material_is_needed_by_meshes_only),
-        cmocka_unit_test(names_and_numbers_of_the_output_are_checked),
-        cmocka_unit_test(a_lattice_file_is_turned_placed_cleared_and_launched),
-        cmocka_unit_test(the_hash_is_of_the_lattice_file_too),
-        cmocka_unit_test(the_echo_names_a_lattice_file_by_its_whole_path),
-        cmocka_unit_test(what_is_wrong_with_a_lattice_file_is_reported_at_its_key),
-        cmocka_unit_test(what_is_no_readable_file_is_refused),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+TEST_GROUP(make_folder, remove_folder);

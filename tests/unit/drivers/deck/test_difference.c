@@ -13,37 +13,24 @@ static void expect(const char *then, const char *now, const char *text)
     assert_string_equal(found, text);
 }
 
-static void the_same_texts_do_not_differ(void **state)
+TEST(the_same_texts_do_not_differ)
 {
     char text[DIFFERENCE] = "as it was";
-    (void)state;
     assert_false(difference_find(deck, deck, text));
     assert_false(difference_find("", "", text));
     assert_string_equal(text, "as it was");
 }
 
-static void the_first_line_is_named_with_its_group(void **state)
+TEST(the_first_line_is_named_with_its_group)
 {
-    (void)state;
     expect("&run\n    t_end = 1\n/\n&body\n    spacing = 0.25\n    shape = 'ring'\n/\n", deck,
            "spacing = 0.25 in &body, this one has spacing = 0.5");
     expect("&run\n    t_end = 2\n/\n", deck, "t_end = 2 in &run, this one has t_end = 1");
 }
 
-static void what_is_in_one_only_differs(void **state)
+TEST(what_is_in_one_only_differs)
 {
-    (void)state;
     expect("&run\n    t_end = 1\n/\n", deck, "nothing in &run, this one has &body");
     expect("&run\n    t_end = 1\n    more = 1\n", "&run\n    t_end = 1", "more = 1 in &run, this one has nothing");
     expect("", "&run", "nothing in &run, this one has &run");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_same_texts_do_not_differ),
-        cmocka_unit_test(the_first_line_is_named_with_its_group),
-        cmocka_unit_test(what_is_in_one_only_differs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

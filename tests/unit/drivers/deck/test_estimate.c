@@ -75,9 +75,8 @@ static void expect_nodes(const char *text, double tolerance)
 
 #define BODY "spacing = 0.01 /\n"
 
-static void nodes_of_every_shape_are_known_from_its_area(void **state)
+TEST(nodes_of_every_shape_are_known_from_its_area)
 {
-    (void)state;
     expect_nodes(SOLID "&body shape = 'rectangle', size = 1, 0.5, " BODY, 0.04);
     expect_nodes(SOLID "&body shape = 'rectangle', size = 1, 0.5, lattice = 'square', " BODY, 0.04);
     expect_nodes(SOLID "&body shape = 'disc', radius = 0.5, " BODY, 0.04);
@@ -85,9 +84,8 @@ static void nodes_of_every_shape_are_known_from_its_area(void **state)
     expect_nodes(SOLID "&body shape = 'polygon', points = 0,0, 1,0, 0.5,0.8, " BODY, 0.08);
 }
 
-static void voids_and_pores_take_nodes(void **state)
+TEST(voids_and_pores_take_nodes)
 {
-    (void)state;
     expect_nodes(SOLID "&void body = 1, centre = 0,0.25, radius = 0.2 /\n"
                        "&body shape = 'rectangle', size = 1, 0.5, " BODY,
                  0.05);
@@ -99,9 +97,8 @@ static void voids_and_pores_take_nodes(void **state)
                  0.06);
 }
 
-static void bodies_add_up_and_the_one_of_most_nodes_is_reported(void **state)
+TEST(bodies_add_up_and_the_one_of_most_nodes_is_reported)
 {
-    (void)state;
     const estimate e = of(SOLID "&body shape = 'disc', radius = 1, spacing = 0.1 /\n"
                                 "&body shape = 'rectangle', size = 30, 40, spacing = 0.1, lattice = 'square' /\n");
     assert_int_equal(e.largest, 1);
@@ -110,9 +107,8 @@ static void bodies_add_up_and_the_one_of_most_nodes_is_reported(void **state)
 }
 
 /* Only its size is known of a mask before it is read, and only its bytes of a mesh. */
-static void files_are_recognized_by_their_first_bytes_and_their_size(void **state)
+TEST(files_are_recognized_by_their_first_bytes_and_their_size)
 {
-    (void)state;
     char text[512];
     char image[] = "/tmp/test_estimate_image_XXXXXX";
     const int file = mkstemp(image);
@@ -134,9 +130,8 @@ static void files_are_recognized_by_their_first_bytes_and_their_size(void **stat
 
 /* ---- memory, whatever the numbers are ---- */
 
-static void memory_grows_with_nodes_and_method_and_is_no_more_than_measured(void **state)
+TEST(memory_grows_with_nodes_and_method_and_is_no_more_than_measured)
 {
-    (void)state;
     const estimate pairs = of(SOLID "&body shape = 'rectangle', size = 10, 10, lattice = 'square', " BODY);
     const estimate verlet = of(SOLID "&solver method = 'verlet' /\n"
                                      "&body shape = 'rectangle', size = 10, 10, lattice = 'square', " BODY);
@@ -144,18 +139,16 @@ static void memory_grows_with_nodes_and_method_and_is_no_more_than_measured(void
     assert_close(verlet.memory, 1.0e9, 1.0);
 }
 
-static void a_lattice_that_is_cut_is_there_before(void **state)
+TEST(a_lattice_that_is_cut_is_there_before)
 {
-    (void)state;
     const estimate e = of(SOLID "&void centre = 0,500, radius = 1e6 /\n"
                                 "&body shape = 'rectangle', size = 1000, 1000, lattice = 'square', spacing = 1 /\n");
     assert_close(e.nodes, 0.0, 0.0);
     assert_close(e.memory, 64.0 * 1001.0 * 1001.0, 1.0);
 }
 
-static void products_that_overflow_are_large_and_finite(void **state)
+TEST(products_that_overflow_are_large_and_finite)
 {
-    (void)state;
     estimate e = of(SOLID "&body shape = 'rectangle', size = 1e9, 1e9, spacing = 1, lattice = 'square' /\n");
     assert_close(e.memory, 1.2e21, 1e10);
     e = of(SOLID "&body shape = 'rectangle', size = 1e300, 1e300, spacing = 1 /\n");
@@ -166,9 +159,8 @@ static void products_that_overflow_are_large_and_finite(void **state)
 }
 
 /* Nothing is said of what cannot be computed with: that is refused when it is built. */
-static void what_underflows_is_not_estimated(void **state)
+TEST(what_underflows_is_not_estimated)
 {
-    (void)state;
     estimate e = of(SOLID "&body shape = 'rectangle', size = 1, 1, spacing = 1e-200 /\n");
     assert_close(e.memory, 0.0, 0.0);
     assert_close(e.steps, 0.0, 0.0);
@@ -189,9 +181,8 @@ static void expect_steps(const char *text, double most)
 
 #define BLOCK "&body shape = 'rectangle', size = 0.2, 0.1, spacing = 0.01"
 
-static void steps_are_bounded_by_stiffness_and_mass(void **state)
+TEST(steps_are_bounded_by_stiffness_and_mass)
 {
-    (void)state;
     static const struct {
         const char *keys;
         double most; /* of nu beyond 1/3 the area term adds to the springs, and is not counted */
@@ -216,9 +207,8 @@ static void steps_are_bounded_by_stiffness_and_mass(void **state)
             }
 }
 
-static void steps_are_bounded_where_shapes_are_cut_and_materials_mixed(void **state)
+TEST(steps_are_bounded_where_shapes_are_cut_and_materials_mixed)
 {
-    (void)state;
     expect_steps(SOLID BLOCK " /\n&void centre = 0,0.05, radius = 0.02 /\n&crack points = 0,0.06, 0,0.2 /\n", 1.6);
     expect_steps(SOLID BLOCK ", lattice = 'square', diagonal = 0.2 /\n&void centre = 0,0.05, radius = 0.02 /\n", 1.6);
     expect_steps(SOLID "&material name = 'soft', youngs_modulus = 1e6, density = 4000 /\n" BLOCK
@@ -236,9 +226,8 @@ static void steps_are_bounded_where_shapes_are_cut_and_materials_mixed(void **st
 
 /* 11 frames of x, displacement, velocity, 6 stresses and von Mises in f32, of strain, force and `broken`; a history of
  * 35 numbers, 5 for the body, 9 for the obstacle and 4 for the boundary. */
-static void output_is_frames_and_tables(void **state)
+TEST(output_is_frames_and_tables)
 {
-    (void)state;
     const estimate e = of(SOLID "&solver max_step = 1e-3 /\n"
                                 "&obstacle points = -9, -9, 9, -9 /\n&boundary where = 'side', side = 'top' /\n"
                                 "&body shape = 'rectangle', size = 1, 1, lattice = 'square', " BODY);
@@ -272,16 +261,14 @@ static void expect_message(limits most, estimate_breach expected, const char *me
     deck_free(&d);
 }
 
-static void what_keeps_within_its_limits_gets_no_message(void **state)
+TEST(what_keeps_within_its_limits_gets_no_message)
 {
-    (void)state;
     expect_message((limits){6e9, 1e6, 6e9}, ESTIMATE_KEPT, "");
     expect_message((limits){INFINITY, INFINITY, INFINITY}, ESTIMATE_KEPT, "");
 }
 
-static void what_exceeds_one_gets_a_message_with_limit_place_and_option(void **state)
+TEST(what_exceeds_one_gets_a_message_with_limit_place_and_option)
 {
-    (void)state;
     expect_message(
         (limits){5e9, 1e6, 6e9}, ESTIMATE_MEMORY,
         "5:2 the run takes at least 6 GB of memory for its 5e+06 nodes; the limit is 5 GB, and --max-memory sets "
@@ -298,23 +285,8 @@ static void what_exceeds_one_gets_a_message_with_limit_place_and_option(void **s
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nodes_of_every_shape_are_known_from_its_area),
-        cmocka_unit_test(voids_and_pores_take_nodes),
-        cmocka_unit_test(bodies_add_up_and_the_one_of_most_nodes_is_reported),
-        cmocka_unit_test(files_are_recognized_by_their_first_bytes_and_their_size),
-        cmocka_unit_test(memory_grows_with_nodes_and_method_and_is_no_more_than_measured),
-        cmocka_unit_test(a_lattice_that_is_cut_is_there_before),
-        cmocka_unit_test(products_that_overflow_are_large_and_finite),
-        cmocka_unit_test(what_underflows_is_not_estimated),
-        cmocka_unit_test(steps_are_bounded_by_stiffness_and_mass),
-        cmocka_unit_test(steps_are_bounded_where_shapes_are_cut_and_materials_mixed),
-        cmocka_unit_test(output_is_frames_and_tables),
-        cmocka_unit_test(what_keeps_within_its_limits_gets_no_message),
-        cmocka_unit_test(what_exceeds_one_gets_a_message_with_limit_place_and_option),
-    };
     const int file = mkstemp(path);
     if (file < 0 || close(file) != 0) return 1;
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = test_run();
     return unlink(path) == 0 ? failed : 1;
 }

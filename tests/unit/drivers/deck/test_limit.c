@@ -30,18 +30,16 @@ static void put(const char *name, const char *text)
 
 /* ---- options ---- */
 
-static void by_default_memory_is_the_machines_and_steps_have_an_end(void **state)
+TEST(by_default_memory_is_the_machines_and_steps_have_an_end)
 {
-    (void)state;
     const limits most = limit_default();
     assert_close(most.steps, 1e10, 0.0);
     assert_true(isinf(most.disk));
     assert_true(most.memory > 1e6 && most.memory <= (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE));
 }
 
-static void numbers_above_zero_set_limits(void **state)
+TEST(numbers_above_zero_set_limits)
 {
-    (void)state;
     double limit = 7.0;
     assert_true(limit_set(&limit, "1.5", 1e9));
     assert_close(limit, 1.5e9, 0.0);
@@ -54,9 +52,8 @@ static void numbers_above_zero_set_limits(void **state)
 
 /* ---- what there is ---- */
 
-static void the_least_limit_of_all_groups_above_counts(void **state)
+TEST(the_least_limit_of_all_groups_above_counts)
 {
-    (void)state;
     assert_int_equal(mkdir(at("a"), 0700), 0);
     assert_int_equal(mkdir(at("a/b"), 0700), 0);
     put("memory.max", "5000000\n");
@@ -75,9 +72,8 @@ static void the_least_limit_of_all_groups_above_counts(void **state)
     for (size_t k = 0; k < sizeof made / sizeof *made; k++) assert_int_equal(remove(at(made[k])), 0);
 }
 
-static void the_disk_has_what_is_free_but_for_a_run_that_goes_on(void **state)
+TEST(the_disk_has_what_is_free_but_for_a_run_that_goes_on)
 {
-    (void)state;
     limits most = limit_default();
     put("runner.vtkhdf", "another one's\n");
     put("run.json", "of a run that came to nothing\n");
@@ -104,13 +100,7 @@ static void the_disk_has_what_is_free_but_for_a_run_that_goes_on(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(by_default_memory_is_the_machines_and_steps_have_an_end),
-        cmocka_unit_test(numbers_above_zero_set_limits),
-        cmocka_unit_test(the_least_limit_of_all_groups_above_counts),
-        cmocka_unit_test(the_disk_has_what_is_free_but_for_a_run_that_goes_on),
-    };
     if (mkdtemp(folder) == NULL) return 1;
-    const int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    const int failed = test_run();
     return rmdir(folder) == 0 ? failed : 1;
 }

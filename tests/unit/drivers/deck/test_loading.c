@@ -83,10 +83,9 @@ static void expect_nodes(const dem_boundary *b, dem_index from, dem_index step, 
     for (dem_index k = 0; k < n; k++) assert_int_equal(b->nodes[k], place.first + from + k * step);
 }
 
-static void sides_are_those_of_the_body_itself(void **unused)
+TEST(sides_are_those_of_the_body_itself)
 {
     loaded l;
-    (void)unused;
     load(&l, BASE
          "&boundary where = 'side', side = 'left' /\n&boundary where = 'side', side = 'right', components = 'x' /\n"
          "&boundary where = 'side', side = 'bottom', kind = 'force', force = 1, 2 /\n"
@@ -107,10 +106,9 @@ static void sides_are_those_of_the_body_itself(void **unused)
     drop_loaded(&l);
 }
 
-static void places_are_in_own_coordinates(void **unused)
+TEST(places_are_in_own_coordinates)
 {
     loaded l;
-    (void)unused;
     load(&l, BASE "&boundary where = 'box', box = 0.5, 0.5, 1.5, 0.5 /\n"
                   "&boundary where = 'disc', centre = 2, 1.5, radius = 0.5, kind = 'velocity', velocity = 1, 0 /\n"
                   "&boundary where = 'list', nodes = 12, kind = 'displacement', displacement = 1, 0, ramp = 1 /\n"
@@ -128,11 +126,10 @@ static void places_are_in_own_coordinates(void **unused)
 
 /* 100 Pa on the top, 2 m long, half of it 0.25 m, half 0.5 m thick: half an edge to each of its ends. A box takes the
  * edges as they are. */
-static void a_traction_is_shared_by_the_lengths_of_edges(void **unused)
+TEST(a_traction_is_shared_by_the_lengths_of_edges)
 {
     static const double thick[columns] = {0.25, 0.25 + 0.25, 0.25 + 0.5, 0.5 + 0.5, 0.5}; /* of both edges of a node */
     loaded l;
-    (void)unused;
     load(&l, BASE "&boundary where = 'side', side = 'top', kind = 'traction', traction = 100, 0 /\n"
                   "&boundary where = 'box', box = -1, -1, 0.1, 9, kind = 'traction', traction = 0, 7 /\n");
     for (int k = 0; k < columns; k++) assert_close(l.list[0].share[k], 0.5 * spacing * thick[k], 1e-14);
@@ -142,10 +139,9 @@ static void a_traction_is_shared_by_the_lengths_of_edges(void **unused)
 }
 
 /* Nodes with prescribed motion are taken from contact, loaded ones are not. */
-static void what_is_prescribed_touches_nothing(void **unused)
+TEST(what_is_prescribed_touches_nothing)
 {
     loaded l;
-    (void)unused;
     load(&l, BASE "&boundary where = 'side', side = 'top', components = 'y' /\n"
                   "&boundary where = 'side', side = 'bottom', kind = 'force', force = 0, 1 /\n");
     for (dem_index k = 0; k < columns; k++) {
@@ -156,7 +152,7 @@ static void what_is_prescribed_touches_nothing(void **unused)
 }
 
 /* A corner may be held in x by one side and in y by the other, not twice in y. */
-static void a_component_has_one_motion(void **unused)
+TEST(a_component_has_one_motion)
 {
     static const char both[] = BASE "&boundary where = 'side', side = 'left', components = 'x' /\n"
                                     "&boundary where = 'side', side = 'bottom', components = 'y' /\n";
@@ -164,7 +160,6 @@ static void a_component_has_one_motion(void **unused)
                                      "&boundary where = 'side', side = 'top', kind = 'force', force = 1, 1 /\n"
                                      "&boundary where = 'side', side = 'bottom', components = 'y' /\n";
     loaded l;
-    (void)unused;
     load(&l, both);
     drop_loaded(&l);
     build(&l, twice);
@@ -173,16 +168,4 @@ static void a_component_has_one_motion(void **unused)
     assert_string_equal(l.errors.list[0].text,
                         "&boundary prescribes the motion of node 3 at (7, -2) m, as the one in line 3 does");
     drop_loaded(&l);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_component_has_one_motion),
-        cmocka_unit_test(sides_are_those_of_the_body_itself),
-        cmocka_unit_test(places_are_in_own_coordinates),
-        cmocka_unit_test(a_traction_is_shared_by_the_lengths_of_edges),
-        cmocka_unit_test(what_is_prescribed_touches_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

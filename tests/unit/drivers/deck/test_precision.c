@@ -23,25 +23,22 @@ static void expect(const char *groups, const char *faults)
     drop_resolved(&r);
 }
 
-static void tolerances_beyond_rounding_are_taken(void **state)
+TEST(tolerances_beyond_rounding_are_taken)
 {
-    (void)state;
     expect("", "");
     expect("&contact penetration_tolerance = 1.8e-13 /\n&solver rtol = 1e-13, spacing = 0.1, v_scale = 0.1 /\n", "");
 }
 
-static void a_penetration_tolerance_that_rounding_hides_is_refused(void **state)
+TEST(a_penetration_tolerance_that_rounding_hides_is_refused)
 {
-    (void)state;
     expect("&contact penetration_tolerance = 1.7e-13 /\n",
            "1:10 'penetration_tolerance' in &contact must be >= 1.8e-13 m, or rounding of coordinates of up to 8 m "
            "hides it, got "
            "1.7e-13 m");
 }
 
-static void an_error_that_rounding_hides_is_refused(void **state)
+TEST(an_error_that_rounding_hides_is_refused)
 {
-    (void)state;
     expect("&solver rtol = 1e-6, spacing = 1.7e-9 /\n",
            "1:22 'rtol' in &solver, 1e-06 of a spacing of 1.7e-09 m, asks for less than rounding makes of coordinates "
            "of up to 8 m");
@@ -50,14 +47,4 @@ static void an_error_that_rounding_hides_is_refused(void **state)
            "1:9 'rtol' in &solver, 1e-06 of 'v_scale', 1.7e-09 m/s, asks for less than rounding makes of velocities "
            "of up to 8 m/s");
     expect("&solver v_scale = 1.8e-9 /\n", "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tolerances_beyond_rounding_are_taken),
-        cmocka_unit_test(a_penetration_tolerance_that_rounding_hides_is_refused),
-        cmocka_unit_test(an_error_that_rounding_hides_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,9 +21,8 @@ static void assert_refused(const char *groups, const char *expected)
     assert_string_equal(got, expected);
 }
 
-static void names_are_different_words(void **state)
+TEST(names_are_different_words)
 {
-    (void)state;
     assert_refused("&probe name = 'a', place = 0, 0 / &probe name = 'B-2_c', number = 3 /", "");
     assert_refused("&probe name = '', place = 0, 0 /",
                    "2:8 'name' in &probe must have 1 to 63 letters, digits, '_' or '-'");
@@ -33,18 +32,16 @@ static void names_are_different_words(void **state)
                    "3:8 two probes have the name 'a', the first in line 2");
 }
 
-static void a_place_or_a_number_says_what_is_probed(void **state)
+TEST(a_place_or_a_number_says_what_is_probed)
 {
-    (void)state;
     assert_refused("&probe name = 'a' /", "2:1 &probe needs 'place' or 'number'");
     assert_refused("&probe name = 'a', place = 0, 0, number = 1 /", "2:20 &probe needs 'place' or 'number', not both");
     assert_refused("&probe name = 'a', number = 1, body = 2 /", "2:32 'body' in &probe is not used with 'number'");
     assert_refused("&probe name = 'a', place = 0, 0, body = 3 /", "2:34 'body' in &probe is 3, but there are only 2");
 }
 
-static void a_gauge_has_two_ends_and_others_one(void **state)
+TEST(a_gauge_has_two_ends_and_others_one)
 {
-    (void)state;
     assert_refused("&probe name = 'a', kind = 'gauge', place = 0, 0 /",
                    "2:36 'place' in &probe expects 4 values for kind 'gauge', got 2");
     assert_refused("&probe name = 'a', kind = 'gauge', number = 4 /",
@@ -94,10 +91,9 @@ static void drop_scene(scene *s)
 }
 
 /* Nodes of a block: 0 to 3 at y = 0, x = -1.5 to 1.5; 4 to 6 at y = 0.87, x = -1 to 1. */
-static void the_nearest_node_of_the_body_is_taken_in_its_own_coordinates(void **state)
+TEST(the_nearest_node_of_the_body_is_taken_in_its_own_coordinates)
 {
     scene s;
-    (void)state;
     find(&s, "&probe name = 'corner', place = 1.7, -0.2 / &probe name = 'top', place = 0.1, 5 / "
              "&probe name = 'far', body = 2, place = 1.7, -0.2, every = 4 / "
              "&probe name = 'across', kind = 'gauge', body = 2, place = -2, 0, 0, 1 /");
@@ -115,10 +111,9 @@ static void the_nearest_node_of_the_body_is_taken_in_its_own_coordinates(void **
     drop_scene(&s);
 }
 
-static void the_spring_with_the_nearest_middle_is_taken(void **state)
+TEST(the_spring_with_the_nearest_middle_is_taken)
 {
     scene s;
-    (void)state;
     find(&s, "&probe name = 'a', kind = 'spring', place = 0.1, -1 / "
              "&probe name = 'b', kind = 'spring', place = 0.1, -1, body = 2 / &probe name = 'c', kind = 'spring', "
              "number = 9 /");
@@ -133,11 +128,10 @@ static void the_spring_with_the_nearest_middle_is_taken(void **state)
     drop_scene(&s);
 }
 
-static void what_is_not_there_is_named(void **state)
+TEST(what_is_not_there_is_named)
 {
     char got[1024];
     scene s;
-    (void)state;
     find(&s, "&probe name = 'a', number = 14 /\n&probe name = 'b', kind = 'spring', number = 22 /\n"
              "&probe name = 'c', kind = 'gauge', place = 0, 0, -0.1, 0 /\n"
              "&probe name = 'd', kind = 'gauge', number = 3, 3 /");
@@ -149,17 +143,4 @@ static void what_is_not_there_is_named(void **state)
                              "4:36 probe 'c': both ends of the gauge are at node 1\n"
                              "5:36 probe 'd': both ends of the gauge are at node 3");
     drop_scene(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_different_words),
-        cmocka_unit_test(a_place_or_a_number_says_what_is_probed),
-        cmocka_unit_test(a_gauge_has_two_ends_and_others_one),
-        cmocka_unit_test(the_nearest_node_of_the_body_is_taken_in_its_own_coordinates),
-        cmocka_unit_test(the_spring_with_the_nearest_middle_is_taken),
-        cmocka_unit_test(what_is_not_there_is_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

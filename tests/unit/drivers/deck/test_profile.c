@@ -20,9 +20,8 @@ static double *sample(const profile_recipe *recipe)
 
 /* ---- mean line ---- */
 
-static void samples_are_equally_spaced_from_the_first_to_the_last_point(void **state)
+TEST(samples_are_equally_spaced_from_the_first_to_the_last_point)
 {
-    (void)state;
     const profile_recipe recipe = {.points = hill, .n_points = 4, .n_segments = 7, .smooth = true};
     double *out = sample(&recipe);
     for (int k = 0; k <= 7; k++) assert_close(out[2 * k], 4.0 * k / 7.0, 1e-15);
@@ -32,9 +31,8 @@ static void samples_are_equally_spaced_from_the_first_to_the_last_point(void **s
 }
 
 /* By hand: Steffen's slopes are 1, 5/6, 0, -2; a cubic's middle is (y0 + y1)/2 + h (m0 - m1)/8. */
-static void the_smooth_curve_is_that_of_steffen(void **state)
+TEST(the_smooth_curve_is_that_of_steffen)
 {
-    (void)state;
     const double expected[] = {0.0, 0.5 + 1.0 / 48.0, 1.0, NAN, 1.5 + 5.0 / 24.0, NAN, 2.0, 1.25, 0.0};
     const profile_recipe recipe = {.points = hill, .n_points = 4, .n_segments = 8, .smooth = true};
     double *out = sample(&recipe);
@@ -43,9 +41,8 @@ static void the_smooth_curve_is_that_of_steffen(void **state)
     free(out);
 }
 
-static void the_smooth_curve_stays_between_neighbouring_points(void **state)
+TEST(the_smooth_curve_stays_between_neighbouring_points)
 {
-    (void)state;
     const double points[] = {0, 0, 1, 0.1, 2, 5, 3, 5, 4, -3, 5, -2.9, 6, 4};
     const profile_recipe recipe = {.points = points, .n_points = 7, .n_segments = 6000, .smooth = true};
     double *out = sample(&recipe);
@@ -57,9 +54,8 @@ static void the_smooth_curve_stays_between_neighbouring_points(void **state)
 }
 
 /* A bend of the polyline is of the order of its segments: half of them, half of it. */
-static void the_smooth_curve_has_no_corners(void **state)
+TEST(the_smooth_curve_has_no_corners)
 {
-    (void)state;
     double bend[2] = {0.0, 0.0};
     for (int c = 0; c < 2; c++) {
         const profile_recipe recipe = {.points = hill, .n_points = 4, .n_segments = 400u << c, .smooth = true};
@@ -73,9 +69,8 @@ static void the_smooth_curve_has_no_corners(void **state)
     assert_close(bend[1] / bend[0], 0.5, 0.05);
 }
 
-static void two_points_are_joined_by_a_straight_line(void **state)
+TEST(two_points_are_joined_by_a_straight_line)
 {
-    (void)state;
     const double points[] = {-1.0, 2.0, 1.0, 4.0};
     const profile_recipe recipe = {.points = points, .n_points = 2, .n_segments = 10, .smooth = true};
     double *out = sample(&recipe);
@@ -86,9 +81,8 @@ static void two_points_are_joined_by_a_straight_line(void **state)
 /* ---- heights ---- */
 
 /* From MT19937, the sums and the kernel in a program of its own, with the exponential of its libm. */
-static void heights_are_those_of_the_published_generator(void **state)
+TEST(heights_are_those_of_the_published_generator)
 {
-    (void)state;
     const double expected[] = {-0.7206634879553279, -0.19036917351343433, 0.8037668264212315, 1.4781136816824678,
                                1.5265433108802624};
     const profile_recipe recipe = {
@@ -98,9 +92,8 @@ static void heights_are_those_of_the_published_generator(void **state)
     free(out);
 }
 
-static void the_mean_line_and_a_scale_are_kept(void **state)
+TEST(the_mean_line_and_a_scale_are_kept)
 {
-    (void)state;
     profile_recipe recipe = {
         .points = hill, .n_points = 4, .n_segments = 100, .roughness = 0.25, .correlation = 0.5, .seed = 7};
     double *rough = sample(&recipe), *rougher, *mean;
@@ -120,9 +113,8 @@ static void the_mean_line_and_a_scale_are_kept(void **state)
 }
 
 /* The last bits of the segments' length along x depend on the place: here it is off by up to 1e-13 of 0.25. */
-static void heights_move_with_the_profile(void **state)
+TEST(heights_move_with_the_profile)
 {
-    (void)state;
     for (int k = 0; k < 10; k++) {
         const double points[] = {1023.0 + 0.1 * k, 0.0, 1024.0 + 0.1 * k, 0.0}, origin[] = {0.0, 0.0, 1.0, 0.0};
         profile_recipe recipe = {
@@ -136,9 +128,8 @@ static void heights_move_with_the_profile(void **state)
     }
 }
 
-static void the_same_seed_gives_the_same_profile_and_another_one_another(void **state)
+TEST(the_same_seed_gives_the_same_profile_and_another_one_another)
 {
-    (void)state;
     profile_recipe recipe = {
         .points = hill, .n_points = 4, .n_segments = 100, .roughness = 0.1, .correlation = 0.5, .seed = 1};
     double *a = sample(&recipe), *b = sample(&recipe), *c;
@@ -162,9 +153,8 @@ static double product(const double *out, size_t n, size_t lag)
 /* Over n correlation lengths c the mean has the standard error sqrt(sqrt(pi)/n), the mean product at the distance d
  * that of sqrt(sqrt(pi/2) (1 + exp(-2 (d/c)^2))/n), both over the roughness: Bartlett's formula, its sums as
  * integrals. n = 10000, and four standard errors are allowed. */
-static void a_long_profile_has_the_roughness_and_the_autocorrelation_asked_for(void **state)
+TEST(a_long_profile_has_the_roughness_and_the_autocorrelation_asked_for)
 {
-    (void)state;
     enum { PER_LENGTH = 10, LENGTHS = 10000, N = PER_LENGTH * LENGTHS };
     const double points[] = {0.0, 0.0, LENGTHS, 0.0}, roughness = 0.3;
     const profile_recipe recipe = {
@@ -182,9 +172,8 @@ static void a_long_profile_has_the_roughness_and_the_autocorrelation_asked_for(v
 
 /* Of Gaussian heights erf(1/sqrt(2)) are within the roughness, of uniform ones 1/sqrt(3). Of 20000 correlation lengths
  * about as many samples are independent: standard error sqrt(0.683 0.317/20000) = 0.0033, four of them are allowed. */
-static void heights_are_gaussian(void **state)
+TEST(heights_are_gaussian)
 {
-    (void)state;
     enum { N = 40000 };
     const double points[] = {0.0, 0.0, N / 2, 0.0};
     const profile_recipe recipe = {
@@ -199,9 +188,8 @@ static void heights_are_gaussian(void **state)
 }
 
 /* Over the first, a middle and the last sample of 2000 seeds: mean squares have the standard error sqrt(2/2000). */
-static void the_ends_are_as_rough_as_the_middle(void **state)
+TEST(the_ends_are_as_rough_as_the_middle)
 {
-    (void)state;
     enum { SEEDS = 2000 };
     double squares[3] = {0.0, 0.0, 0.0};
     profile_recipe recipe = {.points = flat, .n_points = 2, .n_segments = 8, .roughness = 1.0, .correlation = 0.5};
@@ -215,9 +203,8 @@ static void the_ends_are_as_rough_as_the_middle(void **state)
 
 /* ---- recipes ---- */
 
-static void impossible_recipes_are_refused(void **state)
+TEST(impossible_recipes_are_refused)
 {
-    (void)state;
     static const double back[] = {0.0, 0.0, 1.0, 1.0, 1.0, 2.0}, odd[] = {0.0, 0.0, 1.0, (double)INFINITY};
     const profile_recipe good = {
         .points = hill, .n_points = 4, .n_segments = 8, .roughness = 0.1, .correlation = 1.0, .seed = 1};
@@ -236,24 +223,4 @@ static void impossible_recipes_are_refused(void **state)
     bad[9].correlation = 0.0;
     assert_int_equal(profile_sample(out, &good), DEM_OK);
     for (int k = 0; k < 10; k++) assert_int_equal(profile_sample(out, &bad[k]), DEM_ERROR_ARGUMENT);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_are_equally_spaced_from_the_first_to_the_last_point),
-        cmocka_unit_test(the_smooth_curve_is_that_of_steffen),
-        cmocka_unit_test(the_smooth_curve_stays_between_neighbouring_points),
-        cmocka_unit_test(the_smooth_curve_has_no_corners),
-        cmocka_unit_test(two_points_are_joined_by_a_straight_line),
-        cmocka_unit_test(heights_are_those_of_the_published_generator),
-        cmocka_unit_test(the_mean_line_and_a_scale_are_kept),
-        cmocka_unit_test(heights_move_with_the_profile),
-        cmocka_unit_test(the_same_seed_gives_the_same_profile_and_another_one_another),
-        cmocka_unit_test(a_long_profile_has_the_roughness_and_the_autocorrelation_asked_for),
-        cmocka_unit_test(heights_are_gaussian),
-        cmocka_unit_test(the_ends_are_as_rough_as_the_middle),
-        cmocka_unit_test(impossible_recipes_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,9 @@
 
 #include "csv.h"
 
-static void nodes_and_springs_have_rows_for_each_frame(void **state)
+TEST_WITH(nodes_and_springs_have_rows_for_each_frame, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     assert_true(csv_export(&e->task));
     exported_expect(e, "run.nodes.csv",
                     "frame,t [s],node,x [m],y [m],body,displacement_x [m],displacement_y [m],displacement_z [m],id,"
@@ -18,9 +18,9 @@ static void nodes_and_springs_have_rows_for_each_frame(void **state)
                     "0,0,1,1,2,0,0,0\r\n0,0,2,2,0,0,0,0\r\n1,0.25,0,0,1,0,");
 }
 
-static void tables_have_their_columns(void **state)
+TEST_WITH(tables_have_their_columns, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     assert_true(csv_export(&e->task));
     exported_expect(e, "run.probes.tip.csv",
                     "t [s],stress_xx [Pa],stress_yy [Pa],stress_xy [Pa],v_x [m/s],v_y [m/s],von_mises [Pa],x_x [m],"
@@ -30,23 +30,11 @@ static void tables_have_their_columns(void **state)
     assert_false(exported_has(e, "run.events.csv"));
 }
 
-static void files_in_the_way_stop_it_before_it_begins(void **state)
+TEST_WITH(files_in_the_way_stop_it_before_it_begins, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     exported_put(e, "run.springs.csv", "mine");
     assert_false(csv_export(&e->task));
     assert_int_equal(e->outcome.code, EXIT_TAKEN);
     assert_false(exported_has(e, "run.history.csv"));
-}
-
-#define OF_RUN(test) cmocka_unit_test_setup_teardown(test, exported_begin, exported_end)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        OF_RUN(nodes_and_springs_have_rows_for_each_frame),
-        OF_RUN(tables_have_their_columns),
-        OF_RUN(files_in_the_way_stop_it_before_it_begins),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

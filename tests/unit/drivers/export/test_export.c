@@ -21,9 +21,8 @@ static exit_code parse(export *out, const char *words)
     return export_parse(out, list);
 }
 
-static void words_are_taken_in_any_order(void **state)
+TEST(words_are_taken_in_any_order)
 {
-    (void)state;
     export e;
     assert_int_equal(parse(&e, "--to csv run.vtkhdf"), EXIT_DONE);
     assert_string_equal(e.input, "run.vtkhdf");
@@ -35,9 +34,8 @@ static void words_are_taken_in_any_order(void **state)
     assert_string_equal(e.frames, "0,-1");
 }
 
-static void help_and_version_need_no_run(void **state)
+TEST(help_and_version_need_no_run)
 {
-    (void)state;
     export e;
     assert_int_equal(parse(&e, "--help"), EXIT_DONE);
     assert_int_equal(e.action, EXPORT_HELP);
@@ -45,9 +43,8 @@ static void help_and_version_need_no_run(void **state)
     assert_int_equal(e.action, EXPORT_VERSION);
 }
 
-static void the_rest_is_refused(void **state)
+TEST(the_rest_is_refused)
 {
-    (void)state;
     static const char *const words[] = {"",
                                         "run.vtkhdf",
                                         "--to csv",
@@ -61,9 +58,8 @@ static void the_rest_is_refused(void **state)
     for (size_t k = 0; k < sizeof words / sizeof *words; k++) assert_int_equal(parse(&e, words[k]), EXIT_USAGE);
 }
 
-static void the_help_names_formats_and_codes(void **state)
+TEST(the_help_names_formats_and_codes)
 {
-    (void)state;
     char text[4096];
     FILE *out = tmpfile();
     assert_non_null(out);
@@ -73,15 +69,4 @@ static void the_help_names_formats_and_codes(void **state)
     (void)fclose(out);
     assert_non_null(strstr(text, "usage: dem_export RUN.vtkhdf --to lammps|vtu|csv"));
     assert_non_null(strstr(text, "7 a file is there already"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(words_are_taken_in_any_order),
-        cmocka_unit_test(help_and_version_need_no_run),
-        cmocka_unit_test(the_rest_is_refused),
-        cmocka_unit_test(the_help_names_formats_and_codes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,9 +3,8 @@
 
 #include "kinds.h"
 
-static void pairs_are_distinguished_and_in_order(void **state)
+TEST(pairs_are_distinguished_and_in_order)
 {
-    (void)state;
     const kinds_pair pairs[] = {{2.0, 1.0}, {1.0, 5.0}, {2.0, 0.5}, {1.0, 5.0}, {0.0, 7.0}, {2.0, 1.0}};
     const dem_index of[] = {3, 1, 2, 1, 0, 3};
     outcome o = {0};
@@ -20,9 +19,8 @@ static void pairs_are_distinguished_and_in_order(void **state)
 }
 
 /* First numbers that differ by rounding must not keep equal second ones apart. */
-static void rounding_makes_no_kind(void **state)
+TEST(rounding_makes_no_kind)
 {
-    (void)state;
     const double e = 1e-15;
     const kinds_pair pairs[] = {{1.0, 3.0}, {1.0 + e, 2.0}, {1.0 + 2.0 * e, 3.0 - 4.0 * e}, {1.0 - e, 2.0 + e}};
     const dem_index of[] = {1, 0, 1, 0};
@@ -36,9 +34,8 @@ static void rounding_makes_no_kind(void **state)
 }
 
 /* Each is near to the next, the last is not near to the first. */
-static void small_differences_do_not_add_up(void **state)
+TEST(small_differences_do_not_add_up)
 {
-    (void)state;
     kinds_pair pairs[8];
     outcome o = {0};
     const task t = {.outcome = &o};
@@ -53,24 +50,12 @@ static void small_differences_do_not_add_up(void **state)
     kinds_free(&k);
 }
 
-static void of_nothing_there_are_none(void **state)
+TEST(of_nothing_there_are_none)
 {
-    (void)state;
     outcome o = {0};
     const task t = {.outcome = &o};
     kinds k;
     assert_true(kinds_find(&k, &t, 0, NULL));
     assert_int_equal(k.n, 0);
     kinds_free(&k);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pairs_are_distinguished_and_in_order),
-        cmocka_unit_test(rounding_makes_no_kind),
-        cmocka_unit_test(small_differences_do_not_add_up),
-        cmocka_unit_test(of_nothing_there_are_none),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,9 +3,8 @@
 
 #include "label.h"
 
-static void components_have_their_names(void **state)
+TEST(components_have_their_names)
 {
-    (void)state;
     assert_string_equal(label_component("von_mises", 0, 1), "");
     assert_string_equal(label_component("velocity", 2, 3), "z");
     assert_string_equal(label_component("x", 1, 2), "y");
@@ -15,10 +14,4 @@ static void components_have_their_names(void **state)
     assert_string_equal(label_component("principal_stress", 1, 2), "2");
     assert_string_equal(label_component("mine", 8, 9), "9");
     assert_string_equal(label_component("mine", 9, 12), "");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(components_have_their_names)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,9 +11,9 @@ static int open_run(void **state)
     return exported_begin_with(state, how);
 }
 
-static void the_data_file_is_the_body(void **state)
+TEST_WITH(the_data_file_is_the_body, open_run, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     assert_true(lammps_export(&e->task));
     exported_expect(e, "run.data",
                     "LAMMPS data file by dem_export of run at t = 0 s, units = si, 2-d\n"
@@ -27,9 +27,9 @@ static void the_data_file_is_the_body(void **state)
                     "\nBonds\n\n1 1 1 2\n2 3 2 3\n3 2 3 1\n");
 }
 
-static void the_input_moves_what_is_free(void **state)
+TEST_WITH(the_input_moves_what_is_free, open_run, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     assert_true(lammps_export(&e->task));
     exported_expect(e, "in.run", "\nvariable time index 0.5\nvariable n index ");
     exported_expect(e, "in.run",
@@ -39,9 +39,9 @@ static void the_input_moves_what_is_free(void **state)
                     "fix plane all enforce2d\n");
 }
 
-static void the_dumps_are_the_frames(void **state)
+TEST_WITH(the_dumps_are_the_frames, open_run, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     double v[9];
     char line[256];
     assert_true(lammps_export(&e->task));
@@ -58,31 +58,19 @@ static void the_dumps_are_the_frames(void **state)
                     "ITEM: TIMESTEP\n1\nITEM: NUMBER OF ENTRIES\n3\n");
 }
 
-static void files_in_the_way_stop_it_before_it_begins(void **state)
+TEST_WITH(files_in_the_way_stop_it_before_it_begins, open_run, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     exported_put(e, "run.local.dump", "mine");
     assert_false(lammps_export(&e->task));
     assert_int_equal(e->outcome.code, EXIT_TAKEN);
     assert_false(exported_has(e, "run.data"));
 }
 
-static void names_are_words(void **state)
+TEST_WITH(names_are_words, open_run, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     e->task.name = "a$b";
     assert_false(lammps_export(&e->task));
     assert_int_equal(e->outcome.code, EXIT_USAGE);
-}
-
-#define OF_RUN(test) cmocka_unit_test_setup_teardown(test, open_run, exported_end)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        OF_RUN(the_data_file_is_the_body), OF_RUN(the_input_moves_what_is_free),
-        OF_RUN(the_dumps_are_the_frames),  OF_RUN(files_in_the_way_stop_it_before_it_begins),
-        OF_RUN(names_are_words),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

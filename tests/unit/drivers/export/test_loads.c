@@ -16,9 +16,8 @@ static loads find(const char *resolved)
     return l;
 }
 
-static void a_deck_says_what_acts(void **state)
+TEST(a_deck_says_what_acts)
 {
-    (void)state;
     const loads l =
         find("&run\n    t_end = 1\n    gravity = 1.5, -9.81\n/\n&solver\n    mass_damping = 3 ! default\n/\n");
     assert_true(l.known);
@@ -27,18 +26,8 @@ static void a_deck_says_what_acts(void **state)
     assert_close(l.mass_damping, 3.0, 0.0);
 }
 
-static void a_run_without_a_deck_does_not(void **state)
+TEST(a_run_without_a_deck_does_not)
 {
-    (void)state;
     assert_false(find(NULL).known);
     assert_false(find("&run gravity = 1, /= x").known);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_deck_says_what_acts),
-        cmocka_unit_test(a_run_without_a_deck_does_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

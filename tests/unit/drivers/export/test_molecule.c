@@ -18,9 +18,8 @@ static void end(molecule *m)
     exported_close(&e);
 }
 
-static void types_are_of_mass_and_of_spring(void **state)
+TEST(types_are_of_mass_and_of_spring)
 {
-    (void)state;
     molecule m;
     make(&m, exported_usual(), 0);
     const dem_index atoms[] = {0, 1, 2}, bonds[] = {0, 2, 1};
@@ -33,18 +32,16 @@ static void types_are_of_mass_and_of_spring(void **state)
     end(&m);
 }
 
-static void the_start_is_not_rounded(void **state)
+TEST(the_start_is_not_rounded)
 {
-    (void)state;
     molecule m;
     make(&m, exported_usual(), 0);
     assert_true(m.t == 0.0 && m.v[0] == 0.1 && m.x[5] == 5.0);
     end(&m);
 }
 
-static void a_later_frame_is_as_it_is_in_the_file(void **state)
+TEST(a_later_frame_is_as_it_is_in_the_file)
 {
-    (void)state;
     for (int in_double = 0; in_double < 2; in_double++) {
         molecule m;
         exported_how how = exported_usual();
@@ -57,9 +54,8 @@ static void a_later_frame_is_as_it_is_in_the_file(void **state)
     }
 }
 
-static void without_frames_it_is_the_lattice(void **state)
+TEST(without_frames_it_is_the_lattice)
 {
-    (void)state;
     molecule m;
     exported_how how = exported_usual();
     how.frame_interval = 0.0;
@@ -70,9 +66,8 @@ static void without_frames_it_is_the_lattice(void **state)
     end(&m);
 }
 
-static void the_box_has_room(void **state)
+TEST(the_box_has_room)
 {
-    (void)state;
     molecule m;
     make(&m, exported_usual(), 0);
     const molecule_box box = molecule_box_of(&m, m.x);
@@ -83,9 +78,8 @@ static void the_box_has_room(void **state)
     end(&m);
 }
 
-static void what_is_left_out_is_reported(void **state)
+TEST(what_is_left_out_is_reported)
 {
-    (void)state;
     molecule m;
     exported_how how = exported_usual();
     make(&m, how, 0);
@@ -96,17 +90,4 @@ static void what_is_left_out_is_reported(void **state)
     make(&m, how, 0);
     assert_string_equal(m.omissions, "left out: the folding guard of 1 triangle, the damping of masses, 2 1/s");
     end(&m);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(types_are_of_mass_and_of_spring),
-        cmocka_unit_test(the_start_is_not_rounded),
-        cmocka_unit_test(a_later_frame_is_as_it_is_in_the_file),
-        cmocka_unit_test(without_frames_it_is_the_lattice),
-        cmocka_unit_test(the_box_has_room),
-        cmocka_unit_test(what_is_left_out_is_reported),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 
 #include "piece.h"
 
-static void arrays_stand_where_the_head_says(void **state)
+TEST(arrays_stand_where_the_head_says)
 {
-    (void)state;
     static const double points[6] = {0.0, 1.0, 0.0, 2.0, 3.0, 0.0}, ends[2] = {0.0, 1.0}, two = 2.0, type = 3.0;
     static const double sizes[2] = {0.5, -7.0};
     const piece_array arrays[] = {{PIECE_CELLS, "connectivity", DEM_READER_I64, 1, 2, ends, NULL},
@@ -43,10 +42,4 @@ static void arrays_stand_where_the_head_says(void **state)
     assert_int_equal(data[125], 3);
     assert_memory_equal(data + 126, "\n</AppendedData>", 16);
     exported_close(&e);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(arrays_stand_where_the_head_says)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,9 +3,9 @@
 
 #include "sheet.h"
 
-static void a_file_has_its_name_when_it_is_whole(void **state)
+TEST_WITH(a_file_has_its_name_when_it_is_whole, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     sheet s;
     assert_true(sheet_open(&s, &e->task, "in.", ".txt"));
     sheet_print(&s, "%d and ", 7);
@@ -17,9 +17,9 @@ static void a_file_has_its_name_when_it_is_whole(void **state)
     assert_false(exported_has(e, "in.run.txt.new"));
 }
 
-static void what_is_not_good_is_removed(void **state)
+TEST_WITH(what_is_not_good_is_removed, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     sheet s;
     exported_put(e, "run.txt", "old");
     assert_true(sheet_open(&s, &e->task, "", ".txt"));
@@ -29,9 +29,9 @@ static void what_is_not_good_is_removed(void **state)
     assert_false(exported_has(e, "run.txt.new"));
 }
 
-static void a_file_in_the_way_is_the_outcome(void **state)
+TEST_WITH(a_file_in_the_way_is_the_outcome, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     exported_put(e, "run.txt", "old");
     assert_true(sheet_is_free(&e->task, "", ".csv"));
     assert_false(sheet_is_free(&e->task, "", ".txt"));
@@ -41,9 +41,9 @@ static void a_file_in_the_way_is_the_outcome(void **state)
     assert_true(sheet_is_free(&e->task, "", ".txt"));
 }
 
-static void numbers_have_the_digits_they_need(void **state)
+TEST_WITH(numbers_have_the_digits_they_need, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     sheet s;
     assert_true(sheet_open(&s, &e->task, "", ".txt"));
     sheet_number(&s, 0.1, DEM_READER_F64);
@@ -55,9 +55,9 @@ static void numbers_have_the_digits_they_need(void **state)
     assert_string_equal(exported_text(e, "run.txt"), "0.10000000000000001 0.100000001 123456789012");
 }
 
-static void what_cannot_be_written_is_the_outcome(void **state)
+TEST_WITH(what_cannot_be_written_is_the_outcome, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     sheet s;
     e->task.folder = "none/";
     assert_false(sheet_open(&s, &e->task, "", ".txt"));
@@ -66,9 +66,9 @@ static void what_cannot_be_written_is_the_outcome(void **state)
 }
 
 /* A device that is always full in the place of the file. */
-static void a_full_disk_is_the_outcome(void **state)
+TEST_WITH(a_full_disk_is_the_outcome, exported_begin, exported_end)
 {
-    exported *e = *state;
+    exported *e = *test_state;
     sheet s;
     assert_true(sheet_open(&s, &e->task, "", ".txt"));
     (void)fclose(s.file);
@@ -79,16 +79,4 @@ static void a_full_disk_is_the_outcome(void **state)
     assert_int_equal(e->outcome.code, EXIT_IO);
     assert_non_null(strstr(e->outcome.message, "/run.txt: cannot be written (No space left on device)"));
     assert_false(exported_has(e, "run.txt"));
-}
-
-#define OF_RUN(test) cmocka_unit_test_setup_teardown(test, exported_begin, exported_end)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        OF_RUN(a_file_has_its_name_when_it_is_whole),  OF_RUN(what_is_not_good_is_removed),
-        OF_RUN(a_file_in_the_way_is_the_outcome),      OF_RUN(numbers_have_the_digits_they_need),
-        OF_RUN(what_cannot_be_written_is_the_outcome), OF_RUN(a_full_disk_is_the_outcome),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

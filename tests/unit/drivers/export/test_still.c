@@ -3,9 +3,8 @@
 
 #include "still.h"
 
-static void a_frame_is_read_with_what_is_wanted(void **state)
+TEST(a_frame_is_read_with_what_is_wanted)
 {
-    (void)state;
     static const char *const names[] = {"velocity", "none", "strain", "body"};
     const still_choice choice = {.names = names, .n_names = 4};
     exported e;
@@ -26,9 +25,8 @@ static void a_frame_is_read_with_what_is_wanted(void **state)
     exported_close(&e);
 }
 
-static void without_names_all_are_wanted(void **state)
+TEST(without_names_all_are_wanted)
 {
-    (void)state;
     exported e;
     still s;
     exported_open(&e, exported_usual());
@@ -40,13 +38,4 @@ static void without_names_all_are_wanted(void **state)
         still_free(&s);
     }
     exported_close(&e);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_frame_is_read_with_what_is_wanted),
-        cmocka_unit_test(without_names_all_are_wanted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

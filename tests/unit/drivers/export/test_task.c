@@ -6,9 +6,8 @@
 
 #include "task.h"
 
-static void a_failure_of_the_library_is_the_outcome(void **state)
+TEST(a_failure_of_the_library_is_the_outcome)
 {
-    (void)state;
     outcome o = {0};
     const task t = {.outcome = &o};
     dem_reader *reader = NULL;
@@ -19,22 +18,12 @@ static void a_failure_of_the_library_is_the_outcome(void **state)
     assert_non_null(strstr(o.message, "dem_export: error: none.vtkhdf: cannot be opened"));
 }
 
-static void arrays_are_zeroed_and_never_of_no_bytes(void **state)
+TEST(arrays_are_zeroed_and_never_of_no_bytes)
 {
-    (void)state;
     outcome o = {0};
     const task t = {.outcome = &o};
     double *none = task_allocate(&t, 0, sizeof *none), *some = task_allocate(&t, 3, sizeof *some);
     assert_true(none != NULL && some != NULL && some[2] == 0.0);
     free(none);
     free(some);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_failure_of_the_library_is_the_outcome),
-        cmocka_unit_test(arrays_are_zeroed_and_never_of_no_bytes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,9 +4,8 @@
 
 #include "vtu.h"
 
-static void there_is_a_file_for_each_frame_and_the_series(void **state)
+TEST(there_is_a_file_for_each_frame_and_the_series)
 {
-    (void)state;
     exported e;
     exported_open(&e, exported_usual());
     e.task.frames.n = 2;
@@ -22,9 +21,8 @@ static void there_is_a_file_for_each_frame_and_the_series(void **state)
     exported_close(&e);
 }
 
-static void without_obstacles_there_is_no_file_of_them(void **state)
+TEST(without_obstacles_there_is_no_file_of_them)
 {
-    (void)state;
     exported e;
     exported_how how = exported_usual();
     how.n_obstacles = 0;
@@ -34,9 +32,8 @@ static void without_obstacles_there_is_no_file_of_them(void **state)
     exported_close(&e);
 }
 
-static void files_in_the_way_stop_it_before_it_begins(void **state)
+TEST(files_in_the_way_stop_it_before_it_begins)
 {
-    (void)state;
     exported e;
     exported_open(&e, exported_usual());
     exported_put(&e, "run_0002.vtu", "mine");
@@ -46,9 +43,8 @@ static void files_in_the_way_stop_it_before_it_begins(void **state)
     exported_close(&e);
 }
 
-static void a_run_without_frames_has_no_series(void **state)
+TEST(a_run_without_frames_has_no_series)
 {
-    (void)state;
     exported e;
     exported_how how = exported_usual();
     how.frame_interval = 0.0;
@@ -56,15 +52,4 @@ static void a_run_without_frames_has_no_series(void **state)
     assert_false(vtu_export(&e.task));
     assert_int_equal(e.outcome.code, EXIT_INVALID);
     exported_close(&e);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(there_is_a_file_for_each_frame_and_the_series),
-        cmocka_unit_test(without_obstacles_there_is_no_file_of_them),
-        cmocka_unit_test(files_in_the_way_stop_it_before_it_begins),
-        cmocka_unit_test(a_run_without_frames_has_no_series),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,39 +22,34 @@ static void expect(const char *text, const char *expected)
     assert_string_equal(got, expected);
 }
 
-static void keys_that_are_needed_and_used_are_no_fault(void **state)
+TEST(keys_that_are_needed_and_used_are_no_fault)
 {
-    (void)state;
     expect(HEAD "&void centre = 0, 0, radius = 1 /\n&void shape = 'rectangle', centre = 0, 0, size = 1, 1 /\n", "");
     expect(HEAD "&void centre = 0, 0, radius = 1, body = 1 /\n", "");
 }
 
-static void what_a_choice_needs_and_what_it_does_not_use_is_named(void **state)
+TEST(what_a_choice_needs_and_what_it_does_not_use_is_named)
 {
-    (void)state;
     expect(HEAD "&void centre = 0, 0, size = 1, 1 /\n", "3:1 'radius' in &void must be given for shape 'disc'\n"
                                                         "3:22 'size' in &void is not used by shape 'disc'");
 }
 
-static void a_key_at_fault_is_not_missed(void **state)
+TEST(a_key_at_fault_is_not_missed)
 {
-    (void)state;
     expect(HEAD "&void centre = 0, 0, radius = -1 /\n", "3:31 'radius' in &void must be > 0, got -1");
     expect(HEAD "&void centre = 0, 0, radus = 1 /\n", "3:22 unknown key 'radus' in &void (did you mean 'radius'?)");
 }
 
 /* The default of the choice stands in, and was not meant. */
-static void a_choice_at_fault_says_nothing_of_other_keys(void **state)
+TEST(a_choice_at_fault_says_nothing_of_other_keys)
 {
-    (void)state;
     expect(HEAD "&void centre = 0, 0, size = 1, 1, shape = 'rectangel' /\n",
            "3:43 'shape' in &void must be 'disc', 'rectangle', 'ring' or 'polygon', got 'rectangel' (did you mean "
            "'rectangle'?)");
 }
 
-static void defaults_that_are_not_used_are_dropped(void **state)
+TEST(defaults_that_are_not_used_are_dropped)
 {
-    (void)state;
     resolved r = resolve_clean(HEAD "&void centre = 0, 0, radius = 1 /\n"
                                     "&void shape = 'rectangle', centre = 0, 0, size = 1, 1 /\n");
     conditional_keys_drop(&r.deck, &table);
@@ -64,16 +59,4 @@ static void defaults_that_are_not_used_are_dropped(void **state)
     assert_int_equal(schema_value_of(schema_get(&r.deck, "void", 1), "size")->count, 2);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "body", 0), "position")->count, 2);
     drop_resolved(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keys_that_are_needed_and_used_are_no_fault),
-        cmocka_unit_test(what_a_choice_needs_and_what_it_does_not_use_is_named),
-        cmocka_unit_test(a_key_at_fault_is_not_missed),
-        cmocka_unit_test(a_choice_at_fault_says_nothing_of_other_keys),
-        cmocka_unit_test(defaults_that_are_not_used_are_dropped),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

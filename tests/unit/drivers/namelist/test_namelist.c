@@ -40,9 +40,8 @@ static void assert_kinds(const reading *r, size_t key, const char *expected)
 
 /* ---- groups and keys ------------------------------------------------------------------------------------------ */
 
-static void names_are_case_insensitive_and_kept_in_lower_case(void **state)
+TEST(names_are_case_insensitive_and_kept_in_lower_case)
 {
-    (void)state;
     reading r = read_clean("&RUN T_End = 1, Gravity2 = 2 /");
     assert_string_equal(r.list.groups[0].name, "run");
     assert_string_equal(key_at(&r, 0, 0)->name, "t_end");
@@ -50,9 +49,8 @@ static void names_are_case_insensitive_and_kept_in_lower_case(void **state)
     drop(&r);
 }
 
-static void groups_and_keys_know_their_places(void **state)
+TEST(groups_and_keys_know_their_places)
 {
-    (void)state;
     reading r = read_clean("\n  &run\n\tt_end =\n 1, 2 /");
     const namelist_key *key = key_at(&r, 0, 0);
     assert_int_equal(r.list.groups[0].place.line, 2);
@@ -64,60 +62,53 @@ static void groups_and_keys_know_their_places(void **state)
     drop(&r);
 }
 
-static void text_between_groups_is_comment(void **state)
+TEST(text_between_groups_is_comment)
 {
-    (void)state;
     reading r = read_clean("R&D x = 'open $5\n&a x=1/ y = 2 ' & so on\n! &c /\n&b /");
     assert_int_equal(r.list.n_groups, 2);
     assert_string_equal(r.list.groups[1].name, "b");
     drop(&r);
 }
 
-static void a_group_may_stand_right_behind_another(void **state)
+TEST(a_group_may_stand_right_behind_another)
 {
-    (void)state;
     reading r = read_clean("&a x=1/&b y=2&end&c z=3/");
     assert_int_equal(r.list.n_groups, 3);
     drop(&r);
 }
 
-static void legacy_ends_and_dollar_groups_are_read(void **state)
+TEST(legacy_ends_and_dollar_groups_are_read)
 {
-    (void)state;
     reading r = read_clean("$a x=1 $END\n&b x = 2 &end\n$c x = T$end");
     assert_int_equal(r.list.n_groups, 3);
     assert_int_equal(key_at(&r, 2, 0)->values[0].kind, NAMELIST_LOGICAL);
     drop(&r);
 }
 
-static void a_slash_as_last_byte_ends_the_file(void **state)
+TEST(a_slash_as_last_byte_ends_the_file)
 {
-    (void)state;
     reading r = read_clean("&a x=1/");
     assert_int_equal(r.list.n_groups, 1);
     drop(&r);
 }
 
-static void a_file_without_groups_is_empty(void **state)
+TEST(a_file_without_groups_is_empty)
 {
-    (void)state;
     reading r = read_clean("");
     assert_int_equal(r.list.n_groups, 0);
     drop(&r);
 }
 
-static void byte_order_mark_and_crlf_are_taken(void **state)
+TEST(byte_order_mark_and_crlf_are_taken)
 {
-    (void)state;
     reading r = read_clean("\xEF\xBB\xBF&a x = 1\r\n y = 'b\r\nc'\r\n/\r\n");
     assert_int_equal(r.list.groups[0].place.column, 1);
     assert_string_equal(key_at(&r, 0, 1)->values[0].text, "bc");
     drop(&r);
 }
 
-static void components_are_joined_by_percent_signs(void **state)
+TEST(components_are_joined_by_percent_signs)
 {
-    (void)state;
     reading r = read_clean("&a M%Young = 1, m( 2 )%x%y(3) = 4 /");
     assert_string_equal(key_at(&r, 0, 0)->name, "m%young");
     assert_string_equal(key_at(&r, 0, 1)->name, "m(2)%x%y");
@@ -125,9 +116,8 @@ static void components_are_joined_by_percent_signs(void **state)
     drop(&r);
 }
 
-static void subscripts_give_first_element_and_stride(void **state)
+TEST(subscripts_give_first_element_and_stride)
 {
-    (void)state;
     static const int first[] = {1, 2, 2, 1, 2, 1, 1, 3}, stride[] = {1, 1, 1, 2, 1, 1, 1, 4};
     reading r = read_clean("&g a=0 a(2)=1 a(2:3)=1,2 a(1:6:2)=1,2,3 a(2:)=4 a(:)=5 a( : 3 )=1 a(3::4) = 6,7 /");
     for (size_t k = 0; k < 8; k++) {
@@ -140,9 +130,8 @@ static void subscripts_give_first_element_and_stride(void **state)
 
 /* ---- values --------------------------------------------------------------------------------------------------- */
 
-static void numbers_have_fortran_spellings(void **state)
+TEST(numbers_have_fortran_spellings)
 {
-    (void)state;
     static const double expected[] = {1, 1, .5, 1e3, 1e-3, 1e3, -2.5, 7, 0.1, -4e-5};
     reading r = read_clean("&a x = 1 1. .5 1e3 1d-3 1D3 -2.5 +7 0.1d0 -4.E-05 /");
     assert_reals(&r, 0, 10, expected);
@@ -150,27 +139,24 @@ static void numbers_have_fortran_spellings(void **state)
     drop(&r);
 }
 
-static void integers_keep_all_their_digits(void **state)
+TEST(integers_keep_all_their_digits)
 {
-    (void)state;
     reading r = read_clean("&a x = 9223372036854775807, -9223372036854775808 /");
     assert_true(key_at(&r, 0, 0)->values[0].integer == INT64_MAX);
     assert_true(key_at(&r, 0, 0)->values[1].integer == INT64_MIN);
     drop(&r);
 }
 
-static void minus_zero_keeps_its_sign(void **state)
+TEST(minus_zero_keeps_its_sign)
 {
-    (void)state;
     reading r = read_clean("&a x = -0, -0. /");
     assert_true(signbit(key_at(&r, 0, 0)->values[0].real));
     assert_true(signbit(key_at(&r, 0, 0)->values[1].real));
     drop(&r);
 }
 
-static void logicals_have_six_spellings_in_any_case(void **state)
+TEST(logicals_have_six_spellings_in_any_case)
 {
-    (void)state;
     static const bool expected[] = {true, true, true, false, false, false};
     reading r = read_clean("&a x = .TRUE. t True .false. F fAlse /");
     assert_kinds(&r, 0, "llllll");
@@ -178,48 +164,42 @@ static void logicals_have_six_spellings_in_any_case(void **state)
     drop(&r);
 }
 
-static void what_only_begins_like_a_logical_is_a_word(void **state)
+TEST(what_only_begins_like_a_logical_is_a_word)
 {
-    (void)state;
     reading r = read_clean("&a x = fish, .true, .tRuE_oops. /");
     assert_kinds(&r, 0, "www");
     assert_string_equal(key_at(&r, 0, 0)->values[0].text, "fish");
     drop(&r);
 }
 
-static void a_logical_before_an_equal_sign_is_a_key(void **state)
+TEST(a_logical_before_an_equal_sign_is_a_key)
 {
-    (void)state;
     reading r = read_clean("&a x = T f = F t\n= 1 /");
     assert_int_equal(r.list.groups[0].n_keys, 3);
     assert_string_equal(key_at(&r, 0, 2)->name, "t");
     drop(&r);
 }
 
-static void doubled_quotes_stand_for_one(void **state)
+TEST(doubled_quotes_stand_for_one)
 {
-    (void)state;
     assert_string("&a x='it''s \"so\"'/", "it's \"so\"");
     assert_string("&a x=\"say \"\"hi\"\" 'you'\"/", "say \"hi\" 'you'");
     assert_string("&a x=''/", "");
     assert_string("&a x=''''/", "'");
 }
 
-static void strings_may_hold_what_is_syntax_outside(void **state)
+TEST(strings_may_hold_what_is_syntax_outside)
 {
-    (void)state;
     assert_string("&a x = '/ ! &end $b, y = 2' /", "/ ! &end $b, y = 2");
 }
 
-static void a_string_goes_on_in_the_next_line(void **state)
+TEST(a_string_goes_on_in_the_next_line)
 {
-    (void)state;
     assert_string("&a x = 'one \ntwo'\n/", "one two");
 }
 
-static void blanks_newlines_and_one_comma_separate(void **state)
+TEST(blanks_newlines_and_one_comma_separate)
 {
-    (void)state;
     static const double expected[] = {1, 2, 3, 4, 5};
     reading r = read_clean("&a x = 1,2\n\t,3 ! , 9\n4 , 5, y = 6,/");
     assert_reals(&r, 0, 5, expected);
@@ -227,9 +207,8 @@ static void blanks_newlines_and_one_comma_separate(void **state)
     drop(&r);
 }
 
-static void nothing_behind_the_equals_sign_is_a_null_value(void **state)
+TEST(nothing_behind_the_equals_sign_is_a_null_value)
 {
-    (void)state;
     reading r = read_text("&a x = y = 1 z =/");
     assert_int_equal(r.errors.n, 0);
     assert_int_equal(key_at(&r, 0, 0)->n_values, 1);
@@ -239,9 +218,8 @@ static void nothing_behind_the_equals_sign_is_a_null_value(void **state)
     drop(&r);
 }
 
-static void two_commas_leave_a_null_value(void **state)
+TEST(two_commas_leave_a_null_value)
 {
-    (void)state;
     reading r = read_clean("&a w = , x = 1,,2 y = ,1, z = 1, , /");
     assert_kinds(&r, 0, "0");
     assert_kinds(&r, 1, "i0i");
@@ -250,9 +228,8 @@ static void two_commas_leave_a_null_value(void **state)
     drop(&r);
 }
 
-static void repeat_counts_are_expanded(void **state)
+TEST(repeat_counts_are_expanded)
 {
-    (void)state;
     reading r = read_clean("&a x = 2*1.5, 3*, 2*'a b' 1*T z = 2* /");
     assert_kinds(&r, 0, "rr000ssl");
     assert_string_equal(key_at(&r, 0, 0)->values[6].text, "a b");
@@ -260,52 +237,18 @@ static void repeat_counts_are_expanded(void **state)
     drop(&r);
 }
 
-static void comments_begin_outside_quotes(void **state)
+TEST(comments_begin_outside_quotes)
 {
-    (void)state;
     reading r = read_clean("&a ! it's one\n x = '!'! two /\n y = 1!three\n/");
     assert_int_equal(r.list.groups[0].n_keys, 2);
     assert_string_equal(key_at(&r, 0, 0)->values[0].text, "!");
     drop(&r);
 }
 
-static void unquoted_text_is_left_to_the_caller_as_a_word(void **state)
+TEST(unquoted_text_is_left_to_the_caller_as_a_word)
 {
-    (void)state;
     reading r = read_clean("&a x = 3mm, rubber, 1e, 1.0_8, - /");
     assert_kinds(&r, 0, "wwwww");
     assert_string_equal(key_at(&r, 0, 0)->values[0].text, "3mm");
     drop(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_are_case_insensitive_and_kept_in_lower_case),
-        cmocka_unit_test(groups_and_keys_know_their_places),
-        cmocka_unit_test(text_between_groups_is_comment),
-        cmocka_unit_test(a_group_may_stand_right_behind_another),
-        cmocka_unit_test(legacy_ends_and_dollar_groups_are_read),
-        cmocka_unit_test(a_slash_as_last_byte_ends_the_file),
-        cmocka_unit_test(a_file_without_groups_is_empty),
-        cmocka_unit_test(byte_order_mark_and_crlf_are_taken),
-        cmocka_unit_test(components_are_joined_by_percent_signs),
-        cmocka_unit_test(subscripts_give_first_element_and_stride),
-        cmocka_unit_test(numbers_have_fortran_spellings),
-        cmocka_unit_test(integers_keep_all_their_digits),
-        cmocka_unit_test(minus_zero_keeps_its_sign),
-        cmocka_unit_test(logicals_have_six_spellings_in_any_case),
-        cmocka_unit_test(what_only_begins_like_a_logical_is_a_word),
-        cmocka_unit_test(a_logical_before_an_equal_sign_is_a_key),
-        cmocka_unit_test(doubled_quotes_stand_for_one),
-        cmocka_unit_test(strings_may_hold_what_is_syntax_outside),
-        cmocka_unit_test(a_string_goes_on_in_the_next_line),
-        cmocka_unit_test(blanks_newlines_and_one_comma_separate),
-        cmocka_unit_test(nothing_behind_the_equals_sign_is_a_null_value),
-        cmocka_unit_test(two_commas_leave_a_null_value),
-        cmocka_unit_test(repeat_counts_are_expanded),
-        cmocka_unit_test(comments_begin_outside_quotes),
-        cmocka_unit_test(unquoted_text_is_left_to_the_caller_as_a_word),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

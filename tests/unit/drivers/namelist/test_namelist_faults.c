@@ -4,63 +4,55 @@
 
 #include <stdlib.h>
 
-static void columns_count_characters_not_bytes(void **state)
+TEST(columns_count_characters_not_bytes)
 {
-    (void)state;
     assert_faults("&a t = '\xC3\xA9\xE2\x82\xAC', x = 1+2 /",
                   "1:18 'x': '1+2' has an exponent without its letter; write 1.5e+3 for 1.5+3");
 }
 
-static void infinite_numbers_are_refused(void **state)
+TEST(infinite_numbers_are_refused)
 {
-    (void)state;
     assert_faults("&a x = inf, -Infinity nan NaN(3) /", "1:8 'x': 'inf' is not a finite number\n"
                                                         "1:13 'x': '-Infinity' is not a finite number\n"
                                                         "1:23 'x': 'nan' is not a finite number\n"
                                                         "1:27 'x': 'NaN(3)' is not a finite number");
 }
 
-static void numbers_that_do_not_fit_are_refused(void **state)
+TEST(numbers_that_do_not_fit_are_refused)
 {
-    (void)state;
     assert_faults("&a x = 9223372036854775808, 1e309, -1d999 /",
                   "1:8 'x': '9223372036854775808' is too large for an integer\n"
                   "1:29 'x': '1e309' is too large for a real\n"
                   "1:36 'x': '-1d999' is too large for a real");
 }
 
-static void a_number_of_many_digits_is_refused(void **state)
+TEST(a_number_of_many_digits_is_refused)
 {
-    (void)state;
     char text[300] = "&a x = 0.";
     memset(text + 9, '1', 200);
     (void)snprintf(text + 209, 10, " /");
     assert_faults(text, "1:8 'x': '0.11111111111111111111111111111111111111' has too many digits");
 }
 
-static void a_semicolon_does_not_separate(void **state)
+TEST(a_semicolon_does_not_separate)
 {
-    (void)state;
     assert_faults("&a x = 1;2 /", "1:9 values are separated by ',' or blanks, not by ';'");
 }
 
-static void complex_numbers_are_not_understood(void **state)
+TEST(complex_numbers_are_not_understood)
 {
-    (void)state;
     assert_faults("&a x = (1, 2) y = (3 /", "1:8 a number is expected; complex ones are not understood\n"
                                             "1:19 a number is expected; complex ones are not understood");
 }
 
-static void two_subscripts_are_not_understood(void **state)
+TEST(two_subscripts_are_not_understood)
 {
-    (void)state;
     assert_faults("&a x(1, 2) = 3, y(:,1) = 4, 5 /", "1:4 'x' has more than one subscript; only one is understood\n"
                                                      "1:17 'y' has more than one subscript; only one is understood");
 }
 
-static void subscripts_outside_their_bounds_are_refused(void **state)
+TEST(subscripts_outside_their_bounds_are_refused)
 {
-    (void)state;
     assert_faults("&g a(0)=1 b(3:2)=1 c(1:9:0)=1 d(100001)=1 e(99999999999999999999)=1 f(-)=1 /",
                   "1:4 the subscript of 'a' must ascend, from 1 to 100000 at most\n"
                   "1:11 the subscript of 'b' must ascend, from 1 to 100000 at most\n"
@@ -70,44 +62,38 @@ static void subscripts_outside_their_bounds_are_refused(void **state)
                   "1:69 the subscript of 'f' must be (i), (i:j) or (i:j:k)");
 }
 
-static void a_section_has_room_for_so_many_values(void **state)
+TEST(a_section_has_room_for_so_many_values)
 {
-    (void)state;
     assert_faults("&a x(2:3) = 1, 2, 3 y(1:5:2) = 4*1 /", "1:4 the subscript of 'x' has room for 2, got 3 values\n"
                                                           "1:21 the subscript of 'y' has room for 3, got 4 values");
 }
 
-static void a_subscript_that_is_none_is_named(void **state)
+TEST(a_subscript_that_is_none_is_named)
 {
-    (void)state;
     assert_faults("&a x(n) = 3 /", "1:4 the subscript in 'x(n)' must be (i), (i:j) or (i:j:k)");
 }
 
-static void repeat_counts_have_bounds(void **state)
+TEST(repeat_counts_have_bounds)
 {
-    (void)state;
     assert_faults("&a x = 0*1, 100001*2, 99999999999*'x' /", "1:8 repeat count '0' is not in 1 to 100000\n"
                                                              "1:13 repeat count '100001' is not in 1 to 100000\n"
                                                              "1:23 repeat count '99999999999' is not in 1 to 100000");
 }
 
-static void the_number_of_values_in_a_file_has_a_bound(void **state)
+TEST(the_number_of_values_in_a_file_has_a_bound)
 {
-    (void)state;
     assert_faults("&a x = 60000*1 /\n&b x = 60000*1, 2 y = 3 /", "2:8 there are more than 100000 values");
 }
 
-static void a_missing_equal_sign_is_reported_once(void **state)
+TEST(a_missing_equal_sign_is_reported_once)
 {
-    (void)state;
     assert_faults("&a t_end 20e-3 'x = /' y = 1 /", "1:4 '=' is missing after 't_end'");
     assert_faults("&a x = 1 ! one\n\ty 2\n z = 3 /", "2:2 '=' is missing after 'y'");
     assert_faults("&a x = 1,\n y 2\n z = 3 /", "");
 }
 
-static void a_key_with_a_fault_is_kept_without_values(void **state)
+TEST(a_key_with_a_fault_is_kept_without_values)
 {
-    (void)state;
     reading r = read_text("&a t_end 20e-3, y = 1 /");
     assert_string_equal(key_at(&r, 0, 0)->name, "t_end");
     assert_int_equal(key_at(&r, 0, 0)->n_values, 0);
@@ -115,37 +101,32 @@ static void a_key_with_a_fault_is_kept_without_values(void **state)
     drop(&r);
 }
 
-static void what_is_no_key_is_shown(void **state)
+TEST(what_is_no_key_is_shown)
 {
-    (void)state;
     assert_faults("&a 3 = 4, x = 1\n= 2 /", "1:4 a key is expected, got '3'\n2:1 unexpected '='");
 }
 
-static void a_hash_is_no_comment(void **state)
+TEST(a_hash_is_no_comment)
 {
-    (void)state;
     assert_faults("&a # one\n x = 1 # two\n/", "1:4 unexpected '#'; comments begin with '!'\n"
                                                "2:8 unexpected '#'; comments begin with '!'");
 }
 
-static void a_value_right_behind_a_string_is_reported(void **state)
+TEST(a_value_right_behind_a_string_is_reported)
 {
-    (void)state;
     assert_faults("&a x = 'a'b y = 1'c' z = 2 /", "1:11 a blank or a comma is missing here\n"
                                                   "1:18 a blank or a comma is missing here");
 }
 
-static void an_unclosed_string_does_not_swallow_the_next_key(void **state)
+TEST(an_unclosed_string_does_not_swallow_the_next_key)
 {
-    (void)state;
     assert_faults("&a x = 'abc, y = inf /\n&b z = nan /", "1:8 the string is not closed\n"
                                                           "1:18 'y': 'inf' is not a finite number\n"
                                                           "2:8 'z': 'nan' is not a finite number");
 }
 
-static void an_unclosed_string_is_found_where_another_opens(void **state)
+TEST(an_unclosed_string_is_found_where_another_opens)
 {
-    (void)state;
     reading r = read_text("&a x = 'abc /\n&b y = 'd' /");
     assert_int_equal(r.errors.n, 1);
     assert_string_equal(r.errors.list[0].text, "the string is not closed");
@@ -153,37 +134,32 @@ static void an_unclosed_string_is_found_where_another_opens(void **state)
     drop(&r);
 }
 
-static void a_long_string_is_refused(void **state)
+TEST(a_long_string_is_refused)
 {
-    (void)state;
     char text[5000] = "&a x = '";
     memset(text + 8, 'b', 4097);
     (void)snprintf(text + 4105, 10, "' /");
     assert_faults(text, "1:8 the string is longer than 4096 bytes");
 }
 
-static void a_group_that_is_not_closed_ends_at_the_next(void **state)
+TEST(a_group_that_is_not_closed_ends_at_the_next)
 {
-    (void)state;
     assert_faults("&a x = 1\n&b y = 2", "1:1 &a is not closed: '/' is missing before &b in line 2\n"
                                         "2:1 &b is not closed: '/' is missing before the end of the file");
 }
 
-static void an_end_without_group_is_reported(void **state)
+TEST(an_end_without_group_is_reported)
 {
-    (void)state;
     assert_faults("&a x=1 /\n&end", "2:1 '&end' closes no group");
 }
 
-static void an_unquoted_path_does_not_silently_end_its_group(void **state)
+TEST(an_unquoted_path_does_not_silently_end_its_group)
 {
-    (void)state;
     assert_faults("&a x = b/c y = 1 /", "1:10 text right behind the '/' that ends &a; does a path lack its quotes?");
 }
 
-static void bytes_that_are_not_text_are_reported_once(void **state)
+TEST(bytes_that_are_not_text_are_reported_once)
 {
-    (void)state;
     static const char text[] = "&a x\0=\001 1\n y = '\xC3\xA9\xE9' ! \xFF\n z = \x7F 3\r/";
     assert_faults_of(text, sizeof text - 1, "1:5 byte 0x00 is not text; UTF-8 is expected (3 such lines)");
     assert_faults("&a y = '\xE9' ! \xFF\n z = nan /", "1:9 byte 0xE9 is not text; UTF-8 is expected\n"
@@ -201,9 +177,8 @@ static void expect_unreadable(const char *text, size_t size, const char *expecte
     drop(&r);
 }
 
-static void a_text_in_utf16_is_reported_and_not_read(void **state)
+TEST(a_text_in_utf16_is_reported_and_not_read)
 {
-    (void)state;
     const char *message = "1:1 the file is in UTF-16; UTF-8 is expected";
     expect_unreadable("\xFF\xFE&\0r\0\n\0", 8, message);
     expect_unreadable("\xFE\xFF\0&\0r\0\n", 8, message);
@@ -213,9 +188,8 @@ static void a_text_in_utf16_is_reported_and_not_read(void **state)
                       "1:3 byte 0xE9 is not text; UTF-8 is expected (2 such lines)");
 }
 
-static void overlong_characters_and_surrogates_are_not_text(void **state)
+TEST(overlong_characters_and_surrogates_are_not_text)
 {
-    (void)state;
     assert_faults("\xC0\x80\n", "1:1 byte 0xC0 is not text; UTF-8 is expected");
     assert_faults("\xE0\x80\x80\n", "1:1 byte 0xE0 is not text; UTF-8 is expected");
     assert_faults("\xED\xA0\x80\n", "1:1 byte 0xED is not text; UTF-8 is expected");
@@ -231,9 +205,8 @@ static char *filled(size_t size, char c)
     return text;
 }
 
-static void a_long_line_is_reported(void **state)
+TEST(a_long_line_is_reported)
 {
-    (void)state;
     char *text = filled(70000, ' ');
     text[65536] = '\n';
     assert_faults_of(text, 65600, "");
@@ -242,18 +215,16 @@ static void a_long_line_is_reported(void **state)
     free(text);
 }
 
-static void a_large_file_is_refused(void **state)
+TEST(a_large_file_is_refused)
 {
-    (void)state;
     char *text = filled(NAMELIST_MAX_FILE + 1, '\n');
     assert_faults_of(text, NAMELIST_MAX_FILE, "");
     expect_unreadable(text, NAMELIST_MAX_FILE + 1, "1:1 the file is larger than 4194304 bytes");
     free(text);
 }
 
-static void many_groups_are_refused(void **state)
+TEST(many_groups_are_refused)
 {
-    (void)state;
     char *text = filled(4 * 2002, ' ');
     for (size_t k = 0; k < 2002; k++) memcpy(text + 4 * k, "&a/\n", 4);
     assert_faults_of(text, 4 * 2000, "");
@@ -261,9 +232,8 @@ static void many_groups_are_refused(void **state)
     free(text);
 }
 
-static void errors_end_at_a_thousand(void **state)
+TEST(errors_end_at_a_thousand)
 {
-    (void)state;
     char *text = filled(2000, ';');
     memcpy(text, "&a x = ", 7);
     reading r = read_bytes(text, 2000);
@@ -273,17 +243,15 @@ static void errors_end_at_a_thousand(void **state)
     free(text);
 }
 
-static void a_long_word_is_cut_between_characters(void **state)
+TEST(a_long_word_is_cut_between_characters)
 {
-    (void)state;
     reading r = read_text("&a 123456789012345678901234567890123456789\xE2\x82\xAC /");
     assert_string_equal(r.errors.list[0].text, "a key is expected, got '123456789012345678901234567890123456789'");
     drop(&r);
 }
 
-static void errors_are_sorted_by_place_and_else_stay_in_order(void **state)
+TEST(errors_are_sorted_by_place_and_else_stay_in_order)
 {
-    (void)state;
     namelist_errors errors = {0};
     static const namelist_place places[] = {{2, 1}, {1, 7}, {1, 3}, {1, 7}, {1, 3}};
     for (int k = 0; k < 5; k++) namelist_errors_add(&errors, places[k], "%d", k);
@@ -296,9 +264,8 @@ static void errors_are_sorted_by_place_and_else_stay_in_order(void **state)
 
 /* A text of 1 MiB that repeats a piece. Looking ahead must not make it slow: the time limit of the test is the
  * check. */
-static void hostile_repetitions_take_linear_time(void **state)
+TEST(hostile_repetitions_take_linear_time)
 {
-    (void)state;
     static const char *const pieces[] = {"a(1)",  "a%", "a % ", "a\n", "'",  "'\"", "'''\n", "\"x''\n", "a(1 ", "a=",
                                          "a='\n", "1*", "&a",   "&a ", "= ", ",",   "a=1,",  "(",       "!\n",  "a(1:"};
     for (size_t p = 0; p < sizeof pieces / sizeof pieces[0]; p++) {
@@ -310,44 +277,4 @@ static void hostile_repetitions_take_linear_time(void **state)
         drop(&r);
         free(text);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(columns_count_characters_not_bytes),
-        cmocka_unit_test(infinite_numbers_are_refused),
-        cmocka_unit_test(numbers_that_do_not_fit_are_refused),
-        cmocka_unit_test(a_number_of_many_digits_is_refused),
-        cmocka_unit_test(a_semicolon_does_not_separate),
-        cmocka_unit_test(complex_numbers_are_not_understood),
-        cmocka_unit_test(two_subscripts_are_not_understood),
-        cmocka_unit_test(subscripts_outside_their_bounds_are_refused),
-        cmocka_unit_test(a_section_has_room_for_so_many_values),
-        cmocka_unit_test(a_subscript_that_is_none_is_named),
-        cmocka_unit_test(repeat_counts_have_bounds),
-        cmocka_unit_test(the_number_of_values_in_a_file_has_a_bound),
-        cmocka_unit_test(a_missing_equal_sign_is_reported_once),
-        cmocka_unit_test(a_key_with_a_fault_is_kept_without_values),
-        cmocka_unit_test(what_is_no_key_is_shown),
-        cmocka_unit_test(a_hash_is_no_comment),
-        cmocka_unit_test(a_value_right_behind_a_string_is_reported),
-        cmocka_unit_test(an_unclosed_string_does_not_swallow_the_next_key),
-        cmocka_unit_test(an_unclosed_string_is_found_where_another_opens),
-        cmocka_unit_test(a_long_string_is_refused),
-        cmocka_unit_test(a_group_that_is_not_closed_ends_at_the_next),
-        cmocka_unit_test(an_end_without_group_is_reported),
-        cmocka_unit_test(an_unquoted_path_does_not_silently_end_its_group),
-        cmocka_unit_test(bytes_that_are_not_text_are_reported_once),
-        cmocka_unit_test(a_text_in_utf16_is_reported_and_not_read),
-        cmocka_unit_test(overlong_characters_and_surrogates_are_not_text),
-        cmocka_unit_test(a_long_line_is_reported),
-        cmocka_unit_test(a_large_file_is_refused),
-        cmocka_unit_test(many_groups_are_refused),
-        cmocka_unit_test(errors_end_at_a_thousand),
-        cmocka_unit_test(a_long_word_is_cut_between_characters),
-        cmocka_unit_test(errors_are_sorted_by_place_and_else_stay_in_order),
-        cmocka_unit_test(hostile_repetitions_take_linear_time),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

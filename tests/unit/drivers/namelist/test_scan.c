@@ -58,9 +58,8 @@ static void expect_answers(bool (*is)(const scanner *), const answer_case *cases
 
 /* ---- characters ---- */
 
-static void a_character_has_one_to_four_bytes(void **state)
+TEST(a_character_has_one_to_four_bytes)
 {
-    (void)state;
     static const length_case cases[] = {
         {"a", 1},
         {"~", 1},
@@ -76,9 +75,8 @@ static void a_character_has_one_to_four_bytes(void **state)
     expect_lengths(scan_plain_length, cases, LENGTH(cases));
 }
 
-static void bytes_that_make_no_character_have_no_length(void **state)
+TEST(bytes_that_make_no_character_have_no_length)
 {
-    (void)state;
     static const length_case cases[] = {
         {"\x80", 0},             /* goes on from nothing */
         {"\xC3", 0},             /* ends early */
@@ -98,9 +96,8 @@ static void bytes_that_make_no_character_have_no_length(void **state)
     expect_lengths(scan_plain_length, cases, LENGTH(cases));
 }
 
-static void control_characters_have_no_place_but_tab_and_ends_of_lines(void **state)
+TEST(control_characters_have_no_place_but_tab_and_ends_of_lines)
 {
-    (void)state;
     for (int c = 1; c < 256; c++) {
         const char text[2] = {(char)c, '\0'};
         const bool plain = c == '\t' || c == '\n' || (c >= ' ' && c < 0x7F);
@@ -119,9 +116,8 @@ static void expect_rest(const char *text, const char *expected)
     assert_string_equal(copy, expected);
 }
 
-static void what_is_no_character_can_be_dropped(void **state)
+TEST(what_is_no_character_can_be_dropped)
 {
-    (void)state;
     expect_rest("", "");
     expect_rest("na\xC3\xAFve \xE2\x82\xAC \xF0\x9F\x98\x80", "na\xC3\xAFve \xE2\x82\xAC \xF0\x9F\x98\x80");
     expect_rest("a\xFF\x80z", "az");
@@ -131,18 +127,16 @@ static void what_is_no_character_can_be_dropped(void **state)
 
 /* ---- words ---- */
 
-static void blanks_are_spaces_tabs_and_ends_of_lines(void **state)
+TEST(blanks_are_spaces_tabs_and_ends_of_lines)
 {
-    (void)state;
     for (int c = 0; c < 256; c++) {
         const bool blank = c == ' ' || c == '\t' || c == '\n' || c == '\r';
         assert_int_equal(scan_is_blank((char)c), blank);
     }
 }
 
-static void a_word_ends_where_something_else_begins(void **state)
+TEST(a_word_ends_where_something_else_begins)
 {
-    (void)state;
     static const length_case cases[] = {
         {"", 0},
         {"word", 4},
@@ -167,17 +161,15 @@ static void a_word_ends_where_something_else_begins(void **state)
     expect_lengths(scan_word_length, cases, LENGTH(cases));
 }
 
-static void a_name_begins_with_a_letter(void **state)
+TEST(a_name_begins_with_a_letter)
 {
-    (void)state;
     static const length_case cases[] = {{"t_end = 1", 5}, {"A1_b2", 5}, {"_a", 0},     {"1a", 0},
                                         {"", 0},          {"x(1)", 1},  {"size%x", 4}, {"\xC3\xA9t", 0}};
     expect_lengths(scan_name_length, cases, LENGTH(cases));
 }
 
-static void a_designator_has_subscripts_and_components(void **state)
+TEST(a_designator_has_subscripts_and_components)
 {
-    (void)state;
     static const length_case cases[] = {
         {"x", 1},
         {"x = 1", 1},
@@ -199,9 +191,8 @@ static void a_designator_has_subscripts_and_components(void **state)
 }
 
 /* It bounds how far one looks ahead. */
-static void a_subscript_has_64_characters_at_most(void **state)
+TEST(a_subscript_has_64_characters_at_most)
 {
-    (void)state;
     char text[80] = "x(";
     memset(text + 2, '1', 64);
     memcpy(text + 66, ")", 2);
@@ -211,9 +202,8 @@ static void a_subscript_has_64_characters_at_most(void **state)
     assert_int_equal(scan_designator_length(text), 1);
 }
 
-static void logicals_have_six_spellings(void **state)
+TEST(logicals_have_six_spellings)
 {
-    (void)state;
     static const char *const yes[] = {".true.", "true", "t", ".TRUE.", "True", "T"};
     static const char *const no[] = {".false.", "false", "f", ".False.", "FALSE", "F"};
     static const char *const neither[] = {"", ".t.", ".true", "true.", "tr", "yes", "1", "0", "truey"};
@@ -229,9 +219,8 @@ static void logicals_have_six_spellings(void **state)
     }
 }
 
-static void what_is_not_finite_is_known_by_its_spelling(void **state)
+TEST(what_is_not_finite_is_known_by_its_spelling)
 {
-    (void)state;
     static const char *const infinite[] = {"inf", "+inf", "-INF", "Infinity", "-infinity", "nan", "NaN", "+nan(0x7)"};
     static const char *const finite[] = {"", "1e308", "in", "info", "infinit", "na", "--inf", "inf1", "-"};
     for (size_t k = 0; k < LENGTH(infinite); k++) assert_true(scan_is_infinite(infinite[k]));
@@ -240,9 +229,8 @@ static void what_is_not_finite_is_known_by_its_spelling(void **state)
 
 /* ---- strings ---- */
 
-static void a_string_is_as_long_as_its_quotes_say(void **state)
+TEST(a_string_is_as_long_as_its_quotes_say)
 {
-    (void)state;
     static const length_case cases[] = {
         {"''", 2},     {"'a'", 3},          {"\"a\" b", 3},
         {"'a\"b'", 5}, {"'it''s'", 7},                   /* doubled quotes stand for one */
@@ -253,9 +241,8 @@ static void a_string_is_as_long_as_its_quotes_say(void **state)
     expect_lengths(scan_string_length, cases, LENGTH(cases));
 }
 
-static void a_string_that_left_its_line_must_be_followed_by_a_separator(void **state)
+TEST(a_string_that_left_its_line_must_be_followed_by_a_separator)
 {
-    (void)state;
     static const length_case cases[] = {{"'a\nb'", 5},   {"'a\nb' x", 5},      {"'a\nb',", 5},
                                         {"'a\nb'/", 5},  {"'a\nb'!", 5},       {"'a\nb';", 5},
                                         {"'a\nb'\n", 5}, {"'a,\n x = 'b'", 0}, {"'a\nb'(", 0}};
@@ -264,42 +251,37 @@ static void a_string_that_left_its_line_must_be_followed_by_a_separator(void **s
 
 /* ---- what stands ahead ---- */
 
-static void a_key_is_a_designator_before_an_equal_sign(void **state)
+TEST(a_key_is_a_designator_before_an_equal_sign)
 {
-    (void)state;
     static const answer_case cases[] = {{"a=1", true},    {"a = 1", true},     {"a\n\t=1", true}, {"a(1:2)%b =", true},
                                         {"a", false},     {"a b = 1", false},  {"=", false},      {"1 = 2", false},
                                         {"'a' =", false}, {"a ! =\n=", false}, {"", false},       {"a (1) = 2", false}};
     expect_answers(scan_at_key, cases, LENGTH(cases));
 }
 
-static void a_group_is_a_name_behind_its_sign(void **state)
+TEST(a_group_is_a_name_behind_its_sign)
 {
-    (void)state;
     static const answer_case cases[] = {{"&run", true}, {"$run", true}, {"&end", true}, {"&", false}, {"& run", false},
                                         {"&1", false},  {"run", false}, {"", false},    {"&_", false}};
     expect_answers(scan_at_group, cases, LENGTH(cases));
 }
 
-static void an_end_word_is_end_and_nothing_longer(void **state)
+TEST(an_end_word_is_end_and_nothing_longer)
 {
-    (void)state;
     static const answer_case cases[] = {{"&end", true},   {"$END", true}, {"&End /", true}, {"&ending", false},
                                         {"&end_", false}, {"end", false}, {"&en", false},   {"&end1", false}};
     expect_answers(scan_at_end_word, cases, LENGTH(cases));
 }
 
-static void keys_groups_slashes_and_the_end_stop(void **state)
+TEST(keys_groups_slashes_and_the_end_stop)
 {
-    (void)state;
     static const answer_case cases[] = {{"", true},        {"/", true},        {"&run", true}, {"a = 1", true},
                                         {" a = 1", false}, {"1 a = 1", false}, {"'/'", false}, {"&", false}};
     expect_answers(scan_at_stop, cases, LENGTH(cases));
 }
 
-static void a_lines_name_is_its_first_word(void **state)
+TEST(a_lines_name_is_its_first_word)
 {
-    (void)state;
     static const struct {
         const char *text;
         size_t offset;
@@ -316,9 +298,8 @@ static void a_lines_name_is_its_first_word(void **state)
 
 /* ---- moving on ---- */
 
-static void columns_count_characters_and_lines_begin_at_1(void **state)
+TEST(columns_count_characters_and_lines_begin_at_1)
 {
-    (void)state;
     scanner scan = start("a\xC3\xA9\xF0\x9F\x98\x80z\n\tb");
     static const int columns[] = {1, 2, 3, 3, 4, 4, 4, 4, 5, 1, 2};
     static const size_t n = LENGTH(columns);
@@ -329,9 +310,8 @@ static void columns_count_characters_and_lines_begin_at_1(void **state)
     expect_place(&scan, 11, 2, 3);
 }
 
-static void nobody_steps_over_the_end(void **state)
+TEST(nobody_steps_over_the_end)
 {
-    (void)state;
     scanner scan = start("ab");
     scan_step_over(&scan, 1);
     expect_place(&scan, 1, 1, 2);
@@ -345,9 +325,8 @@ static void nobody_steps_over_the_end(void **state)
     assert_string_equal(scan_here(&scan), "");
 }
 
-static void a_line_is_skipped_up_to_its_end(void **state)
+TEST(a_line_is_skipped_up_to_its_end)
 {
-    (void)state;
     scanner scan = start("a 'b\nc");
     scan_skip_line(&scan);
     expect_place(&scan, 4, 1, 5);
@@ -355,9 +334,8 @@ static void a_line_is_skipped_up_to_its_end(void **state)
     expect_place(&scan, 4, 1, 5);
 }
 
-static void blanks_and_comments_are_skipped(void **state)
+TEST(blanks_and_comments_are_skipped)
 {
-    (void)state;
     scanner scan = start(" \t! a = 1\n\r\n  !x\n !\n  b ! c");
     scan_skip_blanks(&scan);
     assert_string_equal(scan_here(&scan), "b ! c");
@@ -375,9 +353,8 @@ static void expect_junk(const char *text, const char *rest)
     assert_true(scan_at_stop(&scan));
 }
 
-static void junk_is_skipped_up_to_what_can_be_read_again(void **state)
+TEST(junk_is_skipped_up_to_what_can_be_read_again)
 {
-    (void)state;
     expect_junk("", "");
     expect_junk("1, 2 ; word a = 3", "a = 3");
     expect_junk("a b = 3", "b = 3");
@@ -386,34 +363,4 @@ static void junk_is_skipped_up_to_what_can_be_read_again(void **state)
     expect_junk("! a = 1\n x &run", "&run");
     expect_junk("= & $ ) 5 $x", "$x");
     expect_junk("x.y/z", "/z");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_character_has_one_to_four_bytes),
-        cmocka_unit_test(bytes_that_make_no_character_have_no_length),
-        cmocka_unit_test(control_characters_have_no_place_but_tab_and_ends_of_lines),
-        cmocka_unit_test(what_is_no_character_can_be_dropped),
-        cmocka_unit_test(blanks_are_spaces_tabs_and_ends_of_lines),
-        cmocka_unit_test(a_word_ends_where_something_else_begins),
-        cmocka_unit_test(a_name_begins_with_a_letter),
-        cmocka_unit_test(a_designator_has_subscripts_and_components),
-        cmocka_unit_test(a_subscript_has_64_characters_at_most),
-        cmocka_unit_test(logicals_have_six_spellings),
-        cmocka_unit_test(what_is_not_finite_is_known_by_its_spelling),
-        cmocka_unit_test(a_string_is_as_long_as_its_quotes_say),
-        cmocka_unit_test(a_string_that_left_its_line_must_be_followed_by_a_separator),
-        cmocka_unit_test(a_key_is_a_designator_before_an_equal_sign),
-        cmocka_unit_test(a_group_is_a_name_behind_its_sign),
-        cmocka_unit_test(an_end_word_is_end_and_nothing_longer),
-        cmocka_unit_test(keys_groups_slashes_and_the_end_stop),
-        cmocka_unit_test(a_lines_name_is_its_first_word),
-        cmocka_unit_test(columns_count_characters_and_lines_begin_at_1),
-        cmocka_unit_test(nobody_steps_over_the_end),
-        cmocka_unit_test(a_line_is_skipped_up_to_its_end),
-        cmocka_unit_test(blanks_and_comments_are_skipped),
-        cmocka_unit_test(junk_is_skipped_up_to_what_can_be_read_again),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

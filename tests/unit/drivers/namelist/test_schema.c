@@ -25,9 +25,8 @@ static void assert_body_errors(const char *keys, const char *expected)
 
 /* ---- what is read --------------------------------------------------------------------------------------------- */
 
-static void given_values_and_defaults_are_distinguished(void **state)
+TEST(given_values_and_defaults_are_distinguished)
 {
-    (void)state;
     resolved r = resolve_clean("&run t_end = 2 /" MATERIAL BODY);
     const schema_instance *run = schema_get(&r.deck, "run", 0);
     assert_true(schema_value_of(run, "t_end")->given);
@@ -39,9 +38,8 @@ static void given_values_and_defaults_are_distinguished(void **state)
     drop_resolved(&r);
 }
 
-static void a_key_without_default_stays_not_given(void **state)
+TEST(a_key_without_default_stays_not_given)
 {
-    (void)state;
     resolved r = resolve_clean(RUN MATERIAL BODY);
     const schema_instance *body = schema_get(&r.deck, "body", 0);
     assert_int_equal(schema_value_of(body, "clearance")->count, 0);
@@ -50,9 +48,8 @@ static void a_key_without_default_stays_not_given(void **state)
     drop_resolved(&r);
 }
 
-static void groups_stand_in_the_order_of_the_table_then_of_the_file(void **state)
+TEST(groups_stand_in_the_order_of_the_table_then_of_the_file)
 {
-    (void)state;
     resolved r = resolve_clean("&body shape='disc' angle=1/ &material youngs_modulus=1 density=1/ &body shape='disc' "
                                "angle=2/" RUN);
     assert_string_equal(r.deck.instances[0].group->name, "run");
@@ -62,9 +59,8 @@ static void groups_stand_in_the_order_of_the_table_then_of_the_file(void **state
     drop_resolved(&r);
 }
 
-static void only_groups_that_do_not_repeat_get_an_instance_of_defaults(void **state)
+TEST(only_groups_that_do_not_repeat_get_an_instance_of_defaults)
 {
-    (void)state;
     resolved r = resolve_clean(RUN MATERIAL BODY);
     assert_int_equal(schema_count(&r.deck, "solver"), 1);
     assert_int_equal(schema_count(&r.deck, "void"), 0);
@@ -72,9 +68,8 @@ static void only_groups_that_do_not_repeat_get_an_instance_of_defaults(void **st
     drop_resolved(&r);
 }
 
-static void places_are_of_the_key_or_of_the_group(void **state)
+TEST(places_are_of_the_key_or_of_the_group)
 {
-    (void)state;
     resolved r = resolve_clean("\n&run\n  t_end = 1 /" MATERIAL BODY);
     const schema_instance *run = schema_get(&r.deck, "run", 0);
     assert_int_equal(schema_value_of(run, "t_end")->place.line, 3);
@@ -83,9 +78,8 @@ static void places_are_of_the_key_or_of_the_group(void **state)
     drop_resolved(&r);
 }
 
-static void an_integer_does_for_a_real(void **state)
+TEST(an_integer_does_for_a_real)
 {
-    (void)state;
     resolved r = resolve_clean("&run t_end = 3 gravity = 0, -10 /" MATERIAL BODY);
     assert_close(schema_value_of(schema_get(&r.deck, "run", 0), "gravity")->reals[1], -10, 0);
     drop_resolved(&r);
@@ -103,33 +97,29 @@ static void assert_gravity(const char *assignment, double x, double y)
     drop_resolved(&r);
 }
 
-static void null_values_keep_defaults(void **state)
+TEST(null_values_keep_defaults)
 {
-    (void)state;
     assert_gravity("gravity = , 5", 0, 5);
     assert_gravity("gravity = 5, , title = ,", 5, -9.81);
     assert_gravity("gravity = 5, 6, , ,", 5, 6);
     assert_gravity("gravity = 2*", 0, -9.81);
 }
 
-static void a_null_value_gives_nothing(void **state)
+TEST(a_null_value_gives_nothing)
 {
-    (void)state;
     resolved r = resolve_clean("&run t_end = 3 gravity = , /" MATERIAL BODY);
     assert_false(schema_value_of(schema_get(&r.deck, "run", 0), "gravity")->given);
     drop_resolved(&r);
 }
 
-static void elements_without_assignment_keep_defaults(void **state)
+TEST(elements_without_assignment_keep_defaults)
 {
-    (void)state;
     assert_gravity("gravity(2) = -3", 0, -3);
     assert_gravity("gravity(1) = 3", 3, -9.81);
 }
 
-static void subscripted_assignments_combine(void **state)
+TEST(subscripted_assignments_combine)
 {
-    (void)state;
     static const double expected[] = {1, 2, 3, 4, 5, 6};
     resolved r = resolve_clean(RUN MATERIAL BODY
                                "&obstacle points(2:6:2) = 2, 4, 6 points(1)=1 points(3) = 3, points(5:) = 5 /");
@@ -139,9 +129,8 @@ static void subscripted_assignments_combine(void **state)
     drop_resolved(&r);
 }
 
-static void the_nearest_name_is_found_in_any_case(void **state)
+TEST(the_nearest_name_is_found_in_any_case)
 {
-    (void)state;
     static const char *const names[] = {"spacing", "shape", "size", "youngs_modulus"};
     size_t k = 99;
     assert_true(schema_nearest("shpae", names, 4, &k));
@@ -152,9 +141,8 @@ static void the_nearest_name_is_found_in_any_case(void **state)
     assert_int_equal(k, 3);
 }
 
-static void long_names_are_near_to_nothing(void **state)
+TEST(long_names_are_near_to_nothing)
 {
-    (void)state;
     char text[301];
     const char *const names[] = {text, "aab"};
     size_t k = 99;
@@ -168,9 +156,8 @@ static void long_names_are_near_to_nothing(void **state)
     assert_errors(deck, "4:10 unknown key 'aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa' in &contact");
 }
 
-static void what_was_at_fault_is_known(void **state)
+TEST(what_was_at_fault_is_known)
 {
-    (void)state;
     resolved r = resolve(RUN MATERIAL "&body shape = 'disc', radus = 1, spacing = , size(0) = 1, clearance = 'x'\n"
                                       " position 2 /\n&obstacel /");
     const schema_instance *body = schema_get(&r.deck, "body", 0);
@@ -186,9 +173,8 @@ static void what_was_at_fault_is_known(void **state)
     drop_resolved(&r);
 }
 
-static void values_can_be_dropped_and_texts_replaced(void **state)
+TEST(values_can_be_dropped_and_texts_replaced)
 {
-    (void)state;
     resolved r = resolve_clean(RUN MATERIAL "&body shape = 'disc', file = 'a', radius = 2 /");
     schema_instance *body = &r.deck.instances[2];
     assert_string_equal(body->group->name, "body");
@@ -205,9 +191,8 @@ static void values_can_be_dropped_and_texts_replaced(void **state)
     drop_resolved(&r);
 }
 
-static void a_far_name_is_not_suggested(void **state)
+TEST(a_far_name_is_not_suggested)
 {
-    (void)state;
     static const char *const names[] = {"spacing", "shape", "size"};
     size_t k;
     assert_false(schema_nearest("velocity", names, 3, &k));
@@ -217,86 +202,74 @@ static void a_far_name_is_not_suggested(void **state)
 
 /* ---- errors --------------------------------------------------------------------------------------------------- */
 
-static void an_unknown_key_names_the_nearest(void **state)
+TEST(an_unknown_key_names_the_nearest)
 {
-    (void)state;
     assert_body_errors("shape = 'disc' spaceing = 1 qqqqqqq = 2",
                        "1:22 unknown key 'spaceing' in &body (did you mean 'spacing'?)\n"
                        "1:35 unknown key 'qqqqqqq' in &body");
 }
 
-static void a_misspelt_key_is_not_missed_as_well(void **state)
+TEST(a_misspelt_key_is_not_missed_as_well)
 {
-    (void)state;
     assert_errors(RUN "&material youngs = 1, density = 1 /" BODY,
                   "2:11 unknown key 'youngs' in &material (did you mean 'youngs_modulus'?)");
 }
 
-static void a_renamed_key_is_refused_with_its_new_name(void **state)
+TEST(a_renamed_key_is_refused_with_its_new_name)
 {
-    (void)state;
     assert_errors(RUN MATERIAL BODY "&contact skin = 1e-8 /",
                   "4:10 unknown key 'skin' in &contact: it is called 'penetration_tolerance' now");
     assert_body_errors("shape = 'disc' skin = 1", "1:22 unknown key 'skin' in &body (did you mean 'spin'?)");
 }
 
-static void components_are_unknown_keys(void **state)
+TEST(components_are_unknown_keys)
 {
-    (void)state;
     assert_body_errors("shape = 'disc' size%x = 1", "1:22 unknown key 'size%x' in &body (did you mean 'size'?)");
 }
 
-static void an_unknown_group_names_the_nearest(void **state)
+TEST(an_unknown_group_names_the_nearest)
 {
-    (void)state;
     assert_errors("&rum t_end = 1 /\n&xylophone /\n" MATERIAL BODY, "1:1 unknown group &rum (did you mean &run?)\n"
                                                                     "2:1 unknown group &xylophone");
 }
 
-static void required_groups_must_be_given(void **state)
+TEST(required_groups_must_be_given)
 {
-    (void)state;
     assert_errors("", "1:1 &run must be given\n1:1 &body must be given");
 }
 
-static void required_keys_must_be_given(void **state)
+TEST(required_keys_must_be_given)
 {
-    (void)state;
     assert_errors("&run t_end = , /\n" MATERIAL "&body /", "1:1 't_end' in &run must be given\n"
                                                            "3:1 'shape' in &body must be given");
 }
 
-static void a_group_that_does_not_repeat_is_given_once(void **state)
+TEST(a_group_that_does_not_repeat_is_given_once)
 {
-    (void)state;
     assert_errors(RUN MATERIAL BODY "&solver /\n&solver /", "5:1 &solver is given twice, first in line 4");
 }
 
-static void a_key_is_given_once(void **state)
+TEST(a_key_is_given_once)
 {
-    (void)state;
     assert_errors(RUN MATERIAL BODY "&solver rtol = 1e-5,\n rtol = 1e-6 rtol(1) = 1e-7 /",
                   "5:2 key 'rtol' is given twice in &solver, first in line 4\n"
                   "5:14 key 'rtol' is given twice in &solver, first in line 4");
 }
 
-static void an_element_is_given_once(void **state)
+TEST(an_element_is_given_once)
 {
-    (void)state;
     assert_body_errors("shape = 'disc' size(1:2) = 1, 2\n size(2) = 3",
                        "2:2 'size(2)' is given twice in &body, first in line 1");
 }
 
-static void an_element_without_default_may_not_be_left_out(void **state)
+TEST(an_element_without_default_may_not_be_left_out)
 {
-    (void)state;
     assert_errors(RUN MATERIAL BODY "&obstacle points = 1, 2, , 4 /\n&obstacle points(1:2) = 1, 2 points(5) = 3 /",
                   "4:11 'points(3)' in &obstacle is not given\n5:11 'points(3)' in &obstacle is not given");
 }
 
-static void types_are_checked(void **state)
+TEST(types_are_checked)
 {
-    (void)state;
     assert_body_errors("shape = disc angle = '3mm' spacing = 3mm radius = .true. material = 5",
                        "1:15 'shape' in &body expects a string in quotes, got disc\n"
                        "1:28 'angle' in &body expects a real, got '3mm'\n"
@@ -305,17 +278,15 @@ static void types_are_checked(void **state)
                        "1:75 'material' in &body expects a string in quotes, got 5");
 }
 
-static void a_real_does_not_do_for_an_integer(void **state)
+TEST(a_real_does_not_do_for_an_integer)
 {
-    (void)state;
     assert_errors(RUN MATERIAL BODY "&pores number = 3.5 radius = 1, 2 seed = 9007199254740993 /",
                   "4:17 'number' in &pores expects an integer, got '3.5'\n"
                   "4:42 'seed' in &pores must be at most 2^53, got 9007199254740993");
 }
 
-static void numbers_of_values_are_checked(void **state)
+TEST(numbers_of_values_are_checked)
 {
-    (void)state;
     assert_body_errors("shape = 'disc' size = 1 angle = 1, 2 radius(3) = 1",
                        "1:22 'size' in &body expects 2 values, got 1\n"
                        "1:31 'angle' in &body expects 1 value, got 2\n"
@@ -327,9 +298,8 @@ static void numbers_of_values_are_checked(void **state)
                   "4:31 'number' in &probe expects 1 to 2 values, got 3");
 }
 
-static void the_number_of_values_comes_before_their_ranges(void **state)
+TEST(the_number_of_values_comes_before_their_ranges)
 {
-    (void)state;
     assert_body_errors("shape = 'disc' radius = 0,03 spacing = 0, 3 angle = 1,5 clearance = -1, 1",
                        "1:22 'radius' in &body expects 1 value, got 2; a decimal point is written '.', not ','\n"
                        "1:36 'spacing' in &body expects 1 value, got 2\n"
@@ -342,9 +312,8 @@ static void the_number_of_values_comes_before_their_ranges(void **state)
                        "1:72 'position' in &body expects 2 values, got 1");
 }
 
-static void ranges_are_checked(void **state)
+TEST(ranges_are_checked)
 {
-    (void)state;
     assert_errors(RUN "&material youngs_modulus = 0, density = -5, guard = -1e-3, poissons_ratio = 1 /\n" BODY
                       "&obstacle points = 4*0 restitution = 1.5 /\n&solver rtol = 1e-14 /\n&output deflate = 10 /",
                   "2:28 'youngs_modulus' in &material must be > 0, got 0\n"
@@ -356,17 +325,15 @@ static void ranges_are_checked(void **state)
                   "6:19 'deflate' in &output must be in [0, 9], got 10");
 }
 
-static void ends_of_ranges_belong_to_them(void **state)
+TEST(ends_of_ranges_belong_to_them)
 {
-    (void)state;
     resolved r = resolve_clean(RUN MATERIAL BODY "&obstacle points = 4*0 restitution = 1 /\n&solver rtol = 1e-1 /"
                                                  "&output deflate = 9 / &body shape = 'disc' clearance = 0 /");
     drop_resolved(&r);
 }
 
-static void choices_are_listed_with_the_nearest(void **state)
+TEST(choices_are_listed_with_the_nearest)
 {
-    (void)state;
     assert_body_errors("shape = 'rectangel' lattice = 'cubic'",
                        "1:15 'shape' in &body must be 'rectangle', 'disc', 'ring', 'polygon', 'mask', 'mesh' or "
                        "'file', got 'rectangel' (did you mean 'rectangle'?)\n"
@@ -375,70 +342,24 @@ static void choices_are_listed_with_the_nearest(void **state)
                   "4:21 'precision' in &output must be 'single' or 'double', got 'Double' (did you mean 'double'?)");
 }
 
-static void every_bad_element_is_reported_but_a_repeated_one_once(void **state)
+TEST(every_bad_element_is_reported_but_a_repeated_one_once)
 {
-    (void)state;
     assert_body_errors("shape = 'disc' size = -1, 0", "1:29 'size' in &body must be > 0, got -1\n"
                                                       "1:33 'size' in &body must be > 0, got 0");
     assert_body_errors("shape = 'disc' size = 2*-1", "1:29 'size' in &body must be > 0, got -1");
 }
 
-static void a_fault_of_the_syntax_is_not_reported_again(void **state)
+TEST(a_fault_of_the_syntax_is_not_reported_again)
 {
-    (void)state;
     assert_errors("&run t_end 20e-3 gravity = nan /\n" MATERIAL BODY, "1:6 '=' is missing after 't_end'\n"
                                                                       "1:28 'gravity': 'nan' is not a finite number");
 }
 
-static void the_default_stands_in_for_a_fault(void **state)
+TEST(the_default_stands_in_for_a_fault)
 {
-    (void)state;
     resolved r = resolve(RUN "&material youngs_modulus = 1e7, density = 1, thickness = -2 /" BODY);
     const schema_instance *material = schema_get(&r.deck, "material", 0);
     assert_int_equal(r.errors.n, 1);
     assert_close(schema_real(material, "thickness"), 1, 0);
     drop_resolved(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(given_values_and_defaults_are_distinguished),
-        cmocka_unit_test(a_key_without_default_stays_not_given),
-        cmocka_unit_test(groups_stand_in_the_order_of_the_table_then_of_the_file),
-        cmocka_unit_test(only_groups_that_do_not_repeat_get_an_instance_of_defaults),
-        cmocka_unit_test(places_are_of_the_key_or_of_the_group),
-        cmocka_unit_test(an_integer_does_for_a_real),
-        cmocka_unit_test(null_values_keep_defaults),
-        cmocka_unit_test(a_null_value_gives_nothing),
-        cmocka_unit_test(elements_without_assignment_keep_defaults),
-        cmocka_unit_test(subscripted_assignments_combine),
-        cmocka_unit_test(the_nearest_name_is_found_in_any_case),
-        cmocka_unit_test(long_names_are_near_to_nothing),
-        cmocka_unit_test(what_was_at_fault_is_known),
-        cmocka_unit_test(values_can_be_dropped_and_texts_replaced),
-        cmocka_unit_test(a_far_name_is_not_suggested),
-        cmocka_unit_test(an_unknown_key_names_the_nearest),
-        cmocka_unit_test(a_misspelt_key_is_not_missed_as_well),
-        cmocka_unit_test(a_renamed_key_is_refused_with_its_new_name),
-        cmocka_unit_test(components_are_unknown_keys),
-        cmocka_unit_test(an_unknown_group_names_the_nearest),
-        cmocka_unit_test(required_groups_must_be_given),
-        cmocka_unit_test(required_keys_must_be_given),
-        cmocka_unit_test(a_group_that_does_not_repeat_is_given_once),
-        cmocka_unit_test(a_key_is_given_once),
-        cmocka_unit_test(an_element_is_given_once),
-        cmocka_unit_test(an_element_without_default_may_not_be_left_out),
-        cmocka_unit_test(types_are_checked),
-        cmocka_unit_test(a_real_does_not_do_for_an_integer),
-        cmocka_unit_test(numbers_of_values_are_checked),
-        cmocka_unit_test(the_number_of_values_comes_before_their_ranges),
-        cmocka_unit_test(ranges_are_checked),
-        cmocka_unit_test(ends_of_ranges_belong_to_them),
-        cmocka_unit_test(choices_are_listed_with_the_nearest),
-        cmocka_unit_test(every_bad_element_is_reported_but_a_repeated_one_once),
-        cmocka_unit_test(a_fault_of_the_syntax_is_not_reported_again),
-        cmocka_unit_test(the_default_stands_in_for_a_fault),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

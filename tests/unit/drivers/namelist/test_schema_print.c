@@ -70,9 +70,8 @@ static void assert_echo_reads_back(const char *text)
 
 /* ---- echo ----------------------------------------------------------------------------------------------------- */
 
-static void the_echo_marks_defaults_and_what_is_not_given(void **state)
+TEST(the_echo_marks_defaults_and_what_is_not_given)
 {
-    (void)state;
     char *echo = echo_of("&run t_end = 2d-2 /" MATERIAL BODY, SCHEMA_MARKED);
     assert_contains(echo, "&run\n    title = '' ! default\n    t_end = 0.02\n    gravity = 0, -9.81 ! default\n"
                           "    ! residual = (not given)\n/\n");
@@ -81,9 +80,8 @@ static void the_echo_marks_defaults_and_what_is_not_given(void **state)
     free(echo);
 }
 
-static void the_echo_reads_back_to_the_same_values(void **state)
+TEST(the_echo_reads_back_to_the_same_values)
 {
-    (void)state;
     assert_echo_reads_back(RUN MATERIAL BODY);
     assert_echo_reads_back(
         "&run title = 'it''s \"q\" \xC3\xA9 / ! &x' t_end = 0.1 gravity = -0., 0.30000000000000004 /" MATERIAL
@@ -92,9 +90,8 @@ static void the_echo_reads_back_to_the_same_values(void **state)
         "&obstacle points = 5*0., -0., 1, 2, 3e22, 123456789012345678, 2*.1 /");
 }
 
-static void reals_have_no_more_digits_than_they_need(void **state)
+TEST(reals_have_no_more_digits_than_they_need)
 {
-    (void)state;
     static const struct {
         const char *given, *printed;
     } cases[] = {{"0.10000", "0.1"},
@@ -115,17 +112,15 @@ static void reals_have_no_more_digits_than_they_need(void **state)
     }
 }
 
-static void quotes_in_strings_are_doubled(void **state)
+TEST(quotes_in_strings_are_doubled)
 {
-    (void)state;
     char *echo = echo_of("&run t_end = 1, title = \"it's 'so', \"\"you\"\" say\" /\n" MATERIAL BODY, SCHEMA_BARE);
     assert_contains(echo, "    title = 'it''s ''so'', \"you\" say'\n");
     free(echo);
 }
 
-static void integers_are_printed_with_all_their_digits(void **state)
+TEST(integers_are_printed_with_all_their_digits)
 {
-    (void)state;
     char *echo =
         echo_of(RUN MATERIAL BODY "&pores number = 1000000, radius = 1, 1, seed = 9007199254740991 /", SCHEMA_BARE);
     assert_contains(echo, "    number = 1000000\n");
@@ -134,9 +129,8 @@ static void integers_are_printed_with_all_their_digits(void **state)
 }
 
 /* Every group of the deck is there, in the order of the table, closed by a line of its own. */
-static void the_echo_has_every_group_of_the_deck(void **state)
+TEST(the_echo_has_every_group_of_the_deck)
 {
-    (void)state;
     char *echo = echo_of("&body shape = 'disc', angle = 2 / &void centre = 1, 2 /" MATERIAL RUN BODY, SCHEMA_MARKED);
     static const char *const parts[] = {"&run\n",     "/\n&material\n", "/\n&body\n",   "    angle = 2\n", "/\n&body\n",
                                         "/\n&void\n", "/\n&contact\n",  "/\n&solver\n", "/\n&output\n"};
@@ -150,9 +144,8 @@ static void the_echo_has_every_group_of_the_deck(void **state)
     free(echo);
 }
 
-static void long_arrays_go_on_in_the_next_line(void **state)
+TEST(long_arrays_go_on_in_the_next_line)
 {
-    (void)state;
     char text[8000] = RUN MATERIAL BODY "&obstacle points = ";
     for (int k = 0; k < 400; k++) (void)snprintf(text + strlen(text), 20, "%.6f ", sin(k));
     (void)snprintf(text + strlen(text), 10, "/");
@@ -165,17 +158,15 @@ static void long_arrays_go_on_in_the_next_line(void **state)
     assert_echo_reads_back(text);
 }
 
-static void equal_values_are_repeated_in_the_echo(void **state)
+TEST(equal_values_are_repeated_in_the_echo)
 {
-    (void)state;
     char *echo = echo_of(RUN MATERIAL BODY "&obstacle points = 1000*0.5, 3*1, 4*0, 4*-0 /", SCHEMA_MARKED);
     assert_contains(echo, "points = 1000*0.5, 1, 1, 1, 4*0, 4*-0.0\n");
     free(echo);
 }
 
-static void a_bare_echo_is_the_same_for_its_deck_and_its_echo(void **state)
+TEST(a_bare_echo_is_the_same_for_its_deck_and_its_echo)
 {
-    (void)state;
     char *marked = echo_of(RUN MATERIAL BODY, SCHEMA_MARKED), *bare = echo_of(RUN MATERIAL BODY, SCHEMA_BARE);
     char *stated = echo_of("&run gravity = 0., -9.81, t_end = 1.0 /" MATERIAL BODY, SCHEMA_BARE);
     char *again = echo_of(marked, SCHEMA_BARE), *other = echo_of("&run t_end = 2 /" MATERIAL BODY, SCHEMA_BARE);
@@ -191,9 +182,8 @@ static void a_bare_echo_is_the_same_for_its_deck_and_its_echo(void **state)
     free(other);
 }
 
-static void the_physics_is_the_same_however_it_is_written(void **state)
+TEST(the_physics_is_the_same_however_it_is_written)
 {
-    (void)state;
     char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
     char *b =
         echo_of(BODY "&solver rtol = 1d-6 / &output name = 'other' /\n&material density = 1.05e3, youngs_modulus = "
@@ -207,9 +197,8 @@ static void the_physics_is_the_same_however_it_is_written(void **state)
     free(b);
 }
 
-static void the_physics_depends_on_every_physical_key(void **state)
+TEST(the_physics_depends_on_every_physical_key)
 {
-    (void)state;
     static const char *const changes[] = {"&solver rtol = 1e-5 /", "&contact penetration_tolerance = 1e-9 /",
                                           "&void centre = 0, 0 /"};
     char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
@@ -225,9 +214,8 @@ static void the_physics_depends_on_every_physical_key(void **state)
 
 /* ---- template and reference ----------------------------------------------------------------------------------- */
 
-static void the_template_is_a_deck_with_every_key(void **state)
+TEST(the_template_is_a_deck_with_every_key)
 {
-    (void)state;
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
     char *text = printed(schema_template);
@@ -246,9 +234,8 @@ static void the_template_is_a_deck_with_every_key(void **state)
     free(text);
 }
 
-static void the_reference_has_a_row_for_every_key(void **state)
+TEST(the_reference_has_a_row_for_every_key)
 {
-    (void)state;
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
     char *text = printed(schema_document);
@@ -285,9 +272,8 @@ static char *part_of(const char *text, const char *from, const char *to)
     return part;
 }
 
-static void the_template_has_an_example_or_the_default_of_every_key(void **state)
+TEST(the_template_has_an_example_or_the_default_of_every_key)
 {
-    (void)state;
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
     char *text = printed(schema_template);
@@ -308,9 +294,8 @@ static void the_template_has_an_example_or_the_default_of_every_key(void **state
     free(text);
 }
 
-static void the_template_tells_type_unit_range_choices_and_default(void **state)
+TEST(the_template_tells_type_unit_range_choices_and_default)
 {
-    (void)state;
     char *text = printed(schema_template);
     assert_contains(text, "\n    ! [real, s, > 0; must be given]\n    t_end = ");
     assert_contains(text, "\n    ! [reals, 2 of them, m/s^2; default: 0, -9.81]\n    gravity = 0, -9.81\n");
@@ -323,18 +308,16 @@ static void the_template_tells_type_unit_range_choices_and_default(void **state)
     free(text);
 }
 
-static void lines_of_the_template_fit_the_screen(void **state)
+TEST(lines_of_the_template_fit_the_screen)
 {
-    (void)state;
     char *text = printed(schema_template);
     for (const char *line = text; *line != '\0'; line += strcspn(line, "\n") + 1)
         assert_in_range(strcspn(line, "\n"), 0, 120);
     free(text);
 }
 
-static void the_reference_tells_how_often_a_group_may_occur(void **state)
+TEST(the_reference_tells_how_often_a_group_may_occur)
 {
-    (void)state;
     static const struct {
         const char *head, *occurrence;
     } cases[] = {{"\n## &run\n\n", " Exactly once."},
@@ -353,9 +336,8 @@ static void the_reference_tells_how_often_a_group_may_occur(void **state)
 }
 
 /* In Markdown a row has as many cells as its head: bars within cells are escaped. */
-static void rows_of_the_reference_have_six_cells(void **state)
+TEST(rows_of_the_reference_have_six_cells)
 {
-    (void)state;
     char *text = printed(schema_document);
     int n_rows = 0;
     for (const char *line = text; *line != '\0'; line += strcspn(line, "\n") + 1) {
@@ -372,38 +354,11 @@ static void rows_of_the_reference_have_six_cells(void **state)
     free(text);
 }
 
-static void the_reference_tells_what_must_be_given_and_what_need_not(void **state)
+TEST(the_reference_tells_what_must_be_given_and_what_need_not)
 {
-    (void)state;
     char *text = printed(schema_document);
     assert_contains(text, "| `t_end` | real | s | must be given | > 0 | ");
     assert_contains(text, "| `clearance` | real | m | not given | >= 0 | ");
     assert_contains(text, "| `deflate` | integer | - | `1` | [0, 9] | ");
     free(text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_echo_marks_defaults_and_what_is_not_given),
-        cmocka_unit_test(the_echo_reads_back_to_the_same_values),
-        cmocka_unit_test(reals_have_no_more_digits_than_they_need),
-        cmocka_unit_test(quotes_in_strings_are_doubled),
-        cmocka_unit_test(integers_are_printed_with_all_their_digits),
-        cmocka_unit_test(the_echo_has_every_group_of_the_deck),
-        cmocka_unit_test(long_arrays_go_on_in_the_next_line),
-        cmocka_unit_test(equal_values_are_repeated_in_the_echo),
-        cmocka_unit_test(a_bare_echo_is_the_same_for_its_deck_and_its_echo),
-        cmocka_unit_test(the_physics_is_the_same_however_it_is_written),
-        cmocka_unit_test(the_physics_depends_on_every_physical_key),
-        cmocka_unit_test(the_template_is_a_deck_with_every_key),
-        cmocka_unit_test(the_reference_has_a_row_for_every_key),
-        cmocka_unit_test(the_template_has_an_example_or_the_default_of_every_key),
-        cmocka_unit_test(the_template_tells_type_unit_range_choices_and_default),
-        cmocka_unit_test(lines_of_the_template_fit_the_screen),
-        cmocka_unit_test(the_reference_tells_how_often_a_group_may_occur),
-        cmocka_unit_test(rows_of_the_reference_have_six_cells),
-        cmocka_unit_test(the_reference_tells_what_must_be_given_and_what_need_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,9 +35,8 @@ static int has_default(const schema_key *key)
 static const char *const designed[] = {"run",      "material", "body",    "void",   "pores",  "crack", "inclusion",
                                        "boundary", "obstacle", "contact", "solver", "output", "probe"};
 
-static void groups_are_those_of_the_design_in_its_order(void **state)
+TEST(groups_are_those_of_the_design_in_its_order)
 {
-    (void)state;
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
     size_t next = 0;
@@ -49,9 +48,8 @@ static void groups_are_those_of_the_design_in_its_order(void **state)
     }
 }
 
-static void every_deck_has_one_run_and_bodies(void **state)
+TEST(every_deck_has_one_run_and_bodies)
 {
-    (void)state;
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
     for (int g = 0; g < n_groups; g++) {
@@ -71,9 +69,8 @@ static void check_name(const char *name)
 }
 
 /* The reader turns names into lower case; one spelt otherwise would never be found. */
-static void names_are_in_lower_case_and_unique(void **state)
+TEST(names_are_in_lower_case_and_unique)
 {
-    (void)state;
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
     for (int g = 0; g < n_groups; g++) {
@@ -104,9 +101,8 @@ static void check_sentence_of_key(const schema_group *group, const schema_key *k
     check_sentence(key->sentence);
 }
 
-static void groups_and_keys_have_sentences(void **state)
+TEST(groups_and_keys_have_sentences)
 {
-    (void)state;
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
     for (int g = 0; g < n_groups; g++) check_sentence(groups[g].sentence);
@@ -122,9 +118,8 @@ static void check_unit(const schema_group *group, const schema_key *key)
     if (key->type != SCHEMA_REAL) assert_string_equal(key->unit, "-");
 }
 
-static void reals_have_a_unit_and_nothing_else_has(void **state)
+TEST(reals_have_a_unit_and_nothing_else_has)
 {
-    (void)state;
     for_each_key(check_unit);
 }
 
@@ -138,9 +133,8 @@ static void check_counts(const schema_group *group, const schema_key *key)
     if (key->type == SCHEMA_STRING || key->type == SCHEMA_LOGICAL) assert_int_equal(key->max_count, 1);
 }
 
-static void numbers_of_values_make_sense(void **state)
+TEST(numbers_of_values_make_sense)
 {
-    (void)state;
     for_each_key(check_counts);
 }
 
@@ -178,9 +172,8 @@ static void check_range(const schema_group *group, const schema_key *key)
     if (key->type == SCHEMA_INTEGER) assert_true(r.from >= 0); /* they count or choose */
 }
 
-static void ranges_can_be_read_and_are_not_empty(void **state)
+TEST(ranges_can_be_read_and_are_not_empty)
 {
-    (void)state;
     for_each_key(check_range);
 }
 
@@ -203,9 +196,8 @@ static void check_choices(const schema_group *group, const schema_key *key)
     }
 }
 
-static void choices_are_not_empty_and_distinct(void **state)
+TEST(choices_are_not_empty_and_distinct)
 {
-    (void)state;
     for_each_key(check_choices);
 }
 
@@ -257,9 +249,8 @@ static void check_default(const schema_group *group, const schema_key *key)
     if (has_default(key)) expect_value_passes(group, key, key->initial);
 }
 
-static void defaults_pass_their_own_checks(void **state)
+TEST(defaults_pass_their_own_checks)
 {
-    (void)state;
     for_each_key(check_default);
 }
 
@@ -282,9 +273,8 @@ static void check_default_is_its_value(const schema_group *group, const schema_k
     drop_resolved(&left_out);
 }
 
-static void defaults_are_what_stands_in_the_table(void **state)
+TEST(defaults_are_what_stands_in_the_table)
 {
-    (void)state;
     for_each_key(check_default_is_its_value);
 }
 
@@ -295,9 +285,8 @@ static void check_example(const schema_group *group, const schema_key *key)
     if (key->example != NULL && key->example[0] != '\0') expect_value_passes(group, key, key->example);
 }
 
-static void what_must_be_given_has_an_example_and_examples_resolve(void **state)
+TEST(what_must_be_given_has_an_example_and_examples_resolve)
 {
-    (void)state;
     for_each_key(check_example);
 }
 
@@ -312,27 +301,7 @@ static void check_physics(const schema_group *group, const schema_key *key)
         fail_msg("%s in &%s: physics is %d", key->name, group->name, key->physics);
 }
 
-static void all_keys_make_the_problem_but_those_of_the_run_and_its_output(void **state)
+TEST(all_keys_make_the_problem_but_those_of_the_run_and_its_output)
 {
-    (void)state;
     for_each_key(check_physics);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(groups_are_those_of_the_design_in_its_order),
-        cmocka_unit_test(every_deck_has_one_run_and_bodies),
-        cmocka_unit_test(names_are_in_lower_case_and_unique),
-        cmocka_unit_test(groups_and_keys_have_sentences),
-        cmocka_unit_test(reals_have_a_unit_and_nothing_else_has),
-        cmocka_unit_test(numbers_of_values_make_sense),
-        cmocka_unit_test(ranges_can_be_read_and_are_not_empty),
-        cmocka_unit_test(choices_are_not_empty_and_distinct),
-        cmocka_unit_test(defaults_pass_their_own_checks),
-        cmocka_unit_test(defaults_are_what_stands_in_the_table),
-        cmocka_unit_test(what_must_be_given_has_an_example_and_examples_resolve),
-        cmocka_unit_test(all_keys_make_the_problem_but_those_of_the_run_and_its_output),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,9 +30,8 @@ static void part(joined *j)
     namelist_errors_free(&j->errors);
 }
 
-static void texts_are_taken_apart(void **state)
+TEST(texts_are_taken_apart)
 {
-    (void)state;
     static const char *const bad[] = {"",         "a",       "a.b",     "a=1",     "a.=1",           ".b=1",
                                       "a(0).b=1", "a().b=1", "a(1.b=1", "a(1)b=1", "a(1234567).b=1", "a.b (1)=1",
                                       "a.b(1)=1", "1a.b=1",  "a .b=1"};
@@ -47,9 +46,8 @@ static void texts_are_taken_apart(void **state)
         if (setting_parse(&s, bad[k])) fail_msg("%s", bad[k]);
 }
 
-static void a_key_takes_the_place_of_its_name(void **state)
+TEST(a_key_takes_the_place_of_its_name)
 {
-    (void)state;
     joined j = join("RUN.T_End=2, 3");
     const namelist_group *run = &j.list.groups[0];
     assert_int_equal(j.errors.n, 0);
@@ -70,9 +68,8 @@ static void a_key_takes_the_place_of_its_name(void **state)
     part(&j);
 }
 
-static void a_group_that_is_not_there_is_made(void **state)
+TEST(a_group_that_is_not_there_is_made)
 {
-    (void)state;
     joined j = join("solver.rtol=1");
     assert_int_equal(j.errors.n, 0);
     assert_int_equal(j.list.n_groups, 4);
@@ -81,9 +78,8 @@ static void a_group_that_is_not_there_is_made(void **state)
     part(&j);
 }
 
-static void faults_are_at_the_settings_line(void **state)
+TEST(faults_are_at_the_settings_line)
 {
-    (void)state;
     static const char *const bad[][2] = {
         {"body.x=1", "there are 2 groups &body; write body(1) to body(2)"},
         {"body(3).x=1", "there are only 2 &body"},
@@ -102,15 +98,4 @@ static void faults_are_at_the_settings_line(void **state)
         assert_int_equal(j.list.groups[0].n_keys, 2);
         part(&j);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts_are_taken_apart),
-        cmocka_unit_test(a_key_takes_the_place_of_its_name),
-        cmocka_unit_test(a_group_that_is_not_there_is_made),
-        cmocka_unit_test(faults_are_at_the_settings_line),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,17 +3,15 @@
 #include "unit/fill_box.h"
 #include "unit/canvas_spy.h"
 
-static void lengths_count_letters_not_bytes(void **state)
+TEST(lengths_count_letters_not_bytes)
 {
-    (void)state;
     assert_close(canvas_length("µµµ", 10.0), canvas_length("abc", 10.0), 0.0);
     assert_close(canvas_length("", 10.0), 0.0, 0.0);
     assert_close(canvas_length("abcdef", 20.0), 4.0 * canvas_length("abc", 10.0), 1e-12);
 }
 
-static void rectangles_have_their_corners(void **state)
+TEST(rectangles_have_their_corners)
 {
-    (void)state;
     canvas_spy s = canvas_spy_new();
     const box b = {1, 2, 30, 40};
     canvas_outline(&s.face, (canvas_pen){canvas_black, 2.0}, b);
@@ -22,11 +20,4 @@ static void rectangles_have_their_corners(void **state)
     assert_memory_equal(&s.filled, &b, sizeof b);
     assert_int_equal(s.strokes, 1);
     assert_int_equal(s.fills, 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lengths_count_letters_not_bytes),
-                                       cmocka_unit_test(rectangles_have_their_corners)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,9 +43,8 @@ static double wave(double t)
 }
 
 /* In every column of pixels the thinned line reaches as far as the whole one. */
-static void thinning_keeps_what_is_seen(void **state)
+TEST(thinning_keeps_what_is_seen)
 {
-    (void)state;
     enum { COLUMNS = 100 };
     rows *r = fill(wave);
     const chart c = make(r);
@@ -73,9 +72,8 @@ static double spike(double t)
     return t == 0.0 ? (double)NAN : t > 0.5 && t < 0.5001 ? 1e3 : -1.0;
 }
 
-static void a_single_step_is_not_lost(void **state)
+TEST(a_single_step_is_not_lost)
 {
-    (void)state;
     rows *r = fill(spike);
     const chart c = make(r);
     double xy[8 * 40];
@@ -104,9 +102,8 @@ static bool has_text(const canvas_spy *s, const char *text)
     return false;
 }
 
-static void axes_have_numbers_units_and_names(void **state)
+TEST(axes_have_numbers_units_and_names)
 {
-    (void)state;
     rows *r = fill(wave);
     const chart c = make(r);
     const canvas_spy with = draw(&c, true), without = draw(&c, false);
@@ -117,9 +114,8 @@ static void axes_have_numbers_units_and_names(void **state)
 }
 
 /* As narrow as the command line lets it be. */
-static void narrow_charts_are_legible(void **state)
+TEST(narrow_charts_are_legible)
 {
-    (void)state;
     rows *r = fill(wave);
     const chart c = make(r);
     canvas_spy s = canvas_spy_new();
@@ -133,9 +129,8 @@ static double decay(double t)
     return t < 1e-4 ? 0.0 : pow(10.0, -3.0 - 6.0 * t);
 }
 
-static void decades_leave_out_what_has_no_logarithm(void **state)
+TEST(decades_leave_out_what_has_no_logarithm)
 {
-    (void)state;
     rows *r = fill(decay);
     chart c = make(r);
     c.by_decades = true, c.unit = "s", c.label = "step";
@@ -154,9 +149,8 @@ static double nothing(double t)
     return (double)NAN * t;
 }
 
-static void flat_and_empty_lines_have_axes_all_the_same(void **state)
+TEST(flat_and_empty_lines_have_axes_all_the_same)
 {
-    (void)state;
     rows *flat = fill(zero), *none = fill(nothing);
     chart c = make(flat);
     (void)draw(&c, true);
@@ -168,15 +162,4 @@ static void flat_and_empty_lines_have_axes_all_the_same(void **state)
     (void)draw(&c, true);
     free(flat);
     free(none);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(thinning_keeps_what_is_seen),
-                                       cmocka_unit_test(a_single_step_is_not_lost),
-                                       cmocka_unit_test(axes_have_numbers_units_and_names),
-                                       cmocka_unit_test(narrow_charts_are_legible),
-                                       cmocka_unit_test(decades_leave_out_what_has_no_logarithm),
-                                       cmocka_unit_test(flat_and_empty_lines_have_axes_all_the_same)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

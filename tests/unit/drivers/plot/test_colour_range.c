@@ -15,9 +15,8 @@ static int compare(const void *a, const void *b)
 }
 
 /* Random numbers, many of them equal, against qsort. */
-static void the_kth_is_that_of_a_sorted_array(void **state)
+TEST(the_kth_is_that_of_a_sorted_array)
 {
-    (void)state;
     uint64_t bits = UINT64_C(88172645463325252);
     for (size_t n = 1; n < 40; n++)
         for (size_t k = 0; k < n; k++) {
@@ -31,9 +30,8 @@ static void the_kth_is_that_of_a_sorted_array(void **state)
         }
 }
 
-static void a_few_extremes_do_not_matter(void **state)
+TEST(a_few_extremes_do_not_matter)
 {
-    (void)state;
     double value[MANY], size[MANY];
     for (int k = 0; k < MANY; k++) value[k] = (k % 2 == 0 ? 1e-3 : -1e-3) * k;
     value[7] = -5.0;
@@ -48,9 +46,8 @@ static void a_few_extremes_do_not_matter(void **state)
 }
 
 /* Nearly all springs are at rest: those that are not must not all have the last colour. */
-static void a_tenth_of_the_largest_is_within(void **state)
+TEST(a_tenth_of_the_largest_is_within)
 {
-    (void)state;
     double value[MANY] = {0}, size[MANY];
     value[3] = 0.12;
     const colour_range s = colour_range_around(colour_range_extent_of(MANY, value, size), true);
@@ -58,9 +55,8 @@ static void a_tenth_of_the_largest_is_within(void **state)
     assert_true(s.above && !s.below);
 }
 
-static void frames_are_joined_by_the_larger(void **state)
+TEST(frames_are_joined_by_the_larger)
 {
-    (void)state;
     const colour_range_extent a = {-1.0, 2.0, 1.5}, b = {-3.0, 1.0, 2.5}, both = colour_range_extent_join(a, b);
     assert_close(both.least, -3.0, 0.0);
     assert_close(both.most, 2.0, 0.0);
@@ -69,9 +65,8 @@ static void frames_are_joined_by_the_larger(void **state)
     assert_close(colour_range_around(both, false).hi, 3.0, 1e-15);
 }
 
-static void without_values_there_are_limits_all_the_same(void **state)
+TEST(without_values_there_are_limits_all_the_same)
 {
-    (void)state;
     double value[2] = {0.0, (double)NAN}, size[2];
     const colour_range none = colour_range_around(colour_range_extent_none(), true),
                        zero = colour_range_around(colour_range_extent_of(2, value, size), true);
@@ -80,22 +75,10 @@ static void without_values_there_are_limits_all_the_same(void **state)
     assert_close(zero.hi, 1.0, 0.0);
 }
 
-static void given_limits_are_taken_as_they_are(void **state)
+TEST(given_limits_are_taken_as_they_are)
 {
-    (void)state;
     const colour_range s = colour_range_given(0.1, 0.7, (colour_range_extent){0.2, 0.8, 0.7});
     assert_close(s.lo, 0.1, 0.0);
     assert_close(s.hi, 0.7, 0.0);
     assert_true(s.above && !s.below);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_kth_is_that_of_a_sorted_array),
-                                       cmocka_unit_test(a_few_extremes_do_not_matter),
-                                       cmocka_unit_test(a_tenth_of_the_largest_is_within),
-                                       cmocka_unit_test(frames_are_joined_by_the_larger),
-                                       cmocka_unit_test(without_values_there_are_limits_all_the_same),
-                                       cmocka_unit_test(given_limits_are_taken_as_they_are)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

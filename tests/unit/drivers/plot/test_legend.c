@@ -13,9 +13,8 @@ static void expect_unit(double largest, const char *base, double factor, const c
     assert_string_equal(unit, expected);
 }
 
-static void units_have_prefixes_and_ratios_powers(void **state)
+TEST(units_have_prefixes_and_ratios_powers)
 {
-    (void)state;
     expect_unit(3e6, "Pa", 1e6, "MPa");
     expect_unit(0.02, "m/s", 1e-3, "mm/s");
     expect_unit(0.4, "1", 1.0, "");
@@ -37,9 +36,8 @@ static canvas_spy draw(const dem_reader_array *source, palette_kind kind, colour
     return paper;
 }
 
-static void both_sides_and_the_middle_are_numbered(void **state)
+TEST(both_sides_and_the_middle_are_numbered)
 {
-    (void)state;
     static const char *const texts[] = {"−0.4", "−0.2", "0", "0.2", "0.4", "label"};
     const canvas_spy s = draw(&strain, PALETTE_DIVERGING, (colour_range){-0.4, 0.4, false, false}, 400.0);
     assert_int_equal(s.n_labels, 6);
@@ -50,9 +48,8 @@ static void both_sides_and_the_middle_are_numbered(void **state)
     assert_int_equal(s.fills, 0);
 }
 
-static void arrows_tell_of_values_beyond(void **state)
+TEST(arrows_tell_of_values_beyond)
 {
-    (void)state;
     const canvas_spy both = draw(&strain, PALETTE_DIVERGING, (colour_range){-0.4, 0.4, true, true}, 400.0);
     const canvas_spy upper = draw(&stress, PALETTE_SEQUENTIAL, (colour_range){0.0, 3e6, false, true}, 400.0);
     assert_int_equal(both.fills, 2);
@@ -62,9 +59,8 @@ static void arrows_tell_of_values_beyond(void **state)
     assert_string_equal(upper.text[upper.n_labels - 1], "label, MPa");
 }
 
-static void numbers_do_not_meet(void **state)
+TEST(numbers_do_not_meet)
 {
-    (void)state;
     for (double width = 90.0; width < 450.0; width += 10.0)
         for (double limit = 1e-14; limit < 1e6; limit *= 1.7) {
             const canvas_spy s = draw(&strain, PALETTE_DIVERGING, (colour_range){-limit, limit, false, false}, width);
@@ -75,21 +71,11 @@ static void numbers_do_not_meet(void **state)
         }
 }
 
-static void a_scale_bar_has_a_round_length(void **state)
+TEST(a_scale_bar_has_a_round_length)
 {
-    (void)state;
     canvas_spy s = canvas_spy_new();
     legend_draw_scale(1000.0, 10.0, 50.0, 70.0, &s.face); /* 70 mm of room */
     assert_string_equal(s.text[0], "50 mm");
     assert_close(s.stroked.x0, 10.0, 1e-9);
     assert_close(s.stroked.x1, 60.0, 1e-9);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(units_have_prefixes_and_ratios_powers),
-        cmocka_unit_test(both_sides_and_the_middle_are_numbered), cmocka_unit_test(arrows_tell_of_values_beyond),
-        cmocka_unit_test(numbers_do_not_meet), cmocka_unit_test(a_scale_bar_has_a_round_length)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,92 +40,69 @@ static void expect(dem_index n, const double *points, const probe *probes, size_
 #define EXPECT(points, probes)                                                                                         \
     expect((dem_index)(sizeof(points) / sizeof *(points) / 2), points, probes, sizeof(probes) / sizeof *(probes))
 
-static void below_a_floor(void **state)
+TEST(below_a_floor)
 {
-    (void)state;
     const double points[] = {-2, 0.1, 0, 0, 1, 0.5, 2, 0, 4, -0.1};
     const probe probes[] = {{1, 0.6, false}, {1, 0.4, true}, {-0.9, -0.9, true}, {2.9, -0.9, true}, {0, 2.9, false}};
     EXPECT(points, probes);
 }
 
-static void above_a_ceiling(void **state)
+TEST(above_a_ceiling)
 {
-    (void)state;
     const double points[] = {4, 2, -2, 2};
     const probe probes[] = {{1, 2.1, true}, {1, 1.9, false}, {2.9, 2.9, true}};
     EXPECT(points, probes);
 }
 
-static void behind_a_wall(void **state)
+TEST(behind_a_wall)
 {
-    (void)state;
     const double points[] = {1, -2, 1, 4};
     const probe probes[] = {{1.1, 0, true}, {0.9, 0, false}, {2.9, 2.9, true}, {2.9, -0.9, true}};
     EXPECT(points, probes);
 }
 
 /* Floor, then a wall at its right end: everything beyond either is solid. */
-static void around_a_corner(void **state)
+TEST(around_a_corner)
 {
-    (void)state;
     const double points[] = {0, 0, 2, 0, 2, 2};
     const probe probes[] = {{1, 1, false}, {1, -0.5, true}, {2.9, 1, true}, {2.9, -0.9, true}, {-0.5, 1, false}};
     EXPECT(points, probes);
 }
 
 /* Open above: the bodies are inside. */
-static void around_a_trough(void **state)
+TEST(around_a_trough)
 {
-    (void)state;
     const double points[] = {0, 2, 0, 0, 2, 0, 2, 2};
     const probe probes[] = {{1, 1, false}, {1, -0.5, true}, {-0.5, 1, true}, {2.5, 1, true}, {1, 2.9, false}};
     EXPECT(points, probes);
 }
 
 /* Rays to the right of its ends would cross. */
-static void below_a_roof(void **state)
+TEST(below_a_roof)
 {
-    (void)state;
     const double points[] = {0, 0, 1, 2, 2, 0};
     const probe probes[] = {{1, 1, true}, {1, -0.9, true}, {0.2, 1.5, false}, {-0.5, -0.9, false}, {2.5, -0.9, false}};
     EXPECT(points, probes);
 }
 
 /* Three sides of a square from outside: the fourth is the line between its ends. */
-static void inside_of_what_turns_back(void **state)
+TEST(inside_of_what_turns_back)
 {
-    (void)state;
     const double points[] = {1, 0, 0, 0, 0, 2, 2, 2, 2, 0, 1.1, 0};
     const probe probes[] = {{1, 1, true}, {1, -0.5, false}, {2.5, 1, false}, {-0.5, 1, false}};
     EXPECT(points, probes);
 }
 
-static void inside_of_a_closed_block(void **state)
+TEST(inside_of_a_closed_block)
 {
-    (void)state;
     const double points[] = {0, 0, 0, 2, 2, 2, 2, 0, 0, 0};
     const probe probes[] = {{1, 1, true}, {2.5, 1, false}, {-0.5, 1, false}, {1, 2.5, false}};
     EXPECT(points, probes);
 }
 
-static void outside_of_a_closed_container(void **state)
+TEST(outside_of_a_closed_container)
 {
-    (void)state;
     const double points[] = {0, 0, 2, 0, 2, 2, 0, 2, 0, 0};
     const probe probes[] = {{1, 1, false}, {2.5, 1, true}, {-0.5, 1, true}, {1, 2.9, true}, {-0.9, -0.9, true}};
     EXPECT(points, probes);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(below_a_floor),
-                                       cmocka_unit_test(above_a_ceiling),
-                                       cmocka_unit_test(behind_a_wall),
-                                       cmocka_unit_test(around_a_corner),
-                                       cmocka_unit_test(around_a_trough),
-                                       cmocka_unit_test(below_a_roof),
-                                       cmocka_unit_test(inside_of_what_turns_back),
-                                       cmocka_unit_test(inside_of_a_closed_block),
-                                       cmocka_unit_test(outside_of_a_closed_container)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

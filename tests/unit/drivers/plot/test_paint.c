@@ -39,9 +39,8 @@ static uint32_t pixel(cairo_surface_t *surface, int column, int row)
 
 static const colour red = {255, 0, 0}, blue = {0, 0, 255};
 
-static void shapes_lie_where_they_are_drawn(void **state)
+TEST(shapes_lie_where_they_are_drawn)
 {
-    (void)state;
     FILE *file = tmpfile();
     canvas *c = paint_open_png(file, WIDTH, HEIGHT);
     const double line[] = {5.0, 5.5, 25.0, 5.5}, dot[] = {40.5, 20.5, 40.5, 20.5};
@@ -64,9 +63,8 @@ static void shapes_lie_where_they_are_drawn(void **state)
 }
 
 /* Two triangles of a square: no seam between them. */
-static void neighbours_leave_no_seam(void **state)
+TEST(neighbours_leave_no_seam)
 {
-    (void)state;
     FILE *file = tmpfile();
     canvas *c = paint_open_png(file, WIDTH, HEIGHT);
     const double halves[] = {5, 5, 50, 5, 50, 35, 5, 5, 50, 35, 5, 35};
@@ -79,9 +77,8 @@ static void neighbours_leave_no_seam(void **state)
 }
 
 /* Eight times as large, with full colour up to its edges. */
-static void images_are_stretched(void **state)
+TEST(images_are_stretched)
 {
-    (void)state;
     FILE *file = tmpfile();
     canvas *c = paint_open_png(file, WIDTH, HEIGHT);
     uint32_t argb[4] = {0xffff0000U, 0xffff0000U, 0xffff0000U, 0xffff0000U};
@@ -102,9 +99,8 @@ static int ink_in(cairo_surface_t *s, int x0, int y0, int x1, int y1)
     return n;
 }
 
-static void letters_stand_on_their_anchors(void **state)
+TEST(letters_stand_on_their_anchors)
 {
-    (void)state;
     FILE *file = tmpfile();
     canvas *c = paint_open_png(file, WIDTH, HEIGHT);
     c->write(c, &(canvas_label){20, 16, 12, CANVAS_END, false, {0, 0, 0}, "H"});
@@ -116,9 +112,8 @@ static void letters_stand_on_their_anchors(void **state)
     cairo_surface_destroy(s);
 }
 
-static void pages_are_of_the_size_of_the_picture(void **state)
+TEST(pages_are_of_the_size_of_the_picture)
 {
-    (void)state;
     static char text[65536];
     FILE *file = tmpfile();
     canvas *c = paint_open_pdf(file, 400.0, 200.0);
@@ -132,9 +127,8 @@ static void pages_are_of_the_size_of_the_picture(void **state)
     (void)fclose(file);
 }
 
-static void a_full_disk_is_reported(void **state)
+TEST(a_full_disk_is_reported)
 {
-    (void)state;
     for (int paged = 0; paged < 2; paged++) {
         FILE *file = fopen("/dev/full", "w");
         if (file == NULL) skip();
@@ -142,15 +136,4 @@ static void a_full_disk_is_reported(void **state)
         assert_false(c->close(c, ""));
         (void)fclose(file);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(shapes_lie_where_they_are_drawn),
-                                       cmocka_unit_test(neighbours_leave_no_seam),
-                                       cmocka_unit_test(images_are_stretched),
-                                       cmocka_unit_test(letters_stand_on_their_anchors),
-                                       cmocka_unit_test(pages_are_of_the_size_of_the_picture),
-                                       cmocka_unit_test(a_full_disk_is_reported)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

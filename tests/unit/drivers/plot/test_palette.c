@@ -52,9 +52,8 @@ static double distance(lab p, lab q)
     return sqrt((p.light - q.light) * (p.light - q.light) + (p.a - q.a) * (p.a - q.a) + (p.b - q.b) * (p.b - q.b));
 }
 
-static void the_middle_of_diverging_is_grey_and_lightest(void **state)
+TEST(the_middle_of_diverging_is_grey_and_lightest)
 {
-    (void)state;
     const palette p = palette_make(PALETTE_DIVERGING);
     const lab middle = seen(p.of[PALETTE_SIZE / 2], 0);
     assert_close(middle.a, 0.0, 1.0); /* rounding to bytes */
@@ -66,27 +65,24 @@ static void the_middle_of_diverging_is_grey_and_lightest(void **state)
 }
 
 /* Equal sizes are equally dark: to 2 of 100, where the blue leaves what a screen can show. */
-static void both_sides_of_diverging_are_as_dark(void **state)
+TEST(both_sides_of_diverging_are_as_dark)
 {
-    (void)state;
     const palette p = palette_make(PALETTE_DIVERGING);
     for (int k = 0; k < PALETTE_SIZE / 2; k++)
         assert_close(seen(p.of[k], 0).light, seen(p.of[PALETTE_SIZE - 1 - k], 0).light, 2.0);
 }
 
 /* 20 is a plain difference, 2 one that can just be seen. */
-static void every_eye_tells_the_sides_apart(void **state)
+TEST(every_eye_tells_the_sides_apart)
 {
-    (void)state;
     const palette p = palette_make(PALETTE_DIVERGING);
     for (int eye = 0; eye < 4; eye++)
         for (int k = 0; k < PALETTE_SIZE / 3; k++)
             assert_true(distance(seen(p.of[k], eye), seen(p.of[PALETTE_SIZE - 1 - k], eye)) > 20.0);
 }
 
-static void sequential_darkens_evenly_to_every_eye(void **state)
+TEST(sequential_darkens_evenly_to_every_eye)
 {
-    (void)state;
     const palette p = palette_make(PALETTE_SEQUENTIAL);
     for (int eye = 0; eye < 4; eye++)
         for (int k = 0; k + 16 < PALETTE_SIZE; k += 16)
@@ -94,9 +90,8 @@ static void sequential_darkens_evenly_to_every_eye(void **state)
 }
 
 /* White paper: the lightest still stands out. */
-static void nothing_vanishes_on_paper(void **state)
+TEST(nothing_vanishes_on_paper)
 {
-    (void)state;
     const lab white = {100.0, 0.0, 0.0};
     for (int kind = PALETTE_DIVERGING; kind <= PALETTE_SEQUENTIAL; kind++) {
         const palette p = palette_make((palette_kind)kind);
@@ -104,9 +99,8 @@ static void nothing_vanishes_on_paper(void **state)
     }
 }
 
-static void places_are_linear_and_end_at_the_limits(void **state)
+TEST(places_are_linear_and_end_at_the_limits)
 {
-    (void)state;
     assert_int_equal(palette_index(-2.0, -2.0, 2.0), 0);
     assert_int_equal(palette_index(0.0, -2.0, 2.0), PALETTE_SIZE / 2);
     assert_int_equal(palette_index(2.0, -2.0, 2.0), PALETTE_SIZE - 1);
@@ -116,22 +110,9 @@ static void places_are_linear_and_end_at_the_limits(void **state)
     assert_int_equal(palette_index((double)NAN, -2.0, 2.0), 0);
 }
 
-static void plain_has_one_colour(void **state)
+TEST(plain_has_one_colour)
 {
-    (void)state;
     const palette p = palette_plain((colour){1, 2, 3});
     assert_memory_equal(&p.of[0], &((colour){1, 2, 3}), sizeof(colour));
     for (int k = 1; k < PALETTE_SIZE; k++) assert_memory_equal(&p.of[k], &p.of[0], sizeof(colour));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_middle_of_diverging_is_grey_and_lightest),
-                                       cmocka_unit_test(both_sides_of_diverging_are_as_dark),
-                                       cmocka_unit_test(every_eye_tells_the_sides_apart),
-                                       cmocka_unit_test(sequential_darkens_evenly_to_every_eye),
-                                       cmocka_unit_test(nothing_vanishes_on_paper),
-                                       cmocka_unit_test(places_are_linear_and_end_at_the_limits),
-                                       cmocka_unit_test(plain_has_one_colour)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,18 +29,17 @@ static void draw(view *v, const trajectory_fixture *f, const char *name, bool is
     assert_int_equal(v->paper.depth, 0);
 }
 
-static void scale_is_pixels_by_metres(void **state)
+TEST(scale_is_pixels_by_metres)
 {
-    (void)state;
     const panel p = {{0, 0, 0.5, 1}, {0, 0, 100, 200}};
     assert_close(panel_scale(&p), 200.0, 1e-12);
     assert_true(panel_thickness(0.1) > 0.5 && panel_thickness(1e3) < 5.0);
 }
 
 /* All springs, the loose node, and the frame around. */
-static void springs_points_and_ground_are_drawn(void **state)
+TEST(springs_points_and_ground_are_drawn)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     view v;
     draw(&v, f, "strain", false);
     assert_int_equal(v.paper.strokes, v.s.lattice->n_springs + 2);
@@ -49,9 +48,9 @@ static void springs_points_and_ground_are_drawn(void **state)
     snapshot_free(&v.s);
 }
 
-static void numbers_of_nodes_fill_triangles(void **state)
+TEST(numbers_of_nodes_fill_triangles)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     view v;
     draw(&v, f, "speed", false);
     assert_int_equal(v.paper.fills, v.s.lattice->n_triangles + 1);
@@ -60,9 +59,9 @@ static void numbers_of_nodes_fill_triangles(void **state)
 }
 
 /* Each pixel of the image stands for a quarter of one of the picture; 20 mm are 40 px. */
-static void binned_ones_are_an_image(void **state)
+TEST(binned_ones_are_an_image)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     view v;
     draw(&v, f, "speed", true);
     assert_int_equal(v.paper.images, 1);
@@ -76,9 +75,9 @@ static void binned_ones_are_an_image(void **state)
     snapshot_free(&v.s);
 }
 
-static void what_is_out_of_view_is_left_out(void **state)
+TEST(what_is_out_of_view_is_left_out)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     view v;
     draw(&v, f, "strain", false);
     v.at.view = (box){1.0, 1.0, 1.06, 1.06};
@@ -88,11 +87,4 @@ static void what_is_out_of_view_is_left_out(void **state)
     snapshot_free(&v.s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scale_is_pixels_by_metres), cmocka_unit_test(springs_points_and_ground_are_drawn),
-        cmocka_unit_test(numbers_of_nodes_fill_triangles), cmocka_unit_test(binned_ones_are_an_image),
-        cmocka_unit_test(what_is_out_of_view_is_left_out)};
-    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
-}
+TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);

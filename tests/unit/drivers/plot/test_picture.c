@@ -12,9 +12,8 @@
 
 static const char *path, *part;
 
-static void the_end_of_the_name_tells_the_format(void **state)
+TEST(the_end_of_the_name_tells_the_format)
 {
-    (void)state;
     assert_int_equal(picture_format_of("a.png"), PICTURE_PNG);
     assert_int_equal(picture_format_of("a.b/c.SVG"), PICTURE_SVG);
     assert_int_equal(picture_format_of("a.pdf"), PICTURE_PDF);
@@ -40,9 +39,8 @@ static char first_of(const char *name)
     return (char)c;
 }
 
-static void an_old_one_stays_until_the_new_one_is_whole(void **state)
+TEST(an_old_one_stays_until_the_new_one_is_whole)
 {
-    (void)state;
     picture p;
     outcome o = {0};
     write_old();
@@ -53,9 +51,8 @@ static void an_old_one_stays_until_the_new_one_is_whole(void **state)
     assert_int_equal(access(part, F_OK), -1);
 }
 
-static void a_dropped_one_leaves_nothing(void **state)
+TEST(a_dropped_one_leaves_nothing)
 {
-    (void)state;
     picture p;
     outcome o = {0};
     write_old();
@@ -65,9 +62,8 @@ static void a_dropped_one_leaves_nothing(void **state)
     assert_int_equal(access(part, F_OK), -1);
 }
 
-static void a_full_disk_leaves_the_old_one(void **state)
+TEST(a_full_disk_leaves_the_old_one)
 {
-    (void)state;
     picture p;
     outcome o = {0};
     write_old();
@@ -80,9 +76,8 @@ static void a_full_disk_leaves_the_old_one(void **state)
     assert_int_equal(access(part, F_OK), -1);
 }
 
-static void a_folder_that_is_not_there_is_reported(void **state)
+TEST(a_folder_that_is_not_there_is_reported)
 {
-    (void)state;
     picture p;
     outcome o = {0};
     assert_false(picture_open(&p, "no/where.svg", 10, 10, &o));
@@ -97,11 +92,4 @@ static int make_folder(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_end_of_the_name_tells_the_format),
-        cmocka_unit_test(an_old_one_stays_until_the_new_one_is_whole), cmocka_unit_test(a_dropped_one_leaves_nothing),
-        cmocka_unit_test(a_full_disk_leaves_the_old_one), cmocka_unit_test(a_folder_that_is_not_there_is_reported)};
-    return cmocka_run_group_tests(tests, make_folder, scratch_remove);
-}
+TEST_GROUP(make_folder, scratch_remove);

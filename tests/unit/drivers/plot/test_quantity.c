@@ -6,9 +6,9 @@
 
 #include "quantity.h"
 
-static void the_default_is_the_strain(void **state)
+TEST(the_default_is_the_strain)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     quantity q;
     outcome o = {0};
     assert_true(quantity_find(&q, f->reader, NULL, &o));
@@ -17,9 +17,9 @@ static void the_default_is_the_strain(void **state)
     assert_int_equal(quantity_count(&q, dem_reader_lattice(f->reader)), dem_reader_lattice(f->reader)->n_springs);
 }
 
-static void none_has_no_numbers(void **state)
+TEST(none_has_no_numbers)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     quantity q;
     outcome o = {0};
     assert_true(quantity_find(&q, f->reader, "none", &o));
@@ -42,9 +42,9 @@ static double *read_all(const trajectory_fixture *f, const char *name)
 }
 
 /* At the start all move alike: (0.5, -2) m/s, to the 24 bits of a float. */
-static void vectors_are_taken_by_length_and_component(void **state)
+TEST(vectors_are_taken_by_length_and_component)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     double *speed = read_all(f, "speed"), *x = read_all(f, "velocity_x"), *y = read_all(f, "velocity_y");
     for (dem_index k = 0; k < dem_reader_lattice(f->reader)->n_nodes; k++) {
         assert_close(x[k], 0.5, 1e-7);
@@ -55,9 +55,9 @@ static void vectors_are_taken_by_length_and_component(void **state)
 }
 
 /* xy stands fourth in a tensor of VTK. */
-static void components_of_stress_are_those_named(void **state)
+TEST(components_of_stress_are_those_named)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     const dem_reader_array *stress = dem_reader_array_find(f->reader, "stress");
     static const char *const names[] = {"stress_xx", "stress_yy", "stress_xy"};
     static const int column[] = {0, 1, 3};
@@ -75,9 +75,9 @@ static void components_of_stress_are_those_named(void **state)
     free(all), free(one), free(rows);
 }
 
-static void what_the_file_lacks_is_refused(void **state)
+TEST(what_the_file_lacks_is_refused)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     quantity q;
     outcome o = {0};
     assert_true(quantity_is_known("principal_1"));
@@ -87,11 +87,4 @@ static void what_the_file_lacks_is_refused(void **state)
     assert_false(quantity_is_known("colour"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_default_is_the_strain), cmocka_unit_test(none_has_no_numbers),
-        cmocka_unit_test(vectors_are_taken_by_length_and_component),
-        cmocka_unit_test(components_of_stress_are_those_named), cmocka_unit_test(what_the_file_lacks_is_refused)};
-    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
-}
+TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);

@@ -20,9 +20,8 @@ static raster make(int width, int height)
 }
 
 /* Every pixel that lies on the line, by going along it in small steps. */
-static void lines_touch_all_along_them(void **state)
+TEST(lines_touch_all_along_them)
 {
-    (void)state;
     for (int k = 0; k < 60; k++) {
         const double angle = 0.1 * k, xy[4] = {20.5, 20.5, 20.5 + 18.0 * cos(angle), 20.5 + 18.0 * sin(angle)};
         raster r = make(41, 41);
@@ -38,9 +37,8 @@ static void lines_touch_all_along_them(void **state)
     }
 }
 
-static void a_line_shorter_than_a_pixel_is_seen(void **state)
+TEST(a_line_shorter_than_a_pixel_is_seen)
 {
-    (void)state;
     const double xy[4] = {3.2, 1.3, 3.25, 1.31};
     raster r = make(8, 4);
     raster_line(&r, xy, 1, -7.0);
@@ -49,9 +47,8 @@ static void a_line_shorter_than_a_pixel_is_seen(void **state)
     raster_free(&r);
 }
 
-static void the_larger_value_wins_whatever_the_order(void **state)
+TEST(the_larger_value_wins_whatever_the_order)
 {
-    (void)state;
     const double xy[4] = {0.5, 0.5, 3.5, 0.5};
     for (int k = 0; k < 2; k++) {
         raster r = make(4, 1);
@@ -62,9 +59,8 @@ static void the_larger_value_wins_whatever_the_order(void **state)
     }
 }
 
-static void what_lies_outside_is_left_out(void **state)
+TEST(what_lies_outside_is_left_out)
 {
-    (void)state;
     const double lines[][4] = {{-50, 2, -4, 2}, {4, 9, 4, 1e300}, {-1e300, -1e300, -5, -5}, {6, 6, 1e9, 6}};
     const double triangle[6] = {-9, -9, -5, -9, -5, -5}, value[3] = {1, 1, 1};
     raster r = make(5, 5);
@@ -78,9 +74,8 @@ static void what_lies_outside_is_left_out(void **state)
 }
 
 /* A square of two triangles: as many pixels as its area has, and its values linear. */
-static void triangles_cover_their_area_linearly(void **state)
+TEST(triangles_cover_their_area_linearly)
 {
-    (void)state;
     const double a[6] = {10, 10, 50, 10, 50, 40}, b[6] = {10, 10, 50, 40, 10, 40};
     const double of_a[3] = {10, 50, 50}, of_b[3] = {10, 50, 10}; /* x */
     raster r = make(64, 64);
@@ -92,9 +87,8 @@ static void triangles_cover_their_area_linearly(void **state)
     raster_free(&r);
 }
 
-static void thin_triangles_do_not_vanish(void **state)
+TEST(thin_triangles_do_not_vanish)
 {
-    (void)state;
     const double flat[6] = {1, 1.3, 9, 1.3, 5, 1.3}, value[3] = {1, 1, 1};
     raster r = make(10, 3);
     raster_triangle(&r, flat, value);
@@ -102,9 +96,8 @@ static void thin_triangles_do_not_vanish(void **state)
     raster_free(&r);
 }
 
-static void colours_are_those_of_the_palette(void **state)
+TEST(colours_are_those_of_the_palette)
 {
-    (void)state;
     const palette p = palette_make(PALETTE_DIVERGING);
     canvas_image image;
     raster r = make(3, 1);
@@ -116,16 +109,4 @@ static void colours_are_those_of_the_palette(void **state)
     assert_int_equal(image.argb[2] >> 24, 255);
     free(image.argb);
     raster_free(&r);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lines_touch_all_along_them),
-                                       cmocka_unit_test(a_line_shorter_than_a_pixel_is_seen),
-                                       cmocka_unit_test(the_larger_value_wins_whatever_the_order),
-                                       cmocka_unit_test(what_lies_outside_is_left_out),
-                                       cmocka_unit_test(triangles_cover_their_area_linearly),
-                                       cmocka_unit_test(thin_triangles_do_not_vanish),
-                                       cmocka_unit_test(colours_are_those_of_the_palette)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,9 +19,8 @@ static exit_code parse(request *r, const char *line)
     return request_parse(r, argv);
 }
 
-static void a_strip_by_default(void **state)
+TEST(a_strip_by_default)
 {
-    (void)state;
     request r;
     assert_int_equal(parse(&r, "a.vtkhdf -o b.svg"), EXIT_DONE);
     assert_int_equal(r.action, REQUEST_STRIP);
@@ -32,9 +31,8 @@ static void a_strip_by_default(void **state)
     assert_false(r.has_range || r.has_zoom || r.prints_hash);
 }
 
-static void options_are_read(void **state)
+TEST(options_are_read)
 {
-    (void)state;
     request r;
     assert_int_equal(parse(&r, "--zoom -1:2,-3:4 --range 0.1 -o b.PNG --color force a --columns 3"), EXIT_DONE);
     assert_close(r.zoom.x0, -1, 0);
@@ -53,9 +51,8 @@ static void options_are_read(void **state)
     assert_int_equal(parse(&r, "--version"), EXIT_DONE);
 }
 
-static void what_makes_no_sense_is_refused(void **state)
+TEST(what_makes_no_sense_is_refused)
 {
-    (void)state;
     static const char *const lines[] = {"",
                                         "a",
                                         "-o b.svg",
@@ -84,11 +81,4 @@ static void what_makes_no_sense_is_refused(void **state)
         request r;
         if (parse(&r, lines[k]) != EXIT_USAGE) fail_msg("'%s' is taken", lines[k]);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_strip_by_default), cmocka_unit_test(options_are_read),
-                                       cmocka_unit_test(what_makes_no_sense_is_refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,9 +24,8 @@ static void draw(const shape_batch *s, const palette *p, double width, size_t n,
     for (size_t k = 0; k < n; k++) assert_memory_equal(&paper.inks[k], &p->of[order[k]], sizeof(colour));
 }
 
-static void the_ends_of_diverging_lie_on_top(void **state)
+TEST(the_ends_of_diverging_lie_on_top)
 {
-    (void)state;
     const palette p = palette_make(PALETTE_DIVERGING);
     const unsigned char shades[] = {254, 127, 0, 130, 127}, order[] = {127, 130, 0, 254};
     shape_batch s = lines_of(5, shades);
@@ -34,9 +33,8 @@ static void the_ends_of_diverging_lie_on_top(void **state)
     shape_batch_free(&s);
 }
 
-static void the_end_of_sequential_lies_on_top(void **state)
+TEST(the_end_of_sequential_lies_on_top)
 {
-    (void)state;
     const palette p = palette_make(PALETTE_SEQUENTIAL);
     const unsigned char shades[] = {254, 127, 0}, order[] = {0, 127, 254};
     shape_batch s = lines_of(3, shades);
@@ -44,19 +42,10 @@ static void the_end_of_sequential_lies_on_top(void **state)
     shape_batch_free(&s);
 }
 
-static void nothing_draws_nothing(void **state)
+TEST(nothing_draws_nothing)
 {
-    (void)state;
     const palette p = palette_make(PALETTE_SEQUENTIAL);
     shape_batch s = lines_of(0, NULL);
     draw(&s, &p, 1.0, 0, NULL);
     shape_batch_free(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_ends_of_diverging_lie_on_top),
-                                       cmocka_unit_test(the_end_of_sequential_lies_on_top),
-                                       cmocka_unit_test(nothing_draws_nothing)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

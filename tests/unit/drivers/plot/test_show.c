@@ -45,9 +45,9 @@ static request asking(const trajectory_fixture *f, request_action action, const 
     return (request){.action = action, .input = f->path, .output = output, .width = 800.0};
 }
 
-static void a_strip_has_all_frames_of_a_short_film(void **state)
+TEST(a_strip_has_all_frames_of_a_short_film)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     const request r = asking(f, REQUEST_STRIP, trajectory_fixture_beside(f, "a.svg"));
     draw(show_strip, f, &r, r.output);
     char *text = read_text(r.output);
@@ -58,9 +58,9 @@ static void a_strip_has_all_frames_of_a_short_film(void **state)
     free(text);
 }
 
-static void frames_and_times_are_taken(void **state)
+TEST(frames_and_times_are_taken)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     outcome o = {0};
     request r = asking(f, REQUEST_STRIP, trajectory_fixture_beside(f, "a.svg"));
     r.times = "0,9e-4";
@@ -75,9 +75,9 @@ static void frames_and_times_are_taken(void **state)
     assert_int_equal(access(r.output, F_OK), -1);
 }
 
-static void an_animation_has_a_file_for_each_frame(void **state)
+TEST(an_animation_has_a_file_for_each_frame)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     request r = asking(f, REQUEST_ANIMATION, NULL);
     r.folder = trajectory_fixture_beside(f, "film");
     draw(show_animation, f, &r, r.folder);
@@ -90,10 +90,4 @@ static void an_animation_has_a_file_for_each_frame(void **state)
     assert_int_equal(rmdir(r.folder), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_strip_has_all_frames_of_a_short_film),
-                                       cmocka_unit_test(frames_and_times_are_taken),
-                                       cmocka_unit_test(an_animation_has_a_file_for_each_frame)};
-    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
-}
+TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);

@@ -20,9 +20,9 @@ static quantity find(const trajectory_fixture *f, const char *name)
     return q;
 }
 
-static void places_and_bounds_are_those_of_the_frame(void **state)
+TEST(places_and_bounds_are_those_of_the_frame)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     const quantity q = find(f, "strain");
     snapshot s;
     load(&s, f, &q, 3);
@@ -42,9 +42,9 @@ static void places_and_bounds_are_those_of_the_frame(void **state)
 }
 
 /* A number of nodes gives springs and triangles their means. */
-static void nodes_lend_their_numbers(void **state)
+TEST(nodes_lend_their_numbers)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     const quantity q = find(f, "von_mises"), none = find(f, "none");
     snapshot s;
     load(&s, f, &q, TRAJECTORY_FIXTURE_FRAMES - 1);
@@ -69,17 +69,17 @@ static uint64_t hash_of(const trajectory_fixture *f, const char *name, dem_index
     return hash;
 }
 
-static void hashes_tell_frames_and_quantities(void **state)
+TEST(hashes_tell_frames_and_quantities)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     assert_true(hash_of(f, "strain", 2) == hash_of(f, "strain", 2));
     assert_true(hash_of(f, "strain", 2) != hash_of(f, "strain", 3));
     assert_true(hash_of(f, "strain", 2) != hash_of(f, "force", 2));
 }
 
-static void a_frame_that_is_not_there_is_refused(void **state)
+TEST(a_frame_that_is_not_there_is_refused)
 {
-    trajectory_fixture *f = *state;
+    trajectory_fixture *f = *test_state;
     const quantity q = find(f, "strain");
     snapshot s;
     outcome o = {0};
@@ -89,10 +89,4 @@ static void a_frame_that_is_not_there_is_refused(void **state)
     snapshot_free(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places_and_bounds_are_those_of_the_frame), cmocka_unit_test(nodes_lend_their_numbers),
-        cmocka_unit_test(hashes_tell_frames_and_quantities), cmocka_unit_test(a_frame_that_is_not_there_is_refused)};
-    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
-}
+TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);

@@ -29,9 +29,8 @@ static void check(const strip *s, box view)
     assert_true(strip_scale(s).x1 < strip_colours(s).x0);
 }
 
-static void panels_do_not_meet_whatever_their_number_and_shape(void **state)
+TEST(panels_do_not_meet_whatever_their_number_and_shape)
 {
-    (void)state;
     for (size_t n = 1; n <= 24; n++)
         for (double shape = 0.02; shape < 60.0; shape *= 2.7)
             for (size_t columns = 0; columns <= n; columns += 5) {
@@ -43,9 +42,8 @@ static void panels_do_not_meet_whatever_their_number_and_shape(void **state)
             }
 }
 
-static void very_many_panels_have_more_rows(void **state)
+TEST(very_many_panels_have_more_rows)
 {
-    (void)state;
     for (size_t n = 25; n < 3000; n = 3 * n / 2)
         for (size_t columns = 0; columns <= 100; columns += 50) {
             const strip s = strip_plan(n, (box){0, 0, 1, 1}, 400.0, columns);
@@ -54,17 +52,15 @@ static void very_many_panels_have_more_rows(void **state)
         }
 }
 
-static void widths_become_even(void **state)
+TEST(widths_become_even)
 {
-    (void)state;
     const strip s = strip_plan(2, (box){0, 0, 1, 1}, 777.0, 0);
     assert_close(s.width, 778.0, 0.0);
     check(&s, (box){0, 0, 1, 1});
 }
 
-static void six_square_panels_are_two_rows_of_three(void **state)
+TEST(six_square_panels_are_two_rows_of_three)
 {
-    (void)state;
     const strip s = strip_plan(6, (box){0, 0, 1.1, 1}, 1200.0, 0);
     assert_int_equal(s.columns, 3);
     assert_int_equal(s.rows, 2);
@@ -72,9 +68,8 @@ static void six_square_panels_are_two_rows_of_three(void **state)
 
 static const double slope[] = {-9, -2, 9, -2, 9.1, 50};
 
-static void a_view_has_the_ground_that_is_near(void **state)
+TEST(a_view_has_the_ground_that_is_near)
 {
-    (void)state;
     const dem_obstacle ground = {.n_points = 3, .points = slope};
     const box far = {0, 0, 1, 1}, near = {0, -1.9, 1, -0.9};
     assert_true(lies_in(far, strip_view(far, &ground, 1)));
@@ -84,21 +79,9 @@ static void a_view_has_the_ground_that_is_near(void **state)
     assert_true(strip_view(near, &ground, 1).x1 < 1.5);
 }
 
-static void a_point_has_a_view(void **state)
+TEST(a_point_has_a_view)
 {
-    (void)state;
     const box b = strip_view((box){2, 3, 2, 3}, NULL, 0);
     assert_true(box_width(b) > 0.0 && box_height(b) > 0.0);
     assert_true(lies_in((box){2, 3, 2, 3}, b));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(panels_do_not_meet_whatever_their_number_and_shape),
-                                       cmocka_unit_test(very_many_panels_have_more_rows),
-                                       cmocka_unit_test(widths_become_even),
-                                       cmocka_unit_test(six_square_panels_are_two_rows_of_three),
-                                       cmocka_unit_test(a_view_has_the_ground_that_is_near),
-                                       cmocka_unit_test(a_point_has_a_view)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

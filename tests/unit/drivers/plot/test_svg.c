@@ -35,9 +35,8 @@ static void expect(const char *found, const char *expected)
     if (strstr(found, expected) == NULL) fail_msg("no '%s' in %s", expected, found);
 }
 
-static void numbers_are_short_and_do_not_drift(void **state)
+TEST(numbers_are_short_and_do_not_drift)
 {
-    (void)state;
     FILE *file;
     canvas *c = open_sheet(&file);
     const double xy[] = {1.0, 2.5, 0.994, 2.456, -0.02, 100.0};
@@ -45,9 +44,8 @@ static void numbers_are_short_and_do_not_drift(void **state)
     expect(text_of(c, file), "<path stroke=\"#ff0010\" stroke-width=\"1.50\" d=\"M1 2.5l-.01-.04-1.01 97.54\"/>");
 }
 
-static void many_thirds_end_where_they_should(void **state)
+TEST(many_thirds_end_where_they_should)
 {
-    (void)state;
     enum { STEPS = 300 };
     FILE *file;
     canvas *c = open_sheet(&file);
@@ -65,9 +63,8 @@ static void many_thirds_end_where_they_should(void **state)
     assert_close(x, STEPS / 3.0, 0.005);
 }
 
-static void parts_have_their_names_and_clips(void **state)
+TEST(parts_have_their_names_and_clips)
 {
-    (void)state;
     FILE *file;
     canvas *c = open_sheet(&file);
     const box clip = {1, 2, 11, 22};
@@ -82,9 +79,8 @@ static void parts_have_their_names_and_clips(void **state)
     expect(found, "d=\"M1 2l10 0 0 20-10 0z\"");
 }
 
-static void texts_stay_texts(void **state)
+TEST(texts_stay_texts)
 {
-    (void)state;
     FILE *file;
     canvas *c = open_sheet(&file);
     c->write(c, &(canvas_label){5, 6, 15, CANVAS_END, true, {0, 0, 0}, "<1 µm & \n>"});
@@ -95,9 +91,8 @@ static void texts_stay_texts(void **state)
 }
 
 /* The first bytes of a PNG in base64. */
-static void images_are_inside(void **state)
+TEST(images_are_inside)
 {
-    (void)state;
     FILE *file;
     canvas *c = open_sheet(&file);
     uint32_t argb[2] = {0xff0000ffU, 0};
@@ -106,23 +101,11 @@ static void images_are_inside(void **state)
            "<image x=\"0.00\" y=\"0.00\" width=\"10.00\" height=\"5.00\" href=\"data:image/png;base64,iVBORw0KGgo");
 }
 
-static void a_full_disk_is_reported(void **state)
+TEST(a_full_disk_is_reported)
 {
-    (void)state;
     FILE *file = fopen("/dev/full", "w");
     if (file == NULL) skip();
     canvas *c = svg_open(file, 100.0, 50.0);
     assert_false(c->close(c, ""));
     (void)fclose(file);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_are_short_and_do_not_drift),
-                                       cmocka_unit_test(many_thirds_end_where_they_should),
-                                       cmocka_unit_test(parts_have_their_names_and_clips),
-                                       cmocka_unit_test(texts_stay_texts),
-                                       cmocka_unit_test(images_are_inside),
-                                       cmocka_unit_test(a_full_disk_is_reported)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

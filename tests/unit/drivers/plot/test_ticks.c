@@ -13,9 +13,8 @@ static void expect_prefix(double largest, double factor, const char *name)
     assert_string_equal(found.name, name);
 }
 
-static void prefixes_leave_one_to_three_digits(void **state)
+TEST(prefixes_leave_one_to_three_digits)
 {
-    (void)state;
     expect_prefix(0.02, 1e-3, "m");
     expect_prefix(1e-3, 1e-3, "m");
     expect_prefix(9.99e-4, 1e-6, "µ");
@@ -29,9 +28,8 @@ static void prefixes_leave_one_to_three_digits(void **state)
     expect_prefix((double)INFINITY, 1.0, "");
 }
 
-static void round_numbers_enclose(void **state)
+TEST(round_numbers_enclose)
 {
-    (void)state;
     for (double x = 1e-7; x < 1e7; x *= 1.0372) {
         const double above = ticks_above(x), below = ticks_below(x);
         assert_true(above >= x * (1.0 - 1e-8) && above <= 1.51 * x);
@@ -44,9 +42,8 @@ static void round_numbers_enclose(void **state)
     assert_close(ticks_below(4.99), 2.0, 1e-15);
 }
 
-static void ticks_are_even_and_inside(void **state)
+TEST(ticks_are_even_and_inside)
 {
-    (void)state;
     for (double lo = -3.0; lo < 3.0; lo += 0.37)
         for (double size = 1e-3; size < 1e3; size *= 2.3)
             for (int most = 2; most <= TICKS_MOST; most++) {
@@ -60,9 +57,8 @@ static void ticks_are_even_and_inside(void **state)
             }
 }
 
-static void both_ends_are_ticks_where_they_are_round(void **state)
+TEST(both_ends_are_ticks_where_they_are_round)
 {
-    (void)state;
     const ticks t = ticks_linear(0.0, 3.0, 7);
     assert_int_equal(t.n, 7);
     assert_close(t.at[0], 0.0, 0.0);
@@ -70,9 +66,8 @@ static void both_ends_are_ticks_where_they_are_round(void **state)
     assert_int_equal(t.decimals, 1);
 }
 
-static void decades_are_no_more_than_asked_for(void **state)
+TEST(decades_are_no_more_than_asked_for)
 {
-    (void)state;
     const ticks few = ticks_decades(1e-9, 1e-5, 8), many = ticks_decades(2e-12, 3e9, 6);
     assert_int_equal(few.n, 5);
     assert_close(few.at[0], 1e-9, 1e-20);
@@ -87,9 +82,8 @@ static void expect_text(double value, int decimals, const char *expected)
     assert_string_equal(text, expected);
 }
 
-static void numbers_are_written_as_in_books(void **state)
+TEST(numbers_are_written_as_in_books)
 {
-    (void)state;
     char text[TICKS_TEXT];
     expect_text(-0.25, 2, "−0.25");
     expect_text(-0.001, 1, "0.0"); /* no minus before nothing */
@@ -100,24 +94,11 @@ static void numbers_are_written_as_in_books(void **state)
     assert_string_equal(text, "10⁰");
 }
 
-static void decimals_are_those_needed(void **state)
+TEST(decimals_are_those_needed)
 {
-    (void)state;
     assert_int_equal(ticks_decimals(20.0), 0);
     assert_int_equal(ticks_decimals(0.5), 1);
     assert_int_equal(ticks_decimals(0.125), 3);
     assert_int_equal(ticks_decimals(0.1 + 0.2), 1);
     assert_int_equal(ticks_decimals(1e-20), 9);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(prefixes_leave_one_to_three_digits),
-                                       cmocka_unit_test(round_numbers_enclose),
-                                       cmocka_unit_test(ticks_are_even_and_inside),
-                                       cmocka_unit_test(both_ends_are_ticks_where_they_are_round),
-                                       cmocka_unit_test(decades_are_no_more_than_asked_for),
-                                       cmocka_unit_test(numbers_are_written_as_in_books),
-                                       cmocka_unit_test(decimals_are_those_needed)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

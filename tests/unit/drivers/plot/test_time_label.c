@@ -14,26 +14,17 @@ static void expect(size_t n, const double *t, const char *const *texts)
     }
 }
 
-static void the_largest_has_the_unit(void **state)
+TEST(the_largest_has_the_unit)
 {
-    (void)state;
     expect(3, (const double[]){0, 5e-3, 20e-3}, (const char *const[]){"0 ms", "5 ms", "20 ms"});
     expect(2, (const double[]){0, 1.5e-5}, (const char *const[]){"0 µs", "15 µs"});
     expect(2, (const double[]){0.5, 2}, (const char *const[]){"0.5 s", "2.0 s"});
     expect(1, (const double[]){0}, (const char *const[]){"0 s"});
 }
 
-static void decimals_tell_frames_apart(void **state)
+TEST(decimals_tell_frames_apart)
 {
-    (void)state;
     expect(3, (const double[]){0, 2.5e-3, 5e-3}, (const char *const[]){"0.0 ms", "2.5 ms", "5.0 ms"});
     expect(3, (const double[]){0, 1e-3 / 3, 2e-3 / 3}, (const char *const[]){"0 µs", "333 µs", "667 µs"});
     expect(2, (const double[]){10.0, 10.001}, (const char *const[]){"10.000 s", "10.001 s"});
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_largest_has_the_unit),
-                                       cmocka_unit_test(decimals_tell_frames_apart)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,9 +26,9 @@ static char *draw(const trajectory_fixture *f)
     return text;
 }
 
-static void energies_reaction_contacts_and_steps_have_charts(void **state)
+TEST(energies_reaction_contacts_and_steps_have_charts)
 {
-    char *text = draw(*state);
+    char *text = draw(*test_state);
     static const char *const words[] = {">energy, J<", ">energy, mJ<", ">sum<",      ">kinetic<", ">springs<",
                                         ">along x<",   ">along y<",    ">contacts<", ">step, "};
     int n = 0, charts = 0;
@@ -40,28 +40,22 @@ static void energies_reaction_contacts_and_steps_have_charts(void **state)
 }
 
 /* The run has no friction, no damping, no boundaries, and loses nothing by them. */
-static void what_never_is_has_no_line(void **state)
+TEST(what_never_is_has_no_line)
 {
-    char *text = draw(*state);
+    char *text = draw(*test_state);
     assert_null(strstr(text, "friction"));
     assert_null(strstr(text, "damping"));
     assert_null(strstr(text, "boundar"));
     free(text);
 }
 
-static void the_same_film_has_the_same_hash(void **state)
+TEST(the_same_film_has_the_same_hash)
 {
-    char *a = draw(*state), *b = draw(*state);
+    char *a = draw(*test_state), *b = draw(*test_state);
     assert_string_equal(a, b);
     assert_non_null(strstr(a, "<metadata>data "));
     free(a);
     free(b);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(energies_reaction_contacts_and_steps_have_charts),
-                                       cmocka_unit_test(what_never_is_has_no_line),
-                                       cmocka_unit_test(the_same_film_has_the_same_hash)};
-    return cmocka_run_group_tests(tests, trajectory_fixture_begin, trajectory_fixture_end);
-}
+TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);
