@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops for the compiler to make vector instructions of. ARRAY_OPS is the name of the table, one for each set of
- * them. */
+/* Arithmetic on whole arrays: linear combinations of vectors, Verlet's step, the sum of squares of the error norm, and
+ * the splitting of terms that exact sums are made of (docs/algorithms.md, Determinism). The loops are plain C, which
+ * the compiler turns into vector instructions. The file is compiled once for each instruction set, and ARRAY_OPS is the
+ * name of the table of functions that it then defines. The tables give the same bits: no operation is fused, an element
+ * depends on its own operands alone, and the sums are exact. The forces on the nodes are not here but in
+ * elastic/sweep_body.h, and the choice of a table is in array_ops.h. */
 #include "base/array_ops.h"
 
 #include <math.h>
@@ -24,7 +28,7 @@ enum { width = 2 };
 typedef double vector __attribute__((vector_size(width * sizeof(double))));
 typedef int64_t vector_bits __attribute__((vector_size(width * sizeof(double))));
 
-/* The numbers from x on, zeros behind them. */
+/* A vector of the n numbers from x on. Its other components are 0, which changes no sum. */
 INLINE vector vector_at(const double *x, dem_index n)
 {
     vector out = {0.0};
@@ -34,7 +38,9 @@ INLINE vector vector_at(const double *x, dem_index n)
 
 /* ---- linear combinations ---- */
 
-/* `n` is a constant where this is called, so that the inner loop is none. */
+/* out = c_0 in_0 + c_1 in_1 + ... in this order for each component, so the bits do not depend on how many components
+ * are computed at once. `n` is a constant wherever this is called: the compiler unrolls the inner loop, and all
+ * operands are read in one pass. */
 INLINE void add_up(double *restrict out, int n, const double *c, const double *const *in, dem_index size)
 {
     for (dem_index k = 0; k < size; k++) {
@@ -44,6 +50,7 @@ INLINE void add_up(double *restrict out, int n, const double *c, const double *c
     }
 }
 
+/* Calls add_up() with a constant number of operands, 1 to `most_terms`. */
 static void add_few(double *out, int n, const double *c, const double *const *in, dem_index size)
 {
     switch (n) {
@@ -73,7 +80,8 @@ static void add_few(double *out, int n, const double *c, const double *const *in
     }
 }
 
-/* More than `most_terms` in pieces that stay in the cache. */
+/* A combination of more than `most_terms` operands is added up in pieces that stay in the cache. The partial sum of a
+ * piece is a double as it is in a register, so the pieces do not change the bits. */
 static void combine(double *out, int n, const double *c, const double *const *in, dem_index size)
 {
     if (n <= most_terms) {
@@ -98,9 +106,11 @@ typedef struct squares {
     vector highs, lows, most;
 } squares;
 
-/* p = h + l + rest, h a multiple of 2^-20 and l of 2^-60, |rest| <= 2^-61: adding and taking away 1.5 2^(52 - 20)
- * rounds to the one, 1.5 2^(52 - 60) to the other. The sums of a piece are exact in any order: they have at most 53
- * bits. */
+/* Adds p = e^2 to two sums without a rounding error that depends on the order. p is split into h + l + rest, where h is
+ * the multiple of 2^-20 next to p, l is the multiple of 2^-60 next to p - h, and |rest| <= 2^-61 is dropped. Doubles in
+ * [2^52 u, 2^53 u) are the multiples of u, so adding 1.5 2^52 u and subtracting it again rounds to a multiple of u: the
+ * two constants are those of u = 2^-20 and u = 2^-60. A piece of 4096 = 2^12 squares of at most 2^10 sums up to 2^42
+ * units of h and 2^51 units of l at most. Both are below 2^53, so these sums are exact in any order. */
 INLINE void add_squares(squares *s, vector e)
 {
     const double to_high = 0x1.8p32, to_low = 0x1.8p-8;
@@ -111,7 +121,9 @@ INLINE void add_squares(squares *s, vector e)
     s->most = (vector)(((vector_bits)p & larger) | ((vector_bits)s->most & ~larger));
 }
 
-/* Behind the end stand zeros. */
+/* The sum of (scale x w)^2 over one piece, added to `sum` as integers. The lanes of the vectors are added up here,
+ * which is exact again. A square beyond ARRAY_OPS_LARGEST would spoil the splitting: then only `largest` counts, from
+ * which the caller sees that the sum does not hold. */
 static void square_piece(array_ops_sum *sum, const double *x, const double *w, double scale, dem_index size)
 {
     squares s = {{0.0}, {0.0}, {0.0}};
@@ -132,6 +144,7 @@ static void square_piece(array_ops_sum *sum, const double *x, const double *w, d
     array_ops_add(sum, &here);
 }
 
+/* Each piece is turned into integers before the next begins, since only the sums of one piece are exact in doubles. */
 static void square(array_ops_sum *sum, const double *x, const double *w, double scale, dem_index size)
 {
     for (dem_index k = 0; k < size; k += piece)
@@ -140,6 +153,8 @@ static void square(array_ops_sum *sum, const double *x, const double *w, double 
 
 /* ---- Verlet's step ---- */
 
+/* Velocity Verlet, equation (5): v' = v0 + h/2 a0, x1 = x0 + h v'. The velocity is taken on to v1 = v' + h/2 a0, as if
+ * the acceleration stayed a0; kick() corrects it when a1 is known. */
 static void drift(double *restrict x1, double *restrict v1, const double *const start[3], double h, dem_index size)
 {
     const double *x0 = start[0], *v0 = start[1], *a0 = start[2];
@@ -150,6 +165,7 @@ static void drift(double *restrict x1, double *restrict v1, const double *const 
     }
 }
 
+/* v1 = v' + h/2 a0 + h/2 (a1 - a0) = v' + h/2 a1. */
 static void kick(double *restrict v1, const double *a0, const double *a1, double h, dem_index size)
 {
     for (dem_index k = 0; k < size; k++) v1[k] += 0.5 * h * (a1[k] - a0[k]);
@@ -157,6 +173,7 @@ static void kick(double *restrict v1, const double *a0, const double *a1, double
 
 /* ---- lengths ---- */
 
+/* The strain (d - d0)/d0 of each spring from the squared length d^2 that stands in its place. */
 static void stretch(double *lengths, const double *reference, int n)
 {
     for (int k = 0; k < n; k++) lengths[k] = (sqrt(lengths[k]) - reference[k]) / reference[k];
@@ -164,6 +181,7 @@ static void stretch(double *lengths, const double *reference, int n)
 
 /* ---- exact sums: error-free extraction (Rump, Ogita and Oishi 2008; Demmel and Nguyen 2013) ---- */
 
+/* |x| of each component: the sign bit is cleared. */
 INLINE vector magnitudes(vector x)
 {
     return (vector)((vector_bits)x & 0x7fffffffffffffff);
@@ -176,6 +194,8 @@ INLINE double total(vector x)
     return sum;
 }
 
+/* The sum of |terms|, a bound for their sum. It is rounded, so it depends on the instruction set; the exact sum does
+ * not, since split() is free of error for any bound that is large enough. */
 static double magnitude(const double *terms, int n)
 {
     vector sum = {0.0};
@@ -184,7 +204,8 @@ static double magnitude(const double *terms, int n)
     return total(sum);
 }
 
-/* The power of 2 up to a number > 0, 0 of one that is subnormal. */
+/* The largest power of 2 that is not above a number > 0: its exponent bits without the mantissa. For a subnormal number
+ * these bits are 0. */
 INLINE double power_of(double size)
 {
     uint64_t bits;
@@ -194,8 +215,9 @@ INLINE double power_of(double size)
     return size;
 }
 
-/* Adds terms to sums in [2^k, 2^(k+1)], which stay there: this rounds to the last place u = 2^(k-52) of the sums.
- * \return what rounding leaves of the terms, at most u/2 each */
+/* Adds terms to sums that lie in [2^k, 2^(k+1)] before and after. There the doubles are the multiples of u = 2^(k-52),
+ * so the addition rounds each term to a multiple of u, and *sum - before is exactly what has been added. \return what
+ * the rounding has left of the terms, at most u/2 each; exact */
 INLINE vector extract(vector *sum, vector terms)
 {
     const vector before = *sum;
@@ -203,10 +225,14 @@ INLINE vector extract(vector *sum, vector terms)
     return terms - (*sum - before);
 }
 
-/* The magnitudes of the terms add up to less than 2p: `high` begins half-way between 8p and 16p, so that at most
- * 2^-50 p is left of a term, and as many as there are in a lane leave at most 2^-43 p: `low` begins half-way between
- * 2^-42 p and 2^-41 p. What the lanes have added up has at most 53 bits in units of u, so that totals are exact. Where
- * p is so small that there is no such u all sums are exact, and nothing is left. */
+/* Error-free extraction. Let p be the power of 2 with p <= size < 2p; the magnitudes of the terms add up to less than
+ * 2p. `high` begins half-way between 8p and 16p, so it stays in that interval and its last place is u = 2^-49 p: at
+ * most 2^-50 p is left of a term. At most 128 terms are in a lane, and what is left of them adds up to at most 2^-43 p.
+ * `low` begins half-way between 2^-42 p and 2^-41 p and takes that up in the same way. What a lane has collected is a
+ * multiple of u of at most 53 bits, and so are the sums over the lanes: parts[0] and parts[1] are exact, and
+ *     sum of the terms = parts[0] + parts[1] + sum of what is left in their place.
+ * Where p is so small that u would be below the smallest subnormal number, every addition is exact and nothing is
+ * left. */
 static double split(double parts[2], double *terms, int n, double size)
 {
     const double p = power_of(size), from_high = 12.0 * p, from_low = 0x1.8p-42 * p;

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Entries one after another, in memory and in the file: a header of 64 bytes, then for each entry a head of 40 bytes
- * and its bytes, filled up to a multiple of 8. The checksum is of the whole file, itself taken as 0. */
+/* A checkpoint as named entries of bytes, in memory and as a file (simulation/checkpoint.c says which entries there are;
+ * this file knows names and sizes only). The file has a header of 64 bytes, then for each
+ * entry a head of 40 bytes and its bytes, filled up with zeros to a multiple of 8. The checksum is the CRC-32 of the
+ * whole file with the checksum itself taken as 0. Numbers are in the byte order of the machine, which the header
+ * states. A file that is read may be damaged or hostile: no size in it is trusted beyond the bytes that the file has. A
+ * file that is written is synced and read back before it takes its name (publish.c), and the file that had this name is
+ * kept as NAME.prev. */
 #include "base/checkpoint_entries.h"
 
 #include <errno.h>
@@ -19,9 +24,11 @@
 
 enum { FORMAT = 1, NAME = 32, UNIT = 8 };
 
-static const char magic[8] = "demrec\r\n"; /* a transfer as text shows */
+/* The end of a line in it shows a transfer that converted line ends. */
+static const char magic[8] = "demrec\r\n";
 static const uint32_t byte_order = 0x01020304;
 
+/* An entry in memory. `capacity` is at least size + 1, so that an entry of no bytes has its memory, too. */
 typedef struct entry {
     char name[NAME];
     size_t size, capacity; /* bytes */
@@ -33,6 +40,7 @@ struct dem_checkpoint {
     entry *entries;
 };
 
+/* The first bytes of a file, as they are on the disk. No member needs padding. */
 typedef struct header {
     char magic[8];
     uint32_t byte_order, format;
@@ -42,6 +50,7 @@ typedef struct header {
     uint64_t unused[3];
 } header;
 
+/* Stands in the file before the bytes of each entry. */
 typedef struct head {
     char name[NAME];
     uint64_t size; /* bytes */
@@ -66,6 +75,7 @@ void dem_checkpoint_destroy(dem_checkpoint *checkpoint)
     free(checkpoint);
 }
 
+/* A checkpoint has few entries: a search from the first to the last is fast enough. */
 static entry *find(const dem_checkpoint *checkpoint, const char *name)
 {
     for (dem_index k = 0; k < checkpoint->n; k++)
@@ -73,7 +83,7 @@ static entry *find(const dem_checkpoint *checkpoint, const char *name)
     return NULL;
 }
 
-/* Room for `size` bytes in an entry, which keeps what it has if there is none. */
+/* Makes room for `size` bytes in an entry. If memory is short, the entry keeps what it has. */
 static dem_status reserve(entry *e, size_t size)
 {
     if (size < e->capacity) return DEM_OK;
@@ -84,7 +94,8 @@ static dem_status reserve(entry *e, size_t size)
     return DEM_OK;
 }
 
-/* The entry of a name, which is made with room for `size` bytes. */
+/* Appends an entry with room for `size` bytes. The checkpoint counts it only when the room is there, so a failure leaves
+ * the checkpoint as it was. The name is shorter than NAME, as callers have checked. */
 static dem_status make(dem_checkpoint *checkpoint, const char *name, size_t size, entry **out)
 {
     CHECK(grow_array((void **)&checkpoint->entries, &checkpoint->capacity, checkpoint->n + 1,
@@ -142,6 +153,7 @@ dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *f
 
 /* ---- the file ---- */
 
+/* Bytes of zeros that follow `size` bytes, so that the next head begins at a multiple of 8. */
 static size_t padding(uint64_t size)
 {
     return (size_t)((UNIT - size % UNIT) % UNIT);
@@ -155,6 +167,7 @@ typedef struct stream {
     uLong checksum;
 } stream;
 
+/* Writes bytes and adds them to the checksum. Empty data is left out, since it may come with a null pointer. */
 static dem_status put(stream *s, const void *data, size_t size)
 {
     CHECK(size == 0 || fwrite(data, 1, size, s->file) == size, DEM_ERROR_IO, "%s: cannot be written (%s)", s->path,
@@ -163,6 +176,7 @@ static dem_status put(stream *s, const void *data, size_t size)
     return DEM_OK;
 }
 
+/* Reads bytes and adds them to the checksum. `left` keeps a damaged size from reading beyond the file. */
 static dem_status get(stream *s, void *data, size_t size)
 {
     CHECK(size <= s->left && (size == 0 || fread(data, 1, size, s->file) == size), DEM_ERROR_IO, "%s: is damaged",
@@ -172,6 +186,7 @@ static dem_status get(stream *s, void *data, size_t size)
     return DEM_OK;
 }
 
+/* The header of a checkpoint, its checksum still 0. */
 static header header_of(const dem_checkpoint *checkpoint)
 {
     header h = {.byte_order = byte_order, .format = FORMAT, .size = sizeof h, .n = (uint64_t)checkpoint->n};
@@ -195,7 +210,8 @@ static dem_status put_entries(stream *s, const dem_checkpoint *checkpoint)
     return DEM_OK;
 }
 
-/* The header is written again when the checksum is known. */
+/* The checksum stands in the header, ahead of what it sums: the header is written with 0, and again when the checksum
+ * is known. */
 static dem_status put_file(stream *s, const dem_checkpoint *checkpoint)
 {
     header h = header_of(checkpoint);
@@ -206,6 +222,8 @@ static dem_status put_file(stream *s, const dem_checkpoint *checkpoint)
     return put(s, &h, sizeof h);
 }
 
+/* Checks what can be checked before the entries are read, the most telling message first. The checksum starts anew from
+ * the header with its own field taken as 0, as it was when the file was written. */
 static dem_status get_header(stream *s, header *h)
 {
     CHECK(s->left >= sizeof *h, DEM_ERROR_IO, "%s: is no checkpoint, or has been cut short", s->path);
@@ -221,6 +239,8 @@ static dem_status get_header(stream *s, header *h)
     return DEM_OK;
 }
 
+/* An entry is refused if its name does not end within its field or has been there before, or if its size exceeds the
+ * rest of the file. The last check comes before memory is asked for, so a damaged size cannot exhaust it. */
 static dem_status get_entry(stream *s, dem_checkpoint *checkpoint)
 {
     unsigned char filling[UNIT];
@@ -236,6 +256,8 @@ static dem_status get_entry(stream *s, dem_checkpoint *checkpoint)
     return get(s, filling, padding(first.size));
 }
 
+/* The number of entries need not be bounded: each takes at least its head from the file, so the loop ends with the
+ * file. */
 static dem_status get_file(stream *s, dem_checkpoint *checkpoint)
 {
     header h;
@@ -245,6 +267,7 @@ static dem_status get_file(stream *s, dem_checkpoint *checkpoint)
     return DEM_OK;
 }
 
+/* Opens a file for reading. A pipe or a device is refused, because its size is unknown and reading it may never end. */
 static dem_status open_stream(stream *out, const char *path)
 {
     struct stat about;
@@ -277,7 +300,8 @@ dem_status dem_checkpoint_read(dem_checkpoint **out, const char *path)
     return status;
 }
 
-/* Whether a file holds the bytes that were written. A full disk may be found out by nothing else. */
+/* Reads the written file and compares its size and checksum. A full disk may be found out by nothing else: some file
+ * systems report it neither on write nor on close. */
 static dem_status read_back(const char *path, const header *h)
 {
     unsigned char block[1 << 14];
@@ -292,6 +316,7 @@ static dem_status read_back(const char *path, const header *h)
     return status;
 }
 
+/* Writes, syncs and reads back a file under a provisional name. fclose() may be the first to report a failed write. */
 static dem_status write_part(const dem_checkpoint *checkpoint, const char *part)
 {
     const header h = header_of(checkpoint);
@@ -305,6 +330,8 @@ static dem_status write_part(const dem_checkpoint *checkpoint, const char *part)
     return read_back(part, &h);
 }
 
+/* The previous file steps aside before the new one takes its name. If the machine stops between the two renames, it is
+ * found as NAME.prev. One allocation holds both derived names. */
 dem_status dem_checkpoint_write(const dem_checkpoint *checkpoint, const char *path)
 {
     CHECK(checkpoint != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_checkpoint_write: %s is NULL",

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Carries, sums of many terms, and the one rounding. */
+/* A superaccumulator: the sum is an integer of 68 limbs of 32 bits in units of 2^-1074, wide enough for every double,
+ * so that no addition rounds and the order of the terms does not matter (docs/algorithms.md, Exact and rounded sums).
+ * This file has the carries between limbs, a fast path for many terms, and the one rounding at the end. The addition of
+ * a single term is inline in exact_sum.h; the splitting of terms in vectors is in array_ops.c. Sums over several
+ * processes do not belong here but in reduce.h. */
 #include "base/exact_sum.h"
 
 #include <math.h>
@@ -12,7 +16,9 @@ enum {
 
 static const int64_t limb_size = 0x100000000, limb_mask = 0xffffffff;
 
-/* Afterwards every limb but the last is in [0, 2^32), and the last has the sign of the sum. */
+/* Moves what exceeds 32 bits from each limb to the next one. A limb may be negative before: the mask takes it modulo
+ * 2^32, and the exact division makes the carry negative. Afterwards every limb but the last is in [0, 2^32), and the
+ * last has the sign of the sum. */
 void exact_sum_carry(exact_sum *s)
 {
     int64_t carry = 0;
@@ -25,6 +31,7 @@ void exact_sum_carry(exact_sum *s)
     s->n_terms = 0;
 }
 
+/* Terms that are not finite are only noted. exact_sum_value() combines them as additions of doubles would. */
 void exact_sum_add_special(exact_sum *s, double term)
 {
     if (isnan(term))
@@ -35,7 +42,10 @@ void exact_sum_add_special(exact_sum *s, double term)
 
 /* ---- many terms ---- */
 
-/* Usual terms are split once or twice, those as far apart as doubles can be some twenty times. */
+/* Adds a block of terms. Each round splits two leading parts off all terms at once (split() in array_ops.c) and adds
+ * these two numbers to the accumulator instead of n. `size` bounds what is left of the terms and falls by a factor of
+ * 2^87 or more in a round: usual terms take one or two rounds, terms as far apart as doubles can be some twenty. The
+ * loop ends when nothing is left. Terms too large for the splitting, or not finite, are added one by one. */
 void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
 {
     const array_ops *ops = array_ops_fastest();
@@ -49,6 +59,7 @@ void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
     for (int k = 0; k < n && size != 0.0; k++) exact_sum_add(s, terms[k]);
 }
 
+/* The terms are copied block by block, because exact_sum_take() destroys what it is given. */
 void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n)
 {
     double block[EXACT_SUM_BLOCK];
@@ -61,7 +72,7 @@ void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n)
 
 /* ---- rounding, of limbs after a carry and not negative ---- */
 
-/* Number of bits up to the highest that is set. */
+/* Number of bits up to the highest that is set; 0 for a sum of 0. */
 static int length_of(const exact_sum *s)
 {
     int k = EXACT_SUM_LIMBS - 1, length = 0;
@@ -70,12 +81,14 @@ static int length_of(const exact_sum *s)
     return limb_bits * k + length;
 }
 
+/* The bit with the value 2^(place - 1074). */
 static int64_t bit_at(const exact_sum *s, int place)
 {
     return s->limb[place / limb_bits] >> place % limb_bits & 1;
 }
 
-/* The bits from `low` on, as many as a mantissa has: of two limbs, or of three. */
+/* The 53 bits from place `low` on. They lie in two neighbouring limbs, or in three; a shift by 32 is done in two parts,
+ * since `shift` may be 0. */
 static int64_t mantissa_at(const exact_sum *s, int low)
 {
     const int64_t *limb = &s->limb[low / limb_bits];
@@ -85,6 +98,7 @@ static int64_t mantissa_at(const exact_sum *s, int low)
     return (int64_t)(bits & (((uint64_t)1 << mantissa_bits) - 1));
 }
 
+/* Whether a bit below `place` is set: decides between a tie and more than half a unit. */
 static bool any_below(const exact_sum *s, int place)
 {
     const int whole = place / limb_bits;
@@ -93,6 +107,9 @@ static bool any_below(const exact_sum *s, int place)
     return (s->limb[whole] & (((int64_t)1 << place % limb_bits) - 1)) != 0;
 }
 
+/* Rounds to nearest, ties to even: the mantissa is incremented if the first bit dropped is set and either the mantissa
+ * is odd or a lower bit is set as well. A mantissa that becomes 2^53 is still exact in a double. ldexp() scales without
+ * a further rounding, because a sum of at most 53 bits is taken whole (low = 0) and a longer one is a normal number. */
 static double magnitude(const exact_sum *s)
 {
     const int length = length_of(s), low = length > mantissa_bits ? length - mantissa_bits : 0;
@@ -101,6 +118,8 @@ static double magnitude(const exact_sum *s)
     return ldexp((double)mantissa, low + unit_exponent);
 }
 
+/* The accumulator is copied, since reading a sum must not change it. A negative sum has all limbs negated and is
+ * carried again, so that the rounding sees a magnitude: rounding to nearest is symmetric. */
 double exact_sum_value(const exact_sum *s)
 {
     exact_sum rest = *s;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A hash table of lists. */
+/* Holds lists of items so that equal lists are stored once: a hash table with open addressing over the lists added so
+ * far. A regular lattice has few different lists of coefficients and instructions for its blocks of nodes, so that the
+ * sweep (elastic/layout.c) reads them from the cache. Items are compared as bytes; their meaning does not belong
+ * here. */
 #include "base/intern.h"
 
 #include <stdbool.h>
@@ -10,6 +13,8 @@
 #include "base/grow.h"
 #include "base/status.h"
 
+/* Multiplies in each 8-byte word and mixes the high bits down. The hash decides only where a list is looked for: which
+ * lists are equal, and the order in which they are stored, do not depend on it. */
 static uint64_t hash_of(const void *items, size_t bytes)
 {
     uint64_t hash = bytes, word;
@@ -21,6 +26,7 @@ static uint64_t hash_of(const void *items, size_t bytes)
     return hash;
 }
 
+/* Whether list number `list` has exactly these n items. */
 static bool is_list(const intern *p, int32_t list, const void *items, dem_index n)
 {
     const intern_span s = p->lists[list];
@@ -28,7 +34,8 @@ static bool is_list(const intern *p, int32_t list, const void *items, dem_index 
            (n == 0 || memcmp((const char *)p->items + (size_t)s.first * p->unit, items, (size_t)n * p->unit) == 0);
 }
 
-/* That of the list, or a free one. */
+/* The slot that holds the list's number, or else the free one where it belongs. The number of slots is a power of 2,
+ * and at most half of them are used, so the linear search meets a free one soon. */
 static int32_t *slot_of(const intern *p, const void *items, dem_index n)
 {
     const uint64_t last = (uint64_t)(p->n_slots - 1);
@@ -37,6 +44,7 @@ static int32_t *slot_of(const intern *p, const void *items, dem_index n)
     return &p->slots[slot];
 }
 
+/* Doubles the table and enters all lists again. */
 static dem_status rehash(intern *p)
 {
     const dem_index n_slots = p->n_slots > 0 ? 2 * p->n_slots : 64;
@@ -53,6 +61,7 @@ static dem_status rehash(intern *p)
     return DEM_OK;
 }
 
+/* Spans hold indices rather than pointers, because the items move when the array grows. */
 dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *out)
 {
     if (2 * p->n_lists >= p->n_slots) TRY(rehash(p));
@@ -71,6 +80,7 @@ dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *o
     return DEM_OK;
 }
 
+/* After the last list has been added the table is of no use. Spans that have been given out stay valid. */
 dem_status intern_settle(intern *p)
 {
     const size_t size = (size_t)p->n * p->unit;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sync the file, rename it, sync the folder: in this order. */
+/* Publishing a file: sync the file, rename it to its final name, sync the folder, in this order. A rename replaces the
+ * name at once, but without the first sync the name may reach the disk before the bytes do, and without the last one
+ * the rename itself may be lost. Whenever the machine stops, a name therefore stands for a whole file, old or new. What
+ * is written into the files is the business of record.c and of output/; this file sees paths only. */
 #include "base/publish.h"
 
 #include <errno.h>
@@ -11,6 +14,8 @@
 
 #include "base/status.h"
 
+/* A read-only descriptor is enough for fsync() and works for folders as well. EINVAL means that the file system cannot
+ * sync this kind of file: that is no error of the file. */
 dem_status publish_sync(const char *path)
 {
     const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
@@ -21,6 +26,7 @@ dem_status publish_sync(const char *path)
     return DEM_OK;
 }
 
+/* The rename is an entry of the folder, which has to be synced in its own right. */
 static dem_status sync_folder_of(const char *path)
 {
     const char *slash = strrchr(path, '/');

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers that look random and are the same on every machine. */
+/* Pseudo-random numbers that are the same on every machine: integer arithmetic and one exact division. Used where a
+ * seed has to give the same result everywhere, as in jitter and start vectors of iterations. */
 #ifndef DEM_BASE_RANDOM_H
 #define DEM_BASE_RANDOM_H
 
 #include <stdint.h>
 
-/** The next number, in [-1, 1), of a generator whose state may start anywhere: splitmix64. */
+/** The next number, in [-1, 1), of splitmix64. The state may start at any value and is advanced. */
 static inline double random_next(uint64_t *state)
 {
     uint64_t z = *state += 0x9e3779b97f4a7c15u;

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The message of the last failure, one per thread; the version. */
+/* The message of the last failure, one for each thread, and the names of statuses and of the version. The library never
+ * prints: a function that fails stores its message here (CHECK in status.h) and returns a status; the program decides
+ * what becomes of it. The texts themselves stand where a failure is found, not here. */
 #include "base/status.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 
+/* It stays until the next failure of the thread. A longer message is cut. */
 static _Thread_local char last_message[512];
 
 const char *dem_version(void)
@@ -40,6 +43,7 @@ const char *dem_status_name(dem_status status)
     return NULL; /* a callback may return any number */
 }
 
+/* Allocates nothing, so that a lack of memory can be reported, too. */
 dem_status status_fail(dem_status status, const char *format, ...)
 {
     va_list arguments;

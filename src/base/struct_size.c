@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Copies public structs to and from callers whose header is of another version. */
+/* Copies public structs to and from a caller whose header is of another version of the library. `struct_size`, the
+ * first member, says how long the caller's struct is. A shorter one is older: its missing members have their defaults.
+ * A longer one is newer: it is accepted as long as it asks for nothing that this library does not know. Defaults and
+ * the meaning of members are the business of those who own a struct. */
 #include "base/struct_size.h"
 
 #include <string.h>
@@ -19,6 +22,7 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
+/* A size below that of the first version cannot come from any header of the library. */
 static dem_status check_least(const struct_kind *kind, size_t size)
 {
     CHECK(size >= kind->first, DEM_ERROR_ARGUMENT, "%s: struct_size is %zu, at least %zu expected", kind->name, size,
@@ -26,6 +30,8 @@ static dem_status check_least(const struct_kind *kind, size_t size)
     return DEM_OK;
 }
 
+/* A member unknown to this library must be 0, which stands for its default. Otherwise the caller would get a run
+ * without what it asked for. A size beyond STRUCT_SIZE_MOST is that of a struct that was never initialised. */
 dem_status struct_size_check(const struct_kind *kind, const void *theirs)
 {
     const size_t size = size_of(theirs);
@@ -40,6 +46,7 @@ dem_status struct_size_check(const struct_kind *kind, const void *theirs)
     return DEM_OK;
 }
 
+/* Copies the members that both sides have; the rest of `ours` keeps its defaults. */
 dem_status struct_size_read(const struct_kind *kind, void *ours, const void *theirs)
 {
     TRY(struct_size_check(kind, theirs));
@@ -48,6 +55,7 @@ dem_status struct_size_read(const struct_kind *kind, void *ours, const void *the
     return DEM_OK;
 }
 
+/* A size that is not a multiple of 8 ends within a member: such a member is not written at all. */
 dem_status struct_size_write(const struct_kind *kind, void *theirs, const void *ours)
 {
     const size_t size = size_of(theirs), head = sizeof size;

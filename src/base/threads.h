@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Work in shares that threads do at the same time; one after the other in a build without OpenMP. */
+/* Loops over threads. Work is given out in shares that do not depend on timing, and each share writes its own results,
+ * so the number of threads changes no bit. In a build without OpenMP the shares are taken one after the other. */
 #ifndef DEM_BASE_THREADS_H
 #define DEM_BASE_THREADS_H
 
@@ -11,8 +12,8 @@
 #define THREADS_DO(directive)
 #endif
 
-/** Makes a call for each of n threads, of number `t`. A single one is not left to OpenMP: to make a team of one takes a
- *  tenth of the time of a small body's step. */
+/** Runs a statement for t = 0 to n - 1, each in a thread of its own. A single one is not left to OpenMP: creating a
+ *  team of one takes a tenth of the time of a small body's step. */
 #define THREADS_RUN(n, t, ...)                                                                                         \
     do {                                                                                                               \
         if ((n) == 1) {                                                                                                \
@@ -24,7 +25,8 @@
         for (int t = 0; t < (n); t++) __VA_ARGS__;                                                                     \
     } while (0)
 
-/** Where share k of n things for `threads` threads begins. */
+/** Where share k of n items begins when they are divided among `threads` threads; share k ends where share k + 1
+ *  begins. */
 static inline dem_index threads_share(dem_index n, int threads, int k)
 {
     return n * k / threads;

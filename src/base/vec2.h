@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two-component arithmetic. */
+/* Arithmetic of vectors and symmetric matrices of two components. Rooms that must not know the number of dimensions do
+ * not include this file (tests/style/rooms.py). Every function is a fixed sequence of operations: no bit depends on the
+ * caller. */
 #ifndef DEM_BASE_VEC2_H
 #define DEM_BASE_VEC2_H
 
