@@ -216,8 +216,8 @@ INLINE double power_of(double size)
 }
 
 /* Adds terms to sums that lie in [2^k, 2^(k+1)] before and after. There the doubles are the multiples of u = 2^(k-52),
- * so the addition rounds each term to a multiple of u, and *sum - before is exactly what has been added. \return what
- * the rounding has left of the terms, at most u/2 each; exact */
+ * so the addition rounds each term to a multiple of u, and *sum - before is exactly what has been added.
+ * \return what the rounding has left of the terms, at most u/2 each; exact */
 INLINE vector extract(vector *sum, vector terms)
 {
     const vector before = *sum;

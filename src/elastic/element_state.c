@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Flags, and the list of nodes beside what is broken. */
+/* Which springs and triangles of a simulation are broken: a flag for each element, a flag for each node beside a broken
+ * one, and the list of these nodes. The model stays as it is, so several simulations of one model may have different
+ * states. The flags of nodes let the force on an intact node skip the flags of its elements, and the list tells the
+ * sweep over all nodes which of them to evaluate once more, one by one (accelerate_rest() in forces/kernel.c). When an
+ * element breaks is decided elsewhere: nothing does so yet. */
 #include "elastic/element_state.h"
 
 #include <stdlib.h>
 
 #include "base/status.h"
 
+/* One more item than needed in each array, so that no allocation is of no bytes. */
 dem_status element_state_create(element_state *out, const dem_lattice *lattice)
 {
     const size_t n = (size_t)lattice->n_nodes;
@@ -31,6 +36,7 @@ void element_state_destroy(element_state *s)
     *s = (element_state){0};
 }
 
+/* Notes a node beside a broken element, once. The list cannot overflow, since each node enters it at most once. */
 static void damage(element_state *s, dem_index node)
 {
     if (s->node[node]) return;
@@ -38,6 +44,7 @@ static void damage(element_state *s, dem_index node)
     s->damaged[s->n_damaged++] = node;
 }
 
+/* The element keeps its place in all arrays; those who read its numbers ask for its flag. */
 void element_state_break_spring(element_state *s, const dem_lattice *lattice, dem_index spring)
 {
     s->spring[spring] = 1;

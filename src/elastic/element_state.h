@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which springs and triangles have broken in one simulation: an element is whole or broken, the model that has its
- * numbers never changes and may belong to many simulations. Where there is no state all are whole. Nothing breaks them
- * yet: a law of fracture will, at events, and checkpoints will have the flags then. */
+/* Which springs and triangles have broken in one simulation. An element is whole or broken; the model, which has its
+ * numbers, never changes and may belong to many simulations. A simulation without such a state has whole elements only.
+ * Nothing breaks them yet: a law of fracture will, at events, and checkpoints will then have the flags. */
 #ifndef DEM_ELASTIC_ELEMENT_STATE_H
 #define DEM_ELASTIC_ELEMENT_STATE_H
 
@@ -34,7 +34,7 @@ static inline const unsigned char *element_state_triangles(const element_state *
     return s != NULL ? s->triangle : NULL;
 }
 
-/** What is to be asked about the elements of node i: NULL where all of them are whole. */
+/** The state to look at for the elements of node i: NULL where all of them are whole. */
 static inline const element_state *element_state_at(const element_state *s, dem_index i)
 {
     return s != NULL && s->node[i] ? s : NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lanes in AVX2. */
+/* The vectors of the sweep in AVX2. FMA instructions are not used, since their bits would differ. */
 #ifndef DEM_ELASTIC_LANES_AVX2_H
 #define DEM_ELASTIC_LANES_AVX2_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lanes in AVX-512 F, DQ and VL. */
+/* The vectors of the sweep in AVX-512 F, DQ and VL. FMA instructions are not used, since their bits would differ. */
 #ifndef DEM_ELASTIC_LANES_AVX512_H
 #define DEM_ELASTIC_LANES_AVX512_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lanes in C with vectors of two numbers, which compilers make of any machine's instructions. */
+/* The vectors of the sweep in C with the compiler's own vectors of two numbers, for any machine. */
 #ifndef DEM_ELASTIC_LANES_PORTABLE_H
 #define DEM_ELASTIC_LANES_PORTABLE_H
 

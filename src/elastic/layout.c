@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Groups what eight nodes do with their springs and triangles into entries for all lanes. */
+/* Compiles springs and triangles for the sweep (docs/algorithms.md, How forces are evaluated). Eight nodes with numbers
+ * in sequence are a block, one node to a lane. The file turns what the eight do into entries: one instruction for all
+ * lanes, such as "evaluate the spring to the node 1 further on". An entry has offsets relative to its block, not node
+ * numbers. In a regular lattice most blocks therefore have equal entries and coefficients, which are stored once
+ * (base/intern.h) and stay in the cache. A spring is evaluated once, by its lower node, and its force is left in a ring
+ * buffer. Both ends then sum up forces in the order of their own rows, so the sums have the bits of springs_force().
+ * The arithmetic is not here but in sweep_body.h, and the numbering of distant neighbours is in renumber.c. */
 #include "elastic/layout.h"
 
 #include <stdlib.h>
@@ -12,13 +18,14 @@
 enum {
     whole = 0xffff, /* mask of all lanes */
     most_widths = 3,
-    usual_span = 1024, /* nodes: a ring of so many is in the cache, no other order is looked for */
+    usual_span = 1024, /* nodes: the ring for so many fits into the cache, so that no other order is sought */
     most_rounds = 2    /* entries per item of the fullest lane, up to which operands that lie side by side are sought */
 };
 
-static const dem_index ring_bytes = 1 << 22; /* as much and 64 bytes a node: more memory is not worth it */
+/* A ring may take this and 64 bytes for each node: more memory is not worth it. */
+static const dem_index ring_bytes = 1 << 22;
 
-/* What one lane does. */
+/* What one lane has to do for one spring, term or corner of its node. */
 typedef struct item {
     int32_t at, to;     /* operands of this lane */
     int32_t base, last; /* where they would begin for lane 0 if all lay side by side */
@@ -27,6 +34,8 @@ typedef struct item {
     double set[most_widths];
 } item;
 
+/* The work in hand: the items of the eight lanes of a block, the entries made of them so far, and the streams of the
+ * ring. */
 typedef struct builder {
     layout *l;
     const springs *s;
@@ -44,6 +53,7 @@ typedef struct builder {
     int64_t *key, *used; /* [n_streams] what a stream of the ring was used for, and the last block that did */
 } builder;
 
+/* The node at place q of the layout's order, and the other way round. Entries know places only. */
 static dem_index node_at(const layout *l, dem_index q)
 {
     return l->order != NULL ? l->order[q] : q;
@@ -56,6 +66,7 @@ static int32_t place_of(const builder *b, dem_index node)
 
 /* ---- arrays that grow ---- */
 
+/* Appends an entry to the block in hand. */
 static dem_status add_entry(builder *b, layout_entry entry)
 {
     CHECK(grow_array((void **)&b->entries, &b->entry_capacity, b->n_entries + 1, sizeof *b->entries), DEM_ERROR_MEMORY,
@@ -64,7 +75,8 @@ static dem_status add_entry(builder *b, layout_entry entry)
     return DEM_OK;
 }
 
-/* What has been added is what the block does. */
+/* The entries added since the last call are what this block does. A block that does the same as an earlier one gets the
+ * earlier one's span. */
 static dem_status close_block(builder *b, layout_part *part, dem_index block)
 {
     const dem_index n = b->n_entries;
@@ -72,6 +84,7 @@ static dem_status close_block(builder *b, layout_part *part, dem_index block)
     return intern_find(&part->entries, b->entries, n, &part->span[block]);
 }
 
+/* Stores one operand for each lane, for entries whose operands do not lie side by side. */
 static dem_status add_list(layout *l, const int32_t *index, int32_t *number)
 {
     CHECK(l->n_lists < INT32_MAX / LAYOUT_LANES, DEM_ERROR_MODEL, "too many springs");
@@ -84,17 +97,24 @@ static dem_status add_list(layout *l, const int32_t *index, int32_t *number)
 
 /* ---- groups of items ---- */
 
+/* The next item of a lane; NULL if it has no more. */
 static const item *head(const builder *b, int lane)
 {
     return b->next[lane] < b->n[lane] ? &b->items[lane * b->most + b->next[lane]] : NULL;
 }
 
+/* Whether an item can be done in one entry with the leader's: with the same sign, and with its operands where the
+ * leader's are, shifted by the difference of their lanes. With `by_slot` any item will do, since operands are then
+ * listed one by one. */
 static bool fits(const builder *b, const item *a, const item *leader)
 {
     return b->by_slot || (a->base == leader->base && a->last == leader->last && a->negative == leader->negative);
 }
 
-/* The item that comes first, and all that can be taken with it; NULL: none is left. */
+/* Takes the next items that one entry can do. The leader is the head with the lowest neighbour relative to its lane,
+ * and all heads that fit it go along; with `by_slot` all heads go. Only heads are taken, so each lane keeps the order
+ * of its own items, on which the bits of its sum depend.
+ * \return the leader; NULL if no item is left */
 static const item *take_group(builder *b)
 {
     const item *leader = NULL;
@@ -110,12 +130,14 @@ static const item *take_group(builder *b)
     return leader;
 }
 
+/* All items are to be taken again. */
 static void rewind_items(builder *b)
 {
     for (int lane = 0; lane < LAYOUT_LANES; lane++) b->next[lane] = 0;
 }
 
-/* Whether operands side by side make few enough groups. */
+/* Tries the grouping by operands side by side, whose loads are cheaper. If it makes more than `most_rounds` times as
+ * many groups as the fullest lane has items, the k-th items of all lanes are grouped instead (`by_slot`). */
 static void choose_groups(builder *b)
 {
     dem_index fullest = 0, groups = 0;
@@ -133,7 +155,7 @@ static const item *taken_of(const builder *b, int lane)
     return &b->items[lane * b->most + b->next[lane] - 1];
 }
 
-/* Two bits for each lane that takes part; of these, for each that is the upper node. */
+/* Bits 2q and 2q + 1, one for each component, are set for each lane q that takes part in the group. */
 static uint16_t mask_of(const builder *b)
 {
     unsigned mask = 0;
@@ -142,6 +164,8 @@ static uint16_t mask_of(const builder *b)
     return (uint16_t)mask;
 }
 
+/* The same for each lane whose node is the upper end of its spring. The ring has the force on the lower end; the upper
+ * end subtracts it. */
 static uint16_t upper_of(const builder *b)
 {
     unsigned mask = 0;
@@ -150,6 +174,7 @@ static uint16_t upper_of(const builder *b)
     return (uint16_t)mask;
 }
 
+/* Whether the operands of all lanes that take part can be loaded as one run of memory. */
 static bool side_by_side(const builder *b, const item *leader)
 {
     bool all = true;
@@ -160,7 +185,8 @@ static bool side_by_side(const builder *b, const item *leader)
     return all;
 }
 
-/* One operand of the group as a list; lanes that take no part have `idle`, and so on from there by `step`. */
+/* Lists one operand of the group, lane by lane. A lane that takes no part reads `idle` + `step` * lane: a valid place,
+ * whose result is masked out or never read. Places are doubled, since operands are pairs of numbers. */
 static dem_status list_operand(builder *b, size_t operand, int32_t idle, int32_t step, int32_t *number)
 {
     int32_t index[LAYOUT_LANES];
@@ -172,13 +198,15 @@ static dem_status list_operand(builder *b, size_t operand, int32_t idle, int32_t
     return add_list(b->l, index, number);
 }
 
+/* LAYOUT_ADD needs no mask: all eight lanes take part. */
 static uint8_t kind_of(const builder *b, bool gathered)
 {
     if (gathered) return LAYOUT_GATHERED;
     return mask_of(b) == whole ? LAYOUT_ADD : LAYOUT_MASKED;
 }
 
-/* Where the coefficients of the group are; lanes that take no part have the leader's. */
+/* Stores the coefficients of the group, in the order in which the vectors hold the lanes (layout_lane). A lane that
+ * takes no part has the leader's, so that incomplete groups share their sets with whole ones. */
 static dem_status set_of(builder *b, intern *sets, dem_index width, const item *leader, int32_t *place)
 {
     double values[most_widths * LAYOUT_LANES];
@@ -192,6 +220,7 @@ static dem_status set_of(builder *b, intern *sets, dem_index width, const item *
     return DEM_OK;
 }
 
+/* Whether eight nodes in sequence from `first` on exist: lanes that take no part are loaded with the others. */
 static bool in_range(const builder *b, int32_t first)
 {
     return first >= 0 && (dem_index)first + LAYOUT_LANES <= b->l->n_nodes;
@@ -199,7 +228,10 @@ static bool in_range(const builder *b, int32_t first)
 
 /* ---- springs ---- */
 
-/* The stream of the ring that was used for this, else the one not used for longest. */
+/* The ring consists of streams. A stream has room for one force of each of `ring_rows` nodes, and a block writes into a
+ * stream at most once. `key` is what an entry does relative to its block: blocks that do the same use the same stream,
+ * so that their entries are equal. Otherwise the stream that has not been used for longest is taken, or a new one if
+ * this block uses all of them already. */
 static dem_status find_stream(builder *b, int64_t key, dem_index block, dem_index *stream)
 {
     dem_index found = -1;
@@ -219,6 +251,7 @@ static dem_status find_stream(builder *b, int64_t key, dem_index block, dem_inde
     return DEM_OK;
 }
 
+/* Insertion sort by the upper node's place: a node has a few springs, and the order of evaluation changes no sum. */
 static void sort_by_place(item *list, dem_index n)
 {
     for (dem_index k = 1; k < n; k++)
@@ -229,6 +262,7 @@ static void sort_by_place(item *list, dem_index n)
         }
 }
 
+/* The items of the springs whose lower ends are in this block: those whose other end has a higher place. */
 static void list_springs(builder *b, dem_index block)
 {
     const springs *s = b->s;
@@ -249,6 +283,7 @@ static void list_springs(builder *b, dem_index block)
     }
 }
 
+/* Entries that evaluate springs. `force` notes where in the ring each spring's force will be, for lay_terms(). */
 static dem_status lay_springs(builder *b, dem_index block)
 {
     layout *l = b->l;
@@ -275,13 +310,16 @@ static dem_status lay_springs(builder *b, dem_index block)
 
 /* ---- terms ---- */
 
-/* Where the ring would have the force for lane 0. Behind its end it repeats its first eight. */
+/* Where in its stream the force for lane 0 would be if this group's forces lay side by side, counted round the ring.
+ * Behind its end a stream repeats its first eight places, so that a run of eight never has to be cut. */
 static int32_t ring_base(const layout *l, int32_t force, int lane)
 {
     const int32_t stride = (int32_t)(l->ring_rows + LAYOUT_LANES), stream = force / stride;
     return stream * stride + ((force - stream * stride - lane) & (int32_t)(l->ring_rows - 1));
 }
 
+/* The items of the sum over a node's row, in the order of the row. `negative` marks springs that the other end
+ * evaluates. */
 static void list_terms(builder *b, dem_index block)
 {
     const springs *s = b->s;
@@ -296,6 +334,7 @@ static void list_terms(builder *b, dem_index block)
     }
 }
 
+/* Entries that sum up forces. The forces of the block itself and of lower ones are in the ring by then. */
 static dem_status lay_terms(builder *b, dem_index block)
 {
     layout *l = b->l;
@@ -315,12 +354,16 @@ static dem_status lay_terms(builder *b, dem_index block)
 
 /* ---- corners of triangles ---- */
 
+/* Keeps how many blocks away the positions are that triangles read; springs read no further than `reach`. Verlet's
+ * fused step drifts so far ahead. */
 static void look_ahead(layout *l, dem_index block, int32_t place)
 {
     const dem_index way = place / LAYOUT_LANES - block, ahead = (way > 0 ? way : -way) + 1;
     if (ahead > l->ahead) l->ahead = ahead;
 }
 
+/* The items of the triangles at each node: the other two corners, and the coefficients. A triangle without guard has
+ * the onset -inf, which no area is below. */
 static void list_corners(builder *b, dem_index block)
 {
     const triangles *t = b->t;
@@ -342,6 +385,8 @@ static void list_corners(builder *b, dem_index block)
     }
 }
 
+/* Entries for triangles: always the k-th triangle of each node in the order of its row, as triangles_force() sums
+ * them. */
 static dem_status lay_corners(builder *b, dem_index block)
 {
     layout *l = b->l;
@@ -363,12 +408,16 @@ static dem_status lay_corners(builder *b, dem_index block)
 
 /* ---- all blocks ---- */
 
+/* A node with springs to a great part of the others needs a stream for each of them, and a long ring: then blocks are
+ * given up, and every node is evaluated row by row. */
 static bool worth_it(const builder *b)
 {
     const layout *l = b->l;
     return b->n_streams * (l->ring_rows + LAYOUT_LANES) * 16 <= ring_bytes + 64 * l->n_nodes;
 }
 
+/* Springs come before terms, since terms need to know where in the ring the forces are. The terms of a block refer to
+ * this block and lower ones only. */
 static dem_status lay_blocks(builder *b)
 {
     layout *l = b->l;
@@ -387,7 +436,9 @@ static dem_status lay_blocks(builder *b)
     return DEM_OK;
 }
 
-/* An order by distance, if neighbours are far apart as they are numbered and nearer so. */
+/* Renumbers the nodes if neighbours are far apart as they are numbered and at most half as far after renumbering. Then
+ * sets the sizes that follow from the distance: how far blocks reach, and the length of the ring, a power of 2 so that
+ * a place in it is found with a mask. */
 static dem_status choose_order(builder *b)
 {
     layout *l = b->l;
@@ -412,6 +463,7 @@ static dem_status choose_order(builder *b)
     return DEM_OK;
 }
 
+/* `most` is the largest number of items that a lane can have. */
 static dem_status allocate(builder *b)
 {
     layout *l = b->l;
@@ -441,7 +493,7 @@ dem_status layout_compile(layout *out, const springs *s, const triangles *t)
     CHECK(s->n_nodes < INT32_MAX / 2 && s->n_springs < INT32_MAX / 2, DEM_ERROR_MODEL,
           "%lld nodes and %lld springs are more than the library takes", (long long)s->n_nodes,
           (long long)s->n_springs);
-    l.bonds.unit = l.areas.unit = sizeof(double);
+    l.bonds.unit = l.areas.unit = sizeof(double); /* the unit of the entries is set in allocate() */
     dem_status status = allocate(&b);
     if (status == DEM_OK) status = lay_blocks(&b);
     free(b.items);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Springs and triangles in the order in which a sweep over all nodes takes them: eight nodes at a time, one to a lane.
- * Each spring is evaluated once, by its lower node, and its force left in a ring of memory, from where both of its ends
- * collect it in the order of their rows: so the sums have the bits of a sum over the row. */
+ * Each spring is evaluated once, by its lower node, and its force is left in a ring buffer, from where both of its ends
+ * collect it in the order of their rows: so the sums have the bits of a sum over the row. layout.c says how the entries
+ * are found, sweep_body.h how they are carried out. */
 #ifndef DEM_ELASTIC_LAYOUT_H
 #define DEM_ELASTIC_LAYOUT_H
 
@@ -14,7 +15,8 @@
 
 enum { LAYOUT_LANES = 8 };
 
-/** The lane of coefficients that belongs to node q of a block: x0 y0 .. x3 y3 and x4 y4 .. x7 y7 interleave to this. */
+/** Where the coefficients of node q of a block stand among eight: vectors that are interleaved from x0 y0 .. x3 y3 and
+ *  x4 y4 .. x7 y7 hold the nodes in the order 0 4 1 5 2 6 3 7. */
 static inline int layout_lane(int q)
 {
     return 2 * (q % 4) + q / 4;
@@ -27,9 +29,9 @@ typedef enum layout_kind {
     LAYOUT_GATHERED  /**< `at`, and `to` of corners, are lists of one operand for each lane */
 } layout_kind;
 
-/** What the lanes of a block do at the same time. Operands are places in arrays of pairs, in numbers: where they lie
- *  side by side that of lane 0, counted from that of the block's first node, so that blocks which do the same have the
- *  same entries; else numbers of lists, in which places are counted from the start. */
+/** What the lanes of a block do at the same time. Operands are places in arrays of pairs, counted in numbers. Where the
+ *  operands of the lanes lie side by side, `at` is that of lane 0 relative to the block's first node, so that blocks
+ *  which do the same have equal entries. Otherwise it is the number of a list with an absolute place for each lane. */
 typedef struct layout_entry {
     int32_t at;    /* of springs: upper node; of terms: force in the ring; of corners: next node */
     int32_t to;    /* of springs: force in the ring; of terms: mask of the upper nodes; of corners: last node */
@@ -62,8 +64,8 @@ typedef struct layout {
     dem_index ring_length; /* forces in the ring */
 } layout;
 
-/** Compiles. A body that does not lend itself to it (a node with springs to a great part of the others) has no blocks.
- *  Free with layout_free(). */
+/** Compiles. A lattice in which a node has springs to a great part of the others gets no blocks. Free with
+ *  layout_free(). */
 dem_status layout_compile(layout *out, const springs *s, const triangles *t);
 void layout_free(layout *l);
 

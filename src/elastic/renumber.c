@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Breadth-first numbering from an end of each piece. */
+/* Breadth-first numbering of nodes (Cuthill and McKee, without their sorting by degree): nodes are numbered by their
+ * distance, in springs, from a node at the rim, so that neighbours differ by about the width of the body rather than by
+ * its number of nodes. layout.c uses it where the caller's numbers would make the ring buffer long. It changes where
+ * numbers lie in memory, never an order of sums. */
 #include "elastic/renumber.h"
 
 dem_index renumber_span(const springs *s, const int32_t *place)
@@ -13,7 +16,9 @@ dem_index renumber_span(const springs *s, const int32_t *place)
     return span;
 }
 
-/* Puts the piece of `first` into the list from `n` on, ring by ring; nodes in it get their places. The new length. */
+/* Appends the part of the lattice that is connected to `first` to the list, which has n nodes so far: each node found
+ * adds its neighbours that have no place yet. `order` serves as the queue.
+ * \return the new length of the list */
 static dem_index spread(const springs *s, dem_index first, dem_index n, int32_t *order, int32_t *place)
 {
     dem_index seen = n;
@@ -29,7 +34,8 @@ static dem_index spread(const springs *s, dem_index first, dem_index n, int32_t 
     return n;
 }
 
-/* Begins again at the node found last, which is at an end of the piece. */
+/* A first search from an arbitrary node ends at a node that is far from it, hence at the rim. The numbering is that of
+ * a second search, which begins there: its rings are narrow. */
 void renumber_by_distance(const springs *s, int32_t *order, int32_t *place)
 {
     dem_index n = 0;

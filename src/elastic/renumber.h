@@ -11,7 +11,7 @@
  *  \param place  [n_nodes] number of each node; NULL: its own */
 dem_index renumber_span(const springs *s, const int32_t *place);
 
-/** Numbers by distance from a node at the rim (Cuthill and McKee's), one piece after the other.
+/** Numbers nodes by their distance from one at the rim (Cuthill and McKee), connected parts one after the other.
  *  \param[out] order  [n_nodes] the node at each place
  *  \param[out] place  [n_nodes] the place of each node */
 void renumber_by_distance(const springs *s, int32_t *order, int32_t *place);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* CSR adjacency compiled from triplets; energies, strains and bounds of springs. The forces are inline in springs.h. */
+/* Springs in CSR form, compiled from the lattice's list: row i has the springs at node i, neighbours ascending, so each
+ * spring is in two rows. Besides, what is computed of springs apart from forces: energy, strain, power of damping,
+ * tangent stiffness and bounds of frequencies. The force (1) itself is inline in springs.h, and the same law for
+ * vectors of springs is in sweep_body.h. */
 #include "elastic/springs.h"
 
 #include <stdbool.h>
@@ -9,13 +12,15 @@
 #include "base/reduce.h"
 #include "base/status.h"
 
+/* row[i + 1] first counts the springs of node i and then, summed up, says where the next row begins. */
 static void count_rows(springs *s, const dem_lattice *lattice)
 {
     for (dem_index k = 0; k < 2 * lattice->n_springs; k++) s->row[lattice->ends[k] + 1]++;
     for (dem_index i = 0; i < s->n_nodes; i++) s->row[i + 1] += s->row[i];
 }
 
-/* Neighbours come out ascending: the transpose of a list by rows is sorted, so entries go in by neighbour. */
+/* Neighbours come out ascending without a sort: the ends are visited in the order of the nodes j they are at, and each
+ * j is appended to the row of its partner i. */
 static void fill_rows(springs *s, const dem_lattice *lattice, const dem_index *by_node, dem_index *next)
 {
     for (dem_index q = 0; q < 2 * lattice->n_springs; q++) {
@@ -29,7 +34,8 @@ static void fill_rows(springs *s, const dem_lattice *lattice, const dem_index *b
     }
 }
 
-/* Spring ends (2k, 2k + 1) sorted by the node they are at: a counting sort, stable. */
+/* Lists spring ends, e = 2k + end, by the node they are at: a counting sort, which keeps the order of equal ones.
+ * `next` is where each row goes on being filled, and is reset for fill_rows(). */
 static void sort_ends(const springs *s, const dem_lattice *lattice, dem_index *by_node, dem_index *next)
 {
     for (dem_index i = 0; i < s->n_nodes; i++) next[i] = s->row[i];
@@ -37,6 +43,7 @@ static void sort_ends(const springs *s, const dem_lattice *lattice, dem_index *b
     for (dem_index i = 0; i < s->n_nodes; i++) next[i] = s->row[i];
 }
 
+/* Neighbours are sorted, so two springs between the same nodes are next to each other. */
 static dem_status refuse_duplicates(const springs *s)
 {
     for (dem_index i = 0; i < s->n_nodes; i++)
@@ -94,6 +101,10 @@ void springs_free(springs *s)
     *s = (springs){0};
 }
 
+/* The force on node i is p d with d = x_j - x_i and p = E (|d| - d0)/(d0 |d|). With w = u_j - u_i it changes by
+ *     p w + (dp/d|d|) (d.w/|d|) d = p w + (E/d0 - p) (d.w/|d|^2) d,
+ * since dp/d|d| = E/|d|^2 = (E/d0 - p)/|d|. The first part is the stiffness of turning under tension, the second one of
+ * stretching. The sum is returned with the opposite sign: K u. */
 vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u)
 {
     vec2 out = {0.0, 0.0};
@@ -108,11 +119,13 @@ vec2 springs_tangent(const springs *s, dem_index i, const double *x, const doubl
     return out;
 }
 
+/* E d0 e^2/2: the work of (1) from the rest length to the strain e, J. */
 static double energy(double stiffness, double rest_length, double strain)
 {
     return 0.5 * stiffness * rest_length * strain * strain;
 }
 
+/* A rounded sum in the order of the row. Each spring counts in full here, as the energy that depends on this node. */
 double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x)
 {
     double sum = 0.0;
@@ -122,6 +135,7 @@ double springs_node_energy(const springs *s, const unsigned char *broken, dem_in
     return sum;
 }
 
+/* Squared lengths first; root and division go through all springs at once. */
 void springs_strain_block(const dem_lattice *lattice, dem_index first, int n, const double *x, double *strain)
 {
     const dem_index *ends = lattice->ends + 2 * first;
@@ -132,6 +146,8 @@ void springs_strain_block(const dem_lattice *lattice, dem_index first, int n, co
     array_ops_fastest()->stretch(strain, lattice->rest_length + first, n);
 }
 
+/* An exact sum: its bits depend neither on the order of springs nor on that of nodes (docs/algorithms.md). Broken
+ * springs are evaluated with the others and set to 0 afterwards, which keeps the loop free of branches. */
 double springs_energy(const dem_lattice *lattice, const unsigned char *broken, const double *x)
 {
     exact_sum sum = {0};
@@ -162,7 +178,7 @@ void springs_forces(const dem_lattice *lattice, const unsigned char *broken, con
     for (dem_index k = 0; k < lattice->n_springs; k++) force[k] *= lattice->stiffness[k];
 }
 
-/* Of the spring in slot p of row i, 1/s. */
+/* d.v/(d0 |d|) of the spring in slot p of row i, with d and v from node i to its neighbour, 1/s. */
 static double strain_rate(const springs *s, dem_index i, dem_index p, const double *x, const double *v)
 {
     const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
@@ -170,6 +186,8 @@ static double strain_rate(const springs *s, dem_index i, dem_index p, const doub
     return vec2_dot(d, dv) / (s->rest_length[p] * vec2_norm(d));
 }
 
+/* Sum of c e'^2 d0 over springs, W: the force c e' times the rate e' d0 at which the length changes. A spring is taken
+ * from the row of its lower node. A rounded sum, since this is evaluated as often as the forces are. */
 double springs_damping_power(const springs *s, const unsigned char *broken, const double *x, const double *v)
 {
     double power = 0.0;
@@ -183,6 +201,7 @@ double springs_damping_power(const springs *s, const unsigned char *broken, cons
     return power;
 }
 
+/* c/d0 n n^T with n = d/|d|, so that no root is needed. */
 sym2 springs_block(const springs *s, const double *strength, dem_index i, const double *x)
 {
     sym2 block = {0.0, 0.0, 0.0};
@@ -193,12 +212,13 @@ sym2 springs_block(const springs *s, const double *strength, dem_index i, const 
     return block;
 }
 
+/* 2 |S_i|/m_i with S_i = sum of c/d0 n n^T: see docs/method.md, Damping. */
 double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass)
 {
     double bound = 0.0;
     for (dem_index i = 0; s->viscosity != NULL && i < s->n_nodes; i++) {
         const double own = 2.0 * sym2_largest(springs_block(s, s->viscosity, i, x)) * inverse_mass[i];
-        if (!isfinite(own)) return (double)INFINITY;
+        if (!isfinite(own)) return (double)INFINITY; /* fmax() would drop a NAN */
         bound = fmax(bound, own);
     }
     return bound;

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Springs in CSR and the bond force (1). The only place that divides by a rest length. */
+/* Springs in CSR and the bond force (1). The only place that divides by a rest length. A list of flags `broken`
+ * [n_springs], by the lattice's numbers, leaves springs out; NULL: all are whole. */
 #ifndef DEM_ELASTIC_SPRINGS_H
 #define DEM_ELASTIC_SPRINGS_H
 
 #include <stdbool.h>
 
 #include "base/vec2.h"
-
-/* A list of flags `broken` [n_springs], by the lattice's numbers, leaves springs out; NULL: all are whole. */
 
 typedef struct springs {
     dem_index n_nodes, n_springs;

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The sweep, in terms of `pairs`, the two components of eight nodes, and `lanes`, a number for each of them. A file for
- * each instruction set defines these and SWEEP, SWEEP_GUARD, and includes this. */
+/* The sweep over blocks of eight nodes, written once for all instruction sets. A file for each set (lanes_*.h) defines
+ *   pairs  the two components of eight nodes, in the order x0 y0 x1 y1 .. x7 y7;
+ *   lanes  one number for each of eight nodes, in the order 0 4 1 5 2 6 3 7, which is how pairs interleave without a
+ *          permutation across the halves of a vector;
+ * and their operations. The sweep_*.c files then define SWEEP and SWEEP_GUARD and include this. Every operation acts on
+ * each node alone and rounds as in springs_force(), triangles_force() and forces_acceleration_by(): for each node the
+ * same IEEE operations follow in the same order, which is why the bits are equal. */
 #ifndef DEM_ELASTIC_SWEEP_BODY_H
 #define DEM_ELASTIC_SWEEP_BODY_H
 
@@ -8,7 +13,7 @@
 
 #define INLINE static inline __attribute__((always_inline)) /* so that `damped` is known where loops are compiled */
 
-/* `here` is where operands that lie side by side are counted from. */
+/* The operands of an entry for all lanes. `here` is where those that lie side by side are counted from. */
 INLINE pairs fetch(const layout *l, const double *array, const double *here, int32_t at, bool gathered)
 {
     return gathered ? pairs_gather(array, l->lists + at) : pairs_load(here + at);
@@ -24,7 +29,8 @@ INLINE void repeat(const layout *l, intern_span span, double *ring)
     }
 }
 
-/* Forces of the springs of which the block has the lower nodes, (1), and behind them in the ring those of damping. */
+/* Forces (1) of the springs of which the block has the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), into the ring;
+ * and behind all of them, those of damping, c (d.v)/(d0 d^2) d. Lanes that take no part leave what nobody collects. */
 INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, double *ring)
 {
     const layout *l = s->layout;
@@ -52,7 +58,8 @@ INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, doubl
     if (damped) repeat(l, span, damping);
 }
 
-/* Each node's sum over its row. */
+/* Each node's sum over its row, in the order of the row: the upper end of a spring subtracts the force on the lower
+ * end. */
 INLINE pairs sum_terms(const layout *l, dem_index block, const double *ring)
 {
     const intern_span span = l->terms.span[block];
@@ -80,7 +87,7 @@ INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
     return nodes;
 }
 
-/* Each node's sum over its triangles of the area term, and which nodes the guard acts on. */
+/* Each node's sum over its triangles of the area term, -kappa (A/A0 - 1) dA/dx_i, and which nodes the guard acts on. */
 INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
 {
     const layout *l = s->layout;
@@ -107,7 +114,7 @@ INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
     return sum;
 }
 
-/* m a = F + m g, less the drag. */
+/* a = g + F/m - alpha v; 0 where 1/m = 0, which is a fixed node. */
 INLINE pairs accelerate(const sweep *s, dem_index block, bool damped, const double *ring)
 {
     const layout *l = s->layout;
@@ -143,7 +150,8 @@ INLINE void kick(const sweep_fused_step *p, dem_index block, pairs a1)
     pairs_store(p->v1 + at, pairs_add(extrapolated, pairs_mul(half_h, pairs_sub(a1, a0))));
 }
 
-/* Blocks below the first are evaluated only. Nodes collect a block behind, when what was left has reached the cache. */
+/* Blocks below the first are evaluated only, for the springs that reach into this share from below. Nodes collect their
+ * forces a block later than these are computed, when what was stored has reached the cache. */
 INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, bool fused, double *ring)
 {
     const dem_index reach = s->layout->reach, ahead = s->layout->ahead;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* The sweep with the compiler's own vectors, for any machine: the arithmetic is in sweep_body.h. */
 #include "elastic/lanes_portable.h"
 
 #define SWEEP       sweep_portable

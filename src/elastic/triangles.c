@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Area term and folding guard: W = A0 (kappa/2 (J - 1)^2 + g w(J)), w = (-ln(J/Jc))^3, J = A/A0; forces gathered node
- * by node in a fixed order. */
+/* What triangles add to springs: the area term, from which any Poisson's ratio other than 1/3 comes, and the folding
+ * guard, which keeps squeezed triangles from turning inside out (docs/method.md, The solid). The energy of a triangle
+ * depends on its area A alone, and so keeps momentum and angular momentum:
+ *     W = A0 (kappa/2 (J - 1)^2 + g w(J)),   J = A/A0,   w = (-ln(J/Jc))^3 below Jc = 0.4 and 0 above.
+ * Forces are gathered node by node in the fixed order of rows. The area term of the sweep is in sweep_body.h with the
+ * same bits. kappa and g are chosen elsewhere, in lattice/assemble.c. */
 #include "elastic/triangles.h"
 
 #include <stdlib.h>
@@ -8,9 +12,11 @@
 #include "base/reduce.h"
 #include "base/status.h"
 
+/* Below this J the guard's energy goes on as its Taylor polynomial of second degree. */
 static const double taylor_below = 0.05;
 
-/* ln(r) for 0 < r <= 1, the same bits on every machine: r = m 2^-k, ln m = 2 artanh((m - 1)/(m + 1)). */
+/* ln(r) for 0 < r <= 1, the same bits on every machine, which the library's log() does not promise. r = m 2^-k with
+ * 1/sqrt(2) <= m <= 1, and ln m = 2 artanh(s) = 2 (s + s^3/3 + s^5/5 + ...) with s = (m - 1)/(m + 1). */
 static double natural_log(double r)
 {
     const double ln2 = 0.693147180559945309417;
@@ -25,6 +31,9 @@ static double natural_log(double r)
     return 2.0 * s * series - halvings * ln2;
 }
 
+/* With L = -ln(J/Jc) > 0:  w = L^3,  w' = -3 L^2/J,  w'' = (6 L + 3 L^2)/J^2, all 0 at the onset L = 0. `beyond` is how
+ * far J is below the limit of Taylor's polynomial; there the energy stays finite and its slope goes on pushing J up,
+ * even for a triangle that is inverted (J < 0). */
 triangles_law triangles_guard_law(double area_ratio)
 {
     if (area_ratio >= TRIANGLES_GUARD_ONSET) return (triangles_law){0.0, 0.0, 0.0};
@@ -34,19 +43,21 @@ triangles_law triangles_guard_law(double area_ratio)
     return (triangles_law){w + beyond * (w1 + 0.5 * beyond * w2), w1 + beyond * w2, w2};
 }
 
+/* Signed area, m^2, of the triangle in slot p of row i. Each corner computes it from its own rotation of the
+ * corners. */
 static double area_at(const triangles *t, dem_index i, dem_index p, const double *x)
 {
     return vec2_triangle_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
 }
 
-/* dA/dx_i */
+/* dA/dx_i = (z x (x_last - x_next))/2: the side opposite to node i, turned by 90 degrees towards it, and halved. */
 static vec2 gradient(const triangles *t, dem_index p, const double *x)
 {
     const vec2 opposite = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, t->next[p]));
     return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
-/* w'(J) of area term and guard together, N/m */
+/* dW/dA = kappa (J - 1) + g w'(J), N/m: what area term and guard together resist a change of area with. */
 static double slope_at(const triangles *t, dem_index p, double A)
 {
     const double A0 = t->rest_area[p];
@@ -55,12 +66,14 @@ static double slope_at(const triangles *t, dem_index p, double A)
     return slope;
 }
 
+/* A0 d^2W/dA^2 = kappa + g w''(J), N/m. */
 static double curvature_at(const triangles *t, dem_index p, double A)
 {
     const double curvature = t->guard[p] * triangles_guard_law(A / t->rest_area[p]).curvature;
     return t->area_stiffness != NULL ? t->area_stiffness[p] + curvature : curvature;
 }
 
+/* -dW/dA dA/dx_i, summed over the row. A triangle at its rest area is skipped. */
 vec2 triangles_force(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
@@ -72,13 +85,15 @@ vec2 triangles_force(const triangles *t, const unsigned char *broken, dem_index 
     return force;
 }
 
+/* For an energy of the area alone r x f is A dW/dA times the unit tensor, since dA = A tr(e) under a strain e. */
 double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x)
 {
     const double A = area_at(t, i, p, x);
     return A * slope_at(t, p, A);
 }
 
-/* dA/dx_i is linear in the positions, so that its change is itself, of u. */
+/* d(dW/dA dA/dx_i) = d^2W/dA^2 (dA.u) dA/dx_i + dW/dA d(dA/dx_i). The area is quadratic in the positions: `change` =
+ * dA.u is its first variation, and dA/dx_i is linear, so that its change is gradient() of u. */
 vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u)
 {
     vec2 out = {0.0, 0.0};
@@ -94,7 +109,7 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
     return out;
 }
 
-/* Energies at J = area / rest area of the triangle in slot p. */
+/* Energies, J, of the triangle in slot p at the area ratio J. */
 static double area_energy(const triangles *t, dem_index p, double J)
 {
     if (t->area_stiffness == NULL) return 0.0;
@@ -106,6 +121,8 @@ static double guard_energy(const triangles *t, dem_index p, double J)
     return J >= TRIANGLES_GUARD_ONSET ? 0.0 : t->rest_area[p] * t->guard[p] * triangles_guard_law(J).energy;
 }
 
+/* Every triangle at the node counts in full: the energy that depends on this node. A rounded sum in the order of the
+ * row. */
 double triangles_node_energy(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
 {
     double energy = 0.0;
@@ -117,6 +134,8 @@ double triangles_node_energy(const triangles *t, const unsigned char *broken, de
     return energy;
 }
 
+/* A triangle is taken from the row of its lowest corner. Both sums are exact. Areas are collected in blocks; the guard
+ * acts on few triangles, which are added one by one. */
 void triangles_energy(const triangles *t, const unsigned char *broken, const double *x, double *area, double *guard)
 {
     exact_sum areas = {0}, guards = {0};
@@ -137,6 +156,7 @@ void triangles_energy(const triangles *t, const unsigned char *broken, const dou
     *guard = reduce_sum(&guards);
 }
 
+/* A negative kappa lowers frequencies and is left out of their upper bound. */
 sym2 triangles_block(const triangles *t, dem_index i, const double *x)
 {
     sym2 block = {0.0, 0.0, 0.0};
@@ -145,8 +165,8 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x)
     return block;
 }
 
-/* Of A0 g w(A/A0):  g w'' (dA.u)^2/A0 + g w' u.A'' u,  where (dA.u)^2 <= 3 sum of (dA/dx_i.u_i)^2, and A'' has the
- * eigenvalues 0 and +-sqrt(3)/2. */
+/* The second variation of A0 g w(A/A0) is g w'' (dA.u)^2/A0 + g w' u.A'' u. Here (dA.u)^2 <= 3 sum of (dA/dx_i.u_i)^2,
+ * and A'' has the eigenvalues 0 and +-sqrt(3)/2. What falls to node i is the coefficient of u_i^2. */
 double triangles_guard_bound(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
 {
     const double turn = 0.8660254037844386;
@@ -163,6 +183,7 @@ double triangles_guard_bound(const triangles *t, const unsigned char *broken, de
 
 /* ---- compilation ---- */
 
+/* Triangles without area term and guard are left out of the rows. */
 static bool acts(const dem_lattice *lattice, dem_index k)
 {
     return (lattice->guard != NULL && lattice->guard[k] > 0.0) ||
@@ -184,6 +205,8 @@ static dem_status allocate(triangles *t, dem_index slots, bool stiff)
     return DEM_OK;
 }
 
+/* The corners next and last follow corner c counter-clockwise. The rest area is computed from each corner separately,
+ * with the arithmetic of area_at(), so that J is exactly 1 at rest from every corner. */
 static void fill(triangles *t, const dem_lattice *lattice)
 {
     for (dem_index k = 0; k < lattice->n_triangles; k++)
@@ -196,14 +219,14 @@ static void fill(triangles *t, const dem_lattice *lattice)
             t->next[p] = corner[(c + 1) % 3];
             t->last[p] = corner[(c + 2) % 3];
             t->triangle[p] = k;
-            t->rest_area[p] = area_at(t, corner[c], p, lattice->x); /* J is exactly 1 at rest, from every corner */
+            t->rest_area[p] = area_at(t, corner[c], p, lattice->x);
             t->guard[p] = lattice->guard != NULL ? lattice->guard[k] : 0.0;
             if (t->area_stiffness != NULL) t->area_stiffness[p] = lattice->area_stiffness[k];
         }
     }
 }
 
-/* After fill() row[i + 1] is the start of row i. */
+/* fill() leaves the start of row i in row[i + 1]: moves it to row[i]. */
 static void shift_rows(triangles *t, dem_index slots)
 {
     for (dem_index i = 0; i < t->n_nodes; i++) t->row[i] = t->row[i + 1];
