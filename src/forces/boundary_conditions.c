@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Prescribed motions and forces. */
+/* Boundary conditions: components of the motion of chosen nodes that are prescribed, and forces put on nodes, both
+ * times a ramp r(t) (docs/method.md, Boundary conditions). With s = t/T for a ramp of length T,
+ *     r = 10 s^3 - 15 s^4 + 6 s^5,
+ * which is twice continuously differentiable and of degree 5, so that a method of order 5 integrates it to rounding.
+ * Prescribed components stay unknowns of the ODE and get given derivatives; the force that this takes follows as a
+ * reaction. Fixed nodes are not here but have an inverse mass of 0 (model/model.c); forces that a program computes are
+ * in external_force.c. */
 #include "forces/boundary_conditions.h"
 
 #include <stdbool.h>
@@ -12,13 +18,15 @@ enum { BOTH = DEM_COMPONENT_X | DEM_COMPONENT_Y };
 
 /* ---- the ramp ---- */
 
-/* t/ramp, where the ramp goes on; beyond it its derivatives are 0. */
+/* Sets s = t/T, and tells whether the ramp is going on there. Before and after it its derivatives are 0. Without a ramp
+ * (T = 0) it is over from the start. */
 static bool within(const boundary_condition *b, double t, double *s)
 {
     *s = b->ramp > 0.0 ? t / b->ramp : 1.0;
     return *s > 0.0 && *s < 1.0;
 }
 
+/* r(t), between 0 and 1. */
 double boundary_condition_ramp(const boundary_condition *b, double t)
 {
     double s;
@@ -26,21 +34,22 @@ double boundary_condition_ramp(const boundary_condition *b, double t)
     return s > 0.0 ? 1.0 : 0.0;
 }
 
-/* 1/s */
+/* dr/dt = 30 s^2 (1 - s)^2/T, 1/s. */
 static double ramp_slope(const boundary_condition *b, double t)
 {
     double s;
     return within(b, t, &s) ? 30.0 * s * s * (1.0 - s) * (1.0 - s) / b->ramp : 0.0;
 }
 
-/* 1/s^2 */
+/* d^2r/dt^2 = 60 s (1 - s) (1 - 2 s)/T^2, 1/s^2. */
 static double ramp_curvature(const boundary_condition *b, double t)
 {
     double s;
     return within(b, t, &s) ? 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (b->ramp * b->ramp) : 0.0;
 }
 
-/* Integral of the ramp from 0 to t, s. */
+/* Integral of r from 0 to t, s: T (5/2 s^4 - 3 s^5 + s^6) within the ramp, T/2 at its end, and t - T/2 from there
+ * on. */
 static double ramp_area(const boundary_condition *b, double t)
 {
     double s;
@@ -48,11 +57,14 @@ static double ramp_area(const boundary_condition *b, double t)
     return s > 0.0 ? t - 0.5 * b->ramp : 0.0;
 }
 
+/* A velocity condition moves its nodes with V r, hence by V times the integral of r; a displacement condition by U
+ * r. */
 vec2 boundary_condition_displacement(const boundary_condition *b, double t)
 {
     return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_area(b, t) : boundary_condition_ramp(b, t), b->value);
 }
 
+/* This is the time derivative of the displacement, and the acceleration below is that of the velocity. */
 vec2 boundary_condition_velocity(const boundary_condition *b, double t)
 {
     return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? boundary_condition_ramp(b, t) : ramp_slope(b, t), b->value);
@@ -65,6 +77,7 @@ vec2 boundary_condition_acceleration(const boundary_condition *b, double t)
 
 /* ---- all of them, in a state ---- */
 
+/* The sum over the list of the node's forces, in one order for each model, so that it has the same bits everywhere. */
 vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double t)
 {
     vec2 force = {0.0, 0.0};
@@ -75,21 +88,25 @@ vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double
     return force;
 }
 
-/* Power of a force on its nodes, W. */
+/* Power of a force on its nodes, W: r F.(sum of share v), since all nodes have the same direction of force. */
 static double push_power(const boundary_condition *b, double t, const double *v)
 {
+    /* The shares are summed up first, and the direction and size of the force enter once. */
     vec2 sum = {0.0, 0.0};
     for (dem_index k = 0; k < b->n_nodes; k++) sum = vec2_along(sum, b->share[k], vec2_at(v, b->nodes[k]));
     return boundary_condition_ramp(b, t) * vec2_dot(b->value, sum);
 }
 
+/* The prescribed vector in the components that the condition names, the free one in the others. */
 static vec2 with_components(const boundary_condition *b, vec2 free, vec2 prescribed)
 {
     return (vec2){b->components & DEM_COMPONENT_X ? prescribed.x : free.x,
                   b->components & DEM_COMPONENT_Y ? prescribed.y : free.y};
 }
 
-/* Prescribes components of f and a; returns the power that this takes, the sum of m (a - a without it).v. */
+/* Puts prescribed components into velocities f and accelerations a. To change the free acceleration to the prescribed
+ * one takes the reaction R = m (a - a_free) on each node.
+ * \return the power of the reactions, the sum of R.v, W */
 static double prescribe(const boundary_condition *b, const double *mass, double t, double *f, double *a)
 {
     const vec2 velocity = boundary_condition_velocity(b, t), acceleration = boundary_condition_acceleration(b, t);
@@ -106,6 +123,7 @@ static double prescribe(const boundary_condition *b, const double *mass, double 
     return power;
 }
 
+/* `a` comes in free of the conditions. No component is prescribed twice (check_node), so the order does not matter. */
 double boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
                                      double *f, double *a)
 {
@@ -116,6 +134,7 @@ double boundary_conditions_prescribe(const boundary_conditions *b, const double 
     return power;
 }
 
+/* The initial velocities have to agree with the conditions at t = 0; with a ramp that is 0. */
 static void begin(const boundary_condition *b, double *v)
 {
     const vec2 velocity = boundary_condition_velocity(b, 0.0);
@@ -136,6 +155,7 @@ bool boundary_conditions_move(const boundary_conditions *b)
     return false;
 }
 
+/* The largest slope of r is 1.875/T, in the middle of the ramp. */
 double boundary_conditions_speed(const boundary_conditions *b)
 {
     double fastest = 0.0;
@@ -150,6 +170,7 @@ double boundary_conditions_speed(const boundary_conditions *b)
 
 /* ---- compilation ---- */
 
+/* What can be said of a condition without the lattice. A displacement without a ramp would be a jump of position. */
 static dem_status check_one(const dem_boundary *b, dem_index k)
 {
     const long long number = (long long)k;
@@ -168,7 +189,9 @@ static dem_status check_one(const dem_boundary *b, dem_index k)
     return DEM_OK;
 }
 
-/* Checks that boundary k may drive the node; `held`: components that others prescribe, and whether k names it. */
+/* Whether condition k may have its p-th node. `held` has for each node the components that are prescribed so far, and
+ * in the bit NAMED whether condition k has named the node already. A node with a prescribed motion must not touch
+ * obstacles: a contact could not change its velocity. */
 static dem_status check_node(const dem_boundary *b, dem_index k, dem_index p, const dem_lattice *l, bool touches,
                              unsigned char *held)
 {
@@ -179,6 +202,7 @@ static dem_status check_node(const dem_boundary *b, dem_index k, dem_index p, co
     CHECK(!(held[node] & NAMED), DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is named twice", number, node);
     CHECK(b->share == NULL || isfinite(b->share[p]), DEM_ERROR_ARGUMENT,
           "boundary %lld: the share of node %lld is not finite", number, node);
+    /* What follows concerns prescribed motions only: forces may act on any node, several on one. */
     held[node] |= NAMED;
     if (b->kind == DEM_BOUNDARY_FORCE) return DEM_OK;
     CHECK(!(l->flags[node] & DEM_NODE_FIXED), DEM_ERROR_MODEL, "boundary %lld: node %lld is fixed already", number,
@@ -193,6 +217,7 @@ static dem_status check_node(const dem_boundary *b, dem_index k, dem_index p, co
     return DEM_OK;
 }
 
+/* The marks of a condition are removed before the next one is checked. */
 static dem_status check_all(const dem_boundary *list, dem_index n, const dem_lattice *l, bool touches,
                             unsigned char *held)
 {
@@ -204,6 +229,7 @@ static dem_status check_all(const dem_boundary *list, dem_index n, const dem_lat
     return DEM_OK;
 }
 
+/* A force without shares is shared equally. */
 static dem_status copy(boundary_condition *out, const dem_boundary *from)
 {
     const size_t n = (size_t)from->n_nodes;
@@ -222,6 +248,7 @@ static dem_status copy(boundary_condition *out, const dem_boundary *from)
     return DEM_OK;
 }
 
+/* Makes a linked list of forces for each node. They are entered at the head, so a list has the last condition first. */
 static dem_status list_pushes(boundary_conditions *b, dem_index n_nodes)
 {
     size_t n = 0;
@@ -231,6 +258,7 @@ static dem_status list_pushes(boundary_conditions *b, dem_index n_nodes)
     b->pushes = malloc(n * sizeof *b->pushes);
     CHECK(b->first && b->pushes, DEM_ERROR_MEMORY, "out of memory for %zu forces on nodes", n);
     for (dem_index i = 0; i < n_nodes; i++) b->first[i] = -1;
+    /* Entry `at` belongs to node p of condition k; the head of the node's list moves on to it. */
     dem_index at = 0;
     for (dem_index k = 0; k < b->n; k++)
         for (dem_index p = 0; p < b->list[k].n_nodes && b->list[k].share != NULL; p++, at++) {
@@ -241,6 +269,7 @@ static dem_status list_pushes(boundary_conditions *b, dem_index n_nodes)
     return DEM_OK;
 }
 
+/* Conditions are counted before they are copied, so that a failure half-way leaves no memory behind. */
 static dem_status compile(boundary_conditions *b, const dem_boundary *list, dem_index n, dem_index n_nodes)
 {
     b->list = calloc((size_t)n, sizeof *b->list);
@@ -260,6 +289,7 @@ dem_status boundary_conditions_compile(boundary_conditions *out, const dem_bound
     CHECK(n >= 0 && (n == 0 || list != NULL), DEM_ERROR_ARGUMENT, "%lld boundaries, the list is %s", (long long)n,
           list != NULL ? "given" : "NULL");
     if (n == 0) return DEM_OK;
+    /* Kept after the checks: the right-hand side asks for the prescribed components of each node. */
     b.held = calloc((size_t)lattice->n_nodes, sizeof *b.held);
     CHECK_MEMORY(b.held);
     dem_status status = check_all(list, n, lattice, n_obstacles > 0, b.held);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What is done to nodes from outside: components of their motion that are prescribed, and forces on them, both as
- * functions of time. */
+ * functions of time that are known beforehand (docs/method.md, Boundary conditions). */
 #ifndef DEM_FORCES_BOUNDARY_CONDITIONS_H
 #define DEM_FORCES_BOUNDARY_CONDITIONS_H
 
@@ -54,17 +54,17 @@ vec2 boundary_condition_displacement(const boundary_condition *b, double t);
 vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double t);
 
 /** Puts the prescribed components into the derivative of a state: velocities f, accelerations a, [n_nodes][2].
- *  \return the power that the boundaries put in, W: of the forces that this takes and of the forces given */
+ *  \return the power that the boundary conditions put in, W: that of the reactions and that of the forces given */
 double boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
                                      double *f, double *a);
 
 /** Puts the prescribed components at t = 0 into the velocities v [n_nodes][2]. */
 void boundary_conditions_begin(const boundary_conditions *b, double *v);
 
-/** Whether one of them prescribes motions. */
+/** Whether one of the conditions prescribes motions. */
 bool boundary_conditions_move(const boundary_conditions *b);
 
-/** The fastest that a boundary moves a component, m/s. */
+/** The largest speed of a component that a condition prescribes, m/s. */
 double boundary_conditions_speed(const boundary_conditions *b);
 
 #endif

@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Energies, mean motions and strains of a state. */
+/* What is measured on a state: energies, motion of bodies, extreme strains, reactions of obstacles and boundary
+ * conditions, residual. Sums are exact, and equal extremes are distinguished by the nodes of a spring, so that the
+ * numbers do not depend on the numbering of nodes and springs (docs/algorithms.md, Numbers of the whole). Nothing here
+ * feeds back into the motion. What damping and friction take is not measured but integrated with the motion
+ * (simulation/right_hand_side.c); impacts have their ledger in contact/ledger.c. */
 #include "forces/diagnostics.h"
 
 #include "base/reduce.h"
 
+/* Adds a vector to a pair of sums. */
 static void add(exact_sum sum[2], vec2 term)
 {
     exact_sum_add(&sum[0], term.x);
@@ -15,14 +20,14 @@ static vec2 sum_of(const exact_sum sum[2])
     return (vec2){reduce_sum(&sum[0]), reduce_sum(&sum[1])};
 }
 
-/* Kinetic energies of the n nodes from `first` on. */
+/* m v^2/2 of the n nodes from `first` on, J. */
 static void fill_kinetic(const dem_lattice *l, const double *v, dem_index first, int n, double *out)
 {
     for (dem_index i = first; i < first + n; i++)
         out[i - first] = 0.5 * l->mass[i] * vec2_dot(vec2_at(v, i), vec2_at(v, i));
 }
 
-/* Energies of their weights. */
+/* -m g.x of the same nodes: energy of their weights, J, 0 at the origin. */
 static void fill_weight(const forces *f, const double *x, dem_index first, int n, double *out)
 {
     const vec2 g = {f->gravity[0], f->gravity[1]};
@@ -30,6 +35,7 @@ static void fill_weight(const forces *f, const double *x, dem_index first, int n
         out[i - first] = -f->model->lattice.mass[i] * vec2_dot(g, vec2_at(x, i));
 }
 
+/* Terms are computed in blocks, which exact sums take faster than single terms. */
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
     const dem_model *model = f->model;
@@ -56,6 +62,7 @@ static void take_moments(exact_sum sum[n_moments], double terms[n_moments][EXACT
     for (int k = 0; k < n_moments; k++) exact_sum_take(&sum[k], terms[k], n);
 }
 
+/* Adds m, m x and m v of the nodes of a body. */
 static void add_moments(const dem_lattice *l, dem_index body, const double *x, const double *v,
                         exact_sum sum[n_moments])
 {
@@ -77,7 +84,8 @@ static void add_moments(const dem_lattice *l, dem_index body, const double *x, c
     take_moments(sum, terms, n);
 }
 
-/* Angular momentum of a body about its centre, which moves with it. */
+/* Angular momentum of a body about its centre of mass, sum of m (x - x_c) x (v - v_c), kg m^2/s. mean[0] is x_c,
+ * mean[1] is v_c. */
 static double spin_of(const dem_lattice *l, dem_index body, const double *x, const double *v, const vec2 mean[2])
 {
     exact_sum sum = {0};
@@ -95,9 +103,11 @@ static double spin_of(const dem_lattice *l, dem_index body, const double *x, con
     return reduce_sum(&sum);
 }
 
+/* Centre of mass and its velocity come first, since the angular momentum is taken about them. */
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v)
 {
     exact_sum sum[n_moments] = {0};
+    /* All sums of the body at once, in one pass over the nodes. */
     add_moments(&model->lattice, body, x, v, sum);
     const double mass = reduce_sum(&sum[0]);
     const vec2 centre = vec2_scale(1.0 / mass, sum_of(&sum[1])), velocity = vec2_scale(1.0 / mass, sum_of(&sum[3]));
@@ -105,12 +115,15 @@ dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const d
     return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, spin};
 }
 
+/* The smallest ratio of area to rest area, the number of triangles on which the guard acts, and that of inverted ones.
+ * Broken triangles are left out. */
 static void measure_triangles(const forces *f, const double *x, dem_strain *strain)
 {
     const dem_lattice *l = &f->model->lattice;
     for (dem_index k = 0; k < l->n_triangles; k++) {
         if (f->elements != NULL && f->elements->triangle[k]) continue;
         const dem_index *c = &l->triangles[3 * k];
+        /* From the lattice's rest positions, as triangles_compile() has it: the ratio is exactly 1 at rest. */
         const double rest_area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
         const double ratio = vec2_triangle_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest_area;
         if (ratio < strain->area_min) strain->area_min = ratio;
@@ -133,7 +146,7 @@ static spring_ends ends_of(const dem_lattice *l, dem_index spring)
     return ends[0] < ends[1] ? (spring_ends){ends[0], ends[1]} : (spring_ends){ends[1], ends[0]};
 }
 
-/* Of springs with equal strains the first by its ends is named, whatever the order of springs. */
+/* Of springs with equal strains the first one by its ends is named: this does not depend on the order of springs. */
 static bool is_before(const dem_lattice *l, dem_index spring, dem_index other)
 {
     const spring_ends a = ends_of(l, spring), b = ends_of(l, other);
@@ -146,6 +159,7 @@ typedef struct extreme_strains {
     dem_index least, largest;
 } extreme_strains;
 
+/* Keeps spring k if its strain is beyond the extremes so far, or equal to one of them and first by its ends. */
 static void measure_spring(const dem_lattice *l, dem_index k, double strain, extreme_strains *e)
 {
     if (e->least < 0 || strain < e->min || (strain == e->min && is_before(l, k, e->least))) {
@@ -158,6 +172,7 @@ static void measure_spring(const dem_lattice *l, dem_index k, double strain, ext
     }
 }
 
+/* Extremes over springs that are whole; strains come in blocks with vector instructions. */
 static void measure_springs(const forces *f, const double *x, dem_strain *strain)
 {
     const dem_lattice *l = &f->model->lattice;
@@ -170,6 +185,7 @@ static void measure_springs(const forces *f, const double *x, dem_strain *strain
         for (int q = 0; q < n; q++)
             if (!springs_is_broken(broken, first + q)) measure_spring(l, first + q, block[q], &e);
     }
+    /* The key tells which of equal values counts if several processes have one. */
     reduce_least(&e.min, &e.least, e.least < 0 ? -1 : ends_of(l, e.least).low);
     reduce_largest(&e.max, &e.largest, e.largest < 0 ? -1 : ends_of(l, e.largest).low);
     strain->min = e.min;
@@ -186,13 +202,17 @@ dem_strain diagnostics_strain(const forces *f, const double *x)
     return strain;
 }
 
-/* Force of a contact on the body. */
+/* Force of a contact on the body, N n + T t with t = (n_y, -n_x), N. */
 static vec2 contact_force(const dem_contact *c)
 {
     const vec2 n = vec2_at(c->normal, 0), t = {n.y, -n.x};
     return vec2_along(vec2_scale(c->force, n), c->friction, t);
 }
 
+/* The resultant F of an obstacle's contacts, and the point where it acts. With P the mean of the places, weighted by
+ * the size of their forces, and M the moment about P, the line of F goes through P + (M/F^2) (F_y, -F_x): there F alone
+ * has the moment of all contacts. Taking M about P rather than the origin avoids a loss of digits far from the
+ * origin. */
 dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle)
 {
     dem_obstacle_load load = {0};
@@ -211,6 +231,7 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
     for (dem_index k = 0; k < n; k++)
         if (list[k].obstacle == obstacle)
             exact_sum_add(&moments, vec2_cross(vec2_sub(vec2_at(list[k].x, 0), mean), contact_force(&list[k])));
+    /* Without a resultant there is no line of action, and the mean place is given. */
     const double square = vec2_dot(sum, sum), moment = reduce_sum(&moments);
     const vec2 arm = square > 0.0 ? vec2_scale(moment / square, (vec2){sum.y, -sum.x}) : (vec2){0.0, 0.0};
     vec2_put(load.reaction, 0, sum);
@@ -218,7 +239,7 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
     return load;
 }
 
-/* Force that the prescribed components of a node's motion take, N, where it would have the acceleration `free`. */
+/* The reaction R = m (a - a_free) of the components that the condition prescribes, N. */
 static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i, vec2 free, double t)
 {
     const vec2 wanted = boundary_condition_acceleration(b, t);
@@ -226,13 +247,15 @@ static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i
     return (vec2){b->components & DEM_COMPONENT_X ? force.x : 0.0, b->components & DEM_COMPONENT_Y ? force.y : 0.0};
 }
 
-/* Acceleration of a node if its motion were not prescribed. */
+/* Acceleration of a node if its motion were not prescribed; the external force is part of it. */
 static vec2 free_acceleration(const forces *f, dem_index i, const double *external, const double *x, const double *v)
 {
     const vec2 own = forces_own_acceleration(f, i, x, v);
     return external != NULL ? forces_with_external(f, i, own, vec2_at(external, i)) : own;
 }
 
+/* The sum of the forces of the condition on its nodes, and the mean of their displacements from the places where the
+ * run began, m. v[f->clock] is the time of the state. */
 dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *external,
                                        const double *x, const double *v)
 {
@@ -250,7 +273,7 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
     return out;
 }
 
-/* Largest force of a spring, N. */
+/* The largest |E e| of the springs that are whole, N: the scale of the residual. */
 static double largest_force(const forces *f, const double *x)
 {
     const dem_lattice *l = &f->model->lattice;
@@ -261,6 +284,8 @@ static double largest_force(const forces *f, const double *x)
     return largest;
 }
 
+/* The drag -alpha m v is taken out of m a: what is left is how far a node is off its static equilibrium, over the
+ * largest force of a spring. Infinite if nodes are pushed and no spring is strained. */
 double diagnostics_residual(const forces *f, const double *x, const double *v, const double *a)
 {
     const dem_model *model = f->model;

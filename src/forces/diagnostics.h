@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is measured on a state: energies, powers, mean motions, strains. Sums are exact, so that no order shows in
- * them. */
+/* What is measured on a state: energies, powers, mean motions, strains. Sums are exact: they do not depend on the order
+ * of their terms. */
 #ifndef DEM_FORCES_DIAGNOSTICS_H
 #define DEM_FORCES_DIAGNOSTICS_H
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluates the external force, and keeps its failure. */
+/* The external force: asks the caller's function for forces on nodes, and keeps its failure (docs/method.md, Forces and
+ * motions from outside). An evaluation stands in the middle of a step of the integrator, which cannot be left half-way.
+ * After a failure the force is therefore 0 until the time loop has asked for the status with external_force_failure()
+ * and thrown the step away. Forces that a deck prescribes are not here but in boundary_conditions.c. */
 #include "forces/external_force.h"
 
 #include <math.h>
@@ -8,6 +11,7 @@
 
 #include "base/status.h"
 
+/* Without a function of the caller there is no object: *out stays NULL, and nothing is evaluated. */
 dem_status external_force_create(external_force **out, const dem_options *options, int dim, dem_index n_nodes)
 {
     const size_t n = (size_t)n_nodes;
@@ -35,6 +39,7 @@ void external_force_destroy(external_force *c)
     free(c);
 }
 
+/* Keeps the first failure, with time and node for its message. */
 static void fail(external_force *c, const dem_force_query *query, dem_status status, dem_index node)
 {
     c->status = status;
@@ -42,12 +47,15 @@ static void fail(external_force *c, const dem_force_query *query, dem_status sta
     c->node = node;
 }
 
+/* A force that is not finite is a failure, too: it would spoil the whole state. The first such node is named. */
 static void check(external_force *c, const dem_force_query *query, const double *force)
 {
     for (dem_index k = 0; k < c->dim * query->n && c->status == DEM_OK; k++)
         if (!isfinite(force[k])) fail(c, query, DEM_ERROR_INTEGRATOR, query->nodes[k / c->dim]);
 }
 
+/* The function is called with forces of 0, so that it may set only some of them. What it has set when it fails is
+ * dropped. */
 void external_force_ask(external_force *c, const dem_force_query *query, double *force)
 {
     const size_t size = (size_t)c->dim * (size_t)query->n * sizeof *force;
@@ -72,6 +80,7 @@ void external_force_of_node(external_force *c, double t, dem_index node, const d
     external_force_ask(c, &(dem_force_query){.t = t, .n = 1, .nodes = &node, .x = x, .v = v}, force);
 }
 
+/* Sum of f.v over all nodes, W, of the forces evaluated last; a rounded sum in the order of nodes. */
 double external_force_power(const external_force *c, const double *v)
 {
     double power = 0.0;
@@ -83,6 +92,7 @@ double external_force_power(const external_force *c, const double *v)
     return power;
 }
 
+/* Clears the failure, so that a program may go on after it has mended its function. */
 dem_status external_force_failure(external_force *c)
 {
     const dem_status status = c->status;

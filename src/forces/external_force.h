@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The external force, which a function of the caller gives. Where that fails, the computation goes on with a force of
- * 0, so that no step in between has to be given up half-way; the time loop checks for the failure afterwards. */
+ * 0, since a step of the integrator cannot be left half-way; the time loop checks for the failure after the step. */
 #ifndef DEM_FORCES_EXTERNAL_FORCE_H
 #define DEM_FORCES_EXTERNAL_FORCE_H
 

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Power: of one node, each force times its velocity; of all nodes, summed spring by spring and boundary by boundary. */
+/* Power of the forces on the nodes, which the energy ledger integrates: taken by damping, put in by boundary conditions
+ * and the external force (docs/method.md, Damping and The ledger). Of one node it is each force times its velocity; of
+ * all nodes it is summed spring by spring and condition by condition. The forces themselves are inline in forces.h. */
 #include "forces/forces.h"
 
+/* The rare case of a node with broken elements, kept out of line so that the usual one stays short. */
 vec2 forces_of_damaged(const forces *f, dem_index i, const double *x, const double *v)
 {
     return forces_of_whole_elements(f, f->elements, i, x, v);
 }
 
+/* The external force has been evaluated for all nodes before; its power is added to that of the conditions. */
 double forces_prescribe(const forces *f, double t, const double *v, double *u, double *a)
 {
     const double *mass = f->model->lattice.mass;
@@ -14,6 +18,9 @@ double forces_prescribe(const forces *f, double t, const double *v, double *u, d
     return f->external != NULL ? work + external_force_power(f->external, v) : work;
 }
 
+/* Damping takes alpha m v^2 and -F.v of the viscous forces F on this node; over both ends of a spring the latter adds
+ * up to c e'^2 d0. The work is F.v of the forces given. The reaction of a prescribed component is m (a - a_free), of
+ * which -m a_free is counted here, and the part with the prescribed acceleration a is left to the caller. */
 forces_power forces_node_power(const forces *f, dem_index i, vec2 external, const double *x, const double *v)
 {
     const dem_model *model = f->model;
@@ -24,6 +31,7 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
     if (forces_couple_velocities(f)) power.damping -= vec2_dot(springs_damping(&model->springs, broken, i, x, v), vi);
     if (forces_push(f)) power.work += vec2_dot(boundary_conditions_force(f->boundaries, i, v[f->clock]), vi);
     if (f->external != NULL) power.work += vec2_dot(external, vi);
+    /* Most nodes end here. The free acceleration of the others is computed anew, with the external force in it. */
     const unsigned held = forces_held(f, i);
     if (held == 0) return power;
     const vec2 a = forces_with_external(f, i, forces_own_acceleration(f, i, x, v), external);
@@ -32,6 +40,7 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
     return power;
 }
 
+/* Sum of c e'^2 d0 over springs, and of alpha m v^2 over the nodes that move, W. */
 double forces_damping_power(const forces *f, const double *x, const double *v)
 {
     const dem_model *model = f->model;

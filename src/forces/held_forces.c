@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gathers the nodes with prescribed components and asks for the external force on them. */
+/* Asks for the external force on the nodes with prescribed components, in one state. The reaction of such a node is m
+ * (a - a_free), and the external force is part of a_free. It is asked for when a state is about to be shown, since a
+ * query of a simulation must not call the program's function. How the force is used is in diagnostics.c. */
 #include "forces/held_forces.h"
 
 #include <stdlib.h>
 
 #include "base/status.h"
 
+/* Number of nodes with a prescribed component. */
 static dem_index count(const boundary_conditions *b, dem_index n_nodes)
 {
     dem_index n = 0;
@@ -26,6 +29,7 @@ static dem_status allocate(held_forces *h, const state_layout *layout)
     return DEM_OK;
 }
 
+/* Nodes are listed once; without an external force there is nothing to ask for. */
 dem_status held_forces_create(held_forces *out, const boundary_conditions *b, const external_force *external,
                               const state_layout *layout)
 {
@@ -36,6 +40,7 @@ dem_status held_forces_create(held_forces *out, const boundary_conditions *b, co
         held_forces_destroy(out);
         return status;
     }
+    /* Ascending, so that the external force sees the nodes in the same order in every run. */
     dem_index *next = out->nodes;
     for (dem_index i = 0; i < layout->n_nodes; i++)
         if (b->held[i] != 0) *next++ = i;
@@ -52,6 +57,7 @@ void held_forces_destroy(held_forces *h)
     *h = (held_forces){0};
 }
 
+/* The caller's function sees the nodes side by side; the answers go to their places among all nodes. */
 void held_forces_ask(held_forces *h, external_force *external, const state_layout *layout, const double *y)
 {
     if (h->n == 0) return;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The external force on the nodes with prescribed components, at one state. What prescribes a motion has to bear it, so
- * that dem_simulation_boundary() needs it; it is asked for beforehand, when a state is about to be shown, because what
- * only looks at a simulation must not call the program's function. */
+/* The external force on the nodes with prescribed components, at one state. The reaction of a prescribed motion
+ * contains it, so dem_simulation_boundary() needs it. It is evaluated beforehand, when a state is about to be shown,
+ * because a query of a simulation must not call the program's function. */
 #ifndef DEM_FORCES_HELD_FORCES_H
 #define DEM_FORCES_HELD_FORCES_H
 

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shares the blocks of a layout among threads; what is not in blocks, and what is rare, goes row by row. */
+/* Accelerations of all nodes, equations (3) and (4), by a sweep over the blocks of the layout, shared among threads
+ * (docs/algorithms.md, How forces are evaluated). What is not in blocks, and what is rare, is evaluated row by row
+ * behind the sweep: nodes on which the guard acts, nodes beside broken elements, nodes with given forces. Each node's
+ * sum is that of forces_own_acceleration() in the same order, so the bits depend neither on the instruction set nor on
+ * the number of threads. The choice of the instruction set is here, too. The arithmetic of a block is in
+ * elastic/sweep_body.h, that of a row in forces.h; contact forces are added elsewhere (contact/contact_forces.c). */
 #include "forces/kernel.h"
 
 #include <stdlib.h>
@@ -26,6 +31,7 @@ typedef struct kernel_row {
     const array_ops *ops;
 } kernel_row;
 
+/* By dem_kernel. A build without the instruction sets of x86 has the portable functions in their place. */
 static const kernel_row rows[] = {
     [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL},
     [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, &array_ops_portable},
@@ -34,6 +40,7 @@ static const kernel_row rows[] = {
 };
 enum { n_rows = sizeof rows / sizeof rows[0] };
 
+/* Whether this machine and this build have the instruction set. */
 static bool runs_here(dem_kernel kind)
 {
     if (kind == DEM_KERNEL_AVX2) return instruction_set_avx2();
@@ -41,6 +48,7 @@ static bool runs_here(dem_kernel kind)
     return kind == DEM_KERNEL_PORTABLE;
 }
 
+/* The kinds are numbered by speed, and the portable one runs everywhere. */
 static dem_kernel fastest(void)
 {
     dem_kernel kind = DEM_KERNEL_AVX512;
@@ -74,10 +82,13 @@ dem_status dem_kernel_check(dem_kernel kind)
 
 /* ---- set-up ---- */
 
+/* Each thread has a ring of its own, of two parts where springs are damped. If the layout has renumbered the nodes,
+ * there is room for packed copies in its order; the inverse masses among them never change. */
 static dem_status allocate(kernel *k)
 {
     const layout *l = &k->model->layout;
     const size_t n = (size_t)l->n_nodes;
+    /* Two numbers for each force; the forces of damping are behind those of the springs. */
     k->ring_size = 2 * (size_t)l->ring_length * (l->damped ? 2 : 1); /* a multiple of 16 */
     k->rings = aligned_zeros((size_t)k->n_threads * k->ring_size);
     k->guarded = calloc((size_t)l->n_blocks + 1, sizeof *k->guarded);
@@ -89,6 +100,7 @@ static dem_status allocate(kernel *k)
     return DEM_OK;
 }
 
+/* `auto` is replaced by what it stands for, so that kernel->kind says which instructions run. */
 dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads)
 {
     TRY(dem_kernel_check(kind));
@@ -145,18 +157,21 @@ typedef struct share {
     dem_index first, last;
 } share;
 
+/* Consecutive blocks, for all threads the same number up to one. */
 static share share_of(const kernel *k, int t)
 {
     const dem_index n = k->model->layout.n_blocks;
     return (share){threads_share(n, k->n_threads, t), threads_share(n, k->n_threads, t + 1)};
 }
 
+/* A thread without blocks leaves a sum of 0. */
 static void sweep_share(kernel *k, int t, const sweep *s)
 {
     const share b = share_of(k, t);
     k->sums[t] = b.first < b.last ? k->sweep(s, b.first, b.last, k->rings + (size_t)t * k->ring_size) : 0.0;
 }
 
+/* The sum only tells whether all accelerations are finite: its bits are of no consequence. */
 static double sweep_blocks(kernel *k, const sweep *s)
 {
     double sum = 0.0;
@@ -165,6 +180,7 @@ static double sweep_blocks(kernel *k, const sweep *s)
     return sum;
 }
 
+/* Verlet's drift of the nodes `first` to `last` - 1. */
 static void drift(const kernel *k, const sweep_fused_step *p, dem_index first, dem_index last)
 {
     const dem_index at = vec2_row(first);
@@ -172,7 +188,8 @@ static void drift(const kernel *k, const sweep_fused_step *p, dem_index first, d
     k->ops->drift(p->x1 + at, p->v1 + at, start, p->h, vec2_row(last - first));
 }
 
-/* Drifts those ends of a thread's share of blocks that other threads read, and nodes in no block. */
+/* Drifts those ends of a thread's share of blocks that other threads read, and nodes in no block. It is done for all
+ * threads before any of them sweeps. The sweep drifts the middle of a share by itself, just ahead of where it reads. */
 static void drift_ends(const kernel *k, int t, const sweep_fused_step *p)
 {
     const layout *l = &k->model->layout;
@@ -183,7 +200,9 @@ static void drift_ends(const kernel *k, int t, const sweep_fused_step *p)
     drift(k, p, LAYOUT_LANES * high, t + 1 < k->n_threads ? LAYOUT_LANES * b.last : l->n_nodes);
 }
 
-/* Computes the acceleration of one row; returns what it adds to the sum. */
+/* Acceleration of one node, in place of what the sweep has left there. In a fused step the node is drifted again, since
+ * the sweep has already added its kick to the velocity.
+ * \return what it adds to the sum of the sweep */
 static double accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
 {
     const sweep_fused_step *p = y->fused_step;
@@ -195,6 +214,7 @@ static double accelerate_row(const kernel *k, const forces *f, const kernel_stat
     return a.x + a.y;
 }
 
+/* u = v, for the nodes for which the sweep does not do it. */
 static double copy_velocities(const kernel_state *y, dem_index first, dem_index last)
 {
     double sum = 0.0;
@@ -202,7 +222,8 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
     return sum;
 }
 
-/* The sum over a state; the sweep's own contains broken springs too, which may be of any length. */
+/* The sum over a state. The sweep evaluates broken springs, too, whose lengths may be anything, and its sum may be not
+ * finite because of them; their nodes have been evaluated again by then. */
 static double sum_up(const kernel_state *y, dem_index n)
 {
     double sum = 0.0;
@@ -210,7 +231,8 @@ static double sum_up(const kernel_state *y, dem_index n)
     return sum;
 }
 
-/* The first place from q on whose node the guard acts on; that of the first node in no block if there is none. */
+/* The first place from q on at which the guard acts; the end of the blocks if there is none. Blocks without such a node
+ * are passed in one go. */
 static dem_index next_guarded(const kernel *k, dem_index q)
 {
     const dem_index end = LAYOUT_LANES * k->model->layout.n_blocks;
@@ -220,8 +242,8 @@ static dem_index next_guarded(const kernel *k, dem_index q)
     return q < end ? q : end;
 }
 
-/* Nodes behind the last block, nodes on which the guard acts, those at which something is broken, and those that are
- * pushed. */
+/* Evaluates row by row what the sweep leaves out: nodes behind the last block, nodes on which the guard acts, nodes
+ * beside a broken element, and nodes with given forces. A node may come up twice, with the same result. */
 static double accelerate_rest(const kernel *k, const forces *f, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
@@ -240,7 +262,7 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
     return sum;
 }
 
-/* Adds the external force, evaluated for all nodes at once. */
+/* a += f/m with the external force f, evaluated for all nodes in one call. */
 static double push(const forces *f, const kernel_state *y)
 {
     external_force *c = f->external;
@@ -254,11 +276,15 @@ static double push(const forces *f, const kernel_state *y)
     return sum;
 }
 
+/* A fused step evaluates a block before all positions and velocities of the new state exist, so forces must not depend
+ * on velocities or time; and packed copies have no drift of their own. */
 bool kernel_can_fuse(const kernel *k, const forces *f)
 {
     return k->packed == NULL && !forces_are_damped(f) && !forces_are_driven(f);
 }
 
+/* Drift the ends (fused step), pack if nodes are renumbered, sweep, unpack, then the rows and the external force.
+ * Packed velocities are needed for damping only. */
 double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
@@ -274,6 +300,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
                .guarded = k->guarded,
                .fused_step = y->fused_step};
     if (y->fused_step != NULL) THREADS_RUN(k->n_threads, t, drift_ends(k, t, y->fused_step));
+    /* The sweep knows the layout's order only. `packed` has 1/m first, x from n on, v from 3 n on and a from 5 n on. */
     if (k->packed != NULL) {
         pack(k, y->x, k->packed + n);
         if (l->damped || f->mass_damping != 0.0) pack(k, y->v, k->packed + 3 * n);
@@ -283,6 +310,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
         s.a = k->packed + 5 * n;
         s.u = NULL;
     }
+    /* From here on arrays are in the caller's order again. */
     double sum = sweep_blocks(k, &s);
     if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
@@ -291,6 +319,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     return f->external != NULL ? sum + push(f, y) : sum;
 }
 
+/* What the guard adds at most to omega^2 at the node at place q, 1/s^2. */
 static double guard_bound(const kernel *k, const forces *f, const double *x, dem_index q)
 {
     const layout *l = &k->model->layout;
@@ -299,6 +328,8 @@ static double guard_bound(const kernel *k, const forces *f, const double *x, dem
            k->model->inverse_mass[i];
 }
 
+/* The frequency is at most sqrt(omega_max^2 + the largest guard_bound()): returned in units of omega_max. The sweep is
+ * used only to find the nodes on which the guard acts. */
 double kernel_stiffening(kernel *k, const forces *f, const double *x)
 {
     const layout *l = &k->model->layout;
@@ -306,6 +337,7 @@ double kernel_stiffening(kernel *k, const forces *f, const double *x)
     double added = 0.0;
     if (k->model->triangles.row[l->n_nodes] == 0 || !(omega > 0.0)) return 1.0;
     if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
+    /* Positions are all that is needed to find the nodes on which the guard acts. */
     const sweep s = {.layout = l, .x = k->packed != NULL ? k->packed + l->n_nodes : x, .guarded = k->guarded};
     THREADS_RUN(k->n_threads, t, k->sweep_guard(&s, share_of(k, t).first, share_of(k, t).last));
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The accelerations of all nodes at once, by the instructions that the machine has, in threads. Every kernel and every
- * number of threads gives the bits of forces_acceleration(). */
+/* The accelerations of all nodes at once, with the vector instructions that the machine has, in threads. Every kernel
+ * and every number of threads gives the bits of forces_acceleration(). */
 #ifndef DEM_FORCES_KERNEL_H
 #define DEM_FORCES_KERNEL_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on the nodes near an event, constraints apart: a table of functions for those who know no number of
- * dimensions. local_springs.c fills it for the forces of a model. */
+/* What acts on the nodes near an event, constraints apart: a table of functions for folders that must not know the
+ * number of dimensions. local_springs.c fills it for the forces of a model. */
 #ifndef DEM_FORCES_LOCAL_FORCES_H
 #define DEM_FORCES_LOCAL_FORCES_H
 

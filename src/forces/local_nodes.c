@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Keeps a list, and the place of each node in it. */
+/* The nodes near an event, with numbers of their own: a list, and for each node of the lattice its number in it.
+ * Numbers are given out ring by ring, so that a ring is an interval of them. Which nodes are near is found elsewhere
+ * (events/neighbourhood.c), since that depends on forces and constraints. */
 #include "forces/local_nodes.h"
 
 #include <stdlib.h>
@@ -23,12 +25,14 @@ void local_nodes_destroy(local_nodes *b)
     *b = (local_nodes){0};
 }
 
+/* Resets only the nodes of the list: an event costs what is near it, not what the lattice has. */
 void local_nodes_clear(local_nodes *b)
 {
     for (dem_index j = 0; j < b->n; j++) b->number[b->list[j]] = -1;
     b->n = 0;
 }
 
+/* The next number; the caller closes a ring by noting how many nodes there are. */
 dem_status local_nodes_append(local_nodes *b, dem_index node)
 {
     CHECK(grow_array((void **)&b->list, &b->capacity, b->n + 1, sizeof *b->list), DEM_ERROR_MEMORY,

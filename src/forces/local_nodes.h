@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Some nodes with numbers of their own, ring by ring: what is near an event. */
+/* The nodes near an event, with numbers of their own, ring by ring. Ring 0 has the nodes that the event concerns, and
+ * each further ring those on which the forces on the ring before it depend. */
 #ifndef DEM_FORCES_LOCAL_NODES_H
 #define DEM_FORCES_LOCAL_NODES_H
 

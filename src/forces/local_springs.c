@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists springs by local numbers, and evaluates what acts on nodes. */
+/* Accelerations of the nodes near an event, as the functions of local_forces.h. Where undamped springs are all that
+ * acts between nodes (`plain`) they are listed by local numbers, once for an event, and each is evaluated once for both
+ * ends. Otherwise every node is evaluated by forces.h in a state of all nodes. The two differ in the order of sums,
+ * hence by rounding. Contacts near the event are not here but in contact/contact_constraints.c; the step over the
+ * neighbourhood is in events/local_correction.c. */
 #include "forces/local_springs.h"
 
 #include <stdlib.h>
@@ -19,6 +23,7 @@ void local_springs_destroy(local_springs *b)
     *b = (local_springs){0};
 }
 
+/* Adds every node on which the force on one of the nodes `first` to `last` - 1 depends: one ring. */
 static dem_status local_springs_add_neighbours(const void *self, local_nodes *nodes, dem_index first, dem_index last)
 {
     const forces *f = ((const local_springs *)self)->forces;
@@ -30,6 +35,8 @@ static dem_status local_springs_add_neighbours(const void *self, local_nodes *no
 
 /* ---- springs ---- */
 
+/* All numbers are one allocation. If it fails, the lists stay as they were. What they hold is not kept when they grow,
+ * since they are filled anew. */
 static dem_status reserve(local_springs *b, dem_index n)
 {
     if (n <= b->capacity) return DEM_OK;
@@ -52,7 +59,8 @@ static dem_status reserve(local_springs *b, dem_index n)
     return DEM_OK;
 }
 
-/* Lists the springs of a node, but those listed from their other end. */
+/* Lists the springs of local node j whose other end has a higher number. One with a lower number has listed the spring
+ * already. All neighbours of a node that moves are local nodes. */
 static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
 {
     const springs *s = &b->forces->model->springs;
@@ -60,6 +68,7 @@ static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
     const unsigned char *broken = element_state_springs(element_state_at(b->forces->elements, i));
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const int32_t other = nodes->number[s->neighbour[p]];
+        /* A node that is not local has the number -1. */
         if (other < j || springs_broken(s, broken, p)) continue;
         b->bonds[b->n_bonds] = (local_bond){(int32_t)j, other};
         b->stiffness[b->n_bonds] = s->stiffness[p];
@@ -67,6 +76,7 @@ static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
     }
 }
 
+/* Springs are listed ring by ring, so that those which act on ring r or nearer are the first bonds_end[r]. */
 static dem_status local_springs_gather(void *self, const local_nodes *nodes)
 {
     local_springs *b = self;
@@ -86,8 +96,9 @@ static dem_status local_springs_gather(void *self, const local_nodes *nodes)
 
 /* ---- accelerations ---- */
 
-/* Forces (1) of springs on the nodes of a ring or nearer; f [n][2] has room for one ring more. Compilers make vector
- * instructions of the loop in the middle. */
+/* Forces (1) of springs on the nodes of a ring or nearer, N. f [n][2] has room for one ring more, in which the other
+ * ends collect sums that are not whole. Gathering and scattering are loops of their own, so that compilers make vector
+ * instructions of the roots and divisions in between. */
 static void pull(const local_springs *b, const local_nodes *nodes, int ring, const double *x, double *f)
 {
     const dem_index n = b->bonds_end[ring];
@@ -102,12 +113,15 @@ static void pull(const local_springs *b, const local_nodes *nodes, int ring, con
     memset(f, 0, 2 * (size_t)nodes->end[ring + 1] * sizeof *f);
     for (dem_index k = 0; k < n; k++) {
         const local_bond bond = b->bonds[k];
+        /* The pull is the tension over the length: times the vector between the ends it is the force on the first
+         * one. */
         const vec2 force = {factor[k] * dx[k], factor[k] * dy[k]};
         vec2_put(f, bond.first, vec2_add(vec2_at(f, bond.first), force));
         vec2_put(f, bond.second, vec2_sub(vec2_at(f, bond.second), force));
     }
 }
 
+/* a = g + F/m - alpha v. */
 static void accelerate_plain(const local_springs *b, const local_nodes *nodes, int ring, const local_state *s,
                              double *a)
 {
@@ -116,6 +130,7 @@ static void accelerate_plain(const local_springs *b, const local_nodes *nodes, i
         vec2_put(a, j, forces_acceleration_by(b->forces, nodes->list[j], vec2_at(a, j), vec2_at(s->v, j)));
 }
 
+/* The time is that among the quadratures of the state, which the integrator carries along. */
 static void local_springs_evaluate_external(void *self, const local_nodes *nodes, int ring, const local_state *s)
 {
     const local_springs *b = self;
@@ -125,11 +140,14 @@ static void local_springs_evaluate_external(void *self, const local_nodes *nodes
     external_force_evaluate(c, &(dem_force_query){t, nodes->end[ring], nodes->list, s->x, s->v});
 }
 
+/* The external force is evaluated for all these nodes in one call, and added last, as in forces_acceleration(). */
 static void local_springs_accelerate(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a)
 {
     const local_springs *b = self;
     const forces *f = b->forces;
     const double *v = s->y + b->velocities;
+    /* Listed springs read the positions of the local nodes; otherwise each node is evaluated in the state of all
+     * nodes. */
     if (b->plain) accelerate_plain(b, nodes, ring, s, a);
     for (dem_index j = 0; j < nodes->end[ring] && !b->plain; j++)
         vec2_put(a, j, forces_own_acceleration(f, nodes->list[j], s->y, v));
@@ -138,12 +156,14 @@ static void local_springs_accelerate(void *self, const local_nodes *nodes, int r
         vec2_put(a, j, forces_with_external(f, nodes->list[j], vec2_at(a, j), vec2_at(f->external->value, j)));
 }
 
+/* A single node, with the bits of the sweep over all nodes. */
 static void local_springs_accelerate_one(const void *self, dem_index node, const double *y, double *a)
 {
     const local_springs *b = self;
     vec2_put(a, 0, forces_acceleration(b->forces, node, y, y + b->velocities));
 }
 
+/* Adds to the rates of the totals, W, with the external forces that have been evaluated last. */
 static void local_springs_add_power(const void *self, const local_nodes *nodes, int ring, const double *y,
                                     double *totals)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The forces of a model near an event. Where undamped springs are all that acts between nodes they are listed by local
- * numbers; else each node is asked for its own force, as forces.h has it. */
+/* The forces of a model near an event. Where undamped springs are all that acts between nodes, they are listed by local
+ * numbers; otherwise each node is evaluated by the functions of forces.h. */
 #ifndef DEM_FORCES_LOCAL_SPRINGS_H
 #define DEM_FORCES_LOCAL_SPRINGS_H
 
