@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* From a triangulation, or cells of four nodes, to a solid: masses, springs, and what triangles have. Every triangle,
- * or cell, gives shares of stiffness to pairs of its nodes; the shares of a pair add up to its spring. */
+/* The finite-element rule that turns a triangulation, or square cells, into a solid: masses, springs, and what
+ * triangles have themselves (docs/method.md, The solid). A triangle of area A gives each of its edges e the stiffness
+ * (8/3) G h A/|e| (in N, as E_ij of equation (1)) and each corner a third of its mass. A square cell gives k/2 to its
+ * sides and r k to its diagonals, with k = E h/(1 + nu) in N/m. The shares of a pair of nodes add up to its spring, so
+ * that springs on a boundary or between two materials come out right by themselves. In a block of equilateral triangles
+ * or squares the springs and the area term then give exactly E and nu. Where nodes and triangles come from is not here
+ * but in generate.c and the programs; what a lattice must satisfy to move is checked in model/model.c. */
 #include <dem/dem.h>
 
 #include <math.h>
@@ -18,6 +23,8 @@ static bool is_positive(double value)
     return isfinite(value) && value > 0.0;
 }
 
+/* E and nu, or one stiffness for all springs, but not both. nu must be below 1 in plane stress and below 1/2 in plane
+ * strain: there the material becomes incompressible. */
 static dem_status check_elasticity(const dem_material *m)
 {
     const double nu = m->poissons_ratio, highest = m->plane == DEM_PLANE_STRAIN ? 0.5 : 1.0;
@@ -49,11 +56,13 @@ static dem_status check_material(const dem_material *m)
     return DEM_OK;
 }
 
-/* The plate in plane stress that moves like the solid. */
+/* The plate in plane stress that moves like the solid: all formulas below are for plane stress. */
 typedef struct plate {
     double modulus, ratio; /* E h, N/m; nu */
 } plate;
 
+/* Plane strain is plane stress with E/(1 - nu^2) and nu/(1 - nu). With a given stiffness of springs E and nu are
+ * unknown. */
 static plate plate_of(const dem_material *m)
 {
     const double nu = m->poissons_ratio, modulus = m->youngs_modulus * m->thickness;
@@ -62,15 +71,17 @@ static plate plate_of(const dem_material *m)
     return (plate){modulus / (1.0 - nu * nu), nu / (1.0 - nu)};
 }
 
-/* (8/3) G h, which is E h at nu = 1/3, to the bit. */
+/* (8/3) G h = (4/3) E h/(1 + nu), N/m, which is E h at nu = 1/3, to the bit. */
 static double spring_modulus(plate p)
 {
     return p.modulus * ((4.0 / 3.0) / (1.0 + p.ratio));
 }
 
-/* A cell warps when its corners move by turns along the same direction. Both diagonals keep their lengths; the sides,
- * of half of k = E h/(1 + nu) each, resist alone. The area term of the two triangles, whose areas change by the same
- * amount, one up, one down, takes that off if it is less than -k/2. Bodies whose cells are stable are stable. */
+/* A cell warps when its corners move by turns along the same direction. Both diagonals keep their lengths; the sides
+ * resist alone, and the areas of the two triangles change by the same amount, one up, one down. The stiffness of this
+ * is
+ *     k + 2 kappa = E h ((1 + nu) - 2 r (1 - nu))/(1 - nu^2),
+ * which is positive if r < (1 + nu)/(2 (1 - nu)). Bodies whose cells are stable are stable. */
 static dem_status check_diagonal(plate p, double diagonal)
 {
     const double limit = 0.5 * (1.0 + p.ratio) / (1.0 - p.ratio);
@@ -90,6 +101,7 @@ typedef struct share {
     double stiffness, viscosity; /* N, N s */
 } share;
 
+/* The work in hand. The caller's lattice is changed only at the end, when nothing can fail any more. */
 typedef struct draft {
     const dem_lattice *lattice;
     const dem_material *materials;
@@ -105,6 +117,7 @@ static const dem_material *material_of(const draft *d, dem_index t)
     return &d->materials[d->of != NULL ? d->of[t] : 0];
 }
 
+/* Signed area, m^2: positive for counter-clockwise corners. */
 static double area_of(const dem_lattice *l, dem_index a, dem_index b, dem_index c)
 {
     return vec2_triangle_area(vec2_at(l->x, a), vec2_at(l->x, b), vec2_at(l->x, c));
@@ -115,12 +128,14 @@ static double distance(const dem_lattice *l, dem_index i, dem_index j)
     return vec2_norm(vec2_sub(vec2_at(l->x, j), vec2_at(l->x, i)));
 }
 
-/* Kelvin-Voigt: a strain rate e' acts like the strain damping_time e'. */
+/* The nodes of a share are in ascending order, so that both triangles at an edge name its spring alike. Kelvin-Voigt: a
+ * strain rate e' acts like the strain damping_time e'. */
 static share share_of(dem_index i, dem_index j, double stiffness, const dem_material *m)
 {
     return (share){i < j ? i : j, i < j ? j : i, stiffness, m->damping_time * stiffness};
 }
 
+/* A third of `weight` times the mass of a triangle to each of its corners, kg. */
 static void give_mass(const draft *d, double weight, const dem_material *m, const dem_index corner[3])
 {
     const double area = area_of(d->lattice, corner[0], corner[1], corner[2]);
@@ -128,7 +143,8 @@ static void give_mass(const draft *d, double weight, const dem_material *m, cons
     for (int c = 0; c < 3; c++) d->solid.mass[corner[c]] += mass;
 }
 
-/* (8/3) G h A/|e| to each edge, a third of the mass to each corner. */
+/* (8/3) G h A/|e| to each edge. The energy of the three springs under a uniform strain is that of Hooke's law at nu =
+ * 1/3 if the triangle is equilateral; the area term adds what other ratios need. */
 static void share_triangle(const draft *d, dem_index t)
 {
     const dem_index *corner = d->lattice->triangles + 3 * t;
@@ -141,7 +157,8 @@ static void share_triangle(const draft *d, dem_index t)
     give_mass(d, 1.0, m, corner);
 }
 
-/* The corners of cell k counter-clockwise, the first and third where its triangles do not meet.
+/* The corners of cell k counter-clockwise, the first and third where its triangles do not meet. Both triangles are
+ * counter-clockwise, so their common edge runs from a to b in one and from b to a in the other.
  * \return false where they do not share an edge */
 static bool find_corners(const dem_lattice *l, dem_index k, dem_index corner[4])
 {
@@ -158,12 +175,14 @@ static bool find_corners(const dem_lattice *l, dem_index k, dem_index corner[4])
     return false;
 }
 
-/* Half of its stiffness, E h/(1 + nu), to each side, all of theirs to both diagonals; the mean of the masses by the two
- * pairs of triangles that make up the cell, that is a quarter of it to each corner of a square. */
+/* The stiffness, N, is that in N/m times the rest length: k/2 times the length to each side, r k times the length to
+ * both diagonals. A side between two cells thus has k. Mass is shared out for all four triangles of three successive
+ * corners, with half weight: these are the two ways to cut the cell, and a square gets a quarter at each corner. */
 static dem_status share_cell(const draft *d, dem_index k)
 {
     const dem_lattice *l = d->lattice;
     const dem_material *m = material_of(d, 2 * k);
+    /* In N/m; times a length it is a stiffness of springs in N. */
     const plate p = plate_of(m);
     const double side = p.modulus / (1.0 + p.ratio), diagonal = d->diagonal * side;
     dem_index q[4];
@@ -176,6 +195,7 @@ static dem_status share_cell(const draft *d, dem_index k)
         CHECK(area_of(l, corner[0], corner[1], corner[2]) > 0.0, DEM_ERROR_MODEL,
               "the cell of nodes %lld, %lld, %lld and %lld is not convex", (long long)q[0], (long long)q[1],
               (long long)q[2], (long long)q[3]);
+        /* k/2 in N/m times the rest length. */
         d->shares[6 * k + c] = share_of(i, j, 0.5 * side * distance(l, i, j), m);
         give_mass(d, 0.5, m, corner);
     }
@@ -184,6 +204,7 @@ static dem_status share_cell(const draft *d, dem_index k)
     return DEM_OK;
 }
 
+/* Every triangle must have a positive area, and every node a triangle: otherwise it would have no mass. */
 static dem_status share_all(const draft *d)
 {
     const dem_lattice *l = d->lattice;
@@ -208,7 +229,9 @@ static bool is_of_one_spring(const share *a, const share *b)
     return a->lower == b->lower && a->upper == b->upper;
 }
 
-/* By lower, then upper node, shares of one spring in the order of the triangles: buckets, each short. */
+/* Sorts by lower, then upper node: buckets of the lower node, each sorted by insertion since it is short. Shares of one
+ * spring keep the order of the triangles, so that their sum has the same bits whenever the triangles have that
+ * order. */
 static dem_status sort_shares(draft *d)
 {
     const dem_index n = d->lattice->n_nodes, m = 3 * d->lattice->n_triangles;
@@ -219,6 +242,7 @@ static dem_status sort_shares(draft *d)
     for (dem_index i = 0; i < n && complete; i++) row[i + 2] += row[i + 1];
     for (dem_index k = 0; k < m && complete; k++) {
         const share current = d->shares[k];
+        /* row[lower + 1] is where the bucket goes on. Upper nodes that are higher move up by one place. */
         dem_index p = row[current.lower + 1]++;
         for (; p > row[current.lower] && sorted[p - 1].lower == current.lower && sorted[p - 1].upper > current.upper;
              p--)
@@ -236,7 +260,7 @@ static dem_status sort_shares(draft *d)
     return DEM_OK;
 }
 
-/* Of one stiffness, whatever their triangles gave. */
+/* With a given bond stiffness all springs have it, whatever their triangles gave: the paper's lattices. */
 static void make_equal(dem_lattice *solid, const dem_material *m)
 {
     for (dem_index k = 0; k < solid->n_springs && m->bond_stiffness > 0.0; k++) {
@@ -245,7 +269,8 @@ static void make_equal(dem_lattice *solid, const dem_material *m)
     }
 }
 
-/* NULL instead of zeros: nothing is damped. */
+/* An array of zeros becomes NULL, which stands for "none": later code then skips damping, guard or area term
+ * altogether. */
 static void drop_zeros(double **array, dem_index n)
 {
     for (dem_index k = 0; k < n; k++)
@@ -254,6 +279,7 @@ static void drop_zeros(double **array, dem_index n)
     *array = NULL;
 }
 
+/* One spring for each run of equal pairs among the sorted shares; their stiffnesses and viscosities are summed up. */
 static dem_status fill_springs(draft *d)
 {
     const dem_index m = 3 * d->lattice->n_triangles;
@@ -266,6 +292,7 @@ static dem_status fill_springs(draft *d)
     s->viscosity = lattice_zeros(s->n_springs, sizeof *s->viscosity);
     CHECK(s->ends && s->rest_length && s->stiffness && s->viscosity, DEM_ERROR_MEMORY, "out of memory for %lld springs",
           (long long)s->n_springs);
+    /* k is the spring of the share at p, which begins where the pair of nodes changes. */
     for (dem_index p = 0, k = -1; p < m; p++) {
         const share *here = &d->shares[p];
         if (p == 0 || !is_of_one_spring(here - 1, here)) {
@@ -283,19 +310,22 @@ static dem_status fill_springs(draft *d)
 
 /* ---- triangles ---- */
 
-/* E h of a triangle inside a lattice of equal springs: what the rule of triangles would need on its mean edge. */
+/* E h of a triangle, N/m, for the strength of its guard. With equal springs it is estimated: inside a lattice a spring
+ * has shares of two triangles, E_ij = 2 E h A/|e|, so that E h = E_ij |e|/(2 A) with the mean edge |e| =
+ * perimeter/3. */
 static double modulus_of(const draft *d, dem_index t)
 {
     const dem_index *c = d->lattice->triangles + 3 * t;
     const dem_material *m = material_of(d, t);
     double perimeter = 0.0;
     if (m->bond_stiffness == 0.0) return m->youngs_modulus * m->thickness;
+    /* The two shares inside a lattice, with |e| the mean edge: E h = E_ij (perimeter/3)/(2 A). */
     for (int k = 0; k < 3; k++) perimeter += distance(d->lattice, c[k], c[(k + 1) % 3]);
     return m->bond_stiffness * perimeter / (6.0 * area_of(d->lattice, c[0], c[1], c[2]));
 }
 
-/* What springs leave of C12 h = nu E h/(1 - nu^2), of which diagonals of stiffness r E h/(1 + nu) give as much as that;
- * at r = 1/2, isotropic, (lambda - G) h, which is 0 at nu = 1/3, to the bit. */
+/* kappa, N/m: what the springs leave of C12 h = nu E h/(1 - nu^2), to which diagonals give r E h/(1 + nu). At r = 1/2,
+ * which is isotropic, it is (lambda - G) h and 0 at nu = 1/3, to the bit. With equal springs there is none. */
 static double area_modulus(const draft *d, const dem_material *m)
 {
     const plate p = plate_of(m);
@@ -303,7 +333,7 @@ static double area_modulus(const draft *d, const dem_material *m)
     return m->bond_stiffness > 0.0 ? 0.0 : p.modulus * ((1.0 + r) * nu - r) / (1.0 - nu * nu);
 }
 
-/* Arrays of nothing but zeros are none. */
+/* Guard, area term, thickness and the modulus by which stresses share springs out (model/stress.c). */
 static dem_status fill_triangles(draft *d)
 {
     const dem_index n = d->lattice->n_triangles;
@@ -319,6 +349,7 @@ static dem_status fill_triangles(draft *d)
         s->guard[t] = m->guard * modulus_of(d, t);
         s->area_stiffness[t] = area_modulus(d, m);
         s->thickness[t] = m->thickness;
+        /* Triangles share the stress of a spring as they have given to its stiffness: by (8/3) G h A. */
         s->modulus[t] = spring_modulus(plate_of(m)) / m->thickness;
     }
     drop_zeros(&s->guard, n);
@@ -336,7 +367,7 @@ static void swap(double **a, double **b)
     *b = old;
 }
 
-/* Hands the arrays of a solid over; `solid` gets the old ones. */
+/* Hands the arrays of a solid over to the caller's lattice; `solid` gets the old ones and is freed with them. */
 static void give(dem_lattice *lattice, dem_lattice *solid)
 {
     dem_index *const old = lattice->ends;
@@ -353,6 +384,7 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     swap(&lattice->modulus, &solid->modulus);
 }
 
+/* Shares first, then springs made of them, then triangles. */
 static dem_status draw(draft *d)
 {
     d->shares = lattice_zeros(3 * d->lattice->n_triangles, sizeof *d->shares);
@@ -363,6 +395,7 @@ static dem_status draw(draft *d)
     return fill_triangles(d);
 }
 
+/* A bond stiffness belongs to the whole lattice, hence to bodies of one material. */
 static dem_status check_materials(const draft *d, dem_index n_materials)
 {
     CHECK(n_materials > 0, DEM_ERROR_ARGUMENT, "the number of materials must be > 0: %lld", (long long)n_materials);
@@ -391,6 +424,8 @@ static dem_status check_lattice(const dem_lattice *lattice, bool cells)
     return DEM_OK;
 }
 
+/* diagonal = 0 asks for triangles, which have the isotropic 1/2 where formulas need it. On failure the lattice is as it
+ * was. */
 dem_status dem_lattice_assemble_mixed(dem_lattice *lattice, const dem_material *materials, dem_index n_materials,
                                       const dem_index *of, double diagonal)
 {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which nodes and triangles of a lattice hang together, and how many boundary edges meet at a node. */
+/* Which nodes of a lattice springs join (parts), which triangles share edges (pieces), and how many boundary edges meet
+ * at a node (rims). Bodies that have fallen apart, and single nodes that act as hinges, are found by them. Union-find:
+ * each member points to another one of its set, and the root stands for the set. What to do with loose pieces is
+ * decided by the callers (drivers/body). */
 #include "lattice/lattice.h"
 
 #include <stdlib.h>
@@ -7,6 +10,7 @@
 #include "base/status.h"
 #include "lattice/mesh_edges.h"
 
+/* Halves the path on the way, so that later searches are short. */
 static dem_index root_of(dem_index *parent, dem_index i)
 {
     while (parent[i] != i) {
@@ -16,7 +20,7 @@ static dem_index root_of(dem_index *parent, dem_index i)
     return i;
 }
 
-/* A part's root is its lowest node. */
+/* The root of a set is its lowest member, which makes the numbers of parts independent of the order of springs. */
 static void unite(dem_index *parent, dem_index i, dem_index j)
 {
     const dem_index a = root_of(parent, i), b = root_of(parent, j);
@@ -26,7 +30,7 @@ static void unite(dem_index *parent, dem_index i, dem_index j)
         parent[a] = b;
 }
 
-/* n things that are all apart; NULL without memory. */
+/* n members that are all apart; NULL if there is no memory. */
 static dem_index *make_parents(dem_index n)
 {
     dem_index *parent = lattice_zeros(n, sizeof *parent);
@@ -34,7 +38,8 @@ static dem_index *make_parents(dem_index n)
     return parent;
 }
 
-/* Numbers parts by their lowest members. \param[out] part  [n]; may be NULL */
+/* Numbers parts by their lowest members. Since that is the root, part[root] is known when another member needs it.
+ * \param[out] part  [n]; may be NULL */
 static dem_index number_parts(dem_index *part, dem_index *parent, dem_index n)
 {
     dem_index n_parts = 0;
@@ -58,6 +63,7 @@ dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem
     return DEM_OK;
 }
 
+/* Triangles that share an edge stand next to each other in the sorted list of sides. */
 dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, dem_index *piece)
 {
     mesh_edges s;
@@ -65,6 +71,7 @@ dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, d
     CHECK(n_pieces != NULL, DEM_ERROR_ARGUMENT, "n_pieces is NULL");
     TRY(mesh_edges_create(&s, lattice));
     dem_index *parent = make_parents(lattice->n_triangles);
+    /* Slots p - 1 and p are sides of one edge if p is not the first slot of its edge. */
     for (dem_index i = 0; parent != NULL && i < lattice->n_nodes; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++)
             if (!mesh_edges_is_first(&s, i, p)) unite(parent, s.list[p - 1].triangle, s.list[p].triangle);
@@ -75,6 +82,7 @@ dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, d
     return DEM_OK;
 }
 
+/* A node on a simple boundary has 2 boundary edges; 4 or more are those of a hinge. */
 dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edges)
 {
     mesh_edges s;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Equilateral triangulations and square cells of simple shapes, holes in them, and nodes moved at random. */
+/* Generates triangulations: equilateral ones and square cells of simple shapes, holes cut into them, and nodes moved at
+ * random (docs/method.md, Shapes). The coordinates are mirror symmetric to the bit, so that symmetric runs stay
+ * symmetric. Springs and masses are not made here but in assemble.c; polygons, images and meshes come from the programs
+ * (drivers/body), which cut them out of rectangles with dem_lattice_cut(). */
 #include <dem/dem.h>
 
 #include <math.h>
@@ -13,6 +16,7 @@
 #include "lattice/mesh_edges.h"
 
 static const double max_nodes = 1099511627776.0; /* 2^40: no byte count of an array overflows */
+/* Height of a row of an equilateral grid, in spacings. */
 static const double sqrt3_2 = 0.86602540378443864676;
 static const double least_area = 0.1; /* of a triangle, over what it was before its nodes were moved */
 
@@ -25,11 +29,13 @@ typedef struct grid {
     double spacing;
 } grid;
 
+/* Even rows have a node more than odd ones. */
 static bool is_wide(dem_index row)
 {
     return row % 2 == 0;
 }
 
+/* Whole multiples of half a spacing are rounded once, alike on both sides. */
 static double *grid_nodes(const grid *g, dem_index n)
 {
     double *x = lattice_zeros(n, 2 * sizeof *x), *next = x;
@@ -52,12 +58,15 @@ static dem_index *put_triangle(dem_index *next, dem_index i, dem_index j, dem_in
     return next + 3;
 }
 
+/* Strip by strip between two rows, of which one is wider. `low` and `high` are the first nodes of the lower and the
+ * upper row. All triangles are counter-clockwise. */
 static dem_index *grid_triangles(const grid *g, dem_index n)
 {
     dem_index *triangles = lattice_zeros(n, 3 * sizeof *triangles), *next = triangles, low = 0;
     if (triangles == NULL) return NULL;
     for (dem_index row = g->first; row < g->last; row++) {
         const bool wide = is_wide(row);
+        /* The first node of the upper row; a wide row has one node more than `reach`. */
         const dem_index high = low + g->reach + (wide ? 1 : 0);
         for (dem_index k = 0; k < g->reach; k++) { /* on the wider row, then on the narrower */
             next = wide ? put_triangle(next, low + k, low + k + 1, high + k)
@@ -71,7 +80,7 @@ static dem_index *grid_triangles(const grid *g, dem_index n)
     return triangles;
 }
 
-/* Hands a lattice over that may lack memory. */
+/* Hands over a lattice whose arrays may be missing for lack of memory. */
 static dem_status finish(dem_lattice *out, dem_lattice *lattice)
 {
     const dem_index n = lattice->n_nodes;
@@ -83,6 +92,7 @@ static dem_status finish(dem_lattice *out, dem_lattice *lattice)
     return DEM_OK;
 }
 
+/* Each row counts `reach` nodes and the wide ones one more; a strip has 2 reach - 1 triangles. */
 static dem_status grid_lattice(dem_lattice *out, const grid *g)
 {
     const dem_index wide = g->last / 2 - g->first / 2 + 1;
@@ -97,6 +107,7 @@ static dem_status grid_lattice(dem_lattice *out, const grid *g)
 
 /* ---- square cells ---- */
 
+/* Columns are placed symmetrically about x = 0; the lowest row has y = 0. */
 static double *square_nodes(dem_index columns, dem_index rows, double spacing)
 {
     double *x = lattice_zeros((columns + 1) * (rows + 1), 2 * sizeof *x), *next = x;
@@ -108,13 +119,15 @@ static double *square_nodes(dem_index columns, dem_index rows, double spacing)
     return x;
 }
 
-/* The triangles of a cell meet along one diagonal or the other, like the fields of a chessboard. */
+/* Two triangles for each cell, next to each other in the list, as dem_lattice_assemble_squares() needs them. They meet
+ * along one diagonal or the other by turns, as the fields of a chessboard, so that no direction is preferred. */
 static dem_index *square_triangles(dem_index columns, dem_index rows)
 {
     dem_index *triangles = lattice_zeros(2 * columns * rows, 3 * sizeof *triangles), *next = triangles;
     for (dem_index r = 0; triangles != NULL && r < rows; r++)
         for (dem_index c = 0; c < columns; c++) {
             const dem_index a = r * (columns + 1) + c, b = a + 1, d = a + columns + 1;
+            /* The diagonal rises from a to d + 1, or falls from d to b. */
             const bool rising = (r + c) % 2 == 0;
             next = put_triangle(next, a, b, rising ? d + 1 : d);
             next = put_triangle(next, rising ? a : b, d + 1, d);
@@ -124,6 +137,7 @@ static dem_index *square_triangles(dem_index columns, dem_index rows)
 
 /* ---- equilateral triangles: shapes ---- */
 
+/* Edges included; the caller has added what rounding may take. */
 static int is_in_disc(void *context, const double x[2])
 {
     const double *radius = context;
@@ -143,6 +157,7 @@ static dem_status check_rectangle(const dem_lattice *out, double width, double h
     return DEM_OK;
 }
 
+/* `nodes` is a double, so that a number beyond 2^63 can be named. */
 static dem_status check_size(double width, double height, double spacing, double nodes)
 {
     CHECK(nodes <= max_nodes, DEM_ERROR_MODEL,
@@ -153,7 +168,7 @@ static dem_status check_size(double width, double height, double spacing, double
 
 /* ---- nodes moved at random ---- */
 
-/* Uniform in a disc. */
+/* Uniform in a disc: points of the square around it are drawn until one is in the disc. */
 static vec2 random_shift(uint64_t *state, double radius)
 {
     vec2 place;
@@ -162,12 +177,14 @@ static vec2 random_shift(uint64_t *state, double radius)
     return vec2_scale(radius, place);
 }
 
+/* Signed area, m^2, of a triangle at the positions x. */
 static double area_of(const double *x, const dem_index *corner)
 {
     const vec2 a = vec2_at(x, corner[0]);
     return 0.5 * vec2_cross(vec2_sub(vec2_at(x, corner[1]), a), vec2_sub(vec2_at(x, corner[2]), a));
 }
 
+/* Jitter is measured by the areas before it, so these must be positive. */
 static dem_status check_areas(const dem_lattice *l)
 {
     for (dem_index t = 0; t < l->n_triangles; t++)
@@ -177,7 +194,8 @@ static dem_status check_areas(const dem_lattice *l)
     return DEM_OK;
 }
 
-/* Brings the corners of triangles that lost most of their area half way back, until there are none. */
+/* Moves the corners of triangles that have kept less than `least_area` of their area half way back, until there are
+ * none. It ends, since the shifts of such corners go to 0 and their areas to what they were. */
 static void relent(const dem_lattice *l, double *x)
 {
     for (bool again = true; again;) {
@@ -196,11 +214,13 @@ static void relent(const dem_lattice *l, double *x)
 
 /* ---- public ---- */
 
+/* Width and height are rounded to whole numbers of columns and rows. */
 dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing)
 {
     TRY(check_rectangle(out, width, height, spacing));
     const double columns = round(width / spacing), strips = round(height / (sqrt3_2 * spacing));
     TRY(check_size(width, height, spacing, (strips + 1.0) * (columns + 1.0)));
+    /* The lowest row is wide and has y = 0. */
     const grid g = {.reach = (dem_index)columns, .first = 0, .last = (dem_index)strips, .spacing = spacing};
     return grid_lattice(out, &g);
 }
@@ -219,6 +239,7 @@ dem_status dem_lattice_squares(dem_lattice *out, double width, double height, do
     return finish(out, &lattice);
 }
 
+/* A grid around the disc, a column wider on each side, of which what is outside is cut. */
 dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
 {
     CHECK(out != NULL, DEM_ERROR_ARGUMENT, "out is NULL");
@@ -231,6 +252,7 @@ dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
           "a disc of radius %g m with the spacing %g m would have %.3g nodes; the limit is %.3g", radius, spacing,
           nodes, max_nodes);
     const dem_index columns = (dem_index)steps + 1, rows = (dem_index)strips;
+    /* Rows and columns on both sides of the centre, where a node is. */
     const grid g = {.reach = 2 * columns, .first = -rows, .last = rows, .spacing = spacing};
     dem_lattice lattice;
     TRY(grid_lattice(&lattice, &g));
@@ -242,6 +264,7 @@ dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
     return status;
 }
 
+/* A triangle stays if all its nodes do; nodes without a triangle go with the rest. */
 dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context)
 {
     TRY(lattice_check(lattice));
@@ -263,6 +286,8 @@ dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, cons
     return status;
 }
 
+/* A shift is drawn for every node and dropped for those on the boundary, so that the shift of a node depends on its
+ * number and the seed alone. */
 dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed)
 {
     TRY(lattice_check(lattice));
@@ -276,6 +301,7 @@ dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed
     dem_status status = rim != NULL && x != NULL ? mesh_edges_contact_flags(rim, lattice)
                                                  : status_fail(DEM_ERROR_MEMORY, "out of memory");
     for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++) {
+        /* Drawn in any case, so that the generator advances alike for all nodes. */
         const vec2 shift = random_shift(&seed, radius), none = {0.0, 0.0};
         vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), rim[i] != 0 ? none : shift));
     }

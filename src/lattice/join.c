@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Putting one lattice behind another in one set of arrays. */
+/* Appends one lattice to another. The arrays of both are copied one behind the other, and numbers of nodes and bodies
+ * in the second one are shifted. An array that only one of them has is completed with what its absence stands for:
+ * zeros, ones, rest positions, or contact flags of the boundary. Nodes are not merged, so the two become separate
+ * bodies. */
 #include "lattice/lattice.h"
 
 #include <stdbool.h>
@@ -8,7 +11,7 @@
 #include "base/status.h"
 #include "lattice/mesh_edges.h"
 
-/* n items of `a` and m of `b` one behind the other; zeros in place of NULL. */
+/* n items of `a` and m of `b` one behind the other, with zeros in place of an array that is NULL. */
 static void *join(const void *a, dem_index n, const void *b, dem_index m, size_t size)
 {
     unsigned char *joined = lattice_zeros(n + m, size);
@@ -17,7 +20,7 @@ static void *join(const void *a, dem_index n, const void *b, dem_index m, size_t
     return joined;
 }
 
-/* The same of triangles' numbers that are 1 where they are NULL; NULL if both are. */
+/* The same of numbers of triangles whose absence stands for 1 (thickness, modulus); NULL if both are missing. */
 static dem_status join_ones(double **out, const double *a, dem_index n, const double *b, dem_index m)
 {
     if (a == NULL && b == NULL) return DEM_OK;
@@ -28,6 +31,7 @@ static dem_status join_ones(double **out, const double *a, dem_index n, const do
     return DEM_OK;
 }
 
+/* Bodies are numbered from 0; a lattice without numbers is one body. */
 static dem_index count_bodies(const dem_lattice *lattice)
 {
     int32_t last = 0;
@@ -36,6 +40,7 @@ static dem_index count_bodies(const dem_lattice *lattice)
     return lattice->n_nodes > 0 ? last + 1 : 0;
 }
 
+/* The flags of a lattice, or those that their absence stands for. */
 static dem_status copy_flags(unsigned char *flags, const dem_lattice *lattice)
 {
     if (lattice->flags == NULL) return mesh_edges_contact_flags(flags, lattice);
@@ -43,6 +48,7 @@ static dem_status copy_flags(unsigned char *flags, const dem_lattice *lattice)
     return DEM_OK;
 }
 
+/* Flags stay away if both are missing and mean the same for the whole: "the boundary" with triangles, "all" without. */
 static dem_status join_flags(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const bool same_rule = (a->n_triangles == 0) == (b->n_triangles == 0);
@@ -53,11 +59,13 @@ static dem_status join_flags(dem_lattice *out, const dem_lattice *a, const dem_l
     return copy_flags(out->flags + a->n_nodes, b);
 }
 
+/* Two lattices make two bodies or more. Where one of them has no nodes, no numbers are needed. */
 static dem_status join_bodies(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_nodes, shift = count_bodies(a);
     if (b->n_nodes == 0 && a->body == NULL) return DEM_OK;
     if (n == 0 && b->body == NULL) return DEM_OK;
+    /* The bodies of the second lattice get the numbers after those of the first. */
     CHECK(shift + count_bodies(b) <= INT32_MAX, DEM_ERROR_MODEL, "more than %ld bodies", (long)INT32_MAX);
     out->body = join(a->body, n, b->body, b->n_nodes, sizeof *out->body);
     CHECK_MEMORY(out->body);
@@ -65,6 +73,7 @@ static dem_status join_bodies(dem_lattice *out, const dem_lattice *a, const dem_
     return DEM_OK;
 }
 
+/* The position of a node, where its motion starts, is the rest position if none is given. */
 static dem_status join_nodes(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_nodes, m = b->n_nodes;
@@ -87,6 +96,7 @@ static dem_status join_nodes(dem_lattice *out, const dem_lattice *a, const dem_l
     return DEM_OK;
 }
 
+/* Undamped springs beside damped ones have the viscosity 0. */
 static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_springs, m = b->n_springs;
@@ -98,6 +108,7 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     CHECK_MEMORY(out->ends);
     CHECK_MEMORY(out->rest_length);
     CHECK_MEMORY(out->stiffness);
+    /* The nodes of the second lattice follow those of the first. */
     for (dem_index k = 2 * n; k < 2 * (n + m); k++) out->ends[k] += a->n_nodes;
     if (a->viscosity == NULL && b->viscosity == NULL) return DEM_OK;
     out->viscosity = join(a->viscosity, n, b->viscosity, m, sizeof *out->viscosity);
@@ -105,6 +116,7 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     return DEM_OK;
 }
 
+/* A guard and an area stiffness that are missing are 0. */
 static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_triangles, m = b->n_triangles;
@@ -135,11 +147,14 @@ static dem_status join_all(dem_lattice *out, const dem_lattice *a, const dem_lat
     return join_triangles(out, a, b);
 }
 
+/* The joined lattice is made apart, so that a failure leaves both lattices as they were. A missing mass has no
+ * default. */
 dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
 {
     dem_lattice joined;
     TRY(lattice_check(lattice));
     TRY(lattice_check(other));
+    /* An empty lattice takes whatever it is joined with. */
     const bool both = lattice->n_nodes > 0 && other->n_nodes > 0;
     CHECK(!both || (lattice->mass == NULL) == (other->mass == NULL), DEM_ERROR_MODEL,
           "one lattice has masses, the other has none");

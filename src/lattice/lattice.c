@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Editable lists of nodes, springs and triangles: checking, freeing and moving them, and what their boundary edges
- * give to nodes. What a lattice must satisfy to move is model.c's business; here only what is needed to stay inside the
- * arrays is checked. */
+/* Editable lists of nodes, springs and triangles: checking, freeing, moving and spinning them, and what their boundary
+ * edges give to nodes. Only what is needed to stay inside the arrays is checked here; what a lattice must satisfy to
+ * move is checked by model/model.c. Generating, assembling, joining and selecting have files of their own. */
 #include "lattice/lattice.h"
 
 #include <math.h>
@@ -12,8 +12,10 @@
 #include "base/vec2.h"
 #include "lattice/mesh_edges.h"
 
+/* The shortest struct that is accepted ends with `velocity`, the last member of the first version. */
 static const struct_kind kind = {"dem_lattice", STRUCT_SIZE_WITH(dem_lattice, velocity), sizeof(dem_lattice)};
 
+/* Checks a list of tuples of `arity` nodes: springs have 2, triangles 3. */
 static dem_status check_corners(const char *what, dem_index n, int arity, const dem_index *corner, dem_index n_nodes)
 {
     CHECK(n >= 0, DEM_ERROR_ARGUMENT, "the number of %ss is negative: %lld", what, (long long)n);
@@ -26,6 +28,7 @@ static dem_status check_corners(const char *what, dem_index n, int arity, const 
 
 /* ---- moving ---- */
 
+/* Turns n vectors by `angle`, rad, counter-clockwise about the origin, and shifts them. */
 static void turn(double *array, dem_index n, double angle, vec2 shift)
 {
     const double c = cos(angle), s = sin(angle);
@@ -37,6 +40,7 @@ static void turn(double *array, dem_index n, double angle, vec2 shift)
 
 /* ---- public ---- */
 
+/* Never asks for no bytes, for which calloc() may return NULL. */
 void *lattice_zeros(dem_index n, size_t size)
 {
     return calloc(n > 0 ? (size_t)n : 1, size);
@@ -88,6 +92,7 @@ void dem_lattice_free(dem_lattice *lattice)
     dem_lattice_init(lattice);
 }
 
+/* Velocities are turned with the body but not shifted. */
 void dem_lattice_move(dem_lattice *lattice, double angle, const double offset[2])
 {
     const vec2 shift = {offset[0], offset[1]}, none = {0.0, 0.0};
@@ -110,6 +115,7 @@ dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
     return DEM_OK;
 }
 
+/* Adds omega z x (x - x_c), with x_c the centre of mass, so that the momentum stays what it was. */
 dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity)
 {
     TRY(lattice_check(lattice));
@@ -117,6 +123,7 @@ dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity)
           angular_velocity);
     CHECK(lattice->mass != NULL, DEM_ERROR_MODEL, "a lattice without masses has no centre of mass to turn about");
     TRY(dem_lattice_launch(lattice, (const double[2]){0.0, 0.0})); /* there are velocities then */
+    /* Spinning is about where the body starts, not about its rest shape. */
     const double *x = lattice->position != NULL ? lattice->position : lattice->x;
     vec2 centre = {0.0, 0.0};
     double mass = 0.0;
@@ -125,12 +132,14 @@ dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocity)
         mass += lattice->mass[i];
     }
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        /* `centre` is the sum of m x; divided by the mass it is the centre. */
         const vec2 arm = vec2_along(vec2_at(x, i), -1.0 / mass, centre), before = vec2_at(lattice->velocity, i);
         vec2_put(lattice->velocity, i, vec2_along(before, angular_velocity, (vec2){-arm.y, arm.x}));
     }
     return DEM_OK;
 }
 
+/* A list of nodes that the caller has given. */
 static dem_status check_list(const dem_lattice *lattice, const dem_index *nodes, dem_index n)
 {
     TRY(lattice_check(lattice));
@@ -142,7 +151,8 @@ static dem_status check_list(const dem_lattice *lattice, const dem_index *nodes,
     return DEM_OK;
 }
 
-/* Half of every boundary edge between nodes that have a place in the list, to both, as thick as its triangle. */
+/* Half of every boundary edge between nodes of the list goes to each of its ends, times the thickness of its triangle:
+ * an area in m^2. With a unit vector `direction` it is the projection of the edge on it. */
 static void share_edges(const dem_lattice *l, const mesh_edges *s, const dem_index *place, const double *direction,
                         double *area)
 {
@@ -151,6 +161,7 @@ static void share_edges(const dem_lattice *l, const mesh_edges *s, const dem_ind
             const dem_index j = s->list[p].upper;
             if (!mesh_edges_is_boundary(s, i, p) || place[i] < 0 || place[j] < 0) continue;
             const double way[2] = {l->x[2 * j] - l->x[2 * i], l->x[2 * j + 1] - l->x[2 * i + 1]};
+            /* The length of the edge, or of its projection, m. */
             const double length =
                 direction == NULL ? hypot(way[0], way[1]) : fabs(way[0] * direction[0] + way[1] * direction[1]);
             const double half = 0.5 * length * (l->thickness != NULL ? l->thickness[s->list[p].triangle] : 1.0);
@@ -159,6 +170,7 @@ static void share_edges(const dem_lattice *l, const mesh_edges *s, const dem_ind
         }
 }
 
+/* `place` finds a node in the list; -1 if it is not in it. */
 dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *nodes, dem_index n,
                                    const double *direction, double *area)
 {
@@ -179,6 +191,7 @@ dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *
     return status;
 }
 
+/* Flags that are missing are first written out as what they stand for. */
 dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n)
 {
     TRY(check_list(lattice, nodes, n));

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the files about lattices share. */
+/* What the files about lattices share: checks that keep loops inside the arrays, and arrays of zeros. */
 #ifndef DEM_LATTICE_LATTICE_H
 #define DEM_LATTICE_LATTICE_H
 
 #include <dem/dem.h>
 
-/* Whether struct_size is one that this library knows, and springs and triangles stay inside the arrays: numbers >= 0,
- * arrays present, node indices in range. */
+/* Whether struct_size is one that this library knows, and whether springs and triangles stay inside the arrays: numbers
+ * not negative, arrays present, node indices in range. */
 dem_status lattice_check(const dem_lattice *lattice);
 
-/* Copies a caller's lattice, with its arrays, of which those that are missing are NULL. */
+/* Copies a caller's lattice struct, of whatever version; members that it does not have are NULL. Arrays are not
+ * copied. */
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs);
 
-/* Zeroed array of n items, never of no bytes; NULL without memory. */
+/* An array of n items that are all zero; it has memory for n = 0, too. NULL if there is no memory. */
 void *lattice_zeros(dem_index n, size_t size);
 
 #endif

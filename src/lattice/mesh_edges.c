@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sides of triangles by bucket sort: one bucket per lower node, each short. */
+/* The sides of all triangles, sorted by their lower, then upper node: sides that are next to each other and equal are
+ * one edge between two triangles, a single one is an edge of the boundary. A bucket for each lower node, sorted by
+ * insertion, costs about as much as reading the triangles. What surfaces and contact make of the boundary is in
+ * model/surface.c. */
 #include "lattice/mesh_edges.h"
 
 #include <stdlib.h>
@@ -7,6 +10,7 @@
 
 #include "base/status.h"
 
+/* Insertion sort of one bucket. Equal sides keep the order of their triangles. */
 static void sort_by_upper(mesh_edge_slot *list, dem_index n)
 {
     for (dem_index p = 1; p < n; p++) {
@@ -17,12 +21,15 @@ static void sort_by_upper(mesh_edge_slot *list, dem_index n)
     }
 }
 
-/* Side k goes from corner k to the next of its triangle. */
+/* Side k of all triangles goes from corner k to the next corner of the same triangle; this returns that corner's
+ * place. */
 static dem_index side_end(const dem_index *corner, dem_index k)
 {
     return corner[k % 3 == 2 ? k - 2 : k + 1];
 }
 
+/* Counting sort by the lower node: counts are entered two places ahead and summed up, so that row[i + 1] is where
+ * bucket i goes on while it is filled, and row[i] where it begins once all are. */
 static void fill(mesh_edges *s, const dem_index *corner, dem_index n_nodes, dem_index n_sides)
 {
     for (dem_index k = 0; k < n_sides; k++) {
@@ -62,11 +69,13 @@ bool mesh_edges_is_first(const mesh_edges *s, dem_index i, dem_index p)
     return p == s->row[i] || s->list[p].upper != s->list[p - 1].upper;
 }
 
+/* The slot is the first of its edge, and so is the one behind it. */
 bool mesh_edges_is_boundary(const mesh_edges *s, dem_index i, dem_index p)
 {
     return mesh_edges_is_first(s, i, p) && (p + 1 == s->row[i + 1] || mesh_edges_is_first(s, i, p + 1));
 }
 
+/* Without triangles there is no boundary, and every node may touch. */
 dem_status mesh_edges_contact_flags(unsigned char *flags, const dem_lattice *lattice)
 {
     const dem_index n = lattice->n_nodes;

@@ -11,8 +11,8 @@ typedef struct mesh_edge_slot {
     dem_index upper, triangle;
 } mesh_edge_slot;
 
-/* In the order of lower node, upper node, triangle: slots row[i] .. row[i+1]-1 have lower node i. An edge between two
- * triangles has two slots, one on the boundary one. */
+/* Sides in the order of lower node, upper node, triangle: slots row[i] to row[i + 1] - 1 have the lower node i. An edge
+ * between two triangles has two slots, an edge on the boundary has one. */
 typedef struct mesh_edges {
     dem_index *row;       /* [n_nodes + 2] */
     mesh_edge_slot *list; /* [3 n_triangles] */

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Keeping some nodes or triangles of a lattice: its arrays shrink in place. */
+/* Keeps some nodes or triangles of a lattice and drops the others. The arrays shrink in place and keep their order;
+ * springs and triangles that lose a node go with it. Nodes on a new boundary keep the masses and springs they had: to
+ * have those of a boundary, a lattice is cut before it is assembled (dem_lattice_trim() insists on that). */
 #include "lattice/lattice.h"
 
 #include <stdlib.h>
@@ -7,6 +9,7 @@
 
 #include "base/status.h"
 
+/* Moves the items to keep to the front. An array that is NULL stays so. */
 static void pack(void *array, size_t size, dem_index n, const unsigned char *keep)
 {
     unsigned char *bytes = array;
@@ -15,7 +18,9 @@ static void pack(void *array, size_t size, dem_index n, const unsigned char *kee
         if (keep[i]) memmove(bytes + size * (size_t)kept++, bytes + size * (size_t)i, size);
 }
 
-/* Drops tuples not wanted or without a node, renumbers the others. \param whole  [n] in: wanted, out: stayed */
+/* Drops tuples that are not wanted or have lost a node, and renumbers the nodes of the others.
+ * \param whole  [n] in: wanted, out: stayed
+ * \return how many stay */
 static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const dem_index *number, unsigned char *whole)
 {
     dem_index kept = 0;
@@ -39,6 +44,7 @@ static void pack_nodes(dem_lattice *lattice, const unsigned char *keep)
     pack(lattice->velocity, 2 * sizeof *lattice->velocity, n, keep);
 }
 
+/* `whole` tells the other arrays which springs have stayed. */
 static void pack_springs(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
 {
     const dem_index n = lattice->n_springs;
@@ -58,7 +64,8 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsign
     pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
 }
 
-/* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. At least one node stays. */
+/* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. A lattice without nodes is
+ * refused. Memory is asked for before anything is changed. */
 static dem_status select_both(dem_lattice *lattice, const unsigned char *keep, const unsigned char *wanted)
 {
     const dem_index n_springs = lattice->n_springs, n_triangles = lattice->n_triangles;
@@ -69,6 +76,7 @@ static dem_status select_both(dem_lattice *lattice, const unsigned char *keep, c
         status = status_fail(DEM_ERROR_MEMORY, "out of memory");
         goto out;
     }
+    /* The new number of each node; -1: it goes. */
     for (dem_index i = 0; i < lattice->n_nodes; i++) number[i] = keep[i] ? n++ : -1;
     if (n == 0) {
         status = status_fail(DEM_ERROR_MODEL, "none of %lld nodes is left", (long long)lattice->n_nodes);
@@ -93,6 +101,7 @@ dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep)
     return select_both(lattice, keep, NULL);
 }
 
+/* A node that is in none of the triangles to keep goes, too. */
 dem_status dem_lattice_trim(dem_lattice *lattice, const unsigned char *keep)
 {
     TRY(lattice_check(lattice));
