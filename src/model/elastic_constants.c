@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Elastic constants of a body, measured: its boundary is strained uniformly, three times, the inside finds its
- * equilibrium, and the stress is the derivative of the energy over the volume. */
+/* Elastic constants of a body, measured and not taken from its deck (docs/method.md, The solid, Constants). All
+ * boundary nodes are displaced by a uniform strain, the nodes inside find their equilibrium, and with u_i the
+ * displacements of case i and K the tangent stiffness
+ *     C_ij = u_i.K u_j/V,
+ * the second derivative of the energy over the volume V. Three strains (xx, yy and the shear gamma_xy = 1) give the
+ * whole matrix. E and nu are those of the isotropic plate nearest to C. The solver is in tangent_stiffness.c. What is
+ * measured is the material, not the shape: pores are held at their rims. */
 #include <stdlib.h>
 
 #include "base/reduce.h"
@@ -13,8 +18,10 @@
  * lattice of 1e5 nodes jittered by a fifth of the spacing, at a sixth of the cost of 1e-6. */
 static const double accepted = 1e-4;
 
+/* The cases, in the order of the rows of C. */
 enum { XX, YY, XY, N_CASES };
 
+/* The work in hand; nodes of other bodies have no displacements. */
 typedef struct loading {
     const dem_model *model;
     dem_index body;
@@ -32,6 +39,7 @@ static bool is_of_body(const loading *l, dem_index i)
 
 /* ---- the body ---- */
 
+/* The nodes inside the body are those of its triangles that no boundary edge has. All others are held. */
 static dem_status find_inside(loading *l)
 {
     const dem_lattice *lattice = &l->model->lattice;
@@ -42,6 +50,7 @@ static dem_status find_inside(loading *l)
     TRY(mesh_edges_create(&s, lattice));
     for (dem_index i = 0; i < lattice->n_nodes; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++) {
+            /* A slot that is the only one of its edge: the edge is on the boundary. */
             const bool last = p + 1 == s.row[i + 1] || mesh_edges_is_first(&s, i, p + 1);
             if (mesh_edges_is_first(&s, i, p) && last) l->held[i] = l->held[s.list[p].upper] = 1;
         }
@@ -49,6 +58,7 @@ static dem_status find_inside(loading *l)
     return DEM_OK;
 }
 
+/* Volume, from the thickness and area of the triangles at rest; mass; and mean place of the body's nodes. */
 static dem_status measure(loading *l)
 {
     const dem_lattice *lattice = &l->model->lattice;
@@ -76,6 +86,7 @@ static dem_status measure(loading *l)
 
 /* ---- the loading ---- */
 
+/* e d for the unit strain of a case. The shear is shared by both components: e_xy = 1/2, and no turning. */
 static vec2 strained(int which, vec2 d)
 {
     if (which == XX) return (vec2){d.x, 0.0};
@@ -83,7 +94,9 @@ static vec2 strained(int which, vec2 d)
     return (vec2){0.5 * d.y, 0.5 * d.x};
 }
 
-/* u = uniform strain + what the inside adds to it */
+/* Displaces the body uniformly and lets the inside relax: u becomes u + w, where w is 0 on held nodes and K w = -K u on
+ * the others. `force` is K u first, the right-hand side and w in between, and K (u + w) at the end. The residual left
+ * is `accepted` times the norm of the forces of the uniform strain. */
 static dem_status load(loading *l, int which)
 {
     const dem_lattice *lattice = &l->model->lattice;
@@ -101,7 +114,8 @@ static dem_status load(loading *l, int which)
     return DEM_OK;
 }
 
-/* Second derivative of the energy over the volume, whose error is of second order in those of u and v. */
+/* u.K v/V, Pa. At equilibrium the energy is stationary in the displacements inside, so that their errors enter as
+ * products. */
 static double stiffness_of(const loading *l, const double *u, const double *force)
 {
     double sum = 0.0;
@@ -111,7 +125,8 @@ static double stiffness_of(const loading *l, const double *u, const double *forc
 
 /* ---- what follows from C ---- */
 
-/* 1/E along (c, s) is a.C^-1 a with a = (c^2, s^2, c s), of uniaxial stress; a.adj(C) a up to the determinant. */
+/* The compliance along the direction (c, s), 1/E = a.C^-1 a with a = (c^2, s^2, c s) the stress of uniaxial tension.
+ * The adjugate of C stands for its inverse: the determinant cancels in the ratio that is asked for. */
 static double compliance_along(double C[3][3], double angle)
 {
     const double c = cos(angle), s = sin(angle), a[3] = {c * c, s * s, c * s};
@@ -124,6 +139,7 @@ static double compliance_along(double C[3][3], double angle)
     return sum;
 }
 
+/* Largest over smallest Young's modulus along a direction. */
 static double anisotropy_of(double C[3][3])
 {
     const int n_directions = 360; /* over half a turn, both axes and both diagonals among them */
@@ -137,11 +153,13 @@ static double anisotropy_of(double C[3][3])
     return most / least;
 }
 
-/* The isotropic constants nearest to C are its averages over all directions. */
+/* Averages of C over all directions are the constants of the nearest isotropic plate: with B = lambda + G its bulk
+ * modulus in two dimensions, E = 4 B G/(B + G), nu = (B - G)/(B + G), and C11 = B + G gives the speed of longitudinal
+ * waves. */
 static dem_status conclude(const loading *l, dem_constants *out)
 {
     double(*C)[3] = out->stiffness;
-    const double bulk = 0.25 * (C[0][0] + C[1][1] + 2.0 * C[0][1]); /* lambda + G */
+    const double bulk = 0.25 * (C[0][0] + C[1][1] + 2.0 * C[0][1]);
     const double shear = 0.125 * (C[0][0] + C[1][1] - 2.0 * C[0][1] + 4.0 * C[2][2]), density = l->mass / l->volume;
     CHECK(bulk > 0.0 && shear > 0.0, DEM_ERROR_MODEL,
           "the body is not stable: its bulk and shear modulus are %g and %g Pa", bulk, shear);
@@ -154,6 +172,7 @@ static dem_status conclude(const loading *l, dem_constants *out)
     return DEM_OK;
 }
 
+/* C comes out symmetric up to rounding, since K is. */
 static dem_status run(loading *l, dem_constants *out)
 {
     TRY(measure(l));
@@ -164,6 +183,7 @@ static dem_status run(loading *l, dem_constants *out)
     return conclude(l, out);
 }
 
+/* All vectors are one allocation. *out is written only if everything has gone well. */
 dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out)
 {
     CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_constants: %s is NULL", model ? "out" : "model");

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The highest frequency about the rest shape, by Lanczos iteration on M^-1/2 K M^-1/2: in the basis q_1, q_2, ... of
- * the iterates this matrix is tridiagonal, with `diagonal` and `beside` it; its largest eigenvalue theta rises to that
- * of the whole. Some eigenvalue is within the residual beside_m |s_m| of theta, s its unit eigenvector. */
+/* The highest angular frequency about the rest shape, by Lanczos iteration on A = M^-1/2 K M^-1/2: in the basis q_1,
+ * q_2, ... of the iterates A is tridiagonal, with `diagonal` and `beside` it, and the largest eigenvalue theta of this
+ * matrix rises to that of A, omega^2. Some eigenvalue of A is within the residual beside_m |s_m| of theta, where s is
+ * the unit eigenvector of the tridiagonal matrix. No orthogonalisation is needed for the largest eigenvalue alone. The
+ * rigorous upper bound, which limits steps, is cheaper and not here: frequency_bound() in model.c. */
 #include <stdlib.h>
 
 #include "base/random.h"
@@ -14,6 +16,7 @@ enum { most_iterations = 2000 };
 
 static const double accepted = 1e-6; /* residual over theta; the error of theta is of the order of its square */
 
+/* The iteration; nothing of it grows with the number of iterations but the tridiagonal matrix. */
 typedef struct lanczos {
     const dem_model *model;
     dem_index m;                      /* iterations */
@@ -25,7 +28,7 @@ typedef struct lanczos {
 
 /* ---- the tridiagonal matrix ---- */
 
-/* Whether an eigenvalue is above x: a pivot of x - T is then negative. */
+/* Whether an eigenvalue is above x. x - T is positive definite if and only if all pivots of its factorisation are. */
 static bool is_below_the_largest(const lanczos *l, double x)
 {
     double pivot = x - l->diagonal[0];
@@ -34,6 +37,7 @@ static bool is_below_the_largest(const lanczos *l, double x)
     return !(pivot > 0.0);
 }
 
+/* The largest eigenvalue by bisection to the last bit, between 0 and the bound of Gershgorin's circles. */
 static double largest_of(const lanczos *l)
 {
     double low = 0.0, high = 0.0; /* Gershgorin's circles */
@@ -49,8 +53,10 @@ static double largest_of(const lanczos *l)
     }
 }
 
-/* |s_m| of the unit eigenvector of theta, from below: there it grows, and rounding with it dies out. What is left where
- * it has fallen again does not matter. */
+/* |s_m| of the unit eigenvector of theta. Row k of T s = theta s gives
+ *     s_(k-1) = ((theta - diagonal_k) s_k - beside_k s_(k+1))/beside_(k-1),
+ * from the last row upwards: in this direction the components grow, and rounding errors with them die out. Where they
+ * have fallen to 1e-3 of their peak, the rest adds nothing to the norm. */
 static double last_component(const lanczos *l, double theta)
 {
     double here = 1.0, below = 0.0, squares = 1.0, peak = 1.0;
@@ -67,6 +73,7 @@ static double last_component(const lanczos *l, double theta)
 
 /* ---- the iteration ---- */
 
+/* A rounded sum in the order of nodes. */
 static double product(const lanczos *l, const double *a, const double *b)
 {
     double sum = 0.0;
@@ -74,7 +81,8 @@ static double product(const lanczos *l, const double *a, const double *b)
     return reduce_rounded_sum(sum);
 }
 
-/* Every mode is in it: random numbers; 0 where a node is fixed. */
+/* A random unit vector, so that every mode is in it; 0 where a node is fixed. The seed is constant: every run finds the
+ * same bits. */
 static void start(lanczos *l)
 {
     uint64_t state = 1;
@@ -86,7 +94,7 @@ static void start(lanczos *l)
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes && size > 0.0; k++) l->vector[k] /= size;
 }
 
-/* image = M^-1/2 K M^-1/2 vector */
+/* image = M^-1/2 K M^-1/2 vector. */
 static void apply(lanczos *l)
 {
     const dem_model *model = l->model;
@@ -98,10 +106,12 @@ static void apply(lanczos *l)
         vec2_put(l->image, i, vec2_scale(sqrt(model->inverse_mass[i]), vec2_at(l->image, i)));
 }
 
-/* Takes out of the image what it has of q_m and q_(m-1); what is left, made a unit vector, is the next. Its size. */
+/* One iteration: the image A q_m, less what it has of q_m and q_(m-1), is beside_m q_(m+1).
+ * \return beside_m, the size of what is left */
 static double next(lanczos *l)
 {
     const dem_index n = 2 * l->model->lattice.n_nodes;
+    /* `here` is q_m.A q_m, the next number on the diagonal. */
     const double before = l->m > 0 ? l->beside[l->m - 1] : 0.0, here = product(l, l->image, l->vector);
     for (dem_index k = 0; k < n; k++) l->image[k] -= here * l->vector[k] + before * l->last[k];
     const double size = sqrt(product(l, l->image, l->image));
@@ -114,6 +124,7 @@ static double next(lanczos *l)
     return size;
 }
 
+/* Stops when the residual is below `accepted` theta; the error of theta is then of the order of the square of that. */
 static dem_status iterate(lanczos *l, double *omega)
 {
     start(l);

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Validates a lattice and obstacles, copies them and compiles CSR, triangle rows, segments and contact candidates. */
+/* The model: validates a lattice and obstacles, copies them, and compiles what a run reads often: springs and triangles
+ * in rows, the layout of the sweep, the surface, the stress map, obstacles. It is immutable afterwards and may be
+ * shared by simulations and threads. The first fault is reported with node, place and numbers. How each part is
+ * compiled is in its own file; what changes during a run belongs to the simulation (simulation/). */
 #include "model/model.h"
 
 #include <stdlib.h>
@@ -14,6 +17,7 @@
 
 /* ---- validation ---- */
 
+/* An array of vectors must be finite; a missing one is fine. */
 static dem_status check_pairs(const char *what, const double *array, dem_index n)
 {
     for (dem_index i = 0; array != NULL && i < n; i++)
@@ -22,6 +26,8 @@ static dem_status check_pairs(const char *what, const double *array, dem_index n
     return DEM_OK;
 }
 
+/* Positions, masses and numbers of bodies. Velocities come last: a spin about the centre of mass may have made them not
+ * finite because of a bad mass, which is then named first. */
 static dem_status check_nodes(const dem_lattice *l)
 {
     CHECK(l->n_nodes > 0, DEM_ERROR_MODEL, "the lattice has no nodes");
@@ -38,6 +44,7 @@ static dem_status check_nodes(const dem_lattice *l)
     return check_pairs("initial velocity", l->velocity, l->n_nodes); /* masses may have made them */
 }
 
+/* A spring needs two different nodes at different places, of one body, and a positive rest length and stiffness. */
 static dem_status check_springs(const dem_lattice *l)
 {
     for (dem_index k = 0; k < l->n_springs; k++) {
@@ -57,6 +64,7 @@ static dem_status check_springs(const dem_lattice *l)
     return DEM_OK;
 }
 
+/* Areas must be positive, which also means counter-clockwise corners. */
 static dem_status check_triangles(const dem_lattice *l)
 {
     for (dem_index k = 0; k < l->n_triangles; k++) {
@@ -76,6 +84,7 @@ static dem_status check_triangles(const dem_lattice *l)
     return DEM_OK;
 }
 
+/* Node numbers are checked by lattice_check() before springs and triangles use them. */
 static dem_status check_lattice(const dem_lattice *l)
 {
     CHECK(l->dim == 2, DEM_ERROR_ARGUMENT, "the lattice has dimension %d, only 2 is supported", l->dim);
@@ -85,7 +94,8 @@ static dem_status check_lattice(const dem_lattice *l)
     return check_triangles(l);
 }
 
-/* A node without springs is legal only as a body of its own; body numbers have no holes. */
+/* A node without springs is legal only as a body of its own, and the numbers of bodies have no holes. Loops go
+ * backwards so that the first fault is named. */
 static dem_status check_bodies(const dem_model *m)
 {
     dem_index *size = lattice_zeros(m->n_bodies, sizeof *size);
@@ -108,6 +118,7 @@ static dem_status check_bodies(const dem_model *m)
 
 /* ---- compilation ---- */
 
+/* Fills in what the absence of an array stands for, so that later code need not ask. A fixed node has no velocity. */
 static dem_status fill_defaults(dem_lattice *l)
 {
     const dem_index n = l->n_nodes;
@@ -127,6 +138,7 @@ static dem_status fill_defaults(dem_lattice *l)
     return DEM_OK;
 }
 
+/* The inverse mass of a fixed node is 0: no force accelerates it. */
 static dem_status compile_nodes(dem_model *m)
 {
     const dem_lattice *l = &m->lattice;
@@ -140,7 +152,9 @@ static dem_status compile_nodes(dem_model *m)
     return DEM_OK;
 }
 
-/* Springs make at most twice their blocks, triangles three times theirs: (g.u)^2 <= 3 sum of (g_i.u_i)^2. */
+/* omega_max, rad/s: omega^2 <= max |2 S_i + 3 T_i|/m_i over the nodes (docs/method.md, Integration in time). S_i is the
+ * sum of k n n^T over the springs of node i, since (n.(u_j - u_i))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2; T_i that of
+ * max(kappa, 0)/A0 g g^T over its triangles with g = dA/dx_i, since (sum of three)^2 <= 3 (sum of squares). */
 static double frequency_bound(const dem_model *m)
 {
     const double *x = m->lattice.x;
@@ -151,16 +165,18 @@ static double frequency_bound(const dem_model *m)
         const sym2 sum = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
                           2.0 * bonds.yy + 3.0 * areas.yy};
         const double bound = sym2_largest(sum) * m->inverse_mass[i];
-        squared = isfinite(bound) ? fmax(squared, bound) : (double)INFINITY;
+        squared = isfinite(bound) ? fmax(squared, bound) : (double)INFINITY; /* fmax() would drop a NAN */
     }
     return sqrt(reduce_max(squared));
 }
 
+/* The spacing is the shortest rest length. The mass is an exact sum. */
 static void compile_scales(dem_model *m)
 {
     const dem_lattice *l = &m->lattice;
     double shortest = INFINITY;
     for (dem_index k = 0; k < l->n_springs; k++) shortest = fmin(shortest, l->rest_length[k]);
+    /* A lattice without springs has the spacing 0. */
     shortest = reduce_min(shortest);
     m->spacing = isfinite(shortest) ? shortest : 0.0;
     m->omega_max = frequency_bound(m);
@@ -170,6 +186,7 @@ static void compile_scales(dem_model *m)
     m->mass = reduce_sum(&mass);
 }
 
+/* Appending to an empty lattice copies the caller's arrays. */
 static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
     TRY(check_lattice(lattice));
@@ -185,6 +202,7 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     return compile_nodes(m);
 }
 
+/* A failure of one part is reduced before the sums, at which all processes would meet (base/reduce.h). */
 static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
     TRY(reduce_status(compile_parts(m, lattice, list, n), 0.0));
@@ -195,6 +213,7 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
 
 /* ---- public ---- */
 
+/* The caller's struct may be of another version of the library: `own` is its copy in this one's layout. */
 dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                             dem_index n_obstacles)
 {
@@ -227,6 +246,7 @@ void dem_model_destroy(dem_model *model)
     free(model);
 }
 
+/* Views of arrays that belong to the model. */
 dem_csr dem_model_csr(const dem_model *model)
 {
     const springs *s = &model->springs;
@@ -277,6 +297,7 @@ const double *dem_model_volumes(const dem_model *model)
     return model->stress.volume;
 }
 
+/* At t = 0; free ends are not lengthened, and no obstacle is left out. */
 double dem_model_gap(const dem_model *model, const double x[2])
 {
     return obstacles_gap(&model->obstacles, 0.0, vec2_at(x, 0), 0.0, -1, -1).distance;

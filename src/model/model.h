@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The compiled, immutable problem: nodes, springs in CSR, triangles, obstacles. */
+/* The compiled, immutable problem: nodes, springs in CSR, triangles, obstacles. It has no state of a run. */
 #ifndef DEM_MODEL_MODEL_H
 #define DEM_MODEL_MODEL_H
 

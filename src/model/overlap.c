@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Triangles look at the boundary nodes in the cells that they reach into. */
+/* Finds bodies that run into each other or into themselves, which no force prevents: boundary nodes inside triangles of
+ * which they are no corners. Boundary nodes are put into the cells of a grid, and each triangle looks at the nodes in
+ * the cells that it reaches into. The result is only reported; contact between bodies is not computed. */
 #include "model/overlap.h"
 
 #include <math.h>
@@ -10,9 +12,10 @@
 #include "elastic/triangles.h"
 #include "lattice/mesh_edges.h"
 
-/* Of a triangle's area: a node that only touches an edge is not inside. */
+/* In units of a triangle's area: a node that only touches an edge is not inside. */
 static const double touching = 1e-9;
 
+/* Lists the boundary nodes once; the grid is filled anew at each look. */
 dem_status overlap_create(overlap *out, const dem_lattice *lattice)
 {
     overlap o = {.found = {.node = -1, .triangle = -1}};
@@ -48,6 +51,7 @@ void overlap_destroy(overlap *o)
 
 /* ---- cells ---- */
 
+/* The cell of a coordinate among n. What is beyond the grid belongs to the cell at its rim, and so does a NAN. */
 static dem_index cell_of(double x, double start, double per_length, dem_index n)
 {
     if (!(x > start)) return 0;
@@ -65,7 +69,8 @@ static dem_index row_of(const overlap *o, double y)
     return cell_of(y, o->low, o->cells_per_length, o->rows);
 }
 
-/* As many cells as there are triangles, or fewer, over all boundary nodes. */
+/* About as many cells as there are triangles, over all boundary nodes, and square: then a triangle reaches into few of
+ * them. The list of a cell has its nodes in ascending order, since they are entered backwards. */
 static void fill_cells(overlap *o, const double *x)
 {
     double right = -INFINITY, high = -INFINITY;
@@ -77,6 +82,7 @@ static void fill_cells(overlap *o, const double *x)
         right = fmax(right, at.x);
         high = fmax(high, at.y);
     }
+    /* The grid is made of squares with columns * rows <= n_cells; a body without width or height has a single cell. */
     const double width = right - o->left, height = high - o->low, n = (double)o->n_cells;
     o->columns = o->rows = 1;
     o->cells_per_length = 0.0;
@@ -96,6 +102,7 @@ static void fill_cells(overlap *o, const double *x)
 
 /* ---- triangles ---- */
 
+/* A node is inside if it makes a positive area with each side. A triangle that is itself folded has no inside. */
 static bool is_inside(const dem_index *corner, dem_index i, const double *x)
 {
     const vec2 a = vec2_at(x, corner[0]), b = vec2_at(x, corner[1]), c = vec2_at(x, corner[2]), p = vec2_at(x, i);
@@ -105,6 +112,7 @@ static bool is_inside(const dem_index *corner, dem_index i, const double *x)
            vec2_triangle_area(c, a, p) > least;
 }
 
+/* Counts an overlap, and keeps the time and place of the first one of a run. */
 static void note(overlap *o, dem_index node, dem_index triangle, double t, const double *x)
 {
     if (o->found.now++ > 0 || o->found.node >= 0) return;
@@ -126,6 +134,7 @@ static double most_of(double a, double b, double c)
     return -least_of(-a, -b, -c);
 }
 
+/* All cells that the triangle's bounding box reaches into. */
 static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double t, const double *x)
 {
     const dem_index *corner = &lattice->triangles[3 * k];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whether bodies run into each other or into themselves, which nothing prevents: nodes of the boundary inside triangles
- * of which they are no corners. */
+/* Whether bodies run into each other or into themselves, which no force prevents: nodes of the boundary inside
+ * triangles of which they are no corners. */
 #ifndef DEM_MODEL_OVERLAP_H
 #define DEM_MODEL_OVERLAP_H
 
@@ -18,7 +18,7 @@ typedef struct overlap {
 dem_status overlap_create(overlap *out, const dem_lattice *lattice);
 void overlap_destroy(overlap *o);
 
-/** Looks at positions x [n_nodes][2] at t. Costs a few comparisons for each triangle. */
+/** Searches at positions x [n_nodes][2] at t. Costs a few comparisons for each triangle. */
 void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x);
 
 #endif

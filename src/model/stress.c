@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A spring's r x f goes to the triangles that have it for a side, or between whose outer corners it is, in proportion
- * to modulus * thickness * area, and from each a third to every corner. A spring outside of all triangles gives half
- * to each of its ends. */
+/* Stress of nodes (docs/method.md, Stress). The stress of a triangle is
+ *     S = (1/V) (sum over its springs of w r x f + A dW/dA I),
+ * and that of a node the mean of its triangles' by volume. A spring's r x f goes to the triangles that have it for a
+ * side, or between whose outer corners it is (the second diagonal of a square), with shares w in proportion to modulus
+ * * thickness * area: what they gave to its stiffness. A spring outside of all triangles gives half to each of its
+ * ends. The file compiles the shares into rows by node, once; the stress itself is then a sum over a row. Largest
+ * stresses over time are in simulation/peaks.c; forces are not computed from stresses anywhere. */
 #include "model/stress.h"
 
 #include <stdbool.h>
@@ -24,11 +28,13 @@ typedef struct draft {
     stress_map *map;
 } draft;
 
+/* An array that is missing stands for 1. */
 static double one_or(const double *array, dem_index k)
 {
     return array != NULL ? array[k] : 1.0;
 }
 
+/* Thickness times area at rest, m^3. */
 static double volume_of(const dem_lattice *l, dem_index triangle)
 {
     const dem_index *c = &l->triangles[3 * triangle];
@@ -36,6 +42,7 @@ static double volume_of(const dem_lattice *l, dem_index triangle)
     return one_or(l->thickness, triangle) * area;
 }
 
+/* The corner of a triangle that is neither i nor j. */
 static dem_index opposite(const dem_lattice *l, dem_index triangle, dem_index i, dem_index j)
 {
     const dem_index *c = &l->triangles[3 * triangle];
@@ -50,6 +57,7 @@ static dem_index find_spring(const springs *s, dem_index i, dem_index j)
     return -1;
 }
 
+/* Gives a share of a spring to a node. The first pass only counts; the second one writes. */
 static void give(draft *d, dem_index node, dem_index spring, double share)
 {
     const dem_index p = d->next[node]++;
@@ -58,7 +66,8 @@ static void give(draft *d, dem_index node, dem_index spring, double share)
     d->map->share[p] = share;
 }
 
-/* Shares a spring between the triangles of the edge in slots p .. end - 1 of the sides. */
+/* Shares a spring between the triangles of the edge in slots p to end - 1 of the sides: to each in proportion to
+ * modulus * volume, and from each a third to every corner. */
 static void give_triangles(draft *d, dem_index spring, dem_index p, dem_index end)
 {
     const dem_lattice *l = d->lattice;
@@ -73,8 +82,8 @@ static void give_triangles(draft *d, dem_index spring, dem_index p, dem_index en
     d->placed[spring] = true;
 }
 
-/* The spring along the edge of node i in slots p .. end - 1 of the sides; or else, where two triangles meet there, that
- * between their outer corners. -1: there is none. */
+/* The spring along the edge of node i in slots p to end - 1 of the sides; or else (`along` false), where two triangles
+ * meet there, the one between their outer corners. -1: there is none. */
 static dem_index spring_of(const draft *d, bool along, dem_index i, dem_index p, dem_index end)
 {
     const mesh_edge_slot *list = d->sides.list;
@@ -85,6 +94,7 @@ static dem_index spring_of(const draft *d, bool along, dem_index i, dem_index p,
                        opposite(d->lattice, list[p + 1].triangle, i, j));
 }
 
+/* Goes through all edges, and shares their springs if no triangle has them yet. */
 static void give_edges(draft *d, bool along)
 {
     for (dem_index i = 0; i < d->lattice->n_nodes; i++)
@@ -95,6 +105,8 @@ static void give_edges(draft *d, bool along)
         }
 }
 
+/* Springs along edges come first: a spring that is an edge of some triangle must not be taken for a diagonal between
+ * the outer corners of two others. */
 static void give_all(draft *d)
 {
     for (dem_index k = 0; k < d->lattice->n_springs; k++) d->placed[k] = false;
@@ -114,7 +126,8 @@ static void lay_rows(draft *d)
     }
 }
 
-/* Adds up what a node has of the same spring from two triangles, which are neighbours in its row. */
+/* Adds up what a node has of one spring from two triangles. Such shares are next to each other in its row, since
+ * give_triangles() gives them in one go. */
 static void merge(stress_map *map, dem_index n_nodes)
 {
     dem_index kept = 0;
@@ -132,6 +145,8 @@ static void merge(stress_map *map, dem_index n_nodes)
     }
 }
 
+/* The volume of a node is a third of that of its triangles at rest. Shares over volumes make the sum of a row a
+ * stress. */
 static void divide_by_volumes(stress_map *map, const dem_lattice *l)
 {
     for (dem_index k = 0; k < 3 * l->n_triangles; k++) map->volume[l->triangles[k]] += volume_of(l, k / 3) / 3.0;
@@ -140,6 +155,7 @@ static void divide_by_volumes(stress_map *map, const dem_lattice *l)
             map->share[p] = map->volume[i] > 0.0 ? map->share[p] / map->volume[i] : 0.0;
 }
 
+/* Count, lay out the rows, write, merge. All sums that follow are in the order of these rows. */
 static dem_status compile(draft *d)
 {
     const dem_lattice *l = d->lattice;
@@ -189,6 +205,8 @@ void stress_free(stress_map *map)
 
 /* ---- stresses ---- */
 
+/* The sum over the node's row of share r x f, Pa, and the isotropic part A dW/dA of its triangles, of which a third
+ * falls to each corner. */
 void stress_of_node(const stress_map *map, const dem_lattice *lattice, const triangles *t, dem_index i, const double *x,
                     double stress[3])
 {
@@ -208,12 +226,16 @@ void stress_of_node(const stress_map *map, const dem_lattice *lattice, const tri
     stress[2] = xy;
 }
 
+/* Of plane stress. */
 double dem_stress_von_mises(const double stress[3])
 {
     const double xx = stress[0], yy = stress[1], xy = stress[2];
     return sqrt(xx * xx - xx * yy + yy * yy + 3.0 * xy * xy);
 }
 
+/* Principal stresses, the larger one first, and the unit direction of that, with x >= 0. Since (S - value[0]) (S -
+ * value[1]) = 0, every column of S - value[1] I is along the first direction; the larger of the two columns is taken.
+ * Equal principal stresses have no direction, and the x axis stands for it. */
 void dem_stress_principal(const double stress[3], double value[2], double direction[2])
 {
     const double mean = 0.5 * (stress[0] + stress[1]), half = 0.5 * (stress[0] - stress[1]), xy = stress[2];

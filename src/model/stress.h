@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stress of nodes from springs and triangles. A triangle's stress is what its share of its springs' r x f, and its own
- * energy, make of its rest volume; a node's is the mean of its triangles' by volume. So it is exact on boundaries too
- * where the strain is uniform. docs/method.md has the formulas. */
+ * energy, make of its rest volume; a node's stress is the mean of its triangles' by volume. Where the strain is uniform
+ * it is therefore exact on boundaries, too. docs/method.md has the formulas. */
 #ifndef DEM_MODEL_STRESS_H
 #define DEM_MODEL_STRESS_H
 

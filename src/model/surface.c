@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sides of one triangle only, walked along each boundary. */
+/* The surface of the bodies: nodes that may touch obstacles, and the boundary edges between them, put in order along
+ * each boundary, so that contact can go from an edge to the next one. Boundary edges are the sides that only one
+ * triangle has (lattice/mesh_edges.c). Which obstacle feature touches which edge is the business of contact/. */
 #include "model/surface.h"
 
 #include <stdlib.h>
@@ -8,6 +10,7 @@
 #include "base/vec2.h"
 #include "lattice/mesh_edges.h"
 
+/* A fixed node takes no part: no contact could move it. */
 static bool node_may_touch(const dem_lattice *l, dem_index i)
 {
     return (l->flags[i] & DEM_NODE_CONTACT) && !(l->flags[i] & DEM_NODE_FIXED);
@@ -23,7 +26,7 @@ static dem_status list_nodes(surface *s, const dem_lattice *l)
     return DEM_OK;
 }
 
-/* An edge may be touched if both its nodes may and one of them moves. */
+/* An edge takes part if both its nodes may touch and one of them moves. */
 static bool may_touch(const dem_lattice *l, dem_index a, dem_index b)
 {
     return (l->flags[a] & l->flags[b] & DEM_NODE_CONTACT) && !(l->flags[a] & l->flags[b] & DEM_NODE_FIXED);
@@ -36,7 +39,9 @@ static bool runs_from(const dem_index *corner, dem_index i, dem_index j)
            (corner[2] == i && corner[0] == j);
 }
 
-/* Boundary edges from start to end, in the order of their lower nodes, into ends, or NULL; returns how many. */
+/* Boundary edges, in the order of their lower nodes, each running with the body on its left, as its triangle does.
+ * \param ends  NULL: they are only counted
+ * \return how many there are */
 static dem_index find_edges(const dem_lattice *l, const mesh_edges *list, dem_index *ends)
 {
     dem_index n = 0;
@@ -54,7 +59,8 @@ static dem_index find_edges(const dem_lattice *l, const mesh_edges *list, dem_in
     return n;
 }
 
-/* Edges listed by node: row[i] .. row[i+1]-1 of `at`. */
+/* Lists edges by node: slots row[i] to row[i + 1] - 1 of `at`, ascending. Backwards, row[i + 1] counts down to where
+ * row i begins, and is then moved to row[i]. */
 static void list_by_node(surface *s, dem_index n_nodes)
 {
     for (dem_index k = 0; k < 2 * s->n_edges; k++) s->row[s->ends[k] + 1]++;
@@ -64,7 +70,8 @@ static void list_by_node(surface *s, dem_index n_nodes)
     s->row[n_nodes] = 2 * s->n_edges;
 }
 
-/* Angle by which one turns clockwise at the end of edge e from the way back to the way along edge f, in (0, 2 pi]. */
+/* Angle by which one turns clockwise at the end of edge e, from the way back along e to the way along edge f; in (0, 2
+ * pi]. */
 static double turn_at_end(const surface *s, const double *x, dem_index e, dem_index f)
 {
     const vec2 at = vec2_at(x, s->ends[2 * e + 1]), back = vec2_sub(vec2_at(x, s->ends[2 * e]), at),
@@ -73,7 +80,8 @@ static double turn_at_end(const surface *s, const double *x, dem_index e, dem_in
     return turn > 0.0 ? turn : turn + 2.0 * acos(-1.0);
 }
 
-/* The body is on the left, so that it is turned through first: the nearest edge belongs to the same fan. */
+/* Where a boundary pinches, several edges begin at a node. Turning clockwise from the way back one goes through the
+ * body, which is on the left of e: the first edge met belongs to the same fan of triangles. */
 static dem_index next_of(const surface *s, const double *x, dem_index e)
 {
     const dem_index node = s->ends[2 * e + 1];
@@ -85,6 +93,7 @@ static dem_index next_of(const surface *s, const double *x, dem_index e)
     return next;
 }
 
+/* -1 where the neighbouring edge takes no part in contact. */
 static void link_edges(surface *s, const double *x)
 {
     for (dem_index e = 0; e < s->n_edges; e++) s->previous[e] = -1;
@@ -94,11 +103,13 @@ static void link_edges(surface *s, const double *x)
     }
 }
 
-/* Open chains from where they begin, then closed ones. */
+/* Writes the edges in the order of a walk: open chains from where they begin in the first half of the loop, then closed
+ * ones from their lowest edge. */
 static void walk(const surface *s, unsigned char *walked, dem_index *ends)
 {
     dem_index n = 0;
     for (dem_index k = 0; k < 2 * s->n_edges; k++) {
+        /* In the first half of the loop edges with a predecessor are passed over. */
         const dem_index start = k % s->n_edges;
         if (k < s->n_edges && s->previous[start] >= 0) continue;
         for (dem_index e = start; e >= 0 && !walked[e]; e = s->next[e]) {
@@ -110,7 +121,7 @@ static void walk(const surface *s, unsigned char *walked, dem_index *ends)
     }
 }
 
-/* Puts the edges in the order of a walk along each boundary. */
+/* Links are needed to find the order, and are made anew in it. */
 static dem_status sort_edges(surface *s, const dem_lattice *l)
 {
     unsigned char *walked = calloc((size_t)s->n_edges + 1, 1);
@@ -145,6 +156,7 @@ static dem_status allocate(surface *s, const dem_lattice *l)
     return DEM_OK;
 }
 
+/* Edges are counted, then listed, then put in order. */
 dem_status surface_compile(surface *out, const dem_lattice *lattice)
 {
     surface s = {0};

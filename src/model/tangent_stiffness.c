@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Products with K, and conjugate gradients on the nodes that are not held; sums in the order of the nodes. */
+/* Products with the tangent stiffness K, and conjugate gradients, preconditioned by a diagonal, for K u = f on the
+ * nodes that are not held. K is never stored: a row is computed from springs and triangles when it is needed. Sums are
+ * in the order of nodes. The derivatives themselves are in elastic/springs.c and elastic/triangles.c; time integration
+ * does not use K. */
 #include "model/tangent_stiffness.h"
 
 #include <stdlib.h>
@@ -31,7 +34,7 @@ static double product(const solver *s, const double *a, const double *b)
     return reduce_rounded_sum(sum);
 }
 
-/* r.z with z = r times the scales */
+/* r.z with the preconditioned residual z = r times the scales. */
 static double scaled_product(const solver *s)
 {
     double sum = 0.0;
@@ -42,6 +45,7 @@ static double scaled_product(const solver *s)
     return reduce_rounded_sum(sum);
 }
 
+/* u += step p and r -= step K p. */
 static void advance(const solver *s, double step, double *u)
 {
     for (dem_index k = 0; k < s->n_free; k++) {
@@ -51,7 +55,7 @@ static void advance(const solver *s, double step, double *u)
     }
 }
 
-/* p = z + ratio p */
+/* p = z + ratio p: the new direction is conjugate to the ones before it. */
 static void turn(const solver *s, double ratio)
 {
     for (dem_index k = 0; k < s->n_free; k++) {
@@ -61,10 +65,11 @@ static void turn(const solver *s, double ratio)
     }
 }
 
-/* u = 0 at first, the residual is f. */
+/* Begins with u = 0, where the residual r is f; ends when |r| is at most `residual`. In exact arithmetic 2 n_free steps
+ * are enough. p.K p <= 0 shows that K is not positive definite: the lattice is not stable. */
 static dem_status iterate(const solver *s, double residual, double *u)
 {
-    const dem_index most = 20 * reduce_count(s->n_free) + 1000; /* without rounding 2 n_free would do */
+    const dem_index most = 20 * reduce_count(s->n_free) + 1000;
     double size = scaled_product(s), previous = 0.0;
     for (dem_index k = 0; product(s, s->rest, s->rest) > residual * residual; k++) {
         CHECK(k < most, DEM_ERROR_MODEL, "the shape of %lld free nodes is not found in %lld iterations",
@@ -73,6 +78,7 @@ static dem_status iterate(const solver *s, double residual, double *u)
         for (dem_index j = 0; j < s->n_free; j++)
             vec2_put(s->image, s->free[j], tangent_row(s->model, s->free[j], s->x, s->direction));
         const double curvature = product(s, s->direction, s->image);
+        /* p.K p is twice the energy that the displacement p takes. */
         CHECK(curvature > 0.0, DEM_ERROR_MODEL,
               "the lattice is not stable: a displacement of %lld free nodes takes no energy", (long long)s->n_free);
         advance(s, size / curvature, u);
@@ -82,6 +88,8 @@ static dem_status iterate(const solver *s, double residual, double *u)
     return DEM_OK;
 }
 
+/* Lists the free nodes and their scales: 2 over the trace of an approximate diagonal block of K, m/N. f is moved from u
+ * to the residual, and u begins at 0. */
 static void fill(solver *s, const unsigned char *held, double *u)
 {
     for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The tangent of a model: K, the second derivative of the energy of springs, area term and guard about any state. */
+/* The tangent stiffness of a model: K, the second derivative of the energy of springs, area term and guard at any
+ * positions. */
 #ifndef DEM_MODEL_TANGENT_STIFFNESS_H
 #define DEM_MODEL_TANGENT_STIFFNESS_H
 
