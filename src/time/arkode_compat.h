@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The interface of ARKODE in SUNDIALS 7, for 6.4 and later too. */
+/* The interface of ARKODE in SUNDIALS 7, for 6.4 and later too: old names are defined as the new ones, and the
+ * functions below hide what changed in kind, errors and the controller of steps. Errors go to a listener; nothing is
+ * printed. */
 #ifndef DEM_TIME_ARKODE_COMPAT_H
 #define DEM_TIME_ARKODE_COMPAT_H
 

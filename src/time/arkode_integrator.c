@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* ERKStep in one-step mode. Nothing is left to ARKODE's defaults, which differ between its versions. */
+/* Explicit Runge-Kutta methods by ARKODE's ERKStep, in one-step mode: ARKODE takes stages, estimates errors and chooses
+ * steps; what is read off between the ends of a step is our own quintic (dense_output.c), and tables come from
+ * butcher.c. Nothing is left to ARKODE's defaults, which differ between its versions. The bits of a run must not depend
+ * on how it is cut into calls, so this file keeps the accepted step (y0, f0) to (y1, f1) itself and decides which
+ * derivative ARKODE may have without an evaluation. Differences between SUNDIALS 6 and 7 are in arkode_compat.h. What
+ * is integrated is in ode_problem.h; nothing here knows of forces or contacts. */
 #include "time/arkode_integrator.h"
 
 #include <math.h>
@@ -14,12 +19,15 @@
 #include "time/nvector.h"
 
 enum {
-    max_retries = 10,
+    max_retries = 10, /* of a step whose derivative is not finite */
     most_vectors = 20 /* of ARKODE and here, but for the stages */
 };
 
+/* The weight of quadratures and padding in the norm of the error, in place of 1/tolerance: practically none. */
 static const double no_weight = 1e-100;
 
+/* The life of a step: ARKODE returns it in y; fetch_step() puts its ends into y1, f0, f1; it is handed out (at_end);
+ * the caller settles it, whole or cut, or takes it back; go_on() makes its end the start y0, f0 of the next. */
 typedef struct arkode_integrator {
     ode_problem problem;
     butcher_table table;
@@ -46,6 +54,9 @@ typedef struct arkode_integrator {
 
 /* ---- callbacks ---- */
 
+/* ARKODE's right-hand side. After a restart from a state whose derivative is known ARKODE asks for that derivative
+ * again: it is recognised by its time and its very buffer, and shared without an evaluation. Any failure is reported as
+ * one that ARKODE cannot recover from: arkode_integrator_step() decides about another attempt itself. */
 static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     arkode_integrator *I = user;
@@ -60,8 +71,8 @@ static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
     return flag == 0 ? 0 : -1;
 }
 
-/* Fetches both ends of the step that ARKODE has just accepted. With cubic interpolation they are the stored ones: no
- * number is copied. */
+/* Fetches both ends of the step that ARKODE has just accepted, and their derivatives. At the ends ARKODE's cubic
+ * interpolant gives back the vectors that it has stored, by sharing: no number is copied, and none is rounded. */
 static int fetch_step(arkode_integrator *I)
 {
     double now;
@@ -76,6 +87,7 @@ static int fetch_step(arkode_integrator *I)
     return 0;
 }
 
+/* The accepted step, whole, as the dense output that the caller sees. */
 static dense_output held_path(const arkode_integrator *I)
 {
     return (dense_output){.layout = I->problem.layout,
@@ -88,10 +100,10 @@ static dense_output held_path(const arkode_integrator *I)
                           .f1 = nvector_values(I->f1)};
 }
 
-/* ARKODE calls this at the end of a step and, while it brackets a root, inside: there the quintic of the dense output
- * replaces ARKODE's cubic, so that the root is that of the state in which the event is resolved. At the start of the
- * next step it has the value from the end of the last. If that was after a root it calls once more, and gets the same:
- * else a run that is resumed in between would have other bits. */
+/* ARKODE calls this at the end of a step and, while it brackets a root, inside the step. There the quintic of the dense
+ * output replaces ARKODE's cubic, so that the root is one of the very state in which the event is resolved. At the
+ * start of a step it gives the value from the end of the last. After a root ARKODE calls there once more, and gets the
+ * same: computed anew, the value could differ from that in a run resumed in between, and so would the bits. */
 static int call_root_function(sunrealtype t, N_Vector y, sunrealtype *g, void *user)
 {
     arkode_integrator *I = user;
@@ -114,6 +126,7 @@ static int call_weights(N_Vector y, N_Vector weights, void *user)
     return 0;
 }
 
+/* Keeps ARKODE's message for our own status; without a listener it would be printed. */
 static void keep_message(const char *message, void *user)
 {
     arkode_integrator *I = user;
@@ -122,6 +135,8 @@ static void keep_message(const char *message, void *user)
 
 /* ---- set-up ---- */
 
+/* The listener comes first, so that no error of SUNDIALS is printed. Room for all vectors is made here, so that no step
+ * can run out of memory for one. */
 static dem_status allocate(arkode_integrator *I)
 {
     const dem_index n = state_size(&I->problem.layout);
@@ -139,8 +154,10 @@ static dem_status allocate(arkode_integrator *I)
     return DEM_OK;
 }
 
-/* The norm is a mean over all entries, among them the quadratures, which have no part in the error: `share` makes it
- * one over the nodes. */
+/* ARKODE's norm is the mean over all N = 2 dim n_rows entries, sqrt(sum of (w_k e_k)^2/N). The quadratures and the
+ * padding have no part in the error, so the weights of the nodes are
+ *   share/position_error and share/velocity_error, with share^2 = n_rows/n_nodes,
+ * which makes the norm the mean over the 2 dim n_nodes entries of the nodes. */
 static void fill_weights(arkode_integrator *I)
 {
     const state_layout *l = &I->problem.layout;
@@ -152,7 +169,8 @@ static void fill_weights(arkode_integrator *I)
     for (dem_index k = v; k < v + n_real; k++) w[k] = share / I->problem.velocity_error;
 }
 
-/* The state from which the next step goes. */
+/* The state from which the next step goes; its derivative is not known. The root function is above 0 there: what has
+ * happened up to it has been resolved. */
 static void start_from(arkode_integrator *I, double t, const double *y)
 {
     if (y != nvector_values(I->y0)) memcpy(nvector_fresh(I->y0), y, (size_t)state_size(&I->problem.layout) * sizeof *y);
@@ -162,8 +180,8 @@ static void start_from(arkode_integrator *I, double t, const double *y)
     I->root = 1.0;
 }
 
-/* The order given to ARKODE limits the degree of its interpolant, and nothing else: below 4 it would not hold the
- * derivatives at both ends of a step. */
+/* Gives ARKODE the method. The order given with a table limits the degree of ARKODE's interpolant, and nothing else
+ * that is used here: below 4 it would not hold the derivatives at both ends of a step. */
 static int set_table(arkode_integrator *I)
 {
     butcher_table *t = &I->table;
@@ -175,13 +193,16 @@ static int set_table(arkode_integrator *I)
     return failed;
 }
 
-/* Sets the first step after the restart that follows. */
+/* Sets the length of the first step after the restart that follows, s, and remembers it for
+ * arkode_integrator_next_step(). */
 static int ask_step(arkode_integrator *I, double h)
 {
     I->asked = h;
     return ARKodeSetInitStep(I->arkode, h);
 }
 
+/* The control of steps: a PI controller, safety 0.9, factors between 0.1 and 10. From its second failure of the error
+ * test on, a step is cut to 0.3 of its length or less. Fixed steps need none of it. */
 static int set_adaptivity(arkode_integrator *I)
 {
     void *a = I->arkode;
@@ -203,6 +224,7 @@ static int set_adaptivity(arkode_integrator *I)
     return failed;
 }
 
+/* One root function, whose falling through zero is an event; rising ones are none. */
 static int set_root_function(arkode_integrator *I)
 {
     if (I->problem.root_function == NULL) return 0;
@@ -226,7 +248,9 @@ static dem_status set_up(arkode_integrator *I, double t, const double *y)
     failed |= set_table(I);
     failed |=
         ARKodeSetInterpolantDegree(I->arkode, 3); /* 4 and more would call the derivative at every root iteration */
+    /* Weights are given, not tolerances: they depend on no state, and every step shares one vector of them. */
     failed |= ARKodeWFtolerances(I->arkode, call_weights);
+    /* No limit on the number of steps in a call, and no warnings of steps below rounding, which would be printed. */
     failed |= ARKodeSetMaxNumSteps(I->arkode, -1);
     failed |= ARKodeSetMaxHnilWarns(I->arkode, -1);
     failed |= set_adaptivity(I);
@@ -265,7 +289,8 @@ static dem_status arkode_integrator_create(void **out, const ode_problem *proble
     return status;
 }
 
-/* Restarts ARKODE from the state, whose derivative may be known. */
+/* Restarts ARKODE from y0, keeping its memory of errors and step lengths. If f0 is known it is given to ARKODE, and the
+ * restart costs no evaluation. */
 static dem_status reset(arkode_integrator *I)
 {
     nvector_share(I->y0, I->y);
@@ -284,7 +309,8 @@ static dem_status arkode_integrator_restart(void *self, double t, const double *
     return reset(I);
 }
 
-/* After a derivative that was not finite: once more from the last accepted state, with a tenth of the step. */
+/* After a derivative that was not finite: once more from the last accepted state, with a tenth of the step. The first
+ * time that is a tenth of the length ARKODE was trying. */
 static dem_status retry(arkode_integrator *I, double *h)
 {
     if (*h == 0.0 && ARKodeGetCurrentStep(I->arkode, h) != ARK_SUCCESS) *h = I->problem.max_step;
@@ -294,6 +320,7 @@ static dem_status retry(arkode_integrator *I, double *h)
     return arkode_integrator_restart(I, I->t, nvector_values(I->y0));
 }
 
+/* What to tell the user for a flag of ARKODE's; without a sentence of our own, its message. */
 static const char *cause(const arkode_integrator *I, int flag)
 {
     switch (flag) {
@@ -308,12 +335,13 @@ static const char *cause(const arkode_integrator *I, int flag)
     }
 }
 
+/* The last accepted state stays in force; the message has the time from which the step failed. */
 static dem_status fail_step(arkode_integrator *I, int flag)
 {
     return status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails: %s", I->t, cause(I, flag));
 }
 
-/* Goes on from the end of the step that was handed out. */
+/* Goes on from the end of the step that was handed out: by sharing, no number is copied. */
 static void go_on(arkode_integrator *I)
 {
     if (!I->at_end) return;
@@ -330,6 +358,8 @@ static void arkode_integrator_end(void *self, double **y1, double **f1)
     *f1 = nvector_shared(I->f1);
 }
 
+/* Rejects the step just taken, for an error that only the caller can see (that of events, docs/algorithms.md, Error
+ * control). y0 and f0 still stand, so that the next try begins without an evaluation. */
 static dem_status arkode_integrator_redo(void *self, double factor)
 {
     arkode_integrator *I = self;
@@ -339,6 +369,8 @@ static dem_status arkode_integrator_redo(void *self, double factor)
     return reset(I);
 }
 
+/* Accepts the step. If an event has cut it short, the state is that of the dense output there, and its derivative is
+ * not known; the caller restarts, as velocities have jumped. */
 static void arkode_integrator_settle(void *self, const dense_output *step)
 {
     arkode_integrator *I = self;
@@ -358,6 +390,9 @@ static double *arkode_integrator_state(const void *self)
     return nvector_shared(I->y0);
 }
 
+/* One accepted step. The time that ARKODE is to reach lies far beyond it: no step is ever shortened for a frame or for
+ * t_end. Failures of the derivative are tried again with shorter steps, unless the steps are fixed or no step may mend
+ * it; their message is the derivative's own. */
 static dem_status arkode_integrator_step(void *self, dense_output *step, bool *rooted)
 {
     arkode_integrator *I = self;
@@ -386,6 +421,7 @@ static dem_status arkode_integrator_step(void *self, dense_output *step, bool *r
     return DEM_OK;
 }
 
+/* The first step that has been asked for, or the one that the controller has chosen. */
 static double arkode_integrator_next_step(const void *self)
 {
     const arkode_integrator *I = self;
@@ -395,6 +431,8 @@ static double arkode_integrator_next_step(const void *self)
     return ARKodeGetCurrentStep(I->arkode, &next) == ARK_SUCCESS ? next : 0.0;
 }
 
+/* Unlike a restart, forgets ARKODE's memory of errors as well: a run that passes a checkpoint and one that is resumed
+ * from it go on to the same bits. */
 static dem_status arkode_integrator_renew(void *self, const integrator_start *from)
 {
     arkode_integrator *I = self;
@@ -409,6 +447,7 @@ static dem_status arkode_integrator_renew(void *self, const integrator_start *fr
     return DEM_OK;
 }
 
+/* Shortens the next first step only if it would be longer. */
 static dem_status arkode_integrator_bound(void *self, double longest)
 {
     arkode_integrator *I = self;
@@ -424,6 +463,7 @@ static dem_status arkode_integrator_resume(void *self)
     return reset(I);
 }
 
+/* Rejections by ARKODE's error test are counted by ARKODE, those by redo() here. */
 static dem_counts arkode_integrator_counts(const void *self)
 {
     const arkode_integrator *I = self;

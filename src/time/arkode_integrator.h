@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* ARKODE behind a few functions: explicit Runge-Kutta methods with root functions, in adaptive steps or fixed ones. */
+/* ARKODE behind the table of an integrator: explicit Runge-Kutta methods with a root function, in adaptive steps or
+ * fixed ones. How a step passes through ARKODE is in the .c file; who calls it, in integrator.h. */
 #ifndef DEM_TIME_ARKODE_INTEGRATOR_H
 #define DEM_TIME_ARKODE_INTEGRATOR_H
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Coefficients are read from SUNDIALS, but for RK4's. */
+/* The methods of integration by name, their tables of coefficients, and their stability on undamped oscillations
+ * (docs/method.md, Methods). SUNDIALS owns the coefficients; they are read from it by the name of the table, so that
+ * none is copied by hand but those of the classical method, RK4. Steps are taken in arkode_integrator.c and, by the
+ * same tables, in src/events/local_correction.c. */
 #include "time/butcher.h"
 
 #include <math.h>
@@ -42,17 +45,22 @@ static const butcher_row rows[] = {
 };
 static const int n_rows = sizeof rows / sizeof rows[0];
 
+/* a_ij of a table: the rows stand one behind the other, without gaps. */
 static double *entry(butcher_table *t, int i, int j)
 {
     return &t->a[i * t->stages + j];
 }
 
+/* The classical method: 1/6, 1/3, 1/3, 1/6. */
 static const butcher_table rk4 = {.stages = 4,
                                   .order = 4,
                                   .a = {0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0},
                                   .b = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0},
                                   .c = {0.0, 0.5, 0.5, 1.0}};
 
+/* Copies a table of SUNDIALS. Its embedded weights d and their order are there only if the method estimates its error;
+ * d = NULL means that it takes fixed steps only. An append_solution() must still fit, hence fewer stages than there is
+ * room for. */
 static dem_status read_table(butcher_table *out, const butcher_row *row)
 {
     CHECK(100 * SUNDIALS_VERSION_MAJOR + SUNDIALS_VERSION_MINOR >= row->since, DEM_ERROR_ARGUMENT,
@@ -98,11 +106,14 @@ static void append_solution(butcher_table *t)
     *t = longer;
 }
 
+/* NULL for a number that is no method: the enumeration comes from the caller. */
 static const butcher_row *row_of(dem_method method)
 {
     return (int)method >= 0 && (int)method < n_rows ? &rows[method] : NULL;
 }
 
+/* The table as ARKODE is to have it. A last stage at c = 1 that is not the solution gets the solution as a stage behind
+ * it, see append_solution(). */
 dem_status butcher_load(butcher_table *out, dem_method method)
 {
     const butcher_row *row = row_of(method);
@@ -118,7 +129,10 @@ dem_status butcher_load(butcher_table *out, dem_method method)
 
 /* ---- stability ---- */
 
-/* |R(i z)| of y' = i omega y, z = omega h:  Y_j = 1 + i z sum of a_jk Y_k,  R = 1 + i z sum of b_j Y_j. */
+/* |R(i z)|, the factor by which one step multiplies the amplitude of y' = i omega y, with z = omega h. The stages are
+ *   Y_j = 1 + i z sum of a_jk Y_k over k < j,   R = 1 + i z sum of b_j Y_j,
+ * in real and imaginary parts. On an undamped lattice all eigenvalues are imaginary, so |R| <= 1 is the stability
+ * bound. */
 static double table_growth(butcher_table *t, double z)
 {
     double re[BUTCHER_STAGES], im[BUTCHER_STAGES], sum_re = 1.0, sum_im = 0.0;
@@ -135,14 +149,17 @@ static double table_growth(butcher_table *t, double z)
     return hypot(sum_re, sum_im);
 }
 
-/* Of a step of Verlet the eigenvalues have the product 1 and the sum 2 - z^2. */
+/* Velocity Verlet on x'' = -omega^2 x maps (x, v) by a matrix of determinant 1 and trace 2 - z^2. Up to z = 2 its two
+ * eigenvalues are conjugate with modulus 1; beyond, they are real, and the larger modulus is p + sqrt(p^2 - 1) with p =
+ * z^2/2 - 1. */
 static double verlet_integrator_growth(double z)
 {
     const double half = 0.5 * z * z - 1.0;
     return z > 2.0 ? half + sqrt(half * half - 1.0) : 1.0;
 }
 
-/* Largest z below which growth exceeds 1 by no more than `allowed`, to 1e-3; 0 where it does from the start. */
+/* The largest z, to 1e-3, below which no growth |R| - 1 exceeds `allowed`. Near z = 0 growth is below rounding whatever
+ * its sign; a method that first leaves 1 upwards is unstable from the start, and has the bound 0. */
 static double largest_step(butcher_table *t, double allowed)
 {
     const double rounding = 1e-13, step = 1e-3;
@@ -156,6 +173,8 @@ static double largest_step(butcher_table *t, double allowed)
     return moves ? z - step : 0.0;
 }
 
+/* A method whose last stage is the solution evaluates one derivative less per step, as that one is the first of the
+ * next. */
 static dem_method_traits traits_of(const char *name, butcher_table *t)
 {
     return (dem_method_traits){.name = name,
@@ -192,6 +211,7 @@ dem_status dem_method_find(dem_method *out, const char *name)
     return status_fail(DEM_ERROR_ARGUMENT, "no method is called '%s'", name);
 }
 
+/* NAN for an unknown method, or one that this SUNDIALS lacks: a growth has no status to return. */
 double dem_method_growth(dem_method method, double omega_h)
 {
     butcher_table table;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Polynomials and their lists. */
+/* The motion of the nodes that events inside a step have moved off its dense output: a polynomial in s for each, from
+ * the last event to the end of the step, and a copy of what the end of the step was before. The copies make undo exact
+ * to the bit, which a second run through the same events relies on (docs/algorithms.md, Local correction). How a change
+ * is computed belongs to src/events/local_correction.c; here it is only added, shifted in time and evaluated. */
 #include "time/changed_motion.h"
 
 #include <stdlib.h>
@@ -23,6 +26,7 @@ void changed_motion_destroy(changed_motion *tr)
     *tr = (changed_motion){0};
 }
 
+/* Empties the list; each node that is on it goes back to `no place`. */
 static void forget(changed_motion *tr)
 {
     for (dem_index k = 0; k < tr->n; k++) tr->place[tr->list[k].node] = -1;
@@ -37,10 +41,12 @@ void changed_motion_start(changed_motion *tr, double end, double *y1, double *f1
     tr->f1 = f1;
 }
 
+/* Copies are put back from the last to the first. A node may be on the list twice, once kept for its end alone and once
+ * for its motion: the older copy is then put back last and stands. */
 void changed_motion_undo(changed_motion *tr)
 {
     const state_layout *l = &tr->layout;
-    for (dem_index k = tr->n - 1; k >= 0; k--) { /* of a node that is kept twice the first was before */
+    for (dem_index k = tr->n - 1; k >= 0; k--) {
         const changed_motion_node *e = &tr->list[k];
         const dem_index at = state_row(l, e->node), v = state_velocities(l) + at;
         state_copy_row(l, tr->y1 + at, e->x);
@@ -51,6 +57,7 @@ void changed_motion_undo(changed_motion *tr)
     forget(tr);
 }
 
+/* The copy of the end: position, velocity, and both halves of the derivative. */
 dem_status changed_motion_keep(changed_motion *tr, dem_index node)
 {
     const state_layout *l = &tr->layout;
@@ -66,6 +73,9 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node)
     return DEM_OK;
 }
 
+/* The first change of a node keeps its end and gives it a place; a later one only replaces the polynomial, which then
+ * holds from the later event on. Times before that are not asked for again: events are resolved in the order of
+ * time. */
 dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_polynomial *motion)
 {
     if (!changed_motion_has(tr, node)) {
@@ -76,6 +86,8 @@ dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_p
     return DEM_OK;
 }
 
+/* Sums go by way of two local numbers, so that the pair may be one vector instruction although the arrays may
+ * overlap. */
 static inline void add_to_row(const state_layout *l, double *to, const double *change)
 {
     const double first = to[0] + change[0], second = to[1] + change[1];
@@ -84,6 +96,7 @@ static inline void add_to_row(const state_layout *l, double *to, const double *c
     to[1] = second;
 }
 
+/* Adds (dx, dv) to the state at the end and (dv, da) to its derivative: x' changes by as much as v does. */
 void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_change *jump)
 {
     const state_layout *l = &tr->layout;
@@ -96,6 +109,8 @@ void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_ch
 
 /* ---- polynomials ---- */
 
+/* s of a time: 0 at the event from which the polynomial goes, 1 at the end of the step. An event right at the end has s
+ * = 0. */
 static double share(const changed_motion *tr, const motion_polynomial *m, double t)
 {
     return tr->end > m->from ? (t - m->from) / (tr->end - m->from) : 0.0;
@@ -115,7 +130,8 @@ void changed_motion_velocity(const changed_motion *tr, double t, dem_index node,
     motion_polynomial_at(m, share(tr, m, t), x, out);
 }
 
-/* c(s + r u) in powers of u: Taylor's shift, then the scale. */
+/* Rewrites c(s + r u) in powers of u, with r = 1 - s: first Taylor's shift by repeated Horner steps, c_j += s c_(j+1),
+ * then each power k is scaled by r^k. Position and velocity are shifted side by side. */
 static inline void shift(motion_component c, double s)
 {
     double power = 1.0 - s;
@@ -135,7 +151,13 @@ void motion_polynomial_restart(motion_polynomial *m, double from, double end)
     if (m->dim > 2) shift(m->c[2], s);
 }
 
-/* Quintic Hermite through (x, v, a) and (x + dx, v + dv, a + da). */
+/* Adds the quintic Hermite polynomial through (x, v, a) at u = 0 and (x + dx, v + dv, a + da) at u = 1, in powers of u,
+ * where time derivatives are multiplied by h and h^2. What the first three terms x + h v u + h^2 a/2 u^2 lack at the
+ * end is
+ *   D = dx - h v - h^2 a/2,   V = h dv - h^2 a,   A = h^2 da,
+ * and the terms (10 D - 4 V + A/2) u^3 + (-15 D + 7 V - A) u^4 + (6 D - 3 V + A/2) u^5 have just these value, slope and
+ * second derivative at u = 1. The velocity's terms are the derivative's, (k + 1) c_(k+1)/h. With h = 0, an event at the
+ * very end, only the jump of position and velocity is left. */
 static inline void add_quintic(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
 {
     const double per_h = h > 0.0 ? 1.0 / h : 0.0, v0 = h * at->v[d], a0 = h * h * at->a[d];
@@ -156,6 +178,8 @@ void motion_polynomial_add(motion_polynomial *m, double end, const motion_change
     if (m->dim > 2) add_quintic(m, h, at, by, 2);
 }
 
+/* The same where the step has parabolas: x + h v u + (dx - h v) u^2 for positions, v + h a u + (dv - h a) u^2 for
+ * velocities. Both are independent; the second is not the derivative of the first. */
 static inline void add_parabola(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
 {
     const double v0 = h * at->v[d], a0 = h * at->a[d];

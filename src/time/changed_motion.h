@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How events inside a step have changed the motion of nodes from the last of them on: a polynomial for each of these
- * nodes, and the state at the end of the step. */
+/* How events inside a step have changed the motion of nodes: for each of these nodes a polynomial, from the last event
+ * that has changed it to the end of the step, and what the end of the step was before. All changes can be taken back.
+ * Rows of quadratures count as nodes here: an event changes them too. */
 #ifndef DEM_TIME_CHANGED_MOTION_H
 #define DEM_TIME_CHANGED_MOTION_H
 

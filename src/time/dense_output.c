@@ -1,18 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Quintic Hermite interpolation of x'' = a, written as the cubic of the velocities plus a bump that closes the
- * positions. */
+/* The motion between the ends of an accepted step (docs/method.md, Dense output): x, v and a at both ends fix six
+ * coefficients for each component, a quintic. It is written as the integral of the cubic Hermite interpolant of the
+ * velocities plus a bump that closes the gap in position; so rounding of the positions, which the bump alone sees, can
+ * be kept out of the velocity. For methods of order 2 there are two parabolas instead, one for x and one for v. Frames,
+ * t_end and events are read off here; ARKODE's own interpolant is not used. Nodes that an event inside the step has
+ * moved otherwise have polynomials of their own, in changed_motion.c. */
 #include "time/dense_output.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* Coefficients at s = (t - t0)/h.  With v(s) the cubic through v0, h a0, v1, h a1 and C its integral over the step,
- *   x(s) = x0 + h int_0^s v + D B(s),  v += D B'(s)/h,  D = x1 - x0 - h C,  B = 10 s^3 - 15 s^4 + 6 s^5. */
+/* Coefficients at s = (t - t0)/h. Let w(s) be the cubic Hermite interpolant of the velocity,
+ *   w(s) = v0 (1 - 3 s^2 + 2 s^3) + h a0 s (1 - s)^2 + v1 (3 s^2 - 2 s^3) - h a1 s^2 (1 - s),
+ * and C the integral of w over s from 0 to 1. Then, with B = 10 s^3 - 15 s^4 + 6 s^5 and D = x1 - x0 - h C,
+ *   x(s) = x0 + h (integral of w from 0 to s) + D B(s),   v(s) = w(s) + D B'(s)/h.
+ * B goes from 0 to 1 and has B' = B'' = 0 at both ends: D closes the position and leaves v and a at the ends alone. */
 typedef struct basis {
     double h, s;
-    double v0, a0, v1, a1;     /* of the velocity */
-    double iv0, ia0, iv1, ia1; /* of its integral */
+    double v0, a0, v1, a1;     /* of the velocity: factors of v0, h a0, v1, h a1 in w */
+    double iv0, ia0, iv1, ia1; /* of its integral from 0 to s */
     double bump, slope;        /* B, B' */
 } basis;
 
@@ -44,8 +51,10 @@ static inline ends ends_of(const dense_output *p)
     return (ends){p->y0, p->y0 + v, p->f0 + v, p->y1, p->y1 + v, p->f1 + v};
 }
 
-/* The part of the displacement that the integral of the velocities' cubic lacks, m. Below the rounding of the positions
- * it is noise, which the bump's slope would turn into velocity when h is tiny. */
+/* D of basis, m: the part of the displacement that the integral of the velocities' cubic lacks,
+ *   D = x1 - x0 - h ((v0 + v1)/2 + h (a0 - a1)/12).
+ * Below the rounding of the positions it is noise, which the bump's slope D B'/h would turn into velocity when h is
+ * tiny; there it counts as 0. */
 static inline double defect(const ends *e, dem_index k, double h)
 {
     const double x0 = e->x0[k], x1 = e->x1[k], v0 = e->v0[k], v1 = e->v1[k];
@@ -54,12 +63,14 @@ static inline double defect(const ends *e, dem_index k, double h)
     return fabs(d) > 4.0 * DBL_EPSILON * larger ? d : 0.0;
 }
 
-/* From y0 with slope f0 to y1. */
+/* The parabola that is y0 at s = 0 with slope f0 (per second) and y1 at s = 1: y0 + s h f0 + s^2 (y1 - y0 - h f0). */
 static inline double parabola(const basis *b, double y0, double f0, double y1)
 {
     return y0 + b->s * (b->h * f0 + b->s * (y1 - y0 - b->h * f0));
 }
 
+/* One component of the position, m. `parabolic` is an argument of its own, and not read from the step, so that the loop
+ * over all components is compiled once for each kind. */
 static inline double position(bool parabolic, const ends *e, const basis *b, dem_index k)
 {
     const double h = b->h;
@@ -76,11 +87,14 @@ static inline double velocity(bool parabolic, const ends *e, const basis *b, dem
            b->slope * defect(e, k, h) / h;
 }
 
+/* Whether an event inside the step has changed the motion of the row, so that a polynomial of its own counts. */
 static bool turned(const dense_output *p, dem_index i)
 {
     return p->changed != NULL && changed_motion_has(p->changed, i);
 }
 
+/* The third component, of three-dimensional states only; x or v may be NULL. Kept apart from the pair of the other
+ * two. */
 static void interpolate_third(const dense_output *p, double t, dem_index k, double *x, double *v)
 {
     const basis b = basis_at(p, t);
@@ -127,7 +141,7 @@ void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, 
     if (p->layout.dim > 2) interpolate_third(p, t, k + 2, NULL, &out[2]);
 }
 
-/* Interpolates all numbers of x and v. */
+/* Interpolates all components of x and v, those of the quadratures too, as if no event inside had changed them. */
 static inline void fill(bool parabolic, const dense_output *p, double t, double *restrict y)
 {
     const dem_index n = state_velocities(&p->layout);
@@ -139,7 +153,7 @@ static inline void fill(bool parabolic, const dense_output *p, double t, double 
     }
 }
 
-/* As if no event inside had changed it. */
+/* Calls fill() with a constant, so that each of both loops is compiled without the choice inside. */
 static void interpolate(const dense_output *p, double t, double *y)
 {
     if (p->parabolic)
@@ -148,6 +162,8 @@ static void interpolate(const dense_output *p, double t, double *y)
         fill(false, p, t, y);
 }
 
+/* All rows at once, for frames, observers and the end of a step that an event has cut short; then the rows that events
+ * have changed. y1 has the changes already, but y0 has not: an event right at t0 counts there too. */
 void dense_output_state(const dense_output *p, double t, double *y)
 {
     if (t == p->t0 || t == p->t1)
@@ -161,7 +177,10 @@ void dense_output_state(const dense_output *p, double t, double *y)
     }
 }
 
-/* The same for one number, in powers of s: the velocity's cubic and the slope of the bump, and the integral of both. */
+/* The same quintic in powers of s, as changed motions are kept. With jump = v1 - v0, a0 and a1 times h, and b = 30 D/h
+ * from B' = 30 (s^2 - 2 s^3 + s^4):
+ *   v = v0 + a0 s + (3 jump - 2 a0 - a1 + b) s^2 + (a0 + a1 - 2 jump - 2 b) s^3 + b s^4,
+ *   x = x0 + h (integral of v), term by term: x_q = h v_(q-1)/q. */
 static inline void write_quintic(const ends *e, double h, dem_index k, motion_component c)
 {
     const double bump = 30.0 * (1.0 / h) * defect(e, k, h), jump = e->v1[k] - e->v0[k];
@@ -173,6 +192,7 @@ static inline void write_quintic(const ends *e, double h, dem_index k, motion_co
     for (int q = 1; q < MOTION_TERMS; q++) c[q][0] = h / q * v[q - 1];
 }
 
+/* The two parabolas in powers of s; see parabola(). The higher powers are 0. */
 static inline void write_parabolas(const ends *e, double h, dem_index k, motion_component c)
 {
     const double v0 = e->v0[k], x[2] = {e->x0[k], h * v0}, v[2] = {v0, h * e->a0[k]};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The motion within one accepted step: the quintic that matches position, velocity and acceleration at both ends; or
- * parabolas, of a method of order 2. */
+/* The motion within one accepted step: the quintic that matches position, velocity and acceleration at both ends; or,
+ * for methods of order 2, parabolas. Events inside a step change it for some nodes from their time on. Everything that
+ * looks into a step reads it here: frames, root functions, event location, observers. docs/method.md, Dense output. */
 #ifndef DEM_TIME_DENSE_OUTPUT_H
 #define DEM_TIME_DENSE_OUTPUT_H
 

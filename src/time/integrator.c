@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls through the table of the method's integrator. */
+/* The one interface to all methods of integration. Which integrator takes the steps is decided once, by the method:
+ * velocity Verlet (verlet_integrator.c) or an explicit Runge-Kutta method (arkode_integrator.c). Every call goes
+ * through that integrator's table of functions, so that a new method is one file and one line here. What a step is and
+ * what holds after it is said in integrator.h; the equations are in ode_problem.h. Nothing here knows of forces or
+ * contacts. */
 #include "time/integrator.h"
 
 #include "time/arkode_integrator.h"

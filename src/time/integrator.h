@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Takes the steps of every method: by ARKODE for Runge-Kutta methods, or by velocity Verlet. */
+/* Takes the steps of every method: by ARKODE for Runge-Kutta methods, or by velocity Verlet. The order of calls for one
+ * step is step (as often as it is taken back with redo), then settle, and after events resume or restart:
+ * - settle accepts the step, whole or cut short at its event;
+ * - resume goes on from the end of a whole step whose state and derivative the caller has changed: no evaluation is
+ *   lost;
+ * - restart goes on from any state, whose derivative is not known;
+ * - renew does the same and forgets the history of errors too, as a run does that is resumed from a checkpoint. */
 #ifndef DEM_TIME_INTEGRATOR_H
 #define DEM_TIME_INTEGRATOR_H
 

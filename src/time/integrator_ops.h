@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The functions of an integrator: a table, of which each method's file has one. */
+/* The table of functions that an integrator consists of; each file of a method has one. integrator.c calls through
+ * it. */
 #ifndef DEM_TIME_INTEGRATOR_OPS_H
 #define DEM_TIME_INTEGRATOR_OPS_H
 

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Counted buffers. There is one more than vectors, so that one is always free: no operation can fail for memory. */
+/* Vectors for SUNDIALS (docs/algorithms.md, Vectors and norms of the integrator). Each N_Vector refers to a counted
+ * buffer, and a copy shares the buffer of its original until one of them is written; ARKODE copies whole states often
+ * and changes few of them. Linear combinations are one pass over all operands, shared out among threads. The norm of
+ * the error is an exact sum of squares, so that the steps, and with them all results, do not depend on the number of
+ * threads. A space has one buffer more than vectors, hence one is always free: no operation can fail for want of
+ * memory. The loops with vector instructions are in src/base/array_ops.h. */
 #include "time/nvector.h"
 
 #include <math.h>
@@ -12,12 +17,14 @@
 
 enum { most_terms = 32, n_sampled = 16 };
 
+/* Numbers with a count of the vectors that refer to them; with none it is in the list of the free ones. */
 typedef struct buffer {
     int users;
     struct buffer *next; /* of the free ones */
     double *values;
 } buffer;
 
+/* What an N_Vector points to. Contents of destroyed vectors are kept for the next ones. */
 typedef struct content {
     nvector_space *space;
     buffer *buffer;
@@ -53,7 +60,7 @@ static bool add_buffer(nvector_space *s)
     return true;
 }
 
-/* For one vector more. */
+/* Memory for one vector more: its content and a buffer. */
 static bool add_content(nvector_space *s)
 {
     content *c = calloc(1, sizeof *c);
@@ -66,6 +73,7 @@ static bool add_content(nvector_space *s)
     return true;
 }
 
+/* One user less; the last one returns the buffer. */
 static void leave(nvector_space *s, buffer *b)
 {
     if (--b->users > 0) return;
@@ -73,6 +81,7 @@ static void leave(nvector_space *s, buffer *b)
     s->buffers = b;
 }
 
+/* A free buffer, with one user. There is one; see the banner. */
 static buffer *take(nvector_space *s)
 {
     buffer *b = s->buffers;
@@ -81,6 +90,7 @@ static buffer *take(nvector_space *s)
     return b;
 }
 
+/* Numbers that no other vector has, undefined unless the vector was their only user. Others keep the old ones. */
 double *nvector_fresh(N_Vector v)
 {
     content *c = content_of(v);
@@ -96,11 +106,13 @@ const double *nvector_values(N_Vector v)
     return content_of(v)->buffer->values;
 }
 
+/* The same numbers as nvector_values(), to be changed for all vectors that share them. */
 double *nvector_shared(N_Vector v)
 {
     return content_of(v)->buffer->values;
 }
 
+/* `b->users++` comes before leave(): both vectors may have the same buffer already. */
 void nvector_share(N_Vector from, N_Vector to)
 {
     content *c = content_of(to);
@@ -119,7 +131,8 @@ static void fill(double value, N_Vector z)
     for (dem_index k = 0; k < c->space->length; k++) to[k] = value;
 }
 
-/* Numbers of z to write, apart from those of the operands, which are read until the result is complete. */
+/* Numbers of z to write that are not those of an operand, which are read until the result is complete. An operand in a
+ * buffer that z has alone goes back to the free list, where nobody takes it before the pass is over. */
 static double *apart_from(N_Vector z, const double *const *in, int n)
 {
     content *c = content_of(z);
@@ -133,6 +146,7 @@ static double *apart_from(N_Vector z, const double *const *in, int n)
     return nvector_fresh(z);
 }
 
+/* A thread's part of the pass; cuts are at the same components for every vector. */
 static void combine_share(const nvector_space *s, int t, double *out, int n, const double *c, const double *const *in)
 {
     const dem_index first = threads_share(s->length, s->n_threads, t);
@@ -141,6 +155,8 @@ static void combine_share(const nvector_space *s, int t, double *out, int n, con
     s->ops->combine(out + first, n, c, from, threads_share(s->length, s->n_threads, t + 1) - first);
 }
 
+/* z = sum of c_k x_k, without the terms that are 0 (many in a Butcher table); a sum of one vector with the factor 1 is
+ * shared instead of copied.  \return -1 if there are more terms than there is room for */
 static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
     double factor[most_terms];
@@ -177,7 +193,8 @@ static void scale(sunrealtype a, N_Vector x, N_Vector z)
     (void)combine(1, &a, &x, z);
 }
 
-/* 1, 2^-20, 2^-40, ...: that takes numbers of this size to 32 at most. */
+/* 1, 2^-20, 2^-40, ...: the first that takes numbers of this size to 32 at most. A power of 2 multiplies without
+ * rounding. */
 static double scale_of(double size)
 {
     double scale = 1.0;
@@ -185,6 +202,7 @@ static double scale_of(double size)
     return scale;
 }
 
+/* A thread's part of the sum, into its own place. */
 static void square_share(const nvector_space *s, int t, const double *x, const double *w, double scale)
 {
     const dem_index first = threads_share(s->length, s->n_threads, t);
@@ -192,6 +210,7 @@ static void square_share(const nvector_space *s, int t, const double *x, const d
     s->ops->square(&s->sums[t], x + first, w + first, scale, threads_share(s->length, s->n_threads, t + 1) - first);
 }
 
+/* The sum of (scale x_k w_k)^2. It is one of integers: no order and no shares of threads change it. */
 static array_ops_sum square(const nvector_space *s, const double *x, const double *w, double scale)
 {
     array_ops_sum sum = {0};
@@ -200,7 +219,10 @@ static array_ops_sum square(const nvector_space *s, const double *x, const doubl
     return sum;
 }
 
-/* Sums are exact within a range of sizes. Ranges are tried from a sample on: the least that holds all counts. */
+/* sqrt(sum of (x_k w_k)^2/n), infinity if a term is not finite. The squares are added as integers in units of 2^-60,
+ * which hold for sizes up to 32 times a scale. The scale is guessed from a sample of terms, and taken again from the
+ * largest square of the sum until both agree. The result is that of the scale of the largest term, whatever the sample
+ * was. */
 static sunrealtype norm(N_Vector x, N_Vector w)
 {
     const nvector_space *s = content_of(x)->space;
@@ -258,6 +280,7 @@ static void add_constant(N_Vector x, sunrealtype c, N_Vector z)
 
 /* ---- making and freeing ---- */
 
+/* A kind of vector that SUNDIALS does not know, so that it uses the functions below only. */
 static N_Vector_ID kind_of(N_Vector v)
 {
     (void)v;
@@ -296,6 +319,7 @@ static void set_operations(N_Vector_Ops ops)
     ops->nvaddconst = add_constant;
 }
 
+/* There is always a free buffer, as every content came with one. */
 N_Vector nvector_create(nvector_space *s, SUNContext context)
 {
     if (s->contents == NULL && !add_content(s)) return NULL;
@@ -315,6 +339,7 @@ nvector_space *nvector_space_create(dem_index length, const array_ops *operation
     if (s == NULL) return NULL;
     *s = (nvector_space){.length = length, .ops = operations, .n_threads = n_threads};
     s->sums = calloc((size_t)n_threads, sizeof *s->sums);
+    /* The buffer that no content came with: it keeps one free when all vectors have theirs. */
     bool complete = s->sums != NULL && add_buffer(s);
     for (int k = 0; k < n_vectors && complete; k++) complete = add_content(s);
     if (complete) return s;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an integrator integrates. It knows no physics but that y = (x, v) with x' = v. */
+/* What an integrator integrates: x' = u, v' = a(t, x, v), for a state y = (x, v). u is v but where a motion is
+ * prescribed. The integrators know no physics: forces, contacts and boundary conditions are behind these functions,
+ * which src/simulation/right_hand_side.c fills in. */
 #ifndef DEM_TIME_ODE_PROBLEM_H
 #define DEM_TIME_ODE_PROBLEM_H
 

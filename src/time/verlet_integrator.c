@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A step h from (x0, v0) with a0:  v' = v0 + h/2 a0,  x1 = x0 + h v',  a1 = a(x1, v' + h/2 a0),  v1 = v' + h/2 a1. (5)
- * Forces that depend on the velocity see it extrapolated: that keeps the order 2 and one evaluation a step. */
+/* Velocity Verlet, (5) of docs/method.md in the form kick, drift, kick. A step h from (x0, v0) with a0 = a(x0, v0) is
+ *   v' = v0 + h/2 a0,   x1 = x0 + h v',   a1 = a(x1, v' + h/2 a0),   v1 = v' + h/2 a1.
+ * Forces that depend on the velocity see it extrapolated, v0 + h a0: this keeps the order 2 with one evaluation per
+ * step. Steps are fixed, and there is no error control. With `exact` contacts the first root in the step is found here,
+ * too, on the parabolas of the dense output. Why the method keeps energies and the Runge-Kutta methods do not:
+ * docs/method.md, Methods; figures in docs/integrators.md. The forces themselves, and what happens at a root, are the
+ * caller's. */
 #include "time/verlet_integrator.h"
 
 #include <float.h>
@@ -12,6 +17,8 @@
 #include "base/status.h"
 #include "base/threads.h"
 
+/* Both ends of the step stand in one block with two derivatives; going on swaps pointers, so that the derivative at the
+ * end of a step is that at the start of the next without another evaluation. */
 typedef struct verlet_integrator {
     ode_problem problem;
     double *arrays;                    /* [5][2 dim n_rows] those that follow */
@@ -44,6 +51,8 @@ static void verlet_integrator_destroy(void *self)
     free(V);
 }
 
+/* Begins at any state. Its accelerations are not known: the next step evaluates them first. There is no history, so
+ * that renew() differs from this in the counts alone. */
 static dem_status verlet_integrator_restart(void *self, double t, const double *y)
 {
     verlet_integrator *V = self;
@@ -82,7 +91,7 @@ static void swap(double **a, double **b)
     *b = kept;
 }
 
-/* The end of the last step becomes the start of the next. */
+/* The end of the last step becomes the start of the next, once it has been handed out. */
 static void go_on(verlet_integrator *V)
 {
     if (!V->at_end) return;
@@ -99,6 +108,9 @@ static void verlet_integrator_end(void *self, double **y1, double **f1)
     *f1 = V->f1;
 }
 
+/* Accepts a step. One that an event has cut short ends in the state that the dense output has there; its positions, a
+ * parabola from x0 with slope v0 and second derivative a0, are just those of a shorter step of the method. The
+ * accelerations at a cut are not known; at a whole end they are f1. */
 static void verlet_integrator_settle(void *self, const dense_output *step)
 {
     verlet_integrator *V = self;
@@ -117,6 +129,7 @@ static double *verlet_integrator_state(const void *self)
     return V->y0;
 }
 
+/* The derivative; x' is asked for only where motions are prescribed, as it is v otherwise. */
 static int evaluate(verlet_integrator *V, double t, const double *y, double *f)
 {
     double *u = V->problem.prescribes ? f : NULL, *a = f + state_velocities(&V->problem.layout);
@@ -124,7 +137,7 @@ static int evaluate(verlet_integrator *V, double t, const double *y, double *f)
     return V->problem.derivative(t, y, u, a, V->problem.context);
 }
 
-/* A part of the numbers of positions, and of velocities. */
+/* A run of components of the positions, and with it the same run of the velocities: what one thread takes. */
 typedef struct stretch {
     dem_index at, size;
 } stretch;
@@ -135,6 +148,7 @@ static stretch share_of(const verlet_integrator *V, int t)
     return (stretch){at, threads_share(n, V->problem.n_threads, t + 1) - at};
 }
 
+/* x1 = x0 + h (v0 + h/2 a0), and v1 = v0 + h a0, the extrapolated velocity. */
 static void drift_stretch(verlet_integrator *V, double h, stretch s)
 {
     const dem_index n = state_velocities(&V->problem.layout);
@@ -142,13 +156,16 @@ static void drift_stretch(verlet_integrator *V, double h, stretch s)
     V->problem.ops->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
 }
 
+/* v1 += h/2 (a1 - a0): of the extrapolated v0 + h a0 this makes v' + h/2 a1. */
 static void kick_stretch(verlet_integrator *V, double h, stretch s)
 {
     const dem_index at = state_velocities(&V->problem.layout) + s.at;
     V->problem.ops->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
 }
 
-/* Kicks what is free: a component is prescribed whose x' in the derivative differs from its velocity. */
+/* The same where motions are prescribed. A component whose x' in the derivative differs from its extrapolated velocity
+ * is prescribed, and gets that x'. For one that is not prescribed the caller has written v itself as x', so equality
+ * tells. */
 static void kick_free(verlet_integrator *V, double h)
 {
     const dem_index n = state_velocities(&V->problem.layout);
@@ -157,7 +174,9 @@ static void kick_free(verlet_integrator *V, double h)
         v1[k] = V->f1[k] != v1[k] ? V->f1[k] : v1[k] + 0.5 * h * (V->f1[n + k] - V->f0[n + k]);
 }
 
-/* The fused step of all nodes if it is possible, and the quadratures: 0, 1 on failure, or -1 if it is not. */
+/* The whole step as one sweep over the nodes, if the state allows it (docs/algorithms.md, Verlet in one pass); the
+ * quadratures, which are behind the nodes and the padding, are drifted before it and kicked after it.
+ *   \return 0, another flag of the derivative on failure, or -1 if the sweep is not possible */
 static int take_fused_step(verlet_integrator *V, double h)
 {
     const ode_problem *p = &V->problem;
@@ -173,6 +192,7 @@ static int take_fused_step(verlet_integrator *V, double h)
     return flag;
 }
 
+/* Takes the step in one sweep or in parts, to the same bits.  \return 0, or not 0 if the derivative failed */
 static int kick_drift_kick(verlet_integrator *V, double h)
 {
     V->t1 = V->t + h;
@@ -189,7 +209,8 @@ static int kick_drift_kick(verlet_integrator *V, double h)
 
 /* ---- roots ---- */
 
-/* The root function at `end` of a step. */
+/* The root function at `end` of a step: 1 at the start, 0 or less from the first event on. A NAN would let the search
+ * run on without a bracket, so it is refused. */
 static dem_status look(const verlet_integrator *V, const dense_output *step, double *g)
 {
     *g = V->problem.root_function(step, V->problem.context);
@@ -197,8 +218,10 @@ static dem_status look(const verlet_integrator *V, const dense_output *step, dou
     return DEM_OK;
 }
 
-/* Shortens the step to the first root, if there is one: secants, and the middle after one that did not halve the
- * bracket. */
+/* Shortens the step to the first root, if its root function is not above 0 at the end. The bracket [low, high] keeps a
+ * value above 0 at low, and one of 0 or less at high, the end returned, so that the event has certainly happened there.
+ * Each trial is the secant's root, kept off both ends by half the final width; after a secant that did not halve the
+ * bracket comes the middle, so every two trials halve the bracket at least, down to the width 100 eps (t + h). */
 static dem_status find_root(const verlet_integrator *V, dense_output *step, bool *rooted)
 {
     double low = step->t0, high = step->t1, above = 1.0, below = 1.0, trial;
@@ -224,6 +247,7 @@ static dem_status find_root(const verlet_integrator *V, dense_output *step, bool
 
 /* ---- the step ---- */
 
+/* One step; `step` refers to the arrays here, which hold until the next one. */
 static dem_status verlet_integrator_step(void *self, dense_output *step, bool *rooted)
 {
     verlet_integrator *V = self;
@@ -261,7 +285,7 @@ static dem_status verlet_integrator_bound(void *self, double longest)
     return DEM_OK;
 }
 
-/* The end of a step is gone on from as it is, its derivative with it. */
+/* The end of the step, as the caller has changed it, is what the next step starts from; there is nothing to renew. */
 static dem_status verlet_integrator_resume(void *self)
 {
     (void)self;
