@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The binary heap with the place of each key. */
+/* A binary heap of keys by the time at which each is due. Beside the heap it keeps the place of every key, so that a
+ * time can be changed in O(log n), which happens to all candidates near an event. Ties go to the lower key: the order
+ * of events must not depend on how the heap came about (docs/algorithms.md, The queue). What a key stands for is the
+ * source's own affair. */
 #include "events/event_heap.h"
 
 #include <math.h>
@@ -36,11 +39,13 @@ void event_heap_clear(event_heap *h)
     h->n = 0;
 }
 
+/* The order of the heap. No two keys are equal in it, so the first one is always the same. */
 static bool is_before(const event_heap *h, dem_index a, dem_index b)
 {
     return h->due[a] < h->due[b] || (h->due[a] == h->due[b] && a < b);
 }
 
+/* Puts a key into a place of the heap. */
 static void put(event_heap *h, dem_index p, dem_index key)
 {
     h->keys[p] = key;
@@ -66,7 +71,8 @@ static void sink(event_heap *h, dem_index p, dem_index key)
     put(h, p, key);
 }
 
-/* Removes the key at a place, which the last key takes. */
+/* Removes the key at place p. The last key fills the gap; it may be due before its new parent or after its new
+ * children, so it is moved both ways, of which one does nothing. */
 static void take_out(event_heap *h, dem_index p)
 {
     const dem_index last = h->keys[--h->n];
@@ -76,6 +82,7 @@ static void take_out(event_heap *h, dem_index p)
     sink(h, h->place[last], last);
 }
 
+/* A new key begins at the end of the heap; one that is there begins where it is. `due` infinite removes it. */
 void event_heap_set(event_heap *h, dem_index key, double due)
 {
     const dem_index p = h->place[key];

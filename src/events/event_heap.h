@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Keys 0 .. n_keys - 1 and the times at which they are due: which is due first, of those due at the same time the
- * lowest. A binary heap, in which a key's time can be changed. */
+ * lowest. A binary heap, in which a key's time can be changed. The contact source has one, with a key for each
+ * candidate. */
 #ifndef DEM_EVENTS_EVENT_HEAP_H
 #define DEM_EVENTS_EVENT_HEAP_H
 

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Resolves the events of a step one by one, and corrects its end. */
+/* Resolves the events inside an accepted step one by one, in the order of (time, kind, key), and corrects the rest of
+ * the step after each (docs/algorithms.md, Local correction). The step's end y1, f1 changes with every event; at the
+ * end closed contacts are put right and the accelerations near events are computed again, so that the next step starts
+ * from the derivative of its very state. Going back in time means to undo all events of the step and to resolve the
+ * first of them again: sources and corrections are deterministic, so the bits are the same. What an event is, and what
+ * it does to a velocity, is in the sources (src/contact); how its change spreads is in local_correction.c. */
 #include "events/event_queue.h"
 
 #include <math.h>
@@ -11,6 +16,8 @@
 
 /* ---- set-up ---- */
 
+/* `most` bounds the squared error of a step's events. With fixed steps there is no control of errors: it is
+ * infinite. */
 dem_status event_queue_create(event_queue *out, const event_queue_parts *parts)
 {
     const state_layout *l = parts->layout;
@@ -47,6 +54,7 @@ typedef struct due_event {
     dem_index key;
 } due_event;
 
+/* Of events at the same time that of the first source comes first, as only an earlier one replaces it. */
 static due_event next_of(const event_queue *q)
 {
     due_event first = {.t = (double)INFINITY};
@@ -58,6 +66,7 @@ static due_event next_of(const event_queue *q)
     return first;
 }
 
+/* From the start of the step: no event has been resolved, and each source finds its first one. */
 static void look_ahead(event_queue *q)
 {
     q->now = q->step->t0;
@@ -78,6 +87,7 @@ void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f
     look_ahead(q);
 }
 
+/* Sources are undone from the last to the first, each of them all events of the step at once. */
 void event_queue_undo(event_queue *q)
 {
     if (q->n_stops == 0) return;
@@ -88,6 +98,7 @@ void event_queue_undo(event_queue *q)
 
 /* ---- events ---- */
 
+/* The listener that sources call: it keeps the event, to be reported when the loop has come to its time. */
 static dem_status note_event(void *context, const dem_event *event)
 {
     event_queue *q = context;
@@ -97,9 +108,11 @@ static dem_status note_event(void *context, const dem_event *event)
     return DEM_OK;
 }
 
-/* Factor by which the square of a velocity's error grows in a step that is longer by the ratio; 0 for steps that begin
- * a time tau < h/4 after the event, whose own estimate sees the error. That estimate is h^5 K^3 v (tau (1/104 - 1/120)
- * - h/2080), which vanishes for tau = 0.375 h; for tau < h/4 it is a sixth of the error or more. */
+/* Factor by which the square of a velocity's error grows if the step with the event were longer by the factor `ratio`:
+ * the error goes with the sixth power of the length, its square with the twelfth. 0 for ratios of 4 and more, that is
+ * for a next step that begins tau < h/4 after the event: its own estimate sees the error. That estimate is h^5 K^3 v
+ * (tau (1/104 - 1/120) - h/2080), which vanishes for tau = 0.375 h; for tau < h/4 it is a sixth of the error or
+ * more. */
 static double growth(double ratio)
 {
     const double third = ratio * ratio * ratio;
@@ -126,7 +139,11 @@ static dem_status resolve(event_queue *q, const due_event *due, const event_plac
     return due->source->resolve(due->source->self, due->key, at, &listener);
 }
 
-/* Resolves an event and corrects the rest of the step for it. */
+/* Resolves an event and corrects the rest of the step for it:
+ * - open the correction, before anything changes: it needs the motion and the forces without the event;
+ * - let the sources prepare, and the one whose event it is resolve it in the state at that time;
+ * - close the correction: integrate the change to the end of the step, and add it to the dense output;
+ * - let the sources find the next events of what has moved. Events at the same time count as one stop. */
 static dem_status take(event_queue *q, const due_event *due)
 {
     const event_place at = {q->step, due->t, &q->correction.near, q->state};
@@ -146,8 +163,9 @@ static dem_status take(event_queue *q, const due_event *due)
     return DEM_OK;
 }
 
-/* Computes the acceleration of a node at the end of the step again: it depends on the new positions of the node and its
- * neighbours. */
+/* Computes the acceleration of node i at the end of the step again, from the new positions of the node and its
+ * neighbours: that of its group if closed contacts hold it, else that of its forces. Prescribed components keep what is
+ * given. x' is the velocity again, but where some component of the node is prescribed. */
 static void renew(event_queue *q, dem_index i)
 {
     const state_layout *l = &q->layout;
@@ -163,7 +181,8 @@ static void renew(event_queue *q, dem_index i)
     if (held == 0) state_copy_row(l, u, state_v(l, q->changed.y1, i));
 }
 
-/* Computes the rates again of the quadratures that constraints add to. */
+/* Computes the rates of the quadratures again that closed contacts contribute to: impulses and friction. They are
+ * zeroed and summed up over all contacts, as the right-hand side does. The rows are kept first, for undo. */
 static dem_status renew_rates(event_queue *q)
 {
     const state_layout *l = &q->layout;
@@ -177,7 +196,8 @@ static dem_status renew_rates(event_queue *q)
 }
 
 /* Computes the derivative at the end of the step again where nodes and constraints have changed, and at the neighbours
- * of these nodes: it is that of the state to the bit, but for the power of damping and boundaries. */
+ * of these nodes, whose accelerations depend on them: it is that of the state to the bit, but for the power of damping
+ * and boundaries. The next step can therefore begin without an evaluation of all forces. */
 static dem_status renew_end(event_queue *q)
 {
     const local_forces *f = q->forces;
@@ -192,7 +212,8 @@ static dem_status renew_end(event_queue *q)
     return renew_rates(q);
 }
 
-/* Removes the error that local corrections leave in the constraints. */
+/* At the end of the step closed contacts are put back on their surfaces and stopped there, which removes the error that
+ * the corrections have left in them; then the derivative is computed again. */
 static dem_status settle_end(event_queue *q)
 {
     if (q->constraints != NULL) q->constraints->settle(q->constraints->self, &q->changed);
@@ -200,17 +221,23 @@ static dem_status settle_end(event_queue *q)
     return renew_end(q);
 }
 
+/* The errors of several events are independent: their squares are summed. */
 double event_queue_error(const event_queue *q)
 {
     return isfinite(q->most) ? sqrt(reduce_rounded_sum(q->error) / q->most) : 0.0;
 }
 
+/* The length for which the events' error, as it would be at the start of a step, is 1: the error is taken to go with
+ * its fourth power, which is slower than it does, and so on the safe side. */
 double event_queue_reach(const event_queue *q)
 {
     const double error = isfinite(q->most) ? sqrt(reduce_rounded_sum(q->ahead) / q->most) : 0.0;
     return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
 }
 
+/* Resolves the events up to t, or goes back to t. A step without events (quiet) has nothing to take back. Resolution
+ * ends at t, or when the error exceeds what is allowed: the caller then rejects the step. A failure is reported with
+ * its time, so that among several processes the earliest would count. */
 dem_status event_queue_show(event_queue *q, double t)
 {
     const bool goes_back = t < q->now;

@@ -19,7 +19,7 @@ typedef struct event_queue {
     const dense_output *step; /* the accepted one */
     double *state;            /* [2 dim n_rows] scratch, the caller's */
     double now;               /* s, events until here are resolved */
-    bool settled;             /* the end of the step is corrected as well */
+    bool settled;             /* the end of the step is put right: contacts, derivative */
     bool quiet;               /* nothing happens in the step */
     double error;             /* of all local corrections, squared */
     double ahead;             /* what it would be if the events had come right at the start of the step, squared */

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What causes events inside accepted steps: contact, and whatever else makes velocities or forces jump. The event queue
- * resolves the events of all sources in the order of (time, kind, key): the kind is the source's place in the queue,
- * the key its own number of what happens. */
+ * resolves the events of all sources in the order of (time, kind, key): the kind is the source's place in the list, the
+ * key its own number of what happens. For each event the queue calls seeds, prepare, resolve and follow in this order;
+ * between seeds and prepare the local correction computes the motion without the event. A further source is a folder of
+ * its own with such a table: docs/architecture.md, Where a line goes. */
 #ifndef DEM_EVENTS_EVENT_SOURCE_H
 #define DEM_EVENTS_EVENT_SOURCE_H
 

@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stages of the motion without the event, then those of its change. */
+/* The change d of a motion x(t) that follows from an event at t* inside a step (docs/algorithms.md, Local correction):
+ *   d'' = a(x + d, contacts after) - a(x, contacts before),   from t* to the end of the step,
+ * by one step of an embedded Runge-Kutta pair with stages q. Before the event, open() computes at all stages x_q, v_q
+ * from the dense output and a_q from the contacts before. After it, close() starts from d_0, the jumps that the event
+ * has made, and takes the stages of the change:
+ *   dx_q = dx_0 + h sum of a_qr dv_r,   dv_q = dv_0 + h sum of a_qr da_r,   da_q = a(x_q + dx_q, after) - a_q.
+ * d is 0 beyond a few rings of neighbours, see reach(): on these rings the step of the pair is the same as on the whole
+ * body. Quadratures are changed along, by their rates after less those before. Resolving the event is the source's
+ * part; which events come, and in which order, is event_queue.c's. */
 #include "events/local_correction.h"
 
 #include <stdlib.h>
@@ -9,6 +17,9 @@
 
 enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stages */
 
+/* Methods above order 2 have their changes integrated by Fehlberg's pair, the others by Heun's. `last` is the stage at
+ * the end of the step: forces there are known from the accepted step. One ring more than the change reaches is
+ * gathered, as the nodes there act on those that move. */
 dem_status local_correction_create(local_correction *out, const state_layout *l, const local_forces *f,
                                    const constraints *c, const local_correction_rule *rule)
 {
@@ -29,12 +40,13 @@ void local_correction_destroy(local_correction *p)
     *p = (local_correction){0};
 }
 
-/* The last ring on which the motion changes. */
+/* The last ring on which the motion changes; one more is gathered, whose nodes are only read. */
 static int last_ring(const local_correction *p)
 {
     return p->near.nodes.n_rings - 1;
 }
 
+/* How many nodes have a change of their own: those of all rings but the last. */
 static dem_index n_moving(const local_correction *p)
 {
     return local_nodes_n_moving(&p->near.nodes);
@@ -46,8 +58,11 @@ static dem_index components(const local_correction *p, dem_index n)
     return state_row(&p->near.layout, n);
 }
 
-/* The last ring on which accelerations change at a stage: one more for every two stages, from 1 on because a node may
- * be put back on its surface; one more for every stage where springs are damped. */
+/* The last ring on which accelerations change at a stage. dx_q has dv of the stages before, dv_q has da of them, and
+ * da_q depends on dx_q of a node and its neighbours: so the change spreads by one ring in two stages. It begins with
+ * ring 1, not 0, because a node may be put back on its surface, which its neighbours feel at once. Where springs are
+ * damped, da_q depends on dv_q of the neighbours too, and every stage brings a ring. At the end of the step
+ * accelerations change one ring beyond the last: event_queue.c computes them again. */
 static int reach(const local_correction *p, int stage)
 {
     const int before = stage == END ? p->table.stages : stage;
@@ -62,6 +77,7 @@ enum {
     CHANGES = 3 * LOCAL_CORRECTION_STAGES
 }; /* CHANGES: the first of dx, dv, da */
 
+/* The k-th of the arrays that share one block: first x, v, a of all stages, then the changes, then the scratch. */
 static double **array_of(local_correction *p, int k)
 {
     double **const before[] = {p->x, p->v, p->a}, **const change[] = {p->dx, p->dv, p->da, p->changed};
@@ -95,7 +111,8 @@ static dem_status reserve(local_correction *p, dem_index n, dem_index used)
 
 /* ---- quadratures ---- */
 
-/* Finds the number of a row of the quadratures by its place in a state; a new row has not changed. */
+/* The number of a row of the quadratures, by its place in a state. Rows get numbers behind those of the nodes when they
+ * first change; the changes of a new one are 0 at all stages so far. */
 static dem_status find_quadrature(local_correction *p, dem_index place, dem_index *out)
 {
     const dem_index n = p->near.nodes.n;
@@ -119,6 +136,8 @@ typedef struct signed_rates {
     double sign;
 } signed_rates;
 
+/* Adds a rate with its sign to the change of a row at a stage. Zeros are left out: most events concern one obstacle,
+ * and no row is needed for the others. */
 static dem_status add_rate(void *context, dem_index row, const double *rate)
 {
     const signed_rates *to = context;
@@ -130,7 +149,9 @@ static dem_status add_rate(void *context, dem_index row, const double *rate)
     return DEM_OK;
 }
 
-/* Adds the rates of the quadratures that come from the neighbourhood, in a state that constraints are solved for. */
+/* Adds, with this sign, the rates of the quadratures that come from the neighbourhood, in a state that the constraints
+ * are solved for: those of closed contacts, and the power of forces. With -1 before the event and 1 after it, what
+ * remains is the change of the rates. */
 static dem_status add_rates(local_correction *p, int stage, double sign, constraint_state state)
 {
     const neighbourhood *near = &p->near;
@@ -150,6 +171,7 @@ static dem_status add_rates(local_correction *p, int stage, double sign, constra
 
 /* ---- stages ---- */
 
+/* s. The stage at the end of the step has its time to the bit. */
 static double stage_time(const local_correction *p, const dense_output *step, int stage)
 {
     return stage == p->last ? step->t1 : p->t + p->table.c[stage] * p->h;
@@ -164,7 +186,7 @@ static void put_time(const local_correction *p, const dense_output *step, int st
                           y + state_velocities(&step->layout) + state_row(&step->layout, row));
 }
 
-/* Positions and velocities of n nodes at a stage, without the event. */
+/* Positions and velocities of the first n nodes at a stage, without the event: of their polynomials at s = c_q. */
 static void fetch_stage(local_correction *p, int stage, dem_index n)
 {
     const double s = p->table.c[stage];
@@ -180,6 +202,8 @@ static bool needs_state(const local_correction *p)
     return p->near.forces->read_state || p->near.n_groups > 0 || p->near.forces->have_power;
 }
 
+/* Accelerations a_q and rates at a stage, without the event. Nodes are fetched one ring beyond those that are
+ * accelerated, as these depend on their neighbours. */
 static dem_status open_stage(local_correction *p, const dense_output *step, int stage, double *y)
 {
     const local_state s = {stage_time(p, step, stage), p->x[stage], p->v[stage], y};
@@ -191,7 +215,8 @@ static dem_status open_stage(local_correction *p, const dense_output *step, int 
     return add_rates(p, stage, -1.0, (constraint_state){s.t, y});
 }
 
-/* The end of the step, whose state and derivative are known. */
+/* The end of the step, whose state and derivative are known: nothing is evaluated but the external force, whose power
+ * the rates need. Its rates count for the end and for the stage `last`, which is at the same time. */
 static dem_status open_end(local_correction *p, const dense_output *step)
 {
     const state_layout *l = &step->layout;
@@ -210,7 +235,9 @@ static dem_status open_end(local_correction *p, const dense_output *step)
     return add_rates(p, p->last, -1.0, state);
 }
 
-/* The state at the event. Nodes that the event was found with get the bits of the dense output. */
+/* The state at the event, into y, for the source that resolves it. Ring 0, with which the event was found, gets the
+ * bits of the dense output; those of a polynomial may differ by rounding, and with them the gap by which the event was
+ * found. */
 static void open_start(local_correction *p, const dense_output *step, double *y)
 {
     const local_nodes *nodes = &p->near.nodes;
@@ -224,6 +251,7 @@ static void open_start(local_correction *p, const dense_output *step, double *y)
     put_time(p, step, 0, y);
 }
 
+/* The motion of a row after the event as if there were none, in powers of s from t* to the end of the step. */
 static void find_motion(const local_correction *p, const dense_output *step, dem_index place, motion_polynomial *out)
 {
     if (changed_motion_has(step->changed, place))
@@ -233,6 +261,7 @@ static void find_motion(const local_correction *p, const dense_output *step, dem
     motion_polynomial_restart(out, p->t, step->t1);
 }
 
+/* The stage at the end of the step needs no evaluation; the others do, the first at t* itself. */
 dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
                                  dem_index n_seeds, double t, double *state)
 {
@@ -266,6 +295,7 @@ static void combine(const local_correction *p, int stage, double *const rates[],
     }
 }
 
+/* dx_q and dv_q of the nodes that move, and of the quadratures, which are integrated as the nodes are. */
 static void advance(local_correction *p, int stage)
 {
     const dem_index n = p->near.nodes.n;
@@ -276,7 +306,7 @@ static void advance(local_correction *p, int stage)
     combine(p, stage, p->da, p->dv, n, n + p->n_quadratures);
 }
 
-/* The first n numbers of a state with the change, of which there are n_changed. */
+/* The first n numbers of a state with the change; behind n_changed the change is 0. */
 static void add_change(const double *before, const double *change, dem_index n, dem_index n_changed, double *to)
 {
     for (dem_index k = 0; k < n_changed; k++) to[k] = before[k] + change[k];
@@ -295,7 +325,8 @@ static void hold_prescribed(local_correction *p, int stage)
     }
 }
 
-/* Rates of the change at a stage. */
+/* da_q and the change of the rates at a stage, with the event: forces in the state x_q + dx_q, less a_q. Beyond reach()
+ * of the stage da_q is 0, without being computed. */
 static dem_status change_stage(local_correction *p, const dense_output *step, int stage, double *y)
 {
     const int at = stage == END ? p->last : stage, ring = reach(p, stage);
@@ -313,6 +344,7 @@ static dem_status change_stage(local_correction *p, const dense_output *step, in
     return add_rates(p, stage, 1.0, (constraint_state){s.t, y});
 }
 
+/* The change of node j at a stage: of position, velocity and acceleration. */
 static motion_change jump_at(const local_correction *p, int stage, dem_index j)
 {
     const state_layout *l = &p->near.layout;
@@ -324,9 +356,12 @@ static motion_change jump_at(const local_correction *p, int stage, dem_index j)
     return out;
 }
 
-/* Finds the change that makes the slope of a node's velocity at the event its acceleration after the event: parabolas
- * have that slope with an error of order h^2. A contact that begins to slide is pushed by the small force that exceeds
- * friction: with a slope that is wrong by more it would turn back at once, and again at every attempt. */
+/* For parabolas: finds the change of acceleration that makes the slope of the node's velocity at the event its
+ * acceleration after the event,
+ *   change = a_0 + da_0 - (slope of the motion there),
+ * as the slope of the step's own parabola is off by a term of order h^2. A contact that begins to slide is pushed by
+ * the small force that exceeds friction: with a slope that is wrong by more it would turn back at once, and again at
+ * every attempt. */
 static void put_change_of_slope(const local_correction *p, dem_index j, const motion_polynomial *motion, double *change)
 {
     const unsigned held = local_forces_held(p->near.forces, p->near.nodes.list[j]);
@@ -351,7 +386,7 @@ static void add_change_of_node(const local_correction *p, dem_index j, motion_po
     (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
 }
 
-/* Adds the change of a node, or of a row of the quadratures, to the step. */
+/* Adds the change of a node, or of a row of the quadratures, to the dense output and to the end of the step. */
 static dem_status leave(const local_correction *p, changed_motion *tr, dem_index j, dem_index place,
                         motion_polynomial *motion)
 {
@@ -362,6 +397,10 @@ static dem_status leave(const local_correction *p, changed_motion *tr, dem_index
     return DEM_OK;
 }
 
+/* The squared error of the change, the difference of both solutions of the pair,
+ *   e = h sum of (b_q - d_q) (dv_q, da_q),
+ * in the integrator's norm: a mean over all 2 dim n_nodes unknowns of the body, each in units of its tolerance. Nodes
+ * out of reach have no error. */
 static double squared_error(const local_correction *p)
 {
     const double n_unknowns = 2.0 * (double)components(p, p->near.layout.n_nodes);
@@ -380,6 +419,9 @@ static double squared_error(const local_correction *p)
     return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / n_unknowns;
 }
 
+/* `state` is what the source has made of the state at t*: its difference from x_0, v_0 is the jump d_0. The contacts
+ * are those after the event. The stages of the change go on to the end of the step, where contact forces are left as
+ * solved for the end. */
 dem_status local_correction_close(local_correction *p, const dense_output *step, changed_motion *tr, double *state,
                                   double *error)
 {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds nodes breadth first. */
+/* Finds the nodes round an event, breadth first: ring 0 are the nodes that the event may change at once, ring r + 1 the
+ * neighbours of ring r that are in no ring yet. Nodes that closed contacts tie together accelerate each other at once,
+ * without a spring between them; a group of them belongs to the ring in which its first node is found. The forces on
+ * these nodes are in src/forces/local_springs.c, the motion on them in local_correction.c. */
 #include "events/neighbourhood.h"
 
 #include <stdlib.h>
@@ -25,6 +28,8 @@ void neighbourhood_destroy(neighbourhood *b)
 
 /* ---- rings ---- */
 
+/* Lists a group with the ring in which it begins, unless it is listed. There are few: a search of the list is
+ * enough. */
 static dem_status note_group(neighbourhood *b, dem_index group, int ring, bool *is_new)
 {
     *is_new = false;
@@ -53,6 +58,8 @@ static dem_status add_group(neighbourhood *b, dem_index node, int ring)
     return is_new ? c->each_node(c->self, group, add_node, &b->nodes) : DEM_OK;
 }
 
+/* Ends a ring: the groups of its nodes join it with all their nodes, which may bring further groups. `nodes->n` grows
+ * meanwhile. The last ring, whose nodes are read but do not move, needs no groups. */
 static dem_status close_ring(neighbourhood *b, int ring)
 {
     local_nodes *nodes = &b->nodes;
@@ -62,6 +69,7 @@ static dem_status close_ring(neighbourhood *b, int ring)
     return DEM_OK;
 }
 
+/* Rings 0 to n_rings; then the forces list what acts between the nodes found. */
 dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_index n_seeds)
 {
     const local_forces *f = b->forces;
@@ -77,6 +85,8 @@ dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_in
     return f->gather(f->self, nodes);
 }
 
+/* An event opens and closes contacts only of nodes that are in the neighbourhood already, so nodes and rings stay; only
+ * the groups on them are others. */
 dem_status neighbourhood_regroup(neighbourhood *b)
 {
     const local_nodes *nodes = &b->nodes;
@@ -92,6 +102,8 @@ dem_status neighbourhood_regroup(neighbourhood *b)
 
 /* ---- accelerations ---- */
 
+/* From the local numbers to those of the lattice: the functions that see the state of the whole body read these nodes
+ * there. */
 void neighbourhood_put(const neighbourhood *b, const local_state *s, dem_index n, double *y)
 {
     const state_layout *l = &b->layout;
@@ -103,7 +115,8 @@ void neighbourhood_put(const neighbourhood *b, const local_state *s, dem_index n
     }
 }
 
-/* Replaces the accelerations of nodes in groups by those that the constraints allow. */
+/* Replaces the accelerations of nodes in groups by those that the closed contacts allow: each group is solved in the
+ * state s->y, which leaves its nodes' accelerations in c->a. */
 static void constrain(neighbourhood *b, int ring, const local_state *s, double *a)
 {
     const constraints *c = b->constraints;
