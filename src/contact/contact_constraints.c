@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Groups of closed contacts: their nodes, forces, rates, and what is put right at the end of a step. */
+/* Closed contacts as the constraints of src/events/constraints.h, by which the local correction solves groups of
+ * contacts without knowing what a contact is. Each function hands on to contact_forces.c, contact_set.c or
+ * impact_group.c. The quadratures that belong to contacts, impulses of obstacles and work of friction, get their rates
+ * here too. */
 #include "contact/contact_constraints.h"
 
 #include "base/status.h"
@@ -10,6 +13,7 @@ static scene_state state_of(const contact_set *c, constraint_state at)
     return scene_state_at(&c->scene, at.t, at.y);
 }
 
+/* The nodes of a group; one that several of its contacts share comes several times. */
 static dem_status contact_each_node(const void *self, dem_index group, dem_status (*add)(void *context, dem_index node),
                                     void *context)
 {
@@ -31,6 +35,7 @@ static void contact_solve(void *self, dem_index group, constraint_state at)
 
 /* ---- rates ---- */
 
+/* What one contact adds: force and friction to the rows of its obstacle, N, powers to the totals, W. */
 static dem_status add_contribution(const contact_set *c, const contact_contribution *of, const constraint_rates *to)
 {
     const state_layout *l = scene_layout(&c->scene);
@@ -54,6 +59,7 @@ static dem_status contact_add_rates(const void *self, dem_index group, constrain
     return DEM_OK;
 }
 
+/* As the right-hand side does. The work of moving obstacles, which is returned, is part of another total. */
 static void contact_add_all_rates(const void *self, constraint_state at, double *a)
 {
     (void)automaton_add_rates(self, at.t, at.y, a);
@@ -61,6 +67,7 @@ static void contact_add_all_rates(const void *self, constraint_state at, double 
 
 /* ---- the end of a step ---- */
 
+/* Whether an event has changed the motion of a group's nodes: the others are as the step has left them. */
 static bool has_moved(const contact_set *c, const changed_motion *changed, dem_index group)
 {
     const contact_forces *r = &c->forces;
@@ -69,7 +76,8 @@ static bool has_moved(const contact_set *c, const changed_motion *changed, dem_i
     return false;
 }
 
-/* Contacts are put back on their surfaces and stopped there. */
+/* At the end of a step, contacts whose nodes events have moved are put back on their surfaces and stopped there, in the
+ * order of the groups; the ledger has both as projection and impact. Then all forces are those of the end. */
 static void contact_settle(void *self, const changed_motion *changed)
 {
     contact_set *c = &((automaton *)self)->set;

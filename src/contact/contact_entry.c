@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An entry is a list of structs of numbers of 8 bytes, without gaps: one for each candidate that differs from one that
- * has never touched anything. */
+/* The entry `contacts` of a checkpoint: what candidates have to remember so that a run goes on to the same bits. Closed
+ * contacts with their state, forces and place of sticking, the obstacles that nodes have gone behind, and the counters
+ * of storms are remembered; clearances, groups and the broad phase are not, as they are measured anew at every
+ * checkpoint, also by the run that writes it. The entry is a list of structs of numbers of 8 bytes, without gaps: one
+ * for each candidate that differs from one that has never touched anything. What else a checkpoint holds is in
+ * src/simulation/checkpoint.c. */
 #include "contact/contact_entry.h"
 
 #include <math.h>
@@ -20,6 +24,7 @@ typedef struct candidate_entry {
     point_entry closed[2];
 } candidate_entry;
 
+/* Whether a candidate differs from one that has never touched anything. */
 static bool remembers(const contact_candidate *candidate)
 {
     return candidate->n_closed > 0 || candidate->behind[0] >= 0 || candidate->behind[1] >= 0 || candidate->storm.n > 0;
@@ -60,7 +65,8 @@ static bool is_within(dem_index value, dem_index low, dem_index high)
     return value >= low && value <= high;
 }
 
-/* Whether an entry can be that of a candidate. */
+/* Whether an entry can be that of a candidate of this set: numbers within their ranges, and finite. Files are not
+ * trusted; nothing that is used as an index later escapes this check. */
 static bool is_possible(const contact_set *c, const candidate_entry *e)
 {
     const obstacle_set *o = &c->scene.model->obstacles;
@@ -77,6 +83,7 @@ static bool is_possible(const contact_set *c, const candidate_entry *e)
     return e->n_closed < 2 || e->closed[0].feature != e->closed[1].feature;
 }
 
+/* As at the start of a run: no contacts, no clearance, behind nothing. */
 static void forget(contact_candidate *candidate)
 {
     *candidate = candidate_reset(candidate);
@@ -100,6 +107,7 @@ static void restore(contact_candidate *candidate, const candidate_entry *e)
     }
 }
 
+/* Entries ascend by candidate, so that none comes twice. */
 dem_status contact_entry_get(contact_set *c, const dem_checkpoint *checkpoint)
 {
     size_t size;

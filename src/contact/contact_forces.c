@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Groups of coupled contacts, and their banded systems. */
+/* Forces in closed contacts (docs/method.md, Contacts that last; Contacts that share nodes). A closed contact is a
+ * constraint: its normal force N is what makes the normal acceleration of the point the one that keeps it closed.
+ * Whether N >= 0 and abs(T) <= mu N hold is not enforced here: the signs are root functions (candidate.c), and where
+ * one fails the automaton changes the contact. So each contact has a known state, and the forces of a group of contacts
+ * that share nodes solve a linear system. Rows stand in the order of the bodies' boundaries, where contacts that share
+ * nodes are near each other: the system is banded, and the cost of solving it grows with the number of contacts, not
+ * with its cube. The same system gives the impulses that stop a group and the displacements that put it back on the
+ * surfaces. Impacts with rebound are in impact_group.c. */
 #include "contact/contact_forces.h"
 
 #include <stdlib.h>
@@ -7,13 +14,14 @@
 
 #include "base/status.h"
 
-/* Share of a row's own mobility: with a pivot below it the other rows hold the contact already. */
+/* Share of a row's own mobility. A pivot below it means that the other rows hold the contact already: its force is not
+ * determined, and is taken as 0. */
 static const double redundant = 1e-10;
 
 /* Stands for the group of a candidate whose group is to be found again. */
 enum { collected = -2 };
 
-/* What the system is solved for. */
+/* What the system is solved for: forces, from accelerations; impulses, from velocities; or displacements, from gaps. */
 typedef enum aim { FORCE, IMPULSE, SHIFT } aim;
 
 /* ---- groups ---- */
@@ -25,6 +33,7 @@ static dem_index root_of(contact_forces *r, dem_index node)
     return node;
 }
 
+/* The lower root stays, so that trees do not depend on the order of joining. */
 static void join(contact_forces *r, dem_index a, dem_index b)
 {
     const dem_index ra = root_of(r, a), rb = root_of(r, b);
@@ -34,7 +43,8 @@ static void join(contact_forces *r, dem_index a, dem_index b)
         r->root[ra] = rb;
 }
 
-/* Every candidate in the order of the boundaries: a node before the edge that starts there. */
+/* Every candidate in the order of the boundaries: a node before the edge that starts there. Edges are listed along each
+ * boundary one after another; nodes without an edge come last. */
 static void sort_candidates(contact_forces *r)
 {
     dem_index n = 0, n_nodes = 0;
@@ -53,7 +63,8 @@ static void sort_candidates(contact_forces *r)
     for (dem_index p = 0; p < n; p++) r->rank[r->order[p]] = p;
 }
 
-/* Half bandwidth of a group's system if all its contacts stuck: the largest distance between rows that share a node. */
+/* Half bandwidth of a group's system if all its contacts stuck, with two rows each: the largest distance between rows
+ * that share a node. `first` is where a node comes up first; the first pass clears it, the second counts rows. */
 static dem_index group_width(contact_forces *r, dem_index group, dem_index *n_rows)
 {
     dem_index width = 0;
@@ -75,7 +86,8 @@ static dem_index group_width(contact_forces *r, dem_index group, dem_index *n_ro
     return width;
 }
 
-/* Makes room for the band of a group. */
+/* Makes room for the band of a group, when it is found: solving, which happens within the right-hand side, cannot then
+ * fail for want of memory. */
 static dem_status reserve(contact_forces *r, dem_index group)
 {
     dem_index n;
@@ -89,7 +101,7 @@ static dem_status reserve(contact_forces *r, dem_index group)
     return DEM_OK;
 }
 
-/* Where a group is, or would be, in the list of all. */
+/* Where a group is, or would be, in the ascending list of all: by bisection. */
 static dem_index place_of(const contact_forces *r, dem_index group)
 {
     dem_index low = 0, high = r->n_groups;
@@ -103,6 +115,7 @@ static dem_index place_of(const contact_forces *r, dem_index group)
     return low;
 }
 
+/* Groups are solved in the order of the list, which must not depend on the order of events: it is kept sorted. */
 static void list_group(contact_forces *r, dem_index group)
 {
     const dem_index at = place_of(r, group);
@@ -145,7 +158,8 @@ static dem_index dissolve(contact_forces *r, dem_index group, dem_index n)
     return n;
 }
 
-/* Joins the nodes of the collected candidates, so that those of a group have one root. */
+/* Union-find over the nodes of the collected candidates: each edge joins its two nodes, so that candidates of a group
+ * have one root. Candidates that share a node have it anyway. */
 static void join_nodes(contact_forces *r, dem_index n)
 {
     for (dem_index p = 0; p < n; p++) {
@@ -159,8 +173,8 @@ static void join_nodes(contact_forces *r, dem_index n)
     }
 }
 
-/* Makes groups of the collected candidates, from the last to the first, so that the last one put into a group is the
- * first of it. */
+/* Makes groups of the collected candidates. They are put to the front of their group's list from the last to the first,
+ * so that the list ascends and its first candidate has the lowest rank, which is the number of the group. */
 static void make_groups(contact_forces *r, dem_index n)
 {
     for (dem_index p = 0; p < n; p++) r->first[root_of(r, r->candidates[r->order[r->ranks[p]]].node)] = -1;
@@ -195,6 +209,9 @@ static dem_status group_collected(contact_forces *r, dem_index n)
     return DEM_OK;
 }
 
+/* The groups at the nodes of changed candidates are dissolved, and found again from what they held and from the changed
+ * ones. Others have no node in common with these, and stay. A candidate that has opened is still in its old list, but
+ * has no closed contact, and is not collected. */
 dem_status contact_forces_regroup_some(contact_forces *r, const dem_index *changed, dem_index n)
 {
     dem_index n_collected = 0;
@@ -227,13 +244,14 @@ static bool resists(const contact_candidate *candidate, int q)
     return candidate->closed[q].slide == 0 && !candidate->closed[q].held;
 }
 
+/* sign mu, so that T = -sign mu N opposes the sliding; 0 in a corner and under the paper's law. */
 static double sliding_friction(const contact_forces *r, const contact_candidate *candidate, int q)
 {
     if (candidate->closed[q].held) return 0.0;
     return candidate->closed[q].slide * contact_point_friction(r->scene, candidate, candidate->closed[q].feature);
 }
 
-/* Acceleration with which a node stays on a segment that moves. */
+/* Acceleration a_w with which a node stays on a segment that moves. */
 static vec2 kept_acceleration(const contact_scene *scene, const contact_candidate *candidate, const surface_line *line,
                               scene_state state)
 {
@@ -242,8 +260,13 @@ static vec2 kept_acceleration(const contact_scene *scene, const contact_candidat
     return contact_point_keep(scene, candidate->node, line, &wall, state);
 }
 
-/* A node on one segment, a_w the acceleration with which it would stay on it (0 if that is at rest):
- * N = -m (a - a_w).n; T = -m (a - a_w).t if it sticks, -sign mu N if it slides. */
+/* A node on one segment, by itself: the system has one row or two and is solved by hand. From m a' = m a + N n + T t,
+ * with a the acceleration without contact and a_w the one with which the node stays on the segment (0 if that is at
+ * rest),
+ *   (a' - a_w).n = 0:                        N = -m (a - a_w).n,
+ *   sticks, (a' - a_w).t = 0:                T = -m (a - a_w).t,   a' = a_w,
+ *   slides along sign t:                     T = -sign mu N,
+ * where a' - a_w is the tangential part of a - a_w plus T/m t. */
 static inline void hold_node(contact_forces *r, dem_index k, const scene_state *state, double *a)
 {
     const contact_candidate *candidate = &r->candidates[k];
@@ -273,7 +296,8 @@ static obstacle_motion corner_motion(const contact_forces *r, const contact_cand
     return surface_corner_motion(r->scene, features, (surface_query){state->t, vec2_at(state->x, candidate->node)});
 }
 
-/* A node in a corner of two segments: at rest in it. */
+/* A node in a corner of two segments goes with the corner: N_1 n_1 + N_2 n_2 = -m (a - a_c), two equations for both
+ * forces. There is no friction in a corner. */
 static void hold_corner(contact_forces *r, dem_index k, const scene_state *state, double *a)
 {
     const contact_candidate *candidate = &r->candidates[k];
@@ -289,6 +313,7 @@ static void hold_corner(contact_forces *r, dem_index k, const scene_state *state
 
 /* ---- the banded system of a group ---- */
 
+/* One equation more: along the normal, or along the tangent for a contact that sticks. */
 static void add_row(contact_forces *r, dem_index *n, dem_index k, int q, const contact_frame *f, bool tangential)
 {
     contact_equation *row = &r->rows[(*n)++];
@@ -296,14 +321,19 @@ static void add_row(contact_forces *r, dem_index *n, dem_index k, int q, const c
     row->direction = row->push = tangential ? f->tangent : f->normal;
 }
 
-/* How fast an obstacle moves along a direction. */
+/* Velocity of an obstacle along a direction, m/s; 0 without arithmetic where none moves. */
 static double along(const contact_forces *r, vec2 wall, vec2 direction)
 {
     return surface_speed(r->scene) > 0.0 ? vec2_dot(wall, direction) : 0.0;
 }
 
-/* Sets the equations of a group: the motion that each asks for, less that of u [n][2], which are free accelerations or
- * velocities.  \return their number */
+/* Sets the equations of a group. Row j is a contact with weights w_p on its nodes, and asks that its point moves along
+ * a direction d_j by as much as wanted:
+ *   sum of A_jk f_k = wanted_j - sum of w_p u_p.d_j,
+ * with u [n][2] the free accelerations or velocities. Wanted is, along the normal and the tangent, the acceleration
+ * that keeps the contact (FORCE), the velocity of the obstacle (IMPULSE), or minus the gap (SHIFT, normal only). The
+ * unknown f_k acts along push_k: the normal or, for a contact that slides under a force, n - sign mu t, by which
+ * friction is part of the same unknown. A contact that sticks has a second row along t.  \return the number of rows */
 static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_state state, const double *u)
 {
     dem_index n = 0;
@@ -328,7 +358,7 @@ static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_stat
     return n;
 }
 
-/* Half bandwidth: the largest distance between rows that share a node. */
+/* Half bandwidth of the rows set: the largest distance between rows that share a node. */
 static dem_index band_width(contact_forces *r, dem_index n)
 {
     dem_index width = 0;
@@ -343,15 +373,18 @@ static dem_index band_width(contact_forces *r, dem_index n)
     return width;
 }
 
-/* Motion along the direction of row j per unit of the force of row k. */
+/* A_jk, motion along the direction of row j per unit of the unknown of row k: (sum of w_jp w_kp/m_p over shared nodes)
+ * times d_j.push_k. It is not symmetric where contacts slide with friction. */
 static double entry(const contact_forces *r, const contact_equation *j, const contact_equation *k)
 {
     const double mobility = contact_nodes_coupling(&j->nodes, &k->nodes, r->scene->model->inverse_mass);
     return mobility * vec2_dot(j->direction, k->push);
 }
 
-/* Gaussian elimination without pivoting, after which `wanted` holds the unknowns. One whose contact the other rows hold
- * already is 0. */
+/* Gaussian elimination of the band without pivoting, as exchanging rows would widen the band, and then back
+ * substitution: `wanted` then holds the unknowns. The matrix is that of mobilities, positive definite without friction.
+ * A pivot that has become a rounding of the row's own mobility belongs to a contact that the rows before hold already:
+ * its unknown is 0, and it takes no part. AT(j, k) is row j, column k. */
 static void eliminate(contact_forces *r, dem_index n, dem_index width)
 {
     const dem_index line = 2 * width + 1;
@@ -378,7 +411,8 @@ static void eliminate(contact_forces *r, dem_index n, dem_index width)
 #undef AT
 }
 
-/* Solves for the unknowns of a group and adds what they do to u. */
+/* Solves for the unknowns of a group and adds what they do to u. The forces of contacts are stored; the friction of one
+ * that slides is -sign mu N. */
 static void solve(contact_forces *r, dem_index group, aim to, scene_state state, double *u)
 {
     const dem_index n = set_rows(r, group, to, state, u), width = band_width(r, n);
@@ -397,7 +431,7 @@ static void solve(contact_forces *r, dem_index group, aim to, scene_state state,
     }
 }
 
-/* Whether a group is one node. */
+/* Whether a group is one node: the most frequent case, which needs no system. */
 static bool alone(const contact_forces *r, dem_index group)
 {
     const dem_index first = contact_forces_first(r, group);
@@ -430,6 +464,7 @@ static void set_free(contact_forces *r, dem_index node, scene_state state)
     vec2_put(r->a, node, forces_acceleration(r->scene->forces, node, state.x, state.v));
 }
 
+/* Free accelerations are computed for the nodes of the group only, once each; `first` marks those that are done. */
 void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
 {
     for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
@@ -445,7 +480,8 @@ void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
     hold(r, group, &state, r->a);
 }
 
-/* A node by itself gets the velocity of the obstacle exactly, without the linear system. */
+/* A node by itself gets the velocity of the obstacle exactly, without the linear system: all of it if it sticks or is
+ * in a corner, else along the normal. A node that rests on an obstacle at rest thus has a velocity of 0. */
 static void stop_node(contact_forces *r, dem_index k, scene_state state, double *v)
 {
     const contact_candidate *candidate = &r->candidates[k];
@@ -471,6 +507,7 @@ void contact_forces_stop(contact_forces *r, dem_index group, scene_state state, 
         solve(r, group, IMPULSE, state, v);
 }
 
+/* Displacements start from 0; those of nodes that are not in the group are not set. */
 const double *contact_forces_shift(contact_forces *r, dem_index group, scene_state state)
 {
     for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {

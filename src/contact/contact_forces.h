@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Forces in closed contacts. Contacts that share nodes are coupled: each group of them is one linear system, in the
  * order of the bodies' boundaries so that it is banded. The same system yields the impulses that stop a group, and the
- * displacements that put it back on the surfaces. */
+ * displacements that put it back on the surfaces. The contacts' states (stick, slip and its sign) are given; nothing
+ * here decides about them. */
 #ifndef DEM_CONTACT_CONTACT_FORCES_H
 #define DEM_CONTACT_CONTACT_FORCES_H
 

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames of closed contacts. */
+/* Kinematics of closed contacts: where the touching point of the body is, how it moves relative to the obstacle, and
+ * which acceleration keeps it there (docs/method.md, An edge on a vertex; Moving obstacles). Everything is a function
+ * of the state (t, x, v); nothing is stored. Both kinds of contact, a node on a segment and an edge on a convex vertex,
+ * come out as one contact_frame, so that forces and impacts need not know which they have. The forces are in
+ * contact_forces.c, the geometry of obstacles in src/obstacle. */
 #include "contact/contact_point.h"
 
 #include <float.h>
 
-/* How fast a closed contact that the integrator's error has opened is drawn back, in units of 1/max_step. */
+/* beta in units of 1/max_step: how fast a closed contact that the integrator's error has opened is drawn back. */
 static const double draw_back = 0.1;
 
 double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature)
@@ -12,6 +16,8 @@ double contact_point_friction(const contact_scene *scene, const contact_candidat
     return contact_law_friction(contact_point_law(scene, candidate, feature));
 }
 
+/* Node on a segment, which is at rest: gap and place are linear in x, so that the integrator keeps them by itself once
+ * velocity and acceleration along n are 0, and `turning` and `keep` stay 0. */
 static inline contact_frame node_frame(const contact_scene *scene, const contact_candidate *candidate,
                                        const surface_line *line, scene_state state)
 {
@@ -25,15 +31,21 @@ static inline contact_frame node_frame(const contact_scene *scene, const contact
                            .mobility = scene->model->inverse_mass[candidate->node]};
 }
 
+/* How the obstacle's vertex moves, m, m/s, m/s^2. */
 typedef struct vertex_motion {
     bool moves; /* else only the place is given */
     vec2 at, velocity, acceleration;
 } vertex_motion;
 
-/* Vertex V on the edge from a to b, P = (1 - s) a + s b the point of the edge nearest to it, N normal and t tangent of
- * the edge, gap g = (P - V).N. With v_P the velocity of the point of the body at P and omega = (v_b - v_a).N/L,
- *   g' = v_P.N,  s' = -v_P.t/L,  g'' = a_P.N - 2 omega v_P.t  (at g = 0):  a_P.N = 2 omega v_P.t keeps it closed.
- * If the vertex moves, velocities and accelerations are relative to it. */
+/* Edge from node a to b on a vertex V. P = (1 - s) a + s b is the point of the edge nearest to V, t and n the tangent
+ * and normal of the edge, L its length, g = (P - V).n the gap. With v_P = (1 - s) v_a + s v_b, the velocity of the body
+ * at P, and omega = (v_b - v_a).n/L, the turning rate of the edge,
+ *   g' = v_P.n,   s' = -v_P.t/L,   g'' = a_P.n - 2 omega v_P.t   (where g = 0).
+ * So a_P.n = 2 omega v_P.t keeps the contact closed while it slides (`turning`); if it sticks, s is constant and a_P =
+ * 0. Neither constraint is linear in x, and the integrator's error opens them. To draw the contact back,
+ *   keep = turning - 2 beta g' - beta^2 g,
+ * which is critically damped; the same holds along t for a contact that sticks, with (P - V).t in place of g. If the
+ * vertex moves, velocities are relative to its own, and its acceleration is added. */
 static inline contact_frame edge_frame(const contact_scene *scene, const contact_candidate *candidate,
                                        const contact_point *point, const vertex_motion *vertex, scene_state state)
 {
@@ -64,6 +76,8 @@ static inline contact_frame edge_frame(const contact_scene *scene, const contact
     return f;
 }
 
+/* A node on a segment that moves: b = w' + 2 q' z x (v - w), see docs/method.md, Moving obstacles. Where no obstacle
+ * accelerates, the node's path on it is straight and nothing has to be drawn back. */
 vec2 contact_point_keep(const contact_scene *scene, dem_index node, const surface_line *line,
                         const obstacle_motion *wall, scene_state state)
 {
@@ -75,6 +89,7 @@ vec2 contact_point_keep(const contact_scene *scene, dem_index node, const surfac
     return vec2_add(carried, back);
 }
 
+/* The frame of a node or an edge with the motion of the obstacle at the point that is touched. */
 contact_frame contact_frame_moving(const contact_scene *scene, const contact_candidate *candidate, int q,
                                    scene_state state)
 {
@@ -112,8 +127,8 @@ contact_frame contact_frame_at(const contact_scene *scene, const contact_candida
     return node_frame(scene, candidate, &line, state);
 }
 
-/* A displacement d changes the force on a node of mass m by at most m omega_max^2 d/2; here it is the rounding of the
- * coordinates of the node and its neighbours, 64 units. */
+/* A displacement d changes the force on a node of mass m by at most m omega_max^2 d/2, N. Here d is the rounding of the
+ * coordinates of the node and its neighbours, 64 units in the last place of their extent, and m = 1/mobility. */
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x)
 {
     const double omega = scene->model->omega_max,
@@ -121,6 +136,7 @@ double contact_point_slack(const contact_scene *scene, const contact_frame *f, c
     return 32.0 * DBL_EPSILON * extent * omega * omega / f->mobility;
 }
 
+/* 64 roundings of the velocities that are subtracted: of both nodes of an edge, and of the wall. */
 double contact_point_noise(const contact_frame *f, const double *v)
 {
     const contact_nodes *on = &f->nodes;
@@ -129,6 +145,7 @@ double contact_point_noise(const contact_frame *f, const double *v)
     return 64.0 * DBL_EPSILON * speed;
 }
 
+/* Only positions are needed of the frame; x stands in for the velocities, which are not read further. */
 dem_contact contact_point_describe(const contact_scene *scene, const contact_candidate *candidate, int q, double t,
                                    const double *x)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Candidates that may touch -- nodes, and edges of bodies -- and the contacts that they have closed: a node on a
- * segment of an obstacle, an edge on a convex vertex of it. Kinematics of a closed contact as functions of the
- * state. */
+ * segment of an obstacle, an edge on a convex vertex of it. Kinematics of a closed contact as functions of the state:
+ * its point, normal, gap, relative velocity, and the acceleration that keeps it closed. A contact that slides has the
+ * sign of its motion along the tangent, one that sticks the sign 0. */
 #ifndef DEM_CONTACT_CONTACT_POINT_H
 #define DEM_CONTACT_CONTACT_POINT_H
 

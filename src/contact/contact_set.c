@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of candidates, and the bookkeeping of contacts that open and close. */
+/* The candidates of a model, and the bookkeeping of their contacts: closing and opening, groups and corners, forces
+ * stored for reports, energies and impulses entered in the ledger. A candidate's number is its place on the surface,
+ * nodes first, then edges, whatever has happened before; across surfaces it is known by its nodes (contact_key). What
+ * makes a contact close or open is decided in candidate_resolve.c and the impact_*.c files; forces are solved for in
+ * contact_forces.c. */
 #include "contact/contact_set.h"
 
 #include <stdlib.h>
@@ -16,6 +20,7 @@ static void list_nodes(contact_set *c)
     }
 }
 
+/* An edge knows the nodes before and after it on the boundary: its gap depends on how the body goes on there. */
 static void list_edges(contact_set *c)
 {
     const surface *s = c->surface;
@@ -27,7 +32,8 @@ static void list_edges(contact_set *c)
     }
 }
 
-/* The candidates of the surface, all free. The forces in their contacts borrow the scene. */
+/* The candidates of the surface, all free; edges only where there are vertices for them to touch. The forces borrow the
+ * scene and the list, so neither may move. */
 static dem_status list_candidates(contact_set *c, const contact_scene *scene)
 {
     const bool vertices = scene->rule.vertices && scene->model->obstacles.n_vertices > 0;
@@ -72,7 +78,8 @@ void contact_set_destroy(contact_set *c)
 
 /* ---- another surface ---- */
 
-/* Where its boundary goes on otherwise, what touches its ends may too. */
+/* The place on the boundary remains its own. If it goes on otherwise there, what touches the ends may too: clearance is
+ * unknown. */
 void contact_set_become(contact_set *c, dem_index k, const contact_candidate *was)
 {
     contact_candidate *candidate = &c->list[k];
@@ -83,13 +90,14 @@ void contact_set_become(contact_set *c, dem_index k, const contact_candidate *wa
     candidate->next = next;
 }
 
+/* The forces go along as they were last solved for. */
 static void carry_over(const contact_set *from, dem_index was, contact_set *to, dem_index k)
 {
     contact_set_become(to, k, &from->list[was]);
     for (int q = 0; q < 2; q++) to->forces.force[k][q] = from->forces.force[was][q];
 }
 
-/* The nodes of a new edge may be behind an obstacle. */
+/* A new edge is behind what its nodes are behind. */
 static void begin_edge(contact_set *c, dem_index k)
 {
     contact_candidate *edge = &c->list[k];
@@ -98,6 +106,8 @@ static void begin_edge(contact_set *c, dem_index k)
         if (ends[e] >= 0) edge->behind[e] = c->list[ends[e]].behind[0];
 }
 
+/* The new set is complete before the old one is given up, so that after a failure nothing has changed. Ledger and scene
+ * are handed on, not copied. */
 dem_status contact_set_follow_surface(contact_set *c, const surface *to)
 {
     contact_set next = {.scene = c->scene, .surface = to, .ledger = c->ledger, .projected = c->projected};
@@ -133,6 +143,8 @@ dem_index contact_set_find(const contact_set *c, contact_key key)
     return -1;
 }
 
+/* An impact of a group may move nodes of contacts that are coupled by further edges; those are found by their group,
+ * which is in the neighbourhood as a whole. */
 dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes, dem_index capacity)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -161,6 +173,7 @@ static bool node_closed(const contact_set *c, dem_index node)
     return c->of_node[node] >= 0 && c->list[c->of_node[node]].n_closed > 0;
 }
 
+/* A node is in contacts of its edges, an edge also in those of its nodes. */
 bool contact_set_coupled(const contact_set *c, dem_index k)
 {
     const contact_candidate *s = &c->list[k];
@@ -169,6 +182,7 @@ bool contact_set_coupled(const contact_set *c, dem_index k)
            node_closed(c, s->other);
 }
 
+/* Gaps leave out what is behind; so clearances measured before no longer hold. */
 void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle)
 {
     const dem_index node = c->list[k].node;
@@ -191,7 +205,7 @@ static bool shared(const contact_set *c, dem_index node, dem_index k, dem_index 
 }
 
 /* Marks the contacts of corners: both of a node on two segments, and those of a vertex with two edges that meet at it.
- * One that is no longer of a corner is at rest. */
+ * A contact that is no longer of a corner is at rest: it sticks if there is friction, else it slides either way. */
 static void mark_corners(contact_set *c, dem_index k)
 {
     contact_candidate *candidate = &c->list[k];
@@ -207,7 +221,7 @@ static void mark_corners(contact_set *c, dem_index k)
     }
 }
 
-/* The same for an edge and those that share a node with it: they may be of one corner. */
+/* The same for an edge and those that share a node with it, which may be of one corner with it. */
 static void mark_around(contact_set *c, dem_index k)
 {
     const dem_index nodes[2] = {c->list[k].node, c->list[k].other};
@@ -239,6 +253,7 @@ dem_status contact_set_close(contact_set *c, dem_index k, contact_point point)
     return contact_set_regroup_some(c, &k, 1);
 }
 
+/* The other contact, if there is one, moves up. */
 dem_status contact_set_open(contact_set *c, dem_index k, int q)
 {
     contact_candidate *candidate = &c->list[k];
@@ -248,6 +263,7 @@ dem_status contact_set_open(contact_set *c, dem_index k, int q)
     return contact_set_regroup_some(c, &k, 1);
 }
 
+/* Nodes are moved one at a time: the energy of each shift counts with the others where they are then. */
 void contact_set_move(contact_set *c, dem_index i, vec2 shift, double *x)
 {
     const double before = forces_node_energy(c->scene.forces, i, x);
@@ -284,12 +300,14 @@ void contact_set_store_all(contact_set *c)
             contact_set_store_forces(c, k);
 }
 
+/* First pass: the velocities before; then the stop; second pass: the impulses, with the energy -J.(v + v')/2 of each.
+ * The frames of both passes differ in velocity only. */
 double contact_set_stop(contact_set *c, dem_index group, const contact_instant *now)
 {
     contact_forces *r = &c->forces;
     const scene_state state = instant_state(now);
     double energy = 0.0;
-    for (int after = 0; after < 2; after++) { /* an impulse J takes the energy -J.(v + v')/2 */
+    for (int after = 0; after < 2; after++) {
         for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
             const contact_candidate *candidate = &c->list[k];
             for (int q = 0; q < candidate->n_closed; q++) {
@@ -306,6 +324,8 @@ double contact_set_stop(contact_set *c, dem_index group, const contact_instant *
     return energy;
 }
 
+/* Friction takes the power -T v_t, >= 0 as it opposes the sliding; one that sticks takes none. The obstacle does the
+ * work F.w with all of the force. */
 contact_contribution contact_set_contribution(const contact_set *c, dem_index k, int q, scene_state state)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -322,6 +342,8 @@ contact_contribution contact_set_contribution(const contact_set *c, dem_index k,
     return out;
 }
 
+/* The frame is that of a contact of the candidate at this feature, closed or not; velocity before and after is the
+ * present one, until an impact puts its own in place. Reports have velocities as they are, not relative to the wall. */
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
                             const contact_instant *now)
 {
@@ -356,6 +378,7 @@ void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse
     contact_nodes_push(&f->nodes, c->scene.model->inverse_mass, 1.0, impulse, v);
 }
 
+/* Without friction all of it counts as normal, so that rounding leaves no friction in the sums. */
 void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, vec2 normal, vec2 carried)
 {
     const contact_law law = contact_law_of(&c->scene, obstacle);

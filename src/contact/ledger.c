@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sums of what contacts do. */
+/* Sums over contact events: energies taken by impacts and put in by projection, impulses for each obstacle, counts by
+ * kind (docs/method.md, The ledger). Work and impulses of lasting contacts are not here: they are integrated with the
+ * motion as quadratures (src/base/state.h). Every event of contacts comes through ledger_enter(), which also calls the
+ * listener. */
 #include "contact/ledger.h"
 
 #include <stdlib.h>
 
 #include "base/status.h"
 
+/* Both arrays of impulses are one block, which contact_source.c copies as one. */
 dem_status ledger_create(contact_ledger *out, dem_index n_obstacles)
 {
     contact_ledger b = {0};
@@ -29,6 +33,7 @@ void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec
     vec2_put(b->friction_impulse, obstacle, vec2_add(vec2_at(b->friction_impulse, obstacle), tangential));
 }
 
+/* Closings are counted where they are made, as an impact may close a contact without an event of that kind. */
 static void count(dem_counts *n, const dem_event *event)
 {
     switch (event->kind) {
@@ -36,7 +41,7 @@ static void count(dem_counts *n, const dem_event *event)
         n->impacts++;
         n->vertex_impacts += event->other >= 0;
         break;
-    case DEM_EVENT_CLOSE: /* with or without an impact: counted where it is done */
+    case DEM_EVENT_CLOSE:
         break;
     case DEM_EVENT_RELEASE:
         n->releases++;
@@ -53,6 +58,8 @@ static void count(dem_counts *n, const dem_event *event)
     }
 }
 
+/* A listener that fails does not keep the event from being completed: its first failure is kept for the end of the
+ * resolution. */
 void ledger_enter(contact_ledger *b, const dem_event *event, contact_instant *now)
 {
     count(&b->counts, event);

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What contacts ask of the obstacles. */
+/* Questions of contacts about the surfaces of obstacles that need more than a line: free ends, the cone of normals at a
+ * vertex, the motion of a corner. The geometry itself is in src/obstacle; contacts come here first, so that surfaces of
+ * other bodies could be added in one place. */
 #include "contact/surface_feature.h"
 
+/* A free end that stands on another obstacle goes on inside it for `buried` m (docs/method.md, Start, free ends,
+ * errors). */
 bool surface_at_free_end(const contact_scene *scene, dem_index id, double along, double tolerance)
 {
     const segment *s = &scene->model->obstacles.segments[id];
@@ -10,6 +14,8 @@ bool surface_at_free_end(const contact_scene *scene, dem_index id, double along,
            (s->after < 0 && fabs(along - s->length) <= fmax(margin, s->buried[1] + tolerance));
 }
 
+/* At a convex vertex the solid's corner sticks out: a body's edge may touch it with any normal between those of the
+ * segment that ends there and of the one that begins. The normals turn clockwise from `before` to `after`. */
 bool surface_in_cone(const contact_scene *scene, dem_index vertex, double t, vec2 direction)
 {
     const obstacle_vertex *v = &scene->model->obstacles.vertices[vertex];
@@ -17,6 +23,8 @@ bool surface_in_cone(const contact_scene *scene, dem_index vertex, double t, vec
            vec2_cross(direction, surface_line_at(scene, v->after, t).normal) <= 0.0;
 }
 
+/* The motion w of the corner of two walls with velocities a and b: w.n = a.n and w.m = b.m, two equations for two
+ * components, and alike for the accelerations. */
 obstacle_motion surface_corner_motion(const contact_scene *scene, const dem_index ids[2], surface_query at)
 {
     const obstacle_set *o = &scene->model->obstacles;
