@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Free candidates that would touch within the window of an impact. */
+/* Early reflection (docs/method.md, The window). At an impact, free candidates that would touch within the window tau
+ * are reflected at once, where they are, by the law of their own impact. With `exact` every impact stops the step of
+ * all bodies; a pressed surface that arrives node by node would stop it once for each. The energy is that of the impact
+ * a moment later: the velocities are the same but for the acceleration over tau. Candidates that share nodes with
+ * closed contacts are left to their groups (impact_group.c). No candidate is moved, and none is closed. */
 #include "contact/early_reflection.h"
 
 #include "contact/impact_rest.h"
 
+/* Reflects a candidate as if it had a contact at its gap. The normal is the gap's: near a vertex it is not that of the
+ * segment. */
 void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
 {
     contact_candidate *candidate = &c->list[k];
@@ -43,6 +49,8 @@ static bool arrives(const contact_set *c, const contact_candidate *candidate, co
     return candidate_gap(&c->scene, candidate, &ahead).distance < -c->scene.rule.penetration_tolerance;
 }
 
+/* Two conditions must hold: the gap closes within tau at the present speed, and the candidate, taken straight on for
+ * tau, is inside. Near a vertex a small gap may close without a touch. */
 void early_reflection(contact_set *c, contact_instant *now)
 {
     for (dem_index k = 0; k < c->n; k++) {

@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The impact of a group of contacts that share nodes: their impacts are resolved in turn. */
+/* The impact of a group of contacts that share nodes (docs/method.md, Contacts that share nodes). An impulse at one
+ * contact moves the points of others, so the law of one impact cannot be applied to each once. The contacts are put on
+ * their surfaces and take their impacts in turn (Gauss-Seidel), each by impact_law.c with its own mobility, until none
+ * approaches. With obstacles at rest no single impact gives energy, so no sweep does. Then it is decided which contacts
+ * last; if some of these have rebounded, all impulses are taken back and given again with those plastic. What velocity
+ * is left in closed contacts is removed by the linear system of contact_forces.c. Forces in lasting contacts are there,
+ * too. */
 #include "contact/impact_group.h"
 
 #include <stdlib.h>
@@ -12,6 +18,8 @@ enum { most_sweeps = 200 };
 
 static const double group_noise = 1e-11; /* of the largest speed: slower approaches are left to the group's stop */
 
+/* Moves the nodes to first order so that every gap is 0. A node that two contacts of the group share is moved when it
+ * first comes up, and its displacement is then set to 0. */
 double impact_group_project(contact_set *c, dem_index group, contact_instant *now)
 {
     contact_forces *r = &c->forces;
@@ -23,13 +31,14 @@ double impact_group_project(contact_set *c, dem_index group, contact_instant *no
         for (int e = 0; e < (candidate_is_edge(candidate) ? 2 : 1); e++) {
             furthest = fmax(furthest, vec2_norm(vec2_at(shift, nodes[e])));
             contact_set_move(c, nodes[e], vec2_at(shift, nodes[e]), now->x);
-            vec2_put(r->a, nodes[e], (vec2){0.0, 0.0}); /* an edge's node may come again */
+            vec2_put(r->a, nodes[e], (vec2){0.0, 0.0});
         }
     }
     return furthest;
 }
 
-/* Stores the velocities of the group's contacts before the impact; returns the largest of them. */
+/* Lists the contacts of the group with their velocities before the impact, absolute ones for reports. Those of a corner
+ * take part like others: what it holds is found again when groups are.  \return the largest relative speed, m/s */
 static double prepare(contact_set *c, dem_index group, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -50,7 +59,9 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
     return scale;
 }
 
-/* Resolves one contact of the group by itself if it approaches; returns whether it did. */
+/* Resolves one contact of the group by itself if it approaches. Its point answers like a mass 1/mobility: a change
+ * `kick` of its velocity is the impulse J = kick/mobility, which also changes the velocities of contacts that share its
+ * nodes, and takes the energy -J.(v + v')/2.  \return whether it approached by more than the tolerance, m/s */
 static bool resolve_approach(contact_set *c, dem_index k, int q, double tolerance, bool plastic, contact_instant *now)
 {
     contact_impact *impact = &c->impacts[k].of[q];
@@ -68,7 +79,9 @@ static bool resolve_approach(contact_set *c, dem_index k, int q, double toleranc
     return true;
 }
 
-/* Resolves the contacts of a group in turn, those of candidate k first. Returns whether none approaches in the end. */
+/* Resolves the contacts of a group in turn, those of candidate k first, which has just touched. From the hundredth
+ * sweep on there is no rebound, so that contacts between which an impact goes to and fro come to an end.  \return
+ * whether none approaches in the end */
 static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -85,7 +98,10 @@ static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant
     return !approached;
 }
 
-/* Decides which contacts of the group last, and how they slide. */
+/* Decides which contacts of the group last, and how they slide. `away` is the normal velocity that is left, `back` the
+ * acceleration towards the surface, turning - a.n, which is to bring the contact back. A new contact opens if `away`
+ * exceeds the speed that counts as rest; one that was closed must exceed the tolerance of the sweeps, too. Where one
+ * begins to stick is its place now. */
 static void judge(contact_set *c, dem_index group, double tolerance, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -112,7 +128,9 @@ static void judge(contact_set *c, dem_index group, double tolerance, const conta
 }
 
 /* If contacts last that have rebounded, takes all impulses back, so that they are given again with those contacts
- * plastic: a contact that lasts has not rebounded, and its friction follows from the impulse without rebound. */
+ * plastic: a contact that lasts has not rebounded, and its friction follows from the impulse without rebound. Positions
+ * have not changed since, so that subtracting the impulses restores the velocities to rounding.  \return whether there
+ * were any */
 static bool take_back(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -145,7 +163,8 @@ static void keep_approaching(contact_set *c, dem_index group)
             if (c->impacts[m].of[q].approached) c->impacts[m].of[q].opens = false;
 }
 
-/* Takes the contacts that open out of a candidate's closed ones, but keeps them in the list behind these. */
+/* Takes the contacts that open out of a candidate's closed ones, but keeps them in the list behind these, for the
+ * report: of two, the one that stays is moved to the front. */
 static void part(contact_candidate *candidate, candidate_impact *impact)
 {
     candidate_forget_clearance(candidate);
@@ -160,6 +179,7 @@ static void part(contact_candidate *candidate, candidate_impact *impact)
     while (candidate->n_closed > 0 && impact->of[candidate->n_closed - 1].opens) candidate->n_closed--;
 }
 
+/* The energy that stopping takes counts as impact, its impulses as those of the obstacles. */
 void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -174,8 +194,8 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
     }
 }
 
-/* Stops the groups that share a node with a candidate: velocities that the integrator's error has left in them are no
- * approach. */
+/* Stops the groups that share a node with a candidate, before it takes its impact: velocities that the integrator's
+ * error has left in them are no approach. */
 static void stop_around(contact_set *c, dem_index k, contact_instant *now)
 {
     const dem_index nodes[2] = {c->list[k].node, c->list[k].other};
@@ -187,7 +207,8 @@ static void stop_around(contact_set *c, dem_index k, contact_instant *now)
     }
 }
 
-/* Takes away what the sweeps have left of velocities that closed contacts do not allow. */
+/* Takes away what the sweeps have left of velocities that closed contacts do not allow, group by group of those that
+ * are left, each once: with its first candidate. The impulses count with those of the sweeps. */
 static void settle_velocities(contact_set *c, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
@@ -229,7 +250,7 @@ static void report_candidate(contact_set *c, dem_index k, contact_instant *now)
 }
 
 /* Adds the contact that hits to the closed ones of the candidate, in place of those that it cannot be closed together
- * with. */
+ * with: a node on one segment that hits another, without a corner, leaves the first. */
 static dem_status take_up(contact_set *c, dem_index k, impact_target hit)
 {
     contact_candidate *candidate = &c->list[k];
@@ -249,6 +270,7 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* The group is that of candidate k with its new contact. Reports go in the order of candidates, not of the group. */
 dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now)
 {
     stop_around(c, k, now);

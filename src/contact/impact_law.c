@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Restitution (8), (9), friction (10) and Coulomb's, Moreau's law for a corner, and the complementarity of reactions.
- * These laws are nowhere else. */
+/* The laws of an impact of one point: restitution (8) and (9), friction by (10) or by Coulomb, Moreau's law for a
+ * corner; and the complementarity of forces by which a corner holds a node (docs/method.md, The impact). They are pure
+ * functions of velocities and normals, and nowhere else. Which surfaces are hit is decided in impact_target.c, what
+ * counts as rest in impact_rest.c, and how the contacts of a group go together in impact_group.c. */
 #include "contact/impact_law.h"
 
 #include <stdbool.h>
 
 static const double parallel_below = 1e-9; /* sine between two normals */
 
-/* Parts p[s] <= 0 of v that the cone of the inward normals holds: the projection of v on it. */
+/* Parts p_s <= 0 of v with sum p_s n_s the projection of v on the cone of the inward normals, -n_s. By Moreau's
+ * decomposition the rest, v - sum p_s n_s, approaches no surface, and p_s < 0 only for a surface that it is parallel
+ * to:
+ *   p_s <= 0,   (v - p).n_s >= 0,   p_s (v - p).n_s = 0.
+ * For two surfaces there are four cases: none acts, one does, or both, which are tried in this order. */
 static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
 {
     double alone[2] = {0.0, 0.0};
@@ -31,7 +37,9 @@ static void inward_parts(const impact_surface *s, int n, vec2 v, double p[2])
     p[1 - k] = 0.0;
 }
 
-/* Friction where a surface has changed the normal velocity by `kick`, m/s. */
+/* Friction on one surface that has changed the normal velocity by `kick` = (1 + eta) abs(v_n), m/s:
+ * - Coulomb: v_t' = v_t - sign(v_t) min(abs(v_t), mu kick), a tangential impulse of mu times the normal one at most;
+ * - (10): v_t' = mu v_t. v_t is relative to the surface, which drifts in the frame of a corner. */
 static vec2 rub(const impact_surface *s, vec2 v, double kick)
 {
     const vec2 t = {s->normal.y, -s->normal.x};
@@ -41,6 +49,9 @@ static vec2 rub(const impact_surface *s, vec2 v, double kick)
     return vec2_along(v, after - vt, t);
 }
 
+/* With both surfaces of a corner acting, all of v is in the cone of the inward normals, so that v' = -sum eta_s p_s n_s
+ * exactly, without the rounding of v - sum (1 + eta_s) p_s n_s. kick[s] is what surface s adds to the velocity, by
+ * which its impulse is reckoned; where one surface acts alone its friction is in it. */
 vec2 impact_law_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick)
 {
     double p[2], eta[2];
@@ -65,6 +76,8 @@ double impact_law_kept_up(const impact_surface *surface)
     return square < 1.0 ? fmin(square / (1.0 - square), 50.0) : 0.0;
 }
 
+/* The same cone for forces: reactions N_s = -p_s >= 0, a remaining force that accelerates into no surface, and N_s > 0
+ * only where that is parallel to the surface. This is the complementarity of contact for a node at rest. */
 int impact_law_holding(const impact_surface *surface, int n, vec2 force, double *reaction)
 {
     double p[2];

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The impact of a node that shares no closed contact. */
+/* The impact of a node that shares no closed contact: put back on the surface, rebound by impact_law.c, and the
+ * decision whether the contact lasts. A contact that lasts has not rebounded: the impact is then taken again with eta =
+ * 0, so that its friction follows from the impulse that is really given (docs/method.md, The impact; What counts as
+ * rest). Velocities are relative to the wall, or to the corner of two walls. Nodes whose closed contacts are coupled to
+ * others, and edges, are in impact_group.c. */
 #include "contact/impact_node.h"
 
 #include <float.h>
@@ -17,6 +21,7 @@ typedef struct hit_walls {
     obstacle_motion frame;
 } hit_walls;
 
+/* Of one wall the frame is that wall; of two it is their corner. */
 static void find_walls(const contact_set *c, impact_target hit, surface_query at, hit_walls *out)
 {
     for (int q = 0; q < hit.n; q++) {
@@ -36,7 +41,9 @@ typedef struct node_impact {
     vec2 before, after, kick[2];
 } node_impact;
 
-/* The displacement that puts a node on one segment's line, but not beyond a vertex of it, or where two lines meet. */
+/* The displacement that puts a node on one segment's line, but not beyond a vertex of it, or where two lines meet: at
+ * the shared vertex of neighbours, else n_0.shift = -h_0 and n_1.shift = -h_1 with the heights h of the node over both
+ * lines. */
 static vec2 way_back(const contact_set *c, impact_target hit, const hit_walls *walls, surface_query at)
 {
     const surface_line a = walls->line[0], b = walls->line[hit.n - 1];
@@ -44,7 +51,7 @@ static vec2 way_back(const contact_set *c, impact_target hit, const hit_walls *w
     if (hit.n == 2 && surface_share(&c->scene, hit.feature[0], hit.feature[1], at.t, &vertex))
         return vec2_sub(vertex, at.x);
     const double h0 = surface_height(&a, at.x), h1 = surface_height(&b, at.x), place = surface_place(&a, at.x);
-    if (hit.n == 2) /* n0.shift = -h0 and n1.shift = -h1 */
+    if (hit.n == 2)
         return vec2_scale(1.0 / vec2_cross(a.tangent, b.tangent),
                           vec2_along(vec2_scale(h1, a.tangent), -h0, b.tangent));
     const double beyond =
@@ -52,7 +59,7 @@ static vec2 way_back(const contact_set *c, impact_target hit, const hit_walls *w
     return vec2_along(vec2_scale(-h0, a.normal), -beyond, a.tangent);
 }
 
-/* The surfaces as the laws of an impact see them. */
+/* The surfaces as the laws of an impact see them: normal, eta, mu, and the velocity of each in the common frame. */
 static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, const hit_walls *walls,
                           impact_surface on[2])
 {
@@ -62,9 +69,11 @@ static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, 
     }
 }
 
-/* Of the segments that are hit, those on which a node with relative velocity v stays. A node at rest stays on all that
- * it presses; in a corner it is at rest if it would get no further out than a hop before it comes back. Otherwise it
- * can stay on the one segment along which it moves. */
+/* Of the segments that are hit, those on which a node with relative velocity v stays; a is its acceleration relative to
+ * the walls. A node at rest stays on all that it presses. In a corner that both walls hold it counts as at rest if it
+ * would get no further out than a hop before it comes back, which is decided along v: `back` is its deceleration.
+ * Otherwise it can stay on the one segment along which it moves, that of the smaller speed away from it, if that speed
+ * counts as rest there. */
 static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, const hit_walls *walls, vec2 v,
                              const contact_instant *now)
 {
@@ -91,6 +100,7 @@ static impact_target lasting(const contact_set *c, dem_index k, impact_target hi
     return held;
 }
 
+/* The velocity of a node that is held: without its part along the normal, 0 in a corner. */
 static vec2 without_normals(const contact_set *c, impact_target held, double t, vec2 v)
 {
     if (held.n == 2) return (vec2){0.0, 0.0};
@@ -99,7 +109,7 @@ static vec2 without_normals(const contact_set *c, impact_target held, double t, 
     return vec2_along(v, -vec2_dot(v, n), n);
 }
 
-/* Opens the node's contacts and closes those on `held`, without an event. */
+/* Opens the node's contacts and closes those on `held`, without an event; each begins with the sign of its sliding. */
 static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const contact_instant *now)
 {
     contact_candidate *candidate = &c->list[k];
@@ -118,7 +128,7 @@ static dem_status hold_on(contact_set *c, dem_index k, impact_target held, const
     return contact_set_regroup_some(c, &k, 1);
 }
 
-/* Reports that a contact has closed or opened, where no impact reports it. */
+/* Reports that a contact has closed or opened, where no impact reports it; counts closings in any case. */
 static void report_change(contact_set *c, dem_index k, int was_closed, dem_index feature, bool approached,
                           contact_instant *now)
 {
@@ -130,15 +140,18 @@ static void report_change(contact_set *c, dem_index k, int was_closed, dem_index
     ledger_enter(&c->ledger, &event, now);
 }
 
-/* Enters an impact in the ledger and reports it; each surface has added its kick to the relative velocity. */
+/* Enters an impact in the ledger and reports it. Each surface s has added kick_s to the relative velocity v, so has
+ * given the impulse J_s = m kick_s. The energy taken is
+ *   -sum J_s.((v + v')/2 - drift_s) = m/2 (v^2 - v'^2) + sum J_s.drift_s,
+ * as the surfaces do the work J_s.drift_s in the common frame. What rounding and closing have changed besides counts
+ * for the first surface that acts, so that the impulses sum up to m (v' - v). */
 static void enter(contact_set *c, dem_index k, const node_impact *impact, contact_instant *now)
 {
     const double m = c->scene.model->lattice.mass[c->list[k].node];
     const impact_target hit = impact->hit;
     vec2 kick[2] = {impact->kick[0], impact->kick[1]};
     double energy = 0.5 * m * (vec2_dot(impact->before, impact->before) - vec2_dot(impact->after, impact->after));
-    vec2 rest =
-        vec2_sub(impact->after, impact->before); /* what rounding and closing add counts for the first that acts */
+    vec2 rest = vec2_sub(impact->after, impact->before); /* what rounding and closing have changed */
     for (int q = 0; q < hit.n; q++) rest = vec2_sub(rest, kick[q]);
     const int first = hit.n == 2 && kick[0].x == 0.0 && kick[0].y == 0.0 ? 1 : 0;
     kick[first] = vec2_add(kick[first], rest);
@@ -153,6 +166,8 @@ static void enter(contact_set *c, dem_index k, const node_impact *impact, contac
     contact_set_enter_impact(c, &event, energy, vec2_scale(m, vec2_sub(impact->after, impact->before)), now);
 }
 
+/* The velocity before is taken where the node was found; then the node is put back, and the forces that decide about
+ * lasting are those of its new place. A rebound below the rounding of the velocity before is none. */
 dem_status impact_node_solve(contact_set *c, dem_index k, impact_target hit, contact_instant *now)
 {
     const dem_index i = c->list[k].node;

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What impacts of nodes and of groups have in common: the surface met, and what counts as rest on it. */
+/* What counts as rest (docs/method.md, What counts as rest): rebounds whose hop would be lower than what tolerances,
+ * rounding or the depth of impacts make of hops anyway, or shorter than twice the window. With eta < 1 a point bounces
+ * infinitely often in finite time (Zeno); the hop below which it counts as rest is what ends this. Nodes
+ * (impact_node.c) and groups (impact_group.c) have the same rule. */
 #include "contact/impact_rest.h"
 
 #include <float.h>
 
 static const double noise = 64.0 * DBL_EPSILON; /* relative rounding of a coordinate */
 
+/* The law of the obstacle, with a normal that the caller knows: of a segment, or of the edge of the body. */
 impact_surface impact_rest_surface(const contact_set *c, dem_index k, dem_index feature, vec2 normal)
 {
     const contact_law law = contact_point_law(&c->scene, &c->list[k], feature);
@@ -19,10 +23,13 @@ int impact_rest_slide(const contact_set *c, dem_index k, dem_index feature, doub
     return speed < 0.0 ? -1 : 1;
 }
 
-/* Hops of this many penetration tolerances never end where the impact of one contact opens another that shares a node,
- * or the other side of a notch, for each is taken at the depth of the tolerance. */
+/* Hops of this many penetration tolerances may never end where the impact of one contact opens another that shares a
+ * node, or the other side of a notch, for each is taken at the depth of the tolerance. */
 static const double shared_tolerances = 8.0;
 
+/* A rebound of speed u against the acceleration `back` hops u^2/(2 back) high and takes 2 u/back. So a height below h
+ * is u <= sqrt(2 back h), a time below twice the window is u <= back window. The largest of all limits counts; without
+ * an acceleration towards the surface nothing comes back, and no speed counts as rest. */
 double impact_rest_speed(const contact_set *c, vec2 x, double back, const impact_surface *on, bool shared)
 {
     const contact_rule *rule = &c->scene.rule;
@@ -40,6 +47,9 @@ static vec2 edge_normal(const contact_candidate *edge, const double *x)
     return vec2_scale(1.0 / vec2_norm(way), (vec2){-way.y, way.x});
 }
 
+/* Whether a vertex that passes from one edge to the next, where the body bends in, comes to rest on both: the forces on
+ * the node there press both edges, and after the impact with the next edge it would hop no further than counts as rest.
+ * Both are judged in the frame of the vertex's obstacle. */
 bool impact_rest_in_notch(const contact_set *c, dem_index edge, dem_index next, const contact_instant *now)
 {
     const contact_candidate *here = &c->list[edge], *there = &c->list[next];

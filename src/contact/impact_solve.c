@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Chooses between the impact of a node by itself and that of a group. */
+/* Chooses between the impact of a node by itself, which is most of them, and that of a group: an edge always moves two
+ * nodes, and a node that shares contacts with its edges moves what they hold. */
 #include "contact/impact_solve.h"
 
 #include "contact/impact_group.h"

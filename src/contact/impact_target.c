@@ -1,9 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Segments that a node touches, and edges that a vertex touches. */
+/* What a candidate hits: of the segments that a node touches the one or two whose surfaces act, or the edge at a node
+ * that comes down flat on a vertex (docs/method.md, Corners; A node at a convex vertex). At a vertex of a polyline two
+ * segments are touched at once, yet only in a corner do both act. What the impact does is in impact_node.c and
+ * impact_group.c. */
 #include "contact/impact_target.h"
 
 #include <float.h>
 
+/* m. An event is located to 100 eps (t + h) s; the way in ten times that is allowed beyond twice the penetration
+ * tolerance, and the furthest that a projection after a step has moved a node. */
 double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -27,8 +32,8 @@ static double receding(const contact_set *c, dem_index s, const approaching *nod
     return vec2_dot(obstacle_motion_relative(&wall, node->v), surface_line_at(&c->scene, s, node->at.t).normal);
 }
 
-/* A node at a vertex meets one segment only, unless the vertex is a corner: of two in line or with a convex bend the
- * one approached faster, on a tie the one that ends there. */
+/* Whether segment s leaves the impact to another one. A node at a vertex meets one segment only, unless the vertex is a
+ * corner: of two in line or with a convex bend the one approached faster, on a tie the one that ends there. */
 static bool yields(const contact_set *c, dem_index s, dem_index to, const approaching *node)
 {
     dem_index after, before;
@@ -40,6 +45,8 @@ static bool yields(const contact_set *c, dem_index s, dem_index to, const approa
     return mine > other || (mine == other && follows);
 }
 
+/* Neighbours are a corner near the vertex that they share; segments of different obstacles if they are not nearly
+ * parallel. */
 bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other, surface_query at, double tolerance)
 {
     vec2 vertex;
@@ -48,11 +55,14 @@ bool impact_target_is_corner(const contact_set *c, dem_index s, dem_index other,
                            surface_line_at(&c->scene, other, at.t).tangent)) > 0.01;
 }
 
+/* The speed of the node towards the line of a segment, m/s. */
 static double approach(const contact_set *c, dem_index s, const approaching *node)
 {
     return -receding(c, s, node);
 }
 
+/* Of the segments touched, those that yield to none are ranked by the speed of approach; the two fastest are kept, on a
+ * tie the one found first, and the second only if both form a corner. */
 impact_target impact_target_of_node(const contact_set *c, dem_index k, const contact_instant *now)
 {
     enum { capacity = 8 };
@@ -76,6 +86,9 @@ impact_target impact_target_of_node(const contact_set *c, dem_index k, const con
     return out;
 }
 
+/* Of the edges at the node, the one that approaches the vertex fastest, if the node is on the vertex and the edge's
+ * normal lies between those of the vertex's segments. Otherwise the segment's normal is the right one, and the node
+ * hits it. */
 dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex)
 {
     const dem_index node = c->list[k].node;
