@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All candidates of a model: at the start, at an event, and between events. */
+/* The contact automaton: states FREE, SLIP and STICK of all candidates, held ones included, and what is done when a
+ * change is due (docs/method.md, Contacts that last). Changes are made one at a time, in the order of candidates, until
+ * none is due: one change may bring another, as an impact moves nodes that other contacts share. At the start of a run
+ * touching is enough. Changes of one candidate are in candidate_resolve.c, what an automaton needs between events in
+ * automaton_step.c. All of it depends on (t, x, v) and the forces that follow from these, and not on the integrator. */
 #include "contact/automaton.h"
 
 #include <float.h>
@@ -11,6 +15,7 @@
 #include "contact/candidate_resolve.h"
 #include "contact/early_reflection.h"
 
+/* Called for every evaluation of the right-hand side: forces last solved for are then those of some stage. */
 void automaton_constrain(automaton *c, double t, const double *y, double *a)
 {
     c->solved = NAN;
@@ -42,6 +47,7 @@ void automaton_destroy(automaton *c)
     contact_set_destroy(&c->set);
 }
 
+/* Room comes first: behind it nothing can fail but the set's own memory, and then nothing has changed. */
 dem_status automaton_follow_surface(automaton *c, const surface *to)
 {
     TRY(reserve(c, to->n_nodes + to->n_edges));
@@ -67,6 +73,7 @@ static dem_status settle_all(contact_set *c, contact_instant *now, bool *changed
     return DEM_OK;
 }
 
+/* The candidates that share a node with candidate k, itself included: nodes first, then the edges at each. */
 static dem_status settle_around(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -74,7 +81,9 @@ static dem_status settle_around(contact_set *c, dem_index k, contact_instant *no
     return candidate_is_edge(candidate) ? settle_node(c, candidate->other, now, changed) : DEM_OK;
 }
 
-/* Makes the changes that are due, of all candidates or around one, until there are none. */
+/* Makes the changes that are due, of all candidates or around one, until a round changes nothing. `idle` counts events
+ * in a row at which the first round found nothing to change: more than max_impacts of them are an error, as the run
+ * would stand still. */
 static dem_status settle_until_done(automaton *c, dem_index around, contact_instant *now)
 {
     contact_set *s = &c->set;
@@ -98,7 +107,8 @@ dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y
     return now.listener_status;
 }
 
-/* Puts nodes in contact back on their segments, from which rounding has moved them. */
+/* Puts nodes in contact back on their segments, from which rounding has moved them. Edges on vertices are drawn back by
+ * their constraint, or put back by automaton_project(). */
 static void project_nodes(contact_set *c, double t, double *x)
 {
     for (dem_index k = 0; k < c->surface->n_nodes; k++) {
@@ -111,6 +121,8 @@ static void project_nodes(contact_set *c, double t, double *x)
     }
 }
 
+/* An event at which the whole body stops: changes, reflections within the window if there was an impact, nodes put
+ * back, forces and clearances of the new state. */
 dem_status automaton_resolve(automaton *c, double t, double *y, const event_listener *listener)
 {
     contact_set *s = &c->set;
@@ -125,6 +137,7 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     return now.listener_status;
 }
 
+/* Each candidate is taken as free and without a clearance, so that its gap is exact. */
 dem_status automaton_check_start(const automaton *c, double t, const double *x)
 {
     const contact_scene *scene = &c->set.scene;
@@ -148,7 +161,7 @@ dem_status automaton_check_start(const automaton *c, double t, const double *x)
     return DEM_OK;
 }
 
-/* Largest coordinate that enters a gap, m: its unit roundoff is that of the gap. */
+/* Largest coordinate that enters a gap, m: the gap has the rounding of a number of that size. */
 static double extent(const contact_set *c, dem_index k, dem_index feature, const candidate_positions *spot)
 {
     const dem_index id = surface_segment(&c->scene, contact_point_feature(&c->list[k], feature));
@@ -156,11 +169,12 @@ static double extent(const contact_set *c, dem_index k, dem_index feature, const
     return fmax(vec2_norm(spot->a), fmax(vec2_norm(line.start), vec2_norm(line.end)));
 }
 
-/* Closes the contacts of all candidates whose gap is zero to rounding. */
+/* Closes the contacts of all candidates whose gap is 0 to 64 roundings, whether they approach or are only pressed. An
+ * edge may touch two vertices: it is asked again once the first contact has closed. */
 static dem_status touch_all(contact_set *s, contact_instant *now)
 {
     for (dem_index k = 0; k < s->n; k++)
-        for (int q = 0; q < 2; q++) { /* an edge may touch two vertices */
+        for (int q = 0; q < 2; q++) {
             const candidate_positions spot = candidate_place(&s->list[k], now->t, now->x);
             const contact_gap gap = candidate_gap(&s->scene, &s->list[k], &spot);
             if (gap.feature < 0 || gap.distance > 64.0 * DBL_EPSILON * extent(s, k, gap.feature, &spot)) break;
@@ -170,6 +184,7 @@ static dem_status touch_all(contact_set *s, contact_instant *now)
     return DEM_OK;
 }
 
+/* The listener's first failure counts, that of the touching contacts before that of what follows. */
 dem_status automaton_start(automaton *c, double t, double *y, const event_listener *listener)
 {
     contact_set *s = &c->set;
@@ -187,6 +202,8 @@ dem_status automaton_open_all(automaton *c)
     return contact_set_regroup(&c->set);
 }
 
+/* All that the checkpoint does not hold is found again from the state, the same whether the run wrote the checkpoint
+ * just now or is resumed from it: both go on to the same bits. `travelled` begins at 0 in both. */
 dem_status automaton_restore(automaton *c, double t, const double *y)
 {
     contact_set *s = &c->set;
@@ -207,7 +224,8 @@ static void add_to_row(double *array, dem_index row, vec2 change)
     vec2_put(array, row, vec2_add(vec2_at(array, row), change));
 }
 
-/* Adds the rates of one candidate's closed contacts.  \return the power of moving obstacles in these contacts, W */
+/* Adds the rates of one candidate's closed contacts: N for impulses, W for the work of friction.  \return the power of
+ * moving obstacles in these contacts, W */
 static double add_rates_of(const contact_set *s, dem_index k, scene_state state, double *a)
 {
     const state_layout *l = scene_layout(&s->scene);
@@ -241,6 +259,7 @@ double automaton_add_rates(const automaton *c, double t, const double *y, double
     return work;
 }
 
+/* Forces are those stored at the last accepted step or event; frames are those of the positions given. */
 const dem_contact *automaton_list(const automaton *c, double t, const double *x, dem_index *n)
 {
     *n = 0;

@@ -1,15 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Changes of contacts within a step, and what is refreshed at its end. */
+/* The automaton within a step: when the contacts of a candidate change, and what is refreshed at the end of the step
+ * (docs/algorithms.md, Event location). With `local` every candidate's next change is asked for by itself. With `exact`
+ * the integrator watches one root function, the lowest of all; automaton_check_step() then finds what a root finder
+ * cannot see, a function that dips below zero and comes back, and cuts the step short there. How a root is found is in
+ * event_location.c. `solved` is the time for which contact forces are known, `quiet` that no root function was below
+ * zero there: together they spare most steps a second search. */
 #include "contact/automaton_step.h"
 
 #include "base/reduce.h"
 #include "contact/event_location.h"
 #include "contact/impact_group.h"
 
-/* Of the root function: a unit may be no more than rounding, and a secant from further down is the same. */
+/* Of the root function, for a unit may be no more than rounding and the quotient then huge; a secant from further down
+ * would be the same. */
 static const double lowest_value = -1e30;
 
-/* Bound of how far any candidate goes in the step, m: twice what the fastest at either end of the step would. The speed
+/* Bound of how far any candidate goes in the step, m: twice the way of the fastest at either end of the step. The speed
  * at its beginning is that of the last update of the broad phase. */
 static double furthest(const automaton *c, const dense_output *p)
 {
@@ -17,7 +23,8 @@ static double furthest(const automaton *c, const dense_output *p)
            fmax(c->broad_phase.speed, broad_phase_speed(&c->set, automaton_state(c, p->t1, p->y1).v));
 }
 
-/* The state at the end of a step, as far as the forces of a group depend on it. */
+/* The state at the end of a step, as far as the forces of a group depend on it: that of the integrator if the step is
+ * whole, else put together from the dense output in `state`. */
 static scene_state end_of(automaton *c, dem_index group, const dense_output *p, double *state)
 {
     if (p->end == p->t1) return automaton_state(c, p->t1, p->y1);
@@ -30,6 +37,7 @@ void automaton_solve_group(automaton *c, const dense_output *p, dem_index group,
     contact_forces_solve(&c->set.forces, group, end_of(c, group, p, state));
 }
 
+/* Forces of the state are known if it is the one that contacts were solved for last. */
 void automaton_begin_roots(automaton *c, double t, const double *y)
 {
     const contact_set *s = &c->set;
@@ -41,7 +49,8 @@ void automaton_begin_roots(automaton *c, double t, const double *y)
     }
 }
 
-/* The lowest of the root functions of the a-th active candidate in a state, in units of the start of the step. */
+/* The lowest of the root functions of the a-th active candidate in a state, in units of the start of the step. Those
+ * that are left out of the minimum still count for `quiet`. */
 static double lowest_root(automaton *c, dem_index a, scene_state state)
 {
     double g[CANDIDATE_ROOTS];
@@ -52,6 +61,9 @@ static double lowest_root(automaton *c, dem_index a, scene_state state)
     return candidate_lowest_root(g, &c->units[CANDIDATE_ROOTS * a]);
 }
 
+/* Continuous in the end of the step where the root functions are, 1 at its start, and 0 where the first of them crosses
+ * zero. Forces are solved for first, which fills `state` with all that closed candidates need; free ones need their
+ * positions alone. */
 double automaton_root_function(automaton *c, const dense_output *p, double *state)
 {
     const contact_set *s = &c->set;
@@ -69,7 +81,8 @@ double automaton_root_function(automaton *c, const dense_output *p, double *stat
     return fmax(low, lowest_value);
 }
 
-/* First time at which closed contacts of a candidate change, if they have to at the end of the step; else infinity. */
+/* First time at which closed contacts of a candidate change, if they have to at the end of the step; else infinity. The
+ * forces are then those of the end again. */
 static double next_due(automaton *c, const dense_output *p, dem_index k, double from, double *state)
 {
     contact_forces *r = &c->set.forces;
@@ -81,6 +94,8 @@ static double next_due(automaton *c, const dense_output *p, dem_index k, double 
     return due;
 }
 
+/* If the step ends where contacts were solved for last, the forces are known, and with `quiet` no closed contact is
+ * due. */
 void automaton_begin_step(automaton *c, const dense_output *p, double *state)
 {
     const contact_forces *r = &c->set.forces;
@@ -92,8 +107,8 @@ void automaton_begin_step(automaton *c, const dense_output *p, double *state)
     if (whole) c->solved = p->t1;
 }
 
-/* Whether a free node is inside an obstacle though it has moved less than its clearance: then it has gone round a free
- * end of the obstacle, and is marked as behind it. */
+/* Whether a free node is inside an obstacle though it has moved less than its clearance: then it has not come through
+ * the front, but round a free end, and is marked as behind. */
 static bool come_round(contact_set *c, dem_index k, const candidate_positions *spot)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -114,6 +129,7 @@ double automaton_crossing(automaton *c, const dense_output *p, dem_index k, doub
     return candidate->n_closed < 2 ? event_location_crossing(&c->set.scene, candidate, p, from) : INFINITY;
 }
 
+/* A node that seems to be inside from the start on may be behind a free end; then its crossing is asked for anew. */
 double automaton_next_change(automaton *c, const dense_output *p, dem_index k, double from, double *state)
 {
     const contact_candidate *candidate = &c->set.list[k];
@@ -126,6 +142,8 @@ double automaton_next_change(automaton *c, const dense_output *p, dem_index k, d
     return fmin(due, crossing);
 }
 
+/* A change found within four widths of a root is taken to be that root: the step ends there already. `late` counts
+ * steps that are cut short here. */
 bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *state)
 {
     contact_set *s = &c->set;
@@ -159,6 +177,8 @@ static bool has_opened(const contact_set *c, dem_index group, const contact_inst
     return false;
 }
 
+/* `projected`, the furthest displacement so far, is allowed for in the depth of later impacts. The velocities of these
+ * groups are stopped as well. */
 bool automaton_project(automaton *c, double t, double *y)
 {
     contact_set *s = &c->set;
@@ -177,6 +197,7 @@ bool automaton_project(automaton *c, double t, double *y)
     return any;
 }
 
+/* After a whole step the forces are known from its last evaluation; after a cut one they are solved for. */
 void automaton_end_step(automaton *c, const dense_output *p, const double *y)
 {
     contact_set *s = &c->set;

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which candidates are inactive, and until when. */
+/* The broad phase: candidates further off than the next step can take them are inactive, and cost nothing until the
+ * bodies may have gone as far (docs/algorithms.md, Broad phase). Instead of each candidate's own way one bound for all
+ * is summed up, `travelled`: twice the step times the fastest node. A candidate with a clearance d at travelled = s
+ * cannot touch before travelled = s + d. Nodes that have gone round a free end of an obstacle are found here as well,
+ * between steps. The exact search within a step is in event_location.c. */
 #include "contact/broad_phase.h"
 
 #include "base/grow.h"
@@ -19,6 +23,7 @@ void broad_phase_destroy(broad_phase *w)
     *w = (broad_phase){0};
 }
 
+/* The largest square is found first: one square root instead of one for each node. */
 double broad_phase_speed(const contact_set *c, const double *v)
 {
     double square = 0.0;
@@ -35,7 +40,9 @@ static void come_back(contact_set *c, dem_index k, surface_query at)
     if (surface_gap_of(&c->scene, at, c->list[k].behind[0]).distance > 0.0) contact_set_pass_behind(c, k, -1);
 }
 
-/* Measures the clearance of a candidate, which is inactive if that is more than `reach`. */
+/* Measures the clearance of a candidate, which is inactive if that is more than `reach`. A free node that is inside
+ * though it has not used up its clearance cannot have come through the front: it has gone round a free end. Twice the
+ * margin of free ends is taken off, to be on the safe side. */
 static void look_at(broad_phase *w, contact_set *c, dem_index k, scene_state state, double reach)
 {
     contact_candidate *candidate = &c->list[k];
@@ -83,10 +90,13 @@ void broad_phase_list(broad_phase *w, const contact_set *c)
     for (dem_index k = 0; k < c->n; k++) list_one(w, &c->list[k], k);
 }
 
+/* `reach` is how far the longest step takes a candidate at the present speed, and a quarter more. It only chooses which
+ * candidates are active: if a step may have taken them further, broad_phase_covers_all() says so, and all are
+ * checked. */
 void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
 {
     w->speed = broad_phase_speed(c, state.v);
-    const double reach = 1.25 * c->scene.rule.max_step * w->speed; /* one that goes further is found after the step */
+    const double reach = 1.25 * c->scene.rule.max_step * w->speed;
     w->n = 0;
     w->earliest = (double)INFINITY;
     for (dem_index k = 0; k < c->surface->n_nodes && c->ledger.counts.behind > 0; k++)

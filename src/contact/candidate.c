@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gaps and root functions of one contact candidate. */
+/* Gaps and root functions of one candidate (docs/algorithms.md, Event location; docs/method.md, Gaps). A root function
+ * is above zero while the contacts of the candidate stay as they are; the table of them for free, sliding, sticking and
+ * held candidates is in algorithms.md. The root of the gap replaces the contact time (7). What happens at a root is
+ * decided in candidate_resolve.c, and when it is in event_location.c; here nothing is changed. */
 #include "contact/candidate.h"
 
 #include "contact/node_motion.h"
@@ -24,6 +27,8 @@ candidate_positions candidate_place_at(const contact_candidate *candidate, const
     return spot;
 }
 
+/* The signed distance of a node to the obstacles, but for the one that it is behind and the one of its closed contact:
+ * that obstacle's other segments are reached past the end of this one, which has a root function of its own. */
 static contact_gap node_gap(const contact_scene *scene, const contact_candidate *candidate, surface_query at)
 {
     const surface_feature on = contact_point_feature(candidate, candidate->closed[0].feature);
@@ -59,6 +64,8 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_candidate 
     return (contact_gap){nearest.distance, nearest.vertex, nearest.place, nearest.normal};
 }
 
+/* The gap of a candidate cannot change by more than the larger displacement of its nodes, as every point of an edge
+ * lies between them, plus the way of the fastest obstacle. */
 double candidate_moved(const contact_scene *scene, const contact_candidate *candidate, const candidate_positions *spot)
 {
     const double wall = surface_speed(scene) * fabs(spot->t - candidate->clearance.t);
@@ -67,6 +74,7 @@ double candidate_moved(const contact_scene *scene, const contact_candidate *cand
            (candidate_is_edge(candidate) ? fmax(a, vec2_norm(vec2_sub(spot->b, candidate->clearance.at[1]))) : a);
 }
 
+/* The nearest point of a segment is found from the gap: its foot, -distance n from the node. */
 vec2 contact_gap_velocity_moving(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
                                  const candidate_positions *spot, vec2 v)
 {
@@ -78,6 +86,8 @@ vec2 contact_gap_velocity_moving(const contact_scene *scene, const contact_candi
     return obstacle_motion_relative(&wall, v);
 }
 
+/* A candidate with two closed contacts is held in its corner or notch and touches nothing else. While the clearance
+ * that was measured last is not used up, what is left of it is a lower bound, and costs no search. */
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot)
 {
@@ -90,6 +100,7 @@ contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *c
                                         : node_gap(scene, candidate, (surface_query){spot->t, spot->a});
 }
 
+/* The edge counts as longer at both ends by the reach, and its neighbours are left out of the question. */
 contact_gap candidate_around(const contact_scene *scene, const contact_candidate *candidate,
                              const candidate_positions *spot, double reach)
 {
@@ -101,8 +112,9 @@ contact_gap candidate_around(const contact_scene *scene, const contact_candidate
     return (contact_gap){nearest.distance, nearest.vertex, nearest.place, nearest.normal};
 }
 
-/* An edge without a vertex within its reach is as far from all vertices as its first node is from the obstacles, less
- * its length. */
+/* The distance of an edge to the nearest vertex, if there is one within its reach of half its length. If there is none,
+ * a vertex is at least as far from the edge as its first node is from the obstacles, less the length of the edge,
+ * near/edge_reach. */
 static double edge_clearance(const contact_scene *scene, const contact_candidate *candidate,
                              const candidate_positions *spot)
 {
@@ -124,8 +136,9 @@ double candidate_clearance(const contact_scene *scene, const contact_candidate *
 
 /* ---- root functions of closed contacts ---- */
 
-/* Distance to the nearer end of the segment or edge plus the penetration tolerance: a contact that far beyond an end
- * has passed it. */
+/* Distance to the nearer end of the segment or edge plus the penetration tolerance, m: a contact that far beyond an end
+ * has passed it. `end` is 1 for the end, -1 for the start. For an edge the place of the vertex on it counts, as now,
+ * not as it was when a contact stuck. */
 static double end_guard(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state,
                         int *end)
 {
@@ -149,6 +162,8 @@ static bool sticks(const contact_candidate *candidate, int q)
     return candidate->closed[q].slide == 0 && !candidate->closed[q].held;
 }
 
+/* A contact beyond an end has passed it only if it heads out. Its tangential velocity tells, or for one at rest its
+ * acceleration less that of the wall. A vertex moves along the edge opposite to the body. */
 int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state)
 {
     int end;
@@ -156,7 +171,7 @@ int candidate_end_passed(const contact_scene *scene, const contact_candidate *ca
     const contact_frame f = contact_frame_at(scene, candidate, q, state);
     double speed = vec2_dot(f.velocity, f.tangent);
     const bool rests = speed == 0.0;
-    for (int p = 0; p < f.nodes.n && rests; p++) /* then the acceleration says where it heads */
+    for (int p = 0; p < f.nodes.n && rests; p++)
         speed += f.nodes.weight[p] *
                  vec2_dot(forces_acceleration(scene->forces, f.nodes.node[p], state.x, state.v), f.tangent);
     if (rests) speed -= f.carried;
@@ -168,6 +183,8 @@ int candidate_end_passed(const contact_scene *scene, const contact_candidate *ca
 /* In penetration tolerances per longest step: slower sliding than this is rounding. */
 static const double rest_noise = 1e-16;
 
+/* A sliding contact may have a velocity against its sign by rounding alone, just after it began to slide. It has turned
+ * back only if that exceeds what rounding leaves. */
 bool candidate_turns(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
                      const double *v)
 {
@@ -177,6 +194,8 @@ bool candidate_turns(const contact_scene *scene, const contact_candidate *candid
     return sign * vec2_dot(f->velocity, f->tangent) < -fmax(contact_point_noise(f, v), least);
 }
 
+/* mu N - abs(T) plus the rounding of forces: without that a contact at the limit of friction could begin to slide and
+ * stop without end. */
 double candidate_grip(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
                       const contact_force *force, const double *x)
 {
@@ -185,13 +204,16 @@ double candidate_grip(const contact_scene *scene, const contact_candidate *candi
     return limit + contact_point_slack(scene, f, x) - fabs(force->tangent);
 }
 
-/* Root function of a gap, whose root is the contact time (7). It is bounded, for the gap is infinite where there is
- * nothing. */
+/* Root function of a gap, m: gap + penetration tolerance. It is bounded, for the gap is infinite where there is nothing
+ * to touch. */
 static double gap_guard(const contact_scene *scene, contact_gap gap)
 {
     return fmin(gap.distance, 1.0) + scene->rule.penetration_tolerance;
 }
 
+/* Of two closed contacts the lower value counts. In the order of g: gap; normal force, N; for contacts that slide the
+ * end of the segment, m, for those that stick the grip, N; speed along the sign, m/s, where there is friction. What
+ * does not apply is 1. */
 void candidate_root_functions(const contact_scene *scene, const contact_candidate *candidate,
                               const contact_force force[2], scene_state state, double *g)
 {
@@ -218,6 +240,8 @@ void candidate_root_functions(const contact_scene *scene, const contact_candidat
         if (isinf(g[k])) g[k] = 1.0;
 }
 
+/* The same conditions as candidate_root_functions(), but without those that rounding alone may put below zero: an end
+ * is passed only when heading out, and a speed below rounding is no turning back. */
 bool candidate_due(const contact_scene *scene, const contact_candidate *candidate, const contact_force force[2],
                    scene_state state)
 {

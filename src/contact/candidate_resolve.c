@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which change of a candidate's contacts is due, and in which order. */
+/* Which change of a candidate's contacts is due in a state, and makes the first one (docs/method.md, Contacts that
+ * last: the list of five). The order matters: a contact that pulls is released before friction is asked about, and one
+ * that has turned back is stopped before its end is looked at. One call makes one change at most; automaton.c calls
+ * until none is due. How an impact changes velocities is behind impact_solve(); the signs that tell of a change are in
+ * candidate.c. */
 #include "contact/candidate_resolve.h"
 
 #include "base/status.h"
@@ -13,7 +17,8 @@ static const double touch_share = 0.99;
 
 /* ---- free candidates ---- */
 
-/* A node deeper inside than it can be at an impact has gone round a free end if it is at one; else it is an error. */
+/* A node deeper inside than it can be at an impact has gone round a free end if it is at one; else it is an error. An
+ * impact is found with a depth of impact_target_depth() at most. */
 static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, double depth, const contact_instant *now)
 {
     const vec2 x = vec2_at(now->x, c->list[k].node);
@@ -28,7 +33,8 @@ static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, doub
     return DEM_OK;
 }
 
-/* A node that touches hits the segments there; right on an apex it is an edge at the node that hits the vertex. */
+/* A node that touches hits the segments there; right on an apex it is an edge at the node that hits the vertex. A node
+ * that is too deep for an impact, or touches no segment, is behind the obstacle. */
 static dem_status touch_node(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
 {
     dem_index at;
@@ -39,7 +45,8 @@ static dem_status touch_node(contact_set *c, dem_index k, const contact_gap *gap
     return side >= 0 ? impact_solve(c, side, (impact_target){1, {at}}, now) : impact_solve(c, k, with, now);
 }
 
-/* An edge that touches a vertex hits it. */
+/* An edge that touches a vertex hits it. One deeper behind the edge than 1e-3 of its length has not come there by a
+ * step whose events were found: that is an error. */
 static dem_status touch_edge(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -58,6 +65,7 @@ dem_status candidate_resolve_touch(contact_set *c, dem_index k, const contact_ga
     return candidate_is_edge(&c->list[k]) ? touch_edge(c, k, gap, now) : touch_node(c, k, gap, now);
 }
 
+/* A free candidate takes an impact once it is 0.99 of the penetration tolerance deep. */
 static dem_status settle_free(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     const candidate_positions spot = candidate_place(&c->list[k], now->t, now->x);
@@ -69,6 +77,7 @@ static dem_status settle_free(contact_set *c, dem_index k, contact_instant *now,
 
 /* ---- closed candidates ---- */
 
+/* Reports an event that is no impact, and counts it. */
 static dem_status enter(contact_set *c, dem_index k, dem_index feature, dem_event_kind kind, contact_instant *now)
 {
     const dem_event event = contact_set_event(c, k, feature, kind, now);
@@ -76,6 +85,7 @@ static dem_status enter(contact_set *c, dem_index k, dem_index feature, dem_even
     return DEM_OK;
 }
 
+/* A contact that would pull opens. Velocities do not jump. */
 static dem_status release(contact_set *c, dem_index k, int q, contact_instant *now)
 {
     const dem_index feature = c->list[k].closed[q].feature;
@@ -83,7 +93,9 @@ static dem_status release(contact_set *c, dem_index k, int q, contact_instant *n
     return enter(c, k, feature, DEM_EVENT_RELEASE, now);
 }
 
-/* A node that slides past the end of its segment falls free, glides on, or runs into the next segment. */
+/* A node that slides past the end of its segment takes an impact with both segments if the next one stands in the way
+ * (concave), falls free if it bends away or there is none, and glides on if it goes on in line. Then it is put on the
+ * next segment, and its normal velocity relative to that becomes 0. */
 static dem_status pass_node(contact_set *c, dem_index k, bool backwards, contact_instant *now)
 {
     contact_candidate *candidate = &c->list[k];
@@ -103,7 +115,8 @@ static dem_status pass_node(contact_set *c, dem_index k, bool backwards, contact
     return DEM_OK;
 }
 
-/* The edge that goes on behind the end of edge k, and could take over its vertex; -1: none. */
+/* The edge that goes on behind the end of edge k, and could take over its vertex; -1 if there is none, or if it has
+ * that vertex or two others already. */
 static dem_index edge_beyond(const contact_set *c, dem_index k, bool backwards, dem_index feature)
 {
     const surface *s = c->surface;
@@ -116,8 +129,8 @@ static dem_index edge_beyond(const contact_set *c, dem_index k, bool backwards, 
 
 /* A vertex that has come to the end of an edge: the node there is put on it, and the next edge takes over by an impact.
  * Where the body bends in, the vertex hits that edge, and comes to rest in the notch if it would rebound by no more
- * than a hop that counts as rest. Otherwise it slides on along the next edge, or leaves if the body bends away too
- * fast. */
+ * than a hop that counts as rest: both contacts are then kept. Otherwise it slides on along the next edge, or leaves if
+ * the body bends away too fast. */
 static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, contact_instant *now)
 {
     const dem_index node = backwards ? c->list[k].node : c->list[k].other, feature = c->list[k].closed[q].feature;
@@ -131,7 +144,8 @@ static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, 
     return impact_solve(c, next, (impact_target){1, {feature}}, now);
 }
 
-/* A sliding contact that has turned back comes to rest; if it does not stick there it slides the other way. */
+/* A sliding contact that has turned back comes to rest: it is taken to stick, its group is stopped, and forces are
+ * solved with it. If abs(T) <= mu N it goes on sticking; else it slides the way that T would have prevented. */
 static dem_status stop(contact_set *c, dem_index k, int q, contact_instant *now)
 {
     contact_point *point = &c->list[k].closed[q];
@@ -146,6 +160,7 @@ static dem_status stop(contact_set *c, dem_index k, int q, contact_instant *now)
     return enter(c, k, point->feature, DEM_EVENT_STICK, now);
 }
 
+/* A sticking contact whose friction exceeds mu N slides the way that friction had prevented, against T. */
 static dem_status begin_to_slide(contact_set *c, dem_index k, int q, contact_instant *now)
 {
     contact_point *point = &c->list[k].closed[q];
@@ -153,7 +168,8 @@ static dem_status begin_to_slide(contact_set *c, dem_index k, int q, contact_ins
     return enter(c, k, point->feature, DEM_EVENT_SLIP, now);
 }
 
-/* Closed contact q: release comes first, then stick and slip, then the end of the segment or edge. */
+/* Closed contact q with the forces stored last: release comes first, then stick and slip, then the end of the segment
+ * or edge. Contacts of a corner have no friction, and no end: they are only released. */
 static dem_status settle_contact(contact_set *c, dem_index k, int q, contact_instant *now, bool *changed)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -171,7 +187,8 @@ static dem_status settle_contact(contact_set *c, dem_index k, int q, contact_ins
     return DEM_OK;
 }
 
-/* A candidate with one closed contact that touches something else. */
+/* A candidate with one closed contact that touches something else takes an impact: a node with both surfaces if they
+ * form a corner, else with the new one. */
 static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     const contact_candidate *candidate = &c->list[k];
@@ -188,6 +205,7 @@ static dem_status settle_other(contact_set *c, dem_index k, contact_instant *now
     return impact_solve(c, k, (impact_target){both ? 2 : 1, {gap.feature, here}}, now);
 }
 
+/* The forces are solved for in the state as it is: what was stored may be that of before the event. */
 static dem_status settle_closed(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     contact_set_solve_forces(c, k, instant_state(now));
@@ -196,6 +214,8 @@ static dem_status settle_closed(contact_set *c, dem_index k, contact_instant *no
     return settle_other(c, k, now, changed);
 }
 
+/* Makes the first change that is due. A candidate with more than max_impacts of them within storm_time is an error: it
+ * would go on without time advancing. */
 dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     bool here = false;

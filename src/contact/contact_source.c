@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Contact as a source of events: when candidates change, and what has changed of them. */
+/* Contact as a source of events (events/event_source.h), with a key for each candidate. begin() finds when each active
+ * candidate changes next, and a heap holds these times; after an event, follow() finds them again for candidates near
+ * it. All that an event may change of contacts is copied before the first one of a step touches it, so that undo()
+ * restores it to the bit and the same events come again. When and how contacts change is the automaton's part
+ * (automaton.c, automaton_step.c), what follows for the motion that of src/events. */
 #include "contact/contact_source.h"
 
 #include <stdlib.h>
@@ -13,7 +17,7 @@
 
 /* ---- set-up ---- */
 
-/* For n candidates, and for those that are saved already. */
+/* Lists for n candidates. Saved ones that are candidates no more still need room, besides the n that there are. */
 static dem_status allocate(contact_source *s, dem_index n)
 {
     const size_t size = (size_t)n + 1, most = size + (size_t)s->n_saved;
@@ -54,7 +58,8 @@ void contact_source_destroy(contact_source *s)
 
 /* ---- another surface ---- */
 
-/* What is due and what is saved goes on under new numbers, from one source to the next. */
+/* What is due and what is saved goes on under new numbers, from one source to the next; a candidate is known by its
+ * nodes. */
 static void carry_over(const contact_source *from, const contact_key *due, contact_source *to)
 {
     const contact_set *c = &to->automaton->set;
@@ -70,6 +75,7 @@ static void carry_over(const contact_source *from, const contact_key *due, conta
     }
 }
 
+/* The keys of what is due are noted while the numbers of the old surface still hold. */
 dem_status contact_source_follow_surface(contact_source *s, const surface *to)
 {
     const contact_candidate *list = s->automaton->set.list;
@@ -95,7 +101,8 @@ static bool is_free(const contact_source *s, dem_index k)
     return s->automaton->set.list[k].n_closed == 0;
 }
 
-/* Finds when the free candidates of a thread's share touch. */
+/* Finds when the free candidates of a thread's share touch. Each writes its own place only, so that the result does not
+ * depend on the number of threads. */
 static void look_at_free(contact_source *s, int n_shares, int share)
 {
     automaton *c = s->automaton;
@@ -106,6 +113,9 @@ static void look_at_free(contact_source *s, int n_shares, int share)
     }
 }
 
+/* The next change of every active candidate from the start of the step. Threads look at free ones beforehand; what they
+ * have found holds unless it is at the start itself, or a node has gone behind an obstacle meanwhile, which concerns
+ * its edges. Then, and for closed candidates, it is found here, in the order of candidates. */
 static void look_ahead(contact_source *s)
 {
     automaton *c = s->automaton;
@@ -118,14 +128,13 @@ static void look_ahead(contact_source *s)
     const dem_index *behind = &c->set.ledger.counts.behind, were_behind = *behind;
     for (dem_index a = 0; a < automaton_n_active(c); a++) {
         const dem_index k = automaton_active_candidate(c, a);
-        const bool known =
-            is_free(s, k) && s->crossing[k] > step->t0 && *behind == were_behind; /* no node has gone behind one */
+        const bool known = is_free(s, k) && s->crossing[k] > step->t0 && *behind == were_behind;
         const double due = known ? s->crossing[k] : automaton_next_change(c, step, k, step->t0, s->state);
         if (isfinite(due)) event_heap_set(&s->heap, k, due); /* the heap was cleared: most candidates need no entry */
     }
 }
 
-/* Forgets what was saved for the step before. */
+/* A new step has been begun: what was saved for the step before it is no longer needed. */
 static void forget_saved(contact_source *s)
 {
     for (dem_index m = 0; m < s->n_saved; m++)
@@ -159,7 +168,8 @@ static dem_index contact_source_seeds(const void *self, dem_index key, dem_index
 
 /* ---- candidates near an event ---- */
 
-/* Calls a function for every candidate that has a moving node of the neighbourhood. */
+/* Calls a function for every candidate that has a moving node of the neighbourhood, once: an edge comes with its first
+ * node if that moves, else with its other. */
 static void each_candidate(contact_source *s, const event_place *at,
                            void (*act)(contact_source *s, const event_place *at, dem_index k))
 {
@@ -170,11 +180,12 @@ static void each_candidate(contact_source *s, const event_place *at,
         if (c->of_node[i] >= 0) act(s, at, c->of_node[i]);
         for (contact_edges e = contact_set_edges_at(c, i); contact_edges_next(&e);) {
             const dem_index start = c->list[e.k].node;
-            if (start == i || !local_nodes_have(nodes, start, nodes->n_rings - 1)) act(s, at, e.k); /* once */
+            if (start == i || !local_nodes_have(nodes, start, nodes->n_rings - 1)) act(s, at, e.k);
         }
     }
 }
 
+/* The two arrays of impulses are one block: copies share no memory. */
 static void copy_ledger(const contact_ledger *from, contact_ledger *to, dem_index n_obstacles)
 {
     double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
@@ -184,6 +195,7 @@ static void copy_ledger(const contact_ledger *from, contact_ledger *to, dem_inde
     to->friction_impulse = friction_impulse;
 }
 
+/* Copies a candidate before its first change in the step. */
 static void keep_candidate(contact_source *s, const event_place *at, dem_index k)
 {
     (void)at;
@@ -202,6 +214,8 @@ static void stop_groups(contact_source *s, const event_place *at)
     for (dem_index g = 0; g < at->near->n_groups; g++) impact_group_stop(c, at->near->groups[g].group, &now);
 }
 
+/* Called before an event of any source, as its local correction changes contact forces too. `solved` NAN: the forces
+ * are no longer those of the end of the step. */
 static void contact_source_prepare(void *self, const event_place *at)
 {
     contact_source *s = self;
@@ -220,12 +234,14 @@ static dem_status contact_source_resolve(void *self, dem_index key, const event_
     return automaton_resolve_near(s->automaton, key, at->t, at->state, listener);
 }
 
+/* The next change of a candidate after an event; infinity takes it off the heap. */
 static void look_again(contact_source *s, const event_place *at, dem_index k)
 {
     event_heap_set(&s->heap, k, automaton_next_change(s->automaton, at->step, k, at->t, at->state));
 }
 
-/* Bound of how far candidates go in the step, m: some are faster after the event. */
+/* Bound of how far candidates go in the step, m: nodes near the event may be faster after it than the fastest was
+ * before. */
 static double furthest(const contact_source *s, const event_place *at)
 {
     const dense_output *step = at->step;
@@ -239,6 +255,7 @@ static double furthest(const contact_source *s, const event_place *at)
     return way;
 }
 
+/* The forces of groups near the event are those of the end of the step again before changes are looked for. */
 static void contact_source_follow(void *self, const event_place *at)
 {
     contact_source *s = self;
@@ -248,7 +265,7 @@ static void contact_source_follow(void *self, const event_place *at)
     each_candidate(s, at, look_again);
 }
 
-/* What was saved; leaves out what is a candidate no more. */
+/* Puts the copies back, and leaves out what is a candidate no more. */
 static void put_back(contact_source *s)
 {
     dem_index n = 0;
@@ -260,6 +277,8 @@ static void put_back(contact_source *s)
     s->n_saved = n;
 }
 
+/* Candidates, ledger and groups become those before the step; velocities are put back by the queue. Regrouping cannot
+ * fail, as these groups had room before. */
 static void contact_source_undo(void *self)
 {
     contact_source *s = self;
@@ -268,7 +287,7 @@ static void contact_source_undo(void *self)
     if (!s->has_ledger) return;
     put_back(s);
     copy_ledger(&s->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
-    (void)contact_set_regroup_some(&c->set, s->saved, s->n_saved); /* cannot fail: these groups had room before */
+    (void)contact_set_regroup_some(&c->set, s->saved, s->n_saved);
     c->idle = s->idle;
     forget_saved(s);
 }

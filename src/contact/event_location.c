@@ -1,24 +1,32 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Roots of a candidate's root functions on the dense output of a step: brackets, dips between samples, secants. */
+/* Finds when a candidate's contacts change within an accepted step (docs/algorithms.md, Event location). The motion is
+ * a quintic for each node, but a gap to polylines is only piecewise smooth, so that roots are isolated by samples, not
+ * by the polynomial's coefficients: eight samples of the rest of the step, every dip between two of them followed to
+ * its bottom, and a bracketed root closed in on by secants. Bounds on how far a candidate can move avoid all of it for
+ * most candidates. The root functions are in candidate.c; who is asked, and what happens then, is in
+ * automaton_step.c. */
 #include "contact/event_location.h"
 
 #include <float.h>
 
 #include "contact/node_motion.h"
 
+/* s. Time itself has a rounding of eps t, the interpolant one of eps h. */
 double event_location_resolution(const dense_output *p)
 {
     return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
 }
 
-/* A root between a time when a function is above 0 and one when it is not: secants in which the value at an end that
- * stays is halved (Illinois), after most_secants of them the middle. */
+/* A root between a time when a function is above 0 and one when it is not. Trials are secants in which the value at an
+ * end that stays a second time is halved (Illinois): both ends then move, and convergence is faster than linear. A
+ * function that jumps may defeat secants: after most_secants of them the middle is taken. */
 typedef struct bracket {
     double before, after; /* s */
     double above, below;  /* the values there, of which one may be halved */
     int n, side;          /* trials; which end moved last */
 } bracket;
 
+/* A secant is kept half a width off both ends, so that trials near a root close the bracket from both sides. */
 static double bracket_trial(const bracket *b, double width)
 {
     enum { most_secants = 24 };
@@ -27,6 +35,7 @@ static double bracket_trial(const bracket *b, double width)
     return fmin(fmax(secant, b->before + 0.5 * width), b->after - 0.5 * width);
 }
 
+/* Narrows the bracket to the side of t on which the root is; `beyond` says that the event has happened at t. */
 static void bracket_close(bracket *b, double t, double value, bool beyond)
 {
     const int side = beyond ? 1 : -1;
@@ -51,6 +60,7 @@ typedef struct sample {
     double guard;
 } sample;
 
+/* The root function of the gap is bounded: where nothing is near, the gap is infinite. */
 static sample sample_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
     sample s = {.spot = candidate_place_at(candidate, p, t)};
@@ -64,7 +74,8 @@ static double guard_at(const contact_scene *scene, const contact_candidate *cand
     return sample_at(scene, candidate, p, t).guard;
 }
 
-/* Derivative of the root function, m/s. */
+/* Derivative of the root function, m/s: the velocity of the nearest point relative to the surface, along the gap's
+ * normal. Of an edge the point is at `place` between its nodes. */
 static double slope_of(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                        const sample *s)
 {
@@ -75,8 +86,9 @@ static double slope_of(const contact_scene *scene, const contact_candidate *cand
     return vec2_dot(s->gap.normal, contact_gap_velocity(scene, candidate, &s->gap, &s->spot, v));
 }
 
-/* Whether the root function may be lower between two samples than at both; at one of them the vertex may be beside the
- * edge, where there is no slope. */
+/* Whether the root function may be lower between two samples than at both: it falls at the first, or is higher there,
+ * and it rises at the second, or is higher there. At one of them the vertex may be beside the edge, where there is no
+ * slope, so a comparison of values alone is enough on either side. */
 static bool dips(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, const sample *s,
                  const sample *next)
 {
@@ -84,8 +96,9 @@ static bool dips(const contact_scene *scene, const contact_candidate *candidate,
            (s->guard < next->guard || slope_of(scene, candidate, p, next) > 0.0);
 }
 
-/* Time of the minimum between two samples, by golden section; a value at or below 0 ends the search. Where no vertex is
- * near an edge its root function is constant, and the search goes towards the lower sample. */
+/* Time of the minimum between two samples, by golden section, which shrinks the interval by 0.618 a trial; a value at
+ * or below 0 ends the search, as any such time isolates the root. Where no vertex is near an edge its root function is
+ * constant, and the search goes towards the lower sample. */
 static double lowest(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                      const sample *s, const sample *next)
 {
@@ -110,7 +123,8 @@ static double lowest(const contact_scene *scene, const contact_candidate *candid
     return ga < gb ? a : b;
 }
 
-/* The root between a time when the function is above 0 and one when it is not. */
+/* The first time known at which the candidate is deeper than the penetration tolerance: the end of the bracket, where
+ * the root function is not above 0. */
 static double crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                        const sample *clear, const sample *deep)
 {
@@ -123,14 +137,16 @@ static double crossing(const contact_scene *scene, const contact_candidate *cand
     return b.after;
 }
 
+/* Speed of the faster node of a candidate, m/s. */
 static double fastest(const dense_output *p, double t, const contact_candidate *candidate)
 {
     const double v = vec2_norm(node_motion_velocity(p, t, candidate->node));
     return candidate_is_edge(candidate) ? fmax(v, vec2_norm(node_motion_velocity(p, t, candidate->other))) : v;
 }
 
-/* How far an edge may deviate in a step from uniform motion between its ends, m: h^2/2 times the largest acceleration
- * of its nodes at the ends, four times what a constant one does, and of the surfaces, and as much for its rotation. */
+/* How far an edge may deviate in a step from uniform motion between its ends, m. A constant acceleration a bends a path
+ * by h^2 a/8 from its chord; here it is h^2/2 times the largest acceleration of the nodes at both ends of the step and
+ * of the surfaces, four times as much, and as much again for the turning of the edge's normal, 2 omega v. */
 static double bend(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p)
 {
     const double h = p->t1 - p->t0;
@@ -148,7 +164,8 @@ static double bend(const contact_scene *scene, const contact_candidate *candidat
 }
 
 /* Whether no vertex can have come through an edge: none is near it or beside it at the end of the step, or the nearest
- * is further in front than the edge can have moved. */
+ * is further in front than the edge can have moved. Seen backwards from the end, the gap was smaller by no more than
+ * the edge's speed along the normal times the time, and its bend. */
 static bool edge_is_clear(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                           double from, double reach)
 {
@@ -169,7 +186,10 @@ static bool stays_clear(const contact_scene *scene, const contact_candidate *can
     return candidate_moved(scene, candidate, &spot) + reach < candidate->clearance.distance;
 }
 
-/* The first crossing of a candidate whose gap is exact, no lower bound. */
+/* The first crossing of a candidate whose gap is exact, no lower bound. A node's gap changes no faster than the node
+ * moves: to go from the first gap down to 0 and up to the last takes their sum, so a node that cannot go as far has not
+ * touched. Between two samples dips are followed only where the lower gap is less than the way in an eighth of the
+ * step. */
 static double crossing_within(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                               double from, double reach)
 {
@@ -179,7 +199,7 @@ static double crossing_within(const contact_scene *scene, const contact_candidat
     const sample last = sample_at(scene, candidate, p, p->end);
     sample s = sample_at(scene, candidate, p, from);
     if (s.guard <= 0.0) return from;
-    const bool on_its_way = s.guard + last.guard <= reach; /* a node's gap changes no faster than the node moves */
+    const bool on_its_way = s.guard + last.guard <= reach;
     if (!candidate_is_edge(candidate) && !on_its_way) return INFINITY;
     for (int k = 1; k <= n; k++) {
         const sample next = k == n ? last : sample_at(scene, candidate, p, from + h * k / n);
@@ -193,6 +213,7 @@ static double crossing_within(const contact_scene *scene, const contact_candidat
     return INFINITY;
 }
 
+/* `reach` bounds how far the candidate goes: twice the way of its fastest node at either end of the step. */
 double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                                double from)
 {
@@ -219,7 +240,7 @@ static void put_node(const dense_output *p, double t, dem_index i, double *state
     dense_output_velocity(p, t, i, state + state_velocities(&p->layout) + state_row(&p->layout, i));
 }
 
-/* Puts a node and all those on which its force depends into the state at t. */
+/* Puts a node and all those on which its force depends into the state at t: the rest of that state is not read. */
 static void put_around(const forces *f, const dense_output *p, double t, dem_index i, double *state)
 {
     put_node(p, t, i, state);
@@ -234,6 +255,7 @@ void event_location_place(const contact_candidate *candidate, const dense_output
     if (candidate->next >= 0) put_position(p, t, candidate->next, state);
 }
 
+/* Neighbours of an edge are read by its gap, not by its forces; the time is read by forces that depend on it. */
 void event_location_state(const contact_forces *r, dem_index group, const dense_output *p, double t, double *state)
 {
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
@@ -254,7 +276,8 @@ static void solve_at(contact_forces *r, dem_index group, const dense_output *p, 
     contact_forces_solve(r, group, scene_state_at(r->scene, t, state));
 }
 
-/* The lowest of a candidate's root functions in the state at t, each divided by its value at first. */
+/* The lowest of a candidate's root functions in the state at t, each divided by its value at first, which makes forces,
+ * lengths and speeds comparable. One that was not above 0 at first is left out. */
 static double lowest_guard(contact_forces *r, dem_index k, double t, const double *state, const double *scale)
 {
     double guard[CANDIDATE_ROOTS];
@@ -262,6 +285,9 @@ static double lowest_guard(contact_forces *r, dem_index k, double t, const doubl
     return candidate_lowest_root(guard, scale);
 }
 
+/* Called where a change is due at the end of the step. Which end of the bracket moves is decided by candidate_due(),
+ * the very condition by which the change is made; root functions only place the trials. A change that is due at first
+ * is found at `from`. */
 double event_location_change(contact_forces *r, const contact_candidate *candidate, const dense_output *p, double from,
                              double *state)
 {
