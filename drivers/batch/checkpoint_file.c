@@ -2,6 +2,7 @@
 #include "checkpoint_file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -13,7 +14,8 @@
 
 enum { VERSIONS = 256 };
 
-static const double patience = 10.0; /* s: a scheduler that asks for the end waits 30 */
+static const double patience = 10.0;    /* s: a scheduler that asks for the end waits 30 */
+static const double first_after = 30.0; /* s */
 
 static const char time_entry[] = "driver.time", course_entry[] = "driver.course", lineage_entry[] = "driver.lineage";
 
@@ -115,7 +117,7 @@ checkpoint_file checkpoint_file_start(const command *c, const char *path, const 
                            .source = source,
                            .interval = c->checkpoint_interval,
                            .deadline = c->wall_start + c->max_wall,
-                           .wall_written = wall_clock(),
+                           .wall_next = wall_clock() + fmin(c->checkpoint_interval, first_after),
                            .t_written = source->checkpoint != NULL ? source->t : -1.0};
     output_beside(new.path, path, ".checkpoint");
     preview_versions(new.versions, sizeof new.versions);
@@ -136,7 +138,7 @@ static dem_status put_on_disk(checkpoint_file *c, const dem_checkpoint *checkpoi
     const dem_status status = dem_checkpoint_write(checkpoint, c->path);
     if (status != DEM_OK) return status;
     c->t_written = t;
-    c->wall_written = wall_clock();
+    c->wall_next = wall_clock() + c->interval;
     return DEM_OK;
 }
 
@@ -177,8 +179,7 @@ static dem_status on_checkpoint(void *context, const dem_simulation *simulation,
     const char *why;
     dem_status status = put_entries(c, simulation, checkpoint);
     const bool ending = is_ending(c, &why), wanted = signals_checkpoint();
-    if (status == DEM_OK && (ending || wanted || wall_clock() - c->wall_written >= c->interval))
-        status = save(c, checkpoint);
+    if (status == DEM_OK && (ending || wanted || wall_clock() >= c->wall_next)) status = save(c, checkpoint);
     if (status != DEM_OK || !ending) return status;
     c->ended = why;
     return DEM_STOPPED;

@@ -44,16 +44,17 @@ typedef struct checkpoint_file {
     const checkpoint_source *source;
     dem_trajectory *trajectory;
     report *log;
-    double interval;     /* s on the wall between checkpoints */
-    double deadline;     /* s on the wall */
-    double wall_written; /* s, when the last was written */
-    double wall_ending;  /* s, when the end was asked for; 0: it was not */
-    double t_written;    /* s, of the checkpoint on disk; < 0: none of this run */
+    double interval;    /* s on the wall between checkpoints */
+    double deadline;    /* s on the wall */
+    double wall_next;   /* s, from when on the next checkpoint is written */
+    double wall_ending; /* s, when the end was asked for; 0: it was not */
+    double t_written;   /* s, of the checkpoint on disk; < 0: none of this run */
     char versions[256];
     const char *ended; /* why the run was stopped; NULL: it was not */
 } checkpoint_file;
 
-/** \param path  of the output */
+/** The first is due after 30 s, or the interval where that is shorter: a young run has something to lose too.
+ *  \param path  of the output */
 checkpoint_file checkpoint_file_start(const command *c, const char *path, const deck *d,
                                       const checkpoint_source *source);
 

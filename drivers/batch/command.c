@@ -26,7 +26,7 @@ static const char usage[] =
     "  --max-steps N          refuse what takes more (default: 1e10)\n"
     "  --max-disk GB          refuse what takes more (default: what is free)\n"
     "  --max-wall SECONDS     end with a checkpoint, exit code 75; the same command goes on\n"
-    "  --checkpoint-interval SECONDS  on the wall, between checkpoints (default: 600)\n"
+    "  --checkpoint-interval SECONDS  on the wall, between checkpoints (default: 600; the first after 30)\n"
     "  --resume-anyway        go on from a checkpoint of another version: not to the same bits\n"
     "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT and SIGXCPU end as --max-wall does\n"
     "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"

@@ -10,6 +10,7 @@
 #include "checkpoint_file.h"
 #include "preview.h"
 #include "unit/scratch.h"
+#include "wall_clock.h"
 
 static const char *output, *path, *before, *damaged;
 
@@ -128,6 +129,21 @@ TEST_WITH(a_record_of_another_program_is_refused, NULL, scratch_sweep)
     assert_ok(dem_checkpoint_write(checkpoint, path));
     dem_checkpoint_destroy(checkpoint);
     expect(CHECKPOINT_OTHER, true, "it is not of this program");
+}
+
+/* Before and after the call the clock is read: the time between the two is all that is not known. */
+TEST_WITH(the_first_is_due_after_30_seconds_at_the_latest, NULL, scratch_sweep)
+{
+    static const double interval[2] = {600.0, 2.5}, expected[2] = {30.0, 2.5};
+    const checkpoint_source source = {0};
+    for (int k = 0; k < 2; k++) {
+        const command c = {.checkpoint_interval = interval[k]};
+        const double earliest = wall_clock();
+        const checkpoint_file started = checkpoint_file_start(&c, output, &mine, &source);
+        const double latest = wall_clock();
+        assert_true(started.wall_next >= earliest + expected[k] && started.wall_next <= latest + expected[k]);
+        assert_close(started.interval, interval[k], 0.0);
+    }
 }
 
 TEST_GROUP(make_folder, scratch_remove);
