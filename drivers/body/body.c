@@ -252,13 +252,15 @@ static dem_status clear(builder *b, const dem_model *model)
     return DEM_OK;
 }
 
+/* Where the body is now: `model` knows the obstacles, and which nodes may touch, but not that the body was moved. */
 static void measure_start(builder *b, const dem_model *model)
 {
     const dem_lattice *lattice = dem_model_lattice(model);
+    const double *places = b->lattice.position != NULL ? b->lattice.position : b->lattice.x;
     b->start.rest_length = lattice->n_springs > 0 ? dem_model_spacing(model) : (double)INFINITY;
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         if ((lattice->flags[i] & (DEM_NODE_CONTACT | DEM_NODE_FIXED)) != DEM_NODE_CONTACT) continue;
-        const double *x = lattice->position + 2 * i, depth = -dem_model_gap(model, x);
+        const double *x = places + 2 * i, depth = -dem_model_gap(model, x);
         if (depth <= b->start.depth) continue;
         b->start.depth = depth;
         b->start.x[0] = x[0], b->start.x[1] = x[1];
@@ -292,10 +294,9 @@ static dem_status put(builder *b)
     if (status == DEM_OK)
         status = report(b, dem_model_create(&model, &b->lattice, b->scene->obstacles, b->scene->n_obstacles),
                         file ? "file" : "shape");
-    if (status == DEM_OK) measure_start(b, model);
     if (status == DEM_OK && cleared) status = clear(b, model);
     if (status == DEM_OK && cleared) status = check_place(b, "clearance");
-    if (cleared) b->start.depth = -schema_real(b->body, "clearance");
+    if (status == DEM_OK) measure_start(b, model);
     dem_model_destroy(model);
     const body_scene *scene = b->scene;
     if (status == DEM_OK && !clearance_find_spike(&b->start.spike, &b->lattice, scene->obstacles, scene->n_obstacles))

@@ -196,6 +196,10 @@ DECKS = [
     ("obstacle the wrong way round", edit(BASE, "-0.1, 0, 0.1, 0 -> 0.1, 0, -0.1, 0"),
      ["11:1 body 1 starts 0.0529615 m inside obstacle 1, at (-0.02, 0.0529615) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
+    ("obstacle the wrong way round under a clearance", edit(BASE, "position = 0, 0.001 -> position = 0, 0.2\n    clearance = 1e-3",
+                                                            "-0.1, 0, 0.1, 0 -> 0.1, 0, 0, 0, -0.2, 0.1"),
+     ["11:1 body 1 starts 0.0630796 m inside obstacle 1, at (0.02, 0.0630796) m, deeper than the penetration tolerance of 1e-08 m; "
+      "'position' or 'clearance' can put it in front" + REVERSED]),
     ("clearance with nothing below", edit(BASE, "position = 0, 0.001 -> position = 1, 0.1\n    clearance = 1e-3"),
      ["17:5 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 1; move it"
       + REVERSED]),
