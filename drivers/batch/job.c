@@ -445,8 +445,17 @@ static void claim_and_run(job *j)
     if (j->claimed && begin_or_resume(j)) run(j);
 }
 
+static bool check_folder(job *j)
+{
+    char path[OUTPUT_PATH], why[OUTPUT_REASON];
+    const bool good = output_check_folder(j->command->outdir, path, why);
+    if (!good) outcome_fail(&j->outcome, EXIT_IO, path, "%s", why);
+    return good;
+}
+
 static void check(job *j)
 {
+    if (!check_folder(j)) return;
     if (passes(j, build(j), j->deck.path) && ends(j)) preview_print(stdout, &j->deck, j->simulation, NULL);
 }
 

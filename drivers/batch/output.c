@@ -4,6 +4,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -49,18 +50,48 @@ static bool make_one(const char *path)
     return mkdir(path, 0777) == 0 || (errno == EEXIST && is_folder(path));
 }
 
+/* The path down to its next folder, from the end of the one before; NULL behind the last. */
+static const char *go_down(const char *folder, const char *end, char path[OUTPUT_PATH])
+{
+    if (*end == '\0') return NULL;
+    end += strspn(end, "/");
+    end += strcspn(end, "/");
+    (void)snprintf(path, OUTPUT_PATH, "%.*s", (int)(end - folder), folder);
+    return end;
+}
+
+static bool refuse_folder(char reason[OUTPUT_REASON], const char *what)
+{
+    (void)snprintf(reason, OUTPUT_REASON, "the folder cannot be %s (%s)", what, strerror(errno));
+    return false;
+}
+
 bool output_make_folder(const char *folder, char path[OUTPUT_PATH], char reason[OUTPUT_REASON])
 {
-    bool good = true;
     const char *end = folder;
-    while (good && *end != '\0') {
-        end += strspn(end, "/");
-        end += strcspn(end, "/");
-        (void)snprintf(path, OUTPUT_PATH, "%.*s", (int)(end - folder), folder);
-        good = make_one(path);
+    while ((end = go_down(folder, end, path)) != NULL)
+        if (!make_one(path)) return refuse_folder(reason, "made");
+    return true;
+}
+
+static bool is_missing(const char *path)
+{
+    struct stat found;
+    return lstat(path, &found) != 0 && errno == ENOENT;
+}
+
+bool output_check_folder(const char *folder, char path[OUTPUT_PATH], char reason[OUTPUT_REASON])
+{
+    char deepest[OUTPUT_PATH] = ".";
+    const char *end = folder;
+    while ((end = go_down(folder, end, path)) != NULL && is_folder(path)) memcpy(deepest, path, sizeof deepest);
+    if (end != NULL && !is_missing(path)) {
+        (void)is_folder(path); /* for its errno */
+        return refuse_folder(reason, "made");
     }
-    if (!good) (void)snprintf(reason, OUTPUT_REASON, "the folder cannot be made (%s)", strerror(errno));
-    return good;
+    memcpy(path, deepest, sizeof deepest);
+    if (faccessat(AT_FDCWD, path, W_OK | X_OK, AT_EACCESS) == 0) return true;
+    return refuse_folder(reason, "written to");
 }
 
 /* ---- what is there ---- */

@@ -716,6 +716,12 @@ class Run(Case):
                       stderr="deck.nml: error: the folder cannot be made (Not a directory)\n")
             self.assertEqual(self.files(), set())
 
+    def test_a_check_notices_that_nothing_could_be_written(self):
+        self.call(0, "--check", "--outdir", "not/made", "deck.nml")
+        self.call(5, "--check", "--outdir", "deck.nml/deep", "deck.nml",
+                  stderr="deck.nml: error: the folder cannot be made (Not a directory)\n")
+        self.assertEqual(self.files(), set())
+
     def test_outdir_is_read_only(self):
         out = self.folder / "out"
         out.mkdir()

@@ -221,4 +221,42 @@ TEST_WITH(what_is_in_the_way_of_a_folder_is_named, NULL, scratch_sweep)
     assert_string_equal(reason, "the folder cannot be made (No such file or directory)");
 }
 
+static void expect_checked(const char *folder, const char *at, const char *reason)
+{
+    char found[OUTPUT_PATH], why[OUTPUT_REASON] = "";
+    assert_int_equal(output_check_folder(folder, found, why), reason[0] == '\0');
+    assert_string_equal(why, reason);
+    if (reason[0] != '\0') assert_string_equal(found, at);
+}
+
+TEST_WITH(a_check_makes_no_folder_and_names_what_is_in_the_way, NULL, scratch_sweep)
+{
+    char below[SCRATCH_PATH + 8];
+    (void)snprintf(below, sizeof below, "%s/x", path);
+    expect_checked(".", "", "");
+    expect_checked("/", "", "");
+    expect_checked(below, "", "");
+    assert_int_equal(access(path, F_OK), -1);
+    leave_text(path);
+    expect_checked(below, path, "the folder cannot be made (Not a directory)");
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(symlink("nowhere", path), 0);
+    expect_checked(path, path, "the folder cannot be made (No such file or directory)");
+}
+
+/* Root may write everywhere: it looks with the rights of another user. */
+TEST_WITH(a_check_names_a_folder_that_is_read_only, NULL, scratch_sweep)
+{
+    const uid_t user = geteuid();
+    char below[SCRATCH_PATH + 8];
+    (void)snprintf(below, sizeof below, "%s/x/y", path);
+    assert_int_equal(chmod(scratch_folder, 0755), 0);
+    assert_int_equal(mkdir(path, 0555), 0);
+    assert_true(user != 0 || seteuid(65534) == 0);
+    expect_checked(path, path, "the folder cannot be written to (Permission denied)");
+    expect_checked(below, path, "the folder cannot be written to (Permission denied)");
+    assert_int_equal(seteuid(user), 0);
+    assert_int_equal(rmdir(path), 0);
+}
+
 TEST_GROUP(make_folder, scratch_remove);
