@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A setting is read as a deck of one group with one key, which then joins the groups of the deck. */
+/* A setting is read as a deck of one group with one key, which then joins the groups of the deck. A shell takes quotes
+ * away, so that the value of a string key may come without them; it gets them before it is read. */
 #include "setting.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "scan.h"
+#include "schema.h"
 
 enum { MOST_DIGITS = 6, NAME = 64 };
 
@@ -26,6 +29,59 @@ bool setting_parse(setting *out, const char *text)
     out->assignment = rest + 1;
     const size_t key = scan_name_length(out->assignment);
     return key > 0 && out->assignment[key] == '=';
+}
+
+static bool is_name(const char *name, const char *text, size_t n)
+{
+    return strlen(name) == n && strncasecmp(name, text, n) == 0;
+}
+
+/* The key as the table has it; NULL: it is none of the table. */
+static const schema_key *find_key(const setting *s)
+{
+    int n_groups;
+    const schema_group *groups = schema_groups(&n_groups);
+    const size_t length = scan_name_length(s->assignment);
+    for (int g = 0; g < n_groups; g++)
+        for (int k = 0; k < groups[g].n_keys && is_name(groups[g].name, s->text, (size_t)s->name_length); k++)
+            if (is_name(groups[g].keys[k].name, s->assignment, length)) return &groups[g].keys[k];
+    return NULL;
+}
+
+/* Puts a text in quotes; where it is several values, each between two commas. */
+static void quote(char *out, const char *text, bool several)
+{
+    const char *joint = "', '";
+    *out++ = '\'';
+    for (; *text != '\0'; text++) {
+        if (several && *text == ',') {
+            for (const char *c = joint; *c != '\0'; c++) *out++ = *c;
+            text += strspn(text + 1, " ");
+            continue;
+        }
+        if (*text == '\'') *out++ = '\'';
+        *out++ = *text;
+    }
+    *out++ = '\'';
+    *out = '\0';
+}
+
+/* The assignment as a deck has it, malloc'ed; NULL when memory runs out. */
+static char *spell_assignment(const setting *s)
+{
+    const schema_key *key = find_key(s);
+    const char *value = strchr(s->assignment, '=') + 1;
+    const char *first = value + strspn(value, " ");
+    const size_t head = (size_t)(value - s->assignment);
+    const bool string = key != NULL && (key->type == SCHEMA_STRING || key->type == SCHEMA_CHOICE);
+    char *text = malloc(head + 4 * strlen(value) + 3); /* a comma becomes four characters */
+    if (text == NULL) return NULL;
+    memcpy(text, s->assignment, head);
+    if (string && *first != '\0' && *first != '\'' && *first != '"')
+        quote(text + head, first, key->max_count != 1);
+    else
+        strcpy(text + head, value);
+    return text;
 }
 
 static void move_to_line(namelist_group *group, int line)
@@ -80,12 +136,14 @@ static bool join(const setting *s, namelist_place place, namelist *list, namelis
 bool setting_apply(const setting *s, int line, namelist *list, namelist_errors *errors)
 {
     const namelist_place place = {line, 1};
-    const size_t size = strlen(s->text) + 16;
     namelist own = {0};
     namelist_errors found = {0};
-    char *text = malloc(size);
+    char *assignment = spell_assignment(s);
+    const size_t size = assignment == NULL ? 0 : (size_t)s->name_length + strlen(assignment) + 16;
+    char *text = assignment == NULL ? NULL : malloc(size);
+    if (text != NULL) (void)snprintf(text, size, "&%.*s\n%s\n/\n", s->name_length, s->text, assignment);
+    free(assignment);
     if (text == NULL) return false;
-    (void)snprintf(text, size, "&%.*s\n%s\n/\n", s->name_length, s->text, s->assignment);
     bool good = namelist_parse(&own, text, strlen(text), &found);
     if (good && is_good(&own, &found, place, errors)) good = join(s, place, list, &own.groups[0], errors);
     errors->out_of_memory = errors->out_of_memory || found.out_of_memory;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A key of a deck that the command line gives: --set group.key=value, or group(k).key=value for the k-th group of that
- * name. Values are spelt as in a deck; an empty one takes the key away. */
+ * name. Values are spelt as in a deck, but strings need no quotes; an empty one takes the key away. */
 #ifndef DEM_SETTING_H
 #define DEM_SETTING_H
 

@@ -68,6 +68,46 @@ TEST(a_key_takes_the_place_of_its_name)
     part(&j);
 }
 
+TEST(strings_need_no_quotes)
+{
+    static const char *const same[][2] = {
+        {"run.title=slow", "slow"},
+        {"run.title=r0.3, it's / new", "r0.3, it's / new"}, /* one value, whatever is in it */
+        {"Run.TITLE= 5", "5"},
+        {"run.title='a b'", "a b"},
+        {"run.title=\"a\"", "a"},
+    };
+    for (size_t k = 0; k < sizeof same / sizeof *same; k++) {
+        joined j = join(same[k][0]);
+        const namelist_key *key = &j.list.groups[0].keys[1];
+        assert_int_equal(j.errors.n, 0);
+        assert_int_equal(key->n_values, 1);
+        assert_int_equal(key->values[0].kind, NAMELIST_STRING);
+        assert_string_equal(key->values[0].text, same[k][1]);
+        part(&j);
+    }
+}
+
+TEST(several_strings_are_parted_by_commas)
+{
+    joined j = join("output.fields=stress,  velocity");
+    const namelist_key *key = &j.list.groups[3].keys[0];
+    assert_int_equal(key->n_values, 2);
+    assert_string_equal(key->values[0].text, "stress");
+    assert_string_equal(key->values[1].text, "velocity");
+    part(&j);
+}
+
+TEST(other_keys_get_no_quotes)
+{
+    joined j = join("run.t_end=abc");
+    assert_int_equal(j.list.groups[0].keys[1].values[0].kind, NAMELIST_WORD);
+    part(&j);
+    j = join("run.no_key=abc");
+    assert_int_equal(j.list.groups[0].keys[2].values[0].kind, NAMELIST_WORD);
+    part(&j);
+}
+
 TEST(a_group_that_is_not_there_is_made)
 {
     joined j = join("solver.rtol=1");
