@@ -10,6 +10,7 @@
 
 #include <dem/trajectory.h>
 
+#include "body_checks.h"
 #include "material.h"
 
 static const double degree = 0.017453292519943295769; /* pi/180 */
@@ -350,7 +351,7 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
 
 void body_drop_unused(schema_deck *groups)
 {
-    body_geometry_drop_unused(groups);
+    body_checks_drop_unused(groups);
     material_drop_unused(groups);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
@@ -360,7 +361,7 @@ void body_drop_unused(schema_deck *groups)
 
 void body_check_all(const schema_deck *groups, namelist_errors *errors)
 {
-    body_geometry_check_all(groups, errors);
+    body_checks_all(groups, errors);
     material_check_all(groups, errors);
     check_materials(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {

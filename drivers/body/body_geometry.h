@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the keys of &body, &void, &pores, &crack and &inclusion say of a body's geometry: from the groups to a
- * triangulation, and to the materials of its triangles. */
+ * triangulation, and to the materials of its triangles. The keys have passed body_checks_all(). */
 #ifndef DEM_BODY_GEOMETRY_H
 #define DEM_BODY_GEOMETRY_H
 
@@ -18,12 +18,6 @@ typedef struct body_geometry {
     size_t n_inclusions;
     dem_index n_cracked; /* triangles that cracks took */
 } body_geometry;
-
-/* Keys that a shape lacks or does not use, numbers that do not go together, groups for bodies that there are not. */
-void body_geometry_check_all(const schema_deck *groups, namelist_errors *errors);
-
-/* Takes the defaults of keys away that a choice does not use: they mean nothing, and stated they are faults. */
-void body_geometry_drop_unused(schema_deck *groups);
 
 /* Triangulates body k, from 0, of any shape but 'file'. Caller owns *lattice, which is empty unless DEM_OK is returned;
  * a fault is appended to `errors` with any other status but DEM_ERROR_MEMORY. `folder`: see body_geometry_file(). */

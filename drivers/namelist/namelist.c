@@ -7,7 +7,6 @@
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +16,7 @@ enum {
     MAX_GROUPS = 2000,   /* bounds the resolved echo, which must be readable in its turn */
     MAX_VALUES = 100000, /* in the file; also the largest repeat count and subscript */
     MAX_STRING = 4096,   /* bytes */
-    MAX_NUMBER = 200,    /* characters */
-    MAX_ERRORS = 1000
+    MAX_NUMBER = 200     /* characters */
 };
 
 static const char digits[] = "0123456789";
@@ -31,21 +29,6 @@ typedef struct reader {
     size_t n_values; /* in all groups so far */
     bool failed;     /* memory ran out */
 } reader;
-
-/* ---- faults -------------------------------------------------------------------------------------------------- */
-
-static char *format_text(const char *format, va_list arguments)
-{
-    va_list again;
-    va_copy(again, arguments);
-    const int length = vsnprintf(NULL, 0, format, again);
-    va_end(again);
-    char *text = length < 0 ? NULL : malloc((size_t)length + 1);
-    if (text == NULL) return NULL;
-    (void)vsnprintf(text, (size_t)length + 1, format, arguments);
-    scan_drop_broken(text);
-    return text;
-}
 
 /* Room for one more in a list of n whose capacity is the next power of two; NULL when memory runs out. */
 static void *grown(void *list, size_t n, size_t item_size)
@@ -533,45 +516,6 @@ static bool find_group(reader *r)
 }
 
 /* ---- public -------------------------------------------------------------------------------------------------- */
-
-void namelist_errors_add(namelist_errors *errors, namelist_place place, const char *format, ...)
-{
-    if (errors->n >= MAX_ERRORS) return;
-    namelist_error *list = grown(errors->list, errors->n, sizeof *list);
-    if (list != NULL) errors->list = list;
-    va_list arguments;
-    va_start(arguments, format);
-    char *text = list == NULL ? NULL : format_text(errors->n + 1 < MAX_ERRORS ? format : "too many errors", arguments);
-    va_end(arguments);
-    if (text == NULL) {
-        errors->out_of_memory = true;
-        return;
-    }
-    list[errors->n++] = (namelist_error){place, text};
-}
-
-void namelist_errors_sort(namelist_errors *errors)
-{
-    for (size_t k = 1; k < errors->n; k++) {
-        const namelist_error error = errors->list[k];
-        size_t to = k;
-        for (; to > 0; to--) {
-            const namelist_place before = errors->list[to - 1].place;
-            const bool later =
-                before.line != error.place.line ? before.line > error.place.line : before.column > error.place.column;
-            if (!later) break;
-            errors->list[to] = errors->list[to - 1];
-        }
-        errors->list[to] = error;
-    }
-}
-
-void namelist_errors_free(namelist_errors *errors)
-{
-    for (size_t k = 0; k < errors->n; k++) free(errors->list[k].text);
-    free(errors->list);
-    *errors = (namelist_errors){0};
-}
 
 bool namelist_parse(namelist *out, const char *text, size_t size, namelist_errors *errors)
 {

@@ -8,11 +8,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { NAMELIST_MAX_FILE = 4 << 20 }; /* bytes: the echo of a deck of 1 MiB has room */
+#include "namelist_errors.h"
 
-typedef struct namelist_place {
-    int line, column; /* from 1; a line of 0 or less is none of the file */
-} namelist_place;
+enum { NAMELIST_MAX_FILE = 4 << 20 }; /* bytes: the echo of a deck of 1 MiB has room */
 
 typedef enum namelist_kind {
     NAMELIST_NULL, /* two separators with nothing between, or r*: keeps the default */
@@ -50,18 +48,6 @@ typedef struct namelist_group {
     namelist_key *keys; /* in the order of the file, repeated ones included */
 } namelist_group;
 
-/* A fault, without file name: the caller prints "file:line:column: error: text". */
-typedef struct namelist_error {
-    namelist_place place;
-    char *text;
-} namelist_error;
-
-typedef struct namelist_errors {
-    size_t n, capacity;
-    namelist_error *list;
-    bool out_of_memory; /* an error could not be stored */
-} namelist_errors;
-
 typedef struct namelist {
     size_t n_groups;
     namelist_group *groups;
@@ -76,12 +62,5 @@ void namelist_free(namelist *list);
 /* Takes the keys of `from` into group `at`, in the place of those of their names; `at` = n_groups: as a group of its
  * own. `from` is then empty. Returns false, and has done nothing, when memory runs out. */
 bool namelist_merge(namelist *list, size_t at, namelist_group *from);
-
-/* Appends a fault, printf-like. From the 1000th on they are counted as one. */
-void namelist_errors_add(namelist_errors *errors, namelist_place place, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-/* Sorts by place, stable. */
-void namelist_errors_sort(namelist_errors *errors);
-void namelist_errors_free(namelist_errors *errors);
 
 #endif

@@ -250,18 +250,6 @@ TEST(a_long_word_is_cut_between_characters)
     drop(&r);
 }
 
-TEST(errors_are_sorted_by_place_and_else_stay_in_order)
-{
-    namelist_errors errors = {0};
-    static const namelist_place places[] = {{2, 1}, {1, 7}, {1, 3}, {1, 7}, {1, 3}};
-    for (int k = 0; k < 5; k++) namelist_errors_add(&errors, places[k], "%d", k);
-    namelist_errors_sort(&errors);
-    const char *expected[] = {"2", "4", "1", "3", "0"};
-    for (size_t k = 0; k < 5; k++) assert_string_equal(errors.list[k].text, expected[k]);
-    namelist_errors_free(&errors);
-    assert_int_equal(errors.n, 0);
-}
-
 /* A text of 1 MiB that repeats a piece. Looking ahead must not make it slow: the time limit of the test is the
  * check. */
 TEST(hostile_repetitions_take_linear_time)

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "body_checks.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "conditional_keys.h"
+#include "pores.h"
+
+static bool has_shape(const schema_instance *group, const char *name)
+{
+    return schema_is(group, "shape", name);
+}
+
+/* ---- checks: keys of a choice ---- */
+
+#define OURS "rectangle, disc, ring, polygon, mask" /* shapes whose lattice is made here */
+
+static const conditional_key body_keys[] = {
+    {"size", "rectangle", true},
+    {"radius", "disc, ring", true},
+    {"inner_radius", "ring", true},
+    {"points", "polygon", true},
+    {"spacing", OURS, true},
+    {"lattice", OURS, false},
+    {"diagonal", OURS, false},
+    {"jitter", OURS, false},
+    {"seed", OURS, false},
+    {"material", OURS ", mesh", false},
+    {"file", "file, mask, mesh", true},
+    {"scale", "mask, mesh", true},
+    {"threshold", "mask", false},
+};
+static const conditional_key void_keys[] = {
+    {"size", "rectangle", true}, {"radius", "disc, ring", true},         {"inner_radius", "ring", true},
+    {"points", "polygon", true}, {"angle", "rectangle, polygon", false},
+};
+static const conditional_key lattice_keys[] = {{"diagonal", "square", false}};
+static const conditional_key pores_keys[] = {{"mean", "lognormal, normal", true},
+                                             {"deviation", "lognormal, normal", true}};
+
+#define COUNT(list) (sizeof(list) / sizeof *(list))
+
+static const conditional_keys body_uses = {"body", "shape", COUNT(body_keys), body_keys};
+static const conditional_keys lattice_uses = {"body", "lattice", COUNT(lattice_keys), lattice_keys};
+static const conditional_keys void_uses = {"void", "shape", COUNT(void_keys), void_keys};
+static const conditional_keys inclusion_uses = {"inclusion", "shape", COUNT(void_keys), void_keys};
+static const conditional_keys pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
+
+void body_checks_drop_unused(schema_deck *groups)
+{
+    conditional_keys_drop(groups, &body_uses);
+    conditional_keys_drop(groups, &lattice_uses);
+    conditional_keys_drop(groups, &void_uses);
+    conditional_keys_drop(groups, &inclusion_uses);
+    conditional_keys_drop(groups, &pores_uses);
+    for (size_t i = 0; i < groups->n_instances; i++) {
+        schema_instance *group = &groups->instances[i];
+        if (strcmp(group->group->name, "body") == 0 && schema_real(group, "jitter") == 0.0) schema_drop(group, "seed");
+    }
+}
+
+/* ---- checks: points ---- */
+
+/* Squares of lengths must be numbers that can be computed with. */
+static bool is_apart(const double *a, const double *b)
+{
+    const double x = b[0] - a[0], y = b[1] - a[1];
+    return isnormal(x * x + y * y);
+}
+
+/* Pairs, not too many of them, consecutive ones apart. */
+static bool check_points(const schema_instance *group, namelist_errors *errors)
+{
+    const schema_value *points = schema_value_of(group, "points");
+    const char *name = group->group->name;
+    const int n = points->count / 2;
+    if (points->faulty) return false;
+    if (points->count % 2 != 0)
+        namelist_errors_add(errors, points->place, "'points' in &%s must be pairs of x and y, got %d values", name,
+                            points->count);
+    else if (n > OUTLINE_MAX_POINTS)
+        namelist_errors_add(errors, points->place, "'points' in &%s must be at most %d points, got %d", name,
+                            OUTLINE_MAX_POINTS, n);
+    if (points->count % 2 != 0 || n > OUTLINE_MAX_POINTS) return false;
+    for (int k = 1; k < n; k++) {
+        const double *a = points->reals + 2 * k - 2;
+        if (is_apart(a, a + 2)) continue;
+        namelist_errors_add(errors, points->place,
+                            "'points' in &%s: from point %d, (%g, %g) m, to the next, (%g, %g) m, is no length to "
+                            "compute with",
+                            name, k, a[0], a[1], a[2], a[3]);
+        return false;
+    }
+    return true;
+}
+
+outline body_checks_polygon(const schema_instance *group)
+{
+    const schema_value *points = schema_value_of(group, "points");
+    const size_t n = (size_t)points->count / 2;
+    const bool closed = n > 1 && memcmp(points->reals, points->reals + 2 * n - 2, 2 * sizeof(double)) == 0;
+    return (outline){.kind = OUTLINE_POLYGON, .n_points = closed ? n - 1 : n, .points = points->reals};
+}
+
+static bool check_polygon(const schema_instance *group, namelist_errors *errors)
+{
+    size_t edge[2];
+    if (!has_shape(group, "polygon") || !schema_given(group, "points") || !check_points(group, errors)) return false;
+    const outline o = body_checks_polygon(group);
+    const namelist_place place = schema_place(group, "points");
+    const char *name = group->group->name;
+    if (o.n_points < 3) {
+        namelist_errors_add(errors, place, "'points' in &%s must be at least 3 points, got %zu", name, o.n_points);
+    } else if (outline_crossing(&o, edge)) {
+        const double *p = o.points + 2 * edge[0], *q = o.points + 2 * edge[1];
+        namelist_errors_add(errors, place,
+                            "'points' in &%s: the polygon meets itself: edge %zu, from (%g, %g) m, and edge %zu, from "
+                            "(%g, %g) m",
+                            name, edge[0] + 1, p[0], p[1], edge[1] + 1, q[0], q[1]);
+    } else {
+        return true;
+    }
+    return false;
+}
+
+/* ---- checks: sizes, references ---- */
+
+static void check_ring(const schema_instance *group, namelist_errors *errors)
+{
+    const double *radius = schema_reals(group, "radius"), *inner = schema_reals(group, "inner_radius");
+    if (has_shape(group, "ring") && radius != NULL && inner != NULL && inner[0] >= radius[0])
+        namelist_errors_add(errors, schema_place(group, "inner_radius"),
+                            "'inner_radius' in &%s must be less than 'radius', %g m, got %g m", group->group->name,
+                            radius[0], inner[0]);
+}
+
+void body_checks_refuse_spacing(const schema_instance *body, const char *what, const double size[2],
+                                namelist_errors *errors)
+{
+    namelist_errors_add(errors, schema_place(body, "spacing"),
+                        "'spacing' in &body must not exceed the %s, %g m x %g m, got %g m", what, size[0], size[1],
+                        schema_real(body, "spacing"));
+}
+
+static void check_spacing(const schema_instance *body, bool sound_polygon, namelist_errors *errors)
+{
+    const double *size = schema_reals(body, "size"), *radius = schema_reals(body, "radius");
+    const double *inner = schema_reals(body, "inner_radius"), spacing = schema_real(body, "spacing");
+    const double width = radius != NULL && inner != NULL ? radius[0] - inner[0] : 0.0;
+    if (has_shape(body, "rectangle") && size != NULL && (spacing > size[0] || spacing > size[1]))
+        body_checks_refuse_spacing(body, "size", size, errors);
+    if (has_shape(body, "disc") && radius != NULL && spacing > radius[0])
+        namelist_errors_add(errors, schema_place(body, "spacing"),
+                            "'spacing' in &body must not exceed the radius, %g m, got %g m", radius[0], spacing);
+    if (has_shape(body, "ring") && width > 0.0 && spacing > width)
+        namelist_errors_add(errors, schema_place(body, "spacing"),
+                            "'spacing' in &body must not exceed the ring's width, %g m, got %g m", width, spacing);
+    if (sound_polygon) {
+        double box[4];
+        const outline o = body_checks_polygon(body);
+        outline_box(&o, box);
+        const double extent[2] = {box[2] - box[0], box[3] - box[1]};
+        if (spacing > extent[0] || spacing > extent[1])
+            body_checks_refuse_spacing(body, "polygon's extent", extent, errors);
+    }
+}
+
+static void check_file(const schema_instance *body, namelist_errors *errors)
+{
+    const char *what = has_shape(body, "mask") ? "an image" : (has_shape(body, "mesh") ? "a mesh" : "a lattice file");
+    if (schema_given(body, "file") && schema_text(body, "file")[0] == '\0')
+        namelist_errors_add(errors, schema_place(body, "file"), "'file' in &body must name %s, got ''", what);
+}
+
+/* The body that a group is for, from 1 in the deck; only cracks and inclusions are for meshes, and nothing for lattice
+ * files. */
+static void check_owner(const schema_deck *groups, const schema_instance *group, namelist_errors *errors)
+{
+    const size_t n = schema_count(groups, "body");
+    const double number = schema_real(group, "body");
+    const namelist_place place = schema_place(group, "body");
+    if (n == 0 || groups->misspelt) return;
+    if (number > (double)n) {
+        namelist_errors_add(errors, place, "&%s is for body %.0f, but the number of bodies is %zu", group->group->name,
+                            number, n);
+        return;
+    }
+    const schema_instance *body = schema_get(groups, "body", (size_t)number - 1);
+    const char *name = group->group->name;
+    const bool of_mesh = strcmp(name, "crack") == 0 || strcmp(name, "inclusion") == 0;
+    if (has_shape(body, "file") || (has_shape(body, "mesh") && !of_mesh))
+        namelist_errors_add(errors, place, "&%s is for body %.0f, which is of shape '%s'", group->group->name, number,
+                            schema_text(body, "shape"));
+}
+
+static void check_pores(const schema_instance *group, namelist_errors *errors)
+{
+    const double *radius = schema_reals(group, "radius");
+    const bool number = schema_given(group, "number"), porosity = schema_given(group, "porosity");
+    const bool faulty = schema_value_of(group, "number")->faulty || schema_value_of(group, "porosity")->faulty;
+    if (radius != NULL && radius[0] > radius[1])
+        namelist_errors_add(errors, schema_place(group, "radius"),
+                            "'radius' in &pores must be the smallest, then the largest one, got %g, %g", radius[0],
+                            radius[1]);
+    if (schema_real(group, "number") > PORES_MAX)
+        namelist_errors_add(errors, schema_place(group, "number"), "'number' in &pores must be at most %d, got %.0f",
+                            PORES_MAX, schema_real(group, "number"));
+    if (number && porosity)
+        namelist_errors_add(errors, schema_place(group, "porosity"), "'porosity' in &pores does not go with 'number'");
+    else if (!number && !porosity && !faulty)
+        namelist_errors_add(errors, group->place, "'number' or 'porosity' in &pores must be given");
+}
+
+/* Keys that a shape does not use have been reported. */
+static void check_lattice(const schema_instance *body, namelist_errors *errors)
+{
+    if (strstr(OURS, schema_text(body, "shape")) == NULL) return;
+    conditional_keys_check(body, &lattice_uses, errors);
+    if (schema_given(body, "seed") && !schema_value_of(body, "jitter")->faulty && schema_real(body, "jitter") == 0.0)
+        namelist_errors_add(errors, schema_place(body, "seed"), "'seed' in &body is not used without 'jitter'");
+}
+
+static void check_body(const schema_instance *body, namelist_errors *errors)
+{
+    conditional_keys_check(body, &body_uses, errors);
+    check_lattice(body, errors);
+    check_ring(body, errors);
+    check_spacing(body, check_polygon(body, errors), errors);
+    check_file(body, errors);
+}
+
+/* Voids or inclusions. */
+static void check_holes(const schema_deck *groups, const conditional_keys *table, namelist_errors *errors)
+{
+    for (size_t k = 0; k < schema_count(groups, table->group); k++) {
+        const schema_instance *group = schema_get(groups, table->group, k);
+        conditional_keys_check(group, table, errors);
+        check_owner(groups, group, errors);
+        check_ring(group, errors);
+        (void)check_polygon(group, errors);
+    }
+}
+
+void body_checks_all(const schema_deck *groups, namelist_errors *errors)
+{
+    for (size_t k = 0; k < schema_count(groups, "body"); k++) check_body(schema_get(groups, "body", k), errors);
+    check_holes(groups, &void_uses, errors);
+    check_holes(groups, &inclusion_uses, errors);
+    for (size_t k = 0; k < schema_count(groups, "pores"); k++) {
+        const schema_instance *group = schema_get(groups, "pores", k);
+        conditional_keys_check(group, &pores_uses, errors);
+        check_owner(groups, group, errors);
+        check_pores(group, errors);
+    }
+    for (size_t k = 0; k < schema_count(groups, "crack"); k++) {
+        check_owner(groups, schema_get(groups, "crack", k), errors);
+        (void)check_points(schema_get(groups, "crack", k), errors);
+    }
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* body_checks.c: which keys of a body's groups go together. What is wrong is looked at for its place and the words that
+ * name it; whole sentences are test_refused's. */
+#include "unit/reading.h"
+
+#include "body_checks.h"
+
+#define RUN    "&run t_end = 1 /\n"
+#define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
+#define BODY   "&body material = 'rubber', spacing = 0.1, shape = "
+#define BLOCK  BODY "'rectangle', size = 4, 2 /\n"
+#define DISC   BODY "'disc', radius = 1 /\n"
+#define MESH   "&body material = 'rubber', shape = 'mesh', scale = 0.5, file = "
+#define MASK   BODY "'mask', scale = 0.5, file = "
+
+static void assert_checked(const char *text, int line, const char *word)
+{
+    char all[2048];
+    namelist_errors errors = {0};
+    (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
+    resolved r = resolve_clean(all);
+    body_checks_all(&r.deck, &errors);
+    if (word == NULL) {
+        if (errors.n > 0) fail_msg("'%s' gives '%s'", text, errors.list[0].text);
+    } else {
+        if (errors.n != 1) fail_msg("'%s' gives %zu faults", text, errors.n);
+        assert_int_equal(errors.list[0].place.line, line + 2);
+        if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
+    }
+    namelist_errors_free(&errors);
+    drop_resolved(&r);
+}
+
+TEST(sizes_at_the_limit_pass)
+{
+    const char *head = "&body material = 'rubber', shape = ";
+    static const struct {
+        const char *keys;
+        bool good;
+    } cases[] = {{"'disc', radius = 1, spacing = 1", true},
+                 {"'disc', radius = 1, spacing = 1.01", false},
+                 {"'rectangle', size = 1, 1, spacing = 1", true},
+                 {"'rectangle', size = 9, 1, spacing = 1.01", false},
+                 {"'rectangle', size = 1, 9, spacing = 1.01", false},
+                 {"'ring', radius = 3, inner_radius = 2, spacing = 1", true},
+                 {"'ring', radius = 3, inner_radius = 2, spacing = 1.01", false},
+                 {"'ring', radius = 3, inner_radius = 3, spacing = 1", false},
+                 {"'polygon', points = 0,0, 1,0, 0,1, spacing = 1", true},
+                 {"'polygon', points = 0,0, 1,0, 0,1, spacing = 1.01", false},
+                 {"'polygon', points = 0,0, 1,0, 0,0, spacing = 0.1", false},
+                 {"'polygon', points = 0,0, 1,1, 1,0, 0,1, spacing = 0.1", false},
+                 {"'polygon', points = 0,0, 1,0, 1,0, 0,1, spacing = 0.1", false},
+                 {"'polygon', points = 0,0, 1,0, 1,1, 0, spacing = 0.1", false}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[256];
+        (void)snprintf(text, sizeof text, "%s%s /", head, cases[k].keys);
+        assert_checked(text, 1, cases[k].good ? NULL : "&body");
+    }
+}
+
+TEST(groups_name_a_body_that_can_have_them)
+{
+    assert_checked(BLOCK DISC "&void body = 2, centre = 0, 0, radius = 1 /", 0, NULL);
+    assert_checked(BLOCK DISC "&void body = 3, centre = 0, 0, radius = 1 /", 3, "3");
+    assert_checked(BLOCK "&pores number = 3, radius = 1, 1, body = 2 /", 2, "2");
+    assert_checked(BLOCK "&crack points = 0,0, 1,1, body = 2 /", 2, "2");
+    assert_checked(MESH "'a' /\n&crack points = 0,0, 1,1 /", 0, NULL);
+    assert_checked(MESH "'a' /\n&void centre = 0,0, radius = 1 /", 2, "which is of shape 'mesh'");
+    assert_checked("&body shape = 'file', file = 'a' /\n&crack points = 0,0, 1,1 /", 2, "which is of shape 'file'");
+    assert_checked(MASK "'a' /\n&pores number = 1, radius = 1, 1 /", 0, NULL);
+    assert_checked(MESH "'a' /\n&inclusion material = 'rubber', centre = 0,0, radius = 1 /", 0, NULL);
+    assert_checked(BLOCK "&inclusion material = 'rubber', centre = 0,0, radius = 1, body = 2 /", 2, "2");
+    assert_checked(BLOCK "&inclusion material = 'rubber', centre = 0,0 /", 2, "'radius' in &inclusion must be given");
+    assert_checked(MASK "'' /", 1, "an image");
+    assert_checked(MESH "'' /", 1, "a mesh");
+}
+
+TEST(pores_have_a_number_or_a_porosity)
+{
+    assert_checked(BLOCK "&pores number = 3, radius = 1, 1 /", 0, NULL);
+    assert_checked(BLOCK "&pores porosity = 0.3, radius = 1, 1 /", 0, NULL);
+    assert_checked(BLOCK "&pores number = 3, radius = 1.1, 1 /", 2, "radius");
+    assert_checked(BLOCK "&pores radius = 1, 1 /", 2, "must be given");
+    assert_checked(BLOCK "&pores number = 3, porosity = 0.3, radius = 1, 1 /", 2, "does not go with");
+    assert_checked(BLOCK "&pores number = 1, radius = 1, 1, mean = 1 /", 2, "'mean' in &pores is not used");
+}
+
+TEST(cracks_have_points_that_are_apart)
+{
+    assert_checked(BLOCK "&crack points = 0,0, 1,0, 0,0 /", 0, NULL); /* may meet itself */
+    assert_checked(BLOCK "&crack points = 0,0, 1,0, 1,0 /", 2, "from point 2");
+    assert_checked(BLOCK "&crack points = 0,0, 1,0, 1 /", 2, "pairs");
+}
