@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A checkpoint as named entries of bytes, in memory and as a file (simulation/checkpoint.c says which entries there are;
- * this file knows names and sizes only). The file has a header of 64 bytes, then for each
+/* A checkpoint as named entries of bytes, in memory and as a file (simulation/checkpoint.c says which entries there
+ * are; this file knows names and sizes only). The file has a header of 64 bytes, then for each
  * entry a head of 40 bytes and its bytes, filled up with zeros to a multiple of 8. The checksum is the CRC-32 of the
  * whole file with the checksum itself taken as 0. Numbers are in the byte order of the machine, which the header
  * states. A file that is read may be damaged or hostile: no size in it is trusted beyond the bytes that the file has. A
@@ -94,8 +94,8 @@ static dem_status reserve(entry *e, size_t size)
     return DEM_OK;
 }
 
-/* Appends an entry with room for `size` bytes. The checkpoint counts it only when the room is there, so a failure leaves
- * the checkpoint as it was. The name is shorter than NAME, as callers have checked. */
+/* Appends an entry with room for `size` bytes. The checkpoint counts it only when the room is there, so a failure
+ * leaves the checkpoint as it was. The name is shorter than NAME, as callers have checked. */
 static dem_status make(dem_checkpoint *checkpoint, const char *name, size_t size, entry **out)
 {
     CHECK(grow_array((void **)&checkpoint->entries, &checkpoint->capacity, checkpoint->n + 1,
