@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** What bodies are made of: materials, lattices; of dem/dem.h. */
-#ifndef DEM_LATTICE_TYPES_H
-#define DEM_LATTICE_TYPES_H
+/** dem/lattice.h -- what bodies are made of: materials, and lattices as plain arrays, generated, assembled, edited.
+ *  A lattice becomes a model in dem/model.h; files of lattices are read in dem/trajectory.h. */
+#ifndef DEM_LATTICE_H
+#define DEM_LATTICE_H
 
 #include <stddef.h>
 #include <stdint.h>

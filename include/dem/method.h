@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** Methods of integration in time; of dem/dem.h. */
-#ifndef DEM_METHODS_H
-#define DEM_METHODS_H
+/** dem/method.h -- methods of integration in time, by name, and what is known of them before any step. */
+#ifndef DEM_METHOD_H
+#define DEM_METHOD_H
 
 #include <dem/status.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** What happened, and which library this is; of dem/dem.h. */
-#ifndef DEM_STATUS_CODES_H
-#define DEM_STATUS_CODES_H
+/** dem/status.h -- what a call returns, the message of a failure, and which library this is. */
+#ifndef DEM_STATUS_H
+#define DEM_STATUS_H
 
 #include <stdint.h>
 

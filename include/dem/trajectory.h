@@ -11,7 +11,6 @@
 #define DEM_TRAJECTORY_H
 
 #include <dem/dem.h>
-#include <dem/checkpoint.h>
 
 #ifdef __cplusplus
 extern "C" {

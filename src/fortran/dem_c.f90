@@ -311,41 +311,11 @@ module dem_c
 
   end interface
 
-  ! ---- dem/dem.h -----------------------------------------------------------------------------------------------------
+  ! ---- dem/model.h ---------------------------------------------------------------------------------------------------
 
   integer, parameter :: dem_friction_law = c_int
   enum, bind(c)
     enumerator :: DEM_FRICTION_COULOMB = 0, DEM_FRICTION_PAPER = 1
-  end enum
-
-  integer, parameter :: dem_boundary_kind = c_int
-  enum, bind(c)
-    enumerator :: DEM_BOUNDARY_VELOCITY = 0, DEM_BOUNDARY_DISPLACEMENT = 1, DEM_BOUNDARY_FORCE = 2
-  end enum
-
-  enum, bind(c)
-    enumerator :: DEM_COMPONENT_X = 1, DEM_COMPONENT_Y = 2
-  end enum
-
-  integer, parameter :: dem_kernel = c_int
-  enum, bind(c)
-    enumerator :: DEM_KERNEL_AUTO = 0, DEM_KERNEL_PORTABLE = 1, DEM_KERNEL_AVX2 = 2, DEM_KERNEL_AVX512 = 3
-  end enum
-
-  integer, parameter :: dem_contact_method = c_int
-  enum, bind(c)
-    enumerator :: DEM_CONTACT_LOCAL = 0, DEM_CONTACT_EXACT = 1
-  end enum
-
-  integer, parameter :: dem_contact_state = c_int
-  enum, bind(c)
-    enumerator :: DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP = 1, DEM_CONTACT_STICK = 2
-  end enum
-
-  integer, parameter :: dem_event_kind = c_int
-  enum, bind(c)
-    enumerator :: DEM_EVENT_IMPACT = 0, DEM_EVENT_CLOSE = 1, DEM_EVENT_RELEASE = 2, DEM_EVENT_SLIP = 3
-    enumerator :: DEM_EVENT_STICK = 4, DEM_EVENT_PASS = 5
   end enum
 
   type, bind(c) :: dem_obstacle
@@ -377,149 +347,6 @@ module dem_c
     real(c_double) :: stiffness(3, 3) = 0, youngs_modulus = 0, poissons_ratio = 0, anisotropy = 0
     real(c_double) :: longitudinal_speed = 0, transverse_speed = 0, volume = 0
   end type
-
-  type, bind(c) :: dem_boundary
-    integer(dem_boundary_kind) :: kind = 0
-    integer(c_int32_t) :: components = 0
-    integer(dem_index) :: n_nodes = 0
-    type(c_ptr) :: nodes = c_null_ptr, share = c_null_ptr
-    real(c_double) :: value(2) = 0, ramp = 0
-  end type
-
-  type, bind(c) :: dem_force_query
-    real(c_double) :: t = 0
-    integer(dem_index) :: n = 0
-    type(c_ptr) :: nodes = c_null_ptr, x = c_null_ptr, v = c_null_ptr
-  end type
-
-  type, bind(c) :: dem_options
-    integer(c_size_t) :: struct_size = 0
-    integer(dem_method) :: method = 0
-    real(c_double) :: gravity(2) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
-    real(c_double) :: penetration_tolerance = 0, rest_speed = 0
-    integer(dem_index) :: max_impacts = 0
-    real(c_double) :: window = 0, mass_damping = 0
-    integer(c_int32_t) :: vertices = 0
-    integer(dem_contact_method) :: contact = 0
-    integer(dem_kernel) :: kernel = 0
-    integer(c_int32_t) :: threads = 0
-    integer(dem_index) :: checkpoint_steps = 0, n_boundaries = 0
-    type(c_ptr) :: boundaries = c_null_ptr
-    type(c_funptr) :: force = c_null_funptr
-    type(c_ptr) :: force_context = c_null_ptr
-  end type
-
-  type, bind(c) :: dem_energy
-    real(c_double) :: kinetic = 0, elastic = 0, area = 0, guard = 0, gravity = 0, impact = 0, friction = 0, damping = 0
-    real(c_double) :: projection = 0, boundary = 0
-  end type
-
-  type, bind(c) :: dem_contact
-    integer(c_int32_t) :: n_nodes = 0
-    integer(dem_contact_state) :: state = 0
-    integer(dem_index) :: nodes(4) = 0
-    real(c_double) :: weights(4) = 0
-    integer(dem_index) :: obstacle = 0, segment = 0
-    real(c_double) :: x(2) = 0, normal(2) = 0, force = 0, friction = 0
-  end type
-
-  type, bind(c) :: dem_event
-    real(c_double) :: t = 0
-    integer(dem_event_kind) :: kind = 0
-    integer(dem_contact_state) :: state = 0
-    integer(dem_index) :: node = 0, other = 0
-    real(c_double) :: weight = 0
-    integer(dem_index) :: obstacle = 0, segment = 0
-    real(c_double) :: x(2) = 0, normal(2) = 0, impulse(2) = 0, before(2) = 0, after(2) = 0, energy = 0
-  end type
-
-  type, bind(c) :: dem_state
-    integer(c_size_t) :: struct_size = 0
-    real(c_double) :: t = 0, step = 0
-    type(c_ptr) :: x = c_null_ptr, v = c_null_ptr
-    integer(dem_index) :: n_contacts = 0
-    type(c_ptr) :: contacts = c_null_ptr
-    type(dem_energy) :: energy
-  end type
-
-  type, bind(c) :: dem_body_motion
-    real(c_double) :: mass = 0, centre(2) = 0, velocity(2) = 0, angular_momentum = 0
-  end type
-
-  type, bind(c) :: dem_obstacle_load
-    real(c_double) :: reaction(2) = 0, point(2) = 0, impulse(2) = 0, friction_impulse(2) = 0
-    integer(dem_index) :: contacts = 0
-  end type
-
-  type, bind(c) :: dem_boundary_load
-    real(c_double) :: force(2) = 0, displacement(2) = 0
-  end type
-
-  type, bind(c) :: dem_counts
-    integer(dem_index) :: steps = 0, rejected = 0, evaluations = 0, events = 0, impacts = 0, vertex_impacts = 0
-    integer(dem_index) :: early = 0, closings = 0, releases = 0, slips = 0, sticks = 0, passings = 0, late = 0
-    integer(dem_index) :: retries = 0, behind = 0
-  end type
-
-  type, bind(c) :: dem_strain
-    real(c_double) :: min = 0, max = 0
-    integer(dem_index) :: spring_min = 0, spring_max = 0
-    real(c_double) :: area_min = 0
-    integer(dem_index) :: guarded = 0, inverted = 0
-  end type
-
-  type, bind(c) :: dem_overlap
-    integer(dem_index) :: now = 0, most = 0
-    real(c_double) :: t = 0
-    integer(dem_index) :: node = 0, triangle = 0
-    real(c_double) :: x(2) = 0
-  end type
-
-  type, bind(c) :: dem_observer
-    real(c_double) :: interval = 0
-    type(c_funptr) :: frame = c_null_funptr, step = c_null_funptr, event = c_null_funptr, checkpoint = c_null_funptr
-    type(c_ptr) :: context = c_null_ptr
-  end type
-
-  type, bind(c) :: dem_node_peak
-    real(c_double) :: von_mises = 0, t = 0, stress(3) = 0
-  end type
-
-  type, bind(c) :: dem_spring_peak
-    real(c_double) :: strain = 0, t = 0
-  end type
-
-  abstract interface
-
-    integer(dem_status) function dem_force(context, query, force) bind(c)
-      import
-      type(c_ptr), value :: context
-      type(dem_force_query), intent(in) :: query
-      real(c_double), intent(inout) :: force(2, *)
-    end function
-
-    integer(dem_status) function dem_observer_frame(context, simulation) bind(c)
-      import
-      type(c_ptr), value :: context, simulation
-    end function
-
-    integer(dem_status) function dem_observer_step(context, simulation) bind(c)
-      import
-      type(c_ptr), value :: context, simulation
-    end function
-
-    integer(dem_status) function dem_observer_event(context, simulation, event) bind(c)
-      import
-      type(c_ptr), value :: context, simulation
-      type(dem_event), intent(in) :: event
-    end function
-
-    integer(dem_status) function dem_observer_checkpoint(context, simulation, checkpoint) bind(c)
-      import
-      type(c_ptr), value :: context, simulation, checkpoint
-    end function
-
-  end interface
 
   interface
 
@@ -619,6 +446,150 @@ module dem_c
       type(c_ptr), value :: model
       real(c_double), intent(in) :: x(2)
     end function
+
+  end interface
+
+  ! ---- dem/simulation.h ----------------------------------------------------------------------------------------------
+
+  integer, parameter :: dem_boundary_kind = c_int
+  enum, bind(c)
+    enumerator :: DEM_BOUNDARY_VELOCITY = 0, DEM_BOUNDARY_DISPLACEMENT = 1, DEM_BOUNDARY_FORCE = 2
+  end enum
+
+  enum, bind(c)
+    enumerator :: DEM_COMPONENT_X = 1, DEM_COMPONENT_Y = 2
+  end enum
+
+  integer, parameter :: dem_kernel = c_int
+  enum, bind(c)
+    enumerator :: DEM_KERNEL_AUTO = 0, DEM_KERNEL_PORTABLE = 1, DEM_KERNEL_AVX2 = 2, DEM_KERNEL_AVX512 = 3
+  end enum
+
+  integer, parameter :: dem_contact_method = c_int
+  enum, bind(c)
+    enumerator :: DEM_CONTACT_LOCAL = 0, DEM_CONTACT_EXACT = 1
+  end enum
+
+  integer, parameter :: dem_contact_state = c_int
+  enum, bind(c)
+    enumerator :: DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP = 1, DEM_CONTACT_STICK = 2
+  end enum
+
+  integer, parameter :: dem_event_kind = c_int
+  enum, bind(c)
+    enumerator :: DEM_EVENT_IMPACT = 0, DEM_EVENT_CLOSE = 1, DEM_EVENT_RELEASE = 2, DEM_EVENT_SLIP = 3
+    enumerator :: DEM_EVENT_STICK = 4, DEM_EVENT_PASS = 5
+  end enum
+
+  type, bind(c) :: dem_boundary
+    integer(dem_boundary_kind) :: kind = 0
+    integer(c_int32_t) :: components = 0
+    integer(dem_index) :: n_nodes = 0
+    type(c_ptr) :: nodes = c_null_ptr, share = c_null_ptr
+    real(c_double) :: value(2) = 0, ramp = 0
+  end type
+
+  type, bind(c) :: dem_force_query
+    real(c_double) :: t = 0
+    integer(dem_index) :: n = 0
+    type(c_ptr) :: nodes = c_null_ptr, x = c_null_ptr, v = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_options
+    integer(c_size_t) :: struct_size = 0
+    integer(dem_method) :: method = 0
+    real(c_double) :: gravity(2) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
+    real(c_double) :: penetration_tolerance = 0, rest_speed = 0
+    integer(dem_index) :: max_impacts = 0
+    real(c_double) :: window = 0, mass_damping = 0
+    integer(c_int32_t) :: vertices = 0
+    integer(dem_contact_method) :: contact = 0
+    integer(dem_kernel) :: kernel = 0
+    integer(c_int32_t) :: threads = 0
+    integer(dem_index) :: checkpoint_steps = 0, n_boundaries = 0
+    type(c_ptr) :: boundaries = c_null_ptr
+    type(c_funptr) :: force = c_null_funptr
+    type(c_ptr) :: force_context = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_energy
+    real(c_double) :: kinetic = 0, elastic = 0, area = 0, guard = 0, gravity = 0, impact = 0, friction = 0, damping = 0
+    real(c_double) :: projection = 0, boundary = 0
+  end type
+
+  type, bind(c) :: dem_contact
+    integer(c_int32_t) :: n_nodes = 0
+    integer(dem_contact_state) :: state = 0
+    integer(dem_index) :: nodes(4) = 0
+    real(c_double) :: weights(4) = 0
+    integer(dem_index) :: obstacle = 0, segment = 0
+    real(c_double) :: x(2) = 0, normal(2) = 0, force = 0, friction = 0
+  end type
+
+  type, bind(c) :: dem_event
+    real(c_double) :: t = 0
+    integer(dem_event_kind) :: kind = 0
+    integer(dem_contact_state) :: state = 0
+    integer(dem_index) :: node = 0, other = 0
+    real(c_double) :: weight = 0
+    integer(dem_index) :: obstacle = 0, segment = 0
+    real(c_double) :: x(2) = 0, normal(2) = 0, impulse(2) = 0, before(2) = 0, after(2) = 0, energy = 0
+  end type
+
+  type, bind(c) :: dem_state
+    integer(c_size_t) :: struct_size = 0
+    real(c_double) :: t = 0, step = 0
+    type(c_ptr) :: x = c_null_ptr, v = c_null_ptr
+    integer(dem_index) :: n_contacts = 0
+    type(c_ptr) :: contacts = c_null_ptr
+    type(dem_energy) :: energy
+  end type
+
+  type, bind(c) :: dem_body_motion
+    real(c_double) :: mass = 0, centre(2) = 0, velocity(2) = 0, angular_momentum = 0
+  end type
+
+  type, bind(c) :: dem_obstacle_load
+    real(c_double) :: reaction(2) = 0, point(2) = 0, impulse(2) = 0, friction_impulse(2) = 0
+    integer(dem_index) :: contacts = 0
+  end type
+
+  type, bind(c) :: dem_boundary_load
+    real(c_double) :: force(2) = 0, displacement(2) = 0
+  end type
+
+  type, bind(c) :: dem_counts
+    integer(dem_index) :: steps = 0, rejected = 0, evaluations = 0, events = 0, impacts = 0, vertex_impacts = 0
+    integer(dem_index) :: early = 0, closings = 0, releases = 0, slips = 0, sticks = 0, passings = 0, late = 0
+    integer(dem_index) :: retries = 0, behind = 0
+  end type
+
+  type, bind(c) :: dem_strain
+    real(c_double) :: min = 0, max = 0
+    integer(dem_index) :: spring_min = 0, spring_max = 0
+    real(c_double) :: area_min = 0
+    integer(dem_index) :: guarded = 0, inverted = 0
+  end type
+
+  type, bind(c) :: dem_overlap
+    integer(dem_index) :: now = 0, most = 0
+    real(c_double) :: t = 0
+    integer(dem_index) :: node = 0, triangle = 0
+    real(c_double) :: x(2) = 0
+  end type
+
+  abstract interface
+
+    integer(dem_status) function dem_force(context, query, force) bind(c)
+      import
+      type(c_ptr), value :: context
+      type(dem_force_query), intent(in) :: query
+      real(c_double), intent(inout) :: force(2, *)
+    end function
+
+  end interface
+
+  interface
 
     integer(dem_status) function dem_kernel_find(out, name) bind(c)
       import
@@ -768,6 +739,51 @@ module dem_c
       real(c_double), intent(out) :: value(2), direction(2)
     end subroutine
 
+  end interface
+
+  ! ---- dem/observer.h ------------------------------------------------------------------------------------------------
+
+  type, bind(c) :: dem_observer
+    real(c_double) :: interval = 0
+    type(c_funptr) :: frame = c_null_funptr, step = c_null_funptr, event = c_null_funptr, checkpoint = c_null_funptr
+    type(c_ptr) :: context = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_node_peak
+    real(c_double) :: von_mises = 0, t = 0, stress(3) = 0
+  end type
+
+  type, bind(c) :: dem_spring_peak
+    real(c_double) :: strain = 0, t = 0
+  end type
+
+  abstract interface
+
+    integer(dem_status) function dem_observer_frame(context, simulation) bind(c)
+      import
+      type(c_ptr), value :: context, simulation
+    end function
+
+    integer(dem_status) function dem_observer_step(context, simulation) bind(c)
+      import
+      type(c_ptr), value :: context, simulation
+    end function
+
+    integer(dem_status) function dem_observer_event(context, simulation, event) bind(c)
+      import
+      type(c_ptr), value :: context, simulation
+      type(dem_event), intent(in) :: event
+    end function
+
+    integer(dem_status) function dem_observer_checkpoint(context, simulation, checkpoint) bind(c)
+      import
+      type(c_ptr), value :: context, simulation, checkpoint
+    end function
+
+  end interface
+
+  interface
+
     integer(dem_status) function dem_simulation_observe(simulation, observer) bind(c)
       import
       type(c_ptr), value :: simulation
@@ -824,6 +840,8 @@ module dem_c
     end function
 
   end interface
+
+  ! ---- dem/dem.h -----------------------------------------------------------------------------------------------------
 
   ! ---- dem/reader.h --------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** dem/model.h -- a lattice and obstacles, validated and compiled into an immutable model that simulations share.
+ *  What a body is made of is in dem/lattice.h, how it moves in dem/simulation.h. */
+#ifndef DEM_MODEL_H
+#define DEM_MODEL_H
+
+#include <dem/lattice.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum dem_friction_law {
+    DEM_FRICTION_COULOMB = 0, /**< dry friction: at an impact |p_t| <= mu p_n, in a lasting contact |T| <= mu N */
+    DEM_FRICTION_PAPER /**< at an impact v_t' = mu v_t, a lasting contact slides freely: docs/method.md    (10) */
+} dem_friction_law;
+
+/** A rigid polyline, at rest or moving; bodies live on the left of each segment, the solid is on its right. Closed if
+ *  the last point is the first. The ends of an open one are free: what has passed round an end may come back from
+ *  behind, unhindered. Restitution and friction are those of velocities relative to it. */
+typedef struct dem_obstacle {
+    dem_index n_points;   /**< >= 2 */
+    const double *points; /**< [n_points][2], m, at t = 0; from one to the next a length that can be squared */
+    double restitution;   /**< eta in [0, 1]: 0 perfectly plastic, 1 perfectly elastic          (9) */
+    double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
+    dem_friction_law friction_law;
+    double velocity[2]; /**< m/s, constant and finite; 0: at rest. Nothing pushes an obstacle off its way */
+} dem_obstacle;
+
+/** A field of dem_obstacle that says how it moves: of this name in decks and files too. */
+typedef struct dem_motion_field {
+    const char *name, *unit;
+    dem_index n;   /**< 1 or 2 numbers of type double, */
+    size_t offset; /**< this many bytes behind the begin of dem_obstacle */
+} dem_motion_field;
+
+/** Field k of those of all ways to move; NULL beyond the last. What an obstacle does in several ways adds up. */
+DEM_API const dem_motion_field *dem_motion_field_at(dem_index k);
+
+/** Whether an obstacle moves in the way that a field is of, or in any (NULL). */
+DEM_API int dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by);
+
+/** Where the points of an obstacle are at t.
+ *  \param[out] points  [n_points][2], m; may be those of the obstacle */
+DEM_API void dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points);
+
+/** Whether dem_model_create() takes the obstacle: its message otherwise, in which the obstacle has the number 0.
+ *  \param[out] segments  two of it that meet, the second following the first if it goes back over it; else -1 */
+DEM_API dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2]);
+
+/** Springs in CSR: row i holds the neighbours of node i in ascending order. Views into the model. */
+typedef struct dem_csr {
+    dem_index n_nodes;
+    const dem_index *row;       /**< [n_nodes + 1]   slots row[i] .. row[i+1]-1 belong to node i */
+    const dem_index *neighbour; /**< [row[n_nodes]]  node j */
+    const dem_index *spring;    /**< [row[n_nodes]]  index of the spring in the lattice */
+    const double *stiffness;    /**< [row[n_nodes]]  E_ij, N                                         (1) */
+    const double *rest_length;  /**< [row[n_nodes]]  d0_ij, m                                        (1) */
+    const double *viscosity;    /**< [row[n_nodes]]  N s; NULL: undamped */
+} dem_csr;
+
+typedef struct dem_model dem_model;
+
+/** Validates, copies and compiles. Lattice and obstacles may be freed afterwards. Node order is kept.
+ *  \return DEM_ERROR_MODEL with the first offending node, spring, triangle or segment named */
+DEM_API dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                    dem_index n_obstacles);
+
+/** Accepts NULL. Destroy its simulations first. */
+DEM_API void dem_model_destroy(dem_model *model);
+
+DEM_API dem_csr dem_model_csr(const dem_model *model);
+
+/** The lattice as the model holds it; a view, not to be freed or changed. */
+DEM_API const dem_lattice *dem_model_lattice(const dem_model *model);
+
+/** The obstacles as the model holds them, [*n_obstacles]; a view. */
+DEM_API const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_index *n_obstacles);
+
+typedef struct dem_model_size {
+    dem_index n_nodes, n_springs, n_triangles, n_bodies;
+    dem_index n_contact_nodes; /**< nodes that may touch */
+    dem_index n_contact_edges; /**< boundary edges of the triangulation between two such nodes */
+    dem_index n_obstacles, n_segments;
+    dem_index n_vertices; /**< convex vertices of obstacles, which may touch such an edge */
+} dem_model_size;
+
+DEM_API dem_model_size dem_model_sizes(const dem_model *model);
+
+/** Shortest rest length, m; 0 without springs. */
+DEM_API double dem_model_spacing(const dem_model *model);
+
+/** Rigorous upper bound of the highest angular frequency about the rest shape, rad/s; 0 without springs:
+ *  omega^2 <= max over nodes of |B_i| / m_i, B_i = 2 sum over springs of (E_ij/d0_ij) n n^T
+ *  + 3 sum over triangles of max(kappa, 0)/A0 g g^T, g = dA/dx_i, |.| the largest eigenvalue. */
+DEM_API double dem_model_omega_max(const dem_model *model);
+
+/** The highest angular frequency about the rest shape itself, rad/s, found by iteration from below, to 1e-6 of it or
+ *  better; 0 without springs. It takes some hundred evaluations of the forces.
+ *  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL if it is not found in 2000 iterations */
+DEM_API dem_status dem_model_omega(const dem_model *model, double *omega);
+
+/** Elastic constants of a body about its rest shape, read as a plate in plane stress: a solid in plane strain has
+ *  E/(1 - nu^2) and nu/(1 - nu). */
+typedef struct dem_constants {
+    double stiffness[3][3];    /**< C in s = C e, Pa: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
+    double youngs_modulus;     /**< E, Pa, of the isotropic plate nearest to C: the average over all directions */
+    double poissons_ratio;     /**< nu of the same */
+    double anisotropy;         /**< largest over smallest Young's modulus along a direction; 1: isotropic */
+    double longitudinal_speed; /**< m/s, of long waves, with E, nu and the density */
+    double transverse_speed;   /**< m/s */
+    double volume;             /**< m^3, of the triangles */
+} dem_constants;
+
+/** Measures them by loading: every node on the boundary of the body's triangles, round its holes too, is displaced by
+ *  a uniform strain, the nodes inside find their equilibrium, and the stress is the derivative of the energy over the
+ *  volume of the triangles; three strains give C. It is the material's, not the structure's: a porous body is held at
+ *  the rims of its pores. Exact for regular lattices, where the inside has no cause to move. Fixed nodes count as free.
+ *  \param body  0 <= body < n_bodies
+ *  \return DEM_ERROR_MODEL for a body without triangles or whose inside is not stable; DEM_ERROR_MEMORY */
+DEM_API dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out);
+
+/** Total mass, kg. */
+DEM_API double dem_model_mass(const dem_model *model);
+
+/** What each node has of the solid's rest volume, m^3: a third of its triangles' areas times their thickness; 0 where
+ *  it is in no triangle. [n_nodes], a view. */
+DEM_API const double *dem_model_volumes(const dem_model *model);
+
+/** Signed distance of a point to the nearest obstacle, m: > 0 in front, < 0 inside; infinity without obstacles. */
+DEM_API double dem_model_gap(const dem_model *model, const double x[2]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** dem/simulation.h -- the moving state of a model: options, the time loop, and what can be asked of the motion.
+ *  Those who are shown a run while it goes on are observers: dem/observer.h. */
+#ifndef DEM_SIMULATION_H
+#define DEM_SIMULATION_H
+
+#include <string.h>
+
+#include <dem/checkpoint.h>
+#include <dem/method.h>
+#include <dem/model.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What is done to nodes from outside. */
+typedef enum dem_boundary_kind {
+    DEM_BOUNDARY_VELOCITY = 0, /**< components of the velocity are `value` times the ramp; 0 holds them still */
+    DEM_BOUNDARY_DISPLACEMENT, /**< components of the way from the initial position are `value` times the ramp */
+    DEM_BOUNDARY_FORCE         /**< node k feels the force share[k] * `value` times the ramp */
+} dem_boundary_kind;
+
+enum { DEM_COMPONENT_X = 1, DEM_COMPONENT_Y = 2 };
+
+/** The ramp is 10 s^3 - 15 s^4 + 6 s^5, s = t/ramp, up to s = 1 and 1 from there; 1 at all times for ramp = 0. Nodes
+ *  with prescribed components do not touch obstacles: dem_lattice_exclude(). */
+typedef struct dem_boundary {
+    dem_boundary_kind kind;
+    int32_t components; /**< which are prescribed, DEM_COMPONENT_X | DEM_COMPONENT_Y; a force has both */
+    dem_index n_nodes;
+    const dem_index *nodes; /**< [n_nodes] distinct; a component of a node is prescribed only once */
+    const double *share;    /**< [n_nodes] of a force; NULL: 1/n_nodes each */
+    double value[2];        /**< m/s, m, or N */
+    double ramp;            /**< s, >= 0; > 0 for a displacement */
+} dem_boundary;
+
+/** Where an external force is wanted: n nodes with their places and velocities at an instant. */
+typedef struct dem_force_query {
+    double t;               /**< s */
+    dem_index n;            /**< nodes asked about: all of them, or those near a contact */
+    const dem_index *nodes; /**< [n] their numbers in the lattice */
+    const double *x, *v;    /**< [n][2] m, m/s: of nodes[k] at x[2 k], x[2 k + 1] */
+} dem_force_query;
+
+/** A force from outside, by which other programs act on the nodes. It may depend on t, the node's number, its x and its
+ *  v, and on nothing that changes during an advance: the same query has the same answer, whatever else is asked about
+ *  beside it. It is asked for states that are then thrown away, and not in the order of time. What varies in x, v or t
+ *  faster than the bodies themselves wants a `max_step` of its own. Called by
+ *  dem_simulation_advance() and dem_simulation_resume(), in their thread and never from several at once; by nothing
+ *  that only looks at a simulation.
+ *  \param[out] force  [n][2] N, zero at entry
+ *  \return other than DEM_OK to end the advance, which returns it */
+typedef dem_status (*dem_force)(void *context, const dem_force_query *query, double *force);
+
+/** With which instructions forces are evaluated. All give the same results to the bit. */
+typedef enum dem_kernel {
+    DEM_KERNEL_AUTO = 0, /**< the last of these that the machine has */
+    DEM_KERNEL_PORTABLE, /**< C, on any machine */
+    DEM_KERNEL_AVX2,
+    DEM_KERNEL_AVX512 /**< F, DQ and VL */
+} dem_kernel;
+
+/** The kernel of a name, as in decks: "avx2"; on this machine or not.  \return DEM_ERROR_ARGUMENT if there is none */
+DEM_API dem_status dem_kernel_find(dem_kernel *out, const char *name);
+
+/** NULL if there is no such kernel. */
+DEM_API const char *dem_kernel_name(dem_kernel kind);
+
+/** How contact events inside a step are taken. */
+typedef enum dem_contact_method {
+    DEM_CONTACT_LOCAL, /**< each where and when it happens; what follows is corrected near it, at a cost that does not
+                            grow with the body */
+    DEM_CONTACT_EXACT  /**< the step of the whole body ends at each, located by root functions */
+} dem_contact_method;
+
+/** \return DEM_ERROR_ARGUMENT if this machine, or this build of the library, does not have the kernel */
+DEM_API dem_status dem_kernel_check(dem_kernel kind);
+
+typedef struct dem_options {
+    size_t struct_size; /**< set by dem_options_default(); docs/linking.md says how structs may grow */
+    dem_method method;  /**< default DEM_METHOD_FEHLBERG45 */
+    double gravity[2];  /**< m/s^2, default {0, -9.81}                                                 (2) */
+    double rtol;        /**< default 1e-6: error of a position over spacing, of a velocity over v_scale */
+    double spacing;     /**< m, default 0: shortest rest length; required for a model without springs */
+    double v_scale;     /**< m/s, default 0: largest of initial speed, sqrt(2 g drop), 1e-3 sound speed */
+    double max_step;    /**< s, default 0: 0.5/omega_max; required for a model without springs. Damping may shorten it:
+                               docs/method.md */
+    double fixed_step;  /**< s, default 0: adaptive; > 0: steps of this length, no error control. A method that is not
+                               adaptive takes max_step, which then is by default stable/(8 omega_max) */
+    double penetration_tolerance; /**< m, default 0: 1e-6 spacing. An impact is taken at this depth, which delays it
+                               by penetration tolerance/|v_n|, and the node put back on the surface */
+    double rest_speed; /**< m/s, default 0: a rebound not faster than this becomes a lasting contact, beside those that
+                               do by the rule of docs/method.md. What is below the rule's speed has no effect */
+    dem_index max_impacts; /**< default 10000: changes of the contacts of one node or edge within
+                               1/omega_max that count as a storm */
+    double window;         /**< s, default < 0: see docs/method.md. At an impact, what would arrive within this time
+                               is reflected at once, and hops of less than twice this become lasting contacts;
+                               0: every impact by itself */
+    double mass_damping;   /**< 1/s, default 0: each node feels -mass_damping m v, so that bodies come to rest */
+    int32_t vertices; /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
+    dem_contact_method contact; /**< default DEM_CONTACT_LOCAL */
+    dem_kernel kernel;          /**< default DEM_KERNEL_AUTO */
+    int32_t
+        threads; /**< default 1, 1 to 1024: threads that work at once; the results are the same to the bit. A library
+                          built without OpenMP does the work of all in one */
+    dem_index
+        checkpoint_steps;   /**< default 256: accepted steps between checkpoints, of which the bits of a run depend as
+                                         on a tolerance; 0: no checkpoints */
+    dem_index n_boundaries; /**< default 0 */
+    const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
+    dem_force force;                /**< default NULL: no external force */
+    void *force_context;            /**< handed to it */
+} dem_options;
+
+static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
+{
+    dem_options options;
+    memset(&options, 0, sizeof options); /* C++ warns of = {0} */
+    options.struct_size = sizeof options;
+    options.gravity[1] = -9.81;
+    options.rtol = 1e-6;
+    options.max_impacts = 10000;
+    options.window = -1.0;
+    options.vertices = 1;
+    options.threads = 1;
+    options.checkpoint_steps = 256;
+    return options;
+}
+
+/** Energies in J. */
+typedef struct dem_energy {
+    double kinetic;
+    double elastic;    /**< of the springs                                                               (1) */
+    double area;       /**< of the area term; < 0 where nu < 1/3 in plane stress */
+    double guard;      /**< of the folding guard */
+    double gravity;    /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
+    double impact;     /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
+    double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
+    double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
+    double projection; /**< put in by returning nodes from the penetration tolerance to the surface so far */
+    double boundary;   /**< put in from outside so far: work of what prescribes motions, of forces, and of
+                            moving obstacles, which have no entry of their own yet */
+} dem_energy;
+
+/** Of motion and strain: what the ledger is compared with. */
+static inline double dem_energy_motion(dem_energy e)
+{
+    return e.kinetic + e.elastic + e.area + e.guard;
+}
+
+/** What stays constant in a run, up to the integrator's error. */
+static inline double dem_energy_ledger(dem_energy e)
+{
+    return dem_energy_motion(e) + e.gravity + e.impact + e.friction + e.damping - e.projection - e.boundary;
+}
+
+typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
+
+/** A lasting contact: a weighted combination of nodes held by an obstacle. A node on a segment is one node of weight 1;
+ *  an obstacle's vertex on a body's edge is two nodes of weights 1 - s and s. */
+typedef struct dem_contact {
+    int32_t n_nodes; /**< 1 to 4 */
+    dem_contact_state state;
+    dem_index nodes[4];
+    double weights[4];  /**< sum 1 */
+    dem_index obstacle; /**< index of the obstacle */
+    dem_index segment;  /**< index of the segment within it; of a vertex, the segment that ends there */
+    double x[2];        /**< m, where it acts */
+    double normal[2];   /**< unit, out of the obstacle */
+    double force;       /**< N, reaction along the normal at the last accepted step, >= 0 */
+    double friction;    /**< N, reaction along the tangent (normal[1], -normal[0]) */
+} dem_contact;
+
+/** What can happen to a contact. */
+typedef enum dem_event_kind {
+    DEM_EVENT_IMPACT,  /**< a velocity jumped; the contact lasts if `state` is not FREE */
+    DEM_EVENT_CLOSE,   /**< a contact begins to last without an impact */
+    DEM_EVENT_RELEASE, /**< a lasting contact opens */
+    DEM_EVENT_SLIP,    /**< a sticking contact begins to slide */
+    DEM_EVENT_STICK,   /**< a sliding contact comes to rest, or turns back if `state` is SLIP */
+    DEM_EVENT_PASS     /**< a lasting contact reaches the end of a segment or of a body's edge */
+} dem_event_kind;
+
+typedef struct dem_event {
+    double t; /**< s */
+    dem_event_kind kind;
+    dem_contact_state state;    /**< of the contact afterwards */
+    dem_index node;             /**< that touches; of an edge its first */
+    dem_index other;            /**< the second node of the edge, or -1 */
+    double weight;              /**< of `other`, s; 0 without it */
+    dem_index obstacle;         /**< index of the obstacle */
+    dem_index segment;          /**< index of the segment within it; of a vertex, the segment that ends there */
+    double x[2];                /**< m, place on the obstacle */
+    double normal[2];           /**< unit, out of the obstacle; in a corner that of the faster approached segment */
+    double impulse[2];          /**< N s, given to the body; 0 but for impacts */
+    double before[2], after[2]; /**< m/s, of the body at the contact */
+    double energy;              /**< J, taken by the impact, >= 0 */
+} dem_event;
+
+/** All a simulation remembers of the motion; arrays are views, valid until its next non-const call. */
+typedef struct dem_state {
+    size_t struct_size;  /**< set it to sizeof(dem_state) */
+    double t;            /**< s */
+    double step;         /**< s, length of the last accepted step */
+    const double *x, *v; /**< [n_nodes][2] m, m/s */
+    dem_index n_contacts;
+    const dem_contact *contacts; /**< [n_contacts] closed now */
+    dem_energy energy;
+} dem_state;
+
+/** Mean motion of a body. */
+typedef struct dem_body_motion {
+    double mass;             /**< kg */
+    double centre[2];        /**< centre of mass, m */
+    double velocity[2];      /**< of the centre of mass, m/s */
+    double angular_momentum; /**< about the centre of mass, kg m^2/s */
+} dem_body_motion;
+
+/** What an obstacle gives to the bodies. */
+typedef struct dem_obstacle_load {
+    double reaction[2];         /**< N, instantaneous sum over its lasting contacts */
+    double point[2];            /**< m, where that resultant acts: on its line of action, nearest to the mean place of
+                                     the contacts weighted by their forces; 0 without contacts */
+    double impulse[2];          /**< N s, so far: impacts, and the reactions integrated over time */
+    double friction_impulse[2]; /**< N s, the tangential part of it */
+    dem_index contacts;         /**< closed now */
+} dem_obstacle_load;
+
+/** What a boundary does to its nodes. */
+typedef struct dem_boundary_load {
+    double force[2];        /**< N, on its nodes now: given, or what the prescribed motion takes; where an external
+                                 force adds to that, NaN before the first advance, and from set_motion() to the next */
+    double displacement[2]; /**< m, mean way of its nodes from where they started */
+} dem_boundary_load;
+
+typedef struct dem_counts {
+    dem_index steps;              /**< accepted by the integrator */
+    dem_index rejected;           /**< by its error test */
+    dem_index evaluations;        /**< of the right-hand side (4) */
+    dem_index events;             /**< times of contact events */
+    dem_index impacts;            /**< of nodes on segments and of edges on vertices */
+    dem_index vertex_impacts;     /**< of edges on vertices */
+    dem_index early;              /**< of all impacts, those taken together with another one within the window */
+    dem_index closings, releases; /**< contacts that began and ceased to last */
+    dem_index slips, sticks;      /**< lasting contacts that began to slide, that stopped or turned back */
+    dem_index passings;           /**< of a segment's or an edge's end by a lasting contact */
+    dem_index late;    /**< events that the root finder of DEM_CONTACT_EXACT had not seen, but the check of a step */
+    dem_index retries; /**< attempts repeated with a smaller step after a non-finite force */
+    dem_index behind;  /**< nodes that have passed round the end of an open obstacle, now */
+} dem_counts;
+
+/** Extremes over the springs and triangles, at one instant. */
+typedef struct dem_strain {
+    double min, max;                  /**< (d - d0)/d0 */
+    dem_index spring_min, spring_max; /**< where; -1 without springs */
+    double area_min;                  /**< smallest area over rest area; 1 without triangles, < 0: inverted */
+    dem_index guarded;                /**< triangles on which the guard acts */
+    dem_index inverted;               /**< triangles of area <= 0 */
+} dem_strain;
+
+/** Bodies that run into each other, or into themselves: nothing prevents it, contact is with obstacles only. Nodes on
+ *  the boundary of the triangulation inside triangles of which they are no corners; looked for at the start and after
+ *  every 16th accepted step. */
+typedef struct dem_overlap {
+    dem_index now, most;      /**< pairs of node and triangle when last looked at, and the most of a look */
+    double t;                 /**< s, of the first; 0 without one */
+    dem_index node, triangle; /**< of the first; -1 without one */
+    double x[2];              /**< m, where that node was */
+} dem_overlap;
+
+typedef struct dem_simulation dem_simulation;
+
+/** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the penetration
+ *  tolerance is not: DEM_ERROR_MODEL names the node or the vertex. The model is borrowed and must outlive the
+ *  simulation. */
+DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options);
+
+/** Goes on from a checkpoint of a simulation of the same model and options, whose further motion is repeated to the
+ *  bit.
+ *  \return DEM_ERROR_IO if the checkpoint is of another model, or damaged */
+DEM_API dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
+                                         const dem_checkpoint *checkpoint);
+
+/** Accepts NULL. */
+DEM_API void dem_simulation_destroy(dem_simulation *simulation);
+
+/** Integrates (4) to t_end, with (9) and friction at every impact. The state there is interpolated, never stepped to,
+ *  so a run to t1 continued to t2 is a run to t2.
+ *  \return DEM_STOPPED if an observer asked for it; DEM_ERROR_INTEGRATOR, DEM_ERROR_CONTACT with the last good state,
+ *          and what the external force returned, or DEM_ERROR_INTEGRATOR if it is not finite, with that before the step
+ *          in which it was asked for: another advance goes on from there */
+DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_end);
+
+/** Puts nodes elsewhere, or gives them other velocities, where the last advance has ended: not from an observer.
+ *  Contacts are looked for at the next advance, as at the start, and until then there are none; then observers are
+ *  shown the step, and a checkpoint is taken: an older one is of the motion that was. What it changes of the energy
+ *  counts as put in from outside (`boundary`). Copies both.
+ *  \param x  [n_nodes][2] m, no deeper in obstacles than the penetration tolerance; NULL: as it is
+ *  \param v  [n_nodes][2] m/s; NULL: as it is. Fixed nodes keep both, as do prescribed components.
+ *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL inside an obstacle; then nothing has changed */
+DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const double *x, const double *v);
+
+/** The last checkpoint, valid and unchanged until the next advance; NULL before the first, and after
+ *  dem_simulation_set_motion(). */
+DEM_API const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *simulation);
+
+/** What is seen of the motion now.
+ *  \param state  its struct_size is read, and kept; what lies within it is written, and nothing beyond
+ *  \return DEM_ERROR_ARGUMENT for a NULL or a struct_size too small for `t`; then nothing has been written */
+DEM_API dem_status dem_simulation_state(const dem_simulation *simulation, dem_state *state);
+DEM_API dem_energy dem_simulation_energy(const dem_simulation *simulation);
+DEM_API dem_strain dem_simulation_strain(const dem_simulation *simulation);
+
+/** Strain (d - d0)/d0 of every spring.  \param[out] strain  [n_springs], in the order of the lattice */
+DEM_API void dem_simulation_strains(const dem_simulation *simulation, double *strain);
+
+/** Force (1) along every spring, > 0 in tension; what damping adds to it is left out.
+ *  \param[out] force  [n_springs] N, in the order of the lattice */
+DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *force);
+
+/** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
+ *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
+ *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
+ *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
+DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
+
+/** The same of one node.  \param node  0 <= node < n_nodes; NaN, and a dem_status_message(), for any other */
+DEM_API void dem_simulation_stress_at(const dem_simulation *simulation, dem_index node, double stress[3]);
+
+DEM_API dem_overlap dem_simulation_overlap(const dem_simulation *simulation);
+
+DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
+
+/** \param body  0 <= body < n_bodies; NaN, and a dem_status_message(), for any other */
+DEM_API dem_body_motion dem_simulation_body(const dem_simulation *simulation, dem_index body);
+
+/** \param obstacle  0 <= obstacle < n_obstacles; NaN, and a dem_status_message(), for any other */
+DEM_API dem_obstacle_load dem_simulation_obstacle(const dem_simulation *simulation, dem_index obstacle);
+
+/** \param boundary  0 <= boundary < n_boundaries; NaN, and a dem_status_message(), for any other */
+DEM_API dem_boundary_load dem_simulation_boundary(const dem_simulation *simulation, dem_index boundary);
+
+/** How far from equilibrium: the largest force on a node that may move, without drag and with what contacts give, over
+ *  the largest force of a spring; 0 where there is neither. Known after an accepted step without contact event, else
+ *  infinity. */
+DEM_API double dem_simulation_residual(const dem_simulation *simulation);
+
+DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
+
+/** The options in force: those of dem_simulation_create() with every default replaced by its value, and
+ *  `boundaries` NULL. */
+DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
+
+/* ---- stress ----------------------------------------------------------------------------------------------------- */
+
+/** Von Mises' equivalent of a plane stress xx, yy, xy: sqrt(xx^2 - xx yy + yy^2 + 3 xy^2). */
+DEM_API double dem_stress_von_mises(const double stress[3]);
+
+/** Principal values, the larger first, and the unit vector along which the first acts: to the right, or up; along x if
+ *  both are equal. */
+DEM_API void dem_stress_principal(const double stress[3], double value[2], double direction[2]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
