@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a checkpoint contains: entries that are structs of numbers of 8 bytes, without gaps. */
+/* What a checkpoint contains of a run: everything on which its further motion depends bit for bit, and its sums and
+ * counts so far. What follows from these (forces in contacts, groups, clearances, the integrator's history) is left out
+ * and computed anew, in the run that takes the checkpoint just as in one that is resumed from it (docs/algorithms.md,
+ * Checkpoints; take_checkpoint() in simulation.c). Entries are structs of numbers of 8 bytes, without gaps, so that all
+ * their bytes are defined. Event sources add their own (src/contact/contact_entry.c). Files, and their checksums, are
+ * written and read in src/base/checkpoint_entries.c; nothing that comes from one is trusted here. */
 #include "simulation/checkpoint.h"
 
 #include <math.h>
@@ -10,6 +15,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 
+/* Single numbers. `projected`, `unlooked` and `idle` decide about later steps, the others are sums and times. */
 typedef struct numbers {
     double t, step;    /* s */
     double next_step;  /* s; 0: fixed ones */
@@ -20,7 +26,7 @@ typedef struct numbers {
     dem_index events, unlooked, idle;
 } numbers;
 
-/* What two models must have in common. */
+/* What two models must have in common for a state of one to be read as one of the other. */
 typedef struct sizes {
     dem_index n_nodes, n_springs, n_triangles, n_segments, n_vertices, n_obstacles, n_candidates, n_unknowns;
 } sizes;
@@ -32,7 +38,7 @@ static sizes sizes_of(const dem_simulation *s)
                    m->obstacles.n_vertices, m->obstacles.n,       s->automaton.set.n,     state_velocities(&s->layout)};
 }
 
-/* Puts the entries into a checkpoint, or gets them from it. */
+/* Puts the entries into a checkpoint, or gets them from it: one list for both ways, so that they cannot differ. */
 static dem_status pass(dem_simulation *s, const checkpoint_entries_way *way, numbers *n, dem_counts *counts)
 {
     contact_ledger *ledger = &s->automaton.set.ledger;
@@ -43,7 +49,7 @@ static dem_status pass(dem_simulation *s, const checkpoint_entries_way *way, num
     return checkpoint_entries_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
 }
 
-/* How many numbers say how an obstacle moves. */
+/* How many numbers say how one obstacle moves: all fields that a motion may have, unused ones too. */
 static size_t count_motion(void)
 {
     size_t n = 0;
@@ -52,6 +58,7 @@ static size_t count_motion(void)
     return n;
 }
 
+/* All numbers of an obstacle's motion laws, one behind the other, in the order of their fields. */
 static double *copy_motion(double *to, const dem_obstacle *obstacle)
 {
     const dem_motion_field *field;
@@ -60,6 +67,7 @@ static double *copy_motion(double *to, const dem_obstacle *obstacle)
     return to;
 }
 
+/* The motion laws of all obstacles, by which check_motion() knows a model whose obstacles move otherwise. */
 static dem_status put_motion(const dem_model *model, dem_checkpoint *checkpoint)
 {
     const obstacle_set *o = &model->obstacles;
@@ -72,6 +80,8 @@ static dem_status put_motion(const dem_model *model, dem_checkpoint *checkpoint)
     return status;
 }
 
+/* Counts of steps are the integrator's, those of contacts the ledger's; in a checkpoint they are one entry. The length
+ * of the next step is what the integrator would have tried next. */
 dem_status checkpoint_take(dem_simulation *s, dem_checkpoint *checkpoint)
 {
     const contact_ledger *ledger = &s->automaton.set.ledger;
@@ -100,7 +110,7 @@ dem_status checkpoint_take(dem_simulation *s, dem_checkpoint *checkpoint)
     return checkpoint_entries_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
 }
 
-/* Finds the state in a checkpoint, and checks it. */
+/* Finds the state in a checkpoint, of the size of this run's, and finite. */
 static dem_status find_state(const dem_simulation *s, const dem_checkpoint *checkpoint, const double **out)
 {
     const size_t n = (size_t)state_size(&s->layout);
@@ -136,6 +146,7 @@ static dem_status check_field(const dem_obstacle *obstacle, dem_index number, co
     return DEM_OK;
 }
 
+/* The motions of all obstacles, in the order of put_motion(). */
 static dem_status check_motion(const dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     const obstacle_set *o = &s->model->obstacles;
@@ -152,6 +163,7 @@ static dem_status check_motion(const dem_simulation *s, const dem_checkpoint *ch
     return DEM_OK;
 }
 
+/* Whether single numbers are possible: finite, times not negative, counts within their range. */
 static dem_status check_numbers(const numbers *n)
 {
     const bool finite = isfinite(n->impact) && isfinite(n->projection) && isfinite(n->work) && isfinite(n->projected);
@@ -163,7 +175,8 @@ static dem_status check_numbers(const numbers *n)
     return DEM_OK;
 }
 
-/* Gets everything from a checkpoint, with all checks. */
+/* Gets everything from a checkpoint, with all checks, the model's sizes first: they decide how long the entries must
+ * be. After a failure the simulation is partly that of the checkpoint, and must not go on. */
 static dem_status get(dem_simulation *s, const dem_checkpoint *checkpoint, numbers *n, const double **y)
 {
     const checkpoint_entries_way way = {.from = checkpoint};
@@ -175,6 +188,8 @@ static dem_status get(dem_simulation *s, const dem_checkpoint *checkpoint, numbe
     return source_list_restore(&s->sources, checkpoint, n->t, *y);
 }
 
+/* The contacts' forces and clearances are found by the source (automaton_restore()), the integrator begins without a
+ * history: integrator_renew(). No step is in hand afterwards. */
 dem_status checkpoint_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     contact_set *c = &s->automaton.set;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls observers in the order in which they were added. */
+/* Calls the observers of a simulation in the order in which they were added, and knows whose frame is next. Frames are
+ * numbered from 0 and due at number times interval: a product, not a sum, so that rounding does not add up and a
+ * resumed run has frames at the same times. When events and steps are reported is decided in simulation.c; what
+ * observers see, in query.c. */
 #include "simulation/observers.h"
 
 #include <math.h>

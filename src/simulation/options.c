@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks and defaults of options. */
+/* Checks the options of a simulation and fills in the defaults that depend on the model: the longest step from the
+ * highest frequency and the method's stability, the scale of speeds, the penetration tolerance, the window
+ * (docs/method.md, Integration in time; docs/algorithms.md, Why 0.1). After options_fill() no option is left to be
+ * decided elsewhere. */
 #include "simulation/options.h"
 
 #include "base/reduce.h"

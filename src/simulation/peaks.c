@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Largest stresses and strains of a run: one entry for each node and spring, replaced by a larger one. */
+/* Largest stresses and strains of a run (docs/method.md, Stress): one entry for each node and spring, replaced by a
+ * larger one with its time. It is an observer like any other, through the public interface: at every so-many-th
+ * accepted step it looks at all nodes and springs, and it puts its entries into checkpoints. How a stress is computed
+ * is in src/model/stress.c; files of peaks are in src/output/peaks_file.c. */
 #include <dem/dem.h>
 
 #include "base/checkpoint_entries.h"
@@ -17,6 +20,7 @@ struct dem_peaks {
     double *strain; /* [n_springs] scratch */
 };
 
+/* The size of a node's stress is its von Mises stress; the components are kept with it. */
 static void look_at_nodes(dem_peaks *p, const dem_simulation *simulation, double t)
 {
     dem_simulation_stress(simulation, p->stress);
@@ -26,6 +30,7 @@ static void look_at_nodes(dem_peaks *p, const dem_simulation *simulation, double
     }
 }
 
+/* The size of a strain is its magnitude; the sign is kept: stretched or squeezed. */
 static void look_at_springs(dem_peaks *p, const dem_simulation *simulation, double t)
 {
     dem_simulation_strains(simulation, p->strain);
@@ -33,6 +38,8 @@ static void look_at_springs(dem_peaks *p, const dem_simulation *simulation, doub
         if (fabs(p->strain[k]) > fabs(p->springs[k].strain)) p->springs[k] = (dem_spring_peak){p->strain[k], t};
 }
 
+/* The observer's step. `left` counts down to the next look, and is in checkpoints, so that looks fall on the same
+ * steps. */
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     dem_peaks *p = context;
@@ -45,7 +52,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
-/* Puts what a checkpoint contains of them into a checkpoint, or gets it. */
+/* Puts what a checkpoint contains of the peaks into it, or gets it from there. */
 static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
 {
     TRY(checkpoint_entries_pass(way, "peaks.left", &p->left, sizeof p->left));
@@ -53,6 +60,7 @@ static dem_status pass(dem_peaks *p, const checkpoint_entries_way *way)
     return checkpoint_entries_pass(way, "peaks.springs", p->springs, (size_t)p->n_springs * sizeof *p->springs);
 }
 
+/* The observer's checkpoint. */
 static dem_status remember(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     const checkpoint_entries_way way = {.into = checkpoint};
@@ -75,7 +83,8 @@ static double spring_size(const dem_peaks *p, dem_index k)
     return fabs(p->springs[k].strain);
 }
 
-/* The n largest of `count`, those of equal size in the order of their numbers. */
+/* The n largest of `count`, those of equal size in the order of their numbers, by insertion into a list that descends.
+ * Entries of size 0 have no peak. With n small this is one pass over all. */
 static dem_index rank(const dem_peaks *p, size_of size, dem_index count, dem_index n, dem_index *list)
 {
     dem_index filled = 0;
@@ -113,6 +122,7 @@ dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index e
     return status_fail(DEM_ERROR_MEMORY, "out of memory for the peaks of %lld nodes", (long long)size.n_nodes);
 }
 
+/* A checkpoint of a run with another `every` may count further down than this one: it is refused. */
 dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem_index every, const dem_checkpoint *checkpoint)
 {
     const checkpoint_entries_way way = {.from = checkpoint};

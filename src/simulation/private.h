@@ -26,6 +26,12 @@ typedef struct run_measures {
     dem_body_motion motion;
 } run_measures;
 
+/** Flags say where a run is:
+ *  - not `started`: the contacts of the initial motion, or of one that was set, have still to be taken up;
+ *  - between steps: y is the state at t, which the integrator starts from next;
+ *  - `in_hand`: an accepted step from t to path.end whose start is y; with `local` its events are resolved in the
+ *    queue, with `exact` it ends with one if `at_event`. An advance may end here.
+ *  What is seen (seen_t, seen) may be at any time of the step in hand. */
 struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */

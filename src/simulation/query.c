@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A state is interpolated, and what follows from it computed, when it is first asked for. What asks the external force
- * is not left until then: query_ask_force() does it during the advance, which reports a failure. */
+/* What observers and callers see of a run: the state at some time, and all that dem.h can be asked about it. A state
+ * within the step in hand is interpolated, and results are computed, only when they are asked for, each once
+ * (run_measures). To show contacts and ledger of an earlier time the event queue goes back, and on again when the run
+ * goes on, to the same bits. What would call the user's force is not left until then: query_ask_force() does it during
+ * the advance, which reports a failure. */
 #include "simulation/query.h"
 
 #include "base/reduce.h"

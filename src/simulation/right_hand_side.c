@@ -1,11 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* y = (x, v) with x' = v, m v' = F(x, v, t) plus the forces of closed contacts, and the rates of the quadratures. */
+/* The right-hand side of y = (x, v), (3) and (4) of docs/method.md:
+ *   x' = v,   m v' = m g + springs, triangles, damping and forces from outside + forces of closed contacts,
+ * with prescribed components given, and behind the nodes the rates of the quadratures, which are integrated along. Here
+ * the parts are put together in their order; the forces of nodes are in src/forces, those of contacts in src/contact.
+ * The integrator (src/time) sees only the table ode_problem that is filled in at the end. */
 #include "simulation/right_hand_side.h"
 
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
 
+/* The message for a derivative that is not finite: the first node whose velocity or acceleration is not, and where it
+ * is. */
 static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
     const state_layout *l = &s->layout;
@@ -19,7 +25,9 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
     return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
 }
 
-/* Rates of the quadratures, behind the accelerations of the nodes. */
+/* Rates of the quadratures, behind the accelerations of the nodes: forces of closed contacts on each obstacle, N;
+ * powers of friction, damping, and the work from outside, W, of boundary conditions, external forces and moving
+ * obstacles; and 1, the rate of the time. */
 static void fill_rates(dem_simulation *s, double t, const double *y, double *a, double work)
 {
     const state_layout *l = &s->layout;
@@ -31,8 +39,10 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
 
-/* y = (x, v), f = (v, a) with m a = F(x, v) + m g, less what the closed contacts hold; prescribed components are given.
- *                                                                                                        (3), (4) */
+/* f = (u, a) of y = (x, v): u = v, m a = F(x, v) + m g + what closed contacts hold, (3) and (4); prescribed components
+ * are given. Constraints follow the free accelerations, which they change. `sum` is finite only if all accelerations
+ * are.
+ *   \return 0; 1 if something is not finite; 2 if the external force has failed, which no shorter step mends */
 static int derivative(double t, const double *y, double *u, double *a, void *context)
 {
     dem_simulation *s = context;
@@ -49,7 +59,9 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     return 1;
 }
 
-/* Takes a fused step where nothing but springs, triangles and weight acts. */
+/* A whole step of Verlet's method as one sweep, where nothing but springs, triangles and weight acts and no contact is
+ * closed: accelerations then depend on positions alone. automaton_constrain() has no group to solve here; it only marks
+ * the forces of contacts as those of another state.  \return -1 if it is not possible, else as derivative() */
 static int take_fused_step(const ode_fused_step *step, void *context)
 {
     dem_simulation *s = context;
@@ -66,6 +78,7 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     return 1;
 }
 
+/* The three functions that follow are callbacks of the integrator; `exact` contacts need the first two. */
 static void begin_roots(double t, const double *y, void *context)
 {
     dem_simulation *s = context;
@@ -78,12 +91,15 @@ static double root_function(const dense_output *step, void *context)
     return reduce_min(automaton_root_function(&s->automaton, step, s->frame));
 }
 
+/* Where the folding guard acts, triangles are stiffer than at rest: by how much, for fixed steps. */
 static double stiffening(const double *y, void *context)
 {
     dem_simulation *s = context;
     return reduce_max(kernel_stiffening(&s->kernel, &s->forces, y));
 }
 
+/* Root functions are watched with `exact` only, and where there is something to touch. What counts as an error of 1 is
+ * rtol times the spacing for a position, and rtol v_scale for a velocity (docs/method.md, Integration in time). */
 ode_problem right_hand_side_problem(dem_simulation *s)
 {
     const dem_model *model = s->model;

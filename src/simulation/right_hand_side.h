@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the integrator calls: derivatives, root functions, and by how much the highest frequency has risen. */
+/* What the integrator calls: derivatives, root functions, and by how much the highest frequency has risen. The one
+ * place where a simulation is described as an ODE problem. */
 #ifndef DEM_SIMULATION_RIGHT_HAND_SIDE_H
 #define DEM_SIMULATION_RIGHT_HAND_SIDE_H
 

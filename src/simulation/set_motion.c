@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Replaces the motion of a simulation: the step in hand ends at the time that is seen. */
+/* Replaces the motion of a simulation between two advances (docs/method.md, Motion set by the program). The step in
+ * hand ends at the time that the caller has seen; the rest of it is dropped. A motion is checked before anything is
+ * replaced, and a refused one leaves all as it was. The energy that the change takes is entered as work from outside,
+ * so that the ledger closes. Contacts open, and the next advance begins as a run does: see start() in simulation.c. */
 #include <string.h>
 
 #include "base/reduce.h"
@@ -7,14 +10,15 @@
 #include "forces/diagnostics.h"
 #include "simulation/query.h"
 
-/* Which components of a node may not be changed. */
+/* Which components of a node may not be changed: all of a fixed one, those that are prescribed. */
 static int held(const dem_simulation *s, dem_index i)
 {
     if (s->model->inverse_mass[i] == 0.0) return DEM_COMPONENT_X | DEM_COMPONENT_Y;
     return s->boundaries.held != NULL ? s->boundaries.held[i] : 0;
 }
 
-/* Whether one of the two arrays may replace `now`. */
+/* Whether one of the two arrays may replace `now`: it is finite, and the same where nodes are fixed or prescribed. NULL
+ * replaces nothing. */
 static dem_status check(const dem_simulation *s, const char *what, const double *wanted, const double *now)
 {
     for (dem_index k = 0; wanted != NULL && k < state_row(&s->layout, s->layout.n_nodes); k++) {
@@ -28,13 +32,14 @@ static dem_status check(const dem_simulation *s, const char *what, const double 
     return DEM_OK;
 }
 
+/* Energy of motion and deformation, and of weight, J: what the new state may have more or less of. */
 static double mechanical_energy(const dem_simulation *s, const double *y)
 {
     const dem_energy e = diagnostics_energy(&s->forces, y, y + state_velocities(&s->layout));
     return dem_energy_motion(e) + e.gravity;
 }
 
-/* Puts x and v into a state, and the energy that this takes into its work. */
+/* Puts x and v into a state, and the energy that this takes into its work: the difference of mechanical energies, J. */
 static void put(const dem_simulation *s, const double *x, const double *v, double *y)
 {
     const state_layout *l = &s->layout;
@@ -46,6 +51,8 @@ static void put(const dem_simulation *s, const double *x, const double *v, doubl
     *work += mechanical_energy(s, y) - before;
 }
 
+/* The state as seen, with contacts and ledger of that time, is asked for first: it takes the queue back to that time.
+ * Events of the dropped step up to then have happened, and are counted. */
 dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const double *v)
 {
     dem_state seen = {.struct_size = sizeof seen};

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Creates a simulation, from a model or from a checkpoint, and destroys it. */
+/* Creates a simulation, from a model or from a checkpoint, and destroys it. Set-up goes from what nothing else needs to
+ * what needs it all: layout of the state, boundary conditions and external force, options with their defaults, kernel,
+ * contacts, event sources and their queue, and last the integrator, which takes over the state. Here contact and forces
+ * are handed to src/events as tables of functions. A failure at any place leaves what dem_simulation_destroy() can
+ * free. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,6 +28,8 @@ static dem_status allocate(dem_simulation *s)
     return DEM_OK;
 }
 
+/* What contacts need of the options. A storm is more than max_impacts changes of one candidate within 1/omega_max, the
+ * shortest time in which a lattice moves. */
 static contact_rule rule_of(const dem_simulation *s)
 {
     const dem_model *model = s->model;
@@ -58,6 +64,8 @@ static dem_status set_up_sources(dem_simulation *s)
     return source_list_add(&s->sources, contact_source_events(&s->contact_events));
 }
 
+/* Local corrections have the tolerances of the integrator, and the order of its method; with fixed steps their errors
+ * are not controlled. */
 static dem_status set_up_queue(dem_simulation *s)
 {
     const dem_options *o = &s->options;
@@ -110,6 +118,8 @@ static dem_status set_up(dem_simulation *s)
     return DEM_OK;
 }
 
+/* Goes on from a checkpoint: contacts have been taken up before, and no checkpoint is due at once, as the run has just
+ * begun from one. The state is shown, which may ask the user's force. */
 static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     TRY(checkpoint_restore(s, checkpoint));

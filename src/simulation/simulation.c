@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The time loop. An accepted step is first taken, and is then in hand (`path`); it is shown to the observers whose
- * frames fall into it; then it is committed: its end becomes the state, the contacts change, and the next step is
- * taken. An advance to t_end stops within a step in hand, with which the next advance goes on: no step is shortened to
- * end at t_end. */
+/* The time loop, advance() at the end of this file. One round is
+ * - take_step: an accepted step of the integrator with the contact events inside it; it is now *in hand*, as `path`;
+ * - report_frames: observers see the frames that fall into it, read off its dense output;
+ * - if t_end falls into it too, the advance ends and leaves the step in hand, with which the next advance goes on: no
+ *   step is ever shortened for t_end or for a frame, so that a run in two parts has the bits of a run in one;
+ * - commit_step: its end becomes the state. With `exact` contacts it ends at an event, which is resolved here (8)-(10).
+ * If the user's force fails, the run goes back to the last state for which it was known (roll_back). The right-hand
+ * side is in right_hand_side.c, what is seen of a run in query.c, checkpoints in checkpoint.c, set-up in setup.c. */
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
@@ -14,11 +18,12 @@ enum {
     most_attempts = 30  /* at a step whose contacts reject it */
 };
 
+/* Of the length of the next attempt at a step that contacts have rejected: never less than a tenth. */
 static const double safety = 0.9, least_factor = 0.1; /* of the next step after one that contacts have rejected */
 
 /* ---- calls of the observers ---- */
 
-/* Makes the state after the last committed step the one that is seen. */
+/* Makes the state after the last committed step the one that is seen by observers and callers. */
 static dem_status show_state(dem_simulation *s)
 {
     query_at(s, s->t, s->y);
@@ -32,7 +37,8 @@ static dem_status show_inside(dem_simulation *s, double t)
     return query_ask_force(s);
 }
 
-/* An event at which the whole body has stopped. */
+/* The listener for an event at which the whole body has stopped: the state is that right after this change, and others
+ * may follow at the same time. */
 static dem_status report_event(void *context, const dem_event *event)
 {
     dem_simulation *s = context;
@@ -40,7 +46,8 @@ static dem_status report_event(void *context, const dem_event *event)
     return observers_event(&s->observers, s, event);
 }
 
-/* Events inside the step in hand, up to t. */
+/* Reports the events inside the step in hand, up to t, in the order of time, each with the state of its time: the queue
+ * goes back there and on again. All of them are reported, and the first failure is returned. */
 static dem_status report_events(dem_simulation *s, double t)
 {
     dem_status status = DEM_OK;
@@ -53,12 +60,14 @@ static dem_status report_events(dem_simulation *s, double t)
     return reduce_status(status, 0.0);
 }
 
+/* Every accepted step, after its contacts have changed. */
 static dem_status report_step(dem_simulation *s)
 {
     TRY(show_state(s));
     return observers_step(&s->observers, s);
 }
 
+/* Shows the frames up to the end of the step and t_end in the order of time; events before a frame come before it. */
 static dem_status report_frames(dem_simulation *s, double t_end)
 {
     double t;
@@ -72,13 +81,15 @@ static dem_status report_frames(dem_simulation *s, double t_end)
 
 /* ---- the loop ---- */
 
-/* Stops the run if the external force has failed: what came after was computed with a force of 0. */
+/* If the user's force has failed, DEM_STOPPED, so that the advance ends and rolls back: all since was computed with a
+ * force of 0. */
 static dem_status stop_if_force_failed(const dem_simulation *s, dem_status status)
 {
     return run_force_failed(s) ? DEM_STOPPED : status;
 }
 
-/* Keeps the state before contacts change at once, in case the external force fails meanwhile. */
+/* Takes a checkpoint before contacts change at once, in case the external force fails meanwhile: such changes are not
+ * undone otherwise, whereas a step is given up by starting it again. */
 static dem_status take_rollback(dem_simulation *s)
 {
     if (s->external == NULL) return DEM_OK;
@@ -88,7 +99,8 @@ static dem_status take_rollback(dem_simulation *s)
     return DEM_OK;
 }
 
-/* The external force has failed: goes back to the last state for which it was known. */
+/* Goes back to the last state for which the external force was known: that of the rollback point, if contacts were
+ * changing, else the start of the step. The failure itself is returned with its own message. */
 static dem_status roll_back(dem_simulation *s)
 {
     dem_status status = DEM_OK;
@@ -103,8 +115,9 @@ static dem_status roll_back(dem_simulation *s)
     return status_first(status, reduce_status(external_force_failure(s->external), 0.0));
 }
 
-/* Factor by which the next attempt at a step is shorter: its error is too large, or its events fail, which they may if
- * it is much too long. 1 if the step is good or shortening does not help. */
+/* Factor by which the next attempt at a step is shorter, 1 if the step is good or shortening does not help. The error
+ * of its events goes with the fourth power of its length at least: 0.9/error^(1/4). Events may fail if the step is much
+ * too long, and then it is tried with a tenth. */
 static double shortening(const dem_simulation *s, dem_status status)
 {
     const double error = run_is_local(s) ? event_queue_error(&s->queue) : 0.0;
@@ -112,7 +125,7 @@ static double shortening(const dem_simulation *s, dem_status status)
     return status == DEM_OK && error > 1.0 ? fmax(least_factor, safety / sqrt(sqrt(error))) : 1.0;
 }
 
-/* Gives up a step that cannot be taken, with the integrator back at its start. */
+/* Gives up a step that cannot be taken: the integrator is back at its start, and the last good state stays in force. */
 static dem_status give_up(dem_simulation *s, dem_status status)
 {
     if (status == DEM_OK)
@@ -122,7 +135,9 @@ static dem_status give_up(dem_simulation *s, dem_status status)
     return status_first(status, integrator_restart(&s->integrator, s->t, s->y));
 }
 
-/* Finds the contact events in the step just taken. Local ones are corrected inside it; else it ends at the first. */
+/* Finds the contact events in the step just taken. With `local` they are resolved and corrected inside it, to its end.
+ * With `exact` it ends at the first: at a root of the integrator (`rooted`), or where the check finds an event before
+ * it. */
 static dem_status find_events(dem_simulation *s, bool rooted)
 {
     double *y1, *f1;
@@ -135,7 +150,9 @@ static dem_status find_events(dem_simulation *s, bool rooted)
     return event_queue_show(&s->queue, s->path.t1);
 }
 
-/* A step with its contact events, which may reject it. */
+/* A step with its contact events, which may reject it after the integrator has accepted it: an error of theirs is
+ * unknown to the integrator. The queue then takes them back, and the integrator tries again from the same start with a
+ * shorter step. Fixed steps cannot be shortened. */
 static dem_status take_step(dem_simulation *s)
 {
     for (int attempt = 1;; attempt++) {
@@ -148,13 +165,15 @@ static dem_status take_step(dem_simulation *s)
         if (s->options.fixed_step > 0.0 || attempt == most_attempts || factor == 1.0) return give_up(s, status);
         TRY(integrator_redo(&s->integrator, factor));
     }
+    /* Events have been found to the end of the step, but observers know of none of them yet. */
     s->n_inside = s->queue.n_events;
     s->n_reported = 0;
     s->in_hand = true;
     return DEM_OK;
 }
 
-/* Restarts the integrator after the contacts of the state have changed, with this status, and v has jumped. */
+/* Restarts the integrator after the contacts of the state have changed, with this status, and v has jumped. The
+ * rollback point is no longer needed once the force has not failed. After a contact error the step is not reported. */
 static dem_status go_on(dem_simulation *s, dem_status status)
 {
     TRY(stop_if_force_failed(s, DEM_OK));
@@ -163,13 +182,15 @@ static dem_status go_on(dem_simulation *s, dem_status status)
     return status == DEM_ERROR_CONTACT ? status : status_first(status, report_step(s));
 }
 
+/* Overlaps of bodies are only reported, not resolved: a look now and then is enough. */
 static void look_for_overlaps(dem_simulation *s)
 {
     overlap_look(&s->overlap, &s->model->lattice, s->t, s->y);
     s->unlooked = 0;
 }
 
-/* Makes the end of the step in hand the state.  \return whether vertex contacts were put back */
+/* Makes the end of the step in hand the state: the integrator accepts it, closed contacts that have opened are put
+ * back, and forces and clearances are those of the new state.  \return whether vertex contacts were put back */
 static bool settle_step(dem_simulation *s)
 {
     const dense_output *p = &s->path;
@@ -185,7 +206,8 @@ static bool settle_step(dem_simulation *s)
     return moved;
 }
 
-/* The end of the step is an event: the contacts change, and the velocities jump. */
+/* The end of the step is an event of `exact`: the contacts change, the velocities jump, and the integrator starts
+ * anew. */
 static dem_status resolve_event(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
@@ -193,8 +215,9 @@ static dem_status resolve_event(dem_simulation *s)
     return go_on(s, reduce_status(automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
 }
 
-/* Lets the integrator go on from the end of the step as it was changed by events and by vertex contacts put back
- * (`moved`). */
+/* Lets the integrator go on from the end of the step. If contacts were put back (`moved`), the derivative there is
+ * unknown: it starts anew. If events have changed the end and its derivative, it resumes from both without an
+ * evaluation, with a step bounded for what their error would be in it. Otherwise nothing has changed. */
 static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
@@ -202,11 +225,14 @@ static dem_status go_on_changed(dem_simulation *s, bool moved)
     return reduce_any(s->queue.n_stops > 0) ? integrator_resume(&s->integrator) : DEM_OK;
 }
 
+/* Reports the events left in the step, takes the queue to its end, as observers may have left it at an earlier time,
+ * and makes the end the state. */
 static dem_status commit_step(dem_simulation *s)
 {
     TRY(report_events(s, s->path.t1));
     if (run_is_local(s)) TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
     if (s->at_event) TRY(take_rollback(s));
+    /* From here on the end of the step is the state: y and t. */
     const bool moved = settle_step(s);
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_stops);
@@ -214,7 +240,8 @@ static dem_status commit_step(dem_simulation *s)
     return report_step(s);
 }
 
-/* Closes the contacts of the initial state before the first step, when the observers are there to be called. */
+/* Closes the contacts of the initial state before the first step, when the observers are there to be called. If the
+ * external force fails here, the next advance starts again. */
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
@@ -224,13 +251,15 @@ static dem_status start(dem_simulation *s)
     return status;
 }
 
+/* By accepted steps, not by time: where a run is cut must not matter. The first is due at once. */
 static bool wants_checkpoint(const dem_simulation *s)
 {
     const dem_index every = s->options.checkpoint_steps;
     return every > 0 && (!s->has_checkpoint || s->since_checkpoint >= every);
 }
 
-/* Takes a checkpoint and goes on from it, so that the run has the bits of one that is resumed. */
+/* Takes a checkpoint and goes on from it: whatever it does not hold is computed anew here as in a run that is resumed
+ * from it, so that both have the same bits, whether or not the checkpoint is ever written. */
 static dem_status take_checkpoint(dem_simulation *s)
 {
     s->has_checkpoint = false;
@@ -241,6 +270,8 @@ static dem_status take_checkpoint(dem_simulation *s)
     return observers_checkpoint(&s->observers, s, s->checkpoint);
 }
 
+/* Steps until t_end falls into the step in hand; then shows the state there. The next advance may find the step in
+ * hand. */
 static dem_status advance(dem_simulation *s, double t_end)
 {
     if (!s->started) TRY(start(s));
@@ -255,6 +286,7 @@ static dem_status advance(dem_simulation *s, double t_end)
     return show_inside(s, t_end);
 }
 
+/* A failed force ends the advance in any case, even if a later error has come first. */
 dem_status dem_simulation_advance(dem_simulation *s, double t_end)
 {
     CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_advance: simulation is NULL");
