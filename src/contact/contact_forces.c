@@ -238,7 +238,8 @@ dem_status contact_forces_regroup(contact_forces *r)
 
 /* ---- one contact by itself ---- */
 
-/* Whether a contact resists sliding with a force of its own. */
+/* Whether a contact resists sliding with a friction force that is an unknown of its own: it sticks, but not in a
+ * corner. */
 static bool resists(const contact_candidate *candidate, int q)
 {
     return candidate->closed[q].slide == 0 && !candidate->closed[q].held;
@@ -382,9 +383,10 @@ static double entry(const contact_forces *r, const contact_equation *j, const co
 }
 
 /* Gaussian elimination of the band without pivoting, as exchanging rows would widen the band, and then back
- * substitution: `wanted` then holds the unknowns. The matrix is that of mobilities, positive definite without friction.
- * A pivot that has become a rounding of the row's own mobility belongs to a contact that the rows before hold already:
- * its unknown is 0, and it takes no part. AT(j, k) is row j, column k. */
+ * substitution: `wanted` then holds the unknowns. Without friction the matrix is symmetric and has no negative
+ * eigenvalue, for which the order of elimination does not matter. A pivot that is no more than a rounding of the row's
+ * own mobility belongs to a contact that the rows before it hold already: its unknown is 0, and it takes no part. The
+ * arguments of AT are row and column. */
 static void eliminate(contact_forces *r, dem_index n, dem_index width)
 {
     const dem_index line = 2 * width + 1;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Nodes whose weighted motion is that of a contact: sums over them. */
+/* Nodes whose weighted sum is the point of a contact, and what follows from the weights: velocity, mobility, the effect
+ * of an impulse, the coupling of two contacts that share nodes. */
 #ifndef DEM_CONTACT_CONTACT_NODES_H
 #define DEM_CONTACT_CONTACT_NODES_H
 

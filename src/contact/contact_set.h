@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All contact candidates of a model with the forces in their contacts and the ledger: how contacts begin and end. */
+/* All contact candidates of a model with the forces in their contacts and the ledger. The set closes and opens
+ * contacts, and keeps groups, forces and sums in step with that; candidate_resolve.c and the impact_*.c files decide
+ * when. */
 #ifndef DEM_CONTACT_CONTACT_SET_H
 #define DEM_CONTACT_CONTACT_SET_H
 
 #include "contact/candidate.h"
 #include "contact/ledger.h"
 
-/** What the impact under way does to a contact. */
+/** What the impact under way has done to one contact so far, and what will become of the contact. */
 typedef struct contact_impact {
     bool fresh;      /* the contact was not closed before */
     bool opens;      /* it will not be closed after */
@@ -113,7 +115,7 @@ dem_index contact_set_seeds(const contact_set *c, dem_index k, dem_index *nodes,
 /** Whether other closed contacts share a node with the candidate. */
 bool contact_set_coupled(const contact_set *c, dem_index k);
 
-/** A node has passed round the free end of an obstacle, or come back (-1); its edges know as well. */
+/** Notes that a node has passed round the free end of an obstacle, or come back (-1), in the node and in its edges. */
 void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle);
 
 /** Counts for the ledger the nodes that are behind obstacles. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Early reflection: impacts nearer to one another than the window are taken together. */
+/* Early reflection: impacts nearer to one another in time than the window are taken together, at the first of them. */
 #ifndef DEM_CONTACT_EARLY_REFLECTION_H
 #define DEM_CONTACT_EARLY_REFLECTION_H
 

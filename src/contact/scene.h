@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What contacts are computed from: the model, the rules of a run, and a state at a time. */
+/* What contacts are computed from: the model, what acts on its nodes, the rules of a run, and a state at a time. */
 #ifndef DEM_CONTACT_SCENE_H
 #define DEM_CONTACT_SCENE_H
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What ties nodes together for as long as it lasts, as closed contacts do. Nodes whose accelerations depend on one
- * another at once are a group, which is solved as a whole. Groups change with events only. */
+/* How events see constraints, that is what ties nodes together for as long as it lasts, as closed contacts do: a table
+ * of functions, filled in by src/contact/contact_constraints.c. Nodes whose accelerations depend on one another at
+ * once, without a spring between them, form a group, which is solved as a whole. Groups change at events only. */
 #ifndef DEM_EVENTS_CONSTRAINTS_H
 #define DEM_EVENTS_CONSTRAINTS_H
 
 #include "time/changed_motion.h"
 
-/** Who takes the rates of quadratures. */
+/** The receiver of rates of quadratures: rows of its own for impulses, and the totals. */
 typedef struct constraint_rates {
     void *context;
     dem_status (*add)(void *context, dem_index row, const double *rate); /* of a row of the state, [dim] */
@@ -21,7 +22,7 @@ typedef struct constraint_state {
 
 typedef struct constraints {
     void *self;
-    /* Where its arrays stand, as they may move: */
+    /* Addresses of two arrays, which may be allocated again: */
     dem_index *const *group_at; /* [n_nodes] the group that a node is in, or -1 */
     double *const *a;           /* [n_nodes][dim] m/s^2, of the nodes of a group as solved for last */
     /** Calls `add` for the nodes of a group, for some more than once.  \return what it returns, if not DEM_OK */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The function that is called at events. */
+/* The function that a source calls at each of its events, in the order in which they happen. */
 #ifndef DEM_EVENTS_EVENT_LISTENER_H
 #define DEM_EVENTS_EVENT_LISTENER_H
 

@@ -59,8 +59,8 @@ dem_status event_queue_show(event_queue *q, double t);
 /** Error of the step by its events, in units of the largest allowed. */
 double event_queue_error(const event_queue *q);
 
-/** Bound of the next step, s, by the error that the events would cause in it, which its own estimate may miss; infinity
- *  if there is none. */
+/** A bound of the next step, s: in a longer one the error that these events would cause may exceed what is allowed, and
+ *  its own estimate may miss that. Infinity if there is no bound. */
 double event_queue_reach(const event_queue *q);
 
 /** Takes back all events: the sources and the end of the step are as they were. */

@@ -371,9 +371,11 @@ static void put_change_of_slope(const local_correction *p, dem_index j, const mo
         change[c] = held & ((unsigned)DEM_COMPONENT_X << c) ? 0.0 : a[c] + da[c] - per_h * motion->c[c][1][1];
 }
 
-/* Adds a change to a motion. Heun's position at the end lacks h^3/6 times the rate at which the acceleration grows, as
- * does that of the step, which fits parabolas. A quintic would close the gap within the step, and after an event from
- * which the acceleration grows from 0 that takes ten times the velocity that there is soon after. */
+/* Adds a change to a motion: by a quintic or, where the step has parabolas, by parabolas. Heun's position at the end
+ * lacks j h^3/6, with j the rate at which the acceleration grows, as does the position of the step itself. A quintic
+ * would close this gap within the step: after an event from which the acceleration grows from 0 like j t its velocity
+ * would be 5 j t^2 too small, ten times the true j t^2/2, and a contact that begins to slide would turn back at
+ * once. */
 static void add_change_of_node(const local_correction *p, dem_index j, motion_polynomial *motion)
 {
     const motion_change end = jump_at(p, END, j);

@@ -15,7 +15,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 
-/* Single numbers. `projected`, `unlooked` and `idle` decide about later steps, the others are sums and times. */
+/* Single numbers. The energies, `step` and `events` are only reported; the others decide about later steps. */
 typedef struct numbers {
     double t, step;    /* s */
     double next_step;  /* s; 0: fixed ones */

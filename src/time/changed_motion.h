@@ -68,13 +68,14 @@ static inline const motion_polynomial *changed_motion_of(const changed_motion *t
 /** Makes a motion that of a node from motion->from on. */
 dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_polynomial *motion);
 
-/** Keeps the end of the step of a node, which is about to change though its motion has not. */
+/** Copies the end of the step of a node for changed_motion_undo(), before the caller changes it there without changing
+ *  the motion inside the step. */
 dem_status changed_motion_keep(changed_motion *tr, dem_index node);
 
 /** Adds a change to the state at the end and its derivative. */
 void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_change *jump);
 
-/** Of a node whose motion has changed, from its last change on: [dim]. */
+/** Position and velocity [dim] at t of a node whose motion has changed; t is not before its last change. */
 void changed_motion_position(const changed_motion *tr, double t, dem_index node, double *out);
 void changed_motion_velocity(const changed_motion *tr, double t, dem_index node, double *out);
 

@@ -20,35 +20,36 @@ typedef struct integrator {
 dem_status integrator_create(integrator *out, const ode_problem *problem, double t, const double *y);
 void integrator_destroy(integrator *e);
 
-/** Takes one accepted step, or goes to the first root within it (`*rooted`). The step's arrays belong to the integrator
- *  and hold until its next call. DEM_ERROR_INTEGRATOR leaves the last accepted state in force. */
+/** Takes one accepted step, or goes to the first root within it (`*rooted`). The step refers to arrays of the
+ *  integrator, which hold until its next call. After DEM_ERROR_INTEGRATOR the last accepted state is still in force. */
 dem_status integrator_step(integrator *e, dense_output *step, bool *rooted);
 
-/** The end of the step just taken, [2 dim n_rows], and its derivative, for a caller that changes both before
- *  settling. */
+/** The end of the step just taken, [2 dim n_rows], and its derivative: events inside the step change both before it is
+ *  settled. */
 void integrator_end(integrator *e, double **y1, double **f1);
 
-/** Takes the step just taken back: the next goes from its start, and is shorter by the factor. Not for fixed steps. */
+/** Rejects the step just taken: the next attempt starts from the same state, with `factor` times the length. Not for
+ *  fixed steps. */
 dem_status integrator_redo(integrator *e, double factor);
 
-/** Makes the end of the step just taken, also where it was cut short, the state to go on from. The step holds on until
- *  the next step or restart. */
+/** Accepts the step just taken as far as step->end: the state there is the start of the next. The step's arrays hold
+ *  until the next step or restart. */
 void integrator_settle(integrator *e, const dense_output *step);
 
-/** The state from which the next step starts, [2 dim n_rows]. A caller that changes it restarts the integrator there:
- *  it is no copy, and the end of the step that led to it changes with it. */
+/** The state from which the next step starts, [2 dim n_rows]. It is no copy: a caller that changes it calls
+ *  integrator_restart(), and the end of the step that led to it changes with it. */
 double *integrator_state(const integrator *e);
 
-/** Bounds the first step after the restart or resumption that follows, s. */
+/** Bounds the length of the first step after the restart or resumption that follows, s; infinity does not. */
 dem_status integrator_bound(integrator *e, double longest);
 
-/** Goes on from the end of the step just settled, after the caller has changed it and its derivative. */
+/** Goes on from the end of the step just settled, after the caller has changed that state and its derivative. */
 dem_status integrator_resume(integrator *e);
 
 /** How long the next step is to be, s; 0 where steps are fixed. */
 double integrator_next_step(const integrator *e);
 
-/** Begins anew, independently of all before: like an integrator created there, but with counts. */
+/** Begins anew as an integrator created there would, without any memory of earlier steps; only counts go on. */
 dem_status integrator_renew(integrator *e, const integrator_start *from);
 
 /** Goes on from another state, or from its own as it has been changed. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Vectors for SUNDIALS. A copy shares its numbers with the original until one of both is given others, so that what
- * ARKODE keeps of a step costs nothing; linear combinations are one pass; norms do not depend on the order of their
- * sums, nor anything on the number of threads. */
+/* Vectors for SUNDIALS. A copy shares its numbers with the original until one of the two is given others, so that what
+ * ARKODE keeps of a step is not copied; linear combinations are one pass; norms do not depend on the order of their
+ * sums, and nothing depends on the number of threads. */
 #ifndef DEM_TIME_NVECTOR_H
 #define DEM_TIME_NVECTOR_H
 
@@ -11,21 +11,21 @@
 
 typedef struct nvector_space nvector_space;
 
-/** Borrows the operations. NULL without memory, else there is enough for n_vectors, clones too: N_VClone() of SUNDIALS
- *  6 crashes without. Free with nvector_space_free(), after its vectors. */
+/** Borrows the operations. Reserves memory for n_vectors vectors, clones included, as N_VClone() of SUNDIALS 6 crashes
+ *  when it gets none. NULL without memory. Free with nvector_space_free(), after its vectors. */
 nvector_space *nvector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors);
 void nvector_space_free(nvector_space *s);
 
 /** A vector of the space with undefined numbers; NULL without memory. For N_VDestroy(). */
 N_Vector nvector_create(nvector_space *s, SUNContext context);
 
-/** Its numbers, to read. */
+/** The numbers of a vector, to be read. */
 const double *nvector_values(N_Vector v);
 
-/** Its numbers, all of them to be written. */
+/** Numbers for a vector that is to be written as a whole: undefined, and shared with no other. */
 double *nvector_fresh(N_Vector v);
 
-/** Its numbers, some of them to be changed, for the vectors that share them as well. */
+/** The numbers of a vector, to be changed in part; vectors that share them change with it. */
 double *nvector_shared(N_Vector v);
 
 /** From now on `to` has the numbers of `from`. */

@@ -8,7 +8,8 @@
 #include "base/array_ops.h"
 #include "time/dense_output.h"
 
-/** A step of Verlet's method from y0 with derivative f0 to y1 with f1, of which the second halves count. */
+/** A step of Verlet's method from y0 with derivative f0 to y1 with f1. Of the derivatives only the accelerations are
+ *  used, the second halves. */
 typedef struct ode_fused_step {
     double t1, h; /* s */
     const double *y0, *f0;
