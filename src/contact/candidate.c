@@ -64,8 +64,8 @@ static contact_gap edge_gap(const contact_scene *scene, const contact_candidate 
     return (contact_gap){nearest.distance, nearest.vertex, nearest.place, nearest.normal};
 }
 
-/* The gap of a candidate cannot change by more than the larger displacement of its nodes, as every point of an edge
- * lies between them, plus the way of the fastest obstacle. */
+/* The gap of a candidate changes by no more than the larger displacement of its nodes plus the way of the fastest
+ * obstacle: every point of an edge lies between its nodes. */
 double candidate_moved(const contact_scene *scene, const contact_candidate *candidate, const candidate_positions *spot)
 {
     const double wall = surface_speed(scene) * fabs(spot->t - candidate->clearance.t);

@@ -93,9 +93,9 @@ static dem_status release(contact_set *c, dem_index k, int q, contact_instant *n
     return enter(c, k, feature, DEM_EVENT_RELEASE, now);
 }
 
-/* A node that slides past the end of its segment takes an impact with both segments if the next one stands in the way
- * (concave), falls free if it bends away or there is none, and glides on if it goes on in line. Then it is put on the
- * next segment, and its normal velocity relative to that becomes 0. */
+/* A node slides past the end of its segment. If the next segment stands in the way (concave), it takes an impact with
+ * both. If the next one bends away, or there is none, it falls free. If the next one goes on in line, the node is put
+ * on it, and its normal velocity relative to that becomes 0. */
 static dem_status pass_node(contact_set *c, dem_index k, bool backwards, contact_instant *now)
 {
     contact_candidate *candidate = &c->list[k];
@@ -128,8 +128,8 @@ static dem_index edge_beyond(const contact_set *c, dem_index k, bool backwards, 
 }
 
 /* A vertex that has come to the end of an edge: the node there is put on it, and the next edge takes over by an impact.
- * Where the body bends in, the vertex hits that edge, and comes to rest in the notch if it would rebound by no more
- * than a hop that counts as rest: both contacts are then kept. Otherwise it slides on along the next edge, or leaves if
+ * Where the body bends in, the vertex hits that edge. If its rebound would be no more than a hop that counts as rest,
+ * it comes to rest in the notch, and both contacts are kept. Otherwise it slides on along the next edge, or leaves if
  * the body bends away too fast. */
 static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, contact_instant *now)
 {

@@ -174,7 +174,7 @@ static void join_nodes(contact_forces *r, dem_index n)
 }
 
 /* Makes groups of the collected candidates. They are put to the front of their group's list from the last to the first,
- * so that the list ascends and its first candidate has the lowest rank, which is the number of the group. */
+ * so that the list ascends. The rank of its first candidate, the lowest, is the number of the group. */
 static void make_groups(contact_forces *r, dem_index n)
 {
     for (dem_index p = 0; p < n; p++) r->first[root_of(r, r->candidates[r->order[r->ranks[p]]].node)] = -1;

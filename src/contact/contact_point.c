@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Kinematics of closed contacts: where the touching point of the body is, how it moves relative to the obstacle, and
  * which acceleration keeps it there (docs/method.md, An edge on a vertex; Moving obstacles). Everything is a function
- * of the state (t, x, v); nothing is stored. Both kinds of contact, a node on a segment and an edge on a convex vertex,
- * come out as one contact_frame, so that forces and impacts need not know which they have. The forces are in
+ * of the state (t, x, v); nothing is stored. A node on a segment and an edge on a convex vertex have the same
+ * contact_frame, so that forces and impacts need not know which of the two they have. The forces are in
  * contact_forces.c, the geometry of obstacles in src/obstacle. */
 #include "contact/contact_point.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Contact as a source of events (events/event_source.h), with a key for each candidate. begin() finds when each active
  * candidate changes next, and a heap holds these times; after an event, follow() finds them again for candidates near
- * it. All that an event may change of contacts is copied before the first one of a step touches it, so that undo()
- * restores it to the bit and the same events come again. When and how contacts change is the automaton's part
+ * it. What an event may change of contacts is copied before the first event of a step changes it. undo() restores the
+ * copies, to the bit, so that the same events come again. When and how contacts change is the automaton's part
  * (automaton.c, automaton_step.c), what follows for the motion that of src/events. */
 #include "contact/contact_source.h"
 

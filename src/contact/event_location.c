@@ -144,9 +144,9 @@ static double fastest(const dense_output *p, double t, const contact_candidate *
     return candidate_is_edge(candidate) ? fmax(v, vec2_norm(node_motion_velocity(p, t, candidate->other))) : v;
 }
 
-/* How far an edge may deviate in a step from uniform motion between its ends, m. A constant acceleration a bends a path
- * by h^2 a/8 from its chord; here it is h^2/2 times the largest acceleration of the nodes at both ends of the step and
- * of the surfaces, four times as much, and as much again for the turning of the edge's normal, 2 omega v. */
+/* How far an edge may deviate in a step from uniform motion between its ends, m. A constant acceleration a takes a path
+ * h^2 a/8 off its chord. Here four times as much is allowed, h^2/2 times the sum of three accelerations: the largest of
+ * the nodes at both ends of the step, 2 omega v for the turning of the edge, and that of the surfaces. */
 static double bend(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p)
 {
     const double h = p->t1 - p->t0;

@@ -49,9 +49,9 @@ static vec2 rub(const impact_surface *s, vec2 v, double kick)
     return vec2_along(v, after - vt, t);
 }
 
-/* With both surfaces of a corner acting, all of v is in the cone of the inward normals, so that v' = -sum eta_s p_s n_s
- * exactly, without the rounding of v - sum (1 + eta_s) p_s n_s. kick[s] is what surface s adds to the velocity, by
- * which its impulse is reckoned; where one surface acts alone its friction is in it. */
+/* Where both surfaces of a corner act, all of v is in the cone of the inward normals: v = sum p_s n_s. Then v' is
+ * computed as -sum eta_s p_s n_s, without the rounding of v - sum (1 + eta_s) p_s n_s. kick[s] is what surface s adds
+ * to the velocity, by which its impulse is reckoned; where one surface acts alone its friction is in it. */
 vec2 impact_law_rebound(const impact_surface *surface, int n, vec2 v, vec2 *kick)
 {
     double p[2], eta[2];

@@ -70,10 +70,10 @@ static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, 
 }
 
 /* Of the segments that are hit, those on which a node with relative velocity v stays; a is its acceleration relative to
- * the walls. A node at rest stays on all that it presses. In a corner that both walls hold it counts as at rest if it
- * would get no further out than a hop before it comes back, which is decided along v: `back` is its deceleration.
- * Otherwise it can stay on the one segment along which it moves, that of the smaller speed away from it, if that speed
- * counts as rest there. */
+ * the walls. A node at rest stays on all that it presses. In a corner that both walls hold, a node counts as at rest if
+ * it would get no further out than a hop before it comes back. That is decided along v, where `back` is its
+ * deceleration. Otherwise it can stay on the one segment along which it moves, that of the smaller speed away from it,
+ * if that speed counts as rest there. */
 static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, const hit_walls *walls, vec2 v,
                              const contact_instant *now)
 {

@@ -23,8 +23,8 @@ int impact_rest_slide(const contact_set *c, dem_index k, dem_index feature, doub
     return speed < 0.0 ? -1 : 1;
 }
 
-/* Hops of this many penetration tolerances may never end where the impact of one contact opens another that shares a
- * node, or the other side of a notch, for each is taken at the depth of the tolerance. */
+/* The impact of one contact may open another that shares a node, or the other side of a notch. Each impact is taken at
+ * the depth of the penetration tolerance, so hops of this many tolerances may never end. */
 static const double shared_tolerances = 8.0;
 
 /* A rebound of speed u against the acceleration `back` hops u^2/(2 back) high and takes 2 u/back. So a height below h

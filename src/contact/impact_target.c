@@ -86,9 +86,9 @@ impact_target impact_target_of_node(const contact_set *c, dem_index k, const con
     return out;
 }
 
-/* Of the edges at the node, the one that approaches the vertex fastest, if the node is on the vertex and the edge's
- * normal lies between those of the vertex's segments. Otherwise the segment's normal is the right one, and the node
- * hits it. */
+/* Of the edges at the node, the one that approaches a vertex fastest. Only those count for which the node is on the
+ * vertex and whose normal lies between those of the vertex's segments. If there is none, the normal of a segment is the
+ * right one, and the node hits that. */
 dem_index impact_target_edge(const contact_set *c, dem_index k, const contact_instant *now, dem_index *vertex)
 {
     const dem_index node = c->list[k].node;

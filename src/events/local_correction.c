@@ -374,7 +374,7 @@ static void put_change_of_slope(const local_correction *p, dem_index j, const mo
 /* Adds a change to a motion: by a quintic or, where the step has parabolas, by parabolas. Heun's position at the end
  * lacks j h^3/6, with j the rate at which the acceleration grows, as does the position of the step itself. A quintic
  * would close this gap within the step: after an event from which the acceleration grows from 0 like j t its velocity
- * would be 5 j t^2 too small, ten times the true j t^2/2, and a contact that begins to slide would turn back at
+ * would be 5 j t^2 too small. That is ten times the true j t^2/2, so a contact that begins to slide would turn back at
  * once. */
 static void add_change_of_node(const local_correction *p, dem_index j, motion_polynomial *motion)
 {

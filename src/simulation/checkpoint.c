@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a checkpoint contains of a run: everything on which its further motion depends bit for bit, and its sums and
- * counts so far. What follows from these (forces in contacts, groups, clearances, the integrator's history) is left out
- * and computed anew, in the run that takes the checkpoint just as in one that is resumed from it (docs/algorithms.md,
- * Checkpoints; take_checkpoint() in simulation.c). Entries are structs of numbers of 8 bytes, without gaps, so that all
- * their bytes are defined. Event sources add their own (src/contact/contact_entry.c). Files, and their checksums, are
- * written and read in src/base/checkpoint_entries.c; nothing that comes from one is trusted here. */
+ * counts so far. What follows from these is left out: forces in contacts, groups, clearances, the integrator's history.
+ * It is computed anew, in the run that takes the checkpoint just as in one that is resumed from it (docs/algorithms.md,
+ * Checkpoints). Entries are structs of numbers of 8 bytes, without gaps, so that all their bytes are defined. Event
+ * sources add their own (src/contact/contact_entry.c). Files, and their checksums, are written and read in
+ * src/base/checkpoint_entries.c; nothing that comes from one is trusted here. */
 #include "simulation/checkpoint.h"
 
 #include <math.h>

@@ -258,8 +258,8 @@ static bool wants_checkpoint(const dem_simulation *s)
     return every > 0 && (!s->has_checkpoint || s->since_checkpoint >= every);
 }
 
-/* Takes a checkpoint and goes on from it: whatever it does not hold is computed anew here as in a run that is resumed
- * from it, so that both have the same bits, whether or not the checkpoint is ever written. */
+/* Takes a checkpoint and goes on from it. Whatever it does not hold is computed anew, here as in a run that is resumed
+ * from it. So both have the same bits, whether or not the checkpoint is ever written. */
 static dem_status take_checkpoint(dem_simulation *s)
 {
     s->has_checkpoint = false;

@@ -2,9 +2,9 @@
 /* Explicit Runge-Kutta methods by ARKODE's ERKStep, in one-step mode: ARKODE takes stages, estimates errors and chooses
  * steps; what is read off between the ends of a step is our own quintic (dense_output.c), and tables come from
  * butcher.c. Nothing is left to ARKODE's defaults, which differ between its versions. The bits of a run must not depend
- * on how it is cut into calls, so this file keeps the accepted step (y0, f0) to (y1, f1) itself and decides which
- * derivative ARKODE may have without an evaluation. Differences between SUNDIALS 6 and 7 are in arkode_compat.h. What
- * is integrated is in ode_problem.h; nothing here knows of forces or contacts. */
+ * on how it is cut into calls. Therefore this file keeps the accepted step itself, from (y0, f0) to (y1, f1), and
+ * decides which derivative ARKODE may have without an evaluation. Differences between SUNDIALS 6 and 7 are in
+ * arkode_compat.h. What is integrated is in ode_problem.h; nothing here knows of forces or contacts. */
 #include "time/arkode_integrator.h"
 
 #include <math.h>
