@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The tree is an array in the order of levels, so that it needs no links and siblings lie side by side. */
+/* A balanced tree of boxes over items in a row, segments or vertices of a polyline, which lie near each other if their
+ * numbers do. The tree is an array in the order of levels: the children of node k are 2 k and 2 k + 1, so that it needs
+ * no links and siblings lie side by side. Nothing is sorted, since a polyline is in order already; building it costs
+ * its number of items times the depth. A query gets candidates only: what they are (point_gap.c, vertex_gap.c) judges
+ * them exactly, and boxes are a little wider than rounding could matter, so that the tree changes no result. */
 #include "obstacle/box_tree.h"
 
 #include <stdlib.h>
@@ -8,6 +12,7 @@
 
 static const dem_index fewest_in_leaf = 2; /* measured: halves and doubles of it cost more */
 
+/* The box is widened by a relative bound of the rounding in what is computed from the coordinates. */
 box box_around(vec2 a, vec2 b, double reach)
 {
     const double size = fabs(a.x) + fabs(a.y) + fabs(b.x) + fabs(b.y) + reach;
@@ -15,6 +20,7 @@ box box_around(vec2 a, vec2 b, double reach)
     return (box){{fmin(a.x, b.x) - r, fmin(a.y, b.y) - r}, {fmax(a.x, b.x) + r, fmax(a.y, b.y) + r}};
 }
 
+/* The smallest box around both. */
 static void widen(box *b, const box *around)
 {
     b->low = (vec2){fmin(b->low.x, around->low.x), fmin(b->low.y, around->low.y)};
@@ -26,12 +32,15 @@ static bool meet(const box *a, const box *b)
     return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y;
 }
 
+/* The leaf whose items, box_tree_first(leaf) to box_tree_first(leaf + 1) - 1, include this one: the 2^depth leaves get
+ * the items evenly and in order. */
 static dem_index leaf_of(const box_tree *t, dem_index item)
 {
     const dem_index leaves = (dem_index)1 << t->depth;
     return leaves + ((item + 1) * leaves - 1) / t->n;
 }
 
+/* Boxes begin empty (from +inf to -inf): they meet no window, and widening makes them what they cover. */
 dem_status box_tree_create(box_tree *out, dem_index n)
 {
     box_tree t = {.n = n};
@@ -50,18 +59,22 @@ void box_tree_free(box_tree *t)
     *t = (box_tree){0};
 }
 
+/* Widens the leaf and all its ancestors, the last of which is node 1, the root. */
 void box_tree_cover(box_tree *t, dem_index item, const box *around)
 {
     for (dem_index node = leaf_of(t, item); node > 0; node /= 2) widen(&t->boxes[node], around);
 }
 
-/* The node behind a subtree, in the order of items; 0 behind the last. */
+/* The node behind a subtree, in the order of items; 0 behind the last. A right child (odd) has nothing behind it within
+ * its parent, so one goes up until a left child has a sibling. */
 static dem_index behind(dem_index node)
 {
     while (node % 2 == 1) node /= 2;
     return node > 0 ? node + 1 : 0;
 }
 
+/* Goes down into boxes that meet the window and passes over the others with all their items. A leaf may hold items
+ * before `from`, which have been seen. */
 dem_index box_tree_seek(const box_tree *t, dem_index from, const box *window)
 {
     if (from >= t->n) return t->n;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Items in a row, neighbours lying near each other, in a balanced tree of boxes: which of them a query concerns. */
+/* Items in a row, of which neighbours lie near each other, in a balanced tree of boxes: finds the items that a query
+ * may concern. */
 #ifndef DEM_OBSTACLE_BOX_TREE_H
 #define DEM_OBSTACLE_BOX_TREE_H
 

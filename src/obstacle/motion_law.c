@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of kinds of motion, and their sum. */
+/* How an obstacle moves: the list of kinds of motion, and their sum as a pose (docs/method.md, Moving obstacles). A
+ * kind has a header of its own (uniform_motion.h), and this is the only file that knows which there are: checks,
+ * comparison and the fields by which a motion is given go through the table of motion_kind.h. Kinematics of a point
+ * follow from the pose (pose.h); what contact makes of them is in contact/. */
 #include "obstacle/motion_law.h"
 
 #include <string.h>
@@ -10,11 +13,13 @@
 static const motion_kind *const kinds[] = {&uniform_motion};
 enum { N_KINDS = sizeof kinds / sizeof kinds[0] };
 
+/* Whether the motion has a part of this kind. */
 static bool moves_by(const motion_law *law, int kind)
 {
     return (law->kinds & 1u << kind) != 0;
 }
 
+/* A kind of motion whose bound of the speed is 0 does nothing, and is left out. */
 motion_law motion_law_of(const dem_obstacle *obstacle)
 {
     motion_law law = {.of = obstacle};
@@ -24,7 +29,8 @@ motion_law motion_law_of(const dem_obstacle *obstacle)
     return law;
 }
 
-/* To add to -0 changes no bit, the sign of a zero neither. */
+/* Kinds add to c, c' and c''. The sums begin at -0, since adding to -0 changes no bit: the first kind keeps the sign
+ * even of its zeros. */
 pose motion_law_pose(const motion_law *law, double t)
 {
     const vec2 none = {-0.0, -0.0};
@@ -34,6 +40,7 @@ pose motion_law_pose(const motion_law *law, double t)
     return sum;
 }
 
+/* Speeds and accelerations of kinds add up at most; the highest frequency is that of the fastest kind. */
 motion_bounds motion_law_bounds(const motion_law *law)
 {
     motion_bounds sum = {0};
@@ -47,11 +54,13 @@ motion_bounds motion_law_bounds(const motion_law *law)
     return sum;
 }
 
+/* Reads the one or two numbers of a field at its place in the obstacle's struct. */
 static void read_field(const dem_obstacle *obstacle, const dem_motion_field *field, double value[2])
 {
     memcpy(value, (const char *)obstacle + field->offset, (size_t)field->n * sizeof *value);
 }
 
+/* Fields must be finite, and so must the bounds that follow from them: products may overflow. */
 static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstacle, dem_index o)
 {
     for (dem_index f = 0; f < kind->n_fields; f++) {
@@ -75,6 +84,7 @@ dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o)
     return DEM_OK;
 }
 
+/* Whether two obstacles have equal numbers in all fields of a kind. */
 static bool is_same_kind(const motion_kind *kind, const dem_obstacle *a, const dem_obstacle *b)
 {
     for (dem_index f = 0; f < kind->n_fields; f++) {
@@ -86,6 +96,7 @@ static bool is_same_kind(const motion_kind *kind, const dem_obstacle *a, const d
     return true;
 }
 
+/* Equal numbers mean equal poses at all times: neither moves as seen from the other. */
 bool motion_law_is_same(const motion_law *a, const motion_law *b)
 {
     if (a->kinds != b->kinds) return false;
@@ -96,6 +107,7 @@ bool motion_law_is_same(const motion_law *a, const motion_law *b)
 
 /* ---- public ---- */
 
+/* Field k when the fields of all kinds are numbered through. */
 const dem_motion_field *dem_motion_field_at(dem_index k)
 {
     for (int kind = 0; kind < N_KINDS && k >= 0; k -= kinds[kind++]->n_fields)
@@ -110,6 +122,7 @@ static bool has_field(const motion_kind *kind, const dem_motion_field *field)
     return false;
 }
 
+/* Whether it moves at all (by = NULL), or by the kind of motion that has this field. */
 int dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by)
 {
     const motion_law law = motion_law_of(obstacle);
@@ -118,6 +131,7 @@ int dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by)
     return moves;
 }
 
+/* Where the points of the polyline are at time t. */
 void dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points)
 {
     const motion_law law = motion_law_of(obstacle);

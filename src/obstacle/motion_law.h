@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How an obstacle moves: its pose as a function of time, the sum of the kinds of motion that it has. What stands at
- * rest is asked for nothing. Nothing else knows of more than poses, and of what they never exceed. */
+/* How an obstacle moves: its pose as a function of time, the sum of the kinds of motion that it has. For an obstacle at
+ * rest no pose is computed. Other files know poses and their bounds only, not the kinds. */
 #ifndef DEM_OBSTACLE_MOTION_LAW_H
 #define DEM_OBSTACLE_MOTION_LAW_H
 

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where segments and vertices of a set are, and how they follow one another. */
+/* Segments and vertices of compiled obstacles at a given time, and how segments follow one another. Geometry stays as
+ * compiled, in the frame of each obstacle; an obstacle that moves has its pose applied when it is asked for. Distances
+ * are not here but in point_gap.c and vertex_gap.c, compiling in obstacle_set.c. */
 #include "obstacle/obstacle.h"
 
 static const double straight_below = 1e-9; /* sine of the bend */
 
+/* The segment and what of it is buried behind another obstacle at its free ends. */
 box segment_cover(const segment *s)
 {
     return box_around(vec2_along(s->start, -s->buried[0], s->tangent), vec2_along(s->end, s->buried[1], s->tangent),
                       0.0);
 }
 
+/* Velocity and acceleration, seen from outside, of the obstacle's point that is at x at t. */
 obstacle_motion obstacles_motion_moving(const obstacle_set *o, dem_index obstacle, double t, vec2 x)
 {
     const pose at = motion_law_pose(&o->laws[obstacle], t);
@@ -23,6 +27,7 @@ vec2 obstacles_inside(const obstacle_set *o, dem_index obstacle, double t, vec2 
     return pose_inside(&at, x);
 }
 
+/* Ends are carried along, directions are only turned. */
 const segment *obstacles_segment_moving(const obstacle_set *o, dem_index s, double t, segment *moved)
 {
     const segment *given = &o->segments[s];
@@ -44,6 +49,7 @@ vec2 obstacles_vertex(const obstacle_set *o, dem_index vertex, double t)
     return pose_outside(&at, v->at);
 }
 
+/* *vertex is the end of s if `other` follows it, else its start, which is their vertex if `other` precedes it. */
 bool obstacles_share(const obstacle_set *o, double t, dem_index s, dem_index other, vec2 *vertex)
 {
     const bool ends = o->segments[s].after == other, starts = o->segments[s].before == other;
@@ -53,6 +59,8 @@ bool obstacles_share(const obstacle_set *o, double t, dem_index s, dem_index oth
     return ends || starts;
 }
 
+/* The sine of the bend is the cross product of the tangents. Bodies are on the left: a turn to the right (< 0) makes a
+ * convex vertex. Tangents that are opposite have a small sine, too, and are no straight line. */
 obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond)
 {
     const segment *here = &o->segments[s];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Obstacles compiled to segments, and how these follow one another. Bodies live on the left. Segments and vertices are
- * in the frame of their obstacle, which is where its points were given at t = 0; where they are at t is asked for. */
+ * stored in the frame of their obstacle, which is where its points were given at t = 0; functions with an argument t
+ * give them where they are at that time. */
 #ifndef DEM_OBSTACLE_OBSTACLE_H
 #define DEM_OBSTACLE_OBSTACLE_H
 

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Polylines compiled to segments with their trees, what each does behind others, and their convex vertices. */
+/* Compiles the obstacles of a model: copies of the points, segments and their trees (polyline.c), convex vertices and
+ * their trees, and how far free ends go on behind other obstacles (docs/method.md, Start, free ends, errors). All of it
+ * is in the frame of each obstacle, which is its place at t = 0. Afterwards the set does not change; queries are in
+ * obstacle.c, point_gap.c and vertex_gap.c. */
 #include "obstacle/obstacle_set.h"
 
 #include <stdlib.h>
@@ -9,6 +12,7 @@
 #include "obstacle/point_gap.h"
 #include "obstacle/polyline.h"
 
+/* The caller's points may go away after the call. */
 static dem_status copy_points(dem_obstacle *copy, const dem_obstacle *obstacle)
 {
     const size_t size = 2 * (size_t)obstacle->n_points * sizeof(double);
@@ -20,6 +24,7 @@ static dem_status copy_points(dem_obstacle *copy, const dem_obstacle *obstacle)
     return DEM_OK;
 }
 
+/* The tree over the segments of obstacle o; buried ends are added later by bury_ends(). */
 static dem_status plant_tree(obstacle_set *set, dem_index o)
 {
     const dem_index n = set->list[o].n_points - 1;
@@ -37,7 +42,7 @@ static bool go_together(const obstacle_set *o, dem_index a, dem_index b)
     return a != b && motion_law_is_same(&o->laws[a], &o->laws[b]);
 }
 
-/* Distance of a place to the obstacles on which one may stand. */
+/* Smallest gap of a place at t = 0 to the obstacles on which one may stand. */
 static double distance_to_others(const obstacle_set *o, vec2 x, dem_index obstacle)
 {
     double smallest = INFINITY;
@@ -46,7 +51,8 @@ static double distance_to_others(const obstacle_set *o, vec2 x, dem_index obstac
     return smallest;
 }
 
-/* Whether the end meets the free end of another obstacle's segment, behind which it would go on: the length of that. */
+/* If the end meets the free end of another obstacle's segment and its continuation would be behind that segment, the
+ * two form a corner: the length of that segment, else 0. `out` is the direction in which the end would go on. */
 static double behind_free_end(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
 {
     double length = 0.0;
@@ -61,7 +67,8 @@ static double behind_free_end(const obstacle_set *o, const segment *s, vec2 end,
 }
 
 /* A wall that stands on another obstacle, or meets its free end in a corner, goes on behind it, so that nothing slips
- * through the joint: how far, m, up to its own length. */
+ * through the joint. How far, m: its own length, or the largest of its halves, quarters, ... that ends inside the other
+ * obstacle; 0 if the end touches nothing. */
 static double buried_length(const obstacle_set *o, const segment *s, vec2 end, vec2 out)
 {
     const double touching = 1e-6 * s->length;
@@ -71,6 +78,7 @@ static double buried_length(const obstacle_set *o, const segment *s, vec2 end, v
     return fmin(s->length, behind_free_end(o, s, end, out));
 }
 
+/* For all free ends, once the segments of all obstacles are known. */
 static void bury_ends(obstacle_set *o)
 {
     for (dem_index k = 0; k < o->n_segments && o->n > 1; k++) {
@@ -84,7 +92,7 @@ static void bury_ends(obstacle_set *o)
     }
 }
 
-/* At most as many as segments. */
+/* Convex vertices, in the order of the segments that end there; there are at most as many as segments. */
 static dem_status find_vertices(obstacle_set *o)
 {
     o->vertices = malloc(((size_t)o->n_segments + 1) * sizeof *o->vertices);
@@ -97,7 +105,9 @@ static dem_status find_vertices(obstacle_set *o)
     return DEM_OK;
 }
 
-/* Makes the trees of the vertices, which stand obstacle by obstacle. */
+/* One tree for the vertices of all obstacles at rest, which a query goes through at once, and one for each obstacle
+ * that moves, whose frame the query has to be taken to. The common tree numbers all vertices; those of moving obstacles
+ * are in none of its boxes. */
 static dem_status plant_vertices(obstacle_set *o)
 {
     TRY(box_tree_create(&o->vertex_tree, o->n_vertices));
@@ -133,6 +143,7 @@ static dem_status reserve(obstacle_set *o, dem_index n)
     return DEM_OK;
 }
 
+/* The obstacle counts from here on, so that obstacles_free() frees what it has if something fails. */
 static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
 {
     const dem_index o = set->n;
@@ -171,6 +182,7 @@ dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_in
     return status;
 }
 
+/* Compiles one obstacle by itself and names the pair of segments that meet, for programs that mark them. */
 dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2])
 {
     obstacle_set o = {0};
@@ -184,6 +196,7 @@ dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2
     return status;
 }
 
+/* The points are const for users of the set, and belong to it. */
 void obstacles_free(obstacle_set *o)
 {
     for (dem_index k = 0; k < o->n; k++) {

@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Queries take from a tree of boxes what may matter and judge it as a loop over all would: ties go to the lowest index
- * whatever the order of visits. */
+/* Signed distance of a point to polylines, and the segments that it touches (docs/method.md, Gaps). In front of a
+ * segment, to its left, the distance is positive. Nearest to a vertex, it has the sign of the side of the vertex's mean
+ * normal. Queries take from a tree of boxes what may matter and judge it as a loop over all segments would: ties go to
+ * the lowest index whatever the order of visits, so the tree changes no bit. Edges against vertices are in
+ * vertex_gap.c. */
 #include "obstacle/point_gap.h"
 
-/* Mean normal of the vertex where the segment ends or starts, not of unit length; {0, 0} at a free end. */
+/* Mean normal, not of unit length, of the vertex that s shares with a neighbour; {0, 0} at a free end, which is in
+ * front of its obstacle from all sides. */
 static vec2 vertex_normal(const obstacle_set *o, const segment *s, dem_index neighbour)
 {
     return neighbour < 0 ? (vec2){0.0, 0.0} : vec2_add(s->normal, o->segments[neighbour].normal);
 }
 
-/* Whether a place along the segment is on it, free ends being longer by `margin`, or by what of it is buried. */
+/* Whether a place along the segment, m from its start, is on it. Free ends count as longer by `margin`, or by what of
+ * them is buried. */
 static bool on_segment(const segment *s, double place, double tolerance, double margin)
 {
     const double before = s->before < 0 ? fmax(margin, s->buried[0]) : 0.0;
@@ -17,14 +22,15 @@ static bool on_segment(const segment *s, double place, double tolerance, double 
     return place >= -(tolerance + before) && place <= s->length + tolerance + after;
 }
 
-/* Whether what is at this distance is nearer than what was nearest so far. */
+/* Whether a distance is smaller than the smallest so far; of equal distances the lower index wins. */
 static bool nearer(double distance, dem_index k, const obstacle_gap *nearest)
 {
     const double so_far = fabs(nearest->distance);
     return distance < so_far || (distance == so_far && k < nearest->segment);
 }
 
-/* Takes segment k for the nearest if it is. */
+/* Where the foot is on the segment, the distance is the height over it. Otherwise the nearest point is an end, with the
+ * distance r = |x - end|, the sign of r.(mean normal), and the gradient r/distance as the normal. */
 static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, double margin, obstacle_gap *nearest)
 {
     const segment *s = &o->segments[k];
@@ -42,14 +48,16 @@ static void take_nearer(const obstacle_set *o, dem_index k, vec2 x, double margi
     if (distance > 0.0) nearest->normal = vec2_scale(1.0 / signed_distance, from);
 }
 
-/* Twice how far x is outside an interval, 0 in it: without a branch, which would be a coin's throw. */
+/* Twice how far x is outside of an interval, 0 in it: m + |m| for m the larger of the two excesses. It has no branch,
+ * since the processor could not predict which case comes next. */
 static inline double outside_twice(double low, double high, double x)
 {
     const double below = low - x, above = x - high, most = below > above ? below : above;
     return most + fabs(most);
 }
 
-/* Square of a distance below which nothing in the box is, even if it is longer by the margin. */
+/* Square of a distance below which nothing in the box is, even if it is longer by the margin. It is lowered by a bound
+ * of the rounding errors. */
 static inline double clearance(const box *b, vec2 x, double margin)
 {
     const double dx = outside_twice(b->low.x - margin, b->high.x + margin, x.x),
@@ -57,7 +65,8 @@ static inline double clearance(const box *b, vec2 x, double margin)
     return 0.25 * (1.0 - BOX_TREE_ROUNDING) * (dx * dx + dy * dy);
 }
 
-/* In the obstacle's own frame. */
+/* Gap in the obstacle's own frame: visits the nearer box first, and passes over boxes that are further than the nearest
+ * segment found so far. */
 static obstacle_gap gap_inside(const obstacle_set *o, vec2 x, double margin, dem_index obstacle)
 {
     const box_tree *tree = &o->trees[obstacle];
@@ -79,6 +88,7 @@ static obstacle_gap gap_inside(const obstacle_set *o, vec2 x, double margin, dem
     return nearest;
 }
 
+/* The point is taken to the obstacle's frame, and the normal is turned back. */
 obstacle_gap obstacles_gap_of(const obstacle_set *o, double t, vec2 x, double margin, dem_index obstacle)
 {
     if (!o->laws[obstacle].moves) return gap_inside(o, x, margin, obstacle);
@@ -88,6 +98,7 @@ obstacle_gap obstacles_gap_of(const obstacle_set *o, double t, vec2 x, double ma
     return gap;
 }
 
+/* The smallest signed distance: an obstacle that the point is inside of counts before one that is near. */
 obstacle_gap obstacles_gap(const obstacle_set *o, double t, vec2 x, double margin, dem_index without,
                            dem_index without_too)
 {
@@ -100,12 +111,14 @@ obstacle_gap obstacles_gap(const obstacle_set *o, double t, vec2 x, double margi
     return smallest;
 }
 
+/* Within the tolerance of the segment's line, and of the segment along it. */
 static bool touches(const segment *s, vec2 x, const obstacle_touch *point)
 {
     return fabs(segment_height(s, x)) <= point->tolerance &&
            on_segment(s, segment_place(s, x), point->tolerance, point->margin);
 }
 
+/* Candidates come in the order of segments; at most `capacity` of them are kept. */
 int obstacles_touching(const obstacle_set *o, double t, vec2 x, const obstacle_touch *point, dem_index *hits,
                        int capacity)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points against segments: signed gap, nearest feature, what a point touches. Places are those at t, seen from
- * outside. */
+/* Points against segments: signed gap, nearest feature, what a point touches. Places are those at t, in the axes of
+ * space. */
 #ifndef DEM_OBSTACLE_POINT_GAP_H
 #define DEM_OBSTACLE_POINT_GAP_H
 

@@ -1,9 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which polylines are obstacles, and the segments of one. */
+/* A single obstacle: which polylines are valid, and its segments. A polyline that meets itself is refused, since it
+ * would not be known what is inside. Bodies are on the left of each segment, where its normal points. Several
+ * obstacles, and what they are to each other, are in obstacle_set.c. */
 #include "obstacle/polyline.h"
 
 #include "base/status.h"
 
+/* The squared length of a segment must be a normal number: lengths are divided by, and a subnormal one has lost
+ * digits. */
 dem_status polyline_check(const dem_obstacle *obstacle, dem_index o)
 {
     CHECK(obstacle->n_points >= 2 && obstacle->points != NULL, DEM_ERROR_MODEL,
@@ -26,12 +30,14 @@ dem_status polyline_check(const dem_obstacle *obstacle, dem_index o)
     return DEM_OK;
 }
 
+/* A ring has its first point again as the last one; three points of a ring would go forth and back. */
 static bool closed(const dem_obstacle *obstacle)
 {
     const vec2 first = vec2_at(obstacle->points, 0), last = vec2_at(obstacle->points, obstacle->n_points - 1);
     return obstacle->n_points > 3 && first.x == last.x && first.y == last.y;
 }
 
+/* The normal is the tangent turned counter-clockwise by 90 degrees. */
 void polyline_compile(obstacle_set *set, dem_index o)
 {
     const dem_obstacle *obstacle = &set->list[o];
@@ -55,12 +61,16 @@ void polyline_compile(obstacle_set *set, dem_index o)
     }
 }
 
+/* Whether two intervals, each given by its ends in any order, have no point in common. */
 static bool apart(double a, double b, double c, double d)
 {
     return fmax(a, b) < fmin(c, d) || fmax(c, d) < fmin(a, b);
 }
 
-/* Whether segments ab and cd have a point in common. Of two far apart in one line rounding would say so. */
+/* Whether segments ab and cd have a point in common. With p = a + u ab = c + v cd the parameters are
+ *     u = (ac x cd)/(ab x cd),   v = (ac x ab)/(ab x cd).
+ * Bounding intervals are compared first: for distant collinear segments the cross products round to a false hit.
+ * Segments in one line meet if their intervals along it do. */
 static bool meet(vec2 a, vec2 b, vec2 c, vec2 d)
 {
     if (apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y)) return false;
@@ -72,12 +82,15 @@ static bool meet(vec2 a, vec2 b, vec2 c, vec2 d)
     return fmax(u, v) >= 0.0 && fmin(u, v) <= length;
 }
 
+/* Whether the next segment goes back over this one: parallel and opposite. */
 static bool goes_back(const segment *s, const segment *next)
 {
     const vec2 here = vec2_sub(s->end, s->start), there = vec2_sub(next->end, next->start);
     return vec2_cross(here, there) == 0.0 && vec2_dot(here, there) < 0.0;
 }
 
+/* Neighbours are compared by goes_back() only, since they share a vertex: pairs begin at i + 2, and in a ring the first
+ * and the last segment are neighbours as well. */
 bool polyline_find_crossing(dem_index pair[2], const obstacle_set *set, dem_index o)
 {
     const segment *s = &set->segments[set->first[o]];
@@ -96,6 +109,7 @@ bool polyline_find_crossing(dem_index pair[2], const obstacle_set *set, dem_inde
     return false;
 }
 
+/* Names the two segments, the later one first if it goes back over the other. */
 dem_status polyline_check_crossings(const obstacle_set *set, dem_index o)
 {
     dem_index pair[2];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where a rigid body is at one time and how it moves: the frame in which its geometry is given, seen from outside. With
- * c the centre, q the angle and r = x - c, a point of the body at x moves with
+/* Where a rigid body is at one time and how it moves: the frame in which its geometry is given, in the axes of space.
+ * With c the centre, q the angle and r = x - c, a point of the body at x moves with
  *   w = c' + q' z x r,    w' = c'' + q'' z x r - q'^2 r. */
 #ifndef DEM_OBSTACLE_POSE_H
 #define DEM_OBSTACLE_POSE_H

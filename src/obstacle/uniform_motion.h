@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constant velocity. */
+/* A kind of motion: constant velocity, c = V t. */
 #ifndef DEM_OBSTACLE_UNIFORM_MOTION_H
 #define DEM_OBSTACLE_UNIFORM_MOTION_H
 

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Queries take from the tree of vertices what may matter and judge it as a loop over all would. */
+/* Edges of bodies against convex vertices of obstacles: which vertex is nearest to entering the body through an edge,
+ * and how far an edge is from all of them (docs/method.md, Gaps). Distances are positive in front of the edge, outside
+ * the body. Queries take from the tree of vertices what may matter and judge it as a loop over all would: the smallest
+ * distance, and of equal ones the lowest index, so the tree changes no bit. Points against segments are in
+ * point_gap.c. */
 #include "obstacle/vertex_gap.h"
 
 #include <float.h>
@@ -12,7 +16,8 @@ typedef struct line {
     bool moves;    /* whether it is in the frame of a moving obstacle, of whose vertices it is asked */
 } line;
 
-/* Of vertices at rest there is one tree, in whose leaves moving ones are, too. */
+/* Whether a vertex is left out: by the caller, by its obstacle, or because it is in the tree of vertices at rest and
+ * belongs to an obstacle that moves. */
 static bool out_of_question(const obstacle_set *o, const line *l, dem_index k)
 {
     const obstacle_edge *edge = l->edge;
@@ -21,7 +26,8 @@ static bool out_of_question(const obstacle_set *o, const line *l, dem_index k)
            obstacle == edge->without[1] || o->laws[obstacle].moves != l->moves;
 }
 
-/* Signed distance of x in front of the edge from p to q, if its foot is on it; else -infinity. */
+/* Signed distance of x in front of the edge from p to q (body on the left, so in front is the right), if its foot is on
+ * the edge; else -inf. */
 static double distance_beside(vec2 p, vec2 q, vec2 x)
 {
     const vec2 way = vec2_sub(q, p), from = vec2_sub(x, p);
@@ -37,6 +43,7 @@ static bool belongs(vec2 p, vec2 q, vec2 x, vec2 mean, double distance)
     return beside > distance && (beside >= 0.0 || vec2_cross(vec2_sub(q, p), mean) > 0.0);
 }
 
+/* The same for both neighbouring edges, where the body's boundary turns left (a convex corner). */
 static bool round_corner(const obstacle_edge *edge, vec2 x, vec2 mean, double distance)
 {
     const vec2 way = vec2_sub(edge->b, edge->a);
@@ -46,8 +53,8 @@ static bool round_corner(const obstacle_edge *edge, vec2 x, vec2 mean, double di
            (after && belongs(edge->b, edge->next, x, mean, distance));
 }
 
-/* Whether x, behind the edge with its foot beyond an end of it, is in a notch of the body there: where the boundary
- * turns in, and its foot is beyond that end of the neighbour, too. */
+/* Whether x, behind the edge with its foot beyond an end of it by `beyond` (< 0: before the start), is in a notch of
+ * the body there: where the boundary turns right, and the foot is beyond that end of the neighbouring edge, too. */
 static bool in_notch(const obstacle_edge *edge, vec2 x, double beyond)
 {
     const vec2 way = vec2_sub(edge->b, edge->a), next = vec2_sub(edge->next, edge->b),
@@ -57,7 +64,8 @@ static bool in_notch(const obstacle_edge *edge, vec2 x, double beyond)
     return vec2_cross(previous, way) < 0.0 && vec2_dot(previous, vec2_sub(x, edge->a)) > 0.0;
 }
 
-/* Takes vertex k if it is deeper than the deepest so far. */
+/* Takes vertex k if its distance is the smallest so far and the vertex counts: within `reach` and `depth`, with its
+ * foot on the edge, its mean normal pointing into the body, and not round a corner. */
 static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obstacle_vertex_gap *deepest)
 {
     const obstacle_edge *edge = l->edge;
@@ -74,7 +82,8 @@ static void take_deeper(const obstacle_set *o, dem_index k, const line *l, obsta
     *deepest = (obstacle_vertex_gap){distance, k, fmin(fmax(place / l->length, 0.0), 1.0), l->normal};
 }
 
-/* A distance below which no vertex in the box is that could be taken; infinity if none could. */
+/* A lower bound of the distance of vertices in the box, or infinity if none of them could be taken: centre and half
+ * sizes are projected on the edge's directions, which makes an interval along and across the edge. */
 static double shallowest(const box *b, const line *l)
 {
     const obstacle_edge *edge = l->edge;
@@ -89,6 +98,7 @@ static double shallowest(const box *b, const line *l)
     return beside || distance + across < -edge->depth ? INFINITY : distance - across;
 }
 
+/* Unit vectors along the edge and to its left, into the body. */
 static line line_along(const obstacle_edge *edge, bool moves)
 {
     const vec2 way = vec2_sub(edge->b, edge->a);
@@ -108,7 +118,8 @@ static obstacle_edge edge_inside(const obstacle_edge *edge, const pose *at)
     return inside;
 }
 
-/* Looks in a tree for one that is deeper than the deepest so far; its vertices are those from `first` on. */
+/* Searches a tree for a vertex that is deeper than the deepest so far; its vertices are those from `first` on. The box
+ * with the smaller bound comes first. */
 static void look_deeper(const obstacle_set *o, const box_tree *tree, dem_index first, const line *l,
                         obstacle_vertex_gap *deepest)
 {
@@ -127,7 +138,8 @@ static void look_deeper(const obstacle_set *o, const box_tree *tree, dem_index f
     }
 }
 
-/* The same of an obstacle that moves. */
+/* The same for an obstacle that moves: the edge is taken to the obstacle's frame, where the tree is. The normal found
+ * there is turned back. */
 static void look_deeper_moving(const obstacle_set *o, dem_index obstacle, double t, const obstacle_edge *edge,
                                obstacle_vertex_gap *deepest)
 {
@@ -139,6 +151,7 @@ static void look_deeper_moving(const obstacle_set *o, dem_index obstacle, double
     if (deepest->vertex != before) deepest->normal = pose_turn(&at, deepest->normal);
 }
 
+/* Obstacles at rest come first, all at once. */
 obstacle_vertex_gap obstacles_vertex_gap(const obstacle_set *o, double t, const obstacle_edge *edge)
 {
     const line l = line_along(edge, false);
@@ -149,7 +162,8 @@ obstacle_vertex_gap obstacles_vertex_gap(const obstacle_set *o, double t, const 
     return deepest;
 }
 
-/* A distance from the edge below which nothing in the box is. */
+/* A distance from the edge below which nothing in the box is: the larger of the distances along and across the edge,
+ * less rounding. */
 static double apart_by(const box *b, const line *l)
 {
     const vec2 half = {0.5 * (b->high.x - b->low.x), 0.5 * (b->high.y - b->low.y)};
@@ -161,6 +175,7 @@ static double apart_by(const box *b, const line *l)
     return fmax(0.0, fmax(beyond, across) - rounding);
 }
 
+/* Distance of a vertex to the edge as a segment, m. */
 static double distance_of(const obstacle_set *o, dem_index k, const line *l)
 {
     const vec2 from = vec2_sub(o->vertices[k].at, l->edge->a);
@@ -168,7 +183,7 @@ static double distance_of(const obstacle_set *o, dem_index k, const line *l)
     return out_of_question(o, l, k) ? INFINITY : hypot(beyond, vec2_dot(from, l->normal));
 }
 
-/* The nearest of the vertices of a tree, from `first` on, if nearer than what was nearest so far. */
+/* The distance of the nearest vertex of a tree, from `first` on, if it is below `nearest`; else `nearest`. */
 static double look_nearer(const obstacle_set *o, const box_tree *tree, dem_index first, const line *l, double nearest)
 {
     box_tree_walk walk;

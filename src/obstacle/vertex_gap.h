@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Edges of bodies against convex vertices of obstacles. Places are those at t, seen from outside. */
+/* Edges of bodies against convex vertices of obstacles. Places are those at t, in the axes of space. */
 #ifndef DEM_OBSTACLE_VERTEX_GAP_H
 #define DEM_OBSTACLE_VERTEX_GAP_H
 
