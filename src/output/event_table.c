@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Impulses are stored along the normal and along the tangent, as the laws of impact and friction speak of them. */
+/* The group /events: one row for each contact event, with the columns of docs/output.md. Impulses are stored along the
+ * normal and along the tangent, as the laws of impact and friction speak of them (docs/method.md, The impact). How rows
+ * reach the file is in table.c; which events there are is decided in contact/. */
 #include "output/event_table.h"
 
 #include "base/status.h"
@@ -24,9 +26,10 @@ static const table_column columns[] = {
     {"/events/segment", HDF5_I64, 0, 1},
 };
 
-/* The k-th word is the name of code k. */
+/* The k-th word is the name of code k, of `kind` and of `state`; they are stored as attributes for readers. */
 static const char kinds[] = "impact close release slip stick pass", states[] = "free slip stick";
 
+/* A row has one item in every column, so there are no counts. */
 dem_status event_table_init(table *out)
 {
     return table_init(out, columns, sizeof columns / sizeof columns[0], NULL);
@@ -39,6 +42,8 @@ dem_status event_table_create(const table *t, const hdf5_file *file)
     return hdf5_write_attribute_text(file, "/events/state", "names", states);
 }
 
+/* Reals first, then whole numbers, as the columns are listed. The tangent is (n_y, -n_x): positive impulses along it
+ * push the body to the right of the normal. */
 void event_table_record(table *t, const dem_event *event)
 {
     const vec2 n = vec2_at(event->normal, 0), p = vec2_at(event->impulse, 0), tangent = {n.y, -n.x};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The group /events of a trajectory: what happened to contacts, one row for each event. */
+/* The group /events of a trajectory: what happened to contacts, one row for each event. Only with the option
+ * `events`. */
 #ifndef DEM_OUTPUT_EVENT_TABLE_H
 #define DEM_OUTPUT_EVENT_TABLE_H
 

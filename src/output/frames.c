@@ -1,5 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which array is where in /VTKHDF, and what fills it. docs/output.md lists them all. */
+/* The frames of a run as a VTKHDF UnstructuredGrid with time steps (docs/output.md, /VTKHDF): which array is where, and
+ * what fills it. Topology and constant arrays are stored once. An array that changes has the frames one behind the
+ * other in one dataset, and a dataset of offsets says for each frame where its rows begin. With N nodes and T frames:
+ *   Points                    [T N][3]  frame k has the rows k N to (k + 1) N - 1
+ *   Steps/PointOffsets        [T]       0, N, 2 N, ...
+ *   PointData/stress          [T N][6]  the same rows
+ *   Steps/PointDataOffsets/stress       a link to Steps/PointOffsets: the numbers are the same
+ *   PointData/id              [N]       constant: the offset is 0 in every frame
+ *   Connectivity, Types, ...            constant: Steps/CellOffsets is 0 in every frame
+ *   Steps/Values, NSteps      [T], T    the times, and how many frames count
+ * The table `arrays` is the one list of arrays: writing, copying and checking go through it. Cells and their types are
+ * in vtk_grid.c; when a frame is written is decided in trajectory.c. */
 #include "output/frames.h"
 
 #include "base/status.h"
@@ -10,6 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* STEPS is the group of the times and offsets. IN gives the dataset of an array, and that of its offsets. */
 #define STEPS         GRID "Steps/"
 #define IN(set, name) GRID set "/" name, STEPS set "Offsets/" name
 #define ENERGY(name)                                                                                                   \
@@ -17,10 +29,13 @@
         IN("FieldData", name "_energy")                                                                                \
     }
 
+/* Fields for which the stresses of all nodes are needed. */
 enum { ANY_STRESS = DEM_FIELD_STRESS | DEM_FIELD_VON_MISES | DEM_FIELD_PRINCIPAL };
 
+/* What an array has a row of: nothing, each frame, each node, each spring of a frame. Indexes `offsets`. */
 enum of { NONE, ONE, NODES, SPRINGS };
 
+/* What is looked at while a frame is written. */
 typedef struct view {
     const dem_simulation *simulation;
     const dem_lattice *lattice;
@@ -29,7 +44,7 @@ typedef struct view {
 
 /* ---- arrays: what fills f->scratch ---- */
 
-/* The plane lies at z = 0 of space. */
+/* From two components to VTK's three: the plane lies at z = 0 of space. */
 static void spread(double *out, dem_index n, const double *values, const double *less)
 {
     for (dem_index i = 0; i < n; i++)
@@ -42,6 +57,7 @@ static void fill_points(const frames *f, const view *v)
     spread(f->scratch, f->n_nodes, v->state.x, NULL);
 }
 
+/* From the rest position, which need not be where the motion started. */
 static void fill_displacement(const frames *f, const view *v)
 {
     spread(f->scratch, f->n_nodes, v->state.x, v->lattice->x);
@@ -52,6 +68,7 @@ static void fill_velocity(const frames *f, const view *v)
     spread(f->scratch, f->n_nodes, v->state.v, NULL);
 }
 
+/* The stresses have been computed before (append_arrays), since several arrays are made of them. */
 static void fill_stress(const frames *f, const view *v)
 {
     (void)v;
@@ -64,6 +81,7 @@ static void fill_von_mises(const frames *f, const view *v)
     for (dem_index i = 0; i < f->n_nodes; i++) f->scratch[i] = dem_stress_von_mises(f->stress + 3 * i);
 }
 
+/* The values only; directions are not written. */
 static void fill_principal(const frames *f, const view *v)
 {
     double direction[2];
@@ -71,6 +89,7 @@ static void fill_principal(const frames *f, const view *v)
     for (dem_index i = 0; i < f->n_nodes; i++) dem_stress_principal(f->stress + 3 * i, f->scratch + 2 * i, direction);
 }
 
+/* The simulation computes strains and forces of all springs, straight into the scratch. */
 static void fill_strain(const frames *f, const view *v)
 {
     dem_simulation_strains(v->simulation, f->scratch);
@@ -87,6 +106,7 @@ static void fill_broken(const frames *f, const view *v)
     memset(f->scratch, 0, (size_t)f->n_springs); /* springs do not break yet */
 }
 
+/* All arrays that change from frame to frame. `field` is the option that asks for one. */
 static const struct array {
     const char *name, *offset;
     uint32_t field; /* 0: always there */
@@ -96,11 +116,13 @@ static const struct array {
     void (*fill)(const frames *f, const view *v);
 } arrays[] = {
     {GRID "Points", STEPS "PointOffsets", 0, HDF5_F64, NODES, 3, fill_points},
+    /* Nodes: what the options choose, in single precision unless they say otherwise. */
     {IN("PointData", "displacement"), DEM_FIELD_DISPLACEMENT, HDF5_F32, NODES, 3, fill_displacement},
     {IN("PointData", "velocity"), DEM_FIELD_VELOCITY, HDF5_F32, NODES, 3, fill_velocity},
     {IN("PointData", "stress"), DEM_FIELD_STRESS, HDF5_F32, NODES, 6, fill_stress},
     {IN("PointData", "von_mises"), DEM_FIELD_VON_MISES, HDF5_F32, NODES, 1, fill_von_mises},
     {IN("PointData", "principal_stress"), DEM_FIELD_PRINCIPAL, HDF5_F32, NODES, 2, fill_principal},
+    /* Springs. */
     {IN("CellData", "strain"), DEM_FIELD_STRAIN, HDF5_F32, SPRINGS, 1, fill_strain},
     {IN("CellData", "force"), DEM_FIELD_FORCE, HDF5_F32, SPRINGS, 1, fill_force},
     {IN("CellData", "broken"), 0, HDF5_U8, SPRINGS, 1, fill_broken},
@@ -125,8 +147,9 @@ static const struct energy {
 };
 enum { N_ENERGIES = sizeof energies / sizeof energies[0] };
 
-/* Where the data of frame k begin. Arrays of one size begin at the same places: they share a dataset, under the name of
- * each; a frame of a small body is written in half the time. */
+/* Where the data of frame k begin. Arrays of one size begin at the same places, so that they share a dataset under the
+ * name of each (a hard link): a frame of a small body is written in half the time. The entries up to SPRINGS stand in
+ * the order of `enum of`. */
 static const struct offset {
     const char *name;
     int rank;
@@ -138,26 +161,30 @@ static const struct offset {
 };
 enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
 
+/* Whether the options ask for this array. */
 static bool is_wanted(const frames *f, const struct array *a)
 {
     return a->field == 0 || (f->fields & a->field) != 0;
 }
 
+/* Rows of one frame. */
 static dem_index count_of(const frames *f, enum of of)
 {
     const dem_index count[] = {[NONE] = 0, [ONE] = 1, [NODES] = f->n_nodes, [SPRINGS] = f->n_springs};
     return count[of];
 }
 
-/* A chunk is a frame, so that no frame touches another's. */
+/* The dataset of an array. A chunk is a frame, so that no frame touches another's. */
 static hdf5_rows array_rows(const frames *f, const struct array *a)
 {
+    /* HDF5_F32 in the table stands for the precision that the options choose. */
     const hdf5_kind kind = a->kind == HDF5_F32 ? f->real : a->kind;
     return (hdf5_rows){
         a->name, kind, a->components > 1 ? 2 : 1, {(hsize_t)a->components}, (hsize_t)count_of(f, a->of), f->deflate};
 }
 
-/* One row a frame. Chunks of several rows, stored plain, are rewritten in place with the same bytes. */
+/* A dataset with one row for each frame. Chunks of several rows are stored plain: they are rewritten in place with the
+ * same bytes, where deflated ones would move and leave holes. */
 static hdf5_rows frame_rows(const char *name, hdf5_kind kind, int rank)
 {
     return (hdf5_rows){name, kind, rank, {1}, 64, 0};
@@ -171,12 +198,13 @@ static dem_status create_row(const hdf5_file *file, const char *name, hdf5_kind 
     return hdf5_create(file, &rows);
 }
 
-/* Of rank 1, which come in the order of `of`. */
+/* Gives the offsets of its size the name that an array's offsets must have, unless it is their own name. */
 static dem_status share_offset(const hdf5_file *file, const char *name, enum of of)
 {
     return strcmp(name, offsets[of].name) != 0 ? hdf5_link(file, name, offsets[of].name) : DEM_OK;
 }
 
+/* `id` and `body` are the same in all frames: their offset is always 0, as that of parts. */
 static dem_status create_offsets(const hdf5_file *file)
 {
     for (int o = 0; o < N_OFFSETS; o++) TRY(create_row(file, offsets[o].name, HDF5_I64, offsets[o].rank));
@@ -185,6 +213,7 @@ static dem_status create_offsets(const hdf5_file *file)
     return hdf5_link(file, STEPS "ConnectivityIdOffsets", STEPS "CellOffsets");
 }
 
+/* An array that is not wanted has no dataset, and no offsets. */
 static dem_status create_arrays(const frames *f, const hdf5_file *file)
 {
     for (int a = 0; a < N_ARRAYS; a++) {
@@ -196,6 +225,7 @@ static dem_status create_arrays(const frames *f, const hdf5_file *file)
     return DEM_OK;
 }
 
+/* NSteps, the number of frames, is an attribute that grows with them. */
 static dem_status create_rows(const hdf5_file *file)
 {
     for (int e = 0; e < N_ENERGIES; e++) {
@@ -207,6 +237,7 @@ static dem_status create_rows(const hdf5_file *file)
     return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &(dem_index){0});
 }
 
+/* The number and the body of each node, for readers that select or reorder points. */
 static dem_status write_nodes(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
 {
     const size_t n = (size_t)f->n_nodes;
@@ -221,6 +252,7 @@ static dem_status write_nodes(const frames *f, const hdf5_file *file, const dem_
     return hdf5_write(file, body, n, lattice->body);
 }
 
+/* The grid, without its points: these move, and are an array of the frames. */
 dem_status frames_create(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
 {
     const grid g = {f->n_nodes, f->n_springs, lattice->ends};
@@ -231,6 +263,7 @@ dem_status frames_create(const frames *f, const hdf5_file *file, const dem_latti
     return create_rows(file);
 }
 
+/* The scratch holds the largest array: six components of each node, or one number of each spring. */
 dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options)
 {
     const dem_model_size size = dem_model_sizes(model);
@@ -259,13 +292,16 @@ void frames_free(frames *f)
 
 /* ---- frames ---- */
 
+/* One value as the row of the frame in hand. */
 static dem_status append_row(const frames *f, const hdf5_file *file, hdf5_rows rows, const void *value)
 {
     return hdf5_append(file, &rows, (hsize_t)f->n, 1, value);
 }
 
+/* Array by array, through the scratch. */
 static dem_status append_arrays(const frames *f, const hdf5_file *file, const view *v)
 {
+    /* Stresses are computed once for all arrays made of them. */
     if (f->fields & ANY_STRESS) dem_simulation_stress(v->simulation, f->stress);
     for (int k = 0; k < N_ARRAYS; k++) {
         const struct array *a = &arrays[k];
@@ -278,6 +314,8 @@ static dem_status append_arrays(const frames *f, const hdf5_file *file, const vi
     return DEM_OK;
 }
 
+/* The ledger of this frame, in the order of `energies`. The number of contacts is a real, as VTK's field data are
+ * here. */
 static dem_status append_energies(const frames *f, const hdf5_file *file, const dem_state *state)
 {
     const dem_energy *e = &state->energy;
@@ -297,6 +335,7 @@ static dem_status append_energies(const frames *f, const hdf5_file *file, const 
     return DEM_OK;
 }
 
+/* Frame n begins at row n times the rows of a frame; the topology at 0. */
 static dem_status append_offsets(const frames *f, const hdf5_file *file, hsize_t n)
 {
     for (int o = 0; o < N_OFFSETS; o++) {
@@ -306,6 +345,7 @@ static dem_status append_offsets(const frames *f, const hdf5_file *file, hsize_t
     return DEM_OK;
 }
 
+/* Each frame is one part of the grid, at time t. */
 static dem_status append_steps(const frames *f, const hdf5_file *file, double t)
 {
     TRY(append_offsets(f, file, (hsize_t)f->n));
@@ -313,7 +353,7 @@ static dem_status append_steps(const frames *f, const hdf5_file *file, double t)
     return append_row(f, file, frame_rows(STEPS "Values", HDF5_F64, 1), &t);
 }
 
-/* The count of steps comes last: readers believe it. */
+/* NSteps is written last: readers believe it, so a frame that is not whole is not seen. */
 static dem_status write_count(const hdf5_file *file, dem_index n)
 {
     return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &n);
@@ -324,6 +364,8 @@ hsize_t frames_bytes(const frames *f)
     return 168 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs; /* all arrays in double */
 }
 
+/* Positions are always written; the other arrays as the options say. The frame does not count itself: the caller raises
+ * f->n once the file has been closed without an error. */
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation)
 {
     view v = {simulation, dem_model_lattice(dem_simulation_model(simulation)), {.struct_size = sizeof v.state}};
@@ -336,6 +378,7 @@ dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simul
 
 /* ---- the end ---- */
 
+/* VTK's order of a symmetric tensor: xx, yy, zz, xy, yz, xz. */
 void frames_spread_stress(double *out, dem_index n, const double *stress)
 {
     for (dem_index i = 0; i < n; i++) {
@@ -344,6 +387,7 @@ void frames_spread_stress(double *out, dem_index n, const double *stress)
     }
 }
 
+/* The array is written once; all frames have the offset 0. */
 dem_status frames_write_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
                                  const double *values)
 {
@@ -359,7 +403,7 @@ dem_status frames_write_constant(const frames *f, const hdf5_file *file, const f
 
 /* ---- frames of other files ---- */
 
-/* What every frame has one row of, the offsets left out. */
+/* The k-th dataset with one row for each frame, offsets left out: energies, NumberOfParts, Values. */
 static hdf5_rows row_of(int k)
 {
     if (k < N_ENERGIES) return frame_rows(energies[k].name, HDF5_F64, 1);
@@ -368,6 +412,7 @@ static hdf5_rows row_of(int k)
 }
 enum { N_ROWS = N_ENERGIES + 2 };
 
+/* Data are copied, offsets are computed anew, since the frames begin elsewhere here. */
 dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span)
 {
     if (span.count == 0) return DEM_OK;
@@ -381,16 +426,19 @@ dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *
         const hdf5_rows rows = row_of(k);
         TRY(hdf5_copy(from, to, &rows, span));
     }
+    /* The offsets of frames that come from another file. */
     for (hsize_t n = span.at; n < span.at + span.count; n++) TRY(append_offsets(f, to, n));
     return write_count(to, (dem_index)(span.at + span.count));
 }
 
+/* Values has the number of frames; every other dataset must agree. */
 dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n)
 {
     TRY(hdf5_count_rows(file, STEPS "Values", n));
     return frames_verify(f, file, *n);
 }
 
+/* Checks the shape of every dataset that the frames need, by the same tables by which they are written. */
 dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n)
 {
     for (int k = 0; k < N_ARRAYS; k++) {

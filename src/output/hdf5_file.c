@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* HDF5 calls in groups that succeed or fail together. Every file type is little-endian, times are not tracked: equal
- * data makes equal files. */
+/* The only file that calls HDF5 to write: datasets that grow row by row, attributes, texts, and the publishing of a
+ * finished file. Each function makes all HDF5 calls that belong together, closes what it has opened, and turns a
+ * failure into a status that names file, dataset and cause. Types in files are little-endian and times are not tracked,
+ * so that equal data makes equal files. Callers are protected from three properties of HDF5: it prints errors, it may
+ * leave a file that cannot be opened when the disk is full, and it may load plugins that a file names. Reading files
+ * that may come from anywhere is in hdf5_untrusted.c; what datasets a run has is decided by the other files of this
+ * folder. */
 #include "output/hdf5_file.h"
 
 #include "base/publish.h"
@@ -22,6 +27,7 @@ enum {
     SLACK = 1 << 20        /* bytes; more than HDF5 adds to the data at one opening */
 };
 
+/* The type of numbers in the file. */
 static hid_t file_type(hdf5_kind kind)
 {
     switch (kind) {
@@ -40,13 +46,15 @@ static hid_t file_type(hdf5_kind kind)
     }
 }
 
+/* Called by H5Ewalk2() from the inside out: depth 0 is where the error arose. */
 static herr_t keep_innermost(unsigned depth, const H5E_error2_t *error, void *cause)
 {
     if (depth == 0) (void)snprintf(cause, 200, "%s", error->desc != NULL ? error->desc : "no cause given");
     return 0;
 }
 
-/* HDF5 wraps the system's own words: "..., error message = 'No such file or directory', ..." */
+/* HDF5 wraps the system's own words: "..., error message = 'No such file or directory', ...". Returns these words
+ * alone; `cause` is changed. */
 static const char *shorten(char *cause)
 {
     static const char key[] = "error message = '";
@@ -57,6 +65,8 @@ static const char *shorten(char *cause)
     return words;
 }
 
+/* Closing the file closes all that is open in it, and no lock is taken, so that looking at a file does not stop a
+ * run. */
 static hid_t make_access(void)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
@@ -65,6 +75,7 @@ static hid_t make_access(void)
     return H5I_INVALID_HID;
 }
 
+/* Missing groups on the way to a new object are made. */
 static hid_t make_parents(void)
 {
     const hid_t links = H5Pcreate(H5P_LINK_CREATE);
@@ -72,6 +83,7 @@ static hid_t make_parents(void)
     return links;
 }
 
+/* Chunks of rows, without time stamps; shuffled and deflated if asked for. A negative number on failure. */
 static hid_t make_layout(const hdf5_rows *rows)
 {
     const hsize_t chunk = rows->chunk < 1 ? 1 : rows->chunk > CHUNK_LIMIT ? CHUNK_LIMIT : rows->chunk;
@@ -86,6 +98,7 @@ static hid_t make_layout(const hdf5_rows *rows)
     return H5I_INVALID_HID;
 }
 
+/* A string of fixed length, padded with zeros; an empty one takes a byte, since HDF5 has no strings of length 0. */
 static hid_t make_string(const char *text, H5T_cset_t characters)
 {
     const size_t length = strlen(text);
@@ -96,6 +109,7 @@ static hid_t make_string(const char *text, H5T_cset_t characters)
     return type;
 }
 
+/* Opens an object, or makes a group of that name. */
 static hid_t open_group(const hdf5_file *file, const char *name)
 {
     const hid_t group = H5Oopen(file->id, name, H5P_DEFAULT);
@@ -106,12 +120,14 @@ static hid_t open_group(const hdf5_file *file, const char *name)
     return made;
 }
 
+/* What an attribute is, apart from its value. */
 typedef struct attribute_form {
     const char *name;
     hid_t stored, given; /* types in the file and in memory */
     hsize_t count;
 } attribute_form;
 
+/* An attribute that exists is overwritten, with the type and size that it has. */
 static dem_status write_attribute(const hdf5_file *file, const char *object, attribute_form a, const void *data)
 {
     dem_status status = DEM_OK;
@@ -128,6 +144,7 @@ static dem_status write_attribute(const hdf5_file *file, const char *object, att
     return status;
 }
 
+/* Reads `count` numbers in each dimension from `start` on. */
 static herr_t read_slab(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *count, int rank, void *buffer)
 {
     const hid_t space = H5Dget_space(dataset);
@@ -139,7 +156,7 @@ static herr_t read_slab(hid_t dataset, hid_t type, const hsize_t *start, const h
     return result;
 }
 
-/* The rank of a dataset; 0 where it is none of ours. */
+/* Rank and extents of a dataset; 0 if it is none of ours. */
 static int measure(hid_t dataset, hsize_t extent[MAX_RANK])
 {
     const hid_t space = H5Dget_space(dataset);
@@ -149,13 +166,15 @@ static int measure(hid_t dataset, hsize_t extent[MAX_RANK])
     return fits ? rank : 0;
 }
 
-/* Reading back gives DEM_OK, DEM_ERROR_MEMORY or DEM_ERROR_IO; the message is the caller's. */
+/* Reads a whole dataset chunk by chunk and throws the numbers away. Returns DEM_OK, DEM_ERROR_MEMORY or DEM_ERROR_IO;
+ * the message is the caller's. */
 static dem_status read_slabs(hid_t dataset, hid_t type, hsize_t *extent, int rank)
 {
     hsize_t start[MAX_RANK] = {0}, chunk[MAX_RANK] = {1, 1, 1}, cells = 1;
     const hid_t layout = H5Dget_create_plist(dataset);
     herr_t result = H5Pget_layout(layout) == H5D_CHUNKED ? H5Pget_chunk(layout, rank, chunk) : 0;
     (void)H5Pclose(layout);
+    /* A slab is as many rows as a chunk has, and all columns. */
     for (int d = 1; d < rank; d++) cells *= extent[d];
     void *buffer = malloc((size_t)(chunk[0] * cells) * H5Tget_size(type));
     if (buffer == NULL) return DEM_ERROR_MEMORY;
@@ -167,6 +186,7 @@ static dem_status read_slabs(hid_t dataset, hid_t type, hsize_t *extent, int ran
     return result < 0 ? DEM_ERROR_IO : DEM_OK;
 }
 
+/* The same of a dataset with a single item, such as a text. */
 static dem_status read_scalar(hid_t dataset, hid_t type)
 {
     void *buffer = malloc(H5Tget_size(type));
@@ -176,6 +196,7 @@ static dem_status read_scalar(hid_t dataset, hid_t type)
     return result < 0 ? DEM_ERROR_IO : DEM_OK;
 }
 
+/* Reads all of a dataset, of whatever type. */
 static dem_status read_dataset(hid_t dataset)
 {
     hsize_t extent[MAX_RANK] = {0};
@@ -191,11 +212,13 @@ static dem_status read_dataset(hid_t dataset)
     return status;
 }
 
+/* The first thing in a file that cannot be read back. */
 typedef struct unread {
     const hdf5_file *file;
     dem_status status;
 } unread;
 
+/* Called for every link below the root. A number other than 0 ends the visit. */
 static herr_t visit(hid_t root, const char *name, const H5L_info_t *info, void *context)
 {
     unread *u = context;
@@ -209,8 +232,9 @@ static herr_t visit(hid_t root, const char *name, const H5L_info_t *info, void *
     return u->status == DEM_OK ? 0 : -1;
 }
 
-/* One thread at a time has files open, as many as it likes: HDF5 may be built without locks, and whether it loads
- * plugins is the process's. Where it has locks, it does not do two things at once either. */
+/* One thread at a time has files open, as many as it likes, hence a recursive lock. HDF5 may be built without locks,
+ * and whether it loads plugins is a setting of the process. A build with locks does not do two things at once
+ * either. */
 static pthread_mutex_t turn;
 static pthread_once_t turn_made = PTHREAD_ONCE_INIT;
 
@@ -223,6 +247,7 @@ static void make_turn(void)
     (void)pthread_mutexattr_destroy(&recursive);
 }
 
+/* Waits for this thread's turn, and notes the settings that restore() puts back. */
 static void prepare(hdf5_file *file)
 {
     (void)pthread_once(&turn_made, make_turn);
@@ -241,12 +266,14 @@ static void restore(const hdf5_file *file)
     (void)pthread_mutex_unlock(&turn);
 }
 
+/* On failure everything is as before; on success the lock is held until hdf5_close(). */
 static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
 {
     hdf5_file file = {.id = H5I_INVALID_HID, .path = path};
     dem_status status = DEM_OK;
     prepare(&file);
     const hid_t how = make_access();
+    /* An existing file is emptied, or opened as it is. */
     if (access == H5F_ACC_TRUNC)
         file.id = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, how);
     else
@@ -260,15 +287,19 @@ static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
     return status;
 }
 
-/* Makes the closed file longer; HDF5 cuts off at the next closing what it has not used. */
+/* Makes the closed file longer, so that a full disk is met here and not inside of HDF5; HDF5 cuts off at the next
+ * closing what it has not used. A file system that cannot reserve is taken as it is. On failure the file has its old
+ * length. */
 static dem_status reserve(const char *path, int flags, hsize_t bytes)
 {
     struct stat now = {0};
     const int descriptor = open(path, O_RDWR | O_CLOEXEC | flags, 0666);
     CHECK(descriptor >= 0, DEM_ERROR_IO, "%s: cannot be %s (%s)", path, flags != 0 ? "created" : "opened",
           strerror(errno));
+    /* posix_fallocate() returns the error and leaves errno alone. */
     int cause = fstat(descriptor, &now) == 0 ? 0 : errno;
     if (cause == 0) cause = posix_fallocate(descriptor, now.st_size, (off_t)bytes + SLACK);
+    /* Not an error: some file systems cannot reserve. */
     if (cause == EOPNOTSUPP || cause == EINVAL || cause == ENOSYS) cause = 0;
     if (cause != 0) (void)!ftruncate(descriptor, now.st_size);
     (void)close(descriptor);
@@ -277,6 +308,7 @@ static dem_status reserve(const char *path, int flags, hsize_t bytes)
     return DEM_OK;
 }
 
+/* Visits every object of the file and reads every dataset. */
 static dem_status read_back(const char *path)
 {
     hdf5_file file;
@@ -287,6 +319,7 @@ static dem_status read_back(const char *path)
     return hdf5_close(&file, u.status);
 }
 
+/* The type of numbers in memory: single precision and signed bytes are widened. */
 hid_t hdf5_memory_type(hdf5_kind kind)
 {
     switch (kind) {
@@ -302,6 +335,7 @@ hid_t hdf5_memory_type(hdf5_kind kind)
     }
 }
 
+/* The error stack of HDF5 is valid only until its next call, so this must come first after a failure. */
 dem_status hdf5_fail(const hdf5_file *file, const char *name, const char *what)
 {
     char cause[200] = "no cause given";
@@ -321,6 +355,8 @@ dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes)
     return open_file(out, path, H5F_ACC_RDWR);
 }
 
+/* An empty file is made and closed before room is reserved in it: creating a file throws away what has been
+ * reserved. */
 dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes)
 {
     hdf5_file empty;
@@ -330,6 +366,7 @@ dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes)
     return hdf5_open_write(out, path, bytes);
 }
 
+/* The flush comes first, so that a failed write is found while the file is open. The lock is given back in any case. */
 dem_status hdf5_close(hdf5_file *file, dem_status status)
 {
     if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be flushed");
@@ -338,9 +375,11 @@ dem_status hdf5_close(hdf5_file *file, dem_status status)
     return status;
 }
 
+/* The first dimension may grow without limit; the others are fixed. */
 dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows)
 {
     const hsize_t extent[MAX_RANK] = {0, rows->tail[0], rows->tail[1]};
+    /* Only rows can be added. */
     const hsize_t most[MAX_RANK] = {H5S_UNLIMITED, rows->tail[0], rows->tail[1]};
     const hid_t space = H5Screate_simple(rows->rank, extent, most);
     const hid_t links = make_parents(), layout = make_layout(rows);
@@ -362,6 +401,8 @@ dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target
     return status;
 }
 
+/* Sets the number of rows to first + count, which also cuts off rows that a failed attempt has left, and fills the new
+ * ones. Closing the dataset may be what fails: its chunk cache is written then. */
 dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data)
 {
     const hsize_t start[MAX_RANK] = {first}, block[MAX_RANK] = {count, rows->tail[0], rows->tail[1]};
@@ -369,6 +410,7 @@ dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t fir
     dem_status status = DEM_OK;
     hid_t space = H5I_INVALID_HID, memory = H5Screate_simple(rows->rank, block, NULL);
     const hid_t dataset = H5Dopen2(file->id, rows->name, H5P_DEFAULT);
+    /* Nothing is selected where there are no rows to write. */
     if (dataset < 0 || H5Dset_extent(dataset, whole) < 0 || (space = H5Dget_space(dataset)) < 0 ||
         (count > 0 && (H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, block, NULL) < 0 ||
                        H5Dwrite(dataset, hdf5_memory_type(rows->kind), memory, space, H5P_DEFAULT, data) < 0)))
@@ -391,9 +433,10 @@ dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first
     return status;
 }
 
-/* Numbers pass through the types in memory, which hold those of every kind exactly. */
+/* A chunk at a time. Numbers pass through the types in memory, which hold those of every kind exactly. */
 dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span)
 {
+    /* The buffer holds one chunk of rows, of at most 8 bytes a number. */
     const hsize_t step = rows->chunk > 1 ? rows->chunk : 1;
     const hsize_t width = (rows->rank > 1 ? rows->tail[0] : 1) * (rows->rank > 2 ? rows->tail[1] : 1);
     dem_status status = DEM_OK;
@@ -408,6 +451,7 @@ dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows
     return status;
 }
 
+/* All rows are one chunk, since nothing is added later. */
 dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data)
 {
     rows.chunk = count;
@@ -429,12 +473,14 @@ dem_status hdf5_write_attribute_text(const hdf5_file *file, const char *object, 
     return status;
 }
 
+/* A text that is replaced may have another length, so the old dataset is removed first. */
 dem_status hdf5_write_text(const hdf5_file *file, const char *name, const char *text)
 {
     const hid_t type = make_string(text, H5T_CSET_UTF8), space = H5Screate(H5S_SCALAR), links = make_parents();
     const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     dem_status status = DEM_OK;
     (void)H5Pset_obj_track_times(layout, 0);
+    /* Fails where there is none yet. */
     (void)H5Ldelete(file->id, name, H5P_DEFAULT);
     const hid_t dataset = H5Dcreate2(file->id, name, type, space, links, layout, H5P_DEFAULT);
     if (dataset < 0 || H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text) < 0)
@@ -447,6 +493,7 @@ dem_status hdf5_write_text(const hdf5_file *file, const char *name, const char *
     return status;
 }
 
+/* Strings of variable length are refused: their memory would be HDF5's. */
 dem_status hdf5_read_text(const hdf5_file *file, const char *name, char *text, size_t size)
 {
     dem_status status = DEM_OK;
@@ -479,6 +526,7 @@ dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *cou
     return DEM_OK;
 }
 
+/* The type must be exactly the one that this library writes. */
 dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_t count)
 {
     hsize_t extent[MAX_RANK] = {0};
@@ -507,6 +555,7 @@ dem_status hdf5_expect_attribute(const hdf5_file *file, const char *object, cons
     return DEM_OK;
 }
 
+/* The order matters: sync, read back, rename, sync the folder (base/publish.c). */
 dem_status hdf5_publish(const char *part, const char *path)
 {
     TRY(publish_sync(part));

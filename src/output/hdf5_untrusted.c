@@ -1,5 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks come in the order in which HDF5 itself would come upon what they look at. */
+/* Reads HDF5 files that may be damaged or made to do harm (docs/output.md, Which files are trusted). Before anything is
+ * allocated or read, checks are made in the order in which HDF5 itself would come upon what they look at:
+ *   links         hard ones only: a soft link may lead round in circles, an external one to another file
+ *   type          integers and reals of at most 16 bytes, booleans as h5py has them
+ *   extent        at most 3 dimensions, 2^40 rows and 2^44 numbers: no size in bytes overflows
+ *   layout        in this file, no external or virtual storage
+ *   filters       deflate, shuffle and fletcher32: others may be plugins, which are programs
+ *   size          no more than the stored bytes can hold, however well they are deflated
+ * The functions are fuzzed (docs/fuzzing.md). Files of this process's own run are opened by hdf5_file.c without these
+ * checks. */
 #include "output/hdf5_untrusted.h"
 
 #include "base/status.h"
@@ -8,10 +17,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* Larger than any run, small enough that sizes in bytes do not overflow. */
+/* Larger than any run, and small enough that sizes in bytes do not overflow 64 bits. */
 static const hsize_t most_rows = (hsize_t)1 << 40, most_numbers = (hsize_t)1 << 44;
 
-/* Deflate makes nothing shorter than by this factor. */
+/* Deflate shortens nothing by more than this factor: with the bytes stored it bounds what a dataset can hold. */
 static const hsize_t most_deflation = 1032;
 
 enum { most_bytes = 16 /* of a number */ };
@@ -21,6 +30,7 @@ dem_status hdf5_untrusted_refuse(const hdf5_file *file, const char *name, const 
     return status_fail(DEM_ERROR_IO, "%s: %s: %s", file->path, name, reason);
 }
 
+/* Control characters in a message could change what a terminal shows. */
 void hdf5_untrusted_print(char out[HDF5_UNTRUSTED_PRINTABLE], const char *name)
 {
     size_t n = 0;
@@ -29,6 +39,7 @@ void hdf5_untrusted_print(char out[HDF5_UNTRUSTED_PRINTABLE], const char *name)
     out[n] = '\0';
 }
 
+/* A pipe or a device would block or never end. A file that is not there is reported by the opening. */
 dem_status hdf5_untrusted_open(hdf5_file *out, const char *path)
 {
     struct stat kind;
@@ -38,6 +49,7 @@ dem_status hdf5_untrusted_open(hdf5_file *out, const char *path)
 
 /* ---- links ---- */
 
+/* Only hard links lead to what is in this file. */
 static dem_status check_link(const hdf5_file *file, const char *name, bool *present)
 {
     H5L_info_t info;
@@ -47,6 +59,7 @@ static dem_status check_link(const hdf5_file *file, const char *name, bool *pres
     return DEM_OK;
 }
 
+/* Checks every link on the way, from the root on: HDF5 would follow all of them at once. */
 dem_status hdf5_untrusted_find(const hdf5_file *file, const char *name, bool *present)
 {
     char way[256];
@@ -54,6 +67,7 @@ dem_status hdf5_untrusted_find(const hdf5_file *file, const char *name, bool *pr
           strlen(name));
     *present = true;
     for (const char *end = name; *present && *end != '\0';) {
+        /* From one / to the next: /a, /a/b, /a/b/c. */
         end += 1 + strcspn(end + 1, "/");
         memcpy(way, name, (size_t)(end - name));
         way[end - name] = '\0';
@@ -62,7 +76,8 @@ dem_status hdf5_untrusted_find(const hdf5_file *file, const char *name, bool *pr
     return DEM_OK;
 }
 
-/* In no order: to sort the names of a damaged group, HDF5 1.10 frees what it has not allocated. */
+/* The caller's function, and what it returned. Names come in no order: to sort the names of a damaged group, HDF5 1.10
+ * frees what it has not allocated. */
 typedef struct listing {
     dem_status (*take)(void *context, const char *name);
     void *context;
@@ -77,6 +92,7 @@ static herr_t take_name(hid_t group, const char *name, const H5L_info_t *info, v
     return l->status == DEM_OK ? 0 : 1;
 }
 
+/* A positive number from take_name() ends the iteration without being an error of HDF5. */
 dem_status hdf5_untrusted_list(const hdf5_file *file, const char *group,
                                dem_status (*take)(void *context, const char *name), void *context)
 {
@@ -95,6 +111,7 @@ dem_status hdf5_untrusted_list(const hdf5_file *file, const char *group,
 static bool is_boolean(hid_t type)
 {
     signed char no = -1, yes = -1;
+    /* Its members are asked for by name, so their order does not matter. */
     if (H5Tget_class(type) != H5T_ENUM || H5Tget_size(type) != 1 || H5Tget_nmembers(type) != 2) return false;
     return H5Tenum_valueof(type, "FALSE", &no) >= 0 && H5Tenum_valueof(type, "TRUE", &yes) >= 0 && no == 0 && yes == 1;
 }
@@ -104,6 +121,8 @@ static bool is_real(hdf5_kind kind)
     return kind == HDF5_F64 || kind == HDF5_F32;
 }
 
+/* Why numbers of this type cannot be read as `kind`; NULL if they can. Integers become reals, but not the other way
+ * round. */
 static const char *find_misfit(hid_t type, hdf5_kind kind)
 {
     const H5T_class_t class = H5Tget_class(type);
@@ -115,6 +134,7 @@ static const char *find_misfit(hid_t type, hdf5_kind kind)
                          : "is not integer";
 }
 
+/* The kind of ours that comes nearest to a type in the file. */
 static hdf5_kind kind_of(hid_t type)
 {
     const size_t size = H5Tget_size(type);
@@ -123,6 +143,7 @@ static hdf5_kind kind_of(hid_t type)
     return H5Tget_class(type) == H5T_INTEGER && H5Tget_sign(type) != H5T_SGN_NONE ? HDF5_I8 : HDF5_U8;
 }
 
+/* Only filters that are built in, and deflate once: each further one would multiply most_deflation. */
 static dem_status check_filters(const hdf5_file *file, const char *name, hid_t layout)
 {
     const int n = H5Pget_nfilters(layout);
@@ -138,7 +159,7 @@ static dem_status check_filters(const hdf5_file *file, const char *name, hid_t l
     return n < 0 || deflates > 1 ? hdf5_untrusted_refuse(file, name, "has filters that cannot be read") : DEM_OK;
 }
 
-/* The numbers of a chunk, which is read as a whole; 0 where there are no chunks. */
+/* The numbers of a chunk, which HDF5 reads as a whole; 0 where there are no chunks. */
 static hsize_t count_chunk(hid_t layout)
 {
     hsize_t extent[HDF5_UNTRUSTED_RANK] = {1, 1, 1};
@@ -146,17 +167,21 @@ static hsize_t count_chunk(hid_t layout)
     return extent[0] * extent[1] * extent[2]; /* below 2^32 bytes, says HDF5 */
 }
 
+/* A dataset cannot hold more bytes than are stored for it times what deflate can save, nor store more than the file
+ * has. */
 static dem_status check_size(const hdf5_file *file, const char *name, hid_t dataset, hsize_t bytes)
 {
     hsize_t in_file = 0;
     (void)H5Fget_filesize(file->id, &in_file);
     const hsize_t stored = H5Dget_storage_size(dataset);
+    /* A dataset that was never written stores nothing, and would be read as any number of zeros. */
     if (stored > in_file || bytes / most_deflation > stored || (bytes > 0 && stored == 0))
         return hdf5_untrusted_refuse(file, name, "claims more data than the file holds");
     return DEM_OK;
 }
 
-/* `n` numbers of `size` bytes. */
+/* Checks where and how n numbers of `size` bytes are kept. A chunk may be larger than the dataset and counts in
+ * full. */
 static dem_status check_storage(const hdf5_file *file, const char *name, hid_t dataset, hsize_t size, hsize_t n)
 {
     const hid_t layout = H5Dget_create_plist(dataset);
@@ -167,12 +192,14 @@ static dem_status check_storage(const hdf5_file *file, const char *name, hid_t d
         status = hdf5_untrusted_refuse(file, name, "keeps its data in an external file");
     else if (kind != H5D_COMPACT && kind != H5D_CONTIGUOUS && kind != H5D_CHUNKED)
         status = hdf5_untrusted_refuse(file, name, "has a virtual or unknown layout");
+    /* Sizes say something only if the filters are known. */
     else if ((status = check_filters(file, name, layout)) == DEM_OK)
         status = check_size(file, name, dataset, size * (n > chunk ? n : chunk));
     (void)H5Pclose(layout);
     return status;
 }
 
+/* Extents beyond the rank are 1, so that their product is always the number of items. */
 static void measure_extent(hid_t dataset, hdf5_untrusted_shape *out)
 {
     const hid_t space = H5Dget_space(dataset);
@@ -183,11 +210,13 @@ static void measure_extent(hid_t dataset, hdf5_untrusted_shape *out)
     (void)H5Sclose(space);
 }
 
+/* Multiplies extents without overflow: each factor is compared with what is left of the limit first. */
 static dem_status count_numbers(const hdf5_file *file, const char *name, const hdf5_untrusted_shape *shape, hsize_t *n)
 {
     *n = 1;
     if (shape->extent[0] > most_rows) return hdf5_untrusted_refuse(file, name, "has more than 2^40 rows");
     for (int d = 0; d < HDF5_UNTRUSTED_RANK; d++) {
+        /* + 1, since an extent may be 0. */
         if (*n > most_numbers / (shape->extent[d] + 1))
             return hdf5_untrusted_refuse(file, name, "has more than 2^44 numbers");
         *n *= shape->extent[d];
@@ -195,6 +224,7 @@ static dem_status count_numbers(const hdf5_file *file, const char *name, const h
     return DEM_OK;
 }
 
+/* Type, extent, number of items, storage: in this order nothing depends on what has not been checked. */
 static dem_status measure(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
                           hdf5_untrusted_shape *out)
 {
@@ -220,7 +250,7 @@ dem_status hdf5_untrusted_measure(const hdf5_file *file, const char *name, hdf5_
     return status;
 }
 
-/* A number that does not fit is an error, not the nearest number that does. */
+/* Called by HDF5 where a number does not fit the type in memory: that is an error, not the nearest number that does. */
 static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid_t to, void *value, void *result,
                                     void *context)
 {
@@ -229,7 +259,7 @@ static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid
                                                                                            : H5T_CONV_UNHANDLED;
 }
 
-/* The cause of a failure is HDF5's only until the next call of it. */
+/* All columns of the rows, or the first `width` of each. The cause of a failure is HDF5's only until its next call. */
 static dem_status read_rows(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
                             const hdf5_untrusted_rows *rows, void *data)
 {
@@ -239,6 +269,7 @@ static dem_status read_rows(const hdf5_file *file, const char *name, hid_t datas
     const hid_t space = H5Dget_space(dataset), transfer = H5Pcreate(H5P_DATASET_XFER);
     const int rank = H5Sget_simple_extent_dims(space, count, NULL);
     count[0] = rows->count;
+    /* A selection of columns within the rows. */
     if (rows->width > 0 && rank > 1) count[1] = rows->width;
     const hid_t memory = H5Screate_simple(rank, count, NULL);
     if (H5Pset_type_conv_cb(transfer, on_conversion, NULL) < 0 ||
@@ -281,6 +312,7 @@ static dem_status refuse_attribute(const hdf5_file *file, const char *object, co
     return status_fail(DEM_ERROR_IO, "%s: %s: has no attribute %s that is %s", file->path, object, name, what);
 }
 
+/* One item of a type that find_misfit() accepts has at most `most_bytes` in the file and 8 in memory. */
 dem_status hdf5_untrusted_read_attribute(const hdf5_file *file, const char *object, const char *name, hdf5_kind kind,
                                          void *value)
 {
@@ -295,6 +327,7 @@ dem_status hdf5_untrusted_read_attribute(const hdf5_file *file, const char *obje
     return read ? DEM_OK : refuse_attribute(file, object, name, is_real(kind) ? "a number" : "an integer");
 }
 
+/* The string has to leave room for the terminator that is added. */
 dem_status hdf5_untrusted_read_attribute_text(const hdf5_file *file, const char *object, const char *name, char *text,
                                               size_t size)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* HDF5 files that may come from anywhere: links, types, extents, layouts and filters are looked at before anything is
- * allocated or read, and sizes are only believed as far as the bytes in the file bear them out. */
+/* HDF5 files that may come from anywhere: links, types, extents, layouts and filters are checked before anything is
+ * allocated or read, and a size is believed only as far as the bytes in the file can hold it. */
 #ifndef DEM_OUTPUT_HDF5_UNTRUSTED_H
 #define DEM_OUTPUT_HDF5_UNTRUSTED_H
 

@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which columns there are, and what fills them. */
+/* The group /history: a row of numbers of the whole at t = 0 and after each accepted step (docs/output.md). This file
+ * has the list of columns and what fills them. The numbers themselves are computed in forces/diagnostics.c and
+ * simulation/query.c, which it reaches through the public interface only; how rows reach the file is in table.c. */
 #include "output/history.h"
 
 #include "base/status.h"
 
+/* RUN has one item in a row, the others as many as table.count says, in this order. */
 enum { RUN, BODIES, OBSTACLES, BOUNDARIES }; /* what a column is about */
 
 /* In the order in which history_record() fills a row. */
 static const table_column columns[] = {
     {"/history/t", HDF5_F64, RUN, 1},
     {"/history/h", HDF5_F64, RUN, 1},
+    /* The ledger, J, in the order of dem_energy, and its closure. */
     {"/history/kinetic", HDF5_F64, RUN, 1},
     {"/history/elastic", HDF5_F64, RUN, 1},
     {"/history/area", HDF5_F64, RUN, 1},
@@ -21,13 +25,16 @@ static const table_column columns[] = {
     {"/history/projection", HDF5_F64, RUN, 1},
     {"/history/boundary", HDF5_F64, RUN, 1},
     {"/history/closure", HDF5_F64, RUN, 1},
+    /* Extremes over springs and triangles. */
     {"/history/strain_min", HDF5_F64, RUN, 1},
     {"/history/strain_max", HDF5_F64, RUN, 1},
     {"/history/area_min", HDF5_F64, RUN, 1},
+    /* What there is at the instant of the row. */
     {"/history/guarded", HDF5_I64, RUN, 1},
     {"/history/inverted", HDF5_I64, RUN, 1},
     {"/history/overlaps", HDF5_I64, RUN, 1},
     {"/history/contacts", HDF5_I64, RUN, 1},
+    /* Counts since the start of the run, but for `behind`, which is that of the instant. */
     {"/history/impacts", HDF5_I64, RUN, 1},
     {"/history/vertex_impacts", HDF5_I64, RUN, 1},
     {"/history/early", HDF5_I64, RUN, 1},
@@ -43,6 +50,7 @@ static const table_column columns[] = {
     {"/history/rejected", HDF5_I64, RUN, 1},
     {"/history/retries", HDF5_I64, RUN, 1},
     {"/history/evaluations", HDF5_I64, RUN, 1},
+    /* An item for each body, obstacle or boundary condition in every row. */
     {"/history/body_centre", HDF5_F64, BODIES, 2},
     {"/history/body_velocity", HDF5_F64, BODIES, 2},
     {"/history/body_angular_momentum", HDF5_F64, BODIES, 1},
@@ -55,6 +63,8 @@ static const table_column columns[] = {
     {"/history/boundary_displacement", HDF5_F64, BOUNDARIES, 2},
 };
 
+/* Columns about the run: first all reals, then all counts, as `columns` lists them. Returns the cell behind, as the
+ * others do. */
 static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, const dem_state *state, double closure)
 {
     const dem_energy *e = &state->energy;
@@ -86,8 +96,10 @@ static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, c
     return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
 }
 
+/* A column's items lie side by side, so each column has a pointer that advances body by body. */
 static table_cell *put_bodies(table_cell *cell, const dem_simulation *simulation, dem_index n_bodies)
 {
+    /* Where the columns begin within the row. */
     table_cell *centre = cell, *velocity = centre + 2 * n_bodies, *momentum = velocity + 2 * n_bodies;
     for (dem_index b = 0; b < n_bodies; b++) {
         const dem_body_motion motion = dem_simulation_body(simulation, b);
@@ -124,7 +136,8 @@ static table_cell *put_boundaries(table_cell *cell, const dem_simulation *simula
     return displacement;
 }
 
-/* What the ledger has lost or gained since the first row, over the largest energy of motion and strain so far. */
+/* The closure: by what the ledger has changed since the first row, over the largest energy of motion and strain so far.
+ * The ledger is constant but for the error of integration. */
 static double close_ledger(history *h, dem_energy e)
 {
     if (table_total(&h->table) == 0) h->start = dem_energy_ledger(e);
@@ -132,6 +145,7 @@ static double close_ledger(history *h, dem_energy e)
     return h->largest > 0.0 ? (dem_energy_ledger(e) - h->start) / h->largest : 0.0;
 }
 
+/* How many bodies, obstacles and boundary conditions the model and the options have decides the width of a row. */
 dem_status history_init(history *out, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
@@ -145,10 +159,12 @@ void history_free(history *h)
     table_free(&h->table);
 }
 
+/* The step that a run is resumed at comes twice: a row of the same instant is not added again. */
 void history_record(history *h, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
+    /* table_total() counts rows of earlier files, too. */
     if (table_total(&h->table) > 0 && state.t == h->last) return;
     const double closure = close_ledger(h, state.energy);
     table_cell *cell = table_add(&h->table);
@@ -159,6 +175,7 @@ void history_record(history *h, const dem_simulation *simulation)
     h->last = state.t;
 }
 
+/* A file whose history does not have this instant in this row belongs to another run. */
 dem_status history_expect_last(const history *h, const hdf5_file *file, hsize_t row)
 {
     const hdf5_rows time = {columns[0].name, columns[0].kind, 1, {0}, 0, 0};

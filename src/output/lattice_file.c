@@ -1,5 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The group /lattice of an HDF5 file. It may come from anywhere: nothing is allocated unchecked. */
+/* The group /lattice of an HDF5 file: a lattice to start from, written by this library or by anybody else
+ * (docs/output.md, /lattice). One table lists the datasets; reading, checking and writing go through it. A file may
+ * come from anywhere, so it is read in this order:
+ *   1. the names in the group: an unknown one is refused
+ *   2. each dataset's link, type and shape (hdf5_untrusted.c), and that its rows agree with those of earlier ones
+ *   3. its numbers, into an array of that size
+ *   4. node numbers in springs, triangles and the list of contact nodes, before anything uses them
+ * Whether the lattice can move is not checked here but in model/model.c. */
 #include "output/lattice_file.h"
 
 #include "base/status.h"
@@ -13,6 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What a dataset has a row of. ANY: a length of its own. */
 enum rows_of { NODES, SPRINGS, TRIANGLES, ANY, N_ROWS_OF };
 enum array {
     X,
@@ -34,7 +42,8 @@ enum array {
     N_ARRAYS
 };
 
-/* The first dataset of each length decides it. Without springs their datasets may all be absent. */
+/* The datasets, in the order in which they are read. The first one of each length decides it, and later ones must
+ * agree. Without springs all their datasets may be absent. */
 static const struct dataset {
     const char *name;
     hdf5_kind kind;
@@ -60,6 +69,7 @@ static const struct dataset {
     [CONTACT_NODES] = {"/lattice/contact_nodes", HDF5_I64, ANY, 1, 0},
 };
 
+/* The work in hand; `data` has an array for each dataset that has been read. */
 typedef struct reader {
     hdf5_file file;
     hsize_t rows[N_ROWS_OF]; /* valid once `known` */
@@ -72,6 +82,7 @@ typedef struct reader {
 
 /* ---- checks ---- */
 
+/* Bytes of a number in memory, as hdf5_memory_type() has them. */
 static size_t item_size(hdf5_kind kind)
 {
     return kind == HDF5_U8 ? 1 : kind == HDF5_I32 ? 4 : 8;
@@ -82,6 +93,8 @@ static dem_status refuse(const reader *r, const char *name, const char *reason)
     return hdf5_untrusted_refuse(&r->file, name, reason);
 }
 
+/* The number of dimensions and columns must be that of the table, and the rows those of earlier datasets of the same
+ * kind. */
 static dem_status check_extent(reader *r, const struct dataset *d, const hdf5_untrusted_shape *shape)
 {
     const hsize_t rows = shape->extent[0];
@@ -101,6 +114,7 @@ static dem_status check_extent(reader *r, const struct dataset *d, const hdf5_un
 
 /* ---- reading ---- */
 
+/* The size has been checked against the file by then, so that it is safe to allocate it. */
 static dem_status read_data(reader *r, enum array a)
 {
     const struct dataset *d = &datasets[a];
@@ -110,6 +124,7 @@ static dem_status read_data(reader *r, enum array a)
     return hdf5_untrusted_read(&r->file, d->name, d->kind, all, r->data[a]);
 }
 
+/* A missing dataset is an error if it is required, unless it is about springs and there are none at all. */
 static dem_status read_array(reader *r, enum array a)
 {
     const struct dataset *d = &datasets[a];
@@ -122,7 +137,8 @@ static dem_status read_array(reader *r, enum array a)
     return r->measure ? DEM_OK : read_data(r, a);
 }
 
-/* A name that is not known is a misspelt one, and what it holds would be missed without a word. */
+/* A dataset of an unknown name is probably a misspelt one, and what it holds would be ignored without notice: it is
+ * refused, with the names that are known. */
 static dem_status check_name(void *context, const char *name)
 {
     reader *r = context;
@@ -131,6 +147,7 @@ static dem_status check_name(void *context, const char *name)
     for (int a = 0; a < N_ARRAYS; a++) {
         const char *own = datasets[a].name + sizeof "/lattice";
         if (strcmp(name, own) == 0) {
+            /* From now on the required datasets of springs are. */
             r->springs |= datasets[a].of == SPRINGS;
             return DEM_OK;
         }
@@ -141,6 +158,7 @@ static dem_status check_name(void *context, const char *name)
                        printable, known);
 }
 
+/* All names are looked at before any dataset is read: whether there are springs decides which ones are required. */
 static dem_status read_arrays(reader *r)
 {
     bool present = false;
@@ -148,6 +166,7 @@ static dem_status read_arrays(reader *r)
     if (!present) return refuse(r, "/lattice", "is missing");
     TRY(hdf5_untrusted_list(&r->file, "/lattice", check_name, r));
     for (int a = 0; a < N_ARRAYS; a++) TRY(read_array(r, (enum array)a));
+    /* Guard, area stiffness and the like need triangles to belong to. */
     for (int a = 0; a < N_ARRAYS; a++)
         if (datasets[a].of == TRIANGLES && r->present[a] && !r->present[CORNERS])
             return refuse(r, datasets[a].name, "is there without triangles");
@@ -156,10 +175,12 @@ static dem_status read_arrays(reader *r)
 
 /* ---- from arrays to a lattice ---- */
 
+/* A list of contact nodes that is missing stands for the boundary. */
 static dem_status mark_contacts(const reader *r, dem_lattice *lattice)
 {
     const dem_index *nodes = r->data[CONTACT_NODES];
     if (nodes == NULL) return mesh_edges_contact_flags(lattice->flags, lattice);
+    /* Node numbers of the file are checked before they index anything. */
     for (hsize_t k = 0; k < r->rows[ANY]; k++) {
         CHECK(nodes[k] >= 0 && nodes[k] < lattice->n_nodes, DEM_ERROR_MODEL,
               "%s: %s: entry %llu is %lld, which is no node: there are %lld", r->file.path,
@@ -169,6 +190,7 @@ static dem_status mark_contacts(const reader *r, dem_lattice *lattice)
     return DEM_OK;
 }
 
+/* Without both datasets the lattice has no flags, which stand for the boundary and nothing fixed. */
 static dem_status make_flags(const reader *r, dem_lattice *lattice)
 {
     const unsigned char *fixed = r->data[FIXED];
@@ -181,7 +203,7 @@ static dem_status make_flags(const reader *r, dem_lattice *lattice)
     return DEM_OK;
 }
 
-/* Moves the arrays. */
+/* Moves the arrays: the lattice owns them from here on, and the reader forgets those up to FIXED. */
 static void fill(dem_lattice *lattice, reader *r)
 {
     lattice->n_nodes = (dem_index)r->rows[NODES];
@@ -201,9 +223,11 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->body = r->data[BODY];
     lattice->position = r->data[POSITION];
     lattice->velocity = r->data[VELOCITY];
+    /* FIXED and CONTACT_NODES are made into flags and stay with the reader. */
     for (int a = 0; a < FIXED; a++) r->data[a] = NULL;
 }
 
+/* lattice_check() does not know the file, so its message gets the path in front. */
 static dem_status check_indices(const dem_lattice *lattice, const char *path)
 {
     char reason[256];
@@ -213,12 +237,14 @@ static dem_status check_indices(const dem_lattice *lattice, const char *path)
     return status_fail(DEM_ERROR_MODEL, "%s: /lattice: %s", path, reason);
 }
 
+/* The file is open only while it is read. */
 static dem_status read_file(reader *r, const char *path)
 {
     TRY(hdf5_untrusted_open(&r->file, path));
     return hdf5_close(&r->file, read_arrays(r));
 }
 
+/* On failure the arrays are freed by whoever has them at that moment. */
 dem_status dem_lattice_read(dem_lattice *out, const char *path)
 {
     reader r = {0};
@@ -239,6 +265,7 @@ out:
     return status;
 }
 
+/* Makes all checks of names and shapes, but reads no array. */
 dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem_index *n_springs)
 {
     reader r = {.measure = 1};
@@ -252,6 +279,7 @@ dem_status dem_lattice_measure(const char *path, dem_index *n_nodes, dem_index *
 
 /* ---- writing ---- */
 
+/* An optional array that is NULL is left out. All rows are one chunk. */
 static dem_status write_array(const hdf5_file *file, enum array a, int deflate, dem_index count, const void *data)
 {
     const struct dataset *d = &datasets[a];
@@ -259,6 +287,7 @@ static dem_status write_array(const hdf5_file *file, enum array a, int deflate, 
     return data != NULL || d->required ? hdf5_write(file, rows, (hsize_t)count, data) : DEM_OK;
 }
 
+/* Flags are stored as a byte for each node that is fixed or not, and the list of nodes that may touch. */
 static dem_status write_flags(const hdf5_file *file, const dem_lattice *lattice, int deflate)
 {
     dem_status status = DEM_ERROR_MEMORY;

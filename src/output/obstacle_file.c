@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The polylines twice: as the model has them, and as one grid. */
+/* Obstacles in files, twice: as they were given, in the group /obstacles of a trajectory, from which they can be read
+ * back; and as a VTKHDF grid of lines of its own, NAME.obstacle.vtkhdf, for ParaView (docs/output.md). Obstacles that
+ * move are drawn where they are at each frame. Fields of motions go through dem_motion_field_at(), so a new kind of
+ * motion needs no change here. The geometry of obstacles is in obstacle/. */
 #include "output/obstacle_file.h"
 
 #include "base/grow.h"
@@ -14,6 +17,7 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Restitution and friction, as attributes of the obstacle's group. */
 static dem_status write_law(const hdf5_file *file, const char *group, const dem_obstacle *o)
 {
     const char *law = o->friction_law == DEM_FRICTION_PAPER ? "paper" : "coulomb";
@@ -24,12 +28,13 @@ static dem_status write_law(const hdf5_file *file, const char *group, const dem_
 
 enum { NAME = 80 }; /* of a dataset */
 
+/* The dataset of a field of a motion. */
 static void name_field(char name[NAME], const char *group, const dem_motion_field *field)
 {
     (void)snprintf(name, NAME, "%s/%s", group, field->name);
 }
 
-/* What is at rest has none. */
+/* The fields of the motions that the obstacle has; one at rest has none of these datasets. */
 static dem_status write_motion(const hdf5_file *file, const char *group, const dem_obstacle *o)
 {
     const dem_motion_field *field;
@@ -61,6 +66,7 @@ dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
 
 /* ---- reading ---- */
 
+/* Only the two names of laws are accepted. What the numbers must be is checked by check(). */
 static dem_status read_law(const hdf5_file *file, const char *group, dem_obstacle *o)
 {
     char law[16];
@@ -74,7 +80,7 @@ static dem_status read_law(const hdf5_file *file, const char *group, dem_obstacl
     return DEM_OK;
 }
 
-/* The points are the caller's as soon as they are allocated. */
+/* The points belong to the obstacle as soon as they are allocated, so that a later failure frees them. */
 static dem_status read_points(const hdf5_file *file, const char *name, dem_obstacle *o)
 {
     hdf5_untrusted_shape shape;
@@ -87,6 +93,7 @@ static dem_status read_points(const hdf5_file *file, const char *name, dem_obsta
     return hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, shape.extent[0], 0}, points);
 }
 
+/* A field that is missing keeps its 0: no such motion. */
 static dem_status read_field(const hdf5_file *file, const char *group, const dem_motion_field *field, dem_obstacle *o)
 {
     char name[NAME];
@@ -109,10 +116,12 @@ static dem_status read_motion(const hdf5_file *file, const char *group, dem_obst
     return DEM_OK;
 }
 
+/* The obstacle must be one that a model would take; its message gets file and group in front. */
 static dem_status check(const hdf5_file *file, const char *group, const dem_obstacle *o)
 {
     char reason[256];
     dem_index segments[2];
+    /* Which segments meet is in the message already. */
     const dem_status status = dem_obstacle_check(o, segments);
     if (status == DEM_OK || status == DEM_ERROR_MEMORY) return status;
     (void)snprintf(reason, sizeof reason, "%s", dem_status_message());
@@ -132,7 +141,8 @@ static dem_status read_obstacle(const hdf5_file *file, const char *group, dem_ob
     return check(file, group, out);
 }
 
-/* After a failure too, what is there is [*n]. */
+/* Groups are numbered from 0 without holes, and the first missing one ends the list. After a failure, too, what there
+ * is is [*n]. */
 static dem_status read_all(const hdf5_file *file, dem_obstacle **out, dem_index *n)
 {
     dem_index capacity = 0;
@@ -162,6 +172,7 @@ dem_status obstacle_file_read(const hdf5_file *file, dem_obstacle **out, dem_ind
     return status;
 }
 
+/* The points are const for users of an obstacle, and were allocated by read_points(). */
 void obstacle_file_free(dem_obstacle *obstacles, dem_index n)
 {
     for (dem_index o = 0; o < n; o++) free((void *)(uintptr_t)obstacles[o].points);
@@ -181,7 +192,7 @@ bool obstacle_file_moves(const dem_model *model)
     return any;
 }
 
-/* The polylines as one grid. */
+/* All polylines as one grid of lines, in which no point belongs to two obstacles. */
 typedef struct outline {
     const dem_model *model;
     grid grid;
@@ -213,6 +224,8 @@ static dem_status allocate_outline(outline *out, const dem_model *model, dem_ind
     return status_fail(DEM_ERROR_MEMORY, "out of memory");
 }
 
+/* Each segment is a cell from a point to the next one; the last point of an obstacle has no segment to the next
+ * obstacle. */
 static dem_status make_outline(outline *out, const dem_model *model)
 {
     dem_index n_obstacles = 0, n_points = 0, point = 0, segment = 0;
@@ -221,6 +234,7 @@ static dem_status make_outline(outline *out, const dem_model *model)
     TRY(allocate_outline(out, model, n_points, n_points - n_obstacles));
     for (dem_index o = 0; o < n_obstacles; o++)
         for (dem_index p = 0; p < obstacles[o].n_points; p++, point++) {
+            /* The first point of an obstacle ends no segment. */
             if (p == 0) continue;
             out->ends[2 * segment] = point - 1;
             out->ends[2 * segment + 1] = point;
@@ -229,7 +243,7 @@ static dem_status make_outline(outline *out, const dem_model *model)
     return DEM_OK;
 }
 
-/* Where they are at t. */
+/* Points of all obstacles at time t, with z = 0. */
 static void place_points(const outline *o, double t)
 {
     dem_index n = 0, first = 0;
@@ -239,10 +253,12 @@ static void place_points(const outline *o, double t)
     for (dem_index i = 0; i < o->grid.n_points; i++) memcpy(o->points + 3 * i, o->flat + 2 * i, 2 * sizeof *o->flat);
 }
 
+/* With times, the points of all steps stand one behind the other, a step in each chunk. Without, there is one set. */
 static dem_status write_points(const hdf5_file *file, const outline *o, obstacle_file_times at, int deflate)
 {
     const hsize_t n = (hsize_t)o->grid.n_points;
     const hdf5_rows rows = {GRID "Points", HDF5_F64, 2, {3}, n, deflate};
+    /* A dataset that grows by a step at a time. */
     if (at.n > 0) TRY(hdf5_create(file, &rows));
     for (dem_index k = 0; k < at.n; k++) {
         place_points(o, at.t[k]);
@@ -253,7 +269,7 @@ static dem_status write_points(const hdf5_file *file, const outline *o, obstacle
     return hdf5_write(file, (hdf5_rows){GRID "Points", HDF5_F64, 2, {3}, 0, deflate}, n, o->points);
 }
 
-/* One number a step, `first` and so on by `increment`. */
+/* n numbers, `first` and so on by `increment`. */
 static dem_status write_row(const hdf5_file *file, hdf5_rows rows, dem_index n, dem_index first, dem_index increment)
 {
     dem_index *numbers = malloc((size_t)n * sizeof *numbers);
@@ -264,7 +280,7 @@ static dem_status write_row(const hdf5_file *file, hdf5_rows rows, dem_index n, 
     return status;
 }
 
-/* Each step has points of its own, and the cells of all. */
+/* The steps of the grid: each has points of its own, and the cells of all. Datasets of equal content are links. */
 static dem_status write_steps(const hdf5_file *file, const outline *o, obstacle_file_times at)
 {
     TRY(hdf5_write_attribute(file, GRID "Steps", "NSteps", HDF5_I64, 1, &at.n));
@@ -286,6 +302,7 @@ static dem_status write_outline(const hdf5_file *file, const outline *o, obstacl
     return at.n > 0 ? write_steps(file, o, at) : DEM_OK;
 }
 
+/* Room is reserved for points, cells, and what each step adds. A part that is not whole is removed. */
 dem_status obstacle_file_publish(const char *part, const char *path, const dem_model *model, obstacle_file_times at,
                                  int deflate)
 {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Peaks are kept as entries; the file has a column for each of their numbers. */
+/* The peaks of a run in its file (docs/output.md, /most_stressed), written once, when the run is finished: arrays of
+ * nodes and springs that are the same in all frames, and lists of the most stressed nodes and springs, the largest
+ * first. Peaks are kept as one entry for each node or spring, the file has a column for each of their numbers. They are
+ * found in simulation/peaks.c. */
 #include "output/peaks_file.h"
 
 #include "base/status.h"
@@ -9,6 +12,7 @@
 
 /* ---- arrays ---- */
 
+/* Columns are gathered in the scratch of the frames, one after another. */
 static dem_status write_nodes(const hdf5_file *file, const dem_node_peak *peaks, const frames *f)
 {
     const frames_constant size = {"PointData", "peak_von_mises", f->real, 1};
@@ -41,6 +45,7 @@ dem_status peaks_file_write_arrays(const hdf5_file *file, const peaks_report *re
 
 /* ---- lists ---- */
 
+/* A column of reals in one chunk. */
 static dem_status write_column(const hdf5_file *file, const char *name, dem_index n, int components,
                                const double *values)
 {
@@ -53,6 +58,7 @@ static dem_status write_numbers(const hdf5_file *file, const char *name, dem_ind
     return hdf5_write(file, (hdf5_rows){name, HDF5_I64, 1, {0}, 0, 0}, (hsize_t)n, numbers);
 }
 
+/* `list` gets the numbers of the nodes, the largest stress first; then each column follows this order. */
 static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
 {
     const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, r->most, list);
@@ -68,6 +74,7 @@ static dem_status write_node_list(const hdf5_file *file, const peaks_report *r, 
     return write_column(file, "/most_stressed/nodes/stress", n, 3, column);
 }
 
+/* The place of a spring is its middle at rest. Its force is the stiffness times the strain, computed in place. */
 static dem_status write_spring_list(const hdf5_file *file, const peaks_report *r, dem_index *list, double *column)
 {
     const dem_index n = dem_peaks_most_strained_springs(r->peaks, r->most, list);
@@ -83,13 +90,16 @@ static dem_status write_spring_list(const hdf5_file *file, const peaks_report *r
     TRY(write_column(file, "/most_stressed/springs/t", n, 1, column));
     for (dem_index k = 0; k < n; k++) column[k] = peaks[list[k]].strain;
     TRY(write_column(file, "/most_stressed/springs/strain", n, 1, column));
+    /* The column still has the strains. */
     for (dem_index k = 0; k < n; k++) column[k] *= l->stiffness[list[k]];
     return write_column(file, "/most_stressed/springs/force", n, 1, column);
 }
 
+/* Room for as many as are asked for, or as there are; a column has three components at most. */
 dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *report)
 {
     const dem_index n = report->lattice->n_nodes, m = report->lattice->n_springs, largest = n > m ? n : m;
+    /* One more, so that nothing is allocated without bytes. */
     const size_t most = (size_t)(report->most < largest ? report->most : largest) + 1;
     dem_index *list = malloc(most * sizeof *list);
     double *column = malloc(3 * most * sizeof *column);
@@ -103,6 +113,7 @@ dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *rep
     return status;
 }
 
+/* An upper bound: all reals as doubles, the offsets of n frames, and the lists. */
 hsize_t peaks_file_bytes(const peaks_report *report, hsize_t n)
 {
     const dem_lattice *l = report->lattice;

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which columns each kind of probe has, and what fills them. */
+/* Probes: a node, a spring or a gauge (the distance of two nodes) over time, in the groups /probes/NAME
+ * (docs/output.md). A row is written at t = 0 and at every `every`-th accepted step, never interpolated. This file has
+ * the columns of each kind, when a row is due, and what a checkpoint keeps of a probe. How rows reach the file is in
+ * table.c. */
 #include "output/probe.h"
 
 #include "base/status.h"
@@ -21,9 +24,11 @@ static const struct column {
     [DEM_PROBE_GAUGE] = {{"t", "s", 1}, {"length", "m", 1}, {"strain", "1", 1}},
 };
 
+/* The names of kinds in the file. */
 static const char *const kinds[] = {
     [DEM_PROBE_NODE] = "node", [DEM_PROBE_SPRING] = "spring", [DEM_PROBE_GAUGE] = "gauge"};
 
+/* The list of a kind ends with a column without a name. */
 static int count_columns(const dem_probe *what)
 {
     int n = 0;
@@ -31,7 +36,7 @@ static int count_columns(const dem_probe *what)
     return n;
 }
 
-/* How many numbers say what is probed. */
+/* How many numbers say what is probed: a gauge has two nodes. */
 static int count_numbers(const dem_probe *what)
 {
     return what->kind == DEM_PROBE_GAUGE ? 2 : 1;
@@ -39,6 +44,7 @@ static int count_numbers(const dem_probe *what)
 
 /* ---- checks ---- */
 
+/* A name becomes a group of the file, and part of file names of exports: only plain characters are accepted. */
 static dem_status check_name(const char *name)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
@@ -49,6 +55,7 @@ static dem_status check_name(const char *name)
     return DEM_OK;
 }
 
+/* Whether the lattice has what is to be probed. */
 static dem_status check_probe(const dem_probe *what, const dem_lattice *l)
 {
     TRY(check_name(what->name));
@@ -67,10 +74,11 @@ static dem_status check_probe(const dem_probe *what, const dem_lattice *l)
 
 /* ---- creation ---- */
 
-/* The name, and the paths of the columns behind it. */
+/* One allocation for the probe's own copy of its name and the paths of its columns, each of the same size. */
 static dem_status name_columns(probe *p, const char *name)
 {
     const int n = count_columns(&p->what);
+    /* von_mises is the longest name of a column. */
     const size_t size = strlen(name) + sizeof "/probes//von_mises";
     p->text = malloc((size_t)(n + 1) * size);
     CHECK_MEMORY(p->text);
@@ -85,11 +93,13 @@ static dem_status name_columns(probe *p, const char *name)
     return DEM_OK;
 }
 
+/* Distance of a gauge's nodes at the positions x, m. */
 static double gauge_length(const dem_probe *what, const double *x)
 {
     return vec2_norm(vec2_sub(vec2_at(x, what->number[1]), vec2_at(x, what->number[0])));
 }
 
+/* The strain of a gauge refers to its distance in the rest shape. */
 static dem_status prepare(probe *p, const dem_lattice *lattice)
 {
     if (p->what.kind == DEM_PROBE_GAUGE) {
@@ -118,6 +128,7 @@ void probe_free(probe *p)
     *p = (probe){0};
 }
 
+/* Datasets, their units, and attributes that say what is probed. */
 dem_status probe_create(const probe *p, const hdf5_file *file)
 {
     char group[sizeof "/probes/" + most_letters];
@@ -133,6 +144,7 @@ dem_status probe_create(const probe *p, const hdf5_file *file)
 
 /* ---- rows ---- */
 
+/* In the order of the columns: t, x, v, stress, von Mises stress. */
 static void record_node(probe *p, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_index i = p->what.number[0];
@@ -146,6 +158,7 @@ static void record_node(probe *p, const dem_simulation *simulation, const dem_st
     (void)table_put_reals(cell, &von_mises, 1);
 }
 
+/* The force is E_ij times the strain, without damping. */
 static void record_spring(probe *p, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
@@ -154,12 +167,15 @@ static void record_spring(probe *p, const dem_simulation *simulation, const dem_
     (void)table_put_reals(table_add(&p->table), row, 3);
 }
 
+/* The strain is the length over that at rest, less 1. */
 static void record_gauge(probe *p, const dem_state *state)
 {
     const double length = gauge_length(&p->what, state->x), row[3] = {state->t, length, length / p->initial - 1.0};
     (void)table_put_reals(table_add(&p->table), row, 3);
 }
 
+/* Called after every accepted step; a row is due at the first call and at every `every`-th one. A call at the same
+ * instant again, as a resumed run makes it, is no step. */
 void probe_record(probe *p, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
@@ -167,6 +183,7 @@ void probe_record(probe *p, const dem_simulation *simulation)
     if (p->seen && state.t == p->last) return;
     p->seen = true;
     p->last = state.t;
+    /* `left` is the number of steps to pass over before the next row. */
     if (p->left-- > 0) return;
     p->left = p->what.every - 1;
     if (p->what.kind == DEM_PROBE_NODE)
@@ -177,6 +194,7 @@ void probe_record(probe *p, const dem_simulation *simulation)
         record_gauge(p, &state);
 }
 
+/* Unused bytes are 0, since the checkpoint is made of bytes. */
 probe_progress probe_progress_of(const probe *p)
 {
     probe_progress m = {.kind = (int64_t)p->what.kind,
@@ -190,6 +208,7 @@ probe_progress probe_progress_of(const probe *p)
     return m;
 }
 
+/* The probe must be the one that the checkpoint was written with; otherwise its rows would not fit together. */
 dem_status probe_restore(probe *p, const probe_progress *memory)
 {
     const probe_progress own = probe_progress_of(p);

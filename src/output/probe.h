@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The groups /probes/NAME of a trajectory: a node, a spring or a gauge over time. */
+/* The groups /probes/NAME of a trajectory: a node, a spring or a gauge over time (docs/output.md). */
 #ifndef DEM_OUTPUT_PROBE_H
 #define DEM_OUTPUT_PROBE_H
 

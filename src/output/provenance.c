@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An array that is searched from its start: a run has a dozen entries. */
+/* Texts that say what made a file: versions, deck, hashes. They are kept in memory, so that every file of a run gets
+ * all of them. An array that is searched from its start: a run has a dozen entries. Which texts there are is decided by
+ * the programs, through dem_trajectory_note(). */
 #include "output/provenance.h"
 
 #include "base/grow.h"
@@ -8,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The name of a note becomes that of a dataset, so path separators and dots are refused. */
 dem_status provenance_path(char path[PROVENANCE_PATH], const char *name)
 {
     CHECK(*name != '\0' && strpbrk(name, "/.") == NULL && strlen(name) < 64, DEM_ERROR_ARGUMENT,
@@ -16,6 +19,7 @@ dem_status provenance_path(char path[PROVENANCE_PATH], const char *name)
     return DEM_OK;
 }
 
+/* Memory for the entry and the text is there before anything is changed. */
 dem_status provenance_put(provenance *all, const char *path, const char *text)
 {
     dem_index k = 0;

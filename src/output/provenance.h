@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The strings of /provenance, kept so that every file of a run can have them. */
+/* The texts of /provenance, kept in memory so that every file of a run can have them. */
 #ifndef DEM_OUTPUT_PROVENANCE_H
 #define DEM_OUTPUT_PROVENANCE_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A group of datasets with one row for each thing that is stored, such as /history: rows are collected in memory and
- * moved to the file together. A table without columns is one that is never written. */
+ * moved to the file together. A table without columns is never written. */
 #ifndef DEM_OUTPUT_TABLE_H
 #define DEM_OUTPUT_TABLE_H
 

@@ -1,6 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run as VTKHDF files: what is written when, and what a checkpoint has to hold of it. docs/output.md lists all
- * datasets. */
+/* A run as an observer that writes VTKHDF files: what is written when, what a checkpoint has to hold of it, and how a
+ * run goes on with the same files (docs/output.md lists all datasets).
+ *   accepted step    a row of the history and of the probes that are due, in memory
+ *   event            a row of the events, in memory
+ *   frame            opens the part, writes buffered rows and the frame, closes it: it may be looked at in between
+ *   checkpoint       an entry with the numbers of rows, and with what the next rows depend on
+ *   segment          cuts the rows of a checkpoint off, before the program publishes it
+ *   finish           joins all rows and the peaks in one file
+ * Which files there are, and that none of them is lost when the process is killed, is in trajectory_parts.c; what a
+ * file contains is in trajectory_rows.c; reading back is in trajectory_reader.c. */
 #include <dem/trajectory.h>
 
 #include "base/status.h"
@@ -21,6 +29,7 @@ struct dem_trajectory {
     int finished;
 };
 
+/* The name of the finished file, and that of the part which is written until then. */
 static const char *path_of(const dem_trajectory *t)
 {
     return t->segments.names[PARTS_WHOLE];
@@ -33,12 +42,15 @@ static const char *part_of(const dem_trajectory *t)
 
 /* ---- following a run ---- */
 
+/* Buffered rows go first: a frame in the file has all rows of the history before it. */
 static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation)
 {
     TRY(trajectory_rows_flush(&t->rows, file));
     return frames_append(&t->rows.frames, file, simulation);
 }
 
+/* Opens the part, adds rows and the frame, and closes it. Room for both is reserved by opening. The frame counts only
+ * if closing has succeeded; a frame at the same instant again, as a resumed run shows it, is not added. */
 static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
@@ -47,6 +59,7 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
     hdf5_file file;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", path_of(t));
     TRY(dem_simulation_state(simulation, &state));
+    /* frames.before counts those in segments, so that the first frame of a resumed run is compared as well. */
     if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
     TRY(hdf5_open_write(&file, part_of(t), trajectory_rows_flush_bytes(&t->rows) + frames_bytes(f)));
     TRY(hdf5_close(&file, append_frame(t, &file, simulation)));
@@ -55,6 +68,7 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
+/* Moves the buffered rows to the part. */
 static dem_status flush(dem_trajectory *t)
 {
     hdf5_file file;
@@ -62,6 +76,7 @@ static dem_status flush(dem_trajectory *t)
     return hdf5_close(&file, trajectory_rows_flush(&t->rows, &file));
 }
 
+/* The buffers of history and probes are emptied when the history's is full: no probe has more rows than that. */
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
@@ -73,6 +88,7 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
     return DEM_OK;
 }
 
+/* Events have a buffer of their own, since a step may have many. */
 static dem_status on_event(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     dem_trajectory *t = context;
@@ -85,9 +101,11 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 
 /* ---- checkpoints ---- */
 
+/* Names of the entries in a checkpoint. */
 static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
 
-/* Without gaps: its bytes are those of its numbers. */
+/* What a checkpoint keeps of a trajectory, as bytes of an entry. All members are of 8 bytes, so that there are no
+ * gaps. */
 typedef struct progress {
     int64_t rows[ROWS_PROBES];                          /* so far, over all segments */
     int64_t n_probes, fields, double_precision, events; /* of the options, which have to be these again */
@@ -96,6 +114,8 @@ typedef struct progress {
     double start, largest;       /* J, of the history */
 } progress;
 
+/* Rows are counted over all files of the run and the buffers: a resumed run keeps exactly these and drops later
+ * ones. */
 static progress read_progress(const dem_trajectory *t)
 {
     const trajectory_rows *r = &t->rows;
@@ -109,10 +129,13 @@ static progress read_progress(const dem_trajectory *t)
                   .last_row = r->history.last,
                   .start = r->history.start,
                   .largest = r->history.largest};
+    /* Rows of probes are in entries of their own, since their number is not fixed. */
     for (int k = 0; k < ROWS_PROBES; k++) m.rows[k] = (int64_t)trajectory_rows_total(r, k);
     return m;
 }
 
+/* Only counts and sums are kept here. The rows themselves get into a segment by dem_trajectory_segment(), which a
+ * program calls before it publishes the checkpoint. */
 static dem_status on_checkpoint(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     const dem_trajectory *t = context;
@@ -129,6 +152,7 @@ static dem_status on_checkpoint(void *context, const dem_simulation *simulation,
     return status;
 }
 
+/* The rows of a run cannot change their columns half-way, so options that decide these must be the same. */
 static dem_status check_same(const char *what, double now, double then)
 {
     CHECK(now == then, DEM_ERROR_ARGUMENT, "%s is %.17g, in the run that is to go on it is %.17g", what, now, then);
@@ -144,14 +168,14 @@ static dem_status check_options_then(const progress *now, const progress *then)
     return check_same("frame_interval", now->frame_interval, then->frame_interval);
 }
 
-/* What a checkpoint says of this trajectory. */
+/* What a checkpoint says of this trajectory; the probes are a view into it. */
 typedef struct recorded {
     progress progress;
     const probe_progress *probes; /* [n_probes] */
     hsize_t *rows;                /* [kinds] */
 } recorded;
 
-/* Free rows, after a failure too. */
+/* `rows` must be freed after a failure, too. */
 static dem_status read_checkpoint(recorded *out, const dem_trajectory *t, const dem_checkpoint *checkpoint)
 {
     const progress now = read_progress(t);
@@ -164,6 +188,7 @@ static dem_status read_checkpoint(recorded *out, const dem_trajectory *t, const 
     out->probes = dem_checkpoint_find(checkpoint, probes_entry, &size);
     CHECK(n == 0 || (out->probes != NULL && size == n * sizeof *out->probes), DEM_ERROR_IO,
           "the checkpoint has no entry %s of %zu probes", probes_entry, n);
+    /* Kinds of rows are numbered frames, history, events, then the probes. */
     for (int k = 0; k < ROWS_PROBES; k++) out->rows[k] = (hsize_t)out->progress.rows[k];
     for (size_t k = 0; k < n; k++) out->rows[ROWS_PROBES + k] = (hsize_t)out->probes[k].rows;
     return DEM_OK;
@@ -171,13 +196,16 @@ static dem_status read_checkpoint(recorded *out, const dem_trajectory *t, const 
 
 /* ---- creation ---- */
 
+/* The first version of the options ended with `probes`. */
 static const struct_kind options_kind = {"dem_trajectory_options", STRUCT_SIZE_WITH(dem_trajectory_options, probes),
                                          sizeof(dem_trajectory_options)};
 
+/* The suffix is needed to derive the names of parts and segments. */
 static dem_status check_options(const char *path, const dem_trajectory_options *options)
 {
     static const char suffix[] = PARTS_SUFFIX;
     const size_t length = strlen(path), end = sizeof suffix - 1;
+    /* A suffix alone is no name. */
     CHECK(length > end && strcmp(path + length - end, suffix) == 0 && path[length - end - 1] != '/', DEM_ERROR_ARGUMENT,
           "%s: the name of a trajectory ends in %s", path, suffix);
     CHECK(isfinite(options->frame_interval), DEM_ERROR_ARGUMENT, "frame_interval is not a finite number");
@@ -192,7 +220,7 @@ static dem_status check_options(const char *path, const dem_trajectory_options *
     return DEM_OK;
 }
 
-/* A trajectory without files yet. */
+/* A trajectory in memory, without files yet. The caller's options may be of another version of the library. */
 static dem_status prepare(dem_trajectory **out, const char *path, const dem_simulation *simulation,
                           const dem_trajectory_options *options)
 {
@@ -212,7 +240,8 @@ static dem_status prepare(dem_trajectory **out, const char *path, const dem_simu
     return status;
 }
 
-/* Makes the part and the file of obstacles, and removes what is younger. */
+/* Makes the part and the file of obstacles, and removes segments that are younger than where the run begins. Obstacles
+ * are drawn at t = 0 for now; draw_moving() replaces the file at the end. */
 static dem_status start(dem_trajectory *t)
 {
     const trajectory_rows *r = &t->rows;
@@ -227,7 +256,7 @@ static dem_status start(dem_trajectory *t)
     return status;
 }
 
-/* Hands out what has started, or puts it away. */
+/* Gives the trajectory to the caller, or destroys what has failed to start. */
 static dem_status hand_out(dem_trajectory **out, dem_trajectory *t, dem_status status)
 {
     if (status == DEM_OK)
@@ -237,7 +266,8 @@ static dem_status hand_out(dem_trajectory **out, dem_trajectory *t, dem_status s
     return status;
 }
 
-/* The history's last instant is known before the segments are looked for: they end with it. */
+/* Takes the place of a run from its checkpoint. The history's last instant is known before the segments are looked for:
+ * they must end with it. */
 static dem_status go_on(dem_trajectory *t, const dem_checkpoint *checkpoint)
 {
     recorded then;
@@ -275,6 +305,7 @@ dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const d
     return hand_out(out, t, go_on(t, checkpoint));
 }
 
+/* Without `events` the simulation need not report any. */
 dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
 {
     return (dem_observer){.interval = trajectory->rows.options.frame_interval,
@@ -285,6 +316,7 @@ dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
                           .context = trajectory};
 }
 
+/* Written to the part at once, and kept in memory for the files that follow. */
 dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)
 {
     char path[PROVENANCE_PATH];
@@ -293,11 +325,14 @@ dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, con
           "dem_trajectory_note: an argument is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more notes", path_of(trajectory));
     TRY(provenance_path(path, name));
+    /* The room for the header of a dataset is within what hdf5_open_write() adds. */
     TRY(hdf5_open_write(&file, part_of(trajectory), strlen(text)));
     TRY(hdf5_close(&file, hdf5_write_text(&file, path, text)));
     return provenance_put(&trajectory->rows.provenance, path, text);
 }
 
+/* To be called before the checkpoint is published: afterwards all rows that it counts are in files under final
+ * names. */
 dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_checkpoint *checkpoint)
 {
     recorded then;
@@ -310,11 +345,12 @@ dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_checkpoi
     return status;
 }
 
-/* The times of all frames, of which the whole has n; free with free(). */
+/* The times of all frames, from the finished file; *out must be freed, after a failure too. */
 static dem_status read_times(const dem_trajectory *t, double **out, dem_index *n)
 {
     hdf5_file file;
     const hdf5_rows rows = {GRID "Steps/Values", HDF5_F64, 1, {0}, 0, 0};
+    /* After joining the whole has all frames of the run. */
     *n = (dem_index)trajectory_rows_total(&t->rows, ROWS_FRAMES);
     *out = malloc(((size_t)*n + 1) * sizeof **out);
     CHECK_MEMORY(*out);
@@ -322,7 +358,7 @@ static dem_status read_times(const dem_trajectory *t, double **out, dem_index *n
     return hdf5_close(&file, hdf5_read(&file, &rows, 0, (hsize_t)*n, *out));
 }
 
-/* Draws obstacles of which some move where they are at each frame. */
+/* Draws obstacles where they are at each frame, if some of them move. */
 static dem_status draw_moving(const dem_trajectory *t)
 {
     char *const *names = t->segments.names;
@@ -337,6 +373,7 @@ static dem_status draw_moving(const dem_trajectory *t)
     return status;
 }
 
+/* Rows that are left, then the whole file, then the obstacles. The whole is published before the parts are removed. */
 dem_status dem_trajectory_finish(dem_trajectory *trajectory)
 {
     CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
@@ -355,6 +392,7 @@ void dem_trajectory_destroy(dem_trajectory *trajectory)
     free(trajectory);
 }
 
+/* Reads a text of a file that this library has written. */
 dem_status dem_trajectory_read_note(const char *path, const char *name, char *text, size_t size)
 {
     char full[PROVENANCE_PATH];
@@ -366,6 +404,7 @@ dem_status dem_trajectory_read_note(const char *path, const char *name, char *te
     return hdf5_close(&file, hdf5_read_text(&file, full, text, size));
 }
 
+/* HDF5 would clean up at the exit of the process, where files must be closed already; the program decides. */
 void dem_hdf5_skip_exit(void)
 {
     (void)H5dont_atexit();

@@ -1,5 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A segment carries its number, so that no file of another run is taken for one. */
+/* The files of a run and the steps by which rows move from one to another: the live part, the segments with the rows of
+ * earlier checkpoints, and the whole that they become (trajectory_parts.h has the names). The rule is that a new file
+ * is made under a temporary name, verified, published, and only then replaces what it was made of; so a kill at any
+ * moment leaves, for each published checkpoint, files with all its rows (docs/reliability.md). With A the rows up to a
+ * checkpoint, B those behind it, and the ending .vtkhdf left out, a cut is
+ *   1. NAME.part has A B                     make_rest: NAME.part.new gets B
+ *   2. the segment is made                   make_head: NAME.new gets A; or, without B, the part is marked as it is
+ *   3. NAME.new, or the part -> NAME.00001   synced, read back, renamed: from now on the checkpoint may be written
+ *   4. NAME.part.new -> NAME.part            the run goes on with B
+ * and a kill between any two of them leaves A in the part or in the segment. A run that is resumed finds its segments
+ * (trajectory_parts_find), removes younger ones and begins a new part. At the end all segments and the part are joined
+ * into one file, which is published before they are removed. Rows are of several kinds (frames, history, events,
+ * probes), and `spans` says for each kind which ones are meant. What rows are is in trajectory_rows.c. A segment
+ * carries its number as an attribute, so that no file of another run is taken for one. */
 #include "output/trajectory_parts.h"
 
 #include "base/status.h"
@@ -13,7 +26,7 @@
 
 static const char mark[] = "segment"; /* attribute of the root */
 
-/* No run's name ends as the temporary ones do. */
+/* Endings of the names of files. No run's name ends as the temporary ones do. */
 static const char *const endings[PARTS_NAMES] = {[PARTS_WHOLE] = ".vtkhdf",
                                                  [PARTS_PART] = ".part.vtkhdf",
                                                  [PARTS_OBSTACLE] = ".obstacle.vtkhdf",
@@ -23,11 +36,13 @@ static const char *const endings[PARTS_NAMES] = {[PARTS_WHOLE] = ".vtkhdf",
 
 /* ---- names ---- */
 
+/* Length of a path without its suffix. */
 static int stem_of(const char *path)
 {
     return (int)(strlen(path) - (sizeof PARTS_SUFFIX - 1));
 }
 
+/* All names are one allocation, each with room for the longest ending and any number. */
 dem_status trajectory_parts_init(segments *out, const char *path, const trajectory_rows *r)
 {
     const size_t size = strlen(path) + 32; /* the longest ending and every number */
@@ -51,6 +66,7 @@ void trajectory_parts_free(segments *s)
     *s = (segments){0};
 }
 
+/* The name of a segment; it is valid until the next call. */
 static const char *name_segment(segments *s, dem_index number)
 {
     const char *whole = s->names[PARTS_WHOLE];
@@ -63,6 +79,7 @@ static bool exists(const char *path)
     return access(path, F_OK) == 0;
 }
 
+/* Size of a file, 0 if there is none: a bound for what a copy of its rows takes. */
 static hsize_t bytes_of(const char *path)
 {
     struct stat about = {0};
@@ -71,11 +88,13 @@ static hsize_t bytes_of(const char *path)
 
 /* ---- a file from another ---- */
 
+/* Makes the file the segment of this number. */
 static dem_status mark_segment(const hdf5_file *file, dem_index number)
 {
     return hdf5_write_attribute(file, "/", mark, HDF5_I64, 1, &number);
 }
 
+/* Copies the rows of another file that the spans say. */
 static dem_status copy_from(const segments *s, const trajectory_rows *r, const char *source, const hdf5_file *to)
 {
     hdf5_file from;
@@ -83,6 +102,7 @@ static dem_status copy_from(const segments *s, const trajectory_rows *r, const c
     return hdf5_close(&from, trajectory_rows_copy(r, &from, to, s->spans));
 }
 
+/* A copy must have all rows that it was to have, before its source may go. */
 static dem_status verify(const segments *s, const trajectory_rows *r, const char *path)
 {
     hdf5_file file;
@@ -90,12 +110,14 @@ static dem_status verify(const segments *s, const trajectory_rows *r, const char
     return hdf5_close(&file, trajectory_rows_verify(r, &file, s->spans));
 }
 
+/* A file to be made from another one. */
 typedef struct extract {
     const char *source; /* NULL: no rows */
     const char *path;
     dem_index number; /* of the segment that it becomes; 0: none */
 } extract;
 
+/* Lattice, obstacles and notes first, as every file has them, then the rows, then the mark. */
 static dem_status write_extract(const segments *s, const trajectory_rows *r, const hdf5_file *file, const extract *e)
 {
     TRY(trajectory_rows_create(r, file));
@@ -110,11 +132,13 @@ static dem_status make(const segments *s, const trajectory_rows *r, extract e)
     const hsize_t bytes = trajectory_rows_create_bytes(r) + (e.source != NULL ? bytes_of(e.source) : 0);
     dem_status status = hdf5_open_new(&file, e.path, bytes);
     if (status == DEM_OK) status = hdf5_close(&file, write_extract(s, r, &file, &e));
+    /* After closing, as the next reader will see it. */
     if (status == DEM_OK && e.source != NULL) status = verify(s, r, e.path);
     if (status != DEM_OK) (void)unlink(e.path);
     return status;
 }
 
+/* The temporary files of a killed run hold nothing that is needed. */
 dem_status trajectory_parts_open(const segments *s, const trajectory_rows *r)
 {
     (void)unlink(s->names[PARTS_HEAD]); /* a killed run may have left them */
@@ -124,6 +148,8 @@ dem_status trajectory_parts_open(const segments *s, const trajectory_rows *r)
 
 /* ---- cutting ---- */
 
+/* The part is marked to become a segment. Until that has happened it is soiled: if it fails, the part must not be used
+ * under another name as it is. */
 static dem_status mark_part(segments *s)
 {
     hdf5_file file;
@@ -132,6 +158,8 @@ static dem_status mark_part(segments *s)
     return hdf5_close(&file, mark_segment(&file, s->n + 1));
 }
 
+/* Copies the rows of the part up to `upto` into a new file. `upto` counts from the start of the run; the rows before
+ * the part, total - written, are taken off. */
 static dem_status make_head(const segments *s, const trajectory_rows *r, const hsize_t *upto)
 {
     for (int k = 0; k < r->n_kinds; k++)
@@ -139,6 +167,7 @@ static dem_status make_head(const segments *s, const trajectory_rows *r, const h
     return make(s, r, (extract){s->names[PARTS_PART], s->names[PARTS_HEAD], s->n + 1});
 }
 
+/* Copies the rows of the part behind `upto` into the file that will be the next part; without such rows it is empty. */
 static dem_status make_rest(const segments *s, const trajectory_rows *r, const hsize_t *upto, bool later)
 {
     for (int k = 0; k < r->n_kinds; k++) {
@@ -148,6 +177,7 @@ static dem_status make_rest(const segments *s, const trajectory_rows *r, const h
     return make(s, r, (extract){later ? s->names[PARTS_PART] : NULL, s->names[PARTS_REST], 0});
 }
 
+/* A rename: the old part is gone, or has become the segment. */
 static dem_status replace_part(const segments *s)
 {
     const char *rest = s->names[PARTS_REST], *part = s->names[PARTS_PART];
@@ -155,13 +185,15 @@ static dem_status replace_part(const segments *s)
     return DEM_OK;
 }
 
+/* A file that stands under the name of the next segment is not overwritten. */
 static dem_status check_free(segments *s)
 {
     CHECK(!exists(name_segment(s, s->n + 1)), DEM_ERROR_IO, "%s is in the way of a segment of that name", s->segment);
     return DEM_OK;
 }
 
-/* \param whole  the part becomes the segment as it is */
+/* Publishes the segment, then puts the rest in the place of the part.
+ * \param whole  the part becomes the segment as it is */
 static dem_status publish_cut(segments *s, const trajectory_rows *r, const hsize_t *upto, bool whole)
 {
     TRY(whole ? mark_part(s) : make_head(s, r, upto));
@@ -169,6 +201,7 @@ static dem_status publish_cut(segments *s, const trajectory_rows *r, const hsize
     return replace_part(s);
 }
 
+/* Brings back the part, and removes what was made. */
 static void undo_cut(const segments *s, bool whole)
 {
     (void)(whole ? rename(s->segment, s->names[PARTS_PART]) : unlink(s->segment));
@@ -176,11 +209,15 @@ static void undo_cut(const segments *s, bool whole)
     (void)unlink(s->names[PARTS_REST]);
 }
 
+/* `later`: the part has rows behind `upto`, which stay in a part. If there are none, and the part is not soiled, it
+ * becomes the segment by a rename, without copying. The rest is made first, so that it is ready when the segment is
+ * published. */
 dem_status trajectory_parts_cut(segments *s, trajectory_rows *r, const hsize_t *upto)
 {
     bool later = false, any = false;
     for (int k = 0; k < r->n_kinds; k++) {
         const hsize_t total = trajectory_rows_total(r, k), before = total - trajectory_rows_written(r, k);
+        /* Only rows of the part can be cut off: those before it are in segments already. */
         CHECK(upto[k] >= before && upto[k] <= total, DEM_ERROR_ARGUMENT,
               "%s: the checkpoint is at row %llu of %s, rows %llu to %llu are here", s->names[PARTS_PART],
               (unsigned long long)upto[k], trajectory_rows_name(r, k), (unsigned long long)before,
@@ -188,7 +225,9 @@ dem_status trajectory_parts_cut(segments *s, trajectory_rows *r, const hsize_t *
         later = later || upto[k] < total;
         any = any || upto[k] > before;
     }
+    /* A segment without rows is not made. */
     if (!any) return DEM_OK;
+    /* The part has nothing but the rows of the segment. */
     const bool whole = !later && !s->soiled;
     TRY(check_free(s));
     TRY(make_rest(s, r, upto, later));
@@ -197,6 +236,7 @@ dem_status trajectory_parts_cut(segments *s, trajectory_rows *r, const hsize_t *
         undo_cut(s, whole);
         return status;
     }
+    /* What was the rest is the part now, with its rows from 0 on. */
     for (int k = 0; k < r->n_kinds; k++) trajectory_rows_place(r, k, upto[k], trajectory_rows_total(r, k) - upto[k]);
     s->n++;
     s->soiled = false;
@@ -205,6 +245,7 @@ dem_status trajectory_parts_cut(segments *s, trajectory_rows *r, const hsize_t *
 
 /* ---- finding ---- */
 
+/* Whether there is a segment of this number. A file that cannot be read is none, and is left alone. */
 static bool is_segment(segments *s, dem_index number)
 {
     hdf5_file file;
@@ -212,7 +253,8 @@ static bool is_segment(segments *s, dem_index number)
     return hdf5_close(&file, hdf5_expect_attribute(&file, "/", mark, number)) == DEM_OK;
 }
 
-/* The youngest first: what is left after a kill is found again. */
+/* Removes segments that a resumed run will write anew, the youngest first: if it is killed in between, those left are
+ * still numbered without a gap and are found again. */
 dem_status trajectory_parts_prune(segments *s)
 {
     dem_index last = s->n;
@@ -223,22 +265,26 @@ dem_status trajectory_parts_prune(segments *s)
     return DEM_OK;
 }
 
-/* Adds up the rows: in the end the spans stand at `upto`. */
+/* Adds up the rows of segments in spans[k].at: in the end they must stand at `upto` for all kinds. A segment that ends
+ * at the checkpoint's row of the history must have its instant there. */
 static dem_status look_at_segment(const segments *s, const trajectory_rows *r, const hdf5_file *file,
                                   const hsize_t *upto)
 {
     TRY(hdf5_expect_attribute(file, "/", mark, s->n + 1));
     TRY(trajectory_rows_count(r, file, s->spans));
     for (int k = 0; k < r->n_kinds; k++) {
+        /* Counted from the start of the run. */
         s->spans[k].at += s->spans[k].count;
         CHECK(s->spans[k].at <= upto[k], DEM_ERROR_IO, "%s: has %s beyond row %llu, where the run is to go on",
               file->path, trajectory_rows_name(r, k), (unsigned long long)upto[k]);
     }
+    /* Rows of equal number could still be another run's: the last instant tells. */
     const hdf5_span *rows = &s->spans[ROWS_HISTORY];
     if (rows->count == 0 || rows->at < upto[ROWS_HISTORY]) return DEM_OK;
     return history_expect_last(&r->history, file, rows->count - 1);
 }
 
+/* Takes the next segment, if it is one of this run. */
 static dem_status add_segment(segments *s, const trajectory_rows *r, const hsize_t *upto)
 {
     hdf5_file file;
@@ -248,6 +294,7 @@ static dem_status add_segment(segments *s, const trajectory_rows *r, const hsize
     return DEM_OK;
 }
 
+/* Whether the segments so far have all rows up to `upto`. */
 static bool reaches(const segments *s, const trajectory_rows *r, const hsize_t *upto)
 {
     for (int k = 0; k < r->n_kinds; k++)
@@ -255,18 +302,21 @@ static bool reaches(const segments *s, const trajectory_rows *r, const hsize_t *
     return true;
 }
 
+/* Whether the finished file has at least these rows, with the checkpoint's instant at the last one. */
 static dem_status look_at_whole(const segments *s, const trajectory_rows *r, const hdf5_file *file, const hsize_t *upto)
 {
     TRY(trajectory_rows_count(r, file, s->spans));
     for (int k = 0; k < r->n_kinds; k++) {
         CHECK(s->spans[k].count >= upto[k], DEM_ERROR_IO, "%s: has %llu rows of %s, %llu are needed", file->path,
               (unsigned long long)s->spans[k].count, trajectory_rows_name(r, k), (unsigned long long)upto[k]);
+        /* What make() is to copy. */
         s->spans[k] = (hdf5_span){0, upto[k], 0};
     }
     return upto[ROWS_HISTORY] > 0 ? history_expect_last(&r->history, file, upto[ROWS_HISTORY] - 1) : DEM_OK;
 }
 
-/* Segments that are there as well have been made of it, or it of them. */
+/* A run that was finished has no segments any more: its first rows are made the one segment again. Segments that are
+ * there as well have been made of the whole, or it of them, and may go. The whole itself stays until it is replaced. */
 static dem_status take_whole(segments *s, const trajectory_rows *r, const hsize_t *upto)
 {
     const char *whole = s->names[PARTS_WHOLE], *head = s->names[PARTS_HEAD];
@@ -274,6 +324,7 @@ static dem_status take_whole(segments *s, const trajectory_rows *r, const hsize_
     CHECK(exists(whole), DEM_ERROR_IO, "%s is missing", s->segment);
     TRY(hdf5_open_read(&file, whole));
     dem_status status = hdf5_close(&file, look_at_whole(s, r, &file, upto));
+    /* The message names the missing segment first, then the whole that cannot stand in for it. */
     CHECK(status != DEM_ERROR_IO, DEM_ERROR_IO, "%s is missing, and %s does not hold its rows", s->segment, whole);
     TRY(status);
     s->n = 0;
@@ -285,25 +336,30 @@ static dem_status take_whole(segments *s, const trajectory_rows *r, const hsize_
     return status;
 }
 
+/* Segments first, in their order; the whole only if they do not reach. The new part then begins behind `upto`. */
 dem_status trajectory_parts_find(segments *s, trajectory_rows *r, const hsize_t *upto)
 {
     memset(s->spans, 0, (size_t)r->n_kinds * sizeof *s->spans);
+    /* A segment with rows beyond `upto` is refused by look_at_segment(). */
     while (!reaches(s, r, upto) && exists(name_segment(s, s->n + 1))) TRY(add_segment(s, r, upto));
     if (!reaches(s, r, upto)) {
         TRY(take_whole(s, r, upto));
         s->n = 1;
     }
+    /* The part is empty when the run goes on. */
     for (int k = 0; k < r->n_kinds; k++) trajectory_rows_place(r, k, upto[k], 0);
     return DEM_OK;
 }
 
 /* ---- joining ---- */
 
+/* The k-th file of the run: the segments, then the part. */
 static const char *source_of(segments *s, dem_index k)
 {
     return k < s->n ? name_segment(s, k + 1) : s->names[PARTS_PART];
 }
 
+/* The rows of a file go behind those of the files before it. */
 static dem_status append_all(const segments *s, const trajectory_rows *r, const hdf5_file *from, const hdf5_file *to)
 {
     for (int k = 0; k < r->n_kinds; k++) s->spans[k].at += s->spans[k].count;
@@ -311,6 +367,7 @@ static dem_status append_all(const segments *s, const trajectory_rows *r, const 
     return trajectory_rows_copy(r, from, to, s->spans);
 }
 
+/* Peaks come last, since their arrays are the same in all frames and are written once. */
 static dem_status write_whole(segments *s, const trajectory_rows *r, const hdf5_file *file)
 {
     TRY(trajectory_rows_create(r, file));
@@ -323,6 +380,7 @@ static dem_status write_whole(segments *s, const trajectory_rows *r, const hdf5_
     return trajectory_rows_write_peaks(r, file, trajectory_rows_total(r, ROWS_FRAMES));
 }
 
+/* Makes the whole under a temporary name. Each source counts with its whole size for the room that is reserved. */
 static dem_status make_whole(segments *s, const trajectory_rows *r)
 {
     hdf5_file file;
@@ -333,6 +391,7 @@ static dem_status make_whole(segments *s, const trajectory_rows *r)
     return hdf5_close(&file, write_whole(s, r, &file));
 }
 
+/* A part with peaks is soiled: if publishing fails, it must not become a segment as it is. */
 static dem_status add_peaks(segments *s, const trajectory_rows *r)
 {
     hdf5_file file;
@@ -343,7 +402,8 @@ static dem_status add_peaks(segments *s, const trajectory_rows *r)
     return hdf5_close(&file, trajectory_rows_write_peaks(r, &file, trajectory_rows_total(r, ROWS_FRAMES)));
 }
 
-/* The only part becomes the whole as it is. */
+/* The only part becomes the whole as it is; otherwise all files are copied into one. Parts and segments are removed
+ * when the whole is published. */
 dem_status trajectory_parts_join(segments *s, const trajectory_rows *r)
 {
     const bool only = s->n == 0 && !s->soiled;
@@ -352,6 +412,7 @@ dem_status trajectory_parts_join(segments *s, const trajectory_rows *r)
     for (int k = 0; k < r->n_kinds; k++) s->spans[k] = (hdf5_span){0, trajectory_rows_total(r, k), 0};
     if (status == DEM_OK) status = verify(s, r, made);
     if (status == DEM_OK) status = hdf5_publish(made, s->names[PARTS_WHOLE]);
+    /* After success it has been renamed, and nothing is there. */
     (void)unlink(s->names[PARTS_HEAD]);
     if (status != DEM_OK) return status;
     (void)unlink(s->names[PARTS_PART]);

@@ -1,6 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a file holds is listed when it is opened, and measured again whenever some of it is read: it may have become
- * another one. */
+/* Reads a trajectory back (dem/reader.h): lists frames, arrays and tables when it is opened, and reads them on demand.
+ *   /VTKHDF/Steps/Values              the times of the frames
+ *   /VTKHDF/PointData, CellData       arrays of nodes, of springs
+ *   /VTKHDF/FieldData                 the table "frames", a row for each frame
+ *   /history, /events                 tables of these names
+ *   /probes/NAME, /most_stressed/...  tables "probes/NAME", ...
+ *   /lattice, /obstacles              read by lattice_file.c and obstacle_file.c
+ * The file may be any: it is checked as in hdf5_untrusted.c, and since it is closed between calls and may have been
+ * replaced, each dataset is measured again whenever some of it is read. A run that is going on may be read as well:
+ * then the numbers of rows may differ by what is just being written, and the smallest counts. Writing is in
+ * trajectory.c. */
 #include <dem/reader.h>
 #include <dem/trajectory.h>
 
@@ -21,10 +30,10 @@
 
 enum { NAME = 64, TABLE = sizeof "probes/" + NAME, PATH = TABLE + NAME + 32, MOST_COMPONENTS = 9 };
 
-/* Numbers of a row of a table: more bodies or obstacles no run has. */
+/* Numbers of a row of a table: no run has more bodies or obstacles. */
 static const hsize_t most_width = 1 << 24;
 
-/* What a group holds. */
+/* The names in a group, collected by take_name(). */
 typedef struct names {
     const hdf5_file *file;
     const char *group;
@@ -32,6 +41,7 @@ typedef struct names {
     dem_index n, capacity;
 } names;
 
+/* What a reader has listed. Views that are handed out point into it and end with it. */
 struct dem_reader {
     char *path;
     dem_lattice lattice;
@@ -49,6 +59,7 @@ struct dem_reader {
 
 /* ---- names ---- */
 
+/* Keeps a copy of a text for as long as the reader lives. */
 static dem_status keep(dem_reader *reader, const char *text, const char **out)
 {
     CHECK(grow_array((void **)&reader->texts, &reader->room_texts, reader->n_texts + 1, sizeof *reader->texts),
@@ -60,7 +71,7 @@ static dem_status keep(dem_reader *reader, const char *text, const char **out)
     return DEM_OK;
 }
 
-/* What could break a message, a table or a name of a file in two is refused. */
+/* A name that could break a message, a table or the name of a file in two is refused. */
 static dem_status take_name(void *context, const char *name)
 {
     names *all = context;
@@ -75,15 +86,16 @@ static dem_status take_name(void *context, const char *name)
     return DEM_OK;
 }
 
-/* Time comes first. */
+/* Alphabetical, but for time, which comes first in every table. */
 static int compare_names(const void *a, const void *b)
 {
     const char *one = a, *other = b;
+    /* Negative if `one` is the time. */
     const int first = (strcmp(other, "t") == 0) - (strcmp(one, "t") == 0);
     return first != 0 ? first : strcmp(one, other);
 }
 
-/* Sorted; none if the group is not there. Free the list, after a failure too. */
+/* The names in a group, sorted; none if it is not there. The list must be freed, after a failure too. */
 static dem_status list_names(names *out, const hdf5_file *file, const char *group)
 {
     bool present = false;
@@ -94,6 +106,7 @@ static dem_status list_names(names *out, const hdf5_file *file, const char *grou
     return DEM_OK;
 }
 
+/* The type of the numbers in the file, in the terms of the public interface. */
 static dem_reader_type type_of(hdf5_kind kind)
 {
     static const dem_reader_type types[] = {
@@ -104,17 +117,20 @@ static dem_reader_type type_of(hdf5_kind kind)
 
 /* ---- frames ---- */
 
+/* Numbers of an array in one frame, by component. */
 static dem_index count_of(const dem_reader *reader, int of_springs)
 {
     return of_springs ? reader->lattice.n_springs : reader->lattice.n_nodes;
 }
 
-/* Whether so many rows are those of all frames at least: one more may be in the making. */
+/* Whether so many rows are those of all frames at least: one frame more may be in the making. */
 static bool holds_frames(const dem_reader *reader, hsize_t rows, dem_index in_frame)
 {
     return in_frame == 0 || rows / (hsize_t)in_frame >= (hsize_t)reader->n_frames;
 }
 
+/* NSteps says how many frames are whole; the dataset may have more rows. Times must be finite and ascending, as the
+ * public interface promises. */
 static dem_status read_times(dem_reader *reader, const hdf5_file *file)
 {
     static const char name[] = STEPS "/Values";
@@ -134,6 +150,7 @@ static dem_status read_times(dem_reader *reader, const hdf5_file *file)
     return DEM_OK;
 }
 
+/* Points are the only array that every file with frames must have. */
 static dem_status check_positions(const dem_reader *reader, const hdf5_file *file)
 {
     hdf5_untrusted_shape shape;
@@ -144,7 +161,8 @@ static dem_status check_positions(const dem_reader *reader, const hdf5_file *fil
     return DEM_OK;
 }
 
-/* A single frame is recognised by its name alone. */
+/* Whether an array is the same in all frames: by its number of rows, or, since a single frame cannot tell, by its
+ * name. */
 static bool is_constant(const dem_reader *reader, const char *name, hsize_t rows, dem_index in_frame)
 {
     static const char peak[] = "peak_";
@@ -152,11 +170,13 @@ static bool is_constant(const dem_reader *reader, const char *name, hsize_t rows
            (reader->n_frames > 1 && in_frame > 0 && rows == (hsize_t)in_frame);
 }
 
+/* VTK's names: points are nodes, cells are springs. */
 static const char *set_of(int of_springs)
 {
     return of_springs ? "CellData" : "PointData";
 }
 
+/* Adds an array to the list if its shape is that of one value, or up to MOST_COMPONENTS, for each node or spring. */
 static dem_status add_array(dem_reader *reader, const hdf5_file *file, int of_springs, const char *name)
 {
     char path[PATH];
@@ -174,6 +194,7 @@ static dem_status add_array(dem_reader *reader, const hdf5_file *file, int of_sp
               (a.constant ? rows == (hsize_t)in_frame : holds_frames(reader, rows, in_frame)),
           DEM_ERROR_IO, "%s: %s: is not of shape [%lld times %lld] or [..][1 to %d]", file->path, path,
           a.constant ? 1LL : (long long)reader->n_frames, (long long)in_frame, MOST_COMPONENTS);
+    /* The list of names is freed by the caller. */
     TRY(keep(reader, name, &a.name));
     CHECK(grow_array((void **)&reader->arrays, &reader->room_arrays, reader->n_arrays + 1, sizeof a), DEM_ERROR_MEMORY,
           "out of memory");
@@ -181,6 +202,7 @@ static dem_status add_array(dem_reader *reader, const hdf5_file *file, int of_sp
     return DEM_OK;
 }
 
+/* All arrays of nodes, or of springs. */
 static dem_status add_arrays(dem_reader *reader, const hdf5_file *file, int of_springs)
 {
     char group[PATH];
@@ -196,6 +218,7 @@ static dem_status add_arrays(dem_reader *reader, const hdf5_file *file, int of_s
 
 static const char frames_table[] = "frames", history_table[] = "history";
 
+/* The table of frames is VTK's field data; the others are groups of their names. */
 static void name_table(char path[PATH], const char *table)
 {
     if (strcmp(table, frames_table) == 0)
@@ -204,6 +227,7 @@ static void name_table(char path[PATH], const char *table)
         (void)snprintf(path, PATH, "/%s", table);
 }
 
+/* The path of a column's dataset. */
 static void name_column(char path[PATH], const dem_reader_column *column)
 {
     name_table(path, column->table);
@@ -211,6 +235,7 @@ static void name_column(char path[PATH], const dem_reader_column *column)
     (void)snprintf(path + n, PATH - n, "/%s", column->name);
 }
 
+/* The second dimension of a dataset of rank 2 is items in the history (bodies, obstacles) and components elsewhere. */
 static dem_status add_column(dem_reader *reader, const hdf5_file *file, const char *table, const char *name)
 {
     char path[PATH];
@@ -223,6 +248,7 @@ static dem_status add_column(dem_reader *reader, const hdf5_file *file, const ch
     CHECK(shape.rank >= 1 && extent[1] >= 1 && extent[1] <= most_width && extent[2] >= 1 &&
               extent[2] <= most_width / extent[1],
           DEM_ERROR_IO, "%s: %s: is not of shape [n], [n][..] or [n][..][..]", file->path, path);
+    /* Extents beyond the rank are 1 (hdf5_untrusted_measure). */
     const bool of_items = shape.rank == 3 || strcmp(table, history_table) == 0;
     c.type = type_of(shape.stored);
     c.n_rows = (dem_index)extent[0];
@@ -235,7 +261,8 @@ static dem_status add_column(dem_reader *reader, const hdf5_file *file, const ch
     return DEM_OK;
 }
 
-/* Of a run that goes on, some columns may have rows already that others have not. */
+/* Of a run that goes on, some columns may have rows that others have not yet: the rows of a table are those that all
+ * columns have. */
 static void even_rows(dem_reader *reader, dem_index first)
 {
     dem_index rows = INT64_MAX;
@@ -244,6 +271,7 @@ static void even_rows(dem_reader *reader, dem_index first)
     for (dem_index k = first; k < reader->n_columns; k++) reader->columns[k].n_rows = rows;
 }
 
+/* A group that is not there is a table without columns. */
 static dem_status add_table(dem_reader *reader, const hdf5_file *file, const char *name)
 {
     char group[PATH];
@@ -259,7 +287,7 @@ static dem_status add_table(dem_reader *reader, const hdf5_file *file, const cha
     return status;
 }
 
-/* The tables of a group. */
+/* Each group within a group is a table: probes, and the lists of the most stressed. */
 static dem_status add_tables(dem_reader *reader, const hdf5_file *file, const char *group)
 {
     char path[PATH], table[TABLE + NAME];
@@ -274,6 +302,7 @@ static dem_status add_tables(dem_reader *reader, const hdf5_file *file, const ch
     return status;
 }
 
+/* One row for each frame that is whole. */
 static dem_status add_frames_table(dem_reader *reader, const hdf5_file *file)
 {
     const dem_index first = reader->n_columns;
@@ -289,6 +318,7 @@ static dem_status add_frames_table(dem_reader *reader, const hdf5_file *file)
 
 /* ---- opening ---- */
 
+/* A run without frames has no such group. */
 static dem_status list_frames(dem_reader *reader, const hdf5_file *file)
 {
     bool present = false;
@@ -311,6 +341,7 @@ static dem_status list_all(dem_reader *reader, const hdf5_file *file)
     return obstacle_file_read(file, &reader->obstacles, &reader->n_obstacles);
 }
 
+/* Lists what the file holds; the lattice is read whole, since counts of nodes and springs are those of arrays. */
 static dem_status look(dem_reader *reader, const char *path)
 {
     hdf5_file file;
@@ -321,6 +352,7 @@ static dem_status look(dem_reader *reader, const char *path)
     return hdf5_close(&file, list_all(reader, &file));
 }
 
+/* A reader that could not list everything is closed again. */
 dem_status dem_reader_open(dem_reader **out, const char *path)
 {
     CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_reader_open: an argument is NULL");
@@ -373,6 +405,8 @@ const dem_reader_array *dem_reader_arrays(const dem_reader *reader, dem_index *n
     return reader->arrays;
 }
 
+/* Names are few, and a linear search is enough. Names of arrays of nodes and springs are searched together, nodes
+ * first. */
 const dem_reader_array *dem_reader_array_find(const dem_reader *reader, const char *name)
 {
     for (dem_index k = 0; k < reader->n_arrays; k++)
@@ -386,6 +420,7 @@ const dem_reader_column *dem_reader_columns(const dem_reader *reader, dem_index 
     return reader->columns;
 }
 
+/* A column is known by its table and its name. */
 const dem_reader_column *dem_reader_column_find(const dem_reader *reader, const char *table, const char *name)
 {
     for (dem_index k = 0; k < reader->n_columns; k++)
@@ -396,7 +431,7 @@ const dem_reader_column *dem_reader_column_find(const dem_reader *reader, const 
 
 /* ---- reading ---- */
 
-/* Rows of a dataset, `width` numbers each. */
+/* Reads rows of a dataset, `width` numbers each, if it still has them. */
 static dem_status read_checked(const hdf5_file *file, const char *name, hdf5_untrusted_rows rows, hsize_t width,
                                double *values)
 {
@@ -405,11 +440,13 @@ static dem_status read_checked(const hdf5_file *file, const char *name, hdf5_unt
     TRY(hdf5_untrusted_find(file, name, &present));
     if (!present) return hdf5_untrusted_refuse(file, name, "is missing");
     TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
+    /* The caller's buffer has been made for what was there when the reader was opened. */
     if (shape.rank == 0 || shape.extent[1] * shape.extent[2] != width || shape.extent[0] < rows.first + rows.count)
         return hdf5_untrusted_refuse(file, name, "has another shape than when the reader was opened");
     return hdf5_untrusted_read(file, name, HDF5_F64, rows, values);
 }
 
+/* Opens the file for this one read. */
 static dem_status read_rows(const dem_reader *reader, const char *name, hdf5_untrusted_rows rows, dem_index width,
                             double *values)
 {
@@ -418,6 +455,7 @@ static dem_status read_rows(const dem_reader *reader, const char *name, hdf5_unt
     return hdf5_close(&file, read_checked(&file, name, rows, (hsize_t)width, values));
 }
 
+/* Frames are numbered from 0. */
 static dem_status check_frame(const dem_reader *reader, dem_index frame)
 {
     CHECK(frame >= 0 && frame < reader->n_frames, DEM_ERROR_ARGUMENT, "%s: has no frame %lld: there are %lld",
@@ -425,6 +463,7 @@ static dem_status check_frame(const dem_reader *reader, dem_index frame)
     return DEM_OK;
 }
 
+/* Of VTK's three components the first two. */
 dem_status dem_reader_positions(const dem_reader *reader, dem_index frame, double *x)
 {
     CHECK(reader != NULL && x != NULL, DEM_ERROR_ARGUMENT, "dem_reader_positions: an argument is NULL");
@@ -433,6 +472,7 @@ dem_status dem_reader_positions(const dem_reader *reader, dem_index frame, doubl
     return read_rows(reader, GRID "Points", (hdf5_untrusted_rows){(hsize_t)frame * n, n, 2}, 3, x);
 }
 
+/* A constant array is read from its only rows, whatever the frame. */
 dem_status dem_reader_read(const dem_reader *reader, const dem_reader_array *array, dem_index frame, double *values)
 {
     char path[PATH];
@@ -453,6 +493,7 @@ dem_status dem_reader_read_column(const dem_reader *reader, const dem_reader_col
     return dem_reader_read_rows(reader, column, 0, column->n_rows, values);
 }
 
+/* `first <= n_rows - count` cannot overflow, as `first + count <= n_rows` could. */
 dem_status dem_reader_read_rows(const dem_reader *reader, const dem_reader_column *column, dem_index first,
                                 dem_index count, double *values)
 {

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every kind of rows but the frames is a table. */
+/* What a file of a trajectory holds, be it the whole run or a part of it: what every file has (lattice, obstacles,
+ * notes), and rows of some kinds, frames and those of tables. This file treats all kinds alike: creating, flushing,
+ * counting, copying and verifying go over them in one order. Frames are in frames.c, tables in table.c; which rows are
+ * in which file is decided in trajectory_parts.c. */
 #include "output/trajectory_rows.h"
 
 #include "base/status.h"
@@ -10,17 +13,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Every kind of rows but the frames is a table. */
 static const table *table_of(const trajectory_rows *r, int kind)
 {
     if (kind == ROWS_HISTORY) return &r->history.table;
     return kind == ROWS_EVENTS ? &r->events : &r->probes[kind - ROWS_PROBES].table;
 }
 
+/* The same of a trajectory that may change. */
 static table *table_to_change(trajectory_rows *r, int kind)
 {
     return (table *)table_of(r, kind);
 }
 
+/* Without an interval there are no frames, and no group /VTKHDF. */
 static bool has_frames(const trajectory_rows *r)
 {
     return r->options.frame_interval > 0.0;
@@ -28,6 +34,7 @@ static bool has_frames(const trajectory_rows *r)
 
 /* ---- creation ---- */
 
+/* Two probes of one name would be one group. */
 static dem_status make_probes(trajectory_rows *r)
 {
     const dem_probe *given = r->options.probes;
@@ -42,11 +49,13 @@ static dem_status make_probes(trajectory_rows *r)
     return DEM_OK;
 }
 
+/* The options are kept, but for the caller's list of probes: each probe has a copy of its own. */
 dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simulation,
                                 const dem_trajectory_options *options)
 {
     out->model = dem_simulation_model(simulation);
     out->options = *options;
+    /* Events count as a kind even if they are not wanted: their table then has no columns. */
     out->n_kinds = ROWS_PROBES + (int)options->n_probes;
     TRY(frames_init(&out->frames, out->model, options));
     TRY(make_probes(out));
@@ -65,6 +74,7 @@ void trajectory_rows_free(trajectory_rows *r)
     provenance_free(&r->provenance);
 }
 
+/* A new file with everything but rows. */
 dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *file)
 {
     const dem_lattice *lattice = dem_model_lattice(r->model);
@@ -77,7 +87,7 @@ dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *fil
     return provenance_write(&r->provenance, file);
 }
 
-/* Deflate never lengthens. */
+/* An upper bound of what all arrays of the lattice, the obstacles and the notes take. Deflate never lengthens. */
 hsize_t trajectory_rows_create_bytes(const trajectory_rows *r)
 {
     const dem_model_size size = dem_model_sizes(r->model);
@@ -87,6 +97,7 @@ hsize_t trajectory_rows_create_bytes(const trajectory_rows *r)
 
 /* ---- rows ---- */
 
+/* Frames are never buffered. */
 dem_status trajectory_rows_flush(trajectory_rows *r, const hdf5_file *file)
 {
     for (int k = ROWS_HISTORY; k < r->n_kinds; k++) TRY(table_flush(table_to_change(r, k), file));
@@ -110,6 +121,7 @@ hsize_t trajectory_rows_written(const trajectory_rows *r, int kind)
     return kind == ROWS_FRAMES ? (hsize_t)r->frames.n : table_of(r, kind)->written;
 }
 
+/* Sets where the rows of a kind stand after a file has been cut or found. */
 void trajectory_rows_place(trajectory_rows *r, int kind, hsize_t before, hsize_t written)
 {
     if (kind == ROWS_FRAMES) {
@@ -127,6 +139,7 @@ const char *trajectory_rows_name(const trajectory_rows *r, int kind)
     return kind < ROWS_PROBES ? names[kind] : r->probes[kind - ROWS_PROBES].what.name;
 }
 
+/* The same spans are used for all columns of a kind. */
 dem_status trajectory_rows_copy(const trajectory_rows *r, const hdf5_file *from, const hdf5_file *to,
                                 const hdf5_span *spans)
 {
@@ -143,6 +156,7 @@ dem_status trajectory_rows_count(const trajectory_rows *r, const hdf5_file *file
     return DEM_OK;
 }
 
+/* The counts of the spans alone are compared. */
 dem_status trajectory_rows_verify(const trajectory_rows *r, const hdf5_file *file, const hdf5_span *spans)
 {
     if (has_frames(r)) TRY(frames_verify(&r->frames, file, spans[ROWS_FRAMES].count));
@@ -152,11 +166,13 @@ dem_status trajectory_rows_verify(const trajectory_rows *r, const hdf5_file *fil
 
 /* ---- the end ---- */
 
+/* Peaks belong to the caller and are read when the run is finished. */
 static peaks_report report_of(const trajectory_rows *r)
 {
     return (peaks_report){r->options.peaks, dem_model_lattice(r->model), r->options.most_stressed};
 }
 
+/* Arrays need at least one frame to be shown in; the lists do not. */
 dem_status trajectory_rows_write_peaks(const trajectory_rows *r, const hdf5_file *file, hsize_t n)
 {
     const peaks_report report = report_of(r);

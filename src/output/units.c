@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* The units of all numbers that a trajectory holds, in one list by name, so that readers and exports agree. A name has
+ * the same unit in all tables. docs/output.md has the same units for people. */
 #include "output/units.h"
 
 #include <string.h>
@@ -23,6 +25,7 @@ static const struct unit {
       "damping_energy", "projection_energy", "boundary_energy"}},
 };
 
+/* A name that is not listed counts things, names them, or is not of this library: it has no unit. */
 const char *units_of(const char *name)
 {
     for (size_t u = 0; u < sizeof units / sizeof units[0]; u++)

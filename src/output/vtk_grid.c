@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* VTK's names and numbers for a grid of lines. */
+/* A VTKHDF UnstructuredGrid of lines: version, type, counts, and the cells by their connectivity. Frames (frames.c) and
+ * obstacles (obstacle_file.c) add points and data of their own. Names and codes are those of VTK's file format. */
 #include "output/vtk_grid.h"
 
 #include "base/status.h"
@@ -7,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* VTK's code for a cell that is a line between two points. */
 enum { VTK_LINE = 3 };
 
 static dem_status write_numbers(const hdf5_file *file, const char *name, int deflate, dem_index count,
@@ -15,6 +17,7 @@ static dem_status write_numbers(const hdf5_file *file, const char *name, int def
     return hdf5_write(file, (hdf5_rows){name, HDF5_I64, 1, {0}, 0, deflate}, (hsize_t)count, data);
 }
 
+/* Cell k has the entries offsets[k] to offsets[k + 1] - 1 of the connectivity: two each. */
 static dem_status write_offsets(const hdf5_file *file, const grid *g, int deflate)
 {
     dem_index *offsets = malloc((size_t)(g->n_cells + 1) * sizeof *offsets);
@@ -25,6 +28,7 @@ static dem_status write_offsets(const hdf5_file *file, const grid *g, int deflat
     return status;
 }
 
+/* One code for each cell. */
 static dem_status write_types(const hdf5_file *file, const grid *g, int deflate)
 {
     unsigned char *types = malloc((size_t)g->n_cells + 1);
@@ -36,6 +40,7 @@ static dem_status write_types(const hdf5_file *file, const grid *g, int deflate)
     return status;
 }
 
+/* The grid is one part, so each of the three counts is an array of one number. */
 dem_status vtk_grid_write(const hdf5_file *file, const grid *g, int deflate)
 {
     static const dem_index version[2] = {2, 0};
