@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arithmetic on whole arrays, once for each instruction set, to the same bits. */
+/* Arithmetic on whole arrays, compiled once for each instruction set, with the same bits in all of them. array_ops.c
+ * says why. Loops over the nodes of a lattice do not belong here but in elastic/ and forces/. */
 #ifndef DEM_BASE_ARRAY_OPS_H
 #define DEM_BASE_ARRAY_OPS_H
 
@@ -10,7 +11,7 @@
 /** A sum of squares that does not depend on their order: each is rounded to 2^-60 and added as an integer. */
 typedef struct array_ops_sum {
     int64_t high, low; /* in units of 2^-20 and 2^-60, 0 <= low < 2^40 */
-    double largest;    /* of the squares, NAN if one is none; the sum holds where it is <= ARRAY_OPS_LARGEST */
+    double largest;    /* square; NAN if a square is NAN. The sum is valid if this is <= ARRAY_OPS_LARGEST */
 } array_ops_sum;
 
 #define ARRAY_OPS_LARGEST 1024.0
@@ -19,21 +20,23 @@ enum { ARRAY_OPS_LANES = 16, ARRAY_OPS_TERMS = 256 };
 #define ARRAY_OPS_LARGEST_SIZE 0x1p1018
 
 typedef struct array_ops {
-    /** out = sum of c_k in_k, from k = 0 on; out is none of them, n >= 1. */
+    /** out = sum of c_k in_k over k = 0 to n - 1, n >= 1, in this order. `out` must not be one of the operands. */
     void (*combine)(double *out, int n, const double *c, const double *const *in, dem_index size);
-    /** Adds (scale x w)^2 to the sum. */
+    /** Adds the squares of scale x[k] w[k] to the sum. */
     void (*square)(array_ops_sum *sum, const double *x, const double *w, double scale, dem_index size);
-    /** A step h of Verlet from (x0, v0) with accelerations a0: x1, and v1 extrapolated. */
+    /** A step h of Verlet, (5), from start = {x0, v0, a0}: x1, and v1 extrapolated with the acceleration a0. */
     void (*drift)(double *x1, double *v1, const double *const start[3], double h, dem_index size);
     /** v1 += h/2 (a1 - a0) */
     void (*kick)(double *v1, const double *a0, const double *a1, double h, dem_index size);
-    /** In place of n squared lengths: how far each length is off its reference, in units of that. */
+    /** Replaces n squared lengths by strains: (length - reference)/reference. */
     void (*stretch)(double *lengths, const double *reference, int n);
-    /** Sum of the magnitudes of n terms, a multiple of ARRAY_OPS_LANES; NAN or infinite if one of them is that. */
+    /** Sum of |terms|; n is a multiple of ARRAY_OPS_LANES. NAN or infinite if a term is. */
     double (*magnitude)(const double *terms, int n);
-    /** Splits n terms, a multiple of ARRAY_OPS_LANES and at most ARRAY_OPS_TERMS, without an error: their sum is that
-     *  of both parts and of what is left in their place, which is below 2^-94 of `size` for each. `size`, at most
-     *  ARRAY_OPS_LARGEST_SIZE, is their magnitude.  \return the magnitude of what is left */
+    /** Splits n terms without an error into parts[0], parts[1] and a remainder in place of each term: sum of terms =
+     *  parts[0] + parts[1] + sum of remainders, and a remainder is below 2^-94 of `size`.
+     *  \param n     a multiple of ARRAY_OPS_LANES, at most ARRAY_OPS_TERMS
+     *  \param size  what magnitude() has given, at most ARRAY_OPS_LARGEST_SIZE
+     *  \return the sum of |remainders| */
     double (*split)(double parts[2], double *terms, int n, double size);
 } array_ops;
 
@@ -45,14 +48,14 @@ extern const array_ops array_ops_portable;
 #define array_ops_avx512 array_ops_portable
 #endif
 
-/** The table for this machine, where any will do. */
+/** The fastest table that this machine has, for callers to whom no kernel is given. */
 static inline const array_ops *array_ops_fastest(void)
 {
     if (instruction_set_avx512()) return &array_ops_avx512;
     return instruction_set_avx2() ? &array_ops_avx2 : &array_ops_portable;
 }
 
-/** Adds one sum to another. */
+/** Adds one sum to another: `low` takes its carry to `high`, so that the same total has the same bits. */
 static inline void array_ops_add(array_ops_sum *sum, const array_ops_sum *other)
 {
     const int64_t low = sum->low + other->low, carry = (low - (low & 0xffffffffff)) / 0x10000000000;
@@ -61,6 +64,7 @@ static inline void array_ops_add(array_ops_sum *sum, const array_ops_sum *other)
     if (!(other->largest <= sum->largest) && sum->largest == sum->largest) sum->largest = other->largest;
 }
 
+/* The sum as a double, rounded. */
 static inline double array_ops_value(const array_ops_sum *sum)
 {
     return (double)sum->high * 0x1p-20 + (double)sum->low * 0x1p-60;

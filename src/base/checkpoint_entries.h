@@ -9,8 +9,8 @@
 dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *from);
 
 typedef struct checkpoint_entries_way {
-    dem_checkpoint *into;       /* one of both */
-    const dem_checkpoint *from; /* the bytes it has been made of may be anything */
+    dem_checkpoint *into;       /* where to write; NULL: read from `from` */
+    const dem_checkpoint *from; /* may come from any file: what is read has to be checked */
 } checkpoint_entries_way;
 
 /** `size` bytes at `data`, under a name. */

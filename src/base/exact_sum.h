@@ -18,16 +18,18 @@ enum {
 
 /** What has been added so far; {0} is the empty sum. */
 typedef struct exact_sum {
-    int64_t limb[EXACT_SUM_LIMBS]; /* limb[k] is in units of 2^(32 k - 1074); carries are taken now and then */
-    int n_terms;                   /* since the last time */
+    int64_t limb[EXACT_SUM_LIMBS]; /* limb[k] is in units of 2^(32 k - 1074); its carry is taken later */
+    int n_terms;                   /* since carries were taken */
     bool has_infinity[2], has_nan; /* whether infinity, minus infinity, NAN is among the terms */
 } exact_sum;
 
-/** Takes the carries, and notes a term that is not finite. */
+/** Takes the carries from limb to limb. exact_sum_add() does so often enough. */
 void exact_sum_carry(exact_sum *s);
+
+/** Notes a term that is not finite. */
 void exact_sum_add_special(exact_sum *s, double term);
 
-/** Adds a term: the 53 bits of its mantissa go into two limbs next to each other. */
+/** Adds a term: the 53 bits of its mantissa go into two neighbouring limbs, with its sign. */
 static inline void exact_sum_add(exact_sum *s, double term)
 {
     uint64_t bits;
@@ -46,11 +48,11 @@ static inline void exact_sum_add(exact_sum *s, double term)
     if (++s->n_terms == EXACT_SUM_MOST) exact_sum_carry(s);
 }
 
-/** Adds n terms, to the same bits as one by one, in about a fifth of the instructions where there are many and their
- *  exponents are not far apart. */
+/** Adds n terms, with the same bits as one by one. For many terms whose exponents are not far apart this takes about a
+ *  fifth of the instructions. */
 void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n);
 
-/** The same of a block, or of n terms that one has room for, which are lost. */
+/** The same for up to EXACT_SUM_BLOCK terms. The array must have room for a whole block; its contents are lost. */
 void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n);
 
 /** How many terms the block from term `first` of n on has. */
@@ -59,8 +61,8 @@ static inline int exact_sum_block(int64_t first, int64_t n)
     return n - first < EXACT_SUM_BLOCK ? (int)(n - first) : EXACT_SUM_BLOCK;
 }
 
-/** The sum rounded to the nearest double, ties to the even one: +0 if it is 0 or empty, infinite where it overflows.
- *  With terms that are not finite it is what additions of doubles give in any order. */
+/** The sum rounded to the nearest double, ties to even: +0 if it is 0 or empty, infinite if it overflows. If terms are
+ *  not finite, it is what additions of doubles give in any order. */
 double exact_sum_value(const exact_sum *s);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which sets of vector instructions there are in this build of the library and on this machine. */
+/* Which vector instructions this build of the library and this machine both have. They are asked for at run time, so
+ * that one build runs on all machines of an architecture. */
 #ifndef DEM_BASE_INSTRUCTION_SET_H
 #define DEM_BASE_INSTRUCTION_SET_H
 

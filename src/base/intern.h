@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists one behind the other, of which equal ones are held once. */
+/* Lists of items, one behind the other in memory, where equal lists are stored once. The sweep reads coefficients and
+ * instructions of blocks from it: equal blocks share them, and they stay in the cache. */
 #ifndef DEM_BASE_INTERN_H
 #define DEM_BASE_INTERN_H
 
@@ -22,11 +23,11 @@ typedef struct intern {
     dem_index n_slots;
 } intern;
 
-/** Where a list is that has these `n` items; it is added if there is none.
+/** The span of a list with these `n` items; it is appended if there is none yet.
  *  \return DEM_ERROR_MEMORY, or DEM_ERROR_MODEL for more than 2^31 items */
 dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *out);
 
-/** Frees what is needed to find lists, and puts the items at the start of a cache line. */
+/** Ends the building: frees the hash table, and moves the items to the start of a cache line. */
 dem_status intern_settle(intern *p);
 
 void intern_free(intern *p);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How a failure travels: CHECK makes a status with its message, TRY passes one up. */
+/* How a failure travels: CHECK stores a message and returns a status, TRY passes a status up to the caller. No function
+ * of the library prints or exits. */
 #ifndef DEM_BASE_STATUS_H
 #define DEM_BASE_STATUS_H
 
@@ -18,13 +19,13 @@
 
 #define CHECK_MEMORY(pointer) CHECK((pointer) != NULL, DEM_ERROR_MEMORY, "out of memory")
 
-/** Of two statuses in a row the first that is not DEM_OK. */
+/** The first of two statuses that is not DEM_OK: of an operation and of its clean-up. */
 static inline dem_status status_first(dem_status status, dem_status next)
 {
     return status != DEM_OK ? status : next;
 }
 
-/** Stores the message, printf-like, and returns `status`. */
+/** Stores a message for this thread, as printf would write it, and returns `status`. */
 dem_status status_fail(dem_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

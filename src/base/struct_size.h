@@ -11,21 +11,23 @@
 /** Bytes of a struct up to and with a member. */
 #define STRUCT_SIZE_WITH(type, member) (offsetof(type, member) + sizeof(((type *)NULL)->member))
 
-enum { STRUCT_SIZE_MOST = 4096 }; /* bytes: what says more has not been initialised */
+enum { STRUCT_SIZE_MOST = 4096 }; /* bytes: a struct that claims more has not been initialised */
 
 typedef struct struct_kind {
     const char *name;
-    size_t first; /* bytes of the shortest that is accepted: of the first version, whatever is added to it later */
-    size_t own;   /* bytes of this library's */
+    size_t first; /* bytes of the first version, the shortest that is accepted */
+    size_t own;   /* bytes of this library's version */
 } struct_kind;
 
-/** Whether a caller's struct can be read: not shorter than the first version, and, if longer than this library's, with
- *  nothing but zeros in the members that this library does not know.  \return DEM_ERROR_ARGUMENT */
+/** Checks that a caller's struct can be read: not shorter than the first version, and, if it is longer than this
+ *  library's, with zeros in all members that this library does not know.
+ *  \return DEM_ERROR_ARGUMENT */
 dem_status struct_size_check(const struct_kind *kind, const void *theirs);
 
 /** Reads a caller's struct.
- *  \param ours  holds the defaults of all members, and keeps those of what the caller's struct is too short for; its
- *               struct_size becomes this library's */
+ *  \param ours  holds the defaults of all members, and keeps those beyond the end of the caller's struct; its
+ *  struct_size
+ *               becomes this library's */
 dem_status struct_size_read(const struct_kind *kind, void *ours, const void *theirs);
 
 /** Writes the members that lie within a caller's struct; leaves struct_size and everything beyond alone. Every member

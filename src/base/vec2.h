@@ -13,7 +13,7 @@ typedef struct vec2 {
     double x, y;
 } vec2;
 
-/** Where vector i begins in an array [n][2]; also how many numbers i vectors are. */
+/** Where vector i begins in an array [n][2]; also the number of doubles in i vectors. */
 static inline dem_index vec2_row(dem_index i)
 {
     return 2 * i;
@@ -83,20 +83,20 @@ static inline sym2 sym2_along(sym2 A, double s, vec2 a)
     return (sym2){A.xx + s * a.x * a.x, A.xy + s * a.x * a.y, A.yy + s * a.y * a.y};
 }
 
-/** The larger eigenvalue. */
+/** The larger eigenvalue: the mean of xx and yy plus the radius of Mohr's circle. */
 static inline double sym2_largest(sym2 A)
 {
     return 0.5 * (A.xx + A.yy) + sqrt(0.25 * (A.xx - A.yy) * (A.xx - A.yy) + A.xy * A.xy);
 }
 
-/** The vector whose products with two directions are these; not finite where they are parallel. */
+/** The vector a with a.n0 = p0 and a.n1 = p1; not finite where the directions are parallel. */
 static inline vec2 vec2_with_products(double p0, vec2 n0, double p1, vec2 n1)
 {
     const double d = vec2_cross(n0, n1);
     return (vec2){(p0 * n1.y - p1 * n0.y) / d, (p1 * n0.x - p0 * n1.x) / d};
 }
 
-/** The parts of a along two directions: a = p[0] n0 + p[1] n1; not finite where they are parallel. */
+/** The components of a along two directions: a = p[0] n0 + p[1] n1; not finite where they are parallel. */
 static inline void vec2_parts(vec2 a, vec2 n0, vec2 n1, double p[2])
 {
     const double d = vec2_cross(n0, n1);

@@ -8,7 +8,7 @@
 
 #include "base/vec2.h"
 
-/** A boundary as the caller gave it, with arrays of its own. */
+/** A condition as the caller gave it, with arrays of its own. */
 typedef struct boundary_condition {
     dem_boundary_kind kind;
     int32_t components;
@@ -19,7 +19,7 @@ typedef struct boundary_condition {
     double *share;    /* [n_nodes] of a force; else NULL */
 } boundary_condition;
 
-/** A share of a force on a node; those on one node are a list. */
+/** A share of a force on a node. The shares on one node are a linked list. */
 typedef struct boundary_condition_share {
     dem_index boundary, next; /* next: -1 at the end */
     double share;
@@ -27,14 +27,16 @@ typedef struct boundary_condition_share {
 
 typedef struct boundary_conditions {
     dem_index n;
-    boundary_condition *list; /* [n] */
-    dem_index *first;         /* [n_nodes] of the node's pushes, -1: none; NULL where there are no forces at all */
+    boundary_condition *list;         /* [n] */
+    dem_index *first;                 /* [n_nodes] the first share on each node, -1: none; NULL: no forces at all */
     boundary_condition_share *pushes; /* one for each node of each force */
-    unsigned char *held;              /* [n_nodes] components that are prescribed; NULL where there are no boundaries */
+    unsigned char *held;              /* [n_nodes] components that are prescribed; NULL: no conditions */
 } boundary_conditions;
 
-/** Validates and copies.  \return DEM_ERROR_ARGUMENT, or DEM_ERROR_MODEL for a node that is fixed, whose component is
- *  prescribed twice, or that may touch one of `n_obstacles`. Free with boundary_conditions_free. */
+/** Validates and copies. Free with boundary_conditions_free().
+ *  \return DEM_ERROR_ARGUMENT; or DEM_ERROR_MODEL for a node that is fixed, whose component is prescribed twice, or
+ *  that may
+ *          touch one of `n_obstacles` obstacles */
 dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
                                        const dem_lattice *lattice, dem_index n_obstacles);
 void boundary_conditions_free(boundary_conditions *b);
@@ -47,7 +49,7 @@ double boundary_condition_ramp(const boundary_condition *b, double t);
 vec2 boundary_condition_velocity(const boundary_condition *b, double t);
 vec2 boundary_condition_acceleration(const boundary_condition *b, double t);
 
-/** How far prescribed components have moved by t, m. */
+/** Displacement of prescribed components by time t, m. */
 vec2 boundary_condition_displacement(const boundary_condition *b, double t);
 
 /** Force on node i at t, N. */
@@ -58,7 +60,7 @@ vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double
 double boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
                                      double *f, double *a);
 
-/** Puts the prescribed components at t = 0 into the velocities v [n_nodes][2]. */
+/** Puts the prescribed velocities at t = 0 into v [n_nodes][2]. */
 void boundary_conditions_begin(const boundary_conditions *b, double *v);
 
 /** Whether one of the conditions prescribes motions. */

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on the nodes of one simulation, contact with obstacles apart: force and acceleration of a node, whom they
- * depend on, their power and the energy that they store. Here it goes node by node; the sweep over all nodes (kernel.c)
- * and the springs near an event (local_springs.c) evaluate the same terms, the sweep with equal bits.
+/* What acts on the nodes of one simulation, contact with obstacles apart: force and acceleration of a node, the nodes
+ * that these depend on, their power, and their energy. Here each node is computed for itself; the sweep over all nodes
+ * (kernel.c) and the springs near an event (local_springs.c) evaluate the same terms, the sweep with equal bits.
  *
- * A further law, of contact between surfaces say, comes as files of its own and a pointer to it in `forces`, NULL where
- * there is none, as boundary conditions do: forces_push() shows where. It adds
+ * A further law, such as contact between surfaces, gets files of its own and a pointer in `forces`, which is NULL where
+ * there is none; boundary conditions are the example (forces_push). The law adds
  *   - its force on a node to forces_own_acceleration(), and the nodes on which it acts to the rows that kernel.c
  *     evaluates one by one behind the sweep (accelerate_rest), which gives the sweep the same bits;
  *   - the nodes that this force depends on to forces_next_neighbour(), such that they hold for a whole step;
  *   - its energy to forces_node_energy() and diagnostics_energy(), or else its power to forces_node_power() and the
  *     sums over all nodes below it;
- *   - what it depends on to the questions that follow: forces_are_plain() is false with it.
- * Nothing outside this folder asks more. tests/unit/forces/test_forces.c is what every law has to keep to. */
+ *   - its dependence on time or velocities to the predicates that follow: forces_are_plain() is false with it.
+ * Nothing outside this folder has to change. tests/unit/forces/test_forces.c tests what every law has to fulfil. */
 #ifndef DEM_FORCES_FORCES_H
 #define DEM_FORCES_FORCES_H
 
@@ -20,7 +20,7 @@
 #include "forces/external_force.h"
 #include "model/model.h"
 
-/** Springs and triangles of the model, and what acts besides. It belongs to a simulation, the model to many. */
+/** The laws of one simulation. Springs and triangles belong to the model, which many simulations may share. */
 typedef struct forces {
     const dem_model *model;
     const element_state *elements;         /* NULL: all springs and triangles are whole */
@@ -76,8 +76,8 @@ static inline unsigned forces_held(const forces *f, dem_index i)
     return f->boundaries != NULL ? f->boundaries->held[i] : 0;
 }
 
-/** Goes through the nodes on whose positions, and velocities, the force on a node depends besides its own: the other
- *  ends of its springs, then the other corners of its triangles, those that are whole; some come more than once. */
+/** Goes through the nodes on which the force on one node depends: the other ends of its springs, then the other corners
+ *  of its triangles, of elements that are whole. Some nodes come more than once. */
 typedef struct forces_neighbours {
     const forces *f;
     const element_state *state;      /* NULL: the elements of the node are whole */
@@ -86,6 +86,7 @@ typedef struct forces_neighbours {
     dem_index node;                  /* the present one */
 } forces_neighbours;
 
+/* Begins; forces_next_neighbour() gives the first one. */
 static inline forces_neighbours forces_neighbours_of(const forces *f, dem_index i)
 {
     const springs *s = &f->model->springs;
@@ -117,7 +118,7 @@ static inline bool forces_next_neighbour(forces_neighbours *n)
 
 /* ---- accelerations ---- */
 
-/* Force of the elements that are whole; `state` is NULL where that is all of them, which compilers have to see. */
+/* Force of the elements that are whole. `state` is NULL if all are: as a constant, so that compilers drop the tests. */
 static inline vec2 forces_of_whole_elements(const forces *f, const element_state *state, dem_index i, const double *x,
                                             const double *v)
 {
@@ -139,8 +140,8 @@ static inline vec2 forces_of_elements(const forces *f, dem_index i, const double
     return forces_of_whole_elements(f, NULL, i, x, v);
 }
 
-/** Acceleration of node i with velocity v, m/s^2, by a force on it, weight and drag of its mass: (2). A fixed node has
- *  none. */
+/** Acceleration of node i with velocity v, m/s^2, by a given force on it, its weight (2) and the drag of its mass. A
+ *  fixed node has none. */
 static inline vec2 forces_acceleration_by(const forces *f, dem_index i, vec2 force, vec2 v)
 {
     const double inverse_mass = f->model->inverse_mass[i];
@@ -149,8 +150,7 @@ static inline vec2 forces_acceleration_by(const forces *f, dem_index i, vec2 for
     return vec2_along(a, -f->mass_damping, v);
 }
 
-/** Acceleration of node i, m/s^2, free of contact: (4), weight (2) included, without forces from outside. A fixed node
- *  has none. */
+/** Acceleration of node i, m/s^2, free of contact and of the external force: (4). A fixed node has none. */
 static inline vec2 forces_own_acceleration(const forces *f, dem_index i, const double *x, const double *v)
 {
     vec2 force = forces_of_elements(f, i, x, v);
@@ -158,7 +158,7 @@ static inline vec2 forces_own_acceleration(const forces *f, dem_index i, const d
     return forces_acceleration_by(f, i, force, vec2_at(v, i));
 }
 
-/** The same with an external force, N. */
+/** An acceleration with an external force, N, added: a + f/m. */
 static inline vec2 forces_with_external(const forces *f, dem_index i, vec2 own, vec2 external)
 {
     return vec2_along(own, f->model->inverse_mass[i], external);
@@ -174,22 +174,22 @@ static inline vec2 forces_acceleration(const forces *f, dem_index i, const doubl
     return forces_with_external(f, i, a, vec2_at(force, 0));
 }
 
-/** Puts the prescribed components at t into velocities u and accelerations a [n_nodes][2]; v has the velocities, and
- *  the forces from outside are those that have been asked for last, for all nodes.
- *  \return the power, W, that this takes and that the forces on nodes put in */
+/** Puts the prescribed components at t into velocities u and accelerations a [n_nodes][2]; v has the velocities. The
+ *  external force must have been evaluated for all nodes.
+ *  \return the power, W, of the reactions, the given forces and the external force */
 double forces_prescribe(const forces *f, double t, const double *v, double *u, double *a);
 
 /* ---- power and energy ---- */
 
-/** W. */
+/** Powers, W. */
 typedef struct forces_power {
     double damping; /* taken by springs and masses */
     double work;    /* put in by boundary conditions and from outside */
 } forces_power;
 
-/** Power of the forces on node i, of which `external` N is from outside. What prescribed components take is without
- *  that of their own acceleration, which is given. The sum over all nodes, with that, is forces_damping_power() and
- *  what forces_prescribe() returns, to rounding. */
+/** Power of the forces on node i, of which `external` N is the external one. The reaction of a prescribed component
+ *  counts without the part m a.v of its own acceleration a. With that, the sums over all nodes are
+ *  forces_damping_power() and what forces_prescribe() returns, to rounding. */
 forces_power forces_node_power(const forces *f, dem_index i, vec2 external, const double *x, const double *v);
 
 /** Power that damping takes, of all springs and masses, W, >= 0. */

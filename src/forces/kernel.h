@@ -40,12 +40,12 @@ typedef struct kernel_state {
 /** Whether accelerations depend on nothing but positions, so that a fused step is possible. */
 bool kernel_can_fuse(const kernel *k, const forces *f);
 
-/** Fills u and a, and takes the fused step, to the bits that drift and kick give before and after.
- *  \return a sum over them that is not finite if one of them is not */
+/** Fills u and a. With a fused step it also fills x1 and v1, with the bits of a drift before and a kick after.
+ *  \return a sum over u and a that is not finite if a component is not */
 double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y);
 
-/** Bound of the highest frequency at positions x in units of that about the rest shape, >= 1, for the folding guard:
- *  from omega_max^2 and what the guard adds to it at most. */
+/** Bound of the highest frequency at positions x in units of that about the rest shape, >= 1: omega_max^2 and the most
+ *  that the folding guard adds to it. */
 double kernel_stiffening(kernel *k, const forces *f, const double *x);
 
 #endif

@@ -7,18 +7,18 @@
 #include "base/state.h"
 #include "forces/local_nodes.h"
 
-/** A state of local nodes. */
+/** A state of the local nodes. */
 typedef struct local_state {
     double t;            /* s */
-    const double *x, *v; /* [n][dim] by their numbers */
-    const double *y;     /* a state of all nodes, filled where it is read */
+    const double *x, *v; /* [n][dim] by local numbers */
+    const double *y;     /* a state of all nodes, filled in as far as the forces read it */
 } local_state;
 
 typedef struct local_forces {
     void *self;
     bool couple_velocities;    /* the force on a node depends on the velocities of its neighbours */
-    bool are_driven;           /* they depend on the time, which they read in the state of all nodes */
-    bool read_state;           /* as they do the positions and velocities */
+    bool are_driven;           /* the forces depend on time, which they read from the state of all nodes */
+    bool read_state;           /* they read positions and velocities from the state of all nodes, too */
     bool have_power;           /* add_power() may add something */
     const unsigned char *held; /* [n_nodes] components of the motion that are prescribed; NULL: none are */
     /** Adds to the nodes those that the forces on some of them depend on: of places `first` to `last` - 1. */
