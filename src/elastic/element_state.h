@@ -9,21 +9,21 @@
 
 typedef struct element_state {
     unsigned char *spring;   /* [n_springs] 1: broken */
-    unsigned char *triangle; /* [n_triangles] the same */
-    unsigned char *node;     /* [n_nodes] 1: something is broken at it */
+    unsigned char *triangle; /* [n_triangles] 1: broken */
+    unsigned char *node;     /* [n_nodes] 1: an element at the node is broken */
     dem_index n_damaged;
-    dem_index *damaged; /* [n_damaged] these nodes, in the order in which it happened */
+    dem_index *damaged; /* [n_damaged] these nodes, in the order in which elements broke */
 } element_state;
 
-/** All whole. Free with element_state_destroy(). */
+/** Makes a state in which all elements are whole. Free with element_state_destroy(). */
 dem_status element_state_create(element_state *out, const dem_lattice *lattice);
 void element_state_destroy(element_state *s);
 
-/** Breaks an element of the lattice; what is broken stays so. */
+/** Breaks an element of the lattice, for good. */
 void element_state_break_spring(element_state *s, const dem_lattice *lattice, dem_index spring);
 void element_state_break_triangle(element_state *s, const dem_lattice *lattice, dem_index triangle);
 
-/** Flags of springs, of triangles; NULL: all are whole. */
+/** Flags of springs, or of triangles, by the lattice's numbers; NULL: all are whole. */
 static inline const unsigned char *element_state_springs(const element_state *s)
 {
     return s != NULL ? s->spring : NULL;

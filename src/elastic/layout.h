@@ -24,8 +24,8 @@ static inline int layout_lane(int q)
 
 typedef enum layout_kind {
     LAYOUT_ADD,      /**< all lanes take part, their operands lie side by side */
-    LAYOUT_SUBTRACT, /**< of terms: as that, and all nodes are the upper ones of their springs */
-    LAYOUT_MASKED,   /**< operands lie side by side */
+    LAYOUT_SUBTRACT, /**< the same of terms of which all nodes are the upper ends: subtracted */
+    LAYOUT_MASKED,   /**< some lanes take part, operands lie side by side */
     LAYOUT_GATHERED  /**< `at`, and `to` of corners, are lists of one operand for each lane */
 } layout_kind;
 
@@ -48,8 +48,8 @@ typedef struct layout_part {
 
 typedef struct layout {
     dem_index n_nodes;
-    dem_index n_blocks;  /* of LAYOUT_LANES nodes; those that are left over are for the caller */
-    int32_t *order;      /* [n_nodes] the node at each place; NULL: that of the same number */
+    dem_index n_blocks;  /* of LAYOUT_LANES nodes; up to seven nodes behind them are for the caller */
+    int32_t *order;      /* [n_nodes] the node at each place; NULL: places are node numbers */
     bool damped, stiff;  /* whether springs are damped, and whether there is an area term */
     layout_part springs; /* what a block evaluates */
     layout_part terms;   /* what its nodes sum up, in the order of their rows */
@@ -58,8 +58,8 @@ typedef struct layout {
     int32_t *lists;        /* [n_lists][LAYOUT_LANES] operands */
     intern bonds;          /* [LAYOUT_LANES] of stiffness, rest length; viscosity */
     intern areas;          /* [LAYOUT_LANES] of rest area, area below which the guard acts, area stiffness */
-    dem_index reach;       /* blocks: none collects from one that is further below */
-    dem_index ahead;       /* blocks: none reads positions that are further away */
+    dem_index reach;       /* blocks: springs go no further up or down */
+    dem_index ahead;       /* blocks: positions are read no further away */
     dem_index ring_rows;   /* nodes whose forces the ring holds, a power of 2: of `reach` + 2 blocks or more */
     dem_index ring_length; /* forces in the ring */
 } layout;

@@ -7,7 +7,7 @@
 
 #include "elastic/springs.h"
 
-/** How far apart the numbers of two neighbours are at most.
+/** The largest difference between the numbers of two neighbours.
  *  \param place  [n_nodes] number of each node; NULL: its own */
 dem_index renumber_span(const springs *s, const int32_t *place);
 

@@ -18,8 +18,8 @@ typedef struct springs {
     double *viscosity;    /* [2 n_springs] N s; NULL: undamped */
 } springs;
 
-/** Compiles triplets whose indices are known to be valid; names a pair of nodes joined twice. Free with
- *  springs_free. */
+/** Compiles the springs of a lattice whose node numbers are known to be valid. A pair of nodes joined twice is an error
+ *  that names both springs. Free with springs_free(). */
 dem_status springs_compile(springs *out, const dem_lattice *lattice);
 void springs_free(springs *s);
 
@@ -35,7 +35,8 @@ static inline bool springs_is_broken(const unsigned char *broken, dem_index k)
     return broken != NULL && broken[k];
 }
 
-/** E_ij (d - d0)/d0 of a spring of length d, over d: times the vector between its ends it is its force, (1). */
+/** Tension over length of a spring, E_ij (d - d0)/(d0 d), N/m: times the vector between its ends it is the force
+ *  (1). */
 static inline double springs_pull(double stiffness, double rest_length, double length)
 {
     return stiffness * (length - rest_length) / (rest_length * length);
@@ -54,7 +55,7 @@ static inline vec2 springs_force(const springs *s, const unsigned char *broken, 
     return force;
 }
 
-/** Kelvin-Voigt damping of node i, N: in every spring of its row the viscosity times the strain rate. */
+/** Kelvin-Voigt damping of node i, N: in every spring of its row c e' n, with e' = d.v/(d0 |d|) the strain rate. */
 static inline vec2 springs_damping(const springs *s, const unsigned char *broken, dem_index i, const double *x,
                                    const double *v)
 {
@@ -68,14 +69,14 @@ static inline vec2 springs_damping(const springs *s, const unsigned char *broken
     return force;
 }
 
-/** (d - d0)/d0 of the spring in slot p of row i. */
+/** Strain (d - d0)/d0 of the spring in slot p of row i. */
 static inline double springs_strain(const springs *s, dem_index i, dem_index p, const double *x)
 {
     const double length = vec2_norm(vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i)));
     return (length - s->rest_length[p]) / s->rest_length[p];
 }
 
-/** (d - d0)/d0 of spring k of a lattice. */
+/** Strain (d - d0)/d0 of spring k of a lattice. */
 static inline double springs_strain_of(const dem_lattice *lattice, dem_index k, const double *x)
 {
     const vec2 d = vec2_sub(vec2_at(x, lattice->ends[2 * k + 1]), vec2_at(x, lattice->ends[2 * k]));
@@ -97,14 +98,14 @@ static inline void springs_virial(const dem_lattice *lattice, dem_index k, const
     virial[2] = tension * d.x * d.y;
 }
 
-/** Minus the change of the force on node i, N, when the nodes move from x by u: the stiffness of the springs, that of
- *  their turning under tension included. */
+/** (K u)_i, N: minus the change of the force on node i when the nodes move from x by u. K has the stiffness of
+ *  stretching, and that of turning under tension. */
 vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
 
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
 double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x);
 
-/** Energy of all springs of a lattice, J; does not depend on how they and the nodes are numbered. */
+/** Energy of all springs of a lattice, J. An exact sum: it does not depend on the numbering of springs and nodes. */
 double springs_energy(const dem_lattice *lattice, const unsigned char *broken, const double *x);
 
 /** Strain of every spring of a lattice; 0 of one that is broken.  \param[out] strain  [n_springs] */
@@ -116,13 +117,14 @@ void springs_forces(const dem_lattice *lattice, const unsigned char *broken, con
 /** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
 double springs_damping_power(const springs *s, const unsigned char *broken, const double *x, const double *v);
 
-/** S_i = sum over the springs of node i of c/d0 n n^T, n their directions at x and c their `strength`: stiffness or
- *  viscosity. The springs make the matrix A with u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i u_i. */
+/** S_i = sum of c/d0 n n^T over the springs of node i, with n their directions at x and c their `strength`, stiffness
+ *  or viscosity. It bounds the matrix A of the springs: u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i
+ *  u_i. */
 sym2 springs_block(const springs *s, const double *strength, dem_index i, const double *x);
 
-/** Upper bound, 1/s, of the eigenvalues of M^-1 C about the shape x, C the damping matrix of the springs: the largest
- *  2 |S_i|/m_i of the nodes that move; 0 undamped. An eigenvalue of the damped motion, of mass damping alpha too, is of
- *  modulus at most max(omega_max, this + alpha). */
+/** Upper bound, 1/s, of the eigenvalues of M^-1 C at positions x, with C the damping matrix of the springs: the largest
+ *  2 |S_i|/m_i of the nodes that move; 0 without damping. The eigenvalues of the damped motion have a modulus of at
+ *  most max(omega_max, this + alpha), with alpha the mass damping. */
 double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass);
 
 #endif

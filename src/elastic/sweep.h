@@ -8,7 +8,7 @@
 
 #include "elastic/layout.h"
 
-/** A step of Verlet from x0, v0 with accelerations a0, (5), [n_nodes][2]: where it leads. */
+/** A step of Verlet, (5), from x0, v0 with accelerations a0 to x1, v1; arrays [n_nodes][2]. */
 typedef struct sweep_fused_step {
     double h; /* s */
     const double *x0, *v0, *a0;
@@ -31,14 +31,14 @@ typedef struct sweep {
                                    layout->ahead blocks at both ends; and its v1, after the accelerations */
 } sweep;
 
-/** Sweeps blocks first to last - 1.
- *  \param ring  [layout->ring_length][2] scratch, of one thread
+/** Sweeps the blocks `first` to `last` - 1.
+ *  \param ring  [layout->ring_length][2], twice that where springs are damped: scratch of one thread
  *  \return the sum of the accelerations, and of the velocities if wanted: not finite if one of them is not */
 typedef double sweep_function(const sweep *s, dem_index first, dem_index last, double *ring);
 
 sweep_function sweep_portable, sweep_avx2, sweep_avx512;
 
-/** Fills `guarded` alone. */
+/** Fills `guarded` and nothing else. */
 typedef void sweep_guard_function(const sweep *s, dem_index first, dem_index last);
 
 sweep_guard_function sweep_guard_portable, sweep_guard_avx2, sweep_guard_avx512;

@@ -79,7 +79,7 @@ INLINE pairs sum_terms(const layout *l, dem_index block, const double *ring)
     return sum;
 }
 
-/* A bit for each node whose lane is among these and takes part. */
+/* A bit for each node whose lane is chosen and takes part. */
 INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
 {
     unsigned nodes = 0;
@@ -141,7 +141,8 @@ INLINE void drift(const sweep_fused_step *p, dem_index block)
     pairs_store(p->x1 + at, pairs_add(pairs_load(p->x0 + at), pairs_mul(h, half)));
 }
 
-/* v1 = (v' + h/2 a0) + h/2 (a1 - a0): in two parts, as where a1 needs v1 extrapolated. */
+/* v1 = (v' + h/2 a0) + h/2 (a1 - a0), with the roundings of array_ops: there v1 is extrapolated first, since a1 may
+ * depend on it. */
 INLINE void kick(const sweep_fused_step *p, dem_index block, pairs a1)
 {
     const dem_index at = 2 * LAYOUT_LANES * block;

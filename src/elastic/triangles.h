@@ -24,8 +24,8 @@ typedef struct triangles {
     double *area_stiffness; /* kappa, N/m; NULL: none */
 } triangles;
 
-/** Compiles the triangles with area stiffness or guard of a lattice whose indices and areas are known to be valid. Free
- *  with triangles_free. */
+/** Compiles the triangles that have area stiffness or guard. Node numbers and areas of the lattice are known to be
+ *  valid. Free with triangles_free(). */
 dem_status triangles_compile(triangles *out, const dem_lattice *lattice);
 void triangles_free(triangles *t);
 
@@ -42,21 +42,22 @@ vec2 triangles_force(const triangles *t, const unsigned char *broken, dem_index 
  *  unit tensor. */
 double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x);
 
-/** Minus the change of that force, N, when the nodes move from x by u: K u, K the second derivative of the energy. */
+/** (K u)_i, N: minus the change of the force on node i when the nodes move from x by u; K is the second derivative of
+ *  the energy. */
 vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);
 
 /** Energy of the triangles at node i, J. */
 double triangles_node_energy(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
 
-/** Energies of the area term and of the guard, J; sums that do not depend on an order. */
+/** Energies of the area term and of the guard, J; exact sums. */
 void triangles_energy(const triangles *t, const unsigned char *broken, const double *x, double *area, double *guard);
 
-/** Sum over the triangles at node i of max(kappa, 0)/A0 g g^T, g = dA/dx_i at x: the area term makes a matrix that is
- *  at most three times the sum of these blocks. */
+/** T_i = sum of max(kappa, 0)/A0 g g^T over the triangles at node i, with g = dA/dx_i at x. The matrix of the area term
+ *  is at most three times the sum of these blocks. */
 sym2 triangles_block(const triangles *t, dem_index i, const double *x);
 
-/** What the guard adds at most to the stiffness at node i, N/m: no second variation of its energy at x exceeds the sum
- *  of this times u_i^2. 0 where it does not act. */
+/** A bound of what the guard adds to the stiffness at node i, N/m: the second variation of its energy at x is at most
+ *  the sum of this times u_i^2. 0 where it does not act. */
 double triangles_guard_bound(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
 
 /** A function of J = area / rest area and its derivatives. */

@@ -18,17 +18,17 @@ typedef struct mesh_edges {
     mesh_edge_slot *list; /* [3 n_triangles] */
 } mesh_edges;
 
-/* The corners must be nodes of the lattice. Caller owns *out. */
+/* Lists the sides; the corners of triangles must be valid node numbers. Free with mesh_edges_free(). */
 dem_status mesh_edges_create(mesh_edges *out, const dem_lattice *lattice);
 void mesh_edges_free(mesh_edges *s);
 
 /* Whether slot p of row i is the first of its edge. */
 bool mesh_edges_is_first(const mesh_edges *s, dem_index i, dem_index p);
 
-/* Whether it is the only one: an edge of the boundary. */
+/* Whether slot p of row i is the only one of its edge, which is then on the boundary. */
 bool mesh_edges_is_boundary(const mesh_edges *s, dem_index i, dem_index p);
 
-/* What flags = NULL stands for: DEM_NODE_CONTACT on the boundary, everywhere without triangles.
+/* Fills in the flags that flags = NULL stands for: DEM_NODE_CONTACT on the boundary, or on all nodes without triangles.
  * \param[out] flags  [n_nodes] */
 dem_status mesh_edges_contact_flags(unsigned char *flags, const dem_lattice *lattice);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One way in which an obstacle can move. Each has a file; motion_law.c lists them, and adds up those that an obstacle
- * has. */
+/* The interface of a kind of motion of obstacles. Each kind has a file; motion_law.c lists them, and adds up those that
+ * an obstacle has. */
 #ifndef DEM_OBSTACLE_MOTION_KIND_H
 #define DEM_OBSTACLE_MOTION_KIND_H
 
@@ -8,10 +8,10 @@
 
 #include "obstacle/pose.h"
 
-/** What no point of an obstacle exceeds at any time. */
+/** Bounds that no point of an obstacle exceeds at any time. */
 typedef struct motion_bounds {
     double speed, acceleration; /* m/s, m/s^2; not finite if the motion cannot be computed with */
-    double rate;                /* rad/s, highest angular frequency: in much less than 1/rate little changes */
+    double rate;                /* rad/s, highest angular frequency of the motion */
 } motion_bounds;
 
 typedef struct motion_kind {

@@ -14,24 +14,25 @@ typedef struct motion_law {
     const dem_obstacle *of; /* which has to stay */
 } motion_law;
 
-/** DEM_ERROR_MODEL names obstacle o and what of its motion cannot be computed with. */
+/** DEM_ERROR_MODEL names obstacle o and the field of its motion that is not finite or too large. */
 dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o);
 
-/** That of an obstacle as it is given. */
+/** The law of an obstacle as it is given, which must stay where it is. */
 motion_law motion_law_of(const dem_obstacle *obstacle);
 
-/** At t = 0 it is that of the points as given. */
+/** The pose at t. At t = 0 places are those of the points as given. */
 pose motion_law_pose(const motion_law *law, double t);
 
+/* Bounds over all time; 0 at rest. */
 motion_bounds motion_law_bounds(const motion_law *law);
 
-/** What neither of two exceeds. */
+/** Bounds that hold for both of two obstacles. */
 static inline motion_bounds motion_bounds_of_both(motion_bounds a, motion_bounds b)
 {
     return (motion_bounds){fmax(a.speed, b.speed), fmax(a.acceleration, b.acceleration), fmax(a.rate, b.rate)};
 }
 
-/** Whether two obstacles never move against each other. */
+/** Whether two obstacles are at rest relative to each other at all times. */
 bool motion_law_is_same(const motion_law *a, const motion_law *b);
 
 #endif

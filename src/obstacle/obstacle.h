@@ -14,10 +14,10 @@ typedef struct segment {
     double length;             /* m */
     dem_index obstacle, index; /* which obstacle, which segment of it */
     dem_index before, after;   /* neighbouring segments, -1 at a free end */
-    double buried[2];          /* m, how far it goes on inside another obstacle on which it stands: before, after */
+    double buried[2];          /* m, continuation inside another obstacle on which a free end stands: start, end */
 } segment;
 
-/** Where a polyline bends so that the solid's corner sticks out. */
+/** A vertex where a polyline bends away from the bodies: the solid's corner sticks out. */
 typedef struct obstacle_vertex {
     vec2 at;
     dem_index before, after; /* segments that end and begin there */
@@ -37,14 +37,14 @@ typedef struct obstacle_set {
     box_tree *vertex_trees;    /* [n] of the vertices of each that moves */
 } obstacle_set;
 
-/** How a point of an obstacle moves; all 0 at rest. */
+/** Motion of a point of an obstacle; all 0 at rest. */
 typedef struct obstacle_motion {
     bool moves;
     vec2 velocity, acceleration; /* m/s, m/s^2 */
     double spin;                 /* rad/s */
 } obstacle_motion;
 
-/** How a polyline turns from one segment into the next, seen by a body that slides along it. */
+/** The bend from one segment to the next, as a body meets it that slides along. */
 typedef enum obstacle_bend {
     OBSTACLE_FREE_END, /* nothing follows */
     OBSTACLE_STRAIGHT, /* the next segment goes on in line */
@@ -52,19 +52,19 @@ typedef enum obstacle_bend {
     OBSTACLE_CONCAVE   /* the next segment stands in the way */
 } obstacle_bend;
 
-/** Whether two segments are neighbours, and where the vertex that they share is at t. */
+/** Whether two segments are neighbours, and the place of their common vertex at t. */
 bool obstacles_share(const obstacle_set *o, double t, dem_index s, dem_index other, vec2 *vertex);
 
-/** Bend where segment s ends (or, backwards, starts), and the segment beyond it. */
+/** The bend where segment s ends (backwards: where it starts), and the segment beyond it. */
 obstacle_bend obstacles_bend(const obstacle_set *o, dem_index s, bool backwards, dem_index *beyond);
 
-/** Whether an obstacle moves: quickly known where none does. */
+/** Whether an obstacle moves. Where none does this is one comparison. */
 static inline bool obstacles_moves(const obstacle_set *o, dem_index obstacle)
 {
     return o->bounds.speed > 0.0 && o->laws[obstacle].moves;
 }
 
-/** How the point of an obstacle moves that is at x at t. */
+/** The motion of the obstacle's point that is at x at t. */
 obstacle_motion obstacles_motion_moving(const obstacle_set *o, dem_index obstacle, double t, vec2 x);
 
 static inline obstacle_motion obstacles_motion(const obstacle_set *o, dem_index obstacle, double t, vec2 x)
@@ -78,23 +78,25 @@ static inline vec2 obstacle_motion_relative(const obstacle_motion *m, vec2 v)
     return vec2_sub(v, m->velocity);
 }
 
-/** And back, from the velocity of that point; zeros keep their signs on what is at rest. */
+/** The absolute velocity of a point with this velocity relative to the obstacle. On an obstacle at rest it is
+ *  `relative` to the bit, signs of zeros included. */
 static inline vec2 obstacle_motion_carry(vec2 velocity, vec2 relative)
 {
     return velocity.x != 0.0 || velocity.y != 0.0 ? vec2_add(relative, velocity) : relative;
 }
 
-/** Acceleration of a point with velocity v that stays on the surface there, m/s^2. */
+/** b = w' + 2 q' z x (v - w): acceleration of a point with velocity v that stays on the surface there, m/s^2. */
 static inline vec2 obstacle_motion_sliding(const obstacle_motion *m, vec2 v)
 {
     const vec2 u = vec2_sub(v, m->velocity), coriolis = {-2.0 * m->spin * u.y, 2.0 * m->spin * u.x};
     return m->moves ? vec2_add(m->acceleration, coriolis) : m->acceleration;
 }
 
-/** A place at t, seen from outside, in the frame of an obstacle. */
+/** A place at t, in the axes of space, as coordinates in the frame of an obstacle. */
 vec2 obstacles_inside(const obstacle_set *o, dem_index obstacle, double t, vec2 x);
 
-/** The segment where it is at t: the compiled one if it is at rest, else `moved`, which is filled. */
+/** The segment as it lies at t: the compiled one if its obstacle is at rest; otherwise *moved is filled and
+ *  returned. */
 const segment *obstacles_segment_moving(const obstacle_set *o, dem_index s, double t, segment *moved);
 
 static inline const segment *obstacles_segment(const obstacle_set *o, dem_index s, double t, segment *moved)
@@ -105,7 +107,7 @@ static inline const segment *obstacles_segment(const obstacle_set *o, dem_index 
 /** Where the vertex is at t. */
 vec2 obstacles_vertex(const obstacle_set *o, dem_index vertex, double t);
 
-/** All that counts as the segment, but for a margin. */
+/** A box around the segment and its buried continuations, without any margin. */
 box segment_cover(const segment *s);
 
 /** Signed distance to the segment's line, and place along it from its start, m. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compiling all obstacles of a model. */
+/* Compiles all obstacles of a model into an obstacle_set. */
 #ifndef DEM_OBSTACLE_OBSTACLE_SET_H
 #define DEM_OBSTACLE_OBSTACLE_SET_H
 

@@ -13,33 +13,33 @@ typedef struct pose {
     double spin, spin_rate;              /* q' rad/s, q'' rad/s^2 */
 } pose;
 
-/** A direction of the body, seen from outside. */
+/** A direction of the body, in the axes of space. */
 static inline vec2 pose_turn(const pose *p, vec2 d)
 {
     return (vec2){p->axis.x * d.x - p->axis.y * d.y, p->axis.y * d.x + p->axis.x * d.y};
 }
 
-/** A place in the body, seen from outside. */
+/** A place given in the body's frame, in the axes of space. */
 static inline vec2 pose_outside(const pose *p, vec2 x)
 {
     return vec2_add(p->centre, pose_turn(p, x));
 }
 
-/** A place seen from outside, in the body's own frame. */
+/** A place in the axes of space, in the body's frame. */
 static inline vec2 pose_inside(const pose *p, vec2 x)
 {
     const vec2 r = vec2_sub(x, p->centre);
     return (vec2){p->axis.x * r.x + p->axis.y * r.y, p->axis.x * r.y - p->axis.y * r.x};
 }
 
-/** w, m/s. */
+/** w, m/s: the velocity of the body's point at x. */
 static inline vec2 pose_velocity(const pose *p, vec2 x)
 {
     const vec2 r = vec2_sub(x, p->centre);
     return vec2_add(p->velocity, (vec2){-p->spin * r.y, p->spin * r.x});
 }
 
-/** w', m/s^2: what a point has that goes with the body. */
+/** w', m/s^2: the acceleration of the body's point at x. */
 static inline vec2 pose_acceleration(const pose *p, vec2 x)
 {
     const vec2 r = vec2_sub(x, p->centre), turned = {-p->spin_rate * r.y, p->spin_rate * r.x};

@@ -16,7 +16,7 @@ typedef struct obstacle_edge {
     dem_index except[2];  /* vertices left out, or -1 */
 } obstacle_edge;
 
-/** The vertex nearest to entering through the edge. */
+/** The vertex that is deepest in the body, or nearest to entering it, through the edge. */
 typedef struct obstacle_vertex_gap {
     double distance;  /* m, of the vertex in front of the edge: > 0 outside the body, < 0 inside; infinity: none */
     dem_index vertex; /* -1: none */
@@ -24,10 +24,10 @@ typedef struct obstacle_vertex_gap {
     vec2 normal;      /* unit, left of the edge: into the body, out of the obstacle */
 } obstacle_vertex_gap;
 
-/** Of the convex vertices at t whose foot is on the edge, nearer in front than `reach` and behind than `depth`, and
- *  whose mean normal points into the body: the one with the smallest distance, the first of equals. One behind the
- *  edge that is nearer to a neighbouring edge, round a convex corner of the body, is not meant; one in a notch of
- *  the body, behind the edge and its neighbour between their feet, is. */
+/** The convex vertex with the smallest distance at t, and of equal ones the first. Only vertices count whose foot is on
+ *  the edge, which are nearer in front than `reach` and behind than `depth`, and whose mean normal points into the
+ *  body. Behind the edge, a vertex that is nearer to a neighbouring edge round a convex corner of the body belongs to
+ *  that edge; one in a notch of the body, with its foot beyond the ends of both edges, belongs to both. */
 obstacle_vertex_gap obstacles_vertex_gap(const obstacle_set *o, double t, const obstacle_edge *edge);
 
 /** Distance of the edge to the nearest convex vertex at t, at most its `reach`, m. */
