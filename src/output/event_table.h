@@ -9,7 +9,7 @@
 /** Free with table_free(). */
 dem_status event_table_init(table *out);
 
-/** Makes the datasets, empty, with the names of the codes as attributes. */
+/** Makes the empty datasets, with the names of the codes as attributes. */
 dem_status event_table_create(const table *t, const hdf5_file *file);
 
 /** Appends the event as a row. The table's buffer must have room. */

@@ -12,10 +12,10 @@ typedef struct frames {
     uint32_t fields; /* DEM_FIELD_... */
     hdf5_kind real;  /* of most arrays in the file: HDF5_F32 or HDF5_F64 */
     int deflate;
-    dem_index before; /* in files before this one */
-    dem_index n;      /* in the file */
-    double last;      /* t of the last one, s */
-    double *scratch;  /* what is written: [6 n_nodes] or [n_springs] */
+    dem_index before; /* frames in the files before this one */
+    dem_index n;      /* frames in this file */
+    double last;      /* time of the last frame, s */
+    double *scratch;  /* the array that is being written: [6 n_nodes] or [n_springs] */
     double *stress;   /* [n_nodes][3] */
 } frames;
 
@@ -31,30 +31,31 @@ typedef struct frames_constant {
 dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options);
 void frames_free(frames *f);
 
-/** Makes the group: the grid, and no frame. */
+/** Makes the group with the grid and no frame. */
 dem_status frames_create(const frames *f, const hdf5_file *file, const dem_lattice *lattice);
 
-/** How many bytes frames_append() adds, at most. */
+/** An upper bound of the bytes that frames_append() adds. */
 hsize_t frames_bytes(const frames *f);
 
-/** Adds what is seen of the simulation as frame f->n; it counts once the file is closed, and f->n raised. */
+/** Adds the present state of the simulation as frame f->n. It counts when the caller has closed the file and raised
+ *  f->n. */
 dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simulation *simulation);
 
-/** Adds an array to all frames that are there, in a file that frames_create() has seen.
+/** Adds an array that is the same in all frames, to a file made by frames_create().
  *  \param values  [number of nodes or springs][components] */
 dem_status frames_write_constant(const frames *f, const hdf5_file *file, const frames_constant *constant,
                                  const double *values);
 
-/** Stresses xx, yy, xy [n][3] as VTK has symmetric tensors: xx, yy, zz, xy, yz, xz [n][6]; zz is left at 0. */
+/** Turns stresses xx, yy, xy [n][3] into VTK's symmetric tensors xx, yy, zz, xy, yz, xz [n][6]; zz is 0. */
 void frames_spread_stress(double *out, dem_index n, const double *stress);
 
-/** Copies frames of another file; they begin elsewhere in this one. */
+/** Copies frames of another file; in this one they begin at frame span.at. */
 dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span);
 
-/** The frames of a file; DEM_ERROR_IO unless every array has as many. */
+/** The number of frames of a file; DEM_ERROR_IO unless every array has as many. */
 dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n);
 
-/** DEM_ERROR_IO unless every array has so many frames. */
+/** DEM_ERROR_IO unless every array has n frames. */
 dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n);
 
 #endif

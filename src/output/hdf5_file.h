@@ -6,20 +6,21 @@
 
 #include <dem/dem.h>
 
-#define H5_USE_110_API /* what functions are called, in every version from 1.10 on */
+#define H5_USE_110_API /* the functions of version 1.10 are called, whatever the version installed */
 #include <hdf5.h>
 
-/** Number types. In memory HDF5_F32 is double too, HDF5_I8 is int64_t; the others are what they say. */
+/** Types of numbers in a file. In memory HDF5_F32 is double and HDF5_I8 is int64_t; the others are the same. */
 typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;
 
-/** An open file. From its opening to its closing, both in one thread, other threads wait with theirs; HDF5's own error
- *  printing is off in this thread, and in this process the loading of plugins, which are programs that a file names. */
+/** An open file. It must be opened and closed by the same thread, and until it is closed other threads wait to open
+ *  theirs. Meanwhile HDF5 prints no errors in this thread, and loads no plugins (programs that a file names) in this
+ *  process. */
 typedef struct hdf5_file {
     hid_t id;
     const char *path;
-    H5E_auto2_t report; /**< the printing to restore */
+    H5E_auto2_t report; /**< how errors were printed before */
     void *report_data;
-    unsigned plugins; /**< the loading to restore */
+    unsigned plugins; /**< whether plugins were loaded before */
 } hdf5_file;
 
 /** A dataset that grows in its first dimension. */
@@ -32,45 +33,46 @@ typedef struct hdf5_rows {
     int deflate;     /**< 0: stored plain; 1 to 9: shuffled and deflated */
 } hdf5_rows;
 
-/** Rows of a file and where they go in another. */
+/** Rows of a file, and where they go in another one. */
 typedef struct hdf5_span {
-    hsize_t first, count; /**< taken */
-    hsize_t at;           /**< row that the first becomes, behind the last of those that are there */
+    hsize_t first, count; /**< rows that are taken */
+    hsize_t at;           /**< where the first of them goes: the number of rows that are there already */
 } hdf5_span;
 
 dem_status hdf5_open_read(hdf5_file *out, const char *path);
 
-/** Opens to add up to about `bytes`, which it makes sure there is room for: a full disk found out by HDF5 1.10 itself
- *  leaves a file that cannot be opened any more. Takes no lock, so that looking at the file does not stop a run. */
+/** Opens to add up to about `bytes`, after reserving room for them: if HDF5 1.10 itself meets a full disk, the file
+ *  cannot be opened any more. Takes no lock, so that programs may look at the file during a run. */
 dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes);
 
-/** The same with an empty file, replacing an older one. */
+/** The same with a new, empty file in place of an older one. */
 dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes);
 
-/** Flushes and closes; returns `status` if that is a failure already, else whether this succeeded. */
+/** Flushes and closes.
+ *  \return `status` if that is a failure already; otherwise whether closing succeeded */
 dem_status hdf5_close(hdf5_file *file, dem_status status);
 
-/** DEM_ERROR_IO: "path: name: what (innermost cause that HDF5 gives)". To be called before any other HDF5 call. */
+/** DEM_ERROR_IO with "path: name: what (innermost cause given by HDF5)". To be called before any other HDF5 call. */
 dem_status hdf5_fail(const hdf5_file *file, const char *name, const char *what);
 
 hid_t hdf5_memory_type(hdf5_kind kind);
 
-/** Makes the dataset, without rows. */
+/** Makes a dataset without rows. */
 dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows);
 
-/** Gives a dataset another name. */
+/** Gives a dataset a second name. */
 dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target);
 
-/** Stores `count` rows from row `first` on, which then are the last ones. */
+/** Stores `count` rows from row `first` on; rows behind them are cut off. */
 dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data);
 
-/** Reads `count` rows from row `first` on, which are there. */
+/** Reads `count` existing rows from row `first` on. */
 dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data);
 
 /** Copies rows of a dataset to the end of that in another file, a chunk at a time. */
 dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span);
 
-/** Makes the dataset with `count` rows in one chunk. */
+/** Makes a dataset with `count` rows in one chunk. */
 dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data);
 
 /** Makes or overwrites an attribute: a scalar for count 1, else [count]. The group `object` is made if need be. */
@@ -94,8 +96,8 @@ dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_
 /** DEM_ERROR_IO unless the scalar integer attribute is `value`. */
 dem_status hdf5_expect_attribute(const hdf5_file *file, const char *object, const char *name, int64_t value);
 
-/** Syncs the closed file `part`, reads all of it back, renames it to `path` and syncs the folder: HDF5 1.10 may report
- *  success on a full disk, so nothing else shows whether the file is whole. */
+/** Syncs the closed file `part`, reads all of it back, renames it to `path` and syncs the folder. HDF5 1.10 may report
+ *  success on a full disk, so that only reading shows whether the file is whole. */
 dem_status hdf5_publish(const char *part, const char *path);
 
 #endif

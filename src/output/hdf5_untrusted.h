@@ -14,21 +14,21 @@ enum {
 };
 
 typedef struct hdf5_untrusted_shape {
-    hdf5_kind stored;                    /**< what numbers in the file are, or come nearest to */
-    int rank;                            /**< 0: none of ours */
+    hdf5_kind stored;                    /**< type of the numbers in the file, or the nearest one of ours */
+    int rank;                            /**< 1 to 3; 0: another shape, which is none of this library's */
     hsize_t extent[HDF5_UNTRUSTED_RANK]; /**< 1 beyond the rank */
 } hdf5_untrusted_shape;
 
 /** Rows of a dataset. */
 typedef struct hdf5_untrusted_rows {
     hsize_t first, count;
-    hsize_t width; /**< of each row the first so many; 0: all */
+    hsize_t width; /**< the first so many numbers of each row; 0: all */
 } hdf5_untrusted_rows;
 
-/** Opens a regular file to read. */
+/** Opens a file for reading, if it is a regular one. */
 dem_status hdf5_untrusted_open(hdf5_file *out, const char *path);
 
-/** Whether there is an object of this absolute path; soft and external links on the way are refused. */
+/** Whether there is an object of this absolute path. Soft and external links on the way are refused. */
 dem_status hdf5_untrusted_find(const hdf5_file *file, const char *name, bool *present);
 
 /** The shape of a dataset of numbers that can be read as `kind`: reals from reals and integers, integers from integers,
@@ -48,11 +48,11 @@ dem_status hdf5_untrusted_read_attribute(const hdf5_file *file, const char *obje
 dem_status hdf5_untrusted_read_attribute_text(const hdf5_file *file, const char *object, const char *name, char *text,
                                               size_t size);
 
-/** Calls `take` with the name of everything in a group, in no order, until that fails. */
+/** Calls `take` with each name in a group, in no particular order, until it fails. */
 dem_status hdf5_untrusted_list(const hdf5_file *file, const char *group,
                                dem_status (*take)(void *context, const char *name), void *context);
 
-/** The beginning of a name, with ? for what cannot be printed. */
+/** The beginning of a name for a message, with ? in place of characters that cannot be printed. */
 void hdf5_untrusted_print(char out[HDF5_UNTRUSTED_PRINTABLE], const char *name);
 
 /** DEM_ERROR_IO: "path: name: reason". */

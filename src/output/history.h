@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The group /history of a trajectory: scalars at accepted steps. */
+/* The group /history of a trajectory: numbers of the whole run at accepted steps. */
 #ifndef DEM_OUTPUT_HISTORY_H
 #define DEM_OUTPUT_HISTORY_H
 
@@ -16,10 +16,10 @@ typedef struct history {
 dem_status history_init(history *out, const dem_simulation *simulation);
 void history_free(history *h);
 
-/** Appends the state as a row, unless there is a row of that instant. The table's buffer must have room. */
+/** Appends the state as a row, unless the last row is of the same instant. The table's buffer must have room. */
 void history_record(history *h, const dem_simulation *simulation);
 
-/** DEM_ERROR_IO unless this row of a file is of the instant h->last. */
+/** DEM_ERROR_IO unless this row of a file has the time h->last. */
 dem_status history_expect_last(const history *h, const hdf5_file *file, hsize_t row);
 
 #endif

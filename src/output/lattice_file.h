@@ -5,7 +5,7 @@
 
 #include "output/hdf5_file.h"
 
-/** Optional arrays that are NULL are left out. */
+/** Writes the arrays of a lattice; optional arrays that are NULL are left out. */
 dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice, int deflate);
 
 #endif

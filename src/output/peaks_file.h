@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The peaks of a run in its file: arrays that every frame shows, and the group /most_stressed. */
+/* The peaks of a run in its file: arrays that are shown in every frame, and the group /most_stressed. */
 #ifndef DEM_OUTPUT_PEAKS_FILE_H
 #define DEM_OUTPUT_PEAKS_FILE_H
 
@@ -8,15 +8,15 @@
 typedef struct peaks_report {
     const dem_peaks *peaks;
     const dem_lattice *lattice;
-    dem_index most; /* nodes and springs to be listed, at most */
+    dem_index most; /* the largest number of nodes, and of springs, to be listed */
 } peaks_report;
 
-/** Arrays of the frames that are there.  \param f  with its scratch */
+/** Writes the arrays of peaks.  \param f  the frames of this file, whose scratch is used */
 dem_status peaks_file_write_arrays(const hdf5_file *file, const peaks_report *report, const frames *f);
 
 dem_status peaks_file_write_lists(const hdf5_file *file, const peaks_report *report);
 
-/** How many bytes both add to a file of n frames, at most. */
+/** An upper bound of the bytes that both add to a file of n frames. */
 hsize_t peaks_file_bytes(const peaks_report *report, hsize_t n);
 
 #endif

@@ -12,17 +12,17 @@
 enum { PROBE_COLUMNS = 5 /**< at most */ };
 
 typedef struct probe {
-    dem_probe what; /**< its name is own */
+    dem_probe what; /**< with a name of the probe's own */
     double initial; /**< distance of a gauge's nodes at rest, m */
     dem_index left; /**< accepted steps until the next row */
     bool seen;      /**< whether there was a step */
-    double last;    /**< t of the last one, s */
+    double last;    /**< time of the last step, s */
     char *text;     /**< the names, one allocation */
     table_column columns[PROBE_COLUMNS];
     table table; /**< refers to the columns: a probe must stay where it is */
 } probe;
 
-/** What a checkpoint keeps of a probe, in whole words. */
+/** What a checkpoint keeps of a probe, in words of 8 bytes. */
 typedef struct probe_progress {
     char name[64];
     int64_t kind, number[2], every;
@@ -34,7 +34,7 @@ typedef struct probe_progress {
 dem_status probe_init(probe *out, const dem_probe *what, const dem_lattice *lattice);
 void probe_free(probe *p);
 
-/** Makes the group: datasets without rows, with their units, and what is probed as attributes. */
+/** Makes the group: datasets without rows, with their units, and attributes that say what is probed. */
 dem_status probe_create(const probe *p, const hdf5_file *file);
 
 /** Appends the state as a row if one is due. The table's buffer must have room. */
@@ -42,7 +42,7 @@ void probe_record(probe *p, const dem_simulation *simulation);
 
 probe_progress probe_progress_of(const probe *p);
 
-/** Goes on from there, the rows left to the caller; DEM_ERROR_ARGUMENT if that was another probe. */
+/** Goes on from there. The rows in files are the caller's task. DEM_ERROR_ARGUMENT if it is another probe's. */
 dem_status probe_restore(probe *p, const probe_progress *memory);
 
 #endif

@@ -26,7 +26,7 @@ void provenance_free(provenance *all);
 
 dem_status provenance_write(const provenance *all, const hdf5_file *file);
 
-/** How many bytes provenance_write() adds, at most. */
+/** An upper bound of the bytes that provenance_write() adds. */
 hsize_t provenance_bytes(const provenance *all);
 
 #endif

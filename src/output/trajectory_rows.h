@@ -23,39 +23,40 @@ typedef struct trajectory_rows {
     int n_kinds;
 } trajectory_rows;
 
-/** `out` is zero; free with trajectory_rows_free(), after a failure too. Model and peaks are borrowed. */
+/** `out` must be zero. Free with trajectory_rows_free(), after a failure too. Model and peaks are borrowed. */
 dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simulation,
                                 const dem_trajectory_options *options);
 void trajectory_rows_free(trajectory_rows *r);
 
-/** Makes everything but rows, and how many bytes that adds, at most. */
+/** Makes everything but rows; and an upper bound of the bytes that this adds. */
 dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *file);
 hsize_t trajectory_rows_create_bytes(const trajectory_rows *r);
 
-/** Moves the buffered rows to the file, and how many bytes that adds, at most. */
+/** Moves the buffered rows to the file; and an upper bound of the bytes that this adds. */
 dem_status trajectory_rows_flush(trajectory_rows *r, const hdf5_file *file);
 hsize_t trajectory_rows_flush_bytes(const trajectory_rows *r);
 
-/** Writes the peaks, if there are any, into a file of n frames, and how many bytes that adds, at most. */
+/** Writes the peaks, if there are any, into a file of n frames; and an upper bound of the bytes that this adds. */
 dem_status trajectory_rows_write_peaks(const trajectory_rows *r, const hdf5_file *file, hsize_t n);
 hsize_t trajectory_rows_peaks_bytes(const trajectory_rows *r, hsize_t n);
 
-/** Rows so far, and those of them that are in the present file. */
+/** All rows of a kind so far; and those of them that are in the present file. */
 hsize_t trajectory_rows_total(const trajectory_rows *r, int kind);
 hsize_t trajectory_rows_written(const trajectory_rows *r, int kind);
 
-/** So many rows stand in files before the present one, and so many in that. */
+/** Says that so many rows of a kind are in files before the present one, and so many in that. */
 void trajectory_rows_place(trajectory_rows *r, int kind, hsize_t before, hsize_t written);
 
-/** What a kind is called in messages. */
+/** The name of a kind of rows, for messages. */
 const char *trajectory_rows_name(const trajectory_rows *r, int kind);
 
 /** Copies rows of another file.  \param spans  [n_kinds] */
 dem_status trajectory_rows_copy(const trajectory_rows *r, const hdf5_file *from, const hdf5_file *to,
                                 const hdf5_span *spans);
 
-/** The rows of a file.  \param[out] spans  [n_kinds] their counts
- *  \return DEM_ERROR_IO if a dataset is of another type or shape, or has not as many rows as others of its kind */
+/** Counts the rows of a file.
+ *  \param[out] spans  [n_kinds] their counts
+ *  \return DEM_ERROR_IO if a dataset has another type or shape, or not as many rows as others of its kind */
 dem_status trajectory_rows_count(const trajectory_rows *r, const hdf5_file *file, hdf5_span *spans);
 
 /** DEM_ERROR_IO unless the file has these counts of rows. */

@@ -12,7 +12,7 @@ typedef struct grid {
     const dem_index *ends; /**< [n_cells][2] */
 } grid;
 
-/** Counts, connectivity and types of the cells, and what tells readers that this is such a grid. */
+/** Writes version and type of the grid, counts, connectivity and types of the cells. Points are the caller's. */
 dem_status vtk_grid_write(const hdf5_file *file, const grid *g, int deflate);
 
 #endif
