@@ -110,6 +110,7 @@ static dem_status make(dem_checkpoint *checkpoint, const char *name, size_t size
     return DEM_OK;
 }
 
+/* An entry of this name is replaced. Memory is asked for before the old bytes are touched. */
 dem_status dem_checkpoint_put(dem_checkpoint *checkpoint, const char *name, const void *data, size_t size)
 {
     CHECK(checkpoint != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
@@ -133,6 +134,7 @@ const void *dem_checkpoint_find(const dem_checkpoint *checkpoint, const char *na
     return e != NULL ? e->data : NULL;
 }
 
+/* The size must be exactly what the reader expects: a file of another version is noticed here. */
 dem_status dem_checkpoint_get(const dem_checkpoint *checkpoint, const char *name, void *data, size_t size)
 {
     CHECK(checkpoint != NULL && name != NULL && (data != NULL || size == 0), DEM_ERROR_ARGUMENT,
@@ -196,6 +198,7 @@ static header header_of(const dem_checkpoint *checkpoint)
     return h;
 }
 
+/* Padding is written as zeros, so that equal checkpoints are equal files. */
 static dem_status put_entries(stream *s, const dem_checkpoint *checkpoint)
 {
     static const unsigned char zeros[UNIT];
@@ -281,6 +284,7 @@ static dem_status open_stream(stream *out, const char *path)
     return DEM_OK;
 }
 
+/* *out is set only if the whole file is in order. */
 dem_status dem_checkpoint_read(dem_checkpoint **out, const char *path)
 {
     stream s;

@@ -483,6 +483,7 @@ static dem_status allocate(builder *b)
     return choose_order(b);
 }
 
+/* Places are of 32 bits, which halves the memory of entries; larger lattices are refused. */
 dem_status layout_compile(layout *out, const springs *s, const triangles *t)
 {
     layout l = {.n_nodes = s->n_nodes,

@@ -5,6 +5,7 @@
  * numbers lie in memory, never an order of sums. */
 #include "elastic/renumber.h"
 
+/* Each pair of neighbours is met from both ends, so that positive differences are enough. */
 dem_index renumber_span(const springs *s, const int32_t *place)
 {
     dem_index span = 0;

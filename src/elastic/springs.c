@@ -68,6 +68,7 @@ static dem_status allocate(springs *s, bool damped)
     return DEM_OK;
 }
 
+/* Count, sort the ends by node, fill the rows: linear in the number of springs. */
 dem_status springs_compile(springs *out, const dem_lattice *lattice)
 {
     springs s = {.n_nodes = lattice->n_nodes, .n_springs = lattice->n_springs};

@@ -233,6 +233,7 @@ static void shift_rows(triangles *t, dem_index slots)
     t->row[t->n_nodes] = slots;
 }
 
+/* Three slots for each triangle that has an energy, one at each of its corners. */
 dem_status triangles_compile(triangles *out, const dem_lattice *lattice)
 {
     triangles t = {.n_nodes = lattice->n_nodes};

@@ -281,6 +281,7 @@ static dem_status compile(boundary_conditions *b, const dem_boundary *list, dem_
     return list_pushes(b, n_nodes);
 }
 
+/* *out is empty until everything is in order, so that a failure leaves nothing to free. */
 dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
                                        const dem_lattice *lattice, dem_index n_obstacles)
 {

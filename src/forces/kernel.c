@@ -56,6 +56,7 @@ static dem_kernel fastest(void)
     return kind;
 }
 
+/* Names are those of the key `kernel` in a deck; "auto" is one of them. */
 dem_status dem_kernel_find(dem_kernel *out, const char *name)
 {
     CHECK(out != NULL && name != NULL, DEM_ERROR_ARGUMENT, "dem_kernel_find: %s is NULL", out == NULL ? "out" : "name");

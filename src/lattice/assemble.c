@@ -44,6 +44,7 @@ static dem_status check_elasticity(const dem_material *m)
     return DEM_OK;
 }
 
+/* What every rule of assembly needs: a mass and a thickness, and no negative guard or damping. */
 static dem_status check_material(const dem_material *m)
 {
     CHECK(m != NULL, DEM_ERROR_ARGUMENT, "material is NULL");
@@ -413,6 +414,7 @@ static dem_status check_materials(const draft *d, dem_index n_materials)
     return DEM_OK;
 }
 
+/* Springs that are there already would be lost, since assembling makes all of them. */
 static dem_status check_lattice(const dem_lattice *lattice, bool cells)
 {
     TRY(lattice_check(lattice));

@@ -51,6 +51,7 @@ static dem_index number_parts(dem_index *part, dem_index *parent, dem_index n)
     return n_parts;
 }
 
+/* Each spring unites the sets of its two ends. */
 dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem_index *part)
 {
     TRY(lattice_check(lattice));

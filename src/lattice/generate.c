@@ -225,6 +225,7 @@ dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, 
     return grid_lattice(out, &g);
 }
 
+/* Whole cells: width and height are rounded to multiples of the spacing. */
 dem_status dem_lattice_squares(dem_lattice *out, double width, double height, double spacing)
 {
     TRY(check_rectangle(out, width, height, spacing));

@@ -138,6 +138,8 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     return DEM_OK;
 }
 
+/* Nodes come first, since the others shift their numbers by those of the first lattice. On failure the caller frees
+ * what has been made. */
 static dem_status join_all(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     TRY(join_nodes(out, a, b));

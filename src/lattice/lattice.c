@@ -46,6 +46,7 @@ void *lattice_zeros(dem_index n, size_t size)
     return calloc(n > 0 ? (size_t)n : 1, size);
 }
 
+/* Numbers and arrays first, then the node numbers in them; masses and other values are not looked at. */
 dem_status lattice_check(const dem_lattice *lattice)
 {
     CHECK(lattice != NULL, DEM_ERROR_ARGUMENT, "lattice is NULL");
@@ -71,6 +72,7 @@ void dem_lattice_init(dem_lattice *lattice)
     *lattice = (dem_lattice){.struct_size = sizeof *lattice, .dim = 2};
 }
 
+/* The struct can be used again afterwards, as an empty lattice. */
 void dem_lattice_free(dem_lattice *lattice)
 {
     if (lattice == NULL) return;
@@ -101,6 +103,7 @@ void dem_lattice_move(dem_lattice *lattice, double angle, const double offset[2]
     turn(lattice->velocity, lattice->n_nodes, angle, none);
 }
 
+/* Adds to the velocities, so that several motions can be put on a lattice one after another. */
 dem_status dem_lattice_launch(dem_lattice *lattice, const double velocity[2])
 {
     TRY(lattice_check(lattice));

@@ -43,6 +43,7 @@ static void fill(mesh_edges *s, const dem_index *corner, dem_index n_nodes, dem_
     }
 }
 
+/* Two more entries in `row` than nodes: fill() counts two places ahead. */
 dem_status mesh_edges_create(mesh_edges *out, const dem_lattice *lattice)
 {
     const dem_index n = lattice->n_nodes, n_sides = 3 * lattice->n_triangles;

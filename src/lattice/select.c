@@ -33,6 +33,7 @@ static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const d
     return kept;
 }
 
+/* All arrays of nodes; those of springs and triangles follow with their own flags. */
 static void pack_nodes(dem_lattice *lattice, const unsigned char *keep)
 {
     const dem_index n = lattice->n_nodes;
@@ -54,6 +55,7 @@ static void pack_springs(dem_lattice *lattice, const dem_index *number, unsigned
     pack(lattice->viscosity, sizeof *lattice->viscosity, n, whole);
 }
 
+/* All arrays that have one entry for each triangle. */
 static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
 {
     const dem_index n = lattice->n_triangles;

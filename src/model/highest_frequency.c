@@ -138,6 +138,7 @@ static dem_status iterate(lanczos *l, double *omega)
                        (int)most_iterations, *omega);
 }
 
+/* The four vectors are one allocation; the tridiagonal matrix is too large for the stack. */
 dem_status dem_model_omega(const dem_model *model, double *omega)
 {
     CHECK(model != NULL && omega != NULL, DEM_ERROR_ARGUMENT, "dem_model_omega: %s is NULL", model ? "omega" : "model");

@@ -147,6 +147,7 @@ static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double 
                 if (is_inside(corner, o->nodes[p], x)) note(o, o->nodes[p], k, t, x);
 }
 
+/* The grid is filled anew, since nodes move; `most` keeps the largest number found so far. */
 void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x)
 {
     o->found.now = 0;

@@ -179,6 +179,7 @@ static dem_status compile(draft *d)
     return DEM_OK;
 }
 
+/* The sides and counters are needed only while the shares are found. */
 dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s)
 {
     stress_map map = {0};

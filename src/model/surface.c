@@ -16,6 +16,7 @@ static bool node_may_touch(const dem_lattice *l, dem_index i)
     return (l->flags[i] & DEM_NODE_CONTACT) && !(l->flags[i] & DEM_NODE_FIXED);
 }
 
+/* In the order of node numbers, which is the order of candidates in contact. */
 static dem_status list_nodes(surface *s, const dem_lattice *l)
 {
     for (dem_index i = 0; i < l->n_nodes; i++) s->n_nodes += node_may_touch(l, i);

@@ -105,6 +105,7 @@ static void fill(solver *s, const unsigned char *held, double *u)
     }
 }
 
+/* A rounded solution: the bits depend on the order of nodes, and so do constants derived from it. */
 dem_status tangent_solve(const dem_model *model, const double *x, const unsigned char *held, double residual, double *u)
 {
     const dem_index n = model->lattice.n_nodes;

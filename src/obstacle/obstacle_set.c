@@ -129,6 +129,7 @@ static dem_status plant_vertices(obstacle_set *o)
     return DEM_OK;
 }
 
+/* One more of each, so that nothing is allocated without bytes. */
 static dem_status reserve(obstacle_set *o, dem_index n)
 {
     o->list = calloc((size_t)n + 1, sizeof *o->list);
@@ -167,6 +168,8 @@ static dem_status compile_all(obstacle_set *o, const dem_obstacle *list, dem_ind
     return DEM_OK;
 }
 
+/* Each obstacle by itself first, then vertices and their trees, then what free ends do behind other obstacles: that
+ * needs the gaps to all of them. */
 dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_index n)
 {
     obstacle_set o = {0};

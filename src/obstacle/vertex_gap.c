@@ -201,6 +201,7 @@ static double look_nearer(const obstacle_set *o, const box_tree *tree, dem_index
     return nearest;
 }
 
+/* `nearest` goes from tree to tree as the limit of the search, so that later trees are left early. */
 double obstacles_clearance(const obstacle_set *o, double t, const obstacle_edge *edge)
 {
     const line here = line_along(edge, false);

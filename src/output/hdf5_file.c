@@ -516,6 +516,7 @@ dem_status hdf5_read_text(const hdf5_file *file, const char *name, char *text, s
     return status;
 }
 
+/* A dataset of another shape counts as having no rows; hdf5_expect_rows() will refuse it. */
 dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *count)
 {
     hsize_t extent[MAX_RANK] = {0};
@@ -543,6 +544,7 @@ dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_
     return DEM_OK;
 }
 
+/* Used for counts that must agree with the rows that have been found. */
 dem_status hdf5_expect_attribute(const hdf5_file *file, const char *object, const char *name, int64_t value)
 {
     int64_t stored = 0;

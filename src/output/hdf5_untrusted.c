@@ -282,6 +282,7 @@ static dem_status read_rows(const hdf5_file *file, const char *name, hid_t datas
     return status;
 }
 
+/* A selection of no rows is not read at all. */
 dem_status hdf5_untrusted_read(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_rows rows,
                                void *data)
 {

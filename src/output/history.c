@@ -110,6 +110,7 @@ static table_cell *put_bodies(table_cell *cell, const dem_simulation *simulation
     return momentum;
 }
 
+/* Reaction and its point, impulses so far, and the number of contacts, obstacle by obstacle. */
 static table_cell *put_obstacles(table_cell *cell, const dem_simulation *simulation, dem_index n_obstacles)
 {
     table_cell *reaction = cell, *point = reaction + 2 * n_obstacles, *impulse = point + 2 * n_obstacles;
@@ -125,6 +126,7 @@ static table_cell *put_obstacles(table_cell *cell, const dem_simulation *simulat
     return contacts;
 }
 
+/* What each boundary condition does to its nodes. */
 static table_cell *put_boundaries(table_cell *cell, const dem_simulation *simulation, dem_index n_boundaries)
 {
     table_cell *force = cell, *displacement = force + 2 * n_boundaries;

@@ -310,6 +310,7 @@ out:
     return status;
 }
 
+/* The arrays in the order of the table; flags last, since they become two datasets. */
 dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice, int deflate)
 {
     const dem_index n = lattice->n_nodes, m = lattice->n_springs, t = lattice->n_triangles;

@@ -48,6 +48,7 @@ static dem_status write_motion(const hdf5_file *file, const char *group, const d
     return DEM_OK;
 }
 
+/* The points at t = 0, with law and motion: from these obstacle_file_read() makes the same obstacle. */
 dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
 {
     dem_index n_obstacles = 0;
@@ -128,6 +129,7 @@ static dem_status check(const hdf5_file *file, const char *group, const dem_obst
     return hdf5_untrusted_refuse(file, group, reason);
 }
 
+/* Everything is read before the obstacle is checked as a whole. */
 static dem_status read_obstacle(const hdf5_file *file, const char *group, dem_obstacle *out)
 {
     char points[64];
@@ -158,6 +160,7 @@ static dem_status read_all(const hdf5_file *file, dem_obstacle **out, dem_index 
     return DEM_OK;
 }
 
+/* *out and *n are set only if all obstacles are in order. */
 dem_status obstacle_file_read(const hdf5_file *file, dem_obstacle **out, dem_index *n)
 {
     dem_obstacle *all = NULL;
@@ -210,6 +213,7 @@ static void free_outline(outline *o)
     free(o->owner);
 }
 
+/* After a failure *out must not be used. */
 static dem_status allocate_outline(outline *out, const dem_model *model, dem_index n_points, dem_index n_segments)
 {
     outline o = {.model = model, .grid = {n_points, n_segments, NULL}};

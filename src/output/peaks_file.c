@@ -27,6 +27,7 @@ static dem_status write_nodes(const hdf5_file *file, const dem_node_peak *peaks,
     return frames_write_constant(f, file, &stress, f->scratch);
 }
 
+/* The strain of the largest size, with its sign, and when that was. */
 static dem_status write_springs(const hdf5_file *file, const dem_spring_peak *peaks, const frames *f)
 {
     const frames_constant strain = {"CellData", "peak_strain", f->real, 1};

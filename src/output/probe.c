@@ -111,6 +111,7 @@ static dem_status prepare(probe *p, const dem_lattice *lattice)
     return table_init(&p->table, p->columns, count_columns(&p->what), NULL);
 }
 
+/* The columns are part of the probe, and the table refers to them: *out must not be moved afterwards. */
 dem_status probe_init(probe *out, const dem_probe *what, const dem_lattice *lattice)
 {
     *out = (probe){0};

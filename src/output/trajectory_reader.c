@@ -331,6 +331,7 @@ static dem_status list_frames(dem_reader *reader, const hdf5_file *file)
     return add_frames_table(reader, file);
 }
 
+/* A group that is missing is no error: which ones there are depends on the options of the run. */
 static dem_status list_all(dem_reader *reader, const hdf5_file *file)
 {
     TRY(list_frames(reader, file));
