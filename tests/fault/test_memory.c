@@ -58,12 +58,11 @@ static const double ground[6] = {-0.3, -2e-4, 0.0, -6e-4, 0.3, -2e-4};
 static dem_status build_squares(void)
 {
     const dem_material raw = {.bond_stiffness = 1e3, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-6};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_lattice_init(&lattice);
     dem_status status = dem_lattice_squares(&lattice, 0.02, 0.02, 0.01);
     if (status == DEM_OK) status = dem_lattice_jitter(&lattice, 1e-3, 1);
     if (status == DEM_OK) status = dem_lattice_assemble_squares(&lattice, &raw, 0.5);
-    dem_lattice_free(&lattice);
     return status;
 }
 
@@ -114,9 +113,9 @@ static dem_status run(void)
     dem_options options = dem_options_default();
     options.n_boundaries = 1;
     options.boundaries = &push;
-    dem_lattice lattice;
-    dem_model *model = NULL;
-    dem_simulation *simulation = NULL;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(free_model) dem_model *model = NULL;
+    CLEANUP(free_simulation) dem_simulation *simulation = NULL;
     dem_lattice_init(&lattice);
     dem_status status = build_squares();
     if (status == DEM_OK) status = build(&lattice);
@@ -124,9 +123,6 @@ static dem_status run(void)
     if (status == DEM_OK) status = measure(model);
     if (status == DEM_OK) status = dem_simulation_create(&simulation, model, &options);
     if (status == DEM_OK) status = write_and_run(simulation);
-    dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
-    dem_lattice_free(&lattice);
     return status;
 }
 
@@ -178,8 +174,8 @@ static dem_status lean(void *context, const dem_force_query *query, double *forc
 static dem_status run_from(const dem_checkpoint *checkpoint, const dem_model *model)
 {
     dem_options options = dem_options_default();
-    dem_simulation *simulation = NULL;
-    dem_peaks *peaks = NULL;
+    CLEANUP(free_simulation) dem_simulation *simulation = NULL;
+    CLEANUP(free_peaks) dem_peaks *peaks = NULL;
     options.contact = DEM_CONTACT_EXACT;
     options.checkpoint_steps = 12;
     options.force = lean;
@@ -189,33 +185,28 @@ static dem_status run_from(const dem_checkpoint *checkpoint, const dem_model *mo
         status =
             checkpoint == NULL ? dem_peaks_create(&peaks, model, 2) : dem_peaks_resume(&peaks, model, 2, checkpoint);
     if (status == DEM_OK) status = follow(simulation, peaks, checkpoint, checkpoint != NULL);
-    dem_peaks_destroy(peaks);
-    dem_simulation_destroy(simulation);
     return status;
 }
 
 static dem_status build_model(dem_model **model)
 {
     const dem_obstacle obstacle = {.n_points = 3, .points = ground, .restitution = 0.5, .friction = 0.3};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_lattice_init(&lattice);
     dem_status status = build(&lattice);
     if (status == DEM_OK) status = dem_model_create(model, &lattice, &obstacle, 1);
-    dem_lattice_free(&lattice);
     return status;
 }
 
 static dem_status run_with_records(void)
 {
-    dem_model *model = NULL;
-    dem_checkpoint *checkpoint = NULL;
+    CLEANUP(free_model) dem_model *model = NULL;
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = NULL;
     kept = false;
     dem_status status = build_model(&model);
     if (status == DEM_OK) status = run_from(NULL, model);
     if (status == DEM_OK) status = dem_checkpoint_read(&checkpoint, checkpoints[0]);
     if (status == DEM_OK) status = run_from(checkpoint, model);
-    dem_checkpoint_destroy(checkpoint);
-    dem_model_destroy(model);
     return status;
 }
 

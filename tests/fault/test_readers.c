@@ -48,12 +48,10 @@ static int remove_files(void **state)
 
 static deck_status read_once(char *message, size_t size)
 {
-    namelist_errors errors = {0};
-    deck d;
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
+    CLEANUP(deck_free) deck d;
     const deck_status status = whole_deck_read(&d, files[0][0], &errors);
     (void)snprintf(message, size, "%s", errors.n > 0 ? errors.list[0].text : "no message");
-    namelist_errors_free(&errors);
-    deck_free(&d);
     return status;
 }
 

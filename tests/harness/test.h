@@ -12,6 +12,8 @@
 
 #include <cmocka.h>
 
+#include "harness/cleanup.h"
+
 /** Enters a test, which runs after those of lower places. */
 void test_add(const struct CMUnitTest *test, int place);
 

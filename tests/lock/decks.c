@@ -41,12 +41,11 @@ static void read_deck(deck *d, const char *folder, const source *from)
 {
     char path[PATH];
     setting spacing;
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     (void)snprintf(path, sizeof path, "%s/%s.nml", folder, from->name);
     assert_true(setting_parse(&spacing, from->spacing));
     if (deck_parse(d, path, &spacing, 1, &errors) != DECK_OK || deck_build(d, &errors) != DECK_OK)
         fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
-    namelist_errors_free(&errors);
     d->t_end *= from->share;
 }
 
@@ -56,7 +55,7 @@ static uint64_t run_deck(const void *what, dem_kernel kernel)
 {
     const deck *d = what;
     trace t = trace_begin();
-    support_run run;
+    CLEANUP(support_close) support_run run;
     dem_options options = d->options;
     const dem_observer observer = trace_observer(&t, d->t_end / 8.0);
     options.kernel = kernel;
@@ -65,14 +64,13 @@ static uint64_t run_deck(const void *what, dem_kernel kernel)
     assert_ok(dem_simulation_advance(run.simulation, d->t_end));
     trace_add_all(&t, run.simulation);
     assert_true(t.n_events > 0);
-    support_close(&run);
     return t.hash;
 }
 
 void cases_decks(const char *folder)
 {
     for (int s = 0; s < N_SOURCES; s++) {
-        deck d;
+        CLEANUP(deck_free) deck d;
         read_deck(&d, folder, &sources[s]);
         for (int m = 0; m < 3; m++)
             for (int c = 0; c < 2; c++) {
@@ -82,7 +80,6 @@ void cases_decks(const char *folder)
                 (void)snprintf(name, sizeof name, "%s.%s.%s", sources[s].name, integrators[m].name, contacts[c].name);
                 kernels_check(name, run_deck, &d);
             }
-        deck_free(&d);
     }
 }
 
@@ -103,9 +100,9 @@ static dem_trajectory_options all_of(const deck *d, const dem_peaks *peaks)
 
 static void write_run(const deck *d, const char *path)
 {
-    support_run run;
-    dem_peaks *peaks;
-    dem_trajectory *trajectory;
+    CLEANUP(support_close) support_run run;
+    CLEANUP(free_peaks) dem_peaks *peaks;
+    CLEANUP(free_trajectory) dem_trajectory *trajectory;
     support_open(&run, &d->lattice, d->obstacles, d->n_obstacles, &d->options);
     assert_ok(dem_peaks_create(&peaks, run.model, 4));
     const dem_trajectory_options options = all_of(d, peaks);
@@ -114,9 +111,6 @@ static void write_run(const deck *d, const char *path)
     for (int k = 0; k < 2; k++) assert_ok(dem_simulation_observe(run.simulation, &observers[k]));
     assert_ok(dem_simulation_advance(run.simulation, d->t_end));
     assert_ok(dem_trajectory_finish(trajectory));
-    dem_trajectory_destroy(trajectory);
-    dem_peaks_destroy(peaks);
-    support_close(&run);
 }
 
 static void check_file(const deck *d, const char *name)
@@ -133,12 +127,11 @@ void cases_files(const char *folder)
 {
     for (int s = 0; s < N_SOURCES; s++)
         for (int c = 0; c < 2; c++) {
-            deck d;
+            CLEANUP(deck_free) deck d;
             char name[NAME];
             read_deck(&d, folder, &sources[s]);
             d.options.contact = contacts[c].method;
             (void)snprintf(name, sizeof name, "%s.file.%s", sources[s].name, contacts[c].name);
             check_file(&d, name);
-            deck_free(&d);
         }
 }

@@ -113,11 +113,11 @@ static uint64_t end_of(const dem_simulation *simulation)
 
 static uint64_t run_scene(const void *what, dem_kernel kernel)
 {
-    scene sc;
+    CLEANUP(scene_free) scene sc;
     extras e;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     trace whole = trace_begin(), rest = trace_begin();
-    dem_simulation *resumed;
+    CLEANUP(free_simulation) dem_simulation *resumed;
     make_scene(&sc, &e, what, kernel);
     const dem_observer first = trace_observer(&whole, sc.t_end / 8.0), second = trace_observer(&rest, sc.t_end / 8.0);
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
@@ -131,9 +131,6 @@ static uint64_t run_scene(const void *what, dem_kernel kernel)
     trace_add_all(&whole, run.simulation);
     if (kernel == DEM_KERNEL_PORTABLE) look(&sc, &e, run.simulation);
     seen.resumed += kernel == DEM_KERNEL_PORTABLE && rest.n_events > 0;
-    dem_simulation_destroy(resumed);
-    support_close(&run);
-    scene_free(&sc);
     return digest_add(whole.hash, &rest.hash, sizeof rest.hash);
 }
 

@@ -86,7 +86,7 @@ static void add_strains(trace *t, const dem_simulation *simulation)
 {
     const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
     const dem_strain strain = dem_simulation_strain(simulation);
-    double *values = malloc((size_t)(size.n_springs + 3 * size.n_nodes) * sizeof *values);
+    CLEANUP(free_memory) double *values = malloc((size_t)(size.n_springs + 3 * size.n_nodes) * sizeof *values);
     assert_non_null(values);
     add(t, &strain, sizeof strain);
     dem_simulation_strains(simulation, values);
@@ -95,7 +95,6 @@ static void add_strains(trace *t, const dem_simulation *simulation)
     add_reals(t, values, size.n_springs);
     dem_simulation_stress(simulation, values);
     add_reals(t, values, 3 * size.n_nodes);
-    free(values);
 }
 
 void trace_add_all(trace *t, const dem_simulation *simulation)
@@ -166,7 +165,7 @@ static void add_frame(trace *t, const dem_reader *reader, dem_index frame)
     const dem_lattice *lattice = dem_reader_lattice(reader);
     dem_index n;
     const dem_reader_array *arrays = dem_reader_arrays(reader, &n);
-    double *values = room(9 * (lattice->n_nodes + lattice->n_springs));
+    CLEANUP(free_memory) double *values = room(9 * (lattice->n_nodes + lattice->n_springs));
     assert_ok(dem_reader_positions(reader, frame, values));
     add_reals(t, values, 2 * lattice->n_nodes);
     for (dem_index k = 0; k < n; k++) {
@@ -174,7 +173,6 @@ static void add_frame(trace *t, const dem_reader *reader, dem_index frame)
         add_text(t, arrays[k].name);
         add_reals(t, values, arrays[k].components * (arrays[k].of_springs ? lattice->n_springs : lattice->n_nodes));
     }
-    free(values);
 }
 
 static void add_tables(trace *t, const dem_reader *reader)
@@ -183,18 +181,17 @@ static void add_tables(trace *t, const dem_reader *reader)
     const dem_reader_column *columns = dem_reader_columns(reader, &n);
     for (dem_index k = 0; k < n; k++) {
         const dem_index size = columns[k].n_rows * columns[k].width;
-        double *values = room(size);
+        CLEANUP(free_memory) double *values = room(size);
         assert_ok(dem_reader_read_column(reader, &columns[k], values));
         add_text(t, columns[k].table);
         add_text(t, columns[k].name);
         add_reals(t, values, size);
-        free(values);
     }
 }
 
 void trace_add_film(trace *t, const char *path)
 {
-    dem_reader *reader;
+    CLEANUP(free_reader) dem_reader *reader;
     dem_index n;
     assert_ok(dem_reader_open(&reader, path));
     const double *times = dem_reader_times(reader, &n);
@@ -205,5 +202,4 @@ void trace_add_film(trace *t, const char *path)
     add_reals(t, times, n);
     for (dem_index k = 0; k < n; k++) add_frame(t, reader, k);
     add_tables(t, reader);
-    dem_reader_close(reader);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* See field.h. */
 #include "field.h"
+#include "harness/cleanup_gsl.h"
 
 dem_status field_act(void *context, const dem_force_query *q, double *force)
 {
@@ -26,7 +27,7 @@ double field_uniform(gsl_rng *rng, double most)
 
 void field_random(field *f, const scene *sc, unsigned long seed)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(rng);
     gsl_rng_set(rng, seed);
     *f = (field){.d = gsl_rng_uniform(rng) * 200.0, .w = field_uniform(rng, 1000.0), .o = field_uniform(rng, 1e4)};
@@ -37,5 +38,4 @@ void field_random(field *f, const scene *sc, unsigned long seed)
         f->c[e] = sc->body.x[e];
         for (int g = 0; g < 2; g++) f->b[e][g] = field_uniform(rng, 5e4);
     }
-    gsl_rng_free(rng);
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/cleanup_gsl.h"
 #include "judge.h"
 
 static double uniform(gsl_rng *rng, double a, double b)
@@ -237,7 +238,7 @@ static int starts_clear(gsl_rng *rng, scene *sc)
 
 void scene_random(scene *out, unsigned long seed)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(rng);
     gsl_rng_set(rng, seed);
     for (int tries = 0;; tries++) {
@@ -250,7 +251,6 @@ void scene_random(scene *out, unsigned long seed)
         if (starts_clear(rng, out)) break;
         dem_lattice_free(&out->body);
     }
-    gsl_rng_free(rng);
 }
 
 void scene_free(scene *sc)
@@ -301,7 +301,7 @@ static void shuffle_body(dem_lattice *to, const dem_lattice *l, const dem_index 
 {
     const dem_index n = l->n_nodes;
     const size_t springs = (size_t)l->n_springs * sizeof(double);
-    dem_index *new_number = malloc((size_t)n * sizeof *new_number);
+    CLEANUP(free_memory) dem_index *new_number = malloc((size_t)n * sizeof *new_number);
     assert_non_null(new_number);
     for (dem_index i = 0; i < n; i++) new_number[old[i]] = i;
     dem_lattice_init(to);
@@ -320,13 +320,12 @@ static void shuffle_body(dem_lattice *to, const dem_lattice *l, const dem_index 
     to->stiffness = copy(l->stiffness, springs);
     to->viscosity = copy(l->viscosity, springs);
     to->guard = copy(l->guard, (size_t)l->n_triangles * sizeof(double));
-    free(new_number);
 }
 
 void scene_shuffle(scene *out, const scene *sc, unsigned long seed, dem_index *old)
 {
     dem_index order[SCENE_SOLIDS];
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(rng);
     gsl_rng_set(rng, seed);
     *out = *sc;
@@ -338,5 +337,4 @@ void scene_shuffle(scene *out, const scene *sc, unsigned long seed, dem_index *o
     }
     shuffle(rng, old, sc->body.n_nodes);
     shuffle_body(&out->body, &sc->body, old);
-    gsl_rng_free(rng);
 }

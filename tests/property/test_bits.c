@@ -99,8 +99,8 @@ typedef struct manner {
 
 static picture run_scene(unsigned long seed, dem_method method, manner how)
 {
-    scene sc;
-    support_run run;
+    CLEANUP(scene_free) scene sc;
+    CLEANUP(support_close) support_run run;
     long n_calls = 0;
     scene_random(&sc, seed);
     sc.options.contact = DEM_CONTACT_LOCAL;
@@ -115,8 +115,6 @@ static picture run_scene(unsigned long seed, dem_method method, manner how)
     assert_ok(dem_simulation_advance(run.simulation, t_end));
     assert_true(n_calls > 0 || observer.interval == 0.0);
     const picture p = take_picture(run.simulation);
-    support_close(&run);
-    scene_free(&sc);
     return p;
 }
 
@@ -156,7 +154,7 @@ static picture run_strip(int threads)
     dem_obstacle ground = {.n_points = 61, .points = points, .restitution = 0.5, .friction = 0.3};
     dem_options options = support_options();
     dem_lattice strip;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     for (int k = 0; k <= 60; k++) {
         points[2 * k] = 0.01 * (k - 30);
         points[2 * k + 1] = 2e-4 * sin(2.0 * k);
@@ -172,7 +170,6 @@ static picture run_strip(int threads)
     assert_ok(dem_simulation_advance(run.simulation, 1e-4));
     assert_true(run.n_impacts > 100);
     const picture p = take_picture(run.simulation);
-    support_close(&run);
     return p;
 }
 

@@ -106,23 +106,21 @@ static void set(scene *sc, unsigned long seed, manner how)
 
 static void run_through(unsigned long seed, manner how, diary *d)
 {
-    scene sc;
-    support_run run;
+    CLEANUP(scene_free) scene sc;
+    CLEANUP(support_close) support_run run;
     const dem_observer observer = observer_of(d, 1);
     set(&sc, seed, how);
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     assert_ok(dem_simulation_advance(run.simulation, 0.25 * sc.t_end));
     enter_all(d, run.simulation);
-    support_close(&run);
-    scene_free(&sc);
 }
 
 static uint64_t go_on_from(unsigned long seed, manner how, const diary *whole, dem_index k)
 {
-    scene sc;
-    dem_model *model;
-    dem_simulation *simulation;
+    CLEANUP(scene_free) scene sc;
+    CLEANUP(free_model) dem_model *model;
+    CLEANUP(free_simulation) dem_simulation *simulation;
     diary d = {.hash = whole->at[k]};
     const dem_observer observer = observer_of(&d, 0);
     set(&sc, seed, how);
@@ -131,9 +129,6 @@ static uint64_t go_on_from(unsigned long seed, manner how, const diary *whole, d
     assert_ok(dem_simulation_observe(simulation, &observer));
     assert_ok(dem_simulation_advance(simulation, 0.25 * sc.t_end));
     enter_all(&d, simulation);
-    dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
-    scene_free(&sc);
     return d.hash;
 }
 

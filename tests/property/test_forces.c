@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "field.h"
+#include "harness/cleanup_gsl.h"
 #include "judge.h"
 
 static long n_cases = 3, first_seed = 1;
@@ -131,7 +132,7 @@ TEST(the_ledger_stays_closed)
     long n_events = 0;
     for (long k = 0; k < 2 * n_cases; k++) {
         const unsigned long seed = (unsigned long)(first_seed + k / 2);
-        stage s;
+        CLEANUP(close_stage) stage s;
         watch w;
         open_stage(&s, seed, (manner){DEM_METHOD_FEHLBERG45, contacts[k % 2], 1, 0}, NULL);
         watch_stage(&w, &s);
@@ -141,7 +142,6 @@ TEST(the_ledger_stays_closed)
         judge(&w, &s, seed);
         n_events += w.n_events;
         free(w.boundary.ends);
-        close_stage(&s);
     }
     print_message("# %ld events in %ld runs\n", n_events, 2 * n_cases);
     assert_true(n_events > 50 * n_cases);
@@ -154,7 +154,7 @@ static int kick(stage *s, gsl_rng *rng)
 {
     const dem_index n = 2 * s->scene.body.n_nodes;
     dem_state now = {.struct_size = sizeof now};
-    double *x = malloc((size_t)n * sizeof *x), *v = malloc((size_t)n * sizeof *v);
+    CLEANUP(free_memory) double *x = malloc((size_t)n * sizeof *x), *v = malloc((size_t)n * sizeof *v);
     assert_true(x != NULL && v != NULL);
     dem_simulation_state(s->simulation, &now);
     for (dem_index k = 0; k < n; k++) {
@@ -168,8 +168,6 @@ static int kick(stage *s, gsl_rng *rng)
     }
     dem_simulation_state(s->simulation, &now);
     assert_memory_equal(now.v, v, (size_t)n * sizeof *v);
-    free(x);
-    free(v);
     return status == DEM_OK;
 }
 
@@ -178,8 +176,8 @@ TEST(kicks_enter_the_ledger)
     long n_moved = 0, n_events = 0;
     for (long k = 0; k < 2 * n_cases; k++) {
         const unsigned long seed = (unsigned long)(first_seed + k / 2);
-        gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-        stage s;
+        CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+        CLEANUP(close_stage) stage s;
         watch w;
         assert_non_null(rng);
         gsl_rng_set(rng, seed);
@@ -193,8 +191,6 @@ TEST(kicks_enter_the_ledger)
         judge(&w, &s, seed);
         n_events += w.n_events;
         free(w.boundary.ends);
-        close_stage(&s);
-        gsl_rng_free(rng);
     }
     print_message("# %ld times moved, %ld events in %ld runs\n", n_moved, n_events, 2 * n_cases);
     assert_true(n_moved > 4 * n_cases && n_events > 50 * n_cases);
@@ -302,7 +298,7 @@ static void write_diary(diary *d, stage *s, unsigned long seed, manner how)
  * there. */
 static void stumble(const diary *d, unsigned long seed, manner how, long call, dem_status wanted)
 {
-    stage s;
+    CLEANUP(close_stage) stage s;
     watch w;
     dem_state state = {.struct_size = sizeof state};
     dem_index page = 0;
@@ -325,7 +321,6 @@ static void stumble(const diary *d, unsigned long seed, manner how, long call, d
         fail_msg("seed %lu, call %ld: %s", seed, call, dem_status_message());
     judge(&w, &s, seed);
     free(w.boundary.ends);
-    close_stage(&s);
 }
 
 TEST(a_force_that_fails_leaves_the_last_state)
@@ -337,7 +332,7 @@ TEST(a_force_that_fails_leaves_the_last_state)
     for (long k = 0; k < n_cases; k++) {
         const unsigned long seed = (unsigned long)(first_seed + k);
         const manner how = {methods[k % 3], contacts[k % 2], 1, 0};
-        stage whole;
+        CLEANUP(close_stage) stage whole;
         write_diary(&d, &whole, seed, how);
         for (long n = 0; n < most; n++) {
             const long call = n < 4 ? n + 1 : whole.field.calls * (n - 3) / (most - 3) - n % 3;
@@ -345,7 +340,6 @@ TEST(a_force_that_fails_leaves_the_last_state)
         }
         for (long n = 1; n <= most && n <= whole.field.alone; n++)
             stumble(&d, seed, how, -whole.field.alone * n / most, statuses[n % 3]);
-        close_stage(&whole);
     }
 }
 

@@ -54,16 +54,14 @@ static dem_status listen(void *context, const dem_simulation *simulation, const 
 
 static void hear(unsigned long seed, dem_contact_method method, double rtol, hits *h)
 {
-    scene sc;
-    support_run run;
+    CLEANUP(scene_free) scene sc;
+    CLEANUP(support_close) support_run run;
     open_scene(&run, &sc, seed, method, rtol);
     const dem_options o = dem_simulation_options(run.simulation);
     const dem_observer observer = {.event = listen, .context = h};
     *h = (hits){.v_scale = o.v_scale, .spacing = o.spacing};
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     if (dem_simulation_advance(run.simulation, sc.t_end) < DEM_OK) fault(seed, dem_status_message(), rtol);
-    support_close(&run);
-    scene_free(&sc);
 }
 
 /* By how much the runs part: in spacings at the scale of speed, and in that. Several at once are reported in any order,
@@ -159,8 +157,8 @@ static void sum_momentum(const support_run *run, double p[2])
 
 static void finish(unsigned long seed, dem_contact_method method, outcome *out)
 {
-    scene sc;
-    support_run run;
+    CLEANUP(scene_free) scene sc;
+    CLEANUP(support_close) support_run run;
     double p0[2], p[2];
     *out = (outcome){.momentum = 0.0};
     open_scene(&run, &sc, seed, method, 1e-8);
@@ -180,8 +178,6 @@ static void finish(unsigned long seed, dem_contact_method method, outcome *out)
     out->ledger = fabs(dem_energy_ledger(e) - dem_energy_ledger(e0)) /
                   (dem_energy_motion(e) + e0.kinetic + e.impact + e.friction + e.damping);
     out->counts = dem_simulation_counts(run.simulation);
-    support_close(&run);
-    scene_free(&sc);
 }
 
 static double apart(dem_index a, dem_index b)

@@ -144,7 +144,7 @@ static double compare_hits(const verdict *a, verdict *b, double t_scale)
  * rigid flight listens to rounding errors, which another order changes. */
 static void listen_to(const scene *sc, const dem_index *old, double step_length, unsigned long seed, verdict *v)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     dem_options options = sc->options;
     *v = (verdict){.scene = sc, .old = old};
     const dem_observer observer = {.event = listen, .context = v};
@@ -154,20 +154,17 @@ static void listen_to(const scene *sc, const dem_index *old, double step_length,
     v->v_scale = dem_simulation_options(run.simulation).v_scale;
     const dem_status status = dem_simulation_advance(run.simulation, sc->t_end);
     if (status < DEM_OK) fault(seed, "%s: %s", old ? "in another order" : "with fixed steps", dem_status_message());
-    support_close(&run);
 }
 
 /* By how much another order of nodes and obstacles changes the first impacts. */
 static double reorder(const scene *sc, unsigned long seed, double step_length, const verdict *here)
 {
-    scene other;
+    CLEANUP(scene_free) scene other;
     verdict there;
-    dem_index *old = malloc((size_t)sc->body.n_nodes * sizeof *old);
+    CLEANUP(free_memory) dem_index *old = malloc((size_t)sc->body.n_nodes * sizeof *old);
     assert_non_null(old);
     scene_shuffle(&other, sc, seed, old);
     listen_to(&other, old, step_length, seed, &there);
-    scene_free(&other);
-    free(old);
     return compare_hits(here, &there, sc->t_end);
 }
 
@@ -176,14 +173,13 @@ static double nudge(unsigned long seed, double step_length, const verdict *here)
 {
     double worst = 0.0;
     for (int k = 1; k <= 16; k++) {
-        scene other;
+        CLEANUP(scene_free) scene other;
         verdict there;
         scene_random(&other, seed);
         for (dem_index i = 0; i < 2 * other.body.n_nodes; i++)
             other.body.velocity[i] *= 1.0 + 1e-14 * (double)((7919 * i * k) % 17 - 8);
         listen_to(&other, NULL, step_length, seed, &there);
         worst = fmax(worst, compare_hits(here, &there, other.t_end));
-        scene_free(&other);
     }
     return worst;
 }
@@ -251,7 +247,7 @@ static void judge_case(unsigned long seed, census *all, const scene *sc, const v
 
 static void run_case(unsigned long seed, census *all)
 {
-    scene sc;
+    CLEANUP(scene_free) scene sc;
     support_run run;
     scene_random(&sc, seed);
     verdict v = {.scene = &sc};
@@ -269,7 +265,6 @@ static void run_case(unsigned long seed, census *all)
         fault(seed, "%s", dem_status_message());
     support_close(&run);
     free(v.boundary.ends);
-    scene_free(&sc);
 }
 
 static void print_census(const census *all)

@@ -8,6 +8,7 @@
 
 #include "simulation/private.h"
 
+#include "harness/cleanup_gsl.h"
 #include "scene.h"
 
 static long n_cases = 20, first_seed = 1;
@@ -52,7 +53,7 @@ static surface cut_out(const surface *whole, const unsigned char *marked, dem_in
     s.at = calloc(2 * n_edges, sizeof *s.at);
     s.next = calloc(n_edges, sizeof *s.next);
     s.previous = calloc(n_edges, sizeof *s.previous);
-    dem_index *number = calloc(n_edges, sizeof *number);
+    CLEANUP(free_memory) dem_index *number = calloc(n_edges, sizeof *number);
     assert_true(s.nodes && s.row && s.ends && s.at && s.next && s.previous && number);
     for (dem_index k = 0; k < whole->n_nodes; k++)
         if (marked[whole->nodes[k]]) s.nodes[s.n_nodes++] = whole->nodes[k];
@@ -71,7 +72,6 @@ static surface cut_out(const surface *whole, const unsigned char *marked, dem_in
         for (dem_index p = whole->row[i]; p < whole->row[i + 1]; p++)
             if (number[whole->at[p]] >= 0) s.at[s.row[i + 1]++] = number[whole->at[p]];
     }
-    free(number);
     return s;
 }
 
@@ -140,7 +140,7 @@ static dem_simulation *run_whole(const dem_model *model, const scene *sc, touche
 /* \return candidates that came or went */
 static dem_index check_scene(unsigned long seed, gsl_rng *rng)
 {
-    scene sc;
+    CLEANUP(scene_free) scene sc;
     dem_model *model;
     scene_random(&sc, seed);
     sc.options.contact = DEM_CONTACT_LOCAL;
@@ -160,18 +160,16 @@ static dem_index check_scene(unsigned long seed, gsl_rng *rng)
     dem_model_destroy(model);
     free(nodes.early);
     free(nodes.late);
-    scene_free(&sc);
     return changes;
 }
 
 TEST(candidates_that_come_and_go_leave_no_trace)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     dem_index changes = 0;
     for (long k = 0; k < n_cases; k++) changes += check_scene((unsigned long)(first_seed + k), rng);
     print_message("# %lld candidates came or went\n", (long long)changes);
     assert_true(changes > 5 * n_cases);
-    gsl_rng_free(rng);
 }
 
 int main(int argc, char **argv)

@@ -73,8 +73,8 @@ static void keep(job *j, const dem_simulation *simulation)
 static void *run(void *context)
 {
     job *j = context;
-    dem_simulation *simulation = NULL;
-    dem_trajectory *trajectory = NULL;
+    CLEANUP(free_simulation) dem_simulation *simulation = NULL;
+    CLEANUP(free_trajectory) dem_trajectory *trajectory = NULL;
     dem_trajectory_options options = dem_trajectory_options_default();
     options.frame_interval = 0.004 * j->scene.t_end;
     options.events = 1;
@@ -85,8 +85,6 @@ static void *run(void *context)
     if (j->status == DEM_OK) keep(j, simulation);
     if (j->status == DEM_OK) j->status = read_again(j);
     if (j->status != DEM_OK) (void)snprintf(j->message, sizeof j->message, "%s", dem_status_message());
-    dem_trajectory_destroy(trajectory);
-    dem_simulation_destroy(simulation);
     return NULL;
 }
 

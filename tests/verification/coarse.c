@@ -12,7 +12,7 @@
 void coarse_read(deck *d, const char *folder, const char *name, double spacing)
 {
     char path[4096], *at, text[8192];
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     (void)snprintf(path, sizeof path, "%s/%s.nml", folder, name);
     FILE *file = fopen(path, "r");
     assert_non_null(file);
@@ -29,6 +29,5 @@ void coarse_read(deck *d, const char *folder, const char *name, double spacing)
     assert_true(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
     if (whole_deck_read(d, path, &errors) != DECK_OK)
         fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
-    namelist_errors_free(&errors);
     (void)remove(path);
 }

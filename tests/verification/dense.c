@@ -15,7 +15,7 @@ gsl_matrix *dense_stiffness(const dem_model *model, const double *x, double step
     const size_t n = 2 * (size_t)model->lattice.n_nodes;
     const forces acting = {.model = model};
     gsl_matrix *stiffness = gsl_matrix_alloc(n, n);
-    double *at = malloc(n * sizeof *at), *still = calloc(n, sizeof *still);
+    CLEANUP(free_memory) double *at = malloc(n * sizeof *at), *still = calloc(n, sizeof *still);
     assert_true(stiffness != NULL && at != NULL && still != NULL);
     memcpy(at, x, n * sizeof *at);
     for (size_t q = 0; q < n; q++) {
@@ -29,8 +29,6 @@ gsl_matrix *dense_stiffness(const dem_model *model, const double *x, double step
         }
         at[q] = x[q];
     }
-    free(at);
-    free(still);
     return stiffness;
 }
 

@@ -108,7 +108,7 @@ dem_state support_at(support_run *run, double t)
 void support_point(support_run *run, double m, const double x[2], const double v[2], const double *points,
                    dem_index n_points, double restitution)
 {
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     const dem_obstacle obstacle = {.n_points = n_points, .points = points, .restitution = restitution};
     dem_options options = support_options();
     options.spacing = 1.0;
@@ -119,5 +119,4 @@ void support_point(support_run *run, double m, const double x[2], const double v
     support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(run, &lattice, &obstacle, 1, &options);
-    dem_lattice_free(&lattice);
 }

@@ -50,7 +50,7 @@ static dem_model *make_block(const block *b)
                                 .density = 1050.0,
                                 .thickness = thickness,
                                 .guard = 0.02};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     if (b->diagonal > 0.0) {
         assert_ok(dem_lattice_squares(&lattice, 0.045, 0.05, spacing));
@@ -60,7 +60,6 @@ static dem_model *make_block(const block *b)
         assert_ok(dem_lattice_assemble(&lattice, &solid));
     }
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_lattice_free(&lattice);
     return model;
 }
 
@@ -125,9 +124,8 @@ TEST(springs_have_the_strain_of_hookes_law)
     for (int k = 0; k < n_diagonals * 2 * n_ratios; k++) {
         const block b = block_of(k);
         if (!is_stable(&b)) continue;
-        dem_model *model = make_block(&b);
+        CLEANUP(free_model) dem_model *model = make_block(&b);
         check_loaded(model, &b);
-        dem_model_destroy(model);
     }
 }
 
@@ -151,10 +149,9 @@ TEST(constants_measured_are_those_stated)
     for (int k = 0; k < n_diagonals * 2 * n_ratios; k++) {
         const block b = block_of(k);
         if (!is_stable(&b)) continue;
-        dem_model *model = make_block(&b);
+        CLEANUP(free_model) dem_model *model = make_block(&b);
         dem_constants c;
         assert_ok(dem_model_constants(model, 0, &c));
         check_constants(&c, &b);
-        dem_model_destroy(model);
     }
 }

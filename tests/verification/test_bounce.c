@@ -39,7 +39,7 @@ static void check_rest(support_run *run, double eta, double t_star)
 
 static void check_bounces(double eta, const double times[8], double t_star)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     drop(&run, eta);
     for (int k = 0; k < 8; k++) {
         const double rebound = eta * sqrt(2.0 * g * height) * pow(eta, k);
@@ -52,7 +52,6 @@ static void check_bounces(double eta, const double times[8], double t_star)
         assert_close(state.v[1], 0.0, 1e-8);                            /* g times the tolerance of the time */
     }
     check_rest(&run, eta, t_star);
-    support_close(&run);
 }
 
 TEST(a_ball_of_restitution_one_half_follows_the_geometric_series_and_rests)
@@ -86,7 +85,7 @@ TEST(a_ball_of_restitution_nine_tenths_follows_the_geometric_series_and_rests)
 TEST(an_elastic_ball_returns_to_its_height_for_ever)
 {
     const double t0 = sqrt(2.0 * height / g);
-    support_run run;
+    CLEANUP(support_close) support_run run;
     drop(&run, 1.0);
     for (int k = 1; k <= 20; k++) {
         const dem_state state = support_at(&run, 2.0 * k * t0);
@@ -95,13 +94,12 @@ TEST(an_elastic_ball_returns_to_its_height_for_ever)
         assert_close(state.x[1], height, 1e-9);
         assert_close(state.v[1], 0.0, 1e-8);
     }
-    support_close(&run);
 }
 
 TEST(a_plastic_ball_stays_where_it_falls)
 {
     const double t0 = sqrt(2.0 * height / g);
-    support_run run;
+    CLEANUP(support_close) support_run run;
     drop(&run, 0.0);
     dem_state state = support_at(&run, 0.5 * t0);
     assert_close(state.x[1], height - 0.125 * g * t0 * t0, 1e-12);
@@ -113,7 +111,6 @@ TEST(a_plastic_ball_stays_where_it_falls)
     assert_close(state.energy.impact, 2.0 * g * height, 1e-9); /* m g H, m = 2 kg */
     const dem_obstacle_load load = dem_simulation_obstacle(run.simulation, 0);
     assert_close(load.impulse[1], 2.0 * g * 5.0, 1e-9); /* weight times time, from rest to rest */
-    support_close(&run);
 }
 
 /* Two masses joined by a spring of length 1, which start 1.5 apart, the lower one at `height` over the floor: it is at
@@ -158,7 +155,7 @@ static void open_fall(support_run *run, bool pair, bool floored, double step)
     const dem_index ends[2] = {0, 1};
     const dem_obstacle ground = {.n_points = 2, .points = floor_points};
     dem_options options = support_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.fixed_step = step;
@@ -167,7 +164,6 @@ static void open_fall(support_run *run, bool pair, bool floored, double step)
     support_lattice(&lattice, pair ? 2 : 1, x, mass, pair ? 1 : 0, ends, 1.0, 0.5 * pair_omega * pair_omega, NULL);
     support_start(&lattice, start, NULL);
     support_open(run, &lattice, &ground, floored ? 1 : 0, &options);
-    dem_lattice_free(&lattice);
 }
 
 /* The time that (7) gives, t = d1/(d1 - d2) of the step in which the ball falls through the floor, from runs of fixed
@@ -175,11 +171,10 @@ static void open_fall(support_run *run, bool pair, bool floored, double step)
 static double linear_estimate(bool pair, double root, int steps)
 {
     const double step = root / (steps + 0.5);
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_fall(&run, pair, false, step);
     const double d1 = support_at(&run, steps * step).x[1], d2 = support_at(&run, (steps + 1) * step).x[1];
     assert_true(d1 > 0.0 && d2 < 0.0);
-    support_close(&run);
     return steps * step + step * d1 / (d1 - d2);
 }
 
@@ -215,12 +210,11 @@ TEST(the_linear_estimate_of_a_contact_is_of_second_order_and_the_root_is_exact)
 TEST(a_ball_starting_at_rest_on_the_floor_stays_there)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {0.5, 0.0};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, floor_points, 2, 0.5);
     const dem_state state = support_at(&run, 1.0);
     assert_close(state.x[0], 0.5, 1e-12);
     assert_close(state.x[1], 0.0, 0.0);
     assert_int_equal(run.n_impacts, 0);
     assert_int_equal(state.n_contacts, 1);
-    support_close(&run);
 }

@@ -87,7 +87,7 @@ static void open_chain(impact *s, int n, double height, bool lying)
     const dem_obstacle obstacle = {.n_points = 2, .points = lying ? wall : ground};
     const int along = lying ? 0 : 1;
     dem_options options = support_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     for (int i = 0; i <= n; i++) {
         x[2 * i + along] = height + length * i / n;
         v[2 * i + along] = -speed;
@@ -103,7 +103,6 @@ static void open_chain(impact *s, int n, double height, bool lying)
     for (int i = 1; i <= n; i++) lattice.flags[i] = 0;
     support_start(&lattice, NULL, v);
     support_open(&s->run, &lattice, &obstacle, 1, &options);
-    dem_lattice_free(&lattice);
     assert_ok(dem_simulation_observe(s->run.simulation, &(dem_observer){.event = note, .context = s}));
 }
 

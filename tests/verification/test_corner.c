@@ -21,13 +21,12 @@ static const double roof[6] = {-1.0, -1.0, 0.0, 0.0, 1.0, -1.0};
 TEST(a_node_falling_on_a_ridge_meets_the_flank_that_ends_there)
 {
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g), u = g * fall;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, roof, 3, 1.0);
     const dem_state state = support_at(&run, fall + 0.01);
     assert_int_equal(run.n_impacts, 1);
     assert_int_equal(run.impacts[0].segment, 0);
     check_state(state, -0.01 * u, -0.5 * g * 1e-4, -u, -0.01 * g, 1e-9);
-    support_close(&run);
 }
 
 /* With a velocity towards one flank that flank is approached faster. */
@@ -35,7 +34,7 @@ TEST(a_node_moving_sideways_over_a_ridge_meets_the_flank_it_runs_into)
 {
     const double fall = sqrt(2.0 * 0.5 / g), u = g * fall, drift = -0.5;
     const double x[2] = {-drift * fall, 0.5}, v[2] = {drift, 0.0};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, roof, 3, 1.0);
     (void)support_at(&run, fall + 0.01);
     assert_int_equal(run.n_impacts, 1);
@@ -43,7 +42,6 @@ TEST(a_node_moving_sideways_over_a_ridge_meets_the_flank_it_runs_into)
     assert_close(run.impacts[0].after[0], u,
                  1e-9); /* reflection at the normal (1, 1)/sqrt 2 swaps and turns the components */
     assert_close(run.impacts[0].after[1], -drift, 1e-9);
-    support_close(&run);
 }
 
 TEST(a_plastic_node_on_a_ridge_slides_down_one_flank)
@@ -51,26 +49,24 @@ TEST(a_plastic_node_on_a_ridge_slides_down_one_flank)
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g), u = g * fall, t = 0.1;
     const double along =
         0.5 * sqrt(2.0) * u * t + 0.25 * sqrt(2.0) * g * t * t; /* starts with u sin 45, gains g sin 45 */
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, roof, 3, 0.0);
     const dem_state state = support_at(&run, fall + t);
     assert_int_equal(state.n_contacts, 1);
     assert_close(hypot(state.x[0], state.x[1]), along, 1e-9);
     assert_close(state.x[0], state.x[1], 1e-12); /* on the left flank */
     assert_close(state.contacts[0].force, g * cos(M_PI / 4.0), 1e-12);
-    support_close(&run);
 }
 
 TEST(a_node_sliding_off_a_free_end_flies_on)
 {
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0}, v[2] = {2.0, 0.0}, t = 0.3;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 2, 0.5);
     const dem_state state = support_at(&run, 0.5 + t);
     check_state(state, 1.0 + 2.0 * t, -0.5 * g * t * t, 2.0, -g * t, 1e-9);
     assert_int_equal(dem_simulation_counts(run.simulation).passings, 1);
     assert_int_equal(state.n_contacts, 0);
-    support_close(&run);
 }
 
 /* Off a convex end on to a slope of 45 degrees below: flight of 2 u/g, then it slides with what the slope leaves of
@@ -79,7 +75,7 @@ TEST(a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope)
 {
     const double points[6] = {-1.0, 0.0, 0.0, 0.0, 5.0, -5.0}, x[2] = {-0.5, 0.0}, v[2] = {1.0, 0.0};
     const double flight = 2.0 / g, root = sqrt(0.5), t = 0.2;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
     const dem_state state = support_at(&run, 0.5 + flight + t);
     assert_int_equal(run.n_impacts, 1);
@@ -87,21 +83,19 @@ TEST(a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope)
     const double speed = root * (1.0 + g * flight), along = flight / root + speed * t + 0.5 * root * g * t * t;
     check_state(state, root * along, -root * along, root * (speed + root * g * t), -root * (speed + root * g * t),
                 1e-9);
-    support_close(&run);
 }
 
 TEST(a_node_glides_over_a_vertex_without_a_bend)
 {
     const double points[8] = {-1.0, -0.5, 0.0, 0.0, 1.0, 0.5, 2.0, 1.0}, x[2] = {1.5, 0.75}, v[2] = {0.0, 0.0};
     const double sine = 1.0 / sqrt(5.0), cosine = 2.0 / sqrt(5.0), t = 0.95; /* 0.5 g sine t^2 = 1.98 m down the line */
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 4, 0.3);
     const dem_state state = support_at(&run, t);
     const double along = 0.5 * g * sine * t * t;
     check_state(state, 1.5 - cosine * along, 0.75 - sine * along, -cosine * g * sine * t, -sine * g * sine * t, 1e-9);
     assert_int_equal(dem_simulation_counts(run.simulation).passings, 2);
     assert_int_equal(run.n_impacts, 0);
-    support_close(&run);
 }
 
 /* A floor that turns up by 30 degrees: plastic keeps cos 30 of the speed at each passage, elastic reflects. */
@@ -130,24 +124,22 @@ static const double groove[6] = {-1.0, 1.0, 0.0, 0.0, 1.0, 1.0};
 TEST(a_plastic_node_falling_into_a_groove_is_held_by_both_flanks)
 {
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, groove, 3, 0.0);
     const dem_state state = support_at(&run, 1.5);
     check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
     assert_int_equal(state.n_contacts, 2);
     for (int k = 0; k < 2; k++) assert_close(state.contacts[k].force, g * cos(M_PI / 4.0), 1e-12);
-    support_close(&run);
 }
 
 /* By Moreau's law both normals act and the velocity is reversed, less restitution. */
 TEST(an_elastic_node_falling_into_a_groove_comes_straight_back)
 {
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g);
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, groove, 3, 1.0);
     const dem_state state = support_at(&run, 2.0 * fall);
     check_state(state, 0.0, 0.5, 0.0, 0.0, 1e-8);
-    support_close(&run);
 }
 
 /* Back and forth in a plastic V groove the speed falls by cos(bend) at each passage of the bottom, a series with an
@@ -157,14 +149,13 @@ TEST(a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom)
     const double points[6] = {-2.0, 1.0, 0.0, 0.0, 2.0, 1.0}, x[2] = {-1.0, 0.5}, v[2] = {0.0, 0.0};
     const double s = 1.0 / sqrt(5.0), keep = 0.6; /* cos of twice the angle of slope 1/2 */
     const double down = sqrt(2.0 * sqrt(1.25) / (g * s)), end = down + 2.0 * down * keep / (1.0 - keep);
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
     const dem_state state = support_at(&run, end + 0.01);
     check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
     assert_int_equal(state.n_contacts, 2);
     assert_close(run.impacts[run.n_impacts - 1].t, end, 1e-4);
     assert_true(run.n_impacts > 10);
-    support_close(&run);
 }
 
 TEST(a_wall_of_another_obstacle_stops_a_sliding_node)
@@ -174,8 +165,8 @@ TEST(a_wall_of_another_obstacle_stops_a_sliding_node)
     const dem_obstacle obstacles[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
                                        {.n_points = 2, .points = wall, .restitution = 0.5}};
     dem_options options = support_options();
-    dem_lattice lattice;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(support_close) support_run run;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;
@@ -183,13 +174,11 @@ TEST(a_wall_of_another_obstacle_stops_a_sliding_node)
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(&run, &lattice, obstacles, 2, &options);
-    dem_lattice_free(&lattice);
     const dem_state state = support_at(&run, 1.2);
     check_state(state, 0.5 - 0.5 * 0.2, 0.0, -0.5, 0.0, 1e-9);
     assert_close(dem_simulation_obstacle(run.simulation, 1).impulse[0], -2.0 * 1.5, 1e-12);
     assert_close(dem_simulation_obstacle(run.simulation, 1).impulse[1], 0.0, 1e-12);
     assert_int_equal(run.n_impacts, 1);
-    support_close(&run);
 }
 
 /* Round the free end from below, up through the back unhindered, and down on the front. */
@@ -197,7 +186,7 @@ TEST(a_node_coming_from_behind_passes_and_then_lands_on_the_front)
 {
     const double points[4] = {0.0, 0.0, 4.0, 0.0}, x[2] = {-0.05, -0.5}, v[2] = {1.0, 5.0};
     const double through = (5.0 - sqrt(25.0 - 2.0 * g * 0.5)) / g, lands = (5.0 + sqrt(25.0 - 2.0 * g * 0.5)) / g;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 2, 0.0);
     (void)support_at(&run, 0.5 * (0.05 + through));
     assert_int_equal(dem_simulation_counts(run.simulation).behind, 1);
@@ -208,7 +197,6 @@ TEST(a_node_coming_from_behind_passes_and_then_lands_on_the_front)
     assert_int_equal(run.n_impacts, 1);
     assert_close(run.impacts[0].t, lands, 1e-9);
     check_state(state, -0.05 + lands + 0.1, 0.0, 1.0, 0.0, 1e-9);
-    support_close(&run);
 }
 
 /* Rest at the bottom of valleys from nearly straight to narrow, and in a right corner turned by any angle: held for
@@ -248,21 +236,20 @@ static void open_block(support_run *run, double restitution, double rest_speed)
     const dem_material soft = {.youngs_modulus = 1e5, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 0.01};
     const double lift[2] = {0.002, 0.0035}, velocity[2] = {0.3, -1.0};
     dem_options options = support_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.rest_speed = rest_speed;
     assert_ok(dem_lattice_rectangle(&lattice, 0.02, 0.02, 0.01));
     assert_ok(dem_lattice_assemble(&lattice, &soft));
     dem_lattice_move(&lattice, 0.0, lift);
     assert_ok(dem_lattice_launch(&lattice, velocity));
     support_open(run, &lattice, &valley, 1, &options);
-    dem_lattice_free(&lattice);
 }
 
 /* Whatever its contacts keep up: plastic ones by the corner, others by their rebounds. */
 TEST(a_rest_speed_below_the_rule_changes_no_bit)
 {
     for (int k = 0; k < 3; k++) {
-        support_run ruled, slow;
+        CLEANUP(support_close) support_run ruled, slow;
         open_block(&ruled, 0.3 * k, 0.0);
         open_block(&slow, 0.3 * k, 1e-9);
         const dem_state a = support_at(&ruled, 0.1), b = support_at(&slow, 0.1);
@@ -271,8 +258,6 @@ TEST(a_rest_speed_below_the_rule_changes_no_bit)
         assert_int_equal(slow.n_impacts, ruled.n_impacts);
         assert_memory_equal(a.x, b.x, size);
         assert_memory_equal(a.v, b.v, size);
-        support_close(&ruled);
-        support_close(&slow);
     }
 }
 
@@ -288,8 +273,8 @@ TEST(a_wall_that_stands_on_another_obstacle_leaves_no_gap)
                                            {.n_points = 2, .points = wall, .restitution = 0.0}};
         const double x[2] = {0.0, 0.0}, v[2] = {c, s}, mass = 1.0;
         dem_options options = support_options();
-        dem_lattice lattice;
-        support_run run;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(support_close) support_run run;
         options.gravity[0] = 9.81 * s;
         options.gravity[1] = -9.81 * c;
         options.spacing = options.v_scale = 1.0;
@@ -298,10 +283,8 @@ TEST(a_wall_that_stands_on_another_obstacle_leaves_no_gap)
         support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
         support_start(&lattice, NULL, v);
         support_open(&run, &lattice, obstacles, 2, &options);
-        dem_lattice_free(&lattice);
         const dem_state state = support_at(&run, 1.0);
         assert_close(state.x[0] * c + state.x[1] * s, 0.5,
                      1e-6); /* 100 penetration tolerances: the lean makes ten of one */
-        support_close(&run);
     }
 }

@@ -101,18 +101,17 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 
 static double highest_frequency(const dem_lattice *block)
 {
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     double omega;
     assert_ok(dem_model_create(&model, block, NULL, 0));
     assert_ok(dem_model_omega(model, &omega));
-    dem_model_destroy(model);
     return omega;
 }
 
 /* The reference: positions [2 n] at the end; NULL: not compared. */
 static cost run_line(const dem_lattice *block, const line *l, double t, const double *reference)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     drift d = {0};
     cost c = {0};
     dem_options options = support_options();
@@ -135,7 +134,6 @@ static cost run_line(const dem_lattice *block, const line *l, double t, const do
     c.end.energy = fabs(dem_energy_motion(state.energy) / d.start - 1.0);
     c.end.evaluations = (double)dem_simulation_counts(run.simulation).evaluations;
     c.energy_most = d.most;
-    support_close(&run);
     return c;
 }
 
@@ -160,9 +158,9 @@ static void compare(const line *l, int duration, const cost *c)
 
 static void compare_all(int duration)
 {
-    dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block;
     support_block(&block);
-    double *y = malloc(4 * (size_t)block.n_nodes * sizeof *y);
+    CLEANUP(free_memory) double *y = malloc(4 * (size_t)block.n_nodes * sizeof *y);
     assert_non_null(y);
     triplets_start(&block, y);
     triplets_reach(&block, durations[duration], y);
@@ -170,8 +168,6 @@ static void compare_all(int duration)
         const cost c = run_line(&block, l, durations[duration], y);
         compare(l, duration, &c);
     }
-    free(y);
-    dem_lattice_free(&block);
 }
 
 TEST(errors_at_2_ms_are_those_known)
@@ -187,7 +183,7 @@ TEST(errors_at_20_ms_are_those_known)
 /* A thousand periods of the slowest vibration. Verlet's energy stays where it is, Fehlberg's grows. */
 TEST(energies_at_200_ms_are_those_known)
 {
-    dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block;
     support_block(&block);
     for (const line *l = lines; l < lines + n_lines; l++) {
         const bool verlet = l->method == DEM_METHOD_VERLET;
@@ -198,7 +194,6 @@ TEST(energies_at_200_ms_are_those_known)
         if (verlet) assert_true(c.energy_most < (l->setting == 1.0 ? 5e-3 : 3e-4));
         if (named && !verlet) assert_true(c.energy_most < allowed * 2.8e-3);
     }
-    dem_lattice_free(&block);
 }
 
 int main(int argc, char **argv)

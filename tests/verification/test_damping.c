@@ -3,6 +3,7 @@
  * plate. Along a spring (1) is linear in the distance and so is its damping: the closed forms of the damped oscillator
  * hold at any amplitude. The runs use rtol 1e-13; the errors allowed have test_pair's reason, below 1e-11 m over such
  * times, but where another stands beside them. */
+#include "harness/cleanup_gsl.h"
 #include "support.h"
 
 #include <stdlib.h>
@@ -45,13 +46,12 @@ static void open_pair(support_run *run, const pair *p)
     const double v[4] = {p->drift - 0.75 * p->relative[0], -0.75 * p->relative[1], p->drift + 0.25 * p->relative[0],
                          0.25 * p->relative[1]};
     dem_options options = tight_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.mass_damping = p->mass_damping;
     support_lattice(&lattice, 2, x, two_masses, 1, joined, rest_length, stiffness, NULL);
     support_start(&lattice, start, v);
     damp(&lattice, p->viscosity);
     support_open(run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
 }
 
 /* u'' + rate u' + omega^2 u = 0 from u(0) = a, u'(0) = b; at the time t.  \param[out] u  u, u' */
@@ -71,7 +71,7 @@ static void follow_oscillator(const pair *p, double end)
     const double omega = sqrt(stiffness / rest_length / reduced_mass);
     const double rate = p->viscosity / rest_length / reduced_mass + p->mass_damping;
     const double start[2] = {p->distance - rest_length, p->relative[0]};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_pair(&run, p);
     for (int k = 1; k <= 20; k++) {
         double u[2];
@@ -85,7 +85,6 @@ static void follow_oscillator(const pair *p, double end)
         const double way = p->mass_damping > 0.0 ? -expm1(-p->mass_damping * t) / p->mass_damping : t;
         assert_close(centre, p->drift * way, 1e-11);
     }
-    support_close(&run);
 }
 
 /* omega = 11.55/s; the damping ratios rate/(2 omega) are 0.12 and 0.06 + 0.04 = 0.10. */
@@ -113,8 +112,8 @@ TEST(a_node_under_mass_damping_falls_at_last_with_g_over_alpha)
 {
     const double x[2] = {1.0, 2.0}, v[2] = {3.0, 1.0}, g = -9.81, alpha = 2.5, mass = 0.3;
     dem_options options = support_options();
-    dem_lattice lattice;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(support_close) support_run run;
     options.rtol = 1e-13;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.05;
@@ -122,7 +121,6 @@ TEST(a_node_under_mass_damping_falls_at_last_with_g_over_alpha)
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(&run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
     for (int k = 1; k <= 10; k++) {
         const double t = 0.4 * (double)k, lost = -expm1(-alpha * t);
         const dem_state state = support_at(&run, t);
@@ -131,7 +129,6 @@ TEST(a_node_under_mass_damping_falls_at_last_with_g_over_alpha)
         assert_close(state.x[0], x[0] + v[0] * lost / alpha, 1e-11);
         assert_close(state.x[1], x[1] + g / alpha * t + (v[1] - g / alpha) * lost / alpha, 1e-11);
     }
-    support_close(&run);
 }
 
 /* At 1.2 m the spring pulls with 20 N = mu d w^2. The orbit is the exact solution for every viscosity. */
@@ -139,7 +136,7 @@ TEST(a_pair_that_turns_at_constant_distance_is_not_damped)
 {
     const double distance = 1.2, w = sqrt(stiffness * (distance - rest_length) / rest_length / reduced_mass / distance);
     const pair p = {5.0, 0.0, distance, {0.0, w * distance}, 0.0};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_pair(&run, &p);
     for (int k = 1; k <= 20; k++) {
         const double t = M_PI / w * (double)k; /* ten turns */
@@ -147,7 +144,6 @@ TEST(a_pair_that_turns_at_constant_distance_is_not_damped)
         assert_close(state.x[2] - state.x[0], k % 2 == 0 ? distance : -distance, 1e-11);
         assert_close(state.x[3] - state.x[1], 0.0, 1e-10); /* an error of the speed adds up over the way of 75 m */
     }
-    support_close(&run);
 }
 
 /* Its angular momentum is L = mu d u for ever; it ends where E (r - d0)/d0 = L^2/(mu r^3). The ring of the spring, rate
@@ -157,7 +153,7 @@ TEST(a_turning_pair_comes_to_the_distance_that_its_angular_momentum_holds)
     const pair p = {12.0, 0.0, 1.3, {-2.0, 4.0}, 0.0};
     const double spin = reduced_mass * p.distance * p.relative[1];
     double r = rest_length; /* Newton's */
-    support_run run;
+    CLEANUP(support_close) support_run run;
     for (int k = 0; k < 50; k++)
         r -= (stiffness * (r - rest_length) / rest_length - spin * spin / reduced_mass / (r * r * r)) /
              (stiffness / rest_length + 3.0 * spin * spin / reduced_mass / (r * r * r * r));
@@ -168,12 +164,11 @@ TEST(a_turning_pair_comes_to_the_distance_that_its_angular_momentum_holds)
     assert_close(reduced_mass * (d[0] * u[1] - d[1] * u[0]), spin, 1e-10);
     assert_close(hypot(d[0], d[1]), r, 1e-11);
     assert_close(d[0] * u[0] + d[1] * u[1], 0.0, 1e-10);
-    support_close(&run);
 }
 
 static void throw_plate(dem_lattice *lattice)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     const double spin = 20.0; /* rad/s */
     gsl_rng_set(rng, 11);
     lattice->velocity = malloc(2 * (size_t)lattice->n_nodes * sizeof *lattice->velocity);
@@ -182,7 +177,6 @@ static void throw_plate(dem_lattice *lattice)
         lattice->velocity[2 * i] = 3.0 - spin * lattice->x[2 * i + 1] + gsl_rng_uniform(rng) - 0.5;
         lattice->velocity[2 * i + 1] = -1.0 + spin * lattice->x[2 * i] + gsl_rng_uniform(rng) - 0.5;
     }
-    gsl_rng_free(rng);
 }
 
 /* J, of what moves relative to the mean motion as a rigid body would have it at the same places. */
@@ -209,14 +203,13 @@ TEST(a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-4};
     dem_options options = support_options();
-    dem_lattice lattice;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(support_close) support_run run;
     options.gravity[1] = 0.0;
     assert_ok(dem_lattice_rectangle(&lattice, 0.08, 0.06, 0.01));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
     throw_plate(&lattice);
     support_open(&run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
     dem_state state = support_at(&run, 0.0);
     const dem_body_motion first = dem_simulation_body(run.simulation, 0);
     const double vibration = energy_of_vibration(run.simulation, &state);
@@ -228,5 +221,4 @@ TEST(a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta)
     assert_close(last.angular_momentum, first.angular_momentum, 1e-9 * fabs(first.angular_momentum));
     assert_true(vibration > 0.1 && fabs(first.angular_momentum) > 0.01);
     assert_close(energy_of_vibration(run.simulation, &state) / vibration, 0.0, 1e-12);
-    support_close(&run);
 }

@@ -45,8 +45,8 @@ static dem_status look(void *context, const dem_simulation *simulation)
  * energy. */
 static double run_deck(const char *name, double restitution, double rtol)
 {
-    deck d;
-    support_run run;
+    CLEANUP(deck_free) deck d;
+    CLEANUP(support_close) support_run run;
     coarse_read(&d, inputs, name, spacing);
     watch w = {.d = &d};
     const dem_observer observer = {.interval = 1e-6, .frame = look, .step = look, .context = &w};
@@ -65,8 +65,6 @@ static double run_deck(const char *name, double restitution, double rtol)
     print_message("# %s, eta %g, rtol %g: %lld impacts, %lld late, deepest %.2e spacings, closure %.2e, taken %.2e\n",
                   name, restitution, rtol, (long long)counts.impacts, (long long)counts.late, w.deepest / spacing,
                   closure, end.impact / start.kinetic);
-    support_close(&run);
-    deck_free(&d);
     return fabs(closure);
 }
 

@@ -107,15 +107,15 @@ static void make_block(dem_lattice *l, const wave *w)
 /* |u|/amplitude at the time where it should be 0 is the relative error of omega times pi/2. */
 static double error_of(const wave *w)
 {
-    dem_lattice l;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     double e[2];
     make_block(&l, w);
     const double omega = omega_of(w, e), turn = M_PI / 180.0 * w->direction;
     const dem_index middle = middle_of(&l);
     const double x0 = l.x[2 * middle], y0 = l.x[2 * middle + 1];
-    double *start = malloc(2 * (size_t)l.n_nodes * sizeof *start);
+    CLEANUP(free_memory) double *start = malloc(2 * (size_t)l.n_nodes * sizeof *start);
     assert_non_null(start);
     for (dem_index i = 0; i < l.n_nodes; i++) {
         const double phase = w->q / a * (cos(turn) * (l.x[2 * i] - x0) + sin(turn) * (l.x[2 * i + 1] - y0));
@@ -128,9 +128,6 @@ static double error_of(const wave *w)
     support_open(&run, &l, NULL, 0, &options);
     const dem_state state = support_at(&run, 0.5 * M_PI / omega);
     const double u = (state.x[2 * middle] - x0) * e[0] + (state.x[2 * middle + 1] - y0) * e[1];
-    support_close(&run);
-    dem_lattice_free(&l);
-    free(start);
     return fabs(u) / (amplitude * a) / (0.5 * M_PI);
 }
 

@@ -46,7 +46,7 @@ static void open_node(support_run *run, const double v[2], const dem_obstacle *g
 {
     const double x[2] = {0.0, 0.0};
     dem_options options = support_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     f->n_nodes = 1;
     options.method = method;
     options.gravity[1] = 0.0;
@@ -58,7 +58,6 @@ static void open_node(support_run *run, const double v[2], const dem_obstacle *g
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(run, &lattice, ground, ground != NULL, &options);
-    dem_lattice_free(&lattice);
 }
 
 /* Work of a force with the potential k (x - c)^2/2 is the potential's fall. */
@@ -86,7 +85,7 @@ TEST(a_trap_swings_a_node)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         field f = {.centre = {0.3, -0.2}, .stiffness = 50.0};
         const double v[2] = {1.0, 0.5}, w = sqrt(f.stiffness / mass), tolerance = cases[k].tolerance;
-        support_run run;
+        CLEANUP(support_close) support_run run;
         open_node(&run, v, NULL, cases[k].method, &f);
         const double ledger = dem_energy_ledger(dem_simulation_energy(run.simulation));
         for (double t = 0.1; t <= 4.0; t += 0.39) {
@@ -96,7 +95,6 @@ TEST(a_trap_swings_a_node)
             check_work(&s, &f, 20.0 * tolerance);
             assert_close(dem_energy_ledger(s.energy), ledger, 20.0 * tolerance);
         }
-        support_close(&run);
     }
 }
 
@@ -105,7 +103,7 @@ TEST(a_drag_slows_a_node)
 {
     field f = {.drag = 3.0};
     const double v[2] = {4.0, -1.0}, rate = f.drag / mass;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_node(&run, v, NULL, DEM_METHOD_FEHLBERG45, &f);
     for (double t = 0.0; t < 3.0; t += 0.31) {
         const dem_state s = support_at(&run, t);
@@ -115,7 +113,6 @@ TEST(a_drag_slows_a_node)
         }
         assert_close(s.energy.boundary, -0.5 * mass * 17.0 * (1.0 - exp(-2.0 * rate * t)), 1e-9);
     }
-    support_close(&run);
 }
 
 /* ---- one node on a floor ---- */
@@ -130,7 +127,7 @@ TEST(friction_holds_until_the_force_exceeds_it)
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .friction = mu};
     field f = {.push = {0.0, -25.0}, .rise = 8.0};
     const double slips = mu * 25.0 / f.rise;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
     const dem_state before = support_at(&run, slips * (1.0 - 1e-12));
     assert_close(before.v[0], 0.0, 0.0);
@@ -146,7 +143,6 @@ TEST(friction_holds_until_the_force_exceeds_it)
         assert_close(s.energy.friction, mu * 25.0 * s.x[0], 1e-9);
         assert_close(dem_energy_ledger(s.energy), 0.0, 1e-9);
     }
-    support_close(&run);
 }
 
 /* A lift that grows with time takes it off when it has become the weight. */
@@ -155,7 +151,7 @@ TEST(a_contact_opens_when_the_force_lifts_it)
     const double wall[4] = {0.0, 10.0, 0.0, -10.0}; /* bodies on the right: the force along x lifts */
     const dem_obstacle ground = {.n_points = 2, .points = wall};
     field f = {.push = {-6.0, 0.0}, .rise = 4.0};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
     const double opens = 6.0 / f.rise;
     assert_int_equal(support_at(&run, opens - 1e-9).n_contacts, 1);
@@ -164,7 +160,6 @@ TEST(a_contact_opens_when_the_force_lifts_it)
         assert_int_equal(s.n_contacts, 0);
         assert_close(s.x[0], f.rise * t * t * t / (6.0 * mass), 1e-10);
     }
-    support_close(&run);
 }
 
 /* Under a push P down from height h with restitution eta the node is back on the floor after t1 = sqrt(2 h m/P), then
@@ -175,7 +170,7 @@ TEST(a_pushed_node_bounces)
     const dem_obstacle ground = {.n_points = 2, .points = points, .restitution = eta};
     field f = {.push = {0.0, -5.0}};
     const double a = 5.0 / mass, t1 = sqrt(2.0 * h / a);
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
     const dem_state s = support_at(&run, 2.9 * t1);
     assert_true(run.n_impacts >= 3);
@@ -186,7 +181,6 @@ TEST(a_pushed_node_bounces)
         speed *= eta;
     }
     assert_close(dem_energy_ledger(s.energy), 0.0, 1e-10);
-    support_close(&run);
 }
 
 /* ---- bodies ---- */
@@ -202,7 +196,7 @@ static void open_block(support_run *run, double height, const dem_obstacle *grou
 {
     const double lift[2] = {0.0, height};
     dem_options options = support_options();
-    dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block;
     support_block(&block);
     for (dem_index i = 0; i < block.n_nodes; i++) block.position[2 * i + 1] += lift[1];
     options.gravity[1] = how.gravity;
@@ -217,7 +211,6 @@ static void open_block(support_run *run, double height, const dem_obstacle *grou
     }
     support_open(run, &block, ground, ground != NULL, &options);
     if (how.field != NULL && how.field->mass != NULL) how.field->mass = dem_model_lattice(run->model)->mass;
-    dem_lattice_free(&block);
 }
 
 static double furthest(const dem_state *a, const dem_state *b, dem_index n)
@@ -236,7 +229,7 @@ TEST(a_force_in_proportion_to_mass_is_a_weight)
     static const double any = 1.0;
     const dem_obstacle ground = {.n_points = 2, .points = low, .friction = 0.3};
     field f = {.push = {0.0, -200.0}, .mass = &any};
-    support_run heavy, pushed;
+    CLEANUP(support_close) support_run heavy, pushed;
     open_block(&heavy, 0.0, &ground, (load){.gravity = -200.0});
     open_block(&pushed, 0.0, &ground, (load){.field = &f});
     const double ledger = dem_energy_ledger(dem_simulation_energy(pushed.simulation));
@@ -250,8 +243,6 @@ TEST(a_force_in_proportion_to_mass_is_a_weight)
     }
     assert_true(heavy.n_impacts > 20 && heavy.n_impacts == pushed.n_impacts);
     assert_true(f.few > 0);
-    support_close(&heavy);
-    support_close(&pushed);
 }
 
 /* The library's own drag, with its work under another name. */
@@ -260,7 +251,7 @@ TEST(a_drag_in_proportion_to_mass_is_mass_damping)
     static const double any = 1.0;
     const dem_obstacle ground = {.n_points = 2, .points = low};
     field f = {.drag = 300.0, .mass = &any};
-    support_run damped, dragged;
+    CLEANUP(support_close) support_run damped, dragged;
     open_block(&damped, 0.0, &ground, (load){.gravity = -200.0, .mass_damping = 300.0});
     open_block(&dragged, 0.0, &ground, (load){.gravity = -200.0, .field = &f});
     for (double t = 1e-3; t < 9e-3; t += 1e-3) {
@@ -270,8 +261,6 @@ TEST(a_drag_in_proportion_to_mass_is_mass_damping)
     }
     print_message("# %lld\n", (long long)damped.n_impacts);
     assert_true(damped.n_impacts > 20);
-    support_close(&damped);
-    support_close(&dragged);
 }
 
 /* On two nodes only, by their numbers. */
@@ -296,8 +285,8 @@ static void compare_with_boundaries(const dem_index *order)
     const double far[4] = {-1.0, -0.028, 1.0, -0.028};
     const dem_obstacle ground = {.n_points = 2, .points = far, .restitution = 0.3};
     dem_options options = support_options();
-    dem_lattice block, again;
-    support_run by_boundary, by_force;
+    CLEANUP(dem_lattice_free) dem_lattice block, again;
+    CLEANUP(support_close) support_run by_boundary, by_force;
     dem_state a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b};
     support_block(&block);
     support_block(&again);
@@ -330,10 +319,6 @@ static void compare_with_boundaries(const dem_index *order)
         assert_close(a.energy.boundary, b.energy.boundary, 1e-7 * a.energy.elastic);
     }
     assert_true(by_boundary.n_impacts > 10);
-    support_close(&by_boundary);
-    support_close(&by_force);
-    dem_lattice_free(&block);
-    dem_lattice_free(&again);
 }
 
 TEST(forces_of_boundaries_do_the_same)
@@ -379,7 +364,7 @@ TEST(the_ledger_of_a_trap_closes)
     static const double any = 1.0;
     const dem_obstacle ground = {.n_points = 2, .points = low, .restitution = 0.5, .friction = 0.3};
     field f = {.centre = {0.02, -0.01}, .stiffness = 4e4, .drag = 5.0, .mass = &any};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_block(&run, 0.0, &ground, (load){.gravity = -100.0, .field = &f});
     const double ledger = dem_energy_ledger(dem_simulation_energy(run.simulation));
     double scale = 0.0;
@@ -390,5 +375,4 @@ TEST(the_ledger_of_a_trap_closes)
     }
     print_message("# %lld\n", (long long)run.n_impacts);
     assert_true(run.n_impacts > 50);
-    support_close(&run);
 }

@@ -109,17 +109,17 @@ static void spread(const parts *p, const double *y, double *whole)
 static estimates take_step(parts *p, double t, double t1, const double *y, const double *product)
 {
     const size_t size = 4 * (size_t)p->n_all;
-    double *arrays = calloc(6 * size, sizeof *arrays);
+    CLEANUP(free_memory) double *arrays = calloc(6 * size, sizeof *arrays);
     double *y0 = arrays, *y1 = y0 + size, *f0 = y1 + size, *f1 = f0 + size, *error = f1 + size, *state = error + size;
     gsl_odeiv2_system system = {derive, NULL, size, p};
     gsl_odeiv2_step *gsl = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rkf45, size);
     const event_listener nobody = {NULL, NULL};
     const double one[2] = {p->options.rtol * p->options.spacing, p->options.rtol * p->options.v_scale};
-    automaton c;
-    contact_source source;
-    source_list sources = {0};
-    local_springs local;
-    event_queue q;
+    CLEANUP(automaton_destroy) automaton c;
+    CLEANUP(contact_source_destroy) contact_source source;
+    CLEANUP(source_list_destroy) source_list sources = {0};
+    CLEANUP(local_springs_destroy) local_springs local;
+    CLEANUP(event_queue_destroy) event_queue q;
     assert_true(arrays != NULL && gsl != NULL);
     spread(p, y, y0);
     assert_ok(automaton_create(&c, &p->acting, &p->rule));
@@ -147,13 +147,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
         assert_close(y1[k], product[k], 1e-3 * one[0] + 1e-15);
         assert_close(y1[2 * p->n_all + k], product[2 * p->n + k], 1e-3 * one[1] + 1e-12);
     }
-    event_queue_destroy(&q);
-    source_list_destroy(&sources);
-    contact_source_destroy(&source);
-    local_springs_destroy(&local);
-    automaton_destroy(&c);
     gsl_odeiv2_step_free(gsl);
-    free(arrays);
     return e;
 }
 
@@ -164,8 +158,8 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
     dem_options options = p->options;
     dem_index n_obstacles;
     double *start = malloc(8 * (size_t)p->n * sizeof *start), *off = start + 4 * p->n;
-    dem_model *model;
-    dem_simulation *simulation;
+    CLEANUP(free_model) dem_model *model;
+    CLEANUP(free_simulation) dem_simulation *simulation;
     dem_state state = {.struct_size = sizeof state};
     assert_non_null(start);
     memcpy(start, y, 4 * (size_t)p->n * sizeof *start);
@@ -183,8 +177,6 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
         off[2 * p->n + k] = product[2 * p->n + k] - state.v[k];
     }
     const double error = norm(p, off, off + 2 * p->n);
-    dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
     free(start);
     return error;
 }
@@ -233,7 +225,7 @@ static void run_block(support_run *run, checkpoint *r, const drop *d)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     double gap = INFINITY;
     assert_ok(dem_lattice_rectangle(&lattice, 0.08, 0.13, spacing));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
@@ -248,7 +240,6 @@ static void run_block(support_run *run, checkpoint *r, const drop *d)
     options.vertices = 0;
     support_open(run, &lattice, d->ground, 1, &options);
     *r = (checkpoint){.n = lattice.n_nodes};
-    dem_lattice_free(&lattice);
     const dem_observer observer = {.step = keep, .context = r};
     assert_ok(dem_simulation_observe(run->simulation, &observer));
     assert_ok(dem_simulation_advance(run->simulation, d->t_end));
@@ -259,7 +250,7 @@ static void run_block(support_run *run, checkpoint *r, const drop *d)
  * step's estimate alone would have been off in a step with impacts. */
 static double judge_run(const drop *d)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     checkpoint r;
     parts p;
     verdict without = {0}, with = {0}, by_free_step = {0};
@@ -287,7 +278,6 @@ static double judge_run(const drop *d)
     assert_true(with.worst <= 2.1);
     assert_true(without.logs < 0.0);
     forget(&r);
-    support_close(&run);
     return by_free_step.worst;
 }
 

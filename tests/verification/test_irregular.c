@@ -20,11 +20,10 @@ static dem_material solid_of(double nu)
 
 static dem_constants measure(const dem_lattice *lattice)
 {
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     dem_constants c;
     assert_ok(dem_model_create(&model, lattice, NULL, 0));
     assert_ok(dem_model_constants(model, 0, &c));
-    dem_model_destroy(model);
     return c;
 }
 
@@ -54,7 +53,7 @@ TEST(jitter_softens_by_its_square)
                  {true, 0.2, 1.0},         {true, 1.0 / 3.0, 0.50}, {true, 0.45, 0.20}};
     for (size_t k = 0; k < 2 * sizeof cases / sizeof cases[0]; k++) {
         const double share = k % 2 == 0 ? 0.1 : 0.2, nu = cases[k / 2].nu;
-        dem_lattice lattice = make_jittered(cases[k / 2].squares, nu, share, 1 + k);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_jittered(cases[k / 2].squares, nu, share, 1 + k);
         const dem_constants c = measure(&lattice);
         const double lost = (1.0 - c.youngs_modulus / E) / (share * share);
         print_message("# %s, nu %.3f, jitter %.1f: E %.4f, nu %+.4f, anisotropy %.4f; %.3f share^2\n",
@@ -63,7 +62,6 @@ TEST(jitter_softens_by_its_square)
         assert_in_band(lost, 0.7 * cases[k / 2].lost, 1.5 * cases[k / 2].lost);
         assert_close(c.poissons_ratio, nu, (cases[k / 2].squares ? 1.5 : 0.3) * share * share);
         assert_true(c.anisotropy < 1.0 + 0.6 * share * share + 0.03 * share);
-        dem_lattice_free(&lattice);
     }
 }
 
@@ -121,7 +119,7 @@ TEST(a_disc_of_rings_is_softer_within_a_band)
     static const double ratios[] = {0.1, 1.0 / 3.0, 0.45};
     for (int k = 0; k < 3; k++) {
         const dem_material solid = solid_of(ratios[k]);
-        dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
         make_rings(&lattice);
         assert_ok(dem_lattice_assemble(&lattice, &solid));
         const dem_constants c = measure(&lattice);
@@ -130,7 +128,6 @@ TEST(a_disc_of_rings_is_softer_within_a_band)
         assert_in_band(c.youngs_modulus / E, 0.9, 0.95);
         assert_close(c.poissons_ratio, ratios[k], 0.02);
         assert_close(c.anisotropy, 1.0, 1e-6);
-        dem_lattice_free(&lattice);
     }
 }
 
@@ -142,14 +139,13 @@ TEST(a_disc_of_rings_is_softer_within_a_band)
 TEST(right_angled_triangles_are_anisotropic)
 {
     const dem_material solid = solid_of(1.0 / 3.0);
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_ok(dem_lattice_squares(&lattice, 20.0, 20.0, 1.0));
     assert_ok(dem_lattice_assemble(&lattice, &solid));
     const dem_constants c = measure(&lattice);
     assert_close(c.youngs_modulus / E, 1.0, 1e-9);
     assert_close(c.poissons_ratio, 1.0 / 3.0, 1e-9);
     assert_close(c.anisotropy, 8.0 / 5.0, 1e-9);
-    dem_lattice_free(&lattice);
 }
 
 /* Springs of one stiffness, as the paper draws them, E_ij = sqrt(3)/2 E h a: the boundary has twice what it should, and
@@ -160,7 +156,7 @@ TEST(equal_springs_are_too_stiff_by_the_order_of_spacing_over_width)
     double excess[2];
     for (int k = 0; k < 2; k++) {
         const double width = k == 0 ? 16.0 : 32.0;
-        dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
         assert_ok(dem_lattice_rectangle(&lattice, width, width * sqrt(3.0) / 2.0, 1.0));
         assert_ok(dem_lattice_assemble(&lattice, &raw));
         const dem_constants c = measure(&lattice);
@@ -168,7 +164,6 @@ TEST(equal_springs_are_too_stiff_by_the_order_of_spacing_over_width)
         assert_close(c.poissons_ratio, 1.0 / 3.0, 0.01);
         print_message("# equal springs, %.0f spacings: E %.4f, nu %.4f\n", width, c.youngs_modulus / E,
                       c.poissons_ratio);
-        dem_lattice_free(&lattice);
     }
     assert_in_band(excess[0], 0.02, 0.1);
     assert_in_band(excess[0] / excess[1], 1.8, 2.2);

@@ -8,6 +8,7 @@
  * however fine the lattice: single nodes near the hole do not converge. But this layer gets thinner with a. So what
  * converges in the first order is the mean of the error's size along the ligament from R + 2a on, and the error of
  * every node from 2 R on. */
+#include "harness/cleanup_gsl.h"
 #include "support.h"
 
 #include <complex.h>
@@ -70,7 +71,9 @@ static plate solve_plate(double length, double height)
 {
     const size_t n = 4 * points;
     plate p = {.length = length, .height = height};
+    CLEANUP(free_matrix)
     gsl_matrix *m = gsl_matrix_alloc(n, unknowns), *covariance = gsl_matrix_alloc(unknowns, unknowns);
+    CLEANUP(free_vector)
     gsl_vector *right = gsl_vector_alloc(n), *left = gsl_vector_alloc(n), *a = gsl_vector_alloc(unknowns);
     gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(n, unknowns);
     double square;
@@ -80,11 +83,6 @@ static plate solve_plate(double length, double height)
     for (int k = 0; k < unknowns; k++) p.a[k] = gsl_vector_get(a, (size_t)k) * unit_of(&p, k - terms);
     p.error = fmax(gsl_vector_max(left), -gsl_vector_min(left));
     gsl_multifit_linear_free(work);
-    gsl_vector_free(a);
-    gsl_vector_free(left);
-    gsl_vector_free(right);
-    gsl_matrix_free(covariance);
-    gsl_matrix_free(m);
     return p;
 }
 
@@ -215,9 +213,9 @@ static double *solve(const dem_lattice *l, const double *f)
 static double *pull(dem_lattice *l, double spacing)
 {
     const double scale = 1e-3;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const dem_options options = support_options();
-    double *load = make_load(l, spacing), *u = solve(l, load);
+    CLEANUP(free_memory) double *load = make_load(l, spacing), *u = solve(l, load);
     double *stress = malloc(3 * (size_t)l->n_nodes * sizeof *stress);
     l->position = malloc(2 * (size_t)l->n_nodes * sizeof *l->position);
     assert_true(stress != NULL && l->position != NULL);
@@ -225,9 +223,6 @@ static double *pull(dem_lattice *l, double spacing)
     support_open(&run, l, NULL, 0, &options);
     dem_simulation_stress(run.simulation, stress);
     for (dem_index k = 0; k < 3 * l->n_nodes; k++) stress[k] /= scale * tension;
-    support_close(&run);
-    free(load);
-    free(u);
     return stress;
 }
 
@@ -237,16 +232,14 @@ static const dem_material sheet = {
 TEST(without_a_hole_the_tension_is_uniform)
 {
     const double spacing = 0.3;
-    dem_lattice lattice = make_block(spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_block(spacing);
     assert_ok(dem_lattice_assemble(&lattice, &sheet));
-    double *stress = pull(&lattice, spacing);
+    CLEANUP(free_memory) double *stress = pull(&lattice, spacing);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         assert_close(stress[3 * i], 1.0, 5e-6); /* the square of strains of 1e-6 over them */
         assert_close(stress[3 * i + 1], 0.0, 5e-6);
         assert_close(stress[3 * i + 2], 0.0, 5e-6);
     }
-    free(stress);
-    dem_lattice_free(&lattice);
 }
 
 typedef struct errors {
@@ -278,7 +271,7 @@ static errors compare(const dem_lattice *l, const double *stress, const hole *h,
 /* The hole is in the middle, on a node. */
 static errors measure(double spacing)
 {
-    dem_lattice l = make_block(spacing);
+    CLEANUP(dem_lattice_free) dem_lattice l = make_block(spacing);
     const dem_index whole = l.n_triangles;
     const double length = -l.x[0], height = height_of(&l);
     hole h = {.y = 0.5 * height, .radius = 1.0};
@@ -286,10 +279,8 @@ static errors measure(double spacing)
     assert_ok(dem_lattice_assemble(&l, &sheet));
     h.radius = spacing * sqrt((double)(whole - l.n_triangles) * sqrt(0.1875) / M_PI);     /* of the same area */
     plate p = solve_plate((length - 0.25 * spacing) / h.radius, 0.5 * height / h.radius); /* mean of the toothed ends */
-    double *stress = pull(&l, spacing);
+    CLEANUP(free_memory) double *stress = pull(&l, spacing);
     const errors e = compare(&l, stress, &h, spacing, &p);
-    free(stress);
-    dem_lattice_free(&l);
     return e;
 }
 

@@ -29,7 +29,7 @@ static int layer_at(const layers *l, double y)
 static dem_model *make_block(layers *l)
 {
     dem_material solids[2];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     const double row = (l->squares ? 1.0 : 0.5 * sqrt(3.0)) * spacing;
     for (int k = 0; k < 2; k++)
@@ -38,7 +38,7 @@ static dem_model *make_block(layers *l)
     assert_ok(l->squares ? dem_lattice_squares(&lattice, columns * spacing, rows * row, spacing)
                          : dem_lattice_rectangle(&lattice, columns * spacing, rows * row, spacing));
     l->interface = n_below * row;
-    dem_index *of = calloc((size_t)lattice.n_triangles, sizeof *of);
+    CLEANUP(free_memory) dem_index *of = calloc((size_t)lattice.n_triangles, sizeof *of);
     assert_non_null(of);
     for (dem_index t = 0; t < lattice.n_triangles; t++) {
         const dem_index *c = lattice.triangles + 3 * t;
@@ -46,8 +46,6 @@ static dem_model *make_block(layers *l)
     }
     assert_ok(dem_lattice_assemble_mixed(&lattice, solids, 2, of, l->squares ? 0.5 : 0.0));
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_lattice_free(&lattice);
-    free(of);
     return model;
 }
 
@@ -92,15 +90,13 @@ static void check(layers l)
 {
     for (int k = 0; k < 2; k++) {
         l.squares = k == 1;
-        dem_model *model = make_block(&l);
+        CLEANUP(free_model) dem_model *model = make_block(&l);
         unsigned char *held = calloc((size_t)model->lattice.n_nodes, 1);
         assert_non_null(held);
-        double *u = tractions(model, &l);
+        CLEANUP(free_memory) double *u = tractions(model, &l);
         assert_ok(tangent_solve(model, model->lattice.x, held, 1e-13 * 1e3 * thickness * spacing, u));
         assert_close(worst_strain(model, &l, u), 0.0, 1e-9);
-        free(u);
         free(held);
-        dem_model_destroy(model);
     }
 }
 

@@ -13,7 +13,7 @@ static void open_pair(support_run *run, const dem_boundary *boundary, const doub
     const double x[] = {0.0, 0.0, 0.5, 0.0}, masses[] = {3.0, mass};
     const dem_index ends[] = {0, 1};
     dem_options options = support_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.gravity[1] = 0.0;
     options.rtol = 1e-11;
     options.n_boundaries = 1;
@@ -21,7 +21,6 @@ static void open_pair(support_run *run, const dem_boundary *boundary, const doub
     support_lattice(&lattice, 2, x, masses, 1, ends, length, stiffness, NULL);
     support_start(&lattice, NULL, velocity);
     support_open(run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
 }
 
 static double closure(const dem_simulation *simulation, double start)
@@ -39,7 +38,7 @@ TEST(a_mass_follows_a_driven_one)
     const double start[] = {v, 0.0, 0.0, 0.0};
     const dem_boundary drive = {
         .components = DEM_COMPONENT_X | DEM_COMPONENT_Y, .n_nodes = 1, .nodes = node, .value = {v, 0.0}};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_pair(&run, &drive, NULL);
     const double initial = dem_energy_ledger(dem_simulation_energy(run.simulation));
     assert_close(initial, 0.5 * 3.0 * start[0] * start[0], 1e-18); /* it moves from the start */
@@ -53,7 +52,6 @@ TEST(a_mass_follows_a_driven_one)
         assert_close(s.energy.boundary, mass * v * v * (1.0 - cos(w * t)), 1e-8 * mass * v * v);
         assert_close(closure(run.simulation, initial), 0.0, 1e-8 * mass * v * v);
     }
-    support_close(&run);
 }
 
 /* A displacement by a ramp is its polynomial to rounding, whatever the steps: a method of order 5 is exact for it, but
@@ -68,7 +66,7 @@ TEST(a_ramp_is_followed)
                                 .nodes = node,
                                 .value = {way, 0.0},
                                 .ramp = ramp};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_pair(&run, &drive, NULL);
     const double initial = dem_energy_ledger(dem_simulation_energy(run.simulation));
     for (double t = 0.1; t < 4.0; t += 0.1) {
@@ -77,7 +75,6 @@ TEST(a_ramp_is_followed)
         assert_close(s.x[0], way * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u), 1e-9 * way);
         assert_close(closure(run.simulation, initial), 0.0, 1e-9 * stiffness * way * way);
     }
-    support_close(&run);
 }
 
 /* A force F on node 1 from t = 0, node 0 held: F/k (1 - cos(w t)), k = E/d0; the force's work is F times the way. */
@@ -90,8 +87,8 @@ TEST(a_sudden_force_swings_to_twice_the_static_way)
     const double x[] = {0.0, 0.0, 0.5, 0.0}, masses[] = {3.0, mass};
     const dem_index ends[] = {0, 1};
     dem_options options = support_options();
-    dem_lattice lattice;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(support_close) support_run run;
     options.gravity[1] = 0.0;
     options.rtol = 1e-11;
     options.v_scale = force / k * w;
@@ -107,8 +104,6 @@ TEST(a_sudden_force_swings_to_twice_the_static_way)
         assert_close(dem_simulation_boundary(run.simulation, 1).force[0], force, 0.0);
         assert_close(dem_simulation_boundary(run.simulation, 0).force[0], -k * way, 1e-7 * force);
     }
-    support_close(&run);
-    dem_lattice_free(&lattice);
 }
 
 /* A mass on a floor, pushed along it by a ramp: friction holds it until F r(t) = mu m g, and not longer. The root of
@@ -122,8 +117,8 @@ TEST(friction_holds_until_the_force_exceeds_it)
         .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node, .value = {force, -5.0}, .ramp = ramp};
     const dem_obstacle ground = {.n_points = 2, .points = floor, .friction = mu};
     dem_options options = support_options();
-    dem_lattice lattice;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(support_close) support_run run;
     options.gravity[1] = -g;
     options.rtol = 1e-10;
     options.spacing = options.v_scale = 1.0;
@@ -150,8 +145,6 @@ TEST(friction_holds_until_the_force_exceeds_it)
     assert_close((s.v[0] - v1) / 2.0, (force - mu * (mass * g + 5.0)) / mass, 1e-9);
     const dem_obstacle_load load = dem_simulation_obstacle(run.simulation, 0);
     assert_close(load.impulse[1], mass * g * 3.0 + 5.0 * (0.5 * ramp + 2.0), 1e-9);
-    support_close(&run);
-    dem_lattice_free(&lattice);
 }
 
 /* A block of equilateral triangles, its foot on rollers, pulled by a traction at its head and damped to rest, is as
@@ -163,7 +156,7 @@ TEST(a_pulled_block_comes_to_rest_with_its_modulus)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 0.5};
     const double a = 0.01, width = 0.08, traction = 1.0; /* Pa: a strain of 1e-7 */
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_index foot[32], head[32], corner[1] = {0}, n_foot = 0, n_head = 0;
     double share[32], top = 0.0;
     assert_ok(dem_lattice_rectangle(&lattice, width, 0.09, a));
@@ -184,7 +177,7 @@ TEST(a_pulled_block_comes_to_rest_with_its_modulus)
     options.mass_damping = 1000.0;
     options.n_boundaries = 3;
     options.boundaries = list;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_open(&run, &lattice, NULL, 0, &options);
     const dem_state s = support_at(&run, 0.1);
     assert_true(dem_simulation_residual(run.simulation) > 1.0); /* between steps it is not known */
@@ -194,6 +187,4 @@ TEST(a_pulled_block_comes_to_rest_with_its_modulus)
     assert_close(-wide / width / strain, 1.0 / 3.0, 1e-6);
     const double pull = traction * ((double)n_head - 1.5) * a * rubber.thickness;
     assert_close(dem_simulation_boundary(run.simulation, 0).force[1], -pull, 1e-6 * pull);
-    support_close(&run);
-    dem_lattice_free(&lattice);
 }

@@ -6,6 +6,7 @@
 #include <gsl/gsl_eigen.h>
 
 #include "dense.h"
+#include "harness/cleanup_gsl.h"
 
 static const double k = 50.0, m = 2.0, amplitude = 1e-6; /* N/m, kg; m, of springs of 1 m */
 
@@ -55,10 +56,10 @@ static double swing(dem_lattice *body, const gsl_matrix *modes, size_t mode, dou
 static void check_modes(dem_lattice *body, const double *expected, size_t n_modes)
 {
     const size_t n = 2 * (size_t)body->n_nodes;
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     assert_ok(dem_model_create(&model, body, NULL, 0));
-    gsl_matrix *stiffness = dense_stiffness(model, body->x, 1e-4), *modes = gsl_matrix_alloc(n, n);
-    gsl_vector *values = gsl_vector_alloc(n);
+    CLEANUP(free_matrix) gsl_matrix *stiffness = dense_stiffness(model, body->x, 1e-4), *modes = gsl_matrix_alloc(n, n);
+    CLEANUP(free_vector) gsl_vector *values = gsl_vector_alloc(n);
     gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(n);
     assert_int_equal(gsl_eigen_symmv(stiffness, values, modes, work), 0);
     assert_int_equal(gsl_eigen_symmv_sort(values, modes, GSL_EIGEN_SORT_VAL_ASC), 0);
@@ -69,30 +70,24 @@ static void check_modes(dem_lattice *body, const double *expected, size_t n_mode
         if (j >= 3) assert_close(swing(body, modes, j, omega), 0.0, 1e-5 * 0.5 * M_PI);
     }
     gsl_eigen_symmv_free(work);
-    gsl_vector_free(values);
-    gsl_matrix_free(modes);
-    gsl_matrix_free(stiffness);
-    dem_model_destroy(model);
 }
 
 TEST(a_triangle_has_its_three_modes)
 {
     const double x[6] = {0.0, 0.0, 1.0, 0.0, 0.5, sqrt(3.0) / 2.0};
-    dem_lattice body;
+    CLEANUP(dem_lattice_free) dem_lattice body;
     make_body(&body, 3, x);
     check_modes(&body, of_triangle, 3);
-    dem_lattice_free(&body);
 }
 
 TEST(a_hexagon_has_its_eleven_modes)
 {
     double x[14] = {0.0};
-    dem_lattice body;
+    CLEANUP(dem_lattice_free) dem_lattice body;
     for (int i = 0; i < 6; i++) {
         x[2 * i + 2] = cos(M_PI / 3.0 * i);
         x[2 * i + 3] = sin(M_PI / 3.0 * i);
     }
     make_body(&body, 7, x);
     check_modes(&body, of_hexagon, 11);
-    dem_lattice_free(&body);
 }

@@ -26,10 +26,9 @@ static dem_options node_options(double gravity)
 static void open_node(support_run *run, const double x[2], const dem_obstacle *obstacles, dem_index n, double gravity)
 {
     const dem_options options = node_options(gravity);
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_open(run, &lattice, obstacles, n, &options);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta)
@@ -37,7 +36,7 @@ TEST(a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta)
     static const double upright[4] = {-1.0, 9.0, -1.0, -9.0}, x[2] = {0.0, 0.0}, eta[3] = {0.0, 0.5, 1.0};
     const double speed = 3.0;
     for (int k = 0; k < 3; k++) {
-        support_run run;
+        CLEANUP(support_close) support_run run;
         const dem_obstacle obstacle = {
             .n_points = 2, .points = upright, .restitution = eta[k], .friction = 0.5, .velocity = {speed, 0.7}};
         open_node(&run, x, &obstacle, 1, 0.0);
@@ -57,7 +56,6 @@ TEST(a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta)
         const dem_obstacle_load load = dem_simulation_obstacle(run.simulation, 0);
         assert_close(load.impulse[0], mass * (1.0 + eta[k]) * speed, 1e-11);
         assert_close(load.friction_impulse[1], mass * 0.7, 1e-11);
-        support_close(&run);
     }
 }
 
@@ -68,7 +66,7 @@ TEST(a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost)
     static const double belt[4] = {-9.0, 0.0, 9.0, 0.0}, x[2] = {0.0, 0.0};
     const double mu = 0.4, speed = 1.5, t = speed / (mu * g);
     for (int side = -1; side <= 1; side += 2) {
-        support_run run;
+        CLEANUP(support_close) support_run run;
         const dem_obstacle obstacle = {.n_points = 2, .points = belt, .friction = mu, .velocity = {side * speed, 0.0}};
         open_node(&run, x, &obstacle, 1, g);
         dem_state s = support_at(&run, 0.5 * t);
@@ -84,7 +82,6 @@ TEST(a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost)
         assert_close(s.energy.boundary, mass * speed * speed, 1e-10);
         assert_close(s.energy.friction, 0.5 * mass * speed * speed, 1e-10);
         assert_close(dem_energy_ledger(s.energy), 0.0, 1e-10);
-        support_close(&run);
     }
 }
 
@@ -93,7 +90,7 @@ TEST(a_floor_that_rises_carries_a_node_and_does_the_work_of_its_weight)
 {
     static const double level[4] = {-9.0, 0.0, 9.0, 0.0}, x[2] = {0.0, 0.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = level, .velocity = {0.0, 2.0}};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_node(&run, x, &obstacle, 1, g);
     const dem_state s = support_at(&run, 3.0);
     assert_int_equal(s.n_contacts, 1);
@@ -103,7 +100,6 @@ TEST(a_floor_that_rises_carries_a_node_and_does_the_work_of_its_weight)
     assert_close(s.energy.boundary, mass * (2.0 * 2.0 + 3.0 * 2.0 * g), 1e-9); /* an impact at first */
     assert_close(s.energy.impact, 0.5 * mass * 4.0, 1e-12);
     assert_close(dem_energy_ledger(s.energy), 0.0, 1e-9);
-    support_close(&run);
 }
 
 /* Between two walls, one at rest and one that comes: each elastic impact on it adds 2 U to the speed, so that the gap
@@ -113,7 +109,7 @@ TEST(a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_time)
     static const double right[4] = {1.0, -9.0, 1.0, 9.0}, left[4] = {0.0, 9.0, 0.0, -9.0}, x[2] = {0.5, 0.0};
     const dem_obstacle list[2] = {{.n_points = 2, .points = left, .restitution = 1.0},
                                   {.n_points = 2, .points = right, .restitution = 1.0, .velocity = {-0.1, 0.0}}};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     double at = 0.5, t = 0.0, v = 0.0;
     open_node(&run, x, list, 2, 0.0);
     const dem_state s = support_at(&run, 9.7);
@@ -131,7 +127,6 @@ TEST(a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_time)
     }
     assert_close(s.energy.boundary, 0.5 * mass * v * v, 1e-10);
     assert_close(s.energy.impact, 0.0, 1e-11);
-    support_close(&run);
 }
 
 /* In the corner of a floor at rest and a wall that comes, plastic: the corner takes the node along, and the wall does
@@ -141,7 +136,7 @@ TEST(the_corner_of_a_floor_and_a_wall_that_comes_takes_a_node_along)
     static const double level[4] = {-9.0, 0.0, 9.0, 0.0}, wall[4] = {-1.0, 9.0, -1.0, -0.5}, x[2] = {0.0, 0.0};
     const dem_obstacle list[2] = {{.n_points = 2, .points = level},
                                   {.n_points = 2, .points = wall, .velocity = {2.0, 0.0}}};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_node(&run, x, list, 2, g);
     const dem_state s = support_at(&run, 2.0);
     assert_close(s.x[0], 3.0, 1e-11);
@@ -150,7 +145,6 @@ TEST(the_corner_of_a_floor_and_a_wall_that_comes_takes_a_node_along)
     assert_close(s.energy.boundary, mass * 4.0, 1e-11);
     assert_close(s.energy.impact, 0.5 * mass * 4.0, 1e-11);
     assert_close(dem_energy_ledger(s.energy), 0.0, 1e-11);
-    support_close(&run);
 }
 
 /* ---- bodies, seen by one who moves ---- */
@@ -179,17 +173,16 @@ static void make_body(dem_lattice *out, const view *v, const double frame[2])
         out->x[2 * i + 1] = sin(v->tilt) * x + cos(v->tilt) * y + v->height;
     }
     assert_ok(dem_lattice_assemble(out, &rubber));
-    double *velocity = malloc(2 * (size_t)out->n_nodes * sizeof *velocity);
+    CLEANUP(free_memory) double *velocity = malloc(2 * (size_t)out->n_nodes * sizeof *velocity);
     assert_non_null(velocity);
     for (dem_index k = 0; k < 2 * out->n_nodes; k++) velocity[k] = v->velocity[k % 2] + frame[k % 2];
     support_start(out, NULL, velocity);
-    free(velocity);
 }
 
 /* As one sees it in whose frame all goes by with this velocity. */
 static void open_view(support_run *run, const view *v, const double frame[2], dem_method method)
 {
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_obstacle ground[2];
     dem_options options = support_options();
     memcpy(ground, v->ground, sizeof ground);
@@ -201,7 +194,6 @@ static void open_view(support_run *run, const view *v, const double frame[2], de
     options.v_scale = 1.0;
     make_body(&lattice, v, frame);
     support_open(run, &lattice, ground, v->n, &options);
-    dem_lattice_free(&lattice);
 }
 
 /* Positions within 1e-9 of the spacing and energies within 1e-9 of the kinetic one, at rtol 1e-9; with fixed steps,
@@ -211,7 +203,7 @@ static void compare_views(const view *v, const double frame[2], dem_method metho
 {
     const bool adaptive = method == DEM_METHOD_FEHLBERG45;
     const double tolerance = adaptive ? 1e-9 : 1e-8, share = adaptive ? 1e-9 : 1e-5;
-    support_run rest, passing;
+    CLEANUP(support_close) support_run rest, passing;
     open_view(&rest, v, (const double[2]){0.0, 0.0}, method);
     open_view(&passing, v, frame, method);
     const double spacing = 5e-3, start = dem_energy_ledger(dem_simulation_energy(passing.simulation));
@@ -233,8 +225,6 @@ static void compare_views(const view *v, const double frame[2], dem_method metho
     assert_true(a.impacts > 0 && a.impacts == b.impacts && a.closings == b.closings);
     assert_true(worst <= tolerance * spacing);
     if (adaptive) assert_close(dem_energy_ledger(dem_simulation_energy(passing.simulation)), start, 1e-6);
-    support_close(&rest);
-    support_close(&passing);
 }
 
 #define GROUND(line, e, mu)                                                                                            \
@@ -279,8 +269,8 @@ TEST(a_run_goes_on_from_its_record_to_the_same_bits)
 {
     for (size_t k = 0; k < sizeof views / sizeof *views; k++) {
         const view *v = &views[k];
-        support_run run;
-        dem_simulation *resumed;
+        CLEANUP(support_close) support_run run;
+        CLEANUP(free_simulation) dem_simulation *resumed;
         open_view(&run, v, frames[0], DEM_METHOD_FEHLBERG45);
         (void)support_at(&run, 0.6 * v->t_end);
         const dem_options options = dem_simulation_options(run.simulation);
@@ -295,14 +285,12 @@ TEST(a_run_goes_on_from_its_record_to_the_same_bits)
         assert_memory_equal(a.x, b.x, size);
         assert_memory_equal(a.v, b.v, size);
         assert_memory_equal(&a.energy, &b.energy, sizeof a.energy);
-        dem_simulation_destroy(resumed);
-        support_close(&run);
     }
 }
 
 TEST(a_record_of_another_velocity_is_refused)
 {
-    support_run run, other;
+    CLEANUP(support_close) support_run run, other;
     dem_simulation *resumed = NULL;
     open_view(&run, &views[1], frames[0], DEM_METHOD_FEHLBERG45);
     open_view(&other, &views[1], frames[1], DEM_METHOD_FEHLBERG45);
@@ -313,8 +301,6 @@ TEST(a_record_of_another_velocity_is_refused)
     assert_string_equal(dem_status_message(),
                         "in the checkpoint obstacle 0 moves with velocity of -1 m/s, not 4.7 m/s");
     assert_null(resumed);
-    support_close(&run);
-    support_close(&other);
 }
 
 TEST(a_velocity_that_is_not_finite_is_refused)

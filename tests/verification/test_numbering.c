@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A body does not know how its nodes are numbered: the same motion, after the numbering is undone, for a body whose
  * nodes are shuffled and one whose nodes are not; to the bit the same energies of the same state. */
+#include "harness/cleanup_gsl.h"
 #include "support.h"
 
 #include <gsl/gsl_rng.h>
@@ -26,7 +27,7 @@ static dem_lattice make_block(double width, double height, double spacing)
 static dem_index *shuffle(dem_index n)
 {
     dem_index *number = malloc((size_t)n * sizeof *number);
-    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(number);
     for (dem_index k = 0; k < n; k++) number[k] = k;
     for (dem_index k = n - 1; k > 0; k--) {
@@ -34,18 +35,16 @@ static dem_index *shuffle(dem_index n)
         number[k] = number[j];
         number[j] = kept;
     }
-    gsl_rng_free(r);
     return number;
 }
 
 static void renumber_array(double *array, dem_index n, int width, const dem_index *number)
 {
     const size_t size = (size_t)(n * width) * sizeof *array;
-    double *old = malloc(size);
+    CLEANUP(free_memory) double *old = malloc(size);
     assert_non_null(old);
     memcpy(old, array, size);
     for (dem_index i = 0; i < n; i++) memcpy(array + width * number[i], old + width * i, (size_t)width * sizeof *array);
-    free(old);
 }
 
 static void renumber(dem_lattice *l, const dem_index *number)
@@ -63,7 +62,7 @@ static double *run(const dem_lattice *lattice, const dem_obstacle *ground, doubl
 {
     const size_t size = 2 * (size_t)lattice->n_nodes * sizeof(double);
     dem_options options = support_options();
-    support_run r;
+    CLEANUP(support_close) support_run r;
     double *x = malloc(size);
     assert_non_null(x);
     options.rtol = 1e-9;
@@ -71,25 +70,21 @@ static double *run(const dem_lattice *lattice, const dem_obstacle *ground, doubl
     support_open(&r, lattice, ground, ground != NULL ? 1 : 0, &options);
     memcpy(x, support_at(&r, t).x, size);
     assert_true(ground == NULL || dem_simulation_counts(r.simulation).impacts > 3);
-    support_close(&r);
     return x;
 }
 
 /* Largest difference of positions at t, m. */
 static double difference(double width, double height, double spacing, const dem_obstacle *ground, double t)
 {
-    dem_lattice lattice = make_block(width, height, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_block(width, height, spacing);
     const dem_index n = lattice.n_nodes;
-    dem_index *number = shuffle(n);
+    CLEANUP(free_memory) dem_index *number = shuffle(n);
     double *usual = run(&lattice, ground, t), largest = 0.0;
     renumber(&lattice, number);
-    double *shuffled = run(&lattice, ground, t);
+    CLEANUP(free_memory) double *shuffled = run(&lattice, ground, t);
     for (dem_index i = 0; i < n; i++)
         for (int c = 0; c < 2; c++) largest = fmax(largest, fabs(usual[2 * i + c] - shuffled[2 * number[i] + c]));
-    dem_lattice_free(&lattice);
-    free(number);
     free(usual);
-    free(shuffled);
     return largest;
 }
 
@@ -143,18 +138,17 @@ typedef struct sums {
 static sums sums_of(const dem_lattice *lattice)
 {
     const dem_options options = support_options();
-    support_run r;
+    CLEANUP(support_close) support_run r;
     support_open(&r, lattice, NULL, 0, &options);
     const sums all = {dem_simulation_energy(r.simulation), dem_simulation_body(r.simulation, 0),
                       dem_model_mass(r.model)};
-    support_close(&r);
     return all;
 }
 
 /* Springs take other places in their list, too. */
 static void reverse_springs(dem_lattice *l)
 {
-    dem_index *springs = malloc((size_t)l->n_springs * sizeof *springs);
+    CLEANUP(free_memory) dem_index *springs = malloc((size_t)l->n_springs * sizeof *springs);
     assert_non_null(springs);
     for (dem_index k = 0; k < l->n_springs; k++) springs[k] = l->n_springs - 1 - k;
     renumber_array(l->stiffness, l->n_springs, 1, springs);
@@ -165,13 +159,12 @@ static void reverse_springs(dem_lattice *l)
             l->ends[2 * k + c] = l->ends[other];
             l->ends[other] = kept;
         }
-    free(springs);
 }
 
 TEST(energies_and_mean_motion_are_the_same_to_the_bit)
 {
-    dem_lattice lattice = make_irregular();
-    dem_index *number = shuffle(lattice.n_nodes);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_irregular();
+    CLEANUP(free_memory) dem_index *number = shuffle(lattice.n_nodes);
     const sums usual = sums_of(&lattice);
     renumber(&lattice, number);
     reverse_springs(&lattice);
@@ -181,6 +174,4 @@ TEST(energies_and_mean_motion_are_the_same_to_the_bit)
     assert_memory_equal(&usual.energy, &shuffled.energy, sizeof usual.energy);
     assert_memory_equal(&usual.motion, &shuffled.motion, sizeof usual.motion);
     assert_close(usual.mass, shuffled.mass, 0.0);
-    dem_lattice_free(&lattice);
-    free(number);
 }

@@ -26,11 +26,10 @@ static void open_pair(support_run *run, double distance, double relative)
     const double start[4] = {-0.75 * distance, 0.0, 0.25 * distance, 0.0},
                  v[4] = {0.0, -0.75 * relative, 0.0, 0.25 * relative};
     const dem_options options = tight_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_lattice(&lattice, 2, x, two_masses, 1, joined, rest_length, stiffness, NULL);
     support_start(&lattice, start, v);
     support_open(run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
 }
 
 static void separation(const dem_state *state, double d[2], double u[2])
@@ -45,14 +44,13 @@ TEST(a_collinear_pair_has_the_harmonic_period_at_any_amplitude)
 {
     const double period = 0.544139809270265, amplitudes[2] = {1e-3, 0.3}, omega = 2.0 * M_PI / period;
     for (int k = 0; k < 2; k++) {
-        support_run run;
+        CLEANUP(support_close) support_run run;
         double d[2], u[2];
         open_pair(&run, 1.0 + amplitudes[k], 0.0);
         const dem_state state = support_at(&run, 10.0 * period);
         separation(&state, d, u);
         assert_close(u[0] / (omega * omega * amplitudes[k]) / (10.0 * period), 0.0, 1e-8);
         assert_close((d[0] - 1.0) / amplitudes[k], 1.0, 1e-8);
-        support_close(&run);
     }
 }
 
@@ -62,7 +60,7 @@ TEST(a_rotating_pair_turns_at_the_exact_time_angle_and_distance)
     static const double period[3] = {0.54175230220117, 0.51478871808614, 0.45436992222068};
     static const double angle[3] = {0.34276879750215, 1.1813598398255, 1.9961595833541};
     for (int k = 0; k < 3; k++) {
-        support_run run;
+        CLEANUP(support_close) support_run run;
         double d[2], u[2];
         open_pair(&run, 1.2, speed[k]);
         dem_state state = support_at(&run, 0.5 * period[k]);
@@ -77,7 +75,6 @@ TEST(a_rotating_pair_turns_at_the_exact_time_angle_and_distance)
         assert_close(atan2(d[1], d[0]), angle[k], 1e-7);
         assert_close(r, 1.2, 1e-7);
         assert_close(radial / acceleration / period[k], 0.0, 1e-7);
-        support_close(&run);
     }
 }
 
@@ -91,12 +88,11 @@ TEST(a_mass_between_fixed_ends_swings_across_with_the_exact_period)
     const dem_options options = tight_options();
     for (int k = 0; k < 4; k++) {
         const double start[6] = {-1.0, 0.0, 0.0, amplitude[k], 1.0, 0.0};
-        support_run run;
-        dem_lattice lattice;
+        CLEANUP(support_close) support_run run;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
         support_lattice(&lattice, 3, x, mass, 2, ends, rest_length, stiffness, fixed);
         support_start(&lattice, start, NULL);
         support_open(&run, &lattice, NULL, 0, &options);
-        dem_lattice_free(&lattice);
         dem_state state = support_at(&run, 0.75 * period[k]); /* upwards through the middle */
         assert_true(state.v[3] > 0.0);
         assert_close(state.x[3] / state.v[3] / (0.75 * period[k]), 0.0, 1e-7);
@@ -104,6 +100,5 @@ TEST(a_mass_between_fixed_ends_swings_across_with_the_exact_period)
         assert_close(state.x[0], -1.0, 0.0);
         state = support_at(&run, period[k]);
         assert_close(state.x[3] / amplitude[k], 1.0, 1e-7);
-        support_close(&run);
     }
 }

@@ -83,7 +83,7 @@ static dem_lattice make_square(double nu, double r)
 static double *stresses(dem_lattice *lattice, const double F[4])
 {
     const dem_index n = lattice->n_nodes;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     double *stress = malloc(3 * (size_t)n * sizeof *stress);
     free(lattice->position);
@@ -94,7 +94,6 @@ static double *stresses(dem_lattice *lattice, const double F[4])
             lattice->position[2 * i + c] = F[2 * c] * lattice->x[2 * i] + F[2 * c + 1] * lattice->x[2 * i + 1];
     support_open(&run, lattice, NULL, 0, &options);
     dem_simulation_stress(run.simulation, stress);
-    support_close(&run);
     return stress;
 }
 
@@ -153,13 +152,12 @@ static void check_hooke(dem_lattice *lattice, double E, double nu)
 {
     const double xx = 1e-7, yy = -4e-8, xy = 3e-8, F[4] = {1.0 + xx, 2.0 * xy, 0.0, 1.0 + yy};
     const double plate = E / (1.0 - nu * nu);
-    double *stress = stresses(lattice, F);
+    CLEANUP(free_memory) double *stress = stresses(lattice, F);
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         assert_close(stress[3 * i], plate * (xx + nu * yy), 2e-13 * modulus);
         assert_close(stress[3 * i + 1], plate * (yy + nu * xx), 2e-13 * modulus);
         assert_close(stress[3 * i + 2], plate * (1.0 - nu) * xy, 2e-13 * modulus);
     }
-    free(stress);
     dem_lattice_free(lattice);
 }
 
@@ -183,15 +181,12 @@ TEST(stress_turns_with_the_body)
 {
     const double c = 0.8, s = 0.6, F[4] = {1.1, 0.2, -0.1, 0.9};
     const double turned[4] = {c * F[0] - s * F[2], c * F[1] - s * F[3], s * F[0] + c * F[2], s * F[1] + c * F[3]};
-    dem_lattice lattice = make_triangular(0.45, DEM_PLANE_STRESS);
-    double *before = stresses(&lattice, F), *after = stresses(&lattice, turned);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_triangular(0.45, DEM_PLANE_STRESS);
+    CLEANUP(free_memory) double *before = stresses(&lattice, F), *after = stresses(&lattice, turned);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         const double xx = before[3 * i], yy = before[3 * i + 1], xy = before[3 * i + 2];
         assert_close(after[3 * i], c * c * xx + s * s * yy - 2.0 * s * c * xy, 1e-12 * modulus);
         assert_close(after[3 * i + 1], s * s * xx + c * c * yy + 2.0 * s * c * xy, 1e-12 * modulus);
         assert_close(after[3 * i + 2], s * c * (xx - yy) + (c * c - s * s) * xy, 1e-12 * modulus);
     }
-    free(before);
-    free(after);
-    dem_lattice_free(&lattice);
 }

@@ -28,8 +28,8 @@ static dem_status note(void *context, const dem_simulation *simulation, const de
 
 static void run_deck(const char *name, double restitution, dem_contact_method method, outcome *out)
 {
-    deck d;
-    support_run run;
+    CLEANUP(deck_free) deck d;
+    CLEANUP(support_close) support_run run;
     *out = (outcome){.first = 0.0};
     const dem_observer observer = {.event = note, .context = out};
     coarse_read(&d, inputs, name, spacing);
@@ -50,8 +50,6 @@ static void run_deck(const char *name, double restitution, dem_contact_method me
     out->closure = fabs(dem_energy_ledger(end) - dem_energy_ledger(start)) / start.kinetic;
     out->taken = end.impact / start.kinetic;
     out->counts = dem_simulation_counts(run.simulation);
-    support_close(&run);
-    deck_free(&d);
 }
 
 /* Plastic bodies are not sensitive: 1e-3 of the rebound. Elastic ones, hit a thousand times, are, to the last digit:

@@ -55,7 +55,7 @@ static void open_block(block *b, const scene *s, const double *position, bool da
                                    .damping_time = damped ? s->damping_time / pace(s) : 0.0};
     const double offset[2] = {s->offset, 0.0}, start[2] = {0.0, s->height};
     dem_options options = support_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.rtol = 1e-10;
     options.v_scale = 0.1; /* more than the weight moves it */
     options.penetration_tolerance = 1e-10 * spacing;
@@ -69,7 +69,6 @@ static void open_block(block *b, const scene *s, const double *position, bool da
     assert_ok(dem_model_create(&b->model, &lattice, &s->obstacle, 1));
     assert_ok(dem_simulation_create(&b->simulation, b->model, &options));
     assert_ok(dem_simulation_observe(b->simulation, &(dem_observer){.step = note, .context = b}));
-    dem_lattice_free(&lattice);
 }
 
 static void close_block(block *b)
@@ -110,7 +109,7 @@ static void check_reaction(const block *b, double tolerance)
  * and by the number of steps. Returns the positions; free. */
 static double *settle(const scene *s, double t_end, dem_index lasting)
 {
-    block b;
+    CLEANUP(close_block) block b;
     open_block(&b, s, NULL, true);
     const dem_index n = 2 * dem_model_sizes(b.model).n_nodes;
     const dem_state state = advance(&b, t_end / pace(s));
@@ -121,15 +120,14 @@ static double *settle(const scene *s, double t_end, dem_index lasting)
     double *position = malloc((size_t)n * sizeof *position);
     assert_non_null(position);
     for (dem_index k = 0; k < n; k++) position[k] = state.x[k];
-    close_block(&b);
     return position;
 }
 
 /* From its equilibrium, undamped, the block stays where it is for a second. */
 static void check_rest(const scene *s, dem_index lasting)
 {
-    double *position = settle(s, 0.7, lasting);
-    block b;
+    CLEANUP(free_memory) double *position = settle(s, 0.7, lasting);
+    CLEANUP(close_block) block b;
     open_block(&b, s, position, false);
     const dem_index n = 2 * dem_model_sizes(b.model).n_nodes;
     const double weight = dem_model_mass(b.model) * g;
@@ -149,8 +147,6 @@ static void check_rest(const scene *s, dem_index lasting)
     assert_int_equal(counts.releases, 0);
     assert_int_equal(counts.events, 0); /* no chatter between stick and slip either */
     assert_close(b.drift, 0.0, 1e-6 * weight * 3.5 * spacing);
-    free(position);
-    close_block(&b);
 }
 
 static dem_obstacle straight(const double *points, double friction)
@@ -220,7 +216,7 @@ TEST(a_block_above_the_friction_angle_slides_down_with_the_exact_acceleration)
     const double points[4] = {-9.0 * cos(a), 9.0 * sin(a), 9.0 * cos(a), -9.0 * sin(a)};
     for (int k = 0; k < 2; k++) {
         const scene s = {.angle = -a, .obstacle = straight(points, mu[k]), .damping_time = 2e-3};
-        block b;
+        CLEANUP(close_block) block b;
         double v[2], x[2];
         open_block(&b, &s, NULL, true);
         for (int i = 0; i < 2; i++) {
@@ -235,6 +231,5 @@ TEST(a_block_above_the_friction_angle_slides_down_with_the_exact_acceleration)
         assert_close((v[1] - v[0]) / 0.5, exact, 1e-8);
         assert_close((x[1] - x[0] - 0.5 * v[0]) / 0.125, exact, 1e-8);
         assert_close(b.drift, 0.0, 1e-6 * dem_model_mass(b.model) * g * 3.5 * spacing);
-        close_block(&b);
     }
 }

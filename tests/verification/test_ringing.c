@@ -9,6 +9,7 @@
 #include <gsl/gsl_fft_real.h>
 
 #include "dense.h"
+#include "harness/cleanup_gsl.h"
 
 enum { n_samples = 4096, n_modes = 10 };
 
@@ -32,7 +33,7 @@ static void make_rectangle(dem_lattice *l, bool squares)
 static void strain(dem_lattice *l)
 {
     const double size = 6.0 * spacing;
-    double *start = malloc(2 * (size_t)l->n_nodes * sizeof *start);
+    CLEANUP(free_memory) double *start = malloc(2 * (size_t)l->n_nodes * sizeof *start);
     assert_non_null(start);
     for (dem_index i = 0; i < l->n_nodes; i++) {
         const double x = l->x[2 * i] / size, y = l->x[2 * i + 1] / size;
@@ -40,7 +41,6 @@ static void strain(dem_lattice *l)
         start[2 * i + 1] = l->x[2 * i + 1] + amplitude * size * (y - x * y + x * x - 4.0 * x * x * x + 2.0 * y * y * x);
     }
     support_start(l, start, NULL);
-    free(start);
 }
 
 /* ---- the spectrum ---- */
@@ -60,7 +60,7 @@ static void add_power(double *power, double *series)
 /* Lengths of all springs at every sample, [n_springs][n_samples]. */
 static double *checkpoint(const dem_lattice *l, double interval, double omega)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     double *series = calloc((size_t)l->n_springs * n_samples, sizeof *series);
     assert_non_null(series);
@@ -76,7 +76,6 @@ static double *checkpoint(const dem_lattice *l, double interval, double omega)
             series[s * n_samples + k] = hypot(b[0] - a[0], b[1] - a[1]) / l->rest_length[s] - 1.0;
         }
     }
-    support_close(&run);
     return series;
 }
 
@@ -100,22 +99,21 @@ static void find_peaks(double *peak, const double *power, double interval)
 /* omega^2, ascending, the three rigid motions first. */
 static gsl_vector *eigenvalues(const dem_lattice *l)
 {
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     assert_ok(dem_model_create(&model, l, NULL, 0));
     gsl_vector *values = dense_frequencies(model, dense_stiffness(model, l->x, 1e-4 * spacing));
-    dem_model_destroy(model);
     return values;
 }
 
 static void check_ringing(bool squares)
 {
-    dem_lattice l;
+    CLEANUP(dem_lattice_free) dem_lattice l;
     double peak[n_modes];
     make_rectangle(&l, squares);
-    gsl_vector *values = eigenvalues(&l);
+    CLEANUP(free_vector) gsl_vector *values = eigenvalues(&l);
     const double highest = sqrt(gsl_vector_get(values, values->size - 1)), interval = 0.9 * M_PI / highest;
     strain(&l);
-    double *series = checkpoint(&l, interval, highest), *power = calloc(n_samples, sizeof *power);
+    CLEANUP(free_memory) double *series = checkpoint(&l, interval, highest), *power = calloc(n_samples, sizeof *power);
     assert_non_null(power);
     for (dem_index s = 0; s < l.n_springs; s++) add_power(power, series + s * n_samples);
     find_peaks(peak, power, interval);
@@ -125,10 +123,6 @@ static void check_ringing(bool squares)
     }
     for (int k = 0; k < n_modes; k++)
         assert_close(peak[k] / sqrt(gsl_vector_get(values, (size_t)k + 3)), 1.0, 1e-5); /* found: 4e-7 */
-    free(series);
-    free(power);
-    gsl_vector_free(values);
-    dem_lattice_free(&l);
 }
 
 TEST(a_rectangle_of_triangles_rings_with_its_eigenfrequencies)

@@ -2,6 +2,7 @@
 /* Frequencies of free solids about their rest shape, by GSL from their own forces: none below zero but the three rigid
  * motions', none above dem_model_omega_max(), for any Poisson's ratio. */
 #include "dense.h"
+#include "harness/cleanup_gsl.h"
 
 static const double spacing = 5e-3;
 
@@ -31,7 +32,7 @@ static gsl_vector *frequencies_of(const dem_model *model)
  * (spacing/L)^2 = 1e-3 of the largest. The bound is asked to be above, to the 1e-8 of K, and not to be of no use. */
 static void check_frequencies(const dem_model *model, double nu)
 {
-    gsl_vector *squared = frequencies_of(model);
+    CLEANUP(free_vector) gsl_vector *squared = frequencies_of(model);
     const double largest = gsl_vector_get(squared, squared->size - 1), bound = dem_model_omega_max(model);
     for (size_t k = 0; k < 3; k++) assert_close(gsl_vector_get(squared, k), 0.0, 1e-6 * largest);
     assert_true(gsl_vector_get(squared, 3) > 1e-4 * largest);
@@ -40,7 +41,6 @@ static void check_frequencies(const dem_model *model, double nu)
     print_message("# nu %.3f: omega_max a/c = %.3f, bound %.3f times that, third free one %.4f of it\n", nu,
                   sqrt(largest) * spacing / sqrt(1e7 / 1050.0), bound / sqrt(largest),
                   sqrt(gsl_vector_get(squared, 3) / largest));
-    gsl_vector_free(squared);
 }
 
 static const double ratios[] = {-0.5, 0.0, 0.1, 0.2, 1.0 / 3.0, 0.45};
@@ -51,9 +51,8 @@ TEST(blocks_are_stable_and_the_bound_is_above_their_frequencies)
     for (int k = 0; k < n_ratios; k++) {
         dem_lattice lattice;
         assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, spacing));
-        dem_model *model = make_model(&lattice, ratios[k], DEM_PLANE_STRESS);
+        CLEANUP(free_model) dem_model *model = make_model(&lattice, ratios[k], DEM_PLANE_STRESS);
         check_frequencies(model, ratios[k]);
-        dem_model_destroy(model);
     }
 }
 
@@ -62,9 +61,8 @@ TEST(discs_are_stable_and_the_bound_is_above_their_frequencies)
     for (int k = 0; k < n_ratios; k++) {
         dem_lattice lattice;
         assert_ok(dem_lattice_disc(&lattice, 0.02, spacing));
-        dem_model *model = make_model(&lattice, ratios[k], DEM_PLANE_STRAIN);
+        CLEANUP(free_model) dem_model *model = make_model(&lattice, ratios[k], DEM_PLANE_STRAIN);
         check_frequencies(model, ratios[k]);
-        dem_model_destroy(model);
     }
 }
 
@@ -77,12 +75,10 @@ TEST(the_highest_frequency_of_a_block_is_that_of_an_independent_program)
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
         dem_lattice lattice;
         assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, spacing));
-        dem_model *model = make_model(&lattice, table[k][0], DEM_PLANE_STRESS);
-        gsl_vector *squared = frequencies_of(model);
+        CLEANUP(free_model) dem_model *model = make_model(&lattice, table[k][0], DEM_PLANE_STRESS);
+        CLEANUP(free_vector) gsl_vector *squared = frequencies_of(model);
         const double highest = gsl_vector_get(squared, squared->size - 1) * spacing * spacing / (1e7 / 1050.0);
         assert_close(highest, table[k][1], k == 0 ? 2e-2 : 1e-2);
-        gsl_vector_free(squared);
-        dem_model_destroy(model);
     }
 }
 
@@ -96,20 +92,17 @@ TEST(a_square_cell_warps_with_the_frequency_of_its_sides_and_areas)
         const double nu = table[j][0], r = table[j][1], k = 1e7 / (1.0 + nu);
         const double kappa = 1e7 * ((1.0 + r) * nu - r) / (1.0 - nu * nu), m = 1050.0 * spacing * spacing;
         const dem_material solid = {.youngs_modulus = 1e7, .poissons_ratio = nu, .density = 1050.0, .thickness = 1.0};
-        dem_lattice lattice;
-        dem_model *model;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(free_model) dem_model *model;
         assert_ok(dem_lattice_squares(&lattice, spacing, spacing, spacing));
         assert_ok(dem_lattice_assemble_squares(&lattice, &solid, r));
         assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-        dem_lattice_free(&lattice);
-        gsl_vector *squared = frequencies_of(model);
+        CLEANUP(free_vector) gsl_vector *squared = frequencies_of(model);
         const double largest = gsl_vector_get(squared, 7), warps[2] = {4.0 * k / m, 4.0 * (k + 2.0 * kappa) / m};
         for (int w = 0; w < 2; w++) {
             double nearest = INFINITY;
             for (size_t q = 3; q < 8; q++) nearest = fmin(nearest, fabs(gsl_vector_get(squared, q) - warps[w]));
             assert_close(nearest / largest, 0.0, 1e-7);
         }
-        gsl_vector_free(squared);
-        dem_model_destroy(model);
     }
 }

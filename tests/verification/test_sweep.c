@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "harness/cleanup_gsl.h"
 #include "support.h"
 
 enum { n_restitutions = 5, n_frictions = 4, n_grounds = 4, most_points = 64 };
@@ -58,7 +59,7 @@ static void put_point(ground *g, double x, double y)
 
 static void make_ground(ground *g, int kind)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(rng);
     *g = (ground){0};
     put_point(g, -0.2, kind == 2 ? 0.1 : 0.0);
@@ -66,7 +67,6 @@ static void make_ground(ground *g, int kind)
     if (kind == 2) put_point(g, 3e-3, 0.0);
     for (int k = 0; k < 3 && kind == 3; k++) put_point(g, 1.3e-3 + 4e-3 * (k - 1), k == 1 ? 0.01 : 0.0);
     put_point(g, 0.2, kind == 2 ? 0.1 : 0.0);
-    gsl_rng_free(rng);
 }
 
 /* Depth of a point below the graph, measured at right angles to the segment below it, m. */
@@ -130,8 +130,8 @@ static int has_left(const support_run *run)
 static void run_case(int restitution, int friction, int kind, double rtol, outcome *out)
 {
     ground g;
-    dem_lattice block;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     make_ground(&g, kind);
     make_block(&block, &g);
@@ -154,8 +154,6 @@ static void run_case(int restitution, int friction, int kind, double rtol, outco
         out->status = dem_simulation_advance(run.simulation, 2.5e-4 * k);
     out->spent = (double)(clock() - began) / CLOCKS_PER_SEC;
     out->counts = dem_simulation_counts(run.simulation);
-    support_close(&run);
-    dem_lattice_free(&block);
 }
 
 static void tell(int restitution, int friction, int kind, const outcome *loose, const outcome *tight)
@@ -194,7 +192,7 @@ static void judge(int restitution, int friction, int kind, const outcome *loose,
 
 TEST(blocks_on_every_ground_close_their_ledger)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(rng);
     print_message(
         "# spacing %g mm; rtol 1e-6: closure; rtol 1e-8: the rest\n# eta  friction  ground   impact  vert stick "
@@ -210,7 +208,6 @@ TEST(blocks_on_every_ground_close_their_ledger)
                 tell(r, f, g, &loose, &tight);
                 judge(r, f, g, &loose, &tight);
             }
-    gsl_rng_free(rng);
     assert_int_equal(n_faults, 0);
 }
 

@@ -11,7 +11,7 @@ static const double rtol[4] = {1e-12, 1e-5, 1e-7, 1e-9};
 /* Positions at t.  \param[out] x  [2 n] */
 static void run_to(const dem_lattice *body, const dem_obstacle *floor, double t, double tolerance, double *x)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     options.rtol = tolerance;
     options.max_step = t;
@@ -25,7 +25,6 @@ static void run_to(const dem_lattice *body, const dem_obstacle *floor, double t,
         const dem_counts counts = dem_simulation_counts(run.simulation);
         assert_true(counts.impacts > 3 && counts.slips + counts.sticks > 10 && state.energy.friction > 0.5);
     }
-    support_close(&run);
 }
 
 static void check_errors(const dem_lattice *body, const dem_obstacle *floor, double t)
@@ -47,10 +46,9 @@ static void check_errors(const dem_lattice *body, const dem_obstacle *floor, dou
 
 TEST(the_error_of_a_free_block_falls_with_the_tolerance)
 {
-    dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block;
     support_block(&block);
     check_errors(&block, NULL, 2e-3);
-    dem_lattice_free(&block);
 }
 
 /* It lands at 5 m/s with 2 m/s across, flat or on a corner, plastically, mu = 0.3; nodes slide, turn and stick. */
@@ -61,7 +59,7 @@ TEST(the_error_of_a_block_dropped_with_friction_falls_too)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
     for (int k = 0; k < 2; k++) {
-        dem_lattice block;
+        CLEANUP(dem_lattice_free) dem_lattice block;
         const double none[2] = {0.0, 0.0};
         double lowest = 1.0;
         assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
@@ -71,6 +69,5 @@ TEST(the_error_of_a_block_dropped_with_friction_falls_too)
         dem_lattice_move(&block, 0.0, (const double[2]){0.0, 1e-4 - lowest});
         assert_ok(dem_lattice_launch(&block, velocity));
         check_errors(&block, &floor, 2e-3);
-        dem_lattice_free(&block);
     }
 }

@@ -70,7 +70,7 @@ static outcome run_fall(const fall *f)
     dem_lattice lattice;
     outcome o = {0};
     const dem_observer observer = {.event = first_impact, .context = &o};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     options.gravity[1] = 0.0;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 1e-3;
@@ -90,7 +90,6 @@ static outcome run_fall(const fall *f)
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     (void)support_at(&run, 1.5 * drop_time);
     assert_int_equal(o.n, 1);
-    support_close(&run);
     return o;
 }
 

@@ -181,7 +181,7 @@ static void open_triangle(support_run *run, const triangle *q, const double *y, 
     const dem_obstacle obstacle = {
         .n_points = 3, .points = tip, .restitution = 0.0, .friction = q->mu, .friction_law = DEM_FRICTION_COULOMB};
     dem_options options = support_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_lattice(&lattice, 3, y, q->mass, 3, ends, 1.0, 1.0, NULL);
     memcpy(lattice.rest_length, q->rest, sizeof q->rest);
     memcpy(lattice.stiffness, q->stiffness, sizeof q->stiffness);
@@ -196,7 +196,6 @@ static void open_triangle(support_run *run, const triangle *q, const double *y, 
     options.rtol = rtol;
     options.penetration_tolerance = 1e-12;
     support_open(run, &lattice, &obstacle, 1, &options);
-    dem_lattice_free(&lattice);
 }
 
 /* Worst of the ledger at accepted steps. */
@@ -239,7 +238,7 @@ static void compare(const triangle *q, const double *y, const dem_state *state, 
 static int follow(triangle *q, double *y, double t_end)
 {
     enum { looks = 40 };
-    support_run run;
+    CLEANUP(support_close) support_run run;
     ledger kept;
     double worst = 0.0;
     int changes = 0;
@@ -261,7 +260,6 @@ static int follow(triangle *q, double *y, double t_end)
     assert_int_equal(counts.releases + counts.passings, 0);
     for (dem_index k = 0; k < run.n_impacts; k++) /* at the start it may approach by rounding */
         assert_close(hypot(run.impacts[k].impulse[0], run.impacts[k].impulse[1]), 0.0, 1e-14);
-    support_close(&run);
     return changes;
 }
 

@@ -61,14 +61,13 @@ static void open_block(support_run *run, const dem_lattice *lattice, const rack 
 /* The lattice starts at rest where damping brings it. */
 static void settle(const rack *r, dem_lattice *lattice, double duration)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     lay(r, lattice);
     open_block(&run, lattice, r, 300.0);
     const dem_state state = support_at(&run, duration); /* exp(-150 duration) is left of what vibrates slowly */
     free(lattice->position);
     lattice->position = NULL;
     support_start(lattice, state.x, NULL);
-    support_close(&run);
 }
 
 /* Forces sum to the weight and their moments about the centre of mass to nothing, over the weight. */
@@ -89,8 +88,8 @@ static double unbalance(const dem_simulation *simulation, const dem_state *state
 
 static void check_rest(const rack *r)
 {
-    dem_lattice lattice;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(support_close) support_run run;
     double creep = 0.0, worst = 0.0;
     settle(r, &lattice, 0.5);
     open_block(&run, &lattice, r, 0.0);
@@ -109,8 +108,6 @@ static void check_rest(const rack *r)
                   worst, (long long)counts.steps, (long long)counts.events, (long long)counts.impacts);
     assert_true(creep < (r->friction > 0.0 ? 1e-14 : 1e-11)); /* rounding; 1e-12 g over 1 s where nothing holds it */
     assert_true(worst < 1e-9);                                /* rounding of positions in stiff springs: 1e-11 */
-    support_close(&run);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_block_rests_on_two_apexes_without_friction)
@@ -244,13 +241,12 @@ static void open_slide(support_run *run, slide *w, double friction, double speed
     r.youngs_modulus = 1e6;
     r.damping_time = 5e-5;
     rack shifted = r;
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     for (int k = 0; k < 10; k += 2) shifted.points[k] -= start;
     settle(&shifted, &lattice, 0.1);
     for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.position[2 * i] += start;
     assert_ok(dem_lattice_launch(&lattice, v0));
     open_block(run, &lattice, &r, 0.0);
-    dem_lattice_free(&lattice);
     *w = (slide){.momentum = dem_model_mass(run->model) * speed,
                  .mu = friction,
                  .ledger = dem_energy_ledger(dem_simulation_energy(run->simulation))};
@@ -260,7 +256,7 @@ static void open_slide(support_run *run, slide *w, double friction, double speed
 
 TEST(a_block_slides_with_friction_over_apexes_past_its_nodes)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     slide w;
     open_slide(&run, &w, 0.2, 0.3);
     const double kinetic = dem_simulation_energy(run.simulation).kinetic;
@@ -279,7 +275,6 @@ TEST(a_block_slides_with_friction_over_apexes_past_its_nodes)
     assert_true(w.worst_cap < 1e-14);
     assert_true(w.worst_ledger < 1e-6 * kinetic); /* rtol 1e-9: row d's */
     assert_true(w.worst_balance < 1e-9);          /* lasting contacts: to the integrator's tolerance */
-    support_close(&run);
 }
 
 /* ---- off the end of an edge ---- */
@@ -325,7 +320,7 @@ static void open_drop(support_run *run, drop *w, double slope, double friction, 
                                    .friction = friction,
                                    .friction_law = DEM_FRICTION_COULOMB};
     dem_options options = support_options();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.rtol = 1e-9;
     make_block(&lattice, 8, 1e6, 0.0);
     dem_lattice_move(&lattice, 0.0, offset);
@@ -335,7 +330,6 @@ static void open_drop(support_run *run, drop *w, double slope, double friction, 
     for (dem_index i = 0; i < lattice.n_nodes; i++)
         if (lattice.x[2 * i] + lattice.x[2 * i + 1] < lattice.x[2 * w->corner] + lattice.x[2 * w->corner + 1])
             w->corner = i;
-    dem_lattice_free(&lattice);
     const dem_observer observer = {1e-6, look_at_drop, look_at_drop, note_drop, NULL, w};
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
@@ -343,7 +337,7 @@ static void open_drop(support_run *run, drop *w, double slope, double friction, 
 /* The face slides off the apex at its corner; then nothing touches until the corner comes down on the flank. */
 static void check_drop(double slope, double friction, double speed)
 {
-    support_run run;
+    CLEANUP(support_close) support_run run;
     drop w;
     open_drop(&run, &w, slope, friction, speed);
     (void)support_at(&run, 0.08);
@@ -363,7 +357,6 @@ static void check_drop(double slope, double friction, double speed)
     assert_true(w.events[k + 2].t > w.events[k].t + 1e-4);
     assert_true(w.deepest_apex < 2.0 * penetration_tolerance && w.deepest_node < 2.0 * penetration_tolerance);
     outline_free(&w.body);
-    support_close(&run);
 }
 
 TEST(a_body_that_slides_off_an_apex_falls_on_the_flank_with_its_corner)

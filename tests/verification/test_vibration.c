@@ -14,6 +14,7 @@ enum { n_steps = 500 };
 static void two_step_formula(dem_lattice *block, double h, double *x)
 {
     const size_t n = 2 * (size_t)block->n_nodes;
+    CLEANUP(free_memory)
     double *y = calloc(2 * n, sizeof *y), *f = malloc(2 * n * sizeof *f), *before = malloc(n * sizeof *before);
     assert_true(y != NULL && f != NULL && before != NULL);
     triplets_start(block, y);
@@ -26,9 +27,6 @@ static void two_step_formula(dem_lattice *block, double h, double *x)
         }
     }
     memcpy(x, y, n * sizeof *x);
-    free(y);
-    free(f);
-    free(before);
 }
 
 static void with_gsl(dem_lattice *block, dem_method method, double h, double *y)
@@ -47,12 +45,12 @@ static void with_gsl(dem_lattice *block, dem_method method, double h, double *y)
 TEST(fixed_steps_agree_with_gsl)
 {
     static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_RK4, DEM_METHOD_VERLET};
-    dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block;
     support_block(&block);
-    double *y = malloc(4 * (size_t)block.n_nodes * sizeof *y);
+    CLEANUP(free_memory) double *y = malloc(4 * (size_t)block.n_nodes * sizeof *y);
     assert_non_null(y);
     for (int m = 0; m < 3; m++) {
-        support_run run;
+        CLEANUP(support_close) support_run run;
         dem_options options = support_options();
         options.gravity[1] = 0.0;
         options.method = methods[m];
@@ -63,10 +61,7 @@ TEST(fixed_steps_agree_with_gsl)
         assert_int_equal(dem_simulation_counts(run.simulation).rejected, 0);
         for (dem_index k = 0; k < 2 * block.n_nodes; k++) assert_close(state.x[k], y[k], 1e-9);
         assert_true(state.energy.kinetic > 0.05 * state.energy.elastic); /* caught in motion */
-        support_close(&run);
     }
-    free(y);
-    dem_lattice_free(&block);
 }
 
 static const double period = 1.23e-3; /* 2 L/c, the fundamental one */
@@ -76,8 +71,8 @@ static double duration = 2e-3;        /* s; with 'long' 100 periods */
  * 1e-6 of the energy in 100 fundamental periods at rtol 1e-9; found in as many: 1.9e-7. */
 TEST(a_free_body_keeps_its_momenta_and_energy)
 {
-    dem_lattice block;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     const double velocity[2] = {3.0, -2.0};
     support_block(&block);
@@ -96,8 +91,6 @@ TEST(a_free_body_keeps_its_momenta_and_energy)
     assert_close(end.angular_momentum, start.angular_momentum, 1e-8 * end.mass * 0.06 * 3.0);
     assert_close((state.energy.kinetic + state.energy.elastic) / (before.kinetic + before.elastic), 1.0,
                  1e-6 / 100.0 * duration / period);
-    support_close(&run);
-    dem_lattice_free(&block);
 }
 
 int main(int argc, char **argv)

@@ -93,10 +93,10 @@ static void open_run(support_run *run, const dem_lattice *chain, const line *l)
 
 TEST(located_contacts_keep_the_energy_as_known)
 {
-    dem_lattice chain;
+    CLEANUP(dem_lattice_free) dem_lattice chain;
     make_chain(&chain);
     for (const line *l = lines; l < lines + n_lines; l++) {
-        support_run run;
+        CLEANUP(support_close) support_run run;
         open_run(&run, &chain, l);
         const double start = dem_energy_motion(dem_simulation_energy(run.simulation));
         const double drift = dem_energy_motion(support_at(&run, t_end).energy) / start - 1.0;
@@ -107,9 +107,7 @@ TEST(located_contacts_keep_the_energy_as_known)
                       evaluations, (long long)run.n_impacts, drift);
         if (l->drift > 0.0 && !(fabs(drift) <= allowed * drift_at(l, evaluations)))
             fail_msg("energy %+.2e, %.2e known", drift, drift_at(l, evaluations));
-        support_close(&run);
     }
-    dem_lattice_free(&chain);
 }
 
 /* ---- with steps cut to the contact ---- */

@@ -12,7 +12,7 @@ static const double g = 9.81, floor_points[4] = {-4.0, 0.0, 4.0, 0.0};
 static void open_masses(support_run *run, dem_index n, const double *height, double eta, double window)
 {
     double x[8], mass[4];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     const dem_obstacle level = {.n_points = 2, .points = floor_points, .restitution = eta};
     dem_options options = support_options();
     for (dem_index i = 0; i < n; i++) {
@@ -30,7 +30,6 @@ static void open_masses(support_run *run, dem_index n, const double *height, dou
     assert_non_null(lattice.body);
     for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i;
     support_open(run, &lattice, &level, 1, &options);
-    dem_lattice_free(&lattice);
 }
 
 /* The first arrives after sqrt(2/g) s with sqrt(2 g); 1 mm behind it the second needs 0.23 ms more, the third, 10 mm
@@ -39,7 +38,7 @@ TEST(what_is_taken_together_rebounds_where_it_is)
 {
     const double height[3] = {1.0, 1.001, 1.01}, eta = 0.5, first = sqrt(2.0 / g), v = sqrt(2.0 * g);
     for (int k = 0; k < 2; k++) {
-        support_run run;
+        CLEANUP(support_close) support_run run;
         open_masses(&run, 3, height, eta, k == 0 ? 1e-3 : 0.0);
         const double start = dem_energy_ledger(dem_simulation_energy(run.simulation));
         const double t = first + 0.1, own = sqrt(2.0 * height[1] / g);
@@ -52,7 +51,6 @@ TEST(what_is_taken_together_rebounds_where_it_is)
         assert_int_equal(dem_simulation_counts(run.simulation).early, k == 0 ? 1 : 0);
         assert_int_equal(dem_simulation_counts(run.simulation).events, k == 0 ? 2 : 3);
         assert_close(dem_energy_ledger(s.energy), start, 1e-10);
-        support_close(&run);
     }
 }
 
@@ -61,7 +59,7 @@ TEST(what_is_taken_together_rebounds_where_it_is)
 TEST(what_is_taken_together_without_rebound_stays_above_until_it_has_fallen)
 {
     const double height[2] = {1.0, 1.001}, first = sqrt(2.0 / g), fall = sqrt(2e-3 / g);
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_masses(&run, 2, height, 0.0, 1e-3);
     assert_close(support_at(&run, first + 0.5 * fall).x[3], 1e-3 * 0.75, 1e-12);
     assert_int_equal(dem_simulation_counts(run.simulation).closings, 1);
@@ -70,7 +68,6 @@ TEST(what_is_taken_together_without_rebound_stays_above_until_it_has_fallen)
     assert_int_equal(run.n_impacts, 3);
     assert_close(run.impacts[2].t, first + fall, 1e-11);
     assert_close(run.impacts[2].before[1], -sqrt(2.0 * g * 1e-3), 1e-10);
-    support_close(&run);
 }
 
 /* Rebounds of eta^n sqrt(2 g): the first whose hop of 2 v/g is at most twice the window is none. With 10 ms that is
@@ -79,7 +76,7 @@ TEST(a_hop_of_less_than_twice_the_window_is_the_last)
 {
     const double height = 1.0, total = sqrt(2.0 / g) * (1.0 + 2.0 * (0.5 + 0.25 + 0.125 + 0.0625 + 0.03125));
     for (int k = 0; k < 2; k++) {
-        support_run run;
+        CLEANUP(support_close) support_run run;
         open_masses(&run, 1, &height, 0.5, k == 0 ? 0.01 : 0.0);
         const dem_state s = support_at(&run, 2.0);
         assert_close(s.x[1], 0.0, 1e-12);
@@ -88,7 +85,6 @@ TEST(a_hop_of_less_than_twice_the_window_is_the_last)
         if (k == 1) assert_true(run.n_impacts > 12);
         assert_close(run.impacts[5].t, total, 1e-10);
         assert_close(run.impacts[5].after[1], k == 0 ? 0.0 : pow(0.5, 6.0) * sqrt(2.0 * g), 1e-9);
-        support_close(&run);
     }
 }
 
@@ -143,7 +139,7 @@ static double drop_block(double eta, double friction, double kappa, dem_counts *
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     const dem_obstacle rough = {.n_points = 5, .points = ground, .restitution = eta, .friction = friction};
     const double lift[2] = {0.0, 0.0015}, speed[2] = {1.0, -5.0};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_options options = support_options();
     support_run run;
     audit a = {.ground = ground, .v0 = {speed[0], speed[1]}};
@@ -174,7 +170,6 @@ static double drop_block(double eta, double friction, double kappa, dem_counts *
     assert_true(a.balance < 1e-6 * a.mass * 5.0);
     assert_true(a.taken >= -1e-15 * scale); /* rounding: no impact gives energy */
     support_close(&run);
-    dem_lattice_free(&lattice);
     return rise;
 }
 

@@ -40,12 +40,11 @@ void triplets_steps(dem_lattice *lattice, const gsl_odeiv2_step_type *type, int 
     const size_t size = 4 * (size_t)lattice->n_nodes;
     gsl_odeiv2_system system = {triplets_derivative, NULL, size, lattice};
     gsl_odeiv2_step *step = gsl_odeiv2_step_alloc(type, size);
-    double *error = malloc(size * sizeof *error);
+    CLEANUP(free_memory) double *error = malloc(size * sizeof *error);
     assert_true(step != NULL && error != NULL);
     for (int k = 0; k < n; k++)
         assert_int_equal(gsl_odeiv2_step_apply(step, k * h, h, y, error, NULL, NULL, &system), GSL_SUCCESS);
     gsl_odeiv2_step_free(step);
-    free(error);
 }
 
 void triplets_reach(dem_lattice *lattice, double t, double *y)

@@ -7,6 +7,7 @@
 
 #include "base/array_ops.h"
 #include "base/exact_sum.h"
+#include "harness/cleanup_gsl.h"
 
 enum { most = 10000, n_inputs = 20 };
 
@@ -25,11 +26,10 @@ static double in[n_inputs][most], out[most + 1], other[most + 1];
 
 static int fill(void **state)
 {
-    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     (void)state;
     for (int p = 0; p < n_inputs; p++)
         for (dem_index k = 0; k < most; k++) in[p][k] = 2.0 * gsl_rng_uniform(r) - 1.0;
-    gsl_rng_free(r);
     return 0;
 }
 

@@ -87,7 +87,7 @@ static void refuse(dem_status got, dem_status status, const char *message)
 
 TEST(what_is_no_entry_is_refused)
 {
-    dem_checkpoint *checkpoint = make();
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = make();
     int number = 0;
     refuse(dem_checkpoint_get(checkpoint, "words", &number, 4), DEM_ERROR_IO, "the checkpoint has no words");
     refuse(dem_checkpoint_get(checkpoint, "word", &number, 4), DEM_ERROR_IO,
@@ -105,7 +105,6 @@ TEST(what_is_no_entry_is_refused)
     refuse(dem_checkpoint_read(&checkpoint, NULL), DEM_ERROR_ARGUMENT, "dem_checkpoint_read: path is NULL");
     refuse(dem_publish(NULL, "x"), DEM_ERROR_ARGUMENT, "dem_publish: part is NULL");
     check(checkpoint);
-    dem_checkpoint_destroy(checkpoint);
 }
 
 /* ---- files ---- */

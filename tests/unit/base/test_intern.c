@@ -7,6 +7,7 @@
 
 #include "base/aligned.h"
 #include "base/intern.h"
+#include "harness/cleanup_gsl.h"
 
 enum { most = 5, n_lists = 3000 };
 
@@ -49,7 +50,7 @@ static void assert_holds(const intern *p, const kept *list)
 
 TEST(a_list_is_held_once)
 {
-    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     intern p = {.unit = sizeof(pair)};
     dem_index n_items = 0;
     for (int k = 0; k < n_lists; k++) {
@@ -70,27 +71,24 @@ TEST(a_list_is_held_once)
     for (int k = 0; k < n_lists; k++) assert_holds(&p, &lists[k]);
     intern_free(&p);
     assert_null(p.items);
-    gsl_rng_free(r);
 }
 
 /* 0.0 and -0.0 are equal numbers, but not the same. */
 TEST(lists_are_distinguished_by_their_bits)
 {
     const double plus = 0.0, minus = -0.0;
-    intern p = {.unit = sizeof(double)};
+    CLEANUP(intern_free) intern p = {.unit = sizeof(double)};
     intern_span a, b, none;
     assert_int_equal(intern_find(&p, &plus, 1, &a), DEM_OK);
     assert_int_equal(intern_find(&p, &minus, 1, &b), DEM_OK);
     assert_int_equal(intern_find(&p, NULL, 0, &none), DEM_OK);
     assert_int_not_equal(a.first, b.first);
     assert_int_equal(none.first, none.end);
-    intern_free(&p);
 }
 
 TEST(an_empty_pool_settles)
 {
-    intern p = {.unit = sizeof(double)};
+    CLEANUP(intern_free) intern p = {.unit = sizeof(double)};
     assert_int_equal(intern_settle(&p), DEM_OK);
     assert_int_equal(p.n, 0);
-    intern_free(&p);
 }

@@ -32,10 +32,9 @@ static void *make_theirs(size_t size, int fill)
 static void check_read(size_t size, const thing *expected)
 {
     thing out = ours;
-    void *theirs = make_theirs(size, 0);
+    CLEANUP(free_memory) void *theirs = make_theirs(size, 0);
     assert_int_equal(struct_size_read(&kind, &out, theirs), DEM_OK);
     assert_memory_equal(&out, expected, sizeof out);
-    free(theirs);
 }
 
 TEST(what_an_older_caller_does_not_know_keeps_its_default)

@@ -5,7 +5,7 @@
 
 TEST(touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 2, &half, 1);
     scene_put(&s, 0, 0.5, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 1.5, -penetration_tolerance, 0.0, 0.0);
@@ -15,14 +15,13 @@ TEST(touching_is_admissible_and_deeper_than_the_penetration_tolerance_is_not)
     assert_string_equal(
         dem_status_message(),
         "node 1 at (1.5, -0.25) m starts 0.25 m inside obstacle 0, deeper than the penetration tolerance of 1e-06 m");
-    scene_close(&s);
 }
 
 enum { most_nodes = SCENE_NODES };
 
 TEST(at_the_start_touching_is_enough_for_a_contact)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     dem_index n;
     open_scene(&s, 3, &half, 1);
     scene_put(&s, 0, 0.0, 0.0, 3.0, 0.0);
@@ -39,19 +38,17 @@ TEST(at_the_start_touching_is_enough_for_a_contact)
     assert_close(list[0].force, 2.0 * g, 0.0);
     assert_int_equal(s.n_impacts, 1); /* the resting node's velocity did not change */
     assert_int_equal(s.c.set.ledger.counts.closings, 1);
-    scene_close(&s);
 }
 
 TEST(a_node_that_leaves_the_surface_at_the_start_is_free)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.5);
     assert_ok(scene_take_up(&s));
     scene_check(&s, 0, 0.0, 0.0, 0.0, 0.5);
     assert_int_equal(s.c.set.list[0].n_closed, 0);
     assert_int_equal(s.n_impacts, 0);
-    scene_close(&s);
 }
 
 /* ---- impacts ---- */
@@ -60,7 +57,7 @@ TEST(a_node_that_leaves_the_surface_at_the_start_is_free)
  * 12 J; the lift by the penetration tolerance d costs 2 g d. */
 TEST(an_impact_is_reflected_reported_and_entered)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
     assert_ok(scene_resolve(&s, 0.125));
@@ -83,12 +80,11 @@ TEST(an_impact_is_reflected_reported_and_entered)
                  1e-14); /* a difference of energies of order 20 m g */
     assert_int_equal(s.c.set.ledger.counts.impacts, 1);
     assert_int_equal(s.c.set.ledger.counts.closings, 0);
-    scene_close(&s);
 }
 
 TEST(a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     dem_index n;
     open_scene(&s, 1, &plastic, 1);
     scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
@@ -104,31 +100,28 @@ TEST(a_plastic_impact_becomes_a_contact_with_the_weight_as_its_force)
     assert_close(list[0].weights[0], 1.0, 0.0);
     assert_close(list[0].normal[1], 1.0, 0.0);
     assert_close(list[0].force, 2.0 * g, 0.0);
-    scene_close(&s);
 }
 
 TEST(a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.25, -0.98 * penetration_tolerance, 3.0, -4.0);
     assert_ok(scene_resolve(&s, 0.0));
     scene_check(&s, 0, 0.25, -0.98 * penetration_tolerance, 3.0, -4.0);
     assert_int_equal(s.n_impacts, 0);
-    scene_close(&s);
 }
 
 static void land(double eta, double speed, double rest_speed, int closed)
 {
     const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = eta};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &plane, 1);
     s.c.set.scene.rule.rest_speed = rest_speed;
     scene_put(&s, 0, 0.25, -penetration_tolerance, 1.0, -speed / eta);
     assert_ok(scene_resolve(&s, 0.0));
     assert_int_equal(s.impacts[0].state != DEM_CONTACT_FREE, closed);
     scene_check(&s, 0, 0.25, 0.0, 1.0, closed ? 0.0 : speed);
-    scene_close(&s);
 }
 
 /* At rest is what rises no higher than the position error; or than twice the hop that impacts at a depth d, the
@@ -152,7 +145,7 @@ TEST(a_contact_does_not_last_where_nothing_presses)
 {
     const double pull[4] = {0.1, 0.1, 0.0, 0.0}, rest_speed[4] = {0.0, 0.1, 0.0, 0.1};
     for (int k = 0; k < 4; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_scene(&s, 1, &plastic, 1);
         s.acting.gravity[1] = pull[k];
         s.c.set.scene.rule.rest_speed = rest_speed[k];
@@ -161,13 +154,12 @@ TEST(a_contact_does_not_last_where_nothing_presses)
         scene_check(&s, 0, 0.25, 0.0, 1.0, 0.0);
         assert_int_equal(s.impacts[0].state, DEM_CONTACT_FREE);
         assert_int_equal(s.c.set.list[0].n_closed, 0);
-        scene_close(&s);
     }
 }
 
 TEST(simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 3, &half, 1);
     scene_put(&s, 0, 2.0, -penetration_tolerance, 0.0, -1.0);
     scene_put(&s, 1, 1.0, -0.995 * penetration_tolerance, 0.0,
@@ -180,17 +172,15 @@ TEST(simultaneous_hits_are_taken_in_one_batch_in_the_order_of_nodes)
         scene_check(&s, k, 2.0 - k, 0.0, 0.0, 0.5 * (1.0 + k));
     }
     assert_close(s.c.set.ledger.impulse[1], 2.0 * 1.5 * (1.0 + 2.0 + 3.0), 1e-14);
-    scene_close(&s);
 }
 
 TEST(the_status_of_a_listener_that_stops_is_returned)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &half, 1);
     s.value = DEM_STOPPED;
     scene_put(&s, 0, 0.25, -penetration_tolerance, 3.0, -4.0);
     assert_int_equal(scene_resolve(&s, 0.0), DEM_STOPPED);
-    scene_close(&s);
 }
 
 /* Floor of eta 1/2 and wall of eta 1/4 as two obstacles; the wall's solid is on its right, x > 2. */
@@ -198,7 +188,7 @@ TEST(in_a_corner_each_obstacle_gets_the_impulse_along_its_normal)
 {
     const dem_obstacle corner[2] = {{.n_points = 2, .points = wall_points, .restitution = 0.25},
                                     {.n_points = 2, .points = floor_points, .restitution = 0.5}};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, corner, 2);
     scene_put(&s, 0, 2.0 + penetration_tolerance, -penetration_tolerance, 4.0, -3.0);
     assert_ok(scene_resolve(&s, 0.0));
@@ -210,14 +200,13 @@ TEST(in_a_corner_each_obstacle_gets_the_impulse_along_its_normal)
     assert_int_equal(s.n_impacts, 1);
     assert_int_equal(s.impacts[0].obstacle, 0); /* approached faster */
     assert_close(s.c.set.ledger.impact, 25.0 - 1.0 - 2.25, 1e-13);
-    scene_close(&s);
 }
 
 /* ---- lasting contacts ---- */
 
 TEST(a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_pair(&s);
     scene_put(&s, 1, 0.0, 1.19, 0.5, 2.0); /* pulls with 19 N against 20 N */
     assert_ok(scene_resolve(&s, 0.1));
@@ -229,14 +218,13 @@ TEST(a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity)
     scene_check(&s, 0, 0.0, 0.0, 0.5, 0.0);
     assert_int_equal(s.c.set.ledger.counts.releases, 1);
     assert_int_equal(s.n_impacts, 0);
-    scene_close(&s);
 }
 
 TEST(closed_contacts_hold_the_acceleration_along_their_normals)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0}; /* a groove of 90 degrees */
     const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 3, &groove, 1);
     scene_put(&s, 0, 0.5, 3.0, 0.0, 0.0);
     scene_put(&s, 1, 1.0, 1.0, 0.0, 0.0);
@@ -248,7 +236,6 @@ TEST(closed_contacts_hold_the_acceleration_along_their_normals)
     for (int k = 0; k < 6; k++) assert_close(a[k], expected[k], 1e-14);
     assert_int_equal(s.c.set.list[2].n_closed, 2);
     assert_true(s.c.set.list[2].closed[0].held && s.c.set.list[2].closed[1].held);
-    scene_close(&s);
 }
 
 TEST(contacts_are_listed_in_the_order_of_nodes)
@@ -256,7 +243,7 @@ TEST(contacts_are_listed_in_the_order_of_nodes)
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
     const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
     dem_index n;
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 3, &groove, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     scene_put(&s, 1, 0.5, 3.0, 0.0, 0.0);
@@ -270,7 +257,6 @@ TEST(contacts_are_listed_in_the_order_of_nodes)
     assert_int_equal(list[2].nodes[0], 2);
     assert_int_equal(list[2].segment, 0);
     for (int k = 0; k < 3; k++) assert_close(list[k].force, 2.0 * g * sqrt(0.5), 1e-13);
-    scene_close(&s);
 }
 
 /* With gravity along (1, -1) the right flank alone is pressed; along (1, 1)/2 none is, and what is left of the pair
@@ -279,7 +265,7 @@ TEST(a_held_node_lets_go_of_the_wall_that_would_pull)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
     const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &groove, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
     assert_ok(scene_take_up(&s));
@@ -296,7 +282,6 @@ TEST(a_held_node_lets_go_of_the_wall_that_would_pull)
     assert_ok(scene_resolve(&s, 0.2));
     assert_int_equal(s.c.set.list[0].n_closed, 0);
     assert_int_equal(s.c.set.ledger.counts.releases, 2);
-    scene_close(&s);
 }
 
 /* At the bottom of the groove, up its right flank: gravity's part along it, g sin 45, brings back what is slower than
@@ -307,7 +292,7 @@ TEST(a_corner_holds_only_what_is_at_rest_in_it)
     const double limit = sqrt(2.0 * g * root * 1e-9), speed[2] = {0.99 * limit, 1.01 * limit};
     const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         const double u = k == 0 ? 0.0 : root * speed[k];
         open_scene(&s, 1, &groove, 1);
         scene_put(&s, 0, 0.0, 0.0, root * speed[k], root * speed[k]);
@@ -315,13 +300,12 @@ TEST(a_corner_holds_only_what_is_at_rest_in_it)
         assert_int_equal(s.c.set.list[0].n_closed, 2 - k);
         if (k == 1) assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
         scene_check(&s, 0, 0.0, 0.0, u, u);
-        scene_close(&s);
     }
 }
 
 TEST(a_closed_node_is_put_back_where_rounding_has_taken_it_from)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &plastic, 1);
     scene_put(&s, 0, 0.5, 0.0, 1.0, 0.0);
     assert_ok(scene_take_up(&s));
@@ -331,7 +315,6 @@ TEST(a_closed_node_is_put_back_where_rounding_has_taken_it_from)
     assert_close(s.y[1], 0.0, 0.0);
     assert_close(s.c.set.ledger.projection, -2.0 * g * 1e-9, 1e-20);
     assert_int_equal(s.n_impacts, 0);
-    scene_close(&s);
 }
 
 /* ---- slip and stick ---- */
@@ -341,7 +324,7 @@ TEST(forces_and_friction_power_are_reported_as_rates)
 {
     const double u[3] = {1.0, -1.0, 0.0}, wind[3] = {0.0, 0.0, 0.3 * g}, T[3] = {-10.0, 10.0, -6.0};
     for (int k = 0; k < 3; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         double a[2] = {wind[k], -g}, rate[6] = {100.0, 100.0, 100.0, 100.0, 100.0, 100.0};
         rub(&s, u[k]);
         if (k == 2)
@@ -350,7 +333,6 @@ TEST(forces_and_friction_power_are_reported_as_rates)
         scene_add_rates(&s, rate);
         const double expected[6] = {T[k], 20.0, T[k], 0.0, fabs(10.0 * u[k]), 0.0};
         for (int q = 0; q < 6; q++) assert_close(rate[q] - 100.0, expected[q], 1e-13);
-        scene_close(&s);
     }
 }
 
@@ -374,7 +356,7 @@ TEST(at_the_start_a_touching_edge_is_in_contact)
 {
     const double u[4] = {0.0, 0.5, -0.5, 0.5}, v[4] = {0.0, 0.0, -1.0, 0.0}, y[4] = {0.0, 0.0, 0.0, 1e-9};
     for (int k = 0; k < 4; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_side(&s, &rough_roof, 0.25, y[k], 0.0);
         launch(&s, u[k], v[k]);
         assert_ok(scene_take_up(&s));
@@ -385,7 +367,6 @@ TEST(at_the_start_a_touching_edge_is_in_contact)
             check_event(&s, 0, k < 2 ? DEM_EVENT_CLOSE : DEM_EVENT_IMPACT,
                         k == 1 ? DEM_CONTACT_SLIP : DEM_CONTACT_STICK);
         if (k == 1) assert_int_equal(edge->closed[0].slide, 1);
-        scene_close(&s);
     }
 }
 
@@ -394,20 +375,19 @@ TEST(at_the_start_an_edge_may_touch_two_vertices)
 {
     const double points[10] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5, 1.0, 0.0, 5.0, -4.0}, mass[3] = {2.0, 2.0, 2.0};
     const dem_obstacle ridges = {.n_points = 5, .points = points};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_open_triangle(&s, mass, -0.5, 0.0, &ridges, 1);
     assert_ok(scene_take_up(&s));
     const contact_candidate *edge = &s.c.set.list[scene_edge(&s, 0, 1)];
     assert_int_equal(edge->n_closed, 2);
     for (int q = 0; q < 2; q++) assert_close(edge->closed[q].force, 2.0 * g, 1e-12);
-    scene_close(&s);
 }
 
 /* ---- what must not happen ---- */
 
 TEST(events_that_change_nothing_end_the_run_after_a_while)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     assert_ok(scene_resolve(&s, 0.1));
@@ -417,7 +397,6 @@ TEST(events_that_change_nothing_end_the_run_after_a_while)
     assert_ok(scene_resolve(&s, 0.4));
     assert_int_equal(scene_resolve(&s, 0.5), DEM_ERROR_CONTACT);
     assert_string_equal(dem_status_message(), "more than 2 contact events in a row changed nothing, at t = 0.5 s");
-    scene_close(&s);
 }
 
 /* ---- the window ---- */
@@ -427,7 +406,7 @@ TEST(events_that_change_nothing_end_the_run_after_a_while)
 TEST(what_arrives_within_the_window_of_an_impact_is_reflected_with_it)
 {
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_scene(&s, 3, &half, 1);
         s.c.set.scene.rule.window = 0.1;
         scene_put(&s, 0, 0.0, k == 0 ? -penetration_tolerance : 1.0, 0.0, -8.0);
@@ -438,7 +417,6 @@ TEST(what_arrives_within_the_window_of_an_impact_is_reflected_with_it)
         scene_check(&s, 2, 2.0, 0.101, 0.5, -1.0);
         assert_int_equal(s.n_impacts, k == 0 ? 2 : 0);
         assert_int_equal(s.c.set.ledger.counts.early, k == 0 ? 1 : 0);
-        scene_close(&s);
     }
 }
 
@@ -448,7 +426,7 @@ TEST(an_edge_is_reflected_early_too)
                                  {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
     const double x[8] = {-0.75, 0.099, 1.25, 0.099, 0.25, 1.0, -6.0, -4.0 - penetration_tolerance},
                  mass[4] = {2.0, 2.0, 2.0, 2.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 2);
     s.c.set.scene.rule.window = 0.1;
     launch(&s, 0.0, -2.0);
@@ -459,7 +437,6 @@ TEST(an_edge_is_reflected_early_too)
     scene_check(&s, 1, 1.25, 0.099, 0.0, -0.5 + 0.375 * J / 2.0);
     assert_int_equal(s.c.set.ledger.counts.early, 1);
     assert_int_equal(s.c.set.ledger.counts.vertex_impacts, 1);
-    scene_close(&s);
 }
 
 /* The node above the ridge nears it with 0.6 m/s and would be there in 0.083 s; it goes on with 8 m/s along, where the
@@ -470,7 +447,7 @@ TEST(what_passes_a_vertex_within_the_window_is_not_reflected)
                                  {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
     for (int k = 0; k < 2; k++) {
         const double along = k == 0 ? 8.0 : 0.0;
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_scene(&s, 2, two, 2);
         s.c.set.scene.rule.window = 0.1;
         scene_put(&s, 0, -6.0, -4.0 - penetration_tolerance, 0.0, -2.0);
@@ -478,7 +455,6 @@ TEST(what_passes_a_vertex_within_the_window_is_not_reflected)
         assert_ok(scene_resolve(&s, 0.25));
         scene_check(&s, 1, 0.0, 0.05, along, k == 0 ? -0.6 : 0.3);
         assert_int_equal(s.c.set.ledger.counts.early, k);
-        scene_close(&s);
     }
 }
 
@@ -494,7 +470,7 @@ TEST(an_early_reflection_takes_what_an_impact_takes_in_any_order)
                                      .restitution = 0.5,
                                      .friction = 0.25,
                                      .friction_law = paper ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_scene(&s, 3, &gritty, 1);
         s.c.set.scene.rule.window = 0.1;
         for (dem_index i = 0; i < 3; i++) scene_put(&s, i, (double)i, height[(i + k) % 3], 3.0, -4.0);
@@ -510,7 +486,6 @@ TEST(an_early_reflection_takes_what_an_impact_takes_in_any_order)
         assert_close(s.c.set.ledger.friction_impulse[0], 3.0 * 2.0 * (u - 3.0), 1e-13);
         assert_close(s.c.set.ledger.projection, 2.0 * g * penetration_tolerance, 1e-15);
         assert_int_equal(s.c.set.ledger.counts.early, 2);
-        scene_close(&s);
     }
 }
 
@@ -523,7 +498,7 @@ TEST(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early)
                                  {.n_points = 2, .points = low_points, .restitution = 0.5}};
     const double x[8] = {-1.0, 0.0, 1.0, 0.0, 0.0, 1.0, -6.0, 0.0}, mass[4] = {2.0, 2.0, 2.0, 2.0};
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         scene_open(&s, 4, x, mass, 1, (dem_index[]){0, 1, 2}, two, 3);
         s.c.set.scene.rule.window = 0.1;
         if (k == 0) {
@@ -538,6 +513,5 @@ TEST(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early)
         assert_ok(scene_resolve(&s, 0.25));
         assert_int_equal(s.c.set.ledger.counts.early, k == 0 ? 0 : 1);
         assert_close(scene_v(&s)[1], k == 0 ? -1.0 : 0.5, 1e-14);
-        scene_close(&s);
     }
 }

@@ -11,7 +11,7 @@
  * friction. */
 TEST(a_followed_step_refreshes_the_force_and_tells_its_rate)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     double a[4] = {0.0, -g, 0.0, -g}, rate[6] = {0.0};
     scene_flight f;
     open_pair(&s);
@@ -24,7 +24,6 @@ TEST(a_followed_step_refreshes_the_force_and_tells_its_rate)
     scene_add_rates(&s, rate);
     const double expected[6] = {0.0, 1.0, 0.0, 0.0, 0.0, 0.0};
     for (int k = 0; k < 6; k++) assert_close(rate[k], expected[k], 1e-13);
-    scene_close(&s);
 }
 
 /* ---- edges on vertices ---- */
@@ -34,7 +33,7 @@ TEST(a_followed_step_refreshes_the_force_and_tells_its_rate)
  * with 3/4 mm/s. */
 TEST(a_closed_edge_that_has_opened_is_put_back)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_side(&s, &rough_roof, 0.25, 0.0, 0.0);
     launch(&s, 0.5, 0.0);
     assert_ok(scene_take_up(&s));
@@ -55,14 +54,13 @@ TEST(a_closed_edge_that_has_opened_is_put_back)
     assert_close(ledger->impact, 0.5 * 4.0 * 0.75e-3 * 0.75e-3, 1e-9);
     assert_int_equal(s.n_events, 1);
     assert_close(s.c.set.projected, 30.0 * penetration_tolerance, 1e-9 * penetration_tolerance);
-    scene_close(&s);
 }
 
 /* ---- behind a free end ---- */
 
 TEST(a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, -4.0, -0.5, 1.0, 2.0); /* right below the end: from in front to 0.5 m inside */
@@ -80,7 +78,6 @@ TEST(a_node_that_comes_round_a_free_end_is_behind_until_it_is_in_front)
     assert_int_equal(s.c.set.ledger.counts.behind, 0);
     assert_int_equal(s.c.set.list[0].behind[0], -1);
     assert_int_equal(s.n_impacts, 0);
-    scene_close(&s);
 }
 
 /* ---- the root function ---- */
@@ -99,7 +96,7 @@ TEST(the_root_function_is_the_lowest_of_all_candidates)
 {
     static const double fall[2] = {20.0, 10.0}, height = 0.25, slide = 30.0, way = 0.5;
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         scene_flight f;
         open_scene(&s, 3, &half, 1);
         scene_put(&s, 0, 1.0, height, 0.0, -fall[k]);
@@ -119,7 +116,6 @@ TEST(the_root_function_is_the_lowest_of_all_candidates)
             assert_close(root_at(&s, &f, t), fmin(falls, slides), 1e-14);
             assert_true(s.c.quiet);
         }
-        scene_close(&s);
     }
 }
 
@@ -128,7 +124,7 @@ TEST(what_is_zero_at_the_start_is_left_out_of_the_root_function)
 {
     static const double speed[3] = {1e-3, 1e-40, 0.0}, expected[3] = {-9.0, -1e30, 1.0};
     for (int k = 0; k < 3; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         scene_flight f;
         rub(&s, 1.0);
         scene_v(&s)[0] = speed[k];
@@ -136,7 +132,6 @@ TEST(what_is_zero_at_the_start_is_left_out_of_the_root_function)
         scene_fly(&s, (vec2){-1.0, 0.0}, 0.0, 0.01, &f);
         assert_close(root_at(&s, &f, 0.01), expected[k], 1e-12);
         assert_false(s.c.quiet);
-        scene_close(&s);
     }
 }
 
@@ -144,7 +139,7 @@ TEST(what_is_zero_at_the_start_is_left_out_of_the_root_function)
 
 TEST(a_step_is_cut_at_the_first_contact_that_was_overlooked)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_scene(&s, 3, &half, 1);
     scene_put(&s, 0, 0.0, 3.0, 0.0, 0.0);
@@ -155,13 +150,12 @@ TEST(a_step_is_cut_at_the_first_contact_that_was_overlooked)
     assert_close(f.dense.end, 0.2 + penetration_tolerance,
                  1e-13); /* to which times are located: 100 units of rounding */
     assert_int_equal(s.c.set.ledger.counts.late, 1);
-    scene_close(&s);
 }
 
 /* To the resolution of times: it is that of the root. */
 TEST(a_contact_at_the_root_that_ends_a_step_is_no_other)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 1.0, 0.2, 0.0, -1.0);
@@ -175,12 +169,11 @@ TEST(a_contact_at_the_root_that_ends_a_step_is_no_other)
     f.dense.end = 0.21;
     assert_true(automaton_check_step(&s.c, &f.dense, true, f.scratch)); /* well before a root */
     assert_close(f.dense.end, 0.2 + penetration_tolerance, 1e-13);
-    scene_close(&s);
 }
 
 TEST(a_step_without_contacts_is_left_as_it_is)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.0, 1.5, 0.0, -1.0);
@@ -188,26 +181,24 @@ TEST(a_step_without_contacts_is_left_as_it_is)
     assert_false(automaton_check_step(&s.c, &f.dense, false, f.scratch));
     assert_close(f.dense.end, 1.0, 0.0);
     assert_int_equal(s.c.set.ledger.counts.late, 0);
-    scene_close(&s);
 }
 
 TEST(a_closed_contact_that_should_have_ended_cuts_the_step)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     slide(&s, &half, 3.0, 2.0);
     scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
     assert_true(
         automaton_check_step(&s.c, &f.dense, true, f.scratch)); /* though it ends at the root of another candidate */
     assert_close(f.dense.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
-    scene_close(&s);
 }
 
 /* The check does not evaluate again the root functions at the end of the step: it knows whether all were positive. */
 TEST(the_check_goes_by_the_root_functions_at_the_end_of_the_step)
 {
     for (int ends = 0; ends <= 1; ends++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         scene_flight f;
         slide(&s, &half, 3.0, ends ? 2.0 : 0.5);
         scene_fly(&s, (vec2){0.0, 0.0}, 0.0, 1.0, &f);
@@ -216,7 +207,6 @@ TEST(the_check_goes_by_the_root_functions_at_the_end_of_the_step)
         assert_int_equal(s.c.quiet, !ends);
         assert_int_equal(automaton_check_step(&s.c, &f.dense, false, f.scratch), ends);
         if (ends) assert_close(f.dense.end, 0.5 * (1.0 + penetration_tolerance), 1e-13);
-        scene_close(&s);
     }
 }
 
@@ -226,7 +216,7 @@ TEST(what_goes_round_a_free_end_at_a_distance_is_behind_it)
 {
     const double points[4] = {0.0, -1.0, 0.0, 0.0}, x[2] = {2e-3, 5e-4}, m = 1.0;
     const dem_obstacle wall = {.n_points = 2, .points = points, .restitution = 0.5};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     scene_open(&s, 1, x, &m, 0, NULL, &wall, 1);
     scene_put(&s, 0, x[0], x[1], 0.01, -0.06);
@@ -241,5 +231,4 @@ TEST(what_goes_round_a_free_end_at_a_distance_is_behind_it)
     }
     assert_int_equal(s.c.set.ledger.counts.behind, 1);
     assert_int_equal(s.n_events, 0);
-    scene_close(&s);
 }

@@ -30,16 +30,14 @@ TEST(the_fastest_of_the_nodes_that_may_touch_counts)
 {
     const double x[6] = {0.0, 1.0, 1.0, 1.0, 2.0, 1.0};
     const unsigned char fixed[3] = {0, 0, 1};
-    dem_lattice lattice;
-    scene s;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(scene_close) scene s;
     support_lattice(&lattice, 3, x, masses, 2, (dem_index[]){0, 1, 1, 2}, 1.0, 1.0, fixed);
     lattice.flags[0] = 0;
     scene_start(&s, &lattice, &plane, 1);
-    dem_lattice_free(&lattice);
     scene_put(&s, 0, 0.0, 1.0, 50.0, 0.0);
     scene_put(&s, 1, 1.0, 1.0, 3.0, -4.0);
     assert_close(broad_phase_speed(&s.c.set, scene_v(&s)), 5.0, 1e-15);
-    scene_close(&s);
 }
 
 /* With 10 m/s 1.25 steps' way is 0.125 m; the margins of free ends, twenty penetration tolerances, go off what is
@@ -47,7 +45,7 @@ TEST(the_fastest_of_the_nodes_that_may_touch_counts)
 TEST(a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive)
 {
     const double far = 0.125 + 20.0 * penetration_tolerance, x[6] = {0.0, 0.99 * far, 1.0, 1.01 * far, 2.0, 3.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_nodes(&s, 3, x);
     look(&s, 10.0);
     assert_int_equal(s.c.broad_phase.n, 1);
@@ -56,25 +54,23 @@ TEST(a_candidate_further_away_than_a_step_and_a_quarter_goes_is_inactive)
         assert_int_equal(s.c.set.list[k].clearance.inactive, k > 0);
         assert_close(s.c.set.list[k].clearance.active_from, x[2 * k + 1] - 20.0 * penetration_tolerance, 1e-15);
     }
-    scene_close(&s);
 }
 
 TEST(what_is_closed_is_always_active)
 {
     const double x[4] = {0.0, 0.0, 1.0, 3.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_nodes(&s, 2, x);
     assert_ok(scene_take_up(&s));
     assert_int_equal(s.c.broad_phase.n, 1);
     assert_int_equal(s.c.broad_phase.active[0], 0);
-    scene_close(&s);
 }
 
 /* The node falls from 3 m while nothing looks at it until the way that the fastest may have gone is enough. */
 TEST(an_inactive_candidate_becomes_active_when_the_bodies_may_have_gone_far_enough)
 {
     const double x[4] = {0.0, 3.0, 2.0, 9.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_nodes(&s, 2, x);
     look(&s, 1.0);
     const contact_candidate *candidate = &s.c.set.list[0];
@@ -94,14 +90,13 @@ TEST(an_inactive_candidate_becomes_active_when_the_bodies_may_have_gone_far_enou
     look(&s, 1.0);
     assert_false(candidate->clearance.inactive);
     assert_int_equal(s.c.broad_phase.n, 1);
-    scene_close(&s);
 }
 
 /* An accepted step of h counts twice its length times the larger of the speeds at its ends. */
 TEST(a_step_counts_as_twice_what_the_fastest_goes)
 {
     const double x[2] = {0.0, 3.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_nodes(&s, 1, x);
     scene_put(&s, 0, 0.0, 3.0, 0.0, -1.0);
@@ -110,13 +105,12 @@ TEST(a_step_counts_as_twice_what_the_fastest_goes)
     assert_false(automaton_check_step(&s.c, &f.dense, false, f.scratch));
     automaton_end_step(&s.c, &f.dense, f.y1);
     assert_close(s.c.broad_phase.travelled, 2.0 * 0.01 * 1.1, 1e-16);
-    scene_close(&s);
 }
 
 /* Body far above: its edges are inactive as its nodes are, and active again before the ridge can be reached. */
 TEST(edges_may_be_inactive_too)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_open_triangle(&s, masses, -1.0, 1.2, &roof, 1);
     look(&s, 10.0);
     assert_int_equal(s.c.broad_phase.n, 0);
@@ -125,7 +119,6 @@ TEST(edges_may_be_inactive_too)
     look(&s, 10.0);
     assert_int_equal(s.c.broad_phase.n, 1);
     assert_int_equal(s.c.broad_phase.active[0], scene_edge(&s, 0, 1));
-    scene_close(&s);
 }
 
 /* From rest, or slowly, a step may take a node further than what counts as near at the speed of its start: the
@@ -133,7 +126,7 @@ TEST(edges_may_be_inactive_too)
 TEST(an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it)
 {
     const double x[2] = {0.0, 2e-4};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     double y[4];
     open_nodes(&s, 1, x);
@@ -149,7 +142,6 @@ TEST(an_inactive_node_that_is_driven_on_to_the_floor_within_a_step_hits_it)
     assert_int_equal(s.c.set.list[0].behind[0], -1);
     assert_ok(scene_resolve(&s, f.dense.end));
     assert_int_equal(s.n_impacts, 1);
-    scene_close(&s);
 }
 
 /* 1.044 m from the free end at (4, 0), below it, a node is in front; a little less to the left it is inside: it has
@@ -159,7 +151,7 @@ TEST(a_node_found_inside_has_come_round_a_free_end_and_may_come_back)
     const double x[4] = {4.3, -1.0, -3.0, 3.0}, travelled[4] = {1.04, 1.05, 1.04, 1.04};
     for (int k = 0; k < 4; k++) {
         const bool comes_round = k == 0 || k == 3;
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_nodes(&s, 2, x);
         look(&s, 1.0);
         assert_int_equal(s.c.broad_phase.n, 0);
@@ -176,7 +168,6 @@ TEST(a_node_found_inside_has_come_round_a_free_end_and_may_come_back)
         look(&s, 1.0);
         assert_int_equal(s.c.set.list[0].behind[0], -1);
         assert_int_equal(s.c.set.ledger.counts.behind, 0);
-        scene_close(&s);
     }
 }
 
@@ -186,7 +177,7 @@ TEST(who_is_active_stays_so_under_another_number)
     const double x[6] = {0.0, 2.0, 1.0, 1.0, 2.0, 0.0};
     dem_index outer_nodes[2] = {0, 2};
     const surface outer = {.n_nodes = 2, .nodes = outer_nodes};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_nodes(&s, 3, x);
     const broad_phase *w = &s.c.broad_phase;
     look(&s, 10.0);
@@ -201,5 +192,4 @@ TEST(who_is_active_stays_so_under_another_number)
     assert_int_equal(w->n, 2); /* nothing is known of the one that comes */
     assert_int_equal(w->active[0], 1);
     assert_int_equal(w->active[1], 2);
-    scene_close(&s);
 }

@@ -79,7 +79,7 @@ static void check_free(const contact_scene *world, const contact_candidate *cand
 
 TEST(a_free_candidate_has_a_root_at_the_penetration_tolerance)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, room, 2);
     const contact_candidate candidate = free_candidate();
     check_free(world, &candidate, 1.0, 0.25, 0.25 + penetration_tolerance);
@@ -87,23 +87,20 @@ TEST(a_free_candidate_has_a_root_at_the_penetration_tolerance)
     check_free(world, &candidate, 1.0, -penetration_tolerance, 0.0);
     check_free(world, &candidate, 1.0, -0.1, -0.1 + penetration_tolerance);
     check_free(world, &candidate, 5.0, 2.5, 0.5 + penetration_tolerance); /* the ceiling is nearer */
-    scene_close(&s);
 }
 
 TEST(far_from_everything_its_root_function_is_finite)
 {
-    scene s, empty;
+    CLEANUP(scene_close) scene s, empty;
     const contact_scene *world = open_node(&s, room, 2), *nothing = open_node(&empty, NULL, 0);
     const contact_candidate candidate = free_candidate();
     check_free(world, &candidate, -50.0, 1.0, 1.0 + penetration_tolerance);
     check_free(nothing, &candidate, 0.0, 0.0, 1.0 + penetration_tolerance);
-    scene_close(&s);
-    scene_close(&empty);
 }
 
 TEST(a_candidate_behind_an_obstacle_does_not_see_it)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, room, 2);
     contact_candidate candidate = free_candidate();
     candidate.behind[0] = 0;
@@ -114,14 +111,13 @@ TEST(a_candidate_behind_an_obstacle_does_not_see_it)
     const node_state at = {{3.5, 3.0}, {0.0, 0.0}, {{-20.0, 0.0}, {0.0, 0.0}}};
     check_roots(world, &candidate, &at,
                 (double[]){1.0 + penetration_tolerance, -20.0, 0.5 + penetration_tolerance, 1.0});
-    scene_close(&s);
 }
 
 /* The reaction, the nearer end, the other obstacle above: min(3 - 0, 1) + penetration tolerance; 3 m to the ceiling
  * count as 1. Without friction the speed of sliding does not matter. */
 TEST(a_sliding_candidate_has_root_functions_of_force_end_and_other_obstacles)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, room, 2);
     const contact_candidate on_floor = closed_candidate(0, 1), on_ceiling = closed_candidate(1, 1);
     const double x[5] = {1.5, 3.75, 4.5, 3.5, 4.0}, y[5] = {0.0, 0.0, 0.0, 2.75, 3.0};
@@ -134,13 +130,12 @@ TEST(a_sliding_candidate_has_root_functions_of_force_end_and_other_obstacles)
         const node_state at = {{x[k], y[k]}, {-3.0, 0.0}, {{20.0, 0.0}, {-7.0, -7.0}}};
         check_roots(world, k == 4 ? &on_ceiling : &on_floor, &at, expected[k]);
     }
-    scene_close(&s);
 }
 
 /* The tangent of the floor is (1, 0). */
 TEST(a_candidate_that_slides_with_friction_has_one_of_its_speed_too)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate along = closed_candidate(0, 1), against = closed_candidate(0, -1);
     const node_state forwards = {{1.5, 0.0}, {0.75, 0.25}, {{20.0, -10.0}, {0.0, 0.0}}};
@@ -153,13 +148,12 @@ TEST(a_candidate_that_slides_with_friction_has_one_of_its_speed_too)
                 (double[]){1.0 + penetration_tolerance, 20.0, 1.5 + penetration_tolerance, -0.75});
     check_roots(world, &against, &backwards,
                 (double[]){1.0 + penetration_tolerance, 20.0, 1.0 + penetration_tolerance, 0.5});
-    scene_close(&s);
 }
 
 /* mu = 1/2: 20 N allow 10 N, either way. The end of the floor is of no matter to it. */
 TEST(a_sticking_candidate_has_a_root_function_of_its_grip)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate candidate = closed_candidate(0, 0);
     const double tangent[4] = {3.0, -3.0, 12.5, -12.5}, grip[4] = {7.0, 7.0, -2.5, -2.5};
@@ -167,19 +161,17 @@ TEST(a_sticking_candidate_has_a_root_function_of_its_grip)
         const node_state at = {{4.5, 0.0}, {0.0, 0.0}, {{20.0, tangent[k]}, {-7.0, -7.0}}};
         check_roots(world, &candidate, &at, (double[]){1.0 + penetration_tolerance, 20.0, grip[k], 1.0});
     }
-    scene_close(&s);
 }
 
 TEST(a_held_candidate_has_one_of_the_lesser_normal_force)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, &groove, 1);
     const contact_candidate candidate = held_candidate();
     const node_state first = {{0.0, 0.0}, {0.0, 0.0}, {{3.0, 0.0}, {14.0, 0.0}}};
     const node_state second = {{0.0, 0.0}, {0.0, 0.0}, {{14.0, 0.0}, {-2.0, 0.0}}};
     check_roots(world, &candidate, &first, (double[]){1.0 + penetration_tolerance, 3.0, 1.0, 1.0});
     check_roots(world, &candidate, &second, (double[]){1.0 + penetration_tolerance, -2.0, 1.0, 1.0});
-    scene_close(&s);
 }
 
 static double grip(const contact_scene *world, const contact_candidate *candidate)
@@ -192,14 +184,12 @@ static double grip(const contact_scene *world, const contact_candidate *candidat
 
 TEST(only_what_sticks_by_friction_has_a_grip)
 {
-    scene s, t;
+    CLEANUP(scene_close) scene s, t;
     const contact_scene *world = open_node(&s, &rough, 1), *corner = open_node(&t, &groove, 1);
     const contact_candidate sticks = closed_candidate(0, 0), slides = closed_candidate(0, 1), held = held_candidate();
     assert_close(grip(world, &sticks), 6.0, 1e-14);
     assert_true(isinf(grip(world, &slides)) != 0);
     assert_true(isinf(grip(corner, &held)) != 0);
-    scene_close(&s);
-    scene_close(&t);
 }
 
 static bool turns(const contact_scene *world, int sign, double speed)
@@ -212,7 +202,7 @@ static bool turns(const contact_scene *world, int sign, double speed)
 
 TEST(what_slides_with_friction_turns_when_it_goes_the_other_way)
 {
-    scene s, smooth;
+    CLEANUP(scene_close) scene s, smooth;
     const contact_scene *world = open_node(&s, &rough, 1), *without = open_node(&smooth, room, 1);
     assert_false(turns(world, 1, 1e-6));
     assert_false(turns(world, 1, 0.0));
@@ -221,8 +211,6 @@ TEST(what_slides_with_friction_turns_when_it_goes_the_other_way)
     assert_true(turns(world, -1, 1e-6));
     assert_false(turns(world, 0, 1e-6));
     assert_false(turns(without, 1, -1.0));
-    scene_close(&s);
-    scene_close(&smooth);
 }
 
 /* ---- ends and what is due ---- */
@@ -236,7 +224,7 @@ static int end_passed(const contact_scene *world, double x, double vx)
 
 TEST(an_end_is_passed_by_the_penetration_tolerance_heading_out)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, room, 2);
     assert_int_equal(end_passed(world, 2.0, 5.0), 0);
     assert_int_equal(end_passed(world, 4.0 + 0.99 * penetration_tolerance, 1.0), 0);
@@ -246,12 +234,11 @@ TEST(an_end_is_passed_by_the_penetration_tolerance_heading_out)
     assert_int_equal(end_passed(world, -1.01 * penetration_tolerance, -1.0), -1);
     assert_int_equal(end_passed(world, -0.1, -1.0), -1);
     assert_int_equal(end_passed(world, -0.1, 1.0), 0);
-    scene_close(&s);
 }
 
 TEST(at_rest_the_force_tells_where_it_heads)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, room, 2);
     double *gravity = s.acting.gravity;
     assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 0.0), 0);
@@ -261,18 +248,16 @@ TEST(at_rest_the_force_tells_where_it_heads)
     gravity[0] = -1.0;
     assert_int_equal(end_passed(world, 4.0 + 1.01 * penetration_tolerance, 0.0), 0);
     assert_int_equal(end_passed(world, -1.01 * penetration_tolerance, 0.0), -1);
-    scene_close(&s);
 }
 
 TEST(what_sticks_passes_no_end)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const double at[2] = {4.5, 0.0}, v[2] = {1.0, 0.0};
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate sticks = closed_candidate(0, 0), slides = closed_candidate(0, 1);
     assert_int_equal(candidate_end_passed(world, &sticks, 0, (scene_state){0.0, at, v}), 0);
     assert_int_equal(candidate_end_passed(world, &slides, 0, (scene_state){0.0, at, v}), 1);
-    scene_close(&s);
 }
 
 static bool due(const contact_scene *world, const contact_candidate *candidate, const node_state *s)
@@ -282,7 +267,7 @@ static bool due(const contact_scene *world, const contact_candidate *candidate, 
 
 TEST(a_sliding_candidate_is_due_when_pulled_at_an_end_or_on_another_obstacle)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, room, 2);
     const contact_candidate candidate = closed_candidate(0, 1);
     node_state at = {{2.0, 0.0}, {1.0, 0.0}, {{20.0, 0.0}, {0.0, 0.0}}};
@@ -300,12 +285,11 @@ TEST(a_sliding_candidate_is_due_when_pulled_at_an_end_or_on_another_obstacle)
     assert_true(due(world, &candidate, &at));
     at.x[1] = 3.0 + 0.99 * penetration_tolerance;
     assert_false(due(world, &candidate, &at));
-    scene_close(&s);
 }
 
 TEST(with_friction_a_candidate_is_due_when_it_turns_back_or_loses_its_grip)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, &rough, 1);
     const contact_candidate slides = closed_candidate(0, 1), sticks = closed_candidate(0, 0);
     node_state at = {{2.0, 0.0}, {1e-3, 0.0}, {{20.0, -10.0}, {0.0, 0.0}}};
@@ -319,12 +303,11 @@ TEST(with_friction_a_candidate_is_due_when_it_turns_back_or_loses_its_grip)
     assert_true(due(world, &sticks, &at));
     at.force[0].tangent = 10.01;
     assert_true(due(world, &sticks, &at));
-    scene_close(&s);
 }
 
 TEST(a_held_candidate_is_due_when_either_normal_force_ceases)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_scene *world = open_node(&s, &groove, 1);
     const contact_candidate candidate = held_candidate();
     node_state at = {{0.0, 0.0}, {0.0, 0.0}, {{1.0, 0.0}, {1.0, 0.0}}};
@@ -334,7 +317,6 @@ TEST(a_held_candidate_is_due_when_either_normal_force_ceases)
     at.force[0].normal = 1.0;
     at.force[1].normal = -0.01;
     assert_true(due(world, &candidate, &at));
-    scene_close(&s);
 }
 
 /* ---- edges ---- */
@@ -390,21 +372,20 @@ TEST(a_free_edge_has_a_root_function_of_the_gap_to_the_convex_vertex_below_it)
                           -1.0};
     const double y[10] = {0.25, 0.0, -penetration_tolerance, 1.01, 0.25, 0.25, 0.25, 0.25, -0.51, -0.49};
     const double gap[10] = {0.25, 0.0, -penetration_tolerance, 1.0, 0.25, 1.0, 0.25, 1.0, 1.0, -0.49};
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     for (int k = 0; k < 10; k++) {
         move_all(&s, x[k], y[k], 0.0);
         vec2_put(s.y, 2, (vec2){x[k] + 1.0, 10.0}); /* deep inside, the other edges are further */
         check_edge(&s, edge, (double[]){gap[k] + penetration_tolerance, 1.0, 1.0, 1.0});
     }
-    scene_close(&s);
 }
 
 /* From (-1.5, 0.5) to (0.1, 1.7), 2 m long at a slope of 3 to 4: the ridge is 0.8 * 1.625 m away and out of reach; once
  * the edge is 1.125 m lower it is 0.8 * 0.5 m. */
 TEST(the_gap_of_a_sloping_edge_is_along_its_normal)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     scene_put(&s, 0, -1.5, 0.5 - 1.125, 0.0, 0.0);
     scene_put(&s, 1, 0.1, 1.7 - 1.125, 0.0, 0.0);
@@ -416,7 +397,6 @@ TEST(the_gap_of_a_sloping_edge_is_along_its_normal)
     assert_close(gap.normal.y, 0.8, 1e-15);
     assert_int_equal(gap.feature, 0);
     assert_int_equal(surface_segment(&s.c.set.scene, contact_point_feature(edge, gap.feature)), 0);
-    scene_close(&s);
 }
 
 /* On the ridge of the first roof 0.5 m from its end; the second one's is 0.25 m below it. */
@@ -447,7 +427,7 @@ TEST(a_closed_edge_has_root_functions_of_force_end_and_other_vertices)
 
 TEST(an_edge_on_two_vertices_has_those_of_the_lesser_of_each_and_no_gap)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     contact_candidate *edge = open_edge(&s, -0.25, 0.0, roofs, 2);
     edge->n_closed = 2;
     edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
@@ -455,7 +435,6 @@ TEST(an_edge_on_two_vertices_has_those_of_the_lesser_of_each_and_no_gap)
     check_edge(&s, edge, (double[]){1.0 + penetration_tolerance, 8.0, 0.25 + penetration_tolerance, 1.0});
     move_all(&s, -1.15, 0.0, 0.0); /* the second is 0.1 m from the end, the first 0.85 m */
     check_edge(&s, edge, (double[]){1.0 + penetration_tolerance, 8.0, 0.1 + penetration_tolerance, 1.0});
-    scene_close(&s);
 }
 
 /* A body that goes right takes its start to the vertex. */
@@ -466,7 +445,7 @@ TEST(a_vertex_passes_an_edges_end_against_the_motion_of_the_body)
                          -2.0 - 1.01 * penetration_tolerance, -1.0};
     const double u[6] = {1.0, -1.0, 1.0, -1.0, 1.0, 1.0};
     const int passed[6] = {-1, 0, 0, 1, 0, 0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     contact_candidate *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
     edge->n_closed = 1;
     edge->closed[0] = (contact_point){.feature = 0, .slide = 1};
@@ -481,7 +460,6 @@ TEST(a_vertex_passes_an_edges_end_against_the_motion_of_the_body)
         assert_int_equal(candidate_end_passed(&s.c.set.scene, edge, 0, (scene_state){0.0, s.y, scene_v(&s)}),
                          k == 0 ? -1 : 0);
     }
-    scene_close(&s);
 }
 
 /* The body's edge from node 1 at (2, 0) to node 2 at (1, 1) falls away by 45 degrees: what is 0.03 m above the lower
@@ -489,7 +467,7 @@ TEST(a_vertex_passes_an_edges_end_against_the_motion_of_the_body)
 TEST(a_vertex_round_a_convex_corner_of_the_body_is_not_inside)
 {
     const double x[4] = {-1.99, -1.9, -0.01, -0.1}, gap[4] = {1.0, -0.03, 1.0, -0.03};
-    scene s;
+    CLEANUP(scene_close) scene s;
     contact_candidate *edge = open_edge(&s, -1.5, 0.0, &roof, 1);
     assert_int_equal(edge->next, 2);
     assert_int_equal(edge->previous, 2);
@@ -497,12 +475,11 @@ TEST(a_vertex_round_a_convex_corner_of_the_body_is_not_inside)
         move_all(&s, x[k], -0.03, 0.0);
         check_edge(&s, edge, (double[]){gap[k] + penetration_tolerance, 1.0, 1.0, 1.0});
     }
-    scene_close(&s);
 }
 
 TEST(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     check_edge(&s, edge, (double[]){0.25 + penetration_tolerance, 1.0, 1.0, 1.0});
     for (int k = 0; k < 2; k++) {
@@ -510,7 +487,6 @@ TEST(an_edge_whose_node_is_behind_an_obstacle_does_not_see_its_vertices)
         check_edge(&s, edge, (double[]){1.0 + penetration_tolerance, 1.0, 1.0, 1.0});
         edge->behind[k] = -1;
     }
-    scene_close(&s);
 }
 
 /* ---- what is clear ---- */
@@ -544,7 +520,7 @@ TEST(nothing_is_nearer_to_a_node_than_its_clearance)
     unsigned seed = 7;
     int inside = 0;
     for (int k = 0; k < 200; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         dem_index nearest;
         open_ragged(&s, &seed, false);
         const contact_scene *world = &s.c.set.scene;
@@ -562,7 +538,6 @@ TEST(nothing_is_nearer_to_a_node_than_its_clearance)
             assert_true(candidate_gap(world, &candidate, &there).distance >= clear - way - 1e-15 || clear < way);
             inside += way < clear;
         }
-        scene_close(&s);
     }
     assert_true(inside > 2000);
 }
@@ -573,7 +548,7 @@ TEST(no_vertex_is_nearer_to_an_edge_than_its_clearance)
     unsigned seed = 11;
     int inside = 0;
     for (int k = 0; k < 200; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         dem_index nearest;
         open_ragged(&s, &seed, true);
         const contact_scene *world = &s.c.set.scene;
@@ -590,7 +565,6 @@ TEST(no_vertex_is_nearer_to_an_edge_than_its_clearance)
             assert_true(candidate_gap(world, &edge, &there).distance >= clear - way - 1e-15 || clear < way);
             inside += way < clear;
         }
-        scene_close(&s);
     }
     assert_true(inside > 2000);
 }
@@ -599,7 +573,7 @@ TEST(no_vertex_is_nearer_to_an_edge_than_its_clearance)
 TEST(a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it)
 {
     const double y[4] = {0.25, 0.9, 1.1, 5.0}, clear[4] = {0.25, 0.9, 1.0, sqrt(27.25) - 2.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     dem_index nearest;
     const contact_candidate *edge = open_edge(&s, -1.5, 0.25, &roof, 1);
     for (int k = 0; k < 4; k++) {
@@ -607,18 +581,16 @@ TEST(a_clearance_is_the_distance_to_the_nearest_vertex_or_a_bound_of_it)
         const candidate_positions spot = candidate_place(edge, 0.0, s.y);
         assert_close(candidate_clearance(&s.c.set.scene, edge, &spot, &nearest), clear[k], 1e-14);
     }
-    scene_close(&s);
 }
 
 /* The ridge is 0.3 m beyond the end of the edge, and 0.4 m below it. */
 TEST(a_vertex_beside_an_edge_is_near_it_though_it_is_no_gap)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const contact_candidate *edge = open_edge(&s, 0.3, 0.4, &roof, 1);
     const candidate_positions spot = candidate_place(edge, 0.0, s.y);
     assert_int_equal(candidate_gap(&s.c.set.scene, edge, &spot).feature, -1);
     assert_true(candidate_around(&s.c.set.scene, edge, &spot, 0.5).feature >= 0);
     assert_false(candidate_around(&s.c.set.scene, edge, &spot, 0.29).feature >= 0);
     assert_false(candidate_around(&s.c.set.scene, edge, &spot, 0.39).feature >= 0);
-    scene_close(&s);
 }

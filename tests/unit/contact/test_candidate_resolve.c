@@ -11,7 +11,7 @@ static const dem_obstacle terrace = {.n_points = 4, .points = terrace_points, .r
 
 TEST(a_sliding_node_glides_on_where_the_line_goes_on)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     slide(&s, &terrace, -1.0, 1.5);
     scene_put(&s, 0, 1.01 * penetration_tolerance, 0.0, 1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
@@ -22,7 +22,6 @@ TEST(a_sliding_node_glides_on_where_the_line_goes_on)
     assert_int_equal(s.c.set.list[0].closed[0].feature, 0);
     assert_int_equal(s.c.set.ledger.counts.passings, 2);
     assert_int_equal(s.c.set.ledger.counts.releases, 0);
-    scene_close(&s);
 }
 
 TEST(a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end)
@@ -48,7 +47,7 @@ TEST(a_sliding_node_takes_its_impact_at_a_concave_bend)
 {
     const double cosine = sqrt(0.75), ramp_points[6] = {-4.0, 0.0, 0.0, 0.0, 2.0 * cosine, 1.0};
     const dem_obstacle ramp = {.n_points = 3, .points = ramp_points, .restitution = 0.0};
-    scene s;
+    CLEANUP(scene_close) scene s;
     slide(&s, &ramp, -1.0, 2.0);
     scene_put(&s, 0, 1.01 * penetration_tolerance, 0.0, 2.0, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
@@ -57,14 +56,13 @@ TEST(a_sliding_node_takes_its_impact_at_a_concave_bend)
     assert_int_equal(s.c.set.list[0].n_closed, 1);
     assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
     assert_int_equal(s.c.set.ledger.counts.passings, 1);
-    scene_close(&s);
 }
 
 TEST(another_obstacle_stops_a_sliding_node)
 {
     const dem_obstacle corner[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.0},
                                     {.n_points = 2, .points = wall_points, .restitution = 0.5}};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, corner, 2);
     scene_put(&s, 0, 1.0, 0.0, 3.0, 0.0);
     assert_ok(scene_take_up(&s));
@@ -75,7 +73,6 @@ TEST(another_obstacle_stops_a_sliding_node)
     assert_int_equal(s.c.set.list[0].closed[0].feature, 0);
     assert_close(s.c.set.ledger.impulse[2], -2.0 * 4.5, 1e-14);
     assert_close(s.c.set.ledger.impulse[1], 0.0, 1e-14);
-    scene_close(&s);
 }
 
 /* ---- slip and stick ---- */
@@ -88,7 +85,7 @@ static void set_wind(scene *s, double a)
 /* mu = 1/2 holds a wind of up to g/2. */
 TEST(a_sliding_node_stops_and_starts_again_when_it_is_driven)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     rub(&s, 0.5);
     assert_close(s.c.set.list[0].closed[0].friction, -10.0, 1e-14);
     assert_ok(scene_resolve(&s, 0.1));
@@ -110,14 +107,13 @@ TEST(a_sliding_node_stops_and_starts_again_when_it_is_driven)
     assert_close(s.c.set.list[0].closed[0].friction, 10.0, 1e-14);
     assert_int_equal(s.c.set.ledger.counts.sticks, 1);
     assert_int_equal(s.c.set.ledger.counts.slips, 1);
-    scene_close(&s);
 }
 
 /* A wind of 0.6 g brings it back: it stops and goes on the other way at once. */
 TEST(a_sliding_node_turns_back_where_friction_cannot_hold_it)
 {
     for (int k = -1; k <= 1; k += 2) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         rub(&s, 0.5 * k);
         set_wind(&s, -0.6 * g * k);
         scene_put(&s, 0, 0.5, 0.0, -1e-6 * k, 0.0);
@@ -127,7 +123,6 @@ TEST(a_sliding_node_turns_back_where_friction_cannot_hold_it)
         scene_check(&s, 0, 0.5, 0.0, 0.0, 0.0);
         assert_int_equal(s.c.set.list[0].closed[0].slide, -k);
         assert_close(s.c.set.list[0].closed[0].friction, 10.0 * k, 1e-14);
-        scene_close(&s);
     }
 }
 
@@ -135,7 +130,7 @@ TEST(a_sliding_node_turns_back_where_friction_cannot_hold_it)
 TEST(release_comes_before_stick_and_slip)
 {
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         rub(&s, k == 0 ? 0.5 : 0.0);
         set_wind(&s, 2.0 * g);
         s.acting.gravity[1] = 0.1;
@@ -144,7 +139,6 @@ TEST(release_comes_before_stick_and_slip)
         assert_int_equal(s.n_events, 2);
         check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
         scene_check(&s, 0, 0.5, 0.0, k == 0 ? -0.25 : 0.0, 0.0);
-        scene_close(&s);
     }
 }
 
@@ -172,7 +166,7 @@ TEST(a_sticking_node_does_not_move_in_any_wind_it_withstands)
  * 0.6 g drives the point against friction with 0.6 g/W = 24 N. */
 TEST(an_edge_slides_stops_and_slides_on_a_vertex)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     double rate[6] = {0.0};
     open_side(&s, &rough_roof, 0.25, 0.0, 0.0);
     launch(&s, 0.5, 0.0);
@@ -201,7 +195,6 @@ TEST(an_edge_slides_stops_and_slides_on_a_vertex)
     assert_ok(scene_resolve(&s, 0.4));
     check_event(&s, 3, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
     assert_int_equal(s.n_events, 4);
-    scene_close(&s);
 }
 
 /* The body goes right along edge 1-2 with u: the ridge, closed with that, comes over node 1 to edge 0-1. */
@@ -214,7 +207,7 @@ static void slide_on(scene *s, double bend, double u)
 
 TEST(a_vertex_glides_from_edge_to_edge_of_a_flat_side)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     slide_on(&s, 0.0, 0.5);
     const contact_candidate *from = &s.c.set.list[scene_edge(&s, 1, 2)], *to = &s.c.set.list[scene_edge(&s, 0, 1)];
     assert_ok(scene_resolve(&s, 0.1));
@@ -230,13 +223,12 @@ TEST(a_vertex_glides_from_edge_to_edge_of_a_flat_side)
     assert_int_equal(s.events[0].node, 1);
     assert_int_equal(s.events[2].node, 0);
     assert_close(s.events[2].weight, 1.0, 1e-15);
-    scene_close(&s);
 }
 
 /* The next edge falls away by 1/4 to the other side: nothing holds. */
 TEST(a_vertex_leaves_a_convex_corner_of_the_body)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     slide_on(&s, 0.25, 0.5);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.n_events, 2);
@@ -244,7 +236,6 @@ TEST(a_vertex_leaves_a_convex_corner_of_the_body)
     check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
     scene_check(&s, 1, 0.0, 0.0, 0.5, 0.125);
     for (dem_index k = 4; k < s.c.set.n; k++) assert_int_equal(s.c.set.list[k].n_closed, 0);
-    scene_close(&s);
 }
 
 /* The next edge, of normal n = (-1/4, 1)/L, stands in the way: the plastic impact takes v.n = -1/4/L from node 1, where
@@ -252,7 +243,7 @@ TEST(a_vertex_leaves_a_convex_corner_of_the_body)
 TEST(a_vertex_hits_the_next_edge_where_the_body_bends_in)
 {
     const double L = sqrt(1.0625), n[2] = {-0.25 / L, 1.0 / L}, vn = -0.25 / L;
-    scene s;
+    CLEANUP(scene_close) scene s;
     slide_on(&s, -0.25, 0.5);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.n_events, 3);
@@ -267,7 +258,6 @@ TEST(a_vertex_hits_the_next_edge_where_the_body_bends_in)
     assert_close(after.y, -0.125 - vn * n[1], 1e-6);
     assert_int_equal(s.c.set.list[scene_edge(&s, 0, 1)].n_closed, 1);
     assert_int_equal(s.c.set.list[scene_edge(&s, 1, 2)].n_closed, 0);
-    scene_close(&s);
 }
 
 /* Too slow to rise above the position error: both edges hold the vertex, each with half the weight of node 1 over its
@@ -275,7 +265,7 @@ TEST(a_vertex_hits_the_next_edge_where_the_body_bends_in)
 TEST(a_vertex_comes_to_rest_where_the_body_bends_in)
 {
     const double L = sqrt(1.0625);
-    scene s;
+    CLEANUP(scene_close) scene s;
     slide_on(&s, -0.25, 1e-5);
     assert_ok(scene_resolve(&s, 0.1));
     const contact_candidate *left = &s.c.set.list[scene_edge(&s, 0, 1)], *right = &s.c.set.list[scene_edge(&s, 1, 2)];
@@ -289,7 +279,6 @@ TEST(a_vertex_comes_to_rest_where_the_body_bends_in)
     assert_int_equal(left->n_closed, 0);
     assert_int_equal(right->n_closed, 0);
     assert_int_equal(s.c.set.ledger.counts.releases, 2);
-    scene_close(&s);
 }
 
 /* Held in a notch there is no friction; when the wind has lifted one side off, the vertex sticks to the other where it
@@ -297,7 +286,7 @@ TEST(a_vertex_comes_to_rest_where_the_body_bends_in)
 TEST(a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is)
 {
     for (int k = 1; k < 8; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_side(&s, &rough_roof, 1.01 * penetration_tolerance, -0.05 * k * 1.01 * penetration_tolerance, -0.05 * k);
         launch(&s, 1e-5, -0.05 * k * 1e-5);
         const dem_index k_left = scene_edge(&s, 0, 1), k_right = scene_edge(&s, 1, 2);
@@ -310,7 +299,6 @@ TEST(a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is)
         assert_int_equal(left->n_closed, 0);
         assert_true(right->n_closed == 1 && right->closed[0].slide == 0);
         assert_close(right->closed[0].place, 0.0, 1e-12);
-        scene_close(&s);
     }
 }
 
@@ -320,7 +308,7 @@ TEST(a_flat_side_comes_down_on_an_apex_with_its_own_normal)
     const dem_obstacle springy = {.n_points = 3, .points = roof_points, .restitution = 0.5};
     const double x[3] = {0.0, 0.1 * penetration_tolerance, -0.1 * penetration_tolerance};
     for (int k = 0; k < 3; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_side(&s, &springy, x[k], -1.7 * penetration_tolerance,
                   0.0); /* the node 1.2 penetration tolerances inside a flank */
         launch(&s, 0.25, -1.0);
@@ -331,7 +319,6 @@ TEST(a_flat_side_comes_down_on_an_apex_with_its_own_normal)
         assert_close(s.impacts[0].impulse[1], 4.5, 1e-5);
         assert_close(s.y[8 + 2], 0.25, 1e-5);
         assert_close(s.y[8 + 3], 0.5, 1e-5);
-        scene_close(&s);
     }
 }
 
@@ -339,17 +326,16 @@ TEST(a_flat_side_comes_down_on_an_apex_with_its_own_normal)
 
 TEST(a_node_found_deep_inside_is_an_error)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &half, 1);
     scene_put(&s, 0, 0.5, -0.125, 0.0, -1.0);
     assert_int_equal(scene_resolve(&s, 0.25), DEM_ERROR_CONTACT);
     assert_string_equal(dem_status_message(), "node 0 at (0.5, -0.125) m is 0.125 m inside obstacle 0 at t = 0.25 s");
-    scene_close(&s);
 }
 
 TEST(too_many_changes_of_one_node_in_a_short_time_are_a_storm)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 3; k++) {
@@ -358,34 +344,31 @@ TEST(too_many_changes_of_one_node_in_a_short_time_are_a_storm)
     }
     assert_string_equal(dem_status_message(),
                         "node 0 at (0.5, 0) m had more than 2 contact events within 0.5 s, at t = 0.3 s");
-    scene_close(&s);
 }
 
 TEST(changes_further_apart_are_no_storm)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &half, 1);
     s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 20; k++) {
         scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0);
         assert_ok(scene_resolve(&s, 0.3 * (k + 1)));
     }
-    scene_close(&s);
 }
 
 TEST(a_vertex_found_deep_inside_a_body_is_an_error)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_side(&s, &roof, 0.25, -0.125, 0.0);
     assert_int_equal(scene_resolve(&s, 0.25), DEM_ERROR_CONTACT);
     assert_string_equal(dem_status_message(), "the vertex at (0, 0) m of obstacle 0 is 0.125 m inside the body, behind "
                                               "the edge from node 0 to 1, at t = 0.25 s");
-    scene_close(&s);
 }
 
 TEST(too_many_changes_of_one_edge_in_a_short_time_are_a_storm)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_side(&s, &roof, 0.5, 0.0, 0.0);
     s.c.set.scene.rule.max_impacts = 2;
     for (int k = 0; k < 3; k++) {
@@ -397,7 +380,6 @@ TEST(too_many_changes_of_one_edge_in_a_short_time_are_a_storm)
     }
     assert_non_null(strstr(dem_status_message(), "the edge from node 0 at (-0.5, "));
     assert_non_null(strstr(dem_status_message(), "had more than 2 contact events within 0.5 s, at t = 0.3 s"));
-    scene_close(&s);
 }
 
 /* ---- the check after a step ---- */

@@ -10,6 +10,7 @@
 #include <gsl/gsl_rng.h>
 
 #include "contact/contact_forces.h"
+#include "harness/cleanup_gsl.h"
 
 static void check_vector(vec2 actual, double x, double y, double tolerance)
 {
@@ -67,7 +68,7 @@ TEST(nodes_that_no_closed_edge_joins_are_groups_of_their_own)
 {
     static const dem_index members[3] = {0, 1, 3};
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     open_row(&b, 4);
     bench_touch(&b, 1, 0, 1.5, 1);
     bench_touch(&b, 0, 0, 1.5, 0);
@@ -75,7 +76,6 @@ TEST(nodes_that_no_closed_edge_joins_are_groups_of_their_own)
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 3);
     for (int g = 0; g < 3; g++) check_group(&r, g, 1, &members[g]);
-    contact_forces_destroy(&r);
 }
 
 /* Of the row 0 .. 6 edges 0-1, 1-2 and 4-5 touch, and nodes 2, 3 and 5. Members come in the order of the boundary, a
@@ -84,7 +84,7 @@ TEST(edges_that_share_nodes_and_nodes_at_their_ends_are_one_group)
 {
     static const dem_index first[3] = {7, 8, 2}, second[1] = {3}, third[2] = {11, 5};
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     open_row(&b, 7);
     bench_touch(&b, 7, 0, 0.5, 1);
     bench_touch(&b, 8, 0, 0.5, 1);
@@ -97,14 +97,13 @@ TEST(edges_that_share_nodes_and_nodes_at_their_ends_are_one_group)
     check_group(&r, 0, 3, first);
     check_group(&r, 1, 1, second);
     check_group(&r, 2, 2, third);
-    contact_forces_destroy(&r);
 }
 
 TEST(opening_a_contact_splits_its_group)
 {
     static const dem_index whole[3] = {4, 5, 6}, left[1] = {4}, right[1] = {6};
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     open_row(&b, 4);
     for (dem_index k = 4; k < 7; k++) bench_touch(&b, k, 0, 0.5, 1);
     regroup(&b, &r);
@@ -115,21 +114,19 @@ TEST(opening_a_contact_splits_its_group)
     assert_int_equal(r.n_groups, 2);
     check_group(&r, 0, 1, left);
     check_group(&r, 1, 1, right);
-    contact_forces_destroy(&r);
 }
 
 TEST(a_closed_ring_is_one_group)
 {
     static const dem_index members[4] = {3, 4, 5, 0};
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     open_row(&b, 3);
     bench_edge(&b, 2, 0);
     for (dem_index k = 3; k < 6; k++) bench_touch(&b, k, 0, 0.5, 1);
     regroup(&b, &r);
     assert_int_equal(r.n_groups, 1);
     check_group(&r, 0, 3, members);
-    contact_forces_destroy(&r);
 }
 
 static void check_same_groups(const contact_forces *r, const contact_forces *expected)
@@ -149,9 +146,9 @@ static void check_same_groups(const contact_forces *r, const contact_forces *exp
 TEST(groups_found_again_near_a_change_are_those_found_from_nothing)
 {
     enum { n = 12 };
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     dem_index most = 0;
     bench_open(&b, n);
     for (dem_index i = 0; i < n; i++) bench_edge(&b, i, (i + 2) % n);
@@ -163,16 +160,13 @@ TEST(groups_found_again_near_a_change_are_those_found_from_nothing)
             changed[c] = (dem_index)gsl_rng_uniform_int(rng, (unsigned long)b.n_candidates);
             b.candidates[changed[c]].n_closed = gsl_rng_uniform(rng) < 0.5 ? 0 : 1 + (int)gsl_rng_uniform_int(rng, 2);
         }
-        contact_forces from_nothing;
+        CLEANUP(contact_forces_destroy) contact_forces from_nothing;
         assert_ok(contact_forces_regroup_some(&r, changed, n_changed));
         regroup(&b, &from_nothing);
         if (r.n_groups > 0) check_same_groups(&r, &from_nothing);
         most = r.n_groups > most ? r.n_groups : most;
-        contact_forces_destroy(&from_nothing);
     }
     assert_true(most >= 6); /* of 12 nodes at most 12 */
-    contact_forces_destroy(&r);
-    gsl_rng_free(rng);
 }
 
 /* ---- by hand ---- */
@@ -183,7 +177,7 @@ TEST(a_node_on_an_incline_slides_or_sticks)
     const double normal = 20.0 * cos(M_PI / 6.0), along = 20.0 * sin(M_PI / 6.0);
     for (int sign = -1; sign <= 1; sign++) {
         bench b;
-        contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r;
         double a[2] = {0.0, -10.0};
         bench_open(&b, 1);
         bench_mass(&b, 0, 2.0);
@@ -196,7 +190,6 @@ TEST(a_node_on_an_incline_slides_or_sticks)
         assert_close(r.force[0][0].normal, normal, 1e-14);
         assert_close(r.force[0][0].tangent, friction, 1e-14);
         check_vector(vec2_at(a, 0), left * cos(M_PI / 6.0), -left * sin(M_PI / 6.0), 1e-14);
-        contact_forces_destroy(&r);
     }
 }
 
@@ -204,7 +197,7 @@ TEST(a_node_on_an_incline_slides_or_sticks)
 TEST(a_corner_holds_its_node_with_two_normal_forces)
 {
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     double a[2] = {2.0, -10.0};
     bench_open(&b, 1);
     bench_mass(&b, 0, 3.0);
@@ -217,7 +210,6 @@ TEST(a_corner_holds_its_node_with_two_normal_forces)
     assert_close(r.force[0][0].tangent, 0.0, 0.0);
     assert_close(r.force[0][1].tangent, 0.0, 0.0);
     check_vector(vec2_at(a, 0), 0.0, 0.0, 0.0);
-    contact_forces_destroy(&r);
 }
 
 /* An edge of 1 and 4 kg lies level with a vertex under its quarter: W = (3/4)^2/1 + (1/4)^2/4 = 37/64, N = g/W; with
@@ -226,7 +218,7 @@ TEST(an_edge_balances_on_a_vertex)
 {
     const double force = 9.25 * 64.0 / 37.0;
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     double a[4] = {0.0, -9.25, 0.0, -9.25};
     open_row(&b, 2);
     bench_mass(&b, 1, 4.0);
@@ -238,7 +230,6 @@ TEST(an_edge_balances_on_a_vertex)
     assert_close(r.force[2][0].tangent, -0.3 * force, 1e-14);
     check_vector(vec2_at(a, 0), -0.3 * 0.75 * force, -9.25 + 0.75 * force, 1e-14);
     check_vector(vec2_at(a, 1), -0.3 * 0.0625 * force, -9.25 + 0.0625 * force, 1e-14);
-    contact_forces_destroy(&r);
 }
 
 /* Steps of 0.1 s: what has drifted is drawn back with beta = 1/s, -(2 v + beta off) along both. The edge lies on the x
@@ -246,7 +237,7 @@ TEST(an_edge_balances_on_a_vertex)
 TEST(a_sticking_edge_that_has_drifted_is_accelerated_back)
 {
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     double a[4] = {3.0, -10.0, 5.0, 2.0};
     open_row(&b, 2);
     b.scene.rule.max_step = 0.1;
@@ -259,7 +250,6 @@ TEST(a_sticking_edge_that_has_drifted_is_accelerated_back)
     check_vector(vec2_scale(0.5, vec2_add(vec2_at(a, 0), vec2_at(a, 1))), 0.12, -0.61, 1e-14);
     assert_close(r.force[2][0].normal, 2.0 * (-0.61 + 4.0), 1e-14);
     assert_close(r.force[2][0].tangent, 2.0 * (0.12 - 4.0), 1e-14);
-    contact_forces_destroy(&r);
 }
 
 /* Both ends of a level edge lie on level segments and a vertex is under it: three contacts for two motions. The one
@@ -267,7 +257,7 @@ TEST(a_sticking_edge_that_has_drifted_is_accelerated_back)
 TEST(a_contact_that_the_others_hold_already_gets_no_force)
 {
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     double a[4] = {0.0, -10.0, 0.0, -10.0};
     open_row(&b, 2);
     bench_mass(&b, 1, 3.0);
@@ -281,7 +271,6 @@ TEST(a_contact_that_the_others_hold_already_gets_no_force)
     assert_close(r.force[2][0].normal, 30.0 / 0.75, 1e-13);
     assert_close(r.force[0][0].normal, 10.0 - 0.25 * 40.0, 1e-13);
     for (int i = 0; i < 4; i++) assert_close(a[i], 0.0, 1e-13);
-    contact_forces_destroy(&r);
 }
 
 /* ---- the same constraints, written out ---- */
@@ -379,8 +368,8 @@ static size_t write_out(const bench *b, const link *list, int n_links, const dou
 /* Solves by singular values; returns their largest ratio. */
 static double solve_dense(const gsl_matrix *m, size_t n, const double *rhs, double *solution)
 {
-    gsl_matrix *u = gsl_matrix_alloc(n, n), *v = gsl_matrix_alloc(n, n);
-    gsl_vector *s = gsl_vector_alloc(n), *work = gsl_vector_alloc(n);
+    CLEANUP(free_matrix) gsl_matrix *u = gsl_matrix_alloc(n, n), *v = gsl_matrix_alloc(n, n);
+    CLEANUP(free_vector) gsl_vector *s = gsl_vector_alloc(n), *work = gsl_vector_alloc(n);
     const gsl_matrix_const_view part = gsl_matrix_const_submatrix(m, 0, 0, n, n);
     const gsl_vector_const_view b = gsl_vector_const_view_array(rhs, n);
     gsl_vector_view x = gsl_vector_view_array(solution, n);
@@ -388,10 +377,6 @@ static double solve_dense(const gsl_matrix *m, size_t n, const double *rhs, doub
     assert_int_equal(gsl_linalg_SV_decomp(u, v, s, work), 0);
     assert_int_equal(gsl_linalg_SV_solve(u, v, s, &b.vector, &x.vector), 0);
     const double smallest = gsl_vector_get(s, n - 1), ratio = gsl_vector_get(s, 0) / fmax(smallest, 1e-300);
-    gsl_matrix_free(u);
-    gsl_matrix_free(v);
-    gsl_vector_free(s);
-    gsl_vector_free(work);
     return ratio;
 }
 
@@ -470,11 +455,10 @@ static const double dense_tolerance = 1e-8;
 
 static bool mix_solve(mix *w, double *solution)
 {
-    gsl_matrix *m = gsl_matrix_alloc(MOST_UNKNOWNS, MOST_UNKNOWNS);
+    CLEANUP(free_matrix) gsl_matrix *m = gsl_matrix_alloc(MOST_UNKNOWNS, MOST_UNKNOWNS);
     double rhs[MOST_UNKNOWNS];
     const size_t n = write_out(&w->b, w->list, w->n_links, w->a, m, rhs);
     const double ratio = solve_dense(m, n, rhs, solution);
-    gsl_matrix_free(m);
     return ratio < worst_ratio;
 }
 
@@ -636,7 +620,7 @@ TEST(after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks)
     int n_checked = 0;
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES];
-        contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
         stop_all(&w, &r, v);
@@ -646,7 +630,6 @@ TEST(after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks)
             if (l->slide == 0) assert_close(part_of(l, v, l->tangent), 0.0, stop_tolerance);
             n_checked++;
         }
-        contact_forces_destroy(&r);
     }
     assert_true(n_checked > 10000);
     gsl_rng_free(w.rng);
@@ -659,7 +642,7 @@ TEST(a_stop_takes_the_energy_of_the_change_and_gives_none)
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES], before = 0.0, after = 0.0, change = 0.0, largest = 1.0;
-        contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
         stop_all(&w, &r, v);
@@ -676,7 +659,6 @@ TEST(a_stop_takes_the_energy_of_the_change_and_gives_none)
         /* rounding of impulses, which nearly redundant contacts make large, times what that leaves of velocities */
         assert_close(after + change, before, 1e-13 * largest * largest);
         assert_true(after <= before * (1.0 + 1e-14)); /* rounding of sums */
-        contact_forces_destroy(&r);
     }
     gsl_rng_free(w.rng);
 }
@@ -719,7 +701,7 @@ TEST(impulses_account_for_the_momentum_of_every_node)
 TEST(stopping_one_group_leaves_the_others_alone)
 {
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     double v[8];
     open_row(&b, 4);
     for (dem_index i = 0; i < 4; i++) vec2_put(b.v, i, (vec2){0.3, -1.0});
@@ -735,7 +717,6 @@ TEST(stopping_one_group_leaves_the_others_alone)
     contact_forces_stop(&r, r.groups[1], (scene_state){0.0, b.x, v}, v);
     check_vector(vec2_at(v, 2), 0.3, -1.0, 0.0);
     check_vector(vec2_at(v, 3), 0.3, 0.0, 1e-16); /* the cosine of pi/2 */
-    contact_forces_destroy(&r);
 }
 
 /* ---- shifts ---- */
@@ -745,7 +726,7 @@ TEST(stopping_one_group_leaves_the_others_alone)
 TEST(a_shift_closes_the_gap_with_the_light_node_moving_more)
 {
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     open_row(&b, 2);
     bench_mass(&b, 1, 3.0);
     contact_point *point = bench_touch(&b, 2, 1, 0.5, 1);
@@ -759,7 +740,6 @@ TEST(a_shift_closes_the_gap_with_the_light_node_moving_more)
     shift = contact_forces_shift(&r, r.groups[0], (scene_state){0.0, b.x, b.v});
     check_vector(vec2_at(shift, 0), 0.0, 0.0, 0.0);
     check_vector(vec2_at(shift, 1), 0.0, -0.2, 1e-16);
-    contact_forces_destroy(&r);
 }
 
 /* An upright edge whose lower end sticks to the floor, 0.2 m beside its vertex: both ends go 0.2 m, the lower one along
@@ -767,7 +747,7 @@ TEST(a_shift_closes_the_gap_with_the_light_node_moving_more)
 TEST(a_shift_lets_what_sticks_slide)
 {
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     open_row(&b, 2);
     vec2_put(b.x, 1, (vec2){0.0, 1.0});
     bench_touch(&b, 0, 1, 0.5 * M_PI, 0);
@@ -777,7 +757,6 @@ TEST(a_shift_lets_what_sticks_slide)
     const double *shift = contact_forces_shift(&r, r.groups[0], (scene_state){0.0, b.x, b.v});
     check_vector(vec2_at(shift, 0), 0.2, 0.0, 1e-16); /* rounding of lengths of order 0.1 */
     check_vector(vec2_at(shift, 1), 0.2, 0.0, 1e-16);
-    contact_forces_destroy(&r);
 }
 
 /* Moves every feature by `size` (m); returns the largest gap after the shift over the square of the shift, 1/m. */
@@ -785,10 +764,10 @@ static double left_after_shift(const mix *w, double size)
 {
     double x[2 * BENCH_NODES], largest = 0.0, change = 0.0;
     bench b;
-    contact_forces r;
+    CLEANUP(contact_forces_destroy) contact_forces r;
     bench_open(&b, w->b.model.lattice.n_nodes);
     dem_index place[BENCH_CANDIDATES];
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     shuffle(rng, &w->b, &b, place);
     for (dem_index f = 0; f < BENCH_FEATURES; f++) {
         const vec2 off = {size * cos((double)(f * f)), size * sin((double)(f * f))};
@@ -810,8 +789,6 @@ static double left_after_shift(const mix *w, double size)
         for (int q = 0; q < b.candidates[k].n_closed; q++)
             largest =
                 fmax(largest, fabs(contact_frame_at(&b.scene, &b.candidates[k], q, (scene_state){0.0, x, b.v}).gap));
-    contact_forces_destroy(&r);
-    gsl_rng_free(rng);
     return change > 0.0 ? largest / (change * change) : 0.0;
 }
 

@@ -42,7 +42,7 @@ static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
 
 TEST(nodes_come_first_and_then_edges_that_know_their_neighbours)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     const contact_set *c = &s.c.set;
     assert_int_equal(c->n, 8);
@@ -59,13 +59,12 @@ TEST(nodes_come_first_and_then_edges_that_know_their_neighbours)
         assert_int_equal(c->list[k].behind[0], -1);
         assert_int_equal(c->list[k].behind[1], -1);
     }
-    scene_close(&s);
 }
 
 TEST(edges_are_candidates_only_where_there_are_vertices_and_if_asked_for)
 {
-    scene flat, s;
-    automaton without;
+    CLEANUP(scene_close) scene flat, s;
+    CLEANUP(automaton_destroy) automaton without;
     open_square(&flat, &plane, 1);
     open_square(&s, roofs, 2);
     assert_int_equal(flat.c.set.n, 4);
@@ -73,36 +72,30 @@ TEST(edges_are_candidates_only_where_there_are_vertices_and_if_asked_for)
     rule.vertices = false;
     assert_ok(automaton_create(&without, &s.acting, &rule));
     assert_int_equal(without.set.n, 4);
-    automaton_destroy(&without);
-    scene_close(&flat);
-    scene_close(&s);
 }
 
 TEST(a_node_that_may_not_touch_is_no_candidate)
 {
     const double x[4] = {0.0, 1.0, 1.0, 1.0};
     const unsigned char fixed[2] = {1, 0};
-    dem_lattice lattice;
-    scene s;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(scene_close) scene s;
     support_lattice(&lattice, 2, x, masses, 1, (dem_index[]){0, 1}, 1.0, 1.0, fixed);
     scene_start(&s, &lattice, &plane, 1);
-    dem_lattice_free(&lattice);
     assert_int_equal(s.c.set.n, 1);
     assert_int_equal(s.c.set.of_node[0], -1);
     assert_int_equal(s.c.set.of_node[1], 0);
-    scene_close(&s);
 }
 
 /* An edge runs one way, and 0-2 is inside. */
 TEST(a_key_finds_its_candidate_and_no_other)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     const contact_set *c = &s.c.set;
     for (dem_index k = 0; k < c->n; k++) assert_int_equal(contact_set_find(c, candidate_key(&c->list[k])), k);
     assert_int_equal(contact_set_find(c, (contact_key){1, 0}), -1);
     assert_int_equal(contact_set_find(c, (contact_key){0, 2}), -1);
-    scene_close(&s);
 }
 
 /* ---- another surface ---- */
@@ -122,10 +115,10 @@ static surface half_surface(const scene *s)
 
 TEST(candidates_of_both_surfaces_stay_what_they_are_under_new_numbers)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     contact_set *c = &s.c.set;
-    surface half = half_surface(&s);
+    CLEANUP(surface_free) surface half = half_surface(&s);
     const contact_key kept[5] = {{0, -1}, {1, -1}, {2, -1}, {0, 1}, {1, 2}};
     contact_candidate before[5];
     assert_ok(contact_set_close(c, 1, (contact_point){.feature = 3, .slide = -1, .force = 5.0}));
@@ -162,17 +155,15 @@ TEST(candidates_of_both_surfaces_stay_what_they_are_under_new_numbers)
     assert_int_equal(c->n, 8);
     for (dem_index k = 0; k < 4; k++) assert_int_equal(c->list[scene_edge(&s, k, (k + 1) % 4)].next, (k + 2) % 4);
     assert_int_equal(c->list[scene_edge(&s, 1, 2)].closed[0].feature, 1);
-    surface_free(&half);
-    scene_close(&s);
 }
 
 /* A vertex in the notch between edges 1-2 and 2-3, and node 3 on a floor beside it. */
 TEST(contacts_of_candidates_that_go_are_open)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     contact_set *c = &s.c.set;
-    surface half = half_surface(&s);
+    CLEANUP(surface_free) surface half = half_surface(&s);
     close_contact(&s, 3, 0, 1);
     close_contact(&s, scene_edge(&s, 1, 2), 0, -1);
     close_contact(&s, scene_edge(&s, 2, 3), 0, 1);
@@ -183,16 +174,14 @@ TEST(contacts_of_candidates_that_go_are_open)
     dem_index n_closed = 0;
     for (dem_index k = 0; k < c->n; k++) n_closed += c->list[k].n_closed;
     assert_int_equal(n_closed, 1);
-    surface_free(&half);
-    scene_close(&s);
 }
 
 TEST(a_new_edge_knows_what_its_nodes_are_behind)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     contact_set *c = &s.c.set;
-    surface half = half_surface(&s);
+    CLEANUP(surface_free) surface half = half_surface(&s);
     contact_set_pass_behind(c, 2, 1);
     contact_set_pass_behind(c, 3, 0);
     assert_ok(contact_set_follow_surface(c, &half));
@@ -200,15 +189,13 @@ TEST(a_new_edge_knows_what_its_nodes_are_behind)
     assert_int_equal(inner->behind[0], 1);
     assert_int_equal(inner->behind[1], -1);
     assert_int_equal(c->ledger.counts.behind, 1);
-    surface_free(&half);
-    scene_close(&s);
 }
 
 /* ---- opening and closing ---- */
 
 TEST(a_candidate_reports_which_of_its_contacts_is_on_a_feature)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     const contact_candidate *edge = &s.c.set.list[k];
@@ -217,12 +204,11 @@ TEST(a_candidate_reports_which_of_its_contacts_is_on_a_feature)
     close_contact(&s, k, 0, 1);
     assert_int_equal(candidate_point_on(edge, 0), 1);
     assert_int_equal(candidate_point_on(edge, 1), 0);
-    scene_close(&s);
 }
 
 TEST(closing_appends_and_opening_keeps_the_other)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     contact_candidate *edge = &s.c.set.list[k];
@@ -244,13 +230,12 @@ TEST(closing_appends_and_opening_keeps_the_other)
     assert_ok(contact_set_open(&s.c.set, k, 1));
     assert_int_equal(edge->n_closed, 1);
     assert_int_equal(edge->closed[0].feature, 0);
-    scene_close(&s);
 }
 
 /* Edge 0-1 joins its nodes; edge 2-3 is a group of its own until 1-2 closes as well. */
 TEST(contacts_that_share_nodes_are_one_group)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     const contact_set *c = &s.c.set;
     const dem_index low = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2), high = scene_edge(&s, 2, 3);
@@ -274,7 +259,6 @@ TEST(contacts_that_share_nodes_are_one_group)
         n_candidates++;
     assert_int_equal(n_candidates, 4);
     assert_true(contact_set_coupled(c, high));
-    scene_close(&s);
 }
 
 /* ---- corners ---- */
@@ -289,7 +273,7 @@ static void check_touch(const contact_point *point, bool held, int sign)
 TEST(a_node_on_two_segments_is_held_by_both)
 {
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_square(&s, k == 0 ? &groove : &rough_groove, 1);
         contact_candidate *candidate = &s.c.set.list[0];
         close_contact(&s, 0, 0, k == 0 ? 1 : 0);
@@ -300,7 +284,6 @@ TEST(a_node_on_two_segments_is_held_by_both)
         assert_ok(contact_set_open(&s.c.set, 0, 0));
         assert_int_equal(candidate->closed[0].feature, 1);
         check_touch(&candidate->closed[0], false, k == 0 ? 1 : 0);
-        scene_close(&s);
     }
 }
 
@@ -308,7 +291,7 @@ TEST(a_node_on_two_segments_is_held_by_both)
 TEST(a_vertex_on_two_edges_that_meet_is_held_by_both)
 {
     for (dem_index feature = 0; feature < 2; feature++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_square(&s, roofs, 2);
         const dem_index low = scene_edge(&s, 0, 1), right = scene_edge(&s, 1, 2);
         close_contact(&s, low, feature, -1);
@@ -321,27 +304,25 @@ TEST(a_vertex_on_two_edges_that_meet_is_held_by_both)
         check_touch(&s.c.set.list[right].closed[1], true, 1);
         assert_ok(contact_set_open(&s.c.set, right, 1));
         check_touch(&s.c.set.list[low].closed[0], false, feature == 1 ? 0 : 1); /* the second roof is rough */
-        scene_close(&s);
     }
 }
 
 TEST(a_vertex_on_opposite_edges_is_not_held)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     const dem_index low = scene_edge(&s, 0, 1), high = scene_edge(&s, 2, 3);
     close_contact(&s, low, 0, 1);
     close_contact(&s, high, 0, 1);
     check_touch(&s.c.set.list[low].closed[0], false, 1);
     check_touch(&s.c.set.list[high].closed[0], false, 1);
-    scene_close(&s);
 }
 
 /* ---- behind ---- */
 
 TEST(what_a_node_is_behind_its_edges_know)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     contact_candidate *list = s.c.set.list;
     const dem_index before = scene_edge(&s, 0, 1), after = scene_edge(&s, 1, 2), far = scene_edge(&s, 2, 3);
@@ -361,7 +342,6 @@ TEST(what_a_node_is_behind_its_edges_know)
     assert_int_equal(s.c.set.ledger.counts.behind, 0);
     assert_int_equal(list[before].behind[1], -1);
     assert_int_equal(list[after].behind[0], -1);
-    scene_close(&s);
 }
 
 /* ---- ledger and forces ---- */
@@ -370,10 +350,9 @@ TEST(what_a_node_is_behind_its_edges_know)
 static void open_stretched(scene *s)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {3.0, 2.0};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
     scene_start(s, &lattice, &plane, 1);
-    dem_lattice_free(&lattice);
     scene_put(s, 0, 0.0, 0.0, 0.0, 0.0);
     scene_put(s, 1, 0.0, 1.5, 0.0, 0.0);
 }
@@ -381,21 +360,20 @@ static void open_stretched(scene *s)
 /* The upper node moved by (0, -0.25): m g dy = 2 * 10 * -0.25 and the spring's 50 (0.25^2 - 0.5^2). */
 TEST(a_move_enters_the_energy_that_it_puts_in)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_stretched(&s);
     s.c.set.ledger.projection = 1.0;
     contact_set_move(&s.c.set, 1, (vec2){0.0, -0.25}, s.y);
     assert_close(s.y[2], 0.0, 0.0);
     assert_close(s.y[3], 1.25, 0.0);
     assert_close(s.c.set.ledger.projection, 1.0 - 5.0 - 9.375, 1e-13);
-    scene_close(&s);
 }
 
 /* The spring, stretched to 1.5 m, pulls node 0 up with 50 N against its 30 N of weight, and nothing holds it down; a
  * sideways gravity of 0.5 m/s^2 does nothing to a smooth floor. */
 TEST(the_force_on_a_contact_is_elastic_and_weight)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_stretched(&s);
     s.acting.gravity[0] = 0.5;
     close_contact(&s, 0, 0, 1);
@@ -403,7 +381,6 @@ TEST(the_force_on_a_contact_is_elastic_and_weight)
     const contact_point *point = &s.c.set.list[0].closed[0];
     assert_close(point->force, 30.0 - 50.0, 1e-13);
     assert_close(point->friction, 0.0, 0.0);
-    scene_close(&s);
 }
 
 /* The rough roof's ridge under (1 - s, s) of edge 0-1, masses 1 and 3 kg, that slides with u: N from
@@ -411,7 +388,7 @@ TEST(the_force_on_a_contact_is_elastic_and_weight)
 TEST(a_sliding_edge_stores_force_and_friction)
 {
     const double fraction = 0.25, W = 0.5625 + 0.0625 / 3.0, u = -0.8;
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     for (dem_index i = 0; i < 4; i++) {
@@ -423,14 +400,13 @@ TEST(a_sliding_edge_stores_force_and_friction)
     const contact_point *point = &s.c.set.list[k].closed[0];
     assert_close(point->force, g / W, 1e-13);
     assert_close(point->friction, 0.5 * g / W, 1e-13);
-    scene_close(&s);
 }
 
 /* ---- events ---- */
 
 TEST(an_event_of_a_node_reports_where_it_is_and_how_it_moves)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, &rough_groove, 1);
     scene_put(&s, 2, 3.0, 3.0, 0.5, -0.25);
     const contact_instant now = {.t = 0.5, .x = s.y, .v = scene_v(&s)};
@@ -455,14 +431,13 @@ TEST(an_event_of_a_node_reports_where_it_is_and_how_it_moves)
     close_contact(&s, 2, 0, 1); /* held */
     event = contact_set_event(&s.c.set, 2, 1, DEM_EVENT_CLOSE, &now);
     assert_int_equal(event.state, DEM_CONTACT_STICK);
-    scene_close(&s);
 }
 
 /* The second roof's ridge, the end of its first segment, under 0.75 of edge 0-1; the velocity is 1/4 and 3/4 of the
  * nodes'. */
 TEST(an_event_of_an_edge_reports_the_vertex_and_the_weight_of_its_second_node)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_square(&s, roofs, 2);
     const dem_index k = scene_edge(&s, 0, 1);
     scene_put(&s, 0, 0.25, 0.0, 0.5, 0.0);
@@ -477,5 +452,4 @@ TEST(an_event_of_an_edge_reports_the_vertex_and_the_weight_of_its_second_node)
     const double actual[7] = {event.weight,    event.x[0],      event.x[1],     event.normal[0],
                               event.normal[1], event.before[0], event.before[1]};
     for (int q = 0; q < 7; q++) assert_close(actual[q], expected[q], 1e-15);
-    scene_close(&s);
 }

@@ -50,7 +50,7 @@ TEST(times_are_located_to_a_hundred_units_of_rounding)
 TEST(a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall)
 {
     const double start = 7.0, t = sqrt(2.0 * (0.2 + penetration_tolerance) / g);
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_node(&s, 1.0, 0.2, 0.3, 0.0);
     scene_fly(&s, (vec2){0.0, -g}, start, 0.3, &f);
@@ -59,13 +59,12 @@ TEST(a_fall_reaches_the_penetration_tolerance_at_the_time_of_free_fall)
     assert_true(node_motion_position(&f.dense, found, 0).y <= -penetration_tolerance);
     f.dense.end = start + 0.9 * t;
     assert_true(isinf(crossing(&s, 0, &f.dense)) != 0);
-    scene_close(&s);
 }
 
 TEST(a_crossing_just_before_the_end_is_found)
 {
     const double t = sqrt(2.0 * (0.2 + penetration_tolerance) / g);
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_node(&s, 1.0, 0.2, 0.0, 0.0);
     scene_fly(&s, (vec2){0.0, -g}, 0.0, 0.3, &f);
@@ -73,20 +72,18 @@ TEST(a_crossing_just_before_the_end_is_found)
     assert_close(crossing(&s, 0, &f.dense), t, 1e-13);
     f.dense.end = 1.2 * t; /* an eighth before this end it is deep already */
     assert_close(crossing(&s, 0, &f.dense), t, 1e-13);
-    scene_close(&s);
 }
 
 /* Thrown down against an upward pull: inside from 0.24 t1 to 0.76 t1, outside at both ends. */
 TEST(a_dip_within_the_step_is_found)
 {
     const double depth = 0.05, a = 10.0, bottom = 0.2; /* y = -depth + a (t - bottom)^2/2 */
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
     scene_fly(&s, (vec2){0.0, a}, 0.0, 2.0 * bottom, &f);
     assert_true(f.dense.y0[1] > 0.0 && f.dense.y1[1] > 0.0);
     assert_close(crossing(&s, 0, &f.dense), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
-    scene_close(&s);
 }
 
 /* A parabola whose bottom, wherever between two of the eight samples, is a micrometre deeper than the penetration
@@ -97,7 +94,7 @@ TEST(the_shortest_dip_is_found_and_a_near_miss_is_none)
     const double a = 10.0, end = 0.45;
     for (int k = 0; k < 20; k++) {
         const double depth = penetration_tolerance + (k % 2 == 0 ? 1e-6 : -1e-6), bottom = 0.172 + 0.0025 * k;
-        scene s;
+        CLEANUP(scene_close) scene s;
         scene_flight f;
         open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
         scene_fly(&s, (vec2){0.0, a}, 0.0, end, &f);
@@ -106,7 +103,6 @@ TEST(the_shortest_dip_is_found_and_a_near_miss_is_none)
             assert_close(found, bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-12);
         else
             assert_true(isinf(found) != 0);
-        scene_close(&s);
     }
 }
 
@@ -115,7 +111,7 @@ TEST(the_shortest_dip_is_found_and_a_near_miss_is_none)
 TEST(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap)
 {
     const double at[2] = {-0.1, -0.01};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     scene_open(&s, 1, at, masses, 0, NULL, &roof, 1);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
@@ -124,7 +120,6 @@ TEST(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap)
     s.c.set.list[0].clearance.at[0] = vec2_at(at, 0);
     scene_fly(&s, nothing, 0.0, 1.0, &f);
     assert_close(crossing(&s, 0, &f.dense), 0.09 + sqrt(2.0) * penetration_tolerance, 1e-13);
-    scene_close(&s);
 }
 
 /* Up from the floor with 2 m/s through a plate at 0.3 m, a fifth of the way thick: the gap grows at both ends. */
@@ -132,24 +127,22 @@ TEST(a_plate_between_two_ends_that_recede_is_found)
 {
     const double points[10] = {2.0, 0.3, 0.0, 0.3, 0.0, 0.5, 2.0, 0.5, 2.0, 0.3}, at[2] = {1.0, 0.05};
     const dem_obstacle floor_and_plate[2] = {plane, {.n_points = 5, .points = points}};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     scene_open(&s, 1, at, masses, 0, NULL, floor_and_plate, 2);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     scene_put(&s, 0, at[0], at[1], 0.0, 2.0);
     scene_fly(&s, nothing, 0.0, 0.5, &f);
     assert_close(crossing(&s, 0, &f.dense), 0.5 * (0.25 + penetration_tolerance), 1e-13);
-    scene_close(&s);
 }
 
 TEST(a_candidate_out_of_reach_never_crosses)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_node(&s, 1.0, 0.9, 4.0, 0.0);
     scene_fly(&s, nothing, 0.0, 0.1, &f);
     assert_true(isinf(crossing(&s, 0, &f.dense)) != 0);
-    scene_close(&s);
 }
 
 /* ---- a free edge ---- */
@@ -165,13 +158,12 @@ static dem_index open_edge(scene *s, double y)
 TEST(a_level_edge_falls_on_a_ridge_at_the_time_of_free_fall)
 {
     const double start = 3.0, t = sqrt(2.0 * (0.1 + penetration_tolerance) / g);
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     const dem_index k = open_edge(&s, 0.1);
     scene_fly(&s, (vec2){0.0, -g}, start, 0.2, &f);
     assert_close(crossing(&s, k, &f.dense), start + t, 200.0 * DBL_EPSILON * (start + 0.2));
     assert_true(isinf(crossing(&s, scene_edge(&s, 1, 2), &f.dense)) != 0);
-    scene_close(&s);
 }
 
 /* Node 1 falls with 2 m/s from 0.3 m, node 0 stays there. With w = 2 t the edge's point over the ridge is 0.75 w - 0.3
@@ -182,41 +174,38 @@ TEST(a_turning_edge_meets_a_ridge_where_its_line_does)
     const double a = 2.25 - penetration_tolerance * penetration_tolerance,
                  c = 0.36 - 4.0 * penetration_tolerance * penetration_tolerance;
     const double w = (1.8 + sqrt(1.8 * 1.8 - 4.0 * a * c)) / (2.0 * a);
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     const dem_index k = open_edge(&s, 0.3);
     scene_put(&s, 1, 0.5, 0.3, 0.0, -2.0);
     scene_fly(&s, nothing, 0.0, 0.3, &f);
     assert_close(crossing(&s, k, &f.dense), 0.5 * w, 1e-13);
-    scene_close(&s);
 }
 
 /* As for a node: 1 cm deep at the bottom, outside at both ends. */
 TEST(a_dip_of_an_edge_within_the_step_is_found)
 {
     const double depth = 0.01, a = 10.0, bottom = 0.11;
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     const dem_index k = open_edge(&s, -depth + 0.5 * a * bottom * bottom);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.0, -a * bottom});
     scene_fly(&s, (vec2){0.0, a}, 0.0, 0.2, &f);
     assert_true(f.dense.y0[1] > 0.0 && f.dense.y1[1] > 0.0);
     assert_close(crossing(&s, k, &f.dense), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
-    scene_close(&s);
 }
 
 /* Down and left with 1 m/s each way: the ridge goes in through the edge 1 cm before its end, and is beyond that by the
  * next sample. */
 TEST(a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     scene_open_triangle(&s, masses, -2.0 + 0.03, 0.02, &roof, 1);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-1.0, -1.0});
     scene_fly(&s, nothing, 0.0, 1.0, &f);
     assert_close(crossing(&s, scene_edge(&s, 0, 1), &f.dense), 0.02 + penetration_tolerance, 1e-13);
-    scene_close(&s);
 }
 
 /* Near node 1, at s = 0.9, the edge dips while node 0 rises all the time: h + a t^2/2 - 0.9 a b t is lowest at 0.9 b,
@@ -224,7 +213,7 @@ TEST(a_ridge_that_cuts_a_corner_of_the_body_within_an_eighth_is_found)
 TEST(a_dip_at_one_end_of_a_turning_edge_is_found)
 {
     const double a = 10.0, b = 0.1, low = 0.405 * a * b * b, depth = 2.0 * penetration_tolerance;
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     scene_open_triangle(&s, masses, -1.8, low - depth, &roof, 1);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
@@ -233,7 +222,6 @@ TEST(a_dip_at_one_end_of_a_turning_edge_is_found)
     const double found = crossing(&s, scene_edge(&s, 0, 1), &f.dense);
     assert_close(found, 0.09 - sqrt(2.0 * (depth - penetration_tolerance) / a),
                  2e-4); /* the slope of the edge, 0.05, turns it a little */
-    scene_close(&s);
 }
 
 /* ---- closed contacts ---- */
@@ -264,34 +252,32 @@ static void close_contact(scene *s, dem_index k, dem_index feature, int sign)
  * that. */
 TEST(a_sliding_candidate_is_first_due_when_it_reaches_the_end)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     open_node(&s, 3.0, 0.0, 2.0, 0.0);
     close_contact(&s, 0, 0, 1);
     scene_fly(&s, nothing, 1.0, 0.7, &f);
     assert_close(first_due(&s, 0, &f), 1.5 + 0.5 * penetration_tolerance, 200.0 * DBL_EPSILON * 2.4);
-    scene_close(&s);
 }
 
 /* The ridge is 0.5 m before the edge's end and the body goes left with 2 m/s: it passes the end by the penetration
  * tolerance. */
 TEST(a_sliding_edge_is_first_due_when_its_vertex_reaches_the_end)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     const dem_index k = open_edge(&s, 0.0);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){-2.0, 0.0});
     close_contact(&s, k, 0, 1);
     scene_fly(&s, nothing, 1.0, 0.4, &f);
     assert_close(first_due(&s, k, &f), 1.0 + 0.5 * (0.5 + penetration_tolerance), 200.0 * DBL_EPSILON * 1.8);
-    scene_close(&s);
 }
 
 /* Node 0 on the ledge, the edge on the ridge at s: that takes m g/s for node 1, and so node 0 presses the ledge with
  * m g - (1 - s) m g/s, which is nothing where s = 1/2. The body goes right with 2 m/s from s = 0.75. */
 TEST(a_node_is_first_due_when_the_edge_beside_it_takes_its_weight)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     scene_open_triangle(&s, masses, -1.5, 0.0, roof_and_ledge, 2);
     s.c.set.scene.rule.penetration_tolerance = penetration_tolerance;
@@ -302,7 +288,6 @@ TEST(a_node_is_first_due_when_the_edge_beside_it_takes_its_weight)
     scene_fly(&s, nothing, 1.0, 0.35, &f);
     assert_close(first_due(&s, 0, &f), 1.25, 200.0 * DBL_EPSILON * 1.7);
     assert_int_equal(s.c.set.forces.group[0], s.c.set.forces.group[k]);
-    scene_close(&s);
 }
 
 /* A square 0 to 3, of which edge 0-1 is closed, and two more nodes: those of the group, and the edge's neighbours, are
@@ -312,7 +297,7 @@ TEST(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours)
     const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
     const double mass[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const dem_index corners[6] = {0, 1, 2, 0, 2, 3};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     double y[24];
     scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
@@ -323,7 +308,6 @@ TEST(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours)
     for (int k = 0; k < 24; k++) f.scratch[k] = 77.0;
     event_location_state(&s.c.set.forces, contact_set_group_at(&s.c.set, 0), &f.dense, 0.3, f.scratch);
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k % 12 < 8 ? y[k] : 77.0, 0.0);
-    scene_close(&s);
 }
 
 /* A square 0 to 3 and two more nodes: the gap of an edge depends on its nodes and on those before and after it. */
@@ -332,7 +316,7 @@ TEST(the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them)
     const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
     const double mass[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const dem_index corners[6] = {0, 1, 2, 0, 2, 3};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_flight f;
     double y[24];
     scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
@@ -343,5 +327,4 @@ TEST(the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them)
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k < 2 ? y[k] : 77.0, 0.0);
     event_location_place(&s.c.set.list[scene_edge(&s, 0, 1)], &f.dense, 0.3, f.scratch);
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k < 8 ? y[k] : 77.0, 0.0);
-    scene_close(&s);
 }

@@ -19,7 +19,7 @@ TEST(an_edge_on_a_vertex_shares_its_impulse_by_the_place)
     const double fraction[3] = {0.25, 0.5, 1.0};
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     for (int k = 0; k < 3; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         const double q = fraction[k], vn = -2.0 * (1.0 - q) - q, J = -1.5 * vn / mobility(q);
         const dem_index edge = open_edge(&s, &roof, q, 0.0);
         vec2_put(scene_v(&s), 0, (vec2){0.5, -2.0});
@@ -42,7 +42,6 @@ TEST(an_edge_on_a_vertex_shares_its_impulse_by_the_place)
         check_vec(vec2_at(s.c.set.ledger.impulse, 0), 0.0, J, 1e-14);
         assert_int_equal(s.c.set.ledger.counts.vertex_impacts, 1);
         assert_int_equal(s.c.set.list[edge].n_closed, 0);
-        scene_close(&s);
     }
 }
 
@@ -54,7 +53,7 @@ TEST(friction_on_a_vertex_has_coulombs_limit)
     const vec2 t = {cos(angle), sin(angle)}, n = {-t.y, t.x};
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.25);
     for (int k = 0; k < 3; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         const double vt = along[k], Jt = k == 2 ? -vt / W : (k == 0 ? -0.25 * J : 0.25 * J);
         const vec2 v = vec2_along(vec2_scale(vn, n), vt, t), impulse = vec2_along(vec2_scale(J, n), Jt, t);
         const dem_index edge = open_edge(&s, &roof, q, angle);
@@ -70,7 +69,6 @@ TEST(friction_on_a_vertex_has_coulombs_limit)
         check_vec(vec2_at(s.c.set.ledger.friction_impulse, 0), Jt * t.x, Jt * t.y, 1e-14);
         assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-13);
         assert_true(s.c.set.ledger.impact > 0.0);
-        scene_close(&s);
     }
 }
 
@@ -79,14 +77,13 @@ TEST(the_papers_friction_on_a_vertex_leaves_its_share)
 {
     const double q = 0.25, W = mobility(q);
     dem_obstacle roof = obstacle(3, roof_points, 1.0, 0.25);
-    scene s;
+    CLEANUP(scene_close) scene s;
     roof.friction_law = DEM_FRICTION_PAPER;
     const dem_index edge = open_edge(&s, &roof, q, 0.0);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, -1.0});
     hit(&s, edge, 1, 0, 0);
     check_vec(velocity(&s, 0), 2.0 - 0.75 * 1.5 / W, -1.0 + 0.75 * 2.0 / W, 1e-14);
     check_vec(velocity(&s, 1), 2.0 - 0.25 * 1.5 / W / 3.0, -1.0 + 0.25 * 2.0 / W / 3.0, 1e-14);
-    scene_close(&s);
 }
 
 /* The edge is put back on the ridge, its nodes by their parts in it and their mobilities: the lift of node i is d
@@ -96,7 +93,7 @@ TEST(a_plastic_impact_leaves_an_edge_closed_on_the_vertex)
 {
     const double q = 0.25, W = mobility(q), mu[2] = {0.0, 2.0};
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         const dem_obstacle roof = obstacle(3, roof_points, 0.0, mu[k]);
         const dem_index edge = open_edge(&s, &roof, q, 0.0);
         for (dem_index i = 0; i < 3; i++)
@@ -116,7 +113,6 @@ TEST(a_plastic_impact_leaves_an_edge_closed_on_the_vertex)
         if (k == 1) assert_close(point->place, q, 1e-12);
         assert_int_equal(s.c.set.ledger.counts.closings, 1);
         assert_int_equal(s.events[0].state, k == 0 ? DEM_CONTACT_SLIP : DEM_CONTACT_STICK);
-        scene_close(&s);
     }
 }
 
@@ -125,7 +121,7 @@ TEST(what_closes_on_a_vertex_has_not_rebounded)
 {
     const double q = 0.25, J = 1.0 / mobility(q);
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.25);
-    scene s;
+    CLEANUP(scene_close) scene s;
     const dem_index edge = open_edge(&s, &roof, q, 0.0);
     s.c.set.scene.rule.rest_speed = 10.0;
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){2.0, -1.0});
@@ -137,21 +133,19 @@ TEST(what_closes_on_a_vertex_has_not_rebounded)
     assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-13);
     assert_int_equal(s.c.set.list[edge].n_closed, 1);
     assert_int_equal(s.n_impacts, 1);
-    scene_close(&s);
 }
 
 /* What was kept of one impact would make the contact of the next look new, or as if it had opened. */
 TEST(nothing_is_left_of_an_impact_for_the_next)
 {
     const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
-    scene s;
+    CLEANUP(scene_close) scene s;
     const dem_index edge = open_edge(&s, &roof, 0.25, 0.0);
     hit(&s, edge, 1, 0, 0);
     assert_int_equal(s.c.set.list[edge].n_closed, 1);
     const candidate_impact *left = &s.c.set.impacts[edge];
     assert_int_equal(left->n, 0);
     assert_false(left->of[0].fresh || left->of[0].opens || left->of[0].approached || left->of[0].plastic);
-    scene_close(&s);
 }
 
 /* Nothing presses but the edge's own turning: stopped at the ridge it turns with omega < 0, and sliding with v_t < 0
@@ -160,13 +154,12 @@ TEST(a_turning_edge_that_slides_towards_the_vertex_stays_on_it)
 {
     const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         const dem_index edge = open_edge(&s, &roof, 0.25, 0.0);
         s.acting.gravity[1] = 0.0;
         for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){k == 0 ? -0.9 : 0.9, -1.0});
         hit(&s, edge, 1, 0, 0);
         assert_int_equal(s.c.set.list[edge].n_closed, k == 0);
-        scene_close(&s);
     }
 }
 
@@ -191,7 +184,7 @@ TEST(a_plastic_group_stops_what_approaches)
 {
     const double fraction[3] = {0.75, 0.5, 0.25};
     for (int k = 0; k < 3; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         const dem_index edge = open_clamp(&s, fraction[k], 0.0, 0.0);
         const double J = 3.0 / fraction[k], before = kinetic(&s);
         hit(&s, edge, 1, 0, 0);
@@ -204,7 +197,6 @@ TEST(a_plastic_group_stops_what_approaches)
         assert_int_equal(s.n_impacts, 2); /* both hit, the node first */
         assert_int_equal(s.impacts[0].other, -1);
         assert_int_equal(s.impacts[1].other, 1);
-        scene_close(&s);
     }
 }
 
@@ -212,7 +204,7 @@ TEST(an_elastic_group_keeps_its_energy_and_leaves_no_approach)
 {
     const double fraction[3] = {0.75, 0.5, 0.25};
     for (int k = 0; k < 3; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         const double q = fraction[k];
         const dem_index edge = open_clamp(&s, q, 1.0, 0.0);
         const double before = kinetic(&s);
@@ -224,14 +216,13 @@ TEST(an_elastic_group_keeps_its_energy_and_leaves_no_approach)
         assert_true((1.0 - q) * velocity(&s, 0).y + q * velocity(&s, 1).y >= -1e-11);
         const vec2 given = vec2_add(vec2_at(s.c.set.ledger.impulse, 0), vec2_at(s.c.set.ledger.impulse, 1));
         check_vec(vec2_sub(momentum(&s), p), given.x, given.y, 1e-12);
-        scene_close(&s);
     }
 }
 
 /* Between the two energy goes, momentum is what both gave, and nothing approaches. */
 TEST(a_group_with_friction_enters_what_it_loses)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     const dem_index edge = open_clamp(&s, 0.6, 0.5, 0.3);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.4, i == 0 ? 0.0 : -1.0});
     const double before = kinetic(&s);
@@ -243,5 +234,4 @@ TEST(a_group_with_friction_enters_what_it_loses)
     assert_true(s.c.set.ledger.impact > 0.01);
     assert_close(s.c.set.ledger.impact, before - kinetic(&s), 1e-12);
     assert_true(velocity(&s, 0).y <= 1e-11 && 0.4 * velocity(&s, 0).y + 0.6 * velocity(&s, 1).y >= -1e-11);
-    scene_close(&s);
 }

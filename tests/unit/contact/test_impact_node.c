@@ -11,7 +11,7 @@ TEST(coulomb_friction_takes_at_most_its_share_of_the_normal_impulse)
     const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
     const double u[4] = {3.0, -3.0, 1.0, 1.5}, after[4] = {1.5, -1.5, 0.0, 0.0};
     for (int k = 0; k < 4; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_node(&s, &rough, 1, u[k], -4.0);
         hit(&s, 0, 1, 0, 0);
         scene_check(&s, 0, 0.25, 0.0, after[k], 2.0);
@@ -23,7 +23,6 @@ TEST(coulomb_friction_takes_at_most_its_share_of_the_normal_impulse)
         assert_close(s.c.set.ledger.friction_impulse[0], 2.0 * (after[k] - u[k]), 1e-15);
         assert_close(s.c.set.ledger.friction_impulse[1], 0.0, 1e-15);
         assert_close(s.c.set.ledger.impact, s.events[0].energy, 0.0);
-        scene_close(&s);
     }
 }
 
@@ -34,7 +33,7 @@ TEST(a_plastic_impact_closes_a_contact_that_slides_or_sticks)
     const double u[3] = {3.0, -3.0, 0.5}, after[3] = {2.0, -2.0, 0.0};
     const int sign[3] = {1, -1, 0};
     for (int k = 0; k < 3; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_node(&s, &rough, 1, u[k], -4.0);
         hit(&s, 0, 1, 0, 0);
         scene_check(&s, 0, 0.25, 0.0, after[k], 0.0);
@@ -43,7 +42,6 @@ TEST(a_plastic_impact_closes_a_contact_that_slides_or_sticks)
         assert_int_equal(s.c.set.ledger.counts.closings, 1);
         assert_int_equal(s.n_events, 1);
         assert_int_equal(s.events[0].state, sign[k] == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP);
-        scene_close(&s);
     }
 }
 
@@ -51,14 +49,13 @@ TEST(a_plastic_impact_closes_a_contact_that_slides_or_sticks)
 TEST(what_closes_has_not_rebounded_and_friction_goes_with_the_impulse_given)
 {
     const dem_obstacle rough = obstacle(2, floor_points, 0.5, 0.25);
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_node(&s, &rough, 1, 3.0, -4.0);
     s.c.set.scene.rule.rest_speed = 10.0;
     hit(&s, 0, 1, 0, 0);
     scene_check(&s, 0, 0.25, 0.0, 2.0, 0.0);
     assert_int_equal(s.c.set.list[0].n_closed, 1);
     check_vec(vec2_at(s.c.set.ledger.impulse, 0), -2.0, 8.0, 1e-14);
-    scene_close(&s);
 }
 
 /* A window of 1 ms takes hops of up to 2 ms for rest, which start with g times that. A smaller speed of rest does not
@@ -68,14 +65,13 @@ TEST(a_hop_of_less_than_twice_the_window_is_rest)
     const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
     for (int k = 0; k < 4; k++) {
         const bool rests = k % 2 == 0;
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_node(&s, &smooth, 1, 0.0, rests ? -0.0198 : -0.0202);
         s.c.set.scene.rule.window = 1e-3;
         s.c.set.scene.rule.rest_speed = k < 2 ? 0.0 : 1e-3;
         hit(&s, 0, 1, 0, 0);
         scene_check(&s, 0, 0.25, 0.0, 0.0, rests ? 0.0 : 0.0101);
         assert_int_equal(s.c.set.list[0].n_closed, rests);
-        scene_close(&s);
     }
 }
 
@@ -83,7 +79,7 @@ TEST(a_hop_of_less_than_twice_the_window_is_rest)
 TEST(a_node_that_is_laid_down_closes_without_an_impact)
 {
     const dem_obstacle smooth = obstacle(2, floor_points, 0.5, 0.0);
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_node(&s, &smooth, 1, 2.0, 0.0);
     hit(&s, 0, 1, 0, 0);
     scene_check(&s, 0, 0.25, 0.0, 2.0, 0.0);
@@ -92,7 +88,6 @@ TEST(a_node_that_is_laid_down_closes_without_an_impact)
     assert_int_equal(s.events[0].state, DEM_CONTACT_SLIP);
     assert_int_equal(s.c.set.ledger.counts.impacts, 0);
     assert_int_equal(s.c.set.ledger.counts.closings, 1);
-    scene_close(&s);
 }
 
 /* Floor and wall, plastic: driven into both it is held; without a wind the wall does not press and the node stays on
@@ -101,7 +96,7 @@ TEST(a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it)
 {
     const dem_obstacle corner[2] = {obstacle(2, floor_points, 0.0, 0.0), obstacle(2, wall_points, 0.0, 0.0)};
     for (int k = 0; k < 2; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         open_node(&s, corner, 2, 3.0, -4.0);
         s.acting.gravity[0] = k == 0 ? 1.0 : 0.0;
         scene_put(&s, 0, 2.0 + 0.5 * penetration_tolerance, -0.5 * penetration_tolerance, 3.0, -4.0);
@@ -111,6 +106,5 @@ TEST(a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it)
         assert_int_equal(s.c.set.list[0].closed[0].held, k == 0);
         assert_close(s.c.set.ledger.impulse[1], 8.0, 1e-15);
         assert_close(s.c.set.ledger.impulse[2], -6.0, 1e-15);
-        scene_close(&s);
     }
 }

@@ -11,7 +11,7 @@ TEST(a_node_on_a_floor_is_lifted_off_by_the_edge_beside_it)
 {
     const double q = 0.75, W = mobility(q), J = 1.5 * q / W, ledge_points[4] = {-8.0, 0.0, -0.5, 0.0};
     const dem_obstacle both[2] = {obstacle(3, roof_points, 0.5, 0.0), obstacle(2, ledge_points, 0.5, 0.0)};
-    scene s;
+    CLEANUP(scene_close) scene s;
     scene_open_triangle(&s, masses, -1.5, 0.0, both, 2);
     scene_put(&s, 0, -1.5, 0.3 * penetration_tolerance, 0.5, 0.0);
     scene_put(&s, 1, 0.5, -1.5 * penetration_tolerance, 0.5, -1.0);
@@ -29,5 +29,4 @@ TEST(a_node_on_a_floor_is_lifted_off_by_the_edge_beside_it)
     assert_int_equal(s.events[1].kind, DEM_EVENT_IMPACT);
     assert_int_equal(s.events[1].other, 1);
     assert_int_equal(s.c.set.ledger.counts.releases, 1);
-    scene_close(&s);
 }

@@ -13,7 +13,7 @@ TEST(what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a_corner
     const double x[5] = {1.0, 2.0, 2.0, 0.0, 0.0}, u[5] = {0.0, 0.2, 3.0, 2.0, -2.0};
     const int n[5] = {1, 2, 2, 1, 1};
     const dem_index first[5] = {1, 1, 2, 0, 1}; /* speeds -v.n at 0: (u/4 + 1)/1.03 of the slope and 1 of the level */
-    scene s;
+    CLEANUP(scene_close) scene s;
     event_listener listener;
     open_node(&s, &bent, 1, 0.0, 0.0);
     for (int k = 0; k < 5; k++) {
@@ -24,7 +24,6 @@ TEST(what_a_node_meets_is_the_segment_approached_fastest_and_what_makes_a_corner
         assert_int_equal(met.feature[0], first[k]);
         if (n[k] == 2) assert_int_equal(met.feature[1], 3 - first[k]);
     }
-    scene_close(&s);
 }
 
 /* Segments 0 and 1 are neighbours, the wall's 2 stands across 1; the ceiling's 3 is parallel to 1. */
@@ -33,7 +32,7 @@ TEST(neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross)
     const double bent_points[6] = {-4.0, 4.0, 0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = {4.0, 2.0, -1.0, 2.0};
     const dem_obstacle three[3] = {obstacle(3, bent_points, 0.5, 0.0), obstacle(2, wall_points, 0.5, 0.0),
                                    obstacle(2, ceiling_points, 0.5, 0.0)};
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_node(&s, three, 3, 0.0, 0.0);
     const contact_set *c = &s.c.set;
     assert_true(impact_target_is_corner(c, 0, 1, (surface_query){0.0, (vec2){3.9 * penetration_tolerance, 0.0}},
@@ -43,7 +42,6 @@ TEST(neighbours_make_a_corner_at_their_vertex_and_others_where_they_cross)
     assert_true(impact_target_is_corner(c, 1, 2, (surface_query){0.0, (vec2){2.0, 0.0}}, penetration_tolerance));
     assert_true(impact_target_is_corner(c, 2, 1, (surface_query){0.0, (vec2){2.0, 0.0}}, penetration_tolerance));
     assert_false(impact_target_is_corner(c, 1, 3, (surface_query){0.0, (vec2){1.0, 0.0}}, penetration_tolerance));
-    scene_close(&s);
 }
 
 /* Twice the penetration tolerance, and the way in ten times 100 units of rounding of 0.5 s and a step of 0.01 s. */
@@ -51,7 +49,7 @@ TEST(an_impact_can_be_as_deep_as_events_are_located)
 {
     const double located = 1000.0 * DBL_EPSILON * 0.51;
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
-    scene s;
+    CLEANUP(scene_close) scene s;
     event_listener listener;
     scene_open_triangle(&s, masses, -0.5, 0.0, &roof, 1);
     scene_put(&s, 0, -0.5, 0.0, 3e6, -4e6);
@@ -60,7 +58,6 @@ TEST(an_impact_can_be_as_deep_as_events_are_located)
     assert_close(impact_target_depth(&s.c.set, 0, &now), 2.0 * penetration_tolerance + 5e6 * located, 1e-19);
     assert_close(impact_target_depth(&s.c.set, scene_edge(&s, 0, 1), &now), 2.0 * penetration_tolerance + 1e7 * located,
                  1e-19);
-    scene_close(&s);
 }
 
 /* ---- a node right on an apex ---- */
@@ -74,7 +71,7 @@ TEST(a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side)
                  y[3] = {0.0, -0.5 * penetration_tolerance, -penetration_tolerance};
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
     for (int k = 0; k < 15; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         event_listener listener;
         dem_index at = -7;
         open_side(&s, &roof, x[k % 5], y[k / 5], 0.0);
@@ -88,7 +85,6 @@ TEST(a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side)
         } else {
             assert_int_equal(side, -1);
         }
-        scene_close(&s);
     }
 }
 

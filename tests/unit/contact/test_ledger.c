@@ -41,7 +41,7 @@ TEST(a_new_ledger_is_empty)
 TEST(impulses_add_up_for_each_obstacle_by_itself)
 {
     static const double impulse[6] = {1.0, -2.0, 0.0, 0.0, 4.0, 8.0}, friction[6] = {0.5, 0.25, 0.0, 0.0, -1.0, 2.0};
-    contact_ledger b;
+    CLEANUP(ledger_destroy) contact_ledger b;
     assert_ok(ledger_create(&b, 3));
     ledger_add_impulse(&b, 0, (vec2){1.0, -2.0}, (vec2){0.5, 0.25});
     ledger_add_impulse(&b, 2, (vec2){1.0, 3.0}, (vec2){-2.0, 1.5});
@@ -50,7 +50,6 @@ TEST(impulses_add_up_for_each_obstacle_by_itself)
         assert_close(b.impulse[k], impulse[k], 0.0); /* sums of small binary fractions are exact */
         assert_close(b.friction_impulse[k], friction[k], 0.0);
     }
-    ledger_destroy(&b);
 }
 
 static void enter(contact_ledger *b, dem_event_kind kind, dem_index other, int times)
@@ -65,7 +64,7 @@ static void enter(contact_ledger *b, dem_event_kind kind, dem_index other, int t
 /* Every kind another number of times, so that no two can be exchanged unseen. */
 TEST(every_kind_of_event_has_its_count)
 {
-    contact_ledger b;
+    CLEANUP(ledger_destroy) contact_ledger b;
     assert_ok(ledger_create(&b, 1));
     enter(&b, DEM_EVENT_IMPACT, -1, 3);
     enter(&b, DEM_EVENT_IMPACT, 0, 2); /* node 0 is a node: an edge on a vertex */
@@ -81,7 +80,6 @@ TEST(every_kind_of_event_has_its_count)
     assert_int_equal(b.counts.passings, 17);
     assert_int_equal(b.counts.closings, 0);
     assert_int_equal(b.counts.early + b.counts.late + b.counts.events, 0); /* counted elsewhere */
-    ledger_destroy(&b);
 }
 
 TEST(a_close_event_is_reported_but_counted_where_it_is_done)
@@ -91,13 +89,12 @@ TEST(a_close_event_is_reported_but_counted_where_it_is_done)
     const event_listener listener = {hear, &h};
     contact_instant now = {.listener = &listener};
     const dem_counts none = {0};
-    contact_ledger b;
+    CLEANUP(ledger_destroy) contact_ledger b;
     assert_ok(ledger_create(&b, 1));
     ledger_enter(&b, &event, &now);
     assert_memory_equal(&b.counts, &none, sizeof none);
     assert_int_equal(h.n_heard, 1);
     assert_ptr_equal(h.heard[0], &event);
-    ledger_destroy(&b);
 }
 
 /* The later ones are heard all the same, and do not replace the first. */
@@ -107,7 +104,7 @@ TEST(the_first_status_other_than_ok_is_kept)
     hearer h = {.says = {DEM_OK, DEM_STOPPED, DEM_ERROR_IO, DEM_OK}};
     const event_listener listener = {hear, &h};
     contact_instant now = {.listener = &listener};
-    contact_ledger b;
+    CLEANUP(ledger_destroy) contact_ledger b;
     assert_ok(ledger_create(&b, 1));
     ledger_enter(&b, &event, &now);
     assert_int_equal(now.listener_status, DEM_OK);
@@ -117,5 +114,4 @@ TEST(the_first_status_other_than_ok_is_kept)
     }
     assert_int_equal(h.n_heard, SCRIPT);
     assert_int_equal(b.counts.slips, SCRIPT);
-    ledger_destroy(&b);
 }

@@ -33,7 +33,7 @@ TEST(no_state_is_one_of_whole_elements)
 TEST(a_node_beside_what_is_broken_is_listed_once)
 {
     const dem_index expected[4] = {1, 3, 2, 0};
-    element_state s;
+    CLEANUP(element_state_destroy) element_state s;
     assert_ok(element_state_create(&s, &lattice));
     element_state_break_spring(&s, &lattice, 3); /* 1 - 3 */
     assert_int_equal(s.n_damaged, 2);
@@ -49,5 +49,4 @@ TEST(a_node_beside_what_is_broken_is_listed_once)
     assert_memory_equal(s.spring, ((const unsigned char[5]){0, 0, 1, 1, 0}), 5);
     assert_ptr_equal(element_state_triangles(&s), s.triangle);
     assert_memory_equal(s.triangle, ((const unsigned char[2]){0, 1}), 2);
-    element_state_destroy(&s);
 }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "elastic/renumber.h"
+#include "harness/cleanup_gsl.h"
 
 enum { n = 60 };
 
@@ -36,7 +37,7 @@ static void make_chains(chain *c, const dem_index *at)
 
 static void shuffle(dem_index *at, unsigned long seed)
 {
-    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(r, seed);
     for (dem_index k = 0; k < n; k++) at[k] = k;
     for (dem_index k = n - 1; k > 0; k--) {
@@ -44,7 +45,6 @@ static void shuffle(dem_index *at, unsigned long seed)
         at[k] = at[j];
         at[j] = kept;
     }
-    gsl_rng_free(r);
 }
 
 /* Numbered along themselves, neighbours are next to each other: span 1; wherever the list of springs begins. */

@@ -9,6 +9,7 @@
 #include <gsl/gsl_rng.h>
 
 #include "elastic/springs.h"
+#include "harness/cleanup_gsl.h"
 
 enum { n_nodes = 5, n_springs = 6 };
 
@@ -39,9 +40,8 @@ static dem_lattice make_net(void)
 static springs compile_net(void)
 {
     springs s;
-    dem_lattice lattice = make_net();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
     assert_ok(springs_compile(&s, &lattice));
-    dem_lattice_free(&lattice);
     return s;
 }
 
@@ -56,26 +56,24 @@ static dem_lattice make_pair(const double x[4], double rest_length, double stiff
 static springs compile_pair(const double x[4], double rest_length, double stiffness)
 {
     springs s;
-    dem_lattice lattice = make_pair(x, rest_length, stiffness);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(x, rest_length, stiffness);
     assert_ok(springs_compile(&s, &lattice));
-    dem_lattice_free(&lattice);
     return s;
 }
 
 /* Positions away from rest, or velocities, the same in every run. */
 static void stir(double *x, dem_index n, double by, unsigned long seed)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(rng, seed);
     for (dem_index k = 0; k < 2 * n; k++) x[k] += by * (2.0 * gsl_rng_uniform(rng) - 1.0);
-    gsl_rng_free(rng);
 }
 
 /* Strain and force of every spring in the order of the lattice, and r x f, from the two ends by hand. */
 TEST(strain_force_and_virial_are_those_of_each_spring)
 {
     double x[2 * n_nodes], strain[n_springs], force[n_springs], virial[3];
-    dem_lattice lattice = make_net();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.3, 5);
     springs_strains(&lattice, NULL, x, strain);
@@ -91,7 +89,6 @@ TEST(strain_force_and_virial_are_those_of_each_spring)
         assert_close(virial[1], f * dy * dy / d, 1e-12);
         assert_close(virial[2], f * dx * dy / d, 1e-12);
     }
-    dem_lattice_free(&lattice);
 }
 
 /* ---- rows ---- */
@@ -135,8 +132,8 @@ TEST(two_springs_between_the_same_nodes_are_named)
 
 TEST(nodes_without_springs_feel_nothing)
 {
-    dem_lattice lattice;
-    springs s;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(springs_free) springs s;
     support_lattice(&lattice, n_nodes, corners, masses, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(springs_compile(&s, &lattice));
     for (dem_index i = 0; i < n_nodes; i++) {
@@ -145,8 +142,6 @@ TEST(nodes_without_springs_feel_nothing)
     }
     assert_close(springs_energy(&lattice, NULL, corners), 0.0, 0.0);
     assert_close(sym2_largest(springs_block(&s, s.stiffness, 0, corners)), 0.0, 0.0);
-    springs_free(&s);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- force and energy ---- */
@@ -156,8 +151,8 @@ TEST(nodes_without_springs_feel_nothing)
 TEST(a_stretched_spring_pulls_with_stiffness_times_strain)
 {
     const double x[4] = {1.0, -1.0, 4.0, 3.0};
-    dem_lattice lattice = make_pair(x, 2.0, 100.0);
-    springs s = compile_pair(x, 2.0, 100.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(x, 2.0, 100.0);
+    CLEANUP(springs_free) springs s = compile_pair(x, 2.0, 100.0);
     const vec2 first = springs_force(&s, NULL, 0, x), second = springs_force(&s, NULL, 1, x);
     assert_close(first.x, 90.0, 1e-13);
     assert_close(first.y, 120.0, 1e-13);
@@ -165,18 +160,15 @@ TEST(a_stretched_spring_pulls_with_stiffness_times_strain)
     assert_close(springs_strain(&s, 0, 0, x), 1.5, 0.0);
     assert_close(springs_energy(&lattice, NULL, x), 225.0, 0.0);
     assert_close(springs_node_energy(&s, NULL, 1, x), 225.0, 0.0);
-    springs_free(&s);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_compressed_spring_pushes)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.5};
-    springs s = compile_pair(x, 2.0, 100.0);
+    CLEANUP(springs_free) springs s = compile_pair(x, 2.0, 100.0);
     assert_close(springs_force(&s, NULL, 0, x).y, -25.0, 0.0);
     assert_close(springs_force(&s, NULL, 1, x).y, 25.0, 0.0);
     assert_close(springs_strain(&s, 1, 1, x), -0.25, 0.0);
-    springs_free(&s);
 }
 
 /* Central differences over 1e-5 m: truncation of order 1e-10 times E/d^3 = 1e3 N/m^3, rounding of order 1e-16 * 100
@@ -185,8 +177,8 @@ TEST(the_force_is_minus_the_gradient_of_the_energy)
 {
     const double step = 1e-5;
     double x[2 * n_nodes];
-    dem_lattice lattice = make_net();
-    springs s = compile_net();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
+    CLEANUP(springs_free) springs s = compile_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 1);
     for (dem_index i = 0; i < n_nodes; i++) {
@@ -202,8 +194,6 @@ TEST(the_force_is_minus_the_gradient_of_the_energy)
             assert_close(k == 0 ? force.x : force.y, (node_below - node_above) / (2.0 * step), 1e-6);
         }
     }
-    springs_free(&s);
-    dem_lattice_free(&lattice);
 }
 
 /* Rounding of sums of a dozen terms of about 100 N. */
@@ -211,8 +201,8 @@ TEST(springs_exert_no_force_and_no_torque_on_the_whole)
 {
     double x[2 * n_nodes], torque = 0.0, energy = 0.0;
     vec2 total = {0.0, 0.0};
-    dem_lattice lattice = make_net();
-    springs s = compile_net();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
+    CLEANUP(springs_free) springs s = compile_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 2);
     for (dem_index i = 0; i < n_nodes; i++) {
@@ -226,20 +216,16 @@ TEST(springs_exert_no_force_and_no_torque_on_the_whole)
     assert_close(torque, 0.0, 1e-12);
     assert_true(springs_energy(&lattice, NULL, x) > 1.0);
     assert_close(energy, springs_energy(&lattice, NULL, x), 1e-12);
-    springs_free(&s);
-    dem_lattice_free(&lattice);
 }
 
 TEST(nodes_that_coincide_give_a_force_that_is_no_number)
 {
     const double apart[4] = {0.0, 0.0, 1.0, 0.0}, together[4] = {0.3, 0.7, 0.3, 0.7};
-    dem_lattice lattice = make_pair(apart, 1.0, 10.0);
-    springs s = compile_pair(apart, 1.0, 10.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(apart, 1.0, 10.0);
+    CLEANUP(springs_free) springs s = compile_pair(apart, 1.0, 10.0);
     assert_true(isnan(springs_force(&s, NULL, 0, together).x) != 0);
     assert_true(isnan(springs_force(&s, NULL, 1, together).y) != 0);
     assert_close(springs_energy(&lattice, NULL, together), 5.0, 0.0);
-    springs_free(&s);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- damping ---- */
@@ -247,24 +233,22 @@ TEST(nodes_that_coincide_give_a_force_that_is_no_number)
 TEST(springs_without_viscosities_stay_without)
 {
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, v[4] = {0.0, 0.0, 1.0, 0.0}, inverse_mass[2] = {1.0, 1.0};
-    springs s = compile_pair(x, 1.0, 10.0);
+    CLEANUP(springs_free) springs s = compile_pair(x, 1.0, 10.0);
     assert_null(s.viscosity);
     assert_close(springs_damping_power(&s, NULL, x, v), 0.0, 0.0);
     assert_close(springs_damping_bound(&s, x, inverse_mass), 0.0, 0.0);
-    springs_free(&s);
 }
 
 static springs compile_damped_pair(const double x[4], double rest_length, double viscosity)
 {
     springs s;
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     const dem_index ends[2] = {0, 1};
     support_lattice(&lattice, 2, x, masses, 1, ends, rest_length, 100.0, NULL);
     lattice.viscosity = malloc(sizeof *lattice.viscosity);
     assert_non_null(lattice.viscosity);
     lattice.viscosity[0] = viscosity;
     assert_ok(springs_compile(&s, &lattice));
-    dem_lattice_free(&lattice);
     return s;
 }
 
@@ -273,13 +257,12 @@ static springs compile_damped_pair(const double x[4], double rest_length, double
 TEST(a_lengthening_spring_pulls_with_viscosity_times_strain_rate)
 {
     const double x[4] = {1.0, -1.0, 4.0, 3.0}, v[4] = {-2.0, 5.0, 5.0, 4.0};
-    springs s = compile_damped_pair(x, 2.0, 6.0);
+    CLEANUP(springs_free) springs s = compile_damped_pair(x, 2.0, 6.0);
     const vec2 first = springs_damping(&s, NULL, 0, x, v), second = springs_damping(&s, NULL, 1, x, v);
     assert_close(first.x, 6.12, 1e-14);
     assert_close(first.y, 8.16, 1e-14);
     assert_true(second.x == -first.x && second.y == -first.y);
     assert_close(springs_damping_power(&s, NULL, x, v), 34.68, 1e-13);
-    springs_free(&s);
 }
 
 /* Rounding of sums of a dozen terms of about 10 N at 1 m/s. */
@@ -287,7 +270,7 @@ TEST(damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power)
 {
     double x[2 * n_nodes], v[2 * n_nodes] = {0}, torque = 0.0, given = 0.0;
     vec2 total = {0.0, 0.0};
-    springs s = compile_net();
+    CLEANUP(springs_free) springs s = compile_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 3);
     stir(v, n_nodes, 1.0, 4);
@@ -302,14 +285,13 @@ TEST(damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power)
     assert_close(torque, 0.0, 1e-13);
     assert_true(springs_damping_power(&s, NULL, x, v) > 1.0);
     assert_close(springs_damping_power(&s, NULL, x, v), -given, 1e-13);
-    springs_free(&s);
 }
 
 /* However much it is strained: each force is of the rounding of 10 N. */
 TEST(a_rigid_motion_is_not_damped)
 {
     double x[2 * n_nodes], v[2 * n_nodes];
-    springs s = compile_net();
+    CLEANUP(springs_free) springs s = compile_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 5);
     for (dem_index i = 0; i < n_nodes; i++) vec2_put(v, i, (vec2){0.7 - 3.0 * x[2 * i + 1], -0.2 + 3.0 * x[2 * i]});
@@ -319,7 +301,6 @@ TEST(a_rigid_motion_is_not_damped)
         assert_close(force.y, 0.0, 1e-13);
     }
     assert_close(springs_damping_power(&s, NULL, x, v), 0.0, 1e-26);
-    springs_free(&s);
 }
 
 /* ---- frequencies ---- */
@@ -328,7 +309,7 @@ TEST(a_rigid_motion_is_not_damped)
 TEST(the_block_of_a_pair_is_its_stiffness_along_it)
 {
     const double x[4] = {0.0, 0.0, 1.2, 1.6};
-    springs s = compile_pair(x, 2.0, 100.0);
+    CLEANUP(springs_free) springs s = compile_pair(x, 2.0, 100.0);
     for (dem_index i = 0; i < 2; i++) {
         const sym2 block = springs_block(&s, s.stiffness, i, x);
         assert_close(block.xx, 50.0 * 0.36, 1e-13);
@@ -336,7 +317,6 @@ TEST(the_block_of_a_pair_is_its_stiffness_along_it)
         assert_close(block.yy, 50.0 * 0.64, 1e-13);
         assert_close(sym2_largest(block), 50.0, 1e-13);
     }
-    springs_free(&s);
 }
 
 /* C/d0 = 6 N s/2 m = 3 kg/s: relative motion of 1 and 2 kg along the spring decays with 3 (1 + 1/2) = 4.5/s; the bound
@@ -344,10 +324,9 @@ TEST(the_block_of_a_pair_is_its_stiffness_along_it)
 TEST(the_damping_bound_of_a_pair_is_twice_its_damping_over_the_mass)
 {
     const double x[4] = {0.0, 0.0, 1.2, 1.6}, both[2] = {1.0, 0.5}, held[2] = {0.0, 0.5};
-    springs s = compile_damped_pair(x, 2.0, 6.0);
+    CLEANUP(springs_free) springs s = compile_damped_pair(x, 2.0, 6.0);
     assert_close(springs_damping_bound(&s, x, both), 6.0, 1e-14);
     assert_close(springs_damping_bound(&s, x, held), 3.0, 1e-14);
-    springs_free(&s);
 }
 
 static gsl_matrix *make_matrix(const dem_lattice *lattice)
@@ -366,12 +345,11 @@ static void set_entry(gsl_matrix *matrix, const dem_lattice *lattice, dem_index 
 /* Frees the matrix. */
 static double largest_eigenvalue(gsl_matrix *matrix)
 {
-    gsl_vector *values = gsl_vector_alloc(matrix->size1);
+    CLEANUP(free_vector) gsl_vector *values = gsl_vector_alloc(matrix->size1);
     gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(matrix->size1);
     assert_int_equal(gsl_eigen_symm(matrix, values, work), 0);
     const double largest = gsl_vector_max(values);
     gsl_eigen_symm_free(work);
-    gsl_vector_free(values);
     gsl_matrix_free(matrix);
     return largest;
 }
@@ -397,8 +375,8 @@ TEST(the_damping_bound_is_above_the_highest_rate_by_less_than_six_tenths)
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-5};
     const double sizes[3][2] = {{0.02, 0.02}, {0.04, 0.06}, {0.08, 0.03}};
     for (int k = 0; k < 3; k++) {
-        dem_lattice lattice;
-        springs s;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(springs_free) springs s;
         double inverse_mass[200];
         assert_ok(dem_lattice_rectangle(&lattice, sizes[k][0], sizes[k][1], 0.01));
         assert_ok(dem_lattice_assemble(&lattice, &rubber));
@@ -409,8 +387,6 @@ TEST(the_damping_bound_is_above_the_highest_rate_by_less_than_six_tenths)
         const double damping = springs_damping_bound(&s, lattice.x, inverse_mass);
         assert_true(damping >= rate * (1.0 - 1e-13));
         assert_true(damping <= 1.6 * rate);
-        springs_free(&s);
-        dem_lattice_free(&lattice);
     }
 }
 
@@ -418,12 +394,10 @@ TEST(the_damping_bound_is_above_the_highest_rate_by_less_than_six_tenths)
 TEST(the_damping_bound_of_a_net_is_above_the_highest_rate)
 {
     double inverse_mass[n_nodes];
-    dem_lattice lattice = make_net();
-    springs s = compile_net();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
+    CLEANUP(springs_free) springs s = compile_net();
     for (int i = 0; i < n_nodes; i++) inverse_mass[i] = 1.0 / masses[i];
     const double bound = springs_damping_bound(&s, corners, inverse_mass), rate = highest_damping_rate(&s, &lattice);
     assert_true(bound >= rate * (1.0 - 1e-13));
     assert_true(bound <= 2.0 * rate); /* no rate is below those of single nodes, |S_i|/m_i */
-    dem_lattice_free(&lattice);
-    springs_free(&s);
 }

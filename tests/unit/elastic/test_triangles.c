@@ -8,6 +8,7 @@
 #include <gsl/gsl_rng.h>
 
 #include "elastic/triangles.h"
+#include "harness/cleanup_gsl.h"
 
 static const double onset = 0.4, taylor_below = 0.05;
 
@@ -48,14 +49,13 @@ TEST(the_guard_sets_in_with_the_third_power_of_the_distance)
 /* The cube root brings the law back to its logarithm, and a third of the two roundings of the cube. */
 TEST(its_logarithm_agrees_with_libm)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (int k = 0; k < 20000; k++) {
         const double ratio = taylor_below + (onset - taylor_below) * gsl_rng_uniform_pos(rng);
         if (ratio >= onset) continue;
         const long double expected = -logl((long double)(ratio / onset)), actual = cbrtl((long double)energy_at(ratio));
         assert_close((double)(actual / expected), 1.0, 1e-15);
     }
-    gsl_rng_free(rng);
 }
 
 /* Central differences over d = 1e-6: d^2 w'''/6 with |w'''| < 6e5 at 0.05, and rounding of 1e-15 w/d. */
@@ -118,7 +118,7 @@ static const dem_index fan[3 * n_triangles] = {0, 1, 4, 4, 1, 2, 3, 4, 2, 0, 4, 
 
 static triangles compile_fan(const double *guard, const double *area_stiffness)
 {
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     triangles t;
     support_lattice(&lattice, n_nodes, corners, masses, 0, NULL, 0.0, 0.0, NULL);
     lattice.n_triangles = n_triangles;
@@ -136,7 +136,6 @@ static triangles compile_fan(const double *guard, const double *area_stiffness)
         memcpy(lattice.area_stiffness, area_stiffness, n_triangles * sizeof *area_stiffness);
     }
     assert_ok(triangles_compile(&t, &lattice));
-    dem_lattice_free(&lattice);
     return t;
 }
 
@@ -172,14 +171,13 @@ TEST(rows_hold_triangles_with_area_stiffness_or_guard)
     const double some[n_triangles] = {0.0, 0.0, 0.0, 7.0}, stiff[n_triangles] = {0.0, -3.0, 0.0, 0.0};
     static const dem_index row[n_nodes + 1] = {0, 1, 2, 3, 4, 6}, next[6] = {4, 2, 4, 0, 1, 3};
     static const double guard[6] = {7.0, 0.0, 0.0, 7.0, 0.0, 7.0}, kappa[6] = {0.0, -3.0, -3.0, 0.0, -3.0, 0.0};
-    triangles t = compile_fan(some, stiff);
+    CLEANUP(triangles_free) triangles t = compile_fan(some, stiff);
     assert_memory_equal(t.row, row, sizeof row);
     assert_memory_equal(t.next, next, sizeof next);
     for (int p = 0; p < 6; p++) {
         assert_close(t.guard[p], guard[p], 0.0);
         assert_close(t.area_stiffness[p], kappa[p], 0.0);
     }
-    triangles_free(&t);
 }
 
 TEST(without_guards_every_row_is_empty)
@@ -187,23 +185,21 @@ TEST(without_guards_every_row_is_empty)
     const double none[n_triangles] = {0.0, 0.0, 0.0, 0.0};
     const double *const cases[2] = {NULL, none};
     for (int k = 0; k < 2; k++) {
-        triangles t = compile_fan(cases[k], cases[k]);
+        CLEANUP(triangles_free) triangles t = compile_fan(cases[k], cases[k]);
         for (int i = 0; i <= n_nodes; i++) assert_int_equal(t.row[i], 0);
         assert_close(energy_of(&t, corners), 0.0, 0.0);
-        triangles_free(&t);
     }
 }
 
 /* Exactly: the area over the rest area is 1 from every corner. */
 TEST(a_lattice_at_rest_feels_nothing)
 {
-    triangles t = compile_fan(strengths, kappas);
+    CLEANUP(triangles_free) triangles t = compile_fan(strengths, kappas);
     for (dem_index i = 0; i < n_nodes; i++) {
         const vec2 force = triangles_force(&t, NULL, i, corners);
         assert_true(force.x == 0.0 && force.y == 0.0);
     }
     assert_close(energy_of(&t, corners), 0.0, 0.0);
-    triangles_free(&t);
 }
 
 /* The centre at (0.5, y) leaves the lower triangle the share 2 y of its area, the upper one 2 - 2 y, the others theirs:
@@ -212,7 +208,7 @@ TEST(the_area_term_is_linear_in_the_area)
 {
     const double stiff[n_triangles] = {300.0, 0.0, -50.0, 0.0};
     double x[2 * n_nodes];
-    triangles t = compile_fan(NULL, stiff);
+    CLEANUP(triangles_free) triangles t = compile_fan(NULL, stiff);
     memcpy(x, corners, sizeof x);
     for (double y = -1.0; y < 2.0; y += 0.3) {
         const double J = 2.0 * y, other = 2.0 - 2.0 * y;
@@ -225,7 +221,6 @@ TEST(the_area_term_is_linear_in_the_area)
         assert_close(area, 0.125 * (300.0 * (J - 1.0) * (J - 1.0) - 50.0 * (other - 1.0) * (other - 1.0)), 1e-12);
         assert_close(guard, 0.0, 0.0);
     }
-    triangles_free(&t);
 }
 
 /* kappa/A0 g g^T, |g| half the opposite side: the centre has g = (0, 1/2) of the lower triangle, (0, -1/2) of the upper
@@ -249,7 +244,7 @@ TEST(a_squeezed_triangle_pushes_its_corner_back)
 {
     const double ratios[3] = {0.1, 0.02, -0.3};
     double x[2 * n_nodes];
-    triangles t = compile_fan(strengths, NULL);
+    CLEANUP(triangles_free) triangles t = compile_fan(strengths, NULL);
     memcpy(x, corners, sizeof x);
     for (int k = 0; k < 3; k++) {
         x[9] = 0.5 * ratios[k];
@@ -263,7 +258,6 @@ TEST(a_squeezed_triangle_pushes_its_corner_back)
         assert_close(triangles_node_energy(&t, NULL, 4, x), energy_of(&t, x), 0.0);
         assert_close(triangles_node_energy(&t, NULL, 2, x), 0.0, 0.0);
     }
-    triangles_free(&t);
 }
 
 /* Squeezed to a fifth and stirred: areas from below the onset to inverted. */
@@ -278,9 +272,9 @@ static void squeeze(double *x, gsl_rng *rng)
 TEST(forces_are_minus_the_gradient_of_the_energy)
 {
     const double step = 1e-7;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes];
-    triangles t = compile_fan(strengths, kappas);
+    CLEANUP(triangles_free) triangles t = compile_fan(strengths, kappas);
     for (int trial = 0; trial < 50; trial++) {
         squeeze(x, rng);
         for (dem_index k = 0; k < 2 * n_nodes; k++) {
@@ -295,8 +289,6 @@ TEST(forces_are_minus_the_gradient_of_the_energy)
             assert_close((node_above - node_below) / (2.0 * step), (above - below) / (2.0 * step), 1e-7 * scale);
         }
     }
-    triangles_free(&t);
-    gsl_rng_free(rng);
 }
 
 /* Second differences of the guard's energy along any direction u never exceed the sum of bound_i u_i^2, and come
@@ -304,9 +296,9 @@ TEST(forces_are_minus_the_gradient_of_the_energy)
 TEST(the_bound_of_the_guard_is_above_its_second_variation)
 {
     const double step = 1e-4;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes], closest = 0.0;
-    triangles t = compile_fan(strengths, NULL);
+    CLEANUP(triangles_free) triangles t = compile_fan(strengths, NULL);
     for (dem_index i = 0; i < n_nodes; i++) assert_close(triangles_guard_bound(&t, NULL, i, corners), 0.0, 0.0);
     for (int trial = 0; trial < 2000; trial++) {
         double u[2 * n_nodes], moved[2 * n_nodes], allowed = 0.0, scale = 0.0;
@@ -328,8 +320,6 @@ TEST(the_bound_of_the_guard_is_above_its_second_variation)
         closest = fmax(closest, share);
     }
     assert_true(closest > 1.0 / 3.0);
-    triangles_free(&t);
-    gsl_rng_free(rng);
 }
 
 /* Central differences of the forces along a random motion, over 1e-6 m: truncation 1e-12 g w'''' A0 (dJ/dx)^4 = 1e-4
@@ -337,9 +327,9 @@ TEST(the_bound_of_the_guard_is_above_its_second_variation)
 TEST(the_tangent_is_the_derivative_of_the_force)
 {
     const double step = 1e-6;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes], u[2 * n_nodes], above[2 * n_nodes], below[2 * n_nodes];
-    triangles t = compile_fan(strengths, kappas);
+    CLEANUP(triangles_free) triangles t = compile_fan(strengths, kappas);
     for (int trial = 0; trial < 50; trial++) {
         squeeze(x, rng);
         for (int k = 0; k < 2 * n_nodes; k++) {
@@ -355,16 +345,14 @@ TEST(the_tangent_is_the_derivative_of_the_force)
             assert_close(tangent.y, change.y / (2.0 * step), 1e-6 * scale);
         }
     }
-    triangles_free(&t);
-    gsl_rng_free(rng);
 }
 
 /* Rounding of sums of 12 terms, against the largest force. */
 TEST(triangles_exert_no_force_and_no_torque_on_the_whole)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes];
-    triangles t = compile_fan(strengths, kappas);
+    CLEANUP(triangles_free) triangles t = compile_fan(strengths, kappas);
     for (int trial = 0; trial < 50; trial++) {
         double torque = 0.0, largest = 0.0, energy = 0.0;
         vec2 total = {0.0, 0.0};
@@ -381,8 +369,6 @@ TEST(triangles_exert_no_force_and_no_torque_on_the_whole)
         assert_close(torque, 0.0, 1e-13 * largest);
         assert_close(energy, energy_of(&t, x), 1e-13 * largest);
     }
-    triangles_free(&t);
-    gsl_rng_free(rng);
 }
 
 TEST(area_is_positive_counter_clockwise)

@@ -5,10 +5,11 @@
 #include <gsl/gsl_rng.h>
 
 #include "events/event_heap.h"
+#include "harness/cleanup_gsl.h"
 
 TEST(what_is_due_first_comes_first_and_of_equals_the_lowest)
 {
-    event_heap h;
+    CLEANUP(event_heap_destroy) event_heap h;
     assert_ok(event_heap_create(&h, 4));
     assert_int_equal(event_heap_first(&h), -1);
     event_heap_set(&h, 3, 1.0);
@@ -20,12 +21,11 @@ TEST(what_is_due_first_comes_first_and_of_equals_the_lowest)
     assert_int_equal(event_heap_first(&h), 3);
     event_heap_set(&h, 2, 0.5);
     assert_int_equal(event_heap_first(&h), 2);
-    event_heap_destroy(&h);
 }
 
 TEST(what_is_never_due_is_not_there)
 {
-    event_heap h;
+    CLEANUP(event_heap_destroy) event_heap h;
     assert_ok(event_heap_create(&h, 2));
     event_heap_set(&h, 0, (double)INFINITY);
     assert_int_equal(event_heap_first(&h), -1);
@@ -35,12 +35,11 @@ TEST(what_is_never_due_is_not_there)
     assert_int_equal(event_heap_first(&h), 1);
     event_heap_set(&h, 1, (double)NAN);
     assert_int_equal(event_heap_first(&h), -1);
-    event_heap_destroy(&h);
 }
 
 TEST(a_cleared_heap_is_empty_and_can_be_filled_again)
 {
-    event_heap h;
+    CLEANUP(event_heap_destroy) event_heap h;
     assert_ok(event_heap_create(&h, 3));
     for (dem_index k = 0; k < 3; k++) event_heap_set(&h, k, 1.0);
     event_heap_clear(&h);
@@ -48,7 +47,6 @@ TEST(a_cleared_heap_is_empty_and_can_be_filled_again)
     event_heap_set(&h, 2, 5.0);
     assert_int_equal(event_heap_first(&h), 2);
     assert_int_equal(h.n, 1);
-    event_heap_destroy(&h);
 }
 
 enum { n_keys = 40 };
@@ -64,9 +62,9 @@ static dem_index first_of(const double *due)
 /* Times are whole numbers up to 20, so that many are equal. */
 TEST(any_changes_leave_the_first_that_a_search_finds)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double due[n_keys];
-    event_heap h;
+    CLEANUP(event_heap_destroy) event_heap h;
     assert_ok(event_heap_create(&h, n_keys));
     for (dem_index k = 0; k < n_keys; k++) due[k] = (double)INFINITY;
     for (int turn = 0; turn < 100000; turn++) {
@@ -75,6 +73,4 @@ TEST(any_changes_leave_the_first_that_a_search_finds)
         event_heap_set(&h, k, due[k]);
         assert_int_equal(event_heap_first(&h), first_of(due));
     }
-    event_heap_destroy(&h);
-    gsl_rng_free(rng);
 }

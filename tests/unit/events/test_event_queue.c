@@ -67,7 +67,7 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
 static void open_masses(rig *r, dem_index n, const double *y, double eta, double friction)
 {
     double x[2 * most_nodes], m[most_nodes];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     for (dem_index i = 0; i < n; i++) {
         x[2 * i] = (double)i;
         x[2 * i + 1] = y[i];
@@ -78,7 +78,6 @@ static void open_masses(rig *r, dem_index n, const double *y, double eta, double
     assert_non_null(lattice.body);
     for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i;
     open_rig(r, &lattice, eta, friction, NULL);
-    dem_lattice_free(&lattice);
     memcpy(r->y0, x, 2 * (size_t)n * sizeof *x);
 }
 
@@ -173,7 +172,7 @@ TEST(events_come_in_the_order_of_time)
 {
     const double heights[5] = {0.03, 0.02, 0.05, 0.025, 0.04};
     const dem_index order[5] = {1, 3, 0, 4, 2};
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 5, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.11);
     show(&r, 0.11);
@@ -188,7 +187,6 @@ TEST(events_come_in_the_order_of_time)
         assert_close(r.y1[2 * order[k] + 1], v * tau - 0.5 * g * tau * tau, 1e-14);
         assert_close(r.y1[2 * (r.n_all + order[k]) + 1], v - g * tau, 1e-13);
     }
-    close_rig(&r);
 }
 
 /* Those of equal height at once, the lowest number first, whichever is looked at first. */
@@ -197,7 +195,7 @@ TEST(events_at_the_same_time_come_in_the_order_of_candidates)
     const double heights[6] = {0.03, 0.02, 0.03, 0.02, 0.03, 0.02};
     const dem_index order[6] = {1, 3, 5, 0, 2, 4};
     double due[6];
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 6, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
     for (dem_index k = 0; k < 6; k++) due[k] = r.contact.heap.due[k];
@@ -209,7 +207,6 @@ TEST(events_at_the_same_time_come_in_the_order_of_candidates)
         assert_int_equal(r.q.events[k].node, order[k]);
         assert_close(r.q.events[k].t, r.q.events[k - k % 3].t, 0.0);
     }
-    close_rig(&r);
 }
 
 /* Bounces at t, t + 2 eta v/g, t + 2 (eta + eta^2) v/g, ... : the same node again and again within one step. */
@@ -217,7 +214,7 @@ TEST(a_node_may_bounce_many_times_in_a_step)
 {
     const double height = 0.02, eta = 0.5, t = time_of_fall(height), v = g * t;
     double due = t, up = v;
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 1, &height, eta, 0.0);
     fall(&r, 0.0, 0.18);
     show(&r, 0.18);
@@ -228,7 +225,6 @@ TEST(a_node_may_bounce_many_times_in_a_step)
         due += 2.0 * up / g;
     }
     assert_true(due > 0.18);
-    close_rig(&r);
 }
 
 /* ---- several sources ---- */
@@ -327,7 +323,7 @@ TEST(events_of_sources_come_in_the_order_of_time_kind_and_key)
     const double heights[3] = {0.02, 0.03, 0.05}, h = 0.1, between = 0.07;
     const dem_index nodes[5] = {0, 2, 1, 2, 2}, keys[5] = {0, 2, 0, 0, 1};
     kicks jumps = {.node = 2, .jump = {0.0, 0.25}};
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 3, heights, 0.5, 0.0);
     assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
@@ -346,7 +342,6 @@ TEST(events_of_sources_come_in_the_order_of_time_kind_and_key)
     assert_close(r.y1[2 * (r.n_all + 2) + 1], 3.0 * jumps.jump[1] - g * h,
                  1e-14);                                                      /* rounding of velocities of order 1 */
     assert_close(r.y1[2 * 2 + 1], heights[2] + way - 0.5 * g * h * h, 1e-15); /* and of lengths of order 0.1 */
-    close_rig(&r);
 }
 
 /* The kick keeps mass 1 off the floor: contact looks at it anew, and back in time finds the impact of before. */
@@ -354,7 +349,7 @@ TEST(sources_are_undone_and_redone_to_the_bit)
 {
     const double heights[2] = {0.02, 0.03}, h = 0.1;
     kicks jumps = {.node = 1, .t = {0.07, (double)INFINITY, (double)INFINITY}, .jump = {0.0, 1.0}};
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 2, heights, 0.5, 0.0);
     assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
@@ -372,7 +367,6 @@ TEST(sources_are_undone_and_redone_to_the_bit)
     show(&r, h);
     const snapshot again = take_snapshot(&r, h);
     assert_same(&again, &once);
-    close_rig(&r);
 }
 
 /* ---- three dimensions, without contact ---- */
@@ -457,7 +451,7 @@ TEST(the_end_of_a_step_in_three_dimensions_has_its_own_derivative)
 {
     static const int axes[3] = {0, 1, 2};
     double f[CHAIN_STATE];
-    kicked_chain s;
+    CLEANUP(close_kicked_chain) kicked_chain s;
     take_kicked_step(&s, 3, axes);
     const state_layout *l = &s.chain.layout;
     chain_derive(&s.chain, s.chain.y1, f);
@@ -465,7 +459,6 @@ TEST(the_end_of_a_step_in_three_dimensions_has_its_own_derivative)
         assert_memory_equal(state_x(l, s.chain.f1, i), state_x(l, f, i), 3 * sizeof *f);
         assert_memory_equal(state_v(l, s.chain.f1, i), state_v(l, f, i), 3 * sizeof *f);
     }
-    close_kicked_chain(&s);
 }
 
 /* Taken back, and taken again by sources that come back from a checkpoint. */
@@ -473,8 +466,8 @@ TEST(a_step_in_three_dimensions_is_undone_and_redone_to_the_bit)
 {
     static const int axes[3] = {0, 1, 2};
     static chain before, after;
-    kicked_chain s;
-    dem_checkpoint *checkpoint;
+    CLEANUP(close_kicked_chain) kicked_chain s;
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
     open_kicked_chain(&s, 3, axes);
     memcpy(&before, &s.chain, sizeof before);
     assert_ok(event_queue_show(&s.q, chain_step));
@@ -492,8 +485,6 @@ TEST(a_step_in_three_dimensions_is_undone_and_redone_to_the_bit)
     assert_int_equal(s.q.n_events, 4);
     assert_memory_equal(s.chain.y1, after.y1, sizeof after.y1);
     assert_memory_equal(s.chain.f1, after.f1, sizeof after.f1);
-    dem_checkpoint_destroy(checkpoint);
-    close_kicked_chain(&s);
 }
 
 /* ---- candidates that come and go ---- */
@@ -572,7 +563,7 @@ TEST(a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there)
 {
     const surface all = {.n_nodes = 3, .nodes = every_node}, outer = {.n_nodes = 2, .nodes = outer_nodes};
     exposure late, early;
-    rig r, whole;
+    CLEANUP(close_rig) rig r, whole;
     open_exposed(&r, &late, &outer, &all);
     open_exposed(&whole, &early, &all, &all);
     const contact_candidate first = r.c.set.list[1];
@@ -596,8 +587,6 @@ TEST(a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there)
     event_queue_undo(&r.q);
     assert_int_equal(r.c.set.ledger.counts.impacts, 0);
     assert_memory_equal(&r.c.set.list[1], &first, sizeof first);
-    close_rig(&r);
-    close_rig(&whole);
 }
 
 /* Mass 1 falls through the floor, on which 0 bounces. */
@@ -605,7 +594,7 @@ TEST(a_candidate_that_goes_within_a_step_touches_no_more)
 {
     const surface all = {.n_nodes = 3, .nodes = every_node}, outer = {.n_nodes = 2, .nodes = outer_nodes};
     exposure late, early;
-    rig r, without;
+    CLEANUP(close_rig) rig r, without;
     open_exposed(&r, &late, &all, &outer);
     open_exposed(&without, &early, &outer, &outer);
     show(&r, 0.1);
@@ -614,8 +603,6 @@ TEST(a_candidate_that_goes_within_a_step_touches_no_more)
     assert_true(r.y1[3] < 0.0 && r.y1[1] > 0.0);
     assert_memory_equal(r.y1, without.y1, sizeof r.y1);
     assert_memory_equal(r.f1, without.f1, sizeof r.f1);
-    close_rig(&r);
-    close_rig(&without);
 }
 
 /* ---- any time ---- */
@@ -623,7 +610,7 @@ TEST(a_candidate_that_goes_within_a_step_touches_no_more)
 TEST(a_step_without_events_is_left_as_it_is)
 {
     const double height = 5.0;
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 1, &height, 0.5, 0.0);
     fall(&r, 1.0, 0.1);
     const snapshot before = take_snapshot(&r, 1.05);
@@ -632,7 +619,6 @@ TEST(a_step_without_events_is_left_as_it_is)
     assert_same(&after, &before);
     assert_int_equal(r.q.n_stops, 0);
     assert_close(event_queue_error(&r.q), 0.0, 0.0);
-    close_rig(&r);
 }
 
 /* Between the impacts of the lower and the higher mass: one has happened, the other not, in motion and in ledger. */
@@ -640,7 +626,7 @@ TEST(a_step_shown_at_a_time_is_what_it_is_then)
 {
     const double heights[2] = {0.02, 0.04}, t = time_of_fall(0.02), v = 0.5 * g * t, now = 0.08;
     double y[most_state];
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 2, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
     show(&r, now);
@@ -662,7 +648,6 @@ TEST(a_step_shown_at_a_time_is_what_it_is_then)
     show(&r, 0.5 * t);
     dense_output_state(&r.dense, 0.5 * t, y);
     assert_close(y[1], 0.02 - 0.125 * g * t * t, 1e-15);
-    close_rig(&r);
 }
 
 /* Some bounce, some stay and slide; forwards, backwards, to the end and back again. */
@@ -696,7 +681,7 @@ TEST(undoing_brings_every_bit_back)
 {
     static const double heights[6] = {0.03, 0.01, 0.05, 0.01, 0.0, 0.03};
     for (int eta = 0; eta < 2; eta++) {
-        rig r;
+        CLEANUP(close_rig) rig r;
         open_masses(&r, 6, heights, 0.6 * eta, 0.3);
         fall(&r, 0.0, 0.11);
         const snapshot before = take_snapshot(&r, 0.1);
@@ -710,7 +695,6 @@ TEST(undoing_brings_every_bit_back)
         event_queue_undo(&r.q);
         const snapshot twice = take_snapshot(&r, 0.1);
         assert_same(&twice, &before);
-        close_rig(&r);
     }
 }
 
@@ -720,7 +704,7 @@ TEST(undoing_brings_every_bit_back)
 TEST(an_event_at_the_very_start_happens_once)
 {
     const double height = 0.0, h = 0.01;
-    rig r;
+    CLEANUP(close_rig) rig r;
     double y[most_state], v[STATE_DIM_MOST];
     open_masses(&r, 1, &height, 0.5, 0.0);
     r.y0[1] = -1.5 * penetration_tolerance;
@@ -736,7 +720,6 @@ TEST(an_event_at_the_very_start_happens_once)
     assert_close(y[2 * r.n_all + 1], 1.0, 0.0);
     dense_output_velocity(&r.dense, 0.0, 0, v);
     assert_close(v[1], 1.0, 0.0);
-    close_rig(&r);
 }
 
 /* The step ends a few units of rounding after the impact. */
@@ -744,7 +727,7 @@ TEST(an_event_at_the_very_end_is_in_the_state_there)
 {
     const double height = 0.02, t = time_of_fall(height);
     for (int k = 0; k < 4; k++) {
-        rig r;
+        CLEANUP(close_rig) rig r;
         open_masses(&r, 1, &height, 0.5, 0.0);
         fall(&r, 0.0, t * (1.0 + k * 1e-15));
         show(&r, r.dense.t1);
@@ -755,7 +738,6 @@ TEST(an_event_at_the_very_end_is_in_the_state_there)
             assert_true(k < 3);
             assert_close(r.y1[1], -penetration_tolerance, 1e-14);
         }
-        close_rig(&r);
     }
 }
 
@@ -813,8 +795,8 @@ static double impact_time(dem_lattice *lattice, int node, double *y)
 TEST(the_neighbours_events_are_looked_for_anew)
 {
     const double h = 0.16;
-    dem_lattice lattice;
-    rig r;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(close_rig) rig r;
     double y[8];
     open_pair(&r, &lattice, NULL);
     swing(&r, &lattice, h);
@@ -829,8 +811,6 @@ TEST(the_neighbours_events_are_looked_for_anew)
     assert_true(fabs(second - alone) > 1e-3);
     assert_close(r.q.events[0].t, first, 5e-5); /* omega h = 4.8: coarse on purpose */
     assert_close(r.q.events[1].t, second, 0.2 * fabs(second - alone));
-    dem_lattice_free(&lattice);
-    close_rig(&r);
 }
 
 /* The same with ever shorter steps, the impacts in one of them. */
@@ -839,8 +819,8 @@ TEST(times_and_motion_converge_with_the_step)
     double wrong[2];
     for (int k = 0; k < 2; k++) {
         const double h = 0.08 / (1 << k);
-        dem_lattice lattice;
-        rig r;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(close_rig) rig r;
         double y[8];
         open_pair(&r, &lattice, NULL);
         lattice.x[1] = 0.3 * h, lattice.x[3] = 0.7 * h; /* hit after about these shares of the step */
@@ -853,8 +833,6 @@ TEST(times_and_motion_converge_with_the_step)
         triplets_reach(&lattice, h - second, y);
         wrong[k] = fabs(r.q.events[1].t - second);
         for (int c = 0; c < 4; c++) wrong[k] = fmax(wrong[k], fabs(r.y1[c] - y[c]));
-        dem_lattice_free(&lattice);
-        close_rig(&r);
     }
     print_message("# wrong by %.1e, %.1e\n", wrong[0], wrong[1]);
     assert_true(wrong[1] < wrong[0] / 16.0 + 1e-12);
@@ -868,8 +846,8 @@ TEST(an_error_beyond_what_is_allowed_ends_the_step)
 {
     static const double strict[2] = {1e-12, 1e-12}, lax[2] = {1.0, 1.0};
     for (int k = 0; k < 3; k++) {
-        dem_lattice lattice;
-        rig r;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(close_rig) rig r;
         open_pair(&r, &lattice, k == 0 ? strict : (k == 1 ? lax : NULL));
         swing(&r, &lattice, 0.16);
         const snapshot before = take_snapshot(&r, 0.1);
@@ -881,8 +859,6 @@ TEST(an_error_beyond_what_is_allowed_ends_the_step)
         event_queue_undo(&r.q);
         const snapshot undone = take_snapshot(&r, 0.1);
         assert_same(&undone, &before);
-        dem_lattice_free(&lattice);
-        close_rig(&r);
     }
 }
 
@@ -893,8 +869,8 @@ TEST(what_events_have_done_bounds_the_next_step)
     double error = 0.0;
     for (int k = 0; k < 3; k++) {
         const double one = k == 0 ? 1.0 : error * (k == 1 ? 1.5 : 30.0), tolerance[2] = {one, one};
-        dem_lattice lattice;
-        rig r;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(close_rig) rig r;
         open_pair(&r, &lattice, tolerance);
         swing(&r, &lattice, 0.16);
         assert_true(isinf(event_queue_reach(&r.q)) != 0);
@@ -904,8 +880,6 @@ TEST(what_events_have_done_bounds_the_next_step)
             assert_true(event_queue_error(&r.q) < 1.0 && event_queue_reach(&r.q) < 0.16 &&
                         event_queue_reach(&r.q) > 0.08);
         if (k == 2) assert_true(isinf(event_queue_reach(&r.q)) != 0);
-        dem_lattice_free(&lattice);
-        close_rig(&r);
     }
 }
 
@@ -913,7 +887,7 @@ TEST(what_events_have_done_bounds_the_next_step)
 TEST(a_storm_can_be_taken_back)
 {
     const double heights[2] = {0.02, 0.001};
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 2, heights, 0.9, 0.0);
     r.c.set.scene.rule.max_impacts = 3;
     fall(&r, 0.0, 0.2);
@@ -923,14 +897,13 @@ TEST(a_storm_can_be_taken_back)
     event_queue_undo(&r.q);
     const snapshot undone = take_snapshot(&r, 0.1);
     assert_same(&undone, &before);
-    close_rig(&r);
 }
 
 /* The next step knows nothing of the events of the last. */
 TEST(the_next_step_begins_anew)
 {
     const double height = 0.02, t = time_of_fall(height);
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_masses(&r, 1, &height, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
     show(&r, 0.1);
@@ -946,5 +919,4 @@ TEST(the_next_step_begins_anew)
     assert_close(r.q.events[0].t, 2.0 * t, 1e-9);
     event_queue_undo(&r.q);
     assert_int_equal(r.c.set.ledger.counts.impacts, n_impacts);
-    close_rig(&r);
 }

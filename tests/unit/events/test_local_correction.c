@@ -115,11 +115,10 @@ static void make_model(step *s)
                                  .thickness = 1.0,
                                  .guard = 0.02,
                                  .damping_time = s->kind.damping_time};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_ok(dem_lattice_rectangle(&lattice, 0.15, 0.13, spacing));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
     assert_ok(dem_model_create(&s->model, &lattice, &ground, 1));
-    dem_lattice_free(&lattice);
 }
 
 static dem_index node_near(const step *s, double x, double y)
@@ -230,7 +229,7 @@ static void close_step(step *s)
 /* Takes the step with the contacts that there are. */
 static void go(step *s)
 {
-    double *error = zeros(s);
+    CLEANUP(free_memory) double *error = zeros(s);
     memcpy(s->y1, s->y0, 4 * (size_t)s->n_all * sizeof *s->y1);
     apply(s, gsl_odeiv2_step_rkf45, of_the_body, start, s->h, s->y1, error);
     s->y1[4 * s->n_all - 1] = start + s->h;
@@ -248,7 +247,6 @@ static void go(step *s)
                               .changed = &s->changed};
     changed_motion_start(&s->changed, s->dense.t1, s->y1, s->f1);
     automaton_begin_step(&s->c, &s->dense, s->state);
-    free(error);
 }
 
 /* Closes a contact now, and before if it was there. */
@@ -337,8 +335,8 @@ static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
     const size_t size = 4 * (size_t)s->n_all * sizeof(double);
     const dem_index i = s->c.set.list[candidate].node;
     double *was = zeros(s), *change = zeros(s), *estimate = zeros(s), error;
-    int *ring = malloc((size_t)s->n * sizeof *ring);
-    dem_index *turned = malloc((size_t)s->n * sizeof *turned);
+    CLEANUP(free_memory) int *ring = malloc((size_t)s->n * sizeof *ring);
+    CLEANUP(free_memory) dem_index *turned = malloc((size_t)s->n * sizeof *turned);
     assert_true(ring != NULL && turned != NULL);
     for (dem_index j = 0; j < s->n; j++) ring[j] = j == i || j == s->c.set.list[candidate].other ? 0 : -1;
     for (dem_index e = s->model->surface.row[i]; e < s->model->surface.row[i + 1] && s->kind.ridges; e++)
@@ -356,8 +354,6 @@ static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
     const int n_last = check_rings(s, ring, was, change, turned);
     assert_true(n_last > 0 || s->correction.h < 0.5 * s->h || vec2_norm(jump) == 0.0);
     assert_close(error, norm_of(s, estimate), 1e-7 * error + 1e-18);
-    free(ring);
-    free(turned);
     free(was);
     free(change);
     free(estimate);
@@ -366,7 +362,7 @@ static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
 /* The end's derivative is that of the end's state, where the change has got to. */
 static void check_derivative(step *s)
 {
-    double *f = zeros(s);
+    CLEANUP(free_memory) double *f = zeros(s);
     derive(s, &s->c, s->dense.t1, s->y1, f);
     const local_nodes *nodes = &s->correction.near.nodes;
     for (dem_index j = 0; j < nodes->end[nodes->n_rings - 2]; j++)
@@ -376,7 +372,6 @@ static void check_derivative(step *s)
         }
     for (dem_index k = 2 * (s->n_all + s->n); k < 4 * s->n_all - 1; k++)
         assert_close(s->f1[k], f[k], 1e-8 * (1.0 + fabs(f[k])));
-    free(f);
 }
 
 static const vec2 nothing = {0.0, 0.0};
@@ -396,42 +391,39 @@ TEST(an_impact_changes_three_rings_as_a_step_of_the_whole_body_would)
     static const double places[3] = {0.0, -0.075, 0.04}, shares[4] = {0.0, 0.3, 0.7, 0.999};
     for (int p = 0; p < 3; p++)
         for (int q = 0; q < 4; q++) {
-            step s;
+            CLEANUP(close_step) step s;
             open_step(&s, plain);
             go(&s);
             begin(&s, lower_node(&s, places[p]), shares[q]);
             finish(&s, lower_node(&s, places[p]), (vec2){0.0, 1e-8}, (vec2){0.5, 6.0});
             if (q == 1) check_derivative(&s);
-            close_step(&s);
         }
 }
 
 TEST(so_it_does_with_area_terms_and_mass_damping)
 {
-    step s;
+    CLEANUP(close_step) step s;
     open_step(&s, (kind){.nu = 0.2, .mass_damping = 200.0});
     go(&s);
     begin(&s, lower_node(&s, 0.02), 0.25);
     finish(&s, lower_node(&s, 0.02), nothing, (vec2){-1.0, 7.0});
-    close_step(&s);
 }
 
 TEST(damped_springs_carry_it_over_six_rings)
 {
-    step s;
+    CLEANUP(close_step) step s;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .damping_time = 1e-4});
     go(&s);
     begin(&s, lower_node(&s, -0.075), 0.25);
     finish(&s, lower_node(&s, -0.075), (vec2){0.0, 1e-8}, (vec2){-1.0, 7.0});
     check_derivative(&s);
-    close_step(&s);
 }
 
 /* Nodes near the event set out with the accelerations of the state there, and come to the end of the step: in powers
  * of their share of the rest of it, positions and velocities are of degree 2. */
 static void check_parabolas(step *s)
 {
-    double *y = zeros(s), *f = zeros(s);
+    CLEANUP(free_memory) double *y = zeros(s), *f = zeros(s);
     const dem_index n = 2 * s->n_all;
     dense_output_state(&s->dense, s->correction.t, y);
     derive(s, &s->c, s->correction.t, y, f);
@@ -447,14 +439,12 @@ static void check_parabolas(step *s)
             for (int k = 3; k < MOTION_TERMS; k++) assert_true(c[k][0] == 0.0 && c[k][1] == 0.0);
         }
     }
-    free(y);
-    free(f);
 }
 
 /* The way of Verlet's method, whose next event starts from parabolas as well. */
 TEST(a_step_of_parabolas_goes_on_in_parabolas)
 {
-    step s;
+    CLEANUP(close_step) step s;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .parabolic = true});
     go(&s);
     begin(&s, lower_node(&s, 0.0), 0.4);
@@ -463,13 +453,12 @@ TEST(a_step_of_parabolas_goes_on_in_parabolas)
     begin(&s, lower_node(&s, spacing), 0.7);
     finish(&s, lower_node(&s, spacing), (vec2){0.0, 1e-8}, (vec2){0.5, 6.0});
     check_parabolas(&s);
-    close_step(&s);
 }
 
 /* What a boundary prescribes keeps its slope: no force accelerates it. */
 TEST(prescribed_nodes_keep_their_parabolas)
 {
-    step s;
+    CLEANUP(close_step) step s;
     double error;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .drives = true, .parabolic = true});
     go(&s);
@@ -487,13 +476,12 @@ TEST(prescribed_nodes_keep_their_parabolas)
         assert_true(m->c[1][q][0] == expected.c[1][q][0] && m->c[1][q][1] == expected.c[1][q][1]);
         assert_true(q == 0 || q > 2 || m->c[0][q][1] != expected.c[0][q][1]); /* the other component is free */
     }
-    close_step(&s);
 }
 
 /* One component given, a force that grows: their work is in the quadratures. */
 TEST(prescribed_nodes_stay_on_their_way)
 {
-    step s;
+    CLEANUP(close_step) step s;
     double was[2];
     open_step(&s, (kind){.nu = 1.0 / 3.0, .drives = true});
     go(&s);
@@ -503,14 +491,13 @@ TEST(prescribed_nodes_stay_on_their_way)
     finish(&s, lower_node(&s, 0.0), nothing, (vec2){0.0, 7.0});
     assert_close(s.y1[2 * driven + 1], was[0], 0.0);
     assert_true(s.y1[2 * (s.n_all + work)] != was[1]);
-    close_step(&s);
 }
 
 /* A neighbour slides, another sticks; the node between them hits, closes and slides, or sticks, or opens. */
 TEST(contacts_near_by_hold_and_rub)
 {
     for (int after = -1; after <= 2; after++) { /* sign of the contact; 2: it is released */
-        step s;
+        CLEANUP(close_step) step s;
         open_step(&s, plain);
         const dem_index k = lower_node(&s, 0.0);
         touch(&s, lower_node(&s, spacing), 0, 1, true);
@@ -524,13 +511,12 @@ TEST(contacts_near_by_hold_and_rub)
             touch(&s, k, 0, after, false);
         finish(&s, k, nothing, after == 2 ? nothing : (vec2){after == 0 ? -1.0 : 0.5, 4.0});
         check_derivative(&s);
-        close_step(&s);
     }
 }
 
 TEST(so_they_do_where_springs_are_damped)
 {
-    step s;
+    CLEANUP(close_step) step s;
     open_step(&s, (kind){.nu = 0.3, .damping_time = 1e-4, .mass_damping = 50.0, .drives = true});
     const dem_index k = lower_node(&s, 0.03);
     touch(&s, lower_node(&s, 0.03 + spacing), 0, 1, true);
@@ -538,13 +524,12 @@ TEST(so_they_do_where_springs_are_damped)
     begin(&s, k, 0.35);
     touch(&s, k, 0, -1, false);
     finish(&s, k, nothing, (vec2){0.5, 4.0});
-    close_step(&s);
 }
 
 /* Edges on two ridges are two groups, of two nodes each; a node near them hits. */
 TEST(edges_on_vertices_move_together)
 {
-    step s;
+    CLEANUP(close_step) step s;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .ridges = true});
     const dem_index k = lower_node(&s, 0.0), n_nodes = s.model->surface.n_nodes;
     dem_index left = -1, right = -1;
@@ -562,13 +547,12 @@ TEST(edges_on_vertices_move_together)
     go(&s);
     begin(&s, k, 0.35);
     finish(&s, k, nothing, (vec2){0.5, 4.0});
-    close_step(&s);
 }
 
 /* What the first has done is part of the way to which the second adds. */
 TEST(a_second_event_adds_to_the_first)
 {
-    step s;
+    CLEANUP(close_step) step s;
     open_step(&s, plain);
     const dem_index k = lower_node(&s, 0.0), next = lower_node(&s, spacing);
     go(&s);
@@ -578,7 +562,6 @@ TEST(a_second_event_adds_to_the_first)
     finish(&s, next, nothing, (vec2){0.0, 5.0});
     begin(&s, k, 0.6); /* and at once another one */
     finish(&s, k, nothing, (vec2){0.0, 3.0});
-    close_step(&s);
 }
 
 /* ---- closed forms ---- */
@@ -592,15 +575,14 @@ TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
     const dem_obstacle ground = {.n_points = 2, .points = points, .friction = mu};
     const contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h, .layout = {2, 1, 0, 1, 5}};
     double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, middle[STATE_DIM_MOST], error;
-    dem_lattice lattice;
-    dem_model *model;
-    automaton c;
-    local_correction near;
-    local_springs local;
-    changed_motion tr;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(free_model) dem_model *model;
+    CLEANUP(automaton_destroy) automaton c;
+    CLEANUP(local_correction_destroy) local_correction near;
+    CLEANUP(local_springs_destroy) local_springs local;
+    CLEANUP(changed_motion_destroy) changed_motion tr;
     support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
-    dem_lattice_free(&lattice);
     const forces acting = {.model = model, .gravity = {0.0, -g}};
     assert_ok(automaton_create(&c, &acting, &rule));
     local_springs_create(&local, &acting, &rule.layout);
@@ -634,11 +616,6 @@ TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
     assert_close(middle[0], v - 0.5 * mu * g * tau, 1e-14);
     changed_motion_undo(&tr);
     assert_close(y1[13], 0.0, 0.0);
-    local_correction_destroy(&near);
-    local_springs_destroy(&local);
-    changed_motion_destroy(&tr);
-    automaton_destroy(&c);
-    dem_model_destroy(model);
 }
 
 /* ---- the body itself ---- */
@@ -652,8 +629,8 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     const double points[4] = {-1.0, -0.5, 1.0, -0.5};
     const dem_obstacle ground = {.n_points = 2, .points = points};
     contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h};
-    dem_lattice l;
-    step s = {.h = h};
+    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(close_step) step s = {.h = h};
     double error;
     assert_ok(dem_lattice_rectangle(&l, 0.1, 0.08, spacing));
     assert_ok(dem_lattice_assemble(&l, &rubber));
@@ -689,8 +666,6 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     for (dem_index k = 0; k < 2 * s.n; k++) *inside = fmax(*inside, fabs(s.last[k] - s.first[k]));
     triplets_reach(&l, h - at_inside, s.first);
     for (dem_index k = 0; k < 2 * s.n; k++) *at_end = fmax(*at_end, fabs(s.y1[k] - s.first[k]));
-    dem_lattice_free(&l);
-    close_step(&s);
 }
 
 /* Local errors of a method of order 5, and of the quintic: h^6 at least. */

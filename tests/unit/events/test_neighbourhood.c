@@ -29,7 +29,7 @@ static void open_rig(rig *r, int n_rings)
     const dem_obstacle floor = {.n_points = 2, .points = points, .friction = 0.3};
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
-    dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block;
     assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
     assert_ok(dem_lattice_assemble(&block, &rubber));
     *r = (rig){.n = block.n_nodes};
@@ -51,7 +51,6 @@ static void open_rig(rig *r, int n_rings)
         r->y[k] = block.x[k] + 1e-4 * sin(3.0 * (double)k);
         r->y[2 * r->n + k] = cos(5.0 * (double)k);
     }
-    dem_lattice_free(&block);
 }
 
 static void close_rig(rig *r)
@@ -106,27 +105,25 @@ static int *distances(const rig *r, dem_index from)
 
 TEST(rings_are_distances)
 {
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_rig(&r, 4);
     const dem_index candidate = bottom_candidate(&r);
     for (int turn = 0; turn < 2; turn++) { /* the second forgets the first */
-        int *d = distances(&r, r.model->surface.nodes[candidate + turn]);
+        CLEANUP(free_memory) int *d = distances(&r, r.model->surface.nodes[candidate + turn]);
         assert_ok(gather(&r, candidate + turn));
         for (dem_index i = 0; i < r.n; i++) {
             assert_int_equal(r.b.nodes.number[i] >= 0, d[i] <= 4);
             for (int ring = 0; ring <= 4; ring++) assert_int_equal(local_nodes_have(&r.b.nodes, i, ring), d[i] <= ring);
         }
         for (dem_index j = 0; j < r.b.nodes.n; j++) assert_int_equal(r.b.nodes.number[r.b.nodes.list[j]], j);
-        free(d);
     }
-    close_rig(&r);
 }
 
 /* As far as two rings. Sums of forces of 1e3 N on 0.02 kg, in another order: 1e-16 times some ten of them. */
 static void check_accelerations(rig *r)
 {
     const local_nodes *nodes = &r->b.nodes;
-    double *y = calloc(4 * (size_t)r->n, sizeof *y);
+    CLEANUP(free_memory) double *y = calloc(4 * (size_t)r->n, sizeof *y);
     const local_state s = {0.0, r->x, r->v, y};
     assert_non_null(y);
     for (dem_index j = 0; j < nodes->n; j++) {
@@ -135,19 +132,17 @@ static void check_accelerations(rig *r)
     }
     neighbourhood_put(&r->b, &s, nodes->end[3], y);
     neighbourhood_accelerate(&r->b, 2, &s, r->a);
-    double *all = calloc(2 * (size_t)r->n, sizeof *all);
+    CLEANUP(free_memory) double *all = calloc(2 * (size_t)r->n, sizeof *all);
     assert_non_null(all);
     for (dem_index i = 0; i < r->n; i++) vec2_put(all, i, forces_acceleration(&r->acting, i, r->y, r->y + 2 * r->n));
     contact_forces_hold(&r->c.set.forces, (scene_state){0.0, r->y, r->y + 2 * r->n}, all);
     for (dem_index k = 0; k < 2 * nodes->end[2]; k++)
         assert_close(r->a[k], all[2 * nodes->list[k / 2] + (k & 1)], 1e-9);
-    free(all);
-    free(y);
 }
 
 TEST(a_closed_contact_holds_its_node)
 {
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_rig(&r, 4);
     const dem_index candidate = bottom_candidate(&r);
     assert_ok(gather(&r, candidate));
@@ -161,7 +156,6 @@ TEST(a_closed_contact_holds_its_node)
     check_accelerations(&r);
     assert_close(r.a[0], 0.0, 0.0); /* the node of the candidate sticks */
     assert_close(r.a[1], 0.0, 0.0);
-    close_rig(&r);
 }
 
 /* ---- three dimensions, without contact ---- */
@@ -208,7 +202,7 @@ TEST(tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension)
     for (int dim = 2; dim <= 3; dim++) {
         chain s;
         tie t;
-        neighbourhood b;
+        CLEANUP(neighbourhood_destroy) neighbourhood b;
         double x[STATE_DIM_MOST * CHAIN_NODES], v[STATE_DIM_MOST * CHAIN_NODES], a[STATE_DIM_MOST * CHAIN_NODES];
         chain_open(&s, dim, axes, -1, false);
         const constraints c = tie_constraints(&t, &s);
@@ -233,6 +227,5 @@ TEST(tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension)
             for (int k = 0; k < dim; k++)
                 assert_close(a[state_row(&s.layout, j) + k], order[j] >= 8 ? tied[k] : expected[k], 0.0);
         }
-        neighbourhood_destroy(&b);
     }
 }

@@ -41,11 +41,10 @@ static void open_list(source_list *s, counter counters[2])
 TEST(sources_keep_the_order_in_which_they_were_added)
 {
     counter counters[2] = {{.entry = "one"}, {.entry = "two"}};
-    source_list s;
+    CLEANUP(source_list_destroy) source_list s;
     open_list(&s, counters);
     assert_int_equal(s.n, 2);
     for (int k = 0; k < 2; k++) assert_ptr_equal(s.list[k].self, &counters[k]);
-    source_list_destroy(&s);
 }
 
 TEST(each_source_comes_back_from_its_own_entry)
@@ -54,7 +53,7 @@ TEST(each_source_comes_back_from_its_own_entry)
             to[2] = {{.entry = "one"}, {.entry = "two"}};
     const double y = 0.25;
     source_list s;
-    dem_checkpoint *checkpoint;
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
     assert_ok(dem_checkpoint_create(&checkpoint));
     open_list(&s, from);
     assert_ok(source_list_save(&s, checkpoint));
@@ -67,7 +66,6 @@ TEST(each_source_comes_back_from_its_own_entry)
         assert_close(to[k].y, y, 0.0);
     }
     source_list_destroy(&s);
-    dem_checkpoint_destroy(checkpoint);
 }
 
 TEST(a_record_without_the_entry_of_a_source_is_refused)
@@ -75,7 +73,7 @@ TEST(a_record_without_the_entry_of_a_source_is_refused)
     counter one = {.entry = "one", .count = 7}, both[2] = {{.entry = "one"}, {.entry = "two"}};
     const double y = 0.0;
     source_list s = {0};
-    dem_checkpoint *checkpoint;
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
     assert_ok(dem_checkpoint_create(&checkpoint));
     assert_ok(source_list_add(&s, counter_source(&one)));
     assert_ok(source_list_save(&s, checkpoint));
@@ -84,5 +82,4 @@ TEST(a_record_without_the_entry_of_a_source_is_refused)
     assert_int_equal(source_list_restore(&s, checkpoint, 0.0, &y), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "two"));
     source_list_destroy(&s);
-    dem_checkpoint_destroy(checkpoint);
 }

@@ -66,7 +66,7 @@ TEST(forces_add_up_on_a_node_and_follow_their_ramps)
     const dem_boundary list[] = {
         {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = nodes, .share = share, .value = {4.0, 8.0}, .ramp = 2.0},
         {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = one, .value = {0.0, 1.0}}};
-    boundary_conditions b;
+    CLEANUP(boundary_conditions_free) boundary_conditions b;
     compiled(&b, list, 2);
     assert_close(boundary_conditions_force(&b, 0, 1.0).x, 0.5, 1e-15);
     assert_close(boundary_conditions_force(&b, 1, 1.0).x, 0.0, 0.0);
@@ -76,7 +76,6 @@ TEST(forces_add_up_on_a_node_and_follow_their_ramps)
     double f[2 * n_nodes] = {0.0}, a[2 * n_nodes] = {0.0};
     assert_close(boundary_conditions_prescribe(&b, mass, 1.0, v, f, a), 0.5 * 1.0 + 13.0 * 2.0, 1e-14); /* sum of F.v */
     assert_close(boundary_conditions_speed(&b), 0.0, 0.0);
-    boundary_conditions_free(&b);
 }
 
 /* Only the component named is prescribed; the power is what its force, m times the change of acceleration, does. */
@@ -90,7 +89,7 @@ TEST(a_prescribed_component_leaves_the_other_one_free)
                                   .value = {7.0, 5.0}}};
     const double mass[n_nodes] = {1.0, 2.0, 1.0, 1.0};
     double v[2 * n_nodes] = {0.0}, f[2 * n_nodes] = {0.0}, a[2 * n_nodes] = {0.0};
-    boundary_conditions b;
+    CLEANUP(boundary_conditions_free) boundary_conditions b;
     compiled(&b, list, 1);
     boundary_conditions_begin(&b, v);
     assert_close(v[2], 0.0, 0.0);
@@ -102,7 +101,6 @@ TEST(a_prescribed_component_leaves_the_other_one_free)
     assert_close(a[2], 11.0, 0.0);
     assert_close(a[3], 0.0, 0.0);
     assert_close(boundary_conditions_speed(&b), hypot(7.0, 5.0), 1e-15);
-    boundary_conditions_free(&b);
 }
 
 /* The fastest point of a displacement's ramp is its middle. */
@@ -115,10 +113,9 @@ TEST(the_speed_of_a_displacement_is_that_of_its_middle)
                                   .nodes = nodes,
                                   .value = {-4.0, 0.0},
                                   .ramp = 2.0}};
-    boundary_conditions b;
+    CLEANUP(boundary_conditions_free) boundary_conditions b;
     compiled(&b, list, 1);
     assert_close(boundary_conditions_speed(&b), -boundary_condition_velocity(&b.list[0], 1.0).x, 1e-15);
-    boundary_conditions_free(&b);
 }
 
 static void refused(dem_boundary one, dem_status status, const char *message)

@@ -19,7 +19,7 @@ static dem_model *make_bodies(void)
     const dem_material heavy = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 2000.0, .thickness = 1.0, .guard = 0.02};
     const double aside[2] = {3.0, 0.5};
-    dem_lattice first, second;
+    CLEANUP(dem_lattice_free) dem_lattice first, second;
     dem_model *model;
     assert_ok(dem_lattice_rectangle(&first, 0.4, 0.3, 0.1));
     assert_ok(dem_lattice_assemble(&first, &light));
@@ -28,8 +28,6 @@ static dem_model *make_bodies(void)
     dem_lattice_move(&second, 0.0, aside);
     assert_ok(dem_lattice_append(&first, &second));
     assert_ok(dem_model_create(&model, &first, NULL, 0));
-    dem_lattice_free(&first);
-    dem_lattice_free(&second);
     return model;
 }
 
@@ -112,7 +110,7 @@ static dem_strain strain_of(const dem_model *model, const double *x)
 TEST(a_rigid_motion_has_kinetic_and_gravity_energy_only)
 {
     double kinetic = 0.0, weight = 0.0;
-    moving m = make_moving();
+    CLEANUP(free_moving) moving m = make_moving();
     for (int b = 0; b < 2; b++) {
         const inertia body = inertia_of(&m.model->lattice, b);
         kinetic += 0.5 * body.mass * vec2_dot(speed[b], speed[b]) + 0.5 * body.moment * spin[b] * spin[b];
@@ -125,12 +123,11 @@ TEST(a_rigid_motion_has_kinetic_and_gravity_energy_only)
     assert_close(energy.guard, 0.0, 0.0);
     assert_close(energy.impact, 0.0, 0.0);
     assert_close(energy.projection, 0.0, 0.0);
-    free_moving(&m);
 }
 
 TEST(each_body_has_the_mean_motion_it_was_given)
 {
-    moving m = make_moving();
+    CLEANUP(free_moving) moving m = make_moving();
     for (int b = 0; b < 2; b++) {
         const inertia body = inertia_of(&m.model->lattice, b);
         const dem_body_motion motion = diagnostics_body(m.model, b, m.x, m.v);
@@ -141,18 +138,16 @@ TEST(each_body_has_the_mean_motion_it_was_given)
         assert_close(motion.velocity[1], speed[b].y, 1e-13);
         assert_close(motion.angular_momentum, body.moment * spin[b], 1e-12 * body.moment * fabs(spin[b]));
     }
-    free_moving(&m);
 }
 
 TEST(a_rigid_motion_strains_nothing)
 {
-    moving m = make_moving();
+    CLEANUP(free_moving) moving m = make_moving();
     const dem_strain strain = strain_of(m.model, m.x);
     assert_close(strain.min, 0.0, 1e-13); /* rounding of positions of 1 m over 0.1 m */
     assert_close(strain.max, 0.0, 1e-13);
     assert_close(strain.area_min, 1.0, 1e-12);
     assert_int_equal(strain.guarded, 0);
-    free_moving(&m);
 }
 
 /* ---- strains by hand ---- */
@@ -162,7 +157,7 @@ static dem_model *make_square(void)
 {
     static const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0}, mass[4] = {1.0, 1.0, 1.0, 1.0};
     static const dem_index ends[10] = {2, 3, 3, 0, 0, 2, 1, 0, 2, 1}, corners[6] = {0, 1, 2, 0, 2, 3};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     support_lattice(&lattice, 4, x, mass, 5, ends, 1.0, 10.0, NULL);
     lattice.rest_length[2] = 2.0;
@@ -178,7 +173,6 @@ static dem_model *make_square(void)
     lattice.area_stiffness[0] = 6.0;
     lattice.area_stiffness[1] = -2.0;
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_lattice_free(&lattice);
     return model;
 }
 
@@ -187,7 +181,7 @@ static dem_model *make_square(void)
 TEST(extremes_of_strain_are_found_with_their_springs)
 {
     const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.25, 0.5};
-    dem_model *model = make_square();
+    CLEANUP(free_model) dem_model *model = make_square();
     dem_strain strain = strain_of(model, x);
     assert_close(strain.min, sqrt(0.3125) - 1.0, 1e-15);
     assert_int_equal(strain.spring_min, 1);
@@ -206,7 +200,6 @@ TEST(extremes_of_strain_are_found_with_their_springs)
     const double rest[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0};
     strain = strain_of(model, rest);
     assert_int_equal(strain.spring_max, 3); /* 0-1, before 3-0 and 1-2 by its ends, and 2-3 that has number 0 */
-    dem_model_destroy(model);
 }
 
 /* Node 1 across the diagonal, at (0.1, 0.9): triangle 0 1 2 has -0.8 of its area and no guard; node 3 at its mirror
@@ -214,7 +207,7 @@ TEST(extremes_of_strain_are_found_with_their_springs)
 TEST(inverted_triangles_have_negative_areas_and_count)
 {
     double x[8] = {0.0, 0.0, 0.1, 0.9, 1.0, 1.0, 0.0, 1.0};
-    dem_model *model = make_square();
+    CLEANUP(free_model) dem_model *model = make_square();
     dem_strain strain = strain_of(model, x);
     assert_close(strain.area_min, -0.8, 1e-15);
     assert_int_equal(strain.guarded, 0);
@@ -226,16 +219,14 @@ TEST(inverted_triangles_have_negative_areas_and_count)
     assert_int_equal(strain.guarded, 1);
     assert_int_equal(strain.inverted, 2);
     assert_true(energy_of(model, x, x).guard > 0.0);
-    dem_model_destroy(model);
 }
 
 TEST(elastic_energy_is_that_of_the_springs)
 {
     const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0}, v[8] = {0.0};
-    dem_model *model = make_square();
+    CLEANUP(free_model) dem_model *model = make_square();
     const double strain = 0.5 * sqrt(2.0) - 1.0; /* of the diagonal alone */
     assert_close(energy_of(model, x, v).elastic, 0.5 * 10.0 * 2.0 * strain * strain, 1e-14);
-    dem_model_destroy(model);
 }
 
 /* Node 3 at (0.25, 0.5) leaves the triangle 0 2 3, of kappa -2 N/m, a quarter of its area, node 1 at (1.5, 0) gives the
@@ -243,21 +234,19 @@ TEST(elastic_energy_is_that_of_the_springs)
 TEST(area_energy_is_that_of_the_triangles)
 {
     const double x[8] = {0.0, 0.0, 1.5, 0.0, 1.0, 1.0, 0.25, 0.5}, v[8] = {0.0};
-    dem_model *model = make_square();
+    CLEANUP(free_model) dem_model *model = make_square();
     const dem_energy energy = energy_of(model, x, v);
     assert_close(energy.area, 0.5 * (3.0 * 0.25 - 1.0 * 0.5625), 1e-15);
     assert_close(dem_energy_ledger(energy), energy.area + energy.elastic + energy.guard + energy.gravity, 1e-12);
-    dem_model_destroy(model);
 }
 
 TEST(without_springs_and_triangles_there_is_no_strain)
 {
     const double x[2] = {1.0, 2.0}, v[2] = {3.0, 4.0}, mass = 2.0;
-    dem_lattice lattice;
-    dem_model *model;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(free_model) dem_model *model;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_lattice_free(&lattice);
     const dem_strain strain = strain_of(model, x);
     assert_close(strain.min, 0.0, 0.0);
     assert_close(strain.max, 0.0, 0.0);
@@ -270,7 +259,6 @@ TEST(without_springs_and_triangles_there_is_no_strain)
     assert_close(motion.angular_momentum, 0.0, 0.0);
     assert_close(energy_of(model, x, v).kinetic, 25.0, 0.0);
     assert_close(energy_of(model, x, v).gravity, -2.0 * (0.5 - 20.0), 0.0);
-    dem_model_destroy(model);
 }
 
 /* ---- damping ---- */
@@ -329,7 +317,7 @@ static double power_of_damping_forces(const moving *m, double mass_damping)
 /* Relative rounding of sums of some hundred terms. */
 TEST(the_power_of_damping_is_minus_that_of_its_forces)
 {
-    moving m = make_damped(1e-3);
+    CLEANUP(free_moving) moving m = make_damped(1e-3);
     const forces loads[2] = {{.model = m.model, .gravity = {0.5, -10.0}},
                              {.model = m.model, .gravity = {0.5, -10.0}, .mass_damping = 40.0}};
     for (int k = 0; k < 2; k++) {
@@ -337,14 +325,13 @@ TEST(the_power_of_damping_is_minus_that_of_its_forces)
         assert_true(power > 100.0);
         assert_close(power, -power_of_damping_forces(&m, loads[k].mass_damping), 1e-12 * power);
     }
-    free_moving(&m);
 }
 
 /* It is also what the accelerations of damped and undamped motion differ by; fixed nodes have none, whatever v is. */
 TEST(the_power_of_damping_is_what_the_accelerations_lack)
 {
     double lacking = 0.0;
-    moving m = make_damped(1e-3), plain = make_damped(0.0);
+    CLEANUP(free_moving) moving m = make_damped(1e-3), plain = make_damped(0.0);
     const forces load = {.model = m.model, .gravity = {0.5, -10.0}, .mass_damping = 40.0};
     const forces free_of_it = {.model = plain.model, .gravity = {0.5, -10.0}};
     for (dem_index i = 0; i < m.model->lattice.n_nodes; i++) {
@@ -355,17 +342,14 @@ TEST(the_power_of_damping_is_what_the_accelerations_lack)
     const double power = forces_damping_power(&load, m.x, m.v);
     assert_close(power, lacking, 1e-11 * power); /* differences of accelerations ten times as large */
     assert_close(forces_damping_power(&free_of_it, m.x, m.v), 0.0, 0.0);
-    free_moving(&m);
-    free_moving(&plain);
 }
 
 TEST(mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves)
 {
-    moving m = make_damped(0.0);
+    CLEANUP(free_moving) moving m = make_damped(0.0);
     const forces load = {.model = m.model, .mass_damping = 3.0};
     m.v[0] = 100.0; /* of a fixed node */
     const double kinetic = energy_of(m.model, m.x, m.v).kinetic;
     const double fixed = 0.5 * m.model->lattice.mass[0] * 100.0 * 100.0;
     assert_close(forces_damping_power(&load, m.x, m.v), 6.0 * (kinetic - fixed), 1e-12 * 6.0 * kinetic);
-    free_moving(&m);
 }

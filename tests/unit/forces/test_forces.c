@@ -179,7 +179,7 @@ static double pull_of_energy(body *b, dem_index i, int c)
 TEST(forces_are_minus_the_gradient_of_the_energy_at_a_node)
 {
     for (int broken = 0; broken < 2; broken++) {
-        body b;
+        CLEANUP(close_body) body b;
         open_body(&b, 0.0);
         if (broken) break_some(&b);
         for (dem_index i = 0; i < b.n; i++) {
@@ -187,7 +187,6 @@ TEST(forces_are_minus_the_gradient_of_the_energy_at_a_node)
             assert_close(force.x, pull_of_energy(&b, i, 0), 1e-3);
             assert_close(force.y, pull_of_energy(&b, i, 1), 1e-3);
         }
-        close_body(&b);
     }
 }
 
@@ -197,7 +196,7 @@ TEST(the_power_of_all_forces_is_what_the_energy_loses)
 {
     const double tau = 1e-8;
     for (int broken = 0; broken < 2; broken++) {
-        body b;
+        CLEANUP(close_body) body b;
         double power = 0.0, moved[2][2 * MOST_NODES], stored[2];
         open_body(&b, 0.0);
         if (broken) break_some(&b);
@@ -209,7 +208,6 @@ TEST(the_power_of_all_forces_is_what_the_energy_loses)
             stored[k] = e.elastic + e.area + e.guard + e.gravity;
         }
         assert_close(power, (stored[0] - stored[1]) / (2.0 * tau), 1e-2);
-        close_body(&b);
     }
 }
 
@@ -220,7 +218,7 @@ TEST(the_power_of_all_forces_is_what_the_energy_loses)
 TEST(the_power_of_a_node_is_its_force_times_its_velocity)
 {
     for (int broken = 0; broken < 2; broken++) {
-        body b;
+        CLEANUP(close_body) body b;
         open_body(&b, 1e-4);
         if (broken) break_some(&b);
         const forces still = {.model = b.model, .elements = b.f.elements, .gravity = {0.5, -9.81}};
@@ -237,7 +235,6 @@ TEST(the_power_of_a_node_is_its_force_times_its_velocity)
                 forces_held(&b.f, i) != 0 ? force_on(&b, i).y * v.y : 0.0; /* given back by the boundary */
             assert_close(power.work - power.damping, vec2_dot(force_on(&b, i), v) - held - elastic, 1e-7);
         }
-        close_body(&b);
     }
 }
 
@@ -245,7 +242,7 @@ TEST(the_power_of_a_node_is_its_force_times_its_velocity)
 TEST(the_power_of_all_is_the_sum_over_nodes)
 {
     for (int broken = 0; broken < 2; broken++) {
-        body b;
+        CLEANUP(close_body) body b;
         double u[2 * MOST_NODES], a[2 * MOST_NODES], damping = 0.0, work = 0.0;
         open_body(&b, 1e-4);
         if (broken) break_some(&b);
@@ -266,7 +263,6 @@ TEST(the_power_of_all_is_the_sum_over_nodes)
         assert_close(forces_damping_power(&b.f, b.x, b.v), damping, 1e-12 * damping);
         assert_close(forces_prescribe(&b.f, t, b.v, u, a), work, 1e-8);
         assert_close(a[2 * 9 + 1], boundary_condition_acceleration(moves, t).y, 0.0);
-        close_body(&b);
     }
 }
 
@@ -319,7 +315,7 @@ TEST(the_neighbours_of_a_node_are_all_that_matter_to_it)
 /* To the bit: sums have the same terms in the same order. */
 TEST(what_is_broken_is_as_if_it_had_never_been)
 {
-    body b, without;
+    CLEANUP(close_body) body b, without;
     open_body(&b, 1e-4);
     open_without(&without, 1e-4);
     break_some(&b);
@@ -341,17 +337,15 @@ TEST(what_is_broken_is_as_if_it_had_never_been)
     assert_close(strain.area_min, left.area_min, 0.0);
     assert_int_equal(strain.guarded, left.guarded);
     assert_int_equal(strain.inverted, left.inverted);
-    close_body(&b);
-    close_body(&without);
 }
 
 /* Strains and forces that are reported of each spring: those that are whole have their own, the others 0. */
 TEST(a_broken_spring_has_no_strain_and_no_force)
 {
-    body b;
+    CLEANUP(close_body) body b;
     open_body(&b, 0.0);
     break_some(&b);
-    double *whole = calloc(3 * (size_t)b.lattice.n_springs, sizeof *whole);
+    CLEANUP(free_memory) double *whole = calloc(3 * (size_t)b.lattice.n_springs, sizeof *whole);
     assert_non_null(whole);
     double *strain = whole + b.lattice.n_springs, *force = strain + b.lattice.n_springs;
     springs_strains(&b.model->lattice, NULL, b.x, whole);
@@ -362,6 +356,4 @@ TEST(a_broken_spring_has_no_strain_and_no_force)
         assert_close(strain[k], b.state.spring[k] ? 0.0 : whole[k], 0.0);
         assert_int_equal(force[k] == 0.0, b.state.spring[k] != 0);
     }
-    free(whole);
-    close_body(&b);
 }

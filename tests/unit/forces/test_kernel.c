@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "forces/kernel.h"
+#include "harness/cleanup_gsl.h"
 
 typedef struct scene {
     dem_model *model;
@@ -59,7 +60,7 @@ static void free_scene(scene *s)
 
 static void check_kernel(scene *s, const forces *load, dem_kernel kind, int n_threads)
 {
-    kernel k;
+    CLEANUP(kernel_destroy) kernel k;
     assert_ok(kernel_create(&k, s->model, kind, n_threads));
     for (int round = 0; round < 2; round++) { /* what the first has left in the ring does not matter */
         const dem_index n = s->model->lattice.n_nodes;
@@ -75,7 +76,6 @@ static void check_kernel(scene *s, const forces *load, dem_kernel kind, int n_th
                          a.x, a.y);
         }
     }
-    kernel_destroy(&k);
 }
 
 /* v' = v0 + h/2 a0, x1 = x0 + h v', v1 = (v' + h/2 a0) + h/2 (a1 - a0), number by number. */
@@ -83,8 +83,8 @@ static void check_fused_step(scene *s, const forces *load, dem_kernel kind, int 
 {
     const dem_index n = 2 * s->model->lattice.n_nodes;
     const double h = 0.1 * dem_model_spacing(s->model) / 10.0;
-    double *a0 = copy_doubles(s->v, n), *x1 = copy_doubles(s->x, n), *v1 = copy_doubles(s->v, n);
-    kernel k;
+    CLEANUP(free_memory) double *a0 = copy_doubles(s->v, n), *x1 = copy_doubles(s->x, n), *v1 = copy_doubles(s->v, n);
+    CLEANUP(kernel_destroy) kernel k;
     assert_ok(kernel_create(&k, s->model, kind, n_threads));
     for (dem_index c = 0; c < n; c++) {
         a0[c] = about_zero(s->random, 10.0 / h);
@@ -100,20 +100,15 @@ static void check_fused_step(scene *s, const forces *load, dem_kernel kind, int 
         assert_close(s->a[c], a1, 0.0);
         assert_close(v1[c], half + 0.5 * h * a0[c] + 0.5 * h * (a1 - a0[c]), 0.0);
     }
-    kernel_destroy(&k);
-    free(a0);
-    free(x1);
-    free(v1);
 }
 
 static bool can_fuse(const scene *s, const forces *load)
 {
     forces acting = *load;
     acting.model = s->model;
-    kernel k;
+    CLEANUP(kernel_destroy) kernel k;
     assert_ok(kernel_create(&k, s->model, DEM_KERNEL_AUTO, 1));
     const bool may = kernel_can_fuse(&k, &acting);
-    kernel_destroy(&k);
     return may;
 }
 
@@ -129,10 +124,9 @@ static double stiffening_of(const scene *s, const unsigned char *broken)
 
 static void check_stiffening(scene *s, const forces *load, dem_kernel kind, int n_threads)
 {
-    kernel k;
+    CLEANUP(kernel_destroy) kernel k;
     assert_ok(kernel_create(&k, s->model, kind, n_threads));
     assert_close(kernel_stiffening(&k, load, s->x), stiffening_of(s, element_state_triangles(load->elements)), 0.0);
-    kernel_destroy(&k);
 }
 
 static void check_load(scene *s, const forces *load)
@@ -151,10 +145,9 @@ static void check_load(scene *s, const forces *load)
 static void check_lattice(const dem_lattice *lattice, double share)
 {
     const forces plain = {.gravity = {0.5, -9.81}}, drag = {.gravity = {0.0, -9.81}, .mass_damping = 3.0};
-    scene s = make_scene(lattice, share);
+    CLEANUP(free_scene) scene s = make_scene(lattice, share);
     check_load(&s, &plain);
     check_load(&s, &drag);
-    free_scene(&s);
 }
 
 static const dem_material rubber = {
@@ -173,9 +166,9 @@ TEST(rectangles_of_all_sizes_agree)
 {
     for (int rows = 1; rows <= 5; rows += 2)
         for (int columns = 1; columns <= 21; columns++) {
+            CLEANUP(dem_lattice_free)
             dem_lattice lattice = make_solid(1e-2 * columns + 1e-4, 0.9e-2 * rows + 1e-2, &rubber);
             check_lattice(&lattice, 0.05);
-            dem_lattice_free(&lattice);
         }
 }
 
@@ -203,9 +196,8 @@ TEST(every_law_agrees_on_bodies_with_holes)
         if (laws & 1) material.poissons_ratio = 0.45;
         if (laws & 2) material.guard = 0.0;
         if (laws & 4) material.damping_time = 1e-5;
-        dem_lattice lattice = make_holed(&material);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
         check_lattice(&lattice, 0.1);
-        dem_lattice_free(&lattice);
     }
 }
 
@@ -215,12 +207,10 @@ TEST(squeezed_triangles_agree)
     for (int stiff = 0; stiff < 2; stiff++) {
         dem_material material = rubber;
         if (stiff) material.poissons_ratio = 0.2;
-        dem_lattice lattice = make_holed(&material);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
         check_lattice(&lattice, 0.6);
-        scene s = make_scene(&lattice, 0.6);
+        CLEANUP(free_scene) scene s = make_scene(&lattice, 0.6);
         assert_true(stiffening_of(&s, NULL) > 2.0);
-        free_scene(&s);
-        dem_lattice_free(&lattice);
     }
 }
 
@@ -232,31 +222,28 @@ TEST(broken_elements_agree)
         if (laws & 1) material.poissons_ratio = 0.45;
         if (laws & 2) material.guard = 0.0;
         if (laws & 4) material.damping_time = 1e-5;
-        dem_lattice lattice = make_holed(&material);
-        element_state broken;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+        CLEANUP(element_state_destroy) element_state broken;
         assert_ok(element_state_create(&broken, &lattice));
         for (dem_index k = 0; k < lattice.n_springs; k += 7) element_state_break_spring(&broken, &lattice, k);
         for (dem_index k = 0; k < lattice.n_triangles; k += 5) element_state_break_triangle(&broken, &lattice, k);
         const forces plain = {.gravity = {0.5, -9.81}, .elements = &broken};
         const forces drag = {.gravity = {0.5, -9.81}, .mass_damping = 3.0, .elements = &broken};
-        scene s = make_scene(&lattice, laws & 1 ? 0.1 : 0.6);
+        CLEANUP(free_scene) scene s = make_scene(&lattice, laws & 1 ? 0.1 : 0.6);
         check_load(&s, &plain);
         check_load(&s, &drag);
-        free_scene(&s);
-        element_state_destroy(&broken);
-        dem_lattice_free(&lattice);
     }
 }
 
 /* The sweep evaluates what is broken too, and has no number for it; a spring that is whole has none either. */
 TEST(the_ends_of_a_broken_spring_may_meet)
 {
-    dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
-    element_state broken;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
+    CLEANUP(element_state_destroy) element_state broken;
     assert_ok(element_state_create(&broken, &lattice));
     for (dem_index k = 0; k < lattice.n_springs; k++) {
-        scene s = make_scene(&lattice, 0.1);
-        kernel sweeps;
+        CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
+        CLEANUP(kernel_destroy) kernel sweeps;
         const forces f = {.model = s.model, .elements = &broken};
         const kernel_state y = {.x = s.x, .v = s.v, .a = s.a};
         vec2_put(s.x, lattice.ends[2 * k], vec2_at(s.x, lattice.ends[2 * k + 1]));
@@ -264,42 +251,35 @@ TEST(the_ends_of_a_broken_spring_may_meet)
         assert_true(!isfinite(kernel_accelerate(&sweeps, &f, &y)));
         element_state_break_spring(&broken, &lattice, k);
         assert_true(isfinite(kernel_accelerate(&sweeps, &f, &y)));
-        kernel_destroy(&sweeps);
-        free_scene(&s);
     }
-    element_state_destroy(&broken);
-    dem_lattice_free(&lattice);
 }
 
 TEST(squares_agree)
 {
     const dem_material raw = {.bond_stiffness = 1e3, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-6};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_ok(dem_lattice_squares(&lattice, 0.2, 0.13, 0.01));
     assert_ok(dem_lattice_assemble_squares(&lattice, &raw, 0.5));
     check_lattice(&lattice, 0.2);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- numberings ---- */
 
 static void swap_nodes(dem_lattice *l, const dem_index *number)
 {
-    double *x = copy_doubles(l->x, 2 * l->n_nodes), *mass = copy_doubles(l->mass, l->n_nodes);
+    CLEANUP(free_memory) double *x = copy_doubles(l->x, 2 * l->n_nodes), *mass = copy_doubles(l->mass, l->n_nodes);
     for (dem_index i = 0; i < l->n_nodes; i++) {
         memcpy(l->x + 2 * number[i], x + 2 * i, 2 * sizeof *x);
         l->mass[number[i]] = mass[i];
     }
     for (dem_index k = 0; k < 2 * l->n_springs; k++) l->ends[k] = number[l->ends[k]];
     for (dem_index k = 0; k < 3 * l->n_triangles; k++) l->triangles[k] = number[l->triangles[k]];
-    free(x);
-    free(mass);
 }
 
 static dem_index *shuffled(dem_index n)
 {
     dem_index *number = malloc((size_t)n * sizeof *number);
-    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     assert_non_null(number);
     for (dem_index k = 0; k < n; k++) number[k] = k;
     for (dem_index k = n - 1; k > 0; k--) {
@@ -307,7 +287,6 @@ static dem_index *shuffled(dem_index n)
         number[k] = number[j];
         number[j] = kept;
     }
-    gsl_rng_free(r);
     return number;
 }
 
@@ -319,15 +298,12 @@ TEST(any_numbering_agrees)
         dem_material material = rubber;
         material.poissons_ratio = 0.4;
         material.damping_time = k < 2 ? 1e-5 : 0.0;
-        dem_lattice lattice = make_solid(large ? 0.6 : 0.2, large ? 0.4 : 0.1, &material);
-        dem_index *number = shuffled(lattice.n_nodes);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(large ? 0.6 : 0.2, large ? 0.4 : 0.1, &material);
+        CLEANUP(free_memory) dem_index *number = shuffled(lattice.n_nodes);
         swap_nodes(&lattice, number);
         check_lattice(&lattice, 0.1);
-        scene s = make_scene(&lattice, 0.1);
+        CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
         assert_int_equal(s.model->layout.order != NULL, large);
-        free_scene(&s);
-        dem_lattice_free(&lattice);
-        free(number);
     }
 }
 
@@ -337,7 +313,7 @@ TEST(random_springs_agree)
     enum { n = 203, most = 4 * n };
     static double x[2 * n], mass[n], rest_length[most], stiffness[most], viscosity[most];
     static dem_index ends[2 * most];
-    gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     dem_lattice lattice = {.struct_size = sizeof(dem_lattice),
                            .dim = 2,
                            .n_nodes = n,
@@ -361,7 +337,6 @@ TEST(random_springs_agree)
             stiffness[k] = 1e3 * (1.0 + gsl_rng_uniform(r));
             viscosity[k] = gsl_rng_uniform(r);
         }
-    gsl_rng_free(r);
     check_lattice(&lattice, 0.01);
 }
 
@@ -371,9 +346,9 @@ TEST(a_hub_of_many_springs_agrees)
     const dem_index sizes[] = {40, 3000};
     for (int k = 0; k < 2; k++) {
         const dem_index n = sizes[k];
-        double *x = malloc(2 * (size_t)n * sizeof *x), *mass = malloc((size_t)n * sizeof *mass);
-        double *ones = malloc((size_t)n * sizeof *ones);
-        dem_index *ends = malloc(2 * (size_t)n * sizeof *ends);
+        CLEANUP(free_memory) double *x = malloc(2 * (size_t)n * sizeof *x), *mass = malloc((size_t)n * sizeof *mass);
+        CLEANUP(free_memory) double *ones = malloc((size_t)n * sizeof *ones);
+        CLEANUP(free_memory) dem_index *ends = malloc(2 * (size_t)n * sizeof *ends);
         assert_true(x && mass && ones && ends);
         for (dem_index i = 0; i < n; i++) {
             x[2 * i] = i == 0 ? 0.0 : cos((double)i);
@@ -392,13 +367,8 @@ TEST(a_hub_of_many_springs_agrees)
                                      .rest_length = ones,
                                      .stiffness = ones};
         check_lattice(&lattice, 0.1);
-        scene s = make_scene(&lattice, 0.1);
+        CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
         assert_int_equal(s.model->layout.n_blocks, k == 0 ? n / LAYOUT_LANES : 0);
-        free_scene(&s);
-        free(x);
-        free(mass);
-        free(ones);
-        free(ends);
     }
 }
 
@@ -407,22 +377,19 @@ TEST(a_hub_of_many_springs_agrees)
 /* Fixed nodes stay, pushed ones are pushed, some of them twice. */
 TEST(fixed_and_pushed_nodes_agree)
 {
-    dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
     const dem_index pushed[] = {3, 17, 40}, others[] = {17, 5};
     const dem_boundary list[] = {{.kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = pushed, .value = {1e3, -2e3}},
                                  {.kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = others, .value = {5.0, 1.0}}};
-    boundary_conditions pushes;
+    CLEANUP(boundary_conditions_free) boundary_conditions pushes;
     lattice.flags = calloc((size_t)lattice.n_nodes, sizeof *lattice.flags);
     assert_non_null(lattice.flags);
     for (dem_index i = 0; i < lattice.n_nodes; i += 7) lattice.flags[i] = DEM_NODE_FIXED;
-    scene s = make_scene(&lattice, 0.1);
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
     assert_ok(boundary_conditions_compile(&pushes, list, 2, &s.model->lattice, 0));
     const forces load = {
         .gravity = {0.0, -9.81}, .mass_damping = 1.0, .boundaries = &pushes, .clock = lattice.n_nodes - 1};
     check_load(&s, &load);
-    boundary_conditions_free(&pushes);
-    free_scene(&s);
-    dem_lattice_free(&lattice);
 }
 
 /* Springs along rows only, triangles between rows: these reach further. */
@@ -431,7 +398,7 @@ TEST(triangles_may_reach_further_than_springs)
     const forces load = {.gravity = {0.5, -9.81}};
     dem_material material = rubber;
     material.poissons_ratio = 0.2;
-    dem_lattice lattice = make_solid(0.6, 0.6, &material);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.6, 0.6, &material);
     dem_index kept = 0;
     for (dem_index k = 0; k < lattice.n_springs; k++) {
         const dem_index *ends = lattice.ends + 2 * k;
@@ -441,12 +408,10 @@ TEST(triangles_may_reach_further_than_springs)
         lattice.stiffness[kept++] = lattice.stiffness[k];
     }
     lattice.n_springs = kept;
-    scene s = make_scene(&lattice, 0.1);
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
     assert_int_equal(s.model->layout.reach, 1);
     assert_true(can_fuse(&s, &load));
     check_load(&s, &load);
-    free_scene(&s);
-    dem_lattice_free(&lattice);
 }
 
 /* Not where something asks for velocities, or pushes, or the nodes are renumbered. */
@@ -458,23 +423,20 @@ TEST(what_depends_on_more_than_positions_is_not_fused)
     for (int k = 0; k < 3; k++) {
         dem_material material = rubber;
         if (k == 1) material.damping_time = 1e-5;
-        dem_lattice lattice = make_solid(k == 2 ? 0.6 : 0.2, k == 2 ? 0.4 : 0.1, &material);
-        dem_index *number = shuffled(lattice.n_nodes);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(k == 2 ? 0.6 : 0.2, k == 2 ? 0.4 : 0.1, &material);
+        CLEANUP(free_memory) dem_index *number = shuffled(lattice.n_nodes);
         if (k == 2) swap_nodes(&lattice, number);
-        scene s = make_scene(&lattice, 0.1);
+        CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
         assert_int_equal(can_fuse(&s, &plain), k == 0);
         assert_false(can_fuse(&s, &drag));
         assert_false(can_fuse(&s, &pushed));
-        free_scene(&s);
-        dem_lattice_free(&lattice);
-        free(number);
     }
 }
 
 TEST(a_number_that_is_not_finite_shows_in_the_sum)
 {
-    dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
-    scene s = make_scene(&lattice, 0.1);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
     const forces load = {.model = s.model, .gravity = {0.0, -9.81}};
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++) {
         kernel k;
@@ -489,8 +451,6 @@ TEST(a_number_that_is_not_finite_shows_in_the_sum)
         }
         kernel_destroy(&k);
     }
-    free_scene(&s);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- what the guard stiffens ---- */
@@ -524,14 +484,12 @@ TEST(the_guard_stiffens_what_it_squeezes)
         for (int i = 0; i < 3 && light >= 0; i++)
             added = fmax(added, 10.0 * (3.0 * w2 * 0.25 * side[i] / A0 + 0.5 * sqrt(3.0) * w1) / mass[i]);
         guard[0] = light < 0 ? 0.0 : 10.0;
-        scene s = make_scene(&lattice, 0.0);
-        kernel k;
+        CLEANUP(free_scene) scene s = make_scene(&lattice, 0.0);
+        CLEANUP(kernel_destroy) kernel k;
         const double omega = dem_model_omega_max(s.model);
         assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
         assert_close(kernel_stiffening(&k, &whole, rest), 1.0, 0.0);
         assert_close(kernel_stiffening(&k, &whole, x), sqrt(1.0 + added / (omega * omega)), 1e-12);
-        kernel_destroy(&k);
-        free_scene(&s);
     }
 }
 
@@ -554,8 +512,8 @@ TEST(kernels_have_names)
 
 TEST(the_choice_left_open_is_the_last_that_runs)
 {
-    dem_lattice lattice = make_solid(0.05, 0.05, &rubber);
-    scene s = make_scene(&lattice, 0.1);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.05, 0.05, &rubber);
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
     kernel k;
     assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
     assert_ok(dem_kernel_check(k.kind));
@@ -563,6 +521,4 @@ TEST(the_choice_left_open_is_the_last_that_runs)
     assert_true(k.kind == DEM_KERNEL_AVX512 || dem_kernel_check(k.kind + 1) == DEM_ERROR_ARGUMENT);
     kernel_destroy(&k);
     assert_int_equal(kernel_create(&k, s.model, (dem_kernel)99, 1), DEM_ERROR_ARGUMENT);
-    free_scene(&s);
-    dem_lattice_free(&lattice);
 }

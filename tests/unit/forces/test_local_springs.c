@@ -24,7 +24,7 @@ static void open_rig(rig *r, double poissons_ratio)
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = poissons_ratio, .density = 1050.0, .thickness = 1.0};
-    dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block;
     *r = (rig){0};
     assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
     assert_ok(dem_lattice_assemble(&block, &rubber));
@@ -44,7 +44,6 @@ static void open_rig(rig *r, double poissons_ratio)
     local_springs_create(&r->springs, &r->acting, &r->layout);
     r->near = local_springs_forces(&r->springs);
     assert_ok(local_nodes_create(&r->nodes, block.n_nodes, RINGS));
-    dem_lattice_free(&block);
 }
 
 static void close_rig(rig *r)
@@ -96,34 +95,31 @@ static void check_accelerations(rig *r)
 TEST(accelerations_are_those_of_the_model)
 {
     for (int area = 0; area < 2; area++) {
-        rig r;
+        CLEANUP(close_rig) rig r;
         open_rig(&r, area ? 0.2 : 1.0 / 3.0);
         assert_int_equal(r.springs.plain, !area);
         assert_int_equal(r.near.read_state, area);
         check_accelerations(&r);
-        close_rig(&r);
     }
 }
 
 /* Half of the springs are broken, those with an odd number. */
 TEST(broken_springs_do_not_pull)
 {
-    rig r;
-    element_state broken;
+    CLEANUP(close_rig) rig r;
+    CLEANUP(element_state_destroy) element_state broken;
     open_rig(&r, 1.0 / 3.0);
     assert_ok(element_state_create(&broken, &r.model->lattice));
     for (dem_index k = 1; k < r.model->lattice.n_springs; k += 2)
         element_state_break_spring(&broken, &r.model->lattice, k);
     r.acting.elements = &broken;
     check_accelerations(&r);
-    element_state_destroy(&broken);
-    close_rig(&r);
 }
 
 /* Every node has its number, in the nearest ring; those gathered before are forgotten. */
 TEST(nodes_have_their_numbers_in_rings)
 {
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_rig(&r, 1.0 / 3.0);
     gather(&r, 0);
     gather(&r, r.layout.n_nodes / 2);
@@ -137,14 +133,13 @@ TEST(nodes_have_their_numbers_in_rings)
             assert_int_equal(local_nodes_have(&r.nodes, r.nodes.list[j], ring), j < r.nodes.end[ring]);
     }
     assert_false(local_nodes_have(&r.nodes, 0, RINGS));
-    close_rig(&r);
 }
 
 /* The damping of masses takes alpha m v^2 of each. */
 TEST(power_is_summed_over_rings)
 {
     double totals[STATE_TOTALS] = {0.0}, expected = 0.0;
-    rig r;
+    CLEANUP(close_rig) rig r;
     open_rig(&r, 1.0 / 3.0);
     gather(&r, r.layout.n_nodes / 2);
     assert_true(r.near.have_power);
@@ -155,5 +150,4 @@ TEST(power_is_summed_over_rings)
     }
     assert_close(totals[STATE_DAMPING], expected, 1e-14 * expected);
     assert_close(totals[STATE_WORK], 0.0, 0.0);
-    close_rig(&r);
 }

@@ -29,7 +29,7 @@ static int triangles_at(const dem_lattice *lattice, dem_index spring)
 
 TEST(springs_come_by_lower_then_upper_node_without_duplicates)
 {
-    dem_lattice lattice = make_solid(0.03, 0.03, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.03, 0.03, spacing);
     assert_int_equal(lattice.n_nodes - lattice.n_springs + lattice.n_triangles, 1); /* Euler */
     for (dem_index k = 0; k < lattice.n_springs; k++) {
         const dem_index *end = lattice.ends + 2 * k;
@@ -37,13 +37,12 @@ TEST(springs_come_by_lower_then_upper_node_without_duplicates)
         if (k > 0) assert_true(end[-2] < end[0] || (end[-2] == end[0] && end[-1] < end[1]));
         assert_close(lattice.rest_length[k], spacing, 1e-13 * spacing);
     }
-    dem_lattice_free(&lattice);
 }
 
 TEST(stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary)
 {
     const double inside = sqrt(3.0) / 2.0 * rubber.youngs_modulus * rubber.thickness * spacing;
-    dem_lattice lattice = make_solid(0.03, 0.03, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.03, 0.03, spacing);
     dem_index n_boundary = 0;
     for (dem_index k = 0; k < lattice.n_springs; k++) {
         const int n = triangles_at(&lattice, k);
@@ -52,12 +51,11 @@ TEST(stiffness_is_that_of_finite_elements_and_half_of_it_on_the_boundary)
         n_boundary += n == 1;
     }
     assert_int_equal(n_boundary, 3 * lattice.n_triangles - 2 * (lattice.n_springs - n_boundary));
-    dem_lattice_free(&lattice);
 }
 
 TEST(masses_guard_thickness_and_modulus_are_those_of_the_triangles)
 {
-    dem_lattice lattice = make_solid(0.08, 0.13, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.08, 0.13, spacing);
     const double share = rubber.density * rubber.thickness * sqrt(3.0) / 12.0 * spacing * spacing;
     double mass = 0.0;
     for (dem_index i = 0; i < lattice.n_nodes; i++) mass += lattice.mass[i];
@@ -69,32 +67,29 @@ TEST(masses_guard_thickness_and_modulus_are_those_of_the_triangles)
         assert_close(lattice.thickness[t], 0.5, 0.0);
         assert_close(lattice.modulus[t], 1e7, 0.0);
     }
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_material_without_guard_leaves_guard_NULL)
 {
     dem_material plain = rubber;
     plain.guard = 0.0;
-    dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
     assert_int_equal(dem_lattice_assemble(&lattice, &plain), DEM_OK);
     assert_null(lattice.guard);
     assert_non_null(lattice.mass);
-    dem_lattice_free(&lattice);
 }
 
 TEST(viscosity_is_damping_time_times_stiffness)
 {
     dem_material damped = rubber;
     damped.damping_time = 3e-5;
+    CLEANUP(dem_lattice_free)
     dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
     assert_null(plain.viscosity);
     assert_int_equal(dem_lattice_assemble(&lattice, &damped), DEM_OK);
     assert_memory_equal(lattice.stiffness, plain.stiffness, (size_t)plain.n_springs * sizeof(double));
     for (dem_index k = 0; k < lattice.n_springs; k++)
         assert_close(lattice.viscosity[k], 3e-5 * plain.stiffness[k], 0.0);
-    dem_lattice_free(&lattice);
-    dem_lattice_free(&plain);
 }
 
 /* Energy (1) and of the area term under x -> (1 + s strain) x; strain = xx, yy, xy. */
@@ -123,13 +118,12 @@ static void expect_energy_of(const dem_material *solid, const double e[3])
     const double across = solid->plane == DEM_PLANE_STRAIN ? 0.0 : -nu / (1.0 - nu) * (e[0] + e[1]);
     const double trace = e[0] + e[1] + across;
     const double squares = e[0] * e[0] + e[1] * e[1] + across * across + 2.0 * e[2] * e[2];
-    dem_lattice lattice = make_rectangle(0.03, 0.05, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.03, 0.05, spacing);
     assert_int_equal(dem_lattice_assemble(&lattice, solid), DEM_OK);
     const double volume = (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing * solid->thickness;
     const double expected = s * s * volume * (0.5 * lambda * trace * trace + G * squares);
     const double mean = 0.5 * (energy_of(&lattice, e, s) + energy_of(&lattice, e, -s));
     assert_close(mean / expected, 1.0, 1e-7);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_uniformly_strained_block_has_the_energy_of_its_solid)
@@ -154,12 +148,11 @@ TEST(area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it)
     for (int k = 0; k < 3; k++) {
         dem_material solid = rubber;
         solid.poissons_ratio = ratios[k], solid.plane = planes[k];
-        dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.03, 0.03, spacing);
         assert_int_equal(dem_lattice_assemble(&lattice, &solid), DEM_OK);
         for (dem_index t = 0; k == 0 && t < lattice.n_triangles; t++)
             assert_close(lattice.area_stiffness[t], 1e7 * 0.5 / 3.0, 1e-8);
         if (k > 0) assert_null(lattice.area_stiffness);
-        dem_lattice_free(&lattice);
     }
 }
 
@@ -171,6 +164,7 @@ TEST(every_spring_may_have_the_same_stiffness)
 {
     const dem_material raw = {
         .bond_stiffness = 300.0, .density = 1050.0, .thickness = 0.5, .guard = 0.02, .damping_time = 1e-3};
+    CLEANUP(dem_lattice_free)
     dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
     assert_int_equal(dem_lattice_assemble(&lattice, &raw), DEM_OK);
     assert_int_equal(lattice.n_springs, plain.n_springs);
@@ -184,8 +178,6 @@ TEST(every_spring_may_have_the_same_stiffness)
         assert_close(lattice.guard[t], 0.02 * 300.0 * 2.0 / sqrt(3.0) / spacing, 1e-9);
     assert_null(lattice.area_stiffness);
     assert_null(lattice.modulus);
-    dem_lattice_free(&lattice);
-    dem_lattice_free(&plain);
 }
 
 /* ---- squares ---- */
@@ -201,7 +193,7 @@ static dem_lattice make_squares(double width, double height)
 TEST(squares_have_sides_and_both_diagonals)
 {
     const double r = 0.3, k = 1e7 * 0.5 / (1.0 + 1.0 / 3.0), cell = 1050.0 * 0.5 * spacing * spacing;
-    dem_lattice lattice = make_squares(4.0 * spacing, 3.0 * spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_squares(4.0 * spacing, 3.0 * spacing);
     dem_index n_sides = 0, n_diagonals = 0;
     assert_int_equal(dem_lattice_assemble_squares(&lattice, &rubber, r), DEM_OK);
     for (dem_index s = 0; s < lattice.n_springs; s++) {
@@ -222,7 +214,6 @@ TEST(squares_have_sides_and_both_diagonals)
     assert_close(lattice.mass[6], cell, 1e-15 * cell);
     assert_close(lattice.mass[7], cell, 1e-15 * cell);
     for (dem_index t = 0; t < lattice.n_triangles; t++) assert_close(lattice.guard[t], 0.02 * 1e7 * 0.5, 1e-9);
-    dem_lattice_free(&lattice);
 }
 
 /* C11 = E/(1 - nu^2), C12 = nu C11, C66 = r E/(1 + nu) of plane stress: per area
@@ -237,7 +228,7 @@ TEST(a_uniformly_strained_block_of_squares_is_cubic)
         const double nu = solids[n][0], r = solids[n][1], C11 = 5e6 / (1.0 - nu * nu), C66 = r * 5e6 / (1.0 + nu);
         dem_material solid = rubber;
         solid.poissons_ratio = nu;
-        dem_lattice lattice = make_squares(0.03, 0.05);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_squares(0.03, 0.05);
         assert_int_equal(dem_lattice_assemble_squares(&lattice, &solid, r), DEM_OK);
         const double area = 0.5 * (double)lattice.n_triangles * spacing * spacing;
         for (size_t k = 0; k < sizeof strains / sizeof *strains; k++) {
@@ -247,7 +238,6 @@ TEST(a_uniformly_strained_block_of_squares_is_cubic)
             const double mean = 0.5 * (energy_of(&lattice, e, s) + energy_of(&lattice, e, -s));
             assert_close(mean / expected, 1.0, 1e-7);
         }
-        dem_lattice_free(&lattice);
     }
 }
 
@@ -270,7 +260,7 @@ TEST(squares_need_no_area_term_at_the_ratio_of_their_diagonals)
 /* A rhombus and a trapezium: all mass and no more, springs along all six lines. */
 TEST(cells_may_be_any_convex_quadrilaterals)
 {
-    dem_lattice lattice = make_squares(2.0 * spacing, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_squares(2.0 * spacing, spacing);
     lattice.x[2 * 1] += 0.3 * spacing;
     lattice.x[2 * 4 + 1] -= 0.2 * spacing;
     double area = 0.0, mass = 0.0;
@@ -279,7 +269,6 @@ TEST(cells_may_be_any_convex_quadrilaterals)
     for (dem_index i = 0; i < lattice.n_nodes; i++) mass += lattice.mass[i];
     assert_close(mass, 1050.0 * 0.5 * area, 1e-14 * mass);
     assert_int_equal(lattice.n_springs, 11);
-    dem_lattice_free(&lattice);
 }
 
 TEST(squares_refuse_what_is_no_cell)
@@ -361,6 +350,7 @@ static void expect_mean_on_the_seam(const dem_lattice *mixed, const dem_lattice 
 TEST(a_spring_between_two_materials_is_half_of_each)
 {
     const dem_material both[2] = {rubber, steel};
+    CLEANUP(dem_lattice_free)
     dem_lattice mixed = make_squares(6.0 * spacing, 4.0 * spacing), left = make_squares(6.0 * spacing, 4.0 * spacing),
                 right = make_squares(6.0 * spacing, 4.0 * spacing);
     dem_index of[48];
@@ -370,15 +360,12 @@ TEST(a_spring_between_two_materials_is_half_of_each)
     assert_int_equal(dem_lattice_assemble_squares(&left, &rubber, 0.4), DEM_OK);
     assert_int_equal(dem_lattice_assemble_squares(&right, &steel, 0.4), DEM_OK);
     expect_mean_on_the_seam(&mixed, &left, &right);
-    dem_lattice_free(&mixed);
-    dem_lattice_free(&left);
-    dem_lattice_free(&right);
 }
 
 TEST(a_mixture_refuses_what_cannot_be_mixed)
 {
     dem_material both[2] = {rubber, steel};
-    dem_lattice lattice = make_squares(spacing, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_squares(spacing, spacing);
     dem_index of[2] = {0, 1};
     assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.4), DEM_ERROR_MODEL,
                    "triangles 0 and 1, of a cell, have two materials");
@@ -400,14 +387,13 @@ TEST(a_mixture_refuses_what_cannot_be_mixed)
     assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, -1.0), DEM_ERROR_ARGUMENT,
                    "the stiffness of a diagonal over a side's must be > 0: -1");
     assert_null(lattice.mass);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- faults ---- */
 
 TEST(assembling_refuses_what_is_not_a_triangulation)
 {
-    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     const dem_index corner = lattice.triangles[0];
     lattice.triangles[0] = lattice.triangles[1];
     lattice.triangles[1] = corner;
@@ -426,12 +412,11 @@ TEST(assembling_refuses_what_is_not_a_triangulation)
     lattice.n_triangles = 2;
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
     assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "the lattice already has 6 springs");
-    dem_lattice_free(&lattice);
 }
 
 TEST(assembling_refuses_impossible_materials)
 {
-    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     dem_material m = rubber;
     m.youngs_modulus = 0.0;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: 0 Pa");
@@ -461,5 +446,4 @@ TEST(assembling_refuses_impossible_materials)
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: inf s");
     assert_refused(dem_lattice_assemble(&lattice, NULL), DEM_ERROR_ARGUMENT, "material is NULL");
     assert_refused(dem_lattice_assemble(NULL, &rubber), DEM_ERROR_ARGUMENT, "lattice is NULL");
-    dem_lattice_free(&lattice);
 }

@@ -16,7 +16,7 @@ static const double spacing = 2.5e-3; /* m */
 
 TEST(the_papers_rectangle_has_1983_nodes_in_61_rows)
 {
-    dem_lattice lattice = make_rectangle(0.08, 0.13, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.08, 0.13, spacing);
     dem_index rows = 1;
     for (dem_index i = 1; i < lattice.n_nodes; i++) rows += lattice.x[2 * i + 1] > lattice.x[2 * i - 1];
     assert_int_equal(lattice.struct_size, sizeof lattice);
@@ -28,7 +28,6 @@ TEST(the_papers_rectangle_has_1983_nodes_in_61_rows)
     assert_close(lattice.x[0], -0.04, 0.0);
     assert_close(lattice.x[1], 0.0, 0.0);
     assert_close(lattice.x[2 * lattice.n_nodes - 1], 60.0 * sqrt(0.75) * spacing, 1e-16);
-    dem_lattice_free(&lattice);
 }
 
 TEST(every_triangle_is_equilateral_and_counter_clockwise)
@@ -51,7 +50,7 @@ TEST(every_triangle_is_equilateral_and_counter_clockwise)
 
 TEST(rows_are_mirror_symmetric_to_the_bit)
 {
-    dem_lattice lattice = make_rectangle(0.0811, 0.13, 1.7e-3);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.0811, 0.13, 1.7e-3);
     for (dem_index first = 0; first < lattice.n_nodes;) {
         dem_index end = first;
         while (end < lattice.n_nodes && lattice.x[2 * end + 1] == lattice.x[2 * first + 1]) end++;
@@ -59,15 +58,13 @@ TEST(rows_are_mirror_symmetric_to_the_bit)
             assert_true(lattice.x[2 * (first + k)] == -lattice.x[2 * (end - 1 - k)]);
         first = end;
     }
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_rectangle_of_one_spacing_is_one_triangle)
 {
-    dem_lattice lattice = make_rectangle(1.0, 1.0, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.0, 1.0);
     assert_int_equal(lattice.n_nodes, 3);
     assert_int_equal(lattice.n_triangles, 1);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_rectangle_refuses_impossible_sizes)
@@ -95,7 +92,7 @@ TEST(a_disc_fills_its_radius_and_has_a_node_at_the_centre)
 {
     const double radius = 25.0 * spacing, cell = sqrt(0.75) * spacing * spacing;
     int at_centre = 0, on_rim = 0;
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(dem_lattice_disc(&lattice, radius, spacing), DEM_OK);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         const double r = hypot(lattice.x[2 * i], lattice.x[2 * i + 1]);
@@ -106,13 +103,12 @@ TEST(a_disc_fills_its_radius_and_has_a_node_at_the_centre)
     assert_int_equal(at_centre, 1);
     assert_int_equal(on_rim, 6); /* radius is whole spacings: one node in each direction of a spring */
     assert_close((double)lattice.n_nodes * cell / (3.14159265358979 * radius * radius), 1.0, 0.01);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_disc_is_mirror_symmetric_about_both_axes)
 {
     for (int k = 0; k < 20; k++) {
-        dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
         dem_index mirrored = 0;
         assert_int_equal(dem_lattice_disc(&lattice, 0.01 * (1.0 + 0.05 * k), spacing), DEM_OK);
         for (dem_index i = 0; i < lattice.n_nodes; i++)
@@ -122,17 +118,15 @@ TEST(a_disc_is_mirror_symmetric_about_both_axes)
                 mirrored += a[0] == b[0] && a[1] == -b[1];
             }
         assert_int_equal(mirrored, 2 * lattice.n_nodes);
-        dem_lattice_free(&lattice);
     }
 }
 
 TEST(a_disc_of_one_spacing_is_a_hexagon)
 {
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(dem_lattice_disc(&lattice, spacing, spacing), DEM_OK);
     assert_int_equal(lattice.n_nodes, 7);
     assert_int_equal(lattice.n_triangles, 6);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_disc_refuses_impossible_sizes)
@@ -163,7 +157,7 @@ static int outside_hole(void *context, const double x[2])
 TEST(cutting_a_hole_leaves_the_triangles_outside_it)
 {
     hole h = {.x = 0.002, .y = 0.03, .radius = 0.01};
-    dem_lattice lattice = make_rectangle(0.06, 0.06, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.06, 0.06, spacing);
     const dem_index before = lattice.n_triangles;
     const double cell = sqrt(0.75) * spacing * spacing;
     assert_int_equal(dem_lattice_cut(&lattice, outside_hole, &h), DEM_OK);
@@ -171,7 +165,6 @@ TEST(cutting_a_hole_leaves_the_triangles_outside_it)
     for (dem_index t = 0; t < lattice.n_triangles; t++) assert_close(area_of(&lattice, t), 0.5 * cell, 1e-12 * cell);
     const double lost = (double)(before - lattice.n_triangles) * 0.5 * cell;
     assert_true(lost > 3.1 * h.radius * h.radius && lost < 3.2 * pow(h.radius + spacing, 2.0));
-    dem_lattice_free(&lattice);
 }
 
 static int is_not_lower_left(void *context, const double x[2])
@@ -200,7 +193,7 @@ static int keep_nothing(void *context, const double x[2])
 
 TEST(a_cut_refuses_to_leave_nothing_and_to_cut_springs)
 {
-    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     assert_refused(dem_lattice_cut(&lattice, keep_nothing, NULL), DEM_ERROR_MODEL, "none of 5 nodes is left");
     assert_int_equal(lattice.n_nodes, 5);
     assert_int_equal(lattice.n_triangles, 2);
@@ -208,14 +201,13 @@ TEST(a_cut_refuses_to_leave_nothing_and_to_cut_springs)
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
     assert_refused(dem_lattice_cut(&lattice, keep_nothing, NULL), DEM_ERROR_MODEL,
                    "a lattice that has springs cannot be cut: 6 springs");
-    dem_lattice_free(&lattice);
 }
 
 /* ---- squares ---- */
 
 TEST(squares_are_two_triangles_each_that_meet_along_turning_diagonals)
 {
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(dem_lattice_squares(&lattice, 0.031, 0.024, 0.01), DEM_OK); /* 3 x 2 cells */
     assert_int_equal(lattice.n_nodes, 12);
     assert_int_equal(lattice.n_triangles, 12);
@@ -235,7 +227,6 @@ TEST(squares_are_two_triangles_each_that_meet_along_turning_diagonals)
         assert_int_equal(t[2], rising ? corner + 5 : corner + 4);
         assert_int_equal(t[3], rising ? corner : corner + 1);
     }
-    dem_lattice_free(&lattice);
 }
 
 TEST(squares_refuse_impossible_sizes)
@@ -259,6 +250,7 @@ static bool is_inside(const dem_lattice *lattice, dem_index i)
 TEST(jitter_moves_the_nodes_inside_within_its_radius_and_no_other)
 {
     const double radius = 0.2 * spacing;
+    CLEANUP(dem_lattice_free)
     dem_lattice lattice = make_rectangle(0.04, 0.03, spacing), before = make_rectangle(0.04, 0.03, spacing);
     double mean[2] = {0.0, 0.0}, squares = 0.0;
     dem_index n_inside = 0;
@@ -277,12 +269,11 @@ TEST(jitter_moves_the_nodes_inside_within_its_radius_and_no_other)
     assert_true(n > 100.0);
     assert_close(squares / n, 0.5 * radius * radius, 4.0 * radius * radius / sqrt(12.0 * n));
     for (int c = 0; c < 2; c++) assert_close(mean[c] / n, 0.0, 4.0 * 0.5 * radius / sqrt(n));
-    dem_lattice_free(&lattice);
-    dem_lattice_free(&before);
 }
 
 TEST(jitter_depends_on_its_seed_alone)
 {
+    CLEANUP(dem_lattice_free)
     dem_lattice one = make_rectangle(0.04, 0.03, spacing), same = make_rectangle(0.04, 0.03, spacing),
                 other = make_rectangle(0.04, 0.03, spacing);
     const size_t size = 2 * (size_t)one.n_nodes * sizeof *one.x;
@@ -291,21 +282,17 @@ TEST(jitter_depends_on_its_seed_alone)
     assert_int_equal(dem_lattice_jitter(&other, 1e-4, 8), DEM_OK);
     assert_memory_equal(one.x, same.x, size);
     assert_memory_not_equal(one.x, other.x, size);
-    dem_lattice_free(&one);
-    dem_lattice_free(&same);
-    dem_lattice_free(&other);
 }
 
 /* Two spacings would fold nearly all of them. */
 TEST(no_triangle_keeps_less_than_a_tenth_of_its_area)
 {
-    dem_lattice lattice = make_rectangle(0.04, 0.03, spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.04, 0.03, spacing);
     const double before = area_of(&lattice, 0);
     double least = 1.0;
     assert_int_equal(dem_lattice_jitter(&lattice, 2.0 * spacing, 3), DEM_OK);
     for (dem_index t = 0; t < lattice.n_triangles; t++) least = fmin(least, area_of(&lattice, t) / before);
     assert_true(least >= 0.1 && least < 0.5);
-    dem_lattice_free(&lattice);
 }
 
 TEST(jitter_refuses_what_it_cannot_move)

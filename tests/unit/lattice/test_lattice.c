@@ -51,7 +51,7 @@ TEST(parts_are_numbered_by_their_lowest_nodes)
 TEST(select_keeps_every_array_in_step)
 {
     const double v[2] = {3.0, -2.0}, offset[2] = {0.0, 0.0};
-    dem_lattice lattice = make_solid(1.0, 1.6, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(1.0, 1.6, 1.0);
     const double top_mass = lattice.mass[4], stiffness = lattice.stiffness[5];
     unsigned char keep[5] = {0, 0, 1, 1, 1};
     assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
@@ -89,14 +89,13 @@ TEST(select_keeps_every_array_in_step)
     assert_refused(dem_lattice_select(&lattice, keep), DEM_ERROR_MODEL, "none of 3 nodes is left");
     assert_refused(dem_lattice_select(&lattice, NULL), DEM_ERROR_ARGUMENT, "keep is NULL");
     assert_int_equal(lattice.n_nodes, 3);
-    dem_lattice_free(&lattice);
 }
 
 /* Two columns and two strips of spacing 1: two triangles that meet in node 2 alone, an hourglass. */
 TEST(pieces_share_edges_and_a_hinge_has_more_than_two_rims)
 {
     const dem_index expected[2] = {0, 1}, rims[5] = {2, 2, 4, 2, 2};
-    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     dem_index n, piece[2], n_edges[5];
     assert_int_equal(dem_lattice_pieces(&lattice, &n, piece), DEM_OK);
     assert_int_equal(n, 2);
@@ -108,12 +107,11 @@ TEST(pieces_share_edges_and_a_hinge_has_more_than_two_rims)
     lattice.triangles[0] = 5;
     assert_refused(dem_lattice_pieces(&lattice, &n, NULL), DEM_ERROR_MODEL,
                    "triangle 0 has node 5, but there are 5 nodes");
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_hexagon_is_one_piece_without_a_rim_at_its_centre)
 {
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_index n, n_edges[7];
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_pieces(&lattice, &n, NULL), DEM_OK);
@@ -121,14 +119,13 @@ TEST(a_hexagon_is_one_piece_without_a_rim_at_its_centre)
     assert_int_equal(dem_lattice_rims(&lattice, n_edges), DEM_OK);
     for (dem_index i = 0; i < 7; i++)
         assert_int_equal(n_edges[i], hypot(lattice.x[2 * i], lattice.x[2 * i + 1]) < 0.5 ? 0 : 2);
-    dem_lattice_free(&lattice);
 }
 
 TEST(trimming_keeps_triangles_with_their_nodes)
 {
     const unsigned char upper[2] = {0, 3}, none[2] = {0, 0};
     const dem_index expected[3] = {0, 2, 1};
-    dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     lattice.guard = calloc(2, sizeof *lattice.guard);
     assert_non_null(lattice.guard);
     lattice.guard[1] = 5.0;
@@ -145,20 +142,18 @@ TEST(trimming_keeps_triangles_with_their_nodes)
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
     assert_refused(dem_lattice_trim(&lattice, upper), DEM_ERROR_MODEL,
                    "a lattice that has springs cannot be trimmed: 3 springs");
-    dem_lattice_free(&lattice);
 }
 
 /* Nodes can lose triangles and all stay: here two of six, opposite to each other. */
 TEST(a_node_stays_with_what_is_left_of_its_triangles)
 {
     const unsigned char keep[6] = {0, 1, 1, 1, 1, 0};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_trim(&lattice, keep), DEM_OK);
     assert_int_equal(lattice.n_triangles, 4);
     assert_int_equal(lattice.n_nodes, 7);
     for (dem_index t = 0; t < 4; t++) assert_close(area_of(&lattice, t), sqrt(3.0) / 4.0, 1e-15);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- move, launch, append ---- */
@@ -188,7 +183,7 @@ TEST(spin_turns_about_the_centre_of_mass)
 TEST(move_turns_about_the_origin_then_shifts)
 {
     const double quarter = 1.5707963267948966, offset[2] = {10.0, 20.0}, v[2] = {1.0, 2.0};
-    dem_lattice lattice = make_rectangle(2.0, 2.0, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(2.0, 2.0, 1.0);
     const double x0 = lattice.x[0], y0 = lattice.x[1];
     assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
     assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
@@ -202,23 +197,21 @@ TEST(move_turns_about_the_origin_then_shifts)
     assert_close(lattice.position[1], 25.0, 1e-14);
     assert_close(lattice.velocity[0], -4.0, 1e-15);
     assert_close(lattice.velocity[1], 2.0, 1e-15);
-    dem_lattice_free(&lattice);
 }
 
 TEST(launch_refuses_what_is_no_velocity)
 {
     const double bad[2] = {0.0, (double)NAN};
-    dem_lattice lattice = make_rectangle(1.0, 1.0, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.0, 1.0);
     assert_refused(dem_lattice_launch(&lattice, bad), DEM_ERROR_ARGUMENT, "the velocity must be two finite numbers");
     assert_refused(dem_lattice_launch(&lattice, NULL), DEM_ERROR_ARGUMENT, "the velocity must be two finite numbers");
     assert_null(lattice.velocity);
-    dem_lattice_free(&lattice);
 }
 
 TEST(append_numbers_nodes_and_bodies_behind_the_others)
 {
     const double v[2] = {0.0, -1.0};
-    dem_lattice all, part = make_solid(1.0, 1.6, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice all, part = make_solid(1.0, 1.6, 1.0);
     dem_lattice_init(&all);
     assert_int_equal(dem_lattice_append(&all, &part), DEM_OK);
     assert_null(all.body);
@@ -244,8 +237,6 @@ TEST(append_numbers_nodes_and_bodies_behind_the_others)
     for (dem_index t = 0; t < 8; t++) assert_close(all.area_stiffness[t], t % 4 == 3 ? -1.0 : 0.0, 0.0);
     assert_null(all.position);
     assert_null(all.flags);
-    dem_lattice_free(&all);
-    dem_lattice_free(&part);
 }
 
 TEST(append_keeps_who_may_touch_and_where_the_motion_starts)

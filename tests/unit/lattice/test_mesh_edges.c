@@ -39,21 +39,20 @@ TEST(an_edge_between_two_triangles_begins_once)
 {
     static const int begins[4] = {1, 1, 0, 1};
     const dem_lattice lattice = square();
-    mesh_edges s;
+    CLEANUP(mesh_edges_free) mesh_edges s;
     assert_ok(mesh_edges_create(&s, &lattice));
     for (int p = 0; p < 4; p++) assert_int_equal(mesh_edges_is_first(&s, 0, p), begins[p]);
     assert_true(mesh_edges_is_first(&s, 1, 4)); /* also where the row before ends with the same upper node */
     assert_true(mesh_edges_is_first(&s, 2, 5));
     for (int p = 0; p < 4; p++) assert_int_equal(mesh_edges_is_boundary(&s, 0, p), p == 0 || p == 3);
     assert_true(mesh_edges_is_boundary(&s, 1, 4) && mesh_edges_is_boundary(&s, 2, 5));
-    mesh_edges_free(&s);
 }
 
 /* Slots counted as the documentation says: a hexagon of 6 triangles has 12 edges, 6 of them inside. */
 TEST(every_triangle_has_its_three_sides_in_the_list)
 {
-    dem_lattice lattice;
-    mesh_edges s;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(mesh_edges_free) mesh_edges s;
     int slots = 0, edges = 0, of_triangle[6] = {0};
     assert_ok(dem_lattice_disc(&lattice, 1.0, 1.0));
     assert_int_equal(lattice.n_triangles, 6);
@@ -68,14 +67,12 @@ TEST(every_triangle_has_its_three_sides_in_the_list)
     assert_int_equal(slots, 18);
     assert_int_equal(edges, 12);
     for (int k = 0; k < 6; k++) assert_int_equal(of_triangle[k], 3);
-    mesh_edges_free(&s);
-    dem_lattice_free(&lattice);
 }
 
 TEST(the_nodes_of_boundary_edges_may_touch_and_those_inside_may_not)
 {
     unsigned char flags[7];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_ok(dem_lattice_disc(&lattice, 1.0, 1.0));
     memset(flags, 0xff, sizeof flags);
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
@@ -83,7 +80,6 @@ TEST(the_nodes_of_boundary_edges_may_touch_and_those_inside_may_not)
         const int inside = hypot(lattice.x[2 * i], lattice.x[2 * i + 1]) < 0.5;
         assert_int_equal(flags[i], inside ? 0 : DEM_NODE_CONTACT);
     }
-    dem_lattice_free(&lattice);
 }
 
 static int away_from_the_middle(void *context, const double x[2])
@@ -97,7 +93,7 @@ static int away_from_the_middle(void *context, const double x[2])
 TEST(the_rim_of_a_hole_is_boundary_too)
 {
     unsigned char flags[19];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_ok(dem_lattice_disc(&lattice, 2.0, 1.0));
     assert_int_equal(lattice.n_nodes, 19);
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
@@ -108,7 +104,6 @@ TEST(the_rim_of_a_hole_is_boundary_too)
     assert_int_equal(lattice.n_nodes, 18);
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
     for (int i = 0; i < 18; i++) assert_int_equal(flags[i], DEM_NODE_CONTACT);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_node_of_no_triangle_may_not_touch_where_others_have_some)

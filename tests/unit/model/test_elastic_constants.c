@@ -8,6 +8,7 @@
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_linalg.h>
 
+#include "harness/cleanup_gsl.h"
 #include "unit/solids.h"
 
 static const double spacing = 0.01;
@@ -36,7 +37,7 @@ TEST(a_regular_block_is_measured_exactly)
     dem_constants c;
     dem_lattice lattice = make_body(nu, 1e7);
     const double volume = 0.5 * (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing;
-    dem_model *model = make_model(&lattice);
+    CLEANUP(free_model) dem_model *model = make_model(&lattice);
     assert_ok(dem_model_constants(model, 0, &c));
     const double expected[3][3] = {{C11, nu * C11, 0.0}, {nu * C11, C11, 0.0}, {0.0, 0.0, G}};
     for (int i = 0; i < 3; i++)
@@ -47,7 +48,6 @@ TEST(a_regular_block_is_measured_exactly)
     assert_close(c.volume, volume, 1e-12 * volume);
     assert_close(c.longitudinal_speed, sqrt(C11 / 1050.0), 1e-10);
     assert_close(c.transverse_speed, sqrt(G / 1050.0), 1e-10);
-    dem_model_destroy(model);
 }
 
 TEST(bodies_are_measured_apart_fixed_nodes_or_not)
@@ -61,14 +61,13 @@ TEST(bodies_are_measured_apart_fixed_nodes_or_not)
     for (dem_index i = 0; i < other.n_nodes; i++) other.flags[i] = i < 30 ? DEM_NODE_FIXED : 0;
     assert_ok(dem_lattice_append(&lattice, &other));
     dem_lattice_free(&other);
-    dem_model *model = make_model(&lattice);
+    CLEANUP(free_model) dem_model *model = make_model(&lattice);
     assert_ok(dem_model_constants(model, 0, &soft));
     assert_ok(dem_model_constants(model, 1, &stiff));
     assert_close(soft.youngs_modulus, 1e7, 1e-11 * 1e7);
     assert_close(soft.poissons_ratio, 1.0 / 3.0, 1e-11);
     assert_close(stiff.youngs_modulus, 3e7, 1e-11 * 3e7);
     assert_close(stiff.poissons_ratio, 0.2, 1e-11);
-    dem_model_destroy(model);
 }
 
 static int is_outside(void *context, const double x[2])
@@ -86,11 +85,10 @@ TEST(a_hole_does_not_change_the_material)
     assert_ok(dem_lattice_cut(&lattice, is_outside, NULL));
     assert_true(lattice.n_nodes < n);
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
-    dem_model *model = make_model(&lattice);
+    CLEANUP(free_model) dem_model *model = make_model(&lattice);
     assert_ok(dem_model_constants(model, 0, &c));
     assert_close(c.youngs_modulus, 1e7, 1e-11 * 1e7);
     assert_close(c.poissons_ratio, 1.0 / 3.0, 1e-11);
-    dem_model_destroy(model);
 }
 
 /* Energy per volume of a strain with the boundary held, the inside in equilibrium by GSL's Cholesky factors. */
@@ -98,8 +96,9 @@ static double dense_energy(const dem_model *model, const unsigned char *inside, 
 {
     const dem_lattice *l = dem_model_lattice(model);
     const size_t n = 2 * (size_t)l->n_nodes;
+    CLEANUP(free_matrix)
     gsl_matrix *k = dense_stiffness(model, l->x, 1e-5 * spacing), *reduced = gsl_matrix_alloc(n, n);
-    gsl_vector *u = gsl_vector_alloc(n), *f = gsl_vector_alloc(n);
+    CLEANUP(free_vector) gsl_vector *u = gsl_vector_alloc(n), *f = gsl_vector_alloc(n);
     double volume = 0.0, energy;
     for (size_t i = 0; i < n / 2; i++) {
         const double x = l->x[2 * i], y = l->x[2 * i + 1];
@@ -119,10 +118,6 @@ static double dense_energy(const dem_model *model, const unsigned char *inside, 
     gsl_blas_dgemv(CblasNoTrans, 1.0, k, u, 0.0, f);
     gsl_blas_ddot(u, f, &energy);
     for (dem_index t = 0; t < l->n_triangles; t++) volume += l->thickness[t] * area_of(l, t);
-    gsl_matrix_free(k);
-    gsl_matrix_free(reduced);
-    gsl_vector_free(u);
-    gsl_vector_free(f);
     return energy / volume;
 }
 
@@ -139,7 +134,7 @@ TEST(an_irregular_body_has_the_energy_of_a_dense_factorization)
         random = random * 1664525u + 1013904223u;
         lattice.stiffness[k] *= 0.5 + (double)random / 4294967296.0;
     }
-    dem_model *model = make_model(&lattice);
+    CLEANUP(free_model) dem_model *model = make_model(&lattice);
     const dem_lattice *l = dem_model_lattice(model);
     assert_true(l->n_nodes <= 200);
     for (dem_index i = 0; i < l->n_nodes; i++) inside[i] = (l->flags[i] & DEM_NODE_CONTACT) == 0;
@@ -154,7 +149,6 @@ TEST(an_irregular_body_has_the_energy_of_a_dense_factorization)
     assert_true(c.anisotropy > 1.001);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < i; j++) assert_close(c.stiffness[i][j], c.stiffness[j][i], 1e-7 * c.stiffness[0][0]);
-    dem_model_destroy(model);
 }
 
 TEST(what_cannot_be_measured_is_refused)

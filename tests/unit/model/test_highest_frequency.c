@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* highest_frequency.c: the highest frequency, against closed forms and GSL. */
+#include "harness/cleanup_gsl.h"
 #include "verification/dense.h"
 
 #include <string.h>
@@ -11,15 +12,13 @@ TEST(a_pair_has_the_frequency_of_its_reduced_mass)
     const dem_index ends[2] = {0, 1};
     const unsigned char fixed[2] = {1, 0};
     for (int k = 0; k < 2; k++) {
-        dem_lattice lattice;
-        dem_model *model;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(free_model) dem_model *model;
         double omega;
         support_lattice(&lattice, 2, x, mass, 1, ends, 2.0, 100.0, k == 0 ? NULL : fixed);
         assert_ok(dem_model_create(&model, &lattice, NULL, 0));
         assert_ok(dem_model_omega(model, &omega));
         assert_close(omega, sqrt(50.0 * (k == 0 ? 1.0 + 1.0 / 3.0 : 1.0 / 3.0)), 1e-12);
-        dem_lattice_free(&lattice);
-        dem_model_destroy(model);
     }
 }
 
@@ -32,8 +31,8 @@ TEST(a_chain_has_the_frequency_of_its_highest_mode)
     static double x[2 * (n_chain + 2)], mass[n_chain + 2];
     static dem_index ends[2 * (n_chain + 1)];
     static unsigned char fixed[n_chain + 2];
-    dem_lattice lattice;
-    dem_model *model;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(free_model) dem_model *model;
     double omega, again;
     for (int i = 0; i < n_chain + 2; i++) {
         x[2 * i] = i;
@@ -47,8 +46,6 @@ TEST(a_chain_has_the_frequency_of_its_highest_mode)
     assert_ok(dem_model_omega(model, &again));
     assert_close(omega / (2.0 * 2.0 * sin(0.5 * M_PI * n_chain / (n_chain + 1.0))), 1.0, 1e-6);
     assert_memory_equal(&omega, &again, sizeof omega);
-    dem_lattice_free(&lattice);
-    dem_model_destroy(model);
 }
 
 /* From below, to the 1e-6 of the residual; K by differences is good to 1e-8. */
@@ -58,20 +55,17 @@ TEST(solids_have_the_highest_frequency_that_gsl_finds)
     for (int k = 0; k < 6; k++) {
         const dem_material solid = {
             .youngs_modulus = 1e7, .poissons_ratio = ratios[k / 2], .density = 1050.0, .thickness = 1.0};
-        dem_lattice lattice;
-        dem_model *model;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(free_model) dem_model *model;
         double omega;
         assert_ok(k % 2 == 0 ? dem_lattice_rectangle(&lattice, 0.05, 0.04, 5e-3)
                              : dem_lattice_disc(&lattice, 0.02, 5e-3));
         assert_ok(dem_lattice_assemble(&lattice, &solid));
         assert_ok(dem_model_create(&model, &lattice, NULL, 0));
         assert_ok(dem_model_omega(model, &omega));
-        gsl_vector *squared = dense_frequencies(model, dense_stiffness(model, lattice.x, 5e-7));
+        CLEANUP(free_vector) gsl_vector *squared = dense_frequencies(model, dense_stiffness(model, lattice.x, 5e-7));
         assert_close(omega / sqrt(gsl_vector_get(squared, squared->size - 1)), 1.0, 1e-6);
         assert_true(omega < dem_model_omega_max(model));
-        gsl_vector_free(squared);
-        dem_lattice_free(&lattice);
-        dem_model_destroy(model);
     }
 }
 
@@ -81,8 +75,8 @@ TEST(without_springs_or_with_all_nodes_fixed_it_is_zero)
     const dem_index ends[2] = {0, 1};
     const unsigned char fixed[2] = {1, 1};
     for (int k = 0; k < 2; k++) {
-        dem_lattice lattice;
-        dem_model *model;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(free_model) dem_model *model;
         double omega = 1.0;
         support_lattice(&lattice, 1 + k, x, mass, k, ends, 1.0, 100.0, fixed);
         assert_ok(dem_model_create(&model, &lattice, NULL, 0));
@@ -90,7 +84,5 @@ TEST(without_springs_or_with_all_nodes_fixed_it_is_zero)
         assert_close(omega, 0.0, 0.0);
         assert_int_equal(dem_model_omega(model, NULL), DEM_ERROR_ARGUMENT);
         assert_int_equal(dem_model_omega(NULL, &omega), DEM_ERROR_ARGUMENT);
-        dem_lattice_free(&lattice);
-        dem_model_destroy(model);
     }
 }

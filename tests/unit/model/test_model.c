@@ -247,9 +247,8 @@ TEST(a_node_without_springs_must_be_a_body_of_its_own)
     s.lattice.n_springs = 2;
     s.lattice.body = s.body;
     s.body[3] = 1;
-    dem_model *model = compile(&s);
+    CLEANUP(free_model) dem_model *model = compile(&s);
     assert_int_equal(dem_model_sizes(model).n_bodies, 2);
-    dem_model_destroy(model);
 }
 
 TEST(body_numbers_have_no_holes)
@@ -278,7 +277,7 @@ TEST(absent_arrays_get_their_defaults)
 {
     square s;
     make_square(&s);
-    dem_model *model = compile(&s);
+    CLEANUP(free_model) dem_model *model = compile(&s);
     const dem_lattice *l = dem_model_lattice(model);
     assert_memory_equal(l->position, s.x, sizeof s.x);
     assert_null(l->viscosity);
@@ -288,15 +287,14 @@ TEST(absent_arrays_get_their_defaults)
         assert_int_equal(l->body[i], 0);
         assert_int_equal(l->flags[i], DEM_NODE_CONTACT);
     }
-    dem_model_destroy(model);
 }
 
 TEST(by_default_the_boundary_may_touch)
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
-    dem_lattice lattice;
-    dem_model *model;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(free_model) dem_model *model;
     assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
@@ -311,8 +309,6 @@ TEST(by_default_the_boundary_may_touch)
     }
     assert_int_equal(dem_model_sizes(model).n_contact_nodes, n);
     assert_true(n < lattice.n_nodes);
-    dem_model_destroy(model);
-    dem_lattice_free(&lattice);
 }
 
 TEST(fixed_nodes_are_at_rest_take_no_force_and_never_touch)
@@ -321,7 +317,7 @@ TEST(fixed_nodes_are_at_rest_take_no_force_and_never_touch)
     make_square(&s);
     s.lattice.flags = s.flags;
     s.lattice.velocity = s.velocity;
-    dem_model *model = compile(&s);
+    CLEANUP(free_model) dem_model *model = compile(&s);
     const forces down = {.model = model, .gravity = {0.0, -9.81}};
     const double velocity[2 * n_nodes] = {1.0, 2.0, 0.0, 0.0, 5.0, 6.0, 0.0, 0.0};
     assert_memory_equal(dem_model_lattice(model)->velocity, velocity, sizeof velocity);
@@ -333,7 +329,6 @@ TEST(fixed_nodes_are_at_rest_take_no_force_and_never_touch)
         assert_int_equal(a.x == 0.0 && a.y == 0.0, i % 2 == 1);
     }
     assert_close(dem_model_mass(model), 10.0, 0.0);
-    dem_model_destroy(model);
 }
 
 TEST(the_model_is_independent_of_what_it_was_made_from)
@@ -341,7 +336,7 @@ TEST(the_model_is_independent_of_what_it_was_made_from)
     double points[4] = {-5.0, 0.0, 5.0, 0.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.25};
     const double at[2] = {0.5, 2.0};
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     dem_index n;
     square s;
     make_square(&s);
@@ -366,7 +361,6 @@ TEST(the_model_is_independent_of_what_it_was_made_from)
     assert_close(dem_model_obstacles(model, &n)[0].points[1], 0.0, 0.0);
     assert_close(dem_model_obstacles(model, &n)[0].restitution, 0.25, 0.0);
     assert_int_equal(n, 1);
-    dem_model_destroy(model);
 }
 
 TEST(sizes_and_csr_tell_what_is_there)
@@ -377,7 +371,7 @@ TEST(sizes_and_csr_tell_what_is_there)
     static const dem_index row[n_nodes + 1] = {0, 3, 5, 8, 10},
                                          neighbour[2 * n_springs] = {1, 2, 3, 0, 2, 0, 1, 3, 0, 2};
     static const dem_index spring[2 * n_springs] = {0, 4, 3, 0, 1, 4, 1, 2, 3, 2};
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     square s;
     make_square(&s);
     s.lattice.viscosity = s.viscosity;
@@ -397,7 +391,6 @@ TEST(sizes_and_csr_tell_what_is_there)
         assert_close(csr.rest_length[p], plain.rest_length[spring[p]], 0.0);
         assert_close(csr.viscosity[p], plain.viscosity[spring[p]], 0.0);
     }
-    dem_model_destroy(model);
 }
 
 /* Springs 0-1 (k = 10 N/m) and 1-2 (20 N/m) at a right angle: node 0 of 1 kg has 2 * 10, node 1 of 2 kg 2 * 20/2,
@@ -452,11 +445,10 @@ TEST(without_springs_spacing_and_frequency_are_zero)
     make_square(&s);
     s.lattice.n_nodes = 1;
     s.lattice.n_springs = s.lattice.n_triangles = 0;
-    dem_model *model = compile(&s);
+    CLEANUP(free_model) dem_model *model = compile(&s);
     assert_close(dem_model_spacing(model), 0.0, 0.0);
     assert_close(dem_model_omega_max(model), 0.0, 0.0);
     assert_true(dem_model_gap(model, anywhere) == infinite);
-    dem_model_destroy(model);
 }
 
 /* ---- force ---- */
@@ -473,7 +465,7 @@ TEST(force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node)
     make_square(&s);
     s.guard[0] = 30.0;
     s.lattice.area_stiffness = s.area_stiffness;
-    dem_model *model = compile(&s);
+    CLEANUP(free_model) dem_model *model = compile(&s);
     const forces acting = {.model = model, .gravity = {gravity[0], gravity[1]}};
     memcpy(x, s.x, sizeof x);
     x[5] = 0.1;
@@ -491,7 +483,6 @@ TEST(force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node)
             assert_close((k == 0 ? a.x : a.y) * s.mass[i], f + s.mass[i] * gravity[k], 1e-12);
         }
     }
-    dem_model_destroy(model);
 }
 
 /* Node 1 of 2 kg moves with (3, 4) m/s away from node 0 (c = 1 N s) and along the spring to node 2 (c = 2 N s), both
@@ -502,12 +493,11 @@ TEST(damping_of_springs_and_mass_slow_a_node)
     square s;
     make_square(&s);
     s.lattice.viscosity = s.viscosity;
-    dem_model *model = compile(&s);
+    CLEANUP(free_model) dem_model *model = compile(&s);
     const forces acting = {.model = model, .gravity = {0.0, -10.0}, .mass_damping = 0.5};
     const vec2 force = forces_of_elements(&acting, 1, s.x, v), a = forces_acceleration(&acting, 1, s.x, v);
     assert_close(force.x, -3.0, 0.0);
     assert_close(force.y, -8.0, 0.0);
     assert_close(a.x, -3.0 / 2.0 - 0.5 * 3.0, 0.0);
     assert_close(a.y, -8.0 / 2.0 - 0.5 * 4.0 - 10.0, 0.0);
-    dem_model_destroy(model);
 }

@@ -5,18 +5,18 @@
 #include <gsl/gsl_rng.h>
 
 #include "elastic/triangles.h"
+#include "harness/cleanup_gsl.h"
 #include "model/overlap.h"
 #include "verification/support.h"
 
 /* Two discs of unit spacing, beside each other. */
 static void make_discs(dem_lattice *l)
 {
-    dem_lattice other;
+    CLEANUP(dem_lattice_free) dem_lattice other;
     assert_ok(dem_lattice_disc(l, 3.0, 1.0));
     assert_ok(dem_lattice_disc(&other, 3.0, 1.0));
     dem_lattice_move(&other, 0.0, (const double[2]){7.0, 0.0});
     assert_ok(dem_lattice_append(l, &other));
-    dem_lattice_free(&other);
 }
 
 /* Brute force: strictly on the left of all three sides of a triangle that has any area. */
@@ -36,14 +36,14 @@ static dem_index count_pairs(const dem_lattice *l, const unsigned char *flags, c
 
 TEST(every_pair_is_counted)
 {
-    dem_lattice l;
-    overlap o;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(overlap_destroy) overlap o;
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     make_discs(&l);
     assert_non_null(rng);
     assert_ok(dem_lattice_exclude(&l, NULL, 0)); /* fills the flags */
     assert_ok(overlap_create(&o, &l));
-    double *x = malloc(2 * (size_t)l.n_nodes * sizeof *x);
+    CLEANUP(free_memory) double *x = malloc(2 * (size_t)l.n_nodes * sizeof *x);
     assert_non_null(x);
     dem_index most = 0;
     for (int k = 0; k < 40; k++) {
@@ -58,16 +58,12 @@ TEST(every_pair_is_counted)
         assert_int_equal(o.found.most, most);
     }
     assert_true(most > 10);
-    free(x);
-    gsl_rng_free(rng);
-    overlap_destroy(&o);
-    dem_lattice_free(&l);
 }
 
 TEST(the_first_is_kept)
 {
-    dem_lattice l;
-    overlap o;
+    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(overlap_destroy) overlap o;
     make_discs(&l);
     assert_ok(overlap_create(&o, &l));
     overlap_look(&o, &l, 1.0, l.x);
@@ -86,15 +82,13 @@ TEST(the_first_is_kept)
     assert_int_equal(o.found.most, first.most);
     assert_int_equal(o.found.node, first.node);
     assert_close(o.found.t, 2.0, 0.0);
-    overlap_destroy(&o);
-    dem_lattice_free(&l);
 }
 
 /* A body turned and moved as a whole does not overlap itself: touching is not inside. */
 TEST(a_whole_body_does_not_overlap_itself)
 {
-    dem_lattice l;
-    overlap o;
+    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(overlap_destroy) overlap o;
     assert_ok(dem_lattice_rectangle(&l, 5.0, 5.0, 1.0));
     assert_ok(overlap_create(&o, &l));
     for (int k = 0; k < 10; k++) {
@@ -102,6 +96,4 @@ TEST(a_whole_body_does_not_overlap_itself)
         overlap_look(&o, &l, 0.0, l.x);
         assert_int_equal(o.found.now, 0);
     }
-    overlap_destroy(&o);
-    dem_lattice_free(&l);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "forces/forces.h"
+#include "harness/cleanup_gsl.h"
 #include "unit/solids.h"
 
 static double *copy_positions(const dem_model *model)
@@ -62,11 +63,10 @@ static dem_model *make_holed(double guard, double ratio)
     dem_material material = rubber;
     material.guard = guard;
     material.poissons_ratio = ratio;
-    dem_lattice lattice = make_rectangle(0.03, 0.04, 2.5e-3);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.03, 0.04, 2.5e-3);
     assert_ok(dem_lattice_cut(&lattice, outside_hole, NULL));
     assert_ok(dem_lattice_assemble(&lattice, &material));
     dem_model *model = make_model(&lattice);
-    dem_lattice_free(&lattice);
     return model;
 }
 
@@ -92,7 +92,7 @@ static double triangles_energy_at(const dem_model *m, const double *x)
 
 TEST(volumes_add_up_to_that_of_the_triangles)
 {
-    dem_model *model = make_holed(0.0, 1.0 / 3.0);
+    CLEANUP(free_model) dem_model *model = make_holed(0.0, 1.0 / 3.0);
     double volume = 0.0, corner = 0.0;
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) volume += dem_model_volumes(model)[i];
     const double triangle = rubber.thickness * sqrt(3.0) / 4.0 * 2.5e-3 * 2.5e-3;
@@ -100,42 +100,37 @@ TEST(volumes_add_up_to_that_of_the_triangles)
     assert_close(volume, (double)model->lattice.n_triangles * triangle, 1e-12 * volume);
     assert_close(volume * rubber.density, dem_model_mass(model), 1e-12 * dem_model_mass(model));
     assert_close(corner, triangle / 3.0, 1e-12 * corner);
-    dem_model_destroy(model);
 }
 
 /* Shares of a spring, times the volumes: each is given once, whole. */
 TEST(every_spring_is_shared_out_whole)
 {
-    dem_model *model = make_holed(0.0, 1.0 / 3.0);
+    CLEANUP(free_model) dem_model *model = make_holed(0.0, 1.0 / 3.0);
     const stress_map *map = &model->stress;
-    double *given = calloc((size_t)model->lattice.n_springs, sizeof *given);
+    CLEANUP(free_memory) double *given = calloc((size_t)model->lattice.n_springs, sizeof *given);
     assert_non_null(given);
     for (dem_index i = 0; i < model->lattice.n_nodes; i++)
         for (dem_index p = map->row[i]; p < map->row[i + 1]; p++)
             given[map->spring[p]] += map->share[p] * map->volume[i];
     for (dem_index k = 0; k < model->lattice.n_springs; k++) assert_close(given[k], 1.0, 1e-14);
-    free(given);
-    dem_model_destroy(model);
 }
 
 /* The same spring from two triangles stands in a row once: an inner node has its 6 springs and the 6 opposite. */
 TEST(a_row_has_every_spring_once)
 {
-    dem_lattice lattice = make_solid(0.03, 0.04, 2.5e-3);
-    dem_model *model = make_model(&lattice);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.03, 0.04, 2.5e-3);
+    CLEANUP(free_model) dem_model *model = make_model(&lattice);
     const stress_map *map = &model->stress;
     const dem_index inner = 13 + 12 + 6;
     assert_int_equal(map->row[inner + 1] - map->row[inner], 12);
     assert_int_equal(map->row[1], 3); /* a corner with one triangle */
-    dem_model_destroy(model);
-    dem_lattice_free(&lattice);
 }
 
 /* sum V sigma = sum of r x f over the springs, summed here by pairs from the CSR; rounding of some 800 terms. */
 TEST(the_sum_over_nodes_is_that_of_r_times_f)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    dem_model *model = make_holed(0.0, 1.0 / 3.0);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_model) dem_model *model = make_holed(0.0, 1.0 / 3.0);
     const dem_csr csr = dem_model_csr(model);
     for (int trial = 0; trial < 5; trial++) {
         double *x = stir(model, 0.9, 0.2, rng), total[3], expected[3] = {0.0, 0.0, 0.0}, size = 0.0;
@@ -152,17 +147,15 @@ TEST(the_sum_over_nodes_is_that_of_r_times_f)
         for (int c = 0; c < 3; c++) assert_close(total[c], expected[c], 1e-13 * size);
         free(x);
     }
-    dem_model_destroy(model);
-    gsl_rng_free(rng);
 }
 
 /* The same by the forces on the nodes, of area term and guard too: sum V sigma = - sum x_i f_i, symmetric since
  * they have no torque. Here every triangle is below the onset, some are inverted. */
 TEST(the_sum_over_nodes_is_minus_that_of_places_times_forces)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    dem_model *model = make_holed(0.02, 0.45);
-    double *v = calloc(2 * (size_t)model->lattice.n_nodes, sizeof *v);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_model) dem_model *model = make_holed(0.02, 0.45);
+    CLEANUP(free_memory) double *v = calloc(2 * (size_t)model->lattice.n_nodes, sizeof *v);
     const forces acting = {.model = model};
     assert_non_null(v);
     for (int trial = 0; trial < 5; trial++) {
@@ -181,20 +174,16 @@ TEST(the_sum_over_nodes_is_minus_that_of_places_times_forces)
         assert_close(total[2], expected[3], 1e-13 * size);
         free(x);
     }
-    free(v);
-    dem_model_destroy(model);
-    gsl_rng_free(rng);
 }
 
 /* ---- energies ---- */
 
 static double energy_of(const dem_model *model, const double *x, const double F[4])
 {
-    double *turned = copy_positions(model);
+    CLEANUP(free_memory) double *turned = copy_positions(model);
     memcpy(turned, x, 2 * (size_t)model->lattice.n_nodes * sizeof *x);
     deform(turned, model->lattice.n_nodes, F);
     const double energy = springs_energy(&model->lattice, NULL, turned) + triangles_energy_at(model, turned);
-    free(turned);
     return energy;
 }
 
@@ -204,8 +193,8 @@ TEST(it_is_the_derivative_of_the_energy_by_the_strain)
 {
     static const double heights[3] = {0.95, 0.35, 0.15};
     const double h = 1e-6;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    dem_model *model = make_holed(0.02, 0.1);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_model) dem_model *model = make_holed(0.02, 0.1);
     for (int trial = 0; trial < 3; trial++) {
         double *x = stir(model, heights[trial], 0.1, rng), total[3];
         const double W = energy_of(model, x, (const double[4]){1, 0, 0, 1});
@@ -222,8 +211,6 @@ TEST(it_is_the_derivative_of_the_energy_by_the_strain)
         assert_close(total[2], yx / (2.0 * h), 1e-8 * W);
         free(x);
     }
-    dem_model_destroy(model);
-    gsl_rng_free(rng);
 }
 
 /* Squeezed to J = 0.3 all round every triangle pushes back with sigma = J g w'(J)/h, at every node the same, beside the
@@ -231,8 +218,8 @@ TEST(it_is_the_derivative_of_the_energy_by_the_strain)
 TEST(the_guard_adds_a_pressure)
 {
     const double s = sqrt(0.3), F[4] = {s, 0.0, 0.0, s};
-    dem_model *model = make_holed(0.02, 1.0 / 3.0), *bare = make_holed(0.0, 1.0 / 3.0);
-    double *x = copy_positions(model);
+    CLEANUP(free_model) dem_model *model = make_holed(0.02, 1.0 / 3.0), *bare = make_holed(0.0, 1.0 / 3.0);
+    CLEANUP(free_memory) double *x = copy_positions(model);
     deform(x, model->lattice.n_nodes, F);
     const double slope = triangles_guard_law(0.3).slope;
     const double pressure = -0.3 * 0.02 * rubber.youngs_modulus * slope; /* g/h = 0.02 E */
@@ -244,9 +231,6 @@ TEST(the_guard_adds_a_pressure)
         for (int c = 0; c < 2; c++) assert_close(with[c], without[c] - pressure, 1e-11 * pressure);
         assert_close(with[2], without[2], 0.0);
     }
-    free(x);
-    dem_model_destroy(model);
-    dem_model_destroy(bare);
 }
 
 /* ---- whose springs are whose ---- */
@@ -278,24 +262,21 @@ TEST(materials_do_not_take_each_others_stress)
 {
     static const double modulus[2] = {1e7, 1e9}, thickness[2] = {0.5, 0.02}, F[4] = {1.02, 0.03, 0.0, 0.99};
     double sample[2][3];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     for (int side = 0; side < 2; side++) {
         dem_material material = rubber;
         material.youngs_modulus = modulus[side];
         material.thickness = thickness[side];
-        dem_lattice plain = make_rectangle(0.02, 0.02, 2.5e-3);
+        CLEANUP(dem_lattice_free) dem_lattice plain = make_rectangle(0.02, 0.02, 2.5e-3);
         assert_ok(dem_lattice_assemble(&plain, &material));
-        dem_model *model = make_model(&plain);
-        double *x = copy_positions(model);
+        CLEANUP(free_model) dem_model *model = make_model(&plain);
+        CLEANUP(free_memory) double *x = copy_positions(model);
         deform(x, plain.n_nodes, F);
         stress_at(model, 30, x, sample[side]);
-        free(x);
-        dem_model_destroy(model);
-        dem_lattice_free(&plain);
     }
     make_two_materials(&lattice, modulus, thickness);
-    dem_model *model = make_model(&lattice);
-    double *x = copy_positions(model);
+    CLEANUP(free_model) dem_model *model = make_model(&lattice);
+    CLEANUP(free_memory) double *x = copy_positions(model);
     deform(x, lattice.n_nodes, F);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         double stress[3], volume[2] = {0.0, 0.0};
@@ -309,9 +290,6 @@ TEST(materials_do_not_take_each_others_stress)
             assert_close(stress[c], mean, 1e-11 * (volume[1] > 0.0 ? 1e9 : 1e7) * 0.02);
         }
     }
-    free(x);
-    dem_model_destroy(model);
-    dem_lattice_free(&lattice);
 }
 
 /* A spring that hangs on a triangle: half of its r x f at the corner, over the corner's volume; its other end is in no
@@ -321,7 +299,7 @@ TEST(a_spring_outside_of_triangles_gives_half_to_each_end)
     static const double at[8] = {0.0, 0.0, 3.0, 0.0, 0.0, 2.0, 7.0, 0.0}, mass[4] = {1.0, 1.0, 1.0, 1.0};
     static const dem_index ends[8] = {0, 1, 1, 2, 2, 0, 1, 3};
     double stress[3];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_lattice(&lattice, 4, at, mass, 4, ends, 1.0, 10.0, NULL);
     lattice.rest_length[0] = 3.0, lattice.rest_length[1] = sqrt(13.0), lattice.rest_length[2] = 2.0;
     lattice.rest_length[3] = 2.0; /* stretched to 4: a force of 10 N */
@@ -329,7 +307,7 @@ TEST(a_spring_outside_of_triangles_gives_half_to_each_end)
     assert_non_null(lattice.triangles);
     for (int c = 0; c < 3; c++) lattice.triangles[c] = c;
     lattice.n_triangles = 1;
-    dem_model *model = make_model(&lattice);
+    CLEANUP(free_model) dem_model *model = make_model(&lattice);
     assert_close(dem_model_volumes(model)[1], 1.0, 1e-15);
     stress_at(model, 1, model->lattice.x, stress);
     assert_close(stress[0], 0.5 * 10.0 * 4.0, 1e-13);
@@ -338,8 +316,6 @@ TEST(a_spring_outside_of_triangles_gives_half_to_each_end)
     stress_at(model, 3, model->lattice.x, stress);
     assert_close(dem_model_volumes(model)[3], 0.0, 0.0);
     for (int c = 0; c < 3; c++) assert_close(stress[c], 0.0, 0.0);
-    dem_model_destroy(model);
-    dem_lattice_free(&lattice);
 }
 
 TEST(without_triangles_there_is_no_stress)
@@ -347,13 +323,11 @@ TEST(without_triangles_there_is_no_stress)
     static const double at[4] = {0.0, 0.0, 2.0, 0.0}, mass[2] = {1.0, 1.0};
     static const dem_index ends[2] = {0, 1};
     double stress[3];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_lattice(&lattice, 2, at, mass, 1, ends, 1.0, 10.0, NULL);
-    dem_model *model = make_model(&lattice);
+    CLEANUP(free_model) dem_model *model = make_model(&lattice);
     stress_at(model, 0, model->lattice.x, stress);
     for (int c = 0; c < 3; c++) assert_close(stress[c], 0.0, 0.0);
-    dem_model_destroy(model);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- what is made of a stress ---- */

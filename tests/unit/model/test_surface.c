@@ -114,7 +114,7 @@ TEST(an_edge_has_the_body_on_its_left)
     for (int k = 0; k < 6; k++) {
         double x[6];
         body b;
-        surface s;
+        CLEANUP(surface_free) surface s;
         for (int q = 0; q < 3; q++) vec2_put(x, names[k][q], vec2_at(at, q));
         body_open(&b, 3, x, 1, names[k]);
         assert_ok(surface_compile(&s, &b.lattice));
@@ -125,7 +125,6 @@ TEST(an_edge_has_the_body_on_its_left)
             /* twice the area, 1.75: rounding of products of order 1 */
             assert_close(vec2_cross(vec2_sub(to, from), vec2_sub(apex, from)), 1.75, 1e-15);
         }
-        surface_free(&s);
     }
 }
 
@@ -141,8 +140,8 @@ TEST(a_ring_has_two_boundaries_that_run_opposite_ways)
 {
     const double hexagon = 1.5 * sqrt(3.0);
     unsigned char flags[18];
-    dem_lattice ring;
-    surface s;
+    CLEANUP(dem_lattice_free) dem_lattice ring;
+    CLEANUP(surface_free) surface s;
     assert_ok(dem_lattice_disc(&ring, 2.0, 1.0));
     assert_ok(dem_lattice_cut(&ring, away_from_the_middle, NULL));
     assert_ok(mesh_edges_contact_flags(flags, &ring));
@@ -158,9 +157,7 @@ TEST(a_ring_has_two_boundaries_that_run_opposite_ways)
     /* sums of 18 products of order 1 */
     assert_close(swept(&s, ring.x, first, first + 12), 2.0 * 4.0 * hexagon, 1e-13);
     assert_close(swept(&s, ring.x, hole, hole + 6), -2.0 * hexagon, 1e-13);
-    surface_free(&s);
     ring.flags = NULL;
-    dem_lattice_free(&ring);
 }
 
 /* Two squares whose nodes are numbered in turns: the boundary of one comes wholly before that of the other. */
@@ -170,13 +167,12 @@ TEST(the_boundaries_of_two_bodies_follow_one_another)
     static const dem_index triangles[12] = {0, 2, 4, 1, 3, 5, 0, 4, 6, 1, 5, 7};
     static const dem_index ends[16] = {0, 2, 2, 4, 4, 6, 6, 0, 1, 3, 3, 5, 5, 7, 7, 1};
     body b;
-    surface s;
+    CLEANUP(surface_free) surface s;
     body_open(&b, 8, x, 4, triangles);
     assert_ok(surface_compile(&s, &b.lattice));
     check_ends(&s, 8, ends);
     check_lists(&s, 8);
     assert_int_equal(count_loops(&s), 2);
-    surface_free(&s);
 }
 
 /* Two triangles that share node 2 only: it has four edges, two that end there and two that start there, and the walks
@@ -187,7 +183,7 @@ TEST(at_a_pinch_node_two_boundaries_meet)
     static const dem_index triangles[6] = {0, 1, 2, 3, 4, 2};
     int starts = 0, stops = 0;
     body b;
-    surface s;
+    CLEANUP(surface_free) surface s;
     body_open(&b, 5, x, 2, triangles);
     assert_ok(surface_compile(&s, &b.lattice));
     assert_int_equal(s.n_edges, 6);
@@ -201,7 +197,6 @@ TEST(at_a_pinch_node_two_boundaries_meet)
     assert_int_equal(stops, 2);
     assert_true(count_loops(&s) >= 1);
     assert_close(swept(&s, x, 0, 6), 4.0, 0.0); /* two triangles of area 1: small integers */
-    surface_free(&s);
 }
 
 TEST(an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not)
@@ -248,11 +243,10 @@ TEST(an_edge_needs_two_nodes_that_may_touch)
 TEST(nodes_without_triangles_have_no_edges)
 {
     body b;
-    surface s;
+    CLEANUP(surface_free) surface s;
     open_square(&b);
     b.lattice.n_triangles = 0;
     assert_ok(surface_compile(&s, &b.lattice));
     assert_int_equal(s.n_edges, 0);
     for (int i = 0; i <= 4; i++) assert_int_equal(s.row[i], 0);
-    surface_free(&s);
 }

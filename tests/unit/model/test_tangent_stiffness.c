@@ -10,6 +10,7 @@
 #include <gsl/gsl_rng.h>
 
 #include "forces/forces.h"
+#include "harness/cleanup_gsl.h"
 #include "model/tangent_stiffness.h"
 
 static const double spacing = 0.01;
@@ -18,12 +19,11 @@ static dem_model *make_block(double nu)
 {
     const dem_material solid = {
         .youngs_modulus = 1e7, .poissons_ratio = nu, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.05, spacing));
     assert_ok(dem_lattice_assemble(&lattice, &solid));
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_lattice_free(&lattice);
     return model;
 }
 
@@ -36,12 +36,11 @@ static double *zeros(const dem_model *model)
 
 static double *random_field(const dem_model *model, unsigned long seed, double size)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double *field = zeros(model);
     assert_non_null(rng);
     gsl_rng_set(rng, seed);
     for (dem_index k = 0; k < 2 * model->lattice.n_nodes; k++) field[k] = size * (2.0 * gsl_rng_uniform(rng) - 1.0);
-    gsl_rng_free(rng);
     return field;
 }
 
@@ -61,7 +60,7 @@ static double *squeezed(const dem_model *model, unsigned long seed)
 TEST(it_is_the_derivative_of_the_forces_about_any_state)
 {
     for (unsigned long trial = 1; trial <= 10; trial++) {
-        dem_model *model = make_block(trial % 2 == 0 ? 0.1 : 0.45);
+        CLEANUP(free_model) dem_model *model = make_block(trial % 2 == 0 ? 0.1 : 0.45);
         const dem_index n = model->lattice.n_nodes;
         const double step = 1e-7 * spacing;
         const forces acting = {.model = model};
@@ -80,7 +79,6 @@ TEST(it_is_the_derivative_of_the_forces_about_any_state)
             assert_close(out[2 * i + 1], change.y / (2.0 * step), 1e-6 * 1e7);
         }
         free(x), free(u), free(out), free(above), free(below), free(still);
-        dem_model_destroy(model);
     }
 }
 
@@ -93,7 +91,7 @@ static double product(const dem_model *model, const double *a, const double *b)
 
 TEST(it_is_symmetric)
 {
-    dem_model *model = make_block(0.45);
+    CLEANUP(free_model) dem_model *model = make_block(0.45);
     double *x = squeezed(model, 7), *u = random_field(model, 8, 1.0), *v = random_field(model, 9, 1.0);
     double *ku = zeros(model), *kv = zeros(model);
     tangent_apply(model, x, u, ku);
@@ -101,13 +99,12 @@ TEST(it_is_symmetric)
     const double scale = sqrt(product(model, ku, ku) * product(model, v, v));
     assert_close(product(model, ku, v), product(model, kv, u), 1e-13 * scale);
     free(x), free(u), free(v), free(ku), free(kv);
-    dem_model_destroy(model);
 }
 
 /* Shifted, or turned about the origin, a lattice at rest feels nothing: rounding of k u, 1e7 N/m times 0.1 m. */
 TEST(rigid_motions_take_no_force_at_rest)
 {
-    dem_model *model = make_block(0.1);
+    CLEANUP(free_model) dem_model *model = make_block(0.1);
     double *u = zeros(model), *out = zeros(model);
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         u[2 * i] = 0.3 - model->lattice.x[2 * i + 1];
@@ -116,7 +113,6 @@ TEST(rigid_motions_take_no_force_at_rest)
     tangent_apply(model, model->lattice.x, u, out);
     for (dem_index k = 0; k < 2 * model->lattice.n_nodes; k++) assert_close(out[k], 0.0, 1e-14 * 1e7);
     free(u), free(out);
-    dem_model_destroy(model);
 }
 
 /* ---- equilibrium ---- */
@@ -134,7 +130,7 @@ static unsigned char *hold_below(const dem_model *model)
 static gsl_vector *dense_solution(const dem_model *model, const unsigned char *held, const double *f)
 {
     const size_t n = 2 * (size_t)model->lattice.n_nodes;
-    gsl_matrix *k = dense_stiffness(model, model->lattice.x, 1e-5 * spacing);
+    CLEANUP(free_matrix) gsl_matrix *k = dense_stiffness(model, model->lattice.x, 1e-5 * spacing);
     gsl_vector *u = gsl_vector_alloc(n);
     for (size_t i = 0; i < n; i++) {
         gsl_vector_set(u, i, held[i / 2] ? 0.0 : f[i]);
@@ -143,7 +139,6 @@ static gsl_vector *dense_solution(const dem_model *model, const unsigned char *h
     }
     assert_int_equal(gsl_linalg_cholesky_decomp1(k), 0);
     assert_int_equal(gsl_linalg_cholesky_svx(k, u), 0);
-    gsl_matrix_free(k);
     return u;
 }
 
@@ -151,10 +146,10 @@ static gsl_vector *dense_solution(const dem_model *model, const unsigned char *h
  * m, times the condition of 1e3. */
 TEST(equilibrium_is_that_of_a_dense_factorization)
 {
-    dem_model *model = make_block(0.1);
+    CLEANUP(free_model) dem_model *model = make_block(0.1);
     unsigned char *held = hold_below(model);
     double *f = random_field(model, 3, 1.0), *u = zeros(model), *image = zeros(model), residual = 0.0;
-    gsl_vector *expected = dense_solution(model, held, f);
+    CLEANUP(free_vector) gsl_vector *expected = dense_solution(model, held, f);
     memcpy(u, f, 2 * (size_t)model->lattice.n_nodes * sizeof *u);
     assert_ok(tangent_solve(model, model->lattice.x, held, 1e-12, u));
     tangent_apply(model, model->lattice.x, u, image);
@@ -164,21 +159,18 @@ TEST(equilibrium_is_that_of_a_dense_factorization)
         if (!held[k / 2]) residual += (f[k] - image[k]) * (f[k] - image[k]);
     }
     assert_close(sqrt(residual), 0.0, 1e-11); /* the residual is followed, not computed anew */
-    gsl_vector_free(expected);
     free(held), free(f), free(u), free(image);
-    dem_model_destroy(model);
 }
 
 TEST(nothing_is_done_where_forces_are_below_the_residual)
 {
-    dem_model *model = make_block(0.1);
+    CLEANUP(free_model) dem_model *model = make_block(0.1);
     unsigned char *held = hold_below(model);
     double *u = zeros(model);
     u[2 * model->lattice.n_nodes - 1] = 0.5;
     assert_ok(tangent_solve(model, model->lattice.x, held, 0.5, u));
     for (dem_index k = 0; k < 2 * model->lattice.n_nodes; k++) assert_close(u[k], 0.0, 0.0);
     free(held), free(u);
-    dem_model_destroy(model);
 }
 
 /* Springs under pressure push a bowed chain further out. */
@@ -188,13 +180,11 @@ TEST(an_unstable_state_is_refused)
     const dem_index ends[4] = {0, 1, 1, 2};
     const unsigned char held[3] = {1, 0, 1};
     double u[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0};
-    dem_lattice lattice;
-    dem_model *model;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(free_model) dem_model *model;
     support_lattice(&lattice, 3, x, mass, 2, ends, 1.0, 100.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     assert_int_equal(tangent_solve(model, x, held, 1e-9, u), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(),
                         "the lattice is not stable: a displacement of 1 free nodes takes no energy");
-    dem_lattice_free(&lattice);
-    dem_model_destroy(model);
 }

@@ -5,6 +5,7 @@
 #include <gsl/gsl_rng.h>
 #include <stdlib.h>
 
+#include "harness/cleanup_gsl.h"
 #include "obstacle/box_tree.h"
 
 /* n boxes along a random walk; free items and tree. */
@@ -62,7 +63,7 @@ TEST(a_box_holds_its_segment_with_its_reach_and_a_little_more)
 TEST(leaves_deal_out_the_items_evenly_and_in_order)
 {
     for (dem_index n = 0; n < 300; n++) {
-        box_tree t;
+        CLEANUP(box_tree_free) box_tree t;
         assert_ok(box_tree_create(&t, n));
         const dem_index leaf = (dem_index)1 << t.depth;
         assert_int_equal(box_tree_first(&t, leaf), 0);
@@ -73,15 +74,14 @@ TEST(leaves_deal_out_the_items_evenly_and_in_order)
             assert_true(box_tree_is_leaf(&t, k));
             assert_true(count <= 4 && (count >= 2 || n < 2));
         }
-        box_tree_free(&t);
     }
 }
 
 TEST(every_node_covers_its_items_and_its_children)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (dem_index n = 1; n < 100; n++) {
-        row r = random_row(rng, n);
+        CLEANUP(free_row) row r = random_row(rng, n);
         const dem_index leaf = (dem_index)1 << r.tree.depth;
         for (dem_index k = 1; k < leaf; k++) {
             assert_true(contains(&r.tree.boxes[k], &r.tree.boxes[2 * k]));
@@ -90,17 +90,15 @@ TEST(every_node_covers_its_items_and_its_children)
         for (dem_index k = leaf; k < 2 * leaf; k++)
             for (dem_index q = box_tree_first(&r.tree, k); q < box_tree_first(&r.tree, k + 1); q++)
                 assert_true(contains(&r.tree.boxes[k], &r.items[q]));
-        free_row(&r);
     }
-    gsl_rng_free(rng);
 }
 
 TEST(a_window_finds_all_items_that_it_meets_in_order)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     dem_index met = 0, found = 0, in_order = 0;
     for (dem_index n = 0; n < 200; n++) {
-        row r = random_row(rng, n);
+        CLEANUP(free_row) row r = random_row(rng, n);
         for (int k = 0; k < 50; k++) {
             const vec2 at = {0.3 * (double)n * gsl_rng_uniform(rng), 6.0 * gsl_rng_uniform(rng) - 3.0};
             const box window = box_around(at, at, gsl_rng_uniform(rng));
@@ -116,11 +114,9 @@ TEST(a_window_finds_all_items_that_it_meets_in_order)
             }
             assert_int_equal(box_tree_seek(&r.tree, n, &window), n);
         }
-        free_row(&r);
     }
     assert_int_equal(in_order, met);
     assert_true(met > 1000 && found < 4 * met); /* it leaves most alone */
-    gsl_rng_free(rng);
 }
 
 TEST(a_window_on_one_side_finds_nothing)
@@ -128,7 +124,7 @@ TEST(a_window_on_one_side_finds_nothing)
     static const double sides[4][2] = {{-2.0, 0.0}, {2.0, 0.0}, {0.0, -2.0}, {0.0, 2.0}};
     const vec2 a = {-0.5, -0.5}, b = {0.5, 0.5};
     const box item = box_around(a, b, 0.0);
-    box_tree t;
+    CLEANUP(box_tree_free) box_tree t;
     assert_ok(box_tree_create(&t, 1));
     box_tree_cover(&t, 0, &item);
     for (int k = 0; k < 4; k++) {
@@ -137,7 +133,6 @@ TEST(a_window_on_one_side_finds_nothing)
         assert_int_equal(box_tree_seek(&t, 0, &near), 0);
         assert_int_equal(box_tree_seek(&t, 0, &far), 1);
     }
-    box_tree_free(&t);
 }
 
 /* Square of the distance to a box, a bound for all in it. */
@@ -168,9 +163,9 @@ static double walk_to_nearest(const row *r, vec2 x, int *visits)
 
 TEST(a_walk_comes_to_the_item_with_the_smallest_bound)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (dem_index n = 0; n < 200; n++) {
-        row r = random_row(rng, n);
+        CLEANUP(free_row) row r = random_row(rng, n);
         for (int k = 0; k < 50; k++) {
             const vec2 x = {0.3 * (double)n * gsl_rng_uniform(rng), 6.0 * gsl_rng_uniform(rng) - 3.0};
             double nearest = (double)INFINITY;
@@ -178,17 +173,15 @@ TEST(a_walk_comes_to_the_item_with_the_smallest_bound)
             for (dem_index i = 0; i < n; i++) nearest = fmin(nearest, bound_of(&r.items[i], x));
             assert_true(walk_to_nearest(&r, x, &visits) == nearest);
         }
-        free_row(&r);
     }
-    gsl_rng_free(rng);
 }
 
 /* 2^15 leaves along a line, points 0.3 to 10 items off it: down once and little more. */
 TEST(a_walk_costs_little_more_than_the_depth_of_the_tree)
 {
     const dem_index n = 65536;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    row r = {.items = calloc((size_t)n, sizeof *r.items)};
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_row) row r = {.items = calloc((size_t)n, sizeof *r.items)};
     int most = 0;
     assert_ok(box_tree_create(&r.tree, n));
     assert_int_equal(r.tree.depth, 15);
@@ -203,8 +196,6 @@ TEST(a_walk_costs_little_more_than_the_depth_of_the_tree)
         most = visits > most ? visits : most;
     }
     assert_true(most <= 2 * 16);
-    free_row(&r);
-    gsl_rng_free(rng);
 }
 
 TEST(siblings_are_visited_by_bound_and_not_above_the_limit)

@@ -5,10 +5,9 @@
 TEST(height_and_place_are_measured_from_the_start)
 {
     const vec2 x = {0.5 + 0.1, -0.5 + 0.1};
-    obstacle_set o = compile(valley, 4, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0);
     assert_close(segment_place(&o.segments[1], x), sqrt(0.5), 1e-15);
     assert_close(segment_height(&o.segments[1], x), 0.1 * sqrt(2.0), 1e-15);
-    obstacles_free(&o);
 }
 
 static void check_bend(const obstacle_set *o, dem_index s, bool backwards, obstacle_bend bend, dem_index expected)
@@ -20,7 +19,7 @@ static void check_bend(const obstacle_set *o, dem_index s, bool backwards, obsta
 
 TEST(bends_are_reported_from_both_sides_alike)
 {
-    obstacle_set o = compile_both();
+    CLEANUP(obstacles_free) obstacle_set o = compile_both();
     check_bend(&o, 0, true, OBSTACLE_FREE_END, -1);
     check_bend(&o, 0, false, OBSTACLE_CONVEX, 1);
     check_bend(&o, 1, true, OBSTACLE_CONVEX, 0);
@@ -29,19 +28,17 @@ TEST(bends_are_reported_from_both_sides_alike)
     check_bend(&o, 2, false, OBSTACLE_FREE_END, -1);
     check_bend(&o, 6, false, OBSTACLE_CONVEX, 3); /* where the ring closes */
     check_bend(&o, 3, true, OBSTACLE_CONVEX, 6);
-    obstacles_free(&o);
 }
 
 /* Straight is a sine of the bend below 1e-9; a line that turns back is none, though its sine is 0. */
 TEST(a_bend_below_1e_9_is_straight)
 {
     const double points[10] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.5e-9, 3.0, 3.0e-9, 4.0, 3.0e-9};
-    obstacle_set o = compile(points, 5, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(points, 5, 0.0);
     check_bend(&o, 0, false, OBSTACLE_STRAIGHT, 1);
     check_bend(&o, 1, true, OBSTACLE_STRAIGHT, 0);
     check_bend(&o, 1, false, OBSTACLE_CONCAVE, 2);
     check_bend(&o, 2, false, OBSTACLE_CONVEX, 3);
-    obstacles_free(&o);
 }
 
 TEST(segments_and_vertices_are_where_their_obstacle_has_gone)
@@ -49,7 +46,7 @@ TEST(segments_and_vertices_are_where_their_obstacle_has_gone)
     const vec2 velocity = {-3.0, -0.5};
     segment moved;
     vec2 shared;
-    obstacle_set o = compile_moving(velocity, (vec2){0.0, 0.0});
+    CLEANUP(obstacles_free) obstacle_set o = compile_moving(velocity, (vec2){0.0, 0.0});
     assert_ptr_equal(obstacles_segment(&o, 1, 2.0, &moved), &o.segments[1]);
     const segment *left = obstacles_segment(&o, 3, 2.0, &moved);
     assert_ptr_equal(left, &moved);
@@ -61,7 +58,6 @@ TEST(segments_and_vertices_are_where_their_obstacle_has_gone)
     const obstacle_motion rest = obstacles_motion(&o, 0, 2.0, shared), moves = obstacles_motion(&o, 1, 2.0, shared);
     assert_true(!rest.moves && rest.velocity.x == 0.0 && moves.moves && moves.velocity.x == -3.0);
     assert_close(o.bounds.speed, vec2_norm(velocity), 0.0);
-    obstacles_free(&o);
 }
 
 /* The foot of a wall that stands on the valley's floor is buried in it only if both go the same way. */
@@ -70,11 +66,10 @@ TEST(ends_are_buried_in_what_goes_along)
     const double wall[4] = {2.0, 1.0, 2.0, -1.0};
     dem_obstacle list[2] = {{.n_points = 4, .points = valley}, {.n_points = 2, .points = wall}};
     for (int k = 0; k < 3; k++) {
-        obstacle_set o;
+        CLEANUP(obstacles_free) obstacle_set o;
         list[1].velocity[0] = k > 0 ? 1.0 : 0.0;
         list[0].velocity[0] = k > 1 ? 1.0 : 0.0;
         assert_ok(obstacles_compile(&o, list, 2));
         assert_true((o.segments[3].buried[1] > 0.0) == (k != 1));
-        obstacles_free(&o);
     }
 }

@@ -31,11 +31,10 @@ TEST(segments_are_numbered_obstacle_by_obstacle)
 TEST(the_set_keeps_copies_of_the_points)
 {
     double points[4] = {0.0, 0.0, 1.0, 0.0};
-    obstacle_set o = compile(points, 2, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(points, 2, 0.0);
     points[1] = points[3] = 100.0;
     assert_close(o.list[0].points[1], 0.0, 0.0);
     assert_close(gap_at(&o, 0.5, 1.0).distance, 1.0, 0.0);
-    obstacles_free(&o);
 }
 
 static void check_vertex(const obstacle_set *o, dem_index k, dem_index before, dem_index after, double x, double y)

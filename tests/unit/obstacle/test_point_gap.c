@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* point_gap.c: signed gap and its normal, what a point touches. Tolerances of 1e-15 to 1e-13 are the rounding of
  * coordinates of order 1 m. */
+#include "harness/cleanup_gsl.h"
 #include "unit/obstacle/landscape.h"
 
 static void check_gap(const obstacle_set *o, double x, double y, double distance, dem_index nearest, double nx,
@@ -16,21 +17,20 @@ static void check_gap(const obstacle_set *o, double x, double y, double distance
 TEST(the_gap_counts_from_the_nearest_segment_and_is_negative_behind_it)
 {
     const double r = sqrt(0.5);
-    obstacle_set o = compile(valley, 4, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0);
     check_gap(&o, -1.0, 0.3, 0.3, 0, 0.0, 1.0);
     check_gap(&o, -1.0, -0.3, -0.3, 0, 0.0, 1.0);
     check_gap(&o, -1.0, 0.0, 0.0, 0, 0.0, 1.0);
     check_gap(&o, 0.5 + 0.2, -0.5 + 0.2, 0.2 / r, 1, r, r);
     check_gap(&o, 0.5 - 0.2, -0.5 - 0.2, -0.2 / r, 1, r, r);
     check_gap(&o, 2.0, -1.5, -0.5, 2, 0.0, 1.0);
-    obstacles_free(&o);
 }
 
 /* Off the convex vertex (0, 0) the nearest point is the vertex, in front; behind the concave one (1, -1) likewise,
  * inside. */
 TEST(at_a_vertex_the_distance_is_to_the_vertex)
 {
-    obstacle_set o = compile(valley, 4, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0);
     obstacle_gap gap = gap_at(&o, 0.3, 0.4);
     assert_close(gap.distance, 0.5, 1e-15);
     assert_close(gap.normal.x, 0.6, 1e-15);
@@ -39,24 +39,21 @@ TEST(at_a_vertex_the_distance_is_to_the_vertex)
     assert_close(gap.distance, -0.5, 1e-15);
     assert_close(gap.normal.x, 0.6, 1e-14);
     assert_close(gap.normal.y, 0.8, 1e-14);
-    obstacles_free(&o);
 }
 
 TEST(round_a_free_end_every_point_is_in_front)
 {
-    obstacle_set o = compile(valley, 4, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0);
     check_gap(&o, -2.3, 0.4, 0.5, 0, -0.6, 0.8);
     check_gap(&o, -2.3, -0.4, 0.5, 0, -0.6, -0.8);
     check_gap(&o, 3.4, -1.3, 0.5, 2, 0.8, -0.6);
     check_gap(&o, 3.0 - 1e-9, -1.3, -0.3, 2, 0.0, 1.0);
-    obstacles_free(&o);
 }
 
 TEST(on_the_vertex_itself_the_gap_is_zero_and_the_normal_that_of_a_segment)
 {
-    obstacle_set o = compile(valley, 4, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0);
     check_gap(&o, 0.0, 0.0, 0.0, 0, 0.0, 1.0);
-    obstacles_free(&o);
 }
 
 TEST(a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise)
@@ -80,18 +77,17 @@ TEST(a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise)
 
 TEST(without_obstacles_the_gap_is_infinite)
 {
-    obstacle_set o;
+    CLEANUP(obstacles_free) obstacle_set o;
     assert_ok(obstacles_compile(&o, NULL, 0));
     const obstacle_gap gap = gap_at(&o, 1.0, 2.0);
     assert_true(gap.distance == (double)INFINITY);
     assert_int_equal(gap.segment, -1);
-    obstacles_free(&o);
 }
 
 TEST(obstacles_can_be_left_out_or_asked_alone)
 {
     const vec2 x = {4.5, -0.25}; /* 0.56 m from the block's corner, 1.68 m from the valley's end */
-    obstacle_set o = compile_both();
+    CLEANUP(obstacles_free) obstacle_set o = compile_both();
     assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, -1, -1).segment, 3);
     assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, 1, -1).segment, 2);
     assert_int_equal(obstacles_gap(&o, 0.0, x, 0.0, -1, 1).segment, 2);
@@ -99,7 +95,6 @@ TEST(obstacles_can_be_left_out_or_asked_alone)
     assert_close(obstacles_gap(&o, 0.0, x, 0.0, 1, -1).distance, hypot(1.5, 0.75), 1e-15);
     assert_close(obstacles_gap_of(&o, 0.0, x, 0.0, 0).distance, hypot(1.5, 0.75), 1e-15);
     assert_close(obstacles_gap_of(&o, 0.0, x, 0.0, 1).distance, hypot(0.5, 0.25), 1e-15);
-    obstacles_free(&o);
 }
 
 /* 0.1 m in front of the floor, 0.3 m inside the wall: the smaller signed distance, not the nearer surface. */
@@ -108,11 +103,10 @@ TEST(inside_one_of_several_obstacles_is_inside)
     const double ground[4] = {-4.0, 0.0, 4.0, 0.0}, wall[4] = {2.0, -1.0, 2.0, 3.0};
     const dem_obstacle list[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
                                   {.n_points = 2, .points = wall, .restitution = 0.0}};
-    obstacle_set o;
+    CLEANUP(obstacles_free) obstacle_set o;
     assert_ok(obstacles_compile(&o, list, 2));
     check_gap(&o, 2.3, 0.1, -0.3, 1, -1.0, 0.0);
     check_gap(&o, 2.1, -0.3, -0.3, 0, 0.0, 1.0);
-    obstacles_free(&o);
 }
 
 /* A ring with spikes and bays, clockwise. */
@@ -151,9 +145,9 @@ static vec2 random_point(gsl_rng *rng)
 
 TEST(the_gap_is_the_distance_with_the_sign_of_the_side)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_inside = 0;
-    obstacle_set o = compile(star, 13, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(star, 13, 0.0);
     for (int k = 0; k < 20000; k++) {
         const vec2 x = random_point(rng);
         const int inside = inside_star(x);
@@ -161,8 +155,6 @@ TEST(the_gap_is_the_distance_with_the_sign_of_the_side)
         assert_close(gap_at(&o, x.x, x.y).distance, (inside ? -1.0 : 1.0) * distance_to_star(x), 1e-14);
     }
     assert_true(n_inside > 1000 && n_inside < 19000);
-    obstacles_free(&o);
-    gsl_rng_free(rng);
 }
 
 /* Central differences over 1e-6 m: curvature 1/distance < 1e3 away from vertices gives 1e-9, rounding 1e-15/1e-6.
@@ -171,9 +163,9 @@ TEST(the_gap_is_the_distance_with_the_sign_of_the_side)
 TEST(the_normal_is_the_gradient_of_the_gap)
 {
     const double h = 1e-6;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_kinks = 0;
-    obstacle_set o = compile(star, 13, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(star, 13, 0.0);
     for (int k = 0; k < 5000; k++) {
         const vec2 x = random_point(rng);
         const obstacle_gap here = gap_at(&o, x.x, x.y);
@@ -187,8 +179,6 @@ TEST(the_normal_is_the_gradient_of_the_gap)
         assert_close((up - down) / (2.0 * h), here.normal.y, 1e-8);
     }
     assert_true(n_kinks < 50);
-    obstacles_free(&o);
-    gsl_rng_free(rng);
 }
 
 /* Does the segment count as going on to this place along it? */
@@ -257,7 +247,7 @@ static int compare_touching(const obstacle_set *o, vec2 x, const obstacle_touch 
 
 TEST(the_tree_finds_what_a_loop_finds_to_the_bit)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_buried = 0, n_touched = 0;
     for (int c = 0; c < 200; c++) {
         landscape l = random_landscape(rng);
@@ -272,7 +262,6 @@ TEST(the_tree_finds_what_a_loop_finds_to_the_bit)
         obstacles_free(&l.set);
     }
     assert_true(n_buried == 200 && n_touched > 10000);
-    gsl_rng_free(rng);
 }
 
 /* From the middle of a square or a square standing on its tip, of 40 segments, features are as far away as rounding
@@ -280,7 +269,7 @@ TEST(the_tree_finds_what_a_loop_finds_to_the_bit)
 TEST(rounding_does_not_hide_a_segment)
 {
     static const double corner[2][2] = {{1.0, 1.0}, {1.0, 0.0}};
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (int c = 0; c < 2000; c++) {
         double points[2 * 41];
         const double size = pow(10.0, uniform(rng, -4.0, 1.0));
@@ -292,11 +281,9 @@ TEST(rounding_does_not_hide_a_segment)
             if (k % 10 == 9) out = next;
         }
         vec2_put(points, 40, vec2_at(points, 0));
-        obstacle_set o = compile(points, 41, 0.0);
+        CLEANUP(obstacles_free) obstacle_set o = compile(points, 41, 0.0);
         compare_gaps(&o, middle, 0.0);
-        obstacles_free(&o);
     }
-    gsl_rng_free(rng);
 }
 
 /* A hook whose start points along its shank, and a point off the start's prolongation, 1.5 m from the start and 0.8 m
@@ -311,11 +298,10 @@ TEST(a_free_end_is_longer_by_the_margin_where_another_part_is_nearer)
         for (int k = 0; k < 8; k++)
             vec2_put(points, k, vec2_along(vec2_scale(hook[2 * k], axis), hook[2 * k + 1], (vec2){-axis.y, axis.x}));
         const vec2 x = vec2_along(vec2_scale(1.5, axis), 0.2, (vec2){-axis.y, axis.x});
-        obstacle_set o = compile(points, 8, 0.0);
+        CLEANUP(obstacles_free) obstacle_set o = compile(points, 8, 0.0);
         assert_int_equal(obstacles_gap(&o, 0.0, x, 2.0, -1, -1).segment, 0);
         assert_close(obstacles_gap(&o, 0.0, x, 2.0, -1, -1).distance, -0.2, 1e-15);
         assert_int_equal(obstacles_gap(&o, 0.0, x, 1.4, -1, -1).segment, 4);
-        obstacles_free(&o);
     }
 }
 
@@ -344,7 +330,7 @@ TEST(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends)
                beyond = {-2.0005, 0.0}, further = {-2.002, 0.0};
     const obstacle_touch all = {1e-3, 0.0, -1}, other = {1e-3, 0.0, 0}, longer = {1e-3, 2e-3, -1};
     dem_index hits[4] = {-1, -1, -1, -1};
-    obstacle_set o = compile_both();
+    CLEANUP(obstacles_free) obstacle_set o = compile_both();
     assert_int_equal(obstacles_touching(&o, 0.0, vertex, &all, hits, 4), 2);
     assert_int_equal(hits[0], 0);
     assert_int_equal(hits[1], 1);
@@ -357,7 +343,6 @@ TEST(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends)
     assert_int_equal(obstacles_touching(&o, 0.0, further, &longer, hits, 4), 1); /* past a free end */
     assert_int_equal(obstacles_touching(&o, 0.0, past, &all, hits, 4), 1);
     assert_int_equal(hits[0], 2);
-    obstacles_free(&o);
 }
 
 /* 1e-14: rounding of coordinates of order 10 m. */
@@ -365,8 +350,9 @@ TEST(what_moves_is_met_where_it_is)
 {
     const vec2 velocity = {-3.0, -0.5};
     const double t = 1.25;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_hits = 0;
+    CLEANUP(obstacles_free)
     obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0}),
                  there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
     for (int k = 0; k < 2000; k++) {
@@ -384,7 +370,4 @@ TEST(what_moves_is_met_where_it_is)
         n_hits += n;
     }
     assert_true(n_hits > 50);
-    obstacles_free(&moving);
-    obstacles_free(&there);
-    gsl_rng_free(rng);
 }

@@ -69,8 +69,7 @@ TEST(segments_in_line_do_not_meet)
     double points[2 * n];
     for (int slope = 1; slope < 100; slope++) {
         for (int k = 0; k < n; k++) vec2_put(points, k, (vec2){0.001 * k, 0.001 * k * slope / 100.0});
-        obstacle_set o = compile(points, n, 0.0);
-        obstacles_free(&o);
+        CLEANUP(obstacles_free) obstacle_set o = compile(points, n, 0.0);
     }
 }
 
@@ -81,9 +80,8 @@ TEST(of_10000_segments_the_pair_that_meets_is_named)
     static double points[2 * n];
     const dem_obstacle obstacle = {.n_points = n, .points = points, .restitution = 0.0};
     for (int k = 0; k < n; k++) vec2_put(points, k, (vec2){1e-4 * k, k % 2 == 0 ? 0.0 : 1e-3});
-    obstacle_set o = compile(points, n, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(points, n, 0.0);
     assert_int_equal(obstacles_gap(&o, 0.0, (vec2){0.77770001, 2e-3}, 0.0, -1, -1).segment, 7776);
-    obstacles_free(&o);
     vec2_put(points, n - 1, (vec2){0.5, 0.9e-3});
     refuse(&obstacle, 1, "obstacle 0: segments 5000 and 9999 meet");
 }

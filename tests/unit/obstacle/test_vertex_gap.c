@@ -3,6 +3,7 @@
  * 1 m. */
 #include "obstacle/vertex_gap.h"
 
+#include "harness/cleanup_gsl.h"
 #include "unit/obstacle/landscape.h"
 
 /* An edge of a body above: from the left to the right, its body on the left. */
@@ -28,7 +29,7 @@ static void assert_no_gap(const obstacle_set *o, const obstacle_edge *edge)
 
 TEST(a_vertex_pokes_an_edge_from_the_front_or_from_behind)
 {
-    obstacle_set o = compile(valley, 4, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0);
     obstacle_edge edge = edge_between(-1.0, 0.25, 3.0, 0.25);
     obstacle_vertex_gap gap = obstacles_vertex_gap(&o, 0.0, &edge);
     assert_int_equal(gap.vertex, 0);
@@ -42,7 +43,6 @@ TEST(a_vertex_pokes_an_edge_from_the_front_or_from_behind)
     assert_close(gap.place, 0.34, 1e-15);
     assert_close(gap.normal.x, 0.8, 1e-15);
     assert_close(gap.normal.y, 0.6, 1e-15);
-    obstacles_free(&o);
 }
 
 TEST(a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_gap)
@@ -78,7 +78,7 @@ TEST(of_several_vertices_the_deepest_pokes_and_of_equals_the_first)
     double points[2 * n];
     for (int k = 0; k < n; k++)
         vec2_put(points, k, (vec2){k, k % 2 == 0 ? -1.0 : (k == 9 ? -0.125 : (k == 17 ? 0.125 : 0.0))});
-    obstacle_set o = compile(points, n, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(points, n, 0.0);
     obstacle_edge edge = edge_between(0.0, 0.25, 24.0, 0.25);
     assert_int_equal(o.n_vertices, 12);
     assert_int_equal(obstacles_vertex_gap(&o, 0.0, &edge).vertex, 8);
@@ -95,7 +95,6 @@ TEST(of_several_vertices_the_deepest_pokes_and_of_equals_the_first)
     edge.without[0] = 0;
     edge.without[1] = -1;
     assert_no_gap(&o, &edge);
-    obstacles_free(&o);
 }
 
 /* Whether x, `distance` in front of an edge, is further in front of its neighbour pq, on which its foot is, where the
@@ -143,7 +142,7 @@ static obstacle_vertex_gap gap_by_loop(const obstacle_set *o, const obstacle_edg
 /* Edges between telling points: many pass exactly through vertices, end on their foot, or lie along segments. */
 TEST(the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit)
 {
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_gaps = 0;
     for (int c = 0; c < 200; c++) {
         landscape l = random_landscape(rng);
@@ -168,7 +167,6 @@ TEST(the_tree_finds_the_vertex_that_a_loop_finds_to_the_bit)
         obstacles_free(&l.set);
     }
     assert_true(n_gaps > 5000 && n_gaps < 35000);
-    gsl_rng_free(rng);
 }
 
 /* 1e-14: rounding of coordinates of order 10 m. */
@@ -176,8 +174,9 @@ TEST(what_moves_is_met_where_it_is)
 {
     const vec2 velocity = {-3.0, -0.5};
     const double t = 1.25;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_of_valley = 0, n_of_block = 0;
+    CLEANUP(obstacles_free)
     obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0}),
                  there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
     for (int k = 0; k < 4000; k++) {
@@ -196,7 +195,4 @@ TEST(what_moves_is_met_where_it_is)
         n_of_block += a.vertex > 0;
     }
     assert_true(n_of_valley > 50 && n_of_block > 50);
-    obstacles_free(&moving);
-    obstacles_free(&there);
-    gsl_rng_free(rng);
 }

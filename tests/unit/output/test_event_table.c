@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "harness/cleanup_hdf5.h"
 #include "output/event_table.h"
 
 static char path[] = "test_events_XXXXXX";
@@ -65,18 +66,15 @@ static void expect(const stored *s, const char *name, hid_t type, hsize_t row, c
     double value[4];
     hsize_t extent[3] = {0, 1, 1};
     (void)snprintf(whole, sizeof whole, "/events/%s", name);
-    const hid_t id = H5Dopen2(s->file.id, whole, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t id = H5Dopen2(s->file.id, whole, H5P_DEFAULT);
     if (id < 0) fail_msg("there is no %s", whole);
-    const hid_t stored_type = H5Dget_type(id), space = H5Dget_space(id);
+    CLEANUP(free_h5) const hid_t stored_type = H5Dget_type(id), space = H5Dget_space(id);
     assert_true(H5Tequal(stored_type, type) > 0);
     assert_int_equal(H5Sget_simple_extent_dims(space, extent, NULL), n > 1 ? 2 : 1);
     assert_int_equal(extent[0], 2);
     assert_int_equal(extent[1], n);
     assert_true(H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value) >= 0);
     for (hsize_t k = 0; k < n; k++) assert_close(value[row * n + k], expected[k], 1e-14);
-    (void)H5Sclose(space);
-    (void)H5Tclose(stored_type);
-    (void)H5Dclose(id);
 }
 
 static void expect_number(const stored *s, const char *name, hid_t type, hsize_t row, double expected)
@@ -95,7 +93,7 @@ static stored two_events(void)
 
 TEST(a_row_tells_what_happened_and_where)
 {
-    stored s = two_events();
+    CLEANUP(end) stored s = two_events();
     expect_number(&s, "t", H5T_IEEE_F64LE, 0, 0.5);
     expect_number(&s, "kind", H5T_STD_I8LE, 0, 0.0);
     expect_number(&s, "state", H5T_STD_I8LE, 0, 1.0);
@@ -109,29 +107,26 @@ TEST(a_row_tells_what_happened_and_where)
     expect(&s, "before", H5T_IEEE_F64LE, 0, impact.before, 2);
     expect(&s, "after", H5T_IEEE_F64LE, 0, impact.after, 2);
     expect_number(&s, "energy", H5T_IEEE_F64LE, 0, 8.0);
-    end(&s);
 }
 
 /* (-3, 29) = 25 (-0.6, 0.8) + 15 (0.8, 0.6) */
 TEST(impulses_are_along_the_normal_and_the_tangent)
 {
-    stored s = two_events();
+    CLEANUP(end) stored s = two_events();
     expect_number(&s, "normal_impulse", H5T_IEEE_F64LE, 0, 25.0);
     expect_number(&s, "tangential_impulse", H5T_IEEE_F64LE, 0, 15.0);
     expect_number(&s, "normal_impulse", H5T_IEEE_F64LE, 1, 0.0);
     expect_number(&s, "tangential_impulse", H5T_IEEE_F64LE, 1, 0.0);
-    end(&s);
 }
 
 TEST(a_node_alone_has_no_other)
 {
-    stored s = two_events();
+    CLEANUP(end) stored s = two_events();
     expect_number(&s, "t", H5T_IEEE_F64LE, 1, 0.75);
     expect_number(&s, "kind", H5T_STD_I8LE, 1, 2.0);
     expect_number(&s, "state", H5T_STD_I8LE, 1, 0.0);
     expect_number(&s, "other", H5T_STD_I64LE, 1, -1.0);
     expect_number(&s, "weight", H5T_IEEE_F64LE, 1, 0.0);
-    end(&s);
 }
 
 /* The code-th word of the attribute `names` of a dataset. */
@@ -151,7 +146,7 @@ static void expect_name(const stored *s, const char *name, int code, const char 
 
 TEST(codes_have_their_names_beside_them)
 {
-    stored s = two_events();
+    CLEANUP(end) stored s = two_events();
     expect_name(&s, "/events/kind", DEM_EVENT_IMPACT, "impact");
     expect_name(&s, "/events/kind", DEM_EVENT_CLOSE, "close");
     expect_name(&s, "/events/kind", DEM_EVENT_RELEASE, "release");
@@ -161,7 +156,6 @@ TEST(codes_have_their_names_beside_them)
     expect_name(&s, "/events/state", DEM_CONTACT_FREE, "free");
     expect_name(&s, "/events/state", DEM_CONTACT_SLIP, "slip");
     expect_name(&s, "/events/state", DEM_CONTACT_STICK, "stick");
-    end(&s);
 }
 
 TEST_GROUP(make_path, NULL);

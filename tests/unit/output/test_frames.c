@@ -13,12 +13,11 @@
 static void open_block(support_run *run)
 {
     const dem_options options = dem_options_default();
-    dem_lattice lattice = make_solid(0.03, 0.04, 0.01);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.03, 0.04, 0.01);
     const double velocity[2] = {1.0, 2.0};
     assert_ok(dem_lattice_launch(&lattice, velocity));
     for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.velocity[2 * i] += 300.0 * lattice.x[2 * i + 1];
     support_open(run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
 }
 
 typedef struct reader {

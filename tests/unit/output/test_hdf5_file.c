@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "base/status.h"
+#include "harness/cleanup_hdf5.h"
 #include "output/hdf5_file.h"
 #include "unit/scratch.h"
 
@@ -73,18 +74,15 @@ typedef struct table {
 static table look(const hdf5_file *file, const char *name)
 {
     table t = {.extent = {0}};
-    const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     if (dataset < 0) fail_msg("there is no %s", name);
-    const hid_t space = H5Dget_space(dataset), layout = H5Dget_create_plist(dataset);
+    CLEANUP(free_h5) const hid_t space = H5Dget_space(dataset), layout = H5Dget_create_plist(dataset);
     t.rank = H5Sget_simple_extent_dims(space, t.extent, NULL);
     assert_int_equal(H5Pget_chunk(layout, 3, t.chunk), t.rank);
     t.n_filters = H5Pget_nfilters(layout);
     t.type = H5Dget_type(dataset);
     assert_in_range(H5Sget_simple_extent_npoints(space), 0, 64);
     assert_true(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, t.value) >= 0);
-    (void)H5Pclose(layout);
-    (void)H5Sclose(space);
-    (void)H5Dclose(dataset);
     return t;
 }
 
@@ -100,9 +98,8 @@ static void expect_values(const hdf5_file *file, const char *name, const double 
 
 static hsize_t stored_bytes(const hdf5_file *file, const char *name)
 {
-    const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
     const hsize_t n = H5Dget_storage_size(dataset);
-    (void)H5Dclose(dataset);
     return n;
 }
 
@@ -136,14 +133,13 @@ TEST_WITH(what_is_appended_are_the_last_rows, NULL, scratch_sweep)
 {
     static const double value[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}, less[3] = {1.0, 2.0, 9.0}, new[1] = {9.0};
     const hdf5_rows rows = {"/r", HDF5_F64, 1, {0, 0}, 4, 0};
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_create(&file, &rows));
     assert_ok(hdf5_append(&file, &rows, 0, 6, value));
     assert_ok(hdf5_append(&file, &rows, 2, 1, new));
     expect_values(&file, "/r", less, 3);
     assert_ok(hdf5_append(&file, &rows, 2, 0, NULL));
     expect_values(&file, "/r", less, 2);
-    finish(&file);
 }
 
 TEST_WITH(a_linked_dataset_has_the_same_rows_under_both_names, NULL, scratch_sweep)
@@ -181,7 +177,7 @@ TEST_WITH(numbers_are_stored_little_endian_in_their_own_width, NULL, scratch_swe
                  {HDF5_I32, H5T_STD_I32LE, narrow, 2147483647.0, -8.0},
                  {HDF5_I8, H5T_STD_I8LE, codes, 127.0, -1.0},
                  {HDF5_U8, H5T_STD_U8LE, bytes, 255.0, 9.0}};
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         const char name[] = {'/', (char)('a' + k), '\0'};
         const hdf5_rows rows = {name, cases[k].kind, 1, {0, 0}, 0, 0};
@@ -194,14 +190,13 @@ TEST_WITH(numbers_are_stored_little_endian_in_their_own_width, NULL, scratch_swe
     }
     assert_true(H5Tequal(hdf5_memory_type(HDF5_F32), H5T_NATIVE_DOUBLE) > 0);
     assert_true(H5Tequal(hdf5_memory_type(HDF5_I8), H5T_NATIVE_INT64) > 0);
-    finish(&file);
 }
 
 TEST_WITH(a_chunk_has_the_rows_asked_for, NULL, scratch_sweep)
 {
     const double value[6] = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
     const hdf5_rows none = {"/none", HDF5_F64, 1, {0, 0}, 0, 0}, three = {"/three", HDF5_F64, 2, {2, 0}, 3, 0};
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_create(&file, &none));
     assert_ok(hdf5_create(&file, &three));
     assert_ok(hdf5_write(&file, (hdf5_rows){"/whole", HDF5_F64, 2, {2, 0}, 77, 0}, 3, value));
@@ -214,7 +209,6 @@ TEST_WITH(a_chunk_has_the_rows_asked_for, NULL, scratch_sweep)
         assert_int_equal(t.extent[0], extent[k]);
         (void)H5Tclose(t.type);
     }
-    finish(&file);
 }
 
 TEST_WITH(deflated_rows_take_less_room_and_come_back_the_same, NULL, scratch_sweep)
@@ -223,7 +217,7 @@ TEST_WITH(deflated_rows_take_less_room_and_come_back_the_same, NULL, scratch_swe
     static double back[4096];
     const hdf5_rows plain = {"/plain", HDF5_F64, 1, {0, 0}, 0, 0}, small = {"/small", HDF5_F64, 1, {0, 0}, 0, 9};
     for (int k = 0; k < 4096; k++) value[k] = 1.0 + k;
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write(&file, plain, 4096, value));
     assert_ok(hdf5_write(&file, small, 4096, value));
     assert_int_equal(stored_bytes(&file, "/plain"), sizeof value);
@@ -232,7 +226,6 @@ TEST_WITH(deflated_rows_take_less_room_and_come_back_the_same, NULL, scratch_swe
     assert_true(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, back) >= 0);
     (void)H5Dclose(dataset);
     assert_memory_equal(back, value, sizeof value);
-    finish(&file);
 }
 
 TEST_WITH(rows_that_cannot_be_stored_are_named, NULL, scratch_sweep)
@@ -240,7 +233,7 @@ TEST_WITH(rows_that_cannot_be_stored_are_named, NULL, scratch_sweep)
     const double value = 1.0;
     const hdf5_rows rows = {"/a/r", HDF5_F64, 1, {0, 0}, 1, 0}, below = {"/a/r/x", HDF5_F64, 1, {0, 0}, 1, 0};
     const hdf5_rows bad = {"/bad", HDF5_F64, 1, {0, 0}, 1, 10};
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_int_equal(hdf5_append(&file, &rows, 0, 1, &value), DEM_ERROR_IO);
     assert_message_has("a.h5: /a/r: cannot be written (");
     assert_ok(hdf5_create(&file, &rows));
@@ -251,7 +244,6 @@ TEST_WITH(rows_that_cannot_be_stored_are_named, NULL, scratch_sweep)
     assert_int_equal(hdf5_create(&file, &bad), DEM_ERROR_IO); /* there is no such compression */
     assert_message_has("a.h5: /bad: cannot be created (");
     assert_ok(hdf5_append(&file, &rows, 0, 1, &value)); /* the file is as good as before */
-    finish(&file);
 }
 
 TEST_WITH(a_lost_row_and_another_type_are_noticed, NULL, scratch_sweep)
@@ -264,7 +256,7 @@ TEST_WITH(a_lost_row_and_another_type_are_noticed, NULL, scratch_sweep)
                                 {"/r", HDF5_F64, 3, {2, 1}, 1, 0},
                                 {"/r", HDF5_F64, 2, {3, 0}, 1, 0}};
     hsize_t count = 0;
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write(&file, rows, 3, value));
     assert_ok(hdf5_count_rows(&file, "/r", &count));
     assert_int_equal(count, 3);
@@ -278,7 +270,6 @@ TEST_WITH(a_lost_row_and_another_type_are_noticed, NULL, scratch_sweep)
     assert_int_equal(hdf5_expect_rows(&file, &none, 0), DEM_ERROR_IO);
     assert_message_has("a.h5: /s: cannot be opened (");
     assert_int_equal(hdf5_count_rows(&file, "/s", &count), DEM_ERROR_IO);
-    finish(&file);
 }
 
 /* Of five rows in chunks of two, those from 1 to 4 go behind the one that is there, so no block begins with a chunk. */
@@ -322,7 +313,7 @@ TEST_WITH(attributes_are_made_and_overwritten, NULL, scratch_sweep)
 {
     const int64_t version[2] = {2, 0}, one = 1, two = 2;
     int64_t stored[2] = {0, 0};
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write_attribute(&file, "/VTK/Steps", "NSteps", HDF5_I64, 1, &one));
     assert_ok(hdf5_write_attribute(&file, "/VTK/Steps", "NSteps", HDF5_I64, 1, &two));
     assert_ok(hdf5_write_attribute(&file, "/VTK", "Version", HDF5_I64, 2, version));
@@ -333,7 +324,6 @@ TEST_WITH(attributes_are_made_and_overwritten, NULL, scratch_sweep)
     (void)H5Aclose(attribute);
     assert_int_equal(stored[0], 2);
     assert_int_equal(stored[1], 0);
-    finish(&file);
 }
 
 TEST_WITH(a_wrong_or_missing_attribute_is_noticed, NULL, scratch_sweep)
@@ -356,18 +346,15 @@ TEST_WITH(a_wrong_or_missing_attribute_is_noticed, NULL, scratch_sweep)
 TEST_WITH(a_text_attribute_has_its_characters_and_no_terminator, NULL, scratch_sweep)
 {
     char text[20] = "                   ";
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write_attribute_text(&file, "/VTK", "Type", "UnstructuredGrid"));
-    const hid_t attribute = H5Aopen_by_name(file.id, "/VTK", "Type", H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t type = H5Aget_type(attribute);
+    CLEANUP(free_h5) const hid_t attribute = H5Aopen_by_name(file.id, "/VTK", "Type", H5P_DEFAULT, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t type = H5Aget_type(attribute);
     assert_int_equal(H5Tget_size(type), 16);
     assert_int_equal(H5Tget_cset(type), H5T_CSET_ASCII);
     assert_int_equal(H5Tis_variable_str(type), 0);
     assert_true(H5Aread(attribute, type, text) >= 0);
     assert_memory_equal(text, "UnstructuredGrid ", 17);
-    (void)H5Tclose(type);
-    (void)H5Aclose(attribute);
-    finish(&file);
 }
 
 /* ---- texts ---- */
@@ -401,14 +388,13 @@ TEST_WITH(texts_are_kept_and_replaced_by_longer_and_shorter_ones, NULL, scratch_
 TEST_WITH(a_text_needs_room_for_its_end, NULL, scratch_sweep)
 {
     char text[6] = "#####";
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write_text(&file, "/t", "12345"));
     assert_int_equal(hdf5_read_text(&file, "/t", text, 5), DEM_ERROR_ARGUMENT);
     assert_message(": /t: 5 characters and the end do not fit into 5");
     assert_string_equal(text, "#####");
     assert_ok(hdf5_read_text(&file, "/t", text, 6));
     assert_string_equal(text, "12345");
-    finish(&file);
 }
 
 TEST_WITH(what_is_no_text_is_not_read_as_one, NULL, scratch_sweep)
@@ -416,7 +402,7 @@ TEST_WITH(what_is_no_text_is_not_read_as_one, NULL, scratch_sweep)
     const double value = 1.0;
     const char *const variable = "of variable length";
     char text[64];
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write(&file, (hdf5_rows){"/number", HDF5_F64, 1, {0, 0}, 0, 0}, 1, &value));
     const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
     (void)H5Tset_size(type, H5T_VARIABLE);
@@ -431,7 +417,6 @@ TEST_WITH(what_is_no_text_is_not_read_as_one, NULL, scratch_sweep)
     assert_message(": /variable: is not a string of fixed length");
     assert_int_equal(hdf5_read_text(&file, "/none", text, sizeof text), DEM_ERROR_IO);
     assert_message_has("a.h5: /none: cannot be opened (");
-    finish(&file);
 }
 
 /* ---- opening and closing ---- */
@@ -514,11 +499,10 @@ TEST_WITH(without_room_a_file_stays_as_it_was, NULL, scratch_sweep)
 
 TEST_WITH(closing_passes_a_failure_on, NULL, scratch_sweep)
 {
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_int_equal(hdf5_close(&file, status_fail(DEM_ERROR_MODEL, "something else")), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "something else");
     assert_ok(hdf5_open_read(&file, path)); /* it is closed and whole all the same */
-    finish(&file);
 }
 
 static herr_t print_nothing(hid_t stack, void *context)
@@ -587,12 +571,11 @@ static void fill(const char *text)
     static double value[3000];
     for (int k = 0; k < 3000; k++) value[k] = sqrt(k);
     const hdf5_rows rows = {"/g/deflated", HDF5_F64, 2, {3, 0}, 100, 1};
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_create(&file, &rows));
     assert_ok(hdf5_append(&file, &rows, 0, 1000, value));
     assert_ok(hdf5_write_text(&file, "/t", text));
     assert_ok(hdf5_write_attribute_text(&file, "/g", "a", text));
-    finish(&file);
 }
 
 static size_t read_bytes_of(const char *name, unsigned char **bytes)
@@ -659,7 +642,7 @@ TEST_WITH(threads_take_turns, NULL, scratch_sweep)
 
 TEST_WITH(publishing_renames_and_replaces, NULL, scratch_sweep)
 {
-    hdf5_file file;
+    CLEANUP(finish) hdf5_file file;
     fill("old");
     assert_ok(hdf5_publish(path, other));
     fill("new");
@@ -667,7 +650,6 @@ TEST_WITH(publishing_renames_and_replaces, NULL, scratch_sweep)
     assert_int_equal(access(path, F_OK), -1);
     assert_ok(hdf5_open_read(&file, other));
     expect_text(&file, "/t", "new");
-    finish(&file);
 }
 
 /* Overwrites one deflated chunk, which only reading the data back can notice. */
@@ -699,10 +681,9 @@ TEST_WITH(what_cannot_be_read_back_is_not_published, NULL, scratch_sweep)
     assert_int_equal(hdf5_publish(path, other), DEM_ERROR_IO);
     assert_message_has("a.h5: g/deflated: cannot be read back (");
     assert_int_equal(access(path, F_OK), 0);
-    hdf5_file file;
+    CLEANUP(finish) hdf5_file file;
     assert_ok(hdf5_open_read(&file, other));
     expect_text(&file, "/t", "old");
-    finish(&file);
 }
 
 TEST_WITH(a_file_cut_short_is_not_published, NULL, scratch_sweep)

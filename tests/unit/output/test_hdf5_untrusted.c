@@ -3,6 +3,7 @@
  * test_trajectory_reader.c. */
 #include "unit/stored.h"
 
+#include "harness/cleanup_hdf5.h"
 #include "output/hdf5_untrusted.h"
 
 #define REFUSED(call, reason)                                                                                          \
@@ -33,9 +34,8 @@ static int close_stored(void **state)
 /* A dataset without numbers in it. */
 static void make(const stored *s, const char *name, hid_t type, hid_t space, hid_t layout)
 {
-    const hid_t dataset = H5Dcreate2(s->file.id, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t dataset = H5Dcreate2(s->file.id, name, type, space, H5P_DEFAULT, layout, H5P_DEFAULT);
     assert_true(dataset >= 0);
-    (void)H5Dclose(dataset);
     (void)H5Sclose(space);
 }
 
@@ -142,7 +142,7 @@ TEST_WITH(sizes_are_borne_out_by_bytes, open_stored, close_stored)
     const stored *s = *test_state;
     const hsize_t large[2] = {(hsize_t)1 << 41, 2}, wide[2] = {1, (hsize_t)1 << 45}, some[1] = {4},
                   chunk[1] = {1 << 20};
-    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    CLEANUP(free_h5) const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     hdf5_untrusted_shape shape;
     make(s, "/large", H5T_IEEE_F64LE, H5Screate_simple(2, large, NULL), H5P_DEFAULT);
     REFUSED(hdf5_untrusted_measure(&s->file, "/large", HDF5_F64, &shape), "/large: has more than 2^40 rows");
@@ -160,7 +160,6 @@ TEST_WITH(sizes_are_borne_out_by_bytes, open_stored, close_stored)
     (void)H5Dclose(dataset);
     REFUSED(hdf5_untrusted_measure(&s->file, "/chunk", HDF5_F64, &shape),
             "/chunk: claims more data than the file holds");
-    (void)H5Pclose(layout);
 }
 
 TEST_WITH(attributes_are_single_and_of_their_kind, open_stored, close_stored)

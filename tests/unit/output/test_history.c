@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include "harness/cleanup_hdf5.h"
 #include "output/history.h"
 
 enum { most_cells = 1 << 14 };
@@ -32,7 +33,7 @@ static void begin(flight *f, dem_index n_obstacles)
     const dem_obstacle obstacles[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.0},
                                        {.n_points = 2, .points = table_points, .restitution = 0.0}};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0, options.gravity[1] = -g;
     support_lattice(&lattice, 2, x0, mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v0);
@@ -40,7 +41,6 @@ static void begin(flight *f, dem_index n_obstacles)
     assert_non_null(lattice.body);
     lattice.body[0] = 0, lattice.body[1] = 1;
     support_open(&f->run, &lattice, obstacles, n_obstacles, &options);
-    dem_lattice_free(&lattice);
     assert_ok(history_init(&f->history, f->run.simulation));
     assert_ok(hdf5_open_new(&f->file, path, table_bytes(&f->history.table)));
     assert_ok(table_create(&f->history.table, &f->file));
@@ -95,17 +95,14 @@ static const contents *look(const flight *f, const char *column)
     static contents t;
     char name[64];
     (void)snprintf(name, sizeof name, "/history/%s", column);
-    const hid_t dataset = H5Dopen2(f->file.id, name, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t dataset = H5Dopen2(f->file.id, name, H5P_DEFAULT);
     if (dataset < 0) fail_msg("there is no %s", name);
-    const hid_t space = H5Dget_space(dataset), type = H5Dget_type(dataset);
+    CLEANUP(free_h5) const hid_t space = H5Dget_space(dataset), type = H5Dget_type(dataset);
     t.extent[0] = t.extent[1] = t.extent[2] = 1;
     t.rank = H5Sget_simple_extent_dims(space, t.extent, NULL);
     t.is_integer = H5Tget_class(type) == H5T_INTEGER;
     assert_in_range(H5Sget_simple_extent_npoints(space), 0, most_cells);
     assert_true(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, t.value) >= 0);
-    (void)H5Tclose(type);
-    (void)H5Sclose(space);
-    (void)H5Dclose(dataset);
     return &t;
 }
 

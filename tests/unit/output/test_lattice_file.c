@@ -4,6 +4,7 @@
 
 #include <dem/trajectory.h>
 
+#include "harness/cleanup_hdf5.h"
 #include "output/lattice_file.h"
 
 #include <stdio.h>
@@ -36,14 +37,12 @@ static hid_t open_group(void)
 static void put_as(const char *name, hid_t layout, hid_t stored, hid_t given, hsize_t n, hsize_t width,
                    const void *data)
 {
+    CLEANUP(free_h5)
     const hid_t group = open_group(), space = H5Screate_simple(width > 0 ? 2 : 1, (hsize_t[2]){n, width}, NULL);
     if (H5Lexists(group, name, H5P_DEFAULT) > 0) assert_true(H5Ldelete(group, name, H5P_DEFAULT) >= 0);
-    const hid_t dataset = H5Dcreate2(group, name, stored, space, H5P_DEFAULT, layout, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t dataset = H5Dcreate2(group, name, stored, space, H5P_DEFAULT, layout, H5P_DEFAULT);
     assert_true(dataset >= 0);
     if (data != NULL) assert_true(H5Dwrite(dataset, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0);
-    (void)H5Dclose(dataset);
-    (void)H5Sclose(space);
-    (void)H5Gclose(group);
 }
 
 static void put_real(const char *name, hsize_t n, hsize_t width, const double *data)
@@ -59,18 +58,16 @@ static void put_whole(const char *name, hsize_t n, hsize_t width, const int64_t 
 /* Five flags, the second of them set, as h5py stores booleans if the names are FALSE and TRUE. */
 static void put_flags(const char *name, const char *no, const char *yes)
 {
-    const hid_t type = H5Tenum_create(H5T_NATIVE_INT8);
+    CLEANUP(free_h5) const hid_t type = H5Tenum_create(H5T_NATIVE_INT8);
     assert_true(H5Tenum_insert(type, no, &(signed char){0}) >= 0);
     assert_true(H5Tenum_insert(type, yes, &(signed char){1}) >= 0);
     put_as(name, H5P_DEFAULT, type, type, 5, 0, (const signed char[5]){0, 1, 0, 0, 0});
-    (void)H5Tclose(type);
 }
 
 static void drop(const char *name)
 {
-    const hid_t group = open_group();
+    CLEANUP(free_h5) const hid_t group = open_group();
     assert_true(H5Ldelete(group, name, H5P_DEFAULT) >= 0);
-    (void)H5Gclose(group);
 }
 
 /* The datasets that every lattice has. */
@@ -122,7 +119,7 @@ static void assert_refused(const char *file, dem_status status, const char *mess
 
 TEST_WITH(what_is_not_there_is_null, write_lattice, remove_lattice)
 {
-    dem_lattice lattice = read_lattice();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
     assert_int_equal(lattice.n_nodes, 5);
     assert_int_equal(lattice.n_springs, 6);
     assert_int_equal(lattice.n_triangles, 0);
@@ -138,7 +135,6 @@ TEST_WITH(what_is_not_there_is_null, write_lattice, remove_lattice)
     assert_null(lattice.body);
     assert_null(lattice.position);
     assert_null(lattice.velocity);
-    dem_lattice_free(&lattice);
 }
 
 TEST_WITH(any_width_of_number_is_read, write_lattice, remove_lattice)
@@ -151,22 +147,20 @@ TEST_WITH(any_width_of_number_is_read, write_lattice, remove_lattice)
     put_as("ends", layout, H5T_STD_U16BE, H5T_NATIVE_INT64, 6, 2, ends);
     put_as("body", H5P_DEFAULT, H5T_STD_U64LE, H5T_NATIVE_DOUBLE, 5, 0, body);
     (void)H5Pclose(layout);
-    dem_lattice lattice = read_lattice();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
     assert_memory_equal(lattice.x, x, sizeof x);
     assert_memory_equal(lattice.ends, ends, sizeof ends);
     assert_int_equal(lattice.body[2], 0);
     assert_int_equal(lattice.body[3], 1);
-    dem_lattice_free(&lattice);
 }
 
 TEST_WITH(integers_do_for_reals, write_lattice, remove_lattice)
 {
     put_whole("mass", 5, 0, (int64_t[5]){1, 2, 3, 4, 5});
     put_as("velocity", H5P_DEFAULT, H5T_STD_I16BE, H5T_NATIVE_INT64, 5, 2, ends);
-    dem_lattice lattice = read_lattice();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
     for (int k = 0; k < 5; k++) assert_close(lattice.mass[k], k + 1.0, 0.0);
     for (int k = 0; k < 10; k++) assert_close(lattice.velocity[k], (double)ends[k], 0.0);
-    dem_lattice_free(&lattice);
 }
 
 TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_lattice, remove_lattice)
@@ -178,27 +172,24 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
     put_real("modulus", 2, 0, modulus);
     for (int deflate = 0; deflate < 2; deflate++) {
         hdf5_file file;
-        dem_lattice lattice = read_lattice();
+        CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
         assert_memory_equal(lattice.viscosity, viscosity, sizeof viscosity);
         assert_memory_equal(lattice.thickness, thickness, sizeof thickness);
         assert_memory_equal(lattice.modulus, modulus, sizeof modulus);
         assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
         assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
-        dem_lattice_free(&lattice);
     }
-    dem_lattice back = read_lattice();
+    CLEANUP(dem_lattice_free) dem_lattice back = read_lattice();
     assert_memory_equal(back.viscosity, viscosity, sizeof viscosity);
     assert_memory_equal(back.thickness, thickness, sizeof thickness);
     assert_memory_equal(back.modulus, modulus, sizeof modulus);
-    dem_lattice_free(&back);
 }
 
 static void assert_flags(const unsigned char expected[5])
 {
-    dem_lattice lattice = read_lattice();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
     assert_non_null(lattice.flags);
     assert_memory_equal(lattice.flags, expected, 5);
-    dem_lattice_free(&lattice);
 }
 
 TEST_WITH(fixed_nodes_leave_the_rule_of_contact_as_it_is, write_lattice, remove_lattice)
@@ -226,10 +217,9 @@ TEST_WITH(a_body_of_one_node_needs_no_springs, write_lattice, remove_lattice)
     put_real("rest_length", 0, 0, NULL);
     put_real("stiffness", 0, 0, NULL);
     for (int k = 0; k < 2; k++) {
-        dem_lattice lattice = read_lattice();
+        CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
         assert_int_equal(lattice.n_nodes, 1);
         assert_int_equal(lattice.n_springs, 0);
-        dem_lattice_free(&lattice);
         if (k == 0) drop("ends"), drop("rest_length"), drop("stiffness");
     }
 }
@@ -409,13 +399,12 @@ TEST_WITH(other_filters_are_refused, write_lattice, remove_lattice)
 
 TEST_WITH(sizes_without_data_behind_them_are_refused, write_lattice, remove_lattice)
 {
-    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    CLEANUP(free_h5) const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
     assert_true(H5Pset_chunk(layout, 2, (hsize_t[2]){64, 2}) >= 0);
     put_as("x", layout, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, (hsize_t)1 << 39, 2, NULL);
     REFUSED("x: claims more data than the file holds");
     put_as("x", layout, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, ((hsize_t)1 << 40) + 1, 2, NULL);
     REFUSED("x: has more than 2^40 rows");
-    (void)H5Pclose(layout);
 }
 
 TEST_WITH(a_lattice_is_measured_without_its_numbers, write_lattice, remove_lattice)
@@ -433,8 +422,7 @@ TEST_WITH(plugins_are_as_they_were, write_lattice, remove_lattice)
 {
     unsigned before = 0, after = 1;
     assert_true(H5PLget_loading_state(&before) >= 0);
-    dem_lattice lattice = read_lattice();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
     assert_true(H5PLget_loading_state(&after) >= 0);
     assert_int_equal(after, before);
-    dem_lattice_free(&lattice);
 }

@@ -33,11 +33,10 @@ static dem_model *make_model(void)
                                         .friction = 0.75,
                                         .friction_law = DEM_FRICTION_PAPER,
                                         .velocity = {1.5, -2.0}}};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, obstacles, 2));
-    dem_lattice_free(&lattice);
     return model;
 }
 
@@ -52,7 +51,7 @@ static void expect_number(const hdf5_file *file, const char *group, const char *
 
 TEST(the_group_has_points_and_laws)
 {
-    dem_model *model = make_model();
+    CLEANUP(free_model) dem_model *model = make_model();
     hdf5_file file;
     assert_ok(hdf5_open_new(&file, path, 4096));
     assert_ok(obstacle_file_write(&file, model));
@@ -67,12 +66,11 @@ TEST(the_group_has_points_and_laws)
     found_reals(&file, "/obstacles/1/velocity", (const double[2]){1.5, -2.0}, 2);
     assert_true(H5Lexists(file.id, "/obstacles/0/velocity", H5P_DEFAULT) == 0); /* it is at rest */
     assert_ok(hdf5_close(&file, DEM_OK));
-    dem_model_destroy(model);
 }
 
 TEST(they_are_read_back)
 {
-    dem_model *model = make_model();
+    CLEANUP(free_model) dem_model *model = make_model();
     hdf5_file file;
     dem_obstacle *found = NULL;
     dem_index n = 0, n_given = 0;
@@ -91,12 +89,11 @@ TEST(they_are_read_back)
     }
     obstacle_file_free(found, n);
     assert_ok(hdf5_close(&file, DEM_OK));
-    dem_model_destroy(model);
 }
 
 TEST(what_is_no_obstacle_is_refused)
 {
-    dem_model *model = make_model();
+    CLEANUP(free_model) dem_model *model = make_model();
     hdf5_file file;
     dem_obstacle *found = NULL;
     dem_index n = 7;
@@ -109,13 +106,12 @@ TEST(what_is_no_obstacle_is_refused)
     assert_int_equal(n, 7);
     assert_null(found);
     assert_ok(hdf5_close(&file, DEM_OK));
-    dem_model_destroy(model);
 }
 
 TEST(the_file_has_them_as_lines)
 {
     const double points[15] = {-1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0, 4.0, -2.0, 0.0};
-    dem_model *model = make_model();
+    CLEANUP(free_model) dem_model *model = make_model();
     hdf5_file file;
     assert_ok(obstacle_file_publish(part, path, model, (obstacle_file_times){0, NULL}, 1));
     assert_int_not_equal(access(part, F_OK), 0);
@@ -124,7 +120,6 @@ TEST(the_file_has_them_as_lines)
     found_reals(&file, "/VTKHDF/Connectivity", (const double[]){0, 1, 1, 2, 3, 4}, 6);
     found_reals(&file, "/VTKHDF/CellData/obstacle", (const double[]){0, 0, 1}, 3);
     assert_ok(hdf5_close(&file, DEM_OK));
-    dem_model_destroy(model);
 }
 
 /* The second obstacle moves with (1.5, -2) m/s. */
@@ -133,7 +128,7 @@ TEST(with_times_the_file_has_steps_with_points_of_their_own)
     const double times[2] = {0.5, 2.0};
     const double points[30] = {-1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 3.75, -3.0, 0.0, 4.75, -3.0, 0.0,
                                -1.0, 0.0, 0.0, 0.0, -0.5, 0.0, 1.0, 0.0, 0.0, 6.0,  -6.0, 0.0, 7.0,  -6.0, 0.0};
-    dem_model *model = make_model();
+    CLEANUP(free_model) dem_model *model = make_model();
     hdf5_file file;
     assert_true(obstacle_file_moves(model));
     assert_ok(obstacle_file_publish(part, path, model, (obstacle_file_times){2, times}, 1));
@@ -145,16 +140,14 @@ TEST(with_times_the_file_has_steps_with_points_of_their_own)
     found_reals(&file, "/VTKHDF/Steps/NumberOfParts", (const double[]){1, 1}, 2);
     found_reals(&file, "/VTKHDF/Steps/CellDataOffsets/obstacle", (const double[]){0, 0}, 2);
     assert_ok(hdf5_close(&file, DEM_OK));
-    dem_model_destroy(model);
 }
 
 TEST(a_part_that_cannot_be_published_is_taken_away)
 {
-    dem_model *model = make_model();
+    CLEANUP(free_model) dem_model *model = make_model();
     assert_int_equal(obstacle_file_publish(part, "no/such/folder/a.h5", model, (obstacle_file_times){0, NULL}, 1),
                      DEM_ERROR_IO);
     assert_int_not_equal(access(part, F_OK), 0);
-    dem_model_destroy(model);
 }
 
 TEST_GROUP(make_folder, scratch_remove);

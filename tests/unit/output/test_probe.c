@@ -152,8 +152,8 @@ TEST(what_cannot_be_probed_is_refused)
         {{"p", DEM_PROBE_GAUGE, {0, 3}, 1}, "probe p: there is no node 3; they are 0 to 2"},
         {{"p", DEM_PROBE_GAUGE, {2, 2}, 1}, "probe p: a gauge from node 2 to node 2 has no length"},
     };
-    probe p;
-    dem_lattice lattice = make_solid(1.0, 1.0, 1.0);
+    CLEANUP(probe_free) probe p;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(1.0, 1.0, 1.0);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         assert_int_equal(probe_init(&p, &cases[k].probe, &lattice), DEM_ERROR_ARGUMENT);
         assert_string_equal(dem_status_message(), cases[k].message);
@@ -163,6 +163,4 @@ TEST(what_cannot_be_probed_is_refused)
     assert_ok(probe_init(&p, &longest, &lattice));
     assert_string_equal(p.what.name, name);
     assert_ptr_not_equal(p.what.name, name);
-    probe_free(&p);
-    dem_lattice_free(&lattice);
 }

@@ -27,13 +27,12 @@ TEST(notes_are_written_to_every_file_and_replaced_by_name)
     put(&all, "title", "the second, longer");
     assert_int_equal(all.n, 3);
     for (int k = 0; k < 2; k++) {
-        stored s;
+        CLEANUP(stored_close) stored s;
         stored_open(&s);
         assert_ok(provenance_write(&all, &s.file));
         assert_note(&s, "/provenance/title", "the second, longer");
         assert_note(&s, "/provenance/deck", "&run\n/");
         assert_note(&s, "/provenance/nothing", "");
-        stored_close(&s);
     }
     provenance_free(&all);
     assert_int_equal(all.n, 0);
@@ -42,10 +41,10 @@ TEST(notes_are_written_to_every_file_and_replaced_by_name)
 /* A thousand notes and a long one: room is asked for all of it. */
 TEST(the_bytes_of_notes_are_bounded)
 {
-    provenance all = {0};
-    stored s;
+    CLEANUP(provenance_free) provenance all = {0};
+    CLEANUP(stored_close) stored s;
     hsize_t size = 0;
-    char *text = calloc(100001, 1);
+    CLEANUP(free_memory) char *text = calloc(100001, 1);
     assert_non_null(text);
     assert_int_equal(provenance_bytes(&all), 0);
     put(&all, "long", memset(text, 'x', 100000));
@@ -58,9 +57,6 @@ TEST(the_bytes_of_notes_are_bounded)
     assert_ok(provenance_write(&all, &s.file));
     assert_true(H5Fflush(s.file.id, H5F_SCOPE_GLOBAL) >= 0 && H5Fget_filesize(s.file.id, &size) >= 0);
     assert_true(size <= provenance_bytes(&all));
-    stored_close(&s);
-    provenance_free(&all);
-    free(text);
 }
 
 TEST(a_bad_name_is_refused)

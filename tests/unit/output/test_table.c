@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "harness/cleanup_hdf5.h"
 #include "output/table.h"
 
 enum { most_cells = 1 << 14, n_columns = 5 };
@@ -87,17 +88,14 @@ typedef struct dataset {
 static const dataset *look(const stored *s, const char *name)
 {
     static dataset d;
-    const hid_t id = H5Dopen2(s->file.id, name, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t id = H5Dopen2(s->file.id, name, H5P_DEFAULT);
     if (id < 0) fail_msg("there is no %s", name);
-    const hid_t space = H5Dget_space(id), type = H5Dget_type(id);
+    CLEANUP(free_h5) const hid_t space = H5Dget_space(id), type = H5Dget_type(id);
     d.extent[0] = d.extent[1] = d.extent[2] = 1;
     d.rank = H5Sget_simple_extent_dims(space, d.extent, NULL);
     d.is_integer = H5Tget_class(type) == H5T_INTEGER;
     assert_in_range(H5Sget_simple_extent_npoints(space), 0, most_cells);
     assert_true(H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, d.value) >= 0);
-    (void)H5Tclose(type);
-    (void)H5Sclose(space);
-    (void)H5Dclose(id);
     return &d;
 }
 
@@ -119,9 +117,8 @@ static hsize_t stored_bytes(const stored *s)
 {
     hsize_t n = 0;
     for (int c = 0; c < n_columns; c++) {
-        const hid_t id = H5Dopen2(s->file.id, columns[c].name, H5P_DEFAULT);
+        CLEANUP(free_h5) const hid_t id = H5Dopen2(s->file.id, columns[c].name, H5P_DEFAULT);
         n += H5Dget_storage_size(id);
-        (void)H5Dclose(id);
     }
     return n;
 }
@@ -136,7 +133,7 @@ TEST(columns_have_the_shapes_of_what_they_tell)
         hsize_t extent[3];
     } shapes[n_columns] = {
         {0, 1, {1, 1, 1}}, {1, 1, {1, 1, 1}}, {0, 2, {1, 2, 1}}, {0, 3, {1, 3, 2}}, {1, 2, {1, 1, 1}}};
-    stored s = begin(3, 1);
+    CLEANUP(end) stored s = begin(3, 1);
     add(&s, 0);
     assert_ok(table_flush(&s.table, &s.file));
     for (int c = 0; c < n_columns; c++) {
@@ -146,60 +143,53 @@ TEST(columns_have_the_shapes_of_what_they_tell)
         assert_memory_equal(d->extent, shapes[c].extent, sizeof d->extent);
     }
     expect_rows(&s, 1);
-    end(&s);
 }
 
 TEST(what_there_is_none_of_has_no_column)
 {
-    stored s = begin(2, 0);
+    CLEANUP(end) stored s = begin(2, 0);
     add_rows(&s, 0, 2);
     assert_ok(table_flush(&s.table, &s.file));
     assert_int_equal(H5Lexists(s.file.id, "/rows/wholes", H5P_DEFAULT), 0);
     assert_true(H5Lexists(s.file.id, "/rows/vectors", H5P_DEFAULT) > 0);
     expect_rows(&s, 2);
     assert_ok(table_verify(&s.table, &s.file, s.table.written));
-    end(&s);
 }
 
 TEST(a_table_without_columns_is_never_written)
 {
-    stored s = begin(1, 1);
-    table none = {0};
+    CLEANUP(end) stored s = begin(1, 1);
+    CLEANUP(table_free) table none = {0};
     assert_int_equal(table_bytes(&none), 0);
     assert_ok(table_create(&none, &s.file));
     assert_ok(table_flush(&none, &s.file));
     assert_ok(table_verify(&none, &s.file, 0));
-    table_free(&none);
-    end(&s);
 }
 
 TEST(columns_are_made_once)
 {
-    stored s = begin(1, 1);
+    CLEANUP(end) stored s = begin(1, 1);
     assert_int_equal(table_create(&s.table, &s.file), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/rows/real: cannot be created"));
-    end(&s);
 }
 
 /* The last chunk is written again at every flush: deflated it would move and leave a hole. */
 TEST(a_chunk_is_a_buffer_and_stored_plain)
 {
     hsize_t chunk[3] = {0};
-    stored s = begin(2, 1);
+    CLEANUP(end) stored s = begin(2, 1);
+    CLEANUP(free_h5)
     const hid_t id = H5Dopen2(s.file.id, "/rows/vectors", H5P_DEFAULT), layout = H5Dget_create_plist(id);
     assert_int_equal(H5Pget_nfilters(layout), 0);
     assert_int_equal(H5Pget_chunk(layout, 3, chunk), 3);
     assert_int_equal(chunk[0], TABLE_ROWS);
-    (void)H5Pclose(layout);
-    (void)H5Dclose(id);
-    end(&s);
 }
 
 /* ---- buffer ---- */
 
 TEST(flushing_goes_on_where_it_ended)
 {
-    stored s = begin(2, 3);
+    CLEANUP(end) stored s = begin(2, 3);
     hsize_t n = 0;
     for (hsize_t piece = 0; piece < 4; n += piece++) {
         add_rows(&s, n, piece);
@@ -210,12 +200,11 @@ TEST(flushing_goes_on_where_it_ended)
         assert_ok(table_verify(&s.table, &s.file, s.table.written));
     }
     expect_rows(&s, 6);
-    end(&s);
 }
 
 TEST(a_full_buffer_is_written_and_takes_no_more_room_than_said)
 {
-    stored s = begin(2, 1);
+    CLEANUP(end) stored s = begin(2, 1);
     hsize_t before = 0, n = 0;
     for (int piece = 0; piece < 3; piece++) {
         const hsize_t rows = piece == 0 ? TABLE_ROWS / 2 : TABLE_ROWS;
@@ -228,7 +217,6 @@ TEST(a_full_buffer_is_written_and_takes_no_more_room_than_said)
     }
     expect_rows(&s, n);
     assert_ok(table_verify(&s.table, &s.file, s.table.written));
-    end(&s);
 }
 
 /* ---- failures ---- */
@@ -236,17 +224,15 @@ TEST(a_full_buffer_is_written_and_takes_no_more_room_than_said)
 static void cut(const stored *s, const char *name, hsize_t rows)
 {
     hsize_t extent[3] = {0};
-    const hid_t id = H5Dopen2(s->file.id, name, H5P_DEFAULT), space = H5Dget_space(id);
+    CLEANUP(free_h5) const hid_t id = H5Dopen2(s->file.id, name, H5P_DEFAULT), space = H5Dget_space(id);
     (void)H5Sget_simple_extent_dims(space, extent, NULL);
     extent[0] = rows;
     assert_true(H5Dset_extent(id, extent) >= 0);
-    (void)H5Sclose(space);
-    (void)H5Dclose(id);
 }
 
 TEST(a_lost_row_or_column_is_noticed)
 {
-    stored s = begin(1, 1);
+    CLEANUP(end) stored s = begin(1, 1);
     add_rows(&s, 0, 3);
     assert_ok(table_flush(&s.table, &s.file));
     cut(&s, "/rows/wholes", 2);
@@ -255,12 +241,11 @@ TEST(a_lost_row_or_column_is_noticed)
     assert_true(H5Ldelete(s.file.id, "/rows/whole", H5P_DEFAULT) >= 0);
     assert_int_equal(table_verify(&s.table, &s.file, s.table.written), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/rows/whole: cannot be opened"));
-    end(&s);
 }
 
 TEST(rows_that_could_not_be_written_stay_in_the_buffer)
 {
-    stored s = begin(1, 1);
+    CLEANUP(end) stored s = begin(1, 1);
     add_rows(&s, 0, 2);
     assert_ok(hdf5_close(&s.file, DEM_OK));
     assert_ok(hdf5_open_read(&s.file, path));
@@ -273,7 +258,6 @@ TEST(rows_that_could_not_be_written_stay_in_the_buffer)
     assert_ok(table_flush(&s.table, &s.file));
     assert_ok(table_verify(&s.table, &s.file, s.table.written));
     expect_rows(&s, 2);
-    end(&s);
 }
 
 TEST_GROUP(make_path, NULL);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* trajectory.c, history.c, hdf5_file.c: what a run leaves on disk, looked at through HDF5 itself. */
+#include "harness/cleanup_hdf5.h"
 #include "unit/close.h"
 
 #include <dem/trajectory.h>
@@ -38,7 +39,7 @@ static void make_model(run *r, int n_obstacles)
                                        {.n_points = 2, .points = far, .restitution = 0.25}};
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 0.4, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(dem_lattice_rectangle(&lattice, 0.02, 0.02, 5e-3), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
     dem_lattice_move(&lattice, 0.1, offset);
@@ -48,7 +49,6 @@ static void make_model(run *r, int n_obstacles)
     assert_non_null(lattice.position);
     for (dem_index i = 0; i < 2 * lattice.n_nodes; i++) lattice.position[i] = lattice.x[i] + (i % 2 ? 5e-3 : 0.0);
     assert_int_equal(dem_model_create(&r->model, &lattice, obstacles, n_obstacles), DEM_OK);
-    dem_lattice_free(&lattice);
 }
 
 static void make_point(run *r)
@@ -121,19 +121,16 @@ typedef struct table {
 static table read_table(const char *path, const char *name)
 {
     table t = {{1, 1, 1}, NULL};
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     assert_true(file >= 0);
-    const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
     if (dataset < 0) fail_msg("%s: no %s", path, name);
-    const hid_t space = H5Dget_space(dataset);
+    CLEANUP(free_h5) const hid_t space = H5Dget_space(dataset);
     assert_true(H5Sget_simple_extent_ndims(space) <= 3);
     (void)H5Sget_simple_extent_dims(space, t.extent, NULL);
     t.value = calloc((size_t)(t.extent[0] * t.extent[1] * t.extent[2]) + 1, sizeof *t.value);
     assert_non_null(t.value);
     assert_true(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, t.value) >= 0);
-    (void)H5Sclose(space);
-    (void)H5Dclose(dataset);
-    (void)H5Fclose(file);
     return t;
 }
 
@@ -156,30 +153,25 @@ static hsize_t count_rows(const char *path, const char *name)
 static int64_t count_steps(const char *path)
 {
     int64_t n = -1;
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    const hid_t attribute = H5Aopen_by_name(file, "/VTKHDF/Steps", "NSteps", H5P_DEFAULT, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t attribute = H5Aopen_by_name(file, "/VTKHDF/Steps", "NSteps", H5P_DEFAULT, H5P_DEFAULT);
     assert_true(H5Aread(attribute, H5T_NATIVE_INT64, &n) >= 0);
-    (void)H5Aclose(attribute);
-    (void)H5Fclose(file);
     return n;
 }
 
 static size_t stored_size(const char *path, const char *name)
 {
+    CLEANUP(free_h5)
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), dataset = H5Dopen2(file, name, H5P_DEFAULT);
-    const hid_t type = H5Dget_type(dataset);
+    CLEANUP(free_h5) const hid_t type = H5Dget_type(dataset);
     const size_t size = H5Tget_size(type);
-    (void)H5Tclose(type);
-    (void)H5Dclose(dataset);
-    (void)H5Fclose(file);
     return size;
 }
 
 static int has(const char *path, const char *name)
 {
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     const int found = H5Lexists(file, name, H5P_DEFAULT) > 0;
-    (void)H5Fclose(file);
     return found;
 }
 
@@ -233,7 +225,7 @@ TEST(a_frame_holds_the_state)
     for (int is_double = 0; is_double <= 1; is_double++) {
         dem_trajectory_options options = every_frame();
         options.double_precision = is_double, options.deflate = is_double ? 0 : 9;
-        run r = begin(&options);
+        CLEANUP(end) run r = begin(&options);
         assert_int_equal(dem_simulation_advance(r.simulation, 10 * interval), DEM_OK);
         assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
         assert_int_equal(count_steps(r.path), 11);
@@ -243,14 +235,13 @@ TEST(a_frame_holds_the_state)
         assert_int_equal(stored_size(r.path, "/VTKHDF/PointData/velocity"), is_double ? 8 : 4);
         assert_last_frame_is_the_state(&r, 11, is_double ? 0.0 : 1e-8);
         assert_last_strain_is_the_states(&r, 11, is_double ? 1e-15 : 1e-7);
-        end(&r);
     }
 }
 
 TEST(offsets_tell_where_a_frame_begins)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     const dem_model_size size = dem_model_sizes(r.model);
     const struct {
         const char *name;
@@ -275,13 +266,12 @@ TEST(offsets_tell_where_a_frame_begins)
             assert_close(read_cell(r.path, name, f), (double)((dem_index)f * offsets[k].per_frame), 0.0);
     }
     assert_close(read_cell(r.path, "/VTKHDF/Steps/NumberOfParts", 3), 1.0, 0.0);
-    end(&r);
 }
 
 TEST(a_frame_is_not_written_twice)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     const dem_observer observer = dem_trajectory_observer(r.trajectory);
     assert_int_equal(dem_simulation_advance(r.simulation, 2.5 * interval), DEM_OK);
     assert_int_equal(count_steps(r.part), 3);
@@ -289,7 +279,6 @@ TEST(a_frame_is_not_written_twice)
         assert_int_equal(observer.frame(observer.context, r.simulation), DEM_OK);
         assert_int_equal(count_steps(r.part), 4);
     }
-    end(&r);
 }
 
 /* An observer after the trajectory's, so the frame is there already. */
@@ -311,7 +300,7 @@ TEST(probes_and_peaks_are_in_the_file_in_the_end)
     const dem_probe probes[2] = {{"node", DEM_PROBE_NODE, {3, 0}, 1}, {"gauge", DEM_PROBE_GAUGE, {0, 3}, 4}};
     dem_peaks *peaks;
     for (int with_frames = 0; with_frames < 2; with_frames++) {
-        run r;
+        CLEANUP(end) run r;
         dem_trajectory_options options = every_frame();
         make_folder(&r);
         make_model(&r, 2);
@@ -332,36 +321,33 @@ TEST(probes_and_peaks_are_in_the_file_in_the_end)
         assert_int_equal(count_rows(r.path, "/most_stressed/nodes/node"), 4);
         if (with_frames) assert_int_equal(count_rows(r.path, "/VTKHDF/Steps/CellDataOffsets/peak_strain"), 301);
         dem_peaks_destroy(peaks);
-        end(&r);
     }
 }
 
 TEST(the_part_can_be_looked_at_while_the_run_goes_on)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     const dem_observer observer = {.interval = interval, .frame = look_at_part, .context = &r};
     assert_int_equal(dem_simulation_observe(r.simulation, &observer), DEM_OK);
     assert_int_equal(dem_simulation_advance(r.simulation, 3 * interval), DEM_OK);
-    end(&r);
 }
 
 TEST(a_reader_does_not_stop_the_run)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     const int lock = open(r.part, O_RDONLY);
     assert_int_equal(flock(lock, LOCK_SH), 0); /* as HDF5 does for a reader */
     assert_int_equal(dem_simulation_advance(r.simulation, interval), DEM_OK);
     assert_int_equal(count_steps(r.part), 2);
     (void)close(lock);
-    end(&r);
 }
 
 TEST(a_body_of_one_node_has_points_and_no_cells)
 {
     const dem_trajectory_options options = every_frame();
-    run r;
+    CLEANUP(end) run r;
     make_folder(&r);
     make_point(&r);
     make_simulation(&r);
@@ -373,7 +359,6 @@ TEST(a_body_of_one_node_has_points_and_no_cells)
     assert_int_equal(count_rows(r.path, "/VTKHDF/CellData/strain"), 0);
     assert_last_frame_is_the_state(&r, 3, 1e-8);
     assert_false(exists(r.obstacle));
-    end(&r);
 }
 
 /* ---- history ---- */
@@ -381,7 +366,7 @@ TEST(a_body_of_one_node_has_points_and_no_cells)
 TEST(history_has_a_row_for_every_accepted_step)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     const table t = read_table(r.path, "/history/t"), h = read_table(r.path, "/history/h");
@@ -424,13 +409,12 @@ TEST(history_has_a_row_for_every_accepted_step)
     }
     free(t.value);
     free(h.value);
-    end(&r);
 }
 
 TEST(history_tells_bodies_and_obstacles_apart)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     const table impulse = read_table(r.path, "/history/obstacle_impulse");
@@ -446,13 +430,12 @@ TEST(history_tells_bodies_and_obstacles_apart)
     assert_close(impulse.value[4 * last + 3], 0.0, 0.0);
     free(impulse.value);
     free(velocity.value);
-    end(&r);
 }
 
 TEST(without_frames_there_is_only_the_history)
 {
     const dem_trajectory_options options = dem_trajectory_options_default();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, 0.03), DEM_OK);
     assert_true(count_rows(r.part, "/history/t") >= 1024); /* what filled the buffer */
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
@@ -460,7 +443,6 @@ TEST(without_frames_there_is_only_the_history)
     assert_close(read_cell(r.path, "/history/steps", n - 1), (double)n - 1.0, 0.0);
     assert_false(has(r.path, "/VTKHDF"));
     assert_true(has(r.path, "/lattice"));
-    end(&r);
 }
 
 /* ---- events ---- */
@@ -475,7 +457,7 @@ static dem_trajectory_options with_events(void)
 TEST(every_event_has_a_row_in_the_order_of_time)
 {
     const dem_trajectory_options options = with_events();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     const table t = read_table(r.path, "/events/t"), kind = read_table(r.path, "/events/kind");
@@ -489,32 +471,29 @@ TEST(every_event_has_a_row_in_the_order_of_time)
     assert_close(read_cell(r.path, "/history/impacts", last), (double)impacts, 0.0);
     free(t.value);
     free(kind.value);
-    end(&r);
 }
 
 TEST(events_are_written_only_where_they_are_wanted)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     assert_null(dem_trajectory_observer(r.trajectory).event);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     assert_false(has(r.path, "/events"));
-    end(&r);
 }
 
 TEST(without_an_event_the_table_is_there_and_empty)
 {
     const dem_trajectory_options options = with_events();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     assert_int_equal(count_rows(r.path, "/events/x"), 0);
-    end(&r);
 }
 
 TEST(events_reach_the_file_with_a_frame_or_a_full_buffer)
 {
     const dem_trajectory_options options = with_events();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     const dem_observer observer = dem_trajectory_observer(r.trajectory);
     const hsize_t full = 1024;
     dem_event event = {.kind = DEM_EVENT_SLIP};
@@ -532,20 +511,18 @@ TEST(events_reach_the_file_with_a_frame_or_a_full_buffer)
     assert_int_equal(count_rows(r.path, "/events/kind"), full + 2);
     assert_int_equal(observer.event(observer.context, r.simulation, &event), DEM_ERROR_ARGUMENT);
     assert_non_null(strstr(dem_status_message(), "is finished and takes no more events"));
-    end(&r);
 }
 
 TEST(a_lost_event_is_not_published)
 {
     const dem_trajectory_options options = with_events();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     const hid_t file = H5Fopen(r.part, H5F_ACC_RDWR, H5P_DEFAULT);
     assert_true(H5Ldelete(file, "/events/energy", H5P_DEFAULT) >= 0);
     (void)H5Fclose(file);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/events/energy: cannot be opened"));
     assert_false(exists(r.path));
-    end(&r);
 }
 
 /* ---- lattice, obstacles, notes ---- */
@@ -553,8 +530,8 @@ TEST(a_lost_event_is_not_published)
 TEST(the_lattice_comes_back)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
-    dem_lattice back;
+    CLEANUP(end) run r = begin(&options);
+    CLEANUP(dem_lattice_free) dem_lattice back;
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     assert_int_equal(dem_lattice_read(&back, r.path), DEM_OK);
     const dem_lattice *lattice = dem_model_lattice(r.model);
@@ -574,14 +551,12 @@ TEST(the_lattice_comes_back)
     assert_memory_equal(back.body, lattice->body, n * sizeof(int32_t));
     assert_memory_equal(back.position, lattice->position, 2 * n * sizeof(double));
     assert_memory_equal(back.velocity, lattice->velocity, 2 * n * sizeof(double));
-    dem_lattice_free(&back);
-    end(&r);
 }
 
 TEST(obstacles_are_in_a_file_beside_the_run)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     const double ends[8] = {0, 1, 1, 2, 2, 3, 4, 5}, owner[4] = {0, 0, 0, 1};
     const table connectivity = read_table(r.obstacle, "/VTKHDF/Connectivity");
     const table obstacle = read_table(r.obstacle, "/VTKHDF/CellData/obstacle");
@@ -593,13 +568,12 @@ TEST(obstacles_are_in_a_file_beside_the_run)
     assert_close(read_cell(r.part, "/obstacles/1/points", 2), 5.0, 0.0);
     free(connectivity.value);
     free(obstacle.value);
-    end(&r);
 }
 
 TEST(notes_are_kept_and_replaced)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     char text[16] = "unchanged";
     assert_int_equal(dem_trajectory_note(r.trajectory, "deck", "first and longer"), DEM_OK);
     assert_int_equal(dem_trajectory_note(r.trajectory, "deck", "&run\n/\n"), DEM_OK);
@@ -614,7 +588,6 @@ TEST(notes_are_kept_and_replaced)
     assert_int_equal(dem_trajectory_read_note(r.path, "absent", text, sizeof text), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/provenance/absent"));
     assert_int_equal(dem_trajectory_read_note("none.vtkhdf", "deck", text, sizeof text), DEM_ERROR_IO);
-    end(&r);
 }
 
 /* ---- the same run makes the same bytes ---- */
@@ -660,7 +633,7 @@ TEST(two_runs_make_the_same_bytes)
 TEST(finishing_replaces_an_older_run)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     FILE *old = fopen(r.path, "w");
     assert_non_null(old);
     (void)fputs("old", old);
@@ -669,20 +642,18 @@ TEST(finishing_replaces_an_older_run)
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     assert_int_equal(count_steps(r.path), 2);
     assert_false(exists(r.part));
-    end(&r);
 }
 
 TEST(a_finished_trajectory_takes_nothing_more)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     const dem_observer observer = dem_trajectory_observer(r.trajectory);
     assert_int_equal(observer.frame(observer.context, r.simulation), DEM_ERROR_ARGUMENT);
     assert_int_equal(observer.step(observer.context, r.simulation), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_trajectory_note(r.trajectory, "late", "x"), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_ERROR_ARGUMENT);
-    end(&r);
 }
 
 static void assert_create_fails(const run *r, const char *path, const dem_trajectory_options *options,
@@ -696,7 +667,7 @@ static void assert_create_fails(const run *r, const char *path, const dem_trajec
 
 TEST(bad_arguments_are_refused)
 {
-    run r;
+    CLEANUP(end) run r;
     dem_trajectory_options options = every_frame();
     make_folder(&r);
     make_model(&r, 0);
@@ -728,27 +699,25 @@ TEST(bad_arguments_are_refused)
     assert_int_equal(dem_trajectory_note(r.trajectory, "", "x"), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_trajectory_note(r.trajectory, "a", NULL), DEM_ERROR_ARGUMENT);
     dem_trajectory_destroy(NULL);
-    end(&r);
 }
 
 TEST(a_lost_part_ends_the_run_with_its_name)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     assert_int_equal(dem_simulation_advance(r.simulation, interval), DEM_OK);
     assert_int_equal(unlink(r.part), 0);
     assert_int_equal(dem_simulation_advance(r.simulation, 2 * interval), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "run.part.vtkhdf: cannot be opened (No such file or directory)"));
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_ERROR_IO);
     assert_false(exists(r.path));
-    end(&r);
 }
 
 /* Overwrites the middle of the file, where deflated frames lie: HDF5 opens it all the same. */
 TEST(a_damaged_part_is_not_published)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     char junk[4096];
     memset(junk, 0x5a, sizeof junk);
     const hid_t file = H5Fopen(r.part, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -768,14 +737,13 @@ TEST(a_damaged_part_is_not_published)
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "lattice/x: cannot be read back"));
     assert_false(exists(r.path));
-    end(&r);
 }
 
 /* RLIMIT_FSIZE stands in for a full disk. */
 TEST(a_full_disk_leaves_the_frames_before_it)
 {
     const dem_trajectory_options options = every_frame();
-    run r = begin(&options);
+    CLEANUP(end) run r = begin(&options);
     struct rlimit kept, small;
     struct stat about;
     assert_int_equal(stat(r.part, &about), 0);
@@ -794,7 +762,6 @@ TEST(a_full_disk_leaves_the_frames_before_it)
     assert_close(read_cell(r.part, "/VTKHDF/Steps/Values", (hsize_t)n - 1), (double)(n - 1) * interval, 1e-15);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK); /* there is room again */
     assert_int_equal(count_steps(r.path), n);
-    end(&r);
 }
 
 TEST(the_version_is_that_of_the_library)

@@ -16,6 +16,7 @@
 #include <dem/trajectory.h>
 
 #include "base/checkpoint_entries.h"
+#include "harness/cleanup_hdf5.h"
 #include "output/hdf5_file.h"
 #include "unit/solids.h"
 
@@ -53,12 +54,11 @@ static place open_place(void)
     place p = {.folder = "test_segments_XXXXXX"};
     const double floor[4] = {-1.0, 0.0, 1.0, 0.0}, offset[2] = {0.0, 1.3e-3}, velocity[2] = {1.0, -5.0};
     const dem_obstacle obstacle = {.n_points = 2, .points = floor, .restitution = 0.5, .friction = 0.3};
-    dem_lattice lattice = make_solid(0.02, 0.02, 5e-3);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.02, 0.02, 5e-3);
     assert_non_null(mkdtemp(p.folder));
     dem_lattice_move(&lattice, 0.1, offset);
     assert_ok(dem_lattice_launch(&lattice, velocity));
     assert_ok(dem_model_create(&p.model, &lattice, &obstacle, 1));
-    dem_lattice_free(&lattice);
     return p;
 }
 
@@ -85,11 +85,10 @@ static void copy_file(const place *p, const char *from, const char *to)
     struct stat about;
     FILE *in = fopen(source, "rb"), *out = fopen(target, "wb");
     assert_true(in != NULL && out != NULL && fstat(fileno(in), &about) == 0);
-    char *bytes = malloc((size_t)about.st_size);
+    CLEANUP(free_memory) char *bytes = malloc((size_t)about.st_size);
     assert_non_null(bytes);
     assert_int_equal(fread(bytes, 1, (size_t)about.st_size, in), about.st_size);
     assert_int_equal(fwrite(bytes, 1, (size_t)about.st_size, out), about.st_size);
-    free(bytes);
     (void)fclose(in);
     (void)fclose(out);
 }
@@ -211,8 +210,8 @@ static point run_until(const place *p, const char *name, dem_trajectory_options 
                        double t_end)
 {
     session s = {.plan = todo, .from = from != NULL ? from->step : 0};
-    dem_simulation *simulation = make_simulation(p);
-    dem_peaks *peaks;
+    CLEANUP(free_simulation) dem_simulation *simulation = make_simulation(p);
+    CLEANUP(free_peaks) dem_peaks *peaks;
     const char *path = name_in(p, name);
     assert_ok(dem_checkpoint_create(&s.checkpoint));
     assert_ok(dem_peaks_create(&peaks, p->model, 4));
@@ -224,8 +223,6 @@ static point run_until(const place *p, const char *name, dem_trajectory_options 
     assert_int_equal(dem_simulation_advance(simulation, t_end), todo.kill > 0 ? DEM_STOPPED : DEM_OK);
     if (todo.kill == 0) assert_ok(dem_trajectory_finish(s.trajectory));
     dem_trajectory_destroy(s.trajectory);
-    dem_simulation_destroy(simulation);
-    dem_peaks_destroy(peaks);
     return (point){todo.checkpoint, s.checkpoint};
 }
 
@@ -249,13 +246,11 @@ typedef struct pair {
 
 static void *read_all(hid_t dataset, size_t *size)
 {
-    const hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
+    CLEANUP(free_h5) const hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
     *size = (size_t)H5Sget_simple_extent_npoints(space) * H5Tget_size(type);
     char *bytes = calloc(*size + 1, 1);
     assert_non_null(bytes);
     assert_true(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes) >= 0);
-    (void)H5Sclose(space);
-    (void)H5Tclose(type);
     return bytes;
 }
 
@@ -282,13 +277,11 @@ static herr_t compare_attribute(hid_t object, const char *name, const H5A_info_t
     char value[2][256] = {"", ""};
     (void)info;
     for (int k = 0; k < 2; k++) {
-        const hid_t id = H5Aopen(k == 0 ? object : *(hid_t *)other, name, H5P_DEFAULT);
+        CLEANUP(free_h5) const hid_t id = H5Aopen(k == 0 ? object : *(hid_t *)other, name, H5P_DEFAULT);
         if (id < 0) fail_msg("only one file has the attribute %s", name);
-        const hid_t type = H5Aget_type(id);
+        CLEANUP(free_h5) const hid_t type = H5Aget_type(id);
         assert_true(H5Aget_storage_size(id) <= sizeof value[k]);
         assert_true(H5Aread(id, type, value[k]) >= 0);
-        (void)H5Tclose(type);
-        (void)H5Aclose(id);
     }
     if (memcmp(value[0], value[1], sizeof value[0]) != 0) fail_msg("attribute %s differs", name);
     return 0;
@@ -298,7 +291,7 @@ static herr_t compare_object(hid_t root, const char *name, const H5L_info_t *inf
 {
     pair *p = context;
     (void)info;
-    const hid_t a = H5Oopen(root, name, H5P_DEFAULT), b = H5Oopen(p->other, name, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t a = H5Oopen(root, name, H5P_DEFAULT), b = H5Oopen(p->other, name, H5P_DEFAULT);
     hid_t other = b;
     if (a < 0 || b < 0) fail_msg("%s is in one file only", name);
     assert_int_equal(H5Iget_type(a), H5Iget_type(b));
@@ -306,8 +299,6 @@ static herr_t compare_object(hid_t root, const char *name, const H5L_info_t *inf
     p->objects++;
     p->datasets += H5Iget_type(a) == H5I_DATASET;
     if (H5Iget_type(a) == H5I_DATASET) assert_same_dataset(a, b, name);
-    (void)H5Oclose(a);
-    (void)H5Oclose(b);
     return 0;
 }
 
@@ -377,7 +368,7 @@ TEST(a_run_that_was_cut_has_the_data_of_one_that_was_not)
          {{-1, {40, 40, 60}}, {0, {70, 70, 80}}, {0, {71, 73, 85}}, {2, {0, 0, 0}}}},
         {"no segment yet", {{-1, {40, 0, 60}}, {-1, {30, 30, 50}}, {1, {0, 0, 0}}}},
     };
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     run_quietly(&p);
     assert_true(count_rows(&p, "quiet.vtkhdf", "/history/t") > 130);
     assert_true(count_rows(&p, "quiet.vtkhdf", "/events/t") > 20);
@@ -387,7 +378,6 @@ TEST(a_run_that_was_cut_has_the_data_of_one_that_was_not)
         assert_false(has(&p, "run.part.vtkhdf"));
         assert_false(has(&p, "run.00001.vtkhdf"));
     }
-    close_place(&p);
 }
 
 /* ---- a segment ---- */
@@ -418,7 +408,7 @@ static void assert_is_whole(const place *p, const char *name)
     const dem_index frames = count_rows(p, name, "/VTKHDF/Steps/Values"), n = dem_model_sizes(p->model).n_nodes;
     const hdf5_rows rows = {"/VTKHDF/Steps/PointOffsets", HDF5_I64, 1, {0, 0}, 0, 0};
     char text[16];
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     hdf5_file file;
     assert_true(frames > 0);
     assert_int_equal(count_rows(p, name, "/VTKHDF/Points"), frames * n);
@@ -432,13 +422,12 @@ static void assert_is_whole(const place *p, const char *name)
     assert_ok(dem_trajectory_read_note(name_in(p, name), "title", text, sizeof text));
     assert_string_equal(text, "cut");
     assert_ok(dem_lattice_read(&lattice, name_in(p, name)));
-    dem_lattice_free(&lattice);
 }
 
 /* Three sessions: what is in the part when the last of them is killed. */
 TEST(a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     run_quietly(&p);
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 58, 58}), b = run(&p, "run.vtkhdf", &a, (plan){80, 80, 80});
     const point c = run(&p, "run.vtkhdf", &b, (plan){110, 130, 130});
@@ -461,7 +450,6 @@ TEST(a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record)
     dem_checkpoint_destroy(a.checkpoint);
     dem_checkpoint_destroy(b.checkpoint);
     dem_checkpoint_destroy(c.checkpoint);
-    close_place(&p);
 }
 
 /* A trajectory that has seen the first steps of a run. */
@@ -499,13 +487,13 @@ static void assert_says(const char *words)
 
 TEST(the_segment_of_a_record_is_made_once)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     const dem_trajectory_options options = everything();
-    opened o = open_run(&p, &options);
+    CLEANUP(close_run) opened o = open_run(&p, &options);
     for (int k = 0; k < 2; k++) assert_ok(dem_trajectory_segment(o.trajectory, o.checkpoint));
     assert_true(has(&p, "run.00001.vtkhdf"));
     assert_false(has(&p, "run.00002.vtkhdf"));
-    dem_checkpoint *later = NULL, *empty = NULL;
+    CLEANUP(free_checkpoint) dem_checkpoint *later = NULL, *empty = NULL;
     assert_ok(dem_checkpoint_create(&later));
     assert_ok(dem_checkpoint_create(&empty));
     assert_ok(dem_simulation_advance(o.simulation, 4 * interval));
@@ -519,16 +507,12 @@ TEST(the_segment_of_a_record_is_made_once)
     assert_ok(dem_trajectory_finish(o.trajectory));
     assert_int_equal(dem_trajectory_segment(o.trajectory, later), DEM_ERROR_ARGUMENT);
     assert_says("is finished and takes no more segments");
-    dem_checkpoint_destroy(later);
-    dem_checkpoint_destroy(empty);
-    close_run(&o);
-    close_place(&p);
 }
 
 /* Without frames, events and probes. */
 TEST(a_bare_run_is_cut_as_well)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     dem_trajectory_options options = dem_trajectory_options_default();
     options.fields = 0;
     const point whole = run_until(&p, "quiet.vtkhdf", options, NULL, (plan){0, 0, 0}, end);
@@ -538,7 +522,6 @@ TEST(a_bare_run_is_cut_as_well)
     dem_checkpoint_destroy(whole.checkpoint);
     dem_checkpoint_destroy(a.checkpoint);
     dem_checkpoint_destroy(b.checkpoint);
-    close_place(&p);
 }
 
 /* ---- going on ---- */
@@ -547,7 +530,7 @@ TEST(a_bare_run_is_cut_as_well)
 TEST(a_finished_run_is_continued_from_its_own_file)
 {
     static const double ends[] = {7.3e-4, 12e-4, 21.9e-4};
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     run_quietly(&p);
     for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
         const point a = run_until(&p, "run.vtkhdf", everything(), NULL, (plan){25, k == 2 ? 27 : 0, 0}, ends[k]);
@@ -560,24 +543,22 @@ TEST(a_finished_run_is_continued_from_its_own_file)
         dem_checkpoint_destroy(b.checkpoint);
         dem_checkpoint_destroy(c.checkpoint);
     }
-    close_place(&p);
 }
 
 static void assert_resume_fails(const place *p, const point *from, dem_trajectory_options options, dem_status status,
                                 const char *words)
 {
-    dem_simulation *simulation = make_simulation(p);
+    CLEANUP(free_simulation) dem_simulation *simulation = make_simulation(p);
     dem_trajectory *trajectory = NULL;
     assert_int_equal(
         dem_trajectory_resume(&trajectory, name_in(p, "run.vtkhdf"), simulation, &options, from->checkpoint), status);
     assert_null(trajectory);
     assert_says(words);
-    dem_simulation_destroy(simulation);
 }
 
 TEST(other_options_are_refused)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     dem_probe other[n_probes];
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
     const point none = {0, NULL};
@@ -609,7 +590,6 @@ TEST(other_options_are_refused)
     const point b = run(&p, "run.vtkhdf", &a, (plan){0, 0, 0}); /* nothing has changed */
     dem_checkpoint_destroy(a.checkpoint);
     dem_checkpoint_destroy(b.checkpoint);
-    close_place(&p);
 }
 
 /* What becomes of segment 2 of two, and of what is said then. */
@@ -668,7 +648,7 @@ TEST(a_segment_that_is_not_right_is_named)
         {lose_a_column, "run.00002.vtkhdf: /probes/corner/stress: cannot be opened ("},
         {take_anothers, "run.00002.vtkhdf: is of another run: row 49 of its history is at t = 1 s"},
     };
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", &a, (plan){90, 90, 99});
     copy_file(&p, "run.00002.vtkhdf", "kept");
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
@@ -686,13 +666,12 @@ TEST(a_segment_that_is_not_right_is_named)
     sweep(&p, "kept");
     dem_checkpoint_destroy(a.checkpoint);
     dem_checkpoint_destroy(b.checkpoint);
-    close_place(&p);
 }
 
 /* A checkpoint between two segments: the second of them goes beyond it. */
 TEST(a_record_that_no_segment_ends_at_is_refused)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", NULL, (plan){30, 0, 35});
     const point c = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
     assert_resume_fails(&p, &b, everything(), DEM_ERROR_IO, "run.00001.vtkhdf: has history beyond row 30");
@@ -700,14 +679,13 @@ TEST(a_record_that_no_segment_ends_at_is_refused)
     dem_checkpoint_destroy(a.checkpoint);
     dem_checkpoint_destroy(b.checkpoint);
     dem_checkpoint_destroy(c.checkpoint);
-    close_place(&p);
 }
 
 /* ---- whose files they are ---- */
 
 TEST(a_new_run_removes_the_segments_of_an_old_one_and_nothing_else)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     const dem_trajectory_options options = everything();
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", &a, (plan){90, 90, 99});
     copy_file(&p, "run.part.vtkhdf", "run.00003.vtkhdf"); /* a file of another run, say */
@@ -726,13 +704,12 @@ TEST(a_new_run_removes_the_segments_of_an_old_one_and_nothing_else)
     sweep(&p, "run.00001.vtkhdf");
     dem_checkpoint_destroy(a.checkpoint);
     dem_checkpoint_destroy(b.checkpoint);
-    close_place(&p);
 }
 
 /* What a kill leaves that hits a run while it removes what it has joined. */
 TEST(a_whole_stands_for_segments_that_are_gone)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     run_quietly(&p);
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
     copy_file(&p, "run.00001.vtkhdf", "kept");
@@ -746,7 +723,6 @@ TEST(a_whole_stands_for_segments_that_are_gone)
     const point all[] = {a, b, c, d};
     for (int k = 0; k < 4; k++) dem_checkpoint_destroy(all[k].checkpoint);
     sweep(&p, "kept");
-    close_place(&p);
 }
 
 /* ---- failures ---- */
@@ -762,7 +738,7 @@ static void run_on(const place *p, opened *o, const char *name)
 /* Without or with rows behind the checkpoint, each renaming in turn; then it works, or is not tried again. */
 TEST(a_segment_that_fails_changes_nothing)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     const dem_trajectory_options options = everything();
     opened o = open_run(&p, &options);
     run_on(&p, &o, "quiet.vtkhdf");
@@ -782,13 +758,12 @@ TEST(a_segment_that_fails_changes_nothing)
         run_on(&p, &o, "run.vtkhdf");
         assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
     }
-    close_place(&p);
 }
 
 TEST(a_finish_that_failed_works_the_second_time)
 {
-    place p = open_place();
-    dem_peaks *peaks;
+    CLEANUP(close_place) place p = open_place();
+    CLEANUP(free_peaks) dem_peaks *peaks;
     dem_trajectory_options options = everything();
     assert_ok(dem_peaks_create(&peaks, p.model, 1));
     options.peaks = peaks;
@@ -807,8 +782,6 @@ TEST(a_finish_that_failed_works_the_second_time)
         assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
         sweep(&p, "run.vtkhdf");
     }
-    dem_peaks_destroy(peaks);
-    close_place(&p);
 }
 
 /* ---- killed whenever a name changes ---- */
@@ -838,7 +811,7 @@ static bool run_in_child(const place *p, int deadly)
  * and from the one before. */
 TEST(a_kill_between_two_names_loses_nothing)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     FILE *shared = tmpfile();
     assert_true(shared != NULL && ftruncate(fileno(shared), sizeof *progress) == 0);
     progress = mmap(NULL, sizeof *progress, PROT_READ | PROT_WRITE, MAP_SHARED, fileno(shared), 0);
@@ -865,7 +838,6 @@ TEST(a_kill_between_two_names_loses_nothing)
     assert_int_equal(munmap(progress, sizeof *progress), 0);
     progress = &own_progress;
     (void)fclose(shared);
-    close_place(&p);
 }
 
 /* ---- with the checkpoints of the simulation itself ---- */
@@ -888,8 +860,8 @@ static dem_trajectory *follow(const place *p, dem_simulation *simulation, dem_pe
 static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoint, double t)
 {
     dem_options options = dem_options_default();
-    dem_simulation *simulation;
-    dem_peaks *peaks;
+    CLEANUP(free_simulation) dem_simulation *simulation;
+    CLEANUP(free_peaks) dem_peaks *peaks;
     dem_checkpoint *last = NULL;
     options.spacing = 5e-3, options.max_step = 2e-5, options.v_scale = 5.0, options.checkpoint_steps = 16;
     if (checkpoint != NULL) {
@@ -899,7 +871,7 @@ static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoin
         assert_ok(dem_simulation_create(&simulation, p->model, &options));
         assert_ok(dem_peaks_create(&peaks, p->model, 4));
     }
-    dem_trajectory *trajectory = follow(p, simulation, peaks, checkpoint);
+    CLEANUP(free_trajectory) dem_trajectory *trajectory = follow(p, simulation, peaks, checkpoint);
     assert_ok(dem_simulation_advance(simulation, t));
     if (t < end) {
         assert_ok(dem_trajectory_segment(trajectory, dem_simulation_checkpoint(simulation)));
@@ -907,15 +879,12 @@ static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoin
         assert_ok(checkpoint_entries_copy(last, dem_simulation_checkpoint(simulation)));
     } else
         assert_ok(dem_trajectory_finish(trajectory));
-    dem_trajectory_destroy(trajectory);
-    dem_peaks_destroy(peaks);
-    dem_simulation_destroy(simulation);
     return last;
 }
 
 TEST(a_run_goes_on_from_the_records_of_its_simulation)
 {
-    place p = open_place();
+    CLEANUP(close_place) place p = open_place();
     assert_null(follow_to(&p, NULL, end));
     assert_int_equal(rename(name_in(&p, "run.vtkhdf"), name_in(&p, "quiet.vtkhdf")), 0);
     dem_checkpoint *checkpoint = NULL;
@@ -925,5 +894,4 @@ TEST(a_run_goes_on_from_the_records_of_its_simulation)
         checkpoint = last;
     }
     assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
-    close_place(&p);
 }

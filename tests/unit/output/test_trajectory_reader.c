@@ -11,6 +11,7 @@
 #include <dem/reader.h>
 #include <dem/trajectory.h>
 
+#include "harness/cleanup_hdf5.h"
 #include "output/hdf5_file.h"
 #include "unit/solids.h"
 
@@ -97,15 +98,13 @@ static void begin(run *r, const dem_trajectory_options *options)
         {.n_points = 3, .points = hill, .restitution = 0.5, .friction = 0.3},
         {.n_points = 2, .points = far, .restitution = 0.25, .friction = 0.75, .friction_law = DEM_FRICTION_PAPER}};
     const double offset[2] = {0.0, 1.3e-3}, aside[2] = {0.05, 2e-3}, velocity[2] = {1.0, -5.0};
-    dem_lattice lattice = make_solid(0.02, 0.02, 5e-3), other = make_solid(0.01, 0.01, 5e-3);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.02, 0.02, 5e-3), other = make_solid(0.01, 0.01, 5e-3);
     make_folder(r);
     dem_lattice_move(&lattice, 0.1, offset);
     dem_lattice_move(&other, 0.1, aside);
     assert_ok(dem_lattice_append(&lattice, &other));
     assert_ok(dem_lattice_launch(&lattice, velocity));
     assert_ok(dem_model_create(&r->model, &lattice, obstacles, 2));
-    dem_lattice_free(&lattice);
-    dem_lattice_free(&other);
     start(r, *options);
 }
 
@@ -184,9 +183,8 @@ static void assert_shown(const dem_reader *reader, const char *name, dem_index f
                          dem_index n, double roundings)
 {
     if (dem_reader_array_find(reader, name) == NULL) return;
-    double *values = read_array(reader, name, frame);
+    CLEANUP(free_memory) double *values = read_array(reader, name, frame);
     for (dem_index k = 0; k < n; k++) assert_close(values[k], expected[k], roundings * rounding(expected[k]));
-    free(values);
 }
 
 static void assert_frame(const dem_reader *reader, const run *r, dem_index frame, double roundings)
@@ -234,15 +232,13 @@ TEST(frames_are_what_was_seen)
     for (int in_double = 0; in_double < 2; in_double++) {
         dem_trajectory_options options = everything();
         options.double_precision = in_double;
-        run r;
+        CLEANUP(end) run r;
         make(&r, &options);
-        dem_reader *reader = open_film(r.path);
+        CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
         assert_int_equal(r.n_shots, 11);
         assert_frames(reader, &r, in_double ? 0.0 : 1.0);
         const dem_reader_array *v = dem_reader_array_find(reader, "velocity");
         assert_int_equal(v->type, in_double ? DEM_READER_F64 : DEM_READER_F32);
-        dem_reader_close(reader);
-        end(&r);
     }
 }
 
@@ -252,15 +248,13 @@ TEST(any_fields_may_be_there)
     for (size_t k = 0; k < sizeof some / sizeof some[0]; k++) {
         dem_trajectory_options options = everything();
         options.fields = some[k], options.deflate = 0;
-        run r;
+        CLEANUP(end) run r;
         make(&r, &options);
-        dem_reader *reader = open_film(r.path);
+        CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
         assert_frames(reader, &r, 0.0);
         assert_int_equal(dem_reader_array_find(reader, "velocity") != NULL, (some[k] & DEM_FIELD_VELOCITY) != 0);
         assert_int_equal(dem_reader_array_find(reader, "strain") != NULL, (some[k] & DEM_FIELD_STRAIN) != 0);
         assert_null(dem_reader_array_find(reader, "stress"));
-        dem_reader_close(reader);
-        end(&r);
     }
 }
 
@@ -285,12 +279,12 @@ TEST(arrays_are_listed_with_what_they_are)
     };
     const dem_trajectory_options options = everything();
     for (int frames = 1; frames <= 10; frames += 9) { /* of one frame only the names tell what is constant */
-        run r;
+        CLEANUP(end) run r;
         begin(&r, &options);
         dem_index n = 0;
         advance(&r, frames == 1 ? 0.5 : 9.0);
         assert_ok(dem_trajectory_finish(r.trajectory));
-        dem_reader *reader = open_film(r.path);
+        CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
         (void)dem_reader_times(reader, &n);
         assert_int_equal(n, frames);
         const dem_reader_array *arrays = dem_reader_arrays(reader, &n);
@@ -303,17 +297,15 @@ TEST(arrays_are_listed_with_what_they_are)
             assert_int_equal(arrays[k].components, expected[k].components);
             assert_int_equal(arrays[k].constant, expected[k].constant);
         }
-        dem_reader_close(reader);
-        end(&r);
     }
 }
 
 TEST(constants_are_the_same_in_all_frames)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
-    dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     const dem_lattice *l = dem_model_lattice(r.model);
     const dem_node_peak *nodes = dem_peaks_nodes(r.peaks);
     const dem_spring_peak *springs = dem_peaks_springs(r.peaks);
@@ -332,8 +324,6 @@ TEST(constants_are_the_same_in_all_frames)
         }
         free(id), free(body), free(most), free(strain), free(when);
     }
-    dem_reader_close(reader);
-    end(&r);
 }
 
 /* ---- tables ---- */
@@ -349,38 +339,34 @@ static double *read_plainly(const char *path, const dem_reader_column *c)
 {
     char name[160];
     column_path(name, c);
+    CLEANUP(free_h5)
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), dataset = H5Dopen2(file, name, H5P_DEFAULT);
     if (dataset < 0) fail_msg("%s: no %s", path, name);
-    const hid_t space = H5Dget_space(dataset);
+    CLEANUP(free_h5) const hid_t space = H5Dget_space(dataset);
     const hssize_t n = H5Sget_simple_extent_npoints(space);
     assert_int_equal(n, c->n_rows * c->width);
     double *values = copy_of(NULL, (dem_index)n);
     assert_true(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
-    (void)H5Sclose(space);
-    (void)H5Dclose(dataset);
-    (void)H5Fclose(file);
     return values;
 }
 
 static void assert_column(const dem_reader *reader, const char *path, const dem_reader_column *c)
 {
-    double *plain = read_plainly(path, c), *values = copy_of(NULL, c->n_rows * c->width);
+    CLEANUP(free_memory) double *plain = read_plainly(path, c), *values = copy_of(NULL, c->n_rows * c->width);
     assert_ok(dem_reader_read_column(reader, c, values));
     assert_memory_equal(values, plain, (size_t)(c->n_rows * c->width) * sizeof *values);
     if (c->n_rows > 2) {
         assert_ok(dem_reader_read_rows(reader, c, 1, c->n_rows - 2, values));
         assert_memory_equal(values, plain + c->width, (size_t)((c->n_rows - 2) * c->width) * sizeof *values);
     }
-    free(plain);
-    free(values);
 }
 
 TEST(tables_are_what_hdf5_finds)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
-    dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     dem_index n = 0, tables = 0;
     const dem_reader_column *columns = dem_reader_columns(reader, &n);
     const char *table = "";
@@ -398,8 +384,6 @@ TEST(tables_are_what_hdf5_finds)
     }
     assert_int_equal(tables, 7); /* frames, history, events, two probes, two lists */
     assert_int_equal(n, 11 + 43 + 15 + 5 + 3 + 5 + 5);
-    dem_reader_close(reader);
-    end(&r);
 }
 
 static void expect_column(const dem_reader *reader, const dem_reader_column *expected)
@@ -429,13 +413,11 @@ TEST(columns_have_items_and_components)
         {"most_stressed/nodes", "x", "m", DEM_READER_F64, 0, 1, 2, 0},
     };
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
-    dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) expect_column(reader, &expected[k]);
     assert_null(dem_reader_column_find(reader, "history", "kind"));
-    dem_reader_close(reader);
-    end(&r);
 }
 
 /* ---- the model ---- */
@@ -443,9 +425,9 @@ TEST(columns_have_items_and_components)
 TEST(lattice_and_obstacles_are_the_models)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
-    dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     const dem_lattice *l = dem_reader_lattice(reader), *own = dem_model_lattice(r.model);
     dem_index n = 0, n_own = 0;
     assert_int_equal(l->n_nodes, own->n_nodes);
@@ -461,8 +443,6 @@ TEST(lattice_and_obstacles_are_the_models)
         assert_close(o[k].friction, given[k].friction, 0.0);
         assert_int_equal(o[k].friction_law, given[k].friction_law);
     }
-    dem_reader_close(reader);
-    end(&r);
 }
 
 /* ---- runs of other kinds ---- */
@@ -471,13 +451,13 @@ TEST(a_point_without_springs_and_obstacles_is_read)
 {
     dem_trajectory_options options = everything();
     options.n_probes = 0;
-    run r;
+    CLEANUP(end) run r;
     begin_point(&r, &options);
     dem_index n = 0;
     double values[6];
     advance(&r, 10.0);
     assert_ok(dem_trajectory_finish(r.trajectory));
-    dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     assert_frames(reader, &r, 0.0);
     const dem_reader_array *force = dem_reader_array_find(reader, "force");
     assert_false(force->constant);
@@ -485,17 +465,15 @@ TEST(a_point_without_springs_and_obstacles_is_read)
     (void)dem_reader_obstacles(reader, &n);
     assert_int_equal(n, 0);
     assert_null(dem_reader_column_find(reader, "history", "obstacle_reaction"));
-    dem_reader_close(reader);
-    end(&r);
 }
 
 TEST(a_run_without_frames_has_its_tables)
 {
     dem_trajectory_options options = everything();
     options.frame_interval = 0.0, options.events = 0;
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
-    dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     dem_index n = -1;
     double x[64];
     (void)dem_reader_times(reader, &n);
@@ -505,20 +483,18 @@ TEST(a_run_without_frames_has_its_tables)
     assert_int_equal(dem_reader_positions(reader, 0, x), DEM_ERROR_ARGUMENT);
     assert_null(dem_reader_column_find(reader, "events", "t"));
     assert_column(reader, r.path, dem_reader_column_find(reader, "history", "kinetic"));
-    dem_reader_close(reader);
-    end(&r);
 }
 
 TEST(a_part_is_seen_as_it_was_when_it_was_opened)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     begin(&r, &options);
     dem_index n = 0;
     advance(&r, 4.5);
-    dem_reader *reader = open_film(r.part);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.part);
     const dem_reader_column *t = dem_reader_column_find(reader, "history", "t");
-    double *times = copy_of(NULL, t->n_rows);
+    CLEANUP(free_memory) double *times = copy_of(NULL, t->n_rows);
     (void)dem_reader_times(reader, &n);
     assert_int_equal(n, 5);
     advance(&r, 8.0);
@@ -527,42 +503,35 @@ TEST(a_part_is_seen_as_it_was_when_it_was_opened)
     for (dem_index k = 0; k < n; k++) assert_frame(reader, &r, k, 0.0);
     assert_ok(dem_reader_read_column(reader, t, times));
     assert_true(times[t->n_rows - 1] <= 4.0 * interval);
-    free(times);
     assert_ok(dem_trajectory_finish(r.trajectory));
     assert_int_equal(dem_reader_positions(reader, 0, r.shots[0].x), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "run.part.vtkhdf: cannot be opened"));
-    dem_reader_close(reader);
-    end(&r);
 }
 
 TEST(segment_and_part_follow_each_other)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     begin(&r, &options);
     dem_index n[2] = {0, 0};
     advance(&r, 6.5);
     assert_ok(dem_trajectory_segment(r.trajectory, dem_simulation_checkpoint(r.simulation)));
     advance(&r, 10.0);
-    dem_reader *segment = open_film(r.segment), *part = open_film(r.part);
+    CLEANUP(free_reader) dem_reader *segment = open_film(r.segment), *part = open_film(r.part);
     const double *first = dem_reader_times(segment, &n[0]), *then = dem_reader_times(part, &n[1]);
     assert_true(n[0] > 1 && n[1] > 1);
     assert_int_equal(n[0] + n[1], 11);
     assert_true(first[0] == 0.0 && then[0] == r.shots[n[0]].t);
     assert_frame(segment, &r, n[0] - 1, 0.0);
-    double *x = copy_of(NULL, 2 * dem_model_sizes(r.model).n_nodes);
+    CLEANUP(free_memory) double *x = copy_of(NULL, 2 * dem_model_sizes(r.model).n_nodes);
     assert_ok(dem_reader_positions(part, 0, x));
     assert_memory_equal(x, r.shots[n[0]].x, 2 * (size_t)dem_model_sizes(r.model).n_nodes * sizeof *x);
-    free(x);
-    dem_reader_close(segment);
-    dem_reader_close(part);
-    end(&r);
 }
 
 TEST(what_is_not_there_cannot_be_read)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
     dem_reader *reader = open_film(r.path), *other = NULL;
     double values[1024];
@@ -583,7 +552,6 @@ TEST(what_is_not_there_cannot_be_read)
     assert_null(other);
     dem_reader_close(reader);
     dem_reader_close(NULL);
-    end(&r);
 }
 
 /* ---- damage ---- */
@@ -602,15 +570,13 @@ static void drop(hid_t file, const char *name)
 static void put(hid_t file, const char *name, hid_t type, int rank, const hsize_t *extent)
 {
     if (H5Lexists(file, name, H5P_DEFAULT) > 0) drop(file, name);
-    const hid_t space = H5Screate_simple(rank, extent, NULL);
-    const hid_t dataset = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t space = H5Screate_simple(rank, extent, NULL);
+    CLEANUP(free_h5) const hid_t dataset = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     assert_true(dataset >= 0);
     if (rank == 1 && type == H5T_NATIVE_DOUBLE && extent[0] <= 11) {
         const double zero[11] = {0.0};
         assert_true(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, zero) >= 0);
     }
-    (void)H5Dclose(dataset);
-    (void)H5Sclose(space);
 }
 
 static void put_flat(hid_t file, const char *name)
@@ -656,14 +622,13 @@ static void put_group(hid_t file, const char *name)
 
 static void put_attribute(hid_t file, const char *object, const char *name, hsize_t n, int64_t value)
 {
-    const hid_t space = H5Screate_simple(1, &n, NULL);
+    CLEANUP(free_h5) const hid_t space = H5Screate_simple(1, &n, NULL);
     const int64_t values[2] = {value, value};
     (void)H5Adelete_by_name(file, object, name, H5P_DEFAULT);
+    CLEANUP(free_h5)
     const hid_t id =
         H5Acreate_by_name(file, object, name, H5T_NATIVE_INT64, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     assert_true(id >= 0 && H5Awrite(id, H5T_NATIVE_INT64, values) >= 0);
-    (void)H5Aclose(id);
-    (void)H5Sclose(space);
 }
 
 static void count_more(hid_t file, const char *name)
@@ -740,7 +705,7 @@ static void copy_file(const char *from, const char *to)
 TEST(damaged_files_are_refused)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
     dem_reader *reader = NULL;
     for (size_t k = 0; k < sizeof damages / sizeof damages[0]; k++) {
@@ -755,16 +720,15 @@ TEST(damaged_files_are_refused)
                      damages[k].reason);
         assert_null(reader);
     }
-    end(&r);
 }
 
 TEST(what_has_changed_since_is_refused)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
-    dem_reader *reader = open_film(r.path);
-    double *values = copy_of(NULL, 4096);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_memory) double *values = copy_of(NULL, 4096);
     const hid_t file = H5Fopen(r.path, H5F_ACC_RDWR, H5P_DEFAULT);
     put_flat(file, "/VTKHDF/PointData/velocity");
     drop(file, "/history/t");
@@ -780,16 +744,13 @@ TEST(what_has_changed_since_is_refused)
                      DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/history/h: has another shape than when the reader was opened"));
     assert_int_equal(dem_reader_positions(reader, 3, values), DEM_ERROR_IO);
-    free(values);
-    dem_reader_close(reader);
-    end(&r);
 }
 
 /* What others have put there is read as well; the rows of a table are those that all columns have. */
 TEST(other_arrays_and_uneven_tables_are_read)
 {
     const dem_trajectory_options options = everything();
-    run r;
+    CLEANUP(end) run r;
     make(&r, &options);
     const dem_index n = dem_model_sizes(r.model).n_springs;
     hdf5_file file;
@@ -799,14 +760,11 @@ TEST(other_arrays_and_uneven_tables_are_read)
     assert_ok(hdf5_write(&file, (hdf5_rows){"/VTKHDF/CellData/mine", HDF5_F32, 2, {2}, 0, 0}, (hsize_t)n, mine));
     put_flat(file.id, "/history/short");
     assert_ok(hdf5_close(&file, DEM_OK));
-    dem_reader *reader = open_film(r.path);
-    double *found = read_array(reader, "mine", 7);
+    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_memory) double *found = read_array(reader, "mine", 7);
     assert_memory_equal(found, mine, 2 * (size_t)n * sizeof *mine);
     assert_true(dem_reader_array_find(reader, "mine")->constant);
     assert_int_equal(dem_reader_column_find(reader, "history", "t")->n_rows, 11);
     assert_ok(dem_reader_read_column(reader, dem_reader_column_find(reader, "history", "t"), values));
     free(mine);
-    free(found);
-    dem_reader_close(reader);
-    end(&r);
 }

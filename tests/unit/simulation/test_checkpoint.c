@@ -23,7 +23,7 @@ static void open_pair(pair *p)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-5};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.mass_damping = 500.0;
     assert_ok(dem_lattice_rectangle(&lattice, 0.05, 0.03, 0.01));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
@@ -31,7 +31,6 @@ static void open_pair(pair *p)
     assert_ok(dem_simulation_create(&p->from, p->model, &options));
     assert_ok(dem_simulation_create(&p->to, p->model, &options));
     assert_ok(dem_checkpoint_create(&p->checkpoint));
-    dem_lattice_free(&lattice);
 }
 
 static void close_pair(pair *p)
@@ -78,7 +77,7 @@ static void same_memory(const dem_simulation *a, const dem_simulation *b)
 
 TEST(everything_comes_back)
 {
-    pair p;
+    CLEANUP(close_pair) pair p;
     dem_index n_stuck = 0;
     open_pair(&p);
     assert_ok(dem_simulation_advance(p.from, 0.05));
@@ -100,7 +99,6 @@ TEST(everything_comes_back)
     assert_ok(checkpoint_restore(p.to, p.checkpoint));
     assert_close(integrator_next_step(&p.to->integrator), 1e-9, 0.0);
     same_memory(p.from, p.to);
-    close_pair(&p);
 }
 
 /* ---- a source besides contact ---- */
@@ -132,7 +130,7 @@ static event_source counter_source(counter *c)
 TEST(every_source_comes_back)
 {
     counter from = {.count = 5}, to = {.count = 0};
-    pair p;
+    CLEANUP(close_pair) pair p;
     open_pair(&p);
     assert_ok(dem_simulation_advance(p.from, 1e-3));
     assert_ok(source_list_add(&p.from->sources, counter_source(&from)));
@@ -142,7 +140,6 @@ TEST(every_source_comes_back)
     assert_int_equal(to.count, 5);
     assert_close(to.t, p.from->t, 0.0);
     assert_close(to.y, p.from->y[1], 0.0);
-    close_pair(&p);
 }
 
 /* ---- what is refused ---- */
@@ -151,19 +148,18 @@ static void refuse(pair *p, const char *name, void *entry, size_t size, const ch
 {
     size_t n;
     const void *was = dem_checkpoint_find(p->checkpoint, name, &n);
-    void *kept = malloc(n + 1);
+    CLEANUP(free_memory) void *kept = malloc(n + 1);
     assert_non_null(kept);
     memcpy(kept, was, n);
     assert_ok(dem_checkpoint_put(p->checkpoint, name, entry, size));
     assert_int_equal(checkpoint_restore(p->to, p->checkpoint), DEM_ERROR_IO);
     assert_string_equal(dem_status_message(), message);
     assert_ok(dem_checkpoint_put(p->checkpoint, name, kept, n));
-    free(kept);
 }
 
 TEST(sizes_numbers_and_states_that_cannot_be_are_refused)
 {
-    pair p;
+    CLEANUP(close_pair) pair p;
     size_t n;
     const double before = -1.0;
     dem_index sizes[8], numbers[10];
@@ -190,14 +186,12 @@ TEST(sizes_numbers_and_states_that_cannot_be_are_refused)
     refuse(&p, "motions", motions, size, "in the checkpoint obstacle 0 moves with velocity of 2.5 m/s, not 0 m/s");
     (void)snprintf(text, sizeof text, "the checkpoint has 8 bytes of the motion of obstacles, %zu are expected", size);
     refuse(&p, "motions", motions, 8, text);
-    double *y = malloc((size_t)state_size(&p.from->layout) * sizeof *y);
+    CLEANUP(free_memory) double *y = malloc((size_t)state_size(&p.from->layout) * sizeof *y);
     const void *stored = dem_checkpoint_find(p.checkpoint, "state", &n);
     assert_non_null(y);
     memcpy(y, stored, n);
     y[3] = NAN;
     refuse(&p, "state", y, n, "the state in the checkpoint is not finite");
-    free(y);
-    close_pair(&p);
 }
 
 typedef struct raw_candidate {
@@ -216,7 +210,7 @@ static void refuse_candidate(pair *p, raw_candidate candidate)
 
 TEST(candidates_that_cannot_be_are_refused)
 {
-    pair p;
+    CLEANUP(close_pair) pair p;
     const raw_candidate good = {.k = 0, .n_closed = 1, .behind = {-1, -1}, .closed = {{.feature = 1, .slide = 1}}};
     raw_candidate bad[2] = {good, good};
     open_pair(&p);
@@ -253,5 +247,4 @@ TEST(candidates_that_cannot_be_are_refused)
     refuse(&p, "contacts", bad, sizeof bad,
            "entry 1 of the contacts in the checkpoint is impossible"); /* twice the same */
     refuse(&p, "contacts", bad, 17, "the checkpoint has no contacts");
-    close_pair(&p);
 }

@@ -15,12 +15,11 @@ static dem_model *make_point(const double v[2])
 {
     const double x[2] = {0.0, 1.0}, mass = 2.0;
     const dem_obstacle obstacle = {.n_points = 2, .points = floor_points};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     assert_ok(dem_model_create(&model, &lattice, &obstacle, 1));
-    dem_lattice_free(&lattice);
     return model;
 }
 
@@ -40,13 +39,12 @@ static dem_model *make_rectangle(double damping, double speed)
                                  .density = 1050.0,
                                  .thickness = 1.0,
                                  .damping_time = damping};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     assert_ok(dem_lattice_rectangle(&lattice, 0.03, 0.04, 0.01));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
     assert_ok(dem_lattice_launch(&lattice, (const double[2]){0.6 * speed, 0.8 * speed}));
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_lattice_free(&lattice);
     return model;
 }
 
@@ -137,7 +135,7 @@ static void refuse_filling(const dem_model *model, dem_options options, const ch
 
 TEST(a_model_without_springs_needs_its_scales)
 {
-    dem_model *model = make_point(NULL);
+    CLEANUP(free_model) dem_model *model = make_point(NULL);
     dem_options options = point_options();
     options.spacing = 0.0;
     refuse_filling(model, options, "a model without springs needs the option spacing, in m");
@@ -150,14 +148,13 @@ TEST(a_model_without_springs_needs_its_scales)
     options = point_options();
     options.method = (dem_method)99;
     refuse_filling(model, options, "unknown method 99");
-    dem_model_destroy(model);
 }
 
 /* ---- defaults ---- */
 
 TEST(defaults_come_from_the_model)
 {
-    dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
     dem_options options = dem_options_default();
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_int_equal(options.struct_size, sizeof options);
@@ -172,12 +169,11 @@ TEST(defaults_come_from_the_model)
     assert_close(options.penetration_tolerance, 1e-6 * dem_model_spacing(model), 0.0);
     assert_close(options.v_scale, 4.0, 1e-14);
     assert_int_equal(options.max_impacts, 10000);
-    dem_model_destroy(model);
 }
 
 TEST(what_is_given_counts)
 {
-    dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
     dem_options options = dem_options_default();
     options.spacing = 0.125;
     options.v_scale = 0.25;
@@ -191,14 +187,13 @@ TEST(what_is_given_counts)
     options.fixed_step = 0.01;
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.max_step, 0.01, 0.0);
-    dem_model_destroy(model);
 }
 
 /* An eighth of the stability bound where omega_max is known. */
 TEST(methods_without_error_estimate_take_steps_of_one_length)
 {
     static const dem_method methods[3] = {DEM_METHOD_RK4, DEM_METHOD_KNOTHWOLKE3, DEM_METHOD_VERLET};
-    dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
     for (int k = 0; k < 3; k++) {
         dem_options options = dem_options_default();
         dem_method_traits traits;
@@ -216,13 +211,12 @@ TEST(methods_without_error_estimate_take_steps_of_one_length)
         assert_ok(options_fill(&options, model, &no_boundaries));
         assert_close(options.fixed_step, 0.01, 0.0);
     }
-    dem_model_destroy(model);
 }
 
 /* Where damping is faster than the springs it sets the longest step, 1/(2 (rate + mass damping)). */
 TEST(strong_damping_shortens_the_longest_step)
 {
-    dem_model *model = make_rectangle(1e-2, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rectangle(1e-2, 4.0);
     dem_options options = dem_options_default();
     assert_ok(options_fill(&options, model, &no_boundaries));
     const double rate = 0.5 / options.max_step;
@@ -231,14 +225,13 @@ TEST(strong_damping_shortens_the_longest_step)
     options.mass_damping = rate;
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.max_step, 0.25 / rate, 1e-14 / rate);
-    dem_model_destroy(model);
 }
 
 /* Contacts taken where they happen need no window; the whole body's stops are as long as a tenth of 1/omega_max, or of
  * twice the longest step. */
 TEST(the_window_is_for_stops_of_the_whole_body)
 {
-    dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
     dem_options options = dem_options_default();
     const double omega = dem_model_omega_max(model);
     assert_ok(options_fill(&options, model, &no_boundaries));
@@ -252,7 +245,6 @@ TEST(the_window_is_for_stops_of_the_whole_body)
     options.max_step = 0.125 / omega;
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.window, 0.025 / omega, 1e-16 / omega);
-    dem_model_destroy(model);
 }
 
 /* Without an initial speed: the drop of 1 m to the floor; a body at rest without obstacles: a thousandth of
@@ -263,7 +255,7 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
     const dem_index first = 0;
     const dem_boundary driven = {
         .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &first, .value = {70.0}};
-    boundary_conditions b;
+    CLEANUP(boundary_conditions_free) boundary_conditions b;
     dem_model *model = make_point(NULL);
     dem_options options = point_options();
     assert_ok(options_fill(&options, model, &no_boundaries));
@@ -282,7 +274,6 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
     assert_ok(boundary_conditions_compile(&b, &driven, 1, dem_model_lattice(model), 0));
     assert_ok(options_fill(&options, model, &b));
     assert_close(options.v_scale, 70.0, 0.0);
-    boundary_conditions_free(&b);
     dem_model_destroy(model);
 }
 
@@ -290,7 +281,7 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
 TEST(steps_follow_obstacles_that_shake)
 {
     char message[160];
-    dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
     const double rate = 10.0 * dem_model_omega_max(model);
     dem_options options = dem_options_default();
     model->obstacles.bounds.rate = rate;
@@ -301,5 +292,4 @@ TEST(steps_follow_obstacles_that_shake)
                    "obstacles move with up to %g rad/s: max_step and fixed_step must be at most 1/%g s, got %g s", rate,
                    rate, options.max_step);
     refuse_filling(model, options, message);
-    dem_model_destroy(model);
 }

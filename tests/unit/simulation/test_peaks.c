@@ -53,7 +53,7 @@ static fall *make_fall(dem_index every)
     const dem_options options = dem_options_default();
     fall *f = calloc(1, sizeof *f);
     assert_non_null(f);
-    dem_lattice lattice = make_solid(0.04, 0.05, 0.01);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.04, 0.05, 0.01);
     assert_ok(dem_lattice_launch(&lattice, down));
     support_open(&f->run, &lattice, &floor, 1, &options);
     f->witness = (witness){.n_nodes = lattice.n_nodes, .n_springs = lattice.n_springs, .every = every};
@@ -62,7 +62,6 @@ static fall *make_fall(dem_index every)
     const dem_observer own = {.step = watch, .context = &f->witness}, observer = dem_peaks_observer(f->peaks);
     assert_ok(dem_simulation_observe(f->run.simulation, &observer));
     assert_ok(dem_simulation_observe(f->run.simulation, &own));
-    dem_lattice_free(&lattice);
     return f;
 }
 
@@ -127,9 +126,9 @@ TEST(equals_are_ranked_by_number_and_what_was_never_strained_not_at_all)
     static const double x[6] = {0.0, 0.0, 2.0, 0.0, 4.0, 0.0}, mass[3] = {1.0, 1.0, 1.0};
     static const dem_index ends[6] = {1, 2, 0, 1, 0, 2};
     dem_index springs[3] = {-1, -1, -1}, nodes[3];
-    dem_lattice lattice;
-    support_run run;
-    dem_peaks *peaks;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(support_close) support_run run;
+    CLEANUP(free_peaks) dem_peaks *peaks;
     const dem_options options = dem_options_default();
     support_lattice(&lattice, 3, x, mass, 3, ends, 1.0, 10.0, NULL);
     lattice.rest_length[2] = 4.0;
@@ -143,9 +142,6 @@ TEST(equals_are_ranked_by_number_and_what_was_never_strained_not_at_all)
     assert_int_equal(springs[1], 1);
     assert_close(dem_peaks_springs(peaks)[1].strain, 1.0, 0.0);
     assert_int_equal(dem_peaks_most_stressed_nodes(peaks, 3, nodes), 0); /* no triangles */
-    dem_peaks_destroy(peaks);
-    support_close(&run);
-    dem_lattice_free(&lattice);
 }
 
 TEST(impossible_arguments_are_refused)

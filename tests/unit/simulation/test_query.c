@@ -34,13 +34,12 @@ TEST(a_state_is_written_as_far_as_the_callers_struct_goes)
     assert_ok(dem_simulation_advance(simulation, 0.1));
     assert_ok(dem_simulation_state(simulation, &now));
     for (size_t size = 2 * sizeof(double); size < sizeof now; size += sizeof(double)) {
-        dem_state *shorter = malloc(size);
+        CLEANUP(free_memory) dem_state *shorter = malloc(size);
         assert_non_null(shorter);
         memcpy(shorter, &size, sizeof size);
         assert_ok(dem_simulation_state(simulation, shorter));
         assert_memory_equal(shorter, &size, sizeof size);
         assert_memory_equal((char *)shorter + sizeof size, (char *)&now + sizeof size, size - sizeof size);
-        free(shorter);
     }
     end_run(simulation, model);
 }

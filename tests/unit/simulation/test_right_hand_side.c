@@ -150,7 +150,7 @@ TEST(a_closed_contact_or_damping_allows_no_fused_step)
 TEST(steps_in_one_pass_are_those_in_parts)
 {
     for (int elastic = 0; elastic < 2; elastic++) { /* without restitution contacts last, and end */
-        dem_model *model = make_falling(0.7 * elastic);
+        CLEANUP(free_model) dem_model *model = make_falling(0.7 * elastic);
         snapshot run[2];
         dem_obstacle_load load[2];
         dem_index inside = 0;
@@ -161,17 +161,15 @@ TEST(steps_in_one_pass_are_those_in_parts)
             options.method = DEM_METHOD_VERLET;
             options.boundaries = &nothing;
             options.n_boundaries = in_parts;
-            dem_simulation *simulation = simulate(model, &options);
+            CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
             assert_ok(dem_simulation_advance(simulation, t_whole));
             run[in_parts] = snap(simulation);
             load[in_parts] = dem_simulation_obstacle(simulation, 0);
-            dem_simulation_destroy(simulation);
         }
         assert_true(run[0].counts.impacts > 3);
         if (!elastic) assert_true(run[0].counts.releases > 0);
         assert_same(&run[0], &run[1]);
         assert_memory_equal(&load[0], &load[1], sizeof load[0]);
-        dem_model_destroy(model);
     }
 }
 
@@ -180,13 +178,12 @@ TEST(nodes_that_coincide_end_the_run_with_the_node_named)
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, start[4] = {0.5, 0.25, 0.5, 0.25}, mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
     const dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     dem_state now = {.struct_size = sizeof now};
     support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 10.0, NULL);
     support_start(&lattice, start, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_lattice_free(&lattice);
     dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(dem_simulation_advance(simulation, 1.0), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "force or velocity of node 0 is not finite at (0.5, 0.25) m, t = 0 s");

@@ -26,7 +26,7 @@ static double ledger(const support_run *run)
 TEST(a_node_goes_on_from_where_it_is_put)
 {
     const double x[2] = {3.0, 0.5}, v[2] = {-1.0, 2.0}, lands = (2.0 + sqrt(4.0 + g)) / g;
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_point(&run, 0.5);
     const double start = ledger(&run);
     const dem_state before = support_at(&run, 0.3);
@@ -45,14 +45,13 @@ TEST(a_node_goes_on_from_where_it_is_put)
     assert_int_equal(run.n_impacts, 1);
     assert_close(run.impacts[0].t, 0.3 + lands, 1e-10);
     assert_close(ledger(&run), start, 1e-11);
-    support_close(&run);
 }
 
 /* Before the first advance as well. */
 TEST(the_start_may_be_another)
 {
     const double v[2] = {1.5, 0.0};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_point(&run, 0.5);
     const double start = ledger(&run);
     assert_ok(dem_simulation_set_motion(run.simulation, NULL, v));
@@ -60,14 +59,13 @@ TEST(the_start_may_be_another)
     assert_close(s.x[0], 0.3, 1e-13);
     assert_close(s.x[1], 1.0 - 0.5 * g * 0.04, 1e-12);
     assert_close(ledger(&run), start, 1e-12);
-    support_close(&run);
 }
 
 /* What lies on the floor is lifted, hangs in the air, is put back, and rests there again. */
 TEST(contacts_are_found_anew)
 {
     const double up[2] = {0.0, 0.5}, down[2] = {1.0, 0.0}, still[2] = {0.0, 0.0};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_point(&run, 0.0);
     dem_state s = support_at(&run, 1.0);
     assert_int_equal(s.n_contacts, 1);
@@ -82,7 +80,6 @@ TEST(contacts_are_found_anew)
     assert_close(s.contacts[0].force, mass * g, 1e-12);
     s = support_at(&run, 2.0);
     assert_close(s.x[1], 0.0, 0.0);
-    support_close(&run);
 }
 
 /* ---- refusals ---- */
@@ -110,19 +107,18 @@ static void open_row(support_run *run)
     const dem_boundary drive = {.components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = driven, .value = {0.1, 0.0}};
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .restitution = 0.5};
     dem_options options = support_options();
-    dem_lattice row;
+    CLEANUP(dem_lattice_free) dem_lattice row;
     support_lattice(&row, 3, x, masses, 2, ends, 0.5, 50.0, fixed);
     row.flags[1] = 0;
     options.gravity[1] = 0.0;
     options.n_boundaries = 1;
     options.boundaries = &drive;
     support_open(run, &row, &ground, 1, &options);
-    dem_lattice_free(&row);
 }
 
 TEST(what_cannot_be_is_refused_and_changes_nothing)
 {
-    support_run run, untouched;
+    CLEANUP(support_close) support_run run, untouched;
     open_row(&run);
     open_row(&untouched);
     const dem_observer observer = {.step = set_from_within, .context = &run.simulation};
@@ -162,8 +158,6 @@ TEST(what_cannot_be_is_refused_and_changes_nothing)
     memcpy(x, a.x, sizeof x);
     x[3] = 1.25; /* not prescribed */
     assert_ok(dem_simulation_set_motion(run.simulation, x, a.v));
-    support_close(&run);
-    support_close(&untouched);
 }
 
 /* ---- checkpoints ---- */
@@ -195,9 +189,9 @@ TEST(a_record_is_of_one_motion)
     const double lift[2] = {0.0, 0.027};
     const char *path = scratch_file("a.checkpoint");
     dem_options options = support_options();
-    dem_lattice block;
-    dem_checkpoint *before, *after;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(free_checkpoint) dem_checkpoint *before, *after;
+    CLEANUP(support_close) support_run run;
     dem_state s = {.struct_size = sizeof s};
     (void)scratch_file("a.checkpoint.prev");
     support_block(&block);
@@ -211,7 +205,7 @@ TEST(a_record_is_of_one_motion)
     assert_ok(dem_checkpoint_write(dem_simulation_checkpoint(run.simulation), path));
     assert_ok(dem_checkpoint_read(&before, path));
     dem_simulation_state(run.simulation, &s);
-    double *v = malloc(2 * (size_t)block.n_nodes * sizeof *v);
+    CLEANUP(free_memory) double *v = malloc(2 * (size_t)block.n_nodes * sizeof *v);
     assert_non_null(v);
     for (dem_index k = 0; k < 2 * block.n_nodes; k++) v[k] = s.v[k] + (k % 2 == 0 ? 0.5 : 0.3);
     assert_ok(dem_simulation_set_motion(run.simulation, NULL, v));
@@ -230,19 +224,14 @@ TEST(a_record_is_of_one_motion)
     dem_simulation_destroy(old);
     dem_simulation_destroy(again);
     dem_simulation_destroy(on);
-    dem_checkpoint_destroy(before);
-    dem_checkpoint_destroy(after);
-    free(v);
-    dem_lattice_free(&block);
-    support_close(&run);
 }
 
 /* The state of one simulation put into another, at another time: they go the same way, to the tolerance. */
 TEST(a_state_is_taken_over)
 {
     dem_options options = support_options();
-    dem_lattice block;
-    support_run from, to;
+    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(support_close) support_run from, to;
     support_block(&block);
     options.gravity[1] = 0.0;
     options.rtol = 1e-9;
@@ -259,9 +248,6 @@ TEST(a_state_is_taken_over)
         assert_close(b.v[k], a.v[k], 1e-5);
     }
     assert_close(ledger(&to), start, 1e-7 * dem_energy_motion(a.energy));
-    support_close(&from);
-    support_close(&to);
-    dem_lattice_free(&block);
 }
 
 TEST_GROUP(scratch_make, scratch_remove);

@@ -12,7 +12,7 @@ static void refuse(const dem_model *model, const dem_options *options, const cha
 
 TEST(options_that_cannot_be_leave_no_simulation)
 {
-    dem_model *model = make_point(NULL, 0.5);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
     dem_options options = point_options();
     options.rtol = 0.2;
     refuse(model, &options, "rtol must be in [1e-13, 0.1], got 0.2");
@@ -22,7 +22,6 @@ TEST(options_that_cannot_be_leave_no_simulation)
     options = point_options();
     options.kernel = (dem_kernel)99;
     refuse(model, &options, "unknown kernel 99");
-    dem_model_destroy(model);
 }
 
 TEST(null_arguments_are_named)
@@ -53,18 +52,16 @@ TEST(a_start_deeper_than_the_penetration_tolerance_is_refused)
     const dem_obstacle obstacle = {.n_points = 2, .points = floor_points, .restitution = 0.5};
     const dem_options options = point_options();
     dem_simulation *simulation = NULL;
-    dem_lattice lattice;
-    dem_model *model;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(free_model) dem_model *model;
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_model_create(&model, &lattice, &obstacle, 1));
-    dem_lattice_free(&lattice);
     dem_options with_scale = options;
     with_scale.v_scale = 1.0;
     assert_int_equal(dem_simulation_create(&simulation, model, &with_scale), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "node 0 at (0.25, -0.125) m starts 0.125 m inside obstacle 0, deeper "
                                               "than the penetration tolerance of 1e-06 m");
     assert_null(simulation);
-    dem_model_destroy(model);
 }
 
 TEST(the_options_in_force_have_no_defaults_left)
@@ -85,19 +82,17 @@ TEST(methods_without_error_estimate_take_steps_of_one_length)
 {
     static const dem_method methods[2] = {DEM_METHOD_RK4, DEM_METHOD_KNOTHWOLKE3};
     dem_options options = dem_options_default();
-    dem_model *model = make_falling(0.0);
+    CLEANUP(free_model) dem_model *model = make_falling(0.0);
     for (int k = 0; k < 2; k++) {
         dem_method_traits traits;
         options.method = methods[k];
         assert_ok(dem_method_describe(&traits, options.method));
-        dem_simulation *simulation = simulate(model, &options);
+        CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
         const double step = dem_simulation_options(simulation).fixed_step;
         assert_ok(dem_simulation_advance(simulation, 20.5 * step));
         assert_int_equal(dem_simulation_counts(simulation).steps, 21);
         assert_int_equal(dem_simulation_counts(simulation).evaluations, 21 * traits.evaluations + 1);
-        dem_simulation_destroy(simulation);
     }
-    dem_model_destroy(model);
 }
 
 TEST(two_simulations_of_a_model_do_not_disturb_each_other)

@@ -27,7 +27,7 @@ TEST(a_run_cut_anywhere_is_the_whole_run_bit_for_bit)
 
 TEST(kernels_and_threads_leave_no_trace_in_the_run)
 {
-    dem_model *model = make_falling(0.7);
+    CLEANUP(free_model) dem_model *model = make_falling(0.7);
     for (int verlet = 0; verlet < 2; verlet++) {
         dem_options options = dem_options_default();
         if (verlet) options.method = DEM_METHOD_VERLET;
@@ -37,15 +37,13 @@ TEST(kernels_and_threads_leave_no_trace_in_the_run)
                 options.kernel = kind;
                 options.threads = threads;
                 if (dem_kernel_check(kind) != DEM_OK) continue;
-                dem_simulation *simulation = simulate(model, &options);
+                CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
                 assert_true(kind == DEM_KERNEL_AUTO || dem_simulation_options(simulation).kernel == kind);
                 assert_ok(dem_simulation_advance(simulation, t_whole));
                 const snapshot other = snap(simulation);
                 assert_same(&other, &usual);
-                dem_simulation_destroy(simulation);
             }
     }
-    dem_model_destroy(model);
 }
 
 /* What the run starts with is there at its end: at rtol 1e-6 to the 2e-3 that issue 2 allows. */
@@ -295,7 +293,7 @@ TEST(a_body_without_forces_drifts_in_a_straight_line)
 {
     const double v[2] = {3.0, -2.0};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     dem_state now = {.struct_size = sizeof now};
     options.gravity[1] = 0.0;
@@ -314,7 +312,6 @@ TEST(a_body_without_forces_drifts_in_a_straight_line)
     assert_close(body.velocity[1], -2.0, 1e-13);
     assert_close(dem_simulation_strain(simulation).max, 0.0, 1e-10);
     end_run(simulation, model);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_single_node_without_forces_drifts_exactly)
@@ -338,7 +335,7 @@ TEST(fixed_nodes_do_not_move)
 {
     const double down[2] = {0.0, -3.0};
     const dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     dem_state now = {.struct_size = sizeof now};
     dem_index n_fixed = 0, n_moved = 0;
@@ -364,7 +361,6 @@ TEST(fixed_nodes_do_not_move)
     assert_int_equal(n_fixed, 4);
     assert_true(n_moved > 10);
     end_run(simulation, model);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- failures ---- */
@@ -423,7 +419,7 @@ TEST(a_contact_event_after_which_the_motion_overflows_ends_the_run)
     const dem_index ends[2] = {0, 1};
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .restitution = 1.0};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     dem_state now = {.struct_size = sizeof now};
     options.gravity[1] = 0.0;
@@ -431,7 +427,6 @@ TEST(a_contact_event_after_which_the_motion_overflows_ends_the_run)
     support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 1e100, NULL);
     support_start(&lattice, NULL, v);
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
-    dem_lattice_free(&lattice);
     dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(dem_simulation_advance(simulation, 3.0), DEM_ERROR_INTEGRATOR);
     assert_non_null(strstr(dem_status_message(), "the motion near node 0 after a contact event at t = 1.0"));
@@ -448,13 +443,12 @@ static void stop_at_impact(double clearance)
     const double level[4] = {-1.0, 0.0, 1.0, 0.0}, down[2] = {0.5, -4.0};
     const dem_obstacle ground = {.n_points = 2, .points = level, .restitution = 0.5};
     const dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
     diary d;
     make_rectangle(&lattice, clearance);
     assert_ok(dem_lattice_launch(&lattice, down));
     assert_ok(dem_model_create(&model, &lattice, &ground, 1));
-    dem_lattice_free(&lattice);
     dem_simulation *simulation = observed(model, &options, &d, 0.0);
     d.stop_at_impact = 2;
     assert_int_equal(dem_simulation_advance(simulation, t_whole), DEM_STOPPED);

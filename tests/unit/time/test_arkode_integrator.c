@@ -120,7 +120,7 @@ static double error_of_fixed_steps(dem_method method, int n, int evaluations)
 {
     world w = {.fails_after = 1e9};
     dense_output p = {0};
-    integrator i = make(&w, swing, method, 1.0, 6.0 / n, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, swing, method, 1.0, 6.0 / n, at_rest);
     for (int k = 0; k < n; k++) {
         bool rooted;
         assert_ok(integrator_step(&i, &p, &rooted));
@@ -131,7 +131,6 @@ static double error_of_fixed_steps(dem_method method, int n, int evaluations)
     assert_int_equal(integrator_counts(&i).steps, n);
     assert_int_equal(integrator_counts(&i).rejected, 0);
     assert_int_equal(integrator_counts(&i).evaluations, n * evaluations + 1);
-    integrator_destroy(&i);
     return error;
 }
 
@@ -162,14 +161,13 @@ TEST(adaptive_steps_keep_the_error_they_are_given)
     for (int k = 0; k < 2; k++) {
         world w = {.fails_after = 1e9};
         dense_output p = {0};
-        integrator i = make(&w, swing, DEM_METHOD_DOPRI45, errors[k], 0.0, at_rest);
+        CLEANUP(integrator_destroy) integrator i = make(&w, swing, DEM_METHOD_DOPRI45, errors[k], 0.0, at_rest);
         while (p.t1 < 6.0) {
             bool rooted;
             assert_ok(integrator_step(&i, &p, &rooted));
             assert_true(p.t1 - p.t0 <= 0.1 * (1.0 + 1e-15));
         }
         assert_true(error_against_exact(p.y1, p.t1) < 200.0 * errors[k]);
-        integrator_destroy(&i);
     }
 }
 
@@ -185,14 +183,13 @@ static int steps_with_errors(double position, double velocity)
                                  .velocity_error = velocity,
                                  .max_step = 0.1};
     dense_output p = {0};
-    integrator i;
+    CLEANUP(integrator_destroy) integrator i;
     int n = 0;
     assert_ok(integrator_create(&i, &problem, 0.0, at_rest));
     for (; p.t1 < 6.0; n++) {
         bool rooted;
         assert_ok(integrator_step(&i, &p, &rooted));
     }
-    integrator_destroy(&i);
     return n;
 }
 
@@ -230,7 +227,7 @@ TEST(a_step_starts_where_the_last_one_ended_and_holds_the_derivatives)
     dense_output p;
     double t = 0.0, y[4], f[4];
     memcpy(y, at_rest, sizeof y);
-    integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
     for (int k = 0; k < 30; k++) {
         bool rooted;
         assert_ok(integrator_step(&i, &p, &rooted));
@@ -245,7 +242,6 @@ TEST(a_step_starts_where_the_last_one_ended_and_holds_the_derivatives)
         t = p.t1;
         memcpy(y, p.y1, sizeof y);
     }
-    integrator_destroy(&i);
 }
 
 TEST(after_a_restart_the_dense_output_has_the_derivatives_of_the_new_state)
@@ -255,20 +251,19 @@ TEST(after_a_restart_the_dense_output_has_the_derivatives_of_the_new_state)
     dense_output p;
     double f[4];
     bool rooted;
-    integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
     for (int k = 0; k < 3; k++) assert_ok(integrator_step(&i, &p, &rooted));
     assert_ok(integrator_restart(&i, p.t1, elsewhere));
     assert_ok(integrator_step(&i, &p, &rooted));
     (void)swing(p.t0, elsewhere, f, f + 2, &w);
     assert_memory_equal(p.y0, elsewhere, sizeof elsewhere);
     for (int q = 0; q < 4; q++) assert_close(p.f0[q], f[q], 1e-13);
-    integrator_destroy(&i);
 }
 
 TEST(evaluations_are_counted)
 {
     world w = {.fails_after = 1e9};
-    integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
     for (int k = 0; k < 10; k++) {
         dense_output p;
         bool rooted;
@@ -278,7 +273,6 @@ TEST(evaluations_are_counted)
     assert_int_equal(integrator_counts(&i).evaluations, w.calls);
     assert_int_equal(integrator_counts(&i).steps, 10);
     assert_int_equal(integrator_counts(&i).retries, 0);
-    integrator_destroy(&i);
 }
 
 /* ---- roots ---- */
@@ -320,13 +314,12 @@ TEST(the_floor_is_hit_at_the_time_of_free_fall)
     world w = {.fails_after = 1e9, .walls.floor = 0.2};
     dense_output p;
     double end[4];
-    integrator i = make_fall(&w, y);
+    CLEANUP(integrator_destroy) integrator i = make_fall(&w, y);
     step_to_root(&i, &p);
     assert_close(p.end, t, 1e-12);
     dense_output_state(&p, p.end, end);
     assert_close(end[1], 0.2, 1e-12);
     assert_close(end[3], -g * t, 1e-12);
-    integrator_destroy(&i);
 }
 
 /* Starts below the floor and rises through it, which is no root; then the ceiling is one, from below, where its
@@ -336,10 +329,9 @@ TEST(a_root_is_looked_for_only_as_the_function_falls)
     const double y[4] = {0.0, -0.5, 0.0, 10.0};
     world w = {.fails_after = 1e9, .walls.floor = 0.0};
     dense_output p;
-    integrator i = make_fall(&w, y);
+    CLEANUP(integrator_destroy) integrator i = make_fall(&w, y);
     step_to_root(&i, &p);
     assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-12);
-    integrator_destroy(&i);
 }
 
 /* Reflected at the floor it comes down again after 2 v/g; the penetration tolerance of 1e-9 m below the restart makes
@@ -351,7 +343,7 @@ TEST(a_restart_goes_on_from_the_new_state_with_the_step_kept)
     double reflected[4];
     dense_output p;
     bool rooted;
-    integrator i = make_fall(&w, y);
+    CLEANUP(integrator_destroy) integrator i = make_fall(&w, y);
     step_to_root(&i, &p);
     const double first = p.end;
     dense_output_state(&p, p.end, reflected);
@@ -366,7 +358,6 @@ TEST(a_restart_goes_on_from_the_new_state_with_the_step_kept)
     assert_close(p.end, first + (u + sqrt(u * u + 2.0 * g * penetration_tolerance)) / g, 1e-12);
     dense_output_state(&p, p.end, reflected);
     assert_close(reflected[0], p.end, 1e-12);
-    integrator_destroy(&i);
 }
 
 /* Without a restart a step that was cut short at a root goes on to its end. */
@@ -376,13 +367,12 @@ TEST(without_a_restart_it_goes_on_through_a_root)
     world w = {.fails_after = 1e9, .walls.floor = 0.0};
     dense_output p;
     bool rooted;
-    integrator i = make_fall(&w, y);
+    CLEANUP(integrator_destroy) integrator i = make_fall(&w, y);
     step_to_root(&i, &p);
     const double t1 = p.t1;
     assert_ok(integrator_step(&i, &p, &rooted));
     assert_close(p.t0, t1, 0.0);
     assert_close(p.y1[1], 0.5 - 0.5 * g * p.t1 * p.t1, 1e-12);
-    integrator_destroy(&i);
 }
 
 /* ---- failures ---- */
@@ -394,7 +384,7 @@ TEST(a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_state)
     bool rooted;
     dem_status status = DEM_OK;
     double last = 0.0;
-    integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-6, 0.0, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-6, 0.0, at_rest);
     for (int k = 0; k < 1000 && status == DEM_OK; k++) {
         last = p.t1;
         status = integrator_step(&i, &p, &rooted);
@@ -407,14 +397,13 @@ TEST(a_derivative_that_fails_for_good_ends_in_an_error_at_the_last_good_state)
     assert_ok(integrator_step(&i, &p, &rooted));
     assert_close(p.t0, last, 0.0);
     assert_true(error_against_exact(p.y1, p.t1) < 1e-5);
-    integrator_destroy(&i);
 }
 
 TEST(a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_steps)
 {
     world w = {.fails_after = 0.25, .failures_left = 3};
     dense_output p = {0};
-    integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-8, 0.0, at_rest);
     while (p.t1 < 1.0) {
         bool rooted;
         assert_ok(integrator_step(&i, &p, &rooted));
@@ -422,7 +411,6 @@ TEST(a_derivative_that_fails_for_a_while_is_tried_again_with_smaller_steps)
     assert_int_equal(w.failures_left, 0);
     assert_int_equal(integrator_counts(&i).retries, 3);
     assert_true(error_against_exact(p.y1, p.t1) < 1e-6);
-    integrator_destroy(&i);
 }
 
 TEST(fixed_steps_are_not_tried_again)
@@ -430,13 +418,12 @@ TEST(fixed_steps_are_not_tried_again)
     world w = {.fails_after = 0.25, .failures_left = 1};
     dense_output p = {0};
     bool rooted;
-    integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-6, 0.1, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-6, 0.1, at_rest);
     assert_ok(integrator_step(&i, &p, &rooted));
     assert_ok(integrator_step(&i, &p, &rooted));
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the test's force fails");
     assert_int_equal(integrator_counts(&i).retries, 0);
-    integrator_destroy(&i);
 }
 
 TEST(a_tolerance_out_of_reach_is_reported)
@@ -444,11 +431,10 @@ TEST(a_tolerance_out_of_reach_is_reported)
     world w = {.fails_after = 1e9};
     dense_output p;
     bool rooted;
-    integrator i = make(&w, rattle, DEM_METHOD_FEHLBERG45, 1e-12, 0.0, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, rattle, DEM_METHOD_FEHLBERG45, 1e-12, 0.0, at_rest);
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the step from t = 0 s fails: no step is short enough for rtol");
     assert_true(integrator_counts(&i).rejected > 0);
-    integrator_destroy(&i);
 }
 
 TEST(a_tolerance_below_rounding_is_reported)
@@ -456,10 +442,9 @@ TEST(a_tolerance_below_rounding_is_reported)
     world w = {.fails_after = 1e9};
     dense_output p;
     bool rooted;
-    integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-17, 0.0, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make(&w, swing, DEM_METHOD_FEHLBERG45, 1e-17, 0.0, at_rest);
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the step from t = 0 s fails: rounding alone is more than rtol allows");
-    integrator_destroy(&i);
 }
 
 TEST(a_root_function_that_is_no_number_is_an_error)
@@ -467,10 +452,9 @@ TEST(a_root_function_that_is_no_number_is_an_error)
     world w = {.fails_after = 1e9, .walls.broken = true};
     dense_output p;
     bool rooted;
-    integrator i = make_fall(&w, at_rest);
+    CLEANUP(integrator_destroy) integrator i = make_fall(&w, at_rest);
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the step from t = 0 s fails: the root function is not finite");
-    integrator_destroy(&i);
 }
 
 TEST(the_version_of_sundials_has_three_numbers)

@@ -166,14 +166,13 @@ static void swing(dem_method method, state_layout l, double y[most_numbers])
                                  .velocity_error = 1.0,
                                  .max_step = 0.05,
                                  .fixed_step = 0.05};
-    integrator e;
+    CLEANUP(integrator_destroy) integrator e;
     dense_output p = {0};
     bool rooted;
     for (dem_index k = 0; k < state_size(&l); k++) y[k] = 1.0 / (double)(1 + k / l.dim + k % l.dim % 2);
     assert_ok(integrator_create(&e, &problem, 0.0, y));
     for (int step = 0; step < 20; step++) assert_ok(integrator_step(&e, &p, &rooted));
     dense_output_state(&p, 0.5 * (p.t0 + p.t1), y);
-    integrator_destroy(&e);
 }
 
 TEST(a_third_component_goes_as_the_others_do_to_the_bit)
@@ -203,7 +202,6 @@ TEST(what_cannot_be_made_is_reported)
                                  .max_step = 1.0,
                                  .method = (dem_method)99};
     const double y0[4] = {0.0};
-    integrator e;
+    CLEANUP(integrator_destroy) integrator e;
     assert_int_equal(integrator_create(&e, &problem, 0.0, y0), DEM_ERROR_ARGUMENT);
-    integrator_destroy(&e);
 }

@@ -53,7 +53,7 @@ static void assert_is(N_Vector v, int which)
 
 TEST(a_copy_shares_numbers_until_one_is_given_others)
 {
-    bench b = make_bench(1);
+    CLEANUP(free_bench) bench b = make_bench(1);
     N_VScale(1.0, b.v[0], b.v[1]);
     nvector_share(b.v[0], b.v[2]);
     assert_ptr_equal(nvector_values(b.v[0]), nvector_values(b.v[1]));
@@ -70,13 +70,12 @@ TEST(a_copy_shares_numbers_until_one_is_given_others)
     assert_is(b.v[2], 0);
     N_VConst(0.25, b.v[2]);
     assert_close(nvector_values(b.v[2])[0], 0.25, 0.0);
-    free_bench(&b);
 }
 
 /* Every vector shared and parted again, many times: no buffer is lost, none has two owners. */
 TEST(buffers_go_round)
 {
-    bench b = make_bench(1);
+    CLEANUP(free_bench) bench b = make_bench(1);
     for (int round = 0; round < 1000; round++) {
         const int from = (7 * round) % n_vectors, to = (3 * round + round / n_vectors) % n_vectors;
         nvector_share(b.v[from], b.v[to]);
@@ -85,13 +84,12 @@ TEST(buffers_go_round)
         for (int p = 0; p < n_vectors; p++)
             if (p != (to + 1) % n_vectors) assert_ptr_not_equal(nvector_values(b.v[p]), fresh);
     }
-    free_bench(&b);
 }
 
 TEST(combinations_leave_out_zeros_and_may_go_where_an_operand_is)
 {
     for (int n_threads = 1; n_threads <= 3; n_threads++) {
-        bench b = make_bench(n_threads);
+        CLEANUP(free_bench) bench b = make_bench(n_threads);
         double c[4] = {2.0, 0.0, -3.0, 1.0};
         N_Vector x[4] = {b.v[0], b.v[1], b.v[2], b.v[3]};
         nvector_fresh(b.v[1])[5] = (double)NAN; /* of no weight */
@@ -107,7 +105,6 @@ TEST(combinations_leave_out_zeros_and_may_go_where_an_operand_is)
         x[1] = b.v[2];
         assert_int_equal(N_VLinearCombination(4, c, x, b.v[4]), 0);
         assert_ptr_equal(nvector_values(b.v[2]), nvector_values(b.v[4]));
-        free_bench(&b);
     }
 }
 
@@ -120,7 +117,7 @@ TEST(norms_of_all_sizes_are_right)
         for (int peak = 0; peak < 2; peak++) {
             double first = 0.0;
             for (int n_threads = 1; n_threads <= 3; n_threads++) {
-                bench b = make_bench(n_threads);
+                CLEANUP(free_bench) bench b = make_bench(n_threads);
                 double *x = nvector_fresh(b.v[0]), sum = 0.0, largest = 0.0;
                 for (dem_index k = 0; k < n; k++) x[k] *= size;
                 if (peak) x[501] = 1e7 * size;
@@ -133,27 +130,25 @@ TEST(norms_of_all_sizes_are_right)
                 assert_close(norm, expected, (size < 1e-3 ? 1e-6 : 1e-9) * expected);
                 if (n_threads == 1) first = norm;
                 assert_close(norm, first, 0.0);
-                free_bench(&b);
             }
         }
 }
 
 TEST(the_norm_of_what_is_no_number_is_infinite)
 {
-    bench b = make_bench(2);
+    CLEANUP(free_bench) bench b = make_bench(2);
     nvector_fresh(b.v[0])[700] = (double)NAN;
     assert_true(N_VWrmsNorm(b.v[0], b.v[1]) > 1e300);
     nvector_fresh(b.v[0])[700] = -(double)INFINITY;
     assert_true(N_VWrmsNorm(b.v[0], b.v[1]) > 1e300);
     N_VConst(0.0, b.v[0]);
     assert_close(N_VWrmsNorm(b.v[0], b.v[1]), 0.0, 0.0);
-    free_bench(&b);
 }
 
 /* What ARKODE asks a vector to have. */
 TEST(the_rest_goes_number_by_number)
 {
-    bench b = make_bench(1);
+    CLEANUP(free_bench) bench b = make_bench(1);
     N_VDiv(b.v[0], b.v[1], b.v[2]);
     assert_close(nvector_values(b.v[2])[3], number(0, 3) / number(1, 3), 0.0);
     N_VAbs(b.v[0], b.v[2]);
@@ -165,5 +160,4 @@ TEST(the_rest_goes_number_by_number)
     nvector_fresh(b.v[3])[99] = -7.0;
     assert_close(N_VMaxNorm(b.v[3]), 7.0, 0.0);
     assert_int_equal(N_VGetVectorID(b.v[0]), SUNDIALS_NVEC_CUSTOM);
-    free_bench(&b);
 }

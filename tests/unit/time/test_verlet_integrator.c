@@ -91,14 +91,13 @@ static dense_output take(integrator *V, int n)
 /* State after n steps of h. */
 static void run(world w, double h, int n, const double *y0, double *y)
 {
-    integrator V = make(&w, h, false, y0);
+    CLEANUP(integrator_destroy) integrator V = make(&w, h, false, y0);
     const dense_output p = take(&V, n);
     memcpy(y, p.y1, 4 * sizeof *y);
     assert_int_equal(w.calls, n + 1);
     assert_int_equal(w.walls.asked, 0);
     assert_int_equal(integrator_counts(&V).evaluations, n + 1);
     assert_int_equal(integrator_counts(&V).steps, n);
-    integrator_destroy(&V);
 }
 
 /* ---- the step ---- */
@@ -236,7 +235,7 @@ TEST(stiffening_halves_the_step)
     dense_output p = {0};
     w.stiff_below = 0.5;
     w.omega = 3.0;
-    integrator V = make(&w, 0.1, false, y0);
+    CLEANUP(integrator_destroy) integrator V = make(&w, 0.1, false, y0);
     int n_short = 0, n_long = 0;
     for (int k = 0; k < 100; k++) {
         bool rooted;
@@ -245,7 +244,6 @@ TEST(stiffening_halves_the_step)
         *(p.y0[0] < 0.5 ? &n_short : &n_long) += 1;
     }
     assert_true(n_short > 10 && n_long > 10);
-    integrator_destroy(&V);
 }
 
 static double endless(const double *y, void *context)
@@ -281,7 +279,7 @@ TEST(the_dense_output_of_a_step_is_that_of_shorter_steps)
 {
     const double y0[4] = {1.0, 2.0, 0.5, 3.0}, h = 0.1;
     world w = plain;
-    integrator V = make(&w, h, false, y0);
+    CLEANUP(integrator_destroy) integrator V = make(&w, h, false, y0);
     const dense_output p = take(&V, 1);
     for (int k = 0; k <= 10; k++) {
         double y[4], inside[4];
@@ -289,7 +287,6 @@ TEST(the_dense_output_of_a_step_is_that_of_shorter_steps)
         dense_output_state(&p, h * k / 10.0, inside);
         for (int c = 0; c < 4; c++) assert_close(inside[c], y[c], c == 2 ? 0.1 * h * h * h : 1e-15);
     }
-    integrator_destroy(&V);
 }
 
 TEST(a_step_starts_where_the_last_one_ended)
@@ -298,7 +295,7 @@ TEST(a_step_starts_where_the_last_one_ended)
     world w = plain;
     double t = 0.0, y[4], a[2];
     memcpy(y, y0, sizeof y);
-    integrator V = make(&w, 0.1, true, y0);
+    CLEANUP(integrator_destroy) integrator V = make(&w, 0.1, true, y0);
     w.walls.floor = -1e3;
     for (int k = 0; k < 20; k++) {
         dense_output p;
@@ -311,7 +308,6 @@ TEST(a_step_starts_where_the_last_one_ended)
         t = p.t1;
         memcpy(y, p.y1, sizeof y);
     }
-    integrator_destroy(&V);
 }
 
 /* ---- roots ---- */
@@ -335,14 +331,13 @@ TEST(the_floor_is_hit_at_the_time_of_free_fall)
     dense_output p;
     double y[4];
     w.walls.floor = 0.2;
-    integrator V = make(&w, 0.1, true, y0);
+    CLEANUP(integrator_destroy) integrator V = make(&w, 0.1, true, y0);
     step_to_root(&V, &p);
     assert_close(p.end, t, 1e-13);
     dense_output_state(&p, p.end, y);
     assert_close(y[1], 0.2, 1e-12);
     assert_close(y[3], -g * t, 1e-12);
     assert_true(w.walls.asked < 30); /* 4 steps; secants do it in a few */
-    integrator_destroy(&V);
 }
 
 /* From below through the floor is none, the ceiling above it is. */
@@ -351,10 +346,9 @@ TEST(a_root_is_looked_for_only_as_the_function_falls)
     const double y0[4] = {0.0, -0.5, 0.0, 10.0};
     world w = plain;
     dense_output p;
-    integrator V = make(&w, 0.04, true, y0);
+    CLEANUP(integrator_destroy) integrator V = make(&w, 0.04, true, y0);
     step_to_root(&V, &p);
     assert_close(p.end, (10.0 - sqrt(100.0 - 2.0 * g * 1.5)) / g, 1e-13);
-    integrator_destroy(&V);
 }
 
 /* Reflected a penetration tolerance above the floor it comes back after the time of the throw. Without a restart it
@@ -368,7 +362,7 @@ TEST(it_goes_on_from_a_new_state_or_through_the_root)
         dense_output p;
         bool rooted;
         w.walls.floor = -penetration_tolerance;
-        integrator V = make(&w, 0.07, true, y0);
+        CLEANUP(integrator_destroy) integrator V = make(&w, 0.07, true, y0);
         step_to_root(&V, &p);
         const double first = p.end, t1 = p.t1;
         dense_output_state(&p, p.end, reflected);
@@ -384,7 +378,6 @@ TEST(it_goes_on_from_a_new_state_or_through_the_root)
             assert_close(p.t0, t1, 0.0);
             assert_close(p.y1[1], 0.5 - 0.5 * g * p.t1 * p.t1, 1e-13);
         }
-        integrator_destroy(&V);
     }
 }
 
@@ -416,12 +409,11 @@ TEST(a_root_function_that_is_no_number_is_an_error)
     world w = plain;
     dense_output p;
     bool rooted;
-    integrator V = make(&w, 0.1, true, y0);
+    CLEANUP(integrator_destroy) integrator V = make(&w, 0.1, true, y0);
     assert_ok(integrator_step(&V, &p, &rooted));
     w.walls.broken = true;
     assert_int_equal(integrator_step(&V, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "the root function is not finite at t = 0.2 s");
-    integrator_destroy(&V);
 }
 
 TEST(without_a_fixed_step_it_is_refused)

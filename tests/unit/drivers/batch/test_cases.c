@@ -35,12 +35,11 @@ TEST(lists_stand_for_their_decks)
     for (long index = 0; index <= 5; index++) {
         const command c = ask(decks, 3, index);
         outcome o = {0};
-        cases all;
+        CLEANUP(cases_free) cases all;
         assert_true(cases_find(&all, &c, &o));
         assert_int_equal(all.n, index == 0 ? 5 : 1);
         for (size_t k = 0; k < all.n; k++)
             assert_string_equal(all.paths[k], expected[index == 0 ? (long)k : index - 1]);
-        cases_free(&all);
     }
 }
 

@@ -29,13 +29,12 @@ static const deck mine = {.course = course, .t_end = 2.0};
 
 static void leave(const char *text, const char *lineage, double t)
 {
-    dem_checkpoint *checkpoint;
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
     assert_ok(dem_checkpoint_create(&checkpoint));
     assert_ok(dem_checkpoint_put(checkpoint, "driver.course", text, strlen(text) + 1));
     assert_ok(dem_checkpoint_put(checkpoint, "driver.lineage", lineage, strlen(lineage) + 1));
     assert_ok(dem_checkpoint_put(checkpoint, "driver.time", &t, sizeof t));
     assert_ok(dem_checkpoint_write(checkpoint, path));
-    dem_checkpoint_destroy(checkpoint);
 }
 
 static const char *versions(void)
@@ -47,11 +46,10 @@ static const char *versions(void)
 
 static void expect(checkpoint_state expected, bool anyway, const char *why)
 {
-    checkpoint_source source;
+    CLEANUP(checkpoint_file_source_free) checkpoint_source source;
     char reason[OUTPUT_REASON] = "";
     assert_int_equal(checkpoint_file_find(&source, output, &mine, anyway, reason), expected);
     if (strstr(reason, why) == NULL) fail_msg("'%s' is not in '%s'", why, reason);
-    checkpoint_file_source_free(&source);
 }
 
 TEST_WITH(none_is_found_where_there_is_none, NULL, scratch_sweep)
@@ -88,7 +86,7 @@ TEST_WITH(the_first_difference_is_named, NULL, scratch_sweep)
 
 TEST_WITH(another_version_is_refused_unless_it_will_do, NULL, scratch_sweep)
 {
-    checkpoint_source source;
+    CLEANUP(checkpoint_file_source_free) checkpoint_source source;
     char reason[OUTPUT_REASON], lineage[512];
     leave(course, "dem 0.0.1\ndem 0.0.2", 1.0);
     expect(CHECKPOINT_OTHER, false, "it is of 'dem 0.0.2', this is 'dem ");
@@ -96,20 +94,18 @@ TEST_WITH(another_version_is_refused_unless_it_will_do, NULL, scratch_sweep)
     (void)snprintf(lineage, sizeof lineage, "dem 0.0.1\ndem 0.0.2\n%s", versions());
     assert_string_equal(source.lineage, lineage);
     leave(course, source.lineage, 1.0);
-    checkpoint_file_source_free(&source);
     expect(CHECKPOINT_FOUND, false, "");
 }
 
 TEST_WITH(a_damaged_one_gives_way_to_the_one_before, NULL, scratch_sweep)
 {
-    checkpoint_source source;
+    CLEANUP(checkpoint_file_source_free) checkpoint_source source;
     char reason[OUTPUT_REASON];
     leave(course, versions(), 1.0);
     leave(course, versions(), 1.5);
     assert_int_equal(truncate(path, 100), 0);
     assert_int_equal(checkpoint_file_find(&source, output, &mine, false, reason), CHECKPOINT_FOUND);
     assert_close(source.t, 1.0, 0.0);
-    checkpoint_file_source_free(&source);
     assert_int_equal(access(before, F_OK), 0);
     assert_int_equal(rename(damaged, path), 0); /* where a new one cannot push it in the place of the one before */
     assert_int_equal(truncate(before, 100), 0);

@@ -8,7 +8,7 @@ TEST(words_come_in_any_order)
 {
     char *words[] = {"dem_batch", "b.nml",   "--set", "run.t_end=1", "--check", "--outdir",    "f",
                      "@list",     "--index", "3",     "--set",       "a(2).b=", "--overwrite", NULL};
-    command c;
+    CLEANUP(command_free) command c;
     assert_int_equal(command_parse(&c, 13, words), EXIT_DONE);
     assert_int_equal(c.action, COMMAND_CHECK);
     assert_string_equal(c.outdir, "f");
@@ -20,25 +20,22 @@ TEST(words_come_in_any_order)
     assert_int_equal(c.n_settings, 2);
     assert_string_equal(c.settings[0].text, "run.t_end=1");
     assert_int_equal(c.settings[1].number, 2);
-    command_free(&c);
 }
 
 TEST(without_words_it_runs_here)
 {
     char *words[] = {"dem_batch", "a", NULL};
-    command c;
+    CLEANUP(command_free) command c;
     assert_int_equal(command_parse(&c, 2, words), EXIT_DONE);
     assert_int_equal(c.action, COMMAND_RUN);
     assert_string_equal(c.outdir, ".");
     assert_int_equal(c.index, 0);
     assert_false(c.overwrite);
-    command_free(&c);
 }
 
 TEST(what_is_wrong_is_usage)
 {
     char *words[] = {"dem_batch", "a", "--index", "0", NULL};
-    command c;
+    CLEANUP(command_free) command c;
     assert_int_equal(command_parse(&c, 4, words), EXIT_USAGE);
-    command_free(&c);
 }

@@ -36,7 +36,7 @@ TEST(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up)
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
     for (int k = 0; k < 3; k++) {
         dem_options options = dem_options_default();
-        dem_lattice node;
+        CLEANUP(dem_lattice_free) dem_lattice node;
         logged *l = calloc(1, sizeof *l);
         assert_non_null(l);
         options.spacing = options.v_scale = 1.0;
@@ -47,7 +47,6 @@ TEST(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up)
         options.rest_speed = rest_speed[k];
         support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
         support_open(&l->run, &node, NULL, 0, &options);
-        dem_lattice_free(&node);
         follow(l, false, d.t_end);
         preview_print(l->file, &d, l->run.simulation, NULL);
         read_log(l);
@@ -90,7 +89,7 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
     const double x[2] = {9.0, 9.0}, one = 1.0;
     dem_options options = dem_options_default();
-    dem_lattice lattice, node;
+    CLEANUP(dem_lattice_free) dem_lattice lattice, node;
     logged *l = calloc(1, sizeof *l);
     assert_non_null(l);
     options.v_scale = 1.0;
@@ -99,8 +98,6 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
     support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_lattice_append(&lattice, &node));
     support_open(&l->run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
-    dem_lattice_free(&node);
     follow(l, false, d.t_end);
     preview_print(l->file, &d, l->run.simulation, NULL);
     read_log(l);
@@ -125,14 +122,13 @@ TEST(the_preview_tells_the_constants_of_a_slice)
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = &body, .n_bodies = 1};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     logged *l = calloc(1, sizeof *l);
     assert_non_null(l);
     options.v_scale = 1.0;
     assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
     assert_ok(dem_lattice_assemble(&lattice, &slice));
     support_open(&l->run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
     follow(l, false, d.t_end);
     preview_print(l->file, &d, l->run.simulation, NULL);
     read_log(l);
@@ -256,13 +252,12 @@ TEST(the_preview_tells_the_damping_of_springs)
     const dem_material solid = {
         .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0, .damping_time = 2e-6};
     const dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     logged *l = calloc(1, sizeof *l);
     assert_non_null(l);
     assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, 0.01));
     assert_ok(dem_lattice_assemble(&lattice, &solid));
     support_open(&l->run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
     follow(l, false, 1e-5);
     print_header(l);
     assert_non_null(strstr(l->text, "\ndamping    of springs: 2e-06 s\n"));

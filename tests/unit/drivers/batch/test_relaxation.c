@@ -12,12 +12,11 @@ static const double g = 10.0, sag = 0.1;
 
 static void open_weight(support_run *run, dem_options *options)
 {
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options->gravity[1] = -g;
     options->mass_damping = 20.0;
     support_lattice(&lattice, 2, hanging, masses, 1, ends, 0.5, 100.0, fixed);
     support_open(run, &lattice, NULL, 0, options);
-    dem_lattice_free(&lattice);
 }
 
 /* The residual r is of the spring's force of 20 N, so that the weight is r 20 N/(200 N/m) off at most, and as slow. */
@@ -25,7 +24,7 @@ TEST(a_weight_comes_to_rest_where_it_hangs)
 {
     const double residual = 1e-8;
     dem_options options = dem_options_default();
-    support_run run;
+    CLEANUP(support_close) support_run run;
     dem_state state = {.struct_size = sizeof state};
     open_weight(&run, &options);
     relaxation r = relaxation_start(residual, &options);
@@ -37,13 +36,12 @@ TEST(a_weight_comes_to_rest_where_it_hangs)
     assert_true(r.reached <= residual);
     assert_close(r.t, state.t, 0.0);
     assert_close(state.x[3], -0.5 - sag, 2.0 * residual * sag);
-    support_close(&run);
 }
 
 TEST(what_is_not_at_rest_goes_on)
 {
     dem_options options = dem_options_default();
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_weight(&run, &options);
     relaxation r = relaxation_start(1e-8, &options);
     const dem_observer observer = relaxation_observer(&r);
@@ -51,7 +49,6 @@ TEST(what_is_not_at_rest_goes_on)
     assert_ok(dem_simulation_advance(run.simulation, 0.5));
     assert_false(r.done);
     assert_true(r.reached > 1e-8);
-    support_close(&run);
 }
 
 /* A force that ends its ramp at 10 s: the weight follows it so slowly that it is nearly at rest all the time. */
@@ -61,7 +58,7 @@ TEST(ramps_are_waited_for)
     const dem_boundary pull = {
         .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node, .value = {0.0, -20.0}, .ramp = 10.0};
     dem_options options = dem_options_default();
-    support_run run;
+    CLEANUP(support_close) support_run run;
     dem_state state = {.struct_size = sizeof state};
     options.n_boundaries = 1;
     options.boundaries = &pull;
@@ -74,17 +71,15 @@ TEST(ramps_are_waited_for)
     dem_simulation_state(run.simulation, &state);
     assert_true(state.t >= 10.0 && state.t < 11.0);
     assert_close(state.x[3], -0.5 - 2.0 * sag, 2.0 * 1e-2 * 2.0 * sag);
-    support_close(&run);
 }
 
 /* omega_max is a bound of the pair's sqrt(E/d0 (1/m1 + 1/m2)) or above; the rest is pi c/L, c = omega_max d0/2. */
 TEST(damping_is_critical_for_the_slowest_stretch)
 {
     dem_options options = dem_options_default();
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_weight(&run, &options);
     assert_close(relaxation_damping(run.model), M_PI * 0.5 * dem_model_omega_max(run.model), 1e-12);
-    support_close(&run);
 }
 
 /* Of two springs, one of four times the other's slowness, waves run in the mean at 2/(1 + 4) of the faster one's. */
@@ -93,13 +88,11 @@ TEST(soft_parts_make_the_slowest_stretch_slower)
     const double x[] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.0}, equal[] = {1.0, 1.0, 1.0};
     const dem_index both[] = {0, 1, 1, 2};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
-    support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(support_close) support_run run;
     support_lattice(&lattice, 3, x, equal, 2, both, 1.0, 100.0, NULL);
     lattice.stiffness[1] /= 16.0;
     options.v_scale = 1.0;
     support_open(&run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
     assert_close(relaxation_damping(run.model), 0.4 * M_PI / 2.0 * 0.5 * dem_model_omega_max(run.model), 1e-12);
-    support_close(&run);
 }

@@ -93,7 +93,7 @@ TEST(the_rebound_is_measured_against_gravity)
     const dem_obstacle obstacle = {.n_points = 2, .points = wall, .restitution = eta};
     const double t1 = sqrt(2.0 * drop / 4.0), v1 = 4.0 * t1, centre = (m[0] * eta * v1 - m[1] * v1) / 4.0;
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     logged *l = calloc(1, sizeof *l);
     assert_non_null(l);
     options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.penetration_tolerance = 1e-13,
@@ -104,7 +104,6 @@ TEST(the_rebound_is_measured_against_gravity)
     assert_non_null(lattice.body);
     lattice.body[1] = 1;
     support_open(&l->run, &lattice, &obstacle, 1, &options);
-    dem_lattice_free(&lattice);
     follow(l, false, 1.01 * t1);
     finish(l, 1.01 * t1);
     assert_close(number_in(l->text, "rebound", "velocity"), centre, four_digits * fabs(centre));
@@ -182,14 +181,13 @@ TEST(strains_have_the_extremes_of_a_vibration)
     const double omega = 10.0, period = 2.0 * M_PI / omega;
     const dem_index ends[2] = {0, 1};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     logged *l = calloc(1, sizeof *l);
     assert_non_null(l);
     options.rtol = 1e-9, options.max_step = period / 400.0, options.v_scale = 1.0;
     support_lattice(&lattice, 2, x, m, 1, ends, 1.0, 0.5 * omega * omega * m[0], NULL);
     support_start(&lattice, pulled, NULL);
     support_open(&l->run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
     follow(l, false, 0.75 * period);
     finish(l, 0.75 * period);
     /* between steps 0.1 (pi/400)^2/2 = 3e-6 may be missed, the time is off by half a step; four digits are printed */
@@ -234,7 +232,7 @@ TEST(the_most_stressed_are_reported_with_place_and_time)
 {
     const double stretch = sqrt(0.25 + 0.75 * 0.81), c = 1e7 * (stretch - 1.0) / stretch;
     const double xx = 0.5 * c, yy = 1.5 * 0.81 * c, size = sqrt(xx * xx - xx * yy + yy * yy);
-    dem_peaks *peaks;
+    CLEANUP(free_peaks) dem_peaks *peaks;
     logged *l = press(1e-4);
     assert_ok(dem_peaks_create(&peaks, l->run.model, 1));
     const dem_observer observer = dem_peaks_observer(peaks);
@@ -250,7 +248,6 @@ TEST(the_most_stressed_are_reported_with_place_and_time)
     assert_close(number_in(l->text, "stressed", "degrees, "), yy, 5e-4 * fabs(yy));
     assert_close(number_in(l->text, "strained", "strain "), stretch - 1.0, 6e-5);
     assert_close(number_in(l->text, "strained", "N at"), 0.0, 0.0);
-    dem_peaks_destroy(peaks);
     drop_logged(l);
 }
 
@@ -329,14 +326,13 @@ TEST(a_ledger_is_not_judged_while_a_ramp_grows)
     for (int after = 0; after < 2; after++) {
         const double t_end = after ? 0.3 : 0.1;
         dem_options options = dem_options_default();
-        dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
         logged *l = calloc(1, sizeof *l);
         assert_non_null(l);
         options.n_boundaries = 1, options.boundaries = &push;
         options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0;
         support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
         support_open(&l->run, &lattice, NULL, 0, &options);
-        dem_lattice_free(&lattice);
         follow(l, false, t_end);
         const deck d = {.t_end = t_end, .closure = 1e-300, .options = options}; /* rounding is enough */
         report_start(&l->report, l->file, false, &d);

@@ -26,7 +26,7 @@ TEST(a_case_without_a_deck_has_a_line)
     outcome o = {.code = EXIT_INVALID, .message = "a.nml:1:1: error: what"};
     const result r = {.deck = "a.nml", .command = &c, .outcome = &o, .seconds = 0.25};
     c.settings = &s, c.n_settings = 1;
-    char *line = result_line(&r);
+    CLEANUP(free_memory) char *line = result_line(&r);
     assert_non_null(line);
     const char *begin =
         "{\"deck\":\"a.nml\",\"set\":[\"run.title='\\\"'\"],\"name\":null,\"output\":null,\"status\":\"failed\","
@@ -34,7 +34,6 @@ TEST(a_case_without_a_deck_has_a_line)
     const char *end = "\",\"wall_start\":\"1970-01-01T00:00:00Z\",\"wall_seconds\":0.25}\n";
     assert_memory_equal(line, begin, strlen(begin));
     assert_string_equal(line + strlen(line) - strlen(end), end);
-    free(line);
 }
 
 TEST(only_a_run_that_is_done_is_found_again)
@@ -52,10 +51,9 @@ TEST(only_a_run_that_is_done_is_found_again)
         outcome o = {0};
         result_write(path, all[k].line, &o);
         assert_int_equal(o.code, EXIT_DONE);
-        char *line = result_read_done(path, "12");
+        CLEANUP(free_memory) char *line = result_read_done(path, "12");
         assert_int_equal(line != NULL, all[k].found);
         if (line != NULL) assert_string_equal(line, all[k].line);
-        free(line);
     }
     assert_int_equal(unlink(path), 0);
 }

@@ -15,10 +15,9 @@ static void open_pair(support_run *run, const dem_options *options)
 {
     const double x[4] = {0.0, 0.0, length, 0.0}, m[2] = {2.0, 2.0};
     const dem_index ends[2] = {0, 1};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_lattice(&lattice, 2, x, m, 1, ends, length, 0.5 * omega * omega * m[0] * length, NULL);
     support_open(run, &lattice, NULL, 0, options);
-    dem_lattice_free(&lattice);
 }
 
 static FILE *open_log(void)
@@ -124,7 +123,7 @@ TEST(the_largest_value_of_6_is_that_of_the_fastest_step)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {-3.0, 4.0}, mass = 2.0, h = 0.01, g = 9.81;
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_run run;
     step_report p = {0};
     const dem_observer observer = {.step = follow, .context = &p};
@@ -132,7 +131,6 @@ TEST(the_largest_value_of_6_is_that_of_the_fastest_step)
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(&run, &lattice, NULL, 0, &options);
-    dem_lattice_free(&lattice);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     assert_ok(dem_simulation_advance(run.simulation, 0.5));
     assert_close(p.largest, (3.0 + 4.0 - g * h) * h / 0.5, 1e-14);

@@ -101,29 +101,27 @@ TEST(a_rectangle_stands_on_its_origin_and_turns_about_it)
 
 TEST(a_disc_is_placed_by_its_centre)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, RUN RUBBER DISC ", position = -3, 2, angle = 33 /", NULL, 0);
     assert_close(distance_to(&b.lattice, -3.0, 2.0), 0.0, tiny);
     for (dem_index i = 0; i < b.lattice.n_nodes; i++)
         assert_true(hypot(b.lattice.x[2 * i] + 3.0, b.lattice.x[2 * i + 1] - 2.0) <= 1.0 + tiny);
-    drop_built(&b);
 }
 
 /* 5 rows of 8 and 7 triangles in turn, upwards and downwards: the sawteeth of the sides are missing. */
 TEST(mass_is_density_times_thickness_times_area)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     const double triangle = 0.25 * 0.43301270189221932; /* spacing^2 sqrt(3)/4, m^2 */
     build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
     assert_int_equal(b.lattice.n_triangles, 5 * 15);
     assert_close(mass_of(&b.lattice), 1000.0 * 0.5 * 75.0 * triangle, 1e-9); /* rounding of 1e4 kg */
     assert_close(b.start.rest_length, 0.5, tiny);
-    drop_built(&b);
 }
 
 TEST(the_material_is_found_by_its_name)
 {
-    built b, c;
+    CLEANUP(drop_built) built b, c;
     const char *others = RUN "&material youngs_modulus = 1, density = 3000, thickness = 0.5 /\n" RUBBER;
     char text[512];
     (void)snprintf(text, sizeof text, "%s%s /", others, BLOCK);
@@ -131,14 +129,12 @@ TEST(the_material_is_found_by_its_name)
     (void)snprintf(text, sizeof text, "%s&body shape = 'rectangle', size = 4, 2, spacing = 0.5 /", others);
     build_good(&c, text, NULL, 0);
     assert_close(mass_of(&c.lattice) / mass_of(&b.lattice), 3.0, tiny); /* 'solid' is the default of both names */
-    drop_built(&b);
-    drop_built(&c);
 }
 
 /* k = E h/(1 + nu) of a side between two cells, times its length; r k, times its length, of a diagonal. */
 TEST(squares_have_the_springs_of_their_diagonal)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, RUN RUBBER BLOCK ", lattice = 'square', diagonal = 0.25 /", NULL, 0);
     const double k = 1e7 * 0.5 / (4.0 / 3.0);
     assert_int_equal(b.lattice.n_nodes, 9 * 5);
@@ -148,22 +144,20 @@ TEST(squares_have_the_springs_of_their_diagonal)
         assert_true(length > 0.6 ? fabs(share - 0.25) < tiny : fabs(share - 1.0) < tiny || fabs(share - 0.5) < tiny);
     }
     assert_close(mass_of(&b.lattice), 1000.0 * 0.5 * 8.0, 1e-9);
-    drop_built(&b);
 }
 
 TEST(a_bond_stiffness_is_that_of_every_spring)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, RUN "&material name = 'rubber', bond_stiffness = 700, density = 1000 /\n" BLOCK " /", NULL, 0);
     for (dem_index s = 0; s < b.lattice.n_springs; s++) assert_close(b.lattice.stiffness[s], 700.0, 0.0);
     assert_null(b.lattice.area_stiffness);
-    drop_built(&b);
 }
 
 /* By the centres of triangles: 1500 kg/m^2 for 500 in as many of them as the report says. */
 TEST(an_inclusion_has_its_own_material)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     const double triangle = 0.25 * 0.43301270189221932;
     build_good(&b,
                RUN "&material name = 'heavy', youngs_modulus = 1e9, density = 3000, thickness = 0.5 /\n" RUBBER BLOCK
@@ -172,34 +166,31 @@ TEST(an_inclusion_has_its_own_material)
     assert_true(b.facts.n_included > 8);
     assert_close(mass_of(&b.lattice), (500.0 * 75.0 + 1000.0 * (double)b.facts.n_included) * triangle, 1e-9);
     assert_close(b.facts.true_mass, 500.0 * 8.0 + 1000.0 * 0.49 * 2.0 * quarter, 0.1);
-    drop_built(&b);
 }
 
 TEST(all_nodes_have_the_velocity)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, RUN RUBBER BLOCK ", velocity = 3, -4, angle = 45 /", NULL, 0);
     assert_non_null(b.lattice.velocity);
     for (dem_index k = 0; k < 2 * b.lattice.n_nodes; k++)
         assert_close(b.lattice.velocity[k], k % 2 ? -4.0 : 3.0, 0.0); /* not turned with the body */
-    drop_built(&b);
 }
 
 /* ---- voids and pores ---- */
 
 TEST(a_void_turns_with_its_body)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, RUN RUBBER BLOCK ", position = 10, 20, angle = 90 /\n&void centre = 1, 1, radius = 0.6 /", NULL, 0);
     const double hole = distance_to(&b.lattice, 10.0 - 1.0, 20.0 + 1.0); /* (1, 1) turned by a quarter */
     assert_true(hole >= 0.6 - tiny);
     assert_true(distance_to(&b.lattice, 10.0 - 1.0, 20.0 - 1.0) < 0.3); /* (-1, 1) is full of nodes */
-    drop_built(&b);
 }
 
 TEST(voids_and_pores_of_other_bodies_do_nothing)
 {
-    built b, c;
+    CLEANUP(drop_built) built b, c;
     build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
     build_good(&c,
                RUN RUBBER BLOCK " /\n" DISC " /\n&void body = 2, centre = 0, 0, radius = 0.3 /\n"
@@ -207,8 +198,6 @@ TEST(voids_and_pores_of_other_bodies_do_nothing)
                NULL, 0);
     assert_int_equal(b.lattice.n_nodes, c.lattice.n_nodes);
     assert_memory_equal(b.lattice.x, c.lattice.x, 2 * (size_t)b.lattice.n_nodes * sizeof(double));
-    drop_built(&b);
-    drop_built(&c);
 }
 
 TEST(the_seed_makes_the_pores)
@@ -250,7 +239,7 @@ TEST(the_start_is_that_of_the_lowest_node)
 /* Gravity along (3, -4)/5: a move by s changes the gap by 0.8 s and x by 0.6 s. */
 TEST(clearance_moves_along_gravity)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, "&run t_end = 1, gravity = 6, -8 /\n" RUBBER BLOCK ", position = 0, 4, clearance = 0.5 /\n" FLOOR,
                flat_floors + 1, 1);
     const double moved = (4.0 - 0.5) / 0.8;
@@ -258,12 +247,11 @@ TEST(clearance_moves_along_gravity)
     assert_close(distance_to(&b.lattice, -2.0 + 0.6 * moved, 0.5), 0.0, 1e-6);
     assert_close(distance_to(&b.lattice, 2.0 + 0.6 * moved, 0.5), 0.0, 1e-6);
     assert_close(b.start.depth, -0.5, 1e-6);
-    drop_built(&b);
 }
 
 TEST(a_start_is_refused_if_deeper_than_the_penetration_tolerance)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, RUN RUBBER BLOCK ", position = 0, -0.25 /", flat_floors, 2);
     assert_close(b.start.depth, 0.25, tiny);
     assert_true(body_check_start(&b.scene, 0, &b.start, 0.26, &b.errors));
@@ -273,7 +261,6 @@ TEST(a_start_is_refused_if_deeper_than_the_penetration_tolerance)
     assert_int_equal(b.errors.list[0].place.line, 3);
     assert_non_null(strstr(b.errors.list[0].text, "body 1"));
     assert_non_null(strstr(b.errors.list[0].text, "obstacle 2")); /* it is in front of the first */
-    drop_built(&b);
 }
 
 /* ---- what cannot be built ---- */
@@ -281,7 +268,7 @@ TEST(a_start_is_refused_if_deeper_than_the_penetration_tolerance)
 /* One fault, in a line, with a word; nothing is handed out. */
 static void expect_fault(const char *text, size_t k, int line, const char *word)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build(&b, text, k, flat_floors, 2);
     assert_int_equal(b.errors.n, 1);
     assert_int_equal(b.errors.list[0].place.line, line);
@@ -289,7 +276,6 @@ static void expect_fault(const char *text, size_t k, int line, const char *word)
     assert_int_equal(b.lattice.n_nodes, 0);
     assert_null(b.lattice.x);
     assert_null(b.lattice.stiffness);
-    drop_built(&b);
 }
 
 TEST(a_fault_is_placed_and_leaves_no_lattice)
@@ -311,8 +297,8 @@ TEST(a_fault_is_placed_and_leaves_no_lattice)
 
 static void assert_checked(const char *text, int line, const char *word)
 {
-    namelist_errors errors = {0};
-    resolved r = resolve_clean(text);
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
+    CLEANUP(drop_resolved) resolved r = resolve_clean(text);
     body_check_all(&r.deck, &errors);
     if (word == NULL) {
         if (errors.n > 0) fail_msg("'%s' gives '%s'", text, errors.list[0].text);
@@ -321,8 +307,6 @@ static void assert_checked(const char *text, int line, const char *word)
         assert_int_equal(errors.list[0].place.line, line);
         if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
     }
-    namelist_errors_free(&errors);
-    drop_resolved(&r);
 }
 
 TEST(sizes_of_the_spacing_and_more_pass)

@@ -29,13 +29,12 @@ static dem_status build(formed *out, const char *text, size_t k, namelist_errors
 {
     char all[4096];
     (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
-    resolved r = resolve_clean(all);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(all);
     body_checks_all(&r.deck, errors);
     if (errors->n > 0) fail_msg("'%s' gives '%s'", text, errors->list[0].text);
     body_checks_drop_unused(&r.deck);
     const dem_status status = body_geometry_triangulate(&out->lattice, &out->geometry, &r.deck, k, "", errors);
     assert_int_equal(errors->n > 0, status != DEM_OK);
-    drop_resolved(&r);
     return status;
 }
 
@@ -50,13 +49,12 @@ static formed build_good(const char *text)
 static void expect_fault(const char *text, size_t k, int line, const char *word)
 {
     formed f;
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     assert_int_equal(build(&f, text, k, &errors), DEM_ERROR_MODEL);
     assert_int_equal(errors.n, 1);
     assert_int_equal(errors.list[0].place.line, line + 2);
     if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
     assert_null(f.lattice.x);
-    namelist_errors_free(&errors);
 }
 
 /* Distance of the node nearest to a point. */
@@ -263,7 +261,7 @@ static dem_index *mark(formed *f, const char *text, size_t n)
     namelist_errors errors = {0};
     dem_material materials[4];
     (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
-    resolved r = resolve_clean(all);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(all);
     *f = build_good(text);
     dem_index *of = calloc((size_t)f->lattice.n_triangles, sizeof *of);
     assert_non_null(of);
@@ -272,13 +270,13 @@ static dem_index *mark(formed *f, const char *text, size_t n)
     body_geometry_materials(materials, &r.deck, 0);
     assert_close(materials[0].density, 1000.0, 0.0);
     for (size_t k = 1; k <= n; k++) assert_true(materials[k].density == 1000.0 || materials[k].density == 3000.0);
-    drop_resolved(&r);
     return of;
 }
 
 TEST(triangles_with_their_centres_in_an_inclusion_are_of_it)
 {
     formed f;
+    CLEANUP(free_memory)
     dem_index *of = mark(&f,
                          HEAVY BLOCK DISC "&inclusion material = 'heavy', centre = 0, 1, radius = 0.6 /\n"
                                           "&inclusion body = 2, material = 'heavy', centre = 0, 0, radius = 9 /\n"
@@ -291,7 +289,6 @@ TEST(triangles_with_their_centres_in_an_inclusion_are_of_it)
         const bool inner = fabs(x[0]) < 0.14 && fabs(x[1] - 1.0) < 0.25, outer = hypot(x[0], x[1] - 1.0) < 0.6;
         assert_int_equal(of[t], inner ? 2 : (outer ? 1 : 0));
     }
-    free(of);
     dem_lattice_free(&f.lattice);
 }
 
@@ -331,17 +328,15 @@ TEST(the_true_mass_is_that_of_all_materials)
 
 TEST(an_inclusion_without_a_triangle_is_reported)
 {
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     formed f = build_good(BLOCK);
     resolved r = resolve_clean(RUN RUBBER BLOCK "&inclusion material = 'rubber', centre = 0, 5, radius = 1 /");
-    dem_index *of = calloc((size_t)f.lattice.n_triangles, sizeof *of);
+    CLEANUP(free_memory) dem_index *of = calloc((size_t)f.lattice.n_triangles, sizeof *of);
     assert_non_null(of);
     assert_int_equal(body_geometry_mark(of, &f.lattice, &r.deck, 0, &errors), DEM_ERROR_MODEL);
     assert_int_equal(errors.n, 1);
     assert_non_null(strstr(errors.list[0].text, "inclusion has no triangle of body 1"));
-    namelist_errors_free(&errors);
     drop_resolved(&r);
-    free(of);
     dem_lattice_free(&f.lattice);
 }
 
@@ -349,17 +344,14 @@ TEST(an_inclusion_without_a_triangle_is_reported)
 
 TEST(relative_files_start_at_the_decks_folder)
 {
+    CLEANUP(drop_resolved)
     resolved r = resolve_clean(RUN "&body shape = 'file', file = 'a/b.h5' /\n&body shape = 'file', file = '/c.h5' /");
-    char *relative = body_geometry_file("decks/", schema_get(&r.deck, "body", 0));
-    char *absolute = body_geometry_file("decks/", schema_get(&r.deck, "body", 1));
-    char *plain = body_geometry_file("", schema_get(&r.deck, "body", 0));
+    CLEANUP(free_memory) char *relative = body_geometry_file("decks/", schema_get(&r.deck, "body", 0));
+    CLEANUP(free_memory) char *absolute = body_geometry_file("decks/", schema_get(&r.deck, "body", 1));
+    CLEANUP(free_memory) char *plain = body_geometry_file("", schema_get(&r.deck, "body", 0));
     assert_string_equal(relative, "decks/a/b.h5");
     assert_string_equal(absolute, "/c.h5");
     assert_string_equal(plain, "a/b.h5");
-    free(relative);
-    free(absolute);
-    free(plain);
-    drop_resolved(&r);
 }
 
 int main(void)

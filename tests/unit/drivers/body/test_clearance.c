@@ -75,10 +75,9 @@ TEST(an_apex_between_nodes_is_met_at_the_clearance)
     for (int k = 0; k < 9; k++) {
         double shift[2];
         const double y = k < 3 ? 2.0 : k < 6 ? 0.1 : 0.2 + 5e-4;
-        scene s = make_scene(0.0, y, apex, 5);
+        CLEANUP(free_scene) scene s = make_scene(0.0, y, apex, 5);
         assert_true(shift_to(shift, s.model, down, clearances[k % 3]));
         assert_close(y + shift[1], 0.2 + clearances[k % 3], 1e-12);
-        free_scene(&s);
     }
 }
 
@@ -86,13 +85,12 @@ TEST(a_body_above_a_floor_goes_down_to_it)
 {
     const double floor[] = {-9.0, 0.5, 9.0, 0.5};
     double shift[2];
-    scene s = make_scene(0.0, 3.0, floor, 2);
+    CLEANUP(free_scene) scene s = make_scene(0.0, 3.0, floor, 2);
     assert_true(shift_to(shift, s.model, down, 0.125));
     assert_close(shift[0], 0.0, 0.0);
     assert_close(shift[1], -2.375, 1e-12);
     assert_true(shift_to(shift, s.model, down, 0.0));
     assert_close(shift[1], -2.5, 1e-12);
-    free_scene(&s);
 }
 
 TEST(a_body_in_or_under_a_floor_goes_up_to_it)
@@ -100,10 +98,9 @@ TEST(a_body_in_or_under_a_floor_goes_up_to_it)
     const double floor[] = {-90.0, 0.5, 90.0, 0.5};
     double shift[2];
     for (int k = 0; k < 2; k++) {
-        scene s = make_scene(0.0, k == 0 ? 0.0 : -7.0, floor, 2);
+        CLEANUP(free_scene) scene s = make_scene(0.0, k == 0 ? 0.0 : -7.0, floor, 2);
         assert_true(shift_to(shift, s.model, down, 1e-3));
         assert_close(shift[1], (k == 0 ? 0.5 : 7.5) + 1e-3, 1e-12);
-        free_scene(&s);
     }
 }
 
@@ -113,7 +110,7 @@ TEST(slopes_and_vertices_are_met_at_the_clearance_exactly)
     const double gravities[][2] = {{0.0, -9.81}, {3.0, -9.0}, {-2.0, -1.0}};
     const double clearances[] = {0.0, 2e-4, 0.3};
     for (int place = 0; place < 12; place++) {
-        scene s = make_scene(-1.2 + 0.2 * place, place % 2 == 0 ? 4.0 : -0.5, rough, 7);
+        CLEANUP(free_scene) scene s = make_scene(-1.2 + 0.2 * place, place % 2 == 0 ? 4.0 : -0.5, rough, 7);
         for (int g = 0; g < 3; g++)
             for (int c = 0; c < 3; c++) {
                 double shift[2];
@@ -121,7 +118,6 @@ TEST(slopes_and_vertices_are_met_at_the_clearance_exactly)
                 assert_close(gap_after(&s, shift), clearances[c], 1e-12);
                 assert_close(shift[0] * gravities[g][1], shift[1] * gravities[g][0], 1e-12);
             }
-        free_scene(&s);
     }
 }
 
@@ -129,22 +125,20 @@ TEST(a_body_inside_a_closed_obstacle_stays_inside)
 {
     const double box[] = {-5.0, 0.0, 5.0, 0.0, 5.0, 8.0, -5.0, 8.0, -5.0, 0.0};
     double shift[2];
-    scene s = make_scene(0.0, 4.0, box, 5);
+    CLEANUP(free_scene) scene s = make_scene(0.0, 4.0, box, 5);
     assert_true(shift_to(shift, s.model, down, 0.25));
     assert_close(shift[1], -3.75, 1e-12);
-    free_scene(&s);
 }
 
 TEST(a_vertex_exactly_below_a_node_is_not_missed)
 {
     const double peak[] = {-9.0, -9.0, 0.1, 0.3, 9.0, -9.0};
     double shift[2];
-    scene s = make_scene(0.1, 5.0, peak, 3);
+    CLEANUP(free_scene) scene s = make_scene(0.1, 5.0, peak, 3);
     assert_true(shift_to(shift, s.model, down, 0.0));
     assert_close(shift[1], -4.7, 1e-12);
     assert_true(shift_to(shift, s.model, down, 2e-4));
     assert_close(shift[1], -4.7 + 2e-4, 1e-12);
-    free_scene(&s);
 }
 
 TEST(a_body_that_touches_already_stays)
@@ -159,11 +153,10 @@ TEST(a_body_that_touches_already_stays)
                  {slope, 2, -1.0, 0.0}, {peak, 3, 0.1, 0.3},   {peak, 3, -0.9, 0.3}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         double shift[2];
-        scene s = make_scene(cases[k].x, cases[k].y, cases[k].points, cases[k].n);
+        CLEANUP(free_scene) scene s = make_scene(cases[k].x, cases[k].y, cases[k].points, cases[k].n);
         assert_true(fabs(gap_after(&s, (double[2]){0.0, 0.0})) < 1e-15);
         assert_true(shift_to(shift, s.model, down, 0.0));
         assert_close(shift[1], 0.0, 1e-12);
-        free_scene(&s);
     }
 }
 
@@ -182,7 +175,7 @@ TEST(the_point_deepest_between_nodes_is_found)
     const double inner[] = {-0.5, -1.0, -0.5, 0.25, 0.4, -1.0}; /* on the side that two triangles share */
     const dem_material material = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0};
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(dem_lattice_rectangle(&lattice, 3.0, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &material), DEM_OK);
     clearance_spike found = find_spike(&lattice, spikes, 5);
@@ -198,7 +191,6 @@ TEST(the_point_deepest_between_nodes_is_found)
     assert_close(found.depth, 0.005, 1e-12);
     dem_lattice_move(&lattice, 0.0, (double[2]){0.0, 0.006});
     assert_close(find_spike(&lattice, spikes, 5).depth, 0.0, 0.0);
-    dem_lattice_free(&lattice);
 }
 
 TEST(points_on_rims_and_in_fixed_triangles_are_no_spikes)

@@ -35,7 +35,7 @@ static dem_index count_pieces(const dem_lattice *lattice)
 static void expect_separate(const dem_lattice *lattice)
 {
     dem_index n, *piece = calloc((size_t)lattice->n_triangles, sizeof *piece);
-    dem_index *of_node = calloc((size_t)lattice->n_nodes, sizeof *of_node);
+    CLEANUP(free_memory) dem_index *of_node = calloc((size_t)lattice->n_nodes, sizeof *of_node);
     assert_true(piece != NULL && of_node != NULL);
     assert_int_equal(dem_lattice_pieces(lattice, &n, piece), DEM_OK);
     assert_int_equal(n, 2);
@@ -45,13 +45,13 @@ static void expect_separate(const dem_lattice *lattice)
         *of = piece[k / 3] + 1;
     }
     free(piece);
-    free(of_node);
 }
 
 /* A strip of 8 x 7 rows; row 3 is at 3 sqrt(3)/2. */
 TEST(a_crack_along_a_row_takes_the_triangles_on_its_left)
 {
     const double right[4] = {-9.0, 3.0 * row, 9.0, 3.0 * row}, left[4] = {9.0, 3.0 * row, -9.0, 3.0 * row};
+    CLEANUP(dem_lattice_free)
     dem_lattice up = make_rectangle(8.0, 6.0 * row, 1.0), down = make_rectangle(8.0, 6.0 * row, 1.0);
     assert_int_equal(cut(&up, right, 2), 15);
     assert_int_equal(cut(&down, left, 2), 15);
@@ -66,21 +66,18 @@ TEST(a_crack_along_a_row_takes_the_triangles_on_its_left)
         assert_true(y < 3.0 * row || y > 4.0 * row);
         assert_true(z < 2.0 * row || z > 3.0 * row);
     }
-    dem_lattice_free(&up);
-    dem_lattice_free(&down);
 }
 
 /* Two triangles of each strip, on the left; the nodes that it passes through stay, on the right face. */
 TEST(a_crack_through_nodes_leaves_them_to_its_right)
 {
     const double up[4] = {0.0, -1.0, 0.0, 9.0};
-    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
     dem_index passed = 0;
     assert_int_equal(cut(&lattice, up, 2), 12);
     for (dem_index i = 0; i < lattice.n_nodes; i++) passed += lattice.x[2 * i] == 0.0;
     assert_int_equal(passed, 4);
     expect_separate(&lattice);
-    dem_lattice_free(&lattice);
 }
 
 /* Through nodes, along edges, between them, bent at a node both ways, bent anywhere: two pieces, no common node. */
@@ -98,12 +95,11 @@ TEST(a_crack_through_the_whole_body_separates_it)
         for (int back = 0; back < 2; back++) {
             double points[8];
             for (int i = 0; i < 8; i++) points[i] = back ? cracks[k][6 - i + 2 * (i % 2)] : cracks[k][i];
-            dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+            CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
             assert_true(cut(&lattice, points, 4) > 5);
             if (count_pieces(&lattice) != 2)
                 fail_msg("crack %zu leaves %lld pieces", k, (long long)count_pieces(&lattice));
             expect_separate(&lattice);
-            dem_lattice_free(&lattice);
         }
 }
 
@@ -118,7 +114,7 @@ TEST(random_cracks_separate_left_from_right)
             points[2 * i] = 4.0 * (random / 4294967296.0 - 0.5);
             points[2 * i + 1] = -1.0 + 2.0 * i;
         }
-        dem_lattice lattice = make_rectangle(12.0, 6.0 * row, 1.0);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(12.0, 6.0 * row, 1.0);
         assert_true(cut(&lattice, points, 5) > 5);
         dem_index n, *piece = calloc((size_t)lattice.n_triangles, sizeof *piece), left = -1, right = -1;
         assert_non_null(piece);
@@ -130,19 +126,18 @@ TEST(random_cracks_separate_left_from_right)
         }
         assert_true(left >= 0 && right >= 0 && left != right);
         free(piece);
-        dem_lattice_free(&lattice);
     }
 }
 
 TEST(a_crack_that_ends_inside_leaves_one_piece_with_two_faces)
 {
     const double points[4] = {-9.0, 3.0 * row, 0.0, 3.0 * row};
-    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
     dem_index upper = 0, lower = 0;
     assert_int_equal(cut(&lattice, points, 2), 8); /* seven up to the tip, and the one above it */
     assert_int_equal(count_pieces(&lattice), 1);
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
-    dem_index *rims = calloc((size_t)lattice.n_nodes, sizeof *rims);
+    CLEANUP(free_memory) dem_index *rims = calloc((size_t)lattice.n_nodes, sizeof *rims);
     assert_non_null(rims);
     assert_int_equal(dem_lattice_rims(&lattice, rims), DEM_OK);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
@@ -152,8 +147,6 @@ TEST(a_crack_that_ends_inside_leaves_one_piece_with_two_faces)
     }
     assert_int_equal(lower, 4);
     assert_int_equal(upper, 3);
-    free(rims);
-    dem_lattice_free(&lattice);
 }
 
 /* E h A/|e| for the one triangle that an edge on a face has: half of that inside. */
@@ -161,7 +154,7 @@ TEST(the_faces_have_half_the_stiffness)
 {
     const double points[4] = {-9.0, 3.0 * row, 9.0, 3.0 * row};
     const double half = rubber.youngs_modulus * rubber.thickness * 0.5 * row;
-    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
     int faces = 0;
     (void)cut(&lattice, points, 2);
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
@@ -174,13 +167,11 @@ TEST(the_faces_have_half_the_stiffness)
         faces++;
     }
     assert_int_equal(faces, 7 + 8);
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_crack_elsewhere_takes_nothing)
 {
     const double points[6] = {-9.0, -0.5, 9.0, -0.5, 4.5, 9.0};
-    dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
     assert_int_equal(cut(&lattice, points, 3), 0);
-    dem_lattice_free(&lattice);
 }

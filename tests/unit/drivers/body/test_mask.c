@@ -51,13 +51,12 @@ static bool has(const mask *m, double x, double y)
 
 TEST(edges_of_pixels_belong_to_the_material)
 {
-    mask m = read_steps(0.5);
+    CLEANUP(mask_free) mask m = read_steps(0.5);
     assert_true(has(&m, 0.25, 0.25) && has(&m, -0.75, 1.25) && has(&m, 0.75, 1.25));
     assert_false(has(&m, 0.25, 0.75) || has(&m, 0.25, 1.25) || has(&m, 0.75, 0.75));
     assert_true(has(&m, 0.0, 0.75) && has(&m, 0.5, 1.25) && has(&m, 0.75, 1.0)); /* between bright and dark */
     assert_true(has(&m, -1.0, 0.0) && has(&m, 1.0, 1.5) && has(&m, 1.0 + 5e-10, 0.0) && has(&m, 0.0, -5e-10));
     assert_false(has(&m, 1.0 + 2e-9, 0.0) || has(&m, 0.0, -2e-9) || has(&m, -1e300, 0.0) || has(&m, 0.0, (double)NAN));
-    mask_free(&m);
 }
 
 static bool fits(const mask *m, double x, double y, double radius)
@@ -67,7 +66,7 @@ static bool fits(const mask *m, double x, double y, double radius)
 
 TEST(a_disc_fits_as_far_as_the_nearest_dark_pixel)
 {
-    mask m = read_steps(0.5);
+    CLEANUP(mask_free) mask m = read_steps(0.5);
     assert_true(fits(&m, -0.5, 0.75, 0.4999));
     assert_false(fits(&m, -0.5, 0.75, 0.5001)); /* the edge at x = 0, and that of the image */
     assert_true(fits(&m, -0.3, 0.1, 0.0999));
@@ -75,13 +74,12 @@ TEST(a_disc_fits_as_far_as_the_nearest_dark_pixel)
     assert_true(fits(&m, -0.3, 0.45, 0.304)); /* the corner (0, 0.5) is 0.30414 away */
     assert_false(fits(&m, -0.3, 0.45, 0.3042));
     assert_false(fits(&m, 0.25, 0.75, 0.01));
-    mask_free(&m);
 }
 
 TEST(rows_are_sliced_into_runs)
 {
     double x[5];
-    mask m = read_steps(0.5);
+    CLEANUP(mask_free) mask m = read_steps(0.5);
     assert_int_equal(mask_slice(&m, 0, x), 2);
     assert_close(x[0], -1.0, 0.0);
     assert_close(x[1], 1.0, 0.0);
@@ -91,7 +89,6 @@ TEST(rows_are_sliced_into_runs)
     assert_close(x[1], 0.0, 0.0);
     assert_close(x[2], 0.5, 0.0);
     assert_close(x[3], 1.0, 0.0);
-    mask_free(&m);
 }
 
 static void expect_fault(const char *name, const char *expected)

@@ -9,6 +9,7 @@
 
 TEST(a_material_is_read_by_its_name)
 {
+    CLEANUP(drop_resolved)
     resolved r = resolve_clean(RUN RUBBER "&material name = 'steel', youngs_modulus = 2e11, poissons_ratio = 0.3,\n"
                                           "  plane = 'strain', density = 7800, thickness = 0.5, guard = 0.1,\n"
                                           "  damping_time = 1e-6 /\n&body shape = 'disc', material = 'steel' /");
@@ -23,12 +24,12 @@ TEST(a_material_is_read_by_its_name)
     assert_close(m.damping_time, 1e-6, 0.0);
     assert_ptr_equal(material_find(&r.deck, "rubber"), schema_get(&r.deck, "material", 0));
     assert_null(material_find(&r.deck, "rub"));
-    drop_resolved(&r);
 }
 
 /* Of equal springs no nu is left to mean anything. */
 TEST(a_bond_stiffness_stands_for_all_of_elasticity)
 {
+    CLEANUP(drop_resolved)
     resolved r =
         resolve_clean(RUN "&material name = 'raw', bond_stiffness = 3, density = 1 /\n" RUBBER
                           "&body shape = 'disc', material = 'raw' /\n&body shape = 'disc', material = 'rubber' /");
@@ -39,21 +40,18 @@ TEST(a_bond_stiffness_stands_for_all_of_elasticity)
     assert_int_equal(schema_value_of(schema_get(&r.deck, "material", 0), "poissons_ratio")->count, 0);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "material", 0), "plane")->count, 0);
     assert_close(material_of(&r.deck, schema_get(&r.deck, "body", 1)).poissons_ratio, 1.0 / 3.0, 1e-15);
-    drop_resolved(&r);
 }
 
 /* Faults of the materials and of the first body's reference to one. */
 static void assert_checked(const char *text, const char *expected)
 {
     char got[2048];
-    namelist_errors errors = {0};
-    resolved r = resolve_clean(text);
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
+    CLEANUP(drop_resolved) resolved r = resolve_clean(text);
     material_check_all(&r.deck, &errors);
     material_check_user(&r.deck, schema_get(&r.deck, "body", 0), &errors);
     list_faults(&errors, got, sizeof got);
     assert_string_equal(got, expected);
-    namelist_errors_free(&errors);
-    drop_resolved(&r);
 }
 
 #define BODY "&body shape = 'disc', material = 'rubber' /"

@@ -43,17 +43,17 @@ TEST(a_mesh_becomes_a_counter_clockwise_triangulation)
 {
     static const double x[8] = {0, 1, 0, 0, 1, 0, 1, 1}; /* in the order of the file, without node 9 */
     static const dem_index triangles[6] = {1, 2, 3, 1, 3, 0};
-    dem_lattice lattice = read_good(FORMAT ENTITIES NODES ELEMENTS);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = read_good(FORMAT ENTITIES NODES ELEMENTS);
     assert_int_equal(lattice.n_nodes, 4);
     assert_int_equal(lattice.n_triangles, 2);
     assert_int_equal(lattice.n_springs, 0);
     for (int k = 0; k < 8; k++) assert_close(lattice.x[k], x[k], 0.0);
     assert_memory_equal(lattice.triangles, triangles, sizeof triangles);
-    dem_lattice_free(&lattice);
 }
 
 TEST(other_sections_and_parameters_are_passed_over)
 {
+    CLEANUP(dem_lattice_free)
     dem_lattice lattice = read_good(
         FORMAT "$PhysicalNames\n1\n2 1 \"a name with blanks,"
                "and_more_bytes_than_any_word_that_is_read_may_have,_and_in_it_$EndPhysicalNames\"\n"
@@ -63,7 +63,6 @@ TEST(other_sections_and_parameters_are_passed_over)
                "$NodeData\nanything\n$EndNodeData");
     assert_int_equal(lattice.n_nodes, 3);
     assert_int_equal(lattice.n_triangles, 1);
-    dem_lattice_free(&lattice);
 }
 
 TEST(formats_at_fault_are_refused)
@@ -142,13 +141,12 @@ TEST(no_beginning_of_a_mesh_is_harmful)
     static const char text[] = FORMAT ENTITIES NODES ELEMENTS;
     for (size_t n = 0; n + 1 < sizeof text; n++) {
         char fault[MSH_FAULT] = "", *part = malloc(n + 1); /* exact: what reads beyond is seen */
-        dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
         assert_non_null(part);
         memcpy(part, text, n);
         part[n] = '\0';
         const dem_status status = msh_parse(&lattice, fault, part, n);
         assert_true(status == DEM_OK ? n == sizeof text - 2 : fault[0] != '\0');
-        dem_lattice_free(&lattice);
         free(part);
     }
 }

@@ -48,13 +48,12 @@ TEST(beginnings_are_known)
 #ifdef DEM_CAIRO
 static void expect_grey(const unsigned char *bytes, size_t size, size_t width, const unsigned *grey)
 {
-    image out;
+    CLEANUP(image_free) image out;
     char fault[IMAGE_FAULT] = "";
     if (png_parse(&out, fault, text_of(bytes), size) != IMAGE_READ) fail_msg("%s", fault);
     assert_int_equal(out.width, width);
     assert_int_equal(out.white, 255);
     for (size_t k = 0; k < out.width * out.height; k++) assert_int_equal(out.grey[k], grey[k]);
-    image_free(&out);
 }
 
 /* Rec. 601: 0.299, 0.587 and 0.114 of 255. Of sixteen bits the upper eight count: 0x00ff, 0x0100, 0x7fff, ... */

@@ -48,20 +48,19 @@ TEST(depth_in_a_disc_is_counted_from_its_rim)
 
 TEST(voids_are_not_material)
 {
-    shape s = make_rectangle();
+    CLEANUP(shape_free) shape s = make_rectangle();
     add(&s, round_void);
     add(&s, square_void);
     expect_depth(&s, 1.0, 2.0, -0.5);
     expect_depth(&s, 1.0, 1.25, 0.25);
     expect_depth(&s, -1.0, 4.0, -0.5);
     expect_depth(&s, 0.3, 4.9, 0.5); /* corner of the square one at (0, 4.5): 3-4-5 */
-    shape_free(&s);
 }
 
 TEST(the_lattice_leaves_voids_out)
 {
-    shape s = make_rectangle();
-    dem_lattice lattice;
+    CLEANUP(shape_free) shape s = make_rectangle();
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     double mass = 0.0;
     add(&s, round_void);
     add(&s, square_void);
@@ -76,8 +75,6 @@ TEST(the_lattice_leaves_voids_out)
     }
     assert_close(mass / (1050.0 * (48.0 - 2.0 - 0.785398)), 1.0, 0.02); /* rims are jagged by a spacing */
     assert_true(lattice.n_springs > 0);
-    dem_lattice_free(&lattice);
-    shape_free(&s);
 }
 
 TEST(a_void_takes_nodes_only_where_they_are)
@@ -86,7 +83,7 @@ TEST(a_void_takes_nodes_only_where_they_are)
     const outline outside = {.kind = OUTLINE_DISC, .centre = {0.0, -1.0}, .radius = 0.5};
     const double edge[2] = {3.0, 8.0};
     shape s = make_rectangle();
-    dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
     assert_true(shape_takes(&s, &round_void, &lattice));
     assert_true(shape_takes(&s, &square_void, &lattice));
@@ -95,27 +92,24 @@ TEST(a_void_takes_nodes_only_where_they_are)
     assert_true(shape_outline_has(&s, between.centre));
     assert_true(shape_outline_has(&s, edge));
     assert_false(shape_outline_has(&s, outside.centre));
-    dem_lattice_free(&lattice);
 }
 
 TEST(a_void_of_everything_leaves_no_lattice)
 {
-    shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 1.0}, .spacing = 0.5};
-    dem_lattice lattice;
+    CLEANUP(shape_free) shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 1.0}, .spacing = 0.5};
+    CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
     const dem_index n = lattice.n_nodes;
     assert_int_equal(shape_cut(&lattice, &s), DEM_OK);
     assert_int_equal(lattice.n_nodes, n);
     add(&s, (outline){.kind = OUTLINE_DISC, .radius = 50.0});
     assert_int_equal(shape_cut(&lattice, &s), DEM_ERROR_MODEL);
-    dem_lattice_free(&lattice);
-    shape_free(&s);
 }
 
 TEST(pores_keep_away_from_edges_and_voids)
 {
     for (int disc = 0; disc < 2; disc++) {
-        shape s = make_rectangle();
+        CLEANUP(shape_free) shape s = make_rectangle();
         pores_recipe recipe = {.number = 6, .radius_min = 0.3, .radius_max = 0.4, .wall = 0.2, .seed = 3};
         pores p;
         if (disc) s.outline = (outline){.kind = OUTLINE_DISC, .radius = 4.0};
@@ -128,20 +122,18 @@ TEST(pores_keep_away_from_edges_and_voids)
             assert_close(s.voids[k + 1].radius, p.list[k].radius, 0.0);
         }
         free(p.list);
-        shape_free(&s);
     }
 }
 
 TEST(a_pore_without_a_place_is_reported)
 {
-    shape s = make_rectangle();
+    CLEANUP(shape_free) shape s = make_rectangle();
     pores_recipe recipe = {.number = 3, .radius_min = 2.0, .radius_max = 2.0, .wall = 0.2, .seed = 3};
     pores p;
     assert_int_equal(shape_add_pores(&s, &p, &recipe), PORES_CROWDED);
     assert_int_equal(p.n_placed, 1);
     assert_int_equal(s.n_voids, 0);
     free(p.list);
-    shape_free(&s);
 }
 
 /* ---- lattices of other outlines ---- */
@@ -174,10 +166,9 @@ static void expect_inside(const dem_lattice *lattice, const outline *o, double s
 TEST(a_ring_is_hollow)
 {
     const shape s = {.outline = {.kind = OUTLINE_RING, .radius = 2.0, .inner = 1.0}, .spacing = 0.05};
-    dem_lattice lattice = make_lattice(&s);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_lattice(&s);
     expect_inside(&lattice, &s.outline, s.spacing);
     assert_close(area_of_all(&lattice) / (3.0 * 3.14159265), 1.0, 0.1); /* rims are jagged by a spacing */
-    dem_lattice_free(&lattice);
 }
 
 /* Its lower edge stands on a row; its notch is free of triangles, whose middles are all inside. */
@@ -185,7 +176,7 @@ TEST(a_polygon_need_not_be_convex)
 {
     double points[] = {10, 5, 14, 5, 14, 9, 13, 9, 12, 6, 11, 9, 10, 9};
     const shape s = {.outline = {.kind = OUTLINE_POLYGON, .n_points = 7, .points = points}, .spacing = 0.1};
-    dem_lattice lattice = make_lattice(&s);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_lattice(&s);
     dem_index foot = 0;
     expect_inside(&lattice, &s.outline, s.spacing);
     for (dem_index i = 0; i < lattice.n_nodes; i++) foot += lattice.x[2 * i + 1] == 5.0;
@@ -196,7 +187,6 @@ TEST(a_polygon_need_not_be_convex)
         assert_true(outline_distance(&s.outline, middle[0], middle[1]) < 0.0);
     }
     assert_close(area_of_all(&lattice) / 13.0, 1.0, 0.07);
-    dem_lattice_free(&lattice);
 }
 
 /* Six pixels of 1 m, the lower left one is empty. */
@@ -207,7 +197,7 @@ TEST(a_mask_has_nodes_in_its_bright_pixels_only)
                      .mask = {.width = 3, .height = 2, .n_solid = 5, .scale = 1.0, .solid = solid},
                      .spacing = 0.05};
     const double in_hole[2] = {-1.0, 0.5}, in_body[2] = {1.0, 0.5};
-    dem_lattice lattice = make_lattice(&s);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_lattice(&s);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         const double x = lattice.x[2 * i], y = lattice.x[2 * i + 1];
         assert_true(fabs(x) <= 1.5 + 1e-9 && y >= 0.0 && y <= 2.0 + 1e-9);
@@ -217,7 +207,6 @@ TEST(a_mask_has_nodes_in_its_bright_pixels_only)
     assert_false(shape_outline_has(&s, in_hole));
     assert_true(shape_outline_has(&s, in_body));
     expect_depth(&s, 1.0, 0.5, 0.5);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- squares ---- */
@@ -225,17 +214,16 @@ TEST(a_mask_has_nodes_in_its_bright_pixels_only)
 TEST(a_rectangle_of_squares_has_its_size)
 {
     const shape s = {.outline = {.centre = {0.0, 0.5}, .size = {2.0, 1.0}}, .spacing = 0.1, .squares = true};
-    dem_lattice lattice = make_lattice(&s);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_lattice(&s);
     assert_int_equal(lattice.n_nodes, 21 * 11);
     assert_int_equal(lattice.n_triangles, 2 * 20 * 10);
     assert_close(area_of_all(&lattice), 2.0, 1e-12);
-    dem_lattice_free(&lattice);
 }
 
 /* Whole cells: all four of their corners are inside, none in a void. */
 TEST(a_disc_of_squares_has_whole_cells_about_its_centre)
 {
-    shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 0.5}, .spacing = 0.1, .squares = true};
+    CLEANUP(shape_free) shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 0.5}, .spacing = 0.1, .squares = true};
     dem_lattice lattice = make_lattice(&s);
     dem_index n_cells = 0;
     for (int i = -5; i < 5; i++)
@@ -260,7 +248,6 @@ TEST(a_disc_of_squares_has_whole_cells_about_its_centre)
     lattice = make_lattice(&s);
     assert_int_equal(lattice.n_triangles, 2 * n_cells - 8); /* the four about the node that is gone */
     dem_lattice_free(&lattice);
-    shape_free(&s);
 }
 
 TEST(of_a_cell_both_triangles_are_kept_or_none)

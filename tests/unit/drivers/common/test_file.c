@@ -42,13 +42,12 @@ TEST(all_bytes_are_read_with_a_nul_behind)
 
 TEST(what_is_too_large_or_empty_is_refused)
 {
-    char *large = calloc((1 << 20) + 1, 1);
+    CLEANUP(free_memory) char *large = calloc((1 << 20) + 1, 1);
     assert_non_null(large);
     put(large, (1 << 20) + 1);
     expect_refused(path, 1 << 20, "the file is larger than 1 MiB");
     put("", 0);
     expect_refused(path, 1 << 20, "the file is empty");
-    free(large);
 }
 
 TEST(what_is_no_file_is_refused)

@@ -82,7 +82,7 @@ TEST(usual_ones_have_first_middle_and_last)
 {
     for (dem_index n = 7; n < 60; n++)
         for (dem_index middle = 1; middle < n - 1; middle++) {
-            frame_list m;
+            CLEANUP(frame_list_free) frame_list m;
             bool has_middle = false;
             assert_true(frame_list_usual(&m, n, middle));
             assert_true(m.n <= FRAME_LIST_USUAL);
@@ -93,7 +93,6 @@ TEST(usual_ones_have_first_middle_and_last)
                 if (k > 0) assert_true(m.frame[k] > m.frame[k - 1]);
             }
             assert_true(has_middle);
-            frame_list_free(&m);
         }
 }
 

@@ -57,12 +57,11 @@ static deck_status read_deck(deck *d, const char *text, namelist_errors *errors)
 
 static deck good_deck(const char *text)
 {
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     deck d;
     const deck_status status = read_deck(&d, text, &errors);
     if (errors.n > 0) fail_msg("%s", errors.list[0].text);
     assert_int_equal(status, DECK_OK);
-    namelist_errors_free(&errors);
     return d;
 }
 
@@ -79,19 +78,19 @@ static void expect_text(const namelist_errors *errors, const char *expected)
 
 static void expect_errors(const char *text, const char *expected)
 {
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     deck d;
     assert_int_equal(read_deck(&d, text, &errors), DECK_INVALID);
     expect_text(&errors, expected);
     assert_null(d.source);
     assert_int_equal(d.lattice.n_nodes, 0);
-    namelist_errors_free(&errors);
 }
 
 /* ---- decks that mean something ---- */
 
 TEST(every_key_finds_its_place)
 {
+    CLEANUP(deck_free)
     deck d = good_deck("&run title = 'A title', t_end = 2.5, gravity = 1, -2 /\n" RUBBER
                        "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber', velocity = 4, -5 /\n"
                        "&obstacle points = 0, -1, 1, -2, 2, -1, restitution = 0.25 /\n" FLOOR
@@ -131,13 +130,13 @@ TEST(every_key_finds_its_place)
     assert_int_equal(d.options.max_impacts, 77);
     assert_close(d.lattice.velocity[1], -5.0, 0.0);
     assert_close(d.lattice.guard[0], 0.5e7, 1e-6);
-    deck_free(&d);
 }
 
 #define BODY "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', clearance = 1 /\n"
 
 TEST(friction_window_vertices_and_damping_find_their_places)
 {
+    CLEANUP(deck_free)
     deck d =
         good_deck(RUN RUBBER BODY "&obstacle points = -9, 0, 9, 0, friction = 1.5 /\n"
                                   "&obstacle points = -9, -1, 9, -1, friction = 0.25, friction_law = 'paper' /\n" FLOOR
@@ -152,7 +151,6 @@ TEST(friction_window_vertices_and_damping_find_their_places)
     assert_close(d.options.window, 2e-6, 0.0);
     assert_int_equal(d.options.vertices, 0);
     assert_close(d.options.mass_damping, 12.5, 0.0);
-    deck_free(&d);
 }
 
 /* The window is the library's if it is not given; stated, 0 is 0. */
@@ -168,15 +166,15 @@ TEST(poissons_ratio_and_plane_make_the_area_term)
                        RUN "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 %s/\n"
                            "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n",
                        keys[k]);
-        deck d = good_deck(text);
+        CLEANUP(deck_free) deck d = good_deck(text);
         if (k == 0) assert_null(d.lattice.area_stiffness);
         if (k > 0) assert_close(d.lattice.area_stiffness[0], kappa[k], 1e-8);
-        deck_free(&d);
     }
 }
 
 TEST(what_the_output_shows_finds_its_place)
 {
+    CLEANUP(deck_free)
     deck d =
         good_deck(RUN RUBBER
                   "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber' /\n"
@@ -197,19 +195,18 @@ TEST(what_the_output_shows_finds_its_place)
         assert_close(d.lattice.x[2 * d.probes[1].number[k]], 20.0, 1e-14);
         assert_close(d.lattice.x[2 * d.probes[1].number[k] + 1], k == 0 ? 3.0 : 7.0, 1e-14);
     }
-    deck_free(&d);
 }
 
 /* The clearance moves the body by some metres; the place goes with it. */
 TEST(a_probe_s_place_moves_with_the_clearance)
 {
+    CLEANUP(deck_free)
     deck d = good_deck(RUN RUBBER FLOOR "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', "
                                         "position = 3, 50, clearance = 1 /\n&probe name = 'top', place = 0, 2 /\n");
     const dem_index top = d.probes[0].number[0];
     for (dem_index i = 0; i < d.lattice.n_nodes; i++)
         assert_true(d.lattice.x[2 * i + 1] <= d.lattice.x[2 * top + 1] + 1e-14);
     assert_true(d.lattice.x[2 * top + 1] < 10.0);
-    deck_free(&d);
 }
 
 TEST(faults_of_probes_come_with_the_others)
@@ -226,17 +223,17 @@ TEST(faults_of_probes_come_with_the_others)
 /* The echo once stated the default of 'body' for a probe by number, which is not used there. */
 TEST(the_echo_of_a_probe_by_number_is_a_deck)
 {
+    CLEANUP(deck_free)
     deck d = good_deck(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
                                   "&probe name = 'a', number = 1 /\n");
-    deck again = good_deck(d.echo);
+    CLEANUP(deck_free) deck again = good_deck(d.echo);
     assert_non_null(strstr(d.echo, "    ! body = (not given)\n    number = 1\n"));
     assert_int_equal(again.run_hash, d.run_hash);
-    deck_free(&again);
-    deck_free(&d);
 }
 
 TEST(a_window_of_zero_is_not_the_default)
 {
+    CLEANUP(deck_free)
     deck chosen = good_deck(RUN RUBBER BODY FLOOR), single = good_deck(RUN RUBBER BODY FLOOR "&contact window = 0 /\n");
     assert_close(chosen.options.window, dem_options_default().window, 0.0);
     assert_true(chosen.options.window < 0.0);
@@ -248,8 +245,6 @@ TEST(a_window_of_zero_is_not_the_default)
     assert_non_null(strstr(chosen.echo, "    mass_damping = 0 ! default\n"));
     assert_non_null(strstr(chosen.echo, "    damping_time = 0 ! default\n"));
     assert_non_null(strstr(single.echo, "    window = 0\n"));
-    deck_free(&chosen);
-    deck_free(&single);
 }
 
 TEST(friction_goes_with_its_law)
@@ -268,6 +263,7 @@ TEST(friction_goes_with_its_law)
 
 TEST(keys_not_given_are_left_to_the_library)
 {
+    CLEANUP(deck_free)
     deck d = good_deck(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n");
     const dem_options expected = dem_options_default();
     assert_int_equal(d.options.method, expected.method);
@@ -289,11 +285,11 @@ TEST(keys_not_given_are_left_to_the_library)
     assert_int_equal(d.n_probes, 0);
     assert_string_equal(d.title, "");
     assert_int_equal(d.lattice.n_nodes, 19);
-    deck_free(&d);
 }
 
 TEST(bodies_come_in_their_order_turned_and_placed)
 {
+    CLEANUP(deck_free)
     deck d = good_deck(RUN RUBBER
                        "&body shape = 'rectangle', size = 4, 3, spacing = 1, material = 'rubber', position = 10, 20,\n"
                        "      angle = 90 /\n"
@@ -306,21 +302,20 @@ TEST(bodies_come_in_their_order_turned_and_placed)
     assert_close(d.lattice.x[1], 18.0, 1e-14);
     assert_close(d.lattice.x[2 * (first + 3)], -5.0, 1e-15);
     assert_close(d.lattice.x[2 * (first + 3) + 1], 6.0, 1e-15);
-    deck_free(&d);
 }
 
 static double least_gap(const deck *d)
 {
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     double least = (double)INFINITY;
     assert_int_equal(dem_model_create(&model, &d->lattice, d->obstacles, d->n_obstacles), DEM_OK);
     for (dem_index i = 0; i < d->lattice.n_nodes; i++) least = fmin(least, dem_model_gap(model, d->lattice.x + 2 * i));
-    dem_model_destroy(model);
     return least;
 }
 
 TEST(clearance_is_the_smallest_gap_and_leaves_x_alone)
 {
+    CLEANUP(deck_free)
     deck d = good_deck(RUN RUBBER
                        "&body shape = 'disc', radius = 2, spacing = 0.25, material = 'rubber', position = 0.3, 0,\n"
                        "      clearance = 1e-3, angle = 17 /\n"
@@ -329,7 +324,6 @@ TEST(clearance_is_the_smallest_gap_and_leaves_x_alone)
     for (dem_index i = 0; i < d.lattice.n_nodes; i++) centre += d.lattice.x[2 * i];
     assert_close(centre / (double)d.lattice.n_nodes, 0.3, 1e-12);
     assert_close(least_gap(&d), 1e-3, 1e-12);
-    deck_free(&d);
 }
 
 TEST(voids_and_pores_leave_holes_in_their_body_only)
@@ -341,7 +335,7 @@ TEST(voids_and_pores_leave_holes_in_their_body_only)
                    "&void body = 2, shape = 'rectangle', centre = -1, 3, size = 0.5, 1 /\n";
     char text[2048];
     (void)snprintf(text, sizeof text, "%s%s", bodies, "&pores body = 1, number = 3, radius = 0.2, 0.3, seed = 4 /\n");
-    deck without = good_deck(bodies), with = good_deck(text);
+    CLEANUP(deck_free) deck without = good_deck(bodies), with = good_deck(text);
     dem_index n[2][2] = {{0}};
     for (dem_index i = 0; i < without.lattice.n_nodes; i++) n[0][without.lattice.body[i]]++;
     for (dem_index i = 0; i < with.lattice.n_nodes; i++) n[1][with.lattice.body[i]]++;
@@ -353,8 +347,6 @@ TEST(voids_and_pores_leave_holes_in_their_body_only)
         assert_true(hypot(x - 1.0, y - 1.0) > 0.5 - 1e-9);
         assert_true(fabs(x + 1.0) > 0.25 - 1e-9 || fabs(y - 3.0) > 0.5 - 1e-9);
     }
-    deck_free(&without);
-    deck_free(&with);
 }
 
 TEST(the_hash_is_of_the_physics_alone)
@@ -367,13 +359,12 @@ TEST(the_hash_is_of_the_physics_alone)
     for (int k = 0; k < 4; k++) {
         char text[512];
         (void)snprintf(text, sizeof text, "%s%s", heads[k], rest);
-        deck d = good_deck(text);
+        CLEANUP(deck_free) deck d = good_deck(text);
         uint64_t expected = UINT64_C(0xcbf29ce484222325);
         for (const char *c = d.physics; *c != '\0'; c++) expected = (expected ^ (unsigned char)*c) * 1099511628211u;
         assert_true(d.hash == expected);
         hash[k] = d.hash;
         run_hash[k] = d.run_hash;
-        deck_free(&d);
     }
     assert_true(hash[0] == hash[1]);
     assert_true(hash[0] != hash[2] && hash[0] != hash[3] && hash[2] != hash[3]);
@@ -382,16 +373,15 @@ TEST(the_hash_is_of_the_physics_alone)
 
 TEST(the_echo_is_a_deck_of_the_same_problem)
 {
+    CLEANUP(deck_free)
     deck d = good_deck(RUN RUBBER
                        "&body shape = 'disc', radius = 2, spacing = 0.3, material = 'rubber', clearance = 1e-3 /\n"
                        "&void centre = 0, 0.1, radius = 0.7 /\n" FLOOR);
-    deck again = good_deck(d.echo);
+    CLEANUP(deck_free) deck again = good_deck(d.echo);
     assert_true(again.hash == d.hash && again.run_hash == d.run_hash);
     assert_string_equal(again.physics, d.physics);
     assert_int_equal(again.lattice.n_nodes, d.lattice.n_nodes);
     assert_memory_equal(again.lattice.x, d.lattice.x, (size_t)d.lattice.n_nodes * 2 * sizeof(double));
-    deck_free(&d);
-    deck_free(&again);
 }
 
 /* ---- parts ---- */
@@ -406,11 +396,10 @@ TEST(disconnected_parts_are_refused_removed_or_kept)
     expect_errors(BAR(""),
                   "3:1: body 1 has 1 part that shares no edge with its largest, of 4 triangles at (2, 0) m in its own "
                   "coordinates; 'disconnected' can remove or keep such parts\n");
+    CLEANUP(deck_free)
     deck kept = good_deck(BAR(", disconnected = 'keep'")), removed = good_deck(BAR(", disconnected = 'remove'"));
     assert_int_equal(kept.lattice.n_nodes, removed.lattice.n_nodes + 6);
     for (dem_index i = 0; i < removed.lattice.n_nodes; i++) assert_true(removed.lattice.x[2 * i] < 1.0);
-    deck_free(&kept);
-    deck_free(&removed);
 }
 
 /* ---- faults without geometry ---- */
@@ -495,6 +484,7 @@ TEST(obstacles_must_be_polylines)
 
 TEST(a_polyline_is_taken_as_it_is)
 {
+    CLEANUP(deck_free)
     deck d = good_deck(RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 0, 9, -1, 8, -1, profile = 'polyline' /\n");
     const double expected[8] = {-9, 0, 9, 0, 9, -1, 8, -1};
     assert_int_equal(d.obstacles[0].n_points, 4);
@@ -502,7 +492,6 @@ TEST(a_polyline_is_taken_as_it_is)
     assert_non_null(strstr(d.echo, "    profile = 'polyline'\n    ! resolution = (not given)\n"));
     assert_non_null(strstr(d.echo, "    ! seed = (not given)\n"));
     assert_null(strstr(d.physics, "seed"));
-    deck_free(&d);
 }
 
 /* By hand: Steffen's slopes are 1, 0, -1; half-way up he is at 1/2 + (1 - 0)/8. */
@@ -535,7 +524,7 @@ TEST(a_rough_profile_is_compiled_to_segments)
         char text[600];
         double squares = 0.0;
         (void)snprintf(text, sizeof text, "%s, seed = %d /\n", deck_text, k + 1);
-        deck d = good_deck(text), again = good_deck(d.echo);
+        CLEANUP(deck_free) deck d = good_deck(text), again = good_deck(d.echo);
         const double *points = d.obstacles[0].points;
         assert_int_equal(d.obstacles[0].n_points, 1001);
         for (int i = 0; i <= 1000; i++) squares += pow(points[2 * i + 1] - 0.9 - 0.1 * points[2 * i], 2.0) / 1001.0;
@@ -546,8 +535,6 @@ TEST(a_rough_profile_is_compiled_to_segments)
         assert_true(again.hash == d.hash);
         hash[k] = d.hash;
         y[k] = points[1];
-        deck_free(&again);
-        deck_free(&d);
     }
     assert_true(hash[0] != hash[1] && y[0] != y[1]);
 }
@@ -769,6 +756,7 @@ TEST(a_lattice_file_is_turned_placed_cleared_and_launched)
 {
     const int32_t bodies[5] = {0, 0, 0, 1, 1};
     write_lattice("a.h5", 1.0, bodies);
+    CLEANUP(deck_free)
     deck d =
         good_deck(RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber', position = 0, 8 /\n"
                              "&body shape = 'file', file = 'a.h5', position = 2, 3, angle = 90, velocity = 10, 20,\n"
@@ -780,7 +768,6 @@ TEST(a_lattice_file_is_turned_placed_cleared_and_launched)
     assert_close(d.lattice.x[2 * 8 + 1], 1.5, 1e-12); /* (1, 0) turned and placed is (2, 4); the lowest was at 3 */
     assert_close(d.lattice.velocity[2 * 8], 10.0, 1e-15);
     assert_close(d.lattice.velocity[2 * 8 + 1], 21.0, 1e-15);
-    deck_free(&d);
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
@@ -788,8 +775,7 @@ TEST(a_material_is_needed_by_meshes_only)
 {
     expect_errors(RUN DISC(""), "1:1: &material must be given\n");
     write_lattice("a.h5", 1.0, NULL);
-    deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n");
-    deck_free(&d);
+    CLEANUP(deck_free) deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n");
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
@@ -799,11 +785,10 @@ TEST(the_hash_is_of_the_lattice_file_too)
     uint64_t hash[3], run_hash[3];
     for (int k = 0; k < 3; k++) {
         if (k != 1) write_lattice("a.h5", 1.0 + k, NULL);
-        deck d = good_deck(text);
+        CLEANUP(deck_free) deck d = good_deck(text);
         assert_int_equal(d.lattice.n_nodes, 3);
         hash[k] = d.hash;
         run_hash[k] = d.run_hash;
-        deck_free(&d);
     }
     assert_true(hash[0] == hash[1] && run_hash[0] == run_hash[1]);
     assert_true(hash[0] != hash[2] && run_hash[0] != run_hash[2]);
@@ -812,8 +797,9 @@ TEST(the_hash_is_of_the_lattice_file_too)
 
 TEST(the_echo_names_a_lattice_file_by_its_whole_path)
 {
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     write_lattice("a.h5", 1.0, NULL);
+    CLEANUP(deck_free)
     deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n"), again;
     assert_non_null(strstr(d.echo, path_of("a.h5")));
     assert_non_null(strstr(d.echo, "    ! material = (not given)\n"));
@@ -828,14 +814,11 @@ TEST(the_echo_names_a_lattice_file_by_its_whole_path)
     assert_true(again.hash == d.hash && again.run_hash == d.run_hash);
     assert_int_equal(unlink(echo), 0);
     assert_int_equal(unlink(path_of("a.h5")), 0);
-    deck_free(&again);
-    deck_free(&d);
-    namelist_errors_free(&errors);
 }
 
 TEST(what_is_wrong_with_a_lattice_file_is_reported_at_its_key)
 {
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     deck d;
     write_lattice("a.h5", -1.0, NULL);
     assert_int_equal(read_deck(&d,
@@ -853,7 +836,6 @@ TEST(what_is_wrong_with_a_lattice_file_is_reported_at_its_key)
     assert_non_null(strstr(errors.list[2].text, "body 3: "));
     assert_non_null(strstr(errors.list[2].text, "mass"));
     assert_int_equal(errors.list[2].place.column, 23);
-    namelist_errors_free(&errors);
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
@@ -861,18 +843,17 @@ TEST(what_is_wrong_with_a_lattice_file_is_reported_at_its_key)
 
 static void expect_unreadable(const char *path, const char *expected)
 {
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     deck d;
     assert_int_equal(whole_deck_read(&d, path, &errors), DECK_UNREADABLE);
     expect_text(&errors, expected);
     assert_null(d.path);
-    namelist_errors_free(&errors);
 }
 
 TEST(what_is_no_readable_file_is_refused)
 {
     const size_t size = NAMELIST_MAX_FILE + 1;
-    char *big = calloc(1, size);
+    CLEANUP(free_memory) char *big = calloc(1, size);
     assert_non_null(big);
     memset(big, ' ', size);
     expect_unreadable(path_of("none.nml"), "0:0: No such file or directory\n");
@@ -886,7 +867,6 @@ TEST(what_is_no_readable_file_is_refused)
     assert_int_equal(unlink(path_of("empty.nml")), 0);
     assert_int_equal(unlink(path_of("big.nml")), 0);
     assert_int_equal(unlink(path_of("pipe.nml")), 0);
-    free(big);
 }
 
 TEST_GROUP(make_folder, remove_folder);

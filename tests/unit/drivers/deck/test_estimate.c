@@ -36,9 +36,8 @@ static deck parse(const char *text)
 static estimate of(const char *text)
 {
     estimate e;
-    deck d = parse(text);
+    CLEANUP(deck_free) deck d = parse(text);
     assert_true(estimate_deck(&e, &d));
-    deck_free(&d);
     return e;
 }
 
@@ -46,18 +45,15 @@ static estimate of(const char *text)
 static void measure(const char *text, estimate *before, estimate *found)
 {
     namelist_errors errors = {0};
-    dem_model *model;
-    dem_simulation *simulation;
-    deck d = parse(text);
+    CLEANUP(free_model) dem_model *model;
+    CLEANUP(free_simulation) dem_simulation *simulation;
+    CLEANUP(deck_free) deck d = parse(text);
     assert_true(estimate_deck(before, &d));
     if (deck_build(&d, &errors) != DECK_OK) fail_msg("%s", errors.list[0].text);
     assert_int_equal(dem_model_create(&model, &d.lattice, NULL, 0), DEM_OK);
     d.options.v_scale = 1.0;
     assert_int_equal(dem_simulation_create(&simulation, model, &d.options), DEM_OK);
     *found = estimate_run(&d, simulation);
-    dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
-    deck_free(&d);
 }
 
 /* ---- nodes ---- */
@@ -248,17 +244,15 @@ static const estimate needed = {
 
 static void expect_message(limits most, estimate_breach expected, const char *message)
 {
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     char all[1024] = "";
     size_t n = 0;
-    deck d = parse(TWO);
+    CLEANUP(deck_free) deck d = parse(TWO);
     assert_int_equal(estimate_check(&needed, &most, &d, &errors), expected);
     for (size_t k = 0; k < errors.n; k++)
         n += (size_t)snprintf(all + n, sizeof all - n, "%d:%d %s\n", errors.list[k].place.line,
                               errors.list[k].place.column, errors.list[k].text);
     assert_string_equal(all, message);
-    namelist_errors_free(&errors);
-    deck_free(&d);
 }
 
 TEST(what_keeps_within_its_limits_gets_no_message)

@@ -85,7 +85,7 @@ static void expect_nodes(const dem_boundary *b, dem_index from, dem_index step, 
 
 TEST(sides_are_those_of_the_body_itself)
 {
-    loaded l;
+    CLEANUP(drop_loaded) loaded l;
     load(&l, BASE
          "&boundary where = 'side', side = 'left' /\n&boundary where = 'side', side = 'right', components = 'x' /\n"
          "&boundary where = 'side', side = 'bottom', kind = 'force', force = 1, 2 /\n"
@@ -103,12 +103,11 @@ TEST(sides_are_those_of_the_body_itself)
     assert_null(l.list[3].share);
     assert_close(l.list[3].value[1], 4.0, 0.0);
     assert_close(l.list[3].ramp, 5.0, 0.0);
-    drop_loaded(&l);
 }
 
 TEST(places_are_in_own_coordinates)
 {
-    loaded l;
+    CLEANUP(drop_loaded) loaded l;
     load(&l, BASE "&boundary where = 'box', box = 0.5, 0.5, 1.5, 0.5 /\n"
                   "&boundary where = 'disc', centre = 2, 1.5, radius = 0.5, kind = 'velocity', velocity = 1, 0 /\n"
                   "&boundary where = 'list', nodes = 12, kind = 'displacement', displacement = 1, 0, ramp = 1 /\n"
@@ -121,7 +120,6 @@ TEST(places_are_in_own_coordinates)
     expect_nodes(&l.list[2], 12, 1, 1);
     assert_int_equal(l.list[2].kind, DEM_BOUNDARY_DISPLACEMENT);
     expect_nodes(&l.list[3], 0, 1, n_nodes);
-    drop_loaded(&l);
 }
 
 /* 100 Pa on the top, 2 m long, half of it 0.25 m, half 0.5 m thick: half an edge to each of its ends. A box takes the
@@ -129,26 +127,24 @@ TEST(places_are_in_own_coordinates)
 TEST(a_traction_is_shared_by_the_lengths_of_edges)
 {
     static const double thick[columns] = {0.25, 0.25 + 0.25, 0.25 + 0.5, 0.5 + 0.5, 0.5}; /* of both edges of a node */
-    loaded l;
+    CLEANUP(drop_loaded) loaded l;
     load(&l, BASE "&boundary where = 'side', side = 'top', kind = 'traction', traction = 100, 0 /\n"
                   "&boundary where = 'box', box = -1, -1, 0.1, 9, kind = 'traction', traction = 0, 7 /\n");
     for (int k = 0; k < columns; k++) assert_close(l.list[0].share[k], 0.5 * spacing * thick[k], 1e-14);
     for (int k = 0; k < rows; k++)
         assert_close(l.list[1].share[k], (k == 0 || k == rows - 1 ? 0.5 : 1.0) * spacing * 0.25, 1e-14);
-    drop_loaded(&l);
 }
 
 /* Nodes with prescribed motion are taken from contact, loaded ones are not. */
 TEST(what_is_prescribed_touches_nothing)
 {
-    loaded l;
+    CLEANUP(drop_loaded) loaded l;
     load(&l, BASE "&boundary where = 'side', side = 'top', components = 'y' /\n"
                   "&boundary where = 'side', side = 'bottom', kind = 'force', force = 0, 1 /\n");
     for (dem_index k = 0; k < columns; k++) {
         assert_int_equal(l.lattice.flags[place.first + n_nodes - columns + k], 0);
         assert_int_equal(l.lattice.flags[place.first + k], DEM_NODE_CONTACT);
     }
-    drop_loaded(&l);
 }
 
 /* A corner may be held in x by one side and in y by the other, not twice in y. */

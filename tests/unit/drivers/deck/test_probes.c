@@ -67,12 +67,11 @@ static void find(scene *s, const char *groups)
 {
     char text[1024];
     const double shift[2] = {10.0, 20.0};
-    dem_lattice second = make_solid(3.0, 1.0, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice second = make_solid(3.0, 1.0, 1.0);
     s->lattice = make_solid(3.0, 1.0, 1.0);
     assert_int_equal(s->lattice.n_nodes, 7);
     dem_lattice_move(&second, acos(-1.0) / 2.0, shift);
     assert_int_equal(dem_lattice_append(&s->lattice, &second), DEM_OK);
-    dem_lattice_free(&second);
     s->bodies[0] = (placement){.first = 0, .n_nodes = 7};
     s->bodies[1] = (placement){.first = 7, .n_nodes = 7, .angle = acos(-1.0) / 2.0, .offset = {10.0, 20.0}};
     (void)snprintf(text, sizeof text, HEAD "%s", groups);
@@ -93,7 +92,7 @@ static void drop_scene(scene *s)
 /* Nodes of a block: 0 to 3 at y = 0, x = -1.5 to 1.5; 4 to 6 at y = 0.87, x = -1 to 1. */
 TEST(the_nearest_node_of_the_body_is_taken_in_its_own_coordinates)
 {
-    scene s;
+    CLEANUP(drop_scene) scene s;
     find(&s, "&probe name = 'corner', place = 1.7, -0.2 / &probe name = 'top', place = 0.1, 5 / "
              "&probe name = 'far', body = 2, place = 1.7, -0.2, every = 4 / "
              "&probe name = 'across', kind = 'gauge', body = 2, place = -2, 0, 0, 1 /");
@@ -108,12 +107,11 @@ TEST(the_nearest_node_of_the_body_is_taken_in_its_own_coordinates)
     assert_int_equal(s.probes[3].kind, DEM_PROBE_GAUGE);
     assert_int_equal(s.probes[3].number[0], 7);
     assert_int_equal(s.probes[3].number[1], 7 + 5);
-    drop_scene(&s);
 }
 
 TEST(the_spring_with_the_nearest_middle_is_taken)
 {
-    scene s;
+    CLEANUP(drop_scene) scene s;
     find(&s, "&probe name = 'a', kind = 'spring', place = 0.1, -1 / "
              "&probe name = 'b', kind = 'spring', place = 0.1, -1, body = 2 / &probe name = 'c', kind = 'spring', "
              "number = 9 /");
@@ -125,13 +123,12 @@ TEST(the_spring_with_the_nearest_middle_is_taken)
         assert_int_equal(ends[1], 7 * k + 2);
     }
     assert_int_equal(s.probes[2].number[0], 9);
-    drop_scene(&s);
 }
 
 TEST(what_is_not_there_is_named)
 {
     char got[1024];
-    scene s;
+    CLEANUP(drop_scene) scene s;
     find(&s, "&probe name = 'a', number = 14 /\n&probe name = 'b', kind = 'spring', number = 22 /\n"
              "&probe name = 'c', kind = 'gauge', place = 0, 0, -0.1, 0 /\n"
              "&probe name = 'd', kind = 'gauge', number = 3, 3 /");
@@ -142,5 +139,4 @@ TEST(what_is_not_there_is_named)
                              "3:37 probe 'b': there is no such spring; they are numbered from 0, and there are 22\n"
                              "4:36 probe 'c': both ends of the gauge are at node 1\n"
                              "5:36 probe 'd': both ends of the gauge are at node 3");
-    drop_scene(&s);
 }

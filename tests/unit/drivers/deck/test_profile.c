@@ -23,11 +23,10 @@ static double *sample(const profile_recipe *recipe)
 TEST(samples_are_equally_spaced_from_the_first_to_the_last_point)
 {
     const profile_recipe recipe = {.points = hill, .n_points = 4, .n_segments = 7, .smooth = true};
-    double *out = sample(&recipe);
+    CLEANUP(free_memory) double *out = sample(&recipe);
     for (int k = 0; k <= 7; k++) assert_close(out[2 * k], 4.0 * k / 7.0, 1e-15);
     assert_close(out[14], 4.0, 0.0);
     assert_close(out[15], 0.0, 0.0);
-    free(out);
 }
 
 /* By hand: Steffen's slopes are 1, 5/6, 0, -2; a cubic's middle is (y0 + y1)/2 + h (m0 - m1)/8. */
@@ -35,22 +34,20 @@ TEST(the_smooth_curve_is_that_of_steffen)
 {
     const double expected[] = {0.0, 0.5 + 1.0 / 48.0, 1.0, NAN, 1.5 + 5.0 / 24.0, NAN, 2.0, 1.25, 0.0};
     const profile_recipe recipe = {.points = hill, .n_points = 4, .n_segments = 8, .smooth = true};
-    double *out = sample(&recipe);
+    CLEANUP(free_memory) double *out = sample(&recipe);
     for (int k = 0; k <= 8; k++)
         if (!isnan(expected[k])) assert_close(out[2 * k + 1], expected[k], 1e-14);
-    free(out);
 }
 
 TEST(the_smooth_curve_stays_between_neighbouring_points)
 {
     const double points[] = {0, 0, 1, 0.1, 2, 5, 3, 5, 4, -3, 5, -2.9, 6, 4};
     const profile_recipe recipe = {.points = points, .n_points = 7, .n_segments = 6000, .smooth = true};
-    double *out = sample(&recipe);
+    CLEANUP(free_memory) double *out = sample(&recipe);
     for (int k = 0; k <= 6000; k++) {
         const double *a = points + 2 * (k < 6000 ? k / 1000 : 5);
         assert_true(out[2 * k + 1] >= fmin(a[1], a[3]) - 1e-14 && out[2 * k + 1] <= fmax(a[1], a[3]) + 1e-14);
     }
-    free(out);
 }
 
 /* A bend of the polyline is of the order of its segments: half of them, half of it. */
@@ -59,12 +56,11 @@ TEST(the_smooth_curve_has_no_corners)
     double bend[2] = {0.0, 0.0};
     for (int c = 0; c < 2; c++) {
         const profile_recipe recipe = {.points = hill, .n_points = 4, .n_segments = 400u << c, .smooth = true};
-        double *out = sample(&recipe);
+        CLEANUP(free_memory) double *out = sample(&recipe);
         for (size_t k = 1; k < recipe.n_segments; k++) {
             const double *y = out + 2 * k + 1;
             bend[c] = fmax(bend[c], fabs(y[2] - 2.0 * y[0] + y[-2]) * (double)recipe.n_segments / 4.0);
         }
-        free(out);
     }
     assert_close(bend[1] / bend[0], 0.5, 0.05);
 }
@@ -73,9 +69,8 @@ TEST(two_points_are_joined_by_a_straight_line)
 {
     const double points[] = {-1.0, 2.0, 1.0, 4.0};
     const profile_recipe recipe = {.points = points, .n_points = 2, .n_segments = 10, .smooth = true};
-    double *out = sample(&recipe);
+    CLEANUP(free_memory) double *out = sample(&recipe);
     for (int k = 0; k <= 10; k++) assert_close(out[2 * k + 1], 3.0 + out[2 * k], 1e-15);
-    free(out);
 }
 
 /* ---- heights ---- */
@@ -87,16 +82,15 @@ TEST(heights_are_those_of_the_published_generator)
                                1.5265433108802624};
     const profile_recipe recipe = {
         .points = flat, .n_points = 2, .n_segments = 4, .roughness = 1.0, .correlation = 0.5, .seed = 5489};
-    double *out = sample(&recipe);
+    CLEANUP(free_memory) double *out = sample(&recipe);
     for (int k = 0; k <= 4; k++) assert_close(out[2 * k + 1], expected[k], 1e-14);
-    free(out);
 }
 
 TEST(the_mean_line_and_a_scale_are_kept)
 {
     profile_recipe recipe = {
         .points = hill, .n_points = 4, .n_segments = 100, .roughness = 0.25, .correlation = 0.5, .seed = 7};
-    double *rough = sample(&recipe), *rougher, *mean;
+    CLEANUP(free_memory) double *rough = sample(&recipe), *rougher, *mean;
     recipe.roughness = 1.0;
     rougher = sample(&recipe);
     recipe.roughness = 0.0;
@@ -107,9 +101,6 @@ TEST(the_mean_line_and_a_scale_are_kept)
         assert_close(rough[2 * k], x, 0.0);
         assert_close(rougher[2 * k + 1] - *a, 4.0 * (rough[2 * k + 1] - *a), 1e-13);
     }
-    free(rough);
-    free(rougher);
-    free(mean);
 }
 
 /* The last bits of the segments' length along x depend on the place: here it is off by up to 1e-13 of 0.25. */
@@ -119,12 +110,10 @@ TEST(heights_move_with_the_profile)
         const double points[] = {1023.0 + 0.1 * k, 0.0, 1024.0 + 0.1 * k, 0.0}, origin[] = {0.0, 0.0, 1.0, 0.0};
         profile_recipe recipe = {
             .points = points, .n_points = 2, .n_segments = 4, .roughness = 1.0, .correlation = 0.5, .seed = 5};
-        double *a = sample(&recipe), *b;
+        CLEANUP(free_memory) double *a = sample(&recipe), *b;
         recipe.points = origin;
         b = sample(&recipe);
         for (int i = 0; i <= 4; i++) assert_close(a[2 * i + 1], b[2 * i + 1], 1e-11);
-        free(a);
-        free(b);
     }
 }
 
@@ -132,14 +121,11 @@ TEST(the_same_seed_gives_the_same_profile_and_another_one_another)
 {
     profile_recipe recipe = {
         .points = hill, .n_points = 4, .n_segments = 100, .roughness = 0.1, .correlation = 0.5, .seed = 1};
-    double *a = sample(&recipe), *b = sample(&recipe), *c;
+    CLEANUP(free_memory) double *a = sample(&recipe), *b = sample(&recipe), *c;
     recipe.seed = 2;
     c = sample(&recipe);
     assert_memory_equal(a, b, 202 * sizeof *a);
     for (int k = 0; k <= 100; k++) assert_true(a[2 * k + 1] != c[2 * k + 1]);
-    free(a);
-    free(b);
-    free(c);
 }
 
 /* Mean of y(k) y(k + lag). */
@@ -178,13 +164,12 @@ TEST(heights_are_gaussian)
     const double points[] = {0.0, 0.0, N / 2, 0.0};
     const profile_recipe recipe = {
         .points = points, .n_points = 2, .n_segments = N, .roughness = 1.0, .correlation = 1.0, .seed = 3};
-    double *out = sample(&recipe);
+    CLEANUP(free_memory) double *out = sample(&recipe);
     int within[2] = {0, 0};
     for (size_t k = 0; k <= N; k++)
         for (int c = 0; c < 2; c++) within[c] += fabs(out[2 * k + 1]) < c + 1.0;
     assert_close((double)within[0] / N, erf(1.0 / sqrt(2.0)), 0.0132);
     assert_close((double)within[1] / N, erf(2.0 / sqrt(2.0)), 0.0132);
-    free(out);
 }
 
 /* Over the first, a middle and the last sample of 2000 seeds: mean squares have the standard error sqrt(2/2000). */
@@ -194,9 +179,8 @@ TEST(the_ends_are_as_rough_as_the_middle)
     double squares[3] = {0.0, 0.0, 0.0};
     profile_recipe recipe = {.points = flat, .n_points = 2, .n_segments = 8, .roughness = 1.0, .correlation = 0.5};
     for (recipe.seed = 1; recipe.seed <= SEEDS; recipe.seed++) {
-        double *out = sample(&recipe);
+        CLEANUP(free_memory) double *out = sample(&recipe);
         for (int c = 0; c < 3; c++) squares[c] += out[8 * c + 1] * out[8 * c + 1] / SEEDS;
-        free(out);
     }
     for (int c = 0; c < 3; c++) assert_close(squares[c], 1.0, 4.0 * sqrt(2.0 / SEEDS));
 }

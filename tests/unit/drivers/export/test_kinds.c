@@ -9,13 +9,12 @@ TEST(pairs_are_distinguished_and_in_order)
     const dem_index of[] = {3, 1, 2, 1, 0, 3};
     outcome o = {0};
     const task t = {.outcome = &o};
-    kinds k;
+    CLEANUP(kinds_free) kinds k;
     assert_true(kinds_find(&k, &t, 6, pairs));
     assert_int_equal(k.n, 4);
     assert_memory_equal(k.of, of, sizeof of);
     assert_close(k.values[2].b, 0.5, 0.0);
     assert_close(k.values[3].a, 2.0, 0.0);
-    kinds_free(&k);
 }
 
 /* First numbers that differ by rounding must not keep equal second ones apart. */
@@ -26,11 +25,10 @@ TEST(rounding_makes_no_kind)
     const dem_index of[] = {1, 0, 1, 0};
     outcome o = {0};
     const task t = {.outcome = &o};
-    kinds k;
+    CLEANUP(kinds_free) kinds k;
     assert_true(kinds_find(&k, &t, 4, pairs));
     assert_int_equal(k.n, 2);
     assert_memory_equal(k.of, of, sizeof of);
-    kinds_free(&k);
 }
 
 /* Each is near to the next, the last is not near to the first. */
@@ -54,8 +52,7 @@ TEST(of_nothing_there_are_none)
 {
     outcome o = {0};
     const task t = {.outcome = &o};
-    kinds k;
+    CLEANUP(kinds_free) kinds k;
     assert_true(kinds_find(&k, &t, 0, NULL));
     assert_int_equal(k.n, 0);
-    kinds_free(&k);
 }

@@ -5,14 +5,13 @@
 
 static loads find(const char *resolved)
 {
-    exported e;
+    CLEANUP(exported_close) exported e;
     loads l;
     exported_how how = exported_usual();
     how.resolved = resolved;
     exported_open(&e, how);
     assert_true(loads_find(&l, &e.task));
     assert_int_equal(e.outcome.code, EXIT_DONE);
-    exported_close(&e);
     return l;
 }
 

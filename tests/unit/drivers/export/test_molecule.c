@@ -20,7 +20,7 @@ static void end(molecule *m)
 
 TEST(types_are_of_mass_and_of_spring)
 {
-    molecule m;
+    CLEANUP(end) molecule m;
     make(&m, exported_usual(), 0);
     const dem_index atoms[] = {0, 1, 2}, bonds[] = {0, 2, 1};
     assert_int_equal(m.atoms.n, 3);
@@ -29,53 +29,48 @@ TEST(types_are_of_mass_and_of_spring)
     assert_int_equal(m.bonds.n, 3);
     assert_memory_equal(m.bonds.of, bonds, sizeof bonds);
     assert_close(m.longest, 5.0, 0.0);
-    end(&m);
 }
 
 TEST(the_start_is_not_rounded)
 {
-    molecule m;
+    CLEANUP(end) molecule m;
     make(&m, exported_usual(), 0);
     assert_true(m.t == 0.0 && m.v[0] == 0.1 && m.x[5] == 5.0);
-    end(&m);
 }
 
 TEST(a_later_frame_is_as_it_is_in_the_file)
 {
     for (int in_double = 0; in_double < 2; in_double++) {
-        molecule m;
+        CLEANUP(end) molecule m;
         exported_how how = exported_usual();
         double v[9];
         how.double_precision = in_double;
         make(&m, how, 2);
         assert_ok(dem_reader_read(e.reader, dem_reader_array_find(e.reader, "velocity"), 2, v));
         assert_true(m.t == 0.5 && m.v[0] == v[0] && m.v[3] == v[4] && m.v[0] != 0.1);
-        end(&m);
     }
 }
 
 TEST(without_frames_it_is_the_lattice)
 {
-    molecule m;
+    CLEANUP(end) molecule m;
     exported_how how = exported_usual();
     how.frame_interval = 0.0;
     exported_open(&e, how);
     assert_int_equal(e.task.frames.n, 0);
     assert_true(molecule_make(&m, &e.task));
     assert_true(m.x[5] == 5.0 && m.v[0] == 0.1);
-    end(&m);
 }
 
 TEST(the_box_has_room)
 {
-    molecule m;
+    CLEANUP(end) molecule m;
     make(&m, exported_usual(), 0);
     const molecule_box box = molecule_box_of(&m, m.x);
     assert_close(box.low[0], -5.3, 1e-15);
     assert_close(box.high[0], 8.3, 2e-15);
     assert_close(box.low[1], -4.4, 1e-15);
     assert_close(box.high[1], 10.4, 2e-15);
-    end(&m);
 }
 
 TEST(what_is_left_out_is_reported)

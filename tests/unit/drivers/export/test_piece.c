@@ -15,7 +15,7 @@ TEST(arrays_stand_where_the_head_says)
                                   {PIECE_POINT_DATA, "a<b", DEM_READER_F32, 1, 2, sizes, NULL},
                                   {PIECE_FIELD, "t", DEM_READER_I8, 1, 1, &sizes[1], NULL}};
     const piece p = {.n_points = 2, .n_cells = 1, .n_arrays = 6, .arrays = arrays};
-    exported e;
+    CLEANUP(exported_close) exported e;
     exported_open(&e, exported_usual());
     assert_true(piece_write(&e.task, ".vtu", &p));
     exported_expect(
@@ -41,5 +41,4 @@ TEST(arrays_stand_where_the_head_says)
     assert_int_equal((signed char)data[8], -7);
     assert_int_equal(data[125], 3);
     assert_memory_equal(data + 126, "\n</AppendedData>", 16);
-    exported_close(&e);
 }

@@ -7,8 +7,8 @@ TEST(a_frame_is_read_with_what_is_wanted)
 {
     static const char *const names[] = {"velocity", "none", "strain", "body"};
     const still_choice choice = {.names = names, .n_names = 4};
-    exported e;
-    still s;
+    CLEANUP(exported_close) exported e;
+    CLEANUP(still_free) still s;
     double x[6];
     exported_open(&e, exported_usual());
     assert_true(still_open(&s, &e.task, &choice));
@@ -21,13 +21,11 @@ TEST(a_frame_is_read_with_what_is_wanted)
     assert_null(still_values(&s, "strain"));
     assert_false(still_read(&s, 3));
     assert_int_equal(e.outcome.code, EXIT_INVALID);
-    still_free(&s);
-    exported_close(&e);
 }
 
 TEST(without_names_all_are_wanted)
 {
-    exported e;
+    CLEANUP(exported_close) exported e;
     still s;
     exported_open(&e, exported_usual());
     for (int of_springs = 0; of_springs < 2; of_springs++) {
@@ -37,5 +35,4 @@ TEST(without_names_all_are_wanted)
         for (dem_index a = 0; a < s.n_arrays; a++) assert_int_equal(s.arrays[a].what->of_springs, of_springs);
         still_free(&s);
     }
-    exported_close(&e);
 }

@@ -22,8 +22,6 @@ TEST(arrays_are_zeroed_and_never_of_no_bytes)
 {
     outcome o = {0};
     const task t = {.outcome = &o};
-    double *none = task_allocate(&t, 0, sizeof *none), *some = task_allocate(&t, 3, sizeof *some);
+    CLEANUP(free_memory) double *none = task_allocate(&t, 0, sizeof *none), *some = task_allocate(&t, 3, sizeof *some);
     assert_true(none != NULL && some != NULL && some[2] == 0.0);
-    free(none);
-    free(some);
 }

@@ -6,7 +6,7 @@
 
 TEST(there_is_a_file_for_each_frame_and_the_series)
 {
-    exported e;
+    CLEANUP(exported_close) exported e;
     exported_open(&e, exported_usual());
     e.task.frames.n = 2;
     e.task.frames.frame[0] = 2, e.task.frames.frame[1] = 0;
@@ -18,38 +18,34 @@ TEST(there_is_a_file_for_each_frame_and_the_series)
                     "<DataSet timestep=\"0\" part=\"0\" file=\"run_0000.vtu\"/>\n</Collection>\n");
     exported_expect(&e, "run_0002.vtu", "<Piece NumberOfPoints=\"3\" NumberOfCells=\"3\">");
     exported_expect(&e, "run.obstacle.vtu", "<Piece NumberOfPoints=\"3\" NumberOfCells=\"2\">");
-    exported_close(&e);
 }
 
 TEST(without_obstacles_there_is_no_file_of_them)
 {
-    exported e;
+    CLEANUP(exported_close) exported e;
     exported_how how = exported_usual();
     how.n_obstacles = 0;
     exported_open(&e, how);
     assert_true(vtu_export(&e.task));
     assert_false(exported_has(&e, "run.obstacle.vtu"));
-    exported_close(&e);
 }
 
 TEST(files_in_the_way_stop_it_before_it_begins)
 {
-    exported e;
+    CLEANUP(exported_close) exported e;
     exported_open(&e, exported_usual());
     exported_put(&e, "run_0002.vtu", "mine");
     assert_false(vtu_export(&e.task));
     assert_int_equal(e.outcome.code, EXIT_TAKEN);
     assert_false(exported_has(&e, "run_0000.vtu"));
-    exported_close(&e);
 }
 
 TEST(a_run_without_frames_has_no_series)
 {
-    exported e;
+    CLEANUP(exported_close) exported e;
     exported_how how = exported_usual();
     how.frame_interval = 0.0;
     exported_open(&e, how);
     assert_false(vtu_export(&e.task));
     assert_int_equal(e.outcome.code, EXIT_INVALID);
-    exported_close(&e);
 }

@@ -50,6 +50,7 @@ TEST(a_choice_at_fault_says_nothing_of_other_keys)
 
 TEST(defaults_that_are_not_used_are_dropped)
 {
+    CLEANUP(drop_resolved)
     resolved r = resolve_clean(HEAD "&void centre = 0, 0, radius = 1 /\n"
                                     "&void shape = 'rectangle', centre = 0, 0, size = 1, 1 /\n");
     conditional_keys_drop(&r.deck, &table);
@@ -58,5 +59,4 @@ TEST(defaults_that_are_not_used_are_dropped)
     assert_int_equal(schema_value_of(schema_get(&r.deck, "void", 1), "body")->count, 0);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "void", 1), "size")->count, 2);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "body", 0), "position")->count, 2);
-    drop_resolved(&r);
 }

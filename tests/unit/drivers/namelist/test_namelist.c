@@ -21,12 +21,11 @@ static void assert_reals(const reading *r, size_t key, size_t n, const double *e
 
 static void assert_string(const char *text, const char *expected)
 {
-    reading r = read_clean(text);
+    CLEANUP(drop) reading r = read_clean(text);
     const namelist_key *key = key_at(&r, 0, 0);
     assert_int_equal(key->n_values, 1);
     assert_int_equal(key->values[0].kind, NAMELIST_STRING);
     assert_string_equal(key->values[0].text, expected);
-    drop(&r);
 }
 
 static void assert_kinds(const reading *r, size_t key, const char *expected)
@@ -42,16 +41,15 @@ static void assert_kinds(const reading *r, size_t key, const char *expected)
 
 TEST(names_are_case_insensitive_and_kept_in_lower_case)
 {
-    reading r = read_clean("&RUN T_End = 1, Gravity2 = 2 /");
+    CLEANUP(drop) reading r = read_clean("&RUN T_End = 1, Gravity2 = 2 /");
     assert_string_equal(r.list.groups[0].name, "run");
     assert_string_equal(key_at(&r, 0, 0)->name, "t_end");
     assert_string_equal(key_at(&r, 0, 1)->name, "gravity2");
-    drop(&r);
 }
 
 TEST(groups_and_keys_know_their_places)
 {
-    reading r = read_clean("\n  &run\n\tt_end =\n 1, 2 /");
+    CLEANUP(drop) reading r = read_clean("\n  &run\n\tt_end =\n 1, 2 /");
     const namelist_key *key = key_at(&r, 0, 0);
     assert_int_equal(r.list.groups[0].place.line, 2);
     assert_int_equal(r.list.groups[0].place.column, 3);
@@ -59,73 +57,65 @@ TEST(groups_and_keys_know_their_places)
     assert_int_equal(key->place.column, 2);
     assert_int_equal(key->values[1].place.line, 4);
     assert_int_equal(key->values[1].place.column, 5);
-    drop(&r);
 }
 
 TEST(text_between_groups_is_comment)
 {
-    reading r = read_clean("R&D x = 'open $5\n&a x=1/ y = 2 ' & so on\n! &c /\n&b /");
+    CLEANUP(drop) reading r = read_clean("R&D x = 'open $5\n&a x=1/ y = 2 ' & so on\n! &c /\n&b /");
     assert_int_equal(r.list.n_groups, 2);
     assert_string_equal(r.list.groups[1].name, "b");
-    drop(&r);
 }
 
 TEST(a_group_may_stand_right_behind_another)
 {
-    reading r = read_clean("&a x=1/&b y=2&end&c z=3/");
+    CLEANUP(drop) reading r = read_clean("&a x=1/&b y=2&end&c z=3/");
     assert_int_equal(r.list.n_groups, 3);
-    drop(&r);
 }
 
 TEST(legacy_ends_and_dollar_groups_are_read)
 {
-    reading r = read_clean("$a x=1 $END\n&b x = 2 &end\n$c x = T$end");
+    CLEANUP(drop) reading r = read_clean("$a x=1 $END\n&b x = 2 &end\n$c x = T$end");
     assert_int_equal(r.list.n_groups, 3);
     assert_int_equal(key_at(&r, 2, 0)->values[0].kind, NAMELIST_LOGICAL);
-    drop(&r);
 }
 
 TEST(a_slash_as_last_byte_ends_the_file)
 {
-    reading r = read_clean("&a x=1/");
+    CLEANUP(drop) reading r = read_clean("&a x=1/");
     assert_int_equal(r.list.n_groups, 1);
-    drop(&r);
 }
 
 TEST(a_file_without_groups_is_empty)
 {
-    reading r = read_clean("");
+    CLEANUP(drop) reading r = read_clean("");
     assert_int_equal(r.list.n_groups, 0);
-    drop(&r);
 }
 
 TEST(byte_order_mark_and_crlf_are_taken)
 {
-    reading r = read_clean("\xEF\xBB\xBF&a x = 1\r\n y = 'b\r\nc'\r\n/\r\n");
+    CLEANUP(drop) reading r = read_clean("\xEF\xBB\xBF&a x = 1\r\n y = 'b\r\nc'\r\n/\r\n");
     assert_int_equal(r.list.groups[0].place.column, 1);
     assert_string_equal(key_at(&r, 0, 1)->values[0].text, "bc");
-    drop(&r);
 }
 
 TEST(components_are_joined_by_percent_signs)
 {
-    reading r = read_clean("&a M%Young = 1, m( 2 )%x%y(3) = 4 /");
+    CLEANUP(drop) reading r = read_clean("&a M%Young = 1, m( 2 )%x%y(3) = 4 /");
     assert_string_equal(key_at(&r, 0, 0)->name, "m%young");
     assert_string_equal(key_at(&r, 0, 1)->name, "m(2)%x%y");
     assert_int_equal(key_at(&r, 0, 1)->first, 3);
-    drop(&r);
 }
 
 TEST(subscripts_give_first_element_and_stride)
 {
     static const int first[] = {1, 2, 2, 1, 2, 1, 1, 3}, stride[] = {1, 1, 1, 2, 1, 1, 1, 4};
+    CLEANUP(drop)
     reading r = read_clean("&g a=0 a(2)=1 a(2:3)=1,2 a(1:6:2)=1,2,3 a(2:)=4 a(:)=5 a( : 3 )=1 a(3::4) = 6,7 /");
     for (size_t k = 0; k < 8; k++) {
         assert_int_equal(key_at(&r, 0, k)->first, first[k]);
         assert_int_equal(key_at(&r, 0, k)->stride, stride[k]);
         assert_int_equal(key_at(&r, 0, k)->subscript, k > 0);
     }
-    drop(&r);
 }
 
 /* ---- values --------------------------------------------------------------------------------------------------- */
@@ -133,51 +123,45 @@ TEST(subscripts_give_first_element_and_stride)
 TEST(numbers_have_fortran_spellings)
 {
     static const double expected[] = {1, 1, .5, 1e3, 1e-3, 1e3, -2.5, 7, 0.1, -4e-5};
-    reading r = read_clean("&a x = 1 1. .5 1e3 1d-3 1D3 -2.5 +7 0.1d0 -4.E-05 /");
+    CLEANUP(drop) reading r = read_clean("&a x = 1 1. .5 1e3 1d-3 1D3 -2.5 +7 0.1d0 -4.E-05 /");
     assert_reals(&r, 0, 10, expected);
     assert_kinds(&r, 0, "irrrrrrirr");
-    drop(&r);
 }
 
 TEST(integers_keep_all_their_digits)
 {
-    reading r = read_clean("&a x = 9223372036854775807, -9223372036854775808 /");
+    CLEANUP(drop) reading r = read_clean("&a x = 9223372036854775807, -9223372036854775808 /");
     assert_true(key_at(&r, 0, 0)->values[0].integer == INT64_MAX);
     assert_true(key_at(&r, 0, 0)->values[1].integer == INT64_MIN);
-    drop(&r);
 }
 
 TEST(minus_zero_keeps_its_sign)
 {
-    reading r = read_clean("&a x = -0, -0. /");
+    CLEANUP(drop) reading r = read_clean("&a x = -0, -0. /");
     assert_true(signbit(key_at(&r, 0, 0)->values[0].real));
     assert_true(signbit(key_at(&r, 0, 0)->values[1].real));
-    drop(&r);
 }
 
 TEST(logicals_have_six_spellings_in_any_case)
 {
     static const bool expected[] = {true, true, true, false, false, false};
-    reading r = read_clean("&a x = .TRUE. t True .false. F fAlse /");
+    CLEANUP(drop) reading r = read_clean("&a x = .TRUE. t True .false. F fAlse /");
     assert_kinds(&r, 0, "llllll");
     for (size_t k = 0; k < 6; k++) assert_int_equal(key_at(&r, 0, 0)->values[k].logical, expected[k]);
-    drop(&r);
 }
 
 TEST(what_only_begins_like_a_logical_is_a_word)
 {
-    reading r = read_clean("&a x = fish, .true, .tRuE_oops. /");
+    CLEANUP(drop) reading r = read_clean("&a x = fish, .true, .tRuE_oops. /");
     assert_kinds(&r, 0, "www");
     assert_string_equal(key_at(&r, 0, 0)->values[0].text, "fish");
-    drop(&r);
 }
 
 TEST(a_logical_before_an_equal_sign_is_a_key)
 {
-    reading r = read_clean("&a x = T f = F t\n= 1 /");
+    CLEANUP(drop) reading r = read_clean("&a x = T f = F t\n= 1 /");
     assert_int_equal(r.list.groups[0].n_keys, 3);
     assert_string_equal(key_at(&r, 0, 2)->name, "t");
-    drop(&r);
 }
 
 TEST(doubled_quotes_stand_for_one)
@@ -201,54 +185,48 @@ TEST(a_string_goes_on_in_the_next_line)
 TEST(blanks_newlines_and_one_comma_separate)
 {
     static const double expected[] = {1, 2, 3, 4, 5};
-    reading r = read_clean("&a x = 1,2\n\t,3 ! , 9\n4 , 5, y = 6,/");
+    CLEANUP(drop) reading r = read_clean("&a x = 1,2\n\t,3 ! , 9\n4 , 5, y = 6,/");
     assert_reals(&r, 0, 5, expected);
     assert_int_equal(key_at(&r, 0, 1)->n_values, 1);
-    drop(&r);
 }
 
 TEST(nothing_behind_the_equals_sign_is_a_null_value)
 {
-    reading r = read_text("&a x = y = 1 z =/");
+    CLEANUP(drop) reading r = read_text("&a x = y = 1 z =/");
     assert_int_equal(r.errors.n, 0);
     assert_int_equal(key_at(&r, 0, 0)->n_values, 1);
     assert_int_equal(key_at(&r, 0, 0)->values[0].kind, NAMELIST_NULL);
     assert_int_equal(key_at(&r, 0, 1)->values[0].integer, 1);
     assert_int_equal(key_at(&r, 0, 2)->values[0].kind, NAMELIST_NULL);
-    drop(&r);
 }
 
 TEST(two_commas_leave_a_null_value)
 {
-    reading r = read_clean("&a w = , x = 1,,2 y = ,1, z = 1, , /");
+    CLEANUP(drop) reading r = read_clean("&a w = , x = 1,,2 y = ,1, z = 1, , /");
     assert_kinds(&r, 0, "0");
     assert_kinds(&r, 1, "i0i");
     assert_kinds(&r, 2, "0i");
     assert_kinds(&r, 3, "i0");
-    drop(&r);
 }
 
 TEST(repeat_counts_are_expanded)
 {
-    reading r = read_clean("&a x = 2*1.5, 3*, 2*'a b' 1*T z = 2* /");
+    CLEANUP(drop) reading r = read_clean("&a x = 2*1.5, 3*, 2*'a b' 1*T z = 2* /");
     assert_kinds(&r, 0, "rr000ssl");
     assert_string_equal(key_at(&r, 0, 0)->values[6].text, "a b");
     assert_kinds(&r, 1, "00");
-    drop(&r);
 }
 
 TEST(comments_begin_outside_quotes)
 {
-    reading r = read_clean("&a ! it's one\n x = '!'! two /\n y = 1!three\n/");
+    CLEANUP(drop) reading r = read_clean("&a ! it's one\n x = '!'! two /\n y = 1!three\n/");
     assert_int_equal(r.list.groups[0].n_keys, 2);
     assert_string_equal(key_at(&r, 0, 0)->values[0].text, "!");
-    drop(&r);
 }
 
 TEST(unquoted_text_is_left_to_the_caller_as_a_word)
 {
-    reading r = read_clean("&a x = 3mm, rubber, 1e, 1.0_8, - /");
+    CLEANUP(drop) reading r = read_clean("&a x = 3mm, rubber, 1e, 1.0_8, - /");
     assert_kinds(&r, 0, "wwwww");
     assert_string_equal(key_at(&r, 0, 0)->values[0].text, "3mm");
-    drop(&r);
 }

@@ -94,11 +94,10 @@ TEST(a_missing_equal_sign_is_reported_once)
 
 TEST(a_key_with_a_fault_is_kept_without_values)
 {
-    reading r = read_text("&a t_end 20e-3, y = 1 /");
+    CLEANUP(drop) reading r = read_text("&a t_end 20e-3, y = 1 /");
     assert_string_equal(key_at(&r, 0, 0)->name, "t_end");
     assert_int_equal(key_at(&r, 0, 0)->n_values, 0);
     assert_string_equal(key_at(&r, 0, 1)->name, "y");
-    drop(&r);
 }
 
 TEST(what_is_no_key_is_shown)
@@ -127,11 +126,10 @@ TEST(an_unclosed_string_does_not_swallow_the_next_key)
 
 TEST(an_unclosed_string_is_found_where_another_opens)
 {
-    reading r = read_text("&a x = 'abc /\n&b y = 'd' /");
+    CLEANUP(drop) reading r = read_text("&a x = 'abc /\n&b y = 'd' /");
     assert_int_equal(r.errors.n, 1);
     assert_string_equal(r.errors.list[0].text, "the string is not closed");
     assert_string_equal(key_at(&r, 1, 0)->values[0].text, "d");
-    drop(&r);
 }
 
 TEST(a_long_string_is_refused)
@@ -169,12 +167,11 @@ TEST(bytes_that_are_not_text_are_reported_once)
 static void expect_unreadable(const char *text, size_t size, const char *expected)
 {
     char got[256];
-    reading r = read_bytes(text, size);
+    CLEANUP(drop) reading r = read_bytes(text, size);
     list_faults(&r.errors, got, sizeof got);
     assert_string_equal(got, expected);
     assert_true(r.list.unreadable);
     assert_int_equal(r.list.n_groups, 0);
-    drop(&r);
 }
 
 TEST(a_text_in_utf16_is_reported_and_not_read)
@@ -207,47 +204,41 @@ static char *filled(size_t size, char c)
 
 TEST(a_long_line_is_reported)
 {
-    char *text = filled(70000, ' ');
+    CLEANUP(free_memory) char *text = filled(70000, ' ');
     text[65536] = '\n';
     assert_faults_of(text, 65600, "");
     text[65536] = ' ';
     assert_faults_of(text, 70000, "1:65537 the line is longer than 65536 characters");
-    free(text);
 }
 
 TEST(a_large_file_is_refused)
 {
-    char *text = filled(NAMELIST_MAX_FILE + 1, '\n');
+    CLEANUP(free_memory) char *text = filled(NAMELIST_MAX_FILE + 1, '\n');
     assert_faults_of(text, NAMELIST_MAX_FILE, "");
     expect_unreadable(text, NAMELIST_MAX_FILE + 1, "1:1 the file is larger than 4194304 bytes");
-    free(text);
 }
 
 TEST(many_groups_are_refused)
 {
-    char *text = filled(4 * 2002, ' ');
+    CLEANUP(free_memory) char *text = filled(4 * 2002, ' ');
     for (size_t k = 0; k < 2002; k++) memcpy(text + 4 * k, "&a/\n", 4);
     assert_faults_of(text, 4 * 2000, "");
     assert_faults_of(text, 4 * 2001, "2001:1 there are more than 2000 groups");
-    free(text);
 }
 
 TEST(errors_end_at_a_thousand)
 {
-    char *text = filled(2000, ';');
+    CLEANUP(free_memory) char *text = filled(2000, ';');
     memcpy(text, "&a x = ", 7);
-    reading r = read_bytes(text, 2000);
+    CLEANUP(drop) reading r = read_bytes(text, 2000);
     assert_int_equal(r.errors.n, 1000);
     assert_string_equal(r.errors.list[999].text, "too many errors");
-    drop(&r);
-    free(text);
 }
 
 TEST(a_long_word_is_cut_between_characters)
 {
-    reading r = read_text("&a 123456789012345678901234567890123456789\xE2\x82\xAC /");
+    CLEANUP(drop) reading r = read_text("&a 123456789012345678901234567890123456789\xE2\x82\xAC /");
     assert_string_equal(r.errors.list[0].text, "a key is expected, got '123456789012345678901234567890123456789'");
-    drop(&r);
 }
 
 /* A text of 1 MiB that repeats a piece. Looking ahead must not make it slow: the time limit of the test is the
@@ -258,11 +249,9 @@ TEST(hostile_repetitions_take_linear_time)
                                          "a='\n", "1*", "&a",   "&a ", "= ", ",",   "a=1,",  "(",       "!\n",  "a(1:"};
     for (size_t p = 0; p < sizeof pieces / sizeof pieces[0]; p++) {
         const size_t n = strlen(pieces[p]), size = 1 << 20;
-        char *text = filled(size, ' ');
+        CLEANUP(free_memory) char *text = filled(size, ' ');
         memcpy(text, "&g x = ", 7);
         for (size_t at = 7; at + n <= size; at += n) memcpy(text + at, pieces[p], n);
-        reading r = read_bytes(text, size);
-        drop(&r);
-        free(text);
+        CLEANUP(drop) reading r = read_bytes(text, size);
     }
 }

@@ -27,7 +27,7 @@ static void assert_body_errors(const char *keys, const char *expected)
 
 TEST(given_values_and_defaults_are_distinguished)
 {
-    resolved r = resolve_clean("&run t_end = 2 /" MATERIAL BODY);
+    CLEANUP(drop_resolved) resolved r = resolve_clean("&run t_end = 2 /" MATERIAL BODY);
     const schema_instance *run = schema_get(&r.deck, "run", 0);
     assert_true(schema_value_of(run, "t_end")->given);
     assert_close(schema_real(run, "t_end"), 2, 0);
@@ -35,66 +35,60 @@ TEST(given_values_and_defaults_are_distinguished)
     assert_int_equal(schema_value_of(run, "gravity")->count, 2);
     assert_close(schema_value_of(run, "gravity")->reals[1], -9.81, 0);
     assert_string_equal(schema_text(run, "title"), "");
-    drop_resolved(&r);
 }
 
 TEST(a_key_without_default_stays_not_given)
 {
-    resolved r = resolve_clean(RUN MATERIAL BODY);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(RUN MATERIAL BODY);
     const schema_instance *body = schema_get(&r.deck, "body", 0);
     assert_int_equal(schema_value_of(body, "clearance")->count, 0);
     assert_close(schema_real(body, "clearance"), 0, 0);
     assert_string_equal(schema_text(body, "file"), "");
-    drop_resolved(&r);
 }
 
 TEST(groups_stand_in_the_order_of_the_table_then_of_the_file)
 {
+    CLEANUP(drop_resolved)
     resolved r = resolve_clean("&body shape='disc' angle=1/ &material youngs_modulus=1 density=1/ &body shape='disc' "
                                "angle=2/" RUN);
     assert_string_equal(r.deck.instances[0].group->name, "run");
     assert_int_equal(schema_count(&r.deck, "body"), 2);
     assert_close(schema_real(schema_get(&r.deck, "body", 1), "angle"), 2, 0);
     assert_null(schema_get(&r.deck, "body", 2));
-    drop_resolved(&r);
 }
 
 TEST(only_groups_that_do_not_repeat_get_an_instance_of_defaults)
 {
-    resolved r = resolve_clean(RUN MATERIAL BODY);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(RUN MATERIAL BODY);
     assert_int_equal(schema_count(&r.deck, "solver"), 1);
     assert_int_equal(schema_count(&r.deck, "void"), 0);
     assert_string_equal(schema_text(schema_get(&r.deck, "solver", 0), "method"), "fehlberg45");
-    drop_resolved(&r);
 }
 
 TEST(places_are_of_the_key_or_of_the_group)
 {
-    resolved r = resolve_clean("\n&run\n  t_end = 1 /" MATERIAL BODY);
+    CLEANUP(drop_resolved) resolved r = resolve_clean("\n&run\n  t_end = 1 /" MATERIAL BODY);
     const schema_instance *run = schema_get(&r.deck, "run", 0);
     assert_int_equal(schema_value_of(run, "t_end")->place.line, 3);
     assert_int_equal(schema_value_of(run, "t_end")->place.column, 3);
     assert_int_equal(schema_value_of(run, "title")->place.line, 2);
-    drop_resolved(&r);
 }
 
 TEST(an_integer_does_for_a_real)
 {
-    resolved r = resolve_clean("&run t_end = 3 gravity = 0, -10 /" MATERIAL BODY);
+    CLEANUP(drop_resolved) resolved r = resolve_clean("&run t_end = 3 gravity = 0, -10 /" MATERIAL BODY);
     assert_close(schema_value_of(schema_get(&r.deck, "run", 0), "gravity")->reals[1], -10, 0);
-    drop_resolved(&r);
 }
 
 static void assert_gravity(const char *assignment, double x, double y)
 {
     char text[512];
     (void)snprintf(text, sizeof text, "&run t_end = 3 %s /%s", assignment, MATERIAL BODY);
-    resolved r = resolve_clean(text);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(text);
     const schema_value *gravity = schema_value_of(schema_get(&r.deck, "run", 0), "gravity");
     assert_int_equal(gravity->count, 2);
     assert_close(gravity->reals[0], x, 0);
     assert_close(gravity->reals[1], y, 0);
-    drop_resolved(&r);
 }
 
 TEST(null_values_keep_defaults)
@@ -107,9 +101,8 @@ TEST(null_values_keep_defaults)
 
 TEST(a_null_value_gives_nothing)
 {
-    resolved r = resolve_clean("&run t_end = 3 gravity = , /" MATERIAL BODY);
+    CLEANUP(drop_resolved) resolved r = resolve_clean("&run t_end = 3 gravity = , /" MATERIAL BODY);
     assert_false(schema_value_of(schema_get(&r.deck, "run", 0), "gravity")->given);
-    drop_resolved(&r);
 }
 
 TEST(elements_without_assignment_keep_defaults)
@@ -121,12 +114,12 @@ TEST(elements_without_assignment_keep_defaults)
 TEST(subscripted_assignments_combine)
 {
     static const double expected[] = {1, 2, 3, 4, 5, 6};
+    CLEANUP(drop_resolved)
     resolved r = resolve_clean(RUN MATERIAL BODY
                                "&obstacle points(2:6:2) = 2, 4, 6 points(1)=1 points(3) = 3, points(5:) = 5 /");
     const schema_value *points = schema_value_of(schema_get(&r.deck, "obstacle", 0), "points");
     assert_int_equal(points->count, 6);
     for (int k = 0; k < 6; k++) assert_close(points->reals[k], expected[k], 0);
-    drop_resolved(&r);
 }
 
 TEST(the_nearest_name_is_found_in_any_case)
@@ -175,7 +168,7 @@ TEST(what_was_at_fault_is_known)
 
 TEST(values_can_be_dropped_and_texts_replaced)
 {
-    resolved r = resolve_clean(RUN MATERIAL "&body shape = 'disc', file = 'a', radius = 2 /");
+    CLEANUP(drop_resolved) resolved r = resolve_clean(RUN MATERIAL "&body shape = 'disc', file = 'a', radius = 2 /");
     schema_instance *body = &r.deck.instances[2];
     assert_string_equal(body->group->name, "body");
     schema_drop(body, "radius");
@@ -188,7 +181,6 @@ TEST(values_can_be_dropped_and_texts_replaced)
     assert_true(schema_set_text(body, "file", "/somewhere/b"));
     assert_string_equal(schema_text(body, "file"), "/somewhere/b");
     assert_true(schema_value_of(body, "file")->given);
-    drop_resolved(&r);
 }
 
 TEST(a_far_name_is_not_suggested)
@@ -327,9 +319,9 @@ TEST(ranges_are_checked)
 
 TEST(ends_of_ranges_belong_to_them)
 {
+    CLEANUP(drop_resolved)
     resolved r = resolve_clean(RUN MATERIAL BODY "&obstacle points = 4*0 restitution = 1 /\n&solver rtol = 1e-1 /"
                                                  "&output deflate = 9 / &body shape = 'disc' clearance = 0 /");
-    drop_resolved(&r);
 }
 
 TEST(choices_are_listed_with_the_nearest)
@@ -357,9 +349,9 @@ TEST(a_fault_of_the_syntax_is_not_reported_again)
 
 TEST(the_default_stands_in_for_a_fault)
 {
+    CLEANUP(drop_resolved)
     resolved r = resolve(RUN "&material youngs_modulus = 1e7, density = 1, thickness = -2 /" BODY);
     const schema_instance *material = schema_get(&r.deck, "material", 0);
     assert_int_equal(r.errors.n, 1);
     assert_close(schema_real(material, "thickness"), 1, 0);
-    drop_resolved(&r);
 }

@@ -11,9 +11,8 @@
 static char *echo_of(const char *text, schema_form form)
 {
     char *echo;
-    resolved r = resolve_clean(text);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(text);
     assert_true(schema_echo(&r.deck, form, &echo));
-    drop_resolved(&r);
     return echo;
 }
 
@@ -60,24 +59,20 @@ static void assert_same_deck(const schema_deck *a, const schema_deck *b)
 
 static void assert_echo_reads_back(const char *text)
 {
-    char *echo = echo_of(text, SCHEMA_MARKED);
-    resolved a = resolve_clean(text), b = resolve_clean(echo);
+    CLEANUP(free_memory) char *echo = echo_of(text, SCHEMA_MARKED);
+    CLEANUP(drop_resolved) resolved a = resolve_clean(text), b = resolve_clean(echo);
     assert_same_deck(&a.deck, &b.deck);
-    drop_resolved(&a);
-    drop_resolved(&b);
-    free(echo);
 }
 
 /* ---- echo ----------------------------------------------------------------------------------------------------- */
 
 TEST(the_echo_marks_defaults_and_what_is_not_given)
 {
-    char *echo = echo_of("&run t_end = 2d-2 /" MATERIAL BODY, SCHEMA_MARKED);
+    CLEANUP(free_memory) char *echo = echo_of("&run t_end = 2d-2 /" MATERIAL BODY, SCHEMA_MARKED);
     assert_contains(echo, "&run\n    title = '' ! default\n    t_end = 0.02\n    gravity = 0, -9.81 ! default\n"
                           "    ! residual = (not given)\n/\n");
     assert_contains(echo, "    ! clearance = (not given)\n");
     assert_contains(echo, "&solver\n    method = 'fehlberg45' ! default\n    rtol = 1e-06 ! default\n");
-    free(echo);
 }
 
 TEST(the_echo_reads_back_to_the_same_values)
@@ -106,31 +101,31 @@ TEST(reals_have_no_more_digits_than_they_need)
         char text[256], line[64];
         (void)snprintf(text, sizeof text, "&run t_end = 1, gravity = 0, %s /\n" MATERIAL BODY, cases[k].given);
         (void)snprintf(line, sizeof line, "    gravity = 0, %s\n", cases[k].printed);
-        char *echo = echo_of(text, SCHEMA_BARE);
+        CLEANUP(free_memory) char *echo = echo_of(text, SCHEMA_BARE);
         assert_contains(echo, line);
-        free(echo);
     }
 }
 
 TEST(quotes_in_strings_are_doubled)
 {
+    CLEANUP(free_memory)
     char *echo = echo_of("&run t_end = 1, title = \"it's 'so', \"\"you\"\" say\" /\n" MATERIAL BODY, SCHEMA_BARE);
     assert_contains(echo, "    title = 'it''s ''so'', \"you\" say'\n");
-    free(echo);
 }
 
 TEST(integers_are_printed_with_all_their_digits)
 {
+    CLEANUP(free_memory)
     char *echo =
         echo_of(RUN MATERIAL BODY "&pores number = 1000000, radius = 1, 1, seed = 9007199254740991 /", SCHEMA_BARE);
     assert_contains(echo, "    number = 1000000\n");
     assert_contains(echo, "    seed = 9007199254740991\n");
-    free(echo);
 }
 
 /* Every group of the deck is there, in the order of the table, closed by a line of its own. */
 TEST(the_echo_has_every_group_of_the_deck)
 {
+    CLEANUP(free_memory)
     char *echo = echo_of("&body shape = 'disc', angle = 2 / &void centre = 1, 2 /" MATERIAL RUN BODY, SCHEMA_MARKED);
     static const char *const parts[] = {"&run\n",     "/\n&material\n", "/\n&body\n",   "    angle = 2\n", "/\n&body\n",
                                         "/\n&void\n", "/\n&contact\n",  "/\n&solver\n", "/\n&output\n"};
@@ -141,7 +136,6 @@ TEST(the_echo_has_every_group_of_the_deck)
     }
     assert_lacks(echo, "&pores");
     assert_string_equal(echo + strlen(echo) - 3, "\n/\n");
-    free(echo);
 }
 
 TEST(long_arrays_go_on_in_the_next_line)
@@ -149,42 +143,39 @@ TEST(long_arrays_go_on_in_the_next_line)
     char text[8000] = RUN MATERIAL BODY "&obstacle points = ";
     for (int k = 0; k < 400; k++) (void)snprintf(text + strlen(text), 20, "%.6f ", sin(k));
     (void)snprintf(text + strlen(text), 10, "/");
-    char *echo = echo_of(text, SCHEMA_MARKED);
+    CLEANUP(free_memory) char *echo = echo_of(text, SCHEMA_MARKED);
     size_t longest = 0;
     for (const char *line = echo; *line != '\0'; line += strcspn(line, "\n") + 1)
         if (strcspn(line, "\n") > longest) longest = strcspn(line, "\n");
     assert_in_range(longest, 100, 130);
-    free(echo);
     assert_echo_reads_back(text);
 }
 
 TEST(equal_values_are_repeated_in_the_echo)
 {
+    CLEANUP(free_memory)
     char *echo = echo_of(RUN MATERIAL BODY "&obstacle points = 1000*0.5, 3*1, 4*0, 4*-0 /", SCHEMA_MARKED);
     assert_contains(echo, "points = 1000*0.5, 1, 1, 1, 4*0, 4*-0.0\n");
-    free(echo);
 }
 
 TEST(a_bare_echo_is_the_same_for_its_deck_and_its_echo)
 {
+    CLEANUP(free_memory)
     char *marked = echo_of(RUN MATERIAL BODY, SCHEMA_MARKED), *bare = echo_of(RUN MATERIAL BODY, SCHEMA_BARE);
-    char *stated = echo_of("&run gravity = 0., -9.81, t_end = 1.0 /" MATERIAL BODY, SCHEMA_BARE);
+    CLEANUP(free_memory) char *stated = echo_of("&run gravity = 0., -9.81, t_end = 1.0 /" MATERIAL BODY, SCHEMA_BARE);
+    CLEANUP(free_memory)
     char *again = echo_of(marked, SCHEMA_BARE), *other = echo_of("&run t_end = 2 /" MATERIAL BODY, SCHEMA_BARE);
     assert_string_equal(again, bare);
     assert_string_equal(stated, bare);
     assert_string_not_equal(other, bare);
     assert_contains(bare, "    gravity = 0, -9.81\n");
     assert_lacks(bare, "!");
-    free(marked);
-    free(bare);
-    free(stated);
-    free(again);
-    free(other);
 }
 
 TEST(the_physics_is_the_same_however_it_is_written)
 {
-    char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
+    CLEANUP(free_memory) char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
+    CLEANUP(free_memory)
     char *b =
         echo_of(BODY "&solver rtol = 1d-6 / &output name = 'other' /\n&material density = 1.05e3, youngs_modulus = "
                      "10000000., thickness = 1. /\n&run t_end = 7, title = 'x', gravity = 0., -9.81 /",
@@ -193,23 +184,19 @@ TEST(the_physics_is_the_same_however_it_is_written)
     assert_lacks(a, "default");
     assert_lacks(a, "t_end");
     assert_lacks(a, "&output");
-    free(a);
-    free(b);
 }
 
 TEST(the_physics_depends_on_every_physical_key)
 {
     static const char *const changes[] = {"&solver rtol = 1e-5 /", "&contact penetration_tolerance = 1e-9 /",
                                           "&void centre = 0, 0 /"};
-    char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
+    CLEANUP(free_memory) char *a = echo_of(RUN MATERIAL BODY, SCHEMA_PHYSICS);
     for (size_t k = 0; k < 3; k++) {
         char text[512];
         (void)snprintf(text, sizeof text, "%s%s", RUN MATERIAL BODY, changes[k]);
-        char *b = echo_of(text, SCHEMA_PHYSICS);
+        CLEANUP(free_memory) char *b = echo_of(text, SCHEMA_PHYSICS);
         assert_string_not_equal(a, b);
-        free(b);
     }
-    free(a);
 }
 
 /* ---- template and reference ----------------------------------------------------------------------------------- */
@@ -218,8 +205,8 @@ TEST(the_template_is_a_deck_with_every_key)
 {
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
-    char *text = printed(schema_template);
-    resolved r = resolve_clean(text);
+    CLEANUP(free_memory) char *text = printed(schema_template);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(text);
     for (int g = 0; g < n_groups; g++) {
         assert_int_equal(schema_count(&r.deck, groups[g].name), 1);
         const schema_instance *instance = schema_get(&r.deck, groups[g].name, 0);
@@ -230,15 +217,13 @@ TEST(the_template_is_a_deck_with_every_key)
             assert_contains(text, groups[g].keys[k].sentence);
         }
     }
-    drop_resolved(&r);
-    free(text);
 }
 
 TEST(the_reference_has_a_row_for_every_key)
 {
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
-    char *text = printed(schema_document);
+    CLEANUP(free_memory) char *text = printed(schema_document);
     for (int g = 0; g < n_groups; g++) {
         for (int k = 0; k < groups[g].n_keys; k++) {
             char row[80];
@@ -251,7 +236,6 @@ TEST(the_reference_has_a_row_for_every_key)
         text,
         "| `shape` | string | - | must be given | rectangle\\|disc\\|ring\\|polygon\\|mask\\|mesh\\|file | Shape");
     assert_contains(text, "| `points` | 4 or more reals | m | must be given |  | x and y");
-    free(text);
 }
 
 static const char *initial_of(const schema_key *key)
@@ -276,11 +260,11 @@ TEST(the_template_has_an_example_or_the_default_of_every_key)
 {
     int n_groups;
     const schema_group *groups = schema_groups(&n_groups);
-    char *text = printed(schema_template);
+    CLEANUP(free_memory) char *text = printed(schema_template);
     for (int g = 0; g < n_groups; g++) {
         char head[64], line[256];
         (void)snprintf(head, sizeof head, "\n&%s\n", groups[g].name);
-        char *group = part_of(text, head, "\n/\n");
+        CLEANUP(free_memory) char *group = part_of(text, head, "\n/\n");
         assert_contains(group, groups[g].sentence);
         for (int k = 0; k < groups[g].n_keys; k++) {
             const schema_key *key = &groups[g].keys[k];
@@ -289,14 +273,12 @@ TEST(the_template_has_an_example_or_the_default_of_every_key)
                            value[0] == '\0' ? "" : " ", value);
             assert_contains(group, line);
         }
-        free(group);
     }
-    free(text);
 }
 
 TEST(the_template_tells_type_unit_range_choices_and_default)
 {
-    char *text = printed(schema_template);
+    CLEANUP(free_memory) char *text = printed(schema_template);
     assert_contains(text, "\n    ! [real, s, > 0; must be given]\n    t_end = ");
     assert_contains(text, "\n    ! [reals, 2 of them, m/s^2; default: 0, -9.81]\n    gravity = 0, -9.81\n");
     assert_contains(text, "\n    ! [reals, 2 to 4 of them, m]\n    place = ");
@@ -305,15 +287,13 @@ TEST(the_template_tells_type_unit_range_choices_and_default)
     assert_contains(text, "\n    ! [string, single|double; default: 'single']\n    precision = 'single'\n");
     assert_contains(text, "\n    ! [integer, in [0, 9]; default: 1]\n    deflate = 1\n");
     assert_contains(text, "\n    ! [real, m, > 0]\n"); /* neither given nor a default */
-    free(text);
 }
 
 TEST(lines_of_the_template_fit_the_screen)
 {
-    char *text = printed(schema_template);
+    CLEANUP(free_memory) char *text = printed(schema_template);
     for (const char *line = text; *line != '\0'; line += strcspn(line, "\n") + 1)
         assert_in_range(strcspn(line, "\n"), 0, 120);
-    free(text);
 }
 
 TEST(the_reference_tells_how_often_a_group_may_occur)
@@ -324,21 +304,19 @@ TEST(the_reference_tells_how_often_a_group_may_occur)
                  {"\n## &body\n\n", " At least once."},
                  {"\n## &void\n\n", " Any number of times."},
                  {"\n## &solver\n\n", " At most once."}};
-    char *text = printed(schema_document);
+    CLEANUP(free_memory) char *text = printed(schema_document);
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-        char *sentence = part_of(text, cases[k].head, "\n\n| key | type | unit |");
+        CLEANUP(free_memory) char *sentence = part_of(text, cases[k].head, "\n\n| key | type | unit |");
         const size_t n = strlen(sentence), length = strlen(cases[k].occurrence);
         assert_true(n > length);
         assert_string_equal(sentence + n - length, cases[k].occurrence);
-        free(sentence);
     }
-    free(text);
 }
 
 /* In Markdown a row has as many cells as its head: bars within cells are escaped. */
 TEST(rows_of_the_reference_have_six_cells)
 {
-    char *text = printed(schema_document);
+    CLEANUP(free_memory) char *text = printed(schema_document);
     int n_rows = 0;
     for (const char *line = text; *line != '\0'; line += strcspn(line, "\n") + 1) {
         int n_bars = 0;
@@ -351,14 +329,12 @@ TEST(rows_of_the_reference_have_six_cells)
     const schema_group *groups = schema_groups(&n_groups);
     for (int g = 0; g < n_groups; g++) n_keys += groups[g].n_keys;
     assert_int_equal(n_rows, n_keys + 2 * n_groups);
-    free(text);
 }
 
 TEST(the_reference_tells_what_must_be_given_and_what_need_not)
 {
-    char *text = printed(schema_document);
+    CLEANUP(free_memory) char *text = printed(schema_document);
     assert_contains(text, "| `t_end` | real | s | must be given | > 0 | ");
     assert_contains(text, "| `clearance` | real | m | not given | >= 0 | ");
     assert_contains(text, "| `deflate` | integer | - | `1` | [0, 9] | ");
-    free(text);
 }

@@ -230,7 +230,7 @@ static resolved resolve_with(const schema_group *group, const schema_key *key, c
 
 static void expect_value_passes(const schema_group *group, const schema_key *key, const char *spelling)
 {
-    resolved r = resolve_with(group, key, spelling);
+    CLEANUP(drop_resolved) resolved r = resolve_with(group, key, spelling);
     const schema_value *value = schema_value_of(schema_get(&r.deck, group->name, 0), key->name);
     const range limits = read_range(key);
     assert_true(value->given);
@@ -241,7 +241,6 @@ static void expect_value_passes(const schema_group *group, const schema_key *key
         if (!(x >= limits.from && x <= limits.to) || (limits.open && (x == limits.from || x == limits.to)))
             fail_msg("%s in &%s: %g is not %s", key->name, group->name, x, key->range);
     }
-    drop_resolved(&r);
 }
 
 static void check_default(const schema_group *group, const schema_key *key)
@@ -258,6 +257,7 @@ TEST(defaults_pass_their_own_checks)
 static void check_default_is_its_value(const schema_group *group, const schema_key *key)
 {
     if (!has_default(key)) return;
+    CLEANUP(drop_resolved)
     resolved stated = resolve_with(group, key, key->initial), left_out = resolve_with(group, NULL, NULL);
     const schema_value *a = schema_value_of(schema_get(&stated.deck, group->name, 0), key->name);
     const schema_value *b = schema_value_of(schema_get(&left_out.deck, group->name, 0), key->name);
@@ -269,8 +269,6 @@ static void check_default_is_its_value(const schema_group *group, const schema_k
         else
             assert_memory_equal(&a->reals[j], &b->reals[j], sizeof a->reals[j]);
     }
-    drop_resolved(&stated);
-    drop_resolved(&left_out);
 }
 
 TEST(defaults_are_what_stands_in_the_table)

@@ -46,7 +46,7 @@ static double wave(double t)
 TEST(thinning_keeps_what_is_seen)
 {
     enum { COLUMNS = 100 };
-    rows *r = fill(wave);
+    CLEANUP(free_memory) rows *r = fill(wave);
     const chart c = make(r);
     double xy[8 * COLUMNS], least[COLUMNS], most[COLUMNS];
     const size_t n = chart_thin(&c, 0, COLUMNS, xy);
@@ -64,7 +64,6 @@ TEST(thinning_keeps_what_is_seen)
         if (xy[2 * k + 1] == most[column]) most[column] = 9.0;
     }
     for (int k = 0; k < COLUMNS; k++) assert_true(least[k] == -9.0 && most[k] == 9.0);
-    free(r);
 }
 
 static double spike(double t)
@@ -74,14 +73,13 @@ static double spike(double t)
 
 TEST(a_single_step_is_not_lost)
 {
-    rows *r = fill(spike);
+    CLEANUP(free_memory) rows *r = fill(spike);
     const chart c = make(r);
     double xy[8 * 40];
     const size_t n = chart_thin(&c, 0, 40, xy);
     double most = -2.0;
     for (size_t k = 0; k < n; k++) most = fmax(most, xy[2 * k + 1]);
     assert_close(most, 1e3, 0.0);
-    free(r);
 }
 
 static canvas_spy draw(const chart *c, bool has_times)
@@ -104,24 +102,22 @@ static bool has_text(const canvas_spy *s, const char *text)
 
 TEST(axes_have_numbers_units_and_names)
 {
-    rows *r = fill(wave);
+    CLEANUP(free_memory) rows *r = fill(wave);
     const chart c = make(r);
     const canvas_spy with = draw(&c, true), without = draw(&c, false);
     assert_true(has_text(&with, "kinetic") && has_text(&with, "energy, J"));
     assert_true(has_text(&with, "time, s") && has_text(&with, "−0.5") && has_text(&with, "0.2"));
     assert_false(has_text(&without, "time, s"));
-    free(r);
 }
 
 /* As narrow as the command line lets it be. */
 TEST(narrow_charts_are_legible)
 {
-    rows *r = fill(wave);
+    CLEANUP(free_memory) rows *r = fill(wave);
     const chart c = make(r);
     canvas_spy s = canvas_spy_new();
     assert_true(chart_draw(&c, (box){14, 14, 386, 150}, true, &s.face));
     canvas_spy_expect_legible(&s, (box){0, 0, 400, 150});
-    free(r);
 }
 
 static double decay(double t)
@@ -131,12 +127,11 @@ static double decay(double t)
 
 TEST(decades_leave_out_what_has_no_logarithm)
 {
-    rows *r = fill(decay);
+    CLEANUP(free_memory) rows *r = fill(decay);
     chart c = make(r);
     c.by_decades = true, c.unit = "s", c.label = "step";
     const canvas_spy s = draw(&c, true);
     assert_true(has_text(&s, "step, ms") || has_text(&s, "step, µs"));
-    free(r);
 }
 
 static double zero(double t)
@@ -151,7 +146,7 @@ static double nothing(double t)
 
 TEST(flat_and_empty_lines_have_axes_all_the_same)
 {
-    rows *flat = fill(zero), *none = fill(nothing);
+    CLEANUP(free_memory) rows *flat = fill(zero), *none = fill(nothing);
     chart c = make(flat);
     (void)draw(&c, true);
     c = make(none);
@@ -160,6 +155,4 @@ TEST(flat_and_empty_lines_have_axes_all_the_same)
     (void)draw(&c, true);
     c.n = 1, c.end = 0.0; /* a run that has not begun */
     (void)draw(&c, true);
-    free(flat);
-    free(none);
 }

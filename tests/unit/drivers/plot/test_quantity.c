@@ -34,10 +34,10 @@ static double *read_all(const trajectory_fixture *f, const char *name)
     assert_true(quantity_find(&q, f->reader, name, &o));
     double *value = malloc((quantity_count(&q, dem_reader_lattice(f->reader)) + 1) * sizeof *value);
     assert_non_null(value);
+    CLEANUP(free_memory)
     double *rows = malloc((quantity_count(&q, dem_reader_lattice(f->reader)) + 1) * 6 * sizeof *rows);
     assert_non_null(rows);
     trajectory_fixture_ok(quantity_read(&q, f->reader, 0, value, rows));
-    free(rows);
     return value;
 }
 

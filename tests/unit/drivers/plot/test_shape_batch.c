@@ -28,24 +28,21 @@ TEST(the_ends_of_diverging_lie_on_top)
 {
     const palette p = palette_make(PALETTE_DIVERGING);
     const unsigned char shades[] = {254, 127, 0, 130, 127}, order[] = {127, 130, 0, 254};
-    shape_batch s = lines_of(5, shades);
+    CLEANUP(shape_batch_free) shape_batch s = lines_of(5, shades);
     draw(&s, &p, 1.0, 4, order);
-    shape_batch_free(&s);
 }
 
 TEST(the_end_of_sequential_lies_on_top)
 {
     const palette p = palette_make(PALETTE_SEQUENTIAL);
     const unsigned char shades[] = {254, 127, 0}, order[] = {0, 127, 254};
-    shape_batch s = lines_of(3, shades);
+    CLEANUP(shape_batch_free) shape_batch s = lines_of(3, shades);
     draw(&s, &p, 0.0, 3, order);
-    shape_batch_free(&s);
 }
 
 TEST(nothing_draws_nothing)
 {
     const palette p = palette_make(PALETTE_SEQUENTIAL);
-    shape_batch s = lines_of(0, NULL);
+    CLEANUP(shape_batch_free) shape_batch s = lines_of(0, NULL);
     draw(&s, &p, 1.0, 0, NULL);
-    shape_batch_free(&s);
 }

@@ -50,12 +50,11 @@ TEST(a_strip_has_all_frames_of_a_short_film)
     trajectory_fixture *f = *test_state;
     const request r = asking(f, REQUEST_STRIP, trajectory_fixture_beside(f, "a.svg"));
     draw(show_strip, f, &r, r.output);
-    char *text = read_text(r.output);
+    CLEANUP(free_memory) char *text = read_text(r.output);
     assert_int_equal(count(text, "<g id=\"frame-"), TRAJECTORY_FIXTURE_FRAMES);
     assert_int_equal(count(text, "strain of springs"), 1);
     assert_int_equal(count(text, "<metadata>data "), 1);
     assert_non_null(strstr(text, ">0.2 ms<"));
-    free(text);
 }
 
 TEST(frames_and_times_are_taken)
@@ -65,10 +64,9 @@ TEST(frames_and_times_are_taken)
     request r = asking(f, REQUEST_STRIP, trajectory_fixture_beside(f, "a.svg"));
     r.times = "0,9e-4";
     draw(show_strip, f, &r, r.output);
-    char *text = read_text(r.output);
+    CLEANUP(free_memory) char *text = read_text(r.output);
     assert_int_equal(count(text, "<g id=\"frame-"), 2);
     assert_non_null(strstr(text, "<g id=\"frame-0\""));
-    free(text);
     r.times = NULL, r.frames = "7";
     assert_false(show_strip(f->reader, &r, NULL, &o));
     assert_int_equal(o.code, EXIT_INVALID);

@@ -24,10 +24,10 @@ TEST(places_and_bounds_are_those_of_the_frame)
 {
     trajectory_fixture *f = *test_state;
     const quantity q = find(f, "strain");
-    snapshot s;
+    CLEANUP(snapshot_free) snapshot s;
     load(&s, f, &q, 3);
     const dem_index n = s.lattice->n_nodes;
-    double *x = malloc(2 * (size_t)n * sizeof *x);
+    CLEANUP(free_memory) double *x = malloc(2 * (size_t)n * sizeof *x);
     trajectory_fixture_ok(dem_reader_positions(f->reader, 3, x));
     assert_memory_equal(s.x, x, 2 * (size_t)n * sizeof *x);
     assert_close(s.t, 6e-4, 1e-15);
@@ -37,8 +37,6 @@ TEST(places_and_bounds_are_those_of_the_frame)
         assert_int_equal(s.is_bare[k], k == n - 1);
     }
     assert_close(snapshot_spacing(&s), 4e-3, 1e-12);
-    free(x);
-    snapshot_free(&s);
 }
 
 /* A number of nodes gives springs and triangles their means. */
@@ -62,10 +60,9 @@ TEST(nodes_lend_their_numbers)
 static uint64_t hash_of(const trajectory_fixture *f, const char *name, dem_index frame)
 {
     const quantity q = find(f, name);
-    snapshot s;
+    CLEANUP(snapshot_free) snapshot s;
     load(&s, f, &q, frame);
     const uint64_t hash = snapshot_hash(&s, DIGEST_BEGIN);
-    snapshot_free(&s);
     return hash;
 }
 
@@ -81,12 +78,11 @@ TEST(a_frame_that_is_not_there_is_refused)
 {
     trajectory_fixture *f = *test_state;
     const quantity q = find(f, "strain");
-    snapshot s;
+    CLEANUP(snapshot_free) snapshot s;
     outcome o = {0};
     load(&s, f, &q, 0);
     assert_false(snapshot_load(&s, TRAJECTORY_FIXTURE_FRAMES, &o));
     assert_int_equal(o.code, EXIT_INVALID);
-    snapshot_free(&s);
 }
 
 TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);

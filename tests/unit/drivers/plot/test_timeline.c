@@ -28,7 +28,7 @@ static char *draw(const trajectory_fixture *f)
 
 TEST(energies_reaction_contacts_and_steps_have_charts)
 {
-    char *text = draw(*test_state);
+    CLEANUP(free_memory) char *text = draw(*test_state);
     static const char *const words[] = {">energy, J<", ">energy, mJ<", ">sum<",      ">kinetic<", ">springs<",
                                         ">along x<",   ">along y<",    ">contacts<", ">step, "};
     int n = 0, charts = 0;
@@ -36,26 +36,22 @@ TEST(energies_reaction_contacts_and_steps_have_charts)
     assert_int_equal(n, 8); /* one unit of energy */
     for (const char *at = strstr(text, "class=\"chart\""); at != NULL; at = strstr(at + 1, "class=\"chart\"")) charts++;
     assert_int_equal(charts, 4);
-    free(text);
 }
 
 /* The run has no friction, no damping, no boundaries, and loses nothing by them. */
 TEST(what_never_is_has_no_line)
 {
-    char *text = draw(*test_state);
+    CLEANUP(free_memory) char *text = draw(*test_state);
     assert_null(strstr(text, "friction"));
     assert_null(strstr(text, "damping"));
     assert_null(strstr(text, "boundar"));
-    free(text);
 }
 
 TEST(the_same_film_has_the_same_hash)
 {
-    char *a = draw(*test_state), *b = draw(*test_state);
+    CLEANUP(free_memory) char *a = draw(*test_state), *b = draw(*test_state);
     assert_string_equal(a, b);
     assert_non_null(strstr(a, "<metadata>data "));
-    free(a);
-    free(b);
 }
 
 TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);
