@@ -147,7 +147,7 @@ static dem_status save(checkpoint_file *c, const dem_checkpoint *checkpoint)
     if (time_of(checkpoint) == c->t_written) return DEM_OK;
     dem_status status = dem_trajectory_segment(c->trajectory, checkpoint);
     if (status == DEM_OK) status = put_on_disk(c, checkpoint);
-    if (status == DEM_OK) report_tell(c->log, "checkpoint t %.6g s in %s\n", c->t_written, c->path);
+    if (status == DEM_OK) run_log_tell(c->log, "checkpoint t %.6g s in %s\n", c->t_written, c->path);
     return status;
 }
 

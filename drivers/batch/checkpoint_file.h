@@ -9,7 +9,7 @@
 #include "command.h"
 #include "deck.h"
 #include "output.h"
-#include "report.h"
+#include "run_log.h"
 
 /* ---- what is there ---- */
 
@@ -43,7 +43,7 @@ typedef struct checkpoint_file {
     const deck *deck;
     const checkpoint_source *source;
     dem_trajectory *trajectory;
-    report *log;
+    run_log *log;
     double interval;    /* s on the wall between checkpoints */
     double deadline;    /* s on the wall */
     double wall_next;   /* s, from when on the next checkpoint is written */

@@ -20,6 +20,7 @@ static const char usage[] =
     "  --outdir FOLDER        where to write; made where it is missing (default: here)\n"
     "  --set GROUP.KEY=VALUE  give a key, spelt as in a deck; GROUP(K).KEY in the K-th such group; any number of "
     "times\n"
+    "  --verbose              log details, too: rules of contact, scales, stability, energies, events, more peaks\n"
     "  --index N              take only the N-th deck, from 1: for job arrays\n"
     "  --overwrite            rename output of another problem that is in the way to NAME.old\n"
     "  --max-memory GB        refuse what takes more (default: the memory of the machine)\n"
@@ -148,10 +149,15 @@ static bool parse_word(command *c, const char *word)
         c->action = action_words[k].action;
         return true;
     }
-    const bool overwrite = strcmp(word, "--overwrite") == 0, anyway = strcmp(word, "--resume-anyway") == 0;
-    c->overwrite = c->overwrite || overwrite;
-    c->resume_anyway = c->resume_anyway || anyway;
-    if (overwrite || anyway) return true;
+    const struct {
+        const char *word;
+        bool *set;
+    } flags[] = {{"--overwrite", &c->overwrite}, {"--resume-anyway", &c->resume_anyway}, {"--verbose", &c->verbose}};
+    for (size_t k = 0; k < sizeof flags / sizeof *flags; k++) {
+        if (strcmp(word, flags[k].word) != 0) continue;
+        *flags[k].set = true;
+        return true;
+    }
     if (word[0] == '-' || word[0] == '\0') return refuse("'%s' is no option", word);
     c->decks[c->n_decks++] = word;
     return true;

@@ -24,7 +24,7 @@ typedef enum command_action {
 typedef struct command {
     command_action action;
     const char *outdir; /* made when the first output is to be written */
-    bool overwrite, resume_anyway;
+    bool overwrite, resume_anyway, verbose;
     limits most;                          /* disk infinite: what is free */
     double checkpoint_interval, max_wall; /* s on the wall */
     double wall_start;                    /* s, of the whole command */

@@ -32,7 +32,8 @@ typedef struct job {
     char path[OUTPUT_PATH]; /* of the output */
     dem_peaks *peaks;       /* NULL: not wanted */
     dem_trajectory *trajectory;
-    report log;
+    run_log log;
+    report report;
     relaxation rest;
     dem_options options;
     checkpoint_source source; /* from which the run goes on */
@@ -121,7 +122,7 @@ static dem_status resume(job *j)
         status = dem_peaks_resume(&j->peaks, j->model, j->deck.peak_every, checkpoint);
     const dem_trajectory_options options = frames_of(j);
     if (status == DEM_OK) status = dem_trajectory_resume(&j->trajectory, j->path, j->simulation, &options, checkpoint);
-    if (status == DEM_OK) status = report_resume(&j->log, checkpoint, j->simulation);
+    if (status == DEM_OK) status = report_resume(&j->report, checkpoint, j->simulation);
     return status == DEM_OK && j->deck.residual > 0.0 ? relaxation_resume(&j->rest, checkpoint) : status;
 }
 
@@ -132,7 +133,7 @@ static dem_status observe(job *j)
         dem_observer observer;
     } all[] = {{j->peaks != NULL, dem_peaks_observer(j->peaks)},
                {true, dem_trajectory_observer(j->trajectory)},
-               {true, report_observer(&j->log)},
+               {true, report_observer(&j->report)},
                {j->deck.residual > 0.0, relaxation_observer(&j->rest)},
                {j->deck.stop_at_overlap != 0, {.step = stop_at_overlap}},
                {true, checkpoint_file_observer(&j->checkpoint)}};
@@ -189,8 +190,8 @@ static void stop(job *j)
     dem_state state = {.struct_size = sizeof state};
     const checkpoint_file *c = &j->checkpoint;
     (void)dem_simulation_state(j->simulation, &state);
-    report_tell(&j->log, "stopped    at %.6g s by %s; the same command goes on from %s\n", state.t, c->ended,
-                c->t_written >= 0.0 ? c->path : "the beginning");
+    run_log_tell(&j->log, "stopped    at %.6g s by %s; the same command goes on from %s\n", state.t, c->ended,
+                 c->t_written >= 0.0 ? c->path : "the beginning");
     outcome_set(&j->outcome, EXIT_STOPPED, "%s: stopped by %s", j->deck.path, c->ended);
 }
 
@@ -198,10 +199,10 @@ static void run(job *j)
 {
     j->checkpoint.trajectory = j->trajectory;
     j->checkpoint.log = &j->log;
-    j->log.peaks = j->peaks;
-    preview_print(stdout, &j->deck, j->simulation, j->path);
+    j->report.peaks = j->peaks;
+    preview_print(&j->log, &j->deck, j->simulation, j->path);
     if (j->source.checkpoint != NULL)
-        report_tell(&j->log, "resumed    from %.6g s, %s\n", j->source.t, j->checkpoint.path);
+        run_log_tell(&j->log, "resumed    from %.6g s, %s\n", j->source.t, j->checkpoint.path);
     dem_checkpoint_destroy(j->source.checkpoint);
     j->source.checkpoint = NULL;
     const dem_status status = advance(j);
@@ -210,7 +211,7 @@ static void run(job *j)
         return;
     }
     if (!passes(j, status, j->deck.path)) return;
-    if (j->outcome.code == EXIT_DONE) report_summary(&j->log, j->simulation);
+    if (j->outcome.code == EXIT_DONE) report_summary(&j->report, j->simulation);
     if (j->outcome.code == EXIT_DONE) check_success(j);
     finish(j);
 }
@@ -224,7 +225,7 @@ static result describe(const job *j)
                     .read = j->deck.name != NULL ? &j->deck : NULL,
                     .output = j->path[0] != '\0' ? j->path : NULL,
                     .simulation = j->simulation,
-                    .log = j->trajectory != NULL ? &j->log : NULL,
+                    .log = j->trajectory != NULL ? &j->report : NULL,
                     .rest = &j->rest,
                     .outcome = &j->outcome,
                     .start = j->start,
@@ -248,7 +249,7 @@ static void conclude(job *j)
     }
     if (line == NULL)
         outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
-    else
+    else if (!j->log.terminal || j->log.verbose) /* it is for programs */
         (void)fputs(line, stdout);
     free(line);
 }
@@ -401,7 +402,7 @@ static bool claim(job *j)
 
 static void start_log(job *j)
 {
-    report_start(&j->log, stdout, isatty(STDOUT_FILENO) == 1, &j->deck);
+    report_start(&j->report, &j->log, &j->deck);
     j->rest = relaxation_start(j->deck.residual, &j->deck.options);
     j->checkpoint = checkpoint_file_start(j->command, j->path, &j->deck, &j->source);
 }
@@ -456,7 +457,7 @@ static bool check_folder(job *j)
 static void check(job *j)
 {
     if (!check_folder(j)) return;
-    if (passes(j, build(j), j->deck.path) && ends(j)) preview_print(stdout, &j->deck, j->simulation, NULL);
+    if (passes(j, build(j), j->deck.path) && ends(j)) preview_print(&j->log, &j->deck, j->simulation, NULL);
 }
 
 static bool succeeded(job *j, deck_status status, namelist_errors *errors)
@@ -493,9 +494,19 @@ static void dismiss(job *j)
     lock_release(&j->lock);
 }
 
+static job new_job(const command *c, const char *path)
+{
+    return (job){.command = c,
+                 .file = path,
+                 .log = {.out = stdout, .terminal = isatty(STDOUT_FILENO) == 1, .verbose = c->verbose},
+                 .lock = {.file = -1},
+                 .start = time(NULL),
+                 .wall_start = wall_clock()};
+}
+
 exit_code job_do(const command *c, const char *path)
 {
-    job j = {.command = c, .file = path, .lock = {.file = -1}, .start = time(NULL), .wall_start = wall_clock()};
+    job j = new_job(c, path);
     const bool good = read_deck(&j);
     if (good && c->action == COMMAND_ECHO) (void)fputs(j.deck.echo, stdout);
     if (good && c->action == COMMAND_CHECK) check(&j);
@@ -507,7 +518,7 @@ exit_code job_do(const command *c, const char *path)
 
 exit_code job_leave(const command *c, const char *path)
 {
-    job j = {.command = c, .file = path, .lock = {.file = -1}, .start = time(NULL), .wall_start = wall_clock()};
+    job j = new_job(c, path);
     outcome_set(&j.outcome, EXIT_STOPPED, "%s: not begun", path);
     if (c->action == COMMAND_RUN) conclude(&j);
     return j.outcome.code;

@@ -73,7 +73,7 @@ static void print_damping(FILE *out, double of_masses, double of_springs)
     if (of_springs > 0.0) (void)fprintf(out, "damping    of springs: %g s\n", of_springs);
 }
 
-static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
+static void print_impacts(FILE *out, const dem_options *o, const dem_model *model)
 {
     const dem_model_size size = dem_model_sizes(model);
     (void)fprintf(out, "impacts    %s, window %.4g s%s, vertices ", o->contact == DEM_CONTACT_LOCAL ? "local" : "exact",
@@ -83,21 +83,17 @@ static void print_rules(FILE *out, const dem_options *o, const dem_model *model)
                       (long long)size.n_contact_edges);
     else
         (void)fprintf(out, "off\n");
-    print_friction(out, model);
-    print_motion(out, model);
-    print_damping(out, o->mass_damping, damping_time(dem_model_lattice(model)));
 }
 
 /* In a body accelerations are larger than g, and the rule with them: this reports the least that it asks for. */
-static void warn_rest_speed(FILE *out, const dem_options *o)
+static void warn_rest_speed(run_log *log, const dem_options *o)
 {
     const double kept_up = sqrt(2.0 * hypot(o->gravity[0], o->gravity[1]) * o->penetration_tolerance);
     if (o->rest_speed > 0.0 && o->rest_speed < kept_up)
-        (void)fprintf(
-            out,
-            "warning    'rest_speed' %.3g m/s is below sqrt(2 g penetration tolerance) = %.3g m/s: where the rule of "
-            "docs/method.md asks for more, the rule holds\n",
-            o->rest_speed, kept_up);
+        run_log_warn(log,
+                     "'rest_speed' %.3g m/s is below sqrt(2 g penetration tolerance) = %.3g m/s: where the rule of "
+                     "docs/method.md asks for more, the rule holds",
+                     o->rest_speed, kept_up);
 }
 
 static void print_sizes(FILE *out, const dem_model *model)
@@ -170,7 +166,7 @@ static void print_frequency(FILE *out, const dem_model *model)
                       dem_model_omega_max(model) / omega);
 }
 
-static void print_measured(FILE *out, const deck *d, const dem_model *model)
+static void print_measured(FILE *out, const deck *d, const dem_model *model, bool details)
 {
     const double start = wall_clock();
     const dem_index n = dem_model_sizes(model).n_nodes;
@@ -179,8 +175,8 @@ static void print_measured(FILE *out, const deck *d, const dem_model *model)
         return;
     }
     print_constants(out, d, model);
-    print_frequency(out, model);
-    if (wall_clock() - start > 1.0)
+    if (details) print_frequency(out, model);
+    if (details && wall_clock() - start > 1.0)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
 }
 
@@ -254,29 +250,53 @@ void preview_versions(char *text, size_t size)
                    __VERSION__, dem_version_sundials(), dem_version_hdf5(), GSL_VERSION);
 }
 
-void preview_print(FILE *out, const deck *d, const dem_simulation *simulation, const char *output)
+static void print_boundaries(FILE *out, const deck *d)
 {
-    char versions[256];
+    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
+}
+
+static void print_details(FILE *out, const deck *d, const dem_simulation *simulation)
+{
     const dem_model *model = dem_simulation_model(simulation);
     const dem_options o = dem_simulation_options(simulation);
-    preview_versions(versions, sizeof versions);
-    (void)fprintf(out, "%s\n", versions);
-    (void)fprintf(out, "deck       %s%s%s, problem %016llx\n", d->path, d->title[0] != '\0' ? ": " : "", d->title,
-                  (unsigned long long)d->hash);
-    print_sizes(out, model);
-    print_bodies(out, d);
     print_probes(out, d, dem_model_lattice(model));
-    print_rules(out, &o, model);
+    print_impacts(out, &o, model);
     (void)fprintf(out,
                   "scales     spacing %.6g m, omega_max %.6g rad/s (upper bound), v_scale %.6g m/s, penetration "
                   "tolerance %.3g m\n",
                   o.spacing, dem_model_omega_max(model), o.v_scale, o.penetration_tolerance);
-    warn_rest_speed(out, &o);
-    step_report_print(out, d->t_end, simulation);
-    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
-    print_measured(out, d, model);
-    print_estimates(out, d, simulation);
+    step_report_print_details(out, simulation);
     print_memory(out, simulation);
+}
+
+static void print_title(const run_log *log, const deck *d)
+{
+    char versions[256];
+    preview_versions(versions, sizeof versions);
+    if (log->verbose) (void)fprintf(log->out, "%s\n", versions);
+    (void)fprintf(log->out, "deck       %s%s%s", d->path, d->title[0] != '\0' ? ": " : "", d->title);
+    if (log->verbose) (void)fprintf(log->out, ", problem %016llx", (unsigned long long)d->hash);
+    (void)fprintf(log->out, "\n");
+}
+
+void preview_print(run_log *log, const deck *d, const dem_simulation *simulation, const char *output)
+{
+    const dem_model *model = dem_simulation_model(simulation);
+    const dem_options o = dem_simulation_options(simulation);
+    FILE *out = log->out;
+    print_title(log, d);
+    print_sizes(out, model);
+    print_bodies(out, d);
+    print_friction(out, model);
+    print_motion(out, model);
+    print_damping(out, o.mass_damping, damping_time(dem_model_lattice(model)));
+    print_boundaries(out, d);
+    print_measured(out, d, model, log->verbose);
+    step_report_print(out, d->t_end, simulation);
+    print_estimates(out, d, simulation);
+    warn_rest_speed(log, &o);
+    step_report_warn(log, simulation);
+    if (log->verbose) print_details(out, d, simulation);
     if (output != NULL) (void)fprintf(out, "output     %s\n", output);
     (void)fflush(out);
 }

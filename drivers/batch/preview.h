@@ -3,13 +3,14 @@
 #ifndef DEM_PREVIEW_H
 #define DEM_PREVIEW_H
 
-#include <stdio.h>
+#include <stddef.h>
 
 #include "deck.h"
+#include "run_log.h"
 
-/** Versions, sizes, bodies, rules of contact, scales, steps, constants and frequency as measured, estimates.
- *  `output`: the file that will be written, NULL: none. */
-void preview_print(FILE *out, const deck *d, const dem_simulation *simulation, const char *output);
+/** Sizes, bodies, friction, steps, constants as measured, estimates, the `output` that will be written (NULL: none).
+ *  A verbose log has versions, rules of contact, probes, scales, stability, frequency and memory, too. */
+void preview_print(run_log *log, const deck *d, const dem_simulation *simulation, const char *output);
 
 /** The versions of program, compiler and libraries in one line. */
 void preview_versions(char *text, size_t size);

@@ -4,7 +4,6 @@
 
 #include <gsl/gsl_math.h> /* M_PI */
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,16 +32,6 @@ double report_rising_speed(const dem_simulation *simulation)
 }
 
 /* ---- following a run ---- */
-
-void report_tell(report *r, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    if (r->terminal) (void)fputc('\n', r->out);
-    (void)vfprintf(r->out, format, arguments);
-    (void)fflush(r->out);
-    va_end(arguments);
-}
 
 static void follow_energy(report *r, const dem_state *state)
 {
@@ -103,42 +92,62 @@ double report_closure(const report *r, dem_energy e)
     return (dem_energy_ledger(e) - r->so_far.energy_start) / fmax(r->so_far.energy_max, 1e-300);
 }
 
+static void warn_ledger(report *r, const dem_simulation *simulation)
+{
+    const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
+    run_log_warn(r->log, "the energy ledger is open by %+.2e at %.4e s: a %s closes it", r->so_far.warned_closure,
+                 r->so_far.warned_t, fixed ? "shorter step" : "smaller 'rtol'");
+}
+
+static void warn_overlap(report *r, const dem_simulation *simulation)
+{
+    const dem_overlap o = dem_simulation_overlap(simulation);
+    run_log_warn(r->log,
+                 "bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, %.4e s",
+                 (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+}
+
 /* While a load grows from nothing the largest energy so far is no measure yet: the first steps of a ramp may be off by
  * all of the 1e-20 J that there are. */
 static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
-    const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
-    if (r->so_far.warned || state->t < r->settled || !(fabs(report_closure(r, state->energy)) > r->closure)) return;
+    const double closure = report_closure(r, state->energy);
+    if (r->so_far.warned || state->t < r->settled || !(fabs(closure) > r->closure)) return;
     r->so_far.warned = true;
-    report_tell(r, "warning    the energy ledger is open by %+.2e at %.4e s: a %s closes it\n",
-                report_closure(r, state->energy), state->t, fixed ? "shorter step" : "smaller 'rtol'");
+    r->so_far.warned_closure = closure;
+    r->so_far.warned_t = state->t;
+    warn_ledger(r, simulation);
 }
 
 static void watch_overlap(report *r, const dem_simulation *simulation)
 {
-    const dem_overlap o = dem_simulation_overlap(simulation);
-    if (r->so_far.overlapped || o.node < 0) return;
+    if (r->so_far.overlapped || dem_simulation_overlap(simulation).node < 0) return;
     r->so_far.overlapped = true;
-    report_tell(r,
-                "warning    bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, "
-                "%.4e s\n",
-                (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+    warn_overlap(r, simulation);
+}
+
+/* On a terminal five times a second, in a file at every tenth of the run, or every twentieth. */
+static bool is_due(const report *r, double now, double t)
+{
+    if (!(t > r->t_start)) return false;
+    const double share = r->log->verbose ? 0.05 : 0.1;
+    return r->log->terminal ? now - r->wall_shown > 0.2 : t - r->t_shown >= share * r->t_end;
 }
 
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
-    const bool due = r->terminal ? now - r->wall_shown > 0.2 : state->t - r->t_shown >= 0.05 * r->t_end;
-    if (!due || !(state->t > r->t_start)) return;
+    if (!is_due(r, now, state->t)) return;
     const dem_counts counts = dem_simulation_counts(simulation);
     r->wall_shown = now;
     r->t_shown = state->t;
+    r->log->inside = r->log->terminal;
     (void)fprintf(
-        r->out, "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
-        r->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps, (long long)state->n_contacts,
+        r->log->out, "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
+        r->log->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps, (long long)state->n_contacts,
         report_closure(r, state->energy), (double)(counts.steps - r->steps_start) / fmax(spent, 1e-9),
-        spent * (r->t_end - state->t) / (state->t - r->t_start), r->terminal ? "   " : "\n");
-    (void)fflush(r->out);
+        spent * (r->t_end - state->t) / (state->t - r->t_start), r->log->terminal ? "   " : "\n");
+    (void)fflush(r->log->out);
 }
 
 static dem_status follow(void *context, const dem_simulation *simulation)
@@ -158,11 +167,10 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 
 /* ---- before and after ---- */
 
-void report_start(report *r, FILE *out, bool terminal, const deck *d)
+void report_start(report *r, run_log *log, const deck *d)
 {
     memset(r, 0, sizeof *r); /* gaps too: they get into checkpoints */
-    r->out = out;
-    r->terminal = terminal;
+    r->log = log;
     r->t_end = d->t_end;
     r->closure = d->closure;
     r->settled = relaxation_settled(&d->options);
@@ -178,7 +186,13 @@ dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_
     (void)dem_simulation_state(simulation, &state);
     r->t_start = r->t_shown = state.t;
     r->steps_start = dem_simulation_counts(simulation).steps;
-    return dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
+    const dem_status status = dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
+    if (status != DEM_OK) return status;
+    r->log->quiet = true;
+    if (r->so_far.warned) warn_ledger(r, simulation);
+    if (r->so_far.overlapped) warn_overlap(r, simulation);
+    r->log->quiet = false;
+    return DEM_OK;
 }
 
 static dem_status save(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
@@ -196,14 +210,14 @@ dem_observer report_observer(report *r)
 static void print_contact(const report *r, const dem_simulation *simulation)
 {
     if (!r->so_far.touched) {
-        (void)fprintf(r->out, "contact    none\n");
+        (void)fprintf(r->log->out, "contact    none\n");
         return;
     }
-    (void)fprintf(r->out, "contact    first at %.6e s, last at %.6e s, %.4e s apart%s\n", r->so_far.first_contact,
+    (void)fprintf(r->log->out, "contact    first at %.6e s, last at %.6e s, %.4e s apart%s\n", r->so_far.first_contact,
                   r->so_far.last_contact, r->so_far.last_contact - r->so_far.first_contact,
                   r->so_far.contacts_before > 0 ? " (still touching)" : "");
     (void)fprintf(
-        r->out,
+        r->log->out,
         "rebound    vertical velocity of the centre of mass %+.5g m/s at the last contact, %+.5g m/s at t_end\n",
         r->so_far.speed_after, report_rising_speed(simulation));
 }
@@ -211,14 +225,15 @@ static void print_contact(const report *r, const dem_simulation *simulation)
 static void print_strain(const report *r)
 {
     if (r->so_far.strain_min.spring_min >= 0)
-        (void)fprintf(r->out, "strain     smallest %+.4g in spring %lld at %.4e s\n", r->so_far.strain_min.min,
+        (void)fprintf(r->log->out, "strain     smallest %+.4g in spring %lld at %.4e s\n", r->so_far.strain_min.min,
                       (long long)r->so_far.strain_min.spring_min, r->so_far.strain_min_t);
     if (r->so_far.strain_max.spring_max >= 0)
-        (void)fprintf(r->out, "strain     largest %+.4g in spring %lld at %.4e s\n", r->so_far.strain_max.max,
+        (void)fprintf(r->log->out, "strain     largest %+.4g in spring %lld at %.4e s\n", r->so_far.strain_max.max,
                       (long long)r->so_far.strain_max.spring_max, r->so_far.strain_max_t);
     if (r->so_far.area_min < 1.0)
         (void)fprintf(
-            r->out, "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most, %lld inverted\n",
+            r->log->out,
+            "triangles  smallest area %.4f of its rest area at %.4e s, guard on %lld at most, %lld inverted\n",
             r->so_far.area_min, r->so_far.area_min_t, (long long)r->so_far.guarded_max,
             (long long)r->so_far.inverted_max);
 }
@@ -250,11 +265,12 @@ static void print_peaks(const report *r, const dem_lattice *l)
         free(list);
         return;
     }
-    const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, r->most_stressed, list);
+    const dem_index most = r->log->verbose || r->most_stressed == 0 ? r->most_stressed : 1;
+    const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, most, list);
     for (dem_index k = 0; k < n; k++)
-        print_node_peak(r->out, list[k], &dem_peaks_nodes(r->peaks)[list[k]], l->x + 2 * list[k]);
-    const dem_index m = dem_peaks_most_strained_springs(r->peaks, r->most_stressed, list);
-    for (dem_index k = 0; k < m; k++) print_spring_peak(r->out, list[k], &dem_peaks_springs(r->peaks)[list[k]], l);
+        print_node_peak(r->log->out, list[k], &dem_peaks_nodes(r->peaks)[list[k]], l->x + 2 * list[k]);
+    const dem_index m = r->log->verbose ? dem_peaks_most_strained_springs(r->peaks, most, list) : 0;
+    for (dem_index k = 0; k < m; k++) print_spring_peak(r->log->out, list[k], &dem_peaks_springs(r->peaks)[list[k]], l);
     free(list);
 }
 
@@ -266,21 +282,21 @@ static void print_taken(FILE *out, const char *by, double energy)
 
 static void print_ledger(const report *r, dem_energy e)
 {
-    (void)fprintf(r->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->so_far.energy_start,
+    (void)fprintf(r->log->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->so_far.energy_start,
                   dem_energy_motion(e) + e.gravity, e.impact);
-    print_taken(r->out, "friction", e.friction);
-    print_taken(r->out, "damping", e.damping);
-    (void)fprintf(r->out, " - projection %.3g", e.projection);
-    if (e.boundary != 0.0) (void)fprintf(r->out, " - put in by boundaries %.4g", e.boundary);
-    (void)fprintf(r->out, "; closure %+.2e\n", report_closure(r, e));
+    print_taken(r->log->out, "friction", e.friction);
+    print_taken(r->log->out, "damping", e.damping);
+    (void)fprintf(r->log->out, " - projection %.3g", e.projection);
+    if (e.boundary != 0.0) (void)fprintf(r->log->out, " - put in by boundaries %.4g", e.boundary);
+    (void)fprintf(r->log->out, "; closure %+.2e\n", report_closure(r, e));
 }
 
-static void print_energy(const report *r, dem_energy e)
+static void print_energies(const report *r, dem_energy e)
 {
-    (void)fprintf(r->out, "energy     kinetic %.6g, elastic %.4g, area %.4g, guard %.4g, gravity %.4g J\n", e.kinetic,
-                  e.elastic, e.area, e.guard, e.gravity);
-    print_ledger(r, e);
-    (void)fprintf(r->out, "elastic    largest share %.4f of the largest kinetic and elastic energy so far, at %.4e s\n",
+    (void)fprintf(r->log->out, "energy     kinetic %.6g, elastic %.4g, area %.4g, guard %.4g, gravity %.4g J\n",
+                  e.kinetic, e.elastic, e.area, e.guard, e.gravity);
+    (void)fprintf(r->log->out,
+                  "elastic    largest share %.4f of the largest kinetic and elastic energy so far, at %.4e s\n",
                   r->so_far.elastic_share_max, r->so_far.elastic_share_t);
 }
 
@@ -340,18 +356,21 @@ static void print_overlap(FILE *out, const dem_simulation *simulation)
 void report_summary(report *r, const dem_simulation *simulation)
 {
     const dem_counts c = dem_simulation_counts(simulation);
-    if (r->terminal) (void)fprintf(r->out, "\n");
+    const dem_energy e = dem_simulation_energy(simulation);
+    const bool details = r->log->verbose;
+    run_log_begin(r->log);
     print_contact(r, simulation);
-    print_strain(r);
+    if (details) print_strain(r);
     print_peaks(r, dem_model_lattice(dem_simulation_model(simulation)));
-    print_energy(r, dem_simulation_energy(simulation));
-    print_obstacles(r->out, simulation);
-    print_boundaries(r->out, simulation);
-    print_overlap(r->out, simulation);
-    print_events(r->out, &c);
-    step_report_print_largest(r->out, &r->so_far.step_report);
-    (void)fprintf(r->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
+    if (details) print_energies(r, e);
+    print_ledger(r, e);
+    print_obstacles(r->log->out, simulation);
+    print_boundaries(r->log->out, simulation);
+    print_overlap(r->log->out, simulation);
+    if (details) print_events(r->log->out, &c);
+    if (details) step_report_print_largest(r->log->out, &r->so_far.step_report);
+    (void)fprintf(r->log->out, "run        %lld steps, %lld rejected, %lld retried, %lld evaluations, %.2f s\n",
                   (long long)c.steps, (long long)c.rejected, (long long)c.retries, (long long)c.evaluations,
                   wall_clock() - r->wall_start);
-    (void)fflush(r->out);
+    (void)fflush(r->log->out);
 }

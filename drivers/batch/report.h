@@ -4,9 +4,9 @@
 #define DEM_REPORT_H
 
 #include <stdbool.h>
-#include <stdio.h>
 
 #include "deck.h"
+#include "run_log.h"
 #include "step_report.h"
 
 /** What the report of a run needs, and its checkpoints keep. */
@@ -21,13 +21,13 @@ typedef struct report_progress {
     double first_contact, last_contact; /* s */
     double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */
     dem_index contacts_before, impacts_before;
-    bool touched; /* there was a contact */
+    bool touched;                    /* there was a contact */
+    double warned_closure, warned_t; /* of the ledger's warning */
     bool warned, overlapped;
 } report_progress;
 
 typedef struct report {
-    FILE *out;
-    bool terminal;                 /* progress is rewritten in place */
+    run_log *log;
     double t_end;                  /* s */
     double closure;                /* from which on the ledger is warned of */
     double settled;                /* s, when the last ramp ends */
@@ -40,19 +40,16 @@ typedef struct report {
 } report;
 
 /** Starts the log of a run. */
-void report_start(report *r, FILE *out, bool terminal, const deck *d);
+void report_start(report *r, run_log *log, const deck *d);
 
 /** Goes on from the checkpoint of a simulation that has been resumed from it.  \return DEM_ERROR_IO */
 dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation);
 
-/** A line of the log, printf-like, with its end. */
-void report_tell(report *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
 /** To be handed to the simulation: follows extremes and prints progress. */
 dem_observer report_observer(report *r);
 
-/** First and last contact, rebound, strains, what was stressed most, energy ledger and its closure, obstacles,
- *  counts, wall time. */
+/** First and last contact, rebound, what was stressed most, energy ledger and its closure, obstacles, wall time; with
+ *  the details of a verbose log strains, energies and counts. */
 void report_summary(report *r, const dem_simulation *simulation);
 
 /** What the ledger has gained, over the largest energy so far. */

@@ -27,21 +27,40 @@ static void print_stability(FILE *out, const dem_method_traits *method, const de
     if (!(omega > 0.0)) return;
     (void)fprintf(out, "stability  omega_max h = %.3g; ", z);
     if (method->stable > 0.0)
-        (void)fprintf(out, "%s is stable up to %.3g, h = %.4g s", method->name, method->stable, method->stable / omega);
+        (void)fprintf(out, "%s is stable up to %.3g, h = %.4g s\n", method->name, method->stable,
+                      method->stable / omega);
     else
-        (void)fprintf(out, "with %s undamped oscillations grow at any step, here by up to %.1e in one", method->name,
+        (void)fprintf(out, "with %s undamped oscillations grow at any step, here by up to %.1e in one\n", method->name,
                       largest_growth(o->method, z));
-    if (o->fixed_step > 0.0 && z > method->usable)
-        (void)fprintf(out, "; WARNING: from %.3g on the run may blow up", method->usable);
-    (void)fprintf(out, "\n");
 }
 
 void step_report_print(FILE *out, double t_end, const dem_simulation *simulation)
 {
     const dem_options o = dem_simulation_options(simulation);
     const dem_method_traits method = step_report_method(simulation);
-    (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s\n", t_end, method.name,
+    const double omega = dem_model_omega_max(dem_simulation_model(simulation));
+    (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s", t_end, method.name,
                   (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
+    if (omega > 0.0) (void)fprintf(out, " (safe up to %.4g s)", method.usable / omega);
+    (void)fprintf(out, "\n");
+}
+
+void step_report_warn(run_log *log, const dem_simulation *simulation)
+{
+    const dem_options o = dem_simulation_options(simulation);
+    const dem_method_traits method = step_report_method(simulation);
+    const double omega = dem_model_omega_max(dem_simulation_model(simulation)), safe = method.usable / omega;
+    if (o.fixed_step > 0.0 && o.fixed_step * omega > method.usable)
+        run_log_warn(log,
+                     "the fixed step of %.3g s is %.3g times the %.3g s up to which %s is safe here: the run may "
+                     "overflow; give 'fixed_step' in &solver at most that, or leave it out",
+                     o.fixed_step, o.fixed_step / safe, safe, method.name);
+}
+
+void step_report_print_details(FILE *out, const dem_simulation *simulation)
+{
+    const dem_options o = dem_simulation_options(simulation);
+    const dem_method_traits method = step_report_method(simulation);
     print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
     (void)fprintf(out, "kernel     %s, %d thread%s\n", dem_kernel_name(o.kernel), (int)o.threads,
                   o.threads > 1 ? "s" : "");

@@ -7,6 +7,8 @@
 
 #include <dem/dem.h>
 
+#include "run_log.h"
+
 /** The largest value of (6),  (|v_x| + |v_y|) h/spacing  over nodes and accepted steps. To be set to 0. */
 typedef struct step_report {
     double largest, t; /* t: s, when */
@@ -15,8 +17,15 @@ typedef struct step_report {
 /** The method of a simulation; it exists, so that the method is known. */
 dem_method_traits step_report_method(const dem_simulation *simulation);
 
-/** What is known before the run: method, step, stability bound, (6) at v_scale. */
+/** What is known before the run: the method, its step, and up to which step the run is safe: up to there no undamped
+ *  oscillation grows by more than a thousandth in a step. */
 void step_report_print(FILE *out, double t_end, const dem_simulation *simulation);
+
+/** Stability bound, kernel, (6) at v_scale. */
+void step_report_print_details(FILE *out, const dem_simulation *simulation);
+
+/** Warns of a fixed step that is longer. */
+void step_report_warn(run_log *log, const dem_simulation *simulation);
 
 /** To be called after every accepted step. */
 void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_state *state);

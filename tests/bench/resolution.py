@@ -50,7 +50,7 @@ def main(dem_batch, inputs):
                     outdir = deck.with_suffix("")
                     outdir.mkdir()
                     deck.write_text(deck_of(text, spacing, guard))
-                    run = subprocess.run([dem_batch, "--outdir", outdir, deck], capture_output=True, text=True, check=True)
+                    run = subprocess.run([dem_batch, "--verbose", "--outdir", outdir, deck], capture_output=True, text=True, check=True)
                     n, contact, rebound, area, share, inverted, closure = figures(run.stdout, outdir / f"{name}.vtkhdf")
                     print(f"| {name} | {spacing} | {n} | {guard} | {1e3 * contact:.3f} | {rebound:.3f} | {area:.2f} | "
                           f"{share:.1e} | {inverted} | {closure:.1e} |", flush=True)

@@ -106,7 +106,7 @@ class Case(unittest.TestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
 
     def call(self, code, *arguments, stderr=""):
-        done = run(*arguments, cwd=self.folder)
+        done = run("--verbose", *arguments, cwd=self.folder)
         self.assertEqual(done.stderr, stderr)
         self.assertEqual(done.returncode, code)
         return done.stdout
@@ -174,8 +174,8 @@ class Check(Case):
         self.assertEqual(self.files(), set())
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["dem", "deck", "lattice", "contact", "mass", "impacts", "scales", "time", "stability", "kernel",
-                          "formula", "constants", "frequency", "estimate"] + ["memory"] * TELLS_MEMORY)
+                         ["dem", "deck", "lattice", "contact", "mass", "constants", "frequency", "time", "estimate",
+                          "impacts", "scales", "stability", "kernel", "formula"] + ["memory"] * TELLS_MEMORY)
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass = numbers(
@@ -198,9 +198,10 @@ class Check(Case):
             "scales     spacing # m, omega_max # rad/s (upper bound), v_scale # m/s, penetration tolerance # m", out)
         self.assertAlmostEqual(spacing, 0.01)
         self.assertTrue(1e4 < omega_max < 1e5 and v_scale == 10 and 0 < penetration_tolerance <= 1e-8)
-        t_end, order, rtol, step = numbers("time       t_end # s, fehlberg45 of order #, rtol #, largest step # s", out)
+        t_end, order, rtol, step, safe = numbers("time       t_end # s, fehlberg45 of order #, rtol #, largest step # s (safe up to # s)", out)
         self.assertEqual((t_end, order, rtol), (8e-3, 5, 1e-6))
         self.assertAlmostEqual(step * omega_max, 0.5, places=3)
+        self.assertAlmostEqual(safe * omega_max, 1.09, places=2)
         share, growth = numbers("stability  omega_max h = #; with fehlberg45 undamped oscillations grow at any step, "
                                 "here by up to # in one", out)
         self.assertEqual((share, growth), (0.5, 1.3e-5))
@@ -222,7 +223,7 @@ class Check(Case):
     def run_measured(self, spacing):
         """What is given out and what was resident at the most, MB, and the summary."""
         self.put(coarse(spacing=spacing, t_end="1e-6", clearance="0.1"))
-        process = subprocess.Popen([DEM_BATCH, "--overwrite", "deck.nml"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
+        process = subprocess.Popen([DEM_BATCH, "--verbose", "--overwrite", "deck.nml"], cwd=self.folder, stdout=subprocess.PIPE, text=True)
         with process:
             out = process.stdout.read()
             _, status, used = os.wait4(process.pid, 0)
@@ -257,9 +258,12 @@ class Check(Case):
         _, bound, longest = numbers("stability  omega_max h = #; rk4 is stable up to #, h = # s", out)
         self.assertAlmostEqual(bound, 8 ** 0.5, places=2)
         self.assertAlmostEqual(longest * omega_max, bound, places=2)
-        self.assertNotIn("WARNING", out)
+        self.assertNotIn("warning", out)
         self.put(coarse() + f"&solver method = 'rk4', fixed_step = {1.1 * longest} /\n")
-        self.assertIn("WARNING", self.call(0, "--check", "deck.nml"))
+        fixed, times, safe = numbers("warning    the fixed step of # s is # times the # s up to which rk4 is safe here: the "
+                                     "run may overflow; give 'fixed_step' in &solver at most that, or leave it out",
+                                     self.call(0, "--check", "deck.nml"))
+        self.assertAlmostEqual(fixed, times * safe, delta=1e-2 * fixed)
 
     def test_a_body_that_stands_on_the_floor_stays_there(self):
         for floor in ("-1, 0, 1, 0", "-1, -1, 0, 0, 1, -1"):
@@ -439,6 +443,15 @@ class Run(Case):
             "run        # steps, # rejected, # retried, # evaluations, # s", log)
         self.assertTrue(steps > 0 and rejected >= 0 and retried >= 0 and evaluations >= 5 * steps and seconds >= 0)
 
+    def test_the_short_log(self):
+        """The lines by their topics; with details there are more, and progress twice as often."""
+        logs = [run(*options, "--outdir", f"out{len(options)}", "deck.nml", cwd=self.folder).stdout for options in ((), ("--verbose",))]
+        short, long = ([line.split(" ")[0] for line in log.splitlines() if not re.match(r" *\d+\.\d %|\{", line)] for log in logs)
+        self.assertEqual(short, ["deck", "lattice", "contact", "mass", "constants", "time", "estimate", "output",
+                                 "contact", "rebound", "stressed", "ledger", "obstacle", "run"])
+        self.assertTrue(set(short) < set(long) and len(long) > 2 * len(short), long)
+        self.assertTrue(all(log.splitlines()[-1].startswith('{"deck":') for log in logs), "the result is the last line")
+
     def test_the_most_stressed_are_reported(self):
         nodes = "stressed   node # at (#, #) m: von Mises # Pa at # s, principal # Pa at # degrees, # Pa"
         springs = "strained   spring # at (#, #) m: strain #, force # N at # s"
@@ -517,7 +530,7 @@ class Run(Case):
                                         "rectangle.checkpoint", "rectangle.00001.vtkhdf"})
 
     def test_progress_is_plain_lines_where_there_is_no_terminal(self):
-        done = run("deck.nml", cwd=self.folder, text=False)
+        done = run("--verbose", "deck.nml", cwd=self.folder, text=False)
         self.assertEqual(done.returncode, 0)
         self.assertFalse(set(done.stdout) - set(range(32, 127)) - {10}, "plain text")
         found = re.findall(rf"(?m)^ *{NUMBER} %  t ({NUMBER}) s  step \d+  contacts \d+  energy error {NUMBER}"
@@ -544,6 +557,7 @@ class Run(Case):
         os.close(parent)
         text = output.decode().replace("\r\n", "\n")
         self.assertIn("\nrun        ", text)
+        self.assertNotIn('{"deck":', text, "the result is for programs")
         self.assertEqual(text.count(" %  t "), text.count("\r"), "each line of progress goes back to its beginning")
         self.assertLessEqual(len(re.findall(r" s left *\n", text)), 1, "only the last one is ended")
 

@@ -29,7 +29,7 @@ def run(name, law):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "deck.nml")
         path.write_text(deck, encoding="utf-8")
-        done = subprocess.run([DEM_BATCH, path], cwd=folder, capture_output=True, text=True, check=False)
+        done = subprocess.run([DEM_BATCH, "--verbose", path], cwd=folder, capture_output=True, text=True, check=False)
         if done.returncode != 0 or not pathlib.Path(folder, f"{name}.vtkhdf").exists():
             raise AssertionError(f"{law}: exit {done.returncode}: {done.stderr}")
     return done.stdout

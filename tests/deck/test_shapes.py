@@ -108,7 +108,7 @@ class Shapes(unittest.TestCase):
 
     def call(self, deck, *options, code=0):
         (self.folder / "deck.nml").write_text(deck, encoding="utf-8")
-        done = subprocess.run([DEM_BATCH, *options, "deck.nml"], cwd=self.folder, capture_output=True, text=True, timeout=60,
+        done = subprocess.run([DEM_BATCH, "--verbose", *options, "deck.nml"], cwd=self.folder, capture_output=True, text=True, timeout=60,
                               check=False)
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stdout if code == 0 else done.stderr
@@ -196,7 +196,7 @@ class Shapes(unittest.TestCase):
         deck = HEAD + FLOOR + BODY + "'mask', file = 'face.pgm', scale = 2.5e-3 /\n"
         expected = self.call(deck, "--check")
         (self.folder / "deck.nml").write_text(deck.replace("pgm", "png"), encoding="utf-8")
-        done = subprocess.run([DEM_BATCH, "--check", "deck.nml"], cwd=self.folder, capture_output=True, text=True, timeout=60,
+        done = subprocess.run([DEM_BATCH, "--verbose", "--check", "deck.nml"], cwd=self.folder, capture_output=True, text=True, timeout=60,
                               check=False)
         if "need cairo" in done.stderr:
             self.assertEqual(done.returncode, 3)

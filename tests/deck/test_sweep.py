@@ -193,7 +193,7 @@ class Settings(Case):
 
 class Results(Case):
     def test_it_is_what_the_log_says(self):
-        log = self.call(0, "a.nml")
+        log = self.call(0, "--verbose", "a.nml")
         result = self.result()
         self.assertEqual(log.splitlines(True)[-1], (self.folder / "a.json").read_text(encoding="utf-8"))
         self.assertEqual((result["deck"], result["name"], result["output"]), ("a.nml", "a", "a.vtkhdf"))

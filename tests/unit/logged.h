@@ -19,24 +19,24 @@ static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0};
 typedef struct logged {
     support_run run;
     report report;
-    FILE *file;
+    run_log log;
     char text[1 << 16];
 } logged;
 
 static inline void follow(logged *l, bool terminal, double t_end)
 {
-    l->file = tmpfile();
-    assert_non_null(l->file);
+    l->log = (run_log){.out = tmpfile(), .terminal = terminal, .verbose = true};
+    assert_non_null(l->log.out);
     const deck d = {.t_end = t_end, .closure = 1e-2};
-    report_start(&l->report, l->file, terminal, &d);
+    report_start(&l->report, &l->log, &d);
     const dem_observer observer = report_observer(&l->report);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
 }
 
 static inline void read_log(logged *l)
 {
-    rewind(l->file);
-    const size_t n = fread(l->text, 1, sizeof l->text - 1, l->file);
+    rewind(l->log.out);
+    const size_t n = fread(l->text, 1, sizeof l->text - 1, l->log.out);
     assert_true(n < sizeof l->text - 1);
     l->text[n] = '\0';
 }
@@ -50,7 +50,7 @@ static inline void finish(logged *l, double t_end)
 
 static inline void drop_logged(logged *l)
 {
-    assert_int_equal(fclose(l->file), 0);
+    assert_int_equal(fclose(l->log.out), 0);
     support_close(&l->run);
     free(l);
 }

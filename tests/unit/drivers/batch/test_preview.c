@@ -9,7 +9,7 @@ TEST(the_preview_tells_what_is_about_to_run)
     char name[] = "drops/drop.nml", title[] = "A title";
     const deck d = {.path = name, .title = title, .hash = 0xabc, .t_end = 0.25, .frame_interval = 0.01};
     logged *l = drop_node(false, d.t_end);
-    preview_print(l->file, &d, l->run.simulation, "there/drop.vtkhdf");
+    preview_print(&l->log, &d, l->run.simulation, "there/drop.vtkhdf");
     read_log(l);
     assert_non_null(strstr(l->text, "drops/drop.nml"));
     assert_non_null(strstr(l->text, "A title"));
@@ -48,7 +48,7 @@ TEST(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up)
         support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
         support_open(&l->run, &node, NULL, 0, &options);
         follow(l, false, d.t_end);
-        preview_print(l->file, &d, l->run.simulation, NULL);
+        preview_print(&l->log, &d, l->run.simulation, NULL);
         read_log(l);
         const char *message =
             strstr(l->text,
@@ -70,7 +70,7 @@ TEST(the_preview_tells_what_is_probed_and_where)
     logged *l = press(d.t_end);
     const dem_lattice *lattice = dem_model_lattice(l->run.model);
     const double *a = lattice->x + 2 * lattice->ends[2], *b = lattice->x + 2 * lattice->ends[3];
-    preview_print(l->file, &d, l->run.simulation, NULL);
+    preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nprobe      foot: node 2 at (1, 0) m\n"));
     assert_non_null(strstr(l->text, "\nprobe      span: gauge from node 0 to 2 at (0, 0) m\n"));
@@ -99,7 +99,7 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
     assert_ok(dem_lattice_append(&lattice, &node));
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, d.t_end);
-    preview_print(l->file, &d, l->run.simulation, NULL);
+    preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_close(number_in(l->text, "constants", "E"), 1e7, 1.0);
     assert_close(number_in(l->text, "constants", "nu"), 0.1, 1e-6);
@@ -130,7 +130,7 @@ TEST(the_preview_tells_the_constants_of_a_slice)
     assert_ok(dem_lattice_assemble(&lattice, &slice));
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, d.t_end);
-    preview_print(l->file, &d, l->run.simulation, NULL);
+    preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nconstants  body 1: E 1e+07 Pa, nu 0.45 in plane strain, anisotropy 1.0000, "));
     drop_logged(l);
@@ -152,7 +152,7 @@ TEST(the_preview_tells_how_bodies_came_out)
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 2};
     logged *l = drop_node(false, d.t_end);
-    preview_print(l->file, &d, l->run.simulation, NULL);
+    preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nmass       body 1: 2.5 kg, of the true shape 4 kg (ratio 0.6250)\n"));
     assert_non_null(strstr(l->text, "\npores      body 1: 7, of porosity 0.2500\n"));
@@ -175,7 +175,7 @@ TEST(a_long_list_of_bodies_is_cut)
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 17};
     logged *l = drop_node(false, d.t_end);
-    preview_print(l->file, &d, l->run.simulation, NULL);
+    preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "mass       body 16: "));
     assert_null(strstr(l->text, "mass       body 17: "));
@@ -188,7 +188,7 @@ TEST(without_an_output_none_is_reported)
     char name[] = "a.nml", title[] = "";
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
     logged *l = drop_node(false, d.t_end);
-    preview_print(l->file, &d, l->run.simulation, NULL);
+    preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_false(has_line(l->text, "output"));
     assert_true(has_line(l->text, "deck"));
@@ -207,11 +207,42 @@ TEST(versions_are_those_in_use)
     assert_int_equal(strlen(cut), sizeof cut - 1);
 }
 
+/* The topics of all lines, in their order; not every C library tells the memory. */
+static void expect_topics(const char *text, const char *expected)
+{
+    char found[1024] = "";
+    size_t n = 0;
+    for (const char *line = text; *line != '\0'; line += strcspn(line, "\n") + 1) {
+        const int length = (int)strcspn(line, " \n");
+        if (strncmp(line, "memory ", 7) == 0) continue;
+        n += (size_t)snprintf(found + n, sizeof found - n, "%s%.*s", n > 0 ? " " : "", length, line);
+    }
+    assert_string_equal(found, expected);
+}
+
+TEST(details_are_left_out_unless_they_are_wanted)
+{
+    char name[] = "a.nml", title[] = "";
+    body_facts body = {.mass = 2.5, .true_mass = 2.5};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = &body, .n_bodies = 1};
+    for (int verbose = 0; verbose < 2; verbose++) {
+        logged *l = drop_node(false, d.t_end);
+        l->log.verbose = verbose;
+        preview_print(&l->log, &d, l->run.simulation, "there/a.vtkhdf");
+        read_log(l);
+        expect_topics(l->text, verbose ? "dem deck lattice contact mass constants time estimate impacts scales kernel "
+                                         "formula output"
+                                       : "deck lattice contact mass constants time estimate output");
+        drop_logged(l);
+    }
+}
+
 static void print_header(logged *l)
 {
     char name[] = "a.nml", title[] = "";
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
-    preview_print(l->file, &d, l->run.simulation, NULL);
+    preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
 }
 

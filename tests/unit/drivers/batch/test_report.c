@@ -308,8 +308,11 @@ TEST(an_open_ledger_is_warned_of_once)
         logged *l = drop_node(terminal, 0.5);
         l->report.closure = 1e-300; /* rounding is enough */
         finish(l, 0.5);
-        const char *warning = strstr(l->text, "\nwarning    the energy ledger is open by ");
+        const char *warning = strstr(l->text, "warning    the energy ledger is open by ");
         assert_non_null(warning);
+        assert_true(warning == l->text || warning[-1] == '\n');
+        assert_int_equal(l->log.n_warnings, 1);
+        assert_memory_equal(l->log.warnings[0], warning + strlen("warning    "), strlen(l->log.warnings[0]));
         assert_null(strstr(warning + 1, "\nwarning "));
         assert_true(fabs(number_in(l->text, "warning", "open by")) < 1e-10);
         drop_logged(l);
@@ -335,7 +338,7 @@ TEST(a_ledger_is_not_judged_while_a_ramp_grows)
         support_open(&l->run, &lattice, NULL, 0, &options);
         follow(l, false, t_end);
         const deck d = {.t_end = t_end, .closure = 1e-300, .options = options}; /* rounding is enough */
-        report_start(&l->report, l->file, false, &d);
+        report_start(&l->report, &l->log, &d);
         finish(l, t_end);
         assert_int_equal(strstr(l->text, "warning ") != NULL, after);
         if (after) assert_true(number_in(l->text, "warning", "at") >= push.ramp);
@@ -364,6 +367,33 @@ TEST(counts_are_those_of_the_simulation)
     assert_close(number_before(last, " rejected"), (double)n.rejected, 0.0);
     assert_close(number_before(last, " evaluations"), (double)n.evaluations, 0.0);
     assert_close(number_before(l->text, " impacts,"), (double)n.impacts, 0.0);
+    drop_logged(l);
+}
+
+TEST(details_are_left_out_unless_they_are_wanted)
+{
+    static const char *const details[] = {"energy", "elastic", "events", "lasting", "formula"};
+    static const char *const results[] = {"contact", "rebound", "ledger", "obstacle", "run"};
+    for (int verbose = 0; verbose < 2; verbose++) {
+        logged *l = drop_node(false, 0.5);
+        l->log.verbose = verbose;
+        finish(l, 0.5);
+        for (size_t k = 0; k < sizeof details / sizeof *details; k++)
+            assert_int_equal(has_line(l->text, details[k]), verbose);
+        for (size_t k = 0; k < sizeof results / sizeof *results; k++) assert_true(has_line(l->text, results[k]));
+        drop_logged(l);
+    }
+}
+
+TEST(progress_is_half_as_often_without_details)
+{
+    logged *l = drop_node(false, 1.0);
+    l->log.verbose = false;
+    assert_ok(dem_simulation_advance(l->run.simulation, 1.0));
+    read_log(l);
+    int n_lines = 0;
+    for (const char *line = l->text; *line != '\0'; line += strcspn(line, "\n") + 1) n_lines++;
+    assert_in_range(n_lines, 9, 10); /* steps of 1 % pass a tenth by one at most */
     drop_logged(l);
 }
 
