@@ -16,21 +16,6 @@ enum { most_listed = 16 }; /* obstacles, boundaries */
 
 static const char entry[] = "report"; /* of a checkpoint */
 
-double report_rising_speed(const dem_simulation *simulation)
-{
-    const dem_options options = dem_simulation_options(simulation);
-    const double g = hypot(options.gravity[0], options.gravity[1]);
-    const double up[2] = {g > 0.0 ? -options.gravity[0] / g : 0.0, g > 0.0 ? -options.gravity[1] / g : 1.0};
-    const dem_index n_bodies = dem_model_sizes(dem_simulation_model(simulation)).n_bodies;
-    double mass = 0.0, momentum = 0.0;
-    for (dem_index b = 0; b < n_bodies; b++) {
-        const dem_body_motion body = dem_simulation_body(simulation, b);
-        mass += body.mass;
-        momentum += body.mass * (body.velocity[0] * up[0] + body.velocity[1] * up[1]);
-    }
-    return momentum / mass;
-}
-
 /* ---- following a run ---- */
 
 static void follow_energy(report *r, const dem_state *state)
@@ -66,25 +51,8 @@ static void follow_strain(report *r, const dem_simulation *simulation, double t)
 static dem_status note_event(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     report *r = context;
-    (void)simulation;
-    if (!r->so_far.touched) r->so_far.first_contact = event->t;
-    r->so_far.touched = true;
-    r->so_far.last_contact = event->t;
+    rebound_note(&r->so_far.rebound, simulation, event);
     return DEM_OK;
-}
-
-static void follow_contact(report *r, const dem_simulation *simulation, const dem_state *state)
-{
-    const dem_index impacts = dem_simulation_counts(simulation).impacts;
-    const bool contact = state->n_contacts > 0 || r->so_far.contacts_before > 0 || impacts > r->so_far.impacts_before;
-    r->so_far.contacts_before = state->n_contacts;
-    r->so_far.impacts_before = impacts;
-    if (state->n_contacts > 0) r->so_far.last_contact = state->t;
-    if (!contact) return;
-    const dem_options options = dem_simulation_options(simulation);
-    const double fallen = hypot(options.gravity[0], options.gravity[1]) * (state->t - r->so_far.last_contact);
-    r->so_far.speed_after =
-        report_rising_speed(simulation) + fallen; /* since the last contact in the step it is in free flight */
 }
 
 double report_closure(const report *r, dem_energy e)
@@ -158,7 +126,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     follow_energy(r, &state);
     follow_strain(r, simulation, state.t);
     step_report_follow(&r->so_far.step_report, simulation, &state);
-    follow_contact(r, simulation, &state);
+    rebound_follow(&r->so_far.rebound, simulation, &state);
     watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
@@ -205,21 +173,6 @@ static dem_status save(void *context, const dem_simulation *simulation, dem_chec
 dem_observer report_observer(report *r)
 {
     return (dem_observer){.step = follow, .event = note_event, .checkpoint = save, .context = r};
-}
-
-static void print_contact(const report *r, const dem_simulation *simulation)
-{
-    if (!r->so_far.touched) {
-        (void)fprintf(r->log->out, "contact    none\n");
-        return;
-    }
-    (void)fprintf(r->log->out, "contact    first at %.6e s, last at %.6e s, %.4e s apart%s\n", r->so_far.first_contact,
-                  r->so_far.last_contact, r->so_far.last_contact - r->so_far.first_contact,
-                  r->so_far.contacts_before > 0 ? " (still touching)" : "");
-    (void)fprintf(
-        r->log->out,
-        "rebound    vertical velocity of the centre of mass %+.5g m/s at the last contact, %+.5g m/s at t_end\n",
-        r->so_far.speed_after, report_rising_speed(simulation));
 }
 
 static void print_strain(const report *r)
@@ -359,7 +312,8 @@ void report_summary(report *r, const dem_simulation *simulation)
     const dem_energy e = dem_simulation_energy(simulation);
     const bool details = r->log->verbose;
     run_log_begin(r->log);
-    print_contact(r, simulation);
+    rebound_print(r->log->out, &r->so_far.rebound, simulation);
+    if (details) rebound_print_details(r->log->out, &r->so_far.rebound, simulation);
     if (details) print_strain(r);
     print_peaks(r, dem_model_lattice(dem_simulation_model(simulation)));
     if (details) print_energies(r, e);

@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "deck.h"
+#include "rebound.h"
 #include "run_log.h"
 #include "step_report.h"
 
@@ -18,10 +19,7 @@ typedef struct report_progress {
     double strain_min_t, strain_max_t, area_min, area_min_t;
     dem_index guarded_max, inverted_max;
     step_report step_report;
-    double first_contact, last_contact; /* s */
-    double speed_after;                 /* m/s, of the centre of mass against gravity at the last instant of contact */
-    dem_index contacts_before, impacts_before;
-    bool touched;                    /* there was a contact */
+    rebound rebound;
     double warned_closure, warned_t; /* of the ledger's warning */
     bool warned, overlapped;
 } report_progress;
@@ -54,8 +52,5 @@ void report_summary(report *r, const dem_simulation *simulation);
 
 /** What the ledger has gained, over the largest energy so far. */
 double report_closure(const report *r, dem_energy e);
-
-/** Velocity of the centre of mass of all bodies against gravity, m/s. */
-double report_rising_speed(const dem_simulation *simulation);
 
 #endif

@@ -67,14 +67,43 @@ static void write_counts(json *j, const dem_counts *c)
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) json_integer(j, all[k].key, all[k].n);
 }
 
-static void write_contact(json *j, const report *log, const dem_state *state, const dem_simulation *simulation)
+static void write_contact(json *j, const rebound *r, const dem_state *state, const dem_simulation *simulation)
 {
     const double never = (double)NAN;
     json_integer(j, "contacts", state->n_contacts);
-    json_real(j, "first_contact", log->so_far.touched ? log->so_far.first_contact : never);
-    json_real(j, "last_contact", log->so_far.touched ? log->so_far.last_contact : never);
-    json_real(j, "rebound_speed", log->so_far.touched ? log->so_far.speed_after : never);
-    json_real(j, "rising_speed", report_rising_speed(simulation));
+    json_real(j, "first_contact", r->touched ? r->first : never);
+    json_real(j, "last_contact", r->touched ? r->last : never);
+    json_real(j, "touching_time", r->touched ? r->touching : never);
+    json_real(j, "rebound_speed", r->touched ? r->speed : never);
+    json_real(j, "rising_speed", rebound_rising_speed(simulation));
+}
+
+static void write_rebound(json *j, const rebound *r, const dem_simulation *simulation)
+{
+    const rebound_normal along = rebound_along(r, simulation);
+    if (!r->touched) {
+        json_text(j, "rebound", NULL);
+        return;
+    }
+    json_open(j, "rebound", '{');
+    json_reals(j, "approach", r->approach, 2);
+    json_reals(j, "velocity", r->velocity, 2);
+    json_real(j, "spin", r->spin);
+    json_integer(j, "obstacle", r->obstacle);
+    json_reals(j, "normal", r->normal, 2);
+    json_real(j, "normal_before", along.in);
+    json_real(j, "normal_after", along.out);
+    json_real(j, "ratio", along.ratio);
+    json_close(j, '}');
+}
+
+static void write_force(json *j, const rebound *r)
+{
+    json_open(j, "largest_reaction", '{');
+    json_reals(j, "force", r->reaction, 2);
+    json_real(j, "t", r->reaction_t);
+    json_close(j, '}');
+    json_reals(j, "impact_impulse", r->impulse, 2);
 }
 
 static void write_energy(json *j, const report *log, const dem_energy *e)
@@ -187,7 +216,9 @@ static void write_run(json *j, const result *r)
     (void)dem_simulation_state(r->simulation, &state);
     json_real(j, "t", state.t);
     write_counts(j, &counts);
-    write_contact(j, r->log, &state, r->simulation);
+    write_contact(j, &r->log->so_far.rebound, &state, r->simulation);
+    write_rebound(j, &r->log->so_far.rebound, r->simulation);
+    write_force(j, &r->log->so_far.rebound);
     write_energy(j, r->log, &state.energy);
     write_strain(j, r->log);
     if (r->log->peaks != NULL) write_node_peak(j, r->log);

@@ -408,13 +408,23 @@ class Run(Case):
 
     def test_the_summary(self):
         log = self.call(0, "deck.nml")
-        first, last, apart = numbers("contact    first at # s, last at # s, # s apart", log)
+        first, last, apart, touching = numbers("contact    first at # s, last at # s, # s apart, touching # s of it", log)
         self.assertTrue(0 < first < last < 8e-3)
         self.assertAlmostEqual(apart, last - first, delta=1e-4 * apart)
+        self.assertTrue(0.5 * apart < touching <= apart)
         at_last, at_end = numbers("rebound    vertical velocity of the centre of mass # m/s at the last contact, "
                                   "# m/s at t_end", log)
         self.assertTrue(5 < at_end < at_last < 10)
         self.assertAlmostEqual(at_last - at_end, 9.81 * (8e-3 - last), delta=1e-3)
+        x, y, _ = numbers("rebound    (#, #) m/s of the centre of mass at the last contact, spin # rad/s", log)
+        self.assertEqual(y, at_last, "gravity is along y")
+        obstacle, *normal, before, after, ratio = numbers("normal     of obstacle #, (#, #): # m/s before, # m/s after, ratio #", log)
+        self.assertEqual(obstacle, 1)
+        self.assertAlmostEqual(before, -10 * normal[1], delta=1e-2)
+        self.assertAlmostEqual(after, x * normal[0] + y * normal[1], delta=1e-2)
+        self.assertAlmostEqual(ratio, -after / before, delta=1e-3)
+        *force, t, _, given = numbers("force      largest (#, #) N, by lasting contacts, at # s; impacts gave (#, #) N s", log)
+        self.assertTrue(force[1] > 0 and first < t < last and given > 0)
         fastest, when_fastest = numbers("formula 6  (|v_x| + |v_y|) h/spacing was # at most, at # s", log)
         self.assertTrue(0 < fastest < 0.2 and 0 < when_fastest < 8e-3)
         smallest, _, when_smallest = numbers("strain     smallest # in spring # at # s", log)
@@ -448,7 +458,7 @@ class Run(Case):
         logs = [run(*options, "--outdir", f"out{len(options)}", "deck.nml", cwd=self.folder).stdout for options in ((), ("--verbose",))]
         short, long = ([line.split(" ")[0] for line in log.splitlines() if not re.match(r" *\d+\.\d %|\{", line)] for log in logs)
         self.assertEqual(short, ["deck", "lattice", "contact", "mass", "constants", "time", "estimate", "output",
-                                 "contact", "rebound", "stressed", "ledger", "obstacle", "run"])
+                                 "contact", "rebound", "normal", "force", "stressed", "ledger", "obstacle", "run"])
         self.assertTrue(set(short) < set(long) and len(long) > 2 * len(short), long)
         self.assertTrue(all(log.splitlines()[-1].startswith('{"deck":') for log in logs), "the result is the last line")
 

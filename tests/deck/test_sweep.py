@@ -215,6 +215,13 @@ class Results(Case):
                                      (result["obstacles"][1]["impulse"][0], "%.6g", r"\nobstacle   2: impulse \((\S+),")):
             self.assertEqual(form % value, re.search(pattern, log)[1])
         self.assertEqual(result["boundaries"], [])
+        rebound, impacts = result["rebound"], result["impact_impulse"]
+        self.assertEqual(rebound["velocity"][1], result["rebound_speed"], "gravity is along y")
+        self.assertAlmostEqual(rebound["ratio"], -rebound["normal_after"] / rebound["normal_before"], delta=1e-12)
+        self.assertIn("normal     of obstacle %d, (%.4g" % (rebound["obstacle"] + 1, rebound["normal"][0]), log)
+        self.assertIn("force      largest (%.6g, %.6g) N, by lasting contacts, at %.4e s; impacts gave (%.6g, %.6g) N s" %
+                      (*result["largest_reaction"]["force"], result["largest_reaction"]["t"], *impacts), log)
+        self.assertIn(f"touching {result['touching_time']:.4e} s", log)
 
     def test_but_for_the_time_it_is_the_same_each_time(self):
         first, = self.results(0, "a.nml")
@@ -246,7 +253,8 @@ class Results(Case):
 
     def test_what_has_not_happened_is_null(self):
         result, = self.results(0, "a.nml", "--set", "run.t_end=1e-6")
-        self.assertEqual([result[key] for key in ("first_contact", "last_contact", "rebound_speed")], [None] * 3)
+        never = ("first_contact", "last_contact", "touching_time", "rebound_speed", "rebound")
+        self.assertEqual([result[key] for key in never], [None] * len(never))
 
     def test_any_text(self):
         name = "\N{GREEK SMALL LETTER ALPHA} \"\\\t.nml"

@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "rebound.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- motion of all bodies ---- */
+
+typedef struct motion {
+    double velocity[2]; /* m/s */
+    double rising;      /* m/s, the part of it against gravity; where there is none, along y */
+} motion;
+
+static motion measure(const dem_simulation *simulation)
+{
+    const dem_options options = dem_simulation_options(simulation);
+    const double g = hypot(options.gravity[0], options.gravity[1]);
+    const double up[2] = {g > 0.0 ? -options.gravity[0] / g : 0.0, g > 0.0 ? -options.gravity[1] / g : 1.0};
+    const dem_index n_bodies = dem_model_sizes(dem_simulation_model(simulation)).n_bodies;
+    double mass = 0.0, x = 0.0, y = 0.0, rising = 0.0;
+    for (dem_index b = 0; b < n_bodies; b++) {
+        const dem_body_motion body = dem_simulation_body(simulation, b);
+        mass += body.mass;
+        x += body.mass * body.velocity[0];
+        y += body.mass * body.velocity[1];
+        rising += body.mass * (body.velocity[0] * up[0] + body.velocity[1] * up[1]);
+    }
+    return (motion){{x / mass, y / mass}, rising / mass};
+}
+
+double rebound_rising_speed(const dem_simulation *simulation)
+{
+    return measure(simulation).rising;
+}
+
+/* Of the bodies as one, rad/s. */
+static double spin_of(const dem_lattice *l, const dem_state *state, const double v[2])
+{
+    double mass = 0.0, centre[2] = {0.0, 0.0}, angular = 0.0, inertia = 0.0;
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        mass += l->mass[i];
+        for (int c = 0; c < 2; c++) centre[c] += l->mass[i] * state->x[2 * i + c];
+    }
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const double x = state->x[2 * i] - centre[0] / mass, y = state->x[2 * i + 1] - centre[1] / mass;
+        angular += l->mass[i] * (x * (state->v[2 * i + 1] - v[1]) - y * (state->v[2 * i] - v[0]));
+        inertia += l->mass[i] * (x * x + y * y);
+    }
+    return inertia > 0.0 ? angular / inertia : 0.0;
+}
+
+/* ---- following a run ---- */
+
+/* At t = 0: bodies that touch from the beginning have had no step before. */
+static void initial_velocity(const dem_lattice *l, double v[2])
+{
+    double mass = 0.0, momentum[2] = {0.0, 0.0};
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        mass += l->mass[i];
+        for (int c = 0; c < 2 && l->velocity != NULL; c++) momentum[c] += l->mass[i] * l->velocity[2 * i + c];
+    }
+    for (int c = 0; c < 2; c++) v[c] = momentum[c] / mass;
+}
+
+/* The bodies have been in free flight since the last step. */
+static void meet(rebound *r, const dem_simulation *simulation, double t)
+{
+    const dem_options options = dem_simulation_options(simulation);
+    if (!r->started) initial_velocity(dem_model_lattice(dem_simulation_model(simulation)), r->before);
+    for (int c = 0; c < 2; c++) r->approach[c] = r->before[c] + options.gravity[c] * (t - r->t);
+    r->touched = true;
+    r->first = t;
+}
+
+void rebound_note(rebound *r, const dem_simulation *simulation, const dem_event *event)
+{
+    if (!r->touched) meet(r, simulation, event->t);
+    r->last = event->t;
+    r->obstacle = event->obstacle;
+    for (int c = 0; c < 2; c++) {
+        r->normal[c] = event->normal[c];
+        r->impulse[c] += event->impulse[c];
+    }
+    if (event->state != DEM_CONTACT_FREE && r->opened < 0.0) r->opened = event->t;
+    if (event->kind == DEM_EVENT_RELEASE) r->closed = event->t;
+}
+
+/* What of the step now ended had a lasting contact, to within the gaps that open and close in it. */
+static double touching_in(const rebound *r, const dem_state *state)
+{
+    const double begin = r->n_contacts > 0 ? r->t : r->opened;
+    const double end = state->n_contacts > 0 ? state->t : r->closed;
+    return begin >= 0.0 && end > begin ? end - begin : 0.0;
+}
+
+static void follow_reaction(rebound *r, const dem_state *state)
+{
+    double sum[2] = {0.0, 0.0};
+    for (dem_index k = 0; k < state->n_contacts; k++) {
+        const dem_contact *c = &state->contacts[k];
+        sum[0] += c->force * c->normal[0] + c->friction * c->normal[1];
+        sum[1] += c->force * c->normal[1] - c->friction * c->normal[0];
+    }
+    if (hypot(sum[0], sum[1]) <= hypot(r->reaction[0], r->reaction[1])) return;
+    memcpy(r->reaction, sum, sizeof sum);
+    r->reaction_t = state->t;
+}
+
+/* Where contacts last, that of the largest force is the one touched last. */
+static void follow_normal(rebound *r, const dem_state *state)
+{
+    const dem_contact *most = &state->contacts[0];
+    for (dem_index k = 1; k < state->n_contacts; k++)
+        if (state->contacts[k].force > most->force) most = &state->contacts[k];
+    memcpy(r->normal, most->normal, sizeof r->normal);
+    r->obstacle = most->obstacle;
+}
+
+static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_state *state)
+{
+    const dem_options options = dem_simulation_options(simulation);
+    const double since = state->t - r->last; /* for which the bodies have been in free flight again */
+    const motion now = measure(simulation);
+    r->spin = spin_of(dem_model_lattice(dem_simulation_model(simulation)), state, now.velocity);
+    for (int c = 0; c < 2; c++) r->velocity[c] = now.velocity[c] - options.gravity[c] * since;
+    r->speed = now.rising + hypot(options.gravity[0], options.gravity[1]) * since;
+}
+
+void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_state *state)
+{
+    const dem_index impacts = dem_simulation_counts(simulation).impacts;
+    const bool contact = state->n_contacts > 0 || r->n_contacts > 0 || impacts > r->n_impacts;
+    if (state->n_contacts > 0) r->last = state->t;
+    if (state->n_contacts > 0) follow_normal(r, state);
+    r->touching += touching_in(r, state);
+    follow_reaction(r, state);
+    if (contact) follow_velocity(r, simulation, state);
+    if (!r->touched) memcpy(r->before, measure(simulation).velocity, sizeof r->before);
+    r->started = true;
+    r->t = state->t;
+    r->opened = r->closed = -1.0;
+    r->n_contacts = state->n_contacts;
+    r->n_impacts = impacts;
+}
+
+/* ---- what came of it ---- */
+
+rebound_normal rebound_along(const rebound *r, const dem_simulation *simulation)
+{
+    const double none = (double)NAN;
+    dem_index n;
+    const dem_obstacle *obstacles = dem_model_obstacles(dem_simulation_model(simulation), &n);
+    if (!r->touched) return (rebound_normal){none, none, none};
+    const double *u = obstacles[r->obstacle].velocity;
+    const double in = (r->approach[0] - u[0]) * r->normal[0] + (r->approach[1] - u[1]) * r->normal[1];
+    const double out = (r->velocity[0] - u[0]) * r->normal[0] + (r->velocity[1] - u[1]) * r->normal[1];
+    return (rebound_normal){in, out, in < 0.0 ? -out / in : none};
+}
+
+static void print_normal(FILE *out, const rebound *r, const dem_simulation *simulation)
+{
+    const rebound_normal along = rebound_along(r, simulation);
+    (void)fprintf(out, "normal     of obstacle %lld, (%.4g, %.4g): %+.5g m/s before, %+.5g m/s after",
+                  (long long)r->obstacle + 1, r->normal[0] + 0.0, r->normal[1] + 0.0 /* no -0 */, along.in, along.out);
+    if (isfinite(along.ratio)) (void)fprintf(out, ", ratio %.4f", along.ratio);
+    (void)fprintf(out, "\n");
+}
+
+void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation)
+{
+    if (!r->touched) {
+        (void)fprintf(out, "contact    none\n");
+        return;
+    }
+    (void)fprintf(out, "contact    first at %.6e s, last at %.6e s, %.4e s apart, touching %.4e s of it%s\n", r->first,
+                  r->last, r->last - r->first, r->touching, r->n_contacts > 0 ? " (still touching)" : "");
+    (void)fprintf(out, "rebound    (%+.5g, %+.5g) m/s of the centre of mass at the last contact, spin %+.4g rad/s\n",
+                  r->velocity[0], r->velocity[1], r->spin);
+    print_normal(out, r, simulation);
+    (void)fprintf(out,
+                  "force      largest (%.6g, %.6g) N, by lasting contacts, at %.4e s; impacts gave (%.6g, %.6g) N s\n",
+                  r->reaction[0], r->reaction[1], r->reaction_t, r->impulse[0], r->impulse[1]);
+}
+
+void rebound_print_details(FILE *out, const rebound *r, const dem_simulation *simulation)
+{
+    if (r->touched)
+        (void)fprintf(out,
+                      "rebound    vertical velocity of the centre of mass %+.5g m/s at the last contact, %+.5g m/s at "
+                      "t_end\n",
+                      r->speed, rebound_rising_speed(simulation));
+}

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* rebound.c: nodes on floors, whose motion is known. Steps and impacts are located to some 1e-12 (rtol 1e-12). */
+#include "rebound.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "verification/support.h"
+
+static const double g = 9.81, height = 0.5, eta = 0.5, near = 1e-9;
+static char text[4096];
+
+static dem_status step(void *context, const dem_simulation *simulation)
+{
+    dem_state state = {.struct_size = sizeof state};
+    assert_ok(dem_simulation_state(simulation, &state));
+    rebound_follow(context, simulation, &state);
+    return DEM_OK;
+}
+
+static dem_status event(void *context, const dem_simulation *simulation, const dem_event *e)
+{
+    rebound_note(context, simulation, e);
+    return DEM_OK;
+}
+
+/* Runs nodes of 2 kg without springs. */
+static rebound run_nodes(support_run *run, dem_index n, const double *x, const double *v, const dem_obstacle *floor,
+                         double t_end)
+{
+    const double mass[2] = {2.0, 2.0};
+    dem_options options = dem_options_default();
+    dem_lattice lattice;
+    rebound r = {0};
+    const dem_observer observer = {.step = step, .event = event, .context = &r};
+    options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.v_scale = 1.0;
+    options.penetration_tolerance = 1e-13;
+    support_lattice(&lattice, n, x, mass, 0, NULL, 0.0, 0.0, NULL);
+    support_start(&lattice, NULL, v);
+    lattice.body = calloc((size_t)n, sizeof *lattice.body);
+    assert_non_null(lattice.body);
+    for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i; /* without springs each is a body of its own */
+    support_open(run, &lattice, floor, 1, &options);
+    dem_lattice_free(&lattice);
+    assert_ok(dem_simulation_observe(run->simulation, &observer));
+    assert_ok(dem_simulation_advance(run->simulation, t_end));
+    return r;
+}
+
+static void print(const rebound *r, const dem_simulation *simulation)
+{
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    rebound_print(file, r, simulation);
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
+    assert_int_equal(fclose(file), 0);
+}
+
+static const double flat[4] = {-9.0, 0.0, 9.0, 0.0};
+
+TEST(a_node_leaves_as_restitution_has_it)
+{
+    const double x[2] = {0.0, height}, v[2] = {0.25, 0.0}, t = sqrt(2.0 * height / g), fall = g * t;
+    const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta};
+    support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 1.5 * t);
+    const rebound_normal along = rebound_along(&r, run.simulation);
+    assert_true(r.touched);
+    assert_close(r.first, t, near);
+    assert_close(r.last, t, near);
+    assert_close(r.touching, 0.0, 0.0);
+    assert_close(r.approach[0], 0.25, near);
+    assert_close(r.approach[1], -fall, near);
+    assert_close(r.velocity[0], 0.25, near);
+    assert_close(r.velocity[1], eta * fall, near);
+    assert_close(r.speed, eta * fall, near);
+    assert_close(r.spin, 0.0, 0.0);
+    assert_close(r.normal[0], 0.0, 0.0);
+    assert_close(r.normal[1], 1.0, 0.0);
+    assert_close(along.in, -fall, near);
+    assert_close(along.out, eta * fall, near);
+    assert_close(along.ratio, eta, near);
+    assert_close(r.impulse[0], 0.0, near);
+    assert_close(r.impulse[1], 2.0 * (1.0 + eta) * fall, near);
+    assert_close(r.reaction[1], 0.0, 0.0);
+    print(&r, run.simulation);
+    assert_non_null(strstr(text, " apart, touching 0.0000e+00 s of it\n"));
+    assert_non_null(
+        strstr(text, "\nrebound    (+0.25, +1.566) m/s of the centre of mass at the last contact, spin +0 "));
+    assert_non_null(
+        strstr(text, "\nnormal     of obstacle 1, (0, 1): -3.1321 m/s before, +1.566 m/s after, ratio 0.5"));
+    assert_non_null(strstr(text,
+                           "\nforce      largest (0, 0) N, by lasting contacts, at 0.0000e+00 s; impacts gave (0, "
+                           "9.39628) N s\n"));
+    support_close(&run);
+}
+
+/* A slope of 45 degrees turns the fall into a flight along x; of that the normal has 1/sqrt(2). */
+TEST(the_normal_is_that_of_the_slope)
+{
+    static const double slope[4] = {-9.0, 9.0, 9.0, -9.0};
+    const double x[2] = {0.0, height}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * height / g), fall = g * t;
+    const dem_obstacle floor = {.n_points = 2, .points = slope, .restitution = 1.0};
+    support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 1.2 * t);
+    const rebound_normal along = rebound_along(&r, run.simulation);
+    assert_close(r.normal[0], sqrt(0.5), near);
+    assert_close(r.normal[1], sqrt(0.5), near);
+    assert_close(r.velocity[0], fall, near);
+    assert_close(r.velocity[1], 0.0, near);
+    assert_close(along.in, -fall * sqrt(0.5), near);
+    assert_close(along.ratio, 1.0, near);
+    support_close(&run);
+}
+
+/* Seen from a floor that rises at 1 m/s. */
+TEST(the_ratio_is_against_a_moving_obstacle)
+{
+    const double x[2] = {0.0, height}, v[2] = {0.0, -2.0};
+    const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta, .velocity = {0.0, 1.0}};
+    support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 0.2);
+    assert_true(r.touched);
+    assert_close(rebound_along(&r, run.simulation).ratio, eta, near);
+    assert_true(fabs(r.velocity[1] + eta * r.approach[1]) > 1.0); /* at rest it would be 0 */
+    support_close(&run);
+}
+
+/* Of two nodes one hits, the other falls on beside the floor: L = -m (1 + eta) v, J = 2 m. */
+TEST(the_spin_is_angular_momentum_over_inertia)
+{
+    static const double left[4] = {-9.0, 0.0, 0.0, 0.0};
+    const double x[4] = {-1.0, height, 1.0, height}, v[4] = {0.0, 0.0, 0.0, 0.0}, t = sqrt(2.0 * height / g);
+    const dem_obstacle floor = {.n_points = 2, .points = left, .restitution = eta};
+    support_run run;
+    const rebound r = run_nodes(&run, 2, x, v, &floor, 1.04 * t);
+    /* Measured at the end of the step, at most 0.01 s later: by then the nodes are 0.05 m apart in height. */
+    assert_close(r.spin, -0.5 * (1.0 + eta) * g * t, 5e-3);
+    support_close(&run);
+}
+
+TEST(what_rests_touches_all_the_time)
+{
+    const double x[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
+    const dem_obstacle floor = {.n_points = 2, .points = flat};
+    support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 1.0);
+    assert_close(r.first, 0.0, 0.0);
+    assert_close(r.touching, r.last, 1e-12); /* a sum of a hundred steps */
+    assert_true(r.last > 0.98);              /* the end of a step */
+    assert_close(r.reaction[1], 2.0 * g, near);
+    assert_true(isnan(rebound_along(&r, run.simulation).ratio)); /* it did not come */
+    print(&r, run.simulation);
+    assert_non_null(strstr(text, " s of it (still touching)\n"));
+    assert_null(strstr(text, "ratio"));
+    support_close(&run);
+}
+
+/* A perfectly plastic impact at 1 m/s upon a floor that ends: it slides on the floor and leaves it at its end. */
+TEST(what_slides_off_has_touched_from_impact_to_end)
+{
+    static const double table[4] = {-9.0, 0.0, 1.0, 0.0};
+    const double x[2] = {0.0, 1e-3}, v[2] = {2.0, -1.0};
+    const dem_obstacle floor = {.n_points = 2, .points = table};
+    support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 0.7);
+    assert_close(r.last, 0.5, near); /* 1 m at 2 m/s */
+    assert_close(r.touching, r.last - r.first, near);
+    assert_true(r.first > 0.0 && r.touching > 0.49);
+    assert_close(r.velocity[0], 2.0, near);
+    assert_close(r.velocity[1], 0.0, near);
+    support_close(&run);
+}
+
+TEST(what_touches_from_the_beginning_comes_with_its_first_velocity)
+{
+    const double x[2] = {0.0, 0.0}, v[2] = {1.0, -3.0};
+    const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta};
+    support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 0.1);
+    assert_close(r.approach[0], 1.0, near);
+    assert_close(r.approach[1], -3.0, near);
+    assert_close(rebound_along(&r, run.simulation).ratio, eta, near);
+    support_close(&run);
+}
+
+TEST(without_a_touch_there_is_nothing)
+{
+    const double x[2] = {0.0, height}, v[2] = {0.0, 0.0};
+    const dem_obstacle floor = {.n_points = 2, .points = flat};
+    support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 0.1);
+    assert_false(r.touched);
+    assert_true(isnan(rebound_along(&r, run.simulation).in));
+    print(&r, run.simulation);
+    assert_string_equal(text, "contact    none\n");
+    support_close(&run);
+}
+
+TEST_GROUP(NULL, NULL);
