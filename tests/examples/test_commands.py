@@ -1,0 +1,110 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every command that a page shows works: `test_commands.py PAGE SOURCE_ROOT PROGRAM...`.
+
+A page of Markdown has its commands in blocks, ```sh and ```python, which are run in their order in one folder; a man
+page has them under EXAMPLES. The folder has what the pages take for given: decks that are run in no time, lists of
+decks, a parameter file, and the variables of a batch system. The paper's bodies are coarse there, so that they take no
+time either. A block that needs a program or package which this machine lacks is left out; build scripts are too."""
+import importlib.util
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+PAGE, ROOT, *PROGRAMS = (pathlib.Path(word).resolve() for word in sys.argv[1:])
+SECONDS = 300  # more than any block takes, under a sanitizer too
+OPTIONAL = ("gmsh", "jq", "ffmpeg", "dem_plot")  # what a machine may lack
+COARSE = {"rectangle": "1e-2", "disc": "1e-2", "porous": "7e-3"}  # spacings
+
+DROP = """&run t_end = 1e-4 /
+&material youngs_modulus = 1e7, density = 1000 /
+&body shape = 'disc', radius = 0.02, spacing = 1e-2, velocity = 0, -5, clearance = 1e-4 /
+&obstacle points = -1, 0, 1, 0 /
+&output name = '{}' /
+"""
+# What a page needs beside inputs/ and the decks: runs whose files it reads.
+RUNS = {"pictures.md": ("disc", "porous"), "dem_plot.1": ("rectangle",), "dem_export.1": ("rectangle",)}
+
+
+def make_decks(folder):
+    for name in ("a", "b", "drop"):
+        (folder / f"{name}.nml").write_text(DROP.format(name), encoding="utf-8")
+    (folder / "decks").mkdir()
+    for k in range(17):
+        (folder / f"decks/{k}.nml").write_text(DROP.format(f"d{k}"), encoding="utf-8")
+    (folder / "decks.txt").write_text("".join(f"decks/{k}.nml\n" for k in range(17)), encoding="utf-8")
+    (folder / "restitutions.txt").write_text("".join(f"{k / 20}\n" for k in range(17)), encoding="utf-8")
+    (folder / "params.in").write_text("1 variables\n0.5 restitution\n", encoding="utf-8")  # as Dakota writes it
+
+
+def make_folder(folder):
+    make_decks(folder)
+    shutil.copytree(ROOT / "inputs", folder / "inputs")
+    for name, spacing in COARSE.items():
+        deck = (folder / f"inputs/{name}.nml").read_text(encoding="utf-8")
+        deck, n = re.subn(r"(?m)^(\s*spacing\s*=) \S+", rf"\1 {spacing}", deck)
+        if n != 1:
+            sys.exit(f"{name}.nml gives its spacing {n} times")
+        (folder / f"inputs/{name}.nml").write_text(deck, encoding="utf-8")
+        shutil.copy(folder / f"inputs/{name}.nml", folder)
+    (folder / "docs").symlink_to(ROOT / "docs")
+    (folder / "build/drivers").mkdir(parents=True)
+    for program in PROGRAMS:
+        (folder / "build/drivers" / program.name).symlink_to(program)
+
+
+def blocks_of_markdown(text):
+    for language, block in re.findall(r"(?ms)^ *```(\w+)\n(.*?)^ *```", text):
+        if language in ("sh", "python") and not block.startswith("rule "):  # of Snakemake
+            yield language, re.sub(r"(?m)^\.ci/(build && |test\n)", "", block)
+
+
+def blocks_of_manual(text):
+    examples = re.search(r"(?ms)^\.SH EXAMPLES\n(.*?)^\.SH", text).group(1)
+    for command in re.findall(r"(?m)^\.B (.*)", examples):
+        yield "sh", command.replace("\\-", "-") + "\n"
+
+
+def lacks(language, block):
+    """What a block needs and this machine lacks; None: nothing."""
+    if language == "python":
+        missing = [name for name in re.findall(r"(?m)^(?:import|from) (\w+)", block) if not importlib.util.find_spec(name)]
+        return missing[0] if missing else None
+    have = {program.name for program in PROGRAMS}
+    return next((name for name in OPTIONAL
+                 if re.search(rf"\b{name}\b", block) and name not in have and not shutil.which(name)), None)
+
+
+def run(language, block, folder):
+    script = folder / "block"
+    script.write_text(block, encoding="utf-8")
+    command = [sys.executable, script] if language == "python" else ["bash", "-eu", script, "params.in", "results.out"]
+    path = os.pathsep.join([str(folder / "build/drivers"), os.environ["PATH"]])
+    return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=SECONDS,
+                          check=False, env={**os.environ, "PATH": path, "SLURM_ARRAY_TASK_ID": "17", "SLURM_ARRAY_JOB_ID": "1"})
+
+
+with tempfile.TemporaryDirectory() as name:
+    here = pathlib.Path(name)
+    make_folder(here)
+    for deck in RUNS.get(PAGE.name.removesuffix(".in"), ()):
+        run("sh", f"dem_batch {deck}.nml\n", here)
+    content = PAGE.read_text(encoding="utf-8")
+    n_run = 0
+    for kind, code in blocks_of_markdown(content) if PAGE.suffix == ".md" else blocks_of_manual(content):
+        if not code.strip():
+            continue
+        needed = lacks(kind, code)
+        if needed is not None:
+            print(f"left out, for want of {needed}:\n{code}")
+            continue
+        done = run(kind, code, here)
+        if done.returncode != 0:
+            sys.exit(f"exit code {done.returncode} of\n{code}\n{done.stdout}\n{done.stderr}")
+        n_run += 1
+print(n_run, "blocks of commands work")
+sys.exit(0 if n_run > 0 else 77)
