@@ -148,10 +148,10 @@ static void report_parts(const builder *b)
     parts_print(list, &b->facts.loose, triangles ? "triangle" : "node");
     namelist_errors_add(b->errors, place_of(b->body, "disconnected"),
                         "body %zu has %lld part%s that %s its largest, of %s m in its own coordinates; 'disconnected' "
-                        "can remove or keep such parts",
+                        "can remove or keep such parts%s",
                         b->number, (long long)b->facts.loose.n, one ? "" : "s",
                         !triangles ? "no spring connects to" : (one ? "shares no edge with" : "share no edge with"),
-                        list);
+                        list, body_geometry_hint(b->body));
 }
 
 /* Of a triangulation what shares edges, of a solid what springs connect. */

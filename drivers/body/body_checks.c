@@ -30,6 +30,7 @@ static const conditional_key body_keys[] = {
     {"file", "file, mask, mesh", true},
     {"scale", "mask, mesh", true},
     {"threshold", "mask", false},
+    {"invert", "mask", false},
 };
 static const conditional_key void_keys[] = {
     {"size", "rectangle", true}, {"radius", "disc, ring", true},         {"inner_radius", "ring", true},

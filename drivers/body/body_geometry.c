@@ -136,8 +136,8 @@ static dem_status read_mask(const former *f, shape *s)
 {
     char *path = body_geometry_file(f->folder, f->body), fault[IMAGE_FAULT];
     if (path == NULL) return DEM_ERROR_MEMORY;
-    const image_status status =
-        mask_read(&s->mask, fault, path, schema_real(f->body, "scale"), schema_real(f->body, "threshold"));
+    const image_status status = mask_read(&s->mask, fault, path, schema_real(f->body, "scale"),
+                                          schema_real(f->body, "threshold"), schema_real(f->body, "invert") != 0.0);
     if (status == IMAGE_REFUSED)
         namelist_errors_add(f->errors, schema_place(f->body, "file"), "body %zu: %s:%s", f->number, path, fault);
     free(path);
@@ -197,7 +197,8 @@ static dem_status cut_lattice(former *f, const shape *s)
     status = shape_cut(&f->lattice, s);
     if (status == DEM_ERROR_MODEL)
         namelist_errors_add(f->errors, f->body->place,
-                            "body %zu: its outline, voids and pores leave none of %lld nodes", f->number, (long long)n);
+                            "body %zu: its outline, voids and pores leave none of %lld nodes%s", f->number,
+                            (long long)n, body_geometry_hint(f->body));
     return status;
 }
 
@@ -228,6 +229,14 @@ static dem_status read_mesh(former *f)
     }
     f->geometry.spacing = sqrt(least / 0.43301270189221932); /* sqrt(3)/4 */
     return DEM_OK;
+}
+
+const char *body_geometry_hint(const schema_instance *body)
+{
+    if (!has_shape(body, "mask")) return "";
+    return schema_real(body, "invert") != 0.0
+               ? "; dark pixels are material, as 'invert' asks"
+               : "; bright pixels are material: for the dark ones give 'invert = .true.'";
 }
 
 bool body_geometry_has_squares(const schema_instance *body)

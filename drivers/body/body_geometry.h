@@ -24,6 +24,9 @@ typedef struct body_geometry {
 dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, const schema_deck *groups, size_t k,
                                      const char *folder, namelist_errors *errors);
 
+/* What a fault of an image's lattice may come from: which pixels are material; "" for other shapes. */
+const char *body_geometry_hint(const schema_instance *body);
+
 /* Whether a body's lattice is of squares: its triangles 2 k and 2 k + 1 are then a cell. */
 bool body_geometry_has_squares(const schema_instance *body);
 

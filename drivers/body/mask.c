@@ -32,7 +32,7 @@ static image_status read_image(image *out, char *fault, const char *path)
     return result;
 }
 
-image_status mask_read(mask *out, char *fault, const char *path, double scale, double threshold)
+image_status mask_read(mask *out, char *fault, const char *path, double scale, double threshold, bool invert)
 {
     image picture;
     *out = (mask){0};
@@ -42,7 +42,7 @@ image_status mask_read(mask *out, char *fault, const char *path, double scale, d
     m.solid = calloc(m.width * m.height, sizeof *m.solid);
     for (size_t k = 0; m.solid != NULL && k < m.width * m.height; k++) {
         const size_t row = m.height - 1 - k / m.width;
-        const unsigned char solid = picture.grey[k] >= threshold * picture.white;
+        const unsigned char solid = (picture.grey[k] >= threshold * picture.white) != invert;
         m.solid[row * m.width + k % m.width] = solid;
         m.n_solid += solid;
     }

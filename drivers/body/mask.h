@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body drawn as an image: its bright pixels are material. Its own origin is the middle of the image's lower edge. */
+/* A body drawn as an image: its bright pixels are material, or its dark ones. Its own origin is the middle of the
+ * image's lower edge. */
 #ifndef DEM_MASK_H
 #define DEM_MASK_H
 
@@ -12,9 +13,9 @@ typedef struct mask {
     unsigned char *solid; /* [height][width] 1 for material, the lowest row first; owned */
 } mask;
 
-/* Reads an image; what is at least `threshold` times white is material.
+/* Reads an image; what is at least `threshold` times white is material, or, with `invert`, what is darker.
  * \param[out] fault  [IMAGE_FAULT] what is wrong behind "PATH:", with a line where there is one, if IMAGE_REFUSED */
-image_status mask_read(mask *out, char *fault, const char *path, double scale, double threshold);
+image_status mask_read(mask *out, char *fault, const char *path, double scale, double threshold, bool invert);
 
 /* Width and height of an image, m, from its first bytes alone; false where they do not have them. */
 bool mask_measure(double size[2], const char *path, double scale);

@@ -80,6 +80,8 @@ static const schema_key body_keys[] = {
      "Side of a pixel of a mask; length of 1 in the coordinates of a mesh.", NULL},
     {"threshold", SCHEMA_REAL, 1, 1, "-", "0.5", "[0, 1]", NULL, PHYSICS,
      "Pixels of a mask are material from this brightness on: 0 is black, 1 white.", NONE},
+    {"invert", SCHEMA_LOGICAL, 1, 1, "-", ".false.", ANY, NULL, PHYSICS,
+     "Whether the pixels below the threshold are the material instead: for a body drawn in black on white.", NONE},
 };
 
 static const schema_key void_keys[] = {

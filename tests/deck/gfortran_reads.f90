@@ -34,8 +34,9 @@ contains
     real(dp) :: size(2), radius, inner_radius, spacing, position(2), angle, clearance, velocity(2), spin, scale, threshold
     real(dp) :: diagonal, jitter
     integer(selected_int_kind(18)) :: seed
+    logical :: invert
     namelist /body/ shape, size, radius, inner_radius, points, lattice, diagonal, spacing, jitter, seed, material, &
-      position, angle, clearance, velocity, spin, disconnected, file, scale, threshold
+      position, angle, clearance, velocity, spin, disconnected, file, scale, threshold, invert
     read (unit, nml=body, iostat=status, iomsg=message)
   end subroutine
 

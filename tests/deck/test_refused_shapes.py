@@ -104,7 +104,8 @@ DECKS = [
     ("mask of absurd size", edit(MASK, "good -> large", "    spacing = 0.01 ->     spacing = 1"),
      ["13:5 body 1: large.pgm:1: 30000 x 30000 pixels take 900000000 bytes, but 3 follow the header"]),
     ("mask that is black", edit(MASK, "good -> black"),
-     ["11:1 body 1: its outline, voids and pores leave none of 52 nodes"]),
+     ["11:1 body 1: its outline, voids and pores leave none of 52 nodes; bright pixels are material: for the dark ones "
+      "give 'invert = .true.'"]),
     ("spacing larger than the image", edit(MASK, "    spacing = 0.01 ->     spacing = 0.041"),
      ["14:5 'spacing' in &body must not exceed the image, 0.04 m x 0.05 m, got 0.041 m"]),
     ("threshold above 1", edit(MASK, "scale = 0.01 -> scale = 0.01, threshold = 1.1"),

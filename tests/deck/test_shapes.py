@@ -132,6 +132,15 @@ class Shapes(unittest.TestCase):
                 self.assertRegex(log, r"(?m)^contact    first at ")
                 self.assertLess(abs(self.numbers("ledger ", log)[-1]), 1e-5)
 
+    # The same face in black on white, as scans are.
+    def test_an_inverted_image_is_the_same(self):
+        (self.folder / "scan.pgm").write_text(pgm([[255 - grey for grey in row] for row in FACE]), encoding="ascii")
+        deck = HEAD + FLOOR + BODY + "'mask', file = 'face.pgm', scale = 2.5e-3 /\n"
+        scan = deck.replace("face.pgm'", "scan.pgm', invert = .true.")
+        self.assertEqual(self.call(scan, "--check").splitlines()[2:-1], self.call(deck, "--check").splitlines()[2:-1])
+        fault = self.call(deck.replace("face.pgm", "scan.pgm"), code=3)
+        self.assertRegex(fault, r"share no edge .*; bright pixels are material: for the dark ones give 'invert = .true.'")
+
     def test_what_is_apart_is_reported(self):
         through = next(groups for name, groups, *_ in SHAPES if name == "crack through")
         log = self.call(HEAD + FLOOR + through, "--check")

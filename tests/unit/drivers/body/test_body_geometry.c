@@ -168,6 +168,12 @@ TEST(a_mask_stands_on_its_lower_edge)
     f = build_good(with_file(MASK, "P2 4 2 9  1 2 3 4  5 6 7 8", ", threshold = 0.5\n/"));
     assert_close(f.geometry.area, 4.0 * 0.25, 0.0);
     dem_lattice_free(&f.lattice);
+    f = build_good(with_file(MASK, "P2 4 2 9  1 2 3 4  5 6 7 8", ", threshold = 0.7, invert = .true.\n/"));
+    assert_close(f.geometry.area, 6.0 * 0.25, 0.0); /* 1 to 6 */
+    dem_lattice_free(&f.lattice);
+    expect_fault(with_file(MASK, "P2 4 2 9  1 2 3 4  3 2 1 1", "\n/"), 0, 1, "give 'invert = .true.'");
+    expect_fault(with_file(MASK, "P2 4 2 9  9 9 9 9  9 9 9 9", ", invert = T\n/"), 0, 1,
+                 "dark pixels are material, as 'invert' asks");
     expect_fault(with_file(MASK, "P2 2 2 9\n1 2 3 10", "\n/"), 0, 1, ":2: a pixel must be in [0, 9], got 10");
     expect_fault(with_file(MASK, "P2 1 1 9\n1", "\n/"), 0, 1, "leave none of");
     expect_fault(

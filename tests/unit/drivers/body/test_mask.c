@@ -27,7 +27,7 @@ static mask read_steps(double threshold)
     mask m;
     char fault[IMAGE_FAULT] = "";
     put(TEXT("P2\n4 3\n10\n10 10 0 6\n5 10 4 0\n9 9 9 9\n"));
-    if (mask_read(&m, fault, path, 0.5, threshold) != IMAGE_READ) fail_msg("%s", fault);
+    if (mask_read(&m, fault, path, 0.5, threshold, false) != IMAGE_READ) fail_msg("%s", fault);
     return m;
 }
 
@@ -42,6 +42,17 @@ TEST(bright_pixels_are_material_and_the_top_row_comes_first)
     assert_int_equal(m.n_solid, 8);
     mask_free(&m);
     assert_null(m.solid);
+}
+
+TEST(inverted_the_dark_pixels_are_material)
+{
+    mask bright = read_steps(0.5), dark;
+    char fault[IMAGE_FAULT] = "";
+    assert_int_equal(mask_read(&dark, fault, path, 0.5, 0.5, true), IMAGE_READ);
+    assert_int_equal(bright.n_solid + dark.n_solid, 12);
+    for (size_t k = 0; k < 12; k++) assert_int_equal(bright.solid[k] + dark.solid[k], 1);
+    mask_free(&bright);
+    mask_free(&dark);
 }
 
 static bool has(const mask *m, double x, double y)
@@ -95,7 +106,7 @@ static void expect_fault(const char *name, const char *expected)
 {
     mask m;
     char fault[IMAGE_FAULT] = "";
-    assert_int_equal(mask_read(&m, fault, name, 1.0, 0.5), IMAGE_REFUSED);
+    assert_int_equal(mask_read(&m, fault, name, 1.0, 0.5, false), IMAGE_REFUSED);
     assert_string_equal(fault, expected);
     assert_null(m.solid);
 }
@@ -110,7 +121,7 @@ TEST(files_at_fault_are_refused)
     put(TEXT("\x89PNG\r\n\x1a\n"));
     char fault[IMAGE_FAULT] = "";
     mask m;
-    assert_int_equal(mask_read(&m, fault, path, 1.0, 0.5), IMAGE_REFUSED);
+    assert_int_equal(mask_read(&m, fault, path, 1.0, 0.5, false), IMAGE_REFUSED);
     assert_int_equal(fault[0], ' ');
     assert_non_null(strstr(fault, "PNG image"));
 }
