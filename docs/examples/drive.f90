@@ -48,7 +48,6 @@ contains
     real(c_double), pointer :: x(:, :), v(:, :)
     integer :: k
     call c_f_pointer(context, b)
-    state%struct_size = c_sizeof(state)
     look = dem_simulation_state(simulation, state)
     if (look /= DEM_OK) return
     call c_f_pointer(state%x, x, shape(b%rest))
@@ -66,7 +65,7 @@ contains
     real(c_double), parameter :: nu = rubber%poissons_ratio
     real(c_double), parameter :: along = rubber%youngs_modulus * stretch / (1 - nu**2)
     real(c_double) :: stress(3, n)
-    call dem_simulation_stress(simulation, stress)
+    if (dem_simulation_stress(simulation, stress) /= DEM_OK) error stop
     stress_error = maxval(abs(stress - spread([along, nu * along, 0d0], 2, n))) / along
   end function
 

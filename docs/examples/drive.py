@@ -39,7 +39,7 @@ dem_force = ctypes.CFUNCTYPE(c_int, c_void_p, POINTER(dem_force_query), doubles)
 
 
 class dem_options(ctypes.Structure):
-    _fields_ = [("struct_size", c_size_t), ("method", c_int), ("gravity", c_double * 2), ("rtol", c_double),
+    _fields_ = [("struct_size", c_size_t), ("method", c_int), ("gravity", c_double * 3), ("rtol", c_double),
                 ("spacing", c_double), ("v_scale", c_double), ("max_step", c_double), ("fixed_step", c_double),
                 ("penetration_tolerance", c_double), ("rest_speed", c_double), ("max_impacts", c_int64), ("window", c_double),
                 ("mass_damping", c_double), ("vertices", c_int32), ("contact", c_int), ("kernel", c_int),
@@ -48,19 +48,14 @@ class dem_options(ctypes.Structure):
 
     def __init__(self, **given):
         """As dem_options_default(), which is inline in the header."""
-        defaults = dict(struct_size=ctypes.sizeof(dem_options), gravity=(0.0, -9.81), rtol=1e-6, max_impacts=10000,
+        defaults = dict(struct_size=ctypes.sizeof(dem_options), gravity=(0.0, -9.81, 0.0), rtol=1e-6, max_impacts=10000,
                         window=-1.0, vertices=1, threads=1, checkpoint_steps=256)
         super().__init__(**{**defaults, **given})
 
 
-class dem_energy(ctypes.Structure):
-    _fields_ = [(name, c_double) for name in ("kinetic", "elastic", "area", "guard", "gravity", "impact", "friction",
-                                              "damping", "projection", "boundary")]
-
-
 class dem_state(ctypes.Structure):
     _fields_ = [("struct_size", c_size_t), ("t", c_double), ("step", c_double), ("x", doubles), ("v", doubles),
-                ("n_contacts", c_int64), ("contacts", c_void_p), ("energy", dem_energy)]
+                ("n_contacts", c_int64)]
 
 
 seen = ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p)
@@ -141,7 +136,7 @@ class Block:
         self.way = self.mass @ (view(state.x, n, 2) - self.x) / self.mass.sum()
         if state.t == 0.0:
             self.stress = np.empty((n, 3))
-            dem.dem_simulation_stress(simulation, pointer(self.stress))
+            check(dem.dem_simulation_stress(simulation, pointer(self.stress)))
         return STOPPED if self.mass @ view(state.v, n, 2)[:, 0] < 0.0 else OK
 
 
@@ -154,7 +149,7 @@ def main():
     dem.dem_lattice_free(byref(lattice))
 
     block = Block(dem.dem_model_lattice(model).contents)
-    options = dem_options(gravity=(0.0, -GRAVITY), force=block.force)
+    options = dem_options(gravity=(0.0, -GRAVITY, 0.0), force=block.force)
     check(dem.dem_simulation_create(byref(simulation), model, byref(options)))
     x, v = block.x * (1.0 + STRETCH, 1.0), np.full_like(block.x, (SPEED, 0.0))
     check(dem.dem_simulation_set_motion(simulation, pointer(x), pointer(v)))

@@ -20,6 +20,7 @@
 #include "report.h"
 #include "result.h"
 #include "signals.h"
+#include "ask.h"
 #include "wall_clock.h"
 
 typedef struct job {
@@ -66,7 +67,7 @@ static dem_status write_provenance(const job *j)
     decimal_print(t_end, d->t_end);
     (void)strftime(start, sizeof start, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&j->start, &utc));
     const char *const provenance[][2] = {{"versions", j->source.lineage != NULL ? j->source.lineage : versions},
-                                         {"kernel", dem_kernel_name(dem_simulation_options(j->simulation).kernel)},
+                                         {"kernel", dem_kernel_name(ask_options(j->simulation).kernel)},
                                          {"problem", problem},
                                          {"run", hash},
                                          {"t_end", t_end},
@@ -84,7 +85,7 @@ static dem_status write_provenance(const job *j)
 static dem_status stop_at_overlap(void *context, const dem_simulation *simulation)
 {
     (void)context;
-    return dem_simulation_overlap(simulation).node >= 0 ? DEM_STOPPED : DEM_OK;
+    return ask_overlap(simulation).node >= 0 ? DEM_STOPPED : DEM_OK;
 }
 
 static dem_trajectory_options frames_of(const job *j)
@@ -162,7 +163,7 @@ static void check_success(job *j)
 {
     const deck *d = &j->deck;
     const relaxation *rest = &j->rest;
-    const dem_overlap o = dem_simulation_overlap(j->simulation);
+    const dem_overlap o = ask_overlap(j->simulation);
     if (d->stop_at_overlap && o.node >= 0)
         outcome_fail(&j->outcome, EXIT_NUMERICS, d->path,
                      "node %lld is inside triangle %lld of a body at (%g, %g) m, t = %.6g s", (long long)o.node,

@@ -8,6 +8,7 @@
 #include "estimate.h"
 #include "memory.h"
 #include "step_report.h"
+#include "ask.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16 };            /* obstacles, bodies */
@@ -75,7 +76,7 @@ static void print_damping(FILE *out, double of_masses, double of_springs)
 
 static void print_impacts(FILE *out, const dem_options *o, const dem_model *model)
 {
-    const dem_model_size size = dem_model_sizes(model);
+    const dem_model_size size = ask_sizes(model);
     (void)fprintf(out, "impacts    %s, window %.4g s%s, vertices ", o->contact == DEM_CONTACT_LOCAL ? "local" : "exact",
                   fmax(o->window, 0.0), o->window > 0.0 ? "" : " (each by itself)");
     if (o->vertices)
@@ -98,7 +99,7 @@ static void warn_rest_speed(run_log *log, const dem_options *o)
 
 static void print_sizes(FILE *out, const dem_model *model)
 {
-    const dem_model_size size = dem_model_sizes(model);
+    const dem_model_size size = ask_sizes(model);
     (void)fprintf(out, "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg\n",
                   (long long)size.n_nodes, (long long)size.n_springs, (long long)size.n_triangles,
                   (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model));
@@ -143,9 +144,9 @@ static void print_modulus(FILE *out, const dem_constants *c, bool slice)
 /* As the library measures them, by loading the model. */
 static void print_constants(FILE *out, const deck *d, const dem_model *model)
 {
-    const dem_index n_bodies = dem_model_sizes(model).n_bodies;
+    const dem_index n_bodies = ask_sizes(model).n_bodies;
     for (dem_index b = 0; b < n_bodies && b < most_listed; b++) {
-        dem_constants c;
+        dem_constants c = {.struct_size = sizeof c};
         (void)fprintf(out, "constants  body %lld: ", (long long)b + 1);
         if (dem_model_constants(model, b, &c) == DEM_OK)
             print_modulus(out, &c, is_slice(d, n_bodies, b));
@@ -169,7 +170,7 @@ static void print_frequency(FILE *out, const dem_model *model)
 static void print_measured(FILE *out, const deck *d, const dem_model *model, bool details)
 {
     const double start = wall_clock();
-    const dem_index n = dem_model_sizes(model).n_nodes;
+    const dem_index n = ask_sizes(model).n_nodes;
     if (n > most_measured) {
         (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
         return;
@@ -223,7 +224,7 @@ static void print_estimates(FILE *out, const deck *d, const dem_simulation *simu
 static void print_memory(FILE *out, const dem_simulation *simulation)
 {
     const double bytes = memory_in_use();
-    const dem_index n_nodes = dem_model_sizes(dem_simulation_model(simulation)).n_nodes;
+    const dem_index n_nodes = ask_sizes(dem_simulation_model(simulation)).n_nodes;
     if (bytes > 0.0)
         (void)fprintf(out, "memory     at most %.4g MB, %.4g bytes a node\n", 1e-6 * bytes, bytes / (double)n_nodes);
 }
@@ -258,7 +259,7 @@ static void print_boundaries(FILE *out, const deck *d)
 static void print_details(FILE *out, const deck *d, const dem_simulation *simulation)
 {
     const dem_model *model = dem_simulation_model(simulation);
-    const dem_options o = dem_simulation_options(simulation);
+    const dem_options o = ask_options(simulation);
     print_probes(out, d, dem_model_lattice(model));
     print_impacts(out, &o, model);
     (void)fprintf(out,
@@ -282,7 +283,7 @@ static void print_title(const run_log *log, const deck *d)
 void preview_print(run_log *log, const deck *d, const dem_simulation *simulation, const char *output)
 {
     const dem_model *model = dem_simulation_model(simulation);
-    const dem_options o = dem_simulation_options(simulation);
+    const dem_options o = ask_options(simulation);
     FILE *out = log->out;
     print_title(log, d);
     print_sizes(out, model);

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "ask.h"
 #include "rebound.h"
 
 #include <math.h>
@@ -13,13 +14,13 @@ typedef struct motion {
 
 static motion measure(const dem_simulation *simulation)
 {
-    const dem_options options = dem_simulation_options(simulation);
+    const dem_options options = ask_options(simulation);
     const double g = hypot(options.gravity[0], options.gravity[1]);
     const double up[2] = {g > 0.0 ? -options.gravity[0] / g : 0.0, g > 0.0 ? -options.gravity[1] / g : 1.0};
-    const dem_index n_bodies = dem_model_sizes(dem_simulation_model(simulation)).n_bodies;
+    const dem_index n_bodies = ask_sizes(dem_simulation_model(simulation)).n_bodies;
     double mass = 0.0, x = 0.0, y = 0.0, rising = 0.0;
     for (dem_index b = 0; b < n_bodies; b++) {
-        const dem_body_motion body = dem_simulation_body(simulation, b);
+        const dem_body_motion body = ask_body(simulation, b);
         mass += body.mass;
         x += body.mass * body.velocity[0];
         y += body.mass * body.velocity[1];
@@ -65,7 +66,7 @@ static void initial_velocity(const dem_lattice *l, double v[2])
 /* The bodies have been in free flight since the last step. */
 static void meet(rebound *r, const dem_simulation *simulation, double t)
 {
-    const dem_options options = dem_simulation_options(simulation);
+    const dem_options options = ask_options(simulation);
     if (!r->started) initial_velocity(dem_model_lattice(dem_simulation_model(simulation)), r->before);
     for (int c = 0; c < 2; c++) r->approach[c] = r->before[c] + options.gravity[c] * (t - r->t);
     r->touched = true;
@@ -93,13 +94,13 @@ static double touching_in(const rebound *r, const dem_state *state)
     return begin >= 0.0 && end > begin ? end - begin : 0.0;
 }
 
-static void follow_reaction(rebound *r, const dem_state *state)
+static void follow_reaction(rebound *r, const dem_simulation *simulation, const dem_state *state)
 {
     double sum[2] = {0.0, 0.0};
     for (dem_index k = 0; k < state->n_contacts; k++) {
-        const dem_contact *c = &state->contacts[k];
-        sum[0] += c->force * c->normal[0] + c->friction * c->normal[1];
-        sum[1] += c->force * c->normal[1] - c->friction * c->normal[0];
+        const dem_contact c = ask_contact(simulation, k);
+        sum[0] += c.force * c.normal[0] + c.friction[0] * c.normal[1];
+        sum[1] += c.force * c.normal[1] - c.friction[0] * c.normal[0];
     }
     if (hypot(sum[0], sum[1]) <= hypot(r->reaction[0], r->reaction[1])) return;
     memcpy(r->reaction, sum, sizeof sum);
@@ -107,18 +108,20 @@ static void follow_reaction(rebound *r, const dem_state *state)
 }
 
 /* Where contacts last, that of the largest force is the one touched last. */
-static void follow_normal(rebound *r, const dem_state *state)
+static void follow_normal(rebound *r, const dem_simulation *simulation, const dem_state *state)
 {
-    const dem_contact *most = &state->contacts[0];
-    for (dem_index k = 1; k < state->n_contacts; k++)
-        if (state->contacts[k].force > most->force) most = &state->contacts[k];
-    memcpy(r->normal, most->normal, sizeof r->normal);
-    r->obstacle = most->obstacle;
+    dem_contact most = ask_contact(simulation, 0);
+    for (dem_index k = 1; k < state->n_contacts; k++) {
+        const dem_contact c = ask_contact(simulation, k);
+        if (c.force > most.force) most = c;
+    }
+    memcpy(r->normal, most.normal, sizeof r->normal);
+    r->obstacle = most.obstacle;
 }
 
 static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_state *state)
 {
-    const dem_options options = dem_simulation_options(simulation);
+    const dem_options options = ask_options(simulation);
     const double since = state->t - r->last; /* for which the bodies have been in free flight again */
     const motion now = measure(simulation);
     r->spin = spin_of(dem_model_lattice(dem_simulation_model(simulation)), state, now.velocity);
@@ -128,12 +131,12 @@ static void follow_velocity(rebound *r, const dem_simulation *simulation, const 
 
 void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_state *state)
 {
-    const dem_index impacts = dem_simulation_counts(simulation).impacts;
+    const dem_index impacts = ask_counts(simulation).impacts;
     const bool contact = state->n_contacts > 0 || r->n_contacts > 0 || impacts > r->n_impacts;
     if (state->n_contacts > 0) r->last = state->t;
-    if (state->n_contacts > 0) follow_normal(r, state);
+    if (state->n_contacts > 0) follow_normal(r, simulation, state);
     r->touching += touching_in(r, state);
-    follow_reaction(r, state);
+    follow_reaction(r, simulation, state);
     if (contact) follow_velocity(r, simulation, state);
     if (!r->touched) memcpy(r->before, measure(simulation).velocity, sizeof r->before);
     r->started = true;

@@ -10,6 +10,7 @@
 #include <dem/trajectory.h>
 
 #include "relaxation.h"
+#include "ask.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16 }; /* obstacles, boundaries */
@@ -18,11 +19,11 @@ static const char entry[] = "report"; /* of a checkpoint */
 
 /* ---- following a run ---- */
 
-static void follow_energy(report *r, const dem_state *state)
+static void follow_energy(report *r, const dem_simulation *simulation, const dem_state *state)
 {
-    const dem_energy e = state->energy;
-    if (state->t == 0.0) r->so_far.energy_start = dem_energy_ledger(e);
-    r->so_far.energy_max = fmax(r->so_far.energy_max, dem_energy_motion(e));
+    const dem_energy e = ask_energy(simulation);
+    if (state->t == 0.0) r->so_far.energy_start = e.ledger;
+    r->so_far.energy_max = fmax(r->so_far.energy_max, e.motion);
     const double share = r->so_far.energy_max > 0.0 ? (e.elastic + e.area + e.guard) / r->so_far.energy_max : 0.0;
     if (share <= r->so_far.elastic_share_max) return;
     r->so_far.elastic_share_max = share;
@@ -31,7 +32,7 @@ static void follow_energy(report *r, const dem_state *state)
 
 static void follow_strain(report *r, const dem_simulation *simulation, double t)
 {
-    const dem_strain strain = dem_simulation_strain(simulation);
+    const dem_strain strain = ask_strain(simulation);
     if (strain.min < r->so_far.strain_min.min) {
         r->so_far.strain_min = strain;
         r->so_far.strain_min_t = t;
@@ -57,19 +58,19 @@ static dem_status note_event(void *context, const dem_simulation *simulation, co
 
 double report_closure(const report *r, dem_energy e)
 {
-    return (dem_energy_ledger(e) - r->so_far.energy_start) / fmax(r->so_far.energy_max, 1e-300);
+    return (e.ledger - r->so_far.energy_start) / fmax(r->so_far.energy_max, 1e-300);
 }
 
 static void warn_ledger(report *r, const dem_simulation *simulation)
 {
-    const bool fixed = dem_simulation_options(simulation).fixed_step > 0.0;
+    const bool fixed = ask_options(simulation).fixed_step > 0.0;
     run_log_warn(r->log, "the energy ledger is open by %+.2e at %.4e s: a %s closes it", r->so_far.warned_closure,
                  r->so_far.warned_t, fixed ? "shorter step" : "smaller 'rtol'");
 }
 
 static void warn_overlap(report *r, const dem_simulation *simulation)
 {
-    const dem_overlap o = dem_simulation_overlap(simulation);
+    const dem_overlap o = ask_overlap(simulation);
     run_log_warn(r->log,
                  "bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, %.4e s",
                  (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
@@ -79,7 +80,7 @@ static void warn_overlap(report *r, const dem_simulation *simulation)
  * all of the 1e-20 J that there are. */
 static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
-    const double closure = report_closure(r, state->energy);
+    const double closure = report_closure(r, ask_energy(simulation));
     if (r->so_far.warned || state->t < r->settled || !(fabs(closure) > r->closure)) return;
     r->so_far.warned = true;
     r->so_far.warned_closure = closure;
@@ -89,7 +90,7 @@ static void watch_ledger(report *r, const dem_simulation *simulation, const dem_
 
 static void watch_overlap(report *r, const dem_simulation *simulation)
 {
-    if (r->so_far.overlapped || dem_simulation_overlap(simulation).node < 0) return;
+    if (r->so_far.overlapped || ask_overlap(simulation).node < 0) return;
     r->so_far.overlapped = true;
     warn_overlap(r, simulation);
 }
@@ -106,14 +107,14 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
 {
     const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
     if (!is_due(r, now, state->t)) return;
-    const dem_counts counts = dem_simulation_counts(simulation);
+    const dem_counts counts = ask_counts(simulation);
     r->wall_shown = now;
     r->t_shown = state->t;
     r->log->inside = r->log->terminal;
     (void)fprintf(
         r->log->out, "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
         r->log->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps, (long long)state->n_contacts,
-        report_closure(r, state->energy), (double)(counts.steps - r->steps_start) / fmax(spent, 1e-9),
+        report_closure(r, ask_energy(simulation)), (double)(counts.steps - r->steps_start) / fmax(spent, 1e-9),
         spent * (r->t_end - state->t) / (state->t - r->t_start), r->log->terminal ? "   " : "\n");
     (void)fflush(r->log->out);
 }
@@ -123,7 +124,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     report *r = context;
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
-    follow_energy(r, &state);
+    follow_energy(r, simulation, &state);
     follow_strain(r, simulation, state.t);
     step_report_follow(&r->so_far.step_report, simulation, &state);
     rebound_follow(&r->so_far.rebound, simulation, &state);
@@ -153,7 +154,7 @@ dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
     r->t_start = r->t_shown = state.t;
-    r->steps_start = dem_simulation_counts(simulation).steps;
+    r->steps_start = ask_counts(simulation).steps;
     const dem_status status = dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
     if (status != DEM_OK) return status;
     r->log->quiet = true;
@@ -236,11 +237,12 @@ static void print_taken(FILE *out, const char *by, double energy)
 static void print_ledger(const report *r, dem_energy e)
 {
     (void)fprintf(r->log->out, "ledger     start %.9g J = now %.9g + taken by impacts %.4g", r->so_far.energy_start,
-                  dem_energy_motion(e) + e.gravity, e.impact);
+                  e.motion + e.gravity, e.impact);
     print_taken(r->log->out, "friction", e.friction);
     print_taken(r->log->out, "damping", e.damping);
     (void)fprintf(r->log->out, " - projection %.3g", e.projection);
     if (e.boundary != 0.0) (void)fprintf(r->log->out, " - put in by boundaries %.4g", e.boundary);
+    if (e.obstacle != 0.0) (void)fprintf(r->log->out, " - put in by obstacles %.4g", e.obstacle);
     (void)fprintf(r->log->out, "; closure %+.2e\n", report_closure(r, e));
 }
 
@@ -268,8 +270,8 @@ static void print_obstacle(FILE *out, dem_index number, const dem_obstacle_load 
 {
     (void)fprintf(out, "obstacle   %lld: impulse (%.6g, %.6g) N s, by friction (%.4g, %.4g) N s, %lld contact%s",
                   (long long)number, load->impulse[0], load->impulse[1], load->friction_impulse[0],
-                  load->friction_impulse[1], (long long)load->contacts, load->contacts == 1 ? "" : "s");
-    if (load->contacts > 0)
+                  load->friction_impulse[1], (long long)load->n_contacts, load->n_contacts == 1 ? "" : "s");
+    if (load->n_contacts > 0)
         (void)fprintf(out, ", (%.6g, %.6g) N at (%.6g, %.6g) m", load->reaction[0], load->reaction[1], load->point[0],
                       load->point[1]);
     (void)fprintf(out, "\n");
@@ -277,9 +279,9 @@ static void print_obstacle(FILE *out, dem_index number, const dem_obstacle_load 
 
 static void print_obstacles(FILE *out, const dem_simulation *simulation)
 {
-    const dem_index n = dem_model_sizes(dem_simulation_model(simulation)).n_obstacles;
+    const dem_index n = ask_sizes(dem_simulation_model(simulation)).n_obstacles;
     for (dem_index o = 0; o < n && o < most_listed; o++) {
-        const dem_obstacle_load load = dem_simulation_obstacle(simulation, o);
+        const dem_obstacle_load load = ask_obstacle(simulation, o);
         print_obstacle(out, o + 1, &load);
     }
     if (n > most_listed)
@@ -288,9 +290,9 @@ static void print_obstacles(FILE *out, const dem_simulation *simulation)
 
 static void print_boundaries(FILE *out, const dem_simulation *simulation)
 {
-    const dem_index n = dem_simulation_options(simulation).n_boundaries;
+    const dem_index n = ask_options(simulation).n_boundaries;
     for (dem_index k = 0; k < n && k < most_listed; k++) {
-        const dem_boundary_load load = dem_simulation_boundary(simulation, k);
+        const dem_boundary_load load = ask_boundary(simulation, k);
         (void)fprintf(out, "boundary   %lld: force (%.6g, %.6g) N, moved by (%.6g, %.6g) m\n", (long long)k + 1,
                       load.force[0], load.force[1], load.displacement[0], load.displacement[1]);
     }
@@ -300,7 +302,7 @@ static void print_boundaries(FILE *out, const dem_simulation *simulation)
 
 static void print_overlap(FILE *out, const dem_simulation *simulation)
 {
-    const dem_overlap o = dem_simulation_overlap(simulation);
+    const dem_overlap o = ask_overlap(simulation);
     if (o.node >= 0)
         (void)fprintf(out, "overlap    first at %.4e s, node %lld in triangle %lld; %lld at most, %lld now\n", o.t,
                       (long long)o.node, (long long)o.triangle, (long long)o.most, (long long)o.now);
@@ -308,8 +310,8 @@ static void print_overlap(FILE *out, const dem_simulation *simulation)
 
 void report_summary(report *r, const dem_simulation *simulation)
 {
-    const dem_counts c = dem_simulation_counts(simulation);
-    const dem_energy e = dem_simulation_energy(simulation);
+    const dem_counts c = ask_counts(simulation);
+    const dem_energy e = ask_energy(simulation);
     const bool details = r->log->verbose;
     run_log_begin(r->log);
     rebound_print(r->log->out, &r->so_far.rebound, simulation);

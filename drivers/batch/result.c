@@ -12,6 +12,7 @@
 #include "file.h"
 #include "json.h"
 #include "output.h"
+#include "ask.h"
 #include "preview.h"
 
 enum { MOST_LINE = 64 << 20 }; /* bytes: obstacles and boundaries are listed */
@@ -115,12 +116,15 @@ static void write_energy(json *j, const report *log, const dem_energy *e)
     json_real(j, "elastic", e->elastic);
     json_real(j, "area", e->area);
     json_real(j, "guard", e->guard);
+    json_real(j, "contact", e->contact);
     json_real(j, "gravity", e->gravity);
     json_real(j, "impact", e->impact);
     json_real(j, "friction", e->friction);
     json_real(j, "damping", e->damping);
+    json_real(j, "fracture", e->fracture);
     json_real(j, "projection", e->projection);
     json_real(j, "boundary", e->boundary);
+    json_real(j, "obstacle", e->obstacle);
     json_close(j, '}');
     json_real(j, "closure", report_closure(log, *e));
     json_real(j, "elastic_share", log->so_far.elastic_share_max);
@@ -173,22 +177,22 @@ static void write_spring_peak(json *j, const report *log)
 
 static void write_loads(json *j, const dem_simulation *simulation)
 {
-    const dem_index n_obstacles = dem_model_sizes(dem_simulation_model(simulation)).n_obstacles;
-    const dem_index n_boundaries = dem_simulation_options(simulation).n_boundaries;
+    const dem_index n_obstacles = ask_sizes(dem_simulation_model(simulation)).n_obstacles;
+    const dem_index n_boundaries = ask_options(simulation).n_boundaries;
     json_open(j, "obstacles", '[');
     for (dem_index o = 0; o < n_obstacles; o++) {
-        const dem_obstacle_load load = dem_simulation_obstacle(simulation, o);
+        const dem_obstacle_load load = ask_obstacle(simulation, o);
         json_open(j, NULL, '{');
         json_reals(j, "impulse", load.impulse, 2);
         json_reals(j, "friction_impulse", load.friction_impulse, 2);
         json_reals(j, "reaction", load.reaction, 2);
-        json_integer(j, "contacts", load.contacts);
+        json_integer(j, "contacts", load.n_contacts);
         json_close(j, '}');
     }
     json_close(j, ']');
     json_open(j, "boundaries", '[');
     for (dem_index k = 0; k < n_boundaries; k++) {
-        const dem_boundary_load load = dem_simulation_boundary(simulation, k);
+        const dem_boundary_load load = ask_boundary(simulation, k);
         json_open(j, NULL, '{');
         json_reals(j, "force", load.force, 2);
         json_reals(j, "displacement", load.displacement, 2);
@@ -199,7 +203,7 @@ static void write_loads(json *j, const dem_simulation *simulation)
 
 static void write_overlap(json *j, const dem_simulation *simulation)
 {
-    const dem_overlap o = dem_simulation_overlap(simulation);
+    const dem_overlap o = ask_overlap(simulation);
     if (o.node < 0) return;
     json_open(j, "overlap", '{');
     json_integer(j, "node", o.node);
@@ -211,7 +215,7 @@ static void write_overlap(json *j, const dem_simulation *simulation)
 
 static void write_run(json *j, const result *r)
 {
-    const dem_counts counts = dem_simulation_counts(r->simulation);
+    const dem_counts counts = ask_counts(r->simulation);
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(r->simulation, &state);
     json_real(j, "t", state.t);
@@ -219,7 +223,8 @@ static void write_run(json *j, const result *r)
     write_contact(j, &r->log->so_far.rebound, &state, r->simulation);
     write_rebound(j, &r->log->so_far.rebound, r->simulation);
     write_force(j, &r->log->so_far.rebound);
-    write_energy(j, r->log, &state.energy);
+    const dem_energy energy = ask_energy(r->simulation);
+    write_energy(j, r->log, &energy);
     write_strain(j, r->log);
     if (r->log->peaks != NULL) write_node_peak(j, r->log);
     if (r->log->peaks != NULL) write_spring_peak(j, r->log);

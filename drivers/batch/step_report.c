@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the log says of steps, before a run and after it. */
+#include "ask.h"
 #include "step_report.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 dem_method_traits step_report_method(const dem_simulation *simulation)
 {
     dem_method_traits traits = {0};
-    (void)dem_method_describe(&traits, dem_simulation_options(simulation).method);
+    (void)dem_method_describe(&traits, ask_options(simulation).method);
     return traits;
 }
 
@@ -36,7 +37,7 @@ static void print_stability(FILE *out, const dem_method_traits *method, const de
 
 void step_report_print(FILE *out, double t_end, const dem_simulation *simulation)
 {
-    const dem_options o = dem_simulation_options(simulation);
+    const dem_options o = ask_options(simulation);
     const dem_method_traits method = step_report_method(simulation);
     const double omega = dem_model_omega_max(dem_simulation_model(simulation));
     (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s", t_end, method.name,
@@ -47,7 +48,7 @@ void step_report_print(FILE *out, double t_end, const dem_simulation *simulation
 
 void step_report_warn(run_log *log, const dem_simulation *simulation)
 {
-    const dem_options o = dem_simulation_options(simulation);
+    const dem_options o = ask_options(simulation);
     const dem_method_traits method = step_report_method(simulation);
     const double omega = dem_model_omega_max(dem_simulation_model(simulation)), safe = method.usable / omega;
     if (o.fixed_step > 0.0 && o.fixed_step * omega > method.usable)
@@ -59,7 +60,7 @@ void step_report_warn(run_log *log, const dem_simulation *simulation)
 
 void step_report_print_details(FILE *out, const dem_simulation *simulation)
 {
-    const dem_options o = dem_simulation_options(simulation);
+    const dem_options o = ask_options(simulation);
     const dem_method_traits method = step_report_method(simulation);
     print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
     (void)fprintf(out, "kernel     %s, %d thread%s\n", dem_kernel_name(o.kernel), (int)o.threads,
@@ -70,10 +71,10 @@ void step_report_print_details(FILE *out, const dem_simulation *simulation)
 
 void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_state *state)
 {
-    const dem_index n = dem_model_sizes(dem_simulation_model(simulation)).n_nodes;
+    const dem_index n = ask_sizes(dem_simulation_model(simulation)).n_nodes;
     double fastest = 0.0;
     for (dem_index i = 0; i < n; i++) fastest = fmax(fastest, fabs(state->v[2 * i]) + fabs(state->v[2 * i + 1]));
-    const double value = fastest * state->step / dem_simulation_options(simulation).spacing; /* (6) */
+    const double value = fastest * state->step / ask_options(simulation).spacing; /* (6) */
     if (value <= p->largest) return;
     p->largest = value;
     p->t = state->t;

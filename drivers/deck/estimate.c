@@ -8,6 +8,7 @@
 #include "body_geometry.h"
 #include "mask.h"
 #include "material.h"
+#include "ask.h"
 #include "outline.h"
 
 static const double pi = 3.14159265358979323846, sqrt3 = 1.73205080756887729353;
@@ -238,13 +239,13 @@ bool estimate_deck(estimate *out, const deck *d)
 
 estimate estimate_run(const deck *d, const dem_simulation *simulation)
 {
-    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_model_size size = ask_sizes(dem_simulation_model(simulation));
     const contents c = {.nodes = (double)size.n_nodes,
                         .springs = (double)size.n_springs,
                         .bodies = (double)size.n_bodies,
                         .obstacles = (double)size.n_obstacles,
                         .boundaries = (double)d->n_boundaries};
-    estimate e = {.step = dem_simulation_options(simulation).max_step};
+    estimate e = {.step = ask_options(simulation).max_step};
     settle(&e, d, &c);
     return e;
 }

@@ -50,6 +50,7 @@ DEM_API dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index se
 
 /** Springs in CSR: row i holds the neighbours of node i in ascending order. Views into the model. */
 typedef struct dem_csr {
+    size_t struct_size; /**< to be set to sizeof(dem_csr) */
     dem_index n_nodes;
     const dem_index *row;       /**< [n_nodes + 1]   slots row[i] .. row[i+1]-1 belong to node i */
     const dem_index *neighbour; /**< [row[n_nodes]]  node j */
@@ -69,7 +70,7 @@ DEM_API dem_status dem_model_create(dem_model **out, const dem_lattice *lattice,
 /** Accepts NULL. Destroy its simulations first. */
 DEM_API void dem_model_destroy(dem_model *model);
 
-DEM_API dem_csr dem_model_csr(const dem_model *model);
+DEM_API dem_status dem_model_csr(const dem_model *model, dem_csr *out);
 
 /** The lattice as the model holds it; a view, not to be freed or changed. */
 DEM_API const dem_lattice *dem_model_lattice(const dem_model *model);
@@ -78,6 +79,7 @@ DEM_API const dem_lattice *dem_model_lattice(const dem_model *model);
 DEM_API const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_index *n_obstacles);
 
 typedef struct dem_model_size {
+    size_t struct_size; /**< to be set to sizeof(dem_model_size) */
     dem_index n_nodes, n_springs, n_triangles, n_bodies;
     dem_index n_contact_nodes; /**< nodes that may touch */
     dem_index n_contact_edges; /**< boundary edges of the triangulation between two such nodes */
@@ -85,7 +87,7 @@ typedef struct dem_model_size {
     dem_index n_vertices; /**< convex vertices of obstacles, which may touch such an edge */
 } dem_model_size;
 
-DEM_API dem_model_size dem_model_sizes(const dem_model *model);
+DEM_API dem_status dem_model_sizes(const dem_model *model, dem_model_size *out);
 
 /** Shortest rest length, m; 0 without springs. */
 DEM_API double dem_model_spacing(const dem_model *model);
@@ -103,6 +105,7 @@ DEM_API dem_status dem_model_omega(const dem_model *model, double *omega);
 /** Elastic constants of a body about its rest shape, read as a plate in plane stress: a solid in plane strain has
  *  E/(1 - nu^2) and nu/(1 - nu). */
 typedef struct dem_constants {
+    size_t struct_size;        /**< to be set to sizeof(dem_constants) */
     double stiffness[3][3];    /**< C in s = C e, Pa: s = (s_xx, s_yy, s_xy), e = (e_xx, e_yy, 2 e_xy) */
     double youngs_modulus;     /**< E, Pa, of the isotropic plate nearest to C: the average over all directions */
     double poissons_ratio;     /**< nu of the same */

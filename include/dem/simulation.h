@@ -31,7 +31,7 @@ typedef struct dem_boundary {
     dem_index n_nodes;
     const dem_index *nodes; /**< [n_nodes] distinct; a component of a node is prescribed only once */
     const double *share;    /**< [n_nodes] of a force; NULL: 1/n_nodes each */
-    double value[2];        /**< m/s, m, or N */
+    double value[3];        /**< m/s, m, or N */
     double ramp;            /**< s, >= 0; > 0 for a displacement */
 } dem_boundary;
 
@@ -80,7 +80,7 @@ DEM_API dem_status dem_kernel_check(dem_kernel kind);
 typedef struct dem_options {
     size_t struct_size; /**< set by dem_options_default(); docs/linking.md says how structs may grow */
     dem_method method;  /**< default DEM_METHOD_FEHLBERG45 */
-    double gravity[2];  /**< m/s^2, default {0, -9.81}                                                 (2) */
+    double gravity[3];  /**< m/s^2, default {0, -9.81, 0}                                               (2) */
     double rtol;        /**< default 1e-6: error of a position over spacing, of a velocity over v_scale */
     double spacing;     /**< m, default 0: shortest rest length; required for a model without springs */
     double v_scale;     /**< m/s, default 0: largest of initial speed, sqrt(2 g drop), 1e-3 sound speed */
@@ -128,48 +128,47 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
     return options;
 }
 
-/** Energies in J. */
+/** Energies in J, of the state that is seen, and what has been taken and put in since the start. The ledger is computed
+ *  by the library, so that it closes for a program whose header does not know all entries. */
 typedef struct dem_energy {
-    double kinetic;
-    double elastic;    /**< of the springs                                                               (1) */
-    double area;       /**< of the area term; < 0 where nu < 1/3 in plane stress */
-    double guard;      /**< of the folding guard */
-    double gravity;    /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
-    double impact;     /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
-    double friction;   /**< taken by lasting contacts that slide so far, >= 0 */
-    double damping;    /**< taken by the damping of springs and masses so far, >= 0 */
+    size_t struct_size; /**< to be set to sizeof(dem_energy) */
+    double ledger;   /**< motion + gravity + impact + friction + damping + fracture - projection - boundary - obstacle:
+                            what stays constant in a run, up to the integrator's error */
+    double motion;   /**< kinetic + elastic + area + guard + contact: what the ledger is compared with */
+    double kinetic;  /**< sum m_i v_i.v_i/2 */
+    double elastic;  /**< of the springs                                                               (1) */
+    double area;     /**< of the area term; < 0 where nu < 1/3 in plane stress */
+    double guard;    /**< of the folding guard */
+    double contact;  /**< of surfaces that press on each other: 0, as bodies do not touch each other yet */
+    double gravity;  /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
+    double impact;   /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
+    double friction; /**< taken by lasting contacts that slide so far, >= 0 */
+    double damping;  /**< taken by the damping of springs and masses so far, >= 0 */
+    double fracture; /**< taken by breaking so far: 0, as nothing breaks yet */
     double projection; /**< put in by returning nodes from the penetration tolerance to the surface so far */
-    double boundary;   /**< put in from outside so far: work of what prescribes motions, of forces, and of
-                            moving obstacles, which have no entry of their own yet */
+    double boundary;   /**< put in from outside so far: work of what prescribes motions, and of forces */
+    double obstacle;   /**< put in by moving obstacles so far, by impacts and in lasting contacts */
 } dem_energy;
-
-/** Of motion and strain: what the ledger is compared with. */
-static inline double dem_energy_motion(dem_energy e)
-{
-    return e.kinetic + e.elastic + e.area + e.guard;
-}
-
-/** What stays constant in a run, up to the integrator's error. */
-static inline double dem_energy_ledger(dem_energy e)
-{
-    return dem_energy_motion(e) + e.gravity + e.impact + e.friction + e.damping - e.projection - e.boundary;
-}
 
 typedef enum dem_contact_state { DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP, DEM_CONTACT_STICK } dem_contact_state;
 
-/** A lasting contact: a weighted combination of nodes held by an obstacle. A node on a segment is one node of weight 1;
+/** A lasting contact: a weighted combination of nodes held by a partner. A node on a segment is one node of weight 1;
  *  an obstacle's vertex on a body's edge is two nodes of weights 1 - s and s. */
 typedef struct dem_contact {
-    int32_t n_nodes; /**< 1 to 4 */
+    size_t struct_size; /**< to be set to sizeof(dem_contact) */
     dem_contact_state state;
-    dem_index nodes[4];
-    double weights[4];  /**< sum 1 */
-    dem_index obstacle; /**< index of the obstacle */
-    dem_index segment;  /**< index of the segment within it; of a vertex, the segment that ends there */
-    double x[2];        /**< m, where it acts */
-    double normal[2];   /**< unit, out of the obstacle */
-    double force;       /**< N, reaction along the normal at the last accepted step, >= 0 */
-    double friction;    /**< N, reaction along the tangent (normal[1], -normal[0]) */
+    int32_t n_nodes;      /**< 1 to 4 */
+    dem_index nodes[4];   /**< that touch */
+    double weights[4];    /**< sum 1 */
+    dem_index body;       /**< of these nodes */
+    dem_index obstacle;   /**< the partner; -1 if that is a body */
+    dem_index segment;    /**< of the obstacle; of a vertex, the segment that ends there */
+    dem_index other_body; /**< the partner; -1 if that is an obstacle, as in every contact yet */
+    double x[3];          /**< m, where it acts */
+    double normal[3];     /**< unit, out of the partner */
+    double force;         /**< N, reaction along the normal at the last accepted step, >= 0 */
+    double friction[2];   /**< N, reaction along the tangents, the first of which is (normal[1], -normal[0], 0) and the
+                               second the third axis, along which nothing acts in the plane */
 } dem_contact;
 
 /** What can happen to a contact. */
@@ -182,59 +181,65 @@ typedef enum dem_event_kind {
     DEM_EVENT_PASS     /**< a lasting contact reaches the end of a segment or of a body's edge */
 } dem_event_kind;
 
+/** Events are the library's: a program reads of them what its header knows, and struct_size tells what there is. */
 typedef struct dem_event {
-    double t; /**< s */
+    size_t struct_size; /**< bytes that the library has filled */
+    double t;           /**< s */
     dem_event_kind kind;
     dem_contact_state state;    /**< of the contact afterwards */
     dem_index node;             /**< that touches; of an edge its first */
     dem_index other;            /**< the second node of the edge, or -1 */
     double weight;              /**< of `other`, s; 0 without it */
-    dem_index obstacle;         /**< index of the obstacle */
-    dem_index segment;          /**< index of the segment within it; of a vertex, the segment that ends there */
-    double x[2];                /**< m, place on the obstacle */
-    double normal[2];           /**< unit, out of the obstacle; in a corner that of the faster approached segment */
-    double impulse[2];          /**< N s, given to the body; 0 but for impacts */
-    double before[2], after[2]; /**< m/s, of the body at the contact */
+    dem_index body;             /**< of the node */
+    dem_index obstacle;         /**< the partner; -1 if that is a body */
+    dem_index segment;          /**< of the obstacle; of a vertex, the segment that ends there */
+    dem_index other_body;       /**< the partner; -1 if that is an obstacle, as in every event yet */
+    double x[3];                /**< m, place on the partner */
+    double normal[3];           /**< unit, out of the obstacle; in a corner that of the faster approached segment */
+    double impulse[3];          /**< N s, given to the body; 0 but for impacts */
+    double before[3], after[3]; /**< m/s, of the body at the contact */
     double energy;              /**< J, taken by the impact, >= 0 */
 } dem_event;
 
-/** All a simulation remembers of the motion; arrays are views, valid until its next non-const call. */
+/** The motion that is seen; arrays are views, valid until the simulation's next non-const call. */
 typedef struct dem_state {
-    size_t struct_size;  /**< set it to sizeof(dem_state) */
-    double t;            /**< s */
-    double step;         /**< s, length of the last accepted step */
-    const double *x, *v; /**< [n_nodes][2] m, m/s */
-    dem_index n_contacts;
-    const dem_contact *contacts; /**< [n_contacts] closed now */
-    dem_energy energy;
+    size_t struct_size;   /**< to be set to sizeof(dem_state) */
+    double t;             /**< s */
+    double step;          /**< s, length of the last accepted step */
+    const double *x, *v;  /**< [n_nodes][dim] m, m/s */
+    dem_index n_contacts; /**< closed now: dem_simulation_contact() */
 } dem_state;
 
 /** Mean motion of a body. */
 typedef struct dem_body_motion {
-    double mass;             /**< kg */
-    double centre[2];        /**< centre of mass, m */
-    double velocity[2];      /**< of the centre of mass, m/s */
-    double angular_momentum; /**< about the centre of mass, kg m^2/s */
+    size_t struct_size;         /**< to be set to sizeof(dem_body_motion) */
+    double mass;                /**< kg */
+    double centre[3];           /**< centre of mass, m */
+    double velocity[3];         /**< of the centre of mass, m/s */
+    double angular_momentum[3]; /**< about the centre of mass, kg m^2/s; in the plane the third alone is not 0 */
 } dem_body_motion;
 
 /** What an obstacle gives to the bodies. */
 typedef struct dem_obstacle_load {
-    double reaction[2];         /**< N, instantaneous sum over its lasting contacts */
-    double point[2];            /**< m, where that resultant acts: on its line of action, nearest to the mean place of
+    size_t struct_size;         /**< to be set to sizeof(dem_obstacle_load) */
+    double reaction[3];         /**< N, instantaneous sum over its lasting contacts */
+    double point[3];            /**< m, where that resultant acts: on its line of action, nearest to the mean place of
                                      the contacts weighted by their forces; 0 without contacts */
-    double impulse[2];          /**< N s, so far: impacts, and the reactions integrated over time */
-    double friction_impulse[2]; /**< N s, the tangential part of it */
-    dem_index contacts;         /**< closed now */
+    double impulse[3];          /**< N s, so far: impacts, and the reactions integrated over time */
+    double friction_impulse[3]; /**< N s, the tangential part of it */
+    dem_index n_contacts;       /**< closed now */
 } dem_obstacle_load;
 
 /** What a boundary does to its nodes. */
 typedef struct dem_boundary_load {
-    double force[2];        /**< N, on its nodes now: given, or what the prescribed motion takes; where an external
+    size_t struct_size;     /**< to be set to sizeof(dem_boundary_load) */
+    double force[3];        /**< N, on its nodes now: given, or what the prescribed motion takes; where an external
                                  force adds to that, NaN before the first advance, and from set_motion() to the next */
-    double displacement[2]; /**< m, mean way of its nodes from where they started */
+    double displacement[3]; /**< m, mean way of its nodes from where they started */
 } dem_boundary_load;
 
 typedef struct dem_counts {
+    size_t struct_size;           /**< to be set to sizeof(dem_counts) */
     dem_index steps;              /**< accepted by the integrator */
     dem_index rejected;           /**< by its error test */
     dem_index evaluations;        /**< of the right-hand side (4) */
@@ -252,6 +257,7 @@ typedef struct dem_counts {
 
 /** Extremes over the springs and triangles, at one instant. */
 typedef struct dem_strain {
+    size_t struct_size;               /**< to be set to sizeof(dem_strain) */
     double min, max;                  /**< (d - d0)/d0 */
     dem_index spring_min, spring_max; /**< where; -1 without springs */
     double area_min;                  /**< smallest area over rest area; 1 without triangles, < 0: inverted */
@@ -263,10 +269,11 @@ typedef struct dem_strain {
  *  the boundary of the triangulation inside triangles of which they are no corners; looked for at the start and after
  *  every 16th accepted step. */
 typedef struct dem_overlap {
+    size_t struct_size;       /**< to be set to sizeof(dem_overlap) */
     dem_index now, most;      /**< pairs of node and triangle when last looked at, and the most of a look */
     double t;                 /**< s, of the first; 0 without one */
     dem_index node, triangle; /**< of the first; -1 without one */
-    double x[2];              /**< m, where that node was */
+    double x[3];              /**< m, where that node was */
 } dem_overlap;
 
 typedef struct dem_simulation dem_simulation;
@@ -305,41 +312,51 @@ DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const d
  *  dem_simulation_set_motion(). */
 DEM_API const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *simulation);
 
-/** What is seen of the motion now.
- *  \param state  its struct_size is read, and kept; what lies within it is written, and nothing beyond
- *  \return DEM_ERROR_ARGUMENT for a NULL or a struct_size too small for `t`; then nothing has been written */
-DEM_API dem_status dem_simulation_state(const dem_simulation *simulation, dem_state *state);
-DEM_API dem_energy dem_simulation_energy(const dem_simulation *simulation);
-DEM_API dem_strain dem_simulation_strain(const dem_simulation *simulation);
+/* ---- what can be asked of the motion ---- */
+
+/* A struct that these functions fill has its size in struct_size, which the caller sets: what lies within it is
+ * written, and nothing beyond. All return DEM_ERROR_ARGUMENT for a NULL, a struct_size too small for the first member,
+ * and a number that is out of range; then nothing has been written. None of them changes the motion, or calls the
+ * external force. */
+
+/** What is seen of the motion now. */
+DEM_API dem_status dem_simulation_state(const dem_simulation *simulation, dem_state *out);
+DEM_API dem_status dem_simulation_energy(const dem_simulation *simulation, dem_energy *out);
+DEM_API dem_status dem_simulation_strain(const dem_simulation *simulation, dem_strain *out);
+
+/** A closed contact.  \param contact  0 <= contact < n_contacts of the dem_state of the same instant */
+DEM_API dem_status dem_simulation_contact(const dem_simulation *simulation, dem_index contact, dem_contact *out);
 
 /** Strain (d - d0)/d0 of every spring.  \param[out] strain  [n_springs], in the order of the lattice */
-DEM_API void dem_simulation_strains(const dem_simulation *simulation, double *strain);
+DEM_API dem_status dem_simulation_strains(const dem_simulation *simulation, double *strain);
 
 /** Force (1) along every spring, > 0 in tension; what damping adds to it is left out.
  *  \param[out] force  [n_springs] N, in the order of the lattice */
-DEM_API void dem_simulation_forces(const dem_simulation *simulation, double *force);
+DEM_API dem_status dem_simulation_forces(const dem_simulation *simulation, double *force);
 
 /** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
  *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
  *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
- *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy, > 0 in tension */
-DEM_API void dem_simulation_stress(const dem_simulation *simulation, double *stress);
+ *  \param[out] stress  [n_nodes][dim (dim + 1)/2] Pa, > 0 in tension: xx, yy, xy */
+DEM_API dem_status dem_simulation_stress(const dem_simulation *simulation, double *stress);
 
-/** The same of one node.  \param node  0 <= node < n_nodes; NaN, and a dem_status_message(), for any other */
-DEM_API void dem_simulation_stress_at(const dem_simulation *simulation, dem_index node, double stress[3]);
+/** The same of one node.  \param node  0 <= node < n_nodes  \param[out] stress  [dim (dim + 1)/2] */
+DEM_API dem_status dem_simulation_stress_at(const dem_simulation *simulation, dem_index node, double *stress);
 
-DEM_API dem_overlap dem_simulation_overlap(const dem_simulation *simulation);
+DEM_API dem_status dem_simulation_overlap(const dem_simulation *simulation, dem_overlap *out);
 
-DEM_API dem_counts dem_simulation_counts(const dem_simulation *simulation);
+DEM_API dem_status dem_simulation_counts(const dem_simulation *simulation, dem_counts *out);
 
-/** \param body  0 <= body < n_bodies; NaN, and a dem_status_message(), for any other */
-DEM_API dem_body_motion dem_simulation_body(const dem_simulation *simulation, dem_index body);
+/** \param body  0 <= body < n_bodies */
+DEM_API dem_status dem_simulation_body(const dem_simulation *simulation, dem_index body, dem_body_motion *out);
 
-/** \param obstacle  0 <= obstacle < n_obstacles; NaN, and a dem_status_message(), for any other */
-DEM_API dem_obstacle_load dem_simulation_obstacle(const dem_simulation *simulation, dem_index obstacle);
+/** \param obstacle  0 <= obstacle < n_obstacles */
+DEM_API dem_status dem_simulation_obstacle(const dem_simulation *simulation, dem_index obstacle,
+                                           dem_obstacle_load *out);
 
-/** \param boundary  0 <= boundary < n_boundaries; NaN, and a dem_status_message(), for any other */
-DEM_API dem_boundary_load dem_simulation_boundary(const dem_simulation *simulation, dem_index boundary);
+/** \param boundary  0 <= boundary < n_boundaries */
+DEM_API dem_status dem_simulation_boundary(const dem_simulation *simulation, dem_index boundary,
+                                           dem_boundary_load *out);
 
 /** How far from equilibrium: the largest force on a node that may move, without drag and with what contacts give, over
  *  the largest force of a spring; 0 where there is neither. Known after an accepted step without contact event, else
@@ -350,7 +367,7 @@ DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
 
 /** The options in force: those of dem_simulation_create() with every default replaced by its value, and
  *  `boundaries` NULL. */
-DEM_API dem_options dem_simulation_options(const dem_simulation *simulation);
+DEM_API dem_status dem_simulation_options(const dem_simulation *simulation, dem_options *out);
 
 /* ---- stress ----------------------------------------------------------------------------------------------------- */
 

@@ -16,21 +16,30 @@
 
 enum { STATE_DIM_MOST = 3 };
 
-/** Quadratures of the whole: energies that friction and damping take, J, the work from outside, J, and the time, s. */
-typedef enum state_total { STATE_FRICTION, STATE_DAMPING, STATE_WORK, STATE_TIME, STATE_TOTALS } state_total;
+/** Quadratures of the whole: energies that friction and damping take, J, the work from outside, J, the time, s; and,
+ *  where obstacles move, the work that they do in lasting contacts, J. */
+typedef enum state_total {
+    STATE_FRICTION,
+    STATE_DAMPING,
+    STATE_WORK,
+    STATE_TIME,
+    STATE_OBSTACLE,
+    STATE_TOTALS
+} state_total;
 
 typedef struct state_layout {
     int dim;               /* components of a row, 2 or 3 */
     dem_index n_nodes;     /* of the lattice */
     dem_index n_ghosts;    /* copies of nodes that are integrated elsewhere, behind the nodes: none as yet */
     dem_index n_obstacles; /* whose impulses are integrated along */
+    int n_totals;          /* STATE_TOTALS, or without the last where no obstacle moves */
     dem_index n_rows;      /* all: of nodes, ghosts, padding and quadratures */
 } state_layout;
 
 /** Rows that the totals take. */
 static inline dem_index state_n_total_rows(const state_layout *l)
 {
-    return (STATE_TOTALS + l->dim - 1) / l->dim;
+    return (l->n_totals + l->dim - 1) / l->dim;
 }
 
 static inline dem_index state_n_quadratures(const state_layout *l)
@@ -39,10 +48,13 @@ static inline dem_index state_n_quadratures(const state_layout *l)
 }
 
 /** The layout of a simulation. */
-static inline state_layout state_layout_of(int dim, dem_index n_nodes, dem_index n_obstacles)
+static inline state_layout state_layout_of(int dim, dem_index n_nodes, dem_index n_obstacles, bool obstacles_move)
 {
     const dem_index line = ALIGNED_TO / sizeof(double);
-    state_layout l = {.dim = dim, .n_nodes = n_nodes, .n_obstacles = n_obstacles};
+    state_layout l = {.dim = dim,
+                      .n_nodes = n_nodes,
+                      .n_obstacles = n_obstacles,
+                      .n_totals = obstacles_move ? STATE_TOTALS : STATE_OBSTACLE};
     l.n_rows = l.n_nodes + l.n_ghosts + state_n_quadratures(&l);
     while (l.dim * l.n_rows % line != 0) l.n_rows++;
     return l;
@@ -93,6 +105,12 @@ static inline dem_index state_time_row(const state_layout *l)
 static inline dem_index state_total_index(const state_layout *l, state_total which)
 {
     return state_row(l, state_total_rows(l)) + (dem_index)which;
+}
+
+/** Whether a state has this total. */
+static inline bool state_has_total(const state_layout *l, state_total which)
+{
+    return (int)which < l->n_totals;
 }
 
 /* ---- values ---- */

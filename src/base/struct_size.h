@@ -19,6 +19,9 @@ typedef struct struct_kind {
     size_t own;   /* bytes of this library's version */
 } struct_kind;
 
+/** The kind of a struct that the library fills and never reads: the caller may have room for its first member alone. */
+#define STRUCT_KIND(type) ((struct_kind){#type, sizeof(size_t) + sizeof(double), sizeof(type)})
+
 /** Checks that a caller's struct can be read: not shorter than the first version, and, if it is longer than this
  *  library's, with zeros in all members that this library does not know.
  *  \return DEM_ERROR_ARGUMENT */

@@ -224,39 +224,36 @@ static void add_to_row(double *array, dem_index row, vec2 change)
     vec2_put(array, row, vec2_add(vec2_at(array, row), change));
 }
 
-/* Adds the rates of one candidate's closed contacts: N for impulses, W for the work of friction.  \return the power of
- * moving obstacles in these contacts, W */
-static double add_rates_of(const contact_set *s, dem_index k, scene_state state, double *a)
+/* Adds the rates of one candidate's closed contacts: N for impulses, W for the work of friction and of obstacles. */
+static void add_rates_of(const contact_set *s, dem_index k, scene_state state, double *a)
 {
     const state_layout *l = scene_layout(&s->scene);
-    double work = 0.0;
     for (int q = 0; q < s->list[k].n_closed; q++) {
         const contact_contribution of = contact_set_contribution(s, k, q, state);
         add_to_row(a, state_impulse(l, of.obstacle), of.force);
         add_to_row(a, state_friction_impulse(l, of.obstacle), of.friction);
         a[state_total_index(l, STATE_FRICTION)] += of.power;
-        work += of.work;
+        if (state_has_total(l, STATE_OBSTACLE)) a[state_total_index(l, STATE_OBSTACLE)] += of.work;
     }
-    return work;
 }
 
-/* Rates of impulses and friction are sums over the contacts of the whole model. */
+/* Rates of contacts are sums over the contacts of the whole model. */
 static void reduce_rates(const state_layout *l, double *a)
 {
+    const dem_index work = state_total_index(l, STATE_OBSTACLE);
     for (dem_index k = state_row(l, state_impulse(l, 0)); k <= state_total_index(l, STATE_FRICTION); k++)
         a[k] = reduce_rounded_sum(a[k]);
+    if (state_has_total(l, STATE_OBSTACLE)) a[work] = reduce_rounded_sum(a[work]);
 }
 
-double automaton_add_rates(const automaton *c, double t, const double *y, double *a)
+void automaton_add_rates(const automaton *c, double t, const double *y, double *a)
 {
     const scene_state state = automaton_state(c, t, y);
     const contact_forces *r = &c->set.forces;
-    double work = 0.0;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
-            work += add_rates_of(&c->set, k, state, a);
+            add_rates_of(&c->set, k, state, a);
     reduce_rates(scene_layout(&c->set.scene), a);
-    return work;
 }
 
 /* Forces are those stored at the last accepted step or event; frames are those of the positions given. */

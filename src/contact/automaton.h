@@ -56,9 +56,9 @@ void automaton_constrain(automaton *c, double t, const double *y, double *a);
 
 /** Adds to the rates of the quadratures among the accelerations a [n_rows][2], after automaton_constrain() in the same
  *  state: the force of each obstacle's closed contacts, N; the part of it that is friction; and the power that friction
- *  takes, W.
- *  \return power of moving obstacles on the bodies by these contacts, W, which is one part of the rate of work */
-double automaton_add_rates(const automaton *c, double t, const double *y, double *a);
+ *  takes
+ *  and the power of moving obstacles on the bodies, W. */
+void automaton_add_rates(const automaton *c, double t, const double *y, double *a);
 
 /** Makes every change that is due in the state y at t, in the order of candidates, until none is; refreshes the forces.
  *  \return DEM_ERROR_CONTACT on a storm, which is too many events of one candidate in a short time, or for a node found

@@ -43,7 +43,7 @@ static dem_status add_contribution(const contact_set *c, const contact_contribut
     TRY(to->add(to->context, state_impulse(l, of->obstacle), force));
     TRY(to->add(to->context, state_friction_impulse(l, of->obstacle), friction));
     to->totals[STATE_FRICTION] += of->power;
-    to->totals[STATE_WORK] += of->work;
+    to->totals[STATE_OBSTACLE] += of->work;
     return DEM_OK;
 }
 
@@ -59,10 +59,10 @@ static dem_status contact_add_rates(const void *self, dem_index group, constrain
     return DEM_OK;
 }
 
-/* As the right-hand side does. The work of moving obstacles, which is returned, is part of another total. */
+/* As the right-hand side does. */
 static void contact_add_all_rates(const void *self, constraint_state at, double *a)
 {
-    (void)automaton_add_rates(self, at.t, at.y, a);
+    automaton_add_rates(self, at.t, at.y, a);
 }
 
 /* ---- the end of a step ---- */

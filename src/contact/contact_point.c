@@ -155,13 +155,15 @@ dem_contact contact_point_describe(const contact_scene *scene, const contact_can
     const vec2 at =
         candidate_is_edge(candidate) ? surface_vertex_at(scene, point->feature, t) : vec2_at(x, candidate->node);
     dem_contact out = {.n_nodes = f.nodes.n,
+                       .body = scene->model->lattice.body[candidate->node],
+                       .other_body = -1,
                        .state = point->held || point->slide == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP,
                        .obstacle = surface_obstacle(scene, feature),
                        .segment = surface_segment_index(scene, feature),
                        .x = {at.x, at.y},
                        .normal = {f.normal.x, f.normal.y},
                        .force = point->force,
-                       .friction = point->friction};
+                       .friction = {point->friction, 0.0}};
     for (int p = 0; p < f.nodes.n; p++) {
         out.nodes[p] = f.nodes.node[p];
         out.weights[p] = f.nodes.weight[p];

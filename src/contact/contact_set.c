@@ -355,11 +355,14 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
     const vec2 v = contact_frame_velocity(&f, now->v);
     const vec2 at =
         candidate_is_edge(candidate) ? surface_vertex_at(&c->scene, feature, now->t) : vec2_at(now->x, candidate->node);
-    dem_event event = {.t = now->t,
+    dem_event event = {.struct_size = sizeof event,
+                       .t = now->t,
                        .kind = kind,
                        .node = candidate->node,
                        .other = candidate->other,
                        .weight = candidate_is_edge(candidate) ? f.place : 0.0,
+                       .body = c->scene.model->lattice.body[candidate->node],
+                       .other_body = -1,
                        .obstacle = surface_obstacle(&c->scene, on),
                        .segment = surface_segment_index(&c->scene, on),
                        .x = {at.x, at.y},

@@ -181,16 +181,21 @@ static void renew(event_queue *q, dem_index i)
     if (held == 0) state_copy_row(l, u, state_v(l, q->changed.y1, i));
 }
 
-/* Computes the rates of the quadratures again that closed contacts contribute to: impulses and friction. They are
- * zeroed and summed up over all contacts, as the right-hand side does. The rows are kept first, for undo. */
+/* Computes the rates of the quadratures again that closed contacts contribute to: impulses, friction, obstacles. They
+ * are zeroed and summed up over all contacts, as the right-hand side does. The rows are kept first, for undo. */
 static dem_status renew_rates(event_queue *q)
 {
     const state_layout *l = &q->layout;
     const constraints *c = q->constraints;
     const dem_index first = state_impulse(l, 0), last = state_total_rows(l);
+    const dem_index work = state_total_index(l, STATE_OBSTACLE);
     double *a = q->changed.f1 + state_velocities(l);
     for (dem_index row = first; row <= last; row++) TRY(changed_motion_keep(&q->changed, row));
     for (dem_index k = state_row(l, first); k <= state_total_index(l, STATE_FRICTION); k++) a[k] = 0.0;
+    if (state_has_total(l, STATE_OBSTACLE)) {
+        TRY(changed_motion_keep(&q->changed, work / l->dim));
+        a[work] = 0.0;
+    }
     if (c != NULL) c->add_all_rates(c->self, (constraint_state){q->step->t1, q->changed.y1}, a);
     return DEM_OK;
 }

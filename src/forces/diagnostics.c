@@ -52,6 +52,7 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
     }
     energy.kinetic = reduce_sum(&kinetic);
     energy.gravity = reduce_sum(&weight);
+    energy.motion = energy.kinetic + energy.elastic + energy.area + energy.guard + energy.contact;
     return energy;
 }
 
@@ -112,7 +113,10 @@ dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const d
     const double mass = reduce_sum(&sum[0]);
     const vec2 centre = vec2_scale(1.0 / mass, sum_of(&sum[1])), velocity = vec2_scale(1.0 / mass, sum_of(&sum[3]));
     const double spin = spin_of(&model->lattice, body, x, v, (const vec2[]){centre, velocity});
-    return (dem_body_motion){mass, {centre.x, centre.y}, {velocity.x, velocity.y}, spin};
+    return (dem_body_motion){.mass = mass,
+                             .centre = {centre.x, centre.y},
+                             .velocity = {velocity.x, velocity.y},
+                             .angular_momentum = {0.0, 0.0, spin}};
 }
 
 /* The smallest ratio of area to rest area, the number of triangles on which the guard acts, and that of inverted ones.
@@ -206,7 +210,7 @@ dem_strain diagnostics_strain(const forces *f, const double *x)
 static vec2 contact_force(const dem_contact *c)
 {
     const vec2 n = vec2_at(c->normal, 0), t = {n.y, -n.x};
-    return vec2_along(vec2_scale(c->force, n), c->friction, t);
+    return vec2_along(vec2_scale(c->force, n), c->friction[0], t);
 }
 
 /* The resultant F of an obstacle's contacts, and the point where it acts. With P the mean of the places, weighted by
@@ -220,12 +224,12 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
     for (dem_index k = 0; k < n; k++) {
         if (list[k].obstacle != obstacle) continue;
         const vec2 force = contact_force(&list[k]);
-        load.contacts++;
+        load.n_contacts++;
         add(resultant, force);
         add(places, vec2_scale(vec2_norm(force), vec2_at(list[k].x, 0)));
         exact_sum_add(&weights, vec2_norm(force));
     }
-    load.contacts = reduce_count(load.contacts);
+    load.n_contacts = reduce_count(load.n_contacts);
     const double weight = reduce_sum(&weights);
     const vec2 sum = sum_of(resultant), mean = weight > 0.0 ? vec2_scale(1.0 / weight, sum_of(places)) : sum_of(places);
     for (dem_index k = 0; k < n; k++)

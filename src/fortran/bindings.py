@@ -3,6 +3,7 @@
 """Writes the Fortran module dem_c, the C interface of include/dem: `bindings.py SOURCE_ROOT`.
 With `--check` it only says whether src/fortran/dem_c.f90 is what it would write."""
 import difflib
+import math
 import pathlib
 import sys
 
@@ -41,6 +42,10 @@ module dem_c
 
   integer, parameter :: dem_index = c_int64_t
 """
+
+
+BYTES = {"double": 8, "int": 4, "int32_t": 4, "uint32_t": 4, "uint64_t": 8, "size_t": 8, "unsigned char": 1,
+         "dem_index": 8, "char": 1}
 
 
 class Writer:
@@ -85,6 +90,21 @@ class Writer:
         return (f"{self.kind(item)}, intent({'in' if item.const else changed}){optional}",
                 item.name + self.extents(function, item))
 
+    def bytes(self, item):
+        """Of one of them, which is also how C aligns it."""
+        if item.stars or item.type in self.callbacks:
+            return 8
+        return BYTES.get(item.type, 4)  # else an enum
+
+    def size(self, members):
+        """sizeof of a struct of these members: tests/fortran compares it with C's."""
+        end = most = 0
+        for item in members:
+            one = self.bytes(item)
+            most = max(most, one)
+            end += -end % one + one * math.prod(item.shape)
+        return end + -end % most
+
     def member(self, item):
         if item.type in self.callbacks:
             return "type(c_funptr)", f"{item.name} = c_null_funptr"
@@ -113,7 +133,10 @@ class Writer:
 
     def write_struct(self, name, members):
         self.lines += ["", f"  type, bind(c) :: {name}"]
-        self.declare("    ", [self.member(item) for item in members])
+        declared = [self.member(item) for item in members]
+        if members[0].name == "struct_size":
+            declared[0] = declared[0][0], f"struct_size = {self.size(members)}"
+        self.declare("    ", declared)
         self.lines.append("  end type")
 
     def write_function(self, function):

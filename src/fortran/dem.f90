@@ -68,8 +68,7 @@ contains
   end function
 
   pure type(dem_options) function dem_options_default() result(options)
-    options%struct_size = c_sizeof(options)
-    options%gravity = [0d0, -9.81d0]
+    options%gravity = [0d0, -9.81d0, 0d0]
     options%rtol = 1d-6
     options%max_impacts = 10000
     options%window = -1
@@ -79,21 +78,8 @@ contains
   end function
 
   pure type(dem_trajectory_options) function dem_trajectory_options_default() result(options)
-    options%struct_size = c_sizeof(options)
     options%deflate = 1
     options%most_stressed = 5
     options%fields = iand(DEM_FIELD_ALL, not(DEM_FIELD_PRINCIPAL))
-  end function
-
-  !> Of motion and strain: what the ledger is compared with.
-  pure real(c_double) function dem_energy_motion(e)
-    type(dem_energy), intent(in) :: e
-    dem_energy_motion = e%kinetic + e%elastic + e%area + e%guard
-  end function
-
-  !> What stays constant in a run, up to the integrator's error.
-  pure real(c_double) function dem_energy_ledger(e)
-    type(dem_energy), intent(in) :: e
-    dem_energy_ledger = dem_energy_motion(e) + e%gravity + e%impact + e%friction + e%damping - e%projection - e%boundary
   end function
 end module

@@ -111,7 +111,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_lattice
-    integer(c_size_t) :: struct_size = 0
+    integer(c_size_t) :: struct_size = 160
     integer(c_int) :: dim = 0
     integer(dem_index) :: n_nodes = 0, n_springs = 0, n_triangles = 0
     type(c_ptr) :: x = c_null_ptr, mass = c_null_ptr, ends = c_null_ptr, rest_length = c_null_ptr
@@ -333,17 +333,20 @@ module dem_c
   end type
 
   type, bind(c) :: dem_csr
+    integer(c_size_t) :: struct_size = 64
     integer(dem_index) :: n_nodes = 0
     type(c_ptr) :: row = c_null_ptr, neighbour = c_null_ptr, spring = c_null_ptr, stiffness = c_null_ptr
     type(c_ptr) :: rest_length = c_null_ptr, viscosity = c_null_ptr
   end type
 
   type, bind(c) :: dem_model_size
+    integer(c_size_t) :: struct_size = 80
     integer(dem_index) :: n_nodes = 0, n_springs = 0, n_triangles = 0, n_bodies = 0, n_contact_nodes = 0
     integer(dem_index) :: n_contact_edges = 0, n_obstacles = 0, n_segments = 0, n_vertices = 0
   end type
 
   type, bind(c) :: dem_constants
+    integer(c_size_t) :: struct_size = 128
     real(c_double) :: stiffness(3, 3) = 0, youngs_modulus = 0, poissons_ratio = 0, anisotropy = 0
     real(c_double) :: longitudinal_speed = 0, transverse_speed = 0, volume = 0
   end type
@@ -387,9 +390,10 @@ module dem_c
       type(c_ptr), value :: model
     end subroutine
 
-    type(dem_csr) function dem_model_csr(model) bind(c)
+    integer(dem_status) function dem_model_csr(model, out) bind(c)
       import
       type(c_ptr), value :: model
+      type(dem_csr), intent(out) :: out
     end function
 
     type(c_ptr) function dem_model_lattice(model) bind(c)
@@ -403,9 +407,10 @@ module dem_c
       integer(dem_index), intent(out) :: n_obstacles
     end function
 
-    type(dem_model_size) function dem_model_sizes(model) bind(c)
+    integer(dem_status) function dem_model_sizes(model, out) bind(c)
       import
       type(c_ptr), value :: model
+      type(dem_model_size), intent(out) :: out
     end function
 
     real(c_double) function dem_model_spacing(model) bind(c)
@@ -486,7 +491,7 @@ module dem_c
     integer(c_int32_t) :: components = 0
     integer(dem_index) :: n_nodes = 0
     type(c_ptr) :: nodes = c_null_ptr, share = c_null_ptr
-    real(c_double) :: value(2) = 0, ramp = 0
+    real(c_double) :: value(3) = 0, ramp = 0
   end type
 
   type, bind(c) :: dem_force_query
@@ -496,9 +501,9 @@ module dem_c
   end type
 
   type, bind(c) :: dem_options
-    integer(c_size_t) :: struct_size = 0
+    integer(c_size_t) :: struct_size = 176
     integer(dem_method) :: method = 0
-    real(c_double) :: gravity(2) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
+    real(c_double) :: gravity(3) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
     real(c_double) :: penetration_tolerance = 0, rest_speed = 0
     integer(dem_index) :: max_impacts = 0
     real(c_double) :: window = 0, mass_damping = 0
@@ -513,58 +518,64 @@ module dem_c
   end type
 
   type, bind(c) :: dem_energy
-    real(c_double) :: kinetic = 0, elastic = 0, area = 0, guard = 0, gravity = 0, impact = 0, friction = 0, damping = 0
-    real(c_double) :: projection = 0, boundary = 0
+    integer(c_size_t) :: struct_size = 128
+    real(c_double) :: ledger = 0, motion = 0, kinetic = 0, elastic = 0, area = 0, guard = 0, contact = 0, gravity = 0
+    real(c_double) :: impact = 0, friction = 0, damping = 0, fracture = 0, projection = 0, boundary = 0, obstacle = 0
   end type
 
   type, bind(c) :: dem_contact
-    integer(c_int32_t) :: n_nodes = 0
+    integer(c_size_t) :: struct_size = 184
     integer(dem_contact_state) :: state = 0
+    integer(c_int32_t) :: n_nodes = 0
     integer(dem_index) :: nodes(4) = 0
     real(c_double) :: weights(4) = 0
-    integer(dem_index) :: obstacle = 0, segment = 0
-    real(c_double) :: x(2) = 0, normal(2) = 0, force = 0, friction = 0
+    integer(dem_index) :: body = 0, obstacle = 0, segment = 0, other_body = 0
+    real(c_double) :: x(3) = 0, normal(3) = 0, force = 0, friction(2) = 0
   end type
 
   type, bind(c) :: dem_event
+    integer(c_size_t) :: struct_size = 208
     real(c_double) :: t = 0
     integer(dem_event_kind) :: kind = 0
     integer(dem_contact_state) :: state = 0
     integer(dem_index) :: node = 0, other = 0
     real(c_double) :: weight = 0
-    integer(dem_index) :: obstacle = 0, segment = 0
-    real(c_double) :: x(2) = 0, normal(2) = 0, impulse(2) = 0, before(2) = 0, after(2) = 0, energy = 0
+    integer(dem_index) :: body = 0, obstacle = 0, segment = 0, other_body = 0
+    real(c_double) :: x(3) = 0, normal(3) = 0, impulse(3) = 0, before(3) = 0, after(3) = 0, energy = 0
   end type
 
   type, bind(c) :: dem_state
-    integer(c_size_t) :: struct_size = 0
+    integer(c_size_t) :: struct_size = 48
     real(c_double) :: t = 0, step = 0
     type(c_ptr) :: x = c_null_ptr, v = c_null_ptr
     integer(dem_index) :: n_contacts = 0
-    type(c_ptr) :: contacts = c_null_ptr
-    type(dem_energy) :: energy
   end type
 
   type, bind(c) :: dem_body_motion
-    real(c_double) :: mass = 0, centre(2) = 0, velocity(2) = 0, angular_momentum = 0
+    integer(c_size_t) :: struct_size = 88
+    real(c_double) :: mass = 0, centre(3) = 0, velocity(3) = 0, angular_momentum(3) = 0
   end type
 
   type, bind(c) :: dem_obstacle_load
-    real(c_double) :: reaction(2) = 0, point(2) = 0, impulse(2) = 0, friction_impulse(2) = 0
-    integer(dem_index) :: contacts = 0
+    integer(c_size_t) :: struct_size = 112
+    real(c_double) :: reaction(3) = 0, point(3) = 0, impulse(3) = 0, friction_impulse(3) = 0
+    integer(dem_index) :: n_contacts = 0
   end type
 
   type, bind(c) :: dem_boundary_load
-    real(c_double) :: force(2) = 0, displacement(2) = 0
+    integer(c_size_t) :: struct_size = 56
+    real(c_double) :: force(3) = 0, displacement(3) = 0
   end type
 
   type, bind(c) :: dem_counts
+    integer(c_size_t) :: struct_size = 128
     integer(dem_index) :: steps = 0, rejected = 0, evaluations = 0, events = 0, impacts = 0, vertex_impacts = 0
     integer(dem_index) :: early = 0, closings = 0, releases = 0, slips = 0, sticks = 0, passings = 0, late = 0
     integer(dem_index) :: retries = 0, behind = 0
   end type
 
   type, bind(c) :: dem_strain
+    integer(c_size_t) :: struct_size = 64
     real(c_double) :: min = 0, max = 0
     integer(dem_index) :: spring_min = 0, spring_max = 0
     real(c_double) :: area_min = 0
@@ -572,10 +583,11 @@ module dem_c
   end type
 
   type, bind(c) :: dem_overlap
+    integer(c_size_t) :: struct_size = 72
     integer(dem_index) :: now = 0, most = 0
     real(c_double) :: t = 0
     integer(dem_index) :: node = 0, triangle = 0
-    real(c_double) :: x(2) = 0
+    real(c_double) :: x(3) = 0
   end type
 
   abstract interface
@@ -644,73 +656,87 @@ module dem_c
       type(c_ptr), value :: simulation
     end function
 
-    integer(dem_status) function dem_simulation_state(simulation, state) bind(c)
+    integer(dem_status) function dem_simulation_state(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_state), intent(inout) :: state
+      type(dem_state), intent(out) :: out
     end function
 
-    type(dem_energy) function dem_simulation_energy(simulation) bind(c)
+    integer(dem_status) function dem_simulation_energy(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
+      type(dem_energy), intent(out) :: out
     end function
 
-    type(dem_strain) function dem_simulation_strain(simulation) bind(c)
+    integer(dem_status) function dem_simulation_strain(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
+      type(dem_strain), intent(out) :: out
     end function
 
-    subroutine dem_simulation_strains(simulation, strain) bind(c)
+    integer(dem_status) function dem_simulation_contact(simulation, contact, out) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), value :: contact
+      type(dem_contact), intent(out) :: out
+    end function
+
+    integer(dem_status) function dem_simulation_strains(simulation, strain) bind(c)
       import
       type(c_ptr), value :: simulation
       real(c_double), intent(out) :: strain(*)
-    end subroutine
+    end function
 
-    subroutine dem_simulation_forces(simulation, force) bind(c)
+    integer(dem_status) function dem_simulation_forces(simulation, force) bind(c)
       import
       type(c_ptr), value :: simulation
       real(c_double), intent(out) :: force(*)
-    end subroutine
+    end function
 
-    subroutine dem_simulation_stress(simulation, stress) bind(c)
+    integer(dem_status) function dem_simulation_stress(simulation, stress) bind(c)
       import
       type(c_ptr), value :: simulation
       real(c_double), intent(out) :: stress(3, *)
-    end subroutine
+    end function
 
-    subroutine dem_simulation_stress_at(simulation, node, stress) bind(c)
+    integer(dem_status) function dem_simulation_stress_at(simulation, node, stress) bind(c)
       import
       type(c_ptr), value :: simulation
       integer(dem_index), value :: node
-      real(c_double), intent(out) :: stress(3)
-    end subroutine
-
-    type(dem_overlap) function dem_simulation_overlap(simulation) bind(c)
-      import
-      type(c_ptr), value :: simulation
+      real(c_double), intent(out) :: stress(3, *)
     end function
 
-    type(dem_counts) function dem_simulation_counts(simulation) bind(c)
+    integer(dem_status) function dem_simulation_overlap(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
+      type(dem_overlap), intent(out) :: out
     end function
 
-    type(dem_body_motion) function dem_simulation_body(simulation, body) bind(c)
+    integer(dem_status) function dem_simulation_counts(simulation, out) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      type(dem_counts), intent(out) :: out
+    end function
+
+    integer(dem_status) function dem_simulation_body(simulation, body, out) bind(c)
       import
       type(c_ptr), value :: simulation
       integer(dem_index), value :: body
+      type(dem_body_motion), intent(out) :: out
     end function
 
-    type(dem_obstacle_load) function dem_simulation_obstacle(simulation, obstacle) bind(c)
+    integer(dem_status) function dem_simulation_obstacle(simulation, obstacle, out) bind(c)
       import
       type(c_ptr), value :: simulation
       integer(dem_index), value :: obstacle
+      type(dem_obstacle_load), intent(out) :: out
     end function
 
-    type(dem_boundary_load) function dem_simulation_boundary(simulation, boundary) bind(c)
+    integer(dem_status) function dem_simulation_boundary(simulation, boundary, out) bind(c)
       import
       type(c_ptr), value :: simulation
       integer(dem_index), value :: boundary
+      type(dem_boundary_load), intent(out) :: out
     end function
 
     real(c_double) function dem_simulation_residual(simulation) bind(c)
@@ -723,9 +749,10 @@ module dem_c
       type(c_ptr), value :: simulation
     end function
 
-    type(dem_options) function dem_simulation_options(simulation) bind(c)
+    integer(dem_status) function dem_simulation_options(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
+      type(dem_options), intent(out) :: out
     end function
 
     real(c_double) function dem_stress_von_mises(stress) bind(c)
@@ -968,7 +995,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_trajectory_options
-    integer(c_size_t) :: struct_size = 0
+    integer(c_size_t) :: struct_size = 64
     real(c_double) :: frame_interval = 0
     integer(c_int) :: double_precision = 0, deflate = 0, events = 0
     integer(c_int32_t) :: fields = 0

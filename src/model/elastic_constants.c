@@ -10,6 +10,7 @@
 
 #include "base/reduce.h"
 #include "base/status.h"
+#include "base/struct_size.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
 #include "model/tangent_stiffness.h"
@@ -202,7 +203,7 @@ dem_status dem_model_constants(const dem_model *model, dem_index body, dem_const
             l.force[k] = vectors + 2 * n * (N_CASES + k);
         }
         status = run(&l, &found);
-        if (status == DEM_OK) *out = found;
+        if (status == DEM_OK) status = struct_size_write(&STRUCT_KIND(dem_constants), out, &found);
     }
     free(vectors);
     free(l.held);

@@ -10,6 +10,7 @@
 
 #include "base/reduce.h"
 #include "base/status.h"
+#include "base/struct_size.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
 #include "obstacle/obstacle_set.h"
@@ -247,10 +248,13 @@ void dem_model_destroy(dem_model *model)
 }
 
 /* Views of arrays that belong to the model. */
-dem_csr dem_model_csr(const dem_model *model)
+dem_status dem_model_csr(const dem_model *model, dem_csr *out)
 {
+    CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_csr: %s is NULL", model ? "out" : "model");
     const springs *s = &model->springs;
-    return (dem_csr){s->n_nodes, s->row, s->neighbour, s->spring, s->stiffness, s->rest_length, s->viscosity};
+    const dem_csr own = {sizeof own, s->n_nodes,   s->row,         s->neighbour,
+                         s->spring,  s->stiffness, s->rest_length, s->viscosity};
+    return struct_size_write(&STRUCT_KIND(dem_csr), out, &own);
 }
 
 const dem_lattice *dem_model_lattice(const dem_model *model)
@@ -264,17 +268,19 @@ const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_index *n_obs
     return model->obstacles.list;
 }
 
-dem_model_size dem_model_sizes(const dem_model *model)
+dem_status dem_model_sizes(const dem_model *model, dem_model_size *out)
 {
-    return (dem_model_size){.n_nodes = model->lattice.n_nodes,
-                            .n_springs = model->lattice.n_springs,
-                            .n_triangles = model->lattice.n_triangles,
-                            .n_bodies = model->n_bodies,
-                            .n_contact_nodes = model->surface.n_nodes,
-                            .n_contact_edges = model->surface.n_edges,
-                            .n_obstacles = model->obstacles.n,
-                            .n_segments = model->obstacles.n_segments,
-                            .n_vertices = model->obstacles.n_vertices};
+    CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_sizes: %s is NULL", model ? "out" : "model");
+    const dem_model_size own = {.n_nodes = model->lattice.n_nodes,
+                                .n_springs = model->lattice.n_springs,
+                                .n_triangles = model->lattice.n_triangles,
+                                .n_bodies = model->n_bodies,
+                                .n_contact_nodes = model->surface.n_nodes,
+                                .n_contact_edges = model->surface.n_edges,
+                                .n_obstacles = model->obstacles.n,
+                                .n_segments = model->obstacles.n_segments,
+                                .n_vertices = model->obstacles.n_vertices};
+    return struct_size_write(&STRUCT_KIND(dem_model_size), out, &own);
 }
 
 double dem_model_spacing(const dem_model *model)

@@ -92,12 +92,12 @@ static void fill_principal(const frames *f, const view *v)
 /* The simulation computes strains and forces of all springs, straight into the scratch. */
 static void fill_strain(const frames *f, const view *v)
 {
-    dem_simulation_strains(v->simulation, f->scratch);
+    (void)dem_simulation_strains(v->simulation, f->scratch);
 }
 
 static void fill_force(const frames *f, const view *v)
 {
-    dem_simulation_forces(v->simulation, f->scratch);
+    (void)dem_simulation_forces(v->simulation, f->scratch);
 }
 
 static void fill_broken(const frames *f, const view *v)
@@ -133,17 +133,13 @@ enum { N_ARRAYS = sizeof arrays / sizeof arrays[0] };
 static const struct energy {
     const char *name, *offset;
 } energies[] = {
-    ENERGY("kinetic"),
-    ENERGY("elastic"),
-    ENERGY("area"),
-    ENERGY("guard"),
-    ENERGY("gravity"),
-    ENERGY("impact"),
-    ENERGY("friction"),
-    ENERGY("damping"),
-    ENERGY("projection"),
-    ENERGY("boundary"),
-    {IN("FieldData", "contacts")},
+    ENERGY("kinetic"),    ENERGY("elastic"),
+    ENERGY("area"),       ENERGY("guard"),
+    ENERGY("contact"),    ENERGY("gravity"),
+    ENERGY("impact"),     ENERGY("friction"),
+    ENERGY("damping"),    ENERGY("fracture"),
+    ENERGY("projection"), ENERGY("boundary"),
+    ENERGY("obstacle"),   {IN("FieldData", "contacts")},
 };
 enum { N_ENERGIES = sizeof energies / sizeof energies[0] };
 
@@ -266,7 +262,8 @@ dem_status frames_create(const frames *f, const hdf5_file *file, const dem_latti
 /* The scratch holds the largest array: six components of each node, or one number of each spring. */
 dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options)
 {
-    const dem_model_size size = dem_model_sizes(model);
+    dem_model_size size = {.struct_size = sizeof size};
+    (void)dem_model_sizes(model, &size);
     frames f = {.n_nodes = size.n_nodes,
                 .n_springs = size.n_springs,
                 .fields = options->fields,
@@ -302,7 +299,7 @@ static dem_status append_row(const frames *f, const hdf5_file *file, hdf5_rows r
 static dem_status append_arrays(const frames *f, const hdf5_file *file, const view *v)
 {
     /* Stresses are computed once for all arrays made of them. */
-    if (f->fields & ANY_STRESS) dem_simulation_stress(v->simulation, f->stress);
+    if (f->fields & ANY_STRESS) (void)dem_simulation_stress(v->simulation, f->stress);
     for (int k = 0; k < N_ARRAYS; k++) {
         const struct array *a = &arrays[k];
         const hdf5_rows rows = array_rows(f, a);
@@ -316,20 +313,13 @@ static dem_status append_arrays(const frames *f, const hdf5_file *file, const vi
 
 /* The ledger of this frame, in the order of `energies`. The number of contacts is a real, as VTK's field data are
  * here. */
-static dem_status append_energies(const frames *f, const hdf5_file *file, const dem_state *state)
+static dem_status append_energies(const frames *f, const hdf5_file *file, const view *v)
 {
-    const dem_energy *e = &state->energy;
-    const double values[N_ENERGIES] = {e->kinetic,
-                                       e->elastic,
-                                       e->area,
-                                       e->guard,
-                                       e->gravity,
-                                       e->impact,
-                                       e->friction,
-                                       e->damping,
-                                       e->projection,
-                                       e->boundary,
-                                       (double)state->n_contacts};
+    dem_energy e = {.struct_size = sizeof e};
+    (void)dem_simulation_energy(v->simulation, &e);
+    const double values[N_ENERGIES] = {
+        e.kinetic,  e.elastic, e.area,     e.guard,      e.contact,  e.gravity,  e.impact,
+        e.friction, e.damping, e.fracture, e.projection, e.boundary, e.obstacle, (double)v->state.n_contacts};
     for (int k = 0; k < N_ENERGIES; k++)
         TRY(append_row(f, file, frame_rows(energies[k].name, HDF5_F64, 1), &values[k]));
     return DEM_OK;
@@ -371,7 +361,7 @@ dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simul
     view v = {simulation, dem_model_lattice(dem_simulation_model(simulation)), {.struct_size = sizeof v.state}};
     TRY(dem_simulation_state(simulation, &v.state));
     TRY(append_arrays(f, file, &v));
-    TRY(append_energies(f, file, &v.state));
+    TRY(append_energies(f, file, &v));
     TRY(append_steps(f, file, v.state.t));
     return write_count(file, f->n + 1);
 }

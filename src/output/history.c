@@ -18,12 +18,15 @@ static const table_column columns[] = {
     {"/history/elastic", HDF5_F64, RUN, 1},
     {"/history/area", HDF5_F64, RUN, 1},
     {"/history/guard", HDF5_F64, RUN, 1},
+    {"/history/contact", HDF5_F64, RUN, 1},
     {"/history/gravity", HDF5_F64, RUN, 1},
     {"/history/impact", HDF5_F64, RUN, 1},
     {"/history/friction", HDF5_F64, RUN, 1},
     {"/history/damping", HDF5_F64, RUN, 1},
+    {"/history/fracture", HDF5_F64, RUN, 1},
     {"/history/projection", HDF5_F64, RUN, 1},
     {"/history/boundary", HDF5_F64, RUN, 1},
+    {"/history/obstacle", HDF5_F64, RUN, 1},
     {"/history/closure", HDF5_F64, RUN, 1},
     /* Extremes over springs and triangles. */
     {"/history/strain_min", HDF5_F64, RUN, 1},
@@ -65,33 +68,22 @@ static const table_column columns[] = {
 
 /* Columns about the run: first all reals, then all counts, as `columns` lists them. Returns the cell behind, as the
  * others do. */
-static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, const dem_state *state, double closure)
+static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, const dem_state *state,
+                           const dem_energy *e, double closure)
 {
-    const dem_energy *e = &state->energy;
-    const dem_strain s = dem_simulation_strain(simulation);
-    const dem_counts n = dem_simulation_counts(simulation);
-    const double reals[] = {state->t,   state->step, e->kinetic,  e->elastic, e->area,       e->guard,
-                            e->gravity, e->impact,   e->friction, e->damping, e->projection, e->boundary,
-                            closure,    s.min,       s.max,       s.area_min};
-    const dem_index counts[] = {s.guarded,
-                                s.inverted,
-                                dem_simulation_overlap(simulation).now,
-                                state->n_contacts,
-                                n.impacts,
-                                n.vertex_impacts,
-                                n.early,
-                                n.closings,
-                                n.releases,
-                                n.slips,
-                                n.sticks,
-                                n.passings,
-                                n.late,
-                                n.behind,
-                                n.events,
-                                n.steps,
-                                n.rejected,
-                                n.retries,
-                                n.evaluations};
+    dem_strain s = {.struct_size = sizeof s};
+    dem_counts n = {.struct_size = sizeof n};
+    dem_overlap overlap = {.struct_size = sizeof overlap};
+    (void)dem_simulation_strain(simulation, &s);
+    (void)dem_simulation_counts(simulation, &n);
+    (void)dem_simulation_overlap(simulation, &overlap);
+    const double reals[] = {state->t,    state->step, e->kinetic,  e->elastic, e->area,     e->guard,      e->contact,
+                            e->gravity,  e->impact,   e->friction, e->damping, e->fracture, e->projection, e->boundary,
+                            e->obstacle, closure,     s.min,       s.max,      s.area_min};
+    const dem_index counts[] = {s.guarded,        s.inverted, overlap.now, state->n_contacts, n.impacts,
+                                n.vertex_impacts, n.early,    n.closings,  n.releases,        n.slips,
+                                n.sticks,         n.passings, n.late,      n.behind,          n.events,
+                                n.steps,          n.rejected, n.retries,   n.evaluations};
     cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
     return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
 }
@@ -102,10 +94,11 @@ static table_cell *put_bodies(table_cell *cell, const dem_simulation *simulation
     /* Where the columns begin within the row. */
     table_cell *centre = cell, *velocity = centre + 2 * n_bodies, *momentum = velocity + 2 * n_bodies;
     for (dem_index b = 0; b < n_bodies; b++) {
-        const dem_body_motion motion = dem_simulation_body(simulation, b);
+        dem_body_motion motion = {.struct_size = sizeof motion};
+        (void)dem_simulation_body(simulation, b, &motion);
         centre = table_put_reals(centre, motion.centre, 2);
         velocity = table_put_reals(velocity, motion.velocity, 2);
-        momentum = table_put_reals(momentum, &motion.angular_momentum, 1);
+        momentum = table_put_reals(momentum, &motion.angular_momentum[2], 1);
     }
     return momentum;
 }
@@ -116,12 +109,13 @@ static table_cell *put_obstacles(table_cell *cell, const dem_simulation *simulat
     table_cell *reaction = cell, *point = reaction + 2 * n_obstacles, *impulse = point + 2 * n_obstacles;
     table_cell *friction = impulse + 2 * n_obstacles, *contacts = friction + 2 * n_obstacles;
     for (dem_index o = 0; o < n_obstacles; o++) {
-        const dem_obstacle_load load = dem_simulation_obstacle(simulation, o);
+        dem_obstacle_load load = {.struct_size = sizeof load};
+        (void)dem_simulation_obstacle(simulation, o, &load);
         reaction = table_put_reals(reaction, load.reaction, 2);
         point = table_put_reals(point, load.point, 2);
         impulse = table_put_reals(impulse, load.impulse, 2);
         friction = table_put_reals(friction, load.friction_impulse, 2);
-        contacts = table_put_wholes(contacts, &load.contacts, 1);
+        contacts = table_put_wholes(contacts, &load.n_contacts, 1);
     }
     return contacts;
 }
@@ -131,7 +125,8 @@ static table_cell *put_boundaries(table_cell *cell, const dem_simulation *simula
 {
     table_cell *force = cell, *displacement = force + 2 * n_boundaries;
     for (dem_index b = 0; b < n_boundaries; b++) {
-        const dem_boundary_load load = dem_simulation_boundary(simulation, b);
+        dem_boundary_load load = {.struct_size = sizeof load};
+        (void)dem_simulation_boundary(simulation, b, &load);
         force = table_put_reals(force, load.force, 2);
         displacement = table_put_reals(displacement, load.displacement, 2);
     }
@@ -140,18 +135,21 @@ static table_cell *put_boundaries(table_cell *cell, const dem_simulation *simula
 
 /* The closure: by what the ledger has changed since the first row, over the largest energy of motion and strain so far.
  * The ledger is constant but for the error of integration. */
-static double close_ledger(history *h, dem_energy e)
+static double close_ledger(history *h, const dem_energy *e)
 {
-    if (table_total(&h->table) == 0) h->start = dem_energy_ledger(e);
-    h->largest = dem_energy_motion(e) > h->largest ? dem_energy_motion(e) : h->largest;
-    return h->largest > 0.0 ? (dem_energy_ledger(e) - h->start) / h->largest : 0.0;
+    if (table_total(&h->table) == 0) h->start = e->ledger;
+    h->largest = e->motion > h->largest ? e->motion : h->largest;
+    return h->largest > 0.0 ? (e->ledger - h->start) / h->largest : 0.0;
 }
 
 /* How many bodies, obstacles and boundary conditions the model and the options have decides the width of a row. */
 dem_status history_init(history *out, const dem_simulation *simulation)
 {
-    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
-    const dem_index count[] = {size.n_bodies, size.n_obstacles, dem_simulation_options(simulation).n_boundaries};
+    dem_model_size size = {.struct_size = sizeof size};
+    dem_options options = dem_options_default();
+    (void)dem_model_sizes(dem_simulation_model(simulation), &size);
+    (void)dem_simulation_options(simulation, &options);
+    const dem_index count[] = {size.n_bodies, size.n_obstacles, options.n_boundaries};
     *out = (history){.last = 0.0};
     return table_init(&out->table, columns, sizeof columns / sizeof columns[0], count);
 }
@@ -168,9 +166,11 @@ void history_record(history *h, const dem_simulation *simulation)
     (void)dem_simulation_state(simulation, &state);
     /* table_total() counts rows of earlier files, too. */
     if (table_total(&h->table) > 0 && state.t == h->last) return;
-    const double closure = close_ledger(h, state.energy);
+    dem_energy energy = {.struct_size = sizeof energy};
+    (void)dem_simulation_energy(simulation, &energy);
+    const double closure = close_ledger(h, &energy);
     table_cell *cell = table_add(&h->table);
-    cell = put_run(cell, simulation, &state, closure);
+    cell = put_run(cell, simulation, &state, &energy, closure);
     cell = put_bodies(cell, simulation, (dem_index)h->table.count[BODIES]);
     cell = put_obstacles(cell, simulation, (dem_index)h->table.count[OBSTACLES]);
     (void)put_boundaries(cell, simulation, (dem_index)h->table.count[BOUNDARIES]);

@@ -9,7 +9,7 @@ typedef struct history {
     table table;
     double last;    /**< t of the last row, s */
     double start;   /**< J, of the ledger in the first row */
-    double largest; /**< J, of dem_energy_motion() so far */
+    double largest; /**< J, energy of motion and strain so far */
 } history;
 
 /** Free with history_free(). */

@@ -150,7 +150,7 @@ static void record_node(probe *p, const dem_simulation *simulation, const dem_st
 {
     const dem_index i = p->what.number[0];
     double stress[3];
-    dem_simulation_stress_at(simulation, i, stress);
+    (void)dem_simulation_stress_at(simulation, i, stress);
     const double von_mises = dem_stress_von_mises(stress);
     table_cell *cell = table_put_reals(table_add(&p->table), &state->t, 1);
     cell = table_put_reals(cell, state->x + 2 * i, 2);

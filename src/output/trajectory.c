@@ -248,7 +248,9 @@ static dem_status start(dem_trajectory *t)
     const segments *s = &t->segments;
     TRY(trajectory_parts_open(s, r));
     dem_status status = DEM_OK;
-    if (dem_model_sizes(r->model).n_obstacles > 0)
+    dem_model_size size = {.struct_size = sizeof size};
+    (void)dem_model_sizes(r->model, &size);
+    if (size.n_obstacles > 0)
         status = obstacle_file_publish(s->names[PARTS_OBSTACLE_PART], s->names[PARTS_OBSTACLE], r->model,
                                        (obstacle_file_times){0, NULL}, r->options.deflate);
     if (status == DEM_OK) status = trajectory_parts_prune(&t->segments);

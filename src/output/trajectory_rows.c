@@ -90,7 +90,8 @@ dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *fil
 /* An upper bound of what all arrays of the lattice, the obstacles and the notes take. Deflate never lengthens. */
 hsize_t trajectory_rows_create_bytes(const trajectory_rows *r)
 {
-    const dem_model_size size = dem_model_sizes(r->model);
+    dem_model_size size = {.struct_size = sizeof size};
+    (void)dem_model_sizes(r->model, &size);
     return 104 * (hsize_t)size.n_nodes + 65 * (hsize_t)size.n_springs + 56 * (hsize_t)size.n_triangles +
            32 * (hsize_t)size.n_segments + 4096 * (hsize_t)size.n_obstacles + provenance_bytes(&r->provenance);
 }

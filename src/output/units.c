@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-enum { MOST = 24 };
+enum { MOST = 32 };
 
 static const struct unit {
     const char *unit, *names[MOST]; /* NULL behind the last */
@@ -19,10 +19,11 @@ static const struct unit {
     {"Pa", {"stress", "von_mises", "principal_stress", "peak_von_mises", "peak_stress"}},
     {"1", {"strain", "peak_strain", "strain_min", "strain_max", "area_min", "closure", "weight", "normal"}},
     {"J",
-     {"energy",         "kinetic",           "elastic",        "area",           "guard",         "gravity",
-      "impact",         "friction",          "damping",        "projection",     "boundary",      "kinetic_energy",
-      "elastic_energy", "area_energy",       "guard_energy",   "gravity_energy", "impact_energy", "friction_energy",
-      "damping_energy", "projection_energy", "boundary_energy"}},
+     {"energy",          "kinetic",           "elastic",         "area",           "guard",         "gravity",
+      "impact",          "friction",          "damping",         "projection",     "boundary",      "kinetic_energy",
+      "elastic_energy",  "area_energy",       "guard_energy",    "gravity_energy", "impact_energy", "friction_energy",
+      "damping_energy",  "projection_energy", "boundary_energy", "contact",        "fracture",      "contact_energy",
+      "fracture_energy", "obstacle_energy"}},
 };
 
 /* A name that is not listed counts things, names them, or is not of this library: it has no unit. */

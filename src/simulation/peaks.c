@@ -23,7 +23,7 @@ struct dem_peaks {
 /* The size of a node's stress is its von Mises stress; the components are kept with it. */
 static void look_at_nodes(dem_peaks *p, const dem_simulation *simulation, double t)
 {
-    dem_simulation_stress(simulation, p->stress);
+    (void)dem_simulation_stress(simulation, p->stress);
     for (dem_index i = 0; i < p->n_nodes; i++) {
         const double *s = p->stress + 3 * i, size = dem_stress_von_mises(s);
         if (size > p->nodes[i].von_mises) p->nodes[i] = (dem_node_peak){size, t, {s[0], s[1], s[2]}};
@@ -33,7 +33,7 @@ static void look_at_nodes(dem_peaks *p, const dem_simulation *simulation, double
 /* The size of a strain is its magnitude; the sign is kept: stretched or squeezed. */
 static void look_at_springs(dem_peaks *p, const dem_simulation *simulation, double t)
 {
-    dem_simulation_strains(simulation, p->strain);
+    (void)dem_simulation_strains(simulation, p->strain);
     for (dem_index k = 0; k < p->n_springs; k++)
         if (fabs(p->strain[k]) > fabs(p->springs[k].strain)) p->springs[k] = (dem_spring_peak){p->strain[k], t};
 }
@@ -105,7 +105,8 @@ dem_status dem_peaks_create(dem_peaks **out, const dem_model *model, dem_index e
     CHECK(out != NULL && model != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_create: %s is NULL", out ? "model" : "out");
     CHECK(every >= 1, DEM_ERROR_ARGUMENT, "peaks are looked for every %lld steps; it must be 1 or more",
           (long long)every);
-    const dem_model_size size = dem_model_sizes(model);
+    dem_model_size size = {.struct_size = sizeof size};
+    TRY(dem_model_sizes(model, &size));
     const size_t n = (size_t)size.n_nodes, m = (size_t)size.n_springs;
     dem_peaks *p = calloc(1, sizeof *p);
     CHECK_MEMORY(p);

@@ -65,88 +65,125 @@ static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
     return m->contacts;
 }
 
-/* What returns no status says in numbers that are NaN, and in the message, that there is nothing of this number. */
-static bool is_there(const char *what, dem_index number, dem_index n)
+/* ---- what a getter is asked with ---- */
+
+static dem_status check_given(const char *function, const dem_simulation *s, const void *out)
 {
-    if (number >= 0 && number < n) return true;
-    (void)status_fail(DEM_ERROR_ARGUMENT, "there is no %s %lld: there are %lld, from 0 on", what, (long long)number,
-                      (long long)n);
-    return false;
+    CHECK(s != NULL && out != NULL, DEM_ERROR_ARGUMENT, "%s: %s is NULL", function,
+          s == NULL ? "simulation" : "where to write");
+    return DEM_OK;
 }
 
-static const double none = (double)NAN;
+static dem_status check_number(const char *what, dem_index number, dem_index n)
+{
+    CHECK(number >= 0 && number < n, DEM_ERROR_ARGUMENT, "there is no %s %lld: there are %lld, from 0 on", what,
+          (long long)number, (long long)n);
+    return DEM_OK;
+}
+
+#define GIVE(type, theirs, ours) struct_size_write(&STRUCT_KIND(type), theirs, ours)
 
 /* ---- public ---- */
 
-/* A caller may ask for the time alone. */
-static const struct_kind state_kind = {"dem_state", STRUCT_SIZE_WITH(dem_state, t), sizeof(dem_state)};
-
-dem_status dem_simulation_state(const dem_simulation *s, dem_state *state)
+dem_status dem_simulation_state(const dem_simulation *s, dem_state *out)
 {
-    CHECK(s != NULL && state != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_state: %s is NULL",
-          s == NULL ? "simulation" : "state");
+    TRY(check_given("dem_simulation_state", s, out));
     dem_index n_contacts;
-    const dem_contact *contacts = contacts_of(s, &n_contacts);
+    (void)contacts_of(s, &n_contacts);
     const dem_state seen = {.t = s->seen_t,
                             .step = s->step,
                             .x = seen_of(s),
                             .v = s->seen + state_velocities(&s->layout),
-                            .n_contacts = n_contacts,
-                            .contacts = contacts,
-                            .energy = dem_simulation_energy(s)};
-    return struct_size_write(&state_kind, state, &seen);
+                            .n_contacts = n_contacts};
+    return GIVE(dem_state, out, &seen);
 }
 
-dem_energy dem_simulation_energy(const dem_simulation *s)
+/* Mechanical energies are computed once; the others are sums that are there. */
+static dem_energy energy_of(const dem_simulation *s)
 {
     run_measures *m = s->measures;
-    if (!m->has_energy) m->energy = diagnostics_energy(&s->forces, seen_of(s), s->seen + state_velocities(&s->layout));
+    const double *y = seen_of(s);
+    const contact_ledger *ledger = &contact_of(s)->set.ledger;
+    const state_layout *l = &s->layout;
+    if (!m->has_energy) m->energy = diagnostics_energy(&s->forces, y, y + state_velocities(l));
     m->has_energy = true;
-    m->energy.impact = reduce_rounded_sum(contact_of(s)->set.ledger.impact);
-    m->energy.friction = state_total_of(&s->layout, seen_of(s), STATE_FRICTION);
-    m->energy.damping = state_total_of(&s->layout, seen_of(s), STATE_DAMPING);
-    m->energy.boundary =
-        state_total_of(&s->layout, seen_of(s), STATE_WORK) + reduce_rounded_sum(contact_of(s)->set.ledger.work);
-    m->energy.projection = reduce_rounded_sum(contact_of(s)->set.ledger.projection);
-    return m->energy;
+    dem_energy e = m->energy;
+    e.impact = reduce_rounded_sum(ledger->impact);
+    e.friction = state_total_of(l, y, STATE_FRICTION);
+    e.damping = state_total_of(l, y, STATE_DAMPING);
+    e.projection = reduce_rounded_sum(ledger->projection);
+    e.boundary = state_total_of(l, y, STATE_WORK);
+    e.obstacle = reduce_rounded_sum(ledger->work);
+    if (state_has_total(l, STATE_OBSTACLE)) e.obstacle += state_total_of(l, y, STATE_OBSTACLE);
+    e.ledger =
+        e.motion + e.gravity + e.impact + e.friction + e.damping + e.fracture - e.projection - e.boundary - e.obstacle;
+    return e;
 }
 
-dem_strain dem_simulation_strain(const dem_simulation *s)
+dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 {
+    TRY(check_given("dem_simulation_energy", s, out));
+    const dem_energy seen = energy_of(s);
+    return GIVE(dem_energy, out, &seen);
+}
+
+dem_status dem_simulation_strain(const dem_simulation *s, dem_strain *out)
+{
+    TRY(check_given("dem_simulation_strain", s, out));
     run_measures *m = s->measures;
     if (!m->has_strain) m->strain = diagnostics_strain(&s->forces, seen_of(s));
     m->has_strain = true;
-    return m->strain;
+    return GIVE(dem_strain, out, &m->strain);
 }
 
-void dem_simulation_strains(const dem_simulation *s, double *strain)
+dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, dem_contact *out)
 {
+    TRY(check_given("dem_simulation_contact", s, out));
+    dem_index n;
+    const dem_contact *contacts = contacts_of(s, &n);
+    TRY(check_number("contact", contact, n));
+    return GIVE(dem_contact, out, &contacts[contact]);
+}
+
+dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
+{
+    TRY(check_given("dem_simulation_strains", s, strain));
     springs_strains(&s->model->lattice, element_state_springs(s->forces.elements), seen_of(s), strain);
+    return DEM_OK;
 }
 
-void dem_simulation_forces(const dem_simulation *s, double *force)
+dem_status dem_simulation_forces(const dem_simulation *s, double *force)
 {
+    TRY(check_given("dem_simulation_forces", s, force));
     springs_forces(&s->model->lattice, element_state_springs(s->forces.elements), seen_of(s), force);
+    return DEM_OK;
 }
 
-void dem_simulation_stress(const dem_simulation *s, double *stress)
-{
-    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) dem_simulation_stress_at(s, i, stress + 3 * i);
-}
-
-void dem_simulation_stress_at(const dem_simulation *s, dem_index node, double stress[3])
+static void stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
     const dem_model *m = s->model;
-    if (!is_there("node", node, m->lattice.n_nodes)) {
-        stress[0] = stress[1] = stress[2] = none;
-        return;
-    }
     stress_of_node(&m->stress, &m->lattice, &m->triangles, node, seen_of(s), stress);
 }
 
-dem_overlap dem_simulation_overlap(const dem_simulation *s)
+dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
-    return s->overlap.found;
+    TRY(check_given("dem_simulation_stress", s, stress));
+    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) stress_at(s, i, stress + 3 * i);
+    return DEM_OK;
+}
+
+dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, double *stress)
+{
+    TRY(check_given("dem_simulation_stress_at", s, stress));
+    TRY(check_number("node", node, s->model->lattice.n_nodes));
+    stress_at(s, node, stress);
+    return DEM_OK;
+}
+
+dem_status dem_simulation_overlap(const dem_simulation *s, dem_overlap *out)
+{
+    TRY(check_given("dem_simulation_overlap", s, out));
+    return GIVE(dem_overlap, out, &s->overlap.found);
 }
 
 /* Counts of contact events and nodes; `late` counts steps. */
@@ -158,8 +195,9 @@ static dem_counts contact_counts(const dem_simulation *s)
     return c;
 }
 
-dem_counts dem_simulation_counts(const dem_simulation *s)
+dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 {
+    TRY(check_given("dem_simulation_counts", s, out));
     const dem_counts of_integrator = integrator_counts(&s->integrator);
     dem_counts counts = contact_counts(s);
     counts.steps = of_integrator.steps;
@@ -167,24 +205,25 @@ dem_counts dem_simulation_counts(const dem_simulation *s)
     counts.evaluations = of_integrator.evaluations;
     counts.retries = of_integrator.retries;
     counts.events = s->events + (s->in_hand ? reduce_count(s->queue.n_stops) : 0);
-    return counts;
+    return GIVE(dem_counts, out, &counts);
 }
 
-dem_body_motion dem_simulation_body(const dem_simulation *s, dem_index body)
+dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body_motion *out)
 {
-    if (!is_there("body", body, s->model->n_bodies)) return (dem_body_motion){none, {none, none}, {none, none}, none};
+    TRY(check_given("dem_simulation_body", s, out));
+    TRY(check_number("body", body, s->model->n_bodies));
     run_measures *m = s->measures;
     if (!m->has_body || m->body != body)
         m->motion = diagnostics_body(s->model, body, seen_of(s), s->seen + state_velocities(&s->layout));
     m->has_body = true;
     m->body = body;
-    return m->motion;
+    return GIVE(dem_body_motion, out, &m->motion);
 }
 
-dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle)
+dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *out)
 {
-    if (!is_there("obstacle", obstacle, s->model->obstacles.n))
-        return (dem_obstacle_load){{none, none}, {none, none}, {none, none}, {none, none}, 0};
+    TRY(check_given("dem_simulation_obstacle", s, out));
+    TRY(check_number("obstacle", obstacle, s->model->obstacles.n));
     const contact_ledger *ledger = &contact_of(s)->set.ledger;
     const state_layout *l = &s->layout;
     dem_index n_closed;
@@ -196,22 +235,24 @@ dem_obstacle_load dem_simulation_obstacle(const dem_simulation *s, dem_index obs
         load.impulse[k] = reduce_rounded_sum(ledger->impulse[2 * obstacle + k]) + lasting[k];
         load.friction_impulse[k] = reduce_rounded_sum(ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];
     }
-    return load;
+    return GIVE(dem_obstacle_load, out, &load);
 }
 
-dem_boundary_load dem_simulation_boundary(const dem_simulation *s, dem_index k)
+dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_boundary_load *out)
 {
-    if (!is_there("boundary", k, s->boundaries.n)) return (dem_boundary_load){{none, none}, {none, none}};
+    TRY(check_given("dem_simulation_boundary", s, out));
+    TRY(check_number("boundary", k, s->boundaries.n));
     const boundary_condition *b = &s->boundaries.list[k];
     const double *y = seen_of(s), *external = s->held_forces.force;
     dem_boundary_load load = diagnostics_boundary(&s->forces, b, external, y, y + state_velocities(&s->layout));
     const bool known = b->kind == DEM_BOUNDARY_FORCE || external == NULL || s->measures->has_held_forces;
-    if (!known) load.force[0] = load.force[1] = none;
-    return load;
+    if (!known) load.force[0] = load.force[1] = (double)NAN;
+    return GIVE(dem_boundary_load, out, &load);
 }
 
 double dem_simulation_residual(const dem_simulation *s)
 {
+    if (check_given("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
     const bool known = s->path.f1 != NULL && s->seen == s->y && !s->at_event && s->path.end == s->path.t1;
     const dem_index v = state_velocities(&s->layout);
     return known ? diagnostics_residual(&s->forces, s->path.y1, s->path.y1 + v, s->path.f1 + v) : (double)INFINITY;
@@ -219,15 +260,17 @@ double dem_simulation_residual(const dem_simulation *s)
 
 const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *s)
 {
+    if (check_given("dem_simulation_checkpoint", s, s) != DEM_OK) return NULL;
     return s->has_checkpoint ? s->checkpoint : NULL;
 }
 
 const dem_model *dem_simulation_model(const dem_simulation *s)
 {
-    return s->model;
+    return check_given("dem_simulation_model", s, s) == DEM_OK ? s->model : NULL;
 }
 
-dem_options dem_simulation_options(const dem_simulation *s)
+dem_status dem_simulation_options(const dem_simulation *s, dem_options *out)
 {
-    return s->options;
+    TRY(check_given("dem_simulation_options", s, out));
+    return GIVE(dem_options, out, &s->options);
 }

@@ -26,16 +26,16 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
 }
 
 /* Rates of the quadratures, behind the accelerations of the nodes: forces of closed contacts on each obstacle, N;
- * powers of friction, damping, and the work from outside, W, of boundary conditions, external forces and moving
- * obstacles; and 1, the rate of the time. */
+ * powers of friction, of moving obstacles, of damping, and of boundary conditions and external forces, W; and 1, the
+ * rate of the time. */
 static void fill_rates(dem_simulation *s, double t, const double *y, double *a, double work)
 {
     const state_layout *l = &s->layout;
     const double *v = y + state_velocities(l);
     for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
-    const double by_obstacles = automaton_add_rates(&s->automaton, t, y, a);
+    automaton_add_rates(&s->automaton, t, y, a);
     a[state_total_index(l, STATE_DAMPING)] = reduce_rounded_sum(forces_damping_power(&s->forces, y, v));
-    a[state_total_index(l, STATE_WORK)] = reduce_rounded_sum(work + by_obstacles);
+    a[state_total_index(l, STATE_WORK)] = reduce_rounded_sum(work);
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
 

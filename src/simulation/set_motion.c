@@ -36,7 +36,7 @@ static dem_status check(const dem_simulation *s, const char *what, const double 
 static double mechanical_energy(const dem_simulation *s, const double *y)
 {
     const dem_energy e = diagnostics_energy(&s->forces, y, y + state_velocities(&s->layout));
-    return dem_energy_motion(e) + e.gravity;
+    return e.motion + e.gravity;
 }
 
 /* Puts x and v into a state, and the energy that this takes into its work: the difference of mechanical energies, J. */

@@ -142,7 +142,8 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
     CHECK_MEMORY(s);
     s->model = model;
     s->options = own;
-    s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n);
+    s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n,
+                                model->obstacles.bounds.speed > 0.0);
     dem_status status = reduce_status(set_up(s), 0.0);
     if (status == DEM_OK && checkpoint != NULL) status = resume(s, checkpoint);
     if (status == DEM_OK)

@@ -8,6 +8,7 @@
 
 #include "bench.h"
 #include "contact/automaton_step.h"
+#include "harness/motion.h"
 #include "events/event_queue.h"
 
 enum { most = 100000 };
@@ -135,9 +136,9 @@ typedef struct tally {
 static dem_status after_step(void *context, const dem_simulation *simulation)
 {
     tally *t = context;
-    dem_state state = {.struct_size = sizeof state};
-    const dem_counts counts = dem_simulation_counts(simulation);
-    dem_simulation_state(simulation, &state);
+    motion state;
+    const dem_counts counts = ask_counts(simulation);
+    motion_see(simulation, &state);
     const bool quiet = counts.events == t->events;
     if (quiet && 10 * state.n_contacts >= 8 * t->columns && t->n < most) {
         const double start = seconds(CLOCK_MONOTONIC);
@@ -171,7 +172,7 @@ int main(int argc, char **argv)
     ask(dem_simulation_create(&simulation, model, &options));
     ask(dem_simulation_observe(simulation, &observer));
     ask(dem_simulation_advance(simulation, atof(argv[4])));
-    const dem_counts counts = dem_simulation_counts(simulation);
+    const dem_counts counts = ask_counts(simulation);
     const double force = median(t.force, t.n), contact_time = median(t.contact, t.n);
     (void)printf("%lld nodes, %ld segments, %lld contacts on %ld columns, %lld steps, %lld events, %zu steps counted\n",
                  (long long)model->lattice.n_nodes, segments, (long long)t.contacts, columns, (long long)counts.steps,

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "events/event_queue.h"
+#include "ask.h"
 #include "plate.h"
 
 static const double width = 0.08, height = 0.13, speed[2] = {0.0, -10.0}, tilt = 0.03;
@@ -108,8 +109,8 @@ static times take(dem_simulation **simulation, const dem_model *model, const dem
 
 static void print(const dem_simulation *simulation, times t)
 {
-    const dem_counts counts = dem_simulation_counts(simulation);
-    const dem_model_size sizes = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_counts counts = ask_counts(simulation);
+    const dem_model_size sizes = ask_sizes(dem_simulation_model(simulation));
     (void)printf("nodes %lld\nsprings %lld\nevaluations %lld\nsteps %lld\nevents %lld\nimpacts %lld\nlate %lld\n"
                  "cpu %.6f\nfind %.6f\ntake %.6f\n",
                  (long long)sizes.n_nodes, (long long)sizes.n_springs, (long long)counts.evaluations,

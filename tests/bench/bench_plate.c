@@ -13,6 +13,7 @@
 
 #include "base/aligned.h"
 #include "forces/kernel.h"
+#include "ask.h"
 #include "plate.h"
 
 static const double spacing = 5e-3, peak_strain = 0.03;
@@ -98,7 +99,7 @@ typedef struct result {
 
 static double energy_of(const dem_simulation *simulation)
 {
-    return dem_energy_ledger(dem_simulation_energy(simulation));
+    return ask_energy(simulation).ledger;
 }
 
 /* Fehlberg's pair as it comes; else steps of a tenth of sqrt(m/k), as LAMMPS takes. */
@@ -114,14 +115,14 @@ static result take(const dem_model *model, const plan *p)
     options.threads = p->threads;
     if (p->method == DEM_METHOD_VERLET) options.fixed_step = tenth;
     ask(dem_simulation_create(&simulation, model, &options));
-    r.step = dem_simulation_options(simulation).max_step;
+    r.step = ask_options(simulation).max_step;
     r.energy[0] = energy_of(simulation);
     const double cpu = seconds(CLOCK_PROCESS_CPUTIME_ID), wall = seconds(CLOCK_MONOTONIC);
     ask(dem_simulation_advance(simulation, r.step * (double)p->steps));
     r.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
     r.wall = seconds(CLOCK_MONOTONIC) - wall;
     r.energy[1] = energy_of(simulation);
-    r.evaluations = dem_simulation_counts(simulation).evaluations;
+    r.evaluations = ask_counts(simulation).evaluations;
     if (p->file != NULL) plate_write_state(simulation, p->file);
     dem_simulation_destroy(simulation);
     return r;

@@ -10,6 +10,7 @@
 #include <dem/trajectory.h>
 
 #include "bench.h"
+#include "ask.h"
 #include "memory.h"
 
 static const char path[] = "bench_setup.vtkhdf";
@@ -74,7 +75,7 @@ static double resident(void) /* bytes, at most so far */
 static void time_frames(body *b, int n)
 {
     dem_trajectory_options options = dem_trajectory_options_default();
-    const double h = dem_simulation_options(b->simulation).max_step;
+    const double h = ask_options(b->simulation).max_step;
     double frame = INFINITY, steps = INFINITY;
     dem_trajectory *reader;
     options.frame_interval = 1.0;

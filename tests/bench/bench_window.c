@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "base/vec2.h"
+#include "harness/motion.h"
 #include "unit/whole_deck.h"
 
 enum { path_size = 4096 };
@@ -65,7 +66,7 @@ static run take(const char *inputs, const char *name, double spacing, double eta
     deck d;
     dem_model *model;
     dem_simulation *simulation;
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     run r = {.rtol = rtol, .spacing = spacing};
     const dem_observer observer = {.event = note, .context = &r.last};
     read_deck(&d, inputs, name, spacing);
@@ -76,15 +77,15 @@ static run take(const char *inputs, const char *name, double spacing, double eta
     d.options.window = r.window = kappa / dem_model_omega_max(model);
     must(dem_simulation_create(&simulation, model, &d.options) == DEM_OK, name);
     must(dem_simulation_observe(simulation, &observer) == DEM_OK, name);
-    const dem_energy start = dem_simulation_energy(simulation);
+    const dem_energy start = ask_energy(simulation);
     const clock_t begin = clock();
     if (dem_simulation_advance(simulation, d.t_end) != DEM_OK) (void)printf("FAILED: %s\n", dem_status_message());
     r.seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
-    dem_simulation_state(simulation, &state);
-    r.closure = (dem_energy_ledger(state.energy) - dem_energy_ledger(start)) / start.kinetic;
+    motion_see(simulation, &state);
+    r.closure = (state.energy.ledger - start.ledger) / start.kinetic;
     r.taken = state.energy.impact / start.kinetic;
-    r.body = dem_simulation_body(simulation, 0);
-    r.counts = dem_simulation_counts(simulation);
+    r.body = ask_body(simulation, 0);
+    r.counts = ask_counts(simulation);
     for (int k = 0; k < 2; k++) r.rebound[k] = r.body.velocity[k] - d.options.gravity[k] * (state.t - r.last);
     r.n = d.lattice.n_nodes;
     r.x = malloc(2 * (size_t)r.n * sizeof *r.x);

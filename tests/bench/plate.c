@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+#include "harness/motion.h"
 #include "plate.h"
 
 #include <math.h>
@@ -130,11 +131,11 @@ void plate_write_lammps(const dem_lattice *l, double spacing, double pad, const 
 
 void plate_write_state(const dem_simulation *simulation, const char *path)
 {
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     FILE *file = fopen(path, "w");
     must(file != NULL, path);
-    for (dem_index i = 0; i < dem_model_sizes(dem_simulation_model(simulation)).n_nodes; i++)
+    for (dem_index i = 0; i < ask_sizes(dem_simulation_model(simulation)).n_nodes; i++)
         (void)fprintf(file, "%.17g %.17g %.17g %.17g\n", state.x[2 * i], state.x[2 * i + 1], state.v[2 * i],
                       state.v[2 * i + 1]);
     must(fclose(file) == 0, path);

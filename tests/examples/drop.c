@@ -22,6 +22,7 @@ int main(void)
     dem_model *model;
     dem_simulation *simulation;
     dem_trajectory *file;
+    dem_body_motion body = {.struct_size = sizeof body};
 
     if (dem_lattice_disc(&lattice, 0.065, 5e-3) || dem_lattice_assemble(&lattice, &rubber)) return fail();
     dem_lattice_move(&lattice, 0, lift);
@@ -33,7 +34,8 @@ int main(void)
     if (dem_simulation_observe(simulation, &observer)) return fail();
     if (dem_simulation_advance(simulation, 20e-3)) return fail();
     if (dem_trajectory_finish(file)) return fail();
-    printf("%g m/s\n", dem_simulation_body(simulation, 0).velocity[1]);
+    if (dem_simulation_body(simulation, 0, &body)) return fail();
+    printf("%g m/s\n", body.velocity[1]);
     dem_trajectory_destroy(file);
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);

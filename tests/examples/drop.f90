@@ -23,7 +23,7 @@ program drop
   call check(dem_simulation_observe(simulation, dem_trajectory_observer(file)))
   call check(dem_simulation_advance(simulation, 20d-3))
   call check(dem_trajectory_finish(file))
-  motion = dem_simulation_body(simulation, 0_dem_index)
+  call check(dem_simulation_body(simulation, 0_dem_index, motion))
   print '(g0, a)', motion%velocity(2), ' m/s'
   call dem_trajectory_destroy(file)
   call dem_simulation_destroy(simulation)

@@ -14,6 +14,7 @@
 #include "../unit/close.h"
 
 #include "allocations.h"
+#include "harness/motion.h"
 #include "base/random.h"
 
 static int left_half(void *context, const double x[2])
@@ -68,7 +69,7 @@ static dem_status build_squares(void)
 
 static dem_status measure(const dem_model *model)
 {
-    dem_constants constants;
+    dem_constants constants = {.struct_size = sizeof constants};
     double omega;
     const dem_status status = dem_model_constants(model, 1, &constants);
     return status == DEM_OK ? dem_model_omega(model, &omega) : status;
@@ -133,7 +134,7 @@ static bool kept; /* a checkpoint has been written */
 
 static dem_status keep_record(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
-    if (dem_simulation_counts(simulation).steps == 0) return DEM_OK;
+    if (ask_counts(simulation).steps == 0) return DEM_OK;
     dem_status status = dem_trajectory_segment(context, checkpoint);
     if (status == DEM_OK) status = dem_checkpoint_write(checkpoint, checkpoints[0]);
     if (status == DEM_OK) kept = true;
@@ -305,7 +306,7 @@ static dem_status fall(double **now, dem_index *n, long failing_one)
     dem_lattice lattice;
     dem_model *model;
     dem_simulation *simulation;
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     options.fixed_step = 4e-6;
     assert_int_equal(build(&lattice), DEM_OK);
     assert_int_equal(dem_model_create(&model, &lattice, &obstacle, 1), DEM_OK);
@@ -316,7 +317,7 @@ static dem_status fall(double **now, dem_index *n, long failing_one)
     const long needed = allocations;
     failing = 0;
     assert_int_equal(dem_simulation_advance(simulation, 6e-4), DEM_OK);
-    dem_simulation_state(simulation, &state);
+    motion_see(simulation, &state);
     *n = 2 * lattice.n_nodes;
     *now = malloc(2 * (size_t)*n * sizeof **now);
     assert_non_null(*now);

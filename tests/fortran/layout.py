@@ -53,7 +53,10 @@ def show_members(label, struct, value):
     in_fortran.append(f"write (*, form) '{label}', c_sizeof(s)")
     for item in structs[struct]:
         name = item.name
-        in_c.append(f'show("{label}.{name}", (long long)offsetof({struct}, {name}), &s.{name}, sizeof s.{name});')
+        if name == "struct_size":  # in Fortran there from the start, in C set by the caller
+            in_c.append(f'{{ const size_t n = sizeof s; show("{label}.{name}", 0, &n, sizeof n); }}')
+        else:
+            in_c.append(f'show("{label}.{name}", (long long)offsetof({struct}, {name}), &s.{name}, sizeof s.{name});')
         in_fortran.append(f"write (*, form) '{label}.{name}', place(c_loc(s%{name})) - place(c_loc(s)), &")
         in_fortran.append(f"  transfer(s%{name}, [0_c_int8_t])")
     in_c.append("}")

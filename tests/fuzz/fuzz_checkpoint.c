@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "bytes.h"
+#include "harness/motion.h"
 #include "scratch.h"
 
 enum { MOST_EDITS = 8, MOST_STEPS = 20, HEADER = 64, SIZE_AT = 16, CHECKSUM_AT = 32, MOST_FILE = 1 << 22 };
@@ -203,14 +204,14 @@ static dem_status count(void *context, const dem_simulation *simulation)
 static void go_on(dem_simulation *simulation)
 {
     int steps = 0;
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     const dem_observer counter = {.step = count, .context = &steps};
-    dem_simulation_state(simulation, &state);
+    motion_see(simulation, &state);
     require(dem_simulation_observe(simulation, &counter) == DEM_OK);
     const dem_status status = dem_simulation_advance(simulation, state.t + 0.1);
     require(status == DEM_OK || status == DEM_STOPPED || status == DEM_ERROR_CONTACT || status == DEM_ERROR_INTEGRATOR);
-    dem_simulation_state(simulation, &state);
-    for (dem_index k = 0; k < 2 * dem_model_sizes(dem_simulation_model(simulation)).n_nodes; k++)
+    motion_see(simulation, &state);
+    for (dem_index k = 0; k < 2 * ask_sizes(dem_simulation_model(simulation)).n_nodes; k++)
         require(isfinite(state.x[k]) && isfinite(state.v[k]));
 }
 

@@ -7,6 +7,7 @@
 
 #include "bytes.h"
 #include "schema.h"
+#include "ask.h"
 #include "scratch.h"
 
 static const double most_nodes = 2000.0, most_segments = 2000.0, most_pores = 50.0;
@@ -151,7 +152,7 @@ static void build(const deck *d)
     require(dem_model_create(&model, &d->lattice, d->obstacles, d->n_obstacles) == DEM_OK);
     const dem_status status = dem_simulation_create(&simulation, model, &d->options);
     require(status == DEM_OK || status == DEM_ERROR_MODEL || status == DEM_ERROR_ARGUMENT);
-    if (status == DEM_OK) require(isfinite(dem_energy_ledger(dem_simulation_energy(simulation))));
+    if (status == DEM_OK) require(isfinite(ask_energy(simulation).ledger));
     dem_simulation_destroy(simulation);
     dem_model_destroy(model);
 }

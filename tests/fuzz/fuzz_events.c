@@ -5,6 +5,7 @@
 #include <dem/dem.h>
 
 #include "bytes.h"
+#include "harness/motion.h"
 #include "polygon.h"
 
 enum { MOST_NODES = 6, MOST_SPRINGS = 15, MOST_POINTS = 8, MOST_OBSTACLES = 3, MOST_STEPS = 150 };
@@ -200,7 +201,7 @@ static double depth(const dem_obstacle *o, const double *x)
     return inside != room ? polygon_to_line(o->points, o->n_points, x) : 0.0;
 }
 
-static void check_depth(const judge *j, const dem_simulation *simulation, const dem_state *state)
+static void check_depth(const judge *j, const dem_simulation *simulation, const motion *state)
 {
     const dem_lattice *body = dem_model_lattice(dem_simulation_model(simulation));
     for (dem_index i = 0; i < body->n_nodes && !j->round; i++)
@@ -211,9 +212,8 @@ static void check_depth(const judge *j, const dem_simulation *simulation, const 
 /* 2e-3 is what the bodies of the paper are asked to hold; springs that nodes are pressed through have corners. */
 static void check_energy(judge *j, dem_energy e)
 {
-    const double taken = e.impact + e.friction + e.damping, open = dem_energy_ledger(e) - j->start;
-    j->most =
-        fmax(j->most, dem_energy_motion(e) - 2.0 * fmin(e.area, 0.0) + fabs(e.gravity) + taken + fabs(e.boundary));
+    const double taken = e.impact + e.friction + e.damping, open = e.ledger - j->start;
+    j->most = fmax(j->most, e.motion - 2.0 * fmin(e.area, 0.0) + fabs(e.gravity) + taken + fabs(e.boundary));
     require(isfinite(open) && isfinite(taken));
     require(fmin(e.impact, fmin(e.friction, e.damping)) >= -j->error * j->most);
     require(!j->adaptive || fabs(open) <= 2e-2 * j->most);
@@ -222,10 +222,10 @@ static void check_energy(judge *j, dem_energy e)
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     judge *j = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     for (dem_index k = 0; k < 2 * j->scene->body.n_nodes; k++) require(isfinite(state.x[k]) && isfinite(state.v[k]));
-    j->round |= dem_simulation_counts(simulation).behind > 0;
+    j->round |= ask_counts(simulation).behind > 0;
     check_depth(j, simulation, &state);
     check_energy(j, state.energy);
     return ++j->steps < MOST_STEPS ? DEM_OK : DEM_STOPPED;
@@ -235,7 +235,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
 static dem_status weigh(void *context, const dem_simulation *simulation, const dem_event *e)
 {
     const judge *j = context;
-    const double scale = dem_simulation_options(simulation).v_scale;
+    const double scale = ask_options(simulation).v_scale;
     const double m = j->scene->mass[e->node] + (e->other >= 0 ? j->scene->mass[e->other] : 0.0);
     const double before = e->before[0] * e->before[0] + e->before[1] * e->before[1];
     require(fabs(hypot(e->normal[0], e->normal[1]) - 1.0) < 1e-9);
@@ -248,19 +248,19 @@ static dem_status weigh(void *context, const dem_simulation *simulation, const d
  * wrong way between. */
 static judge make_judge(const scene *sc, const dem_simulation *simulation)
 {
-    const dem_options o = dem_simulation_options(simulation);
+    const dem_options o = ask_options(simulation);
     dem_method_traits traits;
     require(dem_method_describe(&traits, o.method) == DEM_OK);
     return (judge){.scene = sc,
                    .deepest = 5.0 * o.penetration_tolerance + (traits.adaptive ? 0.0 : 1e-2 * o.spacing),
                    .error = traits.adaptive ? 1e-4 : 1e-2,
-                   .start = dem_energy_ledger(dem_simulation_energy(simulation)),
+                   .start = ask_energy(simulation).ledger,
                    .adaptive = traits.adaptive};
 }
 
 static void run(const scene *sc, dem_simulation *simulation)
 {
-    const dem_options o = dem_simulation_options(simulation);
+    const dem_options o = ask_options(simulation);
     judge j = make_judge(sc, simulation);
     const dem_observer observer = {.step = look, .event = weigh, .context = &j};
     require(dem_simulation_observe(simulation, &observer) == DEM_OK);

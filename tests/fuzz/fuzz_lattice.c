@@ -6,6 +6,7 @@
 #include <hdf5.h>
 
 #include "bytes.h"
+#include "ask.h"
 #include "scratch.h"
 
 enum { MOST_VALUES = 256, N_NAMES = 17 };
@@ -303,11 +304,11 @@ static void start(const dem_model *model)
 {
     dem_options options = dem_options_default();
     dem_simulation *simulation = NULL;
-    if (dem_model_sizes(model).n_springs == 0) options.spacing = options.max_step = 1.0;
+    if (ask_sizes(model).n_springs == 0) options.spacing = options.max_step = 1.0;
     const dem_status status = dem_simulation_create(&simulation, model, &options);
     require(status == DEM_OK || status == DEM_ERROR_MODEL || status == DEM_ERROR_ARGUMENT);
     if (status == DEM_OK) {
-        const double end = 4.0 * dem_simulation_options(simulation).max_step;
+        const double end = 4.0 * ask_options(simulation).max_step;
         const dem_status advanced = dem_simulation_advance(simulation, end);
         require(advanced == DEM_OK || advanced == DEM_ERROR_INTEGRATOR);
     }

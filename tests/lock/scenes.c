@@ -8,6 +8,7 @@
 #include "property/field.h"
 #include "property/scene.h"
 #include "store.h"
+#include "ask.h"
 #include "trace.h"
 
 enum { NAME = 64, MOST_NODES = 256 };
@@ -91,8 +92,8 @@ static void make_scene(scene *sc, extras *e, const task *what, dem_kernel kernel
 
 static void look(const scene *sc, const extras *e, const dem_simulation *simulation)
 {
-    const dem_counts counts = dem_simulation_counts(simulation);
-    seen.rubbing += dem_simulation_energy(simulation).friction > 0.0;
+    const dem_counts counts = ask_counts(simulation);
+    seen.rubbing += ask_energy(simulation).friction > 0.0;
     seen.sticks += counts.sticks;
     seen.slips += counts.slips;
     seen.vertices += counts.vertex_impacts;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/motion.h"
 #include "scene.h"
 
 static long n_cases = 10, first_seed = 1;
@@ -26,11 +27,11 @@ static void put(picture *p, const void *from, size_t n)
 
 static picture take_picture(const dem_simulation *simulation)
 {
-    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
+    const dem_model_size size = ask_sizes(dem_simulation_model(simulation));
     picture p = {0};
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
-    const dem_counts counts = dem_simulation_counts(simulation);
+    motion s;
+    motion_see(simulation, &s);
+    const dem_counts counts = ask_counts(simulation);
     put(&p, &s.t, sizeof s.t);
     put(&p, s.x, 2 * (size_t)size.n_nodes * sizeof *s.x);
     put(&p, s.v, 2 * (size_t)size.n_nodes * sizeof *s.v);
@@ -38,7 +39,7 @@ static picture take_picture(const dem_simulation *simulation)
     put(&p, &counts, sizeof counts);
     for (dem_index k = 0; k < s.n_contacts; k++) put(&p, &s.contacts[k].force, 2 * sizeof(double));
     for (dem_index k = 0; k < size.n_obstacles; k++) {
-        const dem_obstacle_load load = dem_simulation_obstacle(simulation, k);
+        const dem_obstacle_load load = ask_obstacle(simulation, k);
         put(&p, load.impulse, sizeof load.impulse);
         put(&p, load.friction_impulse, sizeof load.friction_impulse);
     }
@@ -63,8 +64,8 @@ static dem_status ask(void *context, const dem_simulation *simulation)
 /* What an impact has done has been done to what is shown then. */
 static dem_status ask_at_event(void *context, const dem_simulation *simulation, const dem_event *event)
 {
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    motion s;
+    motion_see(simulation, &s);
     assert_close(s.t, event->t, 0.0);
     return ask(context, simulation);
 }

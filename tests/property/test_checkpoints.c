@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/motion.h"
 #include "scene.h"
 
 static long n_cases = 2, first_seed = 1, every = 3;
@@ -29,10 +30,10 @@ static void enter(diary *d, const void *bytes, size_t n)
 
 static void enter_all(diary *d, const dem_simulation *simulation)
 {
-    const dem_model_size size = dem_model_sizes(dem_simulation_model(simulation));
-    const dem_counts counts = dem_simulation_counts(simulation);
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    const dem_model_size size = ask_sizes(dem_simulation_model(simulation));
+    const dem_counts counts = ask_counts(simulation);
+    motion s;
+    motion_see(simulation, &s);
     enter(d, &s.t, sizeof s.t);
     enter(d, &s.step, sizeof s.step);
     enter(d, s.x, 2 * (size_t)size.n_nodes * sizeof *s.x);
@@ -41,7 +42,7 @@ static void enter_all(diary *d, const dem_simulation *simulation)
     enter(d, &counts, sizeof counts);
     for (dem_index k = 0; k < s.n_contacts; k++) enter(d, &s.contacts[k].force, 2 * sizeof(double));
     for (dem_index k = 0; k < size.n_obstacles; k++) {
-        const dem_obstacle_load load = dem_simulation_obstacle(simulation, k);
+        const dem_obstacle_load load = ask_obstacle(simulation, k);
         enter(d, load.impulse, sizeof load.impulse);
         enter(d, load.friction_impulse, sizeof load.friction_impulse);
     }

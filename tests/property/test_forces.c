@@ -8,6 +8,7 @@
 
 #include "field.h"
 #include "harness/cleanup_gsl.h"
+#include "harness/motion.h"
 #include "judge.h"
 
 static long n_cases = 3, first_seed = 1;
@@ -65,22 +66,22 @@ typedef struct watch {
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     watch *w = context;
-    const dem_energy e = dem_simulation_energy(simulation);
-    const double ledger = dem_energy_ledger(e);
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    const dem_energy e = ask_energy(simulation);
+    const double ledger = e.ledger;
+    motion s;
+    motion_see(simulation, &s);
     if (s.t == 0.0) w->start = ledger;
-    w->scale = fmax(w->scale, dem_energy_motion(e) + e.impact + e.friction + e.damping);
+    w->scale = fmax(w->scale, e.motion + e.impact + e.friction + e.damping);
     w->open = fmax(w->open, fabs(ledger - w->start));
-    w->round |= dem_simulation_counts(simulation).behind > 0;
+    w->round |= ask_counts(simulation).behind > 0;
     w->depth = fmax(w->depth, fmax(judge_nodes(w->scene, s.x), judge_vertices(w->scene, &w->boundary, s.x)));
     return DEM_OK;
 }
 
 static void hear(watch *w, const dem_simulation *simulation, double t)
 {
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    motion s;
+    motion_see(simulation, &s);
     assert_close(s.t, t, 0.0);
     assert_true(t >= w->last);
     w->last = t;
@@ -89,8 +90,8 @@ static void hear(watch *w, const dem_simulation *simulation, double t)
 static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     watch *w = context;
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    motion s;
+    motion_see(simulation, &s);
     hear(w, simulation, s.t);
     assert_close(s.t, 1e-4 * (double)w->n_frames, 1e-15);
     w->n_frames++;
@@ -117,7 +118,7 @@ static void watch_stage(watch *w, stage *s)
  * and omega h is 1/4 at most. */
 static void judge(const watch *w, const stage *s, unsigned long seed)
 {
-    const dem_options o = dem_simulation_options(s->simulation);
+    const dem_options o = ask_options(s->simulation);
     const double penetration_tolerance = o.penetration_tolerance,
                  most = o.method == DEM_METHOD_VERLET ? 1.0 / 64.0 : 2e-3;
     if (!(w->open <= most * w->scale)) fail_msg("seed %lu: the ledger is open by %g of %g J", seed, w->open, w->scale);
@@ -153,10 +154,10 @@ TEST(the_ledger_stays_closed)
 static int kick(stage *s, gsl_rng *rng)
 {
     const dem_index n = 2 * s->scene.body.n_nodes;
-    dem_state now = {.struct_size = sizeof now};
+    motion now;
     CLEANUP(free_memory) double *x = malloc((size_t)n * sizeof *x), *v = malloc((size_t)n * sizeof *v);
     assert_true(x != NULL && v != NULL);
-    dem_simulation_state(s->simulation, &now);
+    motion_see(s->simulation, &now);
     for (dem_index k = 0; k < n; k++) {
         x[k] = now.x[k] - 1e-3 * (now.x[k] - now.x[k % 2]);
         v[k] = 0.8 * now.v[k] + field_uniform(rng, 1.0);
@@ -166,7 +167,7 @@ static int kick(stage *s, gsl_rng *rng)
         assert_int_equal(status, DEM_ERROR_MODEL);
         assert_ok(dem_simulation_set_motion(s->simulation, NULL, v));
     }
-    dem_simulation_state(s->simulation, &now);
+    motion_see(s->simulation, &now);
     assert_memory_equal(now.v, v, (size_t)n * sizeof *v);
     return status == DEM_OK;
 }
@@ -201,9 +202,9 @@ TEST(kicks_enter_the_ledger)
 static void compare(const stage *a, const stage *b, unsigned long seed, const char *what)
 {
     const size_t size = 2 * (size_t)a->scene.body.n_nodes * sizeof(double);
-    dem_state one = {.struct_size = sizeof one}, other = {.struct_size = sizeof other};
-    dem_simulation_state(a->simulation, &one);
-    dem_simulation_state(b->simulation, &other);
+    motion one, other;
+    motion_see(a->simulation, &one);
+    motion_see(b->simulation, &other);
     if (one.n_contacts != other.n_contacts || memcmp(one.x, other.x, size) != 0 || memcmp(one.v, other.v, size) != 0)
         fail_msg("seed %lu: another run %s", seed, what);
 }
@@ -229,8 +230,8 @@ TEST(nobody_leaves_a_trace)
             go(&other, seed, others[o], NULL);
             compare(&alone, &other, seed, o == 0 ? "with 2 threads" : "in parts");
             if (o == 0) assert_int_equal(alone.field.calls, other.field.calls);
-            assert_memory_equal(&(dem_energy[1]){dem_simulation_energy(alone.simulation)},
-                                &(dem_energy[1]){dem_simulation_energy(other.simulation)}, sizeof(dem_energy));
+            assert_memory_equal(&(dem_energy[1]){ask_energy(alone.simulation)},
+                                &(dem_energy[1]){ask_energy(other.simulation)}, sizeof(dem_energy));
             close_stage(&other);
         }
         go(&other, seed, how, dem_simulation_checkpoint(alone.simulation));
@@ -258,11 +259,11 @@ static uint64_t add(uint64_t hash, const void *bytes, size_t n)
     return hash;
 }
 
-static uint64_t hash_of(const dem_simulation *simulation, const dem_state *s)
+static uint64_t hash_of(const dem_simulation *simulation, const motion *s)
 {
     const dem_model *model = dem_simulation_model(simulation);
-    const size_t size = 2 * (size_t)dem_model_sizes(model).n_nodes * sizeof(double);
-    const dem_counts c = dem_simulation_counts(simulation);
+    const size_t size = 2 * (size_t)ask_sizes(model).n_nodes * sizeof(double);
+    const dem_counts c = ask_counts(simulation);
     const dem_index counts[3] = {c.events, c.impacts, c.releases};
     uint64_t hash = add(UINT64_C(0xcbf29ce484222325), s->x, size);
     hash = add(add(add(hash, s->v, size), &s->energy, sizeof s->energy), counts, sizeof counts);
@@ -276,8 +277,8 @@ static uint64_t hash_of(const dem_simulation *simulation, const dem_state *s)
 static dem_status enter(void *context, const dem_simulation *simulation)
 {
     diary *d = context;
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    motion s;
+    motion_see(simulation, &s);
     assert_true(d->n < 4096);
     d->page[d->n].t = s.t;
     d->page[d->n++].hash = hash_of(simulation, &s);
@@ -300,7 +301,7 @@ static void stumble(const diary *d, unsigned long seed, manner how, long call, d
 {
     CLEANUP(close_stage) stage s;
     watch w;
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     dem_index page = 0;
     open_stage(&s, seed, how, NULL);
     watch_stage(&w, &s);
@@ -312,7 +313,7 @@ static void stumble(const diary *d, unsigned long seed, manner how, long call, d
     assert_int_equal(call > 0 ? s.field.calls : -s.field.alone, call);
     assert_int_equal(status, wanted == DEM_OK ? DEM_ERROR_INTEGRATOR : wanted);
     assert_non_null(strstr(dem_status_message(), "the external force"));
-    dem_simulation_state(s.simulation, &state);
+    motion_see(s.simulation, &state);
     const uint64_t hash = hash_of(s.simulation, &state);
     while (page < d->n && (d->page[page].t != state.t || d->page[page].hash != hash)) page++;
     if (page == d->n) fail_msg("seed %lu: call %ld leaves a state of its own at t = %g s", seed, call, state.t);

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "ask.h"
 #include "scene.h"
 
 enum { compared = 20, kept = 60, n_rtols = 3 };
@@ -57,7 +58,7 @@ static void hear(unsigned long seed, dem_contact_method method, double rtol, hit
     CLEANUP(scene_free) scene sc;
     CLEANUP(support_close) support_run run;
     open_scene(&run, &sc, seed, method, rtol);
-    const dem_options o = dem_simulation_options(run.simulation);
+    const dem_options o = ask_options(run.simulation);
     const dem_observer observer = {.event = listen, .context = h};
     *h = (hits){.v_scale = o.v_scale, .spacing = o.spacing};
     assert_ok(dem_simulation_observe(run.simulation, &observer));
@@ -149,8 +150,8 @@ typedef struct outcome {
 static void sum_momentum(const support_run *run, double p[2])
 {
     p[0] = p[1] = 0.0;
-    for (dem_index b = 0; b < dem_model_sizes(run->model).n_bodies; b++) {
-        const dem_body_motion body = dem_simulation_body(run->simulation, b);
+    for (dem_index b = 0; b < ask_sizes(run->model).n_bodies; b++) {
+        const dem_body_motion body = ask_body(run->simulation, b);
         for (int d = 0; d < 2; d++) p[d] += body.mass * body.velocity[d];
     }
 }
@@ -162,22 +163,21 @@ static void finish(unsigned long seed, dem_contact_method method, outcome *out)
     double p0[2], p[2];
     *out = (outcome){.momentum = 0.0};
     open_scene(&run, &sc, seed, method, 1e-8);
-    const dem_energy e0 = dem_simulation_energy(run.simulation);
-    const dem_options o = dem_simulation_options(run.simulation);
+    const dem_energy e0 = ask_energy(run.simulation);
+    const dem_options o = ask_options(run.simulation);
     const double scale = dem_model_mass(run.model) * o.v_scale;
     sum_momentum(&run, p0);
     if (dem_simulation_advance(run.simulation, sc.t_end) != DEM_OK) fault(seed, dem_status_message(), 1e-8);
-    const dem_energy e = dem_simulation_energy(run.simulation);
+    const dem_energy e = ask_energy(run.simulation);
     sum_momentum(&run, p);
     for (int d = 0; d < 2; d++) {
         double expected = p0[d] + dem_model_mass(run.model) * o.gravity[d] * sc.t_end;
-        for (int k = 0; k < sc.n; k++) expected += dem_simulation_obstacle(run.simulation, k).impulse[d];
+        for (int k = 0; k < sc.n; k++) expected += ask_obstacle(run.simulation, k).impulse[d];
         out->velocity[d] = p[d] / scale;
         if (o.mass_damping == 0.0) out->momentum = fmax(out->momentum, fabs(p[d] - expected) / scale);
     }
-    out->ledger = fabs(dem_energy_ledger(e) - dem_energy_ledger(e0)) /
-                  (dem_energy_motion(e) + e0.kinetic + e.impact + e.friction + e.damping);
-    out->counts = dem_simulation_counts(run.simulation);
+    out->ledger = fabs(e.ledger - e0.ledger) / (e.motion + e0.kinetic + e.impact + e.friction + e.damping);
+    out->counts = ask_counts(run.simulation);
 }
 
 static double apart(dem_index a, dem_index b)

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "harness/motion.h"
 #include "judge.h"
 
 enum { compared = 20, kept = 60 };
@@ -56,9 +57,9 @@ static void fault(unsigned long seed, const char *format, ...)
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     verdict *v = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
-    v->round |= dem_simulation_counts(simulation).behind > 0;
+    motion state;
+    motion_see(simulation, &state);
+    v->round |= ask_counts(simulation).behind > 0;
     v->node_depth = fmax(v->node_depth, judge_nodes(v->scene, state.x));
     v->vertex_depth = fmax(v->vertex_depth, judge_vertices(v->scene, &v->boundary, state.x));
     return DEM_OK;
@@ -68,10 +69,10 @@ static dem_status look(void *context, const dem_simulation *simulation)
 static dem_status step(void *context, const dem_simulation *simulation)
 {
     verdict *v = context;
-    const dem_energy e = dem_simulation_energy(simulation);
+    const dem_energy e = ask_energy(simulation);
     v->fall = fmax(v->fall, v->taken - e.impact);
     v->taken = e.impact;
-    v->open = fmax(v->open, fabs(dem_energy_ledger(e) - v->start));
+    v->open = fmax(v->open, fabs(e.ledger - v->start));
     v->scale = fmax(v->scale, e.kinetic + e.elastic + e.area + e.guard + e.impact + e.friction + e.damping);
     return look(context, simulation);
 }
@@ -91,7 +92,7 @@ static dem_status weigh(void *context, const dem_simulation *simulation, const d
     verdict *v = context;
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
     const double m = l->mass[e->node] + (e->other >= 0 ? l->mass[e->other] : 0.0);
-    const double scale = dem_simulation_options(simulation).v_scale;
+    const double scale = ask_options(simulation).v_scale;
     const dem_obstacle *o = &v->scene->obstacles[e->obstacle];
     const int grips = o->friction_law == DEM_FRICTION_COULOMB && o->friction > 0.0;
     v->stuck |= e->state == DEM_CONTACT_STICK;
@@ -151,7 +152,7 @@ static void listen_to(const scene *sc, const dem_index *old, double step_length,
     options.fixed_step = step_length;
     support_open(&run, &sc->body, sc->obstacles, sc->n, &options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    v->v_scale = dem_simulation_options(run.simulation).v_scale;
+    v->v_scale = ask_options(run.simulation).v_scale;
     const dem_status status = dem_simulation_advance(run.simulation, sc->t_end);
     if (status < DEM_OK) fault(seed, "%s: %s", old ? "in another order" : "with fixed steps", dem_status_message());
 }
@@ -230,7 +231,7 @@ static void add_up(census *all, const verdict *v, const dem_counts *c)
  * 1e-6. */
 static void judge_case(unsigned long seed, census *all, const scene *sc, const verdict *v, const support_run *run)
 {
-    const dem_options o = dem_simulation_options(run->simulation);
+    const dem_options o = ask_options(run->simulation);
     const double closure = v->open / v->scale, scale = v->scale;
     if (!v->round) all->deepest = fmax(all->deepest, v->node_depth / o.penetration_tolerance);
     if (!v->round) all->deepest_vertex = fmax(all->deepest_vertex, v->vertex_depth / o.penetration_tolerance);
@@ -255,10 +256,10 @@ static void run_case(unsigned long seed, census *all)
     const dem_observer observer = {sc.interval, look, step, weigh, NULL, &v};
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    v.start = dem_energy_ledger(dem_simulation_energy(run.simulation));
+    v.start = ask_energy(run.simulation).ledger;
     const dem_status status = dem_simulation_advance(run.simulation, sc.t_end);
     if (status == DEM_OK) {
-        const dem_counts counts = dem_simulation_counts(run.simulation);
+        const dem_counts counts = ask_counts(run.simulation);
         add_up(all, &v, &counts);
         judge_case(seed, all, &sc, &v, &run);
     } else

@@ -9,6 +9,7 @@
 #include "simulation/private.h"
 
 #include "harness/cleanup_gsl.h"
+#include "harness/motion.h"
 #include "scene.h"
 
 static long n_cases = 20, first_seed = 1;
@@ -38,8 +39,8 @@ static dem_status hear(void *context, const dem_simulation *simulation, const de
 /* Contacts that last have no events. */
 static void mark_closed(const dem_simulation *simulation, unsigned char *flags)
 {
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     for (dem_index k = 0; k < state.n_contacts; k++)
         for (int p = 0; p < state.contacts[k].n_nodes; p++) flags[state.contacts[k].nodes[p]] = 1;
 }
@@ -113,11 +114,11 @@ static dem_simulation *run(const dem_model *model, const scene *sc, const surfac
 
 static void check_same(const dem_simulation *a, dem_simulation *b, unsigned long seed, const char *what)
 {
-    const dem_counts counts_a = dem_simulation_counts(a), counts_b = dem_simulation_counts(b);
+    const dem_counts counts_a = ask_counts(a), counts_b = ask_counts(b);
     const size_t size = 2 * (size_t)a->model->lattice.n_nodes * sizeof(double);
-    dem_state end_a = {.struct_size = sizeof end_a}, end_b = {.struct_size = sizeof end_b};
-    dem_simulation_state(a, &end_a);
-    dem_simulation_state(b, &end_b);
+    motion end_a, end_b;
+    motion_see(a, &end_a);
+    motion_see(b, &end_b);
     if (memcmp(end_a.x, end_b.x, size) != 0 || memcmp(end_a.v, end_b.v, size) != 0 ||
         memcmp(&counts_a, &counts_b, sizeof counts_a) != 0 || end_a.n_contacts != end_b.n_contacts)
         fail_msg("seed %lu: candidates that %s leave a trace", seed, what);

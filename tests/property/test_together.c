@@ -10,6 +10,7 @@
 
 #include <dem/trajectory.h>
 
+#include "harness/motion.h"
 #include "field.h"
 
 enum { n_jobs = 4 };
@@ -62,8 +63,8 @@ static dem_status read_again(job *j)
 static void keep(job *j, const dem_simulation *simulation)
 {
     const size_t n = 2 * (size_t)j->scene.body.n_nodes;
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    motion s;
+    motion_see(simulation, &s);
     j->energy = s.energy;
     if (j->state == NULL) return;
     memcpy(j->state, s.x, n * sizeof *s.x);

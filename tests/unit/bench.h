@@ -16,6 +16,7 @@ typedef struct bench {
     forces acting;
     contact_scene scene;
     double mass[BENCH_NODES], inverse_mass[BENCH_NODES], x[2 * BENCH_NODES], v[2 * BENCH_NODES];
+    int32_t body[BENCH_NODES];
     dem_index none[BENCH_NODES + 1]; /* rows of no springs and no triangles */
     dem_obstacle list[BENCH_OBSTACLES];
     motion_law laws[BENCH_OBSTACLES]; /* at rest */
@@ -39,7 +40,7 @@ static inline void bench_open(bench *b, dem_index n)
         b->candidates[i] = (contact_candidate){.node = i, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
     }
     b->n_candidates = n;
-    b->model.lattice = (dem_lattice){.dim = 2, .n_nodes = n, .mass = b->mass};
+    b->model.lattice = (dem_lattice){.dim = 2, .n_nodes = n, .mass = b->mass, .body = b->body};
     b->model.surface.n_nodes = n;
     b->model.inverse_mass = b->inverse_mass;
     b->model.springs.row = b->none;

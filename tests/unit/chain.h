@@ -115,7 +115,7 @@ static inline void chain_integrate(const chain *s, double h, const double *y, do
  * chain must stay where it is. */
 static inline void chain_open(chain *s, int dim, const int *axes, dem_index held, bool parabolic)
 {
-    *s = (chain){.layout = state_layout_of(dim, CHAIN_NODES, 0)};
+    *s = (chain){.layout = state_layout_of(dim, CHAIN_NODES, 0, false)};
     assert_true(state_size(&s->layout) <= CHAIN_STATE);
     for (int c = 0; c < dim; c++) {
         s->axis[c] = axes[c];

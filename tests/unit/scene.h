@@ -162,7 +162,7 @@ static inline void scene_add_rates(const scene *s, double rate[6])
     memcpy(y, s->y, size);
     memcpy(y + state_velocities(l), s->y + 2 * n, size);
     memcpy(a + state_row(l, state_impulse(l, 0)), rate, 6 * sizeof *rate);
-    (void)automaton_add_rates(&c, 0.0, y, a);
+    automaton_add_rates(&c, 0.0, y, a);
     memcpy(rate, a + state_row(l, state_impulse(l, 0)), 6 * sizeof *rate);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* See support.h. */
+#include "harness/motion.h"
 #include "support.h"
 
 #include <stdlib.h>
@@ -97,11 +98,11 @@ void support_close(support_run *run)
     dem_model_destroy(run->model);
 }
 
-dem_state support_at(support_run *run, double t)
+motion support_at(support_run *run, double t)
 {
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     assert_ok(dem_simulation_advance(run->simulation, t));
-    dem_simulation_state(run->simulation, &state);
+    motion_see(run->simulation, &state);
     return state;
 }
 

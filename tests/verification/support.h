@@ -7,6 +7,7 @@
 
 #include <dem/dem.h>
 
+#include "harness/motion.h"
 #include "../unit/close.h"
 
 /** Fails the test with the library's message unless the expression is DEM_OK. */
@@ -46,7 +47,7 @@ void support_open(support_run *run, const dem_lattice *lattice, const dem_obstac
 void support_close(support_run *run);
 
 /** The state at t, reached by advancing. */
-dem_state support_at(support_run *run, double t);
+motion support_at(support_run *run, double t);
 
 /** One node of mass m at (x, y) with velocity (u, v), over one open or closed polyline. Tolerances fit a scale of 1
  *  m and the accuracy of the exact tests: rtol 1e-12, penetration tolerance 1e-13 m, steps of at most 0.01 s. */

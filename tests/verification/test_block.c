@@ -150,7 +150,7 @@ TEST(constants_measured_are_those_stated)
         const block b = block_of(k);
         if (!is_stable(&b)) continue;
         CLEANUP(free_model) dem_model *model = make_block(&b);
-        dem_constants c;
+        dem_constants c = {.struct_size = sizeof c};
         assert_ok(dem_model_constants(model, 0, &c));
         check_constants(&c, &b);
     }

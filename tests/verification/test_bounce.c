@@ -4,6 +4,7 @@
  * impacts compared; 1e-9 s is the table's tolerance. */
 #include <stdbool.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 static const double g = 9.81, height = 1.0;
@@ -19,9 +20,9 @@ static void drop(support_run *run, double restitution)
 static void check_rest(support_run *run, double eta, double t_star)
 {
     const double rest_speed = sqrt(2.0 * g * 1e-12), cut_off = 2.0 * rest_speed / (g * (1.0 - eta));
-    dem_state state = support_at(run, t_star + 1e-3);
+    motion state = support_at(run, t_star + 1e-3);
     const dem_event last = run->impacts[run->n_impacts - 1];
-    const dem_index n_impacts = run->n_impacts, n_events = dem_simulation_counts(run->simulation).events;
+    const dem_index n_impacts = run->n_impacts, n_events = ask_counts(run->simulation).events;
     assert_int_not_equal(last.state, DEM_CONTACT_FREE);
     assert_close(last.t, t_star, cut_off + 1e-7); /* d/|v_n| of all impacts: 1e-13/4e-6/(1 - eta) */
     for (double t = t_star + 0.1; t < t_star + 9.0; t += 0.7) {
@@ -32,9 +33,9 @@ static void check_rest(support_run *run, double eta, double t_star)
         assert_close(state.contacts[0].force, 2.0 * g, 1e-12);
     }
     assert_int_equal(run->n_impacts, n_impacts);
-    assert_int_equal(dem_simulation_counts(run->simulation).events, n_events);
-    assert_int_equal(dem_simulation_counts(run->simulation).closings, 1);
-    assert_int_equal(dem_simulation_counts(run->simulation).releases, 0);
+    assert_int_equal(ask_counts(run->simulation).events, n_events);
+    assert_int_equal(ask_counts(run->simulation).closings, 1);
+    assert_int_equal(ask_counts(run->simulation).releases, 0);
 }
 
 static void check_bounces(double eta, const double times[8], double t_star)
@@ -43,7 +44,7 @@ static void check_bounces(double eta, const double times[8], double t_star)
     drop(&run, eta);
     for (int k = 0; k < 8; k++) {
         const double rebound = eta * sqrt(2.0 * g * height) * pow(eta, k);
-        const dem_state state = support_at(&run, times[k] + rebound / g);
+        const motion state = support_at(&run, times[k] + rebound / g);
         assert_int_equal(run.n_impacts, k + 1);
         assert_close(run.impacts[k].t, times[k], 1e-9);
         assert_close(run.impacts[k].after[1], rebound, 1e-9);
@@ -88,7 +89,7 @@ TEST(an_elastic_ball_returns_to_its_height_for_ever)
     CLEANUP(support_close) support_run run;
     drop(&run, 1.0);
     for (int k = 1; k <= 20; k++) {
-        const dem_state state = support_at(&run, 2.0 * k * t0);
+        const motion state = support_at(&run, 2.0 * k * t0);
         assert_int_equal(run.n_impacts, k);
         assert_close(run.impacts[k - 1].t, (2.0 * k - 1.0) * t0, 1e-9);
         assert_close(state.x[1], height, 1e-9);
@@ -101,7 +102,7 @@ TEST(a_plastic_ball_stays_where_it_falls)
     const double t0 = sqrt(2.0 * height / g);
     CLEANUP(support_close) support_run run;
     drop(&run, 0.0);
-    dem_state state = support_at(&run, 0.5 * t0);
+    motion state = support_at(&run, 0.5 * t0);
     assert_close(state.x[1], height - 0.125 * g * t0 * t0, 1e-12);
     state = support_at(&run, 5.0);
     assert_int_equal(run.n_impacts, 1);
@@ -109,7 +110,7 @@ TEST(a_plastic_ball_stays_where_it_falls)
     assert_close(run.impacts[0].impulse[1], 2.0 * sqrt(2.0 * g * height), 1e-9);
     assert_close(state.x[1], 0.0, 0.0);
     assert_close(state.energy.impact, 2.0 * g * height, 1e-9); /* m g H, m = 2 kg */
-    const dem_obstacle_load load = dem_simulation_obstacle(run.simulation, 0);
+    const dem_obstacle_load load = ask_obstacle(run.simulation, 0);
     assert_close(load.impulse[1], 2.0 * g * 5.0, 1e-9); /* weight times time, from rest to rest */
 }
 
@@ -212,7 +213,7 @@ TEST(a_ball_starting_at_rest_on_the_floor_stays_there)
     const double x[2] = {0.0, 0.0}, v[2] = {0.5, 0.0};
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, floor_points, 2, 0.5);
-    const dem_state state = support_at(&run, 1.0);
+    const motion state = support_at(&run, 1.0);
     assert_close(state.x[0], 0.5, 1e-12);
     assert_close(state.x[1], 0.0, 0.0);
     assert_int_equal(run.n_impacts, 0);

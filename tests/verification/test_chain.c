@@ -9,6 +9,7 @@
  * contact ends where the first spring begins to pull, u_1 = 0; the impulse of the wall till then gives the rebound. */
 #include <stdbool.h>
 
+#include "ask.h"
 #include "support.h"
 
 enum { most_masses = 161 };
@@ -127,17 +128,17 @@ static answer measure(int n, double height, bool lying)
     const double transit = 2.0 * length / 100.0;
     static impact s;
     open_chain(&s, n, height, lying);
-    const double initial = total(dem_simulation_energy(s.run.simulation));
+    const double initial = total(ask_energy(s.run.simulation));
     (void)support_at(&s.run, height / speed + 2.0 * transit); /* as long again for a second blow */
     assert_close(s.later, 0.0, 1.01 * node_mass(n, 0) * second_blow(n));
     assert_int_equal(s.n_releases, 1);
     assert_close(s.start, height / speed, 1e-12);
-    const dem_energy energy = dem_simulation_energy(s.run.simulation);
-    const dem_body_motion body = dem_simulation_body(s.run.simulation, 0);
-    const dem_obstacle_load load = dem_simulation_obstacle(s.run.simulation, 0);
+    const dem_energy energy = ask_energy(s.run.simulation);
+    const dem_body_motion body = ask_body(s.run.simulation, 0);
+    const dem_obstacle_load load = ask_obstacle(s.run.simulation, 0);
     assert_close(total(energy) / initial, 1.0 - 0.5 / n, 1e-8);
     assert_close(energy.impact / initial, 0.5 / n, 1e-8);
-    assert_close(dem_energy_ledger(energy) / initial, 1.0, 1e-8);
+    assert_close(energy.ledger / initial, 1.0, 1e-8);
     const int along = lying ? 0 : 1;
     assert_close(load.impulse[along], body.mass * (body.velocity[along] + speed), 1e-8 * body.mass * speed);
     assert_close(body.velocity[1 - along], 0.0, 1e-12);

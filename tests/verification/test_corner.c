@@ -2,11 +2,12 @@
 /* One node against the vertices of polylines: every outcome is a closed form of ballistics. Tolerances: the
  * penetration tolerance of 1e-13 m, rtol of 1e-12 and the rounding of coordinates near 1 m leave errors well below
  * 1e-9. */
+#include "harness/motion.h"
 #include "support.h"
 
 static const double g = 9.81;
 
-static void check_state(dem_state state, double x, double y, double u, double v, double tolerance)
+static void check_state(motion state, double x, double y, double u, double v, double tolerance)
 {
     assert_close(state.x[0], x, tolerance);
     assert_close(state.x[1], y, tolerance);
@@ -23,7 +24,7 @@ TEST(a_node_falling_on_a_ridge_meets_the_flank_that_ends_there)
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g), u = g * fall;
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, roof, 3, 1.0);
-    const dem_state state = support_at(&run, fall + 0.01);
+    const motion state = support_at(&run, fall + 0.01);
     assert_int_equal(run.n_impacts, 1);
     assert_int_equal(run.impacts[0].segment, 0);
     check_state(state, -0.01 * u, -0.5 * g * 1e-4, -u, -0.01 * g, 1e-9);
@@ -51,7 +52,7 @@ TEST(a_plastic_node_on_a_ridge_slides_down_one_flank)
         0.5 * sqrt(2.0) * u * t + 0.25 * sqrt(2.0) * g * t * t; /* starts with u sin 45, gains g sin 45 */
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, roof, 3, 0.0);
-    const dem_state state = support_at(&run, fall + t);
+    const motion state = support_at(&run, fall + t);
     assert_int_equal(state.n_contacts, 1);
     assert_close(hypot(state.x[0], state.x[1]), along, 1e-9);
     assert_close(state.x[0], state.x[1], 1e-12); /* on the left flank */
@@ -63,9 +64,9 @@ TEST(a_node_sliding_off_a_free_end_flies_on)
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0}, v[2] = {2.0, 0.0}, t = 0.3;
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 2, 0.5);
-    const dem_state state = support_at(&run, 0.5 + t);
+    const motion state = support_at(&run, 0.5 + t);
     check_state(state, 1.0 + 2.0 * t, -0.5 * g * t * t, 2.0, -g * t, 1e-9);
-    assert_int_equal(dem_simulation_counts(run.simulation).passings, 1);
+    assert_int_equal(ask_counts(run.simulation).passings, 1);
     assert_int_equal(state.n_contacts, 0);
 }
 
@@ -77,7 +78,7 @@ TEST(a_node_sliding_over_a_convex_bend_flies_and_lands_on_the_slope)
     const double flight = 2.0 / g, root = sqrt(0.5), t = 0.2;
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
-    const dem_state state = support_at(&run, 0.5 + flight + t);
+    const motion state = support_at(&run, 0.5 + flight + t);
     assert_int_equal(run.n_impacts, 1);
     assert_close(run.impacts[0].t, 0.5 + flight, 1e-9);
     const double speed = root * (1.0 + g * flight), along = flight / root + speed * t + 0.5 * root * g * t * t;
@@ -91,10 +92,10 @@ TEST(a_node_glides_over_a_vertex_without_a_bend)
     const double sine = 1.0 / sqrt(5.0), cosine = 2.0 / sqrt(5.0), t = 0.95; /* 0.5 g sine t^2 = 1.98 m down the line */
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 4, 0.3);
-    const dem_state state = support_at(&run, t);
+    const motion state = support_at(&run, t);
     const double along = 0.5 * g * sine * t * t;
     check_state(state, 1.5 - cosine * along, 0.75 - sine * along, -cosine * g * sine * t, -sine * g * sine * t, 1e-9);
-    assert_int_equal(dem_simulation_counts(run.simulation).passings, 2);
+    assert_int_equal(ask_counts(run.simulation).passings, 2);
     assert_int_equal(run.n_impacts, 0);
 }
 
@@ -105,7 +106,7 @@ TEST(a_node_running_into_a_concave_bend_takes_its_impact)
     const double x[2] = {-1.0, 0.0}, v[2] = {2.0, 0.0}, up_and_down = 2.0 * 2.0 * c / (g * s);
     support_run run;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
-    dem_state state = support_at(&run, 0.5 + 0.1);
+    motion state = support_at(&run, 0.5 + 0.1);
     const double along = 2.0 * c * 0.1 - 0.5 * g * s * 0.01;
     check_state(state, c * along, s * along, c * (2.0 * c - g * s * 0.1), s * (2.0 * c - g * s * 0.1), 1e-9);
     state = support_at(&run, 0.5 + up_and_down + 1.0);
@@ -126,7 +127,7 @@ TEST(a_plastic_node_falling_into_a_groove_is_held_by_both_flanks)
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0};
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, groove, 3, 0.0);
-    const dem_state state = support_at(&run, 1.5);
+    const motion state = support_at(&run, 1.5);
     check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
     assert_int_equal(state.n_contacts, 2);
     for (int k = 0; k < 2; k++) assert_close(state.contacts[k].force, g * cos(M_PI / 4.0), 1e-12);
@@ -138,7 +139,7 @@ TEST(an_elastic_node_falling_into_a_groove_comes_straight_back)
     const double x[2] = {0.0, 0.5}, v[2] = {0.0, 0.0}, fall = sqrt(2.0 * 0.5 / g);
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, groove, 3, 1.0);
-    const dem_state state = support_at(&run, 2.0 * fall);
+    const motion state = support_at(&run, 2.0 * fall);
     check_state(state, 0.0, 0.5, 0.0, 0.0, 1e-8);
 }
 
@@ -151,7 +152,7 @@ TEST(a_node_sliding_in_a_groove_comes_to_rest_at_the_bottom)
     const double down = sqrt(2.0 * sqrt(1.25) / (g * s)), end = down + 2.0 * down * keep / (1.0 - keep);
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
-    const dem_state state = support_at(&run, end + 0.01);
+    const motion state = support_at(&run, end + 0.01);
     check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
     assert_int_equal(state.n_contacts, 2);
     assert_close(run.impacts[run.n_impacts - 1].t, end, 1e-4);
@@ -174,10 +175,10 @@ TEST(a_wall_of_another_obstacle_stops_a_sliding_node)
     support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(&run, &lattice, obstacles, 2, &options);
-    const dem_state state = support_at(&run, 1.2);
+    const motion state = support_at(&run, 1.2);
     check_state(state, 0.5 - 0.5 * 0.2, 0.0, -0.5, 0.0, 1e-9);
-    assert_close(dem_simulation_obstacle(run.simulation, 1).impulse[0], -2.0 * 1.5, 1e-12);
-    assert_close(dem_simulation_obstacle(run.simulation, 1).impulse[1], 0.0, 1e-12);
+    assert_close(ask_obstacle(run.simulation, 1).impulse[0], -2.0 * 1.5, 1e-12);
+    assert_close(ask_obstacle(run.simulation, 1).impulse[1], 0.0, 1e-12);
     assert_int_equal(run.n_impacts, 1);
 }
 
@@ -189,11 +190,11 @@ TEST(a_node_coming_from_behind_passes_and_then_lands_on_the_front)
     CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 2, 0.0);
     (void)support_at(&run, 0.5 * (0.05 + through));
-    assert_int_equal(dem_simulation_counts(run.simulation).behind, 1);
+    assert_int_equal(ask_counts(run.simulation).behind, 1);
     (void)support_at(&run, 0.5);
-    assert_int_equal(dem_simulation_counts(run.simulation).behind, 0);
+    assert_int_equal(ask_counts(run.simulation).behind, 0);
     assert_int_equal(run.n_impacts, 0);
-    const dem_state state = support_at(&run, lands + 0.1);
+    const motion state = support_at(&run, lands + 0.1);
     assert_int_equal(run.n_impacts, 1);
     assert_close(run.impacts[0].t, lands, 1e-9);
     check_state(state, -0.05 + lands + 0.1, 0.0, 1.0, 0.0, 1e-9);
@@ -209,7 +210,7 @@ TEST(a_node_at_rest_in_a_corner_stays)
     for (int k = 0; k < 4; k++) {
         const double x[2] = {0.0, 0.0}, valley[6] = {-1.0 / slopes[k], 1.0, 0.0, 0.0, 1.0 / slopes[k], 1.0};
         support_point(&run, 1.0, x, v, valley, 3, 0.0);
-        const dem_state state = support_at(&run, 1.0);
+        const motion state = support_at(&run, 1.0);
         check_state(state, 0.0, 0.0, 0.0, 0.0, 1e-12);
         assert_int_equal(state.n_contacts, 2);
         support_close(&run);
@@ -218,7 +219,7 @@ TEST(a_node_at_rest_in_a_corner_stays)
         const double c = cos(0.015 + 0.03 * k), s = sin(0.015 + 0.03 * k), x[2] = {0.3, 0.1};
         const double corner[6] = {x[0] - c, x[1] + s, x[0], x[1], x[0] + s, x[1] + c};
         support_point(&run, 1.0, x, v, corner, 3, 0.0);
-        const dem_state state = support_at(&run, 0.5);
+        const motion state = support_at(&run, 0.5);
         check_state(state, x[0], x[1], 0.0, 0.0, 1e-12);
         support_close(&run);
     }
@@ -252,8 +253,8 @@ TEST(a_rest_speed_below_the_rule_changes_no_bit)
         CLEANUP(support_close) support_run ruled, slow;
         open_block(&ruled, 0.3 * k, 0.0);
         open_block(&slow, 0.3 * k, 1e-9);
-        const dem_state a = support_at(&ruled, 0.1), b = support_at(&slow, 0.1);
-        const size_t size = 2 * (size_t)dem_model_sizes(ruled.model).n_nodes * sizeof *a.x;
+        const motion a = support_at(&ruled, 0.1), b = support_at(&slow, 0.1);
+        const size_t size = 2 * (size_t)ask_sizes(ruled.model).n_nodes * sizeof *a.x;
         assert_true(ruled.n_impacts >= 5); /* its lower nodes land, some again */
         assert_int_equal(slow.n_impacts, ruled.n_impacts);
         assert_memory_equal(a.x, b.x, size);
@@ -283,7 +284,7 @@ TEST(a_wall_that_stands_on_another_obstacle_leaves_no_gap)
         support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
         support_start(&lattice, NULL, v);
         support_open(&run, &lattice, obstacles, 2, &options);
-        const dem_state state = support_at(&run, 1.0);
+        const motion state = support_at(&run, 1.0);
         assert_close(state.x[0] * c + state.x[1] * s, 0.5,
                      1e-6); /* 100 penetration tolerances: the lean makes ten of one */
     }

@@ -10,6 +10,7 @@
 
 #include "triplets.h"
 
+#include "harness/motion.h"
 #include "support.h"
 
 static const double spacing = 5e-3, speed = 4.9 /* m/s, what 5 % of strain is at the speed of sound: v_scale */,
@@ -93,7 +94,7 @@ typedef struct drift {
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
     drift *d = context;
-    const double energy = dem_energy_motion(dem_simulation_energy(simulation));
+    const double energy = ask_energy(simulation).motion;
     if (!(d->start > 0.0)) d->start = energy;
     d->most = fmax(d->most, fabs(energy / d->start - 1.0));
     return DEM_OK;
@@ -127,12 +128,12 @@ static cost run_line(const dem_lattice *block, const line *l, double t, const do
         options.rtol = l->setting;
     support_open(&run, block, NULL, 0, &options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    const dem_state state = support_at(&run, t);
+    const motion state = support_at(&run, t);
     for (dem_index k = 0; k < 2 * block->n_nodes && reference != NULL; k++)
         c.end.position += (state.x[k] - reference[k]) * (state.x[k] - reference[k]);
     c.end.position = sqrt(c.end.position / (double)block->n_nodes) / spacing;
-    c.end.energy = fabs(dem_energy_motion(state.energy) / d.start - 1.0);
-    c.end.evaluations = (double)dem_simulation_counts(run.simulation).evaluations;
+    c.end.energy = fabs(state.energy.motion / d.start - 1.0);
+    c.end.evaluations = (double)ask_counts(run.simulation).evaluations;
     c.energy_most = d.most;
     return c;
 }

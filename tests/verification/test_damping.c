@@ -4,6 +4,7 @@
  * hold at any amplitude. The runs use rtol 1e-13; the errors allowed have test_pair's reason, below 1e-11 m over such
  * times, but where another stands beside them. */
 #include "harness/cleanup_gsl.h"
+#include "harness/motion.h"
 #include "support.h"
 
 #include <stdlib.h>
@@ -76,7 +77,7 @@ static void follow_oscillator(const pair *p, double end)
     for (int k = 1; k <= 20; k++) {
         double u[2];
         const double t = end * (double)k / 20.0;
-        const dem_state state = support_at(&run, t);
+        const motion state = support_at(&run, t);
         oscillator(rate, omega, start, t, u);
         assert_close(state.x[2] - state.x[0], rest_length + u[0], 1e-11);
         assert_close(state.v[2] - state.v[0], u[1], omega * 1e-11);
@@ -123,7 +124,7 @@ TEST(a_node_under_mass_damping_falls_at_last_with_g_over_alpha)
     support_open(&run, &lattice, NULL, 0, &options);
     for (int k = 1; k <= 10; k++) {
         const double t = 0.4 * (double)k, lost = -expm1(-alpha * t);
-        const dem_state state = support_at(&run, t);
+        const motion state = support_at(&run, t);
         assert_close(state.v[0], v[0] * (1.0 - lost), 1e-11);
         assert_close(state.v[1], v[1] + (g / alpha - v[1]) * lost, 1e-11);
         assert_close(state.x[0], x[0] + v[0] * lost / alpha, 1e-11);
@@ -140,7 +141,7 @@ TEST(a_pair_that_turns_at_constant_distance_is_not_damped)
     open_pair(&run, &p);
     for (int k = 1; k <= 20; k++) {
         const double t = M_PI / w * (double)k; /* ten turns */
-        const dem_state state = support_at(&run, t);
+        const motion state = support_at(&run, t);
         assert_close(state.x[2] - state.x[0], k % 2 == 0 ? distance : -distance, 1e-11);
         assert_close(state.x[3] - state.x[1], 0.0, 1e-10); /* an error of the speed adds up over the way of 75 m */
     }
@@ -158,7 +159,7 @@ TEST(a_turning_pair_comes_to_the_distance_that_its_angular_momentum_holds)
         r -= (stiffness * (r - rest_length) / rest_length - spin * spin / reduced_mass / (r * r * r)) /
              (stiffness / rest_length + 3.0 * spin * spin / reduced_mass / (r * r * r * r));
     open_pair(&run, &p);
-    const dem_state state = support_at(&run, 10.0);
+    const motion state = support_at(&run, 10.0);
     const double d[2] = {state.x[2] - state.x[0], state.x[3] - state.x[1]};
     const double u[2] = {state.v[2] - state.v[0], state.v[3] - state.v[1]};
     assert_close(reduced_mass * (d[0] * u[1] - d[1] * u[0]), spin, 1e-10);
@@ -180,17 +181,17 @@ static void throw_plate(dem_lattice *lattice)
 }
 
 /* J, of what moves relative to the mean motion as a rigid body would have it at the same places. */
-static double energy_of_vibration(const dem_simulation *simulation, const dem_state *state)
+static double energy_of_vibration(const dem_simulation *simulation, const motion *state)
 {
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
-    const dem_body_motion body = dem_simulation_body(simulation, 0);
+    const dem_body_motion body = ask_body(simulation, 0);
     double moment = 0.0;
     for (dem_index i = 0; i < l->n_nodes; i++) {
         const double dx = state->x[2 * i] - body.centre[0], dy = state->x[2 * i + 1] - body.centre[1];
         moment += l->mass[i] * (dx * dx + dy * dy);
     }
     const double speed2 = body.velocity[0] * body.velocity[0] + body.velocity[1] * body.velocity[1];
-    const double spin = body.angular_momentum;
+    const double spin = body.angular_momentum[2];
     return state->energy.kinetic - 0.5 * body.mass * speed2 - 0.5 * spin * spin / moment;
 }
 
@@ -210,15 +211,15 @@ TEST(a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta)
     assert_ok(dem_lattice_assemble(&lattice, &rubber));
     throw_plate(&lattice);
     support_open(&run, &lattice, NULL, 0, &options);
-    dem_state state = support_at(&run, 0.0);
-    const dem_body_motion first = dem_simulation_body(run.simulation, 0);
+    motion state = support_at(&run, 0.0);
+    const dem_body_motion first = ask_body(run.simulation, 0);
     const double vibration = energy_of_vibration(run.simulation, &state);
     state = support_at(&run, 0.03);
-    const dem_body_motion last = dem_simulation_body(run.simulation, 0);
+    const dem_body_motion last = ask_body(run.simulation, 0);
     const double scale = first.mass * 3.0;
     for (int k = 0; k < 2; k++)
         assert_close(first.mass * last.velocity[k], first.mass * first.velocity[k], 1e-12 * scale);
-    assert_close(last.angular_momentum, first.angular_momentum, 1e-9 * fabs(first.angular_momentum));
-    assert_true(vibration > 0.1 && fabs(first.angular_momentum) > 0.01);
+    assert_close(last.angular_momentum[2], first.angular_momentum[2], 1e-9 * fabs(first.angular_momentum[2]));
+    assert_true(vibration > 0.1 && fabs(first.angular_momentum[2]) > 0.01);
     assert_close(energy_of_vibration(run.simulation, &state) / vibration, 0.0, 1e-12);
 }

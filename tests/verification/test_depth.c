@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "coarse.h"
+#include "harness/motion.h"
 #include "support.h"
 
 static double spacing = 5e-3;
@@ -31,8 +32,8 @@ static double depth_below(const dem_obstacle *graph, const double x[2])
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     watch *w = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
     w->looks++;
     for (dem_index i = 0; i < l->n_nodes; i++)
@@ -54,14 +55,14 @@ static double run_deck(const char *name, double restitution, double rtol)
     d.options.rtol = rtol;
     support_open(&run, &d.lattice, d.obstacles, d.n_obstacles, &d.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    const dem_energy start = dem_simulation_energy(run.simulation);
+    const dem_energy start = ask_energy(run.simulation);
     const dem_energy end = support_at(&run, d.t_end).energy;
-    const dem_counts counts = dem_simulation_counts(run.simulation);
+    const dem_counts counts = ask_counts(run.simulation);
     assert_true(w.looks > 20000 + counts.steps);
     assert_true(counts.impacts >= 10);
     assert_int_equal(counts.behind, 0);
     assert_close(fmax(w.deepest, 0.0), 0.0, 1e-5 * spacing);
-    const double closure = (dem_energy_ledger(end) - dem_energy_ledger(start)) / start.kinetic;
+    const double closure = (end.ledger - start.ledger) / start.kinetic;
     print_message("# %s, eta %g, rtol %g: %lld impacts, %lld late, deepest %.2e spacings, closure %.2e, taken %.2e\n",
                   name, restitution, rtol, (long long)counts.impacts, (long long)counts.late, w.deepest / spacing,
                   closure, end.impact / start.kinetic);

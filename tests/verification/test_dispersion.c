@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 static const double E = 1e7, rho = 1050.0, a = 5e-3, amplitude = 1e-5; /* of the spacing */
@@ -126,7 +127,7 @@ static double error_of(const wave *w)
     options.rtol = 1e-9;
     options.v_scale = amplitude * a * omega;
     support_open(&run, &l, NULL, 0, &options);
-    const dem_state state = support_at(&run, 0.5 * M_PI / omega);
+    const motion state = support_at(&run, 0.5 * M_PI / omega);
     const double u = (state.x[2 * middle] - x0) * e[0] + (state.x[2 * middle + 1] - y0) * e[1];
     return fabs(u) / (amplitude * a) / (0.5 * M_PI);
 }

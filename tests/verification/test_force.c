@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 /* What a force of these tests is made of: F = push - k (x - centre) - c v, times a mass where there are masses. */
@@ -61,7 +62,7 @@ static void open_node(support_run *run, const double v[2], const dem_obstacle *g
 }
 
 /* Work of a force with the potential k (x - c)^2/2 is the potential's fall. */
-static void check_work(const dem_state *s, const field *f, double tolerance)
+static void check_work(const motion *s, const field *f, double tolerance)
 {
     double fall = 0.0;
     for (int d = 0; d < 2; d++) {
@@ -87,13 +88,13 @@ TEST(a_trap_swings_a_node)
         const double v[2] = {1.0, 0.5}, w = sqrt(f.stiffness / mass), tolerance = cases[k].tolerance;
         CLEANUP(support_close) support_run run;
         open_node(&run, v, NULL, cases[k].method, &f);
-        const double ledger = dem_energy_ledger(dem_simulation_energy(run.simulation));
+        const double ledger = ask_energy(run.simulation).ledger;
         for (double t = 0.1; t <= 4.0; t += 0.39) {
-            const dem_state s = support_at(&run, t);
+            const motion s = support_at(&run, t);
             for (int d = 0; d < 2; d++)
                 assert_close(s.x[d], f.centre[d] * (1.0 - cos(w * t)) + v[d] / w * sin(w * t), tolerance);
             check_work(&s, &f, 20.0 * tolerance);
-            assert_close(dem_energy_ledger(s.energy), ledger, 20.0 * tolerance);
+            assert_close(s.energy.ledger, ledger, 20.0 * tolerance);
         }
     }
 }
@@ -106,7 +107,7 @@ TEST(a_drag_slows_a_node)
     CLEANUP(support_close) support_run run;
     open_node(&run, v, NULL, DEM_METHOD_FEHLBERG45, &f);
     for (double t = 0.0; t < 3.0; t += 0.31) {
-        const dem_state s = support_at(&run, t);
+        const motion s = support_at(&run, t);
         for (int d = 0; d < 2; d++) {
             assert_close(s.x[d], v[d] / rate * (1.0 - exp(-rate * t)), 1e-10);
             assert_close(s.v[d], v[d] * exp(-rate * t), 1e-10);
@@ -129,19 +130,19 @@ TEST(friction_holds_until_the_force_exceeds_it)
     const double slips = mu * 25.0 / f.rise;
     CLEANUP(support_close) support_run run;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
-    const dem_state before = support_at(&run, slips * (1.0 - 1e-12));
+    const motion before = support_at(&run, slips * (1.0 - 1e-12));
     assert_close(before.v[0], 0.0, 0.0);
     assert_int_equal(before.n_contacts, 1);
     assert_int_equal(before.contacts[0].state, DEM_CONTACT_STICK);
     assert_close(before.contacts[0].force, 25.0, 1e-13);
     for (double t = 0.1; t < 2.0; t += 0.17) {
-        const dem_state s = support_at(&run, slips + t);
+        const motion s = support_at(&run, slips + t);
         assert_close(s.v[0], 0.5 * f.rise * t * t / mass, 1e-10);
         assert_close(s.x[0], f.rise * t * t * t / (6.0 * mass), 1e-10);
         assert_close(s.contacts[0].force, 25.0, 1e-13);
-        assert_close(fabs(s.contacts[0].friction), mu * 25.0, 1e-12);
+        assert_close(fabs(s.contacts[0].friction[0]), mu * 25.0, 1e-12);
         assert_close(s.energy.friction, mu * 25.0 * s.x[0], 1e-9);
-        assert_close(dem_energy_ledger(s.energy), 0.0, 1e-9);
+        assert_close(s.energy.ledger, 0.0, 1e-9);
     }
 }
 
@@ -156,7 +157,7 @@ TEST(a_contact_opens_when_the_force_lifts_it)
     const double opens = 6.0 / f.rise;
     assert_int_equal(support_at(&run, opens - 1e-9).n_contacts, 1);
     for (double t = 0.1; t < 1.0; t += 0.2) {
-        const dem_state s = support_at(&run, opens + t);
+        const motion s = support_at(&run, opens + t);
         assert_int_equal(s.n_contacts, 0);
         assert_close(s.x[0], f.rise * t * t * t / (6.0 * mass), 1e-10);
     }
@@ -172,7 +173,7 @@ TEST(a_pushed_node_bounces)
     const double a = 5.0 / mass, t1 = sqrt(2.0 * h / a);
     CLEANUP(support_close) support_run run;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
-    const dem_state s = support_at(&run, 2.9 * t1);
+    const motion s = support_at(&run, 2.9 * t1);
     assert_true(run.n_impacts >= 3);
     double t = t1, speed = a * t1;
     for (int k = 0; k < 3; k++, t += 2.0 * speed / a) {
@@ -180,7 +181,7 @@ TEST(a_pushed_node_bounces)
         assert_close(run.impacts[k].before[1], -speed, 1e-9);
         speed *= eta;
     }
-    assert_close(dem_energy_ledger(s.energy), 0.0, 1e-10);
+    assert_close(s.energy.ledger, 0.0, 1e-10);
 }
 
 /* ---- bodies ---- */
@@ -213,7 +214,7 @@ static void open_block(support_run *run, double height, const dem_obstacle *grou
     if (how.field != NULL && how.field->mass != NULL) how.field->mass = dem_model_lattice(run->model)->mass;
 }
 
-static double furthest(const dem_state *a, const dem_state *b, dem_index n)
+static double furthest(const motion *a, const motion *b, dem_index n)
 {
     double most = 0.0;
     for (dem_index k = 0; k < 2 * n; k++) most = fmax(most, fabs(a->x[k] - b->x[k]));
@@ -232,14 +233,14 @@ TEST(a_force_in_proportion_to_mass_is_a_weight)
     CLEANUP(support_close) support_run heavy, pushed;
     open_block(&heavy, 0.0, &ground, (load){.gravity = -200.0});
     open_block(&pushed, 0.0, &ground, (load){.field = &f});
-    const double ledger = dem_energy_ledger(dem_simulation_energy(pushed.simulation));
-    const double weight = dem_simulation_energy(heavy.simulation).gravity;
+    const double ledger = ask_energy(pushed.simulation).ledger;
+    const double weight = ask_energy(heavy.simulation).gravity;
     for (double t = 1e-3; t < 6e-3; t += 1e-3) {
-        const dem_state a = support_at(&heavy, t), b = support_at(&pushed, t);
-        assert_close(furthest(&a, &b, dem_model_sizes(heavy.model).n_nodes), 0.0, 1e-9);
+        const motion a = support_at(&heavy, t), b = support_at(&pushed, t);
+        assert_close(furthest(&a, &b, ask_sizes(heavy.model).n_nodes), 0.0, 1e-9);
         assert_int_equal(a.n_contacts, b.n_contacts);
         assert_close(b.energy.boundary, weight - a.energy.gravity, 1e-6 * a.energy.elastic);
-        assert_close(dem_energy_ledger(b.energy), ledger, 1e-6 * a.energy.elastic);
+        assert_close(b.energy.ledger, ledger, 1e-6 * a.energy.elastic);
     }
     assert_true(heavy.n_impacts > 20 && heavy.n_impacts == pushed.n_impacts);
     assert_true(f.few > 0);
@@ -255,8 +256,8 @@ TEST(a_drag_in_proportion_to_mass_is_mass_damping)
     open_block(&damped, 0.0, &ground, (load){.gravity = -200.0, .mass_damping = 300.0});
     open_block(&dragged, 0.0, &ground, (load){.gravity = -200.0, .field = &f});
     for (double t = 1e-3; t < 9e-3; t += 1e-3) {
-        const dem_state a = support_at(&damped, t), b = support_at(&dragged, t);
-        assert_close(furthest(&a, &b, dem_model_sizes(damped.model).n_nodes), 0.0, 1e-9);
+        const motion a = support_at(&damped, t), b = support_at(&dragged, t);
+        assert_close(furthest(&a, &b, ask_sizes(damped.model).n_nodes), 0.0, 1e-9);
         assert_close(-b.energy.boundary, a.energy.damping, 1e-6 * a.energy.elastic);
     }
     print_message("# %lld\n", (long long)damped.n_impacts);
@@ -287,7 +288,7 @@ static void compare_with_boundaries(const dem_index *order)
     dem_options options = support_options();
     CLEANUP(dem_lattice_free) dem_lattice block, again;
     CLEANUP(support_close) support_run by_boundary, by_force;
-    dem_state a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b};
+    motion a, b;
     support_block(&block);
     support_block(&again);
     for (dem_index i = 0; i < block.n_nodes; i++) {
@@ -342,15 +343,15 @@ TEST(a_floor_bears_weight_and_force)
     const double m = dem_model_mass(run.model), scale = m * 250.0 * 0.02;
     for (double t = 1e-3; t < 0.02; t += 1.7e-3) {
         (void)support_at(&run, t);
-        const dem_body_motion motion = dem_simulation_body(run.simulation, 0);
-        const dem_obstacle_load got = dem_simulation_obstacle(run.simulation, 0);
-        assert_close(m * motion.velocity[0], m * 10.0 * t + got.impulse[0], 1e-10 * scale);
-        assert_close(m * motion.velocity[1], -m * 250.0 * t + got.impulse[1], 1e-10 * scale);
+        const dem_body_motion body = ask_body(run.simulation, 0);
+        const dem_obstacle_load got = ask_obstacle(run.simulation, 0);
+        assert_close(m * body.velocity[0], m * 10.0 * t + got.impulse[0], 1e-10 * scale);
+        assert_close(m * body.velocity[1], -m * 250.0 * t + got.impulse[1], 1e-10 * scale);
     }
     support_close(&run);
     open_block(&run, 0.0, &ground, (load){.gravity = -150.0, .mass_damping = 2000.0, .field = &f});
     (void)support_at(&run, 0.08);
-    const dem_obstacle_load rest = dem_simulation_obstacle(run.simulation, 0);
+    const dem_obstacle_load rest = ask_obstacle(run.simulation, 0);
     assert_close(rest.reaction[0], -m * 10.0, 1e-4 * m * 250.0);
     assert_close(rest.reaction[1], m * 250.0, 1e-4 * m * 250.0);
     support_close(&run);
@@ -366,12 +367,12 @@ TEST(the_ledger_of_a_trap_closes)
     field f = {.centre = {0.02, -0.01}, .stiffness = 4e4, .drag = 5.0, .mass = &any};
     CLEANUP(support_close) support_run run;
     open_block(&run, 0.0, &ground, (load){.gravity = -100.0, .field = &f});
-    const double ledger = dem_energy_ledger(dem_simulation_energy(run.simulation));
+    const double ledger = ask_energy(run.simulation).ledger;
     double scale = 0.0;
     for (double t = 1e-3; t < 0.02; t += 1e-3) {
-        const dem_state s = support_at(&run, t);
-        scale = fmax(scale, dem_energy_motion(s.energy));
-        assert_close(dem_energy_ledger(s.energy), ledger, 1e-6 * scale);
+        const motion s = support_at(&run, t);
+        scale = fmax(scale, s.energy.motion);
+        assert_close(s.energy.ledger, ledger, 1e-6 * scale);
     }
     print_message("# %lld\n", (long long)run.n_impacts);
     assert_true(run.n_impacts > 50);

@@ -4,6 +4,7 @@
  * given the tolerance is the table's. */
 #include <stdbool.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 enum { most_events = 4096 };
@@ -29,10 +30,10 @@ static double dot(const double a[2], const double b[2])
 }
 
 /* The ledger in a state that is seen, `way` after the last step along the incline. */
-static void look(slide *s, const dem_simulation *simulation, const dem_state *state, double way)
+static void look(slide *s, const dem_simulation *simulation, const motion *state, double way)
 {
-    const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);
-    const dem_options options = dem_simulation_options(simulation);
+    const dem_obstacle_load load = ask_obstacle(simulation, 0);
+    const dem_options options = ask_options(simulation);
     const double *gravity = options.gravity, pressure = -mass * dot(gravity, s->normal);
     for (int d = 0; d < 2; d++)
         s->balance = fmax(s->balance, fabs(mass * (state->v[d] - s->v0[d] - gravity[d] * state->t) - load.impulse[d]));
@@ -40,15 +41,15 @@ static void look(slide *s, const dem_simulation *simulation, const dem_state *st
     s->work = fmax(s->work, fabs(state->energy.friction - s->mu * pressure * (s->sliding + way)));
     s->turn = fmax(s->turn, fabs(dot(load.friction_impulse, s->normal)));
     s->turn = fmax(s->turn, fabs(dot(load.friction_impulse, s->tangent) - dot(load.impulse, s->tangent)));
-    s->drift = fmax(s->drift, fabs(dem_energy_ledger(state->energy) - s->ledger));
+    s->drift = fmax(s->drift, fabs(state->energy.ledger - s->ledger));
 }
 
 static dem_status note_step(void *context, const dem_simulation *simulation)
 {
     slide *s = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
-    if (state.t == 0.0) s->ledger = dem_energy_ledger(state.energy);
+    motion state;
+    motion_see(simulation, &state);
+    if (state.t == 0.0) s->ledger = state.energy.ledger;
     const double place = dot(state.x, s->tangent), step = fabs(place - s->last);
     look(s, simulation, &state, step);
     if (s->lasted) s->sliding += step;
@@ -65,9 +66,9 @@ static dem_status note_event(void *context, const dem_simulation *simulation, co
     return note_step(context, simulation);
 }
 
-static dem_state slide_at(slide *s, double t)
+static motion slide_at(slide *s, double t)
 {
-    const dem_state state = support_at(&s->run, t);
+    const motion state = support_at(&s->run, t);
     look(s, s->run.simulation, &state, fabs(dot(state.x, s->tangent) - s->last));
     return state;
 }
@@ -118,7 +119,7 @@ static void check_ledger(const slide *s)
 
 static void check_place(slide *s, double t, double way, double speed, double tolerance)
 {
-    const dem_state state = slide_at(s, t);
+    const motion state = slide_at(s, t);
     assert_close(dot(state.x, s->tangent), way, tolerance);
     assert_close(dot(state.v, s->tangent), speed, tolerance);
     assert_close(dot(state.x, s->normal), 0.0, 1e-12);
@@ -133,11 +134,11 @@ TEST(a_block_above_the_friction_angle_slides_down_from_rest_with_the_exact_accel
         const double a = acceleration(mu[k]);
         open_incline(&s, mu[k], 0.0);
         for (double t = 0.25; t < 1.9; t += 0.25) check_place(&s, t, 0.5 * a * t * t, a * t, 1e-11);
-        const dem_state state = slide_at(&s, 2.0);
+        const motion state = slide_at(&s, 2.0);
         assert_int_equal(state.n_contacts, 1);
         assert_int_equal(state.contacts[0].state, DEM_CONTACT_SLIP);
         assert_close(state.contacts[0].force, mass * g * cos(M_PI / 6.0), 1e-12);
-        assert_close(state.contacts[0].friction, -mu[k] * mass * g * cos(M_PI / 6.0), 1e-12);
+        assert_close(state.contacts[0].friction[0], -mu[k] * mass * g * cos(M_PI / 6.0), 1e-12);
         check_ledger(&s);
         assert_close(s.drift, 0.0, 1e-10); /* rtol times the energies, 50 J */
         support_close(&s.run);
@@ -153,7 +154,7 @@ TEST(a_block_below_the_friction_angle_sticks_from_the_start)
     static slide s;
     for (int k = 0; k < 2; k++) {
         open_incline(&s, mu[k], 0.0);
-        dem_state state = slide_at(&s, 0.0);
+        motion state = slide_at(&s, 0.0);
         const double x = state.x[0], y = state.x[1];
         assert_close(hypot(x, y), 0.0, 1e-14); /* the surface through points 20 m away */
         state = slide_at(&s, 10.0);
@@ -162,8 +163,8 @@ TEST(a_block_below_the_friction_angle_sticks_from_the_start)
         assert_int_equal(state.n_contacts, 1);
         assert_int_equal(state.contacts[0].state, DEM_CONTACT_STICK);
         assert_close(state.contacts[0].force, mass * g * cos(M_PI / 6.0), 1e-12);
-        assert_close(state.contacts[0].friction, -mass * g * sine, 1e-12);
-        assert_int_equal(dem_simulation_counts(s.run.simulation).slips, 0);
+        assert_close(state.contacts[0].friction[0], -mass * g * sine, 1e-12);
+        assert_int_equal(ask_counts(s.run.simulation).slips, 0);
         assert_close(state.energy.friction, 0.0, 0.0);
         check_ledger(&s);
         support_close(&s.run);
@@ -182,15 +183,15 @@ TEST(a_sliding_block_stops_after_the_exact_way_and_sticks_for_ever)
     assert_int_equal(last.kind, DEM_EVENT_STICK);
     assert_int_equal(last.state, DEM_CONTACT_STICK);
     assert_close(last.t, 2.8790885097250483, 1e-8);
-    const dem_state at_stop = slide_at(&s, 3.0);
+    const motion at_stop = slide_at(&s, 3.0);
     const double x = at_stop.x[0], y = at_stop.x[1];
-    const dem_state state = slide_at(&s, 60.0);
+    const motion state = slide_at(&s, 60.0);
     assert_close(state.x[0], x, 0.0);
     assert_close(state.x[1], y, 0.0);
     assert_close(state.v[0], 0.0, 0.0);
     assert_close(state.v[1], 0.0, 0.0);
     assert_int_equal(s.n_events, n_events);
-    assert_close(state.contacts[0].friction, -mass * g * sine, 1e-12);
+    assert_close(state.contacts[0].friction[0], -mass * g * sine, 1e-12);
     assert_close(state.energy.friction, 0.7 * mass * g * cos(M_PI / 6.0) * 4.318632764587572, 1e-8);
     assert_close(s.work, 0.0, 1e-11);
     assert_close(s.balance, 0.0, 1e-9); /* an impulse of 1000 N s from 6000 steps */
@@ -206,7 +207,7 @@ TEST(a_block_sent_up_turns_back_where_friction_cannot_hold_it)
     const double down = 1.5 - turn, a = acceleration(0.2);
     check_place(&s, 1.5, -height + 0.5 * a * down * down, a * down, 1e-10);
     assert_close(a * down, 3.837924334452, 1e-10);
-    const dem_counts counts = dem_simulation_counts(s.run.simulation);
+    const dem_counts counts = ask_counts(s.run.simulation);
     assert_int_equal(counts.sticks, 1);
     assert_int_equal(counts.releases, 0);
     for (int k = 0; k < s.n_events; k++)
@@ -241,7 +242,7 @@ TEST(a_bouncing_block_slides_down_as_fast_as_one_that_stays_whatever_the_restitu
     static slide s;
     for (int k = 0; k < 5; k++) {
         open_slide(&s, M_PI / 6.0, &(dem_obstacle){.friction = 0.2, .restitution = eta[k]}, 0.05, v0, g);
-        const dem_state state = slide_at(&s, 1.5);
+        const motion state = slide_at(&s, 1.5);
         assert_int_equal(state.n_contacts, 1);
         assert_close(dot(state.v, s.tangent), 5.808787237, 1e-7);
         assert_close(dot(state.v, s.tangent), 1.0 + 1.5 * acceleration(0.2), 1e-7);
@@ -270,7 +271,7 @@ static void check_oblique(const oblique *row, double angle, double side)
     const dem_obstacle law = {.friction = row->mu, .restitution = row->eta, .friction_law = row->law};
     const double v0[2] = {3.0 * side, -2.0};
     open_slide(&s, angle, &law, 0.5, v0, 0.0);
-    const dem_state state = slide_at(&s, 0.5);
+    const motion state = slide_at(&s, 0.5);
     assert_int_equal(s.run.n_impacts, 1);
     const dem_event *e = &s.run.impacts[0];
     assert_close(e->t, 0.25, 1e-12);
@@ -304,10 +305,10 @@ TEST(the_law_of_the_paper_has_no_sustained_friction)
     open_slide(&s, 0.0, &(dem_obstacle){.friction = 0.3, .friction_law = DEM_FRICTION_PAPER}, 0.2, v0, g);
     check_place(&s, fall + 1.0, 3.0 * fall + 0.9, 0.9, 1e-10);
     check_place(&s, fall + 5.0, 3.0 * fall + 4.5, 0.9, 1e-10);
-    const dem_state state = slide_at(&s, 6.0);
+    const motion state = slide_at(&s, 6.0);
     assert_int_equal(s.run.n_impacts, 1);
     assert_int_equal(state.contacts[0].state, DEM_CONTACT_SLIP);
-    assert_close(state.contacts[0].friction, 0.0, 0.0);
+    assert_close(state.contacts[0].friction[0], 0.0, 0.0);
     assert_close(state.energy.friction, 0.0, 0.0);
     support_close(&s.run);
     open_slide(&s, M_PI / 6.0, &(dem_obstacle){.friction = 0.3, .friction_law = DEM_FRICTION_PAPER}, 0.0,

@@ -12,6 +12,7 @@
 #include "contact/contact_source.h"
 #include "events/event_queue.h"
 #include "forces/local_springs.h"
+#include "harness/motion.h"
 #include "support.h"
 
 enum { most_steps = 400 };
@@ -45,11 +46,11 @@ static dem_status keep(void *context, const dem_simulation *simulation)
 {
     checkpoint *r = context;
     const size_t size = 2 * (size_t)r->n * sizeof(double);
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     assert_true(r->n_steps < most_steps);
     r->t[r->n_steps] = state.t;
-    r->impacts[r->n_steps] = dem_simulation_counts(simulation).impacts;
+    r->impacts[r->n_steps] = ask_counts(simulation).impacts;
     double *y = malloc(2 * size);
     assert_non_null(y);
     memcpy(y, state.x, size);
@@ -160,7 +161,7 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
     double *start = malloc(8 * (size_t)p->n * sizeof *start), *off = start + 4 * p->n;
     CLEANUP(free_model) dem_model *model;
     CLEANUP(free_simulation) dem_simulation *simulation;
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     assert_non_null(start);
     memcpy(start, y, 4 * (size_t)p->n * sizeof *start);
     lattice.position = start;
@@ -171,7 +172,7 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
     assert_ok(dem_model_create(&model, &lattice, obstacles, n_obstacles));
     assert_ok(dem_simulation_create(&simulation, model, &options));
     assert_ok(dem_simulation_advance(simulation, t1 - t));
-    dem_simulation_state(simulation, &state);
+    motion_see(simulation, &state);
     for (dem_index k = 0; k < 2 * p->n; k++) {
         off[k] = product[k] - state.x[k];
         off[2 * p->n + k] = product[2 * p->n + k] - state.v[k];
@@ -206,7 +207,7 @@ static bool is_clear(const parts *p, const double *x)
 
 static void make_parts(parts *p, const support_run *run)
 {
-    *p = (parts){.model = run->model, .options = dem_simulation_options(run->simulation)};
+    *p = (parts){.model = run->model, .options = ask_options(run->simulation)};
     const dem_options *o = &p->options;
     p->n = p->model->lattice.n_nodes;
     p->n_all = p->n + 4;

@@ -21,7 +21,7 @@ static dem_material solid_of(double nu)
 static dem_constants measure(const dem_lattice *lattice)
 {
     CLEANUP(free_model) dem_model *model;
-    dem_constants c;
+    dem_constants c = {.struct_size = sizeof c};
     assert_ok(dem_model_create(&model, lattice, NULL, 0));
     assert_ok(dem_model_constants(model, 0, &c));
     return c;

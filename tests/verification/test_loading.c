@@ -2,6 +2,7 @@
 /* Boundaries: a driven oscillator, a suddenly loaded one, a block pulled to rest, friction under a growing force. */
 #include <stdlib.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 /* Two masses on a line: a spring of stiffness E/d0 between them, which (1) makes linear as long as it keeps its
@@ -25,7 +26,7 @@ static void open_pair(support_run *run, const dem_boundary *boundary, const doub
 
 static double closure(const dem_simulation *simulation, double start)
 {
-    return dem_energy_ledger(dem_simulation_energy(simulation)) - start;
+    return ask_energy(simulation).ledger - start;
 }
 
 /* Node 0 goes with V from t = 0: node 1 follows by V (t - sin(w t)/w), w^2 = E/(d0 m); the spring pulls the driven node
@@ -40,11 +41,11 @@ TEST(a_mass_follows_a_driven_one)
         .components = DEM_COMPONENT_X | DEM_COMPONENT_Y, .n_nodes = 1, .nodes = node, .value = {v, 0.0}};
     CLEANUP(support_close) support_run run;
     open_pair(&run, &drive, NULL);
-    const double initial = dem_energy_ledger(dem_simulation_energy(run.simulation));
+    const double initial = ask_energy(run.simulation).ledger;
     assert_close(initial, 0.5 * 3.0 * start[0] * start[0], 1e-18); /* it moves from the start */
     for (double t = 0.1; t < 20.0 * 2.0 * M_PI / w; t += 0.37) {
-        const dem_state s = support_at(&run, t);
-        const dem_boundary_load load = dem_simulation_boundary(run.simulation, 0);
+        const motion s = support_at(&run, t);
+        const dem_boundary_load load = ask_boundary(run.simulation, 0);
         assert_close(s.x[0], v * t, 1e-14);
         assert_close(s.x[2] - 0.5, v * (t - sin(w * t) / w), 2.0 * 1e-11 * length);
         assert_close(load.force[0], mass * v * w * sin(w * t), 1e-8 * mass * v * w);
@@ -68,9 +69,9 @@ TEST(a_ramp_is_followed)
                                 .ramp = ramp};
     CLEANUP(support_close) support_run run;
     open_pair(&run, &drive, NULL);
-    const double initial = dem_energy_ledger(dem_simulation_energy(run.simulation));
+    const double initial = ask_energy(run.simulation).ledger;
     for (double t = 0.1; t < 4.0; t += 0.1) {
-        const dem_state s = support_at(&run, t);
+        const motion s = support_at(&run, t);
         const double u = fmin(t / ramp, 1.0);
         assert_close(s.x[0], way * u * u * u * (10.0 - 15.0 * u + 6.0 * u * u), 1e-9 * way);
         assert_close(closure(run.simulation, initial), 0.0, 1e-9 * stiffness * way * way);
@@ -97,12 +98,12 @@ TEST(a_sudden_force_swings_to_twice_the_static_way)
     support_lattice(&lattice, 2, x, masses, 1, ends, length, stiffness, NULL);
     support_open(&run, &lattice, NULL, 0, &options);
     for (double t = 0.1; t < 30.0 / w; t += 0.21) {
-        const dem_state s = support_at(&run, t);
+        const motion s = support_at(&run, t);
         const double way = force / k * (1.0 - cos(w * t));
         assert_close(s.x[2] - 0.5, way, 1e-7 * force / k); /* rtol is of the spacing, 1000 times the way */
         assert_close(s.energy.boundary, force * way, 1e-7 * force * force / k);
-        assert_close(dem_simulation_boundary(run.simulation, 1).force[0], force, 0.0);
-        assert_close(dem_simulation_boundary(run.simulation, 0).force[0], -k * way, 1e-7 * force);
+        assert_close(ask_boundary(run.simulation, 1).force[0], force, 0.0);
+        assert_close(ask_boundary(run.simulation, 0).force[0], -k * way, 1e-7 * force);
     }
 }
 
@@ -134,7 +135,7 @@ TEST(friction_holds_until_the_force_exceeds_it)
         *(s * s * s * (10.0 - 15.0 * s + 6.0 * s * s) < r ? &lo : &hi) = s;
     }
     const double slips = lo * ramp;
-    dem_state s = support_at(&run, slips - 1e-9);
+    motion s = support_at(&run, slips - 1e-9);
     assert_int_equal(s.contacts[0].state, DEM_CONTACT_STICK);
     assert_close(s.x[0], 0.0, 1e-15);
     s = support_at(&run, slips + 1e-9);
@@ -143,7 +144,7 @@ TEST(friction_holds_until_the_force_exceeds_it)
     const double v1 = s.v[0];
     s = support_at(&run, 3.0); /* the ramp is over: constant acceleration */
     assert_close((s.v[0] - v1) / 2.0, (force - mu * (mass * g + 5.0)) / mass, 1e-9);
-    const dem_obstacle_load load = dem_simulation_obstacle(run.simulation, 0);
+    const dem_obstacle_load load = ask_obstacle(run.simulation, 0);
     assert_close(load.impulse[1], mass * g * 3.0 + 5.0 * (0.5 * ramp + 2.0), 1e-9);
 }
 
@@ -179,12 +180,12 @@ TEST(a_pulled_block_comes_to_rest_with_its_modulus)
     options.boundaries = list;
     CLEANUP(support_close) support_run run;
     support_open(&run, &lattice, NULL, 0, &options);
-    const dem_state s = support_at(&run, 0.1);
+    const motion s = support_at(&run, 0.1);
     assert_true(dem_simulation_residual(run.simulation) > 1.0); /* between steps it is not known */
     const double strain = (s.x[2 * head[0] + 1] - top) / top;
     const double wide = s.x[2 * foot[n_foot - 1]] - s.x[2 * foot[0]] - width;
     assert_close(strain, traction / rubber.youngs_modulus, 1e-6 * strain);
     assert_close(-wide / width / strain, 1.0 / 3.0, 1e-6);
     const double pull = traction * ((double)n_head - 1.5) * a * rubber.thickness;
-    assert_close(dem_simulation_boundary(run.simulation, 0).force[1], -pull, 1e-6 * pull);
+    assert_close(ask_boundary(run.simulation, 0).force[1], -pull, 1e-6 * pull);
 }

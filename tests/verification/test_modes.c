@@ -6,6 +6,7 @@
 #include <gsl/gsl_eigen.h>
 
 #include "dense.h"
+#include "harness/motion.h"
 #include "harness/cleanup_gsl.h"
 
 static const double k = 50.0, m = 2.0, amplitude = 1e-6; /* N/m, kg; m, of springs of 1 m */
@@ -43,7 +44,7 @@ static double swing(dem_lattice *body, const gsl_matrix *modes, size_t mode, dou
     options.rtol = 1e-12;
     options.v_scale = amplitude * omega;
     support_open(&run, body, NULL, 0, &options);
-    const dem_state state = support_at(&run, 0.5 * M_PI / omega);
+    const motion state = support_at(&run, 0.5 * M_PI / omega);
     for (size_t q = 0; q < modes->size1; q++) worst = fmax(worst, fabs(state.x[q] - body->x[q]));
     support_close(&run);
     free(body->position);

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 static const double g = 9.81, mass = 2.0;
@@ -40,8 +41,8 @@ TEST(a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta)
         const dem_obstacle obstacle = {
             .n_points = 2, .points = upright, .restitution = eta[k], .friction = 0.5, .velocity = {speed, 0.7}};
         open_node(&run, x, &obstacle, 1, 0.0);
-        const double start = dem_energy_ledger(dem_simulation_energy(run.simulation));
-        const dem_state s = support_at(&run, 1.0);
+        const double start = ask_energy(run.simulation).ledger;
+        const motion s = support_at(&run, 1.0);
         assert_int_equal(run.n_impacts, 1);
         assert_close(run.impacts[0].t, 1.0 / speed, 1e-12);
         assert_close(run.impacts[0].before[0], 0.0, 1e-14);
@@ -51,9 +52,9 @@ TEST(a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta)
         assert_close(s.x[0], (1.0 + eta[k]) * speed * (1.0 - 1.0 / speed), 1e-11);
         const double normal = 0.5 * mass * (1.0 - eta[k] * eta[k]) * speed * speed, along = 0.5 * mass * 0.49;
         assert_close(s.energy.impact, normal + along, 1e-11);
-        assert_close(s.energy.boundary, mass * ((1.0 + eta[k]) * speed * speed + 0.49), 1e-11);
-        assert_close(dem_energy_ledger(s.energy), start, 1e-11);
-        const dem_obstacle_load load = dem_simulation_obstacle(run.simulation, 0);
+        assert_close(s.energy.obstacle, mass * ((1.0 + eta[k]) * speed * speed + 0.49), 1e-11);
+        assert_close(s.energy.ledger, start, 1e-11);
+        const dem_obstacle_load load = ask_obstacle(run.simulation, 0);
         assert_close(load.impulse[0], mass * (1.0 + eta[k]) * speed, 1e-11);
         assert_close(load.friction_impulse[1], mass * 0.7, 1e-11);
     }
@@ -69,19 +70,19 @@ TEST(a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost)
         CLEANUP(support_close) support_run run;
         const dem_obstacle obstacle = {.n_points = 2, .points = belt, .friction = mu, .velocity = {side * speed, 0.0}};
         open_node(&run, x, &obstacle, 1, g);
-        dem_state s = support_at(&run, 0.5 * t);
+        motion s = support_at(&run, 0.5 * t);
         assert_int_equal(s.n_contacts, 1);
         assert_int_equal(s.contacts[0].state, DEM_CONTACT_SLIP);
         assert_close(s.v[0], side * 0.5 * speed, 1e-11);
         assert_close(s.x[0], side * 0.125 * mu * g * t * t, 1e-11);
-        assert_close(s.energy.boundary, 0.5 * mass * speed * speed, 1e-10);
+        assert_close(s.energy.obstacle, 0.5 * mass * speed * speed, 1e-10);
         s = support_at(&run, t + 1.0);
         assert_int_equal(s.contacts[0].state, DEM_CONTACT_STICK);
         assert_close(s.v[0], side * speed, 0.0); /* what sticks has the velocity of the belt */
         assert_close(s.x[0], side * speed * (0.5 * t + 1.0), 1e-10);
-        assert_close(s.energy.boundary, mass * speed * speed, 1e-10);
+        assert_close(s.energy.obstacle, mass * speed * speed, 1e-10);
         assert_close(s.energy.friction, 0.5 * mass * speed * speed, 1e-10);
-        assert_close(dem_energy_ledger(s.energy), 0.0, 1e-10);
+        assert_close(s.energy.ledger, 0.0, 1e-10);
     }
 }
 
@@ -92,14 +93,14 @@ TEST(a_floor_that_rises_carries_a_node_and_does_the_work_of_its_weight)
     const dem_obstacle obstacle = {.n_points = 2, .points = level, .velocity = {0.0, 2.0}};
     CLEANUP(support_close) support_run run;
     open_node(&run, x, &obstacle, 1, g);
-    const dem_state s = support_at(&run, 3.0);
+    const motion s = support_at(&run, 3.0);
     assert_int_equal(s.n_contacts, 1);
     assert_close(s.x[1], 6.0, 1e-12);
     assert_close(s.v[1], 2.0, 1e-13);
     assert_close(s.contacts[0].force, mass * g, 1e-12);
-    assert_close(s.energy.boundary, mass * (2.0 * 2.0 + 3.0 * 2.0 * g), 1e-9); /* an impact at first */
+    assert_close(s.energy.obstacle, mass * (2.0 * 2.0 + 3.0 * 2.0 * g), 1e-9); /* an impact at first */
     assert_close(s.energy.impact, 0.5 * mass * 4.0, 1e-12);
-    assert_close(dem_energy_ledger(s.energy), 0.0, 1e-9);
+    assert_close(s.energy.ledger, 0.0, 1e-9);
 }
 
 /* Between two walls, one at rest and one that comes: each elastic impact on it adds 2 U to the speed, so that the gap
@@ -112,7 +113,7 @@ TEST(a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_time)
     CLEANUP(support_close) support_run run;
     double at = 0.5, t = 0.0, v = 0.0;
     open_node(&run, x, list, 2, 0.0);
-    const dem_state s = support_at(&run, 9.7);
+    const motion s = support_at(&run, 9.7);
     assert_true(run.n_impacts >= 6);
     for (dem_index k = 0; k < run.n_impacts; k++) {
         const dem_event *e = &run.impacts[k];
@@ -125,7 +126,7 @@ TEST(a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_time)
         assert_int_equal(e->obstacle, comes ? 1 : 0);
         assert_close(e->after[0], v, 1e-10);
     }
-    assert_close(s.energy.boundary, 0.5 * mass * v * v, 1e-10);
+    assert_close(s.energy.obstacle, 0.5 * mass * v * v, 1e-10);
     assert_close(s.energy.impact, 0.0, 1e-11);
 }
 
@@ -138,13 +139,13 @@ TEST(the_corner_of_a_floor_and_a_wall_that_comes_takes_a_node_along)
                                   {.n_points = 2, .points = wall, .velocity = {2.0, 0.0}}};
     CLEANUP(support_close) support_run run;
     open_node(&run, x, list, 2, g);
-    const dem_state s = support_at(&run, 2.0);
+    const motion s = support_at(&run, 2.0);
     assert_close(s.x[0], 3.0, 1e-11);
     assert_close(s.v[0], 2.0, 1e-12);
     assert_close(s.x[1], 0.0, 1e-12);
-    assert_close(s.energy.boundary, mass * 4.0, 1e-11);
+    assert_close(s.energy.obstacle, mass * 4.0, 1e-11);
     assert_close(s.energy.impact, 0.5 * mass * 4.0, 1e-11);
-    assert_close(dem_energy_ledger(s.energy), 0.0, 1e-11);
+    assert_close(s.energy.ledger, 0.0, 1e-11);
 }
 
 /* ---- bodies, seen by one who moves ---- */
@@ -206,12 +207,12 @@ static void compare_views(const view *v, const double frame[2], dem_method metho
     CLEANUP(support_close) support_run rest, passing;
     open_view(&rest, v, (const double[2]){0.0, 0.0}, method);
     open_view(&passing, v, frame, method);
-    const double spacing = 5e-3, start = dem_energy_ledger(dem_simulation_energy(passing.simulation));
-    const dem_index n = dem_model_sizes(rest.model).n_nodes;
+    const double spacing = 5e-3, start = ask_energy(passing.simulation).ledger;
+    const dem_index n = ask_sizes(rest.model).n_nodes;
     double worst = 0.0;
     for (int k = 1; k <= 8; k++) {
         const double t = v->t_end * k / 8.0;
-        const dem_state a = support_at(&rest, t), b = support_at(&passing, t);
+        const motion a = support_at(&rest, t), b = support_at(&passing, t);
         for (dem_index i = 0; i < 2 * n; i++) {
             worst = fmax(worst, fabs(b.x[i] - a.x[i] - frame[i % 2] * t));
             worst = fmax(worst, 1e-3 * fabs(b.v[i] - a.v[i] - frame[i % 2])); /* m/s in a ms */
@@ -221,10 +222,10 @@ static void compare_views(const view *v, const double frame[2], dem_method metho
         assert_close(b.energy.impact, a.energy.impact, share * (1.0 + a.energy.kinetic));
         assert_close(b.energy.friction, a.energy.friction, share * (1.0 + a.energy.kinetic));
     }
-    const dem_counts a = dem_simulation_counts(rest.simulation), b = dem_simulation_counts(passing.simulation);
+    const dem_counts a = ask_counts(rest.simulation), b = ask_counts(passing.simulation);
     assert_true(a.impacts > 0 && a.impacts == b.impacts && a.closings == b.closings);
     assert_true(worst <= tolerance * spacing);
-    if (adaptive) assert_close(dem_energy_ledger(dem_simulation_energy(passing.simulation)), start, 1e-6);
+    if (adaptive) assert_close(ask_energy(passing.simulation).ledger, start, 1e-6);
 }
 
 #define GROUND(line, e, mu)                                                                                            \
@@ -273,15 +274,15 @@ TEST(a_run_goes_on_from_its_record_to_the_same_bits)
         CLEANUP(free_simulation) dem_simulation *resumed;
         open_view(&run, v, frames[0], DEM_METHOD_FEHLBERG45);
         (void)support_at(&run, 0.6 * v->t_end);
-        const dem_options options = dem_simulation_options(run.simulation);
+        const dem_options options = ask_options(run.simulation);
         const dem_checkpoint *checkpoint = dem_simulation_checkpoint(run.simulation);
         assert_non_null(checkpoint);
         assert_ok(dem_simulation_resume(&resumed, run.model, &options, checkpoint));
-        const dem_state a = support_at(&run, v->t_end);
-        dem_state b = {.struct_size = sizeof b};
+        const motion a = support_at(&run, v->t_end);
+        motion b;
         assert_ok(dem_simulation_advance(resumed, v->t_end));
-        dem_simulation_state(resumed, &b);
-        const size_t size = 2 * (size_t)dem_model_sizes(run.model).n_nodes * sizeof *a.x;
+        motion_see(resumed, &b);
+        const size_t size = 2 * (size_t)ask_sizes(run.model).n_nodes * sizeof *a.x;
         assert_memory_equal(a.x, b.x, size);
         assert_memory_equal(a.v, b.v, size);
         assert_memory_equal(&a.energy, &b.energy, sizeof a.energy);
@@ -295,7 +296,7 @@ TEST(a_record_of_another_velocity_is_refused)
     open_view(&run, &views[1], frames[0], DEM_METHOD_FEHLBERG45);
     open_view(&other, &views[1], frames[1], DEM_METHOD_FEHLBERG45);
     (void)support_at(&run, 0.001);
-    const dem_options options = dem_simulation_options(run.simulation);
+    const dem_options options = ask_options(run.simulation);
     assert_int_equal(dem_simulation_resume(&resumed, other.model, &options, dem_simulation_checkpoint(run.simulation)),
                      DEM_ERROR_IO);
     assert_string_equal(dem_status_message(),

@@ -2,6 +2,7 @@
 /* A body does not know how its nodes are numbered: the same motion, after the numbering is undone, for a body whose
  * nodes are shuffled and one whose nodes are not; to the bit the same energies of the same state. */
 #include "harness/cleanup_gsl.h"
+#include "ask.h"
 #include "support.h"
 
 #include <gsl/gsl_rng.h>
@@ -69,7 +70,7 @@ static double *run(const dem_lattice *lattice, const dem_obstacle *ground, doubl
     options.threads = 2;
     support_open(&r, lattice, ground, ground != NULL ? 1 : 0, &options);
     memcpy(x, support_at(&r, t).x, size);
-    assert_true(ground == NULL || dem_simulation_counts(r.simulation).impacts > 3);
+    assert_true(ground == NULL || ask_counts(r.simulation).impacts > 3);
     return x;
 }
 
@@ -140,8 +141,7 @@ static sums sums_of(const dem_lattice *lattice)
     const dem_options options = support_options();
     CLEANUP(support_close) support_run r;
     support_open(&r, lattice, NULL, 0, &options);
-    const sums all = {dem_simulation_energy(r.simulation), dem_simulation_body(r.simulation, 0),
-                      dem_model_mass(r.model)};
+    const sums all = {ask_energy(r.simulation), ask_body(r.simulation, 0), dem_model_mass(r.model)};
     return all;
 }
 

@@ -3,6 +3,7 @@
  * the energy integral (rows a1 to a3 of docs/verification.md). Tolerances are those of the table; the runs use rtol
  * 1e-13, whose error over these times is below 1e-11 m. A time error is measured as a velocity over an acceleration
  * at a turning point. */
+#include "harness/motion.h"
 #include "support.h"
 
 static const double stiffness = 100.0, rest_length = 1.0;
@@ -32,7 +33,7 @@ static void open_pair(support_run *run, double distance, double relative)
     support_open(run, &lattice, NULL, 0, &options);
 }
 
-static void separation(const dem_state *state, double d[2], double u[2])
+static void separation(const motion *state, double d[2], double u[2])
 {
     for (int k = 0; k < 2; k++) {
         d[k] = state->x[2 + k] - state->x[k];
@@ -47,7 +48,7 @@ TEST(a_collinear_pair_has_the_harmonic_period_at_any_amplitude)
         CLEANUP(support_close) support_run run;
         double d[2], u[2];
         open_pair(&run, 1.0 + amplitudes[k], 0.0);
-        const dem_state state = support_at(&run, 10.0 * period);
+        const motion state = support_at(&run, 10.0 * period);
         separation(&state, d, u);
         assert_close(u[0] / (omega * omega * amplitudes[k]) / (10.0 * period), 0.0, 1e-8);
         assert_close((d[0] - 1.0) / amplitudes[k], 1.0, 1e-8);
@@ -63,7 +64,7 @@ TEST(a_rotating_pair_turns_at_the_exact_time_angle_and_distance)
         CLEANUP(support_close) support_run run;
         double d[2], u[2];
         open_pair(&run, 1.2, speed[k]);
-        dem_state state = support_at(&run, 0.5 * period[k]);
+        motion state = support_at(&run, 0.5 * period[k]);
         separation(&state, d, u);
         assert_close(atan2(d[1], d[0]), 0.5 * angle[k], 1e-7);
         assert_close(hypot(d[0], d[1]), other_turn[k], 1e-7);
@@ -93,7 +94,7 @@ TEST(a_mass_between_fixed_ends_swings_across_with_the_exact_period)
         support_lattice(&lattice, 3, x, mass, 2, ends, rest_length, stiffness, fixed);
         support_start(&lattice, start, NULL);
         support_open(&run, &lattice, NULL, 0, &options);
-        dem_state state = support_at(&run, 0.75 * period[k]); /* upwards through the middle */
+        motion state = support_at(&run, 0.75 * period[k]); /* upwards through the middle */
         assert_true(state.v[3] > 0.0);
         assert_close(state.x[3] / state.v[3] / (0.75 * period[k]), 0.0, 1e-7);
         assert_close(state.x[2], 0.0, 1e-12);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "coarse.h"
+#include "ask.h"
 #include "support.h"
 
 static double rtol = 0.0; /* 0: the deck's */
@@ -39,17 +40,17 @@ static void run_deck(const char *name, double restitution, dem_contact_method me
     if (rtol > 0.0) d.options.rtol = rtol;
     support_open(&run, &d.lattice, d.obstacles, d.n_obstacles, &d.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    const dem_energy start = dem_simulation_energy(run.simulation);
-    const dem_body_motion before = dem_simulation_body(run.simulation, 0);
+    const dem_energy start = ask_energy(run.simulation);
+    const dem_body_motion before = ask_body(run.simulation, 0);
     const dem_energy end = support_at(&run, 0.5 * d.t_end).energy;
-    const dem_body_motion after = dem_simulation_body(run.simulation, 0);
-    const dem_obstacle_load load = dem_simulation_obstacle(run.simulation, 0);
+    const dem_body_motion after = ask_body(run.simulation, 0);
+    const dem_obstacle_load load = ask_obstacle(run.simulation, 0);
     const double given = load.impulse[1] / after.mass - 9.81 * 0.5 * d.t_end;
     out->rise = after.velocity[1];
     out->balance = fabs(after.velocity[1] - before.velocity[1] - given) / 10.0;
-    out->closure = fabs(dem_energy_ledger(end) - dem_energy_ledger(start)) / start.kinetic;
+    out->closure = fabs(end.ledger - start.ledger) / start.kinetic;
     out->taken = end.impact / start.kinetic;
-    out->counts = dem_simulation_counts(run.simulation);
+    out->counts = ask_counts(run.simulation);
 }
 
 /* Plastic bodies are not sensitive: 1e-3 of the rebound. Elastic ones, hit a thousand times, are, to the last digit:

@@ -9,6 +9,7 @@
 #include <gsl/gsl_fft_real.h>
 
 #include "dense.h"
+#include "harness/motion.h"
 #include "harness/cleanup_gsl.h"
 
 enum { n_samples = 4096, n_modes = 10 };
@@ -70,7 +71,7 @@ static double *checkpoint(const dem_lattice *l, double interval, double omega)
     options.v_scale = options.spacing * omega;
     support_open(&run, l, NULL, 0, &options);
     for (int k = 0; k < n_samples; k++) {
-        const dem_state state = support_at(&run, k * interval);
+        const motion state = support_at(&run, k * interval);
         for (dem_index s = 0; s < l->n_springs; s++) {
             const double *a = state.x + 2 * l->ends[2 * s], *b = state.x + 2 * l->ends[2 * s + 1];
             series[s * n_samples + k] = hypot(b[0] - a[0], b[1] - a[1]) / l->rest_length[s] - 1.0;

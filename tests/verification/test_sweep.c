@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "harness/cleanup_gsl.h"
+#include "harness/motion.h"
 #include "support.h"
 
 enum { n_restitutions = 5, n_frictions = 4, n_grounds = 4, most_points = 64 };
@@ -82,14 +83,14 @@ static double depth_below(const ground *g, const double x[2])
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     tally *t = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
     for (dem_index i = 0; i < l->n_nodes; i++)
         if (l->flags[i] & DEM_NODE_CONTACT) t->deepest = fmax(t->deepest, depth_below(t->ground, &state.x[2 * i]));
     t->fall = fmax(t->fall, t->taken - state.energy.impact);
     t->taken = state.energy.impact;
-    t->open = fmax(t->open, fabs(dem_energy_ledger(state.energy) - t->start));
+    t->open = fmax(t->open, fabs(state.energy.ledger - t->start));
     return DEM_OK;
 }
 
@@ -119,12 +120,12 @@ static void make_block(dem_lattice *l, const ground *g)
 /* Whether the block flies away from the ground. */
 static int has_left(const support_run *run)
 {
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     double gap = INFINITY;
-    dem_simulation_state(run->simulation, &state);
-    for (dem_index i = 0; i < dem_model_sizes(run->model).n_nodes; i++)
+    motion_see(run->simulation, &state);
+    for (dem_index i = 0; i < ask_sizes(run->model).n_nodes; i++)
         gap = fmin(gap, dem_model_gap(run->model, &state.x[2 * i]));
-    return state.n_contacts == 0 && gap > 2e-3 && dem_simulation_body(run->simulation, 0).velocity[1] > 0.0;
+    return state.n_contacts == 0 && gap > 2e-3 && ask_body(run->simulation, 0).velocity[1] > 0.0;
 }
 
 static void run_case(int restitution, int friction, int kind, double rtol, outcome *out)
@@ -147,13 +148,13 @@ static void run_case(int restitution, int friction, int kind, double rtol, outco
         .interval = 2e-6, .frame = NULL, .step = look, .event = weigh, .context = &out->tally};
     support_open(&run, &block, &obstacle, 1, &options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    out->tally.start = dem_energy_ledger(dem_simulation_energy(run.simulation));
-    out->initial = dem_simulation_energy(run.simulation).kinetic;
+    out->tally.start = ask_energy(run.simulation).ledger;
+    out->initial = ask_energy(run.simulation).kinetic;
     const clock_t began = clock();
     for (int k = 1; k <= 20 && out->status == DEM_OK && !(k > 8 && has_left(&run)); k++)
         out->status = dem_simulation_advance(run.simulation, 2.5e-4 * k);
     out->spent = (double)(clock() - began) / CLOCKS_PER_SEC;
-    out->counts = dem_simulation_counts(run.simulation);
+    out->counts = ask_counts(run.simulation);
 }
 
 static void tell(int restitution, int friction, int kind, const outcome *loose, const outcome *tight)

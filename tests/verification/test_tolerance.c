@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 static const double rtol[4] = {1e-12, 1e-5, 1e-7, 1e-9};
@@ -19,10 +20,10 @@ static void run_to(const dem_lattice *body, const dem_obstacle *floor, double t,
     options.window = 0.0;
     options.penetration_tolerance = 1e-12; /* as deep are impacts late, whatever rtol: below all errors */
     support_open(&run, body, floor, floor != NULL, &options);
-    const dem_state state = support_at(&run, t);
+    const motion state = support_at(&run, t);
     memcpy(x, state.x, 2 * (size_t)body->n_nodes * sizeof *x);
     if (floor != NULL) {
-        const dem_counts counts = dem_simulation_counts(run.simulation);
+        const dem_counts counts = ask_counts(run.simulation);
         assert_true(counts.impacts > 3 && counts.slips + counts.sticks > 10 && state.energy.friction > 0.5);
     }
 }

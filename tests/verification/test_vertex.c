@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "outline.h"
+#include "harness/motion.h"
 #include "support.h"
 
 static bool everything; /* with the long runs */
@@ -35,9 +36,9 @@ typedef struct outcome {
 static dem_status first_impact(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     outcome *o = context;
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     if (event->kind != DEM_EVENT_IMPACT || o->n++ > 0) return DEM_OK;
-    dem_simulation_state(simulation, &state);
+    motion_see(simulation, &state);
     o->event = *event;
     memcpy(o->v, state.v, sizeof o->v);
     return DEM_OK;
@@ -186,8 +187,8 @@ static dem_status look(void *context, const dem_simulation *simulation)
     watch *w = context;
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
     const double tip[2] = {w->at, 0.0};
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     w->deepest_apex = fmax(w->deepest_apex, outline_depth(&w->body, state.x, tip));
     for (dem_index i = 0; i < l->n_nodes; i++) {
         const double below = -w->slope * fabs(state.x[2 * i] - w->at) - state.x[2 * i + 1];
@@ -199,9 +200,9 @@ static dem_status look(void *context, const dem_simulation *simulation)
 /* Momentum less what the obstacle and weight have given, over the initial one. */
 static double imbalance(const watch *w, const dem_simulation *simulation, const double impulse[2])
 {
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
-    const dem_body_motion m = dem_simulation_body(simulation, 0);
+    motion state;
+    motion_see(simulation, &state);
+    const dem_body_motion m = ask_body(simulation, 0);
     const double scale = hypot(w->start[0], w->start[1]);
     return hypot(m.mass * m.velocity[0] - w->start[0] - impulse[0],
                  m.mass * m.velocity[1] - w->start[1] + m.mass * 9.81 * state.t - impulse[1]) /
@@ -211,7 +212,7 @@ static double imbalance(const watch *w, const dem_simulation *simulation, const 
 static dem_status look_and_weigh(void *context, const dem_simulation *simulation)
 {
     watch *w = context;
-    const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);
+    const dem_obstacle_load load = ask_obstacle(simulation, 0);
     w->worst_balance = fmax(w->worst_balance, imbalance(w, simulation, load.impulse));
     return look(context, simulation);
 }
@@ -278,23 +279,23 @@ static verdict run_wedge(const wedge *c, double t_end)
     watch w = {.body = outline_create(&lattice), .slope = tall, .at = c->at};
     dem_lattice_free(&lattice);
     const dem_observer observer = {frame_interval, look, look_and_weigh, add_event, NULL, &w};
-    const dem_body_motion start = dem_simulation_body(run.simulation, 0);
+    const dem_body_motion start = ask_body(run.simulation, 0);
     for (int d = 0; d < 2; d++) w.start[d] = start.mass * start.velocity[d];
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    const double before = dem_energy_ledger(dem_simulation_energy(run.simulation));
-    const double kinetic = dem_simulation_energy(run.simulation).kinetic;
-    dem_state state = support_at(&run, t_end);
-    const double penetration_tolerance = dem_simulation_options(run.simulation).penetration_tolerance;
+    const double before = ask_energy(run.simulation).ledger;
+    const double kinetic = ask_energy(run.simulation).kinetic;
+    motion state = support_at(&run, t_end);
+    const double penetration_tolerance = ask_options(run.simulation).penetration_tolerance;
     const verdict v = {.apex = w.deepest_apex / penetration_tolerance,
                        .node = w.deepest_node / penetration_tolerance,
                        .balance = w.worst_balance,
                        .reported = imbalance(&w, run.simulation, w.impulse),
                        .skew = asymmetry(dem_model_lattice(run.model), state.x) / spacing,
-                       .closure = fabs(dem_energy_ledger(state.energy) - before) / kinetic,
-                       .rebound = dem_simulation_body(run.simulation, 0).velocity[1],
+                       .closure = fabs(state.energy.ledger - before) / kinetic,
+                       .rebound = ask_body(run.simulation, 0).velocity[1],
                        .tilt = fabs(run.impacts[0].normal[0]),
                        .lasting = w.lasting,
-                       .counts = dem_simulation_counts(run.simulation)};
+                       .counts = ask_counts(run.simulation)};
     assert_true(w.least_energy >= -1e-15 * kinetic); /* rounding */
     outline_free(&w.body);
     support_close(&run);

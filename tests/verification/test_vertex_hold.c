@@ -9,6 +9,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 /* ---- a triangle on a fixed point ---- */
@@ -206,19 +207,19 @@ typedef struct ledger {
 static dem_status weigh(void *context, const dem_simulation *simulation)
 {
     ledger *l = context;
-    l->worst = fmax(l->worst, fabs(dem_energy_ledger(dem_simulation_energy(simulation)) - l->start));
+    l->worst = fmax(l->worst, fabs(ask_energy(simulation).ledger - l->start));
     return DEM_OK;
 }
 
 static void observe_ledger(const support_run *run, ledger *l)
 {
     const dem_observer observer = {.step = weigh, .context = l};
-    *l = (ledger){dem_energy_ledger(dem_simulation_energy(run->simulation)), 0.0};
+    *l = (ledger){ask_energy(run->simulation).ledger, 0.0};
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
 
 /* Simulation and reference at one time. Friction is mu N to rounding. */
-static void compare(const triangle *q, const double *y, const dem_state *state, double tolerance)
+static void compare(const triangle *q, const double *y, const motion *state, double tolerance)
 {
     double f[6], push[4];
     assert_int_equal(state->n_contacts, 1);
@@ -228,7 +229,7 @@ static void compare(const triangle *q, const double *y, const dem_state *state, 
     if (q->slide == 0) return;
     spring_forces(q, y, f);
     assert_true(normal_force(q, y, y + 6, f, push) > 0.0); /* the reference cannot lift off */
-    assert_close(state->contacts[0].friction, -q->mu * q->slide * state->contacts[0].force,
+    assert_close(state->contacts[0].friction[0], -q->mu * q->slide * state->contacts[0].force,
                  1e-14 * state->contacts[0].force);
 }
 
@@ -246,11 +247,11 @@ static int follow(triangle *q, double *y, double t_end)
     observe_ledger(&run, &kept);
     for (int k = 1; k <= looks; k++) {
         changes += integrate_changes(q, y, (k - 1) * t_end / looks, k * t_end / looks);
-        const dem_state state = support_at(&run, k * t_end / looks);
+        const motion state = support_at(&run, k * t_end / looks);
         compare(q, y, &state, 1e-8);
         for (int i = 0; i < 6; i++) worst = fmax(worst, fabs(state.x[i] - y[i]));
     }
-    const dem_counts counts = dem_simulation_counts(run.simulation);
+    const dem_counts counts = ask_counts(run.simulation);
     print_message("# sign %d, mu %g: off by %.1e m, ledger by %.1e J, %lld steps, %lld events, %lld slips, %lld "
                   "sticks, %d changes\n",
                   q->slide, q->mu, worst, kept.worst, (long long)counts.steps, (long long)counts.events,

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "outline.h"
+#include "harness/motion.h"
 #include "support.h"
 
 static const double g = 9.81, spacing = 5e-3;
@@ -64,21 +65,21 @@ static void settle(const rack *r, dem_lattice *lattice, double duration)
     CLEANUP(support_close) support_run run;
     lay(r, lattice);
     open_block(&run, lattice, r, 300.0);
-    const dem_state state = support_at(&run, duration); /* exp(-150 duration) is left of what vibrates slowly */
+    const motion state = support_at(&run, duration); /* exp(-150 duration) is left of what vibrates slowly */
     free(lattice->position);
     lattice->position = NULL;
     support_start(lattice, state.x, NULL);
 }
 
 /* Forces sum to the weight and their moments about the centre of mass to nothing, over the weight. */
-static double unbalance(const dem_simulation *simulation, const dem_state *state)
+static double unbalance(const dem_simulation *simulation, const motion *state)
 {
-    const dem_body_motion m = dem_simulation_body(simulation, 0);
+    const dem_body_motion m = ask_body(simulation, 0);
     double sum[2] = {0.0, -m.mass * g}, moment = 0.0;
     for (dem_index k = 0; k < state->n_contacts; k++) {
         const dem_contact *c = &state->contacts[k];
         const double n[2] = {c->normal[0], c->normal[1]}, t[2] = {n[1], -n[0]};
-        const double f[2] = {c->force * n[0] + c->friction * t[0], c->force * n[1] + c->friction * t[1]};
+        const double f[2] = {c->force * n[0] + c->friction[0] * t[0], c->force * n[1] + c->friction[0] * t[1]};
         sum[0] += f[0];
         sum[1] += f[1];
         moment += (c->x[0] - m.centre[0]) * f[1] - (c->x[1] - m.centre[1]) * f[0];
@@ -94,7 +95,7 @@ static void check_rest(const rack *r)
     settle(r, &lattice, 0.5);
     open_block(&run, &lattice, r, 0.0);
     for (int k = 0; k <= 20; k++) {
-        const dem_state state = support_at(&run, 0.05 * k);
+        const motion state = support_at(&run, 0.05 * k);
         assert_int_equal(state.n_contacts, 2);
         for (dem_index c = 0; c < 2; c++) {
             assert_int_equal(state.contacts[c].n_nodes, 2);
@@ -103,7 +104,7 @@ static void check_rest(const rack *r)
         for (dem_index i = 0; i < 2 * lattice.n_nodes; i++) creep = fmax(creep, fabs(state.x[i] - lattice.position[i]));
         worst = fmax(worst, unbalance(run.simulation, &state));
     }
-    const dem_counts counts = dem_simulation_counts(run.simulation);
+    const dem_counts counts = ask_counts(run.simulation);
     print_message("# mu %g: creep %.1e m, unbalance %.1e, %lld steps, %lld events, %lld impacts\n", r->friction, creep,
                   worst, (long long)counts.steps, (long long)counts.events, (long long)counts.impacts);
     assert_true(creep < (r->friction > 0.0 ? 1e-14 : 1e-11)); /* rounding; 1e-12 g over 1 s where nothing holds it */
@@ -158,7 +159,7 @@ static dem_index other_side(const dem_lattice *l, dem_index node, dem_index than
 }
 
 /* Turning rate of the line from p to q. */
-static double turning(const dem_state *s, dem_index p, dem_index q)
+static double turning(const motion *s, dem_index p, dem_index q)
 {
     const double w[2] = {s->x[2 * q] - s->x[2 * p], s->x[2 * q + 1] - s->x[2 * p + 1]};
     const double u[2] = {s->v[2 * q] - s->v[2 * p], s->v[2 * q + 1] - s->v[2 * p + 1]};
@@ -170,8 +171,8 @@ static double turning(const dem_state *s, dem_index p, dem_index q)
 static passage begin_passage(const dem_simulation *simulation, const dem_event *e)
 {
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    motion s;
+    motion_see(simulation, &s);
     const dem_index node = e->weight > 0.5 ? e->other : e->node, from = e->weight > 0.5 ? e->node : e->other;
     passage p = {.under_way = true, .node = node, .from = from, .to = other_side(l, node, from)};
     const double a[2] = {s.x[2 * node] - s.x[2 * p.from], s.x[2 * node + 1] - s.x[2 * p.from + 1]};
@@ -181,7 +182,7 @@ static passage begin_passage(const dem_simulation *simulation, const dem_event *
     for (dem_index k = 0; k < s.n_contacts; k++)
         if (s.contacts[k].segment == e->segment) {
             p.force = s.contacts[k].force;
-            p.bound = angle * 2.0 * hypot(p.force, s.contacts[k].friction);
+            p.bound = angle * 2.0 * hypot(p.force, s.contacts[k].friction[0]);
         }
     p.bound += 2.0 * l->mass[node] * along * (fabs(turning(&s, p.from, node)) + fabs(turning(&s, node, p.to)));
     p.kick = along * sin(angle);
@@ -211,20 +212,20 @@ static dem_status follow_passages(void *context, const dem_simulation *simulatio
 static dem_status watch_slide(void *context, const dem_simulation *simulation)
 {
     slide *w = context;
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
-    const dem_body_motion m = dem_simulation_body(simulation, 0);
-    const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);
+    motion s;
+    motion_see(simulation, &s);
+    const dem_body_motion m = ask_body(simulation, 0);
+    const dem_obstacle_load load = ask_obstacle(simulation, 0);
     const double px = m.mass * m.velocity[0] - w->momentum - load.impulse[0];
     const double py = m.mass * (m.velocity[1] + g * s.t) - load.impulse[1];
     w->worst_balance = fmax(w->worst_balance, hypot(px, py) / w->momentum);
-    w->worst_ledger = fmax(w->worst_ledger, fabs(dem_energy_ledger(s.energy) - w->ledger));
+    w->worst_ledger = fmax(w->worst_ledger, fabs(s.energy.ledger - w->ledger));
     for (dem_index k = 0; k < s.n_contacts; k++) {
         const dem_contact *c = &s.contacts[k];
         passage *p = &w->at[c->segment / 2];
         const double limit = w->mu * c->force;
         if (c->state == DEM_CONTACT_SLIP)
-            w->worst_cap = fmax(w->worst_cap, fabs(fabs(c->friction) - limit) / fmax(limit, 1e-300));
+            w->worst_cap = fmax(w->worst_cap, fabs(fabs(c->friction[0]) - limit) / fmax(limit, 1e-300));
         if (p->under_way) {
             w->worst_jump = fmax(w->worst_jump, fabs(c->force - p->force) / p->bound);
         }
@@ -247,9 +248,8 @@ static void open_slide(support_run *run, slide *w, double friction, double speed
     for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.position[2 * i] += start;
     assert_ok(dem_lattice_launch(&lattice, v0));
     open_block(run, &lattice, &r, 0.0);
-    *w = (slide){.momentum = dem_model_mass(run->model) * speed,
-                 .mu = friction,
-                 .ledger = dem_energy_ledger(dem_simulation_energy(run->simulation))};
+    *w = (slide){
+        .momentum = dem_model_mass(run->model) * speed, .mu = friction, .ledger = ask_energy(run->simulation).ledger};
     const dem_observer observer = {.step = watch_slide, .event = follow_passages, .context = w};
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
@@ -259,10 +259,10 @@ TEST(a_block_slides_with_friction_over_apexes_past_its_nodes)
     CLEANUP(support_close) support_run run;
     slide w;
     open_slide(&run, &w, 0.2, 0.3);
-    const double kinetic = dem_simulation_energy(run.simulation).kinetic;
-    const double from = dem_simulation_body(run.simulation, 0).centre[0];
+    const double kinetic = ask_energy(run.simulation).kinetic;
+    const double from = ask_body(run.simulation, 0).centre[0];
     (void)support_at(&run, 0.14);
-    const dem_body_motion m = dem_simulation_body(run.simulation, 0);
+    const dem_body_motion m = ask_body(run.simulation, 0);
     print_message("# slid %.5f m, v %.2e, passes %lld and %lld, %lld other events, jump %.2f, kick %.2f, balance %.1e, "
                   "ledger %.1e, cap %.1e\n",
                   m.centre[0] - from, m.velocity[0], (long long)w.passes[0], (long long)w.passes[1],
@@ -292,8 +292,8 @@ static dem_status look_at_drop(void *context, const dem_simulation *simulation)
 {
     drop *w = context;
     const double origin[2] = {0.0, 0.0};
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(simulation, &s);
+    motion s;
+    motion_see(simulation, &s);
     w->deepest_apex = fmax(w->deepest_apex, outline_depth(&w->body, s.x, origin));
     for (dem_index i = 0; i < dem_model_lattice(dem_simulation_model(simulation))->n_nodes; i++) {
         const double x = s.x[2 * i], y = s.x[2 * i + 1], slope = x < 0.0 ? steep : w->slope;
@@ -341,7 +341,7 @@ static void check_drop(double slope, double friction, double speed)
     drop w;
     open_drop(&run, &w, slope, friction, speed);
     (void)support_at(&run, 0.08);
-    const double penetration_tolerance = dem_simulation_options(run.simulation).penetration_tolerance;
+    const double penetration_tolerance = ask_options(run.simulation).penetration_tolerance;
     dem_index k = 0;
     print_message("# slope %g, mu %g, %g m/s: apex %.2g and node %.2g penetration tolerances deep\n", slope, friction,
                   speed, w.deepest_apex / penetration_tolerance, w.deepest_node / penetration_tolerance);

@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "ask.h"
 #include "support.h"
 
 enum { n_masses = 21, most_impacts = 3000 };
@@ -98,9 +99,9 @@ TEST(located_contacts_keep_the_energy_as_known)
     for (const line *l = lines; l < lines + n_lines; l++) {
         CLEANUP(support_close) support_run run;
         open_run(&run, &chain, l);
-        const double start = dem_energy_motion(dem_simulation_energy(run.simulation));
-        const double drift = dem_energy_motion(support_at(&run, t_end).energy) / start - 1.0;
-        const double evaluations = (double)dem_simulation_counts(run.simulation).evaluations;
+        const double start = ask_energy(run.simulation).motion;
+        const double drift = support_at(&run, t_end).energy.motion / start - 1.0;
+        const double evaluations = (double)ask_counts(run.simulation).evaluations;
         dem_method_traits method;
         assert_ok(dem_method_describe(&method, l->method));
         print_message("# %-10s %-6g %6.0f evaluations, %lld impacts: energy %+.2e\n", method.name, l->setting,

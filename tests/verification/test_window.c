@@ -4,6 +4,7 @@
  * at rtol 1e-12. */
 #include <stdlib.h>
 
+#include "harness/motion.h"
 #include "support.h"
 
 static const double g = 9.81, floor_points[4] = {-4.0, 0.0, 4.0, 0.0};
@@ -40,17 +41,17 @@ TEST(what_is_taken_together_rebounds_where_it_is)
     for (int k = 0; k < 2; k++) {
         CLEANUP(support_close) support_run run;
         open_masses(&run, 3, height, eta, k == 0 ? 1e-3 : 0.0);
-        const double start = dem_energy_ledger(dem_simulation_energy(run.simulation));
+        const double start = ask_energy(run.simulation).ledger;
         const double t = first + 0.1, own = sqrt(2.0 * height[1] / g);
         const double early = 1e-3 + eta * v * 0.1 - 0.5 * g * 0.01,
                      late = eta * g * own * (t - own) - 0.5 * g * (t - own) * (t - own);
-        const dem_state s = support_at(&run, t);
+        const motion s = support_at(&run, t);
         assert_close(s.x[1], eta * v * 0.1 - 0.5 * g * 0.01, 1e-11);
         assert_close(s.x[3], k == 0 ? early : late, 1e-11);
         assert_int_equal(run.n_impacts, 3);
-        assert_int_equal(dem_simulation_counts(run.simulation).early, k == 0 ? 1 : 0);
-        assert_int_equal(dem_simulation_counts(run.simulation).events, k == 0 ? 2 : 3);
-        assert_close(dem_energy_ledger(s.energy), start, 1e-10);
+        assert_int_equal(ask_counts(run.simulation).early, k == 0 ? 1 : 0);
+        assert_int_equal(ask_counts(run.simulation).events, k == 0 ? 2 : 3);
+        assert_close(s.energy.ledger, start, 1e-10);
     }
 }
 
@@ -62,9 +63,9 @@ TEST(what_is_taken_together_without_rebound_stays_above_until_it_has_fallen)
     CLEANUP(support_close) support_run run;
     open_masses(&run, 2, height, 0.0, 1e-3);
     assert_close(support_at(&run, first + 0.5 * fall).x[3], 1e-3 * 0.75, 1e-12);
-    assert_int_equal(dem_simulation_counts(run.simulation).closings, 1);
+    assert_int_equal(ask_counts(run.simulation).closings, 1);
     assert_close(support_at(&run, first + 2.0 * fall).x[3], 0.0, 1e-12);
-    assert_int_equal(dem_simulation_counts(run.simulation).closings, 2);
+    assert_int_equal(ask_counts(run.simulation).closings, 2);
     assert_int_equal(run.n_impacts, 3);
     assert_close(run.impacts[2].t, first + fall, 1e-11);
     assert_close(run.impacts[2].before[1], -sqrt(2.0 * g * 1e-3), 1e-10);
@@ -78,7 +79,7 @@ TEST(a_hop_of_less_than_twice_the_window_is_the_last)
     for (int k = 0; k < 2; k++) {
         CLEANUP(support_close) support_run run;
         open_masses(&run, 1, &height, 0.5, k == 0 ? 0.01 : 0.0);
-        const dem_state s = support_at(&run, 2.0);
+        const motion s = support_at(&run, 2.0);
         assert_close(s.x[1], 0.0, 1e-12);
         assert_int_equal(s.n_contacts, 1);
         if (k == 0) assert_int_equal(run.n_impacts, 6);
@@ -109,15 +110,15 @@ static double depth_below(const double *points, const double x[2])
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
     audit *a = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
-    const dem_body_motion body = dem_simulation_body(simulation, 0);
-    const dem_obstacle_load load = dem_simulation_obstacle(simulation, 0);
+    motion state;
+    motion_see(simulation, &state);
+    const dem_body_motion body = ask_body(simulation, 0);
+    const dem_obstacle_load load = ask_obstacle(simulation, 0);
     const double momentum[2] = {0.0, -g * state.t * a->mass};
     for (int d = 0; d < 2; d++)
         a->balance = fmax(a->balance, fabs(a->mass * (body.velocity[d] - a->v0[d]) - momentum[d] - load.impulse[d]));
-    a->drift = fmax(a->drift, fabs(dem_energy_ledger(state.energy) - a->start));
-    for (dem_index i = 0; i < dem_model_sizes(dem_simulation_model(simulation)).n_nodes; i++)
+    a->drift = fmax(a->drift, fabs(state.energy.ledger - a->start));
+    for (dem_index i = 0; i < ask_sizes(dem_simulation_model(simulation)).n_nodes; i++)
         a->deepest = fmax(a->deepest, depth_below(a->ground, &state.x[2 * i]));
     return DEM_OK;
 }
@@ -150,16 +151,16 @@ static double drop_block(double eta, double friction, double kappa, dem_counts *
     assert_ok(dem_lattice_launch(&lattice, speed));
     support_open(&run, &lattice, &rough, 1, &options);
     const double omega = dem_model_omega_max(run.model);
-    assert_close(dem_simulation_options(run.simulation).window, 0.1 / omega, 1e-15 / omega);
+    assert_close(ask_options(run.simulation).window, 0.1 / omega, 1e-15 / omega);
     support_close(&run);
     if (kappa >= 0.0) options.window = kappa / omega;
     support_open(&run, &lattice, &rough, 1, &options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    a.start = dem_energy_ledger(dem_simulation_energy(run.simulation));
+    a.start = ask_energy(run.simulation).ledger;
     a.mass = dem_model_mass(run.model);
     (void)support_at(&run, 6e-3);
-    const double scale = 0.5 * a.mass * 26.0, rise = dem_simulation_body(run.simulation, 0).velocity[1];
-    *counts = dem_simulation_counts(run.simulation);
+    const double scale = 0.5 * a.mass * 26.0, rise = ask_body(run.simulation, 0).velocity[1];
+    *counts = ask_counts(run.simulation);
     print_message("# eta %g, friction %g, kappa %g: rise %.5f m/s, %lld stops, %lld impacts, %lld early, deepest %.1e "
                   "spacings, drift %.1e, momentum %.1e, least taken %.1e\n",
                   eta, friction, kappa, rise, (long long)counts->events, (long long)counts->impacts,

@@ -9,7 +9,7 @@ enum { dim_most = STATE_DIM_MOST, most_numbers = 1024 };
 /* 5 nodes, 3 rows of padding, 3 impulses, 3 of friction, 2 rows of totals: checkpoints of states have them so. */
 TEST(two_components_stand_where_records_have_them)
 {
-    const state_layout l = state_layout_of(2, 5, 3);
+    const state_layout l = state_layout_of(2, 5, 3, false);
     assert_int_equal(l.n_nodes, 5);
     assert_int_equal(l.n_rows, 16);
     assert_int_equal(state_velocities(&l), 32);
@@ -21,6 +21,7 @@ TEST(two_components_stand_where_records_have_them)
     assert_int_equal(state_total_index(&l, STATE_DAMPING), 29);
     assert_int_equal(state_total_index(&l, STATE_WORK), 30);
     assert_int_equal(state_total_index(&l, STATE_TIME), 31); /* the last of all */
+    assert_false(state_has_total(&l, STATE_OBSTACLE));
 }
 
 TEST(velocities_begin_at_a_cache_line_behind_as_few_rows_as_will_do)
@@ -29,7 +30,7 @@ TEST(velocities_begin_at_a_cache_line_behind_as_few_rows_as_will_do)
     for (int dim = 2; dim <= dim_most; dim++)
         for (dem_index n = 1; n < 20; n++)
             for (dem_index obstacles = 0; obstacles < 6; obstacles++) {
-                const state_layout l = state_layout_of(dim, n, obstacles);
+                const state_layout l = state_layout_of(dim, n, obstacles, n % 2 == 0);
                 const dem_index padding = l.n_rows - n - state_n_quadratures(&l);
                 assert_int_equal(state_velocities(&l) % line, 0);
                 assert_true(padding >= 0 && padding < line);
@@ -48,14 +49,14 @@ static void count_uses(const state_layout *l, int *uses)
             uses[state_row(l, state_impulse(l, k)) + d]++;
             uses[state_row(l, state_friction_impulse(l, k)) + d]++;
         }
-    for (int which = 0; which < STATE_TOTALS; which++) uses[state_total_index(l, (state_total)which)]++;
+    for (int which = 0; which < l->n_totals; which++) uses[state_total_index(l, (state_total)which)]++;
 }
 
 TEST(nothing_shares_its_place)
 {
     for (int dim = 2; dim <= dim_most; dim++)
         for (dem_index obstacles = 0; obstacles < 4; obstacles++) {
-            const state_layout l = state_layout_of(dim, 7, obstacles);
+            const state_layout l = state_layout_of(dim, 7, obstacles, obstacles > 1);
             int uses[most_numbers] = {0};
             dem_index n = 0;
             assert_true(state_size(&l) <= most_numbers);
@@ -64,7 +65,7 @@ TEST(nothing_shares_its_place)
                 assert_true(uses[k] <= 1);
                 n += uses[k];
             }
-            assert_int_equal(n, dim * (7 + 2 * obstacles) + STATE_TOTALS);
+            assert_int_equal(n, dim * (7 + 2 * obstacles) + l.n_totals);
         }
 }
 
@@ -72,7 +73,7 @@ TEST(nothing_shares_its_place)
 TEST(values_are_those_at_their_indices)
 {
     for (int dim = 2; dim <= dim_most; dim++) {
-        const state_layout l = state_layout_of(dim, 7, 2);
+        const state_layout l = state_layout_of(dim, 7, 2, false);
         double y[most_numbers];
         for (dem_index k = 0; k < state_size(&l); k++) y[k] = (double)k;
         assert_close(state_x(&l, y, 3)[dim - 1], 4.0 * dim - 1.0, 0.0);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* candidate_resolve.c: every reset of a candidate on its own, without an integrator, and the ledger kept of it.
  * Numbers are worked out by hand; tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
+#include "harness/motion.h"
 #include "unit/resets.h"
 
 /* ---- ends of segments ---- */
@@ -391,7 +392,7 @@ TEST(a_nearly_straight_concave_bend_moves_the_node_by_no_more_than_rounding)
     const double x[2] = {ox + 0.5 * (c - turn * s), oy + 0.5 * (s + turn * c)}, v[2] = {-c, -s};
     support_run run;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
-    const dem_state now = support_at(&run, t);
+    const motion now = support_at(&run, t);
     const double along = (now.x[0] - ox) * c + (now.x[1] - oy) * s, lift = now.energy.projection;
     support_close(&run);
     assert_close(lift, 0.0, 1e-11);

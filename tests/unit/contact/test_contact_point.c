@@ -374,7 +374,7 @@ TEST(a_contact_reports_where_it_is_and_what_it_carries)
     check_vector((vec2){c.x[0], c.x[1]}, 0.25, 0.5, 0.0);
     check_vector((vec2){c.normal[0], c.normal[1]}, 0.0, 1.0, 1e-16); /* the cosine of pi/2 */
     assert_close(c.force, 7.0, 0.0);
-    assert_close(c.friction, -3.0, 0.0);
+    assert_close(c.friction[0], -3.0, 0.0);
     node->slide = 0;
     assert_int_equal(contact_point_describe(&b.scene, &b.candidates[1], 0, 0.0, b.x).state, DEM_CONTACT_STICK);
     node->slide = 1;

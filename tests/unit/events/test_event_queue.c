@@ -43,7 +43,11 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
                                .max_step = 0.1,
                                .storm_time = 1.0,
                                .max_impacts = 40,
-                               .layout = {2, lattice->n_nodes, 0, 1, lattice->n_nodes + 4}};
+                               .layout = {.dim = 2,
+                                          .n_nodes = lattice->n_nodes,
+                                          .n_obstacles = 1,
+                                          .n_totals = STATE_OBSTACLE,
+                                          .n_rows = lattice->n_nodes + 4}};
     *r = (rig){.n = lattice->n_nodes, .n_all = lattice->n_nodes + 4};
     assert_true(r->n <= most_nodes);
     assert_ok(dem_model_create(&r->model, lattice, &plane, 1));

@@ -55,7 +55,7 @@ static void derive(const step *s, automaton *c, double t, const double *y, doubl
     automaton_constrain(c, 0.0, y, a);
     const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
     for (dem_index k = 2 * s->n; k < n; k++) a[k] = 0.0;
-    (void)automaton_add_rates(c, 0.0, y, a);
+    automaton_add_rates(c, 0.0, y, a);
     a[state_total_index(l, STATE_DAMPING)] = forces_damping_power(&s->acting, y, v);
     a[state_total_index(l, STATE_WORK)] = work;
     a[state_total_index(l, STATE_TIME)] = 1.0;
@@ -169,7 +169,11 @@ static void make_contacts(step *s)
                                .storm_time = 1.0,
                                .max_impacts = 100,
                                .vertices = true,
-                               .layout = {2, s->n, 0, s->model->obstacles.n, s->n_all}};
+                               .layout = {.dim = 2,
+                                          .n_nodes = s->n,
+                                          .n_obstacles = s->model->obstacles.n,
+                                          .n_totals = STATE_OBSTACLE,
+                                          .n_rows = s->n_all}};
     s->acting = (forces){.model = s->model,
                          .gravity = {0.0, -9.81},
                          .mass_damping = s->kind.mass_damping,
@@ -573,7 +577,10 @@ TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
     const double h = 0.1, at = 0.04, m = 2.0, g = 9.81, mu = 0.3, v = 1.5, tau = h - at;
     const double points[4] = {-1.0, 0.0, 1.0, 0.0}, x[2] = {0.0, 0.0};
     const dem_obstacle ground = {.n_points = 2, .points = points, .friction = mu};
-    const contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h, .layout = {2, 1, 0, 1, 5}};
+    const contact_rule rule = {
+        .penetration_tolerance = 1e-8,
+        .max_step = h,
+        .layout = {.dim = 2, .n_nodes = 1, .n_obstacles = 1, .n_totals = STATE_OBSTACLE, .n_rows = 5}};
     double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, middle[STATE_DIM_MOST], error;
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(free_model) dem_model *model;

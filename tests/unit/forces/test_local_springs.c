@@ -29,7 +29,7 @@ static void open_rig(rig *r, double poissons_ratio)
     assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
     assert_ok(dem_lattice_assemble(&block, &rubber));
     assert_ok(dem_model_create(&r->model, &block, NULL, 0));
-    r->layout = state_layout_of(2, block.n_nodes, 0);
+    r->layout = state_layout_of(2, block.n_nodes, 0, false);
     r->acting = (forces){.model = r->model, .gravity = {0.0, -9.81}, .mass_damping = 3.0};
     const size_t size = (size_t)state_size(&r->layout);
     r->y = calloc(4 * size, sizeof *r->y);

@@ -34,7 +34,7 @@ static dem_model *make_model(dem_lattice *lattice)
 TEST(a_regular_block_is_measured_exactly)
 {
     const double nu = 0.1, E = 1e7, G = 0.5 * E / (1.0 + nu), C11 = E / (1.0 - nu * nu);
-    dem_constants c;
+    dem_constants c = {.struct_size = sizeof c};
     dem_lattice lattice = make_body(nu, 1e7);
     const double volume = 0.5 * (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing;
     CLEANUP(free_model) dem_model *model = make_model(&lattice);
@@ -53,7 +53,7 @@ TEST(a_regular_block_is_measured_exactly)
 TEST(bodies_are_measured_apart_fixed_nodes_or_not)
 {
     const double away[2] = {0.2, 0.1};
-    dem_constants soft, stiff;
+    dem_constants soft = {.struct_size = sizeof soft}, stiff = {.struct_size = sizeof stiff};
     dem_lattice lattice = make_body(1.0 / 3.0, 1e7), other = make_body(0.2, 3e7);
     dem_lattice_move(&other, 0.4, away);
     other.flags = calloc((size_t)other.n_nodes, 1);
@@ -79,7 +79,7 @@ static int is_outside(void *context, const double x[2])
 /* Pores do not count, since their rims are held: the material's constants. */
 TEST(a_hole_does_not_change_the_material)
 {
-    dem_constants c;
+    dem_constants c = {.struct_size = sizeof c};
     dem_lattice lattice = make_rectangle(0.08, 0.07, spacing);
     const dem_index n = lattice.n_nodes;
     assert_ok(dem_lattice_cut(&lattice, is_outside, NULL));
@@ -127,7 +127,7 @@ TEST(an_irregular_body_has_the_energy_of_a_dense_factorization)
 {
     static const double strains[4][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {0.5, -0.3, 0.8}};
     uint32_t random = 1;
-    dem_constants c;
+    dem_constants c = {.struct_size = sizeof c};
     dem_lattice lattice = make_body(0.45, 1e7);
     unsigned char inside[200];
     for (dem_index k = 0; k < lattice.n_springs; k++) {

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "ask.h"
 #include "forces/forces.h"
 
 enum { n_nodes = 4, n_springs = 5, n_triangles = 2 };
@@ -248,7 +249,7 @@ TEST(a_node_without_springs_must_be_a_body_of_its_own)
     s.lattice.body = s.body;
     s.body[3] = 1;
     CLEANUP(free_model) dem_model *model = compile(&s);
-    assert_int_equal(dem_model_sizes(model).n_bodies, 2);
+    assert_int_equal(ask_sizes(model).n_bodies, 2);
 }
 
 TEST(body_numbers_have_no_holes)
@@ -281,7 +282,7 @@ TEST(absent_arrays_get_their_defaults)
     const dem_lattice *l = dem_model_lattice(model);
     assert_memory_equal(l->position, s.x, sizeof s.x);
     assert_null(l->viscosity);
-    assert_null(dem_model_csr(model).viscosity);
+    assert_null(ask_csr(model).viscosity);
     for (int k = 0; k < 2 * n_nodes; k++) assert_close(l->velocity[k], 0.0, 0.0);
     for (int i = 0; i < n_nodes; i++) {
         assert_int_equal(l->body[i], 0);
@@ -307,7 +308,7 @@ TEST(by_default_the_boundary_may_touch)
         assert_int_equal(dem_model_lattice(model)->flags[i], outer ? DEM_NODE_CONTACT : 0);
         if (outer) assert_int_equal(model->surface.nodes[n++], i);
     }
-    assert_int_equal(dem_model_sizes(model).n_contact_nodes, n);
+    assert_int_equal(ask_sizes(model).n_contact_nodes, n);
     assert_true(n < lattice.n_nodes);
 }
 
@@ -376,12 +377,12 @@ TEST(sizes_and_csr_tell_what_is_there)
     make_square(&s);
     s.lattice.viscosity = s.viscosity;
     assert_ok(dem_model_create(&model, &s.lattice, obstacles, 2));
-    const dem_model_size size = dem_model_sizes(model);
+    const dem_model_size size = ask_sizes(model);
     const dem_index expected[7] = {n_nodes, n_springs, n_triangles, 1, n_nodes, 2, 3};
     const dem_index actual[7] = {size.n_nodes,         size.n_springs,   size.n_triangles, size.n_bodies,
                                  size.n_contact_nodes, size.n_obstacles, size.n_segments};
     for (int k = 0; k < 7; k++) assert_int_equal(actual[k], expected[k]);
-    const dem_csr csr = dem_model_csr(model);
+    const dem_csr csr = ask_csr(model);
     assert_int_equal(csr.n_nodes, n_nodes);
     assert_memory_equal(csr.row, row, sizeof row);
     assert_memory_equal(csr.neighbour, neighbour, sizeof neighbour);

@@ -8,6 +8,7 @@
 
 #include "forces/forces.h"
 #include "harness/cleanup_gsl.h"
+#include "ask.h"
 #include "unit/solids.h"
 
 static double *copy_positions(const dem_model *model)
@@ -131,7 +132,7 @@ TEST(the_sum_over_nodes_is_that_of_r_times_f)
 {
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     CLEANUP(free_model) dem_model *model = make_holed(0.0, 1.0 / 3.0);
-    const dem_csr csr = dem_model_csr(model);
+    const dem_csr csr = ask_csr(model);
     for (int trial = 0; trial < 5; trial++) {
         double *x = stir(model, 0.9, 0.2, rng), total[3], expected[3] = {0.0, 0.0, 0.0}, size = 0.0;
         for (dem_index i = 0; i < csr.n_nodes; i++)

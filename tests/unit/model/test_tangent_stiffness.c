@@ -11,6 +11,7 @@
 
 #include "forces/forces.h"
 #include "harness/cleanup_gsl.h"
+#include "ask.h"
 #include "model/tangent_stiffness.h"
 
 static const double spacing = 0.01;
@@ -70,7 +71,7 @@ TEST(it_is_the_derivative_of_the_forces_about_any_state)
             above[k] = x[k] + step * u[k];
             below[k] = x[k] - step * u[k];
         }
-        assert_true(dem_model_sizes(model).n_triangles > 0);
+        assert_true(ask_sizes(model).n_triangles > 0);
         tangent_apply(model, x, u, out);
         for (dem_index i = 0; i < n; i++) {
             const vec2 change =

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "harness/cleanup_hdf5.h"
+#include "ask.h"
 #include "output/history.h"
 
 enum { most_cells = 1 << 14 };
@@ -149,9 +150,9 @@ static dem_status record_step(void *context, const dem_simulation *simulation)
 {
     flight *f = context;
     history_record(&f->history, simulation);
-    f->counts = dem_simulation_counts(simulation);
-    f->energy = dem_simulation_energy(simulation);
-    for (dem_index o = 0; o < 2; o++) f->load[o] = dem_simulation_obstacle(simulation, o);
+    f->counts = ask_counts(simulation);
+    f->energy = ask_energy(simulation);
+    for (dem_index o = 0; o < 2; o++) f->load[o] = ask_obstacle(simulation, o);
     return DEM_OK;
 }
 

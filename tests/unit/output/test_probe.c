@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "output/probe.h"
+#include "harness/motion.h"
 #include "unit/solids.h"
 
 enum { n_kinds = 3, most_steps = 200 };
@@ -26,10 +27,10 @@ typedef struct journal {
 static dem_status note(void *context, const dem_simulation *simulation)
 {
     journal *j = context;
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     double strains[64], stress[3 * 64];
     assert_true(j->n < most_steps);
-    dem_simulation_state(simulation, &state);
+    motion_see(simulation, &state);
     dem_simulation_strains(simulation, strains);
     dem_simulation_stress(simulation, stress);
     for (int k = 0; k < 2; k++) /* an instant counts once */

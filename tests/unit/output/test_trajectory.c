@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* trajectory.c, history.c, hdf5_file.c: what a run leaves on disk, looked at through HDF5 itself. */
 #include "harness/cleanup_hdf5.h"
+#include "harness/motion.h"
 #include "unit/close.h"
 
 #include <dem/trajectory.h>
@@ -184,8 +185,8 @@ static void assert_last_frame_is_the_state(const run *r, hsize_t n_frames, doubl
     const table points = read_table(r->path, "/VTKHDF/Points");
     const table moved = read_table(r->path, "/VTKHDF/PointData/displacement");
     const table velocity = read_table(r->path, "/VTKHDF/PointData/velocity");
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(r->simulation, &state);
+    motion state;
+    motion_see(r->simulation, &state);
     assert_int_equal(points.extent[0], n * n_frames);
     assert_int_equal(points.extent[1], 3);
     for (hsize_t k = 0; k < 3 * n; k++) {
@@ -206,7 +207,7 @@ static void assert_last_strain_is_the_states(const run *r, hsize_t n_frames, dou
     const hsize_t m = (hsize_t)lattice->n_springs, first = m * (n_frames - 1);
     const table strain = read_table(r->path, "/VTKHDF/CellData/strain");
     const table force = read_table(r->path, "/VTKHDF/CellData/force");
-    const dem_strain extremes = dem_simulation_strain(r->simulation);
+    const dem_strain extremes = ask_strain(r->simulation);
     assert_int_equal(strain.extent[0], m * n_frames);
     double least = INFINITY, most = -INFINITY;
     for (hsize_t k = first; k < first + m; k++) {
@@ -242,7 +243,7 @@ TEST(offsets_tell_where_a_frame_begins)
 {
     const dem_trajectory_options options = every_frame();
     CLEANUP(end) run r = begin(&options);
-    const dem_model_size size = dem_model_sizes(r.model);
+    const dem_model_size size = ask_sizes(r.model);
     const struct {
         const char *name;
         dem_index per_frame;
@@ -285,8 +286,8 @@ TEST(a_frame_is_not_written_twice)
 static dem_status look_at_part(void *context, const dem_simulation *simulation)
 {
     run *r = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     const int64_t n = count_steps(r->part);
     assert_close(read_cell(r->part, "/VTKHDF/Steps/Values", (hsize_t)n - 1), state.t, 0.0);
     assert_true(read_cell(r->part, "/history/t", count_rows(r->part, "/history/t") - 1) <= state.t);

@@ -18,6 +18,7 @@
 #include "base/checkpoint_entries.h"
 #include "harness/cleanup_hdf5.h"
 #include "output/hdf5_file.h"
+#include "ask.h"
 #include "unit/solids.h"
 
 static const double interval = 2e-4, end = 30e-4;
@@ -405,7 +406,7 @@ static void assert_begins_at(const place *p, const char *name, const char *datas
 /* As ParaView sees it: offsets count within the file. */
 static void assert_is_whole(const place *p, const char *name)
 {
-    const dem_index frames = count_rows(p, name, "/VTKHDF/Steps/Values"), n = dem_model_sizes(p->model).n_nodes;
+    const dem_index frames = count_rows(p, name, "/VTKHDF/Steps/Values"), n = ask_sizes(p->model).n_nodes;
     const hdf5_rows rows = {"/VTKHDF/Steps/PointOffsets", HDF5_I64, 1, {0, 0}, 0, 0};
     char text[16];
     CLEANUP(dem_lattice_free) dem_lattice lattice;

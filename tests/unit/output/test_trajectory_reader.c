@@ -13,6 +13,7 @@
 
 #include "harness/cleanup_hdf5.h"
 #include "output/hdf5_file.h"
+#include "harness/motion.h"
 #include "unit/solids.h"
 
 static const double interval = 1e-4;
@@ -49,9 +50,9 @@ static double *copy_of(const double *values, dem_index n)
 static dem_status see_frame(void *context, const dem_simulation *simulation)
 {
     run *r = context;
-    const dem_model_size size = dem_model_sizes(r->model);
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    const dem_model_size size = ask_sizes(r->model);
+    motion state;
+    motion_see(simulation, &state);
     assert_true(r->n_shots < MOST_SHOTS);
     shot *s = &r->shots[r->n_shots++];
     s->t = state.t;
@@ -189,7 +190,7 @@ static void assert_shown(const dem_reader *reader, const char *name, dem_index f
 
 static void assert_frame(const dem_reader *reader, const run *r, dem_index frame, double roundings)
 {
-    const dem_model_size size = dem_model_sizes(r->model);
+    const dem_model_size size = ask_sizes(r->model);
     const shot *s = &r->shots[frame];
     const dem_index n = size.n_nodes;
     double *x = copy_of(NULL, 2 * n), *spread = copy_of(NULL, 6 * n), direction[2];
@@ -383,7 +384,7 @@ TEST(tables_are_what_hdf5_finds)
         }
     }
     assert_int_equal(tables, 7); /* frames, history, events, two probes, two lists */
-    assert_int_equal(n, 11 + 43 + 15 + 5 + 3 + 5 + 5);
+    assert_int_equal(n, 14 + 46 + 15 + 5 + 3 + 5 + 5);
 }
 
 static void expect_column(const dem_reader *reader, const dem_reader_column *expected)
@@ -523,9 +524,9 @@ TEST(segment_and_part_follow_each_other)
     assert_int_equal(n[0] + n[1], 11);
     assert_true(first[0] == 0.0 && then[0] == r.shots[n[0]].t);
     assert_frame(segment, &r, n[0] - 1, 0.0);
-    CLEANUP(free_memory) double *x = copy_of(NULL, 2 * dem_model_sizes(r.model).n_nodes);
+    CLEANUP(free_memory) double *x = copy_of(NULL, 2 * ask_sizes(r.model).n_nodes);
     assert_ok(dem_reader_positions(part, 0, x));
-    assert_memory_equal(x, r.shots[n[0]].x, 2 * (size_t)dem_model_sizes(r.model).n_nodes * sizeof *x);
+    assert_memory_equal(x, r.shots[n[0]].x, 2 * (size_t)ask_sizes(r.model).n_nodes * sizeof *x);
 }
 
 TEST(what_is_not_there_cannot_be_read)
@@ -752,7 +753,7 @@ TEST(other_arrays_and_uneven_tables_are_read)
     const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
     make(&r, &options);
-    const dem_index n = dem_model_sizes(r.model).n_springs;
+    const dem_index n = ask_sizes(r.model).n_springs;
     hdf5_file file;
     double values[11], *mine = copy_of(NULL, 2 * n);
     for (dem_index k = 0; k < 2 * n; k++) mine[k] = (double)k;

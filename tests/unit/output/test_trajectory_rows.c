@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "output/trajectory_rows.h"
+#include "ask.h"
 #include "unit/solids.h"
 
 static const dem_probe probes[] = {{"node", DEM_PROBE_NODE, {0, 0}, 1}, {"gauge", DEM_PROBE_GAUGE, {0, 3}, 2}};
@@ -93,7 +94,7 @@ TEST(rows_go_behind_those_that_are_there)
     }
     assert_ok(trajectory_rows_count(&s->rows, &other.file, spans));
     for (int k = 0; k < n_kinds; k++) assert_int_equal(spans[k].count, k == ROWS_EVENTS ? 4 : 2);
-    const hsize_t n = (hsize_t)dem_model_sizes(s->run.model).n_nodes;
+    const hsize_t n = (hsize_t)ask_sizes(s->run.model).n_nodes;
     assert_close(stored_values(&other, "/VTKHDF/Steps/PointOffsets", 2, 1, 8)[1], (double)n, 0.0);
     const double *points = stored_values(&other, "/VTKHDF/Points", 2 * n, 3, 8);
     for (hsize_t k = 0; k < 3 * n; k++) assert_close(points[3 * n + k], points[k], 0.0);

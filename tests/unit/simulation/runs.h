@@ -3,6 +3,7 @@
 #ifndef DEM_TEST_RUNS_H
 #define DEM_TEST_RUNS_H
 
+#include "harness/motion.h"
 #include "verification/support.h"
 
 #include <string.h>
@@ -87,15 +88,15 @@ typedef struct snapshot {
 
 static inline snapshot snap(const dem_simulation *simulation)
 {
-    snapshot s = {.n = 2 * dem_model_sizes(dem_simulation_model(simulation)).n_nodes};
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    snapshot s = {.n = 2 * ask_sizes(dem_simulation_model(simulation)).n_nodes};
+    motion state;
+    motion_see(simulation, &state);
     assert_true(s.n <= 80);
     s.t = state.t;
     memcpy(s.y, state.x, (size_t)s.n * sizeof(double));
     memcpy(s.y + s.n, state.v, (size_t)s.n * sizeof(double));
     s.energy = state.energy;
-    s.counts = dem_simulation_counts(simulation);
+    s.counts = ask_counts(simulation);
     return s;
 }
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "simulation/checkpoint.h"
+#include "ask.h"
 #include "simulation/query.h"
 
 /* A rectangle that stands on two apexes and touches nothing else: edges may close. */
@@ -58,7 +59,7 @@ static void same_candidate(const contact_candidate *a, const contact_candidate *
 static void same_memory(const dem_simulation *a, const dem_simulation *b)
 {
     const contact_set *c = &a->automaton.set, *d = &b->automaton.set;
-    const dem_counts n = dem_simulation_counts(a), m = dem_simulation_counts(b);
+    const dem_counts n = ask_counts(a), m = ask_counts(b);
     for (dem_index k = 0; k < c->n; k++) same_candidate(&c->list[k], &d->list[k]);
     assert_close(a->t, b->t, 0.0);
     assert_close(a->step, b->step, 0.0);
@@ -89,7 +90,7 @@ TEST(everything_comes_back)
     p.from->in_hand = false; /* goes on from the start of the step in hand */
     p.from->automaton.idle = 3;
     p.from->unlooked = 5;
-    p.from->overlap.found = (dem_overlap){1, 2, 0.25, 3, 4, {5.0, 6.0}};
+    p.from->overlap.found = (dem_overlap){.now = 1, .most = 2, .t = 0.25, .node = 3, .triangle = 4, .x = {5.0, 6.0}};
     c->list[0].storm.n = 7;
     c->list[0].storm.start = 0.125;
     assert_ok(integrator_restart(&p.from->integrator, p.from->t, p.from->y));

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/motion.h"
 #include "unit/solids.h"
 
 enum { most_nodes = 64, most_springs = 160 };
@@ -18,10 +19,10 @@ typedef struct witness {
 static dem_status watch(void *context, const dem_simulation *simulation)
 {
     witness *w = context;
-    dem_state state = {.struct_size = sizeof state};
+    motion state;
     double stress[3 * most_nodes], strain[most_springs];
     if (w->calls++ % w->every != 0) return DEM_OK;
-    dem_simulation_state(simulation, &state);
+    motion_see(simulation, &state);
     dem_simulation_stress(simulation, stress);
     dem_simulation_strains(simulation, strain);
     for (dem_index i = 0; i < w->n_nodes; i++) {

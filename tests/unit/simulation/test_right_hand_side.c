@@ -2,6 +2,7 @@
 /* right_hand_side.c: derivatives, fused steps and root functions as the integrator calls them. */
 #include "runs.h"
 
+#include "harness/motion.h"
 #include "simulation/right_hand_side.h"
 
 enum { MOST = 256 };
@@ -164,7 +165,7 @@ TEST(steps_in_one_pass_are_those_in_parts)
             CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
             assert_ok(dem_simulation_advance(simulation, t_whole));
             run[in_parts] = snap(simulation);
-            load[in_parts] = dem_simulation_obstacle(simulation, 0);
+            load[in_parts] = ask_obstacle(simulation, 0);
         }
         assert_true(run[0].counts.impacts > 3);
         if (!elastic) assert_true(run[0].counts.releases > 0);
@@ -180,14 +181,14 @@ TEST(nodes_that_coincide_end_the_run_with_the_node_named)
     const dem_options options = dem_options_default();
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
-    dem_state now = {.struct_size = sizeof now};
+    motion now;
     support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 10.0, NULL);
     support_start(&lattice, start, NULL);
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(dem_simulation_advance(simulation, 1.0), DEM_ERROR_INTEGRATOR);
     assert_string_equal(dem_status_message(), "force or velocity of node 0 is not finite at (0.5, 0.25) m, t = 0 s");
-    dem_simulation_state(simulation, &now);
+    motion_see(simulation, &now);
     assert_close(now.t, 0.0, 0.0);
     assert_close(now.x[0], 0.5, 0.0);
     end_run(simulation, model);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/motion.h"
 #include "unit/scratch.h"
 
 static const double g = 9.81, mass = 2.0;
@@ -19,7 +20,7 @@ static void open_point(support_run *run, double restitution)
 
 static double ledger(const support_run *run)
 {
-    return dem_energy_ledger(dem_simulation_energy(run->simulation));
+    return ask_energy(run->simulation).ledger;
 }
 
 /* From any instant on it goes as from a start there, and what that takes is counted as work. */
@@ -29,11 +30,11 @@ TEST(a_node_goes_on_from_where_it_is_put)
     CLEANUP(support_close) support_run run;
     open_point(&run, 0.5);
     const double start = ledger(&run);
-    const dem_state before = support_at(&run, 0.3);
+    const motion before = support_at(&run, 0.3);
     const double had = 0.5 * mass * before.v[1] * before.v[1] + mass * g * before.x[1];
     assert_ok(dem_simulation_set_motion(run.simulation, x, v));
-    dem_state s = {.struct_size = sizeof s};
-    dem_simulation_state(run.simulation, &s);
+    motion s;
+    motion_see(run.simulation, &s);
     assert_memory_equal(s.x, x, sizeof x);
     assert_memory_equal(s.v, v, sizeof v);
     assert_close(s.t, 0.3, 0.0);
@@ -55,7 +56,7 @@ TEST(the_start_may_be_another)
     open_point(&run, 0.5);
     const double start = ledger(&run);
     assert_ok(dem_simulation_set_motion(run.simulation, NULL, v));
-    const dem_state s = support_at(&run, 0.2);
+    const motion s = support_at(&run, 0.2);
     assert_close(s.x[0], 0.3, 1e-13);
     assert_close(s.x[1], 1.0 - 0.5 * g * 0.04, 1e-12);
     assert_close(ledger(&run), start, 1e-12);
@@ -67,10 +68,10 @@ TEST(contacts_are_found_anew)
     const double up[2] = {0.0, 0.5}, down[2] = {1.0, 0.0}, still[2] = {0.0, 0.0};
     CLEANUP(support_close) support_run run;
     open_point(&run, 0.0);
-    dem_state s = support_at(&run, 1.0);
+    motion s = support_at(&run, 1.0);
     assert_int_equal(s.n_contacts, 1);
     assert_ok(dem_simulation_set_motion(run.simulation, up, still));
-    dem_simulation_state(run.simulation, &s);
+    motion_see(run.simulation, &s);
     assert_int_equal(s.n_contacts, 0);
     s = support_at(&run, 1.1);
     assert_close(s.x[1], 0.5 - 0.5 * g * 0.01, 1e-12);
@@ -124,7 +125,7 @@ TEST(what_cannot_be_is_refused_and_changes_nothing)
     const dem_observer observer = {.step = set_from_within, .context = &run.simulation};
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     refuse(NULL, NULL, NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
-    const dem_state now = support_at(&run, 0.1);
+    const motion now = support_at(&run, 0.1);
     double x[6], v[6];
     memcpy(x, now.x, sizeof x);
     memcpy(v, now.v, sizeof v);
@@ -151,7 +152,7 @@ TEST(what_cannot_be_is_refused_and_changes_nothing)
     assert_int_equal(dem_simulation_set_motion(run.simulation, x, v), DEM_ERROR_MODEL);
     assert_non_null(
         strstr(dem_status_message(), "starts 0.01 m inside obstacle 0, deeper than the penetration tolerance"));
-    const dem_state a = support_at(&run, 0.5), b = support_at(&untouched, 0.5);
+    const motion a = support_at(&run, 0.5), b = support_at(&untouched, 0.5);
     assert_memory_equal(a.x, b.x, sizeof x);
     assert_memory_equal(a.v, b.v, sizeof v);
     assert_memory_equal(&a.energy, &b.energy, sizeof a.energy);
@@ -164,7 +165,7 @@ TEST(what_cannot_be_is_refused_and_changes_nothing)
 
 static dem_simulation *resumed(const support_run *run, const dem_checkpoint *checkpoint)
 {
-    const dem_options options = dem_simulation_options(run->simulation);
+    const dem_options options = ask_options(run->simulation);
     dem_simulation *simulation;
     assert_ok(dem_simulation_resume(&simulation, run->model, &options, checkpoint));
     return simulation;
@@ -172,10 +173,10 @@ static dem_simulation *resumed(const support_run *run, const dem_checkpoint *che
 
 static void same(const dem_simulation *a, const dem_simulation *b)
 {
-    const size_t size = 2 * (size_t)dem_model_sizes(dem_simulation_model(a)).n_nodes * sizeof(double);
-    dem_state one = {.struct_size = sizeof one}, other = {.struct_size = sizeof other};
-    dem_simulation_state(a, &one);
-    dem_simulation_state(b, &other);
+    const size_t size = 2 * (size_t)ask_sizes(dem_simulation_model(a)).n_nodes * sizeof(double);
+    motion one, other;
+    motion_see(a, &one);
+    motion_see(b, &other);
     assert_close(one.t, other.t, 0.0);
     assert_memory_equal(one.x, other.x, size);
     assert_memory_equal(one.v, other.v, size);
@@ -192,7 +193,7 @@ TEST(a_record_is_of_one_motion)
     CLEANUP(dem_lattice_free) dem_lattice block;
     CLEANUP(free_checkpoint) dem_checkpoint *before, *after;
     CLEANUP(support_close) support_run run;
-    dem_state s = {.struct_size = sizeof s};
+    motion s;
     (void)scratch_file("a.checkpoint.prev");
     support_block(&block);
     for (dem_index i = 0; i < block.n_nodes; i++) block.position[2 * i + 1] += lift[1] + 1e-3;
@@ -204,7 +205,7 @@ TEST(a_record_is_of_one_motion)
     assert_ok(dem_simulation_advance(old, 6e-3)); /* what was to come */
     assert_ok(dem_checkpoint_write(dem_simulation_checkpoint(run.simulation), path));
     assert_ok(dem_checkpoint_read(&before, path));
-    dem_simulation_state(run.simulation, &s);
+    motion_see(run.simulation, &s);
     CLEANUP(free_memory) double *v = malloc(2 * (size_t)block.n_nodes * sizeof *v);
     assert_non_null(v);
     for (dem_index k = 0; k < 2 * block.n_nodes; k++) v[k] = s.v[k] + (k % 2 == 0 ? 0.5 : 0.3);
@@ -240,14 +241,14 @@ TEST(a_state_is_taken_over)
     support_open(&to, &block, NULL, 0, &options);
     assert_ok(dem_simulation_advance(to.simulation, 3.3e-4));
     const double start = ledger(&to);
-    dem_state s = support_at(&from, 1e-3);
+    motion s = support_at(&from, 1e-3);
     assert_ok(dem_simulation_set_motion(to.simulation, s.x, s.v));
-    const dem_state a = support_at(&from, 2e-3), b = support_at(&to, 1.33e-3);
+    const motion a = support_at(&from, 2e-3), b = support_at(&to, 1.33e-3);
     for (dem_index k = 0; k < 2 * block.n_nodes; k++) {
         assert_close(b.x[k], a.x[k], 1e-9);
         assert_close(b.v[k], a.v[k], 1e-5);
     }
-    assert_close(ledger(&to), start, 1e-7 * dem_energy_motion(a.energy));
+    assert_close(ledger(&to), start, 1e-7 * a.energy.motion);
 }
 
 TEST_GROUP(scratch_make, scratch_remove);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* setup.c: what is refused, what is in force, and that simulations of one model are independent. */
+#include "ask.h"
 #include "runs.h"
 
 static void refuse(const dem_model *model, const dem_options *options, const char *message)
@@ -69,7 +70,7 @@ TEST(the_options_in_force_have_no_defaults_left)
     const dem_options asked = dem_options_default();
     dem_model *model = make_falling(0.5);
     dem_simulation *simulation = simulate(model, &asked);
-    const dem_options options = dem_simulation_options(simulation);
+    const dem_options options = ask_options(simulation);
     assert_close(options.spacing, dem_model_spacing(model), 0.0);
     assert_close(options.max_step, 0.5 / dem_model_omega_max(model), 0.0);
     assert_close(options.v_scale, hypot(0.5, 4.0), 1e-14);
@@ -88,10 +89,10 @@ TEST(methods_without_error_estimate_take_steps_of_one_length)
         options.method = methods[k];
         assert_ok(dem_method_describe(&traits, options.method));
         CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
-        const double step = dem_simulation_options(simulation).fixed_step;
+        const double step = ask_options(simulation).fixed_step;
         assert_ok(dem_simulation_advance(simulation, 20.5 * step));
-        assert_int_equal(dem_simulation_counts(simulation).steps, 21);
-        assert_int_equal(dem_simulation_counts(simulation).evaluations, 21 * traits.evaluations + 1);
+        assert_int_equal(ask_counts(simulation).steps, 21);
+        assert_int_equal(ask_counts(simulation).evaluations, 21 * traits.evaluations + 1);
     }
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* simulation.c: the time loop, observers, and that the way a run is cut leaves no trace in it. */
+#include "harness/motion.h"
 #include "runs.h"
 
 #include <stdio.h>
@@ -38,7 +39,7 @@ TEST(kernels_and_threads_leave_no_trace_in_the_run)
                 options.threads = threads;
                 if (dem_kernel_check(kind) != DEM_OK) continue;
                 CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
-                assert_true(kind == DEM_KERNEL_AUTO || dem_simulation_options(simulation).kernel == kind);
+                assert_true(kind == DEM_KERNEL_AUTO || ask_options(simulation).kernel == kind);
                 assert_ok(dem_simulation_advance(simulation, t_whole));
                 const snapshot other = snap(simulation);
                 assert_same(&other, &usual);
@@ -52,13 +53,13 @@ TEST(the_energy_ledger_closes)
     const dem_options options = dem_options_default();
     dem_model *model = make_falling(0.5);
     dem_simulation *simulation = simulate(model, &options);
-    const dem_energy start = dem_simulation_energy(simulation);
+    const dem_energy start = ask_energy(simulation);
     const double initial = start.kinetic + start.gravity;
     assert_ok(dem_simulation_advance(simulation, t_whole));
-    const dem_energy e = dem_simulation_energy(simulation);
+    const dem_energy e = ask_energy(simulation);
     assert_true(e.impact > 0.001 * initial);
     assert_true(e.elastic > 0.0);
-    assert_close(dem_energy_ledger(e), initial, 2e-3 * initial);
+    assert_close(e.ledger, initial, 2e-3 * initial);
     end_run(simulation, model);
 }
 
@@ -84,8 +85,8 @@ static void enter(diary *d, char kind, double t)
 static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     diary *d = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     enter(d, 'f', state.t);
     assert_true(d->n_frames < 64);
     d->frame_x[d->n_frames] = state.x[1];
@@ -96,8 +97,8 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 static dem_status on_step(void *context, const dem_simulation *simulation)
 {
     diary *d = context;
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
+    motion state;
+    motion_see(simulation, &state);
     enter(d, 's', state.t);
     return ++d->n_steps == d->stop_at_step ? DEM_STOPPED : DEM_OK;
 }
@@ -176,7 +177,7 @@ TEST(observers_see_everything_in_the_order_of_time)
     watch(simulation, &first, t_whole / 20.0);
     watch(simulation, &second, t_whole / 7.0);
     assert_ok(dem_simulation_advance(simulation, t_whole));
-    const dem_counts counts = dem_simulation_counts(simulation);
+    const dem_counts counts = ask_counts(simulation);
     assert_int_equal(first.n_frames, 21);
     assert_int_equal(second.n_frames, 8);
     assert_int_equal(first.n_impacts, counts.impacts);
@@ -211,11 +212,11 @@ TEST(an_impact_at_the_start_comes_before_everything_else)
     const double v[2] = {1.0, -2.0};
     const dem_options options = point_options();
     diary d;
-    dem_state now = {.struct_size = sizeof now};
+    motion now;
     dem_model *model = make_point_at(0.0, v, 0.5);
     dem_simulation *simulation = observed(model, &options, &d, 0.1);
     assert_ok(dem_simulation_advance(simulation, 0.0));
-    dem_simulation_state(simulation, &now);
+    motion_see(simulation, &now);
     assert_close(now.v[1], 1.0, 0.0);
     assert_memory_equal(d.kind, "isf", 3);
     assert_close(d.t[0], 0.0, 0.0);
@@ -280,10 +281,9 @@ TEST(time_does_not_run_backwards)
     assert_int_equal(dem_simulation_advance(simulation, 0.125), DEM_ERROR_ARGUMENT);
     assert_string_equal(dem_status_message(), "t_end = 0.125 s is before the present time 0.25 s");
     assert_int_equal(dem_simulation_advance(simulation, (double)INFINITY), DEM_ERROR_ARGUMENT);
-    dem_state now = {.struct_size = sizeof now};
-    dem_simulation_state(simulation, &now);
+    motion now;
+    motion_see(simulation, &now);
     assert_close(now.t, 0.25, 0.0);
-    assert_int_equal(now.struct_size, sizeof now);
     end_run(simulation, model);
 }
 
@@ -295,22 +295,22 @@ TEST(a_body_without_forces_drifts_in_a_straight_line)
     dem_options options = dem_options_default();
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
-    dem_state now = {.struct_size = sizeof now};
+    motion now;
     options.gravity[1] = 0.0;
     make_rectangle(&lattice, 0.0);
     assert_ok(dem_lattice_launch(&lattice, v));
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 0.01));
-    dem_simulation_state(simulation, &now);
+    motion_see(simulation, &now);
     for (dem_index k = 0; k < 2 * lattice.n_nodes; k++) {
         assert_close(now.x[k], lattice.x[k] + 0.01 * v[k % 2], 1e-12);
         assert_close(now.v[k], v[k % 2], 1e-9);
     }
-    const dem_body_motion body = dem_simulation_body(simulation, 0);
+    const dem_body_motion body = ask_body(simulation, 0);
     assert_close(body.velocity[0], 3.0, 1e-13); /* forces cancel in the sum */
     assert_close(body.velocity[1], -2.0, 1e-13);
-    assert_close(dem_simulation_strain(simulation).max, 0.0, 1e-10);
+    assert_close(ask_strain(simulation).max, 0.0, 1e-10);
     end_run(simulation, model);
 }
 
@@ -318,12 +318,12 @@ TEST(a_single_node_without_forces_drifts_exactly)
 {
     const double v[2] = {0.75, 0.5};
     dem_options options = point_options();
-    dem_state now = {.struct_size = sizeof now};
+    motion now;
     options.gravity[1] = 0.0;
     dem_model *model = make_point(v, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 4.0));
-    dem_simulation_state(simulation, &now);
+    motion_see(simulation, &now);
     assert_close(now.x[0], 3.0, 1e-14); /* rounding of 140 steps */
     assert_close(now.x[1], 3.0, 1e-14);
     assert_close(now.v[0], 0.75, 0.0);
@@ -337,7 +337,7 @@ TEST(fixed_nodes_do_not_move)
     const dem_options options = dem_options_default();
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
-    dem_state now = {.struct_size = sizeof now};
+    motion now;
     dem_index n_fixed = 0, n_moved = 0;
     make_rectangle(&lattice, 0.0);
     assert_ok(dem_lattice_launch(&lattice, down));
@@ -348,7 +348,7 @@ TEST(fixed_nodes_do_not_move)
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 3e-3));
-    dem_simulation_state(simulation, &now);
+    motion_see(simulation, &now);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         if (lattice.flags[i] & DEM_NODE_FIXED) {
             n_fixed++;
@@ -370,7 +370,7 @@ TEST(a_storm_of_impacts_ends_the_run)
 {
     const double v[2] = {0.0, -100.0};
     dem_options options = point_options();
-    dem_state now = {.struct_size = sizeof now};
+    motion now;
     options.max_step = 0.3;
     options.max_impacts = 1;
     dem_model *model = make_point(v, 0.02);
@@ -378,7 +378,7 @@ TEST(a_storm_of_impacts_ends_the_run)
     assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
     const char *expected = " m had more than 1 contact events within 0.6 s, at t = ";
     assert_non_null(strstr(dem_status_message(), expected));
-    dem_simulation_state(simulation, &now);
+    motion_see(simulation, &now);
     assert_close(now.x[1], 0.0, 1e-6);       /* the penetration tolerance */
     assert_true(now.t > 0.4 && now.t < 0.5); /* 0.01 s of fall and 4.1 m/s/g of flight, both ways */
     end_run(simulation, model);
@@ -391,7 +391,7 @@ TEST(a_run_that_a_storm_has_ended_does_not_go_on_without_contacts)
     const double v[2] = {0.0, -100.0};
     for (int k = 0; k < 4; k++) {
         dem_options options = point_options();
-        dem_state now = {.struct_size = sizeof now};
+        motion now;
         options.method = methods[k / 2];
         options.max_step = 0.3;
         options.fixed_step = k == 0 ? 0.0 : (k == 1 ? 0.3 : 0.05);
@@ -399,11 +399,11 @@ TEST(a_run_that_a_storm_has_ended_does_not_go_on_without_contacts)
         dem_model *model = make_point(v, 0.02);
         dem_simulation *simulation = simulate(model, &options);
         assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
-        dem_simulation_state(simulation, &now);
+        motion_see(simulation, &now);
         const double t = now.t, x[2] = {now.x[1], now.v[1]};
         for (int again = 0; again < 3; again++) {
             assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
-            dem_simulation_state(simulation, &now);
+            motion_see(simulation, &now);
             assert_close(now.t, t, 0.0);
             assert_close(now.x[1], x[0], 0.0);
             assert_close(now.v[1], x[1], 0.0);
@@ -421,7 +421,7 @@ TEST(a_contact_event_after_which_the_motion_overflows_ends_the_run)
     dem_options options = dem_options_default();
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_model *model;
-    dem_state now = {.struct_size = sizeof now};
+    motion now;
     options.gravity[1] = 0.0;
     options.fixed_step = 4.0;
     support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 1e100, NULL);
@@ -430,7 +430,7 @@ TEST(a_contact_event_after_which_the_motion_overflows_ends_the_run)
     dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(dem_simulation_advance(simulation, 3.0), DEM_ERROR_INTEGRATOR);
     assert_non_null(strstr(dem_status_message(), "the motion near node 0 after a contact event at t = 1.0"));
-    dem_simulation_state(simulation, &now);
+    motion_see(simulation, &now);
     assert_close(now.t, 0.0, 0.0);
     assert_close(now.v[1], -1.0, 0.0);
     end_run(simulation, model);

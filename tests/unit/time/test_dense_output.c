@@ -76,20 +76,20 @@ static const known_motion swing = {swing_x, swing_v, swing_a};
 /* ---- tests ---- */
 
 /* Position and velocity of a node. */
-typedef struct motion {
+typedef struct node_motion {
     double x[STATE_DIM_MOST], v[STATE_DIM_MOST];
-} motion;
+} node_motion;
 
-static motion motion_at(const dense_output *p, double t, dem_index i)
+static node_motion motion_at(const dense_output *p, double t, dem_index i)
 {
-    motion m;
+    node_motion m;
     dense_output_position(p, t, i, m.x);
     dense_output_velocity(p, t, i, m.v);
     return m;
 }
 
 /* That a node's motion is that in a state to the bit. */
-static void same_motion(const motion *m, const dense_output *p, const double *y, dem_index i)
+static void same_motion(const node_motion *m, const dense_output *p, const double *y, dem_index i)
 {
     const size_t size = (size_t)p->layout.dim * sizeof *y;
     assert_memory_equal(m->x, state_x(&p->layout, y, i), size);
@@ -111,7 +111,7 @@ TEST(the_ends_are_the_states_to_the_bit)
         dense_output_state(&s.dense, s.dense.t1, y);
         assert_memory_equal(y, s.y1, size);
         for (dem_index i = 0; i < n_nodes; i++) {
-            const motion first = motion_at(&s.dense, s.dense.t0, i), last = motion_at(&s.dense, s.dense.t1, i);
+            const node_motion first = motion_at(&s.dense, s.dense.t0, i), last = motion_at(&s.dense, s.dense.t1, i);
             same_motion(&first, &s.dense, s.y0, i);
             same_motion(&last, &s.dense, s.y1, i);
         }
@@ -129,7 +129,7 @@ TEST(motions_of_degree_5_are_exact_with_their_velocities)
         for (double share = 0.05; share < 1.0; share += 0.1) {
             const double t = starts[q % 3] + share * lengths[q % 3];
             for (int k = 0; k < dim * n_nodes; k++) {
-                const motion m = motion_at(&s.dense, t, k / dim);
+                const node_motion m = motion_at(&s.dense, t, k / dim);
                 assert_close(m.x[k % dim], quintic_x(k, t), 2e-14);
                 assert_close(m.v[k % dim], quintic_v(k, t), 2e-13);
             }
@@ -150,8 +150,8 @@ TEST(the_motion_of_a_node_is_the_same_as_a_polynomial)
         assert_int_equal(m.dim, dim);
         assert_close(m.from, 0.5, 0.0);
         for (double share = 0.05; share < 1.0; share += 0.1) {
-            const motion expected = motion_at(&s.dense, 0.5 + 1.25 * share, 1);
-            motion found;
+            const node_motion expected = motion_at(&s.dense, 0.5 + 1.25 * share, 1);
+            node_motion found;
             motion_polynomial_at(&m, share, found.x, found.v);
             for (int d = 0; d < dim; d++) {
                 assert_close(found.x[d], expected.x[d], 2e-14);
@@ -169,7 +169,7 @@ static void errors_of_swing(double h, double *position, double *velocity)
     *position = *velocity = 0.0;
     for (double share = 0.01; share < 1.0; share += 0.01) {
         const double t = 0.4 + share * h;
-        const motion m = motion_at(&s.dense, t, 0);
+        const node_motion m = motion_at(&s.dense, t, 0);
         for (int d = 0; d < 3; d++) {
             *position = fmax(*position, fabs(m.x[d] - swing_x(d, t)));
             *velocity = fmax(*velocity, fabs(m.v[d] - swing_v(d, t)));
@@ -198,7 +198,7 @@ TEST(the_whole_state_is_made_of_the_same_numbers_to_the_bit)
         for (double t = 1.01; t < 1.37; t += 0.1) {
             dense_output_state(&s.dense, t, y);
             for (dem_index i = 0; i < n_nodes; i++) {
-                const motion m = motion_at(&s.dense, t, i);
+                const node_motion m = motion_at(&s.dense, t, i);
                 same_motion(&m, &s.dense, y, i);
             }
         }
@@ -212,7 +212,7 @@ TEST(it_is_continuous_at_its_ends)
     make_step(&s, 3, &swing, 1.0, 1.5);
     const double first = nextafter(1.0, 2.0), last = nextafter(1.5, 1.0);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const motion m0 = motion_at(&s.dense, first, i), m1 = motion_at(&s.dense, last, i);
+        const node_motion m0 = motion_at(&s.dense, first, i), m1 = motion_at(&s.dense, last, i);
         for (int d = 0; d < 3; d++) {
             assert_close(m0.x[d], state_x(&s.dense.layout, s.y0, i)[d], 3e-15);
             assert_close(m1.x[d], state_x(&s.dense.layout, s.y1, i)[d], 3e-15);
@@ -242,7 +242,7 @@ TEST(rounding_of_the_positions_does_not_show_in_the_velocity_of_a_tiny_step)
 TEST(a_displacement_beyond_rounding_is_followed)
 {
     double y0[4] = {1.0, 2.0, 0.0, 0.0}, y1[4] = {1.1, 2.0, 0.0, 0.0}, f[4] = {0.0, 0.0, 0.0, 0.0};
-    const dense_output p = {{2, 1, 0, 0, 1}, 0.0, 2.0, 2.0, y0, f, y1, f, false, NULL};
+    const dense_output p = {{.dim = 2, .n_nodes = 1, .n_rows = 1}, 0.0, 2.0, 2.0, y0, f, y1, f, false, NULL};
     assert_close(motion_at(&p, 1.0, 0).x[0], 1.05, 1e-15);
     assert_close(motion_at(&p, 1.0, 0).v[0], 0.1 * 30.0 / 16.0 / 2.0, 1e-15); /* B'(1/2) = 30/16 over h */
     assert_close(motion_at(&p, 1.0, 0).x[1], 2.0, 0.0);
@@ -254,7 +254,7 @@ TEST(a_parabolic_output_matches_what_a_method_of_order_2_knows)
 {
     double y0[4] = {1.0, 0.0, 3.0, 0.0}, y1[4] = {2.0, 0.0, 5.0, 0.0}, f0[4] = {3.0, 0.0, 4.0, 0.0};
     double f1[4] = {5.0, 0.0, 99.0, 0.0}, y[4];
-    const dense_output p = {{2, 1, 0, 0, 1}, 0.0, 2.0, 2.0, y0, f0, y1, f1, true, NULL};
+    const dense_output p = {{.dim = 2, .n_nodes = 1, .n_rows = 1}, 0.0, 2.0, 2.0, y0, f0, y1, f1, true, NULL};
     assert_close(motion_at(&p, 1.0, 0).x[0], 1.0 + 3.0 - 1.25, 1e-15);
     assert_close(motion_at(&p, 1.0, 0).v[0], 3.0 + 4.0 - 1.5, 1e-15);
     assert_close((motion_at(&p, 1e-6, 0).x[0] - 1.0) / 1e-6, 3.0, 1e-5);

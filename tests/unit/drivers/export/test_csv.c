@@ -26,7 +26,8 @@ TEST_WITH(tables_have_their_columns, exported_begin, exported_end)
                     "t [s],stress_xx [Pa],stress_yy [Pa],stress_xy [Pa],v_x [m/s],v_y [m/s],von_mises [Pa],x_x [m],"
                     "x_y [m]\r\n0,0,0,0,0.10000000000000001,-0.25,0,0,1\r\n");
     exported_expect(e, "run.history.csv", "body_angular_momentum_0 [kg m^2/s],body_centre_0_x [m],body_centre_0_y [m]");
-    exported_expect(e, "run.frames.csv", "area_energy [J],boundary_energy [J],contacts,damping_energy [J]");
+    exported_expect(e, "run.frames.csv",
+                    "area_energy [J],boundary_energy [J],contact_energy [J],contacts,damping_energy [J]");
     assert_false(exported_has(e, "run.events.csv"));
 }
 

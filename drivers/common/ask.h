@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the library says of models and simulations, by value: the structs have the size that this program knows. Where
+ * the library refuses, all members are 0, and dem_status_message() says why. */
+#ifndef DEM_ASK_H
+#define DEM_ASK_H
+
+#include <dem/dem.h>
+
+#define ASK(type, call)                                                                                                \
+    type out = {.struct_size = sizeof out};                                                                            \
+    (void)(call);                                                                                                      \
+    return out
+
+static inline dem_model_size ask_sizes(const dem_model *model)
+{
+    ASK(dem_model_size, dem_model_sizes(model, &out));
+}
+
+static inline dem_csr ask_csr(const dem_model *model)
+{
+    ASK(dem_csr, dem_model_csr(model, &out));
+}
+
+static inline dem_options ask_options(const dem_simulation *simulation)
+{
+    ASK(dem_options, dem_simulation_options(simulation, &out));
+}
+
+static inline dem_state ask_state(const dem_simulation *simulation)
+{
+    ASK(dem_state, dem_simulation_state(simulation, &out));
+}
+
+static inline dem_energy ask_energy(const dem_simulation *simulation)
+{
+    ASK(dem_energy, dem_simulation_energy(simulation, &out));
+}
+
+static inline dem_strain ask_strain(const dem_simulation *simulation)
+{
+    ASK(dem_strain, dem_simulation_strain(simulation, &out));
+}
+
+static inline dem_counts ask_counts(const dem_simulation *simulation)
+{
+    ASK(dem_counts, dem_simulation_counts(simulation, &out));
+}
+
+static inline dem_overlap ask_overlap(const dem_simulation *simulation)
+{
+    ASK(dem_overlap, dem_simulation_overlap(simulation, &out));
+}
+
+static inline dem_contact ask_contact(const dem_simulation *simulation, dem_index contact)
+{
+    ASK(dem_contact, dem_simulation_contact(simulation, contact, &out));
+}
+
+static inline dem_body_motion ask_body(const dem_simulation *simulation, dem_index body)
+{
+    ASK(dem_body_motion, dem_simulation_body(simulation, body, &out));
+}
+
+static inline dem_obstacle_load ask_obstacle(const dem_simulation *simulation, dem_index obstacle)
+{
+    ASK(dem_obstacle_load, dem_simulation_obstacle(simulation, obstacle, &out));
+}
+
+static inline dem_boundary_load ask_boundary(const dem_simulation *simulation, dem_index boundary)
+{
+    ASK(dem_boundary_load, dem_simulation_boundary(simulation, boundary, &out));
+}
+
+#endif
