@@ -110,7 +110,7 @@ class Written(unittest.TestCase):
         self.check(namelist(obstacle={"points": points}))
 
     def test_repeat_counts(self):
-        deck = namelist(obstacle={"points": [0.5, 0.5, 0.5, -2.5, -2.5, -2.5]}, body={"velocity": [3.0, 3.0]})
+        deck = namelist(obstacle={"points": [-2.5, -2.5, -2.5, 0.5, 0.5, 0.5]}, body={"velocity": [3.0, 3.0]})
         self.check(deck, text_of(deck, repeat_counter=True))
 
     def test_float_formats(self):
