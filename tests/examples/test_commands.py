@@ -6,7 +6,8 @@ A page of Markdown has its commands in blocks, ```sh and ```python, which are ru
 page has them under EXAMPLES. The folder has what the pages take for given: decks that are run in no time, lists of
 decks, a parameter file, and the variables of a batch system. The paper's bodies are coarse there, so that they take no
 time either, but for README's. A block that needs a program or package which this machine lacks is left out; build
-scripts are too. Lines of a log that a page shows, in blocks without a language, were printed by one of its commands."""
+scripts are too. Blocks without a language are looked at for lines of a log, which one of the page's commands prints,
+and for parts of decks, which stand in inputs/. The deck that a man page shows is run."""
 import importlib.util
 import os
 import pathlib
@@ -74,13 +75,23 @@ def same_words(a, b):
     return words[0] == words[1] and all(abs(float(x) - float(y)) <= 1e-3 * abs(float(x)) for x, y in zip(*numbers))
 
 
-def logs_of_markdown(text):
-    blocks = re.findall(r"(?ms)^```(\w*)\n(.*?)^```$", text)
-    return [line for language, block in blocks if not language for line in re.findall(LOG, block)]
+def plain_blocks(text):
+    return [block for language, block in re.findall(r"(?ms)^```(\w*)\n(.*?)^```$", text) if not language]
+
+
+def check_decks(text):
+    """What a page shows of a deck stands in one of inputs/."""
+    decks = [path.read_text(encoding="utf-8") for path in (ROOT / "inputs").glob("*.nml")]
+    for block in plain_blocks(text):
+        if block.startswith("&") and not any(block in deck for deck in decks):
+            sys.exit("no deck of inputs/ has\n" + block)
 
 
 def blocks_of_manual(text):
-    examples = re.search(r"(?ms)^\.SH EXAMPLES\n(.*?)^\.SH", text).group(1)
+    for deck in re.findall(r"(?ms)^\.EX\n(.*?)^\.EE", text):
+        deck = deck.replace("\\(aq", "'").replace("\\-", "-")
+        yield "sh", f"cat >manual.nml <<'END'\n{deck}END\ndem_batch manual.nml\n"
+    examples = re.search(r"(?ms)^\.SH EXAMPLES?\n(.*?)^\.SH", text).group(1)
     for command in re.findall(r"(?m)^\.B (.*)", examples):
         yield "sh", command.replace("\\-", "-") + "\n"
 
@@ -88,8 +99,8 @@ def blocks_of_manual(text):
 def lacks(language, block):
     """What a block needs and this machine lacks; None: nothing."""
     if language == "python":
-        missing = [name for name in re.findall(r"(?m)^(?:import|from) (\w+)", block) if not importlib.util.find_spec(name)]
-        return missing[0] if missing else None
+        modules = re.findall(r"(?m)^(?:import|from) (\w+)", block)
+        return next((name for name in modules if importlib.util.find_spec(name) is None), None)
     have = {program.name for program in PROGRAMS}
     return next((name for name in OPTIONAL
                  if re.search(rf"\b{name}\b", block) and name not in have and not shutil.which(name)), None)
@@ -100,8 +111,9 @@ def run(language, block, folder):
     script.write_text(block, encoding="utf-8")
     command = [sys.executable, script] if language == "python" else ["bash", "-eu", script, "params.in", "results.out"]
     path = os.pathsep.join([str(folder / "build/drivers"), os.environ["PATH"]])
+    variables = {**os.environ, "PATH": path, "SLURM_ARRAY_TASK_ID": "17", "SLURM_ARRAY_JOB_ID": "1"}
     return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=SECONDS,
-                          check=False, env={**os.environ, "PATH": path, "SLURM_ARRAY_TASK_ID": "17", "SLURM_ARRAY_JOB_ID": "1"})
+                          check=False, env=variables)
 
 
 with tempfile.TemporaryDirectory() as name:
@@ -123,7 +135,8 @@ with tempfile.TemporaryDirectory() as name:
             sys.exit(f"exit code {done.returncode} of\n{code}\n{done.stdout}\n{done.stderr}")
         n_run += 1
         printed += re.findall(LOG, done.stdout)
-    for line in logs_of_markdown(content):
+    check_decks(content)
+    for line in re.findall(LOG, "".join(plain_blocks(content))):
         if not any(same_words(line, other) for other in printed):
             sys.exit("no command prints\n" + line + "\nbut\n" + "\n".join(printed))
 print(n_run, "blocks of commands work")
