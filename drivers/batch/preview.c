@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "commit.h"
+#include "doubts.h"
 #include "estimate.h"
 #include "memory.h"
 #include "step_report.h"
@@ -141,15 +142,22 @@ static void print_modulus(FILE *out, const dem_constants *c, bool slice)
                   slice ? " in plane strain" : "", c->anisotropy, c->longitudinal_speed, c->transverse_speed);
 }
 
-/* As the library measures them, by loading the model. */
-static void print_constants(FILE *out, const deck *d, const dem_model *model)
+static void print_known(run_log *log, const deck *d, const dem_model *model, dem_index b, const dem_constants *c)
 {
+    print_modulus(log->out, c, is_slice(d, ask_sizes(model).n_bodies, b));
+    doubts_of_speed(log, model, b, c->longitudinal_speed);
+}
+
+/* As the library measures them, by loading the model. */
+static void print_constants(run_log *log, const deck *d, const dem_model *model)
+{
+    FILE *out = log->out;
     const dem_index n_bodies = ask_sizes(model).n_bodies;
     for (dem_index b = 0; b < n_bodies && b < most_listed; b++) {
         dem_constants c = {.struct_size = sizeof c};
         (void)fprintf(out, "constants  body %lld: ", (long long)b + 1);
         if (dem_model_constants(model, b, &c) == DEM_OK)
-            print_modulus(out, &c, is_slice(d, n_bodies, b));
+            print_known(log, d, model, b, &c);
         else
             (void)fprintf(out, "not measured: %s\n", dem_status_message());
     }
@@ -167,17 +175,18 @@ static void print_frequency(FILE *out, const dem_model *model)
                       dem_model_omega_max(model) / omega);
 }
 
-static void print_measured(FILE *out, const deck *d, const dem_model *model, bool details)
+static void print_measured(run_log *log, const deck *d, const dem_model *model)
 {
+    FILE *out = log->out;
     const double start = wall_clock();
     const dem_index n = ask_sizes(model).n_nodes;
     if (n > most_measured) {
         (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
         return;
     }
-    print_constants(out, d, model);
-    if (details) print_frequency(out, model);
-    if (details && wall_clock() - start > 1.0)
+    print_constants(log, d, model);
+    if (log->verbose) print_frequency(out, model);
+    if (log->verbose && wall_clock() - start > 1.0)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
 }
 
@@ -292,9 +301,10 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     print_motion(out, model);
     print_damping(out, o.mass_damping, damping_time(dem_model_lattice(model)));
     print_boundaries(out, d);
-    print_measured(out, d, model, log->verbose);
+    print_measured(log, d, model);
     step_report_print(out, d->t_end, simulation);
     print_estimates(out, d, simulation);
+    doubts_of_lattices(log, d);
     warn_rest_speed(log, &o);
     step_report_warn(log, simulation);
     if (log->verbose) print_details(out, d, simulation);

@@ -17,9 +17,13 @@
 
 enum { MOST_LINE = 64 << 20 }; /* bytes: obstacles and boundaries are listed */
 
-static const char *status_of(const outcome *o)
+static const char done[] = "done", overlapped[] = "overlapped"; /* both complete */
+
+static const char *status_of(const result *r)
 {
-    return o->code == EXIT_DONE ? "done" : (o->code == EXIT_STOPPED ? "stopped" : "failed");
+    if (r->outcome->code == EXIT_STOPPED) return "stopped";
+    if (r->outcome->code != EXIT_DONE) return "failed";
+    return r->log != NULL && ask_overlap(r->simulation).node >= 0 ? overlapped : done;
 }
 
 /* ---- the fields ---- */
@@ -41,7 +45,7 @@ static void write_case(json *j, const result *r)
     json_close(j, ']');
     json_text(j, "name", r->read != NULL ? r->read->name : NULL);
     json_text(j, "output", r->output);
-    json_text(j, "status", status_of(r->outcome));
+    json_text(j, "status", status_of(r));
     json_integer(j, "exit_code", (int64_t)r->outcome->code);
     json_text(j, "message", r->outcome->message);
     json_text(j, "versions", versions);
@@ -213,11 +217,19 @@ static void write_overlap(json *j, const dem_simulation *simulation)
     json_close(j, '}');
 }
 
+static void write_warnings(json *j, const run_log *log)
+{
+    json_open(j, "warnings", '[');
+    for (size_t k = 0; k < log->n_warnings; k++) json_text(j, NULL, log->warnings[k]);
+    json_close(j, ']');
+}
+
 static void write_run(json *j, const result *r)
 {
     const dem_counts counts = ask_counts(r->simulation);
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(r->simulation, &state);
+    write_warnings(j, r->log->log);
     json_real(j, "t", state.t);
     write_counts(j, &counts);
     write_contact(j, &r->log->so_far.rebound, &state, r->simulation);
@@ -298,7 +310,8 @@ char *result_read_done(const char *path, const char *run_hash)
     char why[FILE_WHY], *line;
     size_t size;
     if (file_read(&line, &size, path, MOST_LINE, why) != FILE_READ) return NULL;
-    if (has_field(line, "status", "done") && has_field(line, "run", run_hash)) return line;
+    const bool complete = has_field(line, "status", done) || has_field(line, "status", overlapped);
+    if (complete && has_field(line, "run", run_hash)) return line;
     free(line);
     return NULL;
 }

@@ -175,7 +175,7 @@ class Check(Case):
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
                          ["dem", "deck", "lattice", "contact", "mass", "constants", "frequency", "time", "estimate",
-                          "impacts", "scales", "stability", "kernel", "formula"] + ["memory"] * TELLS_MEMORY)
+                          "warning", "impacts", "scales", "stability", "kernel", "formula"] + ["memory"] * TELLS_MEMORY)
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass = numbers(
@@ -258,7 +258,7 @@ class Check(Case):
         _, bound, longest = numbers("stability  omega_max h = #; rk4 is stable up to #, h = # s", out)
         self.assertAlmostEqual(bound, 8 ** 0.5, places=2)
         self.assertAlmostEqual(longest * omega_max, bound, places=2)
-        self.assertNotIn("warning", out)
+        self.assertNotIn("fixed step of", out)
         self.put(coarse() + f"&solver method = 'rk4', fixed_step = {1.1 * longest} /\n")
         fixed, times, safe = numbers("warning    the fixed step of # s is # times the # s up to which rk4 is safe here: the "
                                      "run may overflow; give 'fixed_step' in &solver at most that, or leave it out",
@@ -456,7 +456,7 @@ class Run(Case):
     def test_the_short_log(self):
         """The lines by their topics; with details there are more, and progress twice as often."""
         logs = [run(*options, "--outdir", f"out{len(options)}", "deck.nml", cwd=self.folder).stdout for options in ((), ("--verbose",))]
-        short, long = ([line.split(" ")[0] for line in log.splitlines() if not re.match(r" *\d+\.\d %|\{", line)] for log in logs)
+        short, long = ([line.split(" ")[0] for line in log.splitlines() if not re.match(r" *\d+\.\d %|\{|warning ", line)] for log in logs)
         self.assertEqual(short, ["deck", "lattice", "contact", "mass", "constants", "time", "estimate", "output",
                                  "contact", "rebound", "normal", "force", "stressed", "ledger", "obstacle", "run"])
         self.assertTrue(set(short) < set(long) and len(long) > 2 * len(short), long)
@@ -493,6 +493,16 @@ class Run(Case):
         self.put(text.replace("name           = 'rectangle'", "name = 'closed'"))
         self.assertEqual(rows(warning, self.call(0, "deck.nml")), [])
 
+    def test_what_is_doubtful_is_warned_of(self):
+        self.put(coarse(youngs_modulus="1e4"))
+        lattice, speed = re.findall(r"(?m)^warning    (.*)$", self.call(0, "--check", "deck.nml"))[::-1]
+        self.assertRegex(lattice, r"^body 1 has \d+\.\d % less mass than its true shape and has a wall of 0\.016 m, only 1\.6 "
+                                  r"spacings: .* take a finer 'spacing' in &body, or a mesh \(shape = 'mesh'\)$")
+        self.assertRegex(speed, r"^body 1 moves at 10 m/s, 3\.1 of its wave speed of 3\.273 m/s: .* SI units\?$")
+        self.put("&run t_end = 1e-3 /\n&material youngs_modulus = 1e7, density = 1050 /\n"
+                 "&body shape = 'rectangle', size = 0.08, 0.12, spacing = 1e-2, lattice = 'square' /\n")
+        self.assertNotIn("warning", self.call(0, "--check", "deck.nml"))
+
     def test_what_folds_is_counted(self):
         counts = "triangles  smallest area # of its rest area at # s, guard on # at most, # inverted"
         self.put(FOLD)
@@ -510,6 +520,11 @@ class Run(Case):
         first, again, inside, most, now = numbers("overlap    first at # s, node # in triangle #; # at most, # now", log)
         self.assertEqual((first, again, inside), (when, node, triangle))
         self.assertTrue(most >= now and most > 0)
+        result = json.loads(log.splitlines()[-1])
+        self.assertEqual((result["status"], result["exit_code"]), ("overlapped", 0))
+        self.assertEqual(result["warnings"], re.findall(r"(?m)^warning    (.*)$", log))
+        self.assertEqual(len([text for text in result["warnings"] if text.startswith("bodies overlap, ")]), 1)
+        self.assertIn("done already", self.call(0, "deck.nml"))
         self.put(FOLD.replace("'fold'", "'stopped'") + "&contact overlap = 'stop' /\n")
         done = run("deck.nml", cwd=self.folder)
         self.assertEqual(done.returncode, 4)

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "doubts.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "walls.h"
+
+enum { most_listed = 16 }; /* bodies */
+
+static const double light = 0.97;       /* mass over that of the true shape */
+static const double least_across = 8.0; /* spacings of a wall */
+static const double fast = 0.1;         /* of the wave speed */
+
+/* Numbered from 1, as decks are. */
+static void warn_lattice(run_log *log, const deck *d, size_t k)
+{
+    const body_facts *b = &d->bodies[k];
+    const double ratio = b->true_mass > 0.0 ? b->mass / b->true_mass : 1.0, wall = walls_thinnest(&d->groups, k);
+    const double across = b->geometry.spacing > 0.0 ? wall / b->geometry.spacing : (double)INFINITY;
+    char less[80] = "", thin[120] = "";
+    if (ratio < light)
+        (void)snprintf(less, sizeof less, "has %.1f %% less mass than its true shape", 100.0 * (1.0 - ratio));
+    if (across < least_across)
+        (void)snprintf(thin, sizeof thin, "%shas a wall of %g m, only %.3g spacings", less[0] != '\0' ? " and " : "",
+                       wall, across);
+    if (less[0] != '\0' || thin[0] != '\0')
+        run_log_warn(log,
+                     "body %zu %s%s: its stiffness is off, and stresses at its edges do not converge; "
+                     "take a finer 'spacing' in &body, or a mesh (shape = 'mesh')",
+                     k + 1, less, thin);
+}
+
+void doubts_of_lattices(run_log *log, const deck *d)
+{
+    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) warn_lattice(log, d, k);
+}
+
+static void initial_velocity(const dem_lattice *l, dem_index b, double v[2])
+{
+    double mass = 0.0, momentum[2] = {0.0, 0.0};
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        if (l->body != NULL && l->body[i] != b) continue;
+        mass += l->mass[i];
+        for (int c = 0; c < 2 && l->velocity != NULL; c++) momentum[c] += l->mass[i] * l->velocity[2 * i + c];
+    }
+    for (int c = 0; c < 2; c++) v[c] = momentum[c] / mass;
+}
+
+void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double wave_speed)
+{
+    dem_index n;
+    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
+    double v[2], least = (double)INFINITY;
+    initial_velocity(dem_model_lattice(model), b, v);
+    for (dem_index o = 0; o < n; o++)
+        least = fmin(least, hypot(v[0] - obstacles[o].velocity[0], v[1] - obstacles[o].velocity[1]));
+    if (n == 0 || !(least > fast * wave_speed)) return;
+    run_log_warn(log,
+                 "body %lld moves at %.3g m/s, %.2g of its wave speed of %.4g m/s: strains of that size will come; are "
+                 "velocity, Young's modulus and density in SI units?",
+                 (long long)b + 1, least, least / wave_speed, wave_speed);
+}

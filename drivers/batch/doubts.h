@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is doubtful about a run before it begins, as warnings of its log. */
+#ifndef DEM_DOUBTS_H
+#define DEM_DOUBTS_H
+
+#include "deck.h"
+#include "run_log.h"
+
+/** Warns of bodies that are too light, or whose walls are too thin, for their lattice. */
+void doubts_of_lattices(run_log *log, const deck *d);
+
+/** Warns if body b, from 0, comes to the obstacles fast for the waves in it.  \param wave_speed  m/s, of long waves */
+void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double wave_speed);
+
+#endif

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* doubts.c: bodies and speeds on both sides of the bounds. */
+#include "doubts.h"
+
+#include <string.h>
+
+#include "verification/support.h"
+
+static char text[4096];
+
+static void read_log(run_log *log)
+{
+    rewind(log->out);
+    text[fread(text, 1, sizeof text - 1, log->out)] = '\0';
+    assert_int_equal(fclose(log->out), 0);
+}
+
+TEST(a_light_body_is_doubted)
+{
+    body_facts bodies[4] = {{.mass = 0.971, .true_mass = 1.0},
+                            {.mass = 0.9, .true_mass = 1.0},
+                            {.mass = 0.1}, /* of a lattice file: nothing is known */
+                            {.mass = 1.1, .true_mass = 1.0}};
+    const deck d = {.bodies = bodies, .n_bodies = 4};
+    run_log log = {.out = tmpfile()};
+    assert_non_null(log.out);
+    doubts_of_lattices(&log, &d);
+    read_log(&log);
+    assert_int_equal(log.n_warnings, 1);
+    assert_string_equal(text,
+                        "warning    body 2 has 10.0 % less mass than its true shape: its stiffness is off, and "
+                        "stresses at its edges do not converge; take a finer 'spacing' in &body, or a mesh (shape "
+                        "= 'mesh')\n");
+}
+
+/* A body of one node at 2 m/s along x, on floors at rest and moving. */
+static size_t count_doubts(double wave_speed, double floor_speed, dem_index n_floors)
+{
+    static const double points[4] = {-9.0, -9.0, 9.0, -9.0};
+    const double x[2] = {0.0, 0.0}, v[2] = {2.0, 0.0}, mass = 3.0;
+    const dem_obstacle floor = {.n_points = 2, .points = points, .velocity = {floor_speed, 0.0}};
+    dem_lattice lattice;
+    dem_model *model;
+    run_log log = {.out = tmpfile()};
+    assert_non_null(log.out);
+    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    support_start(&lattice, NULL, v);
+    assert_ok(dem_model_create(&model, &lattice, &floor, n_floors));
+    dem_lattice_free(&lattice);
+    doubts_of_speed(&log, model, 0, wave_speed);
+    dem_model_destroy(model);
+    read_log(&log);
+    return log.n_warnings;
+}
+
+TEST(a_speed_near_that_of_waves_is_doubted)
+{
+    assert_int_equal(count_doubts(20.1, 0.0, 1), 0);
+    assert_int_equal(count_doubts(16.0, 0.0, 1), 1);
+    assert_string_equal(text,
+                        "warning    body 1 moves at 2 m/s, 0.12 of its wave speed of 16 m/s: strains of that size will "
+                        "come; are velocity, Young's modulus and density in SI units?\n");
+}
+
+TEST(a_speed_is_that_against_an_obstacle)
+{
+    assert_int_equal(count_doubts(16.0, 2.0, 1), 0);
+    assert_int_equal(count_doubts(30.0, -2.0, 1), 1);
+    assert_int_equal(count_doubts(1.0, 0.0, 0), 0); /* there is nothing to hit */
+}
+
+TEST_GROUP(NULL, NULL);
