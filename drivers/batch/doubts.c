@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "step_report.h"
 #include "walls.h"
 
 enum { most_listed = 16 }; /* bodies */
@@ -34,6 +35,12 @@ static void warn_lattice(run_log *log, const deck *d, size_t k)
 void doubts_of_lattices(run_log *log, const deck *d)
 {
     for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) warn_lattice(log, d, k);
+}
+
+void doubts_of_step(run_log *log, const dem_simulation *simulation)
+{
+    char why[STEP_REPORT_WHY];
+    if (step_report_is_long(simulation, why)) run_log_warn(log, "%s: with it the run may overflow", why);
 }
 
 static void initial_velocity(const dem_lattice *l, dem_index b, double v[2])

@@ -9,6 +9,7 @@
 
 #include <dem/trajectory.h>
 
+#include "ask.h"
 #include "checkpoint_file.h"
 #include "decimal.h"
 #include "deck.h"
@@ -20,7 +21,7 @@
 #include "report.h"
 #include "result.h"
 #include "signals.h"
-#include "ask.h"
+#include "step_report.h"
 #include "wall_clock.h"
 
 typedef struct job {
@@ -144,6 +145,16 @@ static dem_status observe(job *j)
     return status;
 }
 
+/* A fixed step that is too long is the likely cause, whether the motion overflows or passes through an obstacle. */
+static void report_failure(job *j, dem_status status)
+{
+    char why[STEP_REPORT_WHY];
+    if (step_report_is_long(j->simulation, why))
+        outcome_fail(&j->outcome, EXIT_NUMERICS, j->deck.path, "%s; %s", dem_status_message(), why);
+    else
+        (void)passes(j, status, j->deck.path);
+}
+
 /* What a quasi-static run ends at is a frame of its own, and where it stops at an overlap or fails. */
 static dem_status advance(job *j)
 {
@@ -153,7 +164,7 @@ static dem_status advance(job *j)
     if (status != DEM_OK) return status;
     status = dem_simulation_advance(j->simulation, j->deck.t_end);
     const bool failed = status == DEM_ERROR_INTEGRATOR || status == DEM_ERROR_CONTACT;
-    if (failed) (void)passes(j, status, j->deck.path);
+    if (failed) report_failure(j, status);
     if (j->checkpoint.ended != NULL || (status != DEM_STOPPED && !failed)) return status;
     return frames.frame(frames.context, j->simulation);
 }

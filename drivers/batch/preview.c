@@ -306,7 +306,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     print_estimates(out, d, simulation);
     doubts_of_lattices(log, d);
     warn_rest_speed(log, &o);
-    step_report_warn(log, simulation);
+    doubts_of_step(log, simulation);
     if (log->verbose) print_details(out, d, simulation);
     if (output != NULL) (void)fprintf(out, "output     %s\n", output);
     (void)fflush(out);

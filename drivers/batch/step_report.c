@@ -46,16 +46,20 @@ void step_report_print(FILE *out, double t_end, const dem_simulation *simulation
     (void)fprintf(out, "\n");
 }
 
-void step_report_warn(run_log *log, const dem_simulation *simulation)
+bool step_report_is_long(const dem_simulation *simulation, char *why)
 {
     const dem_options o = ask_options(simulation);
     const dem_method_traits method = step_report_method(simulation);
     const double omega = dem_model_omega_max(dem_simulation_model(simulation)), safe = method.usable / omega;
-    if (o.fixed_step > 0.0 && o.fixed_step * omega > method.usable)
-        run_log_warn(log,
-                     "the fixed step of %.3g s is %.3g times the %.3g s up to which %s is safe here: the run may "
-                     "overflow; give 'fixed_step' in &solver at most that, or leave it out",
-                     o.fixed_step, o.fixed_step / safe, safe, method.name);
+    const bool is_long = o.fixed_step > 0.0 && o.fixed_step * omega > method.usable;
+    why[0] = '\0';
+    if (is_long)
+        (void)snprintf(
+            why, STEP_REPORT_WHY,
+            "the fixed step of %.3g s is %.3g times the %.3g s up to which %s is safe here; give 'fixed_step' "
+            "in &solver at most that, or leave it out",
+            o.fixed_step, o.fixed_step / safe, safe, method.name);
+    return is_long;
 }
 
 void step_report_print_details(FILE *out, const dem_simulation *simulation)

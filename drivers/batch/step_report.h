@@ -3,11 +3,12 @@
 #ifndef DEM_STEP_REPORT_H
 #define DEM_STEP_REPORT_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include <dem/dem.h>
 
-#include "run_log.h"
+enum { STEP_REPORT_WHY = 320 }; /* bytes */
 
 /** The largest value of (6),  (|v_x| + |v_y|) h/spacing  over nodes and accepted steps. To be set to 0. */
 typedef struct step_report {
@@ -24,8 +25,9 @@ void step_report_print(FILE *out, double t_end, const dem_simulation *simulation
 /** Stability bound, kernel, (6) at v_scale. */
 void step_report_print_details(FILE *out, const dem_simulation *simulation);
 
-/** Warns of a fixed step that is longer. */
-void step_report_warn(run_log *log, const dem_simulation *simulation);
+/** Whether a fixed step is longer than that, and what to do about it.
+ *  \param[out] why  [STEP_REPORT_WHY], "" if it is not */
+bool step_report_is_long(const dem_simulation *simulation, char *why);
 
 /** To be called after every accepted step. */
 void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_state *state);

@@ -260,10 +260,13 @@ class Check(Case):
         self.assertAlmostEqual(longest * omega_max, bound, places=2)
         self.assertNotIn("fixed step of", out)
         self.put(coarse() + f"&solver method = 'rk4', fixed_step = {1.1 * longest} /\n")
-        fixed, times, safe = numbers("warning    the fixed step of # s is # times the # s up to which rk4 is safe here: the "
-                                     "run may overflow; give 'fixed_step' in &solver at most that, or leave it out",
-                                     self.call(0, "--check", "deck.nml"))
+        long = "the fixed step of # s is # times the # s up to which rk4 is safe here; give 'fixed_step' in &solver at most that, or leave it out"
+        fixed, times, safe = numbers(f"warning    {long}: with it the run may overflow", self.call(0, "--check", "deck.nml"))
         self.assertAlmostEqual(fixed, times * safe, delta=1e-2 * fixed)
+        self.put(coarse() + f"&solver method = 'rk4', fixed_step = {13 * longest} /\n")
+        done = run("deck.nml", cwd=self.folder)
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"^deck\.nml: error: .*; the fixed step of \S+ s is 13 times the \S+ s up to which rk4 ")
 
     def test_a_body_that_stands_on_the_floor_stays_there(self):
         for floor in ("-1, 0, 1, 0", "-1, -1, 0, 0, 1, -1"):
