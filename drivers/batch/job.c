@@ -330,7 +330,7 @@ static bool fits(job *j)
 
 static bool ends(job *j)
 {
-    const estimate needed = estimate_run(&j->deck, j->simulation);
+    const estimate needed = estimate_run(&j->deck, j->simulation, estimate_duration(&j->deck));
     return keeps(j, &needed);
 }
 
@@ -414,9 +414,12 @@ static bool claim(job *j)
 
 static void start_log(job *j)
 {
-    report_start(&j->report, &j->log, &j->deck);
-    j->rest = relaxation_start(j->deck.residual, &j->deck.options);
-    j->checkpoint = checkpoint_file_start(j->command, j->path, &j->deck, &j->source);
+    const deck *d = &j->deck;
+    report_start(&j->report, &j->log, d);
+    j->rest = relaxation_start(d->residual, &d->options);
+    if (d->residual > 0.0)
+        report_expect_rest(&j->report, &j->rest, relaxation_expected(j->simulation, &d->options, d->residual));
+    j->checkpoint = checkpoint_file_start(j->command, j->path, d, &j->source);
 }
 
 static bool begin_anew(job *j)

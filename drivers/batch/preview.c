@@ -7,7 +7,9 @@
 #include "commit.h"
 #include "doubts.h"
 #include "estimate.h"
+#include "loading.h"
 #include "memory.h"
+#include "relaxation.h"
 #include "step_report.h"
 #include "ask.h"
 #include "wall_clock.h"
@@ -222,11 +224,16 @@ static void print_bodies(FILE *out, const deck *d)
         (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
 }
 
+/* Where a quasi-static run will end is not known, only about. */
 static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
 {
-    const estimate e = estimate_run(d, simulation);
-    (void)fprintf(out, "estimate   at least %.0f steps of %d evaluations, %.0f frames, about %.3g MB of output\n",
-                  e.steps, (int)step_report_method(simulation).evaluations, e.frames, 1e-6 * e.output);
+    const bool rests = d->residual > 0.0;
+    const double end = rests ? fmin(relaxation_expected(simulation, &d->options, d->residual), d->t_end) : d->t_end;
+    const estimate e = estimate_run(d, simulation, end);
+    if (rests) (void)fprintf(out, "estimate   at rest at about %.2g s, ", end);
+    (void)fprintf(out, "%s%.0f steps of %d evaluations, %.0f frames, about %.3g MB of output\n",
+                  rests ? "" : "estimate   at least ", e.steps, (int)step_report_method(simulation).evaluations,
+                  e.frames, 1e-6 * e.output);
 }
 
 /* All that is set up by now: a run takes no more, but for what HDF5 buffers. */
@@ -238,8 +245,20 @@ static void print_memory(FILE *out, const dem_simulation *simulation)
         (void)fprintf(out, "memory     at most %.4g MB, %.4g bytes a node\n", 1e-6 * bytes, bytes / (double)n_nodes);
 }
 
-static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
+/* What a traction asks for, if the lattice's side gives less or more. */
+static void print_asked(FILE *out, const deck *d, dem_index k, double given)
 {
+    double force[2];
+    if (!loading_asked(force, &d->groups, (size_t)k)) return;
+    const double asked = hypot(force[0], force[1]);
+    if (fabs(given - asked) > 1e-3 * asked)
+        (void)fprintf(out, ", of (%g, %g) N asked for: the side of the lattice is %.2f %% %s than that of the shape",
+                      force[0], force[1], 100.0 * fabs(given / asked - 1.0), given < asked ? "shorter" : "longer");
+}
+
+static void print_boundary(FILE *out, const deck *d, dem_index number)
+{
+    const dem_boundary *b = &d->boundaries[number - 1];
     static const char *const kinds[] = {[DEM_BOUNDARY_VELOCITY] = "velocity",
                                         [DEM_BOUNDARY_DISPLACEMENT] = "displacement",
                                         [DEM_BOUNDARY_FORCE] = "force"};
@@ -251,6 +270,7 @@ static void print_boundary(FILE *out, const dem_boundary *b, dem_index number)
                   kinds[b->kind], b->kind == DEM_BOUNDARY_FORCE ? "" : axes[b->components & 3], share * b->value[0],
                   share * b->value[1], units[b->kind]);
     if (b->ramp > 0.0) (void)fprintf(out, " within %g s", b->ramp);
+    print_asked(out, d, number - 1, share * hypot(b->value[0], b->value[1]));
     (void)fprintf(out, "\n");
 }
 
@@ -262,7 +282,7 @@ void preview_versions(char *text, size_t size)
 
 static void print_boundaries(FILE *out, const deck *d)
 {
-    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, &d->boundaries[k], k + 1);
+    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, d, k + 1);
 }
 
 static void print_details(FILE *out, const deck *d, const dem_simulation *simulation)
@@ -302,7 +322,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     print_damping(out, o.mass_damping, damping_time(dem_model_lattice(model)));
     print_boundaries(out, d);
     print_measured(log, d, model);
-    step_report_print(out, d->t_end, simulation);
+    step_report_print(out, d->t_end, estimate_run(d, simulation, d->t_end).undamped, simulation);
     print_estimates(out, d, simulation);
     doubts_of_lattices(log, d);
     warn_rest_speed(log, &o);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* When damped bodies have come to rest. */
+#include "ask.h"
 #include "relaxation.h"
 
 #include <math.h>
@@ -45,6 +46,14 @@ double relaxation_settled(const dem_options *options)
     double last = 0.0;
     for (dem_index k = 0; k < options->n_boundaries; k++) last = fmax(last, options->boundaries[k].ramp);
     return last;
+}
+
+double relaxation_expected(const dem_simulation *simulation, const dem_options *options, double residual)
+{
+    const double critical = relaxation_damping(dem_simulation_model(simulation));
+    const double alpha = ask_options(simulation).mass_damping;
+    const double rate = 0.5 * (alpha - sqrt(fmax(alpha * alpha - critical * critical, 0.0)));
+    return relaxation_settled(options) - log(residual) / rate;
 }
 
 relaxation relaxation_start(double residual, const dem_options *options)

@@ -23,6 +23,10 @@ double relaxation_damping(const dem_model *model);
 /* When the last ramp ends, s. */
 double relaxation_settled(const dem_options *options);
 
+/* When a run will be at rest, s, about: after the last ramp the slowest motion, of relaxation_damping(), decays from 1
+ * to the residual at the rate that the damping in force gives it. Infinite without damping of the masses. */
+double relaxation_expected(const dem_simulation *simulation, const dem_options *options, double residual);
+
 /* A run that is to end at this residual. */
 relaxation relaxation_start(double residual, const dem_options *options);
 

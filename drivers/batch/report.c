@@ -9,8 +9,6 @@
 
 #include <dem/trajectory.h>
 
-#include "relaxation.h"
-#include "ask.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16 }; /* obstacles, boundaries */
@@ -100,22 +98,36 @@ static bool is_due(const report *r, double now, double t)
 {
     if (!(t > r->t_start)) return false;
     const double share = r->log->verbose ? 0.05 : 0.1;
-    return r->log->terminal ? now - r->wall_shown > 0.2 : t - r->t_shown >= share * r->t_end;
+    return r->log->terminal ? now - r->wall_shown > 0.2 : t - r->t_shown >= share * r->span;
+}
+
+/* What there is until its end. */
+static void print_way(const report *r, const dem_state *state)
+{
+    if (r->rest == NULL)
+        (void)fprintf(r->log->out, "%5.1f %%", 100.0 * fmin(1.0, state->t / r->t_end));
+    else if (isfinite(r->rest->reached))
+        (void)fprintf(r->log->out, "residual %.1e, at rest below %.1e", r->rest->reached, r->rest->residual);
+    else
+        (void)fprintf(r->log->out, "loads grow until %.2e s", r->settled);
 }
 
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
-    const double now = wall_clock(), spent = now - r->wall_start, done = fmin(1.0, state->t / r->t_end);
+    const double now = wall_clock(), spent = now - r->wall_start;
     if (!is_due(r, now, state->t)) return;
     const dem_counts counts = ask_counts(simulation);
     r->wall_shown = now;
     r->t_shown = state->t;
     r->log->inside = r->log->terminal;
-    (void)fprintf(
-        r->log->out, "%s%5.1f %%  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s  %.0f s left%s",
-        r->log->terminal ? "\r" : "", 100.0 * done, state->t, (long long)counts.steps, (long long)state->n_contacts,
-        report_closure(r, ask_energy(simulation)), (double)(counts.steps - r->steps_start) / fmax(spent, 1e-9),
-        spent * (r->t_end - state->t) / (state->t - r->t_start), r->log->terminal ? "   " : "\n");
+    if (r->log->terminal) (void)fprintf(r->log->out, "\r");
+    print_way(r, state);
+    (void)fprintf(r->log->out, "  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s", state->t,
+                  (long long)counts.steps, (long long)state->n_contacts, report_closure(r, ask_energy(simulation)),
+                  (double)(counts.steps - r->steps_start) / fmax(spent, 1e-9));
+    if (r->rest == NULL)
+        (void)fprintf(r->log->out, "  %.0f s left", spent * (r->t_end - state->t) / (state->t - r->t_start));
+    (void)fprintf(r->log->out, r->log->terminal ? "   " : "\n");
     (void)fflush(r->log->out);
 }
 
@@ -140,13 +152,19 @@ void report_start(report *r, run_log *log, const deck *d)
 {
     memset(r, 0, sizeof *r); /* gaps too: they get into checkpoints */
     r->log = log;
-    r->t_end = d->t_end;
+    r->t_end = r->span = d->t_end;
     r->closure = d->closure;
     r->settled = relaxation_settled(&d->options);
     r->most_stressed = d->most_stressed;
     r->so_far.area_min = 1.0;
     r->so_far.strain_min.spring_min = r->so_far.strain_max.spring_max = -1;
     r->wall_start = r->wall_shown = wall_clock();
+}
+
+void report_expect_rest(report *r, const relaxation *rest, double t)
+{
+    r->rest = rest;
+    r->span = fmin(t, r->t_end);
 }
 
 dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation)

@@ -7,6 +7,7 @@
 
 #include "deck.h"
 #include "rebound.h"
+#include "relaxation.h"
 #include "run_log.h"
 #include "step_report.h"
 
@@ -27,6 +28,8 @@ typedef struct report_progress {
 typedef struct report {
     run_log *log;
     double t_end;                  /* s */
+    double span;                   /* s, of which progress is shown at every tenth or twentieth */
+    const relaxation *rest;        /* of a run that ends at rest; NULL: of another */
     double closure;                /* from which on the ledger is warned of */
     double settled;                /* s, when the last ramp ends */
     double wall_start, wall_shown; /* s */
@@ -39,6 +42,9 @@ typedef struct report {
 
 /** Starts the log of a run. */
 void report_start(report *r, run_log *log, const deck *d);
+
+/** Shows progress as the residual of a run that will be at rest about then.  \param rest  borrowed */
+void report_expect_rest(report *r, const relaxation *rest, double t);
 
 /** Goes on from the checkpoint of a simulation that has been resumed from it.  \return DEM_ERROR_IO */
 dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation);

@@ -35,14 +35,17 @@ static void print_stability(FILE *out, const dem_method_traits *method, const de
                       largest_growth(o->method, z));
 }
 
-void step_report_print(FILE *out, double t_end, const dem_simulation *simulation)
+void step_report_print(FILE *out, double t_end, double undamped, const dem_simulation *simulation)
 {
     const dem_options o = ask_options(simulation);
     const dem_method_traits method = step_report_method(simulation);
     const double omega = dem_model_omega_max(dem_simulation_model(simulation));
     (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s", t_end, method.name,
                   (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
-    if (omega > 0.0) (void)fprintf(out, " (safe up to %.4g s)", method.usable / omega);
+    if (undamped > 0.0)
+        (void)fprintf(out, " (damping shortens it from %.4g s)", undamped);
+    else if (omega > 0.0)
+        (void)fprintf(out, " (safe up to %.4g s)", method.usable / omega);
     (void)fprintf(out, "\n");
 }
 

@@ -19,8 +19,9 @@ typedef struct step_report {
 dem_method_traits step_report_method(const dem_simulation *simulation);
 
 /** What is known before the run: the method, its step, and up to which step the run is safe: up to there no undamped
- *  oscillation grows by more than a thousandth in a step. */
-void step_report_print(FILE *out, double t_end, const dem_simulation *simulation);
+ *  oscillation grows by more than a thousandth in a step.
+ *  \param undamped  s, the step that damping has shortened; 0: it has not */
+void step_report_print(FILE *out, double t_end, double undamped, const dem_simulation *simulation);
 
 /** Stability bound, kernel, (6) at v_scale. */
 void step_report_print_details(FILE *out, const dem_simulation *simulation);

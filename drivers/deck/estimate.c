@@ -204,17 +204,26 @@ static double tables_bytes(const deck *d, const contents *c, double steps)
     return bytes;
 }
 
-static void settle(estimate *e, const deck *d, const contents *c)
+static void settle(estimate *e, const deck *d, const contents *c, double duration)
 {
     e->nodes = c->nodes;
     e->springs = c->springs;
     e->memory = fmax(e->memory, c->nodes * (d->options.method == DEM_METHOD_VERLET ? of_verlet : of_pairs));
-    e->steps = ceil(d->t_end / e->step);
-    e->frames = floor(d->t_end / d->frame_interval * (1.0 + 1e-9)) + 1.0;
+    e->steps = ceil(duration / e->step);
+    e->frames = floor(duration / d->frame_interval * (1.0 + 1e-9)) + 1.0;
     e->output = e->frames * frame_bytes(d, c) + tables_bytes(d, c, e->steps);
 }
 
 /* ---- all of it ---- */
+
+double estimate_duration(const deck *d)
+{
+    double last = 0.0;
+    if (!(d->residual > 0.0)) return d->t_end;
+    for (size_t k = 0; k < schema_count(&d->groups, "boundary"); k++)
+        last = fmax(last, schema_real(schema_get(&d->groups, "boundary", k), "ramp"));
+    return fmin(last, d->t_end);
+}
 
 bool estimate_deck(estimate *out, const deck *d)
 {
@@ -232,12 +241,22 @@ bool estimate_deck(estimate *out, const deck *d)
                         .bodies = (double)n,
                         .obstacles = (double)schema_count(&d->groups, "obstacle"),
                         .boundaries = (double)schema_count(&d->groups, "boundary")};
-    settle(&e, d, &c);
+    settle(&e, d, &c, estimate_duration(d));
     *out = e;
     return true;
 }
 
-estimate estimate_run(const deck *d, const dem_simulation *simulation)
+/* By the defaults of dem_options for bodies without damping; 0 where the deck gives the step. */
+static double default_step(const deck *d, const dem_simulation *simulation)
+{
+    const double omega = dem_model_omega_max(dem_simulation_model(simulation));
+    dem_method_traits method;
+    if (d->options.fixed_step > 0.0 || d->options.max_step > 0.0 || !(omega > 0.0)) return 0.0;
+    if (dem_method_describe(&method, d->options.method) != DEM_OK) return 0.0;
+    return (method.adaptive ? 0.5 : 0.125 * method.stable) / omega;
+}
+
+estimate estimate_run(const deck *d, const dem_simulation *simulation, double duration)
 {
     const dem_model_size size = ask_sizes(dem_simulation_model(simulation));
     const contents c = {.nodes = (double)size.n_nodes,
@@ -246,7 +265,9 @@ estimate estimate_run(const deck *d, const dem_simulation *simulation)
                         .obstacles = (double)size.n_obstacles,
                         .boundaries = (double)d->n_boundaries};
     estimate e = {.step = ask_options(simulation).max_step};
-    settle(&e, d, &c);
+    const double undamped = default_step(d, simulation);
+    if (e.step < undamped * (1.0 - 1e-9)) e.undamped = undamped; /* rounding is no damping */
+    settle(&e, d, &c, duration);
     return e;
 }
 
@@ -261,19 +282,24 @@ static namelist_place place_of(const deck *d, const char *group, size_t k, const
 estimate_breach estimate_check(const estimate *needed, const limits *most, const deck *d, namelist_errors *errors)
 {
     const double disk = joined * needed->output;
+    char damped[100] = "";
+    if (needed->undamped > 0.0)
+        (void)snprintf(damped, sizeof damped, "; 'damping_time' or 'mass_damping' has shortened the steps from %.3g s",
+                       needed->undamped);
     estimate_breach breach = ESTIMATE_KEPT;
     if (disk > most->disk) {
         namelist_errors_add(errors, place_of(d, "output", 0, "frame_interval"),
                             "the output takes about %.3g GB, %.0f frames and %.3g steps until 't_end', twice while it "
-                            "is put together; the limit is %.3g GB, and --max-disk sets it",
-                            needed->output / giga, needed->frames, needed->steps, most->disk / giga);
+                            "is put together; the limit is %.3g GB, and --max-disk sets it%s",
+                            needed->output / giga, needed->frames, needed->steps, most->disk / giga, damped);
         breach = ESTIMATE_DISK;
     }
     if (needed->steps > most->steps) {
         namelist_errors_add(errors, place_of(d, "run", 0, "t_end"),
-                            "'t_end' in &run, %g s, takes at least %.3g steps of %.3g s; the limit is %.3g, and "
-                            "--max-steps sets it",
-                            d->t_end, needed->steps, needed->step, most->steps);
+                            "%s, %g s, takes at least %.3g steps of %.3g s; the limit is %.3g, and "
+                            "--max-steps sets it%s",
+                            d->residual > 0.0 ? "the longest 'ramp' in &boundary" : "'t_end' in &run",
+                            estimate_duration(d), needed->steps, needed->step, most->steps, damped);
         breach = ESTIMATE_STEPS;
     }
     if (needed->memory > most->memory) {

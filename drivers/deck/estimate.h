@@ -12,6 +12,7 @@ typedef struct estimate {
     size_t largest;        /* which body's, from 0 */
     double memory;         /* bytes, at least */
     double step, steps;    /* s, at most, infinite where unknown; their number, at least */
+    double undamped;       /* s, what the step would be without damping, which has shortened it; 0: it has not */
     double frames;
     double output; /* bytes of frames and tables before they are deflated */
 } estimate;
@@ -20,8 +21,11 @@ typedef struct estimate {
  *  when memory runs out. */
 bool estimate_deck(estimate *out, const deck *d);
 
-/** Of what has been built. */
-estimate estimate_run(const deck *d, const dem_simulation *simulation);
+/** How long a run lasts at least, s: to t_end, or, where it ends at rest, as long as loads grow. */
+double estimate_duration(const deck *d);
+
+/** Of what has been built, for a run that lasts so long. */
+estimate estimate_run(const deck *d, const dem_simulation *simulation, double duration);
 
 typedef enum estimate_breach { ESTIMATE_KEPT, ESTIMATE_DISK, ESTIMATE_STEPS, ESTIMATE_MEMORY } estimate_breach;
 

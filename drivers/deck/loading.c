@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "conditional_keys.h"
+#include "material.h"
 
 static const conditional_key where_keys[] = {{"side", "side", true},
                                              {"box", "box", true},
@@ -284,6 +285,21 @@ bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, cons
         if (!good) return false;
     }
     return *list != NULL && check_motions(*list, count, lattice, groups, errors);
+}
+
+bool loading_asked(double force[2], const schema_deck *groups, size_t k)
+{
+    if (k >= schema_count(groups, "boundary")) return false;
+    const schema_instance *group = schema_get(groups, "boundary", k);
+    if (!is(group, "kind", "traction") || !is(group, "where", "side")) return false;
+    const schema_instance *body = schema_get(groups, "body", (size_t)schema_real(group, "body") - 1);
+    if (!is(body, "shape", "rectangle")) return false;
+    int axis;
+    double sense;
+    side_axis(group, &axis, &sense);
+    const double length = reals_of(body, "size")[1 - axis], area = length * material_of(groups, body).thickness;
+    for (int c = 0; c < 2; c++) force[c] = area * reals_of(group, "traction")[c];
+    return true;
 }
 
 void loading_free(dem_boundary *list, dem_index n)

@@ -20,6 +20,11 @@ void loading_drop_unused(schema_deck *groups);
  * \param[out] list  [number of &boundary] */
 bool loading_build(dem_boundary **list, dem_index *n, dem_lattice *lattice, const placement *bodies,
                    const schema_deck *groups, namelist_errors *errors);
+
+/* The force that group k, a traction on a side of a rectangle, asks for, N: over the side of the true shape, where the
+ * lattice may be shorter. False for other groups, and where there is no such group. */
+bool loading_asked(double force[2], const schema_deck *groups, size_t k);
+
 void loading_free(dem_boundary *list, dem_index n);
 
 #endif

@@ -506,6 +506,20 @@ class Run(Case):
                  "&body shape = 'rectangle', size = 0.08, 0.12, spacing = 1e-2, lattice = 'square' /\n")
         self.assertNotIn("warning", self.call(0, "--check", "deck.nml"))
 
+    def test_a_load_that_is_not_what_was_asked_for_is_reported(self):
+        self.put(HANG.replace("t_end = 1, residual = 1e-3", "t_end = 1e-3") +
+                 "&boundary where = 'side', side = 'right', kind = 'traction', traction = 1e3, 0 /\n")
+        _, _, x, y, asked, _, longer = numbers("boundary   #: # nodes, force (#, #) N, of (#, #) N asked for: the side of the "
+                                               "lattice is # % longer than that of the shape", self.call(0, "--check", "deck.nml"))
+        self.assertEqual((asked, y), (40, 0))
+        self.assertAlmostEqual(x, 40 * (1 + longer / 100), delta=1e-2)
+
+    def test_damping_that_shortens_the_step_is_named(self):
+        self.put(coarse().replace("density ", "damping_time = 1e-3, density "))
+        step, undamped = numbers("time       t_end # s, fehlberg45 of order 5, rtol 1e-06, largest step # s (damping shortens it "
+                                 "from # s)".replace("t_end #", "t_end 0.008"), self.call(0, "--check", "deck.nml"))
+        self.assertTrue(step < 0.1 * undamped)
+
     def test_what_folds_is_counted(self):
         counts = "triangles  smallest area # of its rest area at # s, guard on # at most, # inverted"
         self.put(FOLD)
@@ -539,8 +553,14 @@ class Run(Case):
 
     def test_a_body_comes_to_rest_or_has_no_result(self):
         self.put(HANG)
-        reached, when = numbers("rest       residual # at # s", self.call(0, "deck.nml"))
+        log = self.call(0, "deck.nml")
+        reached, when = numbers("rest       residual # at # s", log)
         self.assertTrue(reached <= 1e-3 and 0 < when < 1)
+        expected, steps, *_ = numbers("estimate   at rest at about # s, # steps of # evaluations, # frames, about # MB of output", log)
+        self.assertTrue(0.25 < when / expected < 4, "the slowest motion that the extent allows")
+        taken, *_ = numbers("run        # steps, # rejected, # retried, # evaluations, # s", log)
+        self.assertTrue(0.25 < taken / steps < 4)
+        self.assertRegex(log, rf"(?m)^residual {NUMBER}, at rest below 1\.0e-03  t {NUMBER} s  step \d+  contacts 0 ")
         self.put(HANG.replace("t_end = 1,", "t_end = 1e-3,").replace("'hang'", "'swing'"))
         done = run("deck.nml", cwd=self.folder)
         self.assertEqual(done.returncode, 4)

@@ -38,6 +38,26 @@ TEST(a_weight_comes_to_rest_where_it_hangs)
     assert_close(state.x[3], -0.5 - sag, 2.0 * residual * sag);
 }
 
+/* Critical damping of the slowest motion takes log(1/residual) over half of itself; twice as much slows it down to the
+ * smaller root of s^2 - alpha s + critical^2/4, half as much to half its rate. */
+TEST(the_time_to_rest_is_that_of_the_slowest_motion)
+{
+    static const double share[] = {1.0, 2.0, 0.5};
+    for (int k = 0; k < 3; k++) {
+        dem_options options = dem_options_default();
+        CLEANUP(support_close) support_run probe;
+        CLEANUP(support_close) support_run run;
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        open_weight(&probe, &options);
+        const double critical = relaxation_damping(probe.model), alpha = share[k] * critical;
+        const double rate = k == 1 ? (1.0 - sqrt(0.75)) * critical : 0.5 * alpha;
+        options.mass_damping = alpha;
+        support_lattice(&lattice, 2, hanging, masses, 1, ends, 0.5, 100.0, fixed);
+        support_open(&run, &lattice, NULL, 0, &options);
+        assert_close(relaxation_expected(run.simulation, &options, 1e-3), log(1e3) / rate, 1e-9 / rate);
+    }
+}
+
 TEST(what_is_not_at_rest_goes_on)
 {
     dem_options options = dem_options_default();

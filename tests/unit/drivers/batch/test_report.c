@@ -396,6 +396,27 @@ TEST(details_are_left_out_unless_they_are_wanted)
     }
 }
 
+/* A run that ends at rest: its residual, known once the loads have grown, at every twentieth of the time expected. */
+TEST(progress_of_a_run_to_rest_is_its_residual)
+{
+    relaxation rest = {.residual = 1e-3, .reached = (double)INFINITY, .settled = 0.25};
+    logged *l = drop_node(false, 100.0);
+    report_expect_rest(&l->report, &rest, 1.0);
+    l->report.settled = 0.25;
+    assert_ok(dem_simulation_advance(l->run.simulation, 0.25));
+    rest.reached = 0.125;
+    assert_ok(dem_simulation_advance(l->run.simulation, 0.5));
+    read_log(l);
+    int n_lines = 0;
+    for (const char *line = l->text; *line != '\0'; line += strcspn(line, "\n") + 1) n_lines++;
+    assert_in_range(n_lines, 8, 10); /* steps of 1 % pass a twentieth by one at most */
+    assert_memory_equal(l->text, "loads grow until 2.50e-01 s  t ", strlen("loads grow until 2.50e-01 s  t "));
+    assert_non_null(strstr(l->text, "\nresidual 1.2e-01, at rest below 1.0e-03  t "));
+    assert_null(strstr(l->text, "%"));
+    assert_null(strstr(l->text, "left"));
+    drop_logged(l);
+}
+
 TEST(progress_is_half_as_often_without_details)
 {
     logged *l = drop_node(false, 1.0);

@@ -40,7 +40,7 @@ static void print_plan(const dem_options *options)
     support_run run;
     FILE *file = open_log();
     open_pair(&run, options);
-    step_report_print(file, 7.0, run.simulation);
+    step_report_print(file, 7.0, 0.0, run.simulation);
     step_report_print_details(file, run.simulation);
     const bool is_long = step_report_is_long(run.simulation, why);
     assert_int_equal(is_long, why[0] != '\0');
@@ -111,7 +111,7 @@ TEST(without_springs_nothing_bounds_the_step)
     support_run run;
     FILE *file = open_log();
     support_point(&run, 1.0, x, v, (const double[4]){-1.0, 0.0, 1.0, 0.0}, 2, 0.5);
-    step_report_print(file, 1.0, run.simulation);
+    step_report_print(file, 1.0, 0.0, run.simulation);
     step_report_print_details(file, run.simulation);
     assert_false(step_report_is_long(run.simulation, why));
     support_close(&run);

@@ -53,7 +53,7 @@ static void measure(const char *text, estimate *before, estimate *found)
     assert_int_equal(dem_model_create(&model, &d.lattice, NULL, 0), DEM_OK);
     d.options.v_scale = 1.0;
     assert_int_equal(dem_simulation_create(&simulation, model, &d.options), DEM_OK);
-    *found = estimate_run(&d, simulation);
+    *found = estimate_run(&d, simulation, estimate_duration(&d));
 }
 
 /* ---- nodes ---- */
@@ -232,6 +232,37 @@ TEST(output_is_frames_and_tables)
     assert_close(e.output, 11.0 * (10000.0 * (24.0 + 4.0 * 13.0) + 40000.0 * (1.0 + 8.0)) + 8.0 * 1024.0 * 53.0, 1.0);
 }
 
+/* What lasts until it is at rest lasts at least until its loads have grown; t_end is only its limit. */
+TEST(a_run_that_ends_at_rest_is_counted_by_its_ramps)
+{
+    const estimate e = of("&run t_end = 100, residual = 1e-3 /\n&output frame_interval = 0.01 /\n"
+                          "&material youngs_modulus = 1e7, density = 1000 /\n&solver max_step = 1e-3 /\n"
+                          "&boundary where = 'side', side = 'top' /\n"
+                          "&boundary where = 'side', side = 'bottom', kind = 'force', force = 1, 0, ramp = 0.2 /\n"
+                          "&body shape = 'rectangle', size = 1, 1, lattice = 'square', " BODY);
+    assert_close(e.steps, 200.0, 1e-9);
+    assert_close(e.frames, 21.0, 0.0);
+}
+
+/* By the rule of damping: with tau omega_max = 100 the step is tau omega_max times as short, about. */
+TEST(a_step_that_damping_has_shortened_is_known)
+{
+    static const char body[] = "&body shape = 'rectangle', size = 1, 1, spacing = 0.1 /\n";
+    char text[600];
+    estimate before, without, with, given;
+    (void)snprintf(text, sizeof text, SOLID "%s", body);
+    measure(text, &before, &without);
+    assert_close(without.undamped, 0.0, 0.0);
+    (void)snprintf(text, sizeof text, HEAD "&material youngs_modulus = 1e7, density = 1000, damping_time = %g /\n%s",
+                   200.0 * without.step, body);
+    measure(text, &before, &with);
+    assert_close(with.undamped, without.step, 1e-12 * without.step);
+    assert_true(with.step < 0.1 * without.step);
+    (void)snprintf(text + strlen(text), sizeof text - strlen(text), "&solver max_step = %g /\n", with.step);
+    measure(text, &before, &given);
+    assert_close(given.undamped, 0.0, 0.0); /* it is the deck's */
+}
+
 /* ---- what is refused ---- */
 
 #define TWO                                                                                                            \
@@ -253,6 +284,18 @@ static void expect_message(limits most, estimate_breach expected, const char *me
         n += (size_t)snprintf(all + n, sizeof all - n, "%d:%d %s\n", errors.list[k].place.line,
                               errors.list[k].place.column, errors.list[k].text);
     assert_string_equal(all, message);
+}
+
+TEST(damping_that_makes_a_run_long_is_named)
+{
+    const estimate damped = {.step = 1e-9, .steps = 1e9, .undamped = 1e-6};
+    const limits most = {INFINITY, 1e8, INFINITY};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
+    CLEANUP(deck_free) deck d = parse(TWO);
+    assert_int_equal(estimate_check(&damped, &most, &d, &errors), ESTIMATE_STEPS);
+    assert_string_equal(errors.list[0].text,
+                        "'t_end' in &run, 1 s, takes at least 1e+09 steps of 1e-09 s; the limit is 1e+08, and "
+                        "--max-steps sets it; 'damping_time' or 'mass_damping' has shortened the steps from 1e-06 s");
 }
 
 TEST(what_keeps_within_its_limits_gets_no_message)

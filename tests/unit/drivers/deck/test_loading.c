@@ -165,3 +165,31 @@ TEST(a_component_has_one_motion)
                         "&boundary prescribes the motion of node 3 at (7, -2) m, as the one in line 3 does");
     drop_loaded(&l);
 }
+
+/* Of a side of 3 m by 0.5 m a traction of (10, 20) Pa; other shapes, places and kinds ask for nothing of the sort. */
+TEST(a_traction_on_a_side_of_a_rectangle_asks_for_a_force)
+{
+#define PLATE                                                                                                          \
+    "&material youngs_modulus = 1, density = 1, thickness = 0.5 /\n&body shape = 'rectangle', size = 2, 3, spacing = " \
+    "1 /\n"
+#define DISC "&material youngs_modulus = 1, density = 1 /\n&body shape = 'disc', radius = 2, spacing = 1 /\n"
+    static const struct {
+        const char *text;
+        double length; /* 0: no answer */
+    } all[] = {{PLATE "&boundary where = 'side', side = 'left', kind = 'traction', traction = 10, 20 /\n", 3.0},
+               {PLATE "&boundary where = 'side', side = 'top', kind = 'traction', traction = 10, 20 /\n", 2.0},
+               {PLATE "&boundary where = 'all', kind = 'traction', traction = 10, 20 /\n", 0.0},
+               {PLATE "&boundary where = 'side', side = 'top', kind = 'force', force = 10, 20 /\n", 0.0},
+               {DISC "&boundary where = 'side', side = 'top', kind = 'traction', traction = 10, 20 /\n", 0.0}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        double force[2] = {0.0, 0.0};
+        char text[600];
+        (void)snprintf(text, sizeof text, "&run t_end = 1 /\n%s", all[k].text);
+        resolved r = resolve_clean(text);
+        assert_int_equal(loading_asked(force, &r.deck, 0), all[k].length > 0.0);
+        assert_false(loading_asked(force, &r.deck, 1)); /* there is no second one */
+        assert_close(force[0], 5.0 * all[k].length, 1e-15);
+        assert_close(force[1], 10.0 * all[k].length, 1e-15);
+        drop_resolved(&r);
+    }
+}
