@@ -429,6 +429,7 @@ static bool begin_anew(job *j)
     j->peaks = NULL;
     j->simulation = NULL;
     if (!passes(j, dem_simulation_create(&j->simulation, j->model, &j->options), j->path)) return false;
+    report_end(&j->report); /* of a resumption that has failed */
     start_log(j);
     return passes(j, begin(j), j->path);
 }
@@ -500,6 +501,7 @@ static bool find_path(job *j)
 
 static void dismiss(job *j)
 {
+    report_end(&j->report);
     dem_trajectory_destroy(j->trajectory);
     dem_peaks_destroy(j->peaks);
     dem_simulation_destroy(j->simulation);

@@ -77,3 +77,9 @@ void json_integer(json *j, const char *key, int64_t n)
     begin(j, key);
     (void)fprintf(j->out, "%" PRId64, n);
 }
+
+void json_truth(json *j, const char *key, bool value)
+{
+    begin(j, key);
+    (void)fputs(value ? "true" : "false", j->out);
+}

@@ -24,5 +24,6 @@ void json_real(json *j, const char *key, double x);
 void json_reals(json *j, const char *key, const double *x, int n);
 
 void json_integer(json *j, const char *key, int64_t n);
+void json_truth(json *j, const char *key, bool value);
 
 #endif

@@ -9,11 +9,13 @@
 
 #include <dem/trajectory.h>
 
+#include "edges.h"
+#include "ask.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16 }; /* obstacles, boundaries */
 
-static const char entry[] = "report"; /* of a checkpoint */
+static const char entry[] = "report", touched_entry[] = "report.touched"; /* of a checkpoint */
 
 /* ---- following a run ---- */
 
@@ -47,10 +49,29 @@ static void follow_strain(report *r, const dem_simulation *simulation, double t)
     if (strain.inverted > r->so_far.inverted_max) r->so_far.inverted_max = strain.inverted;
 }
 
+static dem_index count_nodes(const dem_simulation *simulation)
+{
+    return ask_sizes(dem_simulation_model(simulation)).n_nodes;
+}
+
+int32_t report_touched(const report *r, dem_index node)
+{
+    return r->touched != NULL ? r->touched[node] : 0;
+}
+
+bool report_is_stepped(const report *r, const dem_model *model, dem_index node)
+{
+    return edges_stepped(&r->deck->groups, dem_model_lattice(model), ask_sizes(model).n_bodies, node);
+}
+
 static dem_status note_event(void *context, const dem_simulation *simulation, const dem_event *event)
 {
     report *r = context;
     rebound_note(&r->so_far.rebound, simulation, event);
+    if (r->touched == NULL) r->touched = calloc((size_t)count_nodes(simulation), sizeof *r->touched);
+    if (r->touched == NULL) return DEM_ERROR_MEMORY;
+    r->touched[event->node] = (int32_t)event->obstacle + 1;
+    if (event->other >= 0) r->touched[event->other] = (int32_t)event->obstacle + 1;
     return DEM_OK;
 }
 
@@ -152,6 +173,7 @@ void report_start(report *r, run_log *log, const deck *d)
 {
     memset(r, 0, sizeof *r); /* gaps too: they get into checkpoints */
     r->log = log;
+    r->deck = d;
     r->t_end = r->span = d->t_end;
     r->closure = d->closure;
     r->settled = relaxation_settled(&d->options);
@@ -167,13 +189,30 @@ void report_expect_rest(report *r, const relaxation *rest, double t)
     r->span = fmin(t, r->t_end);
 }
 
+void report_end(report *r)
+{
+    free(r->touched);
+    r->touched = NULL;
+}
+
+/* Without an entry nothing had touched. */
+static dem_status resume_touched(report *r, const dem_checkpoint *checkpoint, dem_index n_nodes)
+{
+    size_t size;
+    const size_t expected = (size_t)n_nodes * sizeof *r->touched;
+    if (dem_checkpoint_find(checkpoint, touched_entry, &size) == NULL) return DEM_OK;
+    r->touched = malloc(expected);
+    return r->touched != NULL ? dem_checkpoint_get(checkpoint, touched_entry, r->touched, expected) : DEM_ERROR_MEMORY;
+}
+
 dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
     r->t_start = r->t_shown = state.t;
     r->steps_start = ask_counts(simulation).steps;
-    const dem_status status = dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
+    dem_status status = dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
+    if (status == DEM_OK) status = resume_touched(r, checkpoint, count_nodes(simulation));
     if (status != DEM_OK) return status;
     r->log->quiet = true;
     if (r->so_far.warned) warn_ledger(r, simulation);
@@ -185,8 +224,10 @@ dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_
 static dem_status save(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     const report *r = context;
-    (void)simulation;
-    return dem_checkpoint_put(checkpoint, entry, &r->so_far, sizeof r->so_far);
+    const size_t size = (size_t)count_nodes(simulation) * sizeof *r->touched;
+    const dem_status status = dem_checkpoint_put(checkpoint, entry, &r->so_far, sizeof r->so_far);
+    if (status != DEM_OK || r->touched == NULL) return status;
+    return dem_checkpoint_put(checkpoint, touched_entry, r->touched, size);
 }
 
 dem_observer report_observer(report *r)
@@ -210,16 +251,29 @@ static void print_strain(const report *r)
             (long long)r->so_far.inverted_max);
 }
 
-/* Place at rest. */
-static void print_node_peak(FILE *out, dem_index node, const dem_node_peak *peak, const double x[2])
+/* Why a peak is not to be trusted. */
+static void print_marks(const report *r, const dem_model *model, dem_index node)
 {
+    const bool stepped = report_is_stepped(r, model, node);
+    const int32_t obstacle = report_touched(r, node);
+    if (stepped) (void)fprintf(r->log->out, " (stepped edge: grows with refinement)");
+    if (obstacle > 0) (void)fprintf(r->log->out, " (touches obstacle %ld)", (long)obstacle);
+}
+
+/* Place at rest. */
+static void print_node_peak(const report *r, const dem_model *model, dem_index node)
+{
+    const dem_node_peak *peak = &dem_peaks_nodes(r->peaks)[node];
+    const double *x = dem_model_lattice(model)->x + 2 * node;
     double value[2], direction[2];
     dem_stress_principal(peak->stress, value, direction);
-    (void)fprintf(out,
+    (void)fprintf(r->log->out,
                   "stressed   node %lld at (%.6g, %.6g) m: von Mises %.4g Pa at %.4e s, principal %+.4g Pa at %.0f "
-                  "degrees, %+.4g Pa\n",
+                  "degrees, %+.4g Pa",
                   (long long)node, x[0], x[1], peak->von_mises, peak->t, value[0],
                   180.0 / M_PI * atan2(direction[1], direction[0]), value[1]);
+    print_marks(r, model, node);
+    (void)fprintf(r->log->out, "\n");
 }
 
 static void print_spring_peak(FILE *out, dem_index spring, const dem_spring_peak *peak, const dem_lattice *l)
@@ -230,8 +284,9 @@ static void print_spring_peak(FILE *out, dem_index spring, const dem_spring_peak
                   l->stiffness[spring] * peak->strain, peak->t);
 }
 
-static void print_peaks(const report *r, const dem_lattice *l)
+static void print_peaks(const report *r, const dem_model *model)
 {
+    const dem_lattice *l = dem_model_lattice(model);
     dem_index *list = calloc((size_t)r->most_stressed + 1, sizeof *list);
     if (r->peaks == NULL || list == NULL) {
         free(list);
@@ -239,8 +294,7 @@ static void print_peaks(const report *r, const dem_lattice *l)
     }
     const dem_index most = r->log->verbose || r->most_stressed == 0 ? r->most_stressed : 1;
     const dem_index n = dem_peaks_most_stressed_nodes(r->peaks, most, list);
-    for (dem_index k = 0; k < n; k++)
-        print_node_peak(r->log->out, list[k], &dem_peaks_nodes(r->peaks)[list[k]], l->x + 2 * list[k]);
+    for (dem_index k = 0; k < n; k++) print_node_peak(r, model, list[k]);
     const dem_index m = r->log->verbose ? dem_peaks_most_strained_springs(r->peaks, most, list) : 0;
     for (dem_index k = 0; k < m; k++) print_spring_peak(r->log->out, list[k], &dem_peaks_springs(r->peaks)[list[k]], l);
     free(list);
@@ -335,7 +389,7 @@ void report_summary(report *r, const dem_simulation *simulation)
     rebound_print(r->log->out, &r->so_far.rebound, simulation);
     if (details) rebound_print_details(r->log->out, &r->so_far.rebound, simulation);
     if (details) print_strain(r);
-    print_peaks(r, dem_model_lattice(dem_simulation_model(simulation)));
+    print_peaks(r, dem_simulation_model(simulation));
     if (details) print_energies(r, e);
     print_ledger(r, e);
     print_obstacles(r->log->out, simulation);

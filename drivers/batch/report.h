@@ -27,6 +27,8 @@ typedef struct report_progress {
 
 typedef struct report {
     run_log *log;
+    const deck *deck;
+    int32_t *touched;              /* [n_nodes] of a node that touched an obstacle its number, from 1; NULL: none did */
     double t_end;                  /* s */
     double span;                   /* s, of which progress is shown at every tenth or twentieth */
     const relaxation *rest;        /* of a run that ends at rest; NULL: of another */
@@ -46,6 +48,9 @@ void report_start(report *r, run_log *log, const deck *d);
 /** Shows progress as the residual of a run that will be at rest about then.  \param rest  borrowed */
 void report_expect_rest(report *r, const relaxation *rest, double t);
 
+/** To be called in any case. */
+void report_end(report *r);
+
 /** Goes on from the checkpoint of a simulation that has been resumed from it.  \return DEM_ERROR_IO */
 dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation);
 
@@ -55,6 +60,12 @@ dem_observer report_observer(report *r);
 /** First and last contact, rebound, what was stressed most, energy ledger and its closure, obstacles, wall time; with
  *  the details of a verbose log strains, energies and counts. */
 void report_summary(report *r, const dem_simulation *simulation);
+
+/** Whether a node is on an edge that its lattice follows in steps: edges.h. */
+bool report_is_stepped(const report *r, const dem_model *model, dem_index node);
+
+/** The obstacle, from 1, that a node has touched last in this run; 0: none. */
+int32_t report_touched(const report *r, dem_index node);
 
 /** What the ledger has gained, over the largest energy so far. */
 double report_closure(const report *r, dem_energy e);

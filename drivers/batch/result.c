@@ -158,7 +158,7 @@ static void write_strain(json *j, const report *log)
     json_integer(j, "inverted", log->so_far.inverted_max);
 }
 
-static void write_node_peak(json *j, const report *log)
+static void write_node_peak(json *j, const report *log, const dem_model *model)
 {
     dem_index node;
     if (dem_peaks_most_stressed_nodes(log->peaks, 1, &node) == 0) return;
@@ -168,6 +168,8 @@ static void write_node_peak(json *j, const report *log)
     json_real(j, "von_mises", peak->von_mises);
     json_real(j, "t", peak->t);
     json_reals(j, "stress", peak->stress, 3);
+    json_truth(j, "stepped_edge", report_is_stepped(log, model, node));
+    json_real(j, "touches", report_touched(log, node) > 0 ? (double)(report_touched(log, node) - 1) : (double)NAN);
     json_close(j, '}');
 }
 
@@ -238,7 +240,7 @@ static void write_run(json *j, const result *r)
     const dem_energy energy = ask_energy(r->simulation);
     write_energy(j, r->log, &energy);
     write_strain(j, r->log);
-    if (r->log->peaks != NULL) write_node_peak(j, r->log);
+    if (r->log->peaks != NULL) write_node_peak(j, r->log, dem_simulation_model(r->simulation));
     if (r->log->peaks != NULL) write_spring_peak(j, r->log);
     write_loads(j, r->simulation);
     write_overlap(j, r->simulation);

@@ -469,6 +469,16 @@ class Run(Case):
         nodes = "stressed   node # at (#, #) m: von Mises # Pa at # s, principal # Pa at # degrees, # Pa"
         springs = "strained   spring # at (#, #) m: strain #, force # N at # s"
         log = self.call(0, "deck.nml")
+        marks = re.compile(r" \((?:stepped edge: grows with refinement|touches obstacle 1)\)")
+        marked = re.findall(rf"(?m)^stressed   node (\d+) at \((\S+), (\S+)\) m: .* Pa((?:{marks.pattern})*)$", log)
+        self.assertEqual(len(marked), 5)
+        for _, x, y, found in marked:
+            side = not 1e-3 < float(y) < 0.128  # the lower and the upper one are rows
+            self.assertFalse("stepped" in found and side)
+            self.assertTrue("touches" not in found or float(y) < 0.03, "only its lower end comes to the ground")
+        worst = json.loads(log.splitlines()[-1])["most_stressed"]
+        self.assertEqual((worst["stepped_edge"], worst["touches"]), ("stepped" in marked[0][3], 0 if "touches" in marked[0][3] else None))
+        log = marks.sub("", log)
         found = rows(nodes, log)
         self.assertEqual(len(found), 5)
         self.assertEqual([row[3] for row in found], sorted((row[3] for row in found), reverse=True))
@@ -484,7 +494,7 @@ class Run(Case):
                 folder = self.folder / str(len(self.files()))
                 folder.mkdir()
                 self.put(coarse(t_end="5e-4").replace("frame_interval", f"{more}, frame_interval"))
-                log = self.call(0, "--outdir", folder.name, "deck.nml")
+                log = marks.sub("", self.call(0, "--outdir", folder.name, "deck.nml"))
                 self.assertEqual((len(rows(nodes, log)), len(rows(springs, log))), (n, n))
 
     def test_a_ledger_that_opens_is_warned_of_once(self):

@@ -20,6 +20,7 @@ typedef struct logged {
     support_run run;
     report report;
     run_log log;
+    deck deck;
     char text[1 << 16];
 } logged;
 
@@ -27,8 +28,8 @@ static inline void follow(logged *l, bool terminal, double t_end)
 {
     l->log = (run_log){.out = tmpfile(), .terminal = terminal, .verbose = true};
     assert_non_null(l->log.out);
-    const deck d = {.t_end = t_end, .closure = 1e-2};
-    report_start(&l->report, &l->log, &d);
+    l->deck = (deck){.t_end = t_end, .closure = 1e-2};
+    report_start(&l->report, &l->log, &l->deck);
     const dem_observer observer = report_observer(&l->report);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
 }
@@ -50,6 +51,7 @@ static inline void finish(logged *l, double t_end)
 
 static inline void drop_logged(logged *l)
 {
+    report_end(&l->report);
     assert_int_equal(fclose(l->log.out), 0);
     support_close(&l->run);
     free(l);

@@ -58,6 +58,17 @@ TEST(what_is_not_finite_is_null)
     expect(&t, "[null,null,null,-0.0,1e-300]");
 }
 
+TEST(truths_are_words)
+{
+    text t;
+    begin(&t);
+    json_open(&t.json, NULL, '{');
+    json_truth(&t.json, "a", true);
+    json_truth(&t.json, "b", false);
+    json_close(&t.json, '}');
+    expect(&t, "{\"a\":true,\"b\":false}");
+}
+
 static void expect_escaped(const char *from, const char *expected)
 {
     text t;

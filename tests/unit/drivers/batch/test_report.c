@@ -417,6 +417,15 @@ TEST(progress_of_a_run_to_rest_is_its_residual)
     drop_logged(l);
 }
 
+TEST(nodes_that_touched_are_known)
+{
+    logged *l = drop_node(false, 0.9 * first_touch());
+    assert_int_equal(report_touched(&l->report, 0), 0);
+    assert_ok(dem_simulation_advance(l->run.simulation, 1.1 * first_touch()));
+    assert_int_equal(report_touched(&l->report, 0), 1);
+    drop_logged(l);
+}
+
 TEST(progress_is_half_as_often_without_details)
 {
     logged *l = drop_node(false, 1.0);
