@@ -244,6 +244,21 @@ static result describe(const job *j)
                     .seconds = wall_clock() - j->wall_start};
 }
 
+/* What a run that is done has left. */
+static void list_files(job *j)
+{
+    static const char *const ends[] = {".vtkhdf", ".obstacle.vtkhdf", ".json", ".checkpoint"};
+    char path[OUTPUT_PATH];
+    const char *before = "files     ";
+    for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {
+        output_beside(path, j->path, ends[k]);
+        if (access(path, F_OK) != 0) continue;
+        (void)fprintf(j->log.out, "%s %s", before, path);
+        before = ",";
+    }
+    (void)fputs("\n", j->log.out);
+}
+
 /* Reports what came out, in NAME.json too if the output is ours. */
 static void conclude(job *j)
 {
@@ -259,6 +274,7 @@ static void conclude(job *j)
         free(line);
         line = result_line(&r);
     }
+    if (j->claimed && j->outcome.code == EXIT_DONE) list_files(j);
     if (line == NULL)
         outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
     else if (!j->log.terminal || j->log.verbose) /* it is for programs */

@@ -100,15 +100,28 @@ static void warn_rest_speed(run_log *log, const dem_options *o)
                      o->rest_speed, kept_up);
 }
 
-static void print_sizes(FILE *out, const dem_model *model)
+/* How impacts are taken; each by itself unless there is a window. */
+static void print_method(FILE *out, const dem_options *o)
+{
+    const char *name = o->contact == DEM_CONTACT_LOCAL ? "local" : "exact";
+    if (o->window > 0.0)
+        (void)fprintf(out, "; impacts within %.3g s are taken together ('%s')", o->window, name);
+    else
+        (void)fprintf(out, "; each impact is taken by itself ('%s')", name);
+}
+
+static void print_sizes(FILE *out, const dem_model *model, const dem_options *o)
 {
     const dem_model_size size = ask_sizes(model);
-    (void)fprintf(out, "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg\n",
+    (void)fprintf(out,
+                  "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg, spacing %.4g m\n",
                   (long long)size.n_nodes, (long long)size.n_springs, (long long)size.n_triangles,
-                  (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model));
-    (void)fprintf(out, "contact    %lld nodes may touch %lld obstacle%s of %lld segments\n",
+                  (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model), o->spacing);
+    (void)fprintf(out, "contact    %lld nodes may touch %lld obstacle%s of %lld segments",
                   (long long)size.n_contact_nodes, (long long)size.n_obstacles, size.n_obstacles == 1 ? "" : "s",
                   (long long)size.n_segments);
+    if (size.n_obstacles > 0) print_method(out, o);
+    (void)fprintf(out, "\n");
 }
 
 /* What is probed, where at rest. */
@@ -315,7 +328,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     const dem_options o = ask_options(simulation);
     FILE *out = log->out;
     print_title(log, d);
-    print_sizes(out, model);
+    print_sizes(out, model, &o);
     print_bodies(out, d);
     print_friction(out, model);
     print_motion(out, model);

@@ -318,6 +318,17 @@ static void print_ledger(const report *r, dem_energy e)
     (void)fprintf(r->log->out, "; closure %+.2e\n", report_closure(r, e));
 }
 
+/* The ledger in plain words. */
+static void print_balance(const report *r, dem_energy e)
+{
+    (void)fprintf(r->log->out, "balance    %.6g J at the start, %.6g J now; impacts took %.4g", r->so_far.energy_start,
+                  e.motion + e.gravity, e.impact);
+    print_taken(r->log->out, "friction", e.friction);
+    print_taken(r->log->out, "damping", e.damping);
+    print_taken(r->log->out, "boundaries gave", e.boundary);
+    (void)fprintf(r->log->out, " J; error %+.1e of the largest energy\n", report_closure(r, e));
+}
+
 static void print_energies(const report *r, dem_energy e)
 {
     (void)fprintf(r->log->out, "energy     kinetic %.6g, elastic %.4g, area %.4g, guard %.4g, gravity %.4g J\n",
@@ -391,7 +402,10 @@ void report_summary(report *r, const dem_simulation *simulation)
     if (details) print_strain(r);
     print_peaks(r, dem_simulation_model(simulation));
     if (details) print_energies(r, e);
-    print_ledger(r, e);
+    if (details)
+        print_ledger(r, e);
+    else
+        print_balance(r, e);
     print_obstacles(r->log->out, simulation);
     print_boundaries(r->log->out, simulation);
     print_overlap(r->log->out, simulation);

@@ -90,7 +90,7 @@ def summary(log):
     lines = log.split("output     ", 1)[1].splitlines()[1:]
     result = {key: value for key, value in json.loads(lines.pop()).items()
               if not key.startswith("wall_") and key not in ("deck", "output")}
-    lines = [line for line in lines if not re.match(r" *\d+\.\d %  t ", line)]
+    lines = [line for line in lines if not re.match(r" *\d+\.\d %  t |files ", line)]
     return [re.sub(r", \d+\.\d\d s$", "", line) for line in lines] + [result]
 
 
@@ -179,7 +179,7 @@ class Check(Case):
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
         self.assertRegex(lines[1], r"^deck       deck\.nml: Rubber rectangle .*, problem [0-9a-f]{16}$")
         nodes, springs, triangles, bodies, mass = numbers(
-            "lattice    # nodes, # springs, # triangles, # body, mass # kg", out)
+            "lattice    # nodes, # springs, # triangles, # body, mass # kg, spacing 0.01 m", out)
         self.assertTrue(1 - 4 <= nodes - springs + triangles <= 0, "Euler: one piece with up to four holes")
         self.assertEqual(bodies, 1)
         self.assertTrue(0.7 < mass / (1050 * 0.08 * 0.13) < 1.01)
@@ -188,7 +188,7 @@ class Check(Case):
         self.assertEqual((body, got), (1, mass))
         self.assertAlmostEqual(true / (1050 * area), 1, delta=1e-5)
         self.assertAlmostEqual(got / true, ratio, delta=1e-4)
-        may_touch, obstacles, segments = numbers("contact    # nodes may touch # obstacle of # segments", out)
+        may_touch, obstacles, segments = numbers("contact    # nodes may touch # obstacle of # segments; each impact is taken by itself ('local')", out)
         self.assertTrue(0 < may_touch < nodes)
         self.assertEqual((obstacles, segments), (1, 8))
         window, vertices, edges = numbers(
@@ -241,7 +241,7 @@ class Check(Case):
             return
         checked, _ = numbers("memory     at most # MB, # bytes a node", self.call(0, "--check", "deck.nml"))
         given, resident, out = self.run_measured(fine)
-        nodes, *_ = numbers("lattice    # nodes, # springs, # triangles, # body, mass # kg", out)
+        nodes, *_ = numbers("lattice    # nodes, # springs, # triangles, # body, mass # kg, spacing # m", out)
         _, each = numbers("memory     at most # MB, # bytes a node", out)
         self.assertAlmostEqual(given * 1e6 / nodes, each, delta=1e-3 * each)
         self.assertLess(checked, given)  # a run has frames and peaks besides
@@ -461,8 +461,13 @@ class Run(Case):
         logs = [run(*options, "--outdir", f"out{len(options)}", "deck.nml", cwd=self.folder).stdout for options in ((), ("--verbose",))]
         short, long = ([line.split(" ")[0] for line in log.splitlines() if not re.match(r" *\d+\.\d %|\{|warning ", line)] for log in logs)
         self.assertEqual(short, ["deck", "lattice", "contact", "mass", "constants", "time", "estimate", "output",
-                                 "contact", "rebound", "normal", "force", "stressed", "ledger", "obstacle", "run"])
-        self.assertTrue(set(short) < set(long) and len(long) > 2 * len(short), long)
+                                 "contact", "rebound", "normal", "force", "stressed", "balance", "obstacle", "run", "files"])
+        self.assertTrue(set(short) - {"balance"} < set(long) and len(long) > 2 * len(short), long)
+        self.assertIn("\nfiles      out0/rectangle.vtkhdf, out0/rectangle.obstacle.vtkhdf, out0/rectangle.json, "
+                      "out0/rectangle.checkpoint\n", logs[0])
+        start, now, taken, error = numbers("balance    # J at the start, # J now; impacts took # J; error # of the largest energy", logs[0])
+        self.assertAlmostEqual(start, now + taken, delta=1e-3 * start)
+        self.assertLess(abs(error), 2e-3)
         self.assertTrue(all(log.splitlines()[-1].startswith('{"deck":') for log in logs), "the result is the last line")
 
     def test_the_most_stressed_are_reported(self):

@@ -257,6 +257,8 @@ TEST(the_preview_tells_the_rules_of_impact)
         print_header(l);
         assert_non_null(strstr(l->text, on ? "\nimpacts    exact, window 2.5e-05 s, vertices on: 0 may touch 0 edges\n"
                                            : "\nimpacts    local, window 0 s (each by itself), vertices off\n"));
+        assert_non_null(strstr(l->text, on ? " of 1 segments; impacts within 2.5e-05 s are taken together ('exact')\n"
+                                           : " of 1 segments; each impact is taken by itself ('local')\n"));
         assert_false(has_line(l->text, "friction") || has_line(l->text, "damping"));
         drop_logged(l);
     }

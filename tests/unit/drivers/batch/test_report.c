@@ -158,6 +158,22 @@ TEST(what_friction_and_damping_took_is_reported_if_they_did)
 /* ---- obstacles ---- */
 
 /* m g t in all, of which the impacts and the reaction are parts. */
+TEST(the_balance_is_the_ledger_in_plain_words)
+{
+    const dem_energy e = {.kinetic = 5.0, .impact = 1.0, .friction = 2.5, .damping = 0.75, .boundary = 0.125};
+    logged *l = drop_node(false, 0.1);
+    l->log.verbose = false;
+    l->report.so_far.energy_start = 9.0, l->report.so_far.energy_max = 10.0;
+    other_energy = &e;
+    report_summary(&l->report, l->run.simulation);
+    other_energy = NULL;
+    read_log(l);
+    assert_non_null(strstr(l->text,
+                           "\nbalance    9 J at the start, 5 J now; impacts took 1, friction 2.5, damping 0.75, "
+                           "boundaries gave 0.125 J; error +1.3e-02 of the largest energy\n"));
+    drop_logged(l);
+}
+
 TEST(an_obstacle_tells_its_impulse)
 {
     const double t1 = first_touch(), v1 = g * t1;
@@ -383,14 +399,15 @@ TEST(counts_are_those_of_the_simulation)
 
 TEST(details_are_left_out_unless_they_are_wanted)
 {
-    static const char *const details[] = {"energy", "elastic", "events", "lasting", "formula"};
-    static const char *const results[] = {"contact", "rebound", "ledger", "obstacle", "run"};
+    static const char *const details[] = {"energy", "ledger", "elastic", "events", "lasting", "formula"};
+    static const char *const results[] = {"contact", "rebound", "normal", "force", "obstacle", "run"};
     for (int verbose = 0; verbose < 2; verbose++) {
         logged *l = drop_node(false, 0.5);
         l->log.verbose = verbose;
         finish(l, 0.5);
         for (size_t k = 0; k < sizeof details / sizeof *details; k++)
             assert_int_equal(has_line(l->text, details[k]), verbose);
+        assert_int_equal(has_line(l->text, "balance"), !verbose);
         for (size_t k = 0; k < sizeof results / sizeof *results; k++) assert_true(has_line(l->text, results[k]));
         drop_logged(l);
     }
