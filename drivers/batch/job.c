@@ -213,8 +213,10 @@ static void run(job *j)
     j->checkpoint.log = &j->log;
     j->report.peaks = j->peaks;
     preview_print(&j->log, &j->deck, j->simulation, j->path);
-    if (j->source.checkpoint != NULL)
+    if (j->source.checkpoint != NULL) {
+        report_warn_again(&j->report, j->simulation);
         run_log_tell(&j->log, "resumed    from %.6g s, %s\n", j->source.t, j->checkpoint.path);
+    }
     dem_checkpoint_destroy(j->source.checkpoint);
     j->source.checkpoint = NULL;
     const dem_status status = advance(j);

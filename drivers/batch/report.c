@@ -213,12 +213,17 @@ dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_
     r->steps_start = ask_counts(simulation).steps;
     dem_status status = dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
     if (status == DEM_OK) status = resume_touched(r, checkpoint, count_nodes(simulation));
-    if (status != DEM_OK) return status;
+    return status;
+}
+
+void report_warn_again(report *r, const dem_simulation *simulation)
+{
+    const bool first = r->so_far.overlapped && dem_simulation_overlap(simulation).t < r->so_far.warned_t;
     r->log->quiet = true;
+    if (first) warn_overlap(r, simulation);
     if (r->so_far.warned) warn_ledger(r, simulation);
-    if (r->so_far.overlapped) warn_overlap(r, simulation);
+    if (r->so_far.overlapped && !first) warn_overlap(r, simulation);
     r->log->quiet = false;
-    return DEM_OK;
 }
 
 static dem_status save(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)

@@ -54,6 +54,9 @@ void report_end(report *r);
 /** Goes on from the checkpoint of a simulation that has been resumed from it.  \return DEM_ERROR_IO */
 dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation);
 
+/** Keeps the warnings that an earlier process of the run has printed, in their order. */
+void report_warn_again(report *r, const dem_simulation *simulation);
+
 /** To be handed to the simulation: follows extremes and prints progress. */
 dem_observer report_observer(report *r);
 

@@ -112,8 +112,10 @@ class Case(unittest.TestCase):
 
 class Cuts(Case):
     def test_at_every_record(self):
+        self.put(DECK.replace("events = .true.", "closure = 1e-9, events = .true.") + "&contact rest_speed = 1e-9 /\n")
         log = self.call(0, outdir="whole")
         result = self.result("whole")
+        self.assertRegex("\n".join(result["warnings"]), r"^'rest_speed' .*\nthe energy ledger is open by ")
         self.assertGreaterEqual(result["impacts"], 100)
         self.assertGreaterEqual(result["slips"], 5)
         self.assertGreater(result["sticks"], 10)
