@@ -218,7 +218,7 @@ dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_
 
 void report_warn_again(report *r, const dem_simulation *simulation)
 {
-    const bool first = r->so_far.overlapped && dem_simulation_overlap(simulation).t < r->so_far.warned_t;
+    const bool first = r->so_far.overlapped && ask_overlap(simulation).t < r->so_far.warned_t;
     r->log->quiet = true;
     if (first) warn_overlap(r, simulation);
     if (r->so_far.warned) warn_ledger(r, simulation);
