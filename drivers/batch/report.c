@@ -331,6 +331,7 @@ static void print_balance(const report *r, dem_energy e)
     print_taken(r->log->out, "friction", e.friction);
     print_taken(r->log->out, "damping", e.damping);
     print_taken(r->log->out, "boundaries gave", e.boundary);
+    print_taken(r->log->out, "obstacles gave", e.obstacle);
     (void)fprintf(r->log->out, " J; error %+.1e of the largest energy\n", report_closure(r, e));
 }
 

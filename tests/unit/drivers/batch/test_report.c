@@ -155,12 +155,16 @@ TEST(what_friction_and_damping_took_is_reported_if_they_did)
     drop_logged(l);
 }
 
-/* ---- obstacles ---- */
-
-/* m g t in all, of which the impacts and the reaction are parts. */
 TEST(the_balance_is_the_ledger_in_plain_words)
 {
-    const dem_energy e = {.kinetic = 5.0, .impact = 1.0, .friction = 2.5, .damping = 0.75, .boundary = 0.125};
+    const dem_energy e = {.kinetic = 5.0,
+                          .motion = 5.0,
+                          .impact = 1.0,
+                          .friction = 2.5,
+                          .damping = 0.75,
+                          .boundary = 0.125,
+                          .obstacle = 0.25,
+                          .ledger = 8.875};
     logged *l = drop_node(false, 0.1);
     l->log.verbose = false;
     l->report.so_far.energy_start = 9.0, l->report.so_far.energy_max = 10.0;
@@ -170,10 +174,13 @@ TEST(the_balance_is_the_ledger_in_plain_words)
     read_log(l);
     assert_non_null(strstr(l->text,
                            "\nbalance    9 J at the start, 5 J now; impacts took 1, friction 2.5, damping 0.75, "
-                           "boundaries gave 0.125 J; error +1.3e-02 of the largest energy\n"));
+                           "boundaries gave 0.125, obstacles gave 0.25 J; error -1.3e-02 of the largest energy\n"));
     drop_logged(l);
 }
 
+/* ---- obstacles ---- */
+
+/* m g t in all, of which the impacts and the reaction are parts. */
 TEST(an_obstacle_tells_its_impulse)
 {
     const double t1 = first_touch(), v1 = g * t1;
