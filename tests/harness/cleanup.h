@@ -12,8 +12,8 @@
 #include <dem/reader.h>
 #include <dem/trajectory.h>
 
-/** Calls function(&variable) where the block of the variable ends. */
-#define CLEANUP(function) __attribute__((cleanup(function)))
+/** Calls function(&variable) where the block of the variable ends. Some variables are there for that alone. */
+#define CLEANUP(function) __attribute__((unused, cleanup(function)))
 
 /* For pointers, which the functions of the library take by value. */
 

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/motion.h"
 #include "ask.h"
 
 enum { MOTION_CONTACTS = 512 };

@@ -179,7 +179,7 @@ static void random_masses(gsl_rng *rng, scene *sc)
             velocity[2 * i + k] = uniform(rng, -3.0, 3.0);
         }
     }
-    support_lattice(&sc->body, n, x, mass, 0, NULL, 0.0, 0.0, NULL);
+    sc->body = support_lattice(n, x, mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&sc->body, NULL, velocity);
     sc->body.body = calloc(4, sizeof *sc->body.body);
     assert_non_null(sc->body.body);

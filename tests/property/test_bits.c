@@ -154,14 +154,12 @@ static picture run_strip(int threads)
     double points[2 * 61];
     dem_obstacle ground = {.n_points = 61, .points = points, .restitution = 0.5, .friction = 0.3};
     dem_options options = support_options();
-    dem_lattice strip;
     CLEANUP(support_close) support_run run;
     for (int k = 0; k <= 60; k++) {
         points[2 * k] = 0.01 * (k - 30);
         points[2 * k + 1] = 2e-4 * sin(2.0 * k);
     }
-    assert_ok(dem_lattice_rectangle(&strip, 0.2, 4e-3, 1e-3));
-    assert_ok(dem_lattice_assemble(&strip, &rubber));
+    dem_lattice strip = support_rectangle(0.2, 4e-3, 1e-3, &rubber);
     dem_lattice_move(&strip, 0.0, lift);
     assert_ok(dem_lattice_launch(&strip, down));
     options.contact = DEM_CONTACT_LOCAL;

@@ -120,12 +120,11 @@ static void run_through(unsigned long seed, manner how, diary *d)
 static uint64_t go_on_from(unsigned long seed, manner how, const diary *whole, dem_index k)
 {
     CLEANUP(scene_free) scene sc;
-    CLEANUP(free_model) dem_model *model;
     CLEANUP(free_simulation) dem_simulation *simulation;
     diary d = {.hash = whole->at[k]};
     const dem_observer observer = observer_of(&d, 0);
     set(&sc, seed, how);
-    assert_ok(dem_model_create(&model, &sc.body, sc.obstacles, sc.n));
+    CLEANUP(free_model) dem_model *model = support_model(&sc.body, sc.obstacles, sc.n);
     assert_ok(dem_simulation_resume(&simulation, model, &sc.options, whole->checkpoints[k]));
     assert_ok(dem_simulation_observe(simulation, &observer));
     assert_ok(dem_simulation_advance(simulation, 0.25 * sc.t_end));

@@ -103,8 +103,7 @@ static void follow(dem_simulation *simulation, const surface *to)
 
 static dem_simulation *run(const dem_model *model, const scene *sc, const surface *first, const surface *second)
 {
-    dem_simulation *simulation;
-    assert_ok(dem_simulation_create(&simulation, model, &sc->options));
+    dem_simulation *simulation = support_simulation(model, &sc->options);
     follow(simulation, first);
     assert_ok(dem_simulation_advance(simulation, 0.5 * sc->t_end));
     follow(simulation, second);
@@ -129,8 +128,7 @@ static void check_same(const dem_simulation *a, dem_simulation *b, unsigned long
 static dem_simulation *run_whole(const dem_model *model, const scene *sc, touched *nodes)
 {
     const dem_observer observer = {.context = nodes, .event = hear};
-    dem_simulation *simulation;
-    assert_ok(dem_simulation_create(&simulation, model, &sc->options));
+    dem_simulation *simulation = support_simulation(model, &sc->options);
     assert_ok(dem_simulation_observe(simulation, &observer));
     assert_ok(dem_simulation_advance(simulation, nodes->half));
     mark_closed(simulation, nodes->late);
@@ -142,10 +140,9 @@ static dem_simulation *run_whole(const dem_model *model, const scene *sc, touche
 static dem_index check_scene(unsigned long seed, gsl_rng *rng)
 {
     CLEANUP(scene_free) scene sc;
-    dem_model *model;
     scene_random(&sc, seed);
     sc.options.contact = DEM_CONTACT_LOCAL;
-    assert_ok(dem_model_create(&model, &sc.body, sc.obstacles, sc.n));
+    dem_model *model = support_model(&sc.body, sc.obstacles, sc.n);
     const size_t n = (size_t)model->lattice.n_nodes;
     touched nodes = {0.5 * sc.t_end, calloc(n, 1), calloc(n, 1)};
     assert_true(nodes.early != NULL && nodes.late != NULL);

@@ -14,27 +14,51 @@ static void *copy(const void *from, size_t size)
     return to;
 }
 
-void support_lattice(dem_lattice *out, dem_index n, const double *x, const double *mass, dem_index n_springs,
-                     const dem_index *ends, double rest_length, double stiffness, const unsigned char *fixed)
+dem_lattice support_lattice(dem_index n, const double *x, const double *mass, dem_index n_springs,
+                            const dem_index *ends, double rest_length, double stiffness, const unsigned char *fixed)
 {
-    dem_lattice_init(out);
-    out->n_nodes = n;
-    out->x = copy(x, 2 * (size_t)n * sizeof *x);
-    out->mass = copy(mass, (size_t)n * sizeof *mass);
-    out->flags = malloc((size_t)n);
-    assert_non_null(out->flags);
+    dem_lattice l;
+    dem_lattice_init(&l);
+    l.n_nodes = n;
+    l.x = copy(x, 2 * (size_t)n * sizeof *x);
+    l.mass = copy(mass, (size_t)n * sizeof *mass);
+    l.flags = malloc((size_t)n);
+    assert_non_null(l.flags);
     for (dem_index i = 0; i < n; i++)
-        out->flags[i] = (unsigned char)(DEM_NODE_CONTACT | (fixed && fixed[i] ? DEM_NODE_FIXED : 0));
-    if (n_springs == 0) return;
-    out->n_springs = n_springs;
-    out->ends = copy(ends, 2 * (size_t)n_springs * sizeof *ends);
-    out->rest_length = malloc((size_t)n_springs * sizeof(double));
-    out->stiffness = malloc((size_t)n_springs * sizeof(double));
-    assert_true(out->rest_length != NULL && out->stiffness != NULL);
+        l.flags[i] = (unsigned char)(DEM_NODE_CONTACT | (fixed && fixed[i] ? DEM_NODE_FIXED : 0));
+    if (n_springs == 0) return l;
+    l.n_springs = n_springs;
+    l.ends = copy(ends, 2 * (size_t)n_springs * sizeof *ends);
+    l.rest_length = malloc((size_t)n_springs * sizeof(double));
+    l.stiffness = malloc((size_t)n_springs * sizeof(double));
+    assert_true(l.rest_length != NULL && l.stiffness != NULL);
     for (dem_index k = 0; k < n_springs; k++) {
-        out->rest_length[k] = rest_length;
-        out->stiffness[k] = stiffness;
+        l.rest_length[k] = rest_length;
+        l.stiffness[k] = stiffness;
     }
+    return l;
+}
+
+dem_lattice support_rectangle(double width, double height, double spacing, const dem_material *material)
+{
+    dem_lattice l;
+    assert_ok(dem_lattice_rectangle(&l, width, height, spacing));
+    assert_ok(dem_lattice_assemble(&l, material));
+    return l;
+}
+
+dem_model *support_model(const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles)
+{
+    dem_model *model;
+    assert_ok(dem_model_create(&model, lattice, obstacles, n_obstacles));
+    return model;
+}
+
+dem_simulation *support_simulation(const dem_model *model, const dem_options *options)
+{
+    dem_simulation *simulation;
+    assert_ok(dem_simulation_create(&simulation, model, options));
+    return simulation;
 }
 
 void support_start(dem_lattice *lattice, const double *position, const double *velocity)
@@ -109,7 +133,6 @@ motion support_at(support_run *run, double t)
 void support_point(support_run *run, double m, const double x[2], const double v[2], const double *points,
                    dem_index n_points, double restitution)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     const dem_obstacle obstacle = {.n_points = n_points, .points = points, .restitution = restitution};
     dem_options options = support_options();
     options.spacing = 1.0;
@@ -117,7 +140,7 @@ void support_point(support_run *run, double m, const double x[2], const double v
     options.rtol = 1e-12;
     options.penetration_tolerance = 1e-13;
     options.v_scale = 1.0;
-    support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &m, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(run, &lattice, &obstacle, 1, &options);
 }

@@ -18,8 +18,15 @@
 
 /** A body of n nodes at x [n][2] with masses, joined by n_springs springs of one rest length and stiffness; every
  *  node may touch. `fixed` [n] or NULL. Arrays are copied; free with dem_lattice_free. */
-void support_lattice(dem_lattice *out, dem_index n, const double *x, const double *mass, dem_index n_springs,
-                     const dem_index *ends, double rest_length, double stiffness, const unsigned char *fixed);
+dem_lattice support_lattice(dem_index n, const double *x, const double *mass, dem_index n_springs,
+                            const dem_index *ends, double rest_length, double stiffness, const unsigned char *fixed);
+
+/** A rectangle of triangles with the springs and masses of a material; free with dem_lattice_free. */
+dem_lattice support_rectangle(double width, double height, double spacing, const dem_material *material);
+
+/** What dem_model_create() and dem_simulation_create() make, which must succeed. */
+dem_model *support_model(const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles);
+dem_simulation *support_simulation(const dem_model *model, const dem_options *options);
 
 /** Sets where the nodes start and with which velocities [n][2]; NULL leaves it. */
 void support_start(dem_lattice *lattice, const double *position, const double *velocity);

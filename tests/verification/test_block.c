@@ -51,7 +51,6 @@ static dem_model *make_block(const block *b)
                                 .thickness = thickness,
                                 .guard = 0.02};
     CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
     if (b->diagonal > 0.0) {
         assert_ok(dem_lattice_squares(&lattice, 0.045, 0.05, spacing));
         assert_ok(dem_lattice_assemble_squares(&lattice, &solid, b->diagonal));
@@ -59,7 +58,7 @@ static dem_model *make_block(const block *b)
         assert_ok(dem_lattice_rectangle(&lattice, 0.045, 0.05, spacing));
         assert_ok(dem_lattice_assemble(&lattice, &solid));
     }
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    dem_model *model = support_model(&lattice, NULL, 0);
     return model;
 }
 

@@ -156,13 +156,14 @@ static void open_fall(support_run *run, bool pair, bool floored, double step)
     const dem_index ends[2] = {0, 1};
     const dem_obstacle ground = {.n_points = 2, .points = floor_points};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.fixed_step = step;
     options.rtol = 1e-12;
     options.penetration_tolerance = 1e-13;
-    support_lattice(&lattice, pair ? 2 : 1, x, mass, pair ? 1 : 0, ends, 1.0, 0.5 * pair_omega * pair_omega, NULL);
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice =
+        support_lattice(pair ? 2 : 1, x, mass, pair ? 1 : 0, ends, 1.0, 0.5 * pair_omega * pair_omega, NULL);
     support_start(&lattice, start, NULL);
     support_open(run, &lattice, &ground, floored ? 1 : 0, &options);
 }

@@ -88,7 +88,6 @@ static void open_chain(impact *s, int n, double height, bool lying)
     const dem_obstacle obstacle = {.n_points = 2, .points = lying ? wall : ground};
     const int along = lying ? 0 : 1;
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     for (int i = 0; i <= n; i++) {
         x[2 * i + along] = height + length * i / n;
         v[2 * i + along] = -speed;
@@ -100,7 +99,7 @@ static void open_chain(impact *s, int n, double height, bool lying)
     options.rtol = 1e-11;
     options.penetration_tolerance = penetration_tolerance; /* late by 1e-13 s */
     *s = (impact){0};
-    support_lattice(&lattice, n + 1, x, m, n, ends, length / n, stiffness, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(n + 1, x, m, n, ends, length / n, stiffness, NULL);
     for (int i = 1; i <= n; i++) lattice.flags[i] = 0;
     support_start(&lattice, NULL, v);
     support_open(&s->run, &lattice, &obstacle, 1, &options);

@@ -166,13 +166,12 @@ TEST(a_wall_of_another_obstacle_stops_a_sliding_node)
     const dem_obstacle obstacles[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
                                        {.n_points = 2, .points = wall, .restitution = 0.5}};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(support_close) support_run run;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;
     options.rtol = 1e-12;
     options.penetration_tolerance = 1e-13;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(&run, &lattice, obstacles, 2, &options);
     const motion state = support_at(&run, 1.2);
@@ -237,10 +236,8 @@ static void open_block(support_run *run, double restitution, double rest_speed)
     const dem_material soft = {.youngs_modulus = 1e5, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 0.01};
     const double lift[2] = {0.002, 0.0035}, velocity[2] = {0.3, -1.0};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.rest_speed = rest_speed;
-    assert_ok(dem_lattice_rectangle(&lattice, 0.02, 0.02, 0.01));
-    assert_ok(dem_lattice_assemble(&lattice, &soft));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.02, 0.02, 0.01, &soft);
     dem_lattice_move(&lattice, 0.0, lift);
     assert_ok(dem_lattice_launch(&lattice, velocity));
     support_open(run, &lattice, &valley, 1, &options);
@@ -274,14 +271,13 @@ TEST(a_wall_that_stands_on_another_obstacle_leaves_no_gap)
                                            {.n_points = 2, .points = wall, .restitution = 0.0}};
         const double x[2] = {0.0, 0.0}, v[2] = {c, s}, mass = 1.0;
         dem_options options = support_options();
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
         CLEANUP(support_close) support_run run;
         options.gravity[0] = 9.81 * s;
         options.gravity[1] = -9.81 * c;
         options.spacing = options.v_scale = 1.0;
         options.max_step = 1e-3;
         options.penetration_tolerance = 1e-8;
-        support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
         support_start(&lattice, NULL, v);
         support_open(&run, &lattice, obstacles, 2, &options);
         const motion state = support_at(&run, 1.0);

@@ -102,9 +102,8 @@ static dem_status follow(void *context, const dem_simulation *simulation)
 
 static double highest_frequency(const dem_lattice *block)
 {
-    CLEANUP(free_model) dem_model *model;
     double omega;
-    assert_ok(dem_model_create(&model, block, NULL, 0));
+    CLEANUP(free_model) dem_model *model = support_model(block, NULL, 0);
     assert_ok(dem_model_omega(model, &omega));
     return omega;
 }

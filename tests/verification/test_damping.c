@@ -47,9 +47,9 @@ static void open_pair(support_run *run, const pair *p)
     const double v[4] = {p->drift - 0.75 * p->relative[0], -0.75 * p->relative[1], p->drift + 0.25 * p->relative[0],
                          0.25 * p->relative[1]};
     dem_options options = tight_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.mass_damping = p->mass_damping;
-    support_lattice(&lattice, 2, x, two_masses, 1, joined, rest_length, stiffness, NULL);
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(2, x, two_masses, 1, joined, rest_length, stiffness, NULL);
     support_start(&lattice, start, v);
     damp(&lattice, p->viscosity);
     support_open(run, &lattice, NULL, 0, &options);
@@ -113,13 +113,12 @@ TEST(a_node_under_mass_damping_falls_at_last_with_g_over_alpha)
 {
     const double x[2] = {1.0, 2.0}, v[2] = {3.0, 1.0}, g = -9.81, alpha = 2.5, mass = 0.3;
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(support_close) support_run run;
     options.rtol = 1e-13;
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.05;
     options.mass_damping = alpha;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(&run, &lattice, NULL, 0, &options);
     for (int k = 1; k <= 10; k++) {
@@ -204,11 +203,9 @@ TEST(a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-4};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(support_close) support_run run;
     options.gravity[1] = 0.0;
-    assert_ok(dem_lattice_rectangle(&lattice, 0.08, 0.06, 0.01));
-    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.08, 0.06, 0.01, &rubber);
     throw_plate(&lattice);
     support_open(&run, &lattice, NULL, 0, &options);
     motion state = support_at(&run, 0.0);

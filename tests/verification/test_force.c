@@ -47,7 +47,6 @@ static void open_node(support_run *run, const double v[2], const dem_obstacle *g
 {
     const double x[2] = {0.0, 0.0};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     f->n_nodes = 1;
     options.method = method;
     options.gravity[1] = 0.0;
@@ -56,7 +55,7 @@ static void open_node(support_run *run, const double v[2], const dem_obstacle *g
     options.rtol = 1e-12;
     options.penetration_tolerance = 1e-13;
     apply(&options, f);
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(run, &lattice, ground, ground != NULL, &options);
 }

@@ -82,7 +82,6 @@ static void open_slide(slide *s, double a, const dem_obstacle *law, double h0, c
     const dem_observer observer = {.step = note_step, .event = note_event, .context = s};
     dem_obstacle obstacle = *law;
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     for (int d = 0; d < 2; d++) s->v0[d] = v0[0] * t[d] + v0[1] * n[d];
     obstacle.n_points = 2;
     obstacle.points = points;
@@ -91,7 +90,7 @@ static void open_slide(slide *s, double a, const dem_obstacle *law, double h0, c
     options.max_step = 0.01;
     options.rtol = 1e-12;
     options.penetration_tolerance = 1e-13;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, s->v0);
     support_open(&s->run, &lattice, &obstacle, 1, &options);
     assert_ok(dem_simulation_observe(s->run.simulation, &observer));

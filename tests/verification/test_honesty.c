@@ -160,7 +160,6 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
     dem_index n_obstacles;
     double *start = malloc(8 * (size_t)p->n * sizeof *start), *off = start + 4 * p->n;
     CLEANUP(free_model) dem_model *model;
-    CLEANUP(free_simulation) dem_simulation *simulation;
     motion state;
     assert_non_null(start);
     memcpy(start, y, 4 * (size_t)p->n * sizeof *start);
@@ -170,7 +169,7 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
     options.rtol = 1e-12;
     const dem_obstacle *obstacles = dem_model_obstacles(p->model, &n_obstacles);
     assert_ok(dem_model_create(&model, &lattice, obstacles, n_obstacles));
-    assert_ok(dem_simulation_create(&simulation, model, &options));
+    CLEANUP(free_simulation) dem_simulation *simulation = support_simulation(model, &options);
     assert_ok(dem_simulation_advance(simulation, t1 - t));
     motion_see(simulation, &state);
     for (dem_index k = 0; k < 2 * p->n; k++) {
@@ -226,10 +225,8 @@ static void run_block(support_run *run, checkpoint *r, const drop *d)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     double gap = INFINITY;
-    assert_ok(dem_lattice_rectangle(&lattice, 0.08, 0.13, spacing));
-    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.08, 0.13, spacing, &rubber);
     dem_lattice_move(&lattice, 0.03, (const double[2]){0.0, 0.0});
     for (dem_index i = 0; i < lattice.n_nodes; i++) gap = fmin(gap, lattice.x[2 * i + 1]);
     const double hill = d->ground->n_points > 2 ? 2e-3 : 0.0;

@@ -20,9 +20,8 @@ static dem_material solid_of(double nu)
 
 static dem_constants measure(const dem_lattice *lattice)
 {
-    CLEANUP(free_model) dem_model *model;
     dem_constants c = {.struct_size = sizeof c};
-    assert_ok(dem_model_create(&model, lattice, NULL, 0));
+    CLEANUP(free_model) dem_model *model = support_model(lattice, NULL, 0);
     assert_ok(dem_model_constants(model, 0, &c));
     return c;
 }
@@ -156,9 +155,7 @@ TEST(equal_springs_are_too_stiff_by_the_order_of_spacing_over_width)
     double excess[2];
     for (int k = 0; k < 2; k++) {
         const double width = k == 0 ? 16.0 : 32.0;
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
-        assert_ok(dem_lattice_rectangle(&lattice, width, width * sqrt(3.0) / 2.0, 1.0));
-        assert_ok(dem_lattice_assemble(&lattice, &raw));
+        CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(width, width * sqrt(3.0) / 2.0, 1.0, &raw);
         const dem_constants c = measure(&lattice);
         excess[k] = c.youngs_modulus / E - 1.0;
         assert_close(c.poissons_ratio, 1.0 / 3.0, 0.01);

@@ -30,7 +30,6 @@ static dem_model *make_block(layers *l)
 {
     dem_material solids[2];
     CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
     const double row = (l->squares ? 1.0 : 0.5 * sqrt(3.0)) * spacing;
     for (int k = 0; k < 2; k++)
         solids[k] = (dem_material){
@@ -45,7 +44,7 @@ static dem_model *make_block(layers *l)
         of[t] = layer_at(l, (lattice.x[2 * c[0] + 1] + lattice.x[2 * c[1] + 1] + lattice.x[2 * c[2] + 1]) / 3.0);
     }
     assert_ok(dem_lattice_assemble_mixed(&lattice, solids, 2, of, l->squares ? 0.5 : 0.0));
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    dem_model *model = support_model(&lattice, NULL, 0);
     return model;
 }
 

@@ -14,12 +14,11 @@ static void open_pair(support_run *run, const dem_boundary *boundary, const doub
     const double x[] = {0.0, 0.0, 0.5, 0.0}, masses[] = {3.0, mass};
     const dem_index ends[] = {0, 1};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.gravity[1] = 0.0;
     options.rtol = 1e-11;
     options.n_boundaries = 1;
     options.boundaries = boundary;
-    support_lattice(&lattice, 2, x, masses, 1, ends, length, stiffness, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, x, masses, 1, ends, length, stiffness, NULL);
     support_start(&lattice, NULL, velocity);
     support_open(run, &lattice, NULL, 0, &options);
 }
@@ -88,14 +87,13 @@ TEST(a_sudden_force_swings_to_twice_the_static_way)
     const double x[] = {0.0, 0.0, 0.5, 0.0}, masses[] = {3.0, mass};
     const dem_index ends[] = {0, 1};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(support_close) support_run run;
     options.gravity[1] = 0.0;
     options.rtol = 1e-11;
     options.v_scale = force / k * w;
     options.n_boundaries = 2;
     options.boundaries = both;
-    support_lattice(&lattice, 2, x, masses, 1, ends, length, stiffness, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, x, masses, 1, ends, length, stiffness, NULL);
     support_open(&run, &lattice, NULL, 0, &options);
     for (double t = 0.1; t < 30.0 / w; t += 0.21) {
         const motion s = support_at(&run, t);
@@ -118,7 +116,6 @@ TEST(friction_holds_until_the_force_exceeds_it)
         .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node, .value = {force, -5.0}, .ramp = ramp};
     const dem_obstacle ground = {.n_points = 2, .points = floor, .friction = mu};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(support_close) support_run run;
     options.gravity[1] = -g;
     options.rtol = 1e-10;
@@ -126,7 +123,7 @@ TEST(friction_holds_until_the_force_exceeds_it)
     options.max_step = 0.01;
     options.n_boundaries = 1;
     options.boundaries = &push;
-    support_lattice(&lattice, 1, x, one, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, one, 0, NULL, 0.0, 0.0, NULL);
     support_open(&run, &lattice, &ground, 1, &options);
     double lo = 0.0, hi = 1.0; /* the ramp at which F r = mu (m g + 5 r) */
     const double r = mu * mass * g / (force - 5.0 * mu);
@@ -157,11 +154,9 @@ TEST(a_pulled_block_comes_to_rest_with_its_modulus)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 0.5};
     const double a = 0.01, width = 0.08, traction = 1.0; /* Pa: a strain of 1e-7 */
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_index foot[32], head[32], corner[1] = {0}, n_foot = 0, n_head = 0;
     double share[32], top = 0.0;
-    assert_ok(dem_lattice_rectangle(&lattice, width, 0.09, a));
-    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(width, 0.09, a, &rubber);
     for (dem_index i = 0; i < lattice.n_nodes; i++) top = fmax(top, lattice.x[2 * i + 1]);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         if (lattice.x[2 * i + 1] < 0.1 * a) foot[n_foot++] = i;

@@ -29,7 +29,7 @@ static void make_body(dem_lattice *out, dem_index n, const double *x)
             ends[2 * n_springs++ + 1] = i;
         }
     }
-    support_lattice(out, n, x, mass, n_springs, ends, 1.0, k, NULL);
+    *out = support_lattice(n, x, mass, n_springs, ends, 1.0, k, NULL);
 }
 
 /* The largest displacement a quarter of a period after the start in a mode, when it should be 0, over the amplitude. */
@@ -57,8 +57,7 @@ static double swing(dem_lattice *body, const gsl_matrix *modes, size_t mode, dou
 static void check_modes(dem_lattice *body, const double *expected, size_t n_modes)
 {
     const size_t n = 2 * (size_t)body->n_nodes;
-    CLEANUP(free_model) dem_model *model;
-    assert_ok(dem_model_create(&model, body, NULL, 0));
+    CLEANUP(free_model) dem_model *model = support_model(body, NULL, 0);
     CLEANUP(free_matrix) gsl_matrix *stiffness = dense_stiffness(model, body->x, 1e-4), *modes = gsl_matrix_alloc(n, n);
     CLEANUP(free_vector) gsl_vector *values = gsl_vector_alloc(n);
     gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(n);

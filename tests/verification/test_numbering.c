@@ -14,10 +14,8 @@ static const dem_material rubber = {
 
 static dem_lattice make_block(double width, double height, double spacing)
 {
-    dem_lattice lattice;
     const double down[2] = {1.0, -10.0};
-    assert_ok(dem_lattice_rectangle(&lattice, width, height, spacing));
-    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    dem_lattice lattice = support_rectangle(width, height, spacing, &rubber);
     assert_ok(dem_lattice_launch(&lattice, down));
     dem_lattice_move(&lattice, 0.1, (const double[2]){0.0, 0.3 * spacing});
     assert_ok(dem_lattice_spin(&lattice, 30.0));

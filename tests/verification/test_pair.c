@@ -27,8 +27,8 @@ static void open_pair(support_run *run, double distance, double relative)
     const double start[4] = {-0.75 * distance, 0.0, 0.25 * distance, 0.0},
                  v[4] = {0.0, -0.75 * relative, 0.0, 0.25 * relative};
     const dem_options options = tight_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    support_lattice(&lattice, 2, x, two_masses, 1, joined, rest_length, stiffness, NULL);
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(2, x, two_masses, 1, joined, rest_length, stiffness, NULL);
     support_start(&lattice, start, v);
     support_open(run, &lattice, NULL, 0, &options);
 }
@@ -90,8 +90,8 @@ TEST(a_mass_between_fixed_ends_swings_across_with_the_exact_period)
     for (int k = 0; k < 4; k++) {
         const double start[6] = {-1.0, 0.0, 0.0, amplitude[k], 1.0, 0.0};
         CLEANUP(support_close) support_run run;
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
-        support_lattice(&lattice, 3, x, mass, 2, ends, rest_length, stiffness, fixed);
+        CLEANUP(dem_lattice_free)
+        dem_lattice lattice = support_lattice(3, x, mass, 2, ends, rest_length, stiffness, fixed);
         support_start(&lattice, start, NULL);
         support_open(&run, &lattice, NULL, 0, &options);
         motion state = support_at(&run, 0.75 * period[k]); /* upwards through the middle */

@@ -61,9 +61,7 @@ static dem_lattice make_triangular(double nu, dem_plane plane)
                                    .density = 1000.0,
                                    .thickness = thickness,
                                    .guard = 0.02};
-    dem_lattice lattice;
-    assert_ok(dem_lattice_rectangle(&lattice, 8 * spacing, 6 * spacing, spacing));
-    assert_ok(dem_lattice_assemble(&lattice, &material));
+    dem_lattice lattice = support_rectangle(8 * spacing, 6 * spacing, spacing, &material);
     return lattice;
 }
 

@@ -56,13 +56,11 @@ static void open_block(block *b, const scene *s, const double *position, bool da
                                    .damping_time = damped ? s->damping_time / pace(s) : 0.0};
     const double offset[2] = {s->offset, 0.0}, start[2] = {0.0, s->height};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.rtol = 1e-10;
     options.v_scale = 0.1; /* more than the weight moves it */
     options.penetration_tolerance = 1e-10 * spacing;
     options.mass_damping = damped ? s->mass_damping * pace(s) : 0.0;
-    assert_ok(dem_lattice_rectangle(&lattice, 4.0 * spacing, 3.5 * spacing, spacing));
-    assert_ok(dem_lattice_assemble(&lattice, &material));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(4.0 * spacing, 3.5 * spacing, spacing, &material);
     dem_lattice_move(&lattice, 0.0, offset);
     dem_lattice_move(&lattice, s->angle, start);
     if (position != NULL) support_start(&lattice, position, NULL);

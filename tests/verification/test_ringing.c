@@ -100,8 +100,7 @@ static void find_peaks(double *peak, const double *power, double interval)
 /* omega^2, ascending, the three rigid motions first. */
 static gsl_vector *eigenvalues(const dem_lattice *l)
 {
-    CLEANUP(free_model) dem_model *model;
-    assert_ok(dem_model_create(&model, l, NULL, 0));
+    CLEANUP(free_model) dem_model *model = support_model(l, NULL, 0);
     gsl_vector *values = dense_frequencies(model, dense_stiffness(model, l->x, 1e-4 * spacing));
     return values;
 }

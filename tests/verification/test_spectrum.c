@@ -14,9 +14,8 @@ static dem_model *make_model(dem_lattice *lattice, double nu, dem_plane plane)
                                 .density = 1050.0,
                                 .thickness = 1.0,
                                 .guard = 0.02};
-    dem_model *model;
     assert_ok(dem_lattice_assemble(lattice, &solid));
-    assert_ok(dem_model_create(&model, lattice, NULL, 0));
+    dem_model *model = support_model(lattice, NULL, 0);
     dem_lattice_free(lattice);
     return model;
 }
@@ -93,10 +92,9 @@ TEST(a_square_cell_warps_with_the_frequency_of_its_sides_and_areas)
         const double kappa = 1e7 * ((1.0 + r) * nu - r) / (1.0 - nu * nu), m = 1050.0 * spacing * spacing;
         const dem_material solid = {.youngs_modulus = 1e7, .poissons_ratio = nu, .density = 1050.0, .thickness = 1.0};
         CLEANUP(dem_lattice_free) dem_lattice lattice;
-        CLEANUP(free_model) dem_model *model;
         assert_ok(dem_lattice_squares(&lattice, spacing, spacing, spacing));
         assert_ok(dem_lattice_assemble_squares(&lattice, &solid, r));
-        assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+        CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
         CLEANUP(free_vector) gsl_vector *squared = frequencies_of(model);
         const double largest = gsl_vector_get(squared, 7), warps[2] = {4.0 * k / m, 4.0 * (k + 2.0 * kappa) / m};
         for (int w = 0; w < 2; w++) {

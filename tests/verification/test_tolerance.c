@@ -60,11 +60,9 @@ TEST(the_error_of_a_block_dropped_with_friction_falls_too)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
     for (int k = 0; k < 2; k++) {
-        CLEANUP(dem_lattice_free) dem_lattice block;
         const double none[2] = {0.0, 0.0};
         double lowest = 1.0;
-        assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
-        assert_ok(dem_lattice_assemble(&block, &rubber));
+        CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.05, 5e-3, &rubber);
         dem_lattice_move(&block, angles[k], none);
         for (dem_index i = 0; i < block.n_nodes; i++) lowest = fmin(lowest, block.x[2 * i + 1]);
         dem_lattice_move(&block, 0.0, (const double[2]){0.0, 1e-4 - lowest});

@@ -68,7 +68,6 @@ static outcome run_fall(const fall *f)
     const dem_obstacle obstacle = {
         .n_points = 3, .points = apex, .restitution = f->restitution, .friction = f->friction, .friction_law = f->law};
     dem_options options = support_options();
-    dem_lattice lattice;
     outcome o = {0};
     const dem_observer observer = {.event = first_impact, .context = &o};
     CLEANUP(support_close) support_run run;
@@ -79,7 +78,7 @@ static outcome run_fall(const fall *f)
     options.rtol = 1e-12;
     options.window = 0.0; /* as good as no springs set its scale */
     set_up(f, x, v);
-    support_lattice(&lattice, 3, x, mass, 3, ends, 1.0, 1e-30, NULL);
+    dem_lattice lattice = support_lattice(3, x, mass, 3, ends, 1.0, 1e-30, NULL);
     if (f->spring) lattice.stiffness[0] = 100.0;
     lattice.n_triangles = 1;
     lattice.triangles = malloc(sizeof corners);

@@ -182,8 +182,7 @@ static void open_triangle(support_run *run, const triangle *q, const double *y, 
     const dem_obstacle obstacle = {
         .n_points = 3, .points = tip, .restitution = 0.0, .friction = q->mu, .friction_law = DEM_FRICTION_COULOMB};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    support_lattice(&lattice, 3, y, q->mass, 3, ends, 1.0, 1.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(3, y, q->mass, 3, ends, 1.0, 1.0, NULL);
     memcpy(lattice.rest_length, q->rest, sizeof q->rest);
     memcpy(lattice.stiffness, q->stiffness, sizeof q->stiffness);
     lattice.n_triangles = 1;

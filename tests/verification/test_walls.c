@@ -68,7 +68,7 @@ static void make_chain(dem_lattice *chain)
         if (i > 0) ends[2 * i - 2] = i - 1;
         if (i > 0) ends[2 * i - 1] = i;
     }
-    support_lattice(chain, n_masses, x, m, n_masses - 1, ends, spacing, force, NULL);
+    *chain = support_lattice(n_masses, x, m, n_masses - 1, ends, spacing, force, NULL);
     support_start(chain, NULL, v);
 }
 

@@ -13,7 +13,6 @@ static const double g = 9.81, floor_points[4] = {-4.0, 0.0, 4.0, 0.0};
 static void open_masses(support_run *run, dem_index n, const double *height, double eta, double window)
 {
     double x[8], mass[4];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     const dem_obstacle level = {.n_points = 2, .points = floor_points, .restitution = eta};
     dem_options options = support_options();
     for (dem_index i = 0; i < n; i++) {
@@ -26,7 +25,7 @@ static void open_masses(support_run *run, dem_index n, const double *height, dou
     options.rtol = 1e-12;
     options.penetration_tolerance = 1e-13;
     options.window = window;
-    support_lattice(&lattice, n, x, mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(n, x, mass, 0, NULL, 0.0, 0.0, NULL);
     lattice.body = malloc((size_t)n * sizeof *lattice.body);
     assert_non_null(lattice.body);
     for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i;
@@ -140,13 +139,11 @@ static double drop_block(double eta, double friction, double kappa, dem_counts *
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
     const dem_obstacle rough = {.n_points = 5, .points = ground, .restitution = eta, .friction = friction};
     const double lift[2] = {0.0, 0.0015}, speed[2] = {1.0, -5.0};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_options options = support_options();
     support_run run;
     audit a = {.ground = ground, .v0 = {speed[0], speed[1]}};
     const dem_observer observer = {.interval = 1e-6, .frame = follow, .step = follow, .event = note, .context = &a};
-    assert_ok(dem_lattice_rectangle(&lattice, 0.08, 0.06, 0.01));
-    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.08, 0.06, 0.01, &rubber);
     dem_lattice_move(&lattice, 0.0, lift);
     assert_ok(dem_lattice_launch(&lattice, speed));
     support_open(&run, &lattice, &rough, 1, &options);

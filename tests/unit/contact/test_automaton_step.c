@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* automaton_step.c: what is found in a step that was accepted, and what follows it. Numbers are worked out by hand;
  * tolerances of 1e-15 to 1e-12 are rounding unless said otherwise. */
-#include "unit/resets.h"
+#include "unit/contact/resets.h"
 
 #include "contact/automaton_step.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* broad_phase.c: which candidates are inactive, until when, and that they become active in time. */
-#include "unit/scene.h"
+#include "unit/contact/scene_fixture.h"
 
 #include "contact/automaton_step.h"
 
@@ -30,9 +30,9 @@ TEST(the_fastest_of_the_nodes_that_may_touch_counts)
 {
     const double x[6] = {0.0, 1.0, 1.0, 1.0, 2.0, 1.0};
     const unsigned char fixed[3] = {0, 0, 1};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(scene_close) scene s;
-    support_lattice(&lattice, 3, x, masses, 2, (dem_index[]){0, 1, 1, 2}, 1.0, 1.0, fixed);
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(3, x, masses, 2, (dem_index[]){0, 1, 1, 2}, 1.0, 1.0, fixed);
     lattice.flags[0] = 0;
     scene_start(&s, &lattice, &plane, 1);
     scene_put(&s, 0, 0.0, 1.0, 50.0, 0.0);

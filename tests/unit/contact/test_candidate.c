@@ -2,7 +2,7 @@
 /* candidate.c: gaps and root functions of one contact candidate in each of its states, and what is due. Numbers are
  * worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
 #include "obstacle/point_gap.h"
-#include "unit/scene.h"
+#include "unit/contact/scene_fixture.h"
 
 static const double penetration_tolerance = 1e-3;
 

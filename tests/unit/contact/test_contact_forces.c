@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* contact_forces.c: groups of coupled contacts; their forces, impulses and shifts by hand and against a dense
  * solution. */
-#include "unit/bench.h"
+#include "unit/contact/bench.h"
 
 #include <string.h>
 

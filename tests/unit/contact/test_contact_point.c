@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* contact_point.c: frames of closed contacts, by hand and against differences of the distance in prescribed motions. */
-#include "unit/bench.h"
+#include "unit/contact/bench.h"
 
 #include <gsl/gsl_rng.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* contact_set.c: the list of candidates, contacts that open and close, groups and corners, and what is noted of them.
  * Numbers are worked out by hand; tolerances of 1e-15 to 1e-13 are rounding. */
-#include "unit/scene.h"
+#include "unit/contact/scene_fixture.h"
 
 #include "lattice/mesh_edges.h"
 
@@ -78,9 +78,9 @@ TEST(a_node_that_may_not_touch_is_no_candidate)
 {
     const double x[4] = {0.0, 1.0, 1.0, 1.0};
     const unsigned char fixed[2] = {1, 0};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(scene_close) scene s;
-    support_lattice(&lattice, 2, x, masses, 1, (dem_index[]){0, 1}, 1.0, 1.0, fixed);
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(2, x, masses, 1, (dem_index[]){0, 1}, 1.0, 1.0, fixed);
     scene_start(&s, &lattice, &plane, 1);
     assert_int_equal(s.c.set.n, 1);
     assert_int_equal(s.c.set.of_node[0], -1);
@@ -350,8 +350,8 @@ TEST(what_a_node_is_behind_its_edges_know)
 static void open_stretched(scene *s)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {3.0, 2.0};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    support_lattice(&lattice, 2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(2, x, mass, 1, (dem_index[]){0, 1}, 1.0, 100.0, NULL);
     scene_start(s, &lattice, &plane, 1);
     scene_put(s, 0, 0.0, 0.0, 0.0, 0.0);
     scene_put(s, 1, 0.0, 1.5, 0.0, 0.0);

@@ -2,7 +2,7 @@
 /* event_location.c: the first change of a candidate's contacts within a step, at times worked out by hand. Times are
  * located to 100 units of rounding of t + h; each tolerance is twice that, or what rounding of 1e-16 m is at the speed
  * of crossing. */
-#include "unit/scene.h"
+#include "unit/contact/scene_fixture.h"
 
 #include "contact/node_motion.h"
 
@@ -82,7 +82,7 @@ TEST(a_dip_within_the_step_is_found)
     scene_flight f;
     open_node(&s, 1.0, -depth + 0.5 * a * bottom * bottom, 0.0, -a * bottom);
     scene_fly(&s, (vec2){0.0, a}, 0.0, 2.0 * bottom, &f);
-    assert_true(f.dense.y0[1] > 0.0 && f.dense.y1[1] > 0.0);
+    assert_true(s.y[1] > 0.0 && f.dense.y1[1] > 0.0);
     assert_close(crossing(&s, 0, &f.dense), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
 }
 
@@ -191,7 +191,7 @@ TEST(a_dip_of_an_edge_within_the_step_is_found)
     const dem_index k = open_edge(&s, -depth + 0.5 * a * bottom * bottom);
     for (dem_index i = 0; i < 3; i++) vec2_put(scene_v(&s), i, (vec2){0.0, -a * bottom});
     scene_fly(&s, (vec2){0.0, a}, 0.0, 0.2, &f);
-    assert_true(f.dense.y0[1] > 0.0 && f.dense.y1[1] > 0.0);
+    assert_true(s.y[1] > 0.0 && f.dense.y1[1] > 0.0);
     assert_close(crossing(&s, k, &f.dense), bottom - sqrt(2.0 * (depth - penetration_tolerance) / a), 1e-13);
 }
 

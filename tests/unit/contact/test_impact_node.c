@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* impact_node.c: impacts of nodes by themselves. Numbers are worked out by hand; tolerances of
  * 1e-15 to 1e-12 are rounding unless said otherwise. */
-#include "unit/impacts.h"
+#include "unit/contact/impacts.h"
 
 /* ---- a node by itself ---- */
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* surface_feature.c: what contacts ask of surfaces. Tolerances of 0 are copies. */
-#include "unit/bench.h"
+#include "unit/contact/bench.h"
 
 TEST(a_vertex_belongs_to_the_obstacle_of_the_segment_that_ends_there)
 {

@@ -118,9 +118,8 @@ static const dem_index fan[3 * n_triangles] = {0, 1, 4, 4, 1, 2, 3, 4, 2, 0, 4, 
 
 static triangles compile_fan(const double *guard, const double *area_stiffness)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     triangles t;
-    support_lattice(&lattice, n_nodes, corners, masses, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(n_nodes, corners, masses, 0, NULL, 0.0, 0.0, NULL);
     lattice.n_triangles = n_triangles;
     lattice.triangles = malloc(sizeof fan);
     assert_non_null(lattice.triangles);

@@ -10,7 +10,8 @@
 #include "contact/contact_source.h"
 #include "events/event_queue.h"
 #include "forces/local_springs.h"
-#include "unit/chain.h"
+#include "unit/events/chain.h"
+#include "unit/contact/look.h"
 #include "verification/support.h"
 
 enum { most_nodes = 6, most_state = 4 * (most_nodes + 4) };
@@ -59,7 +60,7 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
     assert_ok(contact_source_create(&r->contact, &r->c));
     assert_ok(source_list_add(&r->sources, contact_source_events(&r->contact)));
     const double lax[2] = {1.0, 1.0}, *tolerance = error != NULL ? error : lax;
-    assert_ok(event_queue_create(&r->q, &(event_queue_parts){.layout = scene_layout(&r->c.set.scene),
+    assert_ok(event_queue_create(&r->q, &(event_queue_parts){.layout = look_layout(&r->c),
                                                              .forces = &r->near,
                                                              .constraints = &r->closed,
                                                              .sources = &r->sources,
@@ -71,13 +72,12 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
 static void open_masses(rig *r, dem_index n, const double *y, double eta, double friction)
 {
     double x[2 * most_nodes], m[most_nodes];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     for (dem_index i = 0; i < n; i++) {
         x[2 * i] = (double)i;
         x[2 * i + 1] = y[i];
         m[i] = mass;
     }
-    support_lattice(&lattice, n, x, m, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(n, x, m, 0, NULL, 0.0, 0.0, NULL);
     lattice.body = malloc((size_t)n * sizeof *lattice.body);
     assert_non_null(lattice.body);
     for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i;
@@ -97,8 +97,7 @@ static void close_rig(rig *r)
 
 static void take_up(rig *r, double t0, double h)
 {
-    r->dense =
-        (dense_output){*scene_layout(&r->c.set.scene), t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
+    r->dense = (dense_output){*look_layout(&r->c), t0, t0 + h, t0 + h, r->y0, r->f0, r->y1, r->f1, false, NULL};
     event_queue_start(&r->q, &r->dense, r->y1, r->f1, r->state);
 }
 
@@ -147,7 +146,7 @@ static snapshot take_snapshot(rig *r, double t)
     memcpy(s.f1, r->f1, sizeof s.f1);
     dense_output_state(&r->dense, t, s.state);
     memcpy(s.impulse, r->c.set.ledger.impulse, sizeof s.impulse);
-    memcpy(s.candidates, r->c.set.list, (size_t)r->n * sizeof s.candidates[0]);
+    look_copy(&r->c, 0, r->n, s.candidates);
     memcpy(&s.ledger, &r->c.set.ledger, sizeof s.ledger);
     s.n_groups = r->c.set.forces.n_groups;
     s.idle = r->c.idle;
@@ -198,13 +197,10 @@ TEST(events_at_the_same_time_come_in_the_order_of_candidates)
 {
     const double heights[6] = {0.03, 0.02, 0.03, 0.02, 0.03, 0.02};
     const dem_index order[6] = {1, 3, 5, 0, 2, 4};
-    double due[6];
     CLEANUP(close_rig) rig r;
     open_masses(&r, 6, heights, 0.5, 0.0);
     fall(&r, 0.0, 0.1);
-    for (dem_index k = 0; k < 6; k++) due[k] = r.contact.heap.due[k];
-    event_heap_clear(&r.contact.heap);
-    for (dem_index k = 5; k >= 0; k--) event_heap_set(&r.contact.heap, k, due[k]);
+    look_enter_backwards(&r.contact, 6);
     show(&r, 0.1);
     assert_int_equal(r.q.n_events, 6);
     for (int k = 0; k < 6; k++) {
@@ -331,7 +327,7 @@ TEST(events_of_sources_come_in_the_order_of_time_kind_and_key)
     open_masses(&r, 3, heights, 0.5, 0.0);
     assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
-    const double second = r.contact.heap.due[1];
+    const double second = look_due(&r.contact, 1);
     jumps.t[0] = jumps.t[1] = second;
     jumps.t[2] = between;
     show(&r, h);
@@ -357,7 +353,7 @@ TEST(sources_are_undone_and_redone_to_the_bit)
     open_masses(&r, 2, heights, 0.5, 0.0);
     assert_ok(source_list_add(&r.sources, kicks_events(&jumps)));
     fall(&r, 0.0, h);
-    const double alone = r.contact.heap.due[1];
+    const double alone = look_due(&r.contact, 1);
     const snapshot before = take_snapshot(&r, h);
     show(&r, h);
     assert_int_equal(r.q.n_events, 2);
@@ -367,7 +363,7 @@ TEST(sources_are_undone_and_redone_to_the_bit)
     const snapshot undone = take_snapshot(&r, h);
     assert_same(&undone, &before);
     show(&r, 0.0);
-    assert_close(r.contact.heap.due[1], alone, 0.0);
+    assert_close(look_due(&r.contact, 1), alone, 0.0);
     show(&r, h);
     const snapshot again = take_snapshot(&r, h);
     assert_same(&again, &once);
@@ -570,7 +566,8 @@ TEST(a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there)
     CLEANUP(close_rig) rig r, whole;
     open_exposed(&r, &late, &outer, &all);
     open_exposed(&whole, &early, &all, &all);
-    const contact_candidate first = r.c.set.list[1];
+    contact_candidate first, last;
+    look_copy(&r.c, 1, 1, &first);
     for (int k = 0; k < 3; k++) { /* there, back and there again */
         dem_index e = 0;
         show(&r, 0.1);
@@ -590,7 +587,8 @@ TEST(a_candidate_that_comes_within_a_step_counts_as_if_it_had_always_been_there)
     show(&r, 0.1);
     event_queue_undo(&r.q);
     assert_int_equal(r.c.set.ledger.counts.impacts, 0);
-    assert_memory_equal(&r.c.set.list[1], &first, sizeof first);
+    look_copy(&r.c, 1, 1, &last);
+    assert_memory_equal(&last, &first, sizeof first);
 }
 
 /* Mass 1 falls through the floor, on which 0 bounces. */
@@ -752,7 +750,7 @@ static void open_pair(rig *r, dem_lattice *lattice, const double error[2])
 {
     const double x[4] = {0.0, 0.03, sqrt(0.99), 0.13}, masses[2] = {1.0, 0.5}, v[4] = {0.2, -1.0, -0.4, -1.1};
     const dem_index ends[2] = {0, 1};
-    support_lattice(lattice, 2, x, masses, 1, ends, 1.0, 300.0, NULL);
+    *lattice = support_lattice(2, x, masses, 1, ends, 1.0, 300.0, NULL);
     support_start(lattice, NULL, v);
     open_rig(r, lattice, 0.8, 0.0, error);
 }
@@ -804,7 +802,7 @@ TEST(the_neighbours_events_are_looked_for_anew)
     double y[8];
     open_pair(&r, &lattice, NULL);
     swing(&r, &lattice, h);
-    const double alone = r.contact.heap.due[1];
+    const double alone = look_due(&r.contact, 1);
     show(&r, h);
     assert_int_equal(r.q.n_events, 2);
     triplets_start(&lattice, y);
@@ -893,7 +891,7 @@ TEST(a_storm_can_be_taken_back)
     const double heights[2] = {0.02, 0.001};
     CLEANUP(close_rig) rig r;
     open_masses(&r, 2, heights, 0.9, 0.0);
-    r.c.set.scene.rule.max_impacts = 3;
+    look_limit_impacts(&r.c, 3);
     fall(&r, 0.0, 0.2);
     const snapshot before = take_snapshot(&r, 0.1);
     assert_int_equal(event_queue_show(&r.q, 0.2), DEM_ERROR_CONTACT);

@@ -12,7 +12,8 @@
 #include "contact/contact_constraints.h"
 #include "events/local_correction.h"
 #include "forces/local_springs.h"
-#include "unit/chain.h"
+#include "unit/events/chain.h"
+#include "unit/contact/look.h"
 #include "verification/support.h"
 
 static const double spacing = 0.01, start = 2e-4, position_error = 1e-8, velocity_error = 1e-5;
@@ -46,7 +47,7 @@ typedef struct step {
 /* Derivative of a state, of nodes and quadratures. */
 static void derive(const step *s, automaton *c, double t, const double *y, double *f)
 {
-    const state_layout *l = scene_layout(&c->set.scene);
+    const state_layout *l = look_layout(c);
     const dem_index n = 2 * s->n_all;
     const double *v = y + n;
     double *a = f + n;
@@ -115,9 +116,7 @@ static void make_model(step *s)
                                  .thickness = 1.0,
                                  .guard = 0.02,
                                  .damping_time = s->kind.damping_time};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    assert_ok(dem_lattice_rectangle(&lattice, 0.15, 0.13, spacing));
-    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.15, 0.13, spacing, &rubber);
     assert_ok(dem_model_create(&s->model, &lattice, &ground, 1));
 }
 
@@ -209,12 +208,12 @@ static void open_step(step *s, kind k)
     s->y0 = zeros(s), s->f0 = zeros(s), s->y1 = zeros(s), s->f1 = zeros(s);
     s->state = zeros(s), s->first = zeros(s), s->last = zeros(s);
     put_start(s);
-    local_springs_create(&s->springs, &s->acting, scene_layout(&s->c.set.scene));
+    local_springs_create(&s->springs, &s->acting, look_layout(&s->c));
     s->near = local_springs_forces(&s->springs);
     s->closed = contact_constraints_of(&s->c);
-    assert_ok(local_correction_create(&s->correction, scene_layout(&s->c.set.scene), &s->near, &s->closed,
+    assert_ok(local_correction_create(&s->correction, look_layout(&s->c), &s->near, &s->closed,
                                       &(local_correction_rule){5, position_error, velocity_error}));
-    assert_ok(changed_motion_create(&s->changed, scene_layout(&s->c.set.scene)));
+    assert_ok(changed_motion_create(&s->changed, look_layout(&s->c)));
 }
 
 static void close_step(step *s)
@@ -239,16 +238,9 @@ static void go(step *s)
     s->y1[4 * s->n_all - 1] = start + s->h;
     derive(s, &s->before, start, s->y0, s->f0);
     derive(s, &s->before, start + s->h, s->y1, s->f1);
-    s->dense = (dense_output){.layout = *scene_layout(&s->c.set.scene),
-                              .t0 = start,
-                              .t1 = start + s->h,
-                              .end = start + s->h,
-                              .y0 = s->y0,
-                              .f0 = s->f0,
-                              .y1 = s->y1,
-                              .f1 = s->f1,
-                              .parabolic = s->kind.parabolic,
-                              .changed = &s->changed};
+    const double end = start + s->h;
+    s->dense = (dense_output){*look_layout(&s->c), start,      end, end, s->y0, s->f0, s->y1, s->f1,
+                              s->kind.parabolic,   &s->changed};
     changed_motion_start(&s->changed, s->dense.t1, s->y1, s->f1);
     automaton_begin_step(&s->c, &s->dense, s->state);
 }
@@ -256,7 +248,7 @@ static void go(step *s)
 /* Closes a contact now, and before if it was there. */
 static void touch(step *s, dem_index k, dem_index feature, int sign, bool was_there)
 {
-    const contact_point point = {.feature = feature, .slide = sign, .place = 0.4};
+    const contact_point point = look_point(feature, sign, 0.4);
     assert_ok(contact_set_close(&s->c.set, k, point));
     if (was_there) assert_ok(contact_set_close(&s->before.set, k, point));
 }
@@ -299,7 +291,7 @@ static double norm_of(const step *s, const double *error)
 
 /* What is outside has not changed by a bit and goes on as it did; the oracle's change ends on the last ring too.
  * Returns how many coordinates change there: where only an acceleration jumps it does not get that far. */
-static int check_rings(const step *s, const int *ring, const double *was, const double *change, const dem_index *turned)
+static int check_rings(const step *s, const int *ring, const double *was, const double *change, const bool *turned)
 {
     const int last = s->kind.damping_time > 0.0 ? 6 : 3;
     int n_last = 0, n_outside = 0;
@@ -311,7 +303,7 @@ static int check_rings(const step *s, const int *ring, const double *was, const 
         assert_false(changes);
         assert_memory_equal(s->y1 + k, was + k, sizeof *was);
         assert_memory_equal(s->y1 + v, was + v, sizeof *was);
-        assert_int_equal(changed_motion_has(&s->changed, i), turned[i] >= 0);
+        assert_int_equal(changed_motion_has(&s->changed, i), turned[i]);
         n_outside++;
     }
     assert_true(n_outside > 0);
@@ -337,12 +329,12 @@ static void begin(step *s, dem_index candidate, double share)
 static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
 {
     const size_t size = 4 * (size_t)s->n_all * sizeof(double);
-    const dem_index i = s->c.set.list[candidate].node;
+    const dem_index i = look_node(&s->c, candidate);
     double *was = zeros(s), *change = zeros(s), *estimate = zeros(s), error;
     CLEANUP(free_memory) int *ring = malloc((size_t)s->n * sizeof *ring);
-    CLEANUP(free_memory) dem_index *turned = malloc((size_t)s->n * sizeof *turned);
+    CLEANUP(free_memory) bool *turned = malloc((size_t)s->n * sizeof *turned);
     assert_true(ring != NULL && turned != NULL);
-    for (dem_index j = 0; j < s->n; j++) ring[j] = j == i || j == s->c.set.list[candidate].other ? 0 : -1;
+    for (dem_index j = 0; j < s->n; j++) ring[j] = j == i || j == look_other(&s->c, candidate) ? 0 : -1;
     for (dem_index e = s->model->surface.row[i]; e < s->model->surface.row[i + 1] && s->kind.ridges; e++)
         for (int end = 0; end < 2; end++) ring[s->model->surface.ends[2 * s->model->surface.at[e] + end]] = 0;
     count_rings(s, ring, s->kind.damping_time > 0.0 ? 7 : 4);
@@ -350,7 +342,7 @@ static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
     vec2_put(change, s->n_all + i, jump);
     vec2_put(s->state, i, vec2_add(vec2_at(s->state, i), shift));
     vec2_put(s->state, s->n_all + i, vec2_add(vec2_at(s->state, s->n_all + i), jump));
-    memcpy(turned, s->changed.place, (size_t)s->n * sizeof *turned);
+    for (dem_index j = 0; j < s->n; j++) turned[j] = changed_motion_has(&s->changed, j);
     memcpy(was, s->y1, size);
     apply(s, gsl_odeiv2_step_rkf45, of_the_change, s->correction.t, s->dense.t1 - s->correction.t, change, estimate);
     assert_ok(local_correction_close(&s->correction, &s->dense, &s->changed, s->state, &error));
@@ -386,7 +378,7 @@ static const kind plain = {.nu = 1.0 / 3.0};
 
 static dem_index lower_node(const step *s, double x)
 {
-    return s->c.set.of_node[node_near(s, x, 0.0)];
+    return look_candidate(&s->c, node_near(s, x, 0.0));
 }
 
 /* Anywhere on the lower edge, a corner too, early and late in the step. */
@@ -466,7 +458,7 @@ TEST(prescribed_nodes_keep_their_parabolas)
     double error;
     open_step(&s, (kind){.nu = 1.0 / 3.0, .drives = true, .parabolic = true});
     go(&s);
-    const dem_index k = lower_node(&s, 0.0), i = s.c.set.list[k].node, next = node_near(&s, 0.005, 0.0087);
+    const dem_index k = lower_node(&s, 0.0), i = look_node(&s.c, k), next = node_near(&s, 0.005, 0.0087);
     motion_polynomial expected;
     dense_output_motion(&s.dense, next, &expected);
     s.b.held[next] = DEM_COMPONENT_Y;
@@ -538,10 +530,9 @@ TEST(edges_on_vertices_move_together)
     const dem_index k = lower_node(&s, 0.0), n_nodes = s.model->surface.n_nodes;
     dem_index left = -1, right = -1;
     for (dem_index e = n_nodes; e < s.c.set.n; e++) {
-        const double a = s.model->lattice.x[2 * s.c.set.list[e].node],
-                     b = s.model->lattice.x[2 * s.c.set.list[e].other];
-        if (s.model->lattice.x[2 * s.c.set.list[e].node + 1] > 1e-9) continue;
-        if (s.model->lattice.x[2 * s.c.set.list[e].other + 1] > 1e-9) continue;
+        const double a = s.model->lattice.x[2 * look_node(&s.c, e)], b = s.model->lattice.x[2 * look_other(&s.c, e)];
+        if (s.model->lattice.x[2 * look_node(&s.c, e) + 1] > 1e-9) continue;
+        if (s.model->lattice.x[2 * look_other(&s.c, e) + 1] > 1e-9) continue;
         if ((a + 0.013) * (b + 0.013) < 0.0) left = e;
         if ((a - 0.014) * (b - 0.014) < 0.0) right = e;
     }
@@ -582,14 +573,12 @@ TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
         .max_step = h,
         .layout = {.dim = 2, .n_nodes = 1, .n_obstacles = 1, .n_totals = STATE_OBSTACLE, .n_rows = 5}};
     double y0[20] = {0.0}, f0[20] = {0.0}, y1[20] = {0.0}, f1[20] = {0.0}, y[20] = {0.0}, middle[STATE_DIM_MOST], error;
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    CLEANUP(free_model) dem_model *model;
     CLEANUP(automaton_destroy) automaton c;
     CLEANUP(local_correction_destroy) local_correction near;
     CLEANUP(local_springs_destroy) local_springs local;
     CLEANUP(changed_motion_destroy) changed_motion tr;
-    support_lattice(&lattice, 1, x, &m, 0, NULL, 0.0, 0.0, NULL);
-    assert_ok(dem_model_create(&model, &lattice, &ground, 1));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &m, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, &ground, 1);
     const forces acting = {.model = model, .gravity = {0.0, -g}};
     assert_ok(automaton_create(&c, &acting, &rule));
     local_springs_create(&local, &acting, &rule.layout);
@@ -607,7 +596,7 @@ TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
     assert_close(y[1], 0.0, 1e-16);
     assert_close(y[11], -g * at, 1e-15);
     y[11] = 0.0;
-    assert_ok(contact_set_close(&c.set, 0, (contact_point){.feature = 0, .slide = 1}));
+    assert_ok(contact_set_close(&c.set, 0, look_point(0, 1, 0.0)));
     assert_ok(local_correction_close(&near, &p, &tr, y, &error));
     assert_close(error, 0.0, 1e-25);
     assert_close(y1[0], v * h - 0.5 * mu * g * tau * tau, 1e-15);
@@ -636,11 +625,9 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     const double points[4] = {-1.0, -0.5, 1.0, -0.5};
     const dem_obstacle ground = {.n_points = 2, .points = points};
     contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h};
-    CLEANUP(dem_lattice_free) dem_lattice l;
     CLEANUP(close_step) step s = {.h = h};
     double error;
-    assert_ok(dem_lattice_rectangle(&l, 0.1, 0.08, spacing));
-    assert_ok(dem_lattice_assemble(&l, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice l = support_rectangle(0.1, 0.08, spacing, &rubber);
     assert_ok(dem_model_create(&s.model, &l, &ground, 1));
     s.n = s.n_all = l.n_nodes;
     rule.layout = (state_layout){.dim = 2, .n_nodes = s.n, .n_rows = s.n};
@@ -662,7 +649,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     s.dense = (dense_output){rule.layout, 0.0, h, h, s.y0, s.f0, s.y1, s.f1, false, &s.changed};
     changed_motion_start(&s.changed, h, s.y1, s.f1);
     const dem_index hit = node_near(&s, 0.0, 0.0);
-    assert_ok(open_at(&s.correction, &s.c, &s.dense, s.c.set.of_node[hit], at, s.state));
+    assert_ok(open_at(&s.correction, &s.c, &s.dense, look_candidate(&s.c, hit), at, s.state));
     s.state[2 * (s.n + hit) + 1] += 5.0;
     assert_ok(local_correction_close(&s.correction, &s.dense, &s.changed, s.state, &error));
     triplets_reach(&l, at, s.first);

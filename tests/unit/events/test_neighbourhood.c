@@ -7,7 +7,8 @@
 
 #include "contact/contact_constraints.h"
 #include "forces/local_springs.h"
-#include "unit/chain.h"
+#include "unit/events/chain.h"
+#include "unit/forces/look.h"
 #include "verification/support.h"
 
 typedef struct rig {
@@ -29,9 +30,7 @@ static void open_rig(rig *r, int n_rings)
     const dem_obstacle floor = {.n_points = 2, .points = points, .friction = 0.3};
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.0};
-    CLEANUP(dem_lattice_free) dem_lattice block;
-    assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
-    assert_ok(dem_lattice_assemble(&block, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.05, 5e-3, &rubber);
     *r = (rig){.n = block.n_nodes};
     assert_ok(dem_model_create(&r->model, &block, &floor, 1));
     const contact_rule rule = {
@@ -112,10 +111,10 @@ TEST(rings_are_distances)
         CLEANUP(free_memory) int *d = distances(&r, r.model->surface.nodes[candidate + turn]);
         assert_ok(gather(&r, candidate + turn));
         for (dem_index i = 0; i < r.n; i++) {
-            assert_int_equal(r.b.nodes.number[i] >= 0, d[i] <= 4);
+            assert_int_equal(look_number(&r.b.nodes, i) >= 0, d[i] <= 4);
             for (int ring = 0; ring <= 4; ring++) assert_int_equal(local_nodes_have(&r.b.nodes, i, ring), d[i] <= ring);
         }
-        for (dem_index j = 0; j < r.b.nodes.n; j++) assert_int_equal(r.b.nodes.number[r.b.nodes.list[j]], j);
+        for (dem_index j = 0; j < r.b.nodes.n; j++) assert_int_equal(look_number(&r.b.nodes, r.b.nodes.list[j]), j);
     }
 }
 

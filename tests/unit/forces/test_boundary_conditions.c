@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "forces/boundary_conditions.h"
+#include "harness/message.h"
 #include "unit/close.h"
 
 enum { n_nodes = 4 };
@@ -122,7 +123,7 @@ static void refused(dem_boundary one, dem_status status, const char *message)
 {
     boundary_conditions b;
     assert_int_equal(boundary_conditions_compile(&b, &one, 1, &lattice, 1), status);
-    assert_string_equal(dem_status_message(), message);
+    assert_message_parts(message);
     assert_null(b.list);
 }
 
@@ -133,27 +134,25 @@ TEST(faults_are_named)
         .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 2, .nodes = nodes};
     dem_boundary bad = good;
     bad.kind = (dem_boundary_kind)9;
-    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: unknown kind 9");
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0 * kind 9");
     bad = good, bad.n_nodes = 0;
-    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0 has no nodes");
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0 * no nodes");
     bad = good, bad.components = 4;
-    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: components must be DEM_COMPONENT_X, DEM_COMPONENT_Y or both, got 4");
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: components * DEM_COMPONENT_X, DEM_COMPONENT_Y * 4");
     bad = good, bad.value[1] = (double)NAN;
-    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: value (0, nan) is not finite");
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: value (0, nan) * not finite");
     bad = good, bad.ramp = -1.0;
-    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: ramp must be >= 0, got -1 s");
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: ramp * >= 0 * -1 s");
     bad = good, bad.kind = DEM_BOUNDARY_DISPLACEMENT;
-    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: a displacement needs a ramp > 0, in s");
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0 * displacement * ramp > 0");
     bad = good, bad.nodes = twice;
-    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: node 2 is named twice");
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: node 2 * twice");
     bad = good, bad.n_nodes = 1, bad.nodes = beyond;
-    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: node 4 is not in 0 to 3");
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: node 4 * 0 * 3");
     bad.nodes = touching;
-    refused(bad, DEM_ERROR_MODEL,
-            "boundary 0: node 0 may touch obstacles, so its motion cannot be prescribed; dem_lattice_exclude() takes "
-            "it from contact");
+    refused(bad, DEM_ERROR_MODEL, "boundary 0: node 0 * touch * motion * prescribed; dem_lattice_exclude()");
     bad.nodes = fixed;
-    refused(bad, DEM_ERROR_MODEL, "boundary 0: node 3 is fixed already");
+    refused(bad, DEM_ERROR_MODEL, "boundary 0: node 3 * fixed already");
 }
 
 TEST(a_component_is_prescribed_once)
@@ -167,5 +166,5 @@ TEST(a_component_is_prescribed_once)
     boundary_conditions_free(&b);
     list[1].components = DEM_COMPONENT_X | DEM_COMPONENT_Y;
     assert_int_equal(boundary_conditions_compile(&b, list, 2, &lattice, 1), DEM_ERROR_MODEL);
-    assert_string_equal(dem_status_message(), "boundary 1: the motion of node 1 is prescribed by another one already");
+    assert_message_parts("boundary 1 * motion * node 1 * prescribed * another one already");
 }

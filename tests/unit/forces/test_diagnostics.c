@@ -20,14 +20,13 @@ static dem_model *make_bodies(void)
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 2000.0, .thickness = 1.0, .guard = 0.02};
     const double aside[2] = {3.0, 0.5};
     CLEANUP(dem_lattice_free) dem_lattice first, second;
-    dem_model *model;
     assert_ok(dem_lattice_rectangle(&first, 0.4, 0.3, 0.1));
     assert_ok(dem_lattice_assemble(&first, &light));
     assert_ok(dem_lattice_rectangle(&second, 0.2, 0.5, 0.1));
     assert_ok(dem_lattice_assemble(&second, &heavy));
     dem_lattice_move(&second, 0.0, aside);
     assert_ok(dem_lattice_append(&first, &second));
-    assert_ok(dem_model_create(&model, &first, NULL, 0));
+    dem_model *model = support_model(&first, NULL, 0);
     return model;
 }
 
@@ -157,9 +156,7 @@ static dem_model *make_square(void)
 {
     static const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0}, mass[4] = {1.0, 1.0, 1.0, 1.0};
     static const dem_index ends[10] = {2, 3, 3, 0, 0, 2, 1, 0, 2, 1}, corners[6] = {0, 1, 2, 0, 2, 3};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
-    support_lattice(&lattice, 4, x, mass, 5, ends, 1.0, 10.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(4, x, mass, 5, ends, 1.0, 10.0, NULL);
     lattice.rest_length[2] = 2.0;
     lattice.n_triangles = 2;
     lattice.triangles = malloc(sizeof corners);
@@ -172,7 +169,7 @@ static dem_model *make_square(void)
     assert_non_null(lattice.area_stiffness);
     lattice.area_stiffness[0] = 6.0;
     lattice.area_stiffness[1] = -2.0;
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    dem_model *model = support_model(&lattice, NULL, 0);
     return model;
 }
 
@@ -243,10 +240,8 @@ TEST(area_energy_is_that_of_the_triangles)
 TEST(without_springs_and_triangles_there_is_no_strain)
 {
     const double x[2] = {1.0, 2.0}, v[2] = {3.0, 4.0}, mass = 2.0;
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    CLEANUP(free_model) dem_model *model;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
     const dem_strain strain = strain_of(model, x);
     assert_close(strain.min, 0.0, 0.0);
     assert_close(strain.max, 0.0, 0.0);
@@ -277,9 +272,7 @@ static moving make_damped(double damping_time)
                                .thickness = 0.5,
                                .damping_time = damping_time};
     moving m = {.model = NULL};
-    dem_lattice lattice;
-    assert_ok(dem_lattice_rectangle(&lattice, 0.4, 0.3, 0.1));
-    assert_ok(dem_lattice_assemble(&lattice, &soft));
+    dem_lattice lattice = support_rectangle(0.4, 0.3, 0.1, &soft);
     lattice.flags = calloc((size_t)lattice.n_nodes, 1);
     assert_non_null(lattice.flags);
     for (int i = 0; i < 5; i++) lattice.flags[i] = DEM_NODE_FIXED;

@@ -9,6 +9,7 @@
 
 #include "forces/kernel.h"
 #include "harness/cleanup_gsl.h"
+#include "unit/elastic/look.h"
 
 typedef struct scene {
     dem_model *model;
@@ -155,9 +156,7 @@ static const dem_material rubber = {
 
 static dem_lattice make_solid(double width, double height, const dem_material *material)
 {
-    dem_lattice lattice;
-    assert_ok(dem_lattice_rectangle(&lattice, width, height, 1e-2));
-    assert_ok(dem_lattice_assemble(&lattice, material));
+    dem_lattice lattice = support_rectangle(width, height, 1e-2, material);
     return lattice;
 }
 
@@ -409,7 +408,7 @@ TEST(triangles_may_reach_further_than_springs)
     }
     lattice.n_springs = kept;
     CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
-    assert_int_equal(s.model->layout.reach, 1);
+    assert_int_equal(look_reach(&s.model->layout), 1);
     assert_true(can_fuse(&s, &load));
     check_load(&s, &load);
 }

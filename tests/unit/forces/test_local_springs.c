@@ -24,10 +24,8 @@ static void open_rig(rig *r, double poissons_ratio)
 {
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = poissons_ratio, .density = 1050.0, .thickness = 1.0};
-    CLEANUP(dem_lattice_free) dem_lattice block;
     *r = (rig){0};
-    assert_ok(dem_lattice_rectangle(&block, 0.05, 0.05, 5e-3));
-    assert_ok(dem_lattice_assemble(&block, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.05, 5e-3, &rubber);
     assert_ok(dem_model_create(&r->model, &block, NULL, 0));
     r->layout = state_layout_of(2, block.n_nodes, 0, false);
     r->acting = (forces){.model = r->model, .gravity = {0.0, -9.81}, .mass_damping = 3.0};

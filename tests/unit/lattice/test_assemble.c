@@ -3,6 +3,7 @@
 #include <stdbool.h>
 
 #include "unit/solids.h"
+#include "harness/message.h"
 
 static const double spacing = 2.5e-3; /* m */
 
@@ -22,7 +23,7 @@ static int triangles_at(const dem_lattice *lattice, dem_index spring)
 #define assert_refused(call, status, message)                                                                          \
     do {                                                                                                               \
         assert_int_equal(call, status);                                                                                \
-        assert_string_equal(dem_status_message(), message);                                                            \
+        assert_message_parts(message);                                                                                 \
     } while (0)
 
 /* ---- triangulations ---- */
@@ -275,11 +276,9 @@ TEST(squares_refuse_what_is_no_cell)
 {
     dem_lattice lattice = make_squares(2.0 * spacing, 2.0 * spacing);
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.0), DEM_ERROR_ARGUMENT,
-                   "the stiffness of a diagonal over a side's must be > 0: 0");
-    assert_refused(
-        dem_lattice_assemble_squares(&lattice, &rubber, 1.5), DEM_ERROR_ARGUMENT,
-        "the stiffness of a diagonal over a side's must be less than 1, or cells warp, at Poisson's ratio 0.333333 in "
-        "plane stress: 1.5");
+                   "stiffness * diagonal * > 0: 0");
+    assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 1.5), DEM_ERROR_ARGUMENT,
+                   "stiffness * diagonal * 1 * Poisson's ratio 0.333333 * plane stress: 1.5");
     lattice.n_triangles = 7;
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_ERROR_MODEL,
                    "7 triangles do not pair up to cells");
@@ -290,13 +289,13 @@ TEST(squares_refuse_what_is_no_cell)
         lattice.triangles[21 + c] = other;
     }
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_ERROR_MODEL,
-                   "triangles 0 and 1, which are to be a cell, share no edge");
+                   "triangles 0 and 1 * cell, share * edge");
     dem_lattice_free(&lattice);
     lattice = make_squares(spacing, spacing);
     lattice.x[0] += 0.6 * spacing; /* the lower left corner beyond the diagonal of its neighbours */
     lattice.x[1] += 0.6 * spacing;
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_ERROR_MODEL,
-                   "the cell of nodes 1, 3, 2 and 0 is not convex");
+                   "cell * nodes 1, 3, 2 and 0 * convex");
     assert_null(lattice.mass);
     dem_lattice_free(&lattice);
 }
@@ -368,24 +367,23 @@ TEST(a_mixture_refuses_what_cannot_be_mixed)
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_squares(spacing, spacing);
     dem_index of[2] = {0, 1};
     assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.4), DEM_ERROR_MODEL,
-                   "triangles 0 and 1, of a cell, have two materials");
+                   "triangles 0 and 1 * cell * materials");
     of[1] = 2;
     assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
-                   "triangle 1 has material 2, but there are 2");
+                   "triangle 1 * material 2 * 2");
     of[1] = -1;
     assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
-                   "triangle 1 has material -1, but there are 2");
+                   "triangle 1 * material -1 * 2");
     of[1] = 1, both[1].youngs_modulus = 0.0, both[1].bond_stiffness = 7.0;
     assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
-                   "a bond stiffness, 7 N, is for bodies of one material");
-    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 0, of, 0.0), DEM_ERROR_ARGUMENT,
-                   "the number of materials must be > 0: 0");
+                   "bond stiffness, 7 N * one material");
+    assert_refused(dem_lattice_assemble_mixed(&lattice, both, 0, of, 0.0), DEM_ERROR_ARGUMENT, "materials * > 0: 0");
     assert_refused(dem_lattice_assemble_mixed(&lattice, NULL, 2, of, 0.0), DEM_ERROR_ARGUMENT, "material is NULL");
     both[1] = steel, both[1].density = 0.0;
     assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, 0.0), DEM_ERROR_ARGUMENT,
-                   "density must be > 0: 0 kg/m^3");
+                   "density * > 0: 0 kg/m^3");
     assert_refused(dem_lattice_assemble_mixed(&lattice, both, 2, of, -1.0), DEM_ERROR_ARGUMENT,
-                   "the stiffness of a diagonal over a side's must be > 0: -1");
+                   "stiffness * diagonal * > 0: -1");
     assert_null(lattice.mass);
 }
 
@@ -398,20 +396,19 @@ TEST(assembling_refuses_what_is_not_a_triangulation)
     lattice.triangles[0] = lattice.triangles[1];
     lattice.triangles[1] = corner;
     assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
-                   "triangle 0 (nodes 1, 0, 2) has the area -0.433013 m^2; it must be > 0");
+                   "triangle 0 (nodes 1, 0, 2) * area -0.433013 m^2 * > 0");
     lattice.triangles[0] = 9;
-    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
-                   "triangle 0 has node 9, but there are 5 nodes");
+    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "triangle 0 * node 9 * 5 nodes");
     lattice.triangles[0] = 0, lattice.triangles[1] = 1;
     lattice.n_triangles = 1;
-    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "node 3 belongs to no triangle");
+    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "node 3 * no triangle");
     lattice.n_triangles = 0;
     assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL,
                    "a lattice without triangles cannot be assembled");
     assert_null(lattice.mass);
     lattice.n_triangles = 2;
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
-    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "the lattice already has 6 springs");
+    assert_refused(dem_lattice_assemble(&lattice, &rubber), DEM_ERROR_MODEL, "already * 6 springs");
 }
 
 TEST(assembling_refuses_impossible_materials)
@@ -419,31 +416,31 @@ TEST(assembling_refuses_impossible_materials)
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     dem_material m = rubber;
     m.youngs_modulus = 0.0;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: 0 Pa");
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "Young's modulus * > 0: 0 Pa");
     m = rubber, m.bond_stiffness = 3.0;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
-                   "a material has Young's modulus, 1e+07 Pa, or a bond stiffness, 3 N, not both");
+                   "Young's modulus, 1e+07 Pa * bond stiffness, 3 N");
     m.youngs_modulus = 0.0, m.bond_stiffness = -3.0;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "the bond stiffness must be > 0: -3 N");
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "bond stiffness * > 0: -3 N");
     m = rubber, m.poissons_ratio = 1.0;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
-                   "Poisson's ratio must be in (-1, 1) in plane stress: 1");
+                   "Poisson's ratio * (-1, 1) * plane stress: 1");
     m.poissons_ratio = 0.5, m.plane = DEM_PLANE_STRAIN;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
-                   "Poisson's ratio must be in (-1, 0.5) in plane strain: 0.5");
+                   "Poisson's ratio * (-1, 0.5) * plane strain: 0.5");
     m.plane = (dem_plane)2;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
                    "plane is 2, which is neither stress nor strain");
     m = rubber, m.density = -1.0;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "density must be > 0: -1 kg/m^3");
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "density * > 0: -1 kg/m^3");
     m = rubber, m.thickness = (double)INFINITY;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "thickness must be > 0: inf m");
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "thickness * > 0: inf m");
     m = rubber, m.guard = -0.1;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "guard must be >= 0: -0.1");
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "guard * >= 0: -0.1");
     m = rubber, m.damping_time = -1e-6;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: -1e-06 s");
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time * >= 0: -1e-06 s");
     m.damping_time = (double)INFINITY;
-    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time must be >= 0: inf s");
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "damping_time * >= 0: inf s");
     assert_refused(dem_lattice_assemble(&lattice, NULL), DEM_ERROR_ARGUMENT, "material is NULL");
     assert_refused(dem_lattice_assemble(NULL, &rubber), DEM_ERROR_ARGUMENT, "lattice is NULL");
 }

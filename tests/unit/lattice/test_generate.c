@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* generate.c and mesh_edges.c: shapes, holes in them, nodes moved at random. */
 #include "unit/solids.h"
+#include "harness/message.h"
 
 #include <stdbool.h>
 
@@ -9,7 +10,7 @@ static const double spacing = 2.5e-3; /* m */
 #define assert_refused(call, status, message)                                                                          \
     do {                                                                                                               \
         assert_int_equal(call, status);                                                                                \
-        assert_string_equal(dem_status_message(), message);                                                            \
+        assert_message_parts(message);                                                                                 \
     } while (0)
 
 /* ---- rectangle ---- */
@@ -71,18 +72,16 @@ TEST(a_rectangle_refuses_impossible_sizes)
 {
     dem_lattice lattice = {.n_nodes = 7};
     assert_refused(dem_lattice_rectangle(&lattice, 1.0, 1.0, 2.0), DEM_ERROR_ARGUMENT,
-                   "a rectangle of 1 m x 1 m cannot have the spacing 2 m");
+                   "rectangle * 1 m x 1 m * spacing 2 m");
     assert_refused(dem_lattice_rectangle(&lattice, 1.0, 1.0, 0.0), DEM_ERROR_ARGUMENT,
-                   "a rectangle of 1 m x 1 m cannot have the spacing 0 m");
+                   "rectangle * 1 m x 1 m * spacing 0 m");
     assert_int_equal(dem_lattice_rectangle(&lattice, (double)NAN, 1.0, 0.1), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_lattice_rectangle(&lattice, 1.0, (double)INFINITY, 0.1), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_lattice_rectangle(NULL, 1.0, 1.0, 0.1), DEM_ERROR_ARGUMENT);
-    assert_refused(
-        dem_lattice_rectangle(&lattice, 0.08, 0.13, 1e-12), DEM_ERROR_MODEL,
-        "a rectangle of 0.08 m x 0.13 m with the spacing 1e-12 m would have 1.2e+22 nodes; the limit is 1.1e+12");
-    assert_refused(
-        dem_lattice_rectangle(&lattice, 1e300, 1e300, 1e-300), DEM_ERROR_MODEL,
-        "a rectangle of 1e+300 m x 1e+300 m with the spacing 1e-300 m would have inf nodes; the limit is 1.1e+12");
+    assert_refused(dem_lattice_rectangle(&lattice, 0.08, 0.13, 1e-12), DEM_ERROR_MODEL,
+                   "rectangle * 0.08 m x 0.13 m * spacing 1e-12 m * 1.2e+22 nodes * 1.1e+12");
+    assert_refused(dem_lattice_rectangle(&lattice, 1e300, 1e300, 1e-300), DEM_ERROR_MODEL,
+                   "rectangle * 1e+300 m x 1e+300 m * spacing 1e-300 m * inf nodes * 1.1e+12");
     assert_int_equal(lattice.n_nodes, 7);
 }
 
@@ -132,13 +131,12 @@ TEST(a_disc_of_one_spacing_is_a_hexagon)
 TEST(a_disc_refuses_impossible_sizes)
 {
     dem_lattice lattice = {.n_nodes = 7};
-    assert_refused(dem_lattice_disc(&lattice, 1.0, 1.5), DEM_ERROR_ARGUMENT,
-                   "a disc of radius 1 m cannot have the spacing 1.5 m");
+    assert_refused(dem_lattice_disc(&lattice, 1.0, 1.5), DEM_ERROR_ARGUMENT, "disc * radius 1 m * spacing 1.5 m");
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, -1.0), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_lattice_disc(&lattice, (double)INFINITY, 1.0), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_lattice_disc(NULL, 1.0, 1.0), DEM_ERROR_ARGUMENT);
     assert_refused(dem_lattice_disc(&lattice, 0.065, 1e-12), DEM_ERROR_MODEL,
-                   "a disc of radius 0.065 m with the spacing 1e-12 m would have 1.95e+22 nodes; the limit is 1.1e+12");
+                   "disc * radius 0.065 m * spacing 1e-12 m * 1.95e+22 nodes * 1.1e+12");
     assert_int_equal(lattice.n_nodes, 7);
 }
 
@@ -199,8 +197,7 @@ TEST(a_cut_refuses_to_leave_nothing_and_to_cut_springs)
     assert_int_equal(lattice.n_triangles, 2);
     assert_refused(dem_lattice_cut(&lattice, NULL, NULL), DEM_ERROR_ARGUMENT, "keep is NULL");
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
-    assert_refused(dem_lattice_cut(&lattice, keep_nothing, NULL), DEM_ERROR_MODEL,
-                   "a lattice that has springs cannot be cut: 6 springs");
+    assert_refused(dem_lattice_cut(&lattice, keep_nothing, NULL), DEM_ERROR_MODEL, "cut: 6 springs");
 }
 
 /* ---- squares ---- */
@@ -233,10 +230,10 @@ TEST(squares_refuse_impossible_sizes)
 {
     dem_lattice lattice;
     assert_refused(dem_lattice_squares(&lattice, 1.0, 1.0, 1.5), DEM_ERROR_ARGUMENT,
-                   "a rectangle of 1 m x 1 m cannot have the spacing 1.5 m");
+                   "rectangle * 1 m x 1 m * spacing 1.5 m");
     assert_refused(dem_lattice_squares(NULL, 1.0, 1.0, 1.0), DEM_ERROR_ARGUMENT, "out is NULL");
     assert_refused(dem_lattice_squares(&lattice, 1.0, 1.0, 1e-9), DEM_ERROR_MODEL,
-                   "a rectangle of 1 m x 1 m with the spacing 1e-09 m would have 1e+18 nodes; the limit is 1.1e+12");
+                   "rectangle * 1 m x 1 m * spacing 1e-09 m * 1e+18 nodes * 1.1e+12");
 }
 
 /* ---- jitter ---- */
@@ -298,16 +295,14 @@ TEST(no_triangle_keeps_less_than_a_tenth_of_its_area)
 TEST(jitter_refuses_what_it_cannot_move)
 {
     dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
-    assert_refused(dem_lattice_jitter(&lattice, -0.1, 1), DEM_ERROR_ARGUMENT,
-                   "the radius of the jitter must be >= 0: -0.1 m");
+    assert_refused(dem_lattice_jitter(&lattice, -0.1, 1), DEM_ERROR_ARGUMENT, "radius * jitter * >= 0: -0.1 m");
     assert_refused(dem_lattice_jitter(NULL, 0.1, 1), DEM_ERROR_ARGUMENT, "lattice is NULL");
     lattice.x[0] += 2.0; /* beyond node 1 */
     assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
-                   "triangle 0 has the area -0.433013 m^2; it must be > 0 to be jittered");
+                   "triangle 0 * area -0.433013 m^2 * > 0 * jittered");
     lattice.x[0] -= 2.0;
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
-    assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
-                   "a lattice that has springs cannot be jittered: 6 springs");
+    assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL, "jittered: 6 springs");
     dem_lattice_free(&lattice);
     assert_refused(dem_lattice_jitter(&lattice, 0.1, 1), DEM_ERROR_MODEL,
                    "a lattice without triangles cannot be jittered");

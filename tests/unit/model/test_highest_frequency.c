@@ -12,11 +12,10 @@ TEST(a_pair_has_the_frequency_of_its_reduced_mass)
     const dem_index ends[2] = {0, 1};
     const unsigned char fixed[2] = {1, 0};
     for (int k = 0; k < 2; k++) {
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
-        CLEANUP(free_model) dem_model *model;
         double omega;
-        support_lattice(&lattice, 2, x, mass, 1, ends, 2.0, 100.0, k == 0 ? NULL : fixed);
-        assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+        CLEANUP(dem_lattice_free)
+        dem_lattice lattice = support_lattice(2, x, mass, 1, ends, 2.0, 100.0, k == 0 ? NULL : fixed);
+        CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
         assert_ok(dem_model_omega(model, &omega));
         assert_close(omega, sqrt(50.0 * (k == 0 ? 1.0 + 1.0 / 3.0 : 1.0 / 3.0)), 1e-12);
     }
@@ -31,8 +30,6 @@ TEST(a_chain_has_the_frequency_of_its_highest_mode)
     static double x[2 * (n_chain + 2)], mass[n_chain + 2];
     static dem_index ends[2 * (n_chain + 1)];
     static unsigned char fixed[n_chain + 2];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    CLEANUP(free_model) dem_model *model;
     double omega, again;
     for (int i = 0; i < n_chain + 2; i++) {
         x[2 * i] = i;
@@ -40,8 +37,9 @@ TEST(a_chain_has_the_frequency_of_its_highest_mode)
         fixed[i] = i == 0 || i == n_chain + 1;
         if (i <= n_chain) ends[2 * i] = i, ends[2 * i + 1] = i + 1;
     }
-    support_lattice(&lattice, n_chain + 2, x, mass, n_chain + 1, ends, 1.0, 8.0, fixed);
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(n_chain + 2, x, mass, n_chain + 1, ends, 1.0, 8.0, fixed);
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
     assert_ok(dem_model_omega(model, &omega));
     assert_ok(dem_model_omega(model, &again));
     assert_close(omega / (2.0 * 2.0 * sin(0.5 * M_PI * n_chain / (n_chain + 1.0))), 1.0, 1e-6);
@@ -56,12 +54,11 @@ TEST(solids_have_the_highest_frequency_that_gsl_finds)
         const dem_material solid = {
             .youngs_modulus = 1e7, .poissons_ratio = ratios[k / 2], .density = 1050.0, .thickness = 1.0};
         CLEANUP(dem_lattice_free) dem_lattice lattice;
-        CLEANUP(free_model) dem_model *model;
         double omega;
         assert_ok(k % 2 == 0 ? dem_lattice_rectangle(&lattice, 0.05, 0.04, 5e-3)
                              : dem_lattice_disc(&lattice, 0.02, 5e-3));
         assert_ok(dem_lattice_assemble(&lattice, &solid));
-        assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+        CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
         assert_ok(dem_model_omega(model, &omega));
         CLEANUP(free_vector) gsl_vector *squared = dense_frequencies(model, dense_stiffness(model, lattice.x, 5e-7));
         assert_close(omega / sqrt(gsl_vector_get(squared, squared->size - 1)), 1.0, 1e-6);
@@ -75,11 +72,9 @@ TEST(without_springs_or_with_all_nodes_fixed_it_is_zero)
     const dem_index ends[2] = {0, 1};
     const unsigned char fixed[2] = {1, 1};
     for (int k = 0; k < 2; k++) {
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
-        CLEANUP(free_model) dem_model *model;
         double omega = 1.0;
-        support_lattice(&lattice, 1 + k, x, mass, k, ends, 1.0, 100.0, fixed);
-        assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+        CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1 + k, x, mass, k, ends, 1.0, 100.0, fixed);
+        CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
         assert_ok(dem_model_omega(model, &omega));
         assert_close(omega, 0.0, 0.0);
         assert_int_equal(dem_model_omega(model, NULL), DEM_ERROR_ARGUMENT);

@@ -9,6 +9,7 @@
 #include "forces/forces.h"
 #include "harness/cleanup_gsl.h"
 #include "ask.h"
+#include "unit/elastic/look.h"
 #include "unit/solids.h"
 
 static double *copy_positions(const dem_model *model)
@@ -47,8 +48,7 @@ static void total_at(const dem_model *m, const double *x, double total[3])
 
 static dem_model *make_model(const dem_lattice *lattice)
 {
-    dem_model *model;
-    assert_ok(dem_model_create(&model, lattice, NULL, 0));
+    dem_model *model = support_model(lattice, NULL, 0);
     return model;
 }
 
@@ -222,7 +222,7 @@ TEST(the_guard_adds_a_pressure)
     CLEANUP(free_model) dem_model *model = make_holed(0.02, 1.0 / 3.0), *bare = make_holed(0.0, 1.0 / 3.0);
     CLEANUP(free_memory) double *x = copy_positions(model);
     deform(x, model->lattice.n_nodes, F);
-    const double slope = triangles_guard_law(0.3).slope;
+    const double slope = look_guard_slope(0.3);
     const double pressure = -0.3 * 0.02 * rubber.youngs_modulus * slope; /* g/h = 0.02 E */
     assert_true(pressure > 0.0);
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
@@ -300,8 +300,7 @@ TEST(a_spring_outside_of_triangles_gives_half_to_each_end)
     static const double at[8] = {0.0, 0.0, 3.0, 0.0, 0.0, 2.0, 7.0, 0.0}, mass[4] = {1.0, 1.0, 1.0, 1.0};
     static const dem_index ends[8] = {0, 1, 1, 2, 2, 0, 1, 3};
     double stress[3];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    support_lattice(&lattice, 4, at, mass, 4, ends, 1.0, 10.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(4, at, mass, 4, ends, 1.0, 10.0, NULL);
     lattice.rest_length[0] = 3.0, lattice.rest_length[1] = sqrt(13.0), lattice.rest_length[2] = 2.0;
     lattice.rest_length[3] = 2.0; /* stretched to 4: a force of 10 N */
     lattice.triangles = malloc(3 * sizeof *lattice.triangles);
@@ -324,8 +323,7 @@ TEST(without_triangles_there_is_no_stress)
     static const double at[4] = {0.0, 0.0, 2.0, 0.0}, mass[2] = {1.0, 1.0};
     static const dem_index ends[2] = {0, 1};
     double stress[3];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    support_lattice(&lattice, 2, at, mass, 1, ends, 1.0, 10.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, at, mass, 1, ends, 1.0, 10.0, NULL);
     CLEANUP(free_model) dem_model *model = make_model(&lattice);
     stress_at(model, 0, model->lattice.x, stress);
     for (int c = 0; c < 3; c++) assert_close(stress[c], 0.0, 0.0);

@@ -12,6 +12,7 @@
 #include "forces/forces.h"
 #include "harness/cleanup_gsl.h"
 #include "ask.h"
+#include "harness/message.h"
 #include "model/tangent_stiffness.h"
 
 static const double spacing = 0.01;
@@ -20,11 +21,8 @@ static dem_model *make_block(double nu)
 {
     const dem_material solid = {
         .youngs_modulus = 1e7, .poissons_ratio = nu, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
-    assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.05, spacing));
-    assert_ok(dem_lattice_assemble(&lattice, &solid));
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.04, 0.05, spacing, &solid);
+    dem_model *model = support_model(&lattice, NULL, 0);
     return model;
 }
 
@@ -181,11 +179,8 @@ TEST(an_unstable_state_is_refused)
     const dem_index ends[4] = {0, 1, 1, 2};
     const unsigned char held[3] = {1, 0, 1};
     double u[6] = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    CLEANUP(free_model) dem_model *model;
-    support_lattice(&lattice, 3, x, mass, 2, ends, 1.0, 100.0, NULL);
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(3, x, mass, 2, ends, 1.0, 100.0, NULL);
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
     assert_int_equal(tangent_solve(model, x, held, 1e-9, u), DEM_ERROR_MODEL);
-    assert_string_equal(dem_status_message(),
-                        "the lattice is not stable: a displacement of 1 free nodes takes no energy");
+    assert_message_parts("stable * displacement * 1");
 }

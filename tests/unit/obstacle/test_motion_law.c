@@ -2,6 +2,7 @@
 /* pose.h, motion_law.c: places and directions go in and out, velocities and accelerations are what differences say. */
 #include "verification/support.h"
 
+#include "harness/message.h"
 #include "obstacle/motion_law.h"
 
 /* c = (1 + 2 t - t^2, t^3), q = 0.3 + 0.7 t + 0.2 t^2. */
@@ -95,8 +96,7 @@ TEST(a_motion_that_cannot_be_computed_with_is_refused)
 {
     const dem_obstacle unknown = {.velocity = {0.0, (double)NAN}}, fast = {.velocity = {1e300, 1e300}};
     assert_int_equal(motion_law_check(&unknown, 3), DEM_ERROR_MODEL);
-    assert_string_equal(dem_status_message(), "obstacle 3: velocity of nan m/s is not finite");
+    assert_message_parts("obstacle 3: velocity * nan m/s * not finite");
     assert_int_equal(motion_law_check(&fast, 3), DEM_ERROR_MODEL);
-    assert_string_equal(dem_status_message(), "obstacle 3: velocity makes it move by up to inf m/s and 0 m/s^2, which "
-                                              "cannot be computed with");
+    assert_message_parts("obstacle 3: velocity * inf m/s * 0 m/s^2");
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* frames.c: which arrays are there and what the fields of stress hold; test_trajectory.c has the others. */
-#include "unit/stored.h"
+#include "unit/output/stored.h"
 
 #include <stdbool.h>
 #include <stdio.h>

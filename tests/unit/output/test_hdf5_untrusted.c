@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* hdf5_untrusted.c: what is believed of a file and what is not. More of it in test_lattice_file.c and
  * test_trajectory_reader.c. */
-#include "unit/stored.h"
+#include "unit/output/stored.h"
 
 #include "harness/cleanup_hdf5.h"
 #include "output/hdf5_untrusted.h"

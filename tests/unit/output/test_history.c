@@ -34,9 +34,8 @@ static void begin(flight *f, dem_index n_obstacles)
     const dem_obstacle obstacles[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.0},
                                        {.n_points = 2, .points = table_points, .restitution = 0.0}};
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0, options.gravity[1] = -g;
-    support_lattice(&lattice, 2, x0, mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, x0, mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v0);
     lattice.body = malloc(2 * sizeof *lattice.body);
     assert_non_null(lattice.body);

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "output/obstacle_file.h"
-#include "unit/found.h"
+#include "unit/output/found.h"
 #include "unit/scratch.h"
 
 static const double bent[6] = {-1.0, 0.0, 0.0, -0.5, 1.0, 0.0}, flat[4] = {3.0, -2.0, 4.0, -2.0};
@@ -33,10 +33,8 @@ static dem_model *make_model(void)
                                         .friction = 0.75,
                                         .friction_law = DEM_FRICTION_PAPER,
                                         .velocity = {1.5, -2.0}}};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
-    assert_ok(dem_model_create(&model, &lattice, obstacles, 2));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    dem_model *model = support_model(&lattice, obstacles, 2);
     return model;
 }
 

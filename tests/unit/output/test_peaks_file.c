@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* peaks_file.c: what dem_peaks knows, in the file. */
-#include "unit/stored.h"
+#include "unit/output/stored.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* provenance.c: strings under names, in every file that they are written to. */
-#include "unit/stored.h"
+#include "unit/output/stored.h"
 
 #include "output/provenance.h"
 

@@ -190,9 +190,8 @@ static void note_all(dem_trajectory *trajectory)
 static dem_simulation *make_simulation(const place *p)
 {
     dem_options options = dem_options_default();
-    dem_simulation *simulation;
     options.spacing = 5e-3, options.max_step = 2e-5, options.v_scale = 5.0;
-    assert_ok(dem_simulation_create(&simulation, p->model, &options));
+    dem_simulation *simulation = support_simulation(p->model, &options);
     return simulation;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* trajectory_rows.c: rows of every kind are counted, placed and copied; test_trajectory_parts.c has what becomes of
  * runs. */
-#include "unit/stored.h"
+#include "unit/output/stored.h"
 
 #include <stdio.h>
 

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "output/vtk_grid.h"
-#include "unit/found.h"
+#include "unit/output/found.h"
 
 static char path[] = "test_grid_XXXXXX";
 

@@ -15,11 +15,9 @@ static inline dem_model *make_point_at(double height, const double v[2], double 
 {
     const double x[2] = {0.0, height}, mass = 2.0;
     const dem_obstacle obstacle = {.n_points = 2, .points = floor_points, .restitution = restitution};
-    dem_lattice lattice;
-    dem_model *model;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
-    assert_ok(dem_model_create(&model, &lattice, &obstacle, 1));
+    dem_model *model = support_model(&lattice, &obstacle, 1);
     dem_lattice_free(&lattice);
     return model;
 }
@@ -39,15 +37,8 @@ static inline dem_options point_options(void)
 
 static inline dem_simulation *simulate(const dem_model *model, const dem_options *options)
 {
-    dem_simulation *simulation;
-    assert_ok(dem_simulation_create(&simulation, model, options));
+    dem_simulation *simulation = support_simulation(model, options);
     return simulation;
-}
-
-static inline void end_run(dem_simulation *simulation, dem_model *model)
-{
-    dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
 }
 
 /* ---- a small rectangle falling on a slope ---- */
@@ -70,10 +61,9 @@ static inline dem_model *make_falling(double restitution)
     const dem_obstacle slope = {.n_points = 3, .points = slope_points, .restitution = restitution};
     const double down[2] = {0.5, -4.0};
     dem_lattice lattice;
-    dem_model *model;
     make_rectangle(&lattice, 0.006);
     assert_ok(dem_lattice_launch(&lattice, down));
-    assert_ok(dem_model_create(&model, &lattice, &slope, 1));
+    dem_model *model = support_model(&lattice, &slope, 1);
     dem_lattice_free(&lattice);
     return model;
 }

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "harness/message.h"
 #include "simulation/observers.h"
 
 /* The calls of several observers: the context of each is its letter in one diary. */
@@ -65,7 +66,7 @@ TEST(at_most_eight_are_admitted)
     const dem_observer one_more = {.interval = 1.0};
     for (int k = 0; k < OBSERVERS_MOST; k++) join(&a, &v, 1.0);
     assert_int_equal(observers_add(&a, &one_more, -1.0), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "at most 8 observers");
+    assert_message_parts("at most 8 observers");
     assert_int_equal(a.n, 8);
 }
 
@@ -74,7 +75,7 @@ TEST(an_interval_is_finite)
     observers a = {0};
     const dem_observer endless = {.interval = (double)INFINITY}, none = {.interval = fabs((double)NAN)};
     assert_int_equal(observers_add(&a, &endless, -1.0), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "the interval between frames is inf s");
+    assert_message_parts("the interval between frames is inf s");
     assert_int_equal(observers_add(&a, &none, -1.0), DEM_ERROR_ARGUMENT);
     assert_int_equal(a.n, 0);
 }
@@ -85,7 +86,7 @@ TEST(frames_too_many_to_be_numbered_are_refused)
     observers a = {0};
     const dem_observer dense = {.interval = 1e-3};
     assert_int_equal(observers_add(&a, &dense, 1e300), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "frames 0.001 s apart cannot be numbered at 1e+300 s");
+    assert_message_parts("frames 0.001 s * 1e+300 s");
     assert_int_equal(a.n, 0);
     assert_ok(observers_add(&a, &dense, 4e12));
     assert_int_equal(a.members[0].next_frame, 4000000000000001);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "harness/message.h"
 #include "simulation/options.h"
 
 static const double floor_points[4] = {-1.0, 0.0, 1.0, 0.0};
@@ -15,11 +16,9 @@ static dem_model *make_point(const double v[2])
 {
     const double x[2] = {0.0, 1.0}, mass = 2.0;
     const dem_obstacle obstacle = {.n_points = 2, .points = floor_points};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
-    assert_ok(dem_model_create(&model, &lattice, &obstacle, 1));
+    dem_model *model = support_model(&lattice, &obstacle, 1);
     return model;
 }
 
@@ -39,12 +38,9 @@ static dem_model *make_rectangle(double damping, double speed)
                                  .density = 1050.0,
                                  .thickness = 1.0,
                                  .damping_time = damping};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
-    assert_ok(dem_lattice_rectangle(&lattice, 0.03, 0.04, 0.01));
-    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.03, 0.04, 0.01, &rubber);
     assert_ok(dem_lattice_launch(&lattice, (const double[2]){0.6 * speed, 0.8 * speed}));
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    dem_model *model = support_model(&lattice, NULL, 0);
     return model;
 }
 
@@ -53,7 +49,7 @@ static dem_model *make_rectangle(double damping, double speed)
 static void refuse(const dem_options *options, const char *message)
 {
     assert_int_equal(options_check(options), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), message);
+    assert_message_parts(message);
 }
 
 /* What an older or newer header gives is test_struct_size.c's business. */
@@ -64,11 +60,11 @@ TEST(options_of_a_size_that_no_version_has_are_refused)
     options.struct_size = 3;
     (void)snprintf(message, sizeof message, "dem_options: struct_size is 3, at least %zu expected", sizeof options);
     assert_int_equal(options_read(&own, &options), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), message);
+    assert_message_parts(message);
     options.struct_size = sizeof options;
     options.rtol = 0.2;
     assert_int_equal(options_read(&own, &options), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "rtol must be in [1e-13, 0.1], got 0.2");
+    assert_message_parts("rtol * [1e-13, 0.1] * 0.2");
 }
 
 TEST(lengths_times_and_speeds_are_finite_and_not_negative)
@@ -100,37 +96,37 @@ TEST(options_outside_their_ranges_are_named)
     dem_options options = point_options();
     assert_ok(options_check(&options));
     options.gravity[0] = fabs((double)NAN);
-    refuse(&options, "gravity (nan, -9.81) is not finite");
+    refuse(&options, "gravity (nan, -9.81) * not finite");
     options = point_options();
     options.rtol = 0.2;
-    refuse(&options, "rtol must be in [1e-13, 0.1], got 0.2");
+    refuse(&options, "rtol * [1e-13, 0.1] * 0.2");
     options.rtol = 0.0;
-    refuse(&options, "rtol must be in [1e-13, 0.1], got 0");
+    refuse(&options, "rtol * [1e-13, 0.1] * 0");
     options.rtol = fabs((double)NAN);
-    refuse(&options, "rtol must be in [1e-13, 0.1], got nan");
+    refuse(&options, "rtol * [1e-13, 0.1] * nan");
     options = point_options();
     options.mass_damping = -2.0;
-    refuse(&options, "mass_damping must be >= 0, got -2");
+    refuse(&options, "mass_damping * >= 0 * -2");
     options = point_options();
     options.window = (double)INFINITY;
-    refuse(&options, "window must be finite, got inf");
+    refuse(&options, "window * finite * inf");
     options = point_options();
     options.max_impacts = 0;
-    refuse(&options, "max_impacts must be >= 1, got 0");
+    refuse(&options, "max_impacts * >= 1 * 0");
     options = point_options();
     options.contact = (dem_contact_method)7;
-    refuse(&options, "unknown contact method 7");
+    refuse(&options, "method 7");
     options = point_options();
     options.threads = 0;
-    refuse(&options, "threads must be in [1, 1024], got 0");
+    refuse(&options, "threads * [1, 1024] * 0");
     options.threads = 1025;
-    refuse(&options, "threads must be in [1, 1024], got 1025");
+    refuse(&options, "threads * [1, 1024] * 1025");
 }
 
 static void refuse_filling(const dem_model *model, dem_options options, const char *message)
 {
     assert_int_equal(options_fill(&options, model, &no_boundaries), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), message);
+    assert_message_parts(message);
 }
 
 TEST(a_model_without_springs_needs_its_scales)
@@ -147,7 +143,7 @@ TEST(a_model_without_springs_needs_its_scales)
     refuse_filling(model, options, "nothing sets a scale of speed: the option v_scale is needed, in m/s");
     options = point_options();
     options.method = (dem_method)99;
-    refuse_filling(model, options, "unknown method 99");
+    refuse_filling(model, options, "method 99");
 }
 
 /* ---- defaults ---- */

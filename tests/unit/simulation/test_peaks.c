@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/message.h"
 #include "harness/motion.h"
 #include "unit/solids.h"
 
@@ -127,11 +128,10 @@ TEST(equals_are_ranked_by_number_and_what_was_never_strained_not_at_all)
     static const double x[6] = {0.0, 0.0, 2.0, 0.0, 4.0, 0.0}, mass[3] = {1.0, 1.0, 1.0};
     static const dem_index ends[6] = {1, 2, 0, 1, 0, 2};
     dem_index springs[3] = {-1, -1, -1}, nodes[3];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(support_close) support_run run;
     CLEANUP(free_peaks) dem_peaks *peaks;
     const dem_options options = dem_options_default();
-    support_lattice(&lattice, 3, x, mass, 3, ends, 1.0, 10.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(3, x, mass, 3, ends, 1.0, 10.0, NULL);
     lattice.rest_length[2] = 4.0;
     support_open(&run, &lattice, NULL, 0, &options);
     assert_ok(dem_peaks_create(&peaks, run.model, 1));
@@ -150,11 +150,11 @@ TEST(impossible_arguments_are_refused)
     dem_peaks *peaks = NULL;
     fall *f = make_fall(1);
     assert_int_equal(dem_peaks_create(NULL, f->run.model, 1), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "dem_peaks_create: out is NULL");
+    assert_message_parts("dem_peaks_create: out is NULL");
     assert_int_equal(dem_peaks_create(&peaks, NULL, 1), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "dem_peaks_create: model is NULL");
+    assert_message_parts("dem_peaks_create: model is NULL");
     assert_int_equal(dem_peaks_create(&peaks, f->run.model, 0), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "peaks are looked for every 0 steps; it must be 1 or more");
+    assert_message_parts("0 steps * 1");
     assert_null(peaks);
     dem_peaks_destroy(NULL);
     free_fall(f);

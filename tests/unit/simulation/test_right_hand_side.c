@@ -2,6 +2,7 @@
 /* right_hand_side.c: derivatives, fused steps and root functions as the integrator calls them. */
 #include "runs.h"
 
+#include "harness/message.h"
 #include "harness/motion.h"
 #include "simulation/right_hand_side.h"
 
@@ -36,8 +37,8 @@ TEST(free_nodes_have_the_acceleration_of_their_forces)
 {
     double y[2 * MOST];
     slopes at;
-    dem_model *model;
-    dem_simulation *s = start_falling(&model, y);
+    CLEANUP(free_model) dem_model *model;
+    CLEANUP(free_simulation) dem_simulation *s = start_falling(&model, y);
     for (dem_index k = 0; k < 2 * s->layout.n_nodes; k++) y[k] *= 1.0 + 1e-3 * (double)(k % 7);
     const double *v = y + state_velocities(&s->layout);
     assert_int_equal(derive(s, y, &at), 0);
@@ -46,7 +47,6 @@ TEST(free_nodes_have_the_acceleration_of_their_forces)
         assert_memory_equal(&at.a[2 * i], &expected, sizeof expected);
         assert_memory_equal(&at.u[2 * i], &v[2 * i], sizeof expected);
     }
-    end_run(s, model);
 }
 
 /* m v' = -m g - c m v with m = 2 kg, c = 0.5 1/s, v = (3, 4) m/s: damping takes c m v^2 = 25 W. Time is integrated at
@@ -57,8 +57,8 @@ TEST(quadratures_have_their_rates)
     dem_options options = point_options();
     slopes at;
     options.mass_damping = 0.5;
-    dem_model *model = make_point(v, 0.5);
-    dem_simulation *s = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_point(v, 0.5);
+    CLEANUP(free_simulation) dem_simulation *s = simulate(model, &options);
     assert_int_equal(derive(s, s->y, &at), 0);
     assert_close(at.a[0], -1.5, 1e-15);
     assert_close(at.a[1], -9.81 - 2.0, 1e-15);
@@ -66,7 +66,6 @@ TEST(quadratures_have_their_rates)
     assert_close(at.a[state_total_index(&s->layout, STATE_FRICTION)], 0.0, 0.0);
     assert_close(at.a[state_total_index(&s->layout, STATE_WORK)], 0.0, 0.0);
     assert_close(at.a[state_total_index(&s->layout, STATE_TIME)], 1.0, 0.0);
-    end_run(s, model);
 }
 
 /* At rest on the floor after a plastic impact: m g goes into the row of the obstacle's impulse. */
@@ -74,27 +73,25 @@ TEST(a_closed_contact_holds_its_node_and_gives_an_impulse)
 {
     const dem_options options = point_options();
     slopes at;
-    dem_model *model = make_point(NULL, 0.0);
-    dem_simulation *s = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.0);
+    CLEANUP(free_simulation) dem_simulation *s = simulate(model, &options);
     assert_ok(dem_simulation_advance(s, 2.0));
     assert_int_equal(derive(s, s->y, &at), 0);
     const double *impulse = at.a + state_row(&s->layout, state_impulse(&s->layout, 0));
     assert_close(at.a[1], 0.0, 0.0);
     assert_close(impulse[0], 0.0, 0.0);
     assert_close(impulse[1], 2.0 * 9.81, 1e-14);
-    end_run(s, model);
 }
 
 TEST(the_node_is_named_whose_velocity_is_not_finite)
 {
     double y[2 * MOST];
     slopes at;
-    dem_model *model;
-    dem_simulation *s = start_falling(&model, y);
+    CLEANUP(free_model) dem_model *model;
+    CLEANUP(free_simulation) dem_simulation *s = start_falling(&model, y);
     y[state_velocities(&s->layout) + 2 * 5] = (double)NAN;
     assert_int_equal(derive(s, y, &at), 1);
     assert_non_null(strstr(dem_status_message(), "force or velocity of node 5 is not finite at ("));
-    end_run(s, model);
 }
 
 /* With 'exact' the integrator looks for a root of the lowest of all root functions in units of the start. The node,
@@ -106,7 +103,7 @@ TEST(only_exact_contacts_have_a_root_function)
     const double down[2] = {0.0, -8.0};
     dem_options options = point_options();
     double y[2 * MOST], f[2 * MOST] = {0.0};
-    dem_model *model = make_point_at(0.125, down, 0.5);
+    CLEANUP(free_model) dem_model *model = make_point_at(0.125, down, 0.5);
     dem_simulation *simulation = simulate(model, &options);
     assert_true(right_hand_side_problem(simulation).begin_roots == NULL);
     assert_true(right_hand_side_problem(simulation).root_function == NULL);
@@ -117,11 +114,10 @@ TEST(only_exact_contacts_have_a_root_function)
     const ode_problem problem = right_hand_side_problem(simulation);
     memcpy(y, simulation->y, (size_t)state_size(&simulation->layout) * sizeof *y);
     y[1] = -0.25e-6;
-    const dense_output step = {
-        .layout = simulation->layout, .t1 = 0.015, .end = 0.015, .y0 = simulation->y, .f0 = f, .y1 = y, .f1 = f};
+    const dense_output step = {simulation->layout, 0.0, 0.015, 0.015, simulation->y, f, y, f, false, NULL};
     problem.begin_roots(0.0, simulation->y, problem.context);
     assert_close(problem.root_function(&step, problem.context), 0.75e-6 / (0.125 - 19e-6), 1e-20); /* rounding */
-    end_run(simulation, model);
+    dem_simulation_destroy(simulation);
 }
 
 static int fuse(dem_simulation *s)
@@ -135,7 +131,7 @@ static int fuse(dem_simulation *s)
 TEST(a_closed_contact_or_damping_allows_no_fused_step)
 {
     dem_options options = point_options();
-    dem_model *model = make_point(NULL, 0.0);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.0);
     dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(fuse(simulation), 0);
     assert_ok(dem_simulation_advance(simulation, 2.0)); /* lies on the floor */
@@ -144,7 +140,7 @@ TEST(a_closed_contact_or_damping_allows_no_fused_step)
     options.mass_damping = 0.5;
     simulation = simulate(model, &options);
     assert_int_equal(fuse(simulation), -1);
-    end_run(simulation, model);
+    dem_simulation_destroy(simulation);
 }
 
 /* A force of nothing on a node inside: steps of Verlet's method are taken part by part then, and not in one pass. */
@@ -179,17 +175,14 @@ TEST(nodes_that_coincide_end_the_run_with_the_node_named)
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, start[4] = {0.5, 0.25, 0.5, 0.25}, mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
     const dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
     motion now;
-    support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 10.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, x, mass, 1, ends, 1.0, 10.0, NULL);
     support_start(&lattice, start, NULL);
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(dem_simulation_advance(simulation, 1.0), DEM_ERROR_INTEGRATOR);
-    assert_string_equal(dem_status_message(), "force or velocity of node 0 is not finite at (0.5, 0.25) m, t = 0 s");
+    assert_message_parts("force * velocity * node 0 * not finite * (0.5, 0.25) m, t = 0 s");
     motion_see(simulation, &now);
     assert_close(now.t, 0.0, 0.0);
     assert_close(now.x[0], 0.5, 0.0);
-    end_run(simulation, model);
 }

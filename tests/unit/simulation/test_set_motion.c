@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "harness/message.h"
 #include "harness/motion.h"
 #include "unit/scratch.h"
 
@@ -88,13 +89,13 @@ TEST(contacts_are_found_anew)
 static void refuse(dem_simulation *simulation, const double *x, const double *v, dem_status status, const char *message)
 {
     assert_int_equal(dem_simulation_set_motion(simulation, x, v), status);
-    assert_string_equal(dem_status_message(), message);
+    assert_message_parts(message);
 }
 
 static dem_status set_from_within(void *context, const dem_simulation *simulation)
 {
     assert_int_equal(dem_simulation_set_motion(*(dem_simulation **)context, NULL, NULL), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "dem_simulation_set_motion: an advance is under way");
+    assert_message_parts("dem_simulation_set_motion: an advance is under way");
     (void)simulation;
     return DEM_OK;
 }
@@ -108,8 +109,7 @@ static void open_row(support_run *run)
     const dem_boundary drive = {.components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = driven, .value = {0.1, 0.0}};
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .restitution = 0.5};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice row;
-    support_lattice(&row, 3, x, masses, 2, ends, 0.5, 50.0, fixed);
+    CLEANUP(dem_lattice_free) dem_lattice row = support_lattice(3, x, masses, 2, ends, 0.5, 50.0, fixed);
     row.flags[1] = 0;
     options.gravity[1] = 0.0;
     options.n_boundaries = 1;
@@ -130,19 +130,17 @@ TEST(what_cannot_be_is_refused_and_changes_nothing)
     memcpy(x, now.x, sizeof x);
     memcpy(v, now.v, sizeof v);
     x[4] = NAN;
-    refuse(run.simulation, x, v, DEM_ERROR_ARGUMENT, "the place (nan, 1) of node 2 is not finite");
+    refuse(run.simulation, x, v, DEM_ERROR_ARGUMENT, "(nan, 1) * node 2 * not finite");
     x[4] = now.x[4];
     v[5] = INFINITY;
     assert_int_equal(dem_simulation_set_motion(run.simulation, x, v), DEM_ERROR_ARGUMENT);
     assert_non_null(strstr(dem_status_message(), "the velocity ("));
     v[5] = 0.0;
     x[0] = 0.125;
-    refuse(run.simulation, x, v, DEM_ERROR_ARGUMENT,
-           "the place (0.125, 1) of node 0, which is fixed or prescribed, is not (0, 1)");
+    refuse(run.simulation, x, v, DEM_ERROR_ARGUMENT, "place (0.125, 1) * node 0 * fixed * prescribed * (0, 1)");
     x[0] = 0.0;
     v[0] = 1.0;
-    refuse(run.simulation, x, v, DEM_ERROR_ARGUMENT,
-           "the velocity (1, 0) of node 0, which is fixed or prescribed, is not (0, 0)");
+    refuse(run.simulation, x, v, DEM_ERROR_ARGUMENT, "velocity (1, 0) * node 0 * fixed * prescribed * (0, 0)");
     v[0] = 0.0;
     v[2] = 0.5;
     assert_int_equal(dem_simulation_set_motion(run.simulation, x, v), DEM_ERROR_ARGUMENT);

@@ -2,6 +2,7 @@
 /* simulation.c: the time loop, observers, and that the way a run is cut leaves no trace in it. */
 #include "harness/motion.h"
 #include "runs.h"
+#include "harness/message.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,15 +15,14 @@ TEST(a_run_cut_anywhere_is_the_whole_run_bit_for_bit)
     const dem_options options = dem_options_default();
     const double restitution[2] = {0.0, 0.7};
     for (int k = 0; k < 2; k++) {
-        dem_model *model = make_falling(restitution[k]);
+        CLEANUP(free_model) dem_model *model = make_falling(restitution[k]);
         const snapshot whole = run_whole(model);
         assert_true(whole.counts.impacts > 3);
-        dem_simulation *simulation = simulate(model, &options);
+        CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
         for (int cut = 0; cut <= 37; cut++) assert_ok(dem_simulation_advance(simulation, t_whole * cut / 37.0));
         assert_ok(dem_simulation_advance(simulation, t_whole)); /* twice to the same time */
         const snapshot in_parts = snap(simulation);
         assert_same(&in_parts, &whole);
-        end_run(simulation, model);
     }
 }
 
@@ -51,8 +51,8 @@ TEST(kernels_and_threads_leave_no_trace_in_the_run)
 TEST(the_energy_ledger_closes)
 {
     const dem_options options = dem_options_default();
-    dem_model *model = make_falling(0.5);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_falling(0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     const dem_energy start = ask_energy(simulation);
     const double initial = start.kinetic + start.gravity;
     assert_ok(dem_simulation_advance(simulation, t_whole));
@@ -60,7 +60,6 @@ TEST(the_energy_ledger_closes)
     assert_true(e.impact > 0.001 * initial);
     assert_true(e.elastic > 0.0);
     assert_close(e.ledger, initial, 2e-3 * initial);
-    end_run(simulation, model);
 }
 
 /* ---- observers ---- */
@@ -133,7 +132,8 @@ static void expect_undisturbed(dem_simulation *simulation, dem_model *model)
 {
     const snapshot end = snap(simulation), alone = run_whole(model);
     assert_same(&end, &alone);
-    end_run(simulation, model);
+    dem_simulation_destroy(simulation);
+    dem_model_destroy(model);
 }
 
 /* A fall from rest: y = 1 - g t^2/2 at each frame, exact but for rounding in the integrator and the dense output. */
@@ -141,8 +141,8 @@ TEST(frames_come_at_multiples_of_the_interval_from_start_to_end)
 {
     const dem_options options = point_options();
     diary d;
-    dem_model *model = make_point(NULL, 0.5);
-    dem_simulation *simulation = observed(model, &options, &d, 0.1);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = observed(model, &options, &d, 0.1);
     assert_ok(dem_simulation_advance(simulation, 0.3)); /* 3 * 0.1 is above 0.3 by rounding */
     assert_int_equal(d.n_frames, 4);
     assert_ok(dem_simulation_advance(simulation, 0.3));
@@ -153,27 +153,25 @@ TEST(frames_come_at_multiples_of_the_interval_from_start_to_end)
         assert_close(d.frame_t[k], k * 0.1, 0.0);
         assert_close(d.frame_x[k], 1.0 - 0.5 * 9.81 * 0.01 * k * k, 1e-14);
     }
-    end_run(simulation, model);
 }
 
 TEST(without_an_interval_there_are_no_frames)
 {
     const dem_options options = point_options();
     diary d;
-    dem_model *model = make_point(NULL, 0.5);
-    dem_simulation *simulation = observed(model, &options, &d, 0.0);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = observed(model, &options, &d, 0.0);
     assert_ok(dem_simulation_advance(simulation, 0.3));
     assert_int_equal(d.n_frames, 0);
     assert_true(d.n_steps > 5);
-    end_run(simulation, model);
 }
 
 TEST(observers_see_everything_in_the_order_of_time)
 {
     const dem_options options = dem_options_default();
     diary first, second;
-    dem_model *model = make_falling(0.5);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_falling(0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     watch(simulation, &first, t_whole / 20.0);
     watch(simulation, &second, t_whole / 7.0);
     assert_ok(dem_simulation_advance(simulation, t_whole));
@@ -189,7 +187,6 @@ TEST(observers_see_everything_in_the_order_of_time)
     for (int k = 1; k < second.n; k++) assert_true(second.t[k] >= second.t[k - 1]);
     for (int k = 1; k + 1 < first.n; k++) /* the step that ends with impacts is reported after them */
         if (first.kind[k] == 'i') assert_true(first.kind[k + 1] == 'i' || first.kind[k + 1] == 's');
-    end_run(simulation, model);
 }
 
 /* Two observers with one diary and several frames within each step of 0.03 s. */
@@ -197,14 +194,13 @@ TEST(frames_of_all_observers_come_in_the_order_of_time)
 {
     const dem_options options = point_options();
     diary d;
-    dem_model *model = make_point(NULL, 0.5);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     watch(simulation, &d, 0.011);
     watch(simulation, &d, 0.007);
     assert_ok(dem_simulation_advance(simulation, 0.2));
     assert_int_equal(d.n_frames, 19 + 29);
     for (int k = 1; k < d.n; k++) assert_true(d.t[k] >= d.t[k - 1]);
-    end_run(simulation, model);
 }
 
 TEST(an_impact_at_the_start_comes_before_everything_else)
@@ -213,15 +209,14 @@ TEST(an_impact_at_the_start_comes_before_everything_else)
     const dem_options options = point_options();
     diary d;
     motion now;
-    dem_model *model = make_point_at(0.0, v, 0.5);
-    dem_simulation *simulation = observed(model, &options, &d, 0.1);
+    CLEANUP(free_model) dem_model *model = make_point_at(0.0, v, 0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = observed(model, &options, &d, 0.1);
     assert_ok(dem_simulation_advance(simulation, 0.0));
     motion_see(simulation, &now);
     assert_close(now.v[1], 1.0, 0.0);
     assert_memory_equal(d.kind, "isf", 3);
     assert_close(d.t[0], 0.0, 0.0);
     assert_close(now.energy.impact, 4.0 - 1.0, 1e-15);
-    end_run(simulation, model);
 }
 
 TEST(observers_leave_no_trace_in_the_run)
@@ -263,11 +258,10 @@ TEST(whatever_status_an_observer_gives_is_returned)
 {
     const dem_options options = point_options();
     const dem_observer observer = {.step = fail_with_memory};
-    dem_model *model = make_point(NULL, 0.5);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_observe(simulation, &observer));
     assert_int_equal(dem_simulation_advance(simulation, 1.0), DEM_ERROR_MEMORY);
-    end_run(simulation, model);
 }
 
 /* ---- motion ---- */
@@ -275,16 +269,15 @@ TEST(whatever_status_an_observer_gives_is_returned)
 TEST(time_does_not_run_backwards)
 {
     const dem_options options = point_options();
-    dem_model *model = make_point(NULL, 0.5);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 0.25));
     assert_int_equal(dem_simulation_advance(simulation, 0.125), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "t_end = 0.125 s is before the present time 0.25 s");
+    assert_message_parts("t_end = 0.125 s * present time 0.25 s");
     assert_int_equal(dem_simulation_advance(simulation, (double)INFINITY), DEM_ERROR_ARGUMENT);
     motion now;
     motion_see(simulation, &now);
     assert_close(now.t, 0.25, 0.0);
-    end_run(simulation, model);
 }
 
 /* The springs' rest lengths are the distances to rounding, so that forces are 1e-16 E h: 1e-9 N on 1e-2 kg over 10
@@ -294,13 +287,12 @@ TEST(a_body_without_forces_drifts_in_a_straight_line)
     const double v[2] = {3.0, -2.0};
     dem_options options = dem_options_default();
     CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
     motion now;
     options.gravity[1] = 0.0;
     make_rectangle(&lattice, 0.0);
     assert_ok(dem_lattice_launch(&lattice, v));
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 0.01));
     motion_see(simulation, &now);
     for (dem_index k = 0; k < 2 * lattice.n_nodes; k++) {
@@ -311,7 +303,6 @@ TEST(a_body_without_forces_drifts_in_a_straight_line)
     assert_close(body.velocity[0], 3.0, 1e-13); /* forces cancel in the sum */
     assert_close(body.velocity[1], -2.0, 1e-13);
     assert_close(ask_strain(simulation).max, 0.0, 1e-10);
-    end_run(simulation, model);
 }
 
 TEST(a_single_node_without_forces_drifts_exactly)
@@ -320,15 +311,14 @@ TEST(a_single_node_without_forces_drifts_exactly)
     dem_options options = point_options();
     motion now;
     options.gravity[1] = 0.0;
-    dem_model *model = make_point(v, 0.5);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_point(v, 0.5);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 4.0));
     motion_see(simulation, &now);
     assert_close(now.x[0], 3.0, 1e-14); /* rounding of 140 steps */
     assert_close(now.x[1], 3.0, 1e-14);
     assert_close(now.v[0], 0.75, 0.0);
     assert_close(now.v[1], 0.5, 0.0);
-    end_run(simulation, model);
 }
 
 TEST(fixed_nodes_do_not_move)
@@ -336,7 +326,6 @@ TEST(fixed_nodes_do_not_move)
     const double down[2] = {0.0, -3.0};
     const dem_options options = dem_options_default();
     CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
     motion now;
     dem_index n_fixed = 0, n_moved = 0;
     make_rectangle(&lattice, 0.0);
@@ -345,8 +334,8 @@ TEST(fixed_nodes_do_not_move)
     assert_non_null(lattice.flags);
     for (dem_index i = 0; i < lattice.n_nodes; i++)
         if (lattice.x[2 * i + 1] < 0.5 * spacing) lattice.flags[i] = DEM_NODE_FIXED;
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_ok(dem_simulation_advance(simulation, 3e-3));
     motion_see(simulation, &now);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
@@ -360,7 +349,6 @@ TEST(fixed_nodes_do_not_move)
     }
     assert_int_equal(n_fixed, 4);
     assert_true(n_moved > 10);
-    end_run(simulation, model);
 }
 
 /* ---- failures ---- */
@@ -373,15 +361,14 @@ TEST(a_storm_of_impacts_ends_the_run)
     motion now;
     options.max_step = 0.3;
     options.max_impacts = 1;
-    dem_model *model = make_point(v, 0.02);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = make_point(v, 0.02);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
     const char *expected = " m had more than 1 contact events within 0.6 s, at t = ";
     assert_non_null(strstr(dem_status_message(), expected));
     motion_see(simulation, &now);
     assert_close(now.x[1], 0.0, 1e-6);       /* the penetration tolerance */
     assert_true(now.t > 0.4 && now.t < 0.5); /* 0.01 s of fall and 4.1 m/s/g of flight, both ways */
-    end_run(simulation, model);
 }
 
 /* What comes after a step that contacts have refused is the same step again. */
@@ -396,8 +383,8 @@ TEST(a_run_that_a_storm_has_ended_does_not_go_on_without_contacts)
         options.max_step = 0.3;
         options.fixed_step = k == 0 ? 0.0 : (k == 1 ? 0.3 : 0.05);
         options.max_impacts = 1;
-        dem_model *model = make_point(v, 0.02);
-        dem_simulation *simulation = simulate(model, &options);
+        CLEANUP(free_model) dem_model *model = make_point(v, 0.02);
+        CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
         assert_int_equal(dem_simulation_advance(simulation, 10.0), DEM_ERROR_CONTACT);
         motion_see(simulation, &now);
         const double t = now.t, x[2] = {now.x[1], now.v[1]};
@@ -408,7 +395,6 @@ TEST(a_run_that_a_storm_has_ended_does_not_go_on_without_contacts)
             assert_close(now.x[1], x[0], 0.0);
             assert_close(now.v[1], x[1], 0.0);
         }
-        end_run(simulation, model);
     }
 }
 
@@ -419,21 +405,18 @@ TEST(a_contact_event_after_which_the_motion_overflows_ends_the_run)
     const dem_index ends[2] = {0, 1};
     const dem_obstacle ground = {.n_points = 2, .points = floor_points, .restitution = 1.0};
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
     motion now;
     options.gravity[1] = 0.0;
     options.fixed_step = 4.0;
-    support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 1e100, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, x, mass, 1, ends, 1.0, 1e100, NULL);
     support_start(&lattice, NULL, v);
-    assert_ok(dem_model_create(&model, &lattice, &ground, 1));
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, &ground, 1);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(dem_simulation_advance(simulation, 3.0), DEM_ERROR_INTEGRATOR);
     assert_non_null(strstr(dem_status_message(), "the motion near node 0 after a contact event at t = 1.0"));
     motion_see(simulation, &now);
     assert_close(now.t, 0.0, 0.0);
     assert_close(now.v[1], -1.0, 0.0);
-    end_run(simulation, model);
 }
 
 /* ---- stops at impacts ---- */
@@ -444,11 +427,10 @@ static void stop_at_impact(double clearance)
     const dem_obstacle ground = {.n_points = 2, .points = level, .restitution = 0.5};
     const dem_options options = dem_options_default();
     CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_model *model;
     diary d;
     make_rectangle(&lattice, clearance);
     assert_ok(dem_lattice_launch(&lattice, down));
-    assert_ok(dem_model_create(&model, &lattice, &ground, 1));
+    dem_model *model = support_model(&lattice, &ground, 1);
     dem_simulation *simulation = observed(model, &options, &d, 0.0);
     d.stop_at_impact = 2;
     assert_int_equal(dem_simulation_advance(simulation, t_whole), DEM_STOPPED);

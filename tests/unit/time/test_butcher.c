@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "harness/message.h"
 #include "time/butcher.h"
 
 TEST(every_method_has_a_name_by_which_it_is_found)
@@ -20,7 +21,7 @@ TEST(every_method_has_a_name_by_which_it_is_found)
     assert_ok(dem_method_find(&found, "verner89"));
     assert_int_equal(found, DEM_METHOD_VERNER89);
     assert_int_equal(dem_method_find(&found, "euler"), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "no method is called 'euler'");
+    assert_message_parts("no method is called 'euler'");
 }
 
 TEST(what_is_not_there_is_refused_with_the_reason)
@@ -29,7 +30,7 @@ TEST(what_is_not_there_is_refused_with_the_reason)
     butcher_table table;
     int number[2] = {0, 0};
     assert_int_equal(dem_method_describe(&traits, (dem_method)20), DEM_ERROR_ARGUMENT);
-    assert_string_equal(dem_status_message(), "unknown method 20");
+    assert_message_parts("method 20");
     assert_int_equal(butcher_load(&table, (dem_method)-1), DEM_ERROR_ARGUMENT);
     assert_int_equal(butcher_load(&table, DEM_METHOD_VERLET), DEM_ERROR_ARGUMENT);
     assert_int_equal(sscanf(dem_version_sundials(), "%d.%d", &number[0], &number[1]), 2);

@@ -4,7 +4,7 @@
 #include "verification/support.h"
 
 #include "time/integrator.h"
-#include "unit/floor_and_ceiling.h"
+#include "unit/time/floor_and_ceiling.h"
 
 static const double g = 9.81, penetration_tolerance = 1e-10;
 

@@ -39,13 +39,11 @@ static size_t count_doubts(double wave_speed, double floor_speed, dem_index n_fl
     static const double points[4] = {-9.0, -9.0, 9.0, -9.0};
     const double x[2] = {0.0, 0.0}, v[2] = {2.0, 0.0}, mass = 3.0;
     const dem_obstacle floor = {.n_points = 2, .points = points, .velocity = {floor_speed, 0.0}};
-    dem_lattice lattice;
-    dem_model *model;
     run_log log = {.out = tmpfile()};
     assert_non_null(log.out);
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
-    assert_ok(dem_model_create(&model, &lattice, &floor, n_floors));
+    dem_model *model = support_model(&lattice, &floor, n_floors);
     dem_lattice_free(&lattice);
     doubts_of_speed(&log, model, 0, wave_speed);
     dem_model_destroy(model);

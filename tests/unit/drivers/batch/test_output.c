@@ -36,13 +36,11 @@ static void leave_run(const deck *d, int finished)
     dem_trajectory_options trajectory_options = dem_trajectory_options_default();
     dem_trajectory *trajectory;
     dem_lattice lattice;
-    dem_model *model;
-    dem_simulation *simulation;
     dem_lattice_init(&lattice);
     lattice.n_nodes = 1, lattice.x = x, lattice.mass = &mass;
     options.spacing = 1.0, options.max_step = 1.0, options.v_scale = 1.0;
-    assert_ok(dem_model_create(&model, &lattice, NULL, 0));
-    assert_ok(dem_simulation_create(&simulation, model, &options));
+    dem_model *model = support_model(&lattice, NULL, 0);
+    dem_simulation *simulation = support_simulation(model, &options);
     assert_ok(dem_trajectory_create(&trajectory, path, simulation, &trajectory_options));
     output_print_hash(problem, d->hash);
     output_print_hash(hash, d->run_hash);

@@ -2,13 +2,13 @@
 /* preview.c: models of which all is known, and what is said of them. */
 #include "preview.h"
 
-#include "unit/logged.h"
+#include "unit/drivers/batch/logged.h"
 
 TEST(the_preview_tells_what_is_about_to_run)
 {
     char name[] = "drops/drop.nml", title[] = "A title";
     const deck d = {.path = name, .title = title, .hash = 0xabc, .t_end = 0.25, .frame_interval = 0.01};
-    logged *l = drop_node(false, d.t_end);
+    CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, "there/drop.vtkhdf");
     read_log(l);
     assert_non_null(strstr(l->text, "drops/drop.nml"));
@@ -24,7 +24,6 @@ TEST(the_preview_tells_what_is_about_to_run)
     assert_close(number_in(l->text, "estimate", "least"), 25.0, 0.0); /* steps of 0.01 s */
     /* one chunk of 1024 rows of 49 numbers, and 26 frames of three */
     assert_close(number_in(l->text, "estimate", "about"), 1e-6 * (1024 * 49 * 8 + 26 * 24), 5e-4);
-    drop_logged(l);
 }
 
 /* Under a g of 5 m/s^2 a penetration tolerance of 1e-5 m keeps up hops of 1e-2 m/s. */
@@ -36,16 +35,14 @@ TEST(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up)
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
     for (int k = 0; k < 3; k++) {
         dem_options options = dem_options_default();
-        CLEANUP(dem_lattice_free) dem_lattice node;
-        logged *l = calloc(1, sizeof *l);
-        assert_non_null(l);
+        CLEANUP(free_logged) logged *l = make_logged();
         options.spacing = options.v_scale = 1.0;
         options.max_step = 0.01;
         options.gravity[0] = 3.0;
         options.gravity[1] = -4.0;
         options.penetration_tolerance = 1e-5;
         options.rest_speed = rest_speed[k];
-        support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
+        CLEANUP(dem_lattice_free) dem_lattice node = support_lattice(1, x, &one, 0, NULL, 0.0, 0.0, NULL);
         support_open(&l->run, &node, NULL, 0, &options);
         follow(l, false, d.t_end);
         preview_print(&l->log, &d, l->run.simulation, NULL);
@@ -55,7 +52,6 @@ TEST(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up)
                    "\nwarning    'rest_speed' 0.0099 m/s is below sqrt(2 g penetration tolerance) = 0.01 m/s: where ");
         assert_int_equal(message != NULL, k == 1);
         assert_int_equal(strstr(l->text, "warning") != NULL, k == 1);
-        drop_logged(l);
     }
 }
 
@@ -67,7 +63,7 @@ TEST(the_preview_tells_what_is_probed_and_where)
                            {"span", DEM_PROBE_GAUGE, {0, 2}, 1}};
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .probes = probes, .n_probes = 3};
-    logged *l = press(d.t_end);
+    CLEANUP(free_logged) logged *l = press(d.t_end);
     const dem_lattice *lattice = dem_model_lattice(l->run.model);
     const double *a = lattice->x + 2 * lattice->ends[2], *b = lattice->x + 2 * lattice->ends[3];
     preview_print(&l->log, &d, l->run.simulation, NULL);
@@ -78,7 +74,6 @@ TEST(the_preview_tells_what_is_probed_and_where)
     assert_close(number_in(l->text, "probe", "strut: spring 1 at ("), 0.5 * (a[0] + b[0]), six_digits);
     /* 25000 steps: chunks of 1024 rows, of the history, foot and span, and one of the strut */
     assert_close(number_in(l->text, "estimate", "about"), 1e-6 * (25 * (40 + 9 + 3) + 3) * 1024 * 8, 0.05);
-    drop_logged(l);
 }
 
 /* A block of nu = 0.1 and a node of its own: E, nu and waves of plane stress, and what cannot be measured. */
@@ -89,13 +84,10 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
     const double x[2] = {9.0, 9.0}, one = 1.0;
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice, node;
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    CLEANUP(free_logged) logged *l = make_logged();
     options.v_scale = 1.0;
-    assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
-    assert_ok(dem_lattice_assemble(&lattice, &solid));
-    support_lattice(&node, 1, x, &one, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(4.0, 4.0, 1.0, &solid);
+    CLEANUP(dem_lattice_free) dem_lattice node = support_lattice(1, x, &one, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(dem_lattice_append(&lattice, &node));
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, d.t_end);
@@ -109,7 +101,6 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
     assert_non_null(strstr(l->text, "\nconstants  body 2: not measured: the body has no triangles, "));
     assert_close(number_in(l->text, "frequency", "highest") * number_in(l->text, "frequency", "is"),
                  dem_model_omega_max(l->run.model), 1e-3 * dem_model_omega_max(l->run.model));
-    drop_logged(l);
 }
 
 /* A slice of a long body: its own E and nu, not those of the plate that moves alike. */
@@ -122,18 +113,14 @@ TEST(the_preview_tells_the_constants_of_a_slice)
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = &body, .n_bodies = 1};
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    CLEANUP(free_logged) logged *l = make_logged();
     options.v_scale = 1.0;
-    assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
-    assert_ok(dem_lattice_assemble(&lattice, &slice));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(4.0, 4.0, 1.0, &slice);
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nconstants  body 1: E 1e+07 Pa, nu 0.45 in plane strain, anisotropy 1.0000, "));
-    drop_logged(l);
 }
 
 /* A body with everything that there may be to tell, and one from a file. */
@@ -151,7 +138,7 @@ TEST(the_preview_tells_how_bodies_came_out)
     };
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 2};
-    logged *l = drop_node(false, d.t_end);
+    CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "\nmass       body 1: 2.5 kg, of the true shape 4 kg (ratio 0.6250)\n"));
@@ -164,7 +151,6 @@ TEST(the_preview_tells_how_bodies_came_out)
     assert_non_null(strstr(l->text, "\nparts      body 2: 1 apart from the largest, of 3 nodes at (0, 0) m in its own "
                                     "coordinates\n"));
     assert_null(strstr(l->text, "mass       body 2"));
-    drop_logged(l);
 }
 
 TEST(a_long_list_of_bodies_is_cut)
@@ -174,25 +160,23 @@ TEST(a_long_list_of_bodies_is_cut)
     for (int k = 0; k < 17; k++) bodies[k] = (body_facts){.mass = 1.0, .true_mass = 2.0};
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 17};
-    logged *l = drop_node(false, d.t_end);
+    CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_non_null(strstr(l->text, "mass       body 16: "));
     assert_null(strstr(l->text, "mass       body 17: "));
     assert_non_null(strstr(l->text, "\nbodies     of 17 the first 16 are listed\n"));
-    drop_logged(l);
 }
 
 TEST(without_an_output_none_is_reported)
 {
     char name[] = "a.nml", title[] = "";
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
-    logged *l = drop_node(false, d.t_end);
+    CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
     assert_false(has_line(l->text, "output"));
     assert_true(has_line(l->text, "deck"));
-    drop_logged(l);
 }
 
 TEST(versions_are_those_in_use)
@@ -227,14 +211,13 @@ TEST(details_are_left_out_unless_they_are_wanted)
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = &body, .n_bodies = 1};
     for (int verbose = 0; verbose < 2; verbose++) {
-        logged *l = drop_node(false, d.t_end);
+        CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
         l->log.verbose = verbose;
         preview_print(&l->log, &d, l->run.simulation, "there/a.vtkhdf");
         read_log(l);
         expect_topics(l->text, verbose ? "dem deck lattice contact mass constants time estimate impacts scales kernel "
                                          "formula output"
                                        : "deck lattice contact mass constants time estimate output");
-        drop_logged(l);
     }
 }
 
@@ -253,14 +236,13 @@ TEST(the_preview_tells_the_rules_of_impact)
     for (int on = 0; on <= 1; on++) {
         options.window = on ? 2.5e-5 : 0.0, options.vertices = on;
         options.contact = on ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
-        logged *l = new_floors(1, &floor, &options);
+        CLEANUP(free_logged) logged *l = new_floors(1, &floor, &options);
         print_header(l);
         assert_non_null(strstr(l->text, on ? "\nimpacts    exact, window 2.5e-05 s, vertices on: 0 may touch 0 edges\n"
                                            : "\nimpacts    local, window 0 s (each by itself), vertices off\n"));
         assert_non_null(strstr(l->text, on ? " of 1 segments; impacts within 2.5e-05 s are taken together ('exact')\n"
                                            : " of 1 segments; each impact is taken by itself ('local')\n"));
         assert_false(has_line(l->text, "friction") || has_line(l->text, "damping"));
-        drop_logged(l);
     }
 }
 
@@ -272,12 +254,11 @@ TEST(the_preview_tells_friction_and_damping)
                               {.friction = 1.0, .friction_law = DEM_FRICTION_PAPER}};
     dem_options options = dem_options_default();
     options.mass_damping = 0.75;
-    logged *l = new_floors(4, floors, &options);
+    CLEANUP(free_logged) logged *l = new_floors(4, floors, &options);
     print_header(l);
     assert_non_null(strstr(l->text, "\nfriction   obstacle 1: 0.3 (Coulomb)\nfriction   obstacle 3: 0.5 (paper)\n"
                                     "motion     obstacle 2: velocity (0.5, -2) m/s\n"
                                     "damping    of masses: 0.75 1/s\n"));
-    drop_logged(l);
 }
 
 TEST(the_preview_tells_the_damping_of_springs)
@@ -285,16 +266,12 @@ TEST(the_preview_tells_the_damping_of_springs)
     const dem_material solid = {
         .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0, .damping_time = 2e-6};
     const dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
-    assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, 0.01));
-    assert_ok(dem_lattice_assemble(&lattice, &solid));
+    CLEANUP(free_logged) logged *l = make_logged();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.04, 0.04, 0.01, &solid);
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, 1e-5);
     print_header(l);
     assert_non_null(strstr(l->text, "\ndamping    of springs: 2e-06 s\n"));
-    drop_logged(l);
 }
 
 TEST(of_many_obstacles_only_the_first_are_listed)
@@ -302,18 +279,16 @@ TEST(of_many_obstacles_only_the_first_are_listed)
     dem_obstacle floors[20];
     for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25, .velocity = {1.0, 0.0}};
     const dem_options options = dem_options_default();
-    logged *l = new_floors(20, floors, &options);
+    CLEANUP(free_logged) logged *l = new_floors(20, floors, &options);
     print_header(l);
     assert_non_null(strstr(l->text, "\nfriction   obstacle 16: 0.25 (Coulomb)\nfriction   on 20 obstacles in all\n"));
     assert_non_null(
         strstr(l->text, "\nmotion     obstacle 16: velocity (1, 0) m/s\nmotion     of 20 obstacles in all\n"));
-    drop_logged(l);
 }
 
 TEST(of_many_bodies_only_the_first_are_measured)
 {
-    logged *l = new_held();
+    CLEANUP(free_logged) logged *l = new_held();
     print_header(l);
     assert_non_null(strstr(l->text, "\nconstants  bodies 17 to 20: not measured\n"));
-    drop_logged(l);
 }

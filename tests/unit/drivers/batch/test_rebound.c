@@ -30,12 +30,11 @@ static rebound run_nodes(support_run *run, dem_index n, const double *x, const d
 {
     const double mass[2] = {2.0, 2.0};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
     rebound r = {0};
     const dem_observer observer = {.step = step, .event = event, .context = &r};
     options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.v_scale = 1.0;
     options.penetration_tolerance = 1e-13;
-    support_lattice(&lattice, n, x, mass, 0, NULL, 0.0, 0.0, NULL);
+    dem_lattice lattice = support_lattice(n, x, mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     lattice.body = calloc((size_t)n, sizeof *lattice.body);
     assert_non_null(lattice.body);
@@ -63,7 +62,7 @@ TEST(a_node_leaves_as_restitution_has_it)
 {
     const double x[2] = {0.0, height}, v[2] = {0.25, 0.0}, t = sqrt(2.0 * height / g), fall = g * t;
     const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 1.5 * t);
     const rebound_normal along = rebound_along(&r, run.simulation);
     assert_true(r.touched);
@@ -93,7 +92,6 @@ TEST(a_node_leaves_as_restitution_has_it)
     assert_non_null(strstr(text,
                            "\nforce      largest (0, 0) N, by lasting contacts, at 0.0000e+00 s; impacts gave (0, "
                            "9.39628) N s\n"));
-    support_close(&run);
 }
 
 /* A slope of 45 degrees turns the fall into a flight along x; of that the normal has 1/sqrt(2). */
@@ -102,7 +100,7 @@ TEST(the_normal_is_that_of_the_slope)
     static const double slope[4] = {-9.0, 9.0, 9.0, -9.0};
     const double x[2] = {0.0, height}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * height / g), fall = g * t;
     const dem_obstacle floor = {.n_points = 2, .points = slope, .restitution = 1.0};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 1.2 * t);
     const rebound_normal along = rebound_along(&r, run.simulation);
     assert_close(r.normal[0], sqrt(0.5), near);
@@ -111,7 +109,6 @@ TEST(the_normal_is_that_of_the_slope)
     assert_close(r.velocity[1], 0.0, near);
     assert_close(along.in, -fall * sqrt(0.5), near);
     assert_close(along.ratio, 1.0, near);
-    support_close(&run);
 }
 
 /* Seen from a floor that rises at 1 m/s. */
@@ -119,12 +116,11 @@ TEST(the_ratio_is_against_a_moving_obstacle)
 {
     const double x[2] = {0.0, height}, v[2] = {0.0, -2.0};
     const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta, .velocity = {0.0, 1.0}};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.2);
     assert_true(r.touched);
     assert_close(rebound_along(&r, run.simulation).ratio, eta, near);
     assert_true(fabs(r.velocity[1] + eta * r.approach[1]) > 1.0); /* at rest it would be 0 */
-    support_close(&run);
 }
 
 /* Of two nodes one hits, the other falls on beside the floor: L = -m (1 + eta) v, J = 2 m. */
@@ -133,18 +129,17 @@ TEST(the_spin_is_angular_momentum_over_inertia)
     static const double left[4] = {-9.0, 0.0, 0.0, 0.0};
     const double x[4] = {-1.0, height, 1.0, height}, v[4] = {0.0, 0.0, 0.0, 0.0}, t = sqrt(2.0 * height / g);
     const dem_obstacle floor = {.n_points = 2, .points = left, .restitution = eta};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 2, x, v, &floor, 1.04 * t);
     /* Measured at the end of the step, at most 0.01 s later: by then the nodes are 0.05 m apart in height. */
     assert_close(r.spin, -0.5 * (1.0 + eta) * g * t, 5e-3);
-    support_close(&run);
 }
 
 TEST(what_rests_touches_all_the_time)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
     const dem_obstacle floor = {.n_points = 2, .points = flat};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 1.0);
     assert_close(r.first, 0.0, 0.0);
     assert_close(r.touching, r.last, 1e-12); /* a sum of a hundred steps */
@@ -154,7 +149,6 @@ TEST(what_rests_touches_all_the_time)
     print(&r, run.simulation);
     assert_non_null(strstr(text, " s of it (still touching)\n"));
     assert_null(strstr(text, "ratio"));
-    support_close(&run);
 }
 
 /* A perfectly plastic impact at 1 m/s upon a floor that ends: it slides on the floor and leaves it at its end. */
@@ -163,39 +157,36 @@ TEST(what_slides_off_has_touched_from_impact_to_end)
     static const double table[4] = {-9.0, 0.0, 1.0, 0.0};
     const double x[2] = {0.0, 1e-3}, v[2] = {2.0, -1.0};
     const dem_obstacle floor = {.n_points = 2, .points = table};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.7);
     assert_close(r.last, 0.5, near); /* 1 m at 2 m/s */
     assert_close(r.touching, r.last - r.first, near);
     assert_true(r.first > 0.0 && r.touching > 0.49);
     assert_close(r.velocity[0], 2.0, near);
     assert_close(r.velocity[1], 0.0, near);
-    support_close(&run);
 }
 
 TEST(what_touches_from_the_beginning_comes_with_its_first_velocity)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {1.0, -3.0};
     const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.1);
     assert_close(r.approach[0], 1.0, near);
     assert_close(r.approach[1], -3.0, near);
     assert_close(rebound_along(&r, run.simulation).ratio, eta, near);
-    support_close(&run);
 }
 
 TEST(without_a_touch_there_is_nothing)
 {
     const double x[2] = {0.0, height}, v[2] = {0.0, 0.0};
     const dem_obstacle floor = {.n_points = 2, .points = flat};
-    support_run run;
+    CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.1);
     assert_false(r.touched);
     assert_true(isnan(rebound_along(&r, run.simulation).in));
     print(&r, run.simulation);
     assert_string_equal(text, "contact    none\n");
-    support_close(&run);
 }
 
 TEST_GROUP(NULL, NULL);

@@ -12,10 +12,9 @@ static const double g = 10.0, sag = 0.1;
 
 static void open_weight(support_run *run, dem_options *options)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     options->gravity[1] = -g;
     options->mass_damping = 20.0;
-    support_lattice(&lattice, 2, hanging, masses, 1, ends, 0.5, 100.0, fixed);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, hanging, masses, 1, ends, 0.5, 100.0, fixed);
     support_open(run, &lattice, NULL, 0, options);
 }
 
@@ -47,12 +46,11 @@ TEST(the_time_to_rest_is_that_of_the_slowest_motion)
         dem_options options = dem_options_default();
         CLEANUP(support_close) support_run probe;
         CLEANUP(support_close) support_run run;
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
         open_weight(&probe, &options);
         const double critical = relaxation_damping(probe.model), alpha = share[k] * critical;
         const double rate = k == 1 ? (1.0 - sqrt(0.75)) * critical : 0.5 * alpha;
         options.mass_damping = alpha;
-        support_lattice(&lattice, 2, hanging, masses, 1, ends, 0.5, 100.0, fixed);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, hanging, masses, 1, ends, 0.5, 100.0, fixed);
         support_open(&run, &lattice, NULL, 0, &options);
         assert_close(relaxation_expected(run.simulation, &options, 1e-3), log(1e3) / rate, 1e-9 / rate);
     }
@@ -108,9 +106,8 @@ TEST(soft_parts_make_the_slowest_stretch_slower)
     const double x[] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.0}, equal[] = {1.0, 1.0, 1.0};
     const dem_index both[] = {0, 1, 1, 2};
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(support_close) support_run run;
-    support_lattice(&lattice, 3, x, equal, 2, both, 1.0, 100.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(3, x, equal, 2, both, 1.0, 100.0, NULL);
     lattice.stiffness[1] /= 16.0;
     options.v_scale = 1.0;
     support_open(&run, &lattice, NULL, 0, &options);

@@ -5,7 +5,7 @@
 #include <dem/trajectory.h>
 
 #include "ask.h"
-#include "unit/logged.h"
+#include "unit/drivers/batch/logged.h"
 
 static const double g = 9.81, four_digits = 6e-5;
 
@@ -42,7 +42,7 @@ static double first_touch(void)
 TEST(one_bounce_is_first_and_last_contact)
 {
     const double t1 = first_touch(), v1 = g * t1, t_end = t1 + 0.5 * eta * v1 / g;
-    logged *l = drop_node(false, t_end);
+    CLEANUP(free_logged) logged *l = drop_node(false, t_end);
     finish(l, t_end);
     assert_close(number_in(l->text, "contact", "first"), t1, six_digits * t1);
     assert_close(number_in(l->text, "contact", "last"), t1, six_digits * t1);
@@ -51,44 +51,39 @@ TEST(one_bounce_is_first_and_last_contact)
     assert_close(strtod(end + strcspn(end, "+-0123456789"), NULL), eta * v1 - g * (t_end - t1), four_digits);
     assert_close(number_before(l->text, " impacts,"), 1.0, 0.0);
     assert_null(strstr(l->text, "still"));
-    drop_logged(l);
 }
 
 TEST(two_bounces_are_first_and_last_contact)
 {
     const double t1 = first_touch(), v1 = g * t1, t2 = t1 + 2.0 * eta * v1 / g, v2 = eta * eta * v1;
-    logged *l = drop_node(false, t2 + v2 / g);
+    CLEANUP(free_logged) logged *l = drop_node(false, t2 + v2 / g);
     finish(l, t2 + v2 / g);
     assert_close(number_in(l->text, "contact", "first"), t1, six_digits * t1);
     assert_close(number_in(l->text, "contact", "last"), t2, six_digits * t2);
     assert_close(number_in(l->text, "rebound", "velocity"), v2, four_digits * v2);
     assert_close(number_before(l->text, " impacts,"), 2.0, 0.0);
-    drop_logged(l);
 }
 
 TEST(without_a_touch_there_is_no_contact)
 {
-    logged *l = drop_node(false, 0.9 * first_touch());
+    CLEANUP(free_logged) logged *l = drop_node(false, 0.9 * first_touch());
     finish(l, 0.9 * first_touch());
     assert_true(has_line(l->text, "contact"));
     assert_non_null(strstr(l->text, "none"));
     assert_false(has_line(l->text, "rebound"));
     assert_close(number_before(l->text, " impacts,"), 0.0, 0.0);
-    drop_logged(l);
 }
 
 TEST(what_rests_at_the_end_is_still_touching)
 {
     const double x[2] = {0.0, 0.0};
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    CLEANUP(free_logged) logged *l = make_logged();
     support_point(&l->run, mass, x, NULL, floor_points, 2, 0.0);
     follow(l, false, 1.0);
     finish(l, 1.0);
     assert_close(number_in(l->text, "contact", "first"), 0.0, 0.0);
     assert_close(number_in(l->text, "contact", "last"), 1.0, 0.011); /* a step of at most 10 ms, and rounding */
     assert_non_null(strstr(l->text, "still touching"));
-    drop_logged(l);
 }
 
 /* Gravity to the left, a wall at x = 0: upwards is to the right. */
@@ -98,13 +93,11 @@ TEST(the_rebound_is_measured_against_gravity)
     const dem_obstacle obstacle = {.n_points = 2, .points = wall, .restitution = eta};
     const double t1 = sqrt(2.0 * drop / 4.0), v1 = 4.0 * t1, centre = (m[0] * eta * v1 - m[1] * v1) / 4.0;
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    CLEANUP(free_logged) logged *l = make_logged();
     options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.penetration_tolerance = 1e-13,
     options.v_scale = 1.0;
     options.gravity[0] = -4.0, options.gravity[1] = 0.0;
-    support_lattice(&lattice, 2, x, m, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, x, m, 0, NULL, 0.0, 0.0, NULL);
     lattice.body = calloc(2, sizeof *lattice.body);
     assert_non_null(lattice.body);
     lattice.body[1] = 1;
@@ -112,7 +105,6 @@ TEST(the_rebound_is_measured_against_gravity)
     follow(l, false, 1.01 * t1);
     finish(l, 1.01 * t1);
     assert_close(number_in(l->text, "rebound", "velocity"), centre, four_digits * fabs(centre));
-    drop_logged(l);
 }
 
 /* ---- energy ---- */
@@ -121,7 +113,7 @@ TEST(the_ledger_closes)
 {
     const double t1 = first_touch(), v1 = g * t1, t_end = t1 + 0.25 * v1 / g, v = eta * v1 - g * (t_end - t1);
     const double start = mass * g * drop + 0.5 * mass * 0.25 * 0.25, taken = 0.5 * mass * (1.0 - eta * eta) * v1 * v1;
-    logged *l = drop_node(false, t_end);
+    CLEANUP(free_logged) logged *l = drop_node(false, t_end);
     finish(l, t_end);
     const double kinetic = 0.5 * mass * (v * v + 0.25 * 0.25);
     assert_close(number_in(l->text, "energy", "kinetic"), kinetic, 1e-5 * kinetic); /* six digits in all */
@@ -129,7 +121,6 @@ TEST(the_ledger_closes)
     assert_close(number_in(l->text, "ledger", "impacts"), taken, 1e-3 * taken);     /* four digits */
     assert_close(number_in(l->text, "ledger", "now"), start - taken, 1e-8 * start);
     assert_close(number_in(l->text, "ledger", "closure"), 0.0, 1e-10); /* a hundred steps of rtol 1e-12 */
-    drop_logged(l);
 }
 
 TEST(what_friction_and_damping_took_is_reported_if_they_did)
@@ -141,7 +132,7 @@ TEST(what_friction_and_damping_took_is_reported_if_they_did)
                           .friction = 2.5,
                           .damping = 0.75,
                           .projection = 0.125};
-    logged *l = drop_node(false, 0.1);
+    CLEANUP(free_logged) logged *l = drop_node(false, 0.1);
     l->report.so_far.energy_start = 9.125, l->report.so_far.energy_max = 10.0;
     other_energy = &e;
     report_summary(&l->report, l->run.simulation);
@@ -152,7 +143,6 @@ TEST(what_friction_and_damping_took_is_reported_if_they_did)
                            "\nledger     start 9.125 J = now 5 + taken by impacts 1, friction 2.5, damping 0.75 "
                            "- projection 0.125; closure +0.00e+00\n"));
     assert_non_null(strstr(l->text, " + taken by impacts 0 - projection 0; closure "));
-    drop_logged(l);
 }
 
 TEST(the_balance_is_the_ledger_in_plain_words)
@@ -165,7 +155,7 @@ TEST(the_balance_is_the_ledger_in_plain_words)
                           .boundary = 0.125,
                           .obstacle = 0.25,
                           .ledger = 8.875};
-    logged *l = drop_node(false, 0.1);
+    CLEANUP(free_logged) logged *l = drop_node(false, 0.1);
     l->log.verbose = false;
     l->report.so_far.energy_start = 9.0, l->report.so_far.energy_max = 10.0;
     other_energy = &e;
@@ -175,7 +165,6 @@ TEST(the_balance_is_the_ledger_in_plain_words)
     assert_non_null(strstr(l->text,
                            "\nbalance    9 J at the start, 5 J now; impacts took 1, friction 2.5, damping 0.75, "
                            "boundaries gave 0.125, obstacles gave 0.25 J; error -1.3e-02 of the largest energy\n"));
-    drop_logged(l);
 }
 
 /* ---- obstacles ---- */
@@ -184,26 +173,23 @@ TEST(the_balance_is_the_ledger_in_plain_words)
 TEST(an_obstacle_tells_its_impulse)
 {
     const double t1 = first_touch(), v1 = g * t1;
-    logged *l = drop_node(false, 1.1 * t1);
+    CLEANUP(free_logged) logged *l = drop_node(false, 1.1 * t1);
     finish(l, 1.1 * t1);
     const double up = mass * (1.0 + eta) * v1;
     const char *line = strstr(l->text, "\nobstacle   1: impulse (0, ");
     assert_non_null(line);
     assert_close(strtod(line + strlen("\nobstacle   1: impulse (0, "), NULL), up, 1e-5 * up); /* six digits in all */
     assert_non_null(strstr(l->text, " N s, by friction (0, 0) N s, 0 contacts\n"));
-    drop_logged(l);
 }
 
 TEST(an_obstacle_in_contact_tells_its_resultant)
 {
     const double x[2] = {0.0, 0.0};
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    CLEANUP(free_logged) logged *l = make_logged();
     support_point(&l->run, mass, x, NULL, floor_points, 2, 0.0);
     follow(l, false, 0.5);
     finish(l, 0.5);
     assert_non_null(strstr(l->text, " N s, 1 contact, (0, 19.62) N at ("));
-    drop_logged(l);
 }
 
 /* ---- strains ---- */
@@ -215,11 +201,10 @@ TEST(strains_have_the_extremes_of_a_vibration)
     const double omega = 10.0, period = 2.0 * M_PI / omega;
     const dem_index ends[2] = {0, 1};
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    CLEANUP(free_logged) logged *l = make_logged();
     options.rtol = 1e-9, options.max_step = period / 400.0, options.v_scale = 1.0;
-    support_lattice(&lattice, 2, x, m, 1, ends, 1.0, 0.5 * omega * omega * m[0], NULL);
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(2, x, m, 1, ends, 1.0, 0.5 * omega * omega * m[0], NULL);
     support_start(&lattice, pulled, NULL);
     support_open(&l->run, &lattice, NULL, 0, &options);
     follow(l, false, 0.75 * period);
@@ -230,26 +215,23 @@ TEST(strains_have_the_extremes_of_a_vibration)
     const char *at = strstr(strstr(l->text, "smallest"), "at ");
     assert_close(strtod(at + 3, NULL), 0.5 * period, period / 400.0);
     assert_false(has_line(l->text, "triangles"));
-    drop_logged(l);
 }
 
 TEST(without_springs_there_is_no_strain)
 {
-    logged *l = drop_node(false, 0.1);
+    CLEANUP(free_logged) logged *l = drop_node(false, 0.1);
     finish(l, 0.1);
     assert_false(has_line(l->text, "strain"));
     assert_false(has_line(l->text, "triangles"));
-    drop_logged(l);
 }
 
 /* Pressed together to nine tenths, it only expands at first. */
 TEST(the_smallest_triangle_is_reported)
 {
-    logged *l = press(1e-5);
+    CLEANUP(free_logged) logged *l = press(1e-5);
     finish(l, 1e-5);
     assert_close(number_in(l->text, "triangles", "area"), 0.9, 6e-5);
     assert_false(has_line(l->text, "stressed")); /* nobody has kept peaks */
-    drop_logged(l);
 }
 
 static int count_lines(const char *text, const char *topic)
@@ -267,7 +249,7 @@ TEST(the_most_stressed_are_reported_with_place_and_time)
     const double stretch = sqrt(0.25 + 0.75 * 0.81), c = 1e7 * (stretch - 1.0) / stretch;
     const double xx = 0.5 * c, yy = 1.5 * 0.81 * c, size = sqrt(xx * xx - xx * yy + yy * yy);
     CLEANUP(free_peaks) dem_peaks *peaks;
-    logged *l = press(1e-4);
+    CLEANUP(free_logged) logged *l = press(1e-4);
     assert_ok(dem_peaks_create(&peaks, l->run.model, 1));
     const dem_observer observer = dem_peaks_observer(peaks);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
@@ -282,14 +264,13 @@ TEST(the_most_stressed_are_reported_with_place_and_time)
     assert_close(number_in(l->text, "stressed", "degrees, "), yy, 5e-4 * fabs(yy));
     assert_close(number_in(l->text, "strained", "strain "), stretch - 1.0, 6e-5);
     assert_close(number_in(l->text, "strained", "N at"), 0.0, 0.0);
-    drop_logged(l);
 }
 
 /* ---- progress ---- */
 
 TEST(in_a_file_progress_is_a_line_every_twentieth)
 {
-    logged *l = drop_node(false, 1.0);
+    CLEANUP(free_logged) logged *l = drop_node(false, 1.0);
     assert_ok(dem_simulation_advance(l->run.simulation, 1.0));
     read_log(l);
     int n_lines = 0;
@@ -305,12 +286,11 @@ TEST(in_a_file_progress_is_a_line_every_twentieth)
         before = done;
     }
     assert_in_range(n_lines, 16, 20); /* steps of 1 % pass a twentieth by one at most */
-    drop_logged(l);
 }
 
 TEST(on_a_terminal_progress_is_rewritten_in_place)
 {
-    logged *l = drop_node(true, 1.0);
+    CLEANUP(free_logged) logged *l = drop_node(true, 1.0);
     l->report.wall_shown -= 10.0; /* as if it had been shown long ago */
     assert_ok(dem_simulation_advance(l->run.simulation, 0.5));
     read_log(l);
@@ -319,7 +299,6 @@ TEST(on_a_terminal_progress_is_rewritten_in_place)
     report_summary(&l->report, l->run.simulation);
     read_log(l);
     assert_non_null(strstr(l->text, "\ncontact ")); /* in a line of its own */
-    drop_logged(l);
 }
 
 TEST(of_many_obstacles_only_the_first_are_listed)
@@ -327,11 +306,10 @@ TEST(of_many_obstacles_only_the_first_are_listed)
     dem_obstacle floors[20];
     for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25};
     const dem_options options = dem_options_default();
-    logged *l = new_floors(20, floors, &options);
+    CLEANUP(free_logged) logged *l = new_floors(20, floors, &options);
     finish(l, 0.1);
     assert_non_null(strstr(l->text, "\nobstacle   16: "));
     assert_non_null(strstr(l->text, "\nobstacle   17 to 20: see /history\n"));
-    drop_logged(l);
 }
 
 /* ---- counts ---- */
@@ -339,7 +317,7 @@ TEST(of_many_obstacles_only_the_first_are_listed)
 TEST(an_open_ledger_is_warned_of_once)
 {
     for (int terminal = 0; terminal < 2; terminal++) {
-        logged *l = drop_node(terminal, 0.5);
+        CLEANUP(free_logged) logged *l = drop_node(terminal, 0.5);
         l->report.closure = 1e-300; /* rounding is enough */
         finish(l, 0.5);
         const char *warning = strstr(l->text, "warning    the energy ledger is open by ");
@@ -349,7 +327,6 @@ TEST(an_open_ledger_is_warned_of_once)
         assert_memory_equal(l->log.warnings[0], warning + strlen("warning    "), strlen(l->log.warnings[0]));
         assert_null(strstr(warning + 1, "\nwarning "));
         assert_true(fabs(number_in(l->text, "warning", "open by")) < 1e-10);
-        drop_logged(l);
     }
 }
 
@@ -363,12 +340,10 @@ TEST(a_ledger_is_not_judged_while_a_ramp_grows)
     for (int after = 0; after < 2; after++) {
         const double t_end = after ? 0.3 : 0.1;
         dem_options options = dem_options_default();
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
-        logged *l = calloc(1, sizeof *l);
-        assert_non_null(l);
+        CLEANUP(free_logged) logged *l = make_logged();
         options.n_boundaries = 1, options.boundaries = &push;
         options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0;
-        support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
         support_open(&l->run, &lattice, NULL, 0, &options);
         follow(l, false, t_end);
         const deck d = {.t_end = t_end, .closure = 1e-300, .options = options}; /* rounding is enough */
@@ -376,22 +351,20 @@ TEST(a_ledger_is_not_judged_while_a_ramp_grows)
         finish(l, t_end);
         assert_int_equal(strstr(l->text, "warning ") != NULL, after);
         if (after) assert_true(number_in(l->text, "warning", "at") >= push.ramp);
-        drop_logged(l);
     }
 }
 
 TEST(of_many_boundaries_only_the_first_are_listed)
 {
-    logged *l = new_held();
+    CLEANUP(free_logged) logged *l = new_held();
     finish(l, 0.1);
     assert_non_null(strstr(l->text, "\nboundary   16: force (0, 9.81) N, moved by (0, 0) m\n"));
     assert_non_null(strstr(l->text, "\nboundary   17 to 20: see /history\n"));
-    drop_logged(l);
 }
 
 TEST(counts_are_those_of_the_simulation)
 {
-    logged *l = drop_node(false, 1.0);
+    CLEANUP(free_logged) logged *l = drop_node(false, 1.0);
     finish(l, 1.0);
     const dem_counts n = ask_counts(l->run.simulation);
     const char *last = strstr(l->text, "\nrun ");
@@ -401,7 +374,6 @@ TEST(counts_are_those_of_the_simulation)
     assert_close(number_before(last, " rejected"), (double)n.rejected, 0.0);
     assert_close(number_before(last, " evaluations"), (double)n.evaluations, 0.0);
     assert_close(number_before(l->text, " impacts,"), (double)n.impacts, 0.0);
-    drop_logged(l);
 }
 
 TEST(details_are_left_out_unless_they_are_wanted)
@@ -409,14 +381,13 @@ TEST(details_are_left_out_unless_they_are_wanted)
     static const char *const details[] = {"energy", "ledger", "elastic", "events", "lasting", "formula"};
     static const char *const results[] = {"contact", "rebound", "normal", "force", "obstacle", "run"};
     for (int verbose = 0; verbose < 2; verbose++) {
-        logged *l = drop_node(false, 0.5);
+        CLEANUP(free_logged) logged *l = drop_node(false, 0.5);
         l->log.verbose = verbose;
         finish(l, 0.5);
         for (size_t k = 0; k < sizeof details / sizeof *details; k++)
             assert_int_equal(has_line(l->text, details[k]), verbose);
         assert_int_equal(has_line(l->text, "balance"), !verbose);
         for (size_t k = 0; k < sizeof results / sizeof *results; k++) assert_true(has_line(l->text, results[k]));
-        drop_logged(l);
     }
 }
 
@@ -424,7 +395,7 @@ TEST(details_are_left_out_unless_they_are_wanted)
 TEST(progress_of_a_run_to_rest_is_its_residual)
 {
     relaxation rest = {.residual = 1e-3, .reached = (double)INFINITY, .settled = 0.25};
-    logged *l = drop_node(false, 100.0);
+    CLEANUP(free_logged) logged *l = drop_node(false, 100.0);
     report_expect_rest(&l->report, &rest, 1.0);
     l->report.settled = 0.25;
     assert_ok(dem_simulation_advance(l->run.simulation, 0.25));
@@ -438,28 +409,25 @@ TEST(progress_of_a_run_to_rest_is_its_residual)
     assert_non_null(strstr(l->text, "\nresidual 1.2e-01, at rest below 1.0e-03  t "));
     assert_null(strstr(l->text, "%"));
     assert_null(strstr(l->text, "left"));
-    drop_logged(l);
 }
 
 TEST(nodes_that_touched_are_known)
 {
-    logged *l = drop_node(false, 0.9 * first_touch());
+    CLEANUP(free_logged) logged *l = drop_node(false, 0.9 * first_touch());
     assert_int_equal(report_touched(&l->report, 0), 0);
     assert_ok(dem_simulation_advance(l->run.simulation, 1.1 * first_touch()));
     assert_int_equal(report_touched(&l->report, 0), 1);
-    drop_logged(l);
 }
 
 TEST(progress_is_half_as_often_without_details)
 {
-    logged *l = drop_node(false, 1.0);
+    CLEANUP(free_logged) logged *l = drop_node(false, 1.0);
     l->log.verbose = false;
     assert_ok(dem_simulation_advance(l->run.simulation, 1.0));
     read_log(l);
     int n_lines = 0;
     for (const char *line = l->text; *line != '\0'; line += strcspn(line, "\n") + 1) n_lines++;
     assert_in_range(n_lines, 9, 10); /* steps of 1 % pass a tenth by one at most */
-    drop_logged(l);
 }
 
 TEST(every_kind_of_event_is_reported)
@@ -476,7 +444,7 @@ TEST(every_kind_of_event_is_reported)
                           .late = 20,
                           .behind = 21,
                           .retries = 22};
-    logged *l = drop_node(false, 0.1);
+    CLEANUP(free_logged) logged *l = drop_node(false, 0.1);
     other_counts = &n;
     report_summary(&l->report, l->run.simulation);
     other_counts = NULL;
@@ -484,5 +452,4 @@ TEST(every_kind_of_event_is_reported)
     assert_non_null(strstr(l->text, "\nevents     11 times: 12 impacts, 13 on vertices, 14 early, 20 late, 21 behind\n"
                                     "lasting    15 closings, 16 releases, 17 slips, 18 sticks, 19 ends passed\n"));
     assert_non_null(strstr(l->text, " 22 retried, "));
-    drop_logged(l);
 }

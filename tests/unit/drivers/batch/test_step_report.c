@@ -16,8 +16,8 @@ static void open_pair(support_run *run, const dem_options *options)
 {
     const double x[4] = {0.0, 0.0, length, 0.0}, m[2] = {2.0, 2.0};
     const dem_index ends[2] = {0, 1};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    support_lattice(&lattice, 2, x, m, 1, ends, length, 0.5 * omega * omega * m[0] * length, NULL);
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(2, x, m, 1, ends, length, 0.5 * omega * omega * m[0] * length, NULL);
     support_open(run, &lattice, NULL, 0, options);
 }
 
@@ -134,12 +134,11 @@ TEST(the_largest_value_of_6_is_that_of_the_fastest_step)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {-3.0, 4.0}, mass = 2.0, h = 0.01, g = 9.81;
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
     support_run run;
     step_report p = {0};
     const dem_observer observer = {.step = follow, .context = &p};
     options.fixed_step = h, options.spacing = 0.5;
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     support_open(&run, &lattice, NULL, 0, &options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));

@@ -16,9 +16,9 @@
 static void assert_checked(const char *text, int line, const char *word)
 {
     char all[2048];
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
-    resolved r = resolve_clean(all);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(all);
     body_checks_all(&r.deck, &errors);
     if (word == NULL) {
         if (errors.n > 0) fail_msg("'%s' gives '%s'", text, errors.list[0].text);
@@ -27,8 +27,6 @@ static void assert_checked(const char *text, int line, const char *word)
         assert_int_equal(errors.list[0].place.line, line + 2);
         if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
     }
-    namelist_errors_free(&errors);
-    drop_resolved(&r);
 }
 
 TEST(sizes_at_the_limit_pass)

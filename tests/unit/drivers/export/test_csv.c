@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* csv.c: heads and rows of a run of three nodes. All numbers are compared in tests/deck/test_export.py. */
-#include "unit/exported.h"
+#include "unit/drivers/export/exported.h"
 
 #include "csv.h"
 

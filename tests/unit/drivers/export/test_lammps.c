@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* lammps.c, data.c, script.c, dump.c: the files of a run of three nodes, line by line. */
-#include "unit/exported.h"
+#include "unit/drivers/export/exported.h"
 
 #include "lammps.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* piece.c: the XML, and the numbers at the places that it names. Read by VTK in tests/deck/test_export.py. */
-#include "unit/exported.h"
+#include "unit/drivers/export/exported.h"
 
 #include "piece.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "unit/exported.h"
+#include "unit/drivers/export/exported.h"
 
 #include "sheet.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* vtu.c: which files there are, and the series. Their numbers are read by VTK in tests/deck/test_export.py. */
-#include "unit/exported.h"
+#include "unit/drivers/export/exported.h"
 
 #include "vtu.h"
 

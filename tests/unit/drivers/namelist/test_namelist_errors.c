@@ -18,11 +18,10 @@ TEST(errors_are_sorted_by_place_and_else_stay_in_order)
 
 TEST(the_thousandth_stands_for_all_that_follow)
 {
-    namelist_errors errors = {0};
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     for (int k = 0; k < 2000; k++) namelist_errors_add(&errors, (namelist_place){1, k}, "%d", k);
     assert_int_equal(errors.n, 1000);
     assert_string_equal(errors.list[998].text, "998");
     assert_string_equal(errors.list[999].text, "too many errors");
     assert_false(errors.out_of_memory);
-    namelist_errors_free(&errors);
 }

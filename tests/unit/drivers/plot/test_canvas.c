@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* canvas.c: what all canvases share. */
-#include "unit/fill_box.h"
-#include "unit/canvas_spy.h"
+#include "unit/drivers/plot/fill_box.h"
+#include "unit/drivers/plot/canvas_spy.h"
 
 TEST(lengths_count_letters_not_bytes)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* chart.c: plots over time. */
-#include "unit/canvas_spy.h"
+#include "unit/drivers/plot/canvas_spy.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* legend.c: bars of colours and of lengths. */
-#include "unit/canvas_spy.h"
+#include "unit/drivers/plot/canvas_spy.h"
 
 #include "legend.h"
 

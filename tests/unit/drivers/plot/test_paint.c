@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* paint.c: what is drawn comes out in the pixels. */
 #include "unit/close.h"
-#include "unit/fill_box.h"
+#include "unit/drivers/plot/fill_box.h"
 
 #include <cairo.h>
 #include <stdio.h>

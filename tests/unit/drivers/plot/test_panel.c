@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* panel.c: a frame in its place. */
-#include "unit/trajectory_fixture.h"
-#include "unit/canvas_spy.h"
+#include "unit/drivers/plot/trajectory_fixture.h"
+#include "unit/drivers/plot/canvas_spy.h"
 
 #include "panel.h"
 

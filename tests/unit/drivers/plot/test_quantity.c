@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* quantity.c: which numbers give the colours. */
-#include "unit/trajectory_fixture.h"
+#include "unit/drivers/plot/trajectory_fixture.h"
 
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* shape_batch.c: every shape is drawn once, in its colour, the larger values last. */
-#include "unit/canvas_spy.h"
+#include "unit/drivers/plot/canvas_spy.h"
 
 #include "shape_batch.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* snapshot.c: a frame as it is drawn. */
-#include "unit/trajectory_fixture.h"
+#include "unit/drivers/plot/trajectory_fixture.h"
 
 #include "digest.h"
 #include "snapshot.h"

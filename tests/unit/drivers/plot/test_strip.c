@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* strip.c: panels lie beside each other and show what they have to. */
-#include "unit/canvas_spy.h"
+#include "unit/drivers/plot/canvas_spy.h"
 
 #include "legend.h"
 #include "strip.h"

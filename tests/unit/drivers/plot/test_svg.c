@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* svg.c: what is drawn stands in the file. */
 #include "unit/close.h"
-#include "unit/fill_box.h"
+#include "unit/drivers/plot/fill_box.h"
 
 #include <stdio.h>
 #include <stdlib.h>

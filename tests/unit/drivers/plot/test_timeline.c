@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* timeline.c: a history becomes charts. */
-#include "unit/trajectory_fixture.h"
+#include "unit/drivers/plot/trajectory_fixture.h"
 
 #include <string.h>
 

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "output/hdf5_file.h"
-#include "unit/found.h"
+#include "unit/output/found.h"
 
 enum { STORED_VALUES = 4096 };
 

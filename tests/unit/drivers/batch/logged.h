@@ -49,20 +49,26 @@ static inline void finish(logged *l, double t_end)
     read_log(l);
 }
 
-static inline void drop_logged(logged *l)
+static inline logged *make_logged(void)
 {
-    report_end(&l->report);
-    assert_int_equal(fclose(l->log.out), 0);
-    support_close(&l->run);
-    free(l);
+    logged *l = calloc(1, sizeof *l);
+    assert_non_null(l);
+    return l;
+}
+
+static inline void free_logged(logged **l)
+{
+    report_end(&(*l)->report);
+    assert_int_equal(fclose((*l)->log.out), 0);
+    support_close(&(*l)->run);
+    free(*l);
 }
 
 /* One node dropped from rest onto a floor. */
 static inline logged *drop_node(bool terminal, double t_end)
 {
     const double x[2] = {0.0, drop}, v[2] = {0.25, 0.0};
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    logged *l = make_logged();
     support_point(&l->run, mass, x, v, floor_points, 2, eta);
     follow(l, terminal, t_end);
     return l;
@@ -107,12 +113,9 @@ static inline logged *press(double t_end)
     const dem_material rubber = {
         .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0, .guard = 0.02};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    logged *l = make_logged();
     options.max_step = 1e-5, options.v_scale = 1.0;
-    assert_ok(dem_lattice_rectangle(&lattice, 2.0, 2.0, 1.0));
-    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    dem_lattice lattice = support_rectangle(2.0, 2.0, 1.0, &rubber);
     support_start(&lattice, lattice.x, NULL);
     for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.position[2 * i + 1] *= 0.9;
     support_open(&l->run, &lattice, NULL, 0, &options);
@@ -126,9 +129,7 @@ static inline logged *new_floors(dem_index n, dem_obstacle *floors, const dem_op
 {
     const double x[2] = {0.0, drop};
     dem_options options = *changed;
-    dem_lattice lattice;
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    logged *l = make_logged();
     options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0;
     double *points = calloc((size_t)n, 4 * sizeof *points);
     assert_non_null(points);
@@ -137,7 +138,7 @@ static inline logged *new_floors(dem_index n, dem_obstacle *floors, const dem_op
         points[4 * o + 1] = points[4 * o + 3] = -(double)o;
         floors[o].n_points = 2, floors[o].points = points + 4 * o;
     }
-    support_lattice(&lattice, 1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
+    dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_open(&l->run, &lattice, floors, n, &options);
     dem_lattice_free(&lattice);
     free(points);
@@ -153,14 +154,12 @@ static inline logged *new_held(void)
     dem_boundary held[n];
     dem_index nodes[n];
     dem_options options = dem_options_default();
-    dem_lattice lattice;
-    logged *l = calloc(1, sizeof *l);
-    assert_non_null(l);
+    logged *l = make_logged();
     for (dem_index k = 0; k < n; k++) {
         x[2 * k] = (double)k, masses[k] = 1.0, nodes[k] = k;
         held[k] = (dem_boundary){.kind = DEM_BOUNDARY_VELOCITY, .components = 3, .n_nodes = 1, .nodes = &nodes[k]};
     }
-    support_lattice(&lattice, n, x, masses, 0, NULL, 0.0, 0.0, NULL);
+    dem_lattice lattice = support_lattice(n, x, masses, 0, NULL, 0.0, 0.0, NULL);
     lattice.body = malloc(n * sizeof *lattice.body);
     assert_non_null(lattice.body);
     for (int k = 0; k < n; k++) lattice.body[k] = k;

@@ -10,6 +10,7 @@
 
 #include "forces/local_forces.h"
 #include "time/dense_output.h"
+#include "unit/forces/look.h"
 
 enum { CHAIN_NODES = 16, CHAIN_STATE = 2 * STATE_DIM_MOST * (CHAIN_NODES + 16) };
 
@@ -61,8 +62,8 @@ static inline void chain_accelerate(void *self, const local_nodes *nodes, int ri
     const state_layout *l = &((const chain *)self)->layout;
     for (dem_index j = 0; j < nodes->end[ring]; j++) {
         const dem_index i = nodes->list[j];
-        const double *before = i > 0 ? s->x + state_row(l, nodes->number[i - 1]) : NULL,
-                     *after = i < CHAIN_NODES - 1 ? s->x + state_row(l, nodes->number[i + 1]) : NULL;
+        const double *before = i > 0 ? s->x + state_row(l, look_number(nodes, i - 1)) : NULL,
+                     *after = i < CHAIN_NODES - 1 ? s->x + state_row(l, look_number(nodes, i + 1)) : NULL;
         for (int c = 0; c < l->dim; c++) a[state_row(l, j) + c] = chain_pull(before, s->x + state_row(l, j), after, c);
     }
 }
@@ -137,14 +138,7 @@ static inline void chain_open(chain *s, int dim, const int *axes, dem_index held
     chain_integrate(s, chain_step, s->y0, s->y1);
     chain_derive(s, s->y0, s->f0);
     chain_derive(s, s->y1, s->f1);
-    s->step = (dense_output){.layout = s->layout,
-                             .t1 = chain_step,
-                             .end = chain_step,
-                             .y0 = s->y0,
-                             .f0 = s->f0,
-                             .y1 = s->y1,
-                             .f1 = s->f1,
-                             .parabolic = parabolic};
+    s->step = (dense_output){s->layout, 0.0, chain_step, chain_step, s->y0, s->f0, s->y1, s->f1, parabolic, NULL};
 }
 
 /* Components of all nodes in a state, or a derivative, are those of another chain that has the same motions. */

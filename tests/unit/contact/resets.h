@@ -3,7 +3,7 @@
 #ifndef DEM_TEST_RESETS_H
 #define DEM_TEST_RESETS_H
 
-#include "unit/scene.h"
+#include "unit/contact/scene_fixture.h"
 
 static const double penetration_tolerance = scene_penetration_tolerance, g = scene_gravity;
 
@@ -25,8 +25,7 @@ static inline void open_pair(scene *s)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.0}, mass[2] = {2.0, 2.0};
     const dem_index ends[2] = {0, 1};
-    dem_lattice lattice;
-    support_lattice(&lattice, 2, x, mass, 1, ends, 1.0, 100.0, NULL);
+    dem_lattice lattice = support_lattice(2, x, mass, 1, ends, 1.0, 100.0, NULL);
     scene_start(s, &lattice, &plastic, 1);
     dem_lattice_free(&lattice);
     scene_put(s, 0, 0.0, 0.0, 0.5, 0.0);

@@ -59,15 +59,13 @@ static inline void exported_run(const exported *e, const exported_how *how)
     dem_trajectory_options options = dem_trajectory_options_default();
     dem_options usual = dem_options_default();
     dem_lattice lattice;
-    dem_model *model;
-    dem_simulation *simulation;
     dem_trajectory *trajectory;
     usual.gravity[1] = 0.0;
     options.frame_interval = how->frame_interval, options.double_precision = how->double_precision;
     options.n_probes = 1, options.probes = &probe;
     exported_lattice(&lattice);
-    assert_ok(dem_model_create(&model, &lattice, &obstacle, how->n_obstacles));
-    assert_ok(dem_simulation_create(&simulation, model, &usual));
+    dem_model *model = support_model(&lattice, &obstacle, how->n_obstacles);
+    dem_simulation *simulation = support_simulation(model, &usual);
     assert_ok(dem_trajectory_create(&trajectory, e->path, simulation, &options));
     const dem_observer observer = dem_trajectory_observer(trajectory);
     assert_ok(dem_simulation_observe(simulation, &observer));

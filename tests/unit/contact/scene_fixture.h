@@ -52,8 +52,7 @@ static inline void scene_start(scene *s, const dem_lattice *lattice, const dem_o
 static inline void scene_open(scene *s, dem_index n, const double *x, const double *mass, dem_index n_triangles,
                               const dem_index *corners, const dem_obstacle *obstacles, dem_index n_obstacles)
 {
-    dem_lattice lattice;
-    support_lattice(&lattice, n, x, mass, 0, NULL, 0.0, 0.0, NULL);
+    dem_lattice lattice = support_lattice(n, x, mass, 0, NULL, 0.0, 0.0, NULL);
     lattice.body = malloc((size_t)n * sizeof *lattice.body);
     assert_non_null(lattice.body);
     for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i;

@@ -3,7 +3,7 @@
 #ifndef DEM_TEST_IMPACTS_H
 #define DEM_TEST_IMPACTS_H
 
-#include "unit/scene.h"
+#include "unit/contact/scene_fixture.h"
 
 #include "contact/impact_solve.h"
 

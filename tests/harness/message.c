@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "harness/message.h"
+
+#include <ctype.h>
+#include <string.h>
+
+/* Whether a word or a number goes on from one character to the next: "e-05", "0.5", "x_1". */
+static bool are_of_one_word(char before, char after)
+{
+    if (isalnum((unsigned char)before) || before == '_') return isalnum((unsigned char)after) || after == '_';
+    return (before == '.' || before == '-' || before == '+') && isalnum((unsigned char)after);
+}
+
+static bool ends_within_word(const char *end)
+{
+    return are_of_one_word(end[-1], end[0]) || (end[0] == '.' && isdigit((unsigned char)end[1]));
+}
+
+/* Behind the first n characters of the part where they are whole words; NULL where they are nowhere. */
+static const char *find_part(const char *text, const char *part, size_t n)
+{
+    for (const char *at = text; *at != '\0'; at++) {
+        if (strncmp(at, part, n) != 0) continue;
+        if ((at == text || !are_of_one_word(at[-1], at[0])) && !ends_within_word(at + n)) return at + n;
+    }
+    return NULL;
+}
+
+bool message_has_parts(const char *text, const char *pattern)
+{
+    while (text != NULL && pattern != NULL) {
+        const char *next = strstr(pattern, " * ");
+        text = find_part(text, pattern, next != NULL ? (size_t)(next - pattern) : strlen(pattern));
+        pattern = next != NULL ? next + strlen(" * ") : NULL;
+    }
+    return text != NULL;
+}
