@@ -13,8 +13,12 @@
 
 enum { FRAMES = 18 };
 static const double gravity = 9.81, period = 10e-3, speed = 1.0, stretch = 1e-4;
-static const dem_material rubber = {
-    .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050, .thickness = 1, .guard = 0.02};
+static const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                    .youngs_modulus = 1e7,
+                                    .poissons_ratio = 1.0 / 3.0,
+                                    .density = 1050,
+                                    .thickness = 1,
+                                    .guard = 0.02};
 
 typedef struct block {
     const dem_lattice *rest;
@@ -41,14 +45,14 @@ static dem_status look_at_stress(block *b, const dem_simulation *simulation)
     const double nu = rubber.poissons_ratio, along = rubber.youngs_modulus * stretch / (1.0 - nu * nu);
     double *stress = malloc((size_t)b->rest->n_nodes * 3 * sizeof *stress);
     if (stress == NULL) return DEM_ERROR_MEMORY;
-    dem_simulation_stress(simulation, stress);
+    const dem_status status = dem_simulation_stress(simulation, stress);
     for (dem_index i = 0; i < b->rest->n_nodes; i++) {
         b->stress = fmax(b->stress, fabs(stress[3 * i] - along) / along);
         b->stress = fmax(b->stress, fabs(stress[3 * i + 1] - nu * along) / along);
         b->stress = fmax(b->stress, fabs(stress[3 * i + 2]) / along);
     }
     free(stress);
-    return DEM_OK;
+    return status;
 }
 
 /* The observer: at every frame. */
@@ -101,7 +105,8 @@ int main(void)
     dem_simulation *simulation;
     block b = {.rate = 2.0 * acos(-1.0) / period};
     dem_options options = dem_options_default();
-    const dem_observer observer = {.interval = period / FRAMES, .frame = look, .context = &b};
+    const dem_observer observer = {
+        .struct_size = sizeof(dem_observer), .interval = period / FRAMES, .frame = look, .context = &b};
     options.gravity[1] = -gravity;
     options.force = pull;
     options.force_context = &b;

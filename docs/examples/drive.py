@@ -16,10 +16,17 @@ GRAVITY, PERIOD, SPEED, STRETCH, FRAMES = 9.81, 10e-3, 1.0, 1e-4, 18
 doubles, indices = POINTER(c_double), POINTER(c_int64)
 
 
-class dem_material(ctypes.Structure):
-    _fields_ = [("youngs_modulus", c_double), ("bond_stiffness", c_double), ("poissons_ratio", c_double),
-                ("plane", c_int), ("density", c_double), ("thickness", c_double), ("guard", c_double),
-                ("damping_time", c_double)]
+class Sized(ctypes.Structure):
+    """Begins with its size, by which the library knows what a program's structs hold."""
+
+    def __init__(self, **given):
+        super().__init__(struct_size=ctypes.sizeof(type(self)), **given)
+
+
+class dem_material(Sized):
+    _fields_ = [("struct_size", c_size_t), ("youngs_modulus", c_double), ("bond_stiffness", c_double),
+                ("poissons_ratio", c_double), ("plane", c_int), ("density", c_double),
+                ("thickness", c_double), ("guard", c_double), ("damping_time", c_double)]
 
 
 class dem_lattice(ctypes.Structure):
@@ -38,7 +45,7 @@ class dem_force_query(ctypes.Structure):
 dem_force = ctypes.CFUNCTYPE(c_int, c_void_p, POINTER(dem_force_query), doubles)
 
 
-class dem_options(ctypes.Structure):
+class dem_options(Sized):
     _fields_ = [("struct_size", c_size_t), ("method", c_int), ("gravity", c_double * 3), ("rtol", c_double),
                 ("spacing", c_double), ("v_scale", c_double), ("max_step", c_double), ("fixed_step", c_double),
                 ("penetration_tolerance", c_double), ("rest_speed", c_double), ("max_impacts", c_int64), ("window", c_double),
@@ -48,12 +55,12 @@ class dem_options(ctypes.Structure):
 
     def __init__(self, **given):
         """As dem_options_default(), which is inline in the header."""
-        defaults = dict(struct_size=ctypes.sizeof(dem_options), gravity=(0.0, -9.81, 0.0), rtol=1e-6, max_impacts=10000,
+        defaults = dict(gravity=(0.0, -9.81, 0.0), rtol=1e-6, max_impacts=10000,
                         window=-1.0, vertices=1, threads=1, checkpoint_steps=256)
         super().__init__(**{**defaults, **given})
 
 
-class dem_state(ctypes.Structure):
+class dem_state(Sized):
     _fields_ = [("struct_size", c_size_t), ("t", c_double), ("step", c_double), ("x", doubles), ("v", doubles),
                 ("n_contacts", c_int64)]
 
@@ -61,8 +68,8 @@ class dem_state(ctypes.Structure):
 seen = ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p)
 
 
-class dem_observer(ctypes.Structure):
-    _fields_ = [("interval", c_double), ("frame", seen), ("step", seen),
+class dem_observer(Sized):
+    _fields_ = [("struct_size", c_size_t), ("interval", c_double), ("frame", seen), ("step", seen),
                 ("event", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)),
                 ("checkpoint", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("context", c_void_p)]
 
@@ -131,7 +138,7 @@ class Block:
 
     def look(self, simulation):
         """The observer: at every frame."""
-        state, n = dem_state(struct_size=ctypes.sizeof(dem_state)), len(self.mass)
+        state, n = dem_state(), len(self.mass)
         check(dem.dem_simulation_state(simulation, byref(state)))
         self.way = self.mass @ (view(state.x, n, 2) - self.x) / self.mass.sum()
         if state.t == 0.0:

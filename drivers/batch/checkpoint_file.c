@@ -198,7 +198,8 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
 
 dem_observer checkpoint_file_observer(checkpoint_file *c)
 {
-    return (dem_observer){.step = on_step, .checkpoint = on_checkpoint, .context = c};
+    return (dem_observer){
+        .struct_size = sizeof(dem_observer), .step = on_step, .checkpoint = on_checkpoint, .context = c};
 }
 
 dem_status checkpoint_file_save(checkpoint_file *c, const dem_simulation *simulation)

@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "step_report.h"
+#include "ask.h"
 #include "walls.h"
 
 enum { most_listed = 16 }; /* bodies */
@@ -56,12 +57,13 @@ static void initial_velocity(const dem_lattice *l, dem_index b, double v[2])
 
 void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double wave_speed)
 {
-    dem_index n;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
+    const dem_index n = ask_sizes(model).n_obstacles;
     double v[2], least = (double)INFINITY;
     initial_velocity(dem_model_lattice(model), b, v);
-    for (dem_index o = 0; o < n; o++)
-        least = fmin(least, hypot(v[0] - obstacles[o].velocity[0], v[1] - obstacles[o].velocity[1]));
+    for (dem_index o = 0; o < n; o++) {
+        const double *w = dem_model_obstacle(model, o)->velocity;
+        least = fmin(least, hypot(v[0] - w[0], v[1] - w[1]));
+    }
     if (n == 0 || !(least > fast * wave_speed)) return;
     run_log_warn(log,
                  "body %lld moves at %.3g m/s, %.2g of its wave speed of %.4g m/s: strains of that size will come; are "

@@ -133,11 +133,11 @@ static dem_status observe(job *j)
     const struct {
         bool wanted;
         dem_observer observer;
-    } all[] = {{j->peaks != NULL, dem_peaks_observer(j->peaks)},
-               {true, dem_trajectory_observer(j->trajectory)},
+    } all[] = {{j->peaks != NULL, ask_peaks_observer(j->peaks)},
+               {true, ask_trajectory_observer(j->trajectory)},
                {true, report_observer(&j->report)},
                {j->deck.residual > 0.0, relaxation_observer(&j->rest)},
-               {j->deck.stop_at_overlap != 0, {.step = stop_at_overlap}},
+               {j->deck.stop_at_overlap != 0, {.struct_size = sizeof(dem_observer), .step = stop_at_overlap}},
                {true, checkpoint_file_observer(&j->checkpoint)}};
     dem_status status = DEM_OK;
     for (size_t k = 0; k < sizeof all / sizeof *all && status == DEM_OK; k++)
@@ -158,7 +158,7 @@ static void report_failure(job *j, dem_status status)
 /* What a quasi-static run ends at is a frame of its own, and where it stops at an overlap or fails. */
 static dem_status advance(job *j)
 {
-    const dem_observer frames = dem_trajectory_observer(j->trajectory);
+    const dem_observer frames = ask_trajectory_observer(j->trajectory);
     dem_status status = write_provenance(j);
     if (status == DEM_OK) status = observe(j);
     if (status != DEM_OK) return status;

@@ -24,12 +24,13 @@ static bool has_friction(const dem_obstacle *o)
 
 static void print_friction(FILE *out, const dem_model *model)
 {
-    dem_index n = 0, n_rough = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
+    const dem_index n = ask_sizes(model).n_obstacles;
+    dem_index n_rough = 0;
     for (dem_index o = 0; o < n; o++) {
-        if (!has_friction(&obstacles[o]) || ++n_rough > most_listed) continue;
-        (void)fprintf(out, "friction   obstacle %lld: %g (%s)\n", (long long)o + 1, obstacles[o].friction,
-                      obstacles[o].friction_law == DEM_FRICTION_PAPER ? "paper" : "Coulomb");
+        const dem_obstacle *obstacle = dem_model_obstacle(model, o);
+        if (!has_friction(obstacle) || ++n_rough > most_listed) continue;
+        (void)fprintf(out, "friction   obstacle %lld: %g (%s)\n", (long long)o + 1, obstacle->friction,
+                      obstacle->friction_law == DEM_FRICTION_PAPER ? "paper" : "Coulomb");
     }
     if (n_rough > most_listed) (void)fprintf(out, "friction   on %lld obstacles in all\n", (long long)n_rough);
 }
@@ -51,12 +52,13 @@ static void print_fields(FILE *out, const dem_obstacle *obstacle)
 
 static void print_motion(FILE *out, const dem_model *model)
 {
-    dem_index n = 0, n_moving = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
+    const dem_index n = ask_sizes(model).n_obstacles;
+    dem_index n_moving = 0;
     for (dem_index o = 0; o < n; o++) {
-        if (!dem_obstacle_moves(&obstacles[o], NULL) || ++n_moving > most_listed) continue;
+        const dem_obstacle *obstacle = dem_model_obstacle(model, o);
+        if (!dem_obstacle_moves(obstacle, NULL) || ++n_moving > most_listed) continue;
         (void)fprintf(out, "motion     obstacle %lld:", (long long)o + 1);
-        print_fields(out, &obstacles[o]);
+        print_fields(out, obstacle);
         (void)fputs("\n", out);
     }
     if (n_moving > most_listed) (void)fprintf(out, "motion     of %lld obstacles in all\n", (long long)n_moving);

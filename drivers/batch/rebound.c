@@ -151,10 +151,8 @@ void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_stat
 rebound_normal rebound_along(const rebound *r, const dem_simulation *simulation)
 {
     const double none = (double)NAN;
-    dem_index n;
-    const dem_obstacle *obstacles = dem_model_obstacles(dem_simulation_model(simulation), &n);
     if (!r->touched) return (rebound_normal){none, none, none};
-    const double *u = obstacles[r->obstacle].velocity;
+    const double *u = dem_model_obstacle(dem_simulation_model(simulation), r->obstacle)->velocity;
     const double in = (r->approach[0] - u[0]) * r->normal[0] + (r->approach[1] - u[1]) * r->normal[1];
     const double out = (r->velocity[0] - u[0]) * r->normal[0] + (r->velocity[1] - u[1]) * r->normal[1];
     return (rebound_normal){in, out, in < 0.0 ? -out / in : none};

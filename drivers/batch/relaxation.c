@@ -98,5 +98,5 @@ dem_status relaxation_resume(relaxation *r, const dem_checkpoint *checkpoint)
 
 dem_observer relaxation_observer(relaxation *r)
 {
-    return (dem_observer){.step = look, .checkpoint = save, .context = r};
+    return (dem_observer){.struct_size = sizeof(dem_observer), .step = look, .checkpoint = save, .context = r};
 }

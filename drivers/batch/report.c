@@ -237,7 +237,8 @@ static dem_status save(void *context, const dem_simulation *simulation, dem_chec
 
 dem_observer report_observer(report *r)
 {
-    return (dem_observer){.step = follow, .event = note_event, .checkpoint = save, .context = r};
+    return (dem_observer){
+        .struct_size = sizeof(dem_observer), .step = follow, .event = note_event, .checkpoint = save, .context = r};
 }
 
 static void print_strain(const report *r)

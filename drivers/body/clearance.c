@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask.h"
+
 /* ---- points of obstacles and sides of the body ---- */
 
 static const double no_box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
@@ -29,10 +31,17 @@ typedef struct side {
     dem_index ends[2]; /* ascending */
 } side;
 
+/* Obstacles of a model, or those of a deck, from which no model can be made. */
 typedef struct ground {
-    const dem_obstacle *list;
+    const dem_model *model;   /* NULL: */
+    const dem_obstacle *list; /* [n] */
     dem_index n;
 } ground;
+
+static const dem_obstacle *obstacle_of(const ground *g, dem_index k)
+{
+    return g->model != NULL ? dem_model_obstacle(g->model, k) : &g->list[k];
+}
 
 /* Sides of a body: those of one triangle only. */
 typedef struct rim {
@@ -135,11 +144,11 @@ static double distance_to_rim(const rim *r, const double x[2])
 static candidate *list_points(const ground *g, const double shift[2], size_t *n)
 {
     *n = 0;
-    for (dem_index k = 0; k < g->n; k++) *n += (size_t)g->list[k].n_points;
+    for (dem_index k = 0; k < g->n; k++) *n += (size_t)obstacle_of(g, k)->n_points;
     candidate *list = calloc(*n + 1, sizeof *list), *at = list;
     for (dem_index k = 0; list != NULL && k < g->n; k++)
-        for (dem_index i = 0; i < g->list[k].n_points; i++, at++) {
-            const double *x = g->list[k].points + 2 * i;
+        for (dem_index i = 0; i < obstacle_of(g, k)->n_points; i++, at++) {
+            const double *x = obstacle_of(g, k)->points + 2 * i;
             at->spike = (clearance_spike){.obstacle = k, .point = i, .x = {x[0] - shift[0], x[1] - shift[1]}};
         }
     if (list != NULL) qsort(list, *n, sizeof *list, by_x);
@@ -185,7 +194,7 @@ static bool find_deepest(clearance_spike *deepest, const rim *r, const ground *g
 bool clearance_find_spike(clearance_spike *deepest, const dem_lattice *lattice, const dem_obstacle *list,
                           dem_index n_obstacles)
 {
-    const ground g = {list, n_obstacles};
+    const ground g = {NULL, list, n_obstacles};
     rim r;
     const bool good = find_rim(&r, lattice) && find_deepest(deepest, &r, &g, (const double[2]){0.0, 0.0}, 0.0);
     free(r.sides);
@@ -225,7 +234,8 @@ static double extent(const path *p)
     double box[4];
     memcpy(box, p->rim.box, sizeof box);
     for (dem_index k = 0; k < p->ground.n; k++)
-        for (dem_index i = 0; i < p->ground.list[k].n_points; i++) include(box, p->ground.list[k].points + 2 * i);
+        for (dem_index i = 0; i < obstacle_of(&p->ground, k)->n_points; i++)
+            include(box, obstacle_of(&p->ground, k)->points + 2 * i);
     return hypot(box[2] - box[0], box[3] - box[1]);
 }
 
@@ -296,7 +306,7 @@ static double advance_nodes(const path *p, double s)
         const double *x = lattice->position + 2 * i;
         const double moved[2] = {x[0] + s * p->direction[0], x[1] + s * p->direction[1]};
         for (dem_index k = 0; may_touch(p, i) && k < p->ground.n; k++)
-            way = fmin(way, way_to_obstacle(p, moved, p->ground.list + k));
+            way = fmin(way, way_to_obstacle(p, moved, obstacle_of(&p->ground, k)));
     }
     return way;
 }
@@ -312,8 +322,8 @@ static double advance_sides(const path *p, double s)
         const double *a = lattice->position + 2 * i, *b = lattice->position + 2 * j;
         if (!may_touch(p, i) || !may_touch(p, j)) continue;
         for (dem_index o = 0; o < p->ground.n; o++)
-            for (dem_index q = 0; q < p->ground.list[o].n_points; q++) {
-                const double *x = p->ground.list[o].points + 2 * q;
+            for (dem_index q = 0; q < obstacle_of(&p->ground, o)->n_points; q++) {
+                const double *x = obstacle_of(&p->ground, o)->points + 2 * q;
                 const double seen[2] = {x[0] - s * p->direction[0], x[1] - s * p->direction[1]};
                 way = fmin(way, way_to_sides(seen, back, a, b, p->clearance));
             }
@@ -326,7 +336,7 @@ bool clearance_shift(double shift[2], bool *reached, const dem_model *model, con
     const double g = hypot(gravity[0], gravity[1]);
     path p = {.model = model, .direction = {gravity[0] / g, gravity[1] / g}, .clearance = clearance};
     double s = 0.0;
-    p.ground.list = dem_model_obstacles(model, &p.ground.n);
+    p.ground = (ground){.model = model, .n = ask_sizes(model).n_obstacles};
     const bool good = find_rim(&p.rim, dem_model_lattice(model)) && retreat(&s, reached, &p);
     if (good && *reached) {
         const double way = fmin(advance_nodes(&p, s), advance_sides(&p, s));

@@ -18,7 +18,8 @@ const schema_instance *material_find(const schema_deck *groups, const char *name
 dem_material material_of(const schema_deck *groups, const schema_instance *user)
 {
     const schema_instance *m = material_find(groups, schema_text(user, "material"));
-    return (dem_material){.youngs_modulus = schema_real(m, "youngs_modulus"),
+    return (dem_material){.struct_size = sizeof(dem_material),
+                          .youngs_modulus = schema_real(m, "youngs_modulus"),
                           .bond_stiffness = schema_real(m, "bond_stiffness"),
                           .poissons_ratio = schema_real(m, "poissons_ratio"),
                           .plane = schema_is(m, "plane", "strain") ? DEM_PLANE_STRAIN : DEM_PLANE_STRESS,

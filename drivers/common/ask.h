@@ -4,7 +4,7 @@
 #ifndef DEM_ASK_H
 #define DEM_ASK_H
 
-#include <dem/dem.h>
+#include <dem/trajectory.h>
 
 #define ASK(type, call)                                                                                                \
     type out = {.struct_size = sizeof out};                                                                            \
@@ -69,6 +69,16 @@ static inline dem_obstacle_load ask_obstacle(const dem_simulation *simulation, d
 static inline dem_boundary_load ask_boundary(const dem_simulation *simulation, dem_index boundary)
 {
     ASK(dem_boundary_load, dem_simulation_boundary(simulation, boundary, &out));
+}
+
+static inline dem_observer ask_peaks_observer(dem_peaks *peaks)
+{
+    ASK(dem_observer, dem_peaks_observer(peaks, &out));
+}
+
+static inline dem_observer ask_trajectory_observer(dem_trajectory *trajectory)
+{
+    ASK(dem_observer, dem_trajectory_observer(trajectory, &out));
 }
 
 #endif

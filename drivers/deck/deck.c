@@ -374,7 +374,8 @@ static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *e
         if (points == NULL) return false;
         const bool good = check_segments(points, n_points, k + 1, schema_place(group, "points"), errors);
         dem_obstacle *made = &d->obstacles[d->n_obstacles++];
-        *made = (dem_obstacle){.n_points = (dem_index)n_points,
+        *made = (dem_obstacle){.struct_size = sizeof(dem_obstacle),
+                               .n_points = (dem_index)n_points,
                                .points = points,
                                .restitution = schema_real(group, "restitution"),
                                .friction = schema_real(group, "friction"),

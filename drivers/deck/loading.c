@@ -212,7 +212,8 @@ static bool build_one(dem_boundary *out, const target *t, dem_lattice *lattice, 
 {
     const double *value = is(t->group, "kind", "fix") ? NULL : reals_of(t->group, schema_text(t->group, "kind"));
     dem_index *nodes = malloc((size_t)t->body->n_nodes * sizeof *nodes);
-    *out = (dem_boundary){.kind = kind_of(t->group),
+    *out = (dem_boundary){.struct_size = sizeof(dem_boundary),
+                          .kind = kind_of(t->group),
                           .components = components_of(t->group),
                           .nodes = nodes,
                           .ramp = schema_real(t->group, "ramp")};

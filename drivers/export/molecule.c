@@ -140,8 +140,7 @@ static const char *plural(dem_index n)
 static void find_omissions(molecule *m)
 {
     const dem_lattice *l = m->lattice;
-    dem_index obstacles = 0;
-    (void)dem_reader_obstacles(m->task->reader, &obstacles);
+    const dem_index obstacles = dem_reader_n_obstacles(m->task->reader);
     const dem_reader_column *boundaries = dem_reader_column_find(m->task->reader, "history", "boundary_force");
     const dem_index area = count(l->area_stiffness, l->n_triangles), guard = count(l->guard, l->n_triangles);
     const dem_index held = boundaries != NULL ? boundaries->items : 0;

@@ -182,7 +182,6 @@ static bool write_series(const task *t, const char *name, const char *of)
 /* The polylines as one grid. */
 typedef struct outlines {
     const task *task;
-    const dem_obstacle *obstacles;
     dem_index n, n_points;
     lines segments;
     double *flat, *points, *owner; /* [n_points][2], [n_points][3] m; [n_segments] obstacle of each */
@@ -196,18 +195,23 @@ static void free_outlines(outlines *o)
     free(o->owner);
 }
 
+static const dem_obstacle *outline_of(const outlines *o, dem_index k)
+{
+    return dem_reader_obstacle(o->task->reader, k);
+}
+
 /* Free after a failure too. */
 static bool make_outlines(outlines *o, const task *t)
 {
     *o = (outlines){.task = t};
-    o->obstacles = dem_reader_obstacles(t->reader, &o->n);
-    for (dem_index k = 0; k < o->n; k++) o->n_points += o->obstacles[k].n_points;
+    o->n = dem_reader_n_obstacles(t->reader);
+    for (dem_index k = 0; k < o->n; k++) o->n_points += outline_of(o, k)->n_points;
     o->flat = task_allocate(t, 2 * o->n_points, sizeof *o->flat);
     o->points = task_allocate(t, 3 * o->n_points, sizeof *o->points);
     o->owner = task_allocate(t, o->n_points, sizeof *o->owner);
     if (!make_lines(&o->segments, t, o->n_points - o->n) || !o->flat || !o->points || !o->owner) return false;
     for (dem_index k = 0, point = 0, segment = 0; k < o->n; k++, point++)
-        for (dem_index i = 1; i < o->obstacles[k].n_points; i++, point++) {
+        for (dem_index i = 1; i < outline_of(o, k)->n_points; i++, point++) {
             o->segments.ends[2 * segment] = (double)point;
             o->segments.ends[2 * segment + 1] = (double)(point + 1);
             o->owner[segment++] = (double)k;
@@ -219,8 +223,8 @@ static bool make_outlines(outlines *o, const task *t)
 static bool write_outlines(const outlines *o, const char *ending, double time)
 {
     piece_array arrays[5], *at = put_lines(arrays, &o->segments);
-    for (dem_index k = 0, first = 0; k < o->n; first += o->obstacles[k++].n_points)
-        dem_obstacle_points(&o->obstacles[k], time, o->flat + 2 * first);
+    for (dem_index k = 0, first = 0; k < o->n; first += outline_of(o, k++)->n_points)
+        (void)dem_obstacle_points(outline_of(o, k), time, o->flat + 2 * first);
     for (dem_index i = 0; i < o->n_points; i++) memcpy(o->points + 3 * i, o->flat + 2 * i, 2 * sizeof *o->flat);
     *at++ = (piece_array){PIECE_POINTS, "Points", DEM_READER_F64, 3, o->n_points, o->points, NULL};
     *at++ = (piece_array){PIECE_CELL_DATA, "obstacle", DEM_READER_I32, 1, o->segments.n, o->owner, NULL};
@@ -230,10 +234,9 @@ static bool write_outlines(const outlines *o, const char *ending, double time)
 
 static bool some_move(const task *t)
 {
-    dem_index n = 0;
     bool any = false;
-    const dem_obstacle *obstacles = dem_reader_obstacles(t->reader, &n);
-    for (dem_index k = 0; k < n; k++) any = any || dem_obstacle_moves(&obstacles[k], NULL);
+    for (dem_index k = dem_reader_n_obstacles(t->reader) - 1; k >= 0; k--)
+        any = any || dem_obstacle_moves(dem_reader_obstacle(t->reader, k), NULL);
     return any;
 }
 
@@ -269,8 +272,7 @@ static bool frames_are_free(const task *t, const char *of)
 
 static bool is_free(const task *t)
 {
-    dem_index n = 0;
-    (void)dem_reader_obstacles(t->reader, &n);
+    const dem_index n = dem_reader_n_obstacles(t->reader);
     if (!sheet_is_free(t, "", series) || !frames_are_free(t, "")) return false;
     if (some_move(t)) return sheet_is_free(t, "", obstacles_series) && frames_are_free(t, ".obstacle");
     return n == 0 || sheet_is_free(t, "", obstacles_file);

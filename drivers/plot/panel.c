@@ -146,11 +146,10 @@ static bool fill_moved(const dem_obstacle *obstacle, double t, box view, obstacl
 
 static bool draw_ground(const panel *p, const snapshot *s, canvas *c)
 {
-    dem_index n;
-    const dem_obstacle *obstacles = dem_reader_obstacles(s->reader, &n);
+    const dem_index n = dem_reader_n_obstacles(s->reader);
     for (dem_index k = 0; k < n; k++) {
         obstacle_fill solid;
-        if (!fill_moved(&obstacles[k], s->t, p->view, &solid)) return false;
+        if (!fill_moved(dem_reader_obstacle(s->reader, k), s->t, p->view, &solid)) return false;
         for (size_t i = 0; i < solid.n; i++) place(p, solid.xy + 2 * i, solid.xy + 2 * i);
         c->fills(c, canvas_dark, solid.n, 1, solid.xy);
         free(solid.xy);

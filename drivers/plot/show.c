@@ -158,12 +158,19 @@ static uint64_t add_motion(uint64_t hash, const dem_obstacle *obstacle)
     return hash;
 }
 
+/* The bodies in all frames, and what is near them of the obstacles. */
+static box view_of_all(const show *s)
+{
+    box view = strip_view(s->bodies);
+    for (dem_index k = 0; k < dem_reader_n_obstacles(s->reader); k++)
+        view = strip_view_with(view, s->bodies, dem_reader_obstacle(s->reader, k));
+    return view;
+}
+
 /* n panels to a picture; the hash takes in what all of them share. */
 static strip plan(show *s, size_t n)
 {
-    dem_index n_obstacles;
-    const dem_obstacle *obstacles = dem_reader_obstacles(s->reader, &n_obstacles);
-    const box view = s->asked->has_zoom ? s->asked->zoom : strip_view(s->bodies, obstacles, n_obstacles);
+    const box view = s->asked->has_zoom ? s->asked->zoom : view_of_all(s);
     const strip planned = strip_plan(n, view, s->asked->width, s->asked->columns);
     const panel first = strip_panel(&planned, 0);
     s->look.thick = panel_thickness(panel_scale(&first) * snapshot_spacing(&s->now));
@@ -171,9 +178,10 @@ static strip plan(show *s, size_t n)
     s->hash = digest_add(s->hash, s->shown.name, strlen(s->shown.name));
     s->hash = digest_add(s->hash, &s->look.range, 2 * sizeof(double));
     s->hash = digest_add(s->hash, &planned.view, sizeof planned.view);
-    for (dem_index k = 0; k < n_obstacles; k++) {
-        s->hash = digest_add(s->hash, obstacles[k].points, 2 * (size_t)obstacles[k].n_points * sizeof(double));
-        s->hash = add_motion(s->hash, &obstacles[k]);
+    for (dem_index k = 0; k < dem_reader_n_obstacles(s->reader); k++) {
+        const dem_obstacle *obstacle = dem_reader_obstacle(s->reader, k);
+        s->hash = digest_add(s->hash, obstacle->points, 2 * (size_t)obstacle->n_points * sizeof(double));
+        s->hash = add_motion(s->hash, obstacle);
     }
     return planned;
 }

@@ -104,18 +104,27 @@ static box clip(const double *from, const double *to, box b)
     return box_around(2, ends);
 }
 
-box strip_view(box bodies, const dem_obstacle *obstacles, dem_index n_obstacles)
+/* The larger side of the bodies' box; 1 for a single point that does not move. */
+static double unit_of(box bodies)
 {
     const double size = fmax(box_width(bodies), box_height(bodies));
-    const double unit = size > 0.0 ? size : 1.0; /* a single point that does not move */
+    return size > 0.0 ? size : 1.0;
+}
+
+box strip_view(box bodies)
+{
+    return box_grown(bodies, 0.04 * unit_of(bodies));
+}
+
+box strip_view_with(box view, box bodies, const dem_obstacle *obstacle)
+{
+    const double unit = unit_of(bodies);
     const box near = {bodies.x0 - 0.10 * unit, bodies.y0 - 0.22 * unit, bodies.x1 + 0.10 * unit,
                       bodies.y1 + 0.10 * unit};
-    box view = box_grown(bodies, 0.04 * unit);
-    for (dem_index o = 0; o < n_obstacles; o++)
-        for (dem_index k = 1; k < obstacles[o].n_points; k++) {
-            const double *p = obstacles[o].points + 2 * k;
-            const box seen = clip(p - 2, p, near);
-            if (!box_is_empty(seen)) view = box_join(view, box_grown(seen, 0.04 * unit));
-        }
+    for (dem_index k = 1; k < obstacle->n_points; k++) {
+        const double *p = obstacle->points + 2 * k;
+        const box seen = clip(p - 2, p, near);
+        if (!box_is_empty(seen)) view = box_join(view, box_grown(seen, 0.04 * unit));
+    }
     return view;
 }

@@ -30,7 +30,10 @@ panel strip_panel(const strip *s, size_t k);
 box strip_colours(const strip *s);
 box strip_scale(const strip *s);
 
-/** What is to be seen of the obstacles beside the bodies: `bodies`, and what lies near them. */
-box strip_view(box bodies, const dem_obstacle *obstacles, dem_index n_obstacles);
+/** What is to be seen of the bodies. */
+box strip_view(box bodies);
+
+/** A view with what of an obstacle lies near the bodies. */
+box strip_view_with(box view, box bodies, const dem_obstacle *obstacle);
 
 #endif

@@ -22,6 +22,7 @@ typedef enum dem_plane {
 
 /** An isotropic solid; `plane` says how it is a body in the plane. */
 typedef struct dem_material {
+    size_t struct_size;    /**< to be set to sizeof(dem_material), in each of an array */
     double youngs_modulus; /**< E, Pa, > 0; 0 where the springs are given by bond_stiffness */
     double bond_stiffness; /**< 0, or E_ij, N, > 0: every spring has this, as the paper draws them, whatever its length;
                                 nothing else is known then, neither E nor nu                                    (1) */

@@ -19,12 +19,13 @@ typedef enum dem_friction_law {
  *  the last point is the first. The ends of an open one are free: what has passed round an end may come back from
  *  behind, unhindered. Restitution and friction are those of velocities relative to it. */
 typedef struct dem_obstacle {
+    size_t struct_size;   /**< to be set to sizeof(dem_obstacle), in each of an array */
     dem_index n_points;   /**< >= 2 */
     const double *points; /**< [n_points][2], m, at t = 0; from one to the next a length that can be squared */
     double restitution;   /**< eta in [0, 1]: 0 perfectly plastic, 1 perfectly elastic          (9) */
     double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
     dem_friction_law friction_law;
-    double velocity[2]; /**< m/s, constant and finite; 0: at rest. Nothing pushes an obstacle off its way */
+    double velocity[3]; /**< m/s, constant and finite; 0: at rest. Nothing pushes an obstacle off its way */
 } dem_obstacle;
 
 /** A field of dem_obstacle that says how it moves: of this name in decks and files too. */
@@ -38,11 +39,11 @@ typedef struct dem_motion_field {
 DEM_API const dem_motion_field *dem_motion_field_at(dem_index k);
 
 /** Whether an obstacle moves in the way that a field is of, or in any (NULL). */
-DEM_API int dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by);
+DEM_API bool dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by);
 
 /** Where the points of an obstacle are at t.
  *  \param[out] points  [n_points][2], m; may be those of the obstacle */
-DEM_API void dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points);
+DEM_API dem_status dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points);
 
 /** Whether dem_model_create() takes the obstacle: its message otherwise, in which the obstacle has the number 0.
  *  \param[out] segments  two of it that meet, the second following the first if it goes back over it; else -1 */
@@ -75,8 +76,9 @@ DEM_API dem_status dem_model_csr(const dem_model *model, dem_csr *out);
 /** The lattice as the model holds it; a view, not to be freed or changed. */
 DEM_API const dem_lattice *dem_model_lattice(const dem_model *model);
 
-/** The obstacles as the model holds them, [*n_obstacles]; a view. */
-DEM_API const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_index *n_obstacles);
+/** An obstacle as the model holds it; a view.
+ *  \param obstacle  0 <= obstacle < n_obstacles; NULL, and a dem_status_message(), for any other */
+DEM_API const dem_obstacle *dem_model_obstacle(const dem_model *model, dem_index obstacle);
 
 typedef struct dem_model_size {
     size_t struct_size; /**< to be set to sizeof(dem_model_size) */

@@ -13,7 +13,8 @@ extern "C" {
 /** Called during dem_simulation_advance(), in the order of time; any callback may be NULL. A status other than DEM_OK
  *  ends the advance and is returned by it. */
 typedef struct dem_observer {
-    double interval; /**< s between frames, the first at t = 0; <= 0: no frames */
+    size_t struct_size; /**< to be set to sizeof(dem_observer) */
+    double interval;    /**< s between frames, the first at t = 0; <= 0: no frames */
     dem_status (*frame)(void *context, const dem_simulation *simulation); /**< state interpolated to the frame */
     dem_status (*step)(void *context, const dem_simulation *simulation);  /**< after every accepted step and at t = 0 */
     dem_status (*event)(void *context, const dem_simulation *simulation, const dem_event *event);
@@ -58,7 +59,7 @@ DEM_API dem_status dem_peaks_resume(dem_peaks **out, const dem_model *model, dem
 DEM_API void dem_peaks_destroy(dem_peaks *peaks);
 
 /** The observer to hand to dem_simulation_observe(), of a simulation of the same model; borrows the peaks. */
-DEM_API dem_observer dem_peaks_observer(dem_peaks *peaks);
+DEM_API dem_status dem_peaks_observer(dem_peaks *peaks, dem_observer *out);
 
 /** Peaks so far, [n_nodes] and [n_springs]: views. */
 DEM_API const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks);

@@ -35,8 +35,12 @@ DEM_API void dem_reader_close(dem_reader *reader);
 /** The lattice at rest, and where and how fast it started; a view. */
 DEM_API const dem_lattice *dem_reader_lattice(const dem_reader *reader);
 
-/** The obstacles, [*n_obstacles]; a view. */
-DEM_API const dem_obstacle *dem_reader_obstacles(const dem_reader *reader, dem_index *n_obstacles);
+/** How many obstacles there are. */
+DEM_API dem_index dem_reader_n_obstacles(const dem_reader *reader);
+
+/** An obstacle; a view.
+ *  \param obstacle  0 <= obstacle < dem_reader_n_obstacles(); NULL, and a dem_status_message(), for any other */
+DEM_API const dem_obstacle *dem_reader_obstacle(const dem_reader *reader, dem_index obstacle);
 
 /** Times of the frames, s, ascending, [*n_frames]; a view. */
 DEM_API const double *dem_reader_times(const dem_reader *reader, dem_index *n_frames);

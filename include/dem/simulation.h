@@ -26,6 +26,7 @@ enum { DEM_COMPONENT_X = 1, DEM_COMPONENT_Y = 2 };
 /** The ramp is 10 s^3 - 15 s^4 + 6 s^5, s = t/ramp, up to s = 1 and 1 from there; 1 at all times for ramp = 0. Nodes
  *  with prescribed components do not touch obstacles: dem_lattice_exclude(). */
 typedef struct dem_boundary {
+    size_t struct_size; /**< to be set to sizeof(dem_boundary), in each of an array */
     dem_boundary_kind kind;
     int32_t components; /**< which are prescribed, DEM_COMPONENT_X | DEM_COMPONENT_Y; a force has both */
     dem_index n_nodes;

@@ -3,6 +3,8 @@
 #ifndef DEM_STATUS_H
 #define DEM_STATUS_H
 
+#include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus

@@ -90,7 +90,7 @@ DEM_API dem_status dem_trajectory_resume(dem_trajectory **out, const char *path,
 
 /** The observer to hand to dem_simulation_observe(); borrows the trajectory. Its entries in a checkpoint are
  *  "trajectory" and "trajectory.probes". */
-DEM_API dem_observer dem_trajectory_observer(dem_trajectory *trajectory);
+DEM_API dem_status dem_trajectory_observer(dem_trajectory *trajectory, dem_observer *out);
 
 /** Stores a string in /provenance under `name`, in the part and in every file that is made from now on. */
 DEM_API dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text);

@@ -5,6 +5,7 @@
  * the meaning of members are the business of those who own a struct. */
 #include "base/struct_size.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/status.h"
@@ -53,6 +54,34 @@ dem_status struct_size_read(const struct_kind *kind, void *ours, const void *the
     memcpy(ours, theirs, smaller(size_of(theirs), kind->own));
     memcpy(ours, &kind->own, sizeof kind->own);
     return DEM_OK;
+}
+
+static dem_status read_each(const struct_kind *kind, char *ours, const char *theirs, dem_index n)
+{
+    const size_t stride = size_of(theirs);
+    TRY(struct_size_read(kind, ours, theirs));
+    for (dem_index k = 1; k < n; k++) {
+        const size_t size = size_of(theirs + (size_t)k * stride);
+        CHECK(size == stride, DEM_ERROR_ARGUMENT, "%s %lld of %lld: struct_size is %zu, that of the first is %zu",
+              kind->name, (long long)k, (long long)n, size, stride);
+        TRY(struct_size_read(kind, ours + (size_t)k * kind->own, theirs + (size_t)k * stride));
+    }
+    return DEM_OK;
+}
+
+/* The size in the first struct is the distance from each to the next. It is checked before the second is looked at. */
+dem_status struct_size_read_array(const struct_kind *kind, void **ours, const void *theirs, dem_index n)
+{
+    *ours = NULL;
+    if (n == 0) return DEM_OK;
+    char *list = calloc((size_t)n, kind->own);
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for %lld of %s", (long long)n, kind->name);
+    const dem_status status = read_each(kind, list, theirs, n);
+    if (status == DEM_OK)
+        *ours = list;
+    else
+        free(list);
+    return status;
 }
 
 /* A size that is not a multiple of 8 ends within a member: such a member is not written at all. */

@@ -33,6 +33,12 @@ dem_status struct_size_check(const struct_kind *kind, const void *theirs);
  *               becomes this library's */
 dem_status struct_size_read(const struct_kind *kind, void *ours, const void *theirs);
 
+/** Reads an array of structs, which all have the size that the first one says.
+ *  \param[out] ours  [n] of this library's size, all members 0 but those that are read; to be freed by the caller; NULL
+ *                    for n = 0 and after a failure
+ *  \return DEM_ERROR_ARGUMENT with the number of the struct, DEM_ERROR_MEMORY */
+dem_status struct_size_read_array(const struct_kind *kind, void **ours, const void *theirs, dem_index n);
+
 /** Writes the members that lie within a caller's struct; leaves struct_size and everything beyond alone. Every member
  *  is made of numbers of 8 bytes.
  *  \return DEM_ERROR_ARGUMENT if it is shorter than the first version; then nothing has been written */

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "base/struct_size.h"
 
 enum { BOTH = DEM_COMPONENT_X | DEM_COMPONENT_Y };
 
@@ -282,23 +283,36 @@ static dem_status compile(boundary_conditions *b, const dem_boundary *list, dem_
 }
 
 /* *out is empty until everything is in order, so that a failure leaves nothing to free. */
-dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
-                                       const dem_lattice *lattice, dem_index n_obstacles)
+static dem_status make(boundary_conditions *out, const dem_boundary *list, dem_index n, const dem_lattice *lattice,
+                       bool touches)
 {
     boundary_conditions b = {0};
-    *out = b;
-    CHECK(n >= 0 && (n == 0 || list != NULL), DEM_ERROR_ARGUMENT, "%lld boundaries, the list is %s", (long long)n,
-          list != NULL ? "given" : "NULL");
-    if (n == 0) return DEM_OK;
     /* Kept after the checks: the right-hand side asks for the prescribed components of each node. */
     b.held = calloc((size_t)lattice->n_nodes, sizeof *b.held);
     CHECK_MEMORY(b.held);
-    dem_status status = check_all(list, n, lattice, n_obstacles > 0, b.held);
+    dem_status status = check_all(list, n, lattice, touches, b.held);
     if (status == DEM_OK) status = compile(&b, list, n, lattice->n_nodes);
     if (status == DEM_OK)
         *out = b;
     else
         boundary_conditions_free(&b);
+    return status;
+}
+
+/* `ramp` is the last member of the first version. */
+static const struct_kind kind = {"dem_boundary", STRUCT_SIZE_WITH(dem_boundary, ramp), sizeof(dem_boundary)};
+
+dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
+                                       const dem_lattice *lattice, dem_index n_obstacles)
+{
+    void *own;
+    *out = (boundary_conditions){0};
+    CHECK(n >= 0 && (n == 0 || list != NULL), DEM_ERROR_ARGUMENT, "%lld boundaries, the list is %s", (long long)n,
+          list != NULL ? "given" : "NULL");
+    if (n == 0) return DEM_OK;
+    TRY(struct_size_read_array(&kind, &own, list, n));
+    const dem_status status = make(out, own, n, lattice, n_obstacles > 0);
+    free(own);
     return status;
 }
 

@@ -11,7 +11,7 @@ from headers import read_headers
 
 NUMBERS = {
     "double": "real(c_double)", "int": "integer(c_int)", "int32_t": "integer(c_int32_t)",
-    "uint32_t": "integer(c_int32_t)", "uint64_t": "integer(c_int64_t)", "size_t": "integer(c_size_t)",
+    "uint32_t": "integer(c_int32_t)", "bool": "logical(c_bool)", "uint64_t": "integer(c_int64_t)", "size_t": "integer(c_size_t)",
     "unsigned char": "integer(c_signed_char)", "dem_index": "integer(dem_index)", "char": "character(kind=c_char)"}
 
 # What C leaves open: how many of a thing a pointer is for. Structs are one unless they are here; other names are to be
@@ -45,7 +45,7 @@ module dem_c
 
 
 BYTES = {"double": 8, "int": 4, "int32_t": 4, "uint32_t": 4, "uint64_t": 8, "size_t": 8, "unsigned char": 1,
-         "dem_index": 8, "char": 1}
+         "dem_index": 8, "char": 1, "bool": 1}
 
 
 class Writer:

@@ -105,6 +105,7 @@ module dem_c
   end enum
 
   type, bind(c) :: dem_material
+    integer(c_size_t) :: struct_size = 72
     real(c_double) :: youngs_modulus = 0, bond_stiffness = 0, poissons_ratio = 0
     integer(dem_plane) :: plane = 0
     real(c_double) :: density = 0, thickness = 0, guard = 0, damping_time = 0
@@ -319,11 +320,12 @@ module dem_c
   end enum
 
   type, bind(c) :: dem_obstacle
+    integer(c_size_t) :: struct_size = 72
     integer(dem_index) :: n_points = 0
     type(c_ptr) :: points = c_null_ptr
     real(c_double) :: restitution = 0, friction = 0
     integer(dem_friction_law) :: friction_law = 0
-    real(c_double) :: velocity(2) = 0
+    real(c_double) :: velocity(3) = 0
   end type
 
   type, bind(c) :: dem_motion_field
@@ -358,18 +360,18 @@ module dem_c
       integer(dem_index), value :: k
     end function
 
-    integer(c_int) function dem_obstacle_moves(obstacle, by) bind(c)
+    logical(c_bool) function dem_obstacle_moves(obstacle, by) bind(c)
       import
       type(dem_obstacle), intent(in) :: obstacle
       type(dem_motion_field), intent(in), optional :: by
     end function
 
-    subroutine dem_obstacle_points(obstacle, t, points) bind(c)
+    integer(dem_status) function dem_obstacle_points(obstacle, t, points) bind(c)
       import
       type(dem_obstacle), intent(in) :: obstacle
       real(c_double), value :: t
       real(c_double), intent(out) :: points(2, *)
-    end subroutine
+    end function
 
     integer(dem_status) function dem_obstacle_check(obstacle, segments) bind(c)
       import
@@ -401,10 +403,10 @@ module dem_c
       type(c_ptr), value :: model
     end function
 
-    type(c_ptr) function dem_model_obstacles(model, n_obstacles) bind(c)
+    type(c_ptr) function dem_model_obstacle(model, obstacle) bind(c)
       import
       type(c_ptr), value :: model
-      integer(dem_index), intent(out) :: n_obstacles
+      integer(dem_index), value :: obstacle
     end function
 
     integer(dem_status) function dem_model_sizes(model, out) bind(c)
@@ -487,6 +489,7 @@ module dem_c
   end enum
 
   type, bind(c) :: dem_boundary
+    integer(c_size_t) :: struct_size = 72
     integer(dem_boundary_kind) :: kind = 0
     integer(c_int32_t) :: components = 0
     integer(dem_index) :: n_nodes = 0
@@ -771,6 +774,7 @@ module dem_c
   ! ---- dem/observer.h ------------------------------------------------------------------------------------------------
 
   type, bind(c) :: dem_observer
+    integer(c_size_t) :: struct_size = 56
     real(c_double) :: interval = 0
     type(c_funptr) :: frame = c_null_funptr, step = c_null_funptr, event = c_null_funptr, checkpoint = c_null_funptr
     type(c_ptr) :: context = c_null_ptr
@@ -837,9 +841,10 @@ module dem_c
       type(c_ptr), value :: peaks
     end subroutine
 
-    type(dem_observer) function dem_peaks_observer(peaks) bind(c)
+    integer(dem_status) function dem_peaks_observer(peaks, out) bind(c)
       import
       type(c_ptr), value :: peaks
+      type(dem_observer), intent(out) :: out
     end function
 
     type(c_ptr) function dem_peaks_nodes(peaks) bind(c)
@@ -908,10 +913,15 @@ module dem_c
       type(c_ptr), value :: reader
     end function
 
-    type(c_ptr) function dem_reader_obstacles(reader, n_obstacles) bind(c)
+    integer(dem_index) function dem_reader_n_obstacles(reader) bind(c)
       import
       type(c_ptr), value :: reader
-      integer(dem_index), intent(out) :: n_obstacles
+    end function
+
+    type(c_ptr) function dem_reader_obstacle(reader, obstacle) bind(c)
+      import
+      type(c_ptr), value :: reader
+      integer(dem_index), value :: obstacle
     end function
 
     type(c_ptr) function dem_reader_times(reader, n_frames) bind(c)
@@ -1023,9 +1033,10 @@ module dem_c
       type(c_ptr), value :: checkpoint
     end function
 
-    type(dem_observer) function dem_trajectory_observer(trajectory) bind(c)
+    integer(dem_status) function dem_trajectory_observer(trajectory, out) bind(c)
       import
       type(c_ptr), value :: trajectory
+      type(dem_observer), intent(out) :: out
     end function
 
     integer(dem_status) function dem_trajectory_note(trajectory, name, text) bind(c)

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "base/struct_size.h"
 #include "base/vec2.h"
 #include "lattice/lattice.h"
 
@@ -426,23 +427,34 @@ static dem_status check_lattice(const dem_lattice *lattice, bool cells)
     return DEM_OK;
 }
 
-/* diagonal = 0 asks for triangles, which have the isotropic 1/2 where formulas need it. On failure the lattice is as it
- * was. */
+/* On failure the lattice is as it was. */
+static dem_status assemble(dem_lattice *lattice, draft *d, dem_index n_materials)
+{
+    TRY(check_lattice(d->lattice, d->cells));
+    TRY(check_materials(d, n_materials));
+    dem_lattice_init(&d->solid);
+    const dem_status status = draw(d);
+    if (status == DEM_OK) give(lattice, &d->solid);
+    dem_lattice_free(&d->solid);
+    free(d->shares);
+    return status;
+}
+
+/* `damping_time` is the last member of the first version. */
+static const struct_kind kind = {"dem_material", STRUCT_SIZE_WITH(dem_material, damping_time), sizeof(dem_material)};
+
+/* diagonal = 0 asks for triangles, which have the isotropic 1/2 where formulas need it. */
 dem_status dem_lattice_assemble_mixed(dem_lattice *lattice, const dem_material *materials, dem_index n_materials,
                                       const dem_index *of, double diagonal)
 {
     const bool cells = diagonal != 0.0;
-    draft d = {
-        .lattice = lattice, .materials = materials, .of = of, .cells = cells, .diagonal = cells ? diagonal : 0.5};
+    void *own = NULL;
     CHECK(!cells || is_positive(diagonal), DEM_ERROR_ARGUMENT,
           "the stiffness of a diagonal over a side's must be > 0: %g", diagonal);
-    TRY(check_lattice(lattice, cells));
-    TRY(check_materials(&d, n_materials));
-    dem_lattice_init(&d.solid);
-    const dem_status status = draw(&d);
-    if (status == DEM_OK) give(lattice, &d.solid);
-    dem_lattice_free(&d.solid);
-    free(d.shares);
+    if (materials != NULL && n_materials > 0) TRY(struct_size_read_array(&kind, &own, materials, n_materials));
+    draft d = {.lattice = lattice, .materials = own, .of = of, .cells = cells, .diagonal = cells ? diagonal : 0.5};
+    const dem_status status = assemble(lattice, &d, n_materials);
+    free(own);
     return status;
 }
 

@@ -214,7 +214,19 @@ static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_ob
 
 /* ---- public ---- */
 
-/* The caller's struct may be of another version of the library: `own` is its copy in this one's layout. */
+static dem_status create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n)
+{
+    dem_model *model = calloc(1, sizeof *model);
+    CHECK_MEMORY(model);
+    const dem_status status = compile(model, lattice, obstacles, n);
+    if (status == DEM_OK)
+        *out = model;
+    else
+        dem_model_destroy(model);
+    return status;
+}
+
+/* The caller's structs may be of another version of the library: `own` and `list` are copies in this one's layout. */
 dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                             dem_index n_obstacles)
 {
@@ -222,14 +234,11 @@ dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const d
     CHECK(n_obstacles >= 0 && (n_obstacles == 0 || obstacles != NULL), DEM_ERROR_ARGUMENT,
           "dem_model_create: %lld obstacles, obstacles is %s", (long long)n_obstacles, obstacles ? "given" : "NULL");
     dem_lattice own;
+    void *list;
     TRY(lattice_read(&own, lattice));
-    dem_model *model = calloc(1, sizeof *model);
-    CHECK_MEMORY(model);
-    const dem_status status = compile(model, &own, obstacles, n_obstacles);
-    if (status == DEM_OK)
-        *out = model;
-    else
-        dem_model_destroy(model);
+    TRY(motion_law_read_all(&list, obstacles, n_obstacles));
+    const dem_status status = create(out, &own, list, n_obstacles);
+    free(list);
     return status;
 }
 
@@ -262,10 +271,12 @@ const dem_lattice *dem_model_lattice(const dem_model *model)
     return &model->lattice;
 }
 
-const dem_obstacle *dem_model_obstacles(const dem_model *model, dem_index *n_obstacles)
+const dem_obstacle *dem_model_obstacle(const dem_model *model, dem_index obstacle)
 {
-    *n_obstacles = model->obstacles.n;
-    return model->obstacles.list;
+    if (model != NULL && obstacle >= 0 && obstacle < model->obstacles.n) return &model->obstacles.list[obstacle];
+    (void)status_fail(DEM_ERROR_ARGUMENT, "there is no obstacle %lld: there are %lld, from 0 on", (long long)obstacle,
+                      model != NULL ? (long long)model->obstacles.n : 0);
+    return NULL;
 }
 
 dem_status dem_model_sizes(const dem_model *model, dem_model_size *out)

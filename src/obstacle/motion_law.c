@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "base/struct_size.h"
 #include "obstacle/uniform_motion.h"
 
 static const motion_kind *const kinds[] = {&uniform_motion};
@@ -107,6 +108,22 @@ bool motion_law_is_same(const motion_law *a, const motion_law *b)
 
 /* ---- public ---- */
 
+/* `velocity` is the last member of the first version. */
+static const struct_kind kind_of_struct = {"dem_obstacle", STRUCT_SIZE_WITH(dem_obstacle, velocity),
+                                           sizeof(dem_obstacle)};
+
+dem_status motion_law_read(dem_obstacle *ours, const dem_obstacle *theirs)
+{
+    CHECK(theirs != NULL, DEM_ERROR_ARGUMENT, "obstacle is NULL");
+    *ours = (dem_obstacle){0};
+    return struct_size_read(&kind_of_struct, ours, theirs);
+}
+
+dem_status motion_law_read_all(void **ours, const dem_obstacle *theirs, dem_index n)
+{
+    return struct_size_read_array(&kind_of_struct, ours, theirs, n);
+}
+
 /* Field k when the fields of all kinds are numbered through. */
 const dem_motion_field *dem_motion_field_at(dem_index k)
 {
@@ -123,20 +140,26 @@ static bool has_field(const motion_kind *kind, const dem_motion_field *field)
 }
 
 /* Whether it moves at all (by = NULL), or by the kind of motion that has this field. */
-int dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by)
+bool dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by)
 {
-    const motion_law law = motion_law_of(obstacle);
+    dem_obstacle own;
+    if (motion_law_read(&own, obstacle) != DEM_OK) return false;
+    const motion_law law = motion_law_of(&own);
     bool moves = by == NULL && law.moves;
     for (int k = 0; k < N_KINDS; k++) moves = moves || (moves_by(&law, k) && has_field(kinds[k], by));
     return moves;
 }
 
 /* Where the points of the polyline are at time t. */
-void dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points)
+dem_status dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points)
 {
-    const motion_law law = motion_law_of(obstacle);
+    dem_obstacle own;
+    CHECK(points != NULL, DEM_ERROR_ARGUMENT, "dem_obstacle_points: points is NULL");
+    TRY(motion_law_read(&own, obstacle));
+    const motion_law law = motion_law_of(&own);
     const pose at = motion_law_pose(&law, t);
-    memmove(points, obstacle->points, 2 * (size_t)obstacle->n_points * sizeof *points);
-    for (dem_index k = 0; k < obstacle->n_points && law.moves; k++)
+    memmove(points, own.points, 2 * (size_t)own.n_points * sizeof *points);
+    for (dem_index k = 0; k < own.n_points && law.moves; k++)
         vec2_put(points, k, pose_outside(&at, vec2_at(points, k)));
+    return DEM_OK;
 }

@@ -185,18 +185,25 @@ dem_status obstacles_compile(obstacle_set *out, const dem_obstacle *list, dem_in
     return status;
 }
 
-/* Compiles one obstacle by itself and names the pair of segments that meet, for programs that mark them. */
-dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2])
+static dem_status find_crossing(const dem_obstacle *obstacle, dem_index segments[2])
 {
     obstacle_set o = {0};
-    CHECK(obstacle != NULL && segments != NULL, DEM_ERROR_ARGUMENT, "dem_obstacle_check: %s is NULL",
-          obstacle ? "segments" : "obstacle");
-    segments[0] = segments[1] = -1;
     dem_status status = compile_all(&o, obstacle, 1);
     if (status == DEM_OK) status = polyline_check_crossings(&o, 0);
     if (status == DEM_ERROR_MODEL && o.n == 1) (void)polyline_find_crossing(segments, &o, 0);
     obstacles_free(&o);
     return status;
+}
+
+/* Compiles one obstacle by itself and names the pair of segments that meet, for programs that mark them. */
+dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2])
+{
+    CHECK(obstacle != NULL && segments != NULL, DEM_ERROR_ARGUMENT, "dem_obstacle_check: %s is NULL",
+          obstacle ? "segments" : "obstacle");
+    dem_obstacle own;
+    TRY(motion_law_read(&own, obstacle));
+    segments[0] = segments[1] = -1;
+    return find_crossing(&own, segments);
 }
 
 /* The points are const for users of the set, and belong to it. */

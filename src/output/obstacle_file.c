@@ -48,19 +48,26 @@ static dem_status write_motion(const hdf5_file *file, const char *group, const d
     return DEM_OK;
 }
 
+static dem_index count(const dem_model *model)
+{
+    dem_model_size size = {.struct_size = sizeof size};
+    (void)dem_model_sizes(model, &size);
+    return size.n_obstacles;
+}
+
 /* The points at t = 0, with law and motion: from these obstacle_file_read() makes the same obstacle. */
 dem_status obstacle_file_write(const hdf5_file *file, const dem_model *model)
 {
-    dem_index n_obstacles = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
+    const dem_index n_obstacles = count(model);
     for (dem_index o = 0; o < n_obstacles; o++) {
+        const dem_obstacle *obstacle = dem_model_obstacle(model, o);
         char group[48], points[64];
         (void)snprintf(group, sizeof group, "/obstacles/%lld", (long long)o);
         (void)snprintf(points, sizeof points, "%s/points", group);
         const hdf5_rows rows = {points, HDF5_F64, 2, {2}, 0, 0};
-        TRY(hdf5_write(file, rows, (hsize_t)obstacles[o].n_points, obstacles[o].points));
-        TRY(write_law(file, group, &obstacles[o]));
-        TRY(write_motion(file, group, &obstacles[o]));
+        TRY(hdf5_write(file, rows, (hsize_t)obstacle->n_points, obstacle->points));
+        TRY(write_law(file, group, obstacle));
+        TRY(write_motion(file, group, obstacle));
     }
     return DEM_OK;
 }
@@ -154,7 +161,7 @@ static dem_status read_all(const hdf5_file *file, dem_obstacle **out, dem_index 
         TRY(hdf5_untrusted_find(file, group, &present));
         if (!present) break;
         CHECK(grow_array((void **)out, &capacity, *n + 1, sizeof **out), DEM_ERROR_MEMORY, "out of memory");
-        (*out)[*n] = (dem_obstacle){0};
+        (*out)[*n] = (dem_obstacle){.struct_size = sizeof(dem_obstacle)};
         TRY(read_obstacle(file, group, &(*out)[(*n)++]));
     }
     return DEM_OK;
@@ -188,10 +195,9 @@ void obstacle_file_free(dem_obstacle *obstacles, dem_index n)
 
 bool obstacle_file_moves(const dem_model *model)
 {
-    dem_index n = 0;
     bool any = false;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n);
-    for (dem_index o = 0; o < n; o++) any = any || dem_obstacle_moves(&obstacles[o], NULL);
+    for (dem_index o = count(model) - 1; o >= 0; o--)
+        any = any || dem_obstacle_moves(dem_model_obstacle(model, o), NULL);
     return any;
 }
 
@@ -232,12 +238,12 @@ static dem_status allocate_outline(outline *out, const dem_model *model, dem_ind
  * obstacle. */
 static dem_status make_outline(outline *out, const dem_model *model)
 {
-    dem_index n_obstacles = 0, n_points = 0, point = 0, segment = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(model, &n_obstacles);
-    for (dem_index o = 0; o < n_obstacles; o++) n_points += obstacles[o].n_points;
+    const dem_index n_obstacles = count(model);
+    dem_index n_points = 0, point = 0, segment = 0;
+    for (dem_index o = 0; o < n_obstacles; o++) n_points += dem_model_obstacle(model, o)->n_points;
     TRY(allocate_outline(out, model, n_points, n_points - n_obstacles));
     for (dem_index o = 0; o < n_obstacles; o++)
-        for (dem_index p = 0; p < obstacles[o].n_points; p++, point++) {
+        for (dem_index p = 0; p < dem_model_obstacle(model, o)->n_points; p++, point++) {
             /* The first point of an obstacle ends no segment. */
             if (p == 0) continue;
             out->ends[2 * segment] = point - 1;
@@ -250,10 +256,10 @@ static dem_status make_outline(outline *out, const dem_model *model)
 /* Points of all obstacles at time t, with z = 0. */
 static void place_points(const outline *o, double t)
 {
-    dem_index n = 0, first = 0;
-    const dem_obstacle *obstacles = dem_model_obstacles(o->model, &n);
-    for (dem_index k = 0; k < n; first += obstacles[k++].n_points)
-        dem_obstacle_points(&obstacles[k], t, o->flat + 2 * first);
+    const dem_index n = count(o->model);
+    dem_index first = 0;
+    for (dem_index k = 0; k < n; first += dem_model_obstacle(o->model, k++)->n_points)
+        (void)dem_obstacle_points(dem_model_obstacle(o->model, k), t, o->flat + 2 * first);
     for (dem_index i = 0; i < o->grid.n_points; i++) memcpy(o->points + 3 * i, o->flat + 2 * i, 2 * sizeof *o->flat);
 }
 

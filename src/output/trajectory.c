@@ -308,14 +308,17 @@ dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const d
 }
 
 /* Without `events` the simulation need not report any. */
-dem_observer dem_trajectory_observer(dem_trajectory *trajectory)
+dem_status dem_trajectory_observer(dem_trajectory *trajectory, dem_observer *out)
 {
-    return (dem_observer){.interval = trajectory->rows.options.frame_interval,
-                          .frame = on_frame,
-                          .step = on_step,
-                          .event = trajectory->rows.options.events ? on_event : NULL,
-                          .checkpoint = on_checkpoint,
-                          .context = trajectory};
+    CHECK(trajectory != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_observer: %s is NULL",
+          trajectory ? "out" : "trajectory");
+    const dem_observer own = {.interval = trajectory->rows.options.frame_interval,
+                              .frame = on_frame,
+                              .step = on_step,
+                              .event = trajectory->rows.options.events ? on_event : NULL,
+                              .checkpoint = on_checkpoint,
+                              .context = trajectory};
+    return struct_size_write(&STRUCT_KIND(dem_observer), out, &own);
 }
 
 /* Written to the part at once, and kept in memory for the files that follow. */

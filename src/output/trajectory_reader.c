@@ -388,10 +388,17 @@ const dem_lattice *dem_reader_lattice(const dem_reader *reader)
     return &reader->lattice;
 }
 
-const dem_obstacle *dem_reader_obstacles(const dem_reader *reader, dem_index *n_obstacles)
+dem_index dem_reader_n_obstacles(const dem_reader *reader)
 {
-    *n_obstacles = reader->n_obstacles;
-    return reader->obstacles;
+    return reader->n_obstacles;
+}
+
+const dem_obstacle *dem_reader_obstacle(const dem_reader *reader, dem_index obstacle)
+{
+    if (reader != NULL && obstacle >= 0 && obstacle < reader->n_obstacles) return &reader->obstacles[obstacle];
+    (void)status_fail(DEM_ERROR_ARGUMENT, "there is no obstacle %lld: there are %lld, from 0 on", (long long)obstacle,
+                      reader != NULL ? (long long)reader->n_obstacles : 0);
+    return NULL;
 }
 
 const double *dem_reader_times(const dem_reader *reader, dem_index *n_frames)

@@ -9,6 +9,7 @@
 
 #include "base/reduce.h"
 #include "base/status.h"
+#include "base/struct_size.h"
 
 static const double most_frames = 4503599627370496.0; /* 2^52: numbers beyond may not differ from the next */
 
@@ -22,14 +23,19 @@ static dem_index frame_after(double interval, double shown_until)
     return k;
 }
 
+/* `context` is the last member of the first version. */
+static const struct_kind kind = {"dem_observer", STRUCT_SIZE_WITH(dem_observer, context), sizeof(dem_observer)};
+
 dem_status observers_add(observers *a, const dem_observer *observer, double shown_until)
 {
-    const double interval = observer->interval;
+    dem_observer own = {0};
+    TRY(struct_size_read(&kind, &own, observer));
+    const double interval = own.interval;
     CHECK(isfinite(interval), DEM_ERROR_ARGUMENT, "the interval between frames is %g s", interval);
     CHECK(!(interval > 0.0) || shown_until < most_frames * interval, DEM_ERROR_ARGUMENT,
           "frames %g s apart cannot be numbered at %g s", interval, shown_until);
     CHECK(a->n < OBSERVERS_MOST, DEM_ERROR_ARGUMENT, "at most %d observers", (int)OBSERVERS_MOST);
-    a->members[a->n++] = (observer_entry){*observer, frame_after(interval, shown_until)};
+    a->members[a->n++] = (observer_entry){own, frame_after(interval, shown_until)};
     return DEM_OK;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/checkpoint_entries.h"
 #include "base/status.h"
+#include "base/struct_size.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -151,9 +152,11 @@ void dem_peaks_destroy(dem_peaks *peaks)
     free(peaks);
 }
 
-dem_observer dem_peaks_observer(dem_peaks *peaks)
+dem_status dem_peaks_observer(dem_peaks *peaks, dem_observer *out)
 {
-    return (dem_observer){.step = look, .checkpoint = remember, .context = peaks};
+    CHECK(peaks != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_peaks_observer: %s is NULL", peaks ? "out" : "peaks");
+    const dem_observer own = {.step = look, .checkpoint = remember, .context = peaks};
+    return struct_size_write(&STRUCT_KIND(dem_observer), out, &own);
 }
 
 const dem_node_peak *dem_peaks_nodes(const dem_peaks *peaks)

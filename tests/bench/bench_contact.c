@@ -42,12 +42,17 @@ static double *make_ground(long segments, double width, double roughness)
 
 static dem_model *make_model(long columns, long rows, long segments, double roughness)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02};
     const double width = (double)(columns - 1) * spacing, speed[2] = {0.0, -0.1},
                  lift[2] = {0.0, (roughness + 1e-3) * spacing};
     double *points = make_ground(segments, 1.2 * width, roughness);
-    const dem_obstacle ground = {.n_points = segments + 1, .points = points, .friction = 0.3};
+    const dem_obstacle ground = {
+        .struct_size = sizeof(dem_obstacle), .n_points = segments + 1, .points = points, .friction = 0.3};
     dem_lattice lattice;
     dem_model *model;
     ask(dem_lattice_rectangle(&lattice, width, 0.866025403784 * (double)(rows - 1) * spacing, spacing));
@@ -161,7 +166,7 @@ int main(int argc, char **argv)
     const long columns = atol(argv[1]), rows = atol(argv[2]), segments = atol(argv[3]);
     static tally t;
     dem_model *model = make_model(columns, rows, segments, atof(argv[5]));
-    const dem_observer observer = {.step = after_step, .context = &t};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = after_step, .context = &t};
     dem_options options = dem_options_default();
     dem_simulation *simulation;
     options.contact = strcmp(argv[6], "exact") == 0 ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;

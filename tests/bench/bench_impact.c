@@ -44,7 +44,11 @@ static dem_lattice make_body(double spacing)
 static dem_model *compile(double spacing, law l)
 {
     static const double points[] = {-1.0, 0.0, 1.0, 0.0};
-    const dem_obstacle floor = {.n_points = 2, .points = points, .restitution = l.restitution, .friction = l.friction};
+    const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle),
+                                .n_points = 2,
+                                .points = points,
+                                .restitution = l.restitution,
+                                .friction = l.friction};
     dem_lattice body = make_body(spacing);
     dem_model *model;
     if (l.damping_time > 0.0) plate_damp(&body, l.damping_time);

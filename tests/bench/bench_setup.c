@@ -31,8 +31,12 @@ static double lap(double *start)
 
 static dem_lattice make_lattice(double nodes)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02};
     const double spacing = 1e-3, columns = sqrt(sqrt(3.0) * nodes), up[2] = {0.0, 1e-3}, speed[2] = {0.0, -1.0};
     dem_lattice l;
     ask(dem_lattice_rectangle(&l, columns * spacing, 0.5 * columns * spacing, spacing));
@@ -45,7 +49,7 @@ static dem_lattice make_lattice(double nodes)
 static body set_up(double nodes)
 {
     const double points[4] = {-100.0, 0.0, 100.0, 0.0};
-    const dem_obstacle ground = {.n_points = 2, .points = points};
+    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points};
     const dem_options options = dem_options_default();
     double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
     dem_lattice l = make_lattice(nodes);
@@ -80,7 +84,7 @@ static void time_frames(body *b, int n)
     dem_trajectory *reader;
     options.frame_interval = 1.0;
     ask(dem_trajectory_create(&reader, path, b->simulation, &options));
-    const dem_observer watcher = dem_trajectory_observer(reader);
+    const dem_observer watcher = ask_trajectory_observer(reader);
     for (int k = 1; k <= n; k++) {
         double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
         ask(dem_simulation_advance(b->simulation, 4.0 * h * k));

@@ -68,7 +68,7 @@ static run take(const char *inputs, const char *name, double spacing, double eta
     dem_simulation *simulation;
     motion state;
     run r = {.rtol = rtol, .spacing = spacing};
-    const dem_observer observer = {.event = note, .context = &r.last};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .event = note, .context = &r.last};
     read_deck(&d, inputs, name, spacing);
     d.obstacles[0].restitution = eta;
     must(dem_model_create(&model, &d.lattice, d.obstacles, d.n_obstacles) == DEM_OK, name);

@@ -11,10 +11,15 @@ static int fail(void)
 
 int main(void)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050, .thickness = 1, .guard = 0.02};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050,
+                                 .thickness = 1,
+                                 .guard = 0.02};
     const double slope[] = {-0.3, 0.1, 0.3, -0.1}, lift[] = {0, 0.1}, velocity[] = {0, -10};
-    const dem_obstacle obstacle = {.n_points = 2, .points = slope, .restitution = 0};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = slope, .restitution = 0};
     const dem_options options = dem_options_default();
     dem_trajectory_options frames = dem_trajectory_options_default();
     frames.frame_interval = 1e-3;
@@ -22,6 +27,7 @@ int main(void)
     dem_model *model;
     dem_simulation *simulation;
     dem_trajectory *file;
+    dem_observer observer = {.struct_size = sizeof observer};
     dem_body_motion body = {.struct_size = sizeof body};
 
     if (dem_lattice_disc(&lattice, 0.065, 5e-3) || dem_lattice_assemble(&lattice, &rubber)) return fail();
@@ -30,7 +36,7 @@ int main(void)
     if (dem_model_create(&model, &lattice, &obstacle, 1)) return fail();
     if (dem_simulation_create(&simulation, model, &options)) return fail();
     if (dem_trajectory_create(&file, "drop.vtkhdf", simulation, &frames)) return fail();
-    const dem_observer observer = dem_trajectory_observer(file);
+    if (dem_trajectory_observer(file, &observer)) return fail();
     if (dem_simulation_observe(simulation, &observer)) return fail();
     if (dem_simulation_advance(simulation, 20e-3)) return fail();
     if (dem_trajectory_finish(file)) return fail();

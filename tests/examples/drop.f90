@@ -8,6 +8,7 @@ program drop
   real(c_double), target :: slope(2, 2) = reshape([-0.3d0, 0.1d0, 0.3d0, -0.1d0], [2, 2])
   type(dem_trajectory_options) :: frames
   type(dem_body_motion) :: motion
+  type(dem_observer) :: observer
   type(dem_lattice) :: lattice
   type(c_ptr) :: model, simulation, file
 
@@ -20,7 +21,8 @@ program drop
   call check(dem_model_create(model, lattice, [dem_obstacle(n_points=2, points=c_loc(slope))], 1_dem_index))
   call check(dem_simulation_create(simulation, model, dem_options_default()))
   call check(dem_trajectory_create(file, 'drop.vtkhdf'//c_null_char, simulation, frames))
-  call check(dem_simulation_observe(simulation, dem_trajectory_observer(file)))
+  call check(dem_trajectory_observer(file, observer))
+  call check(dem_simulation_observe(simulation, observer))
   call check(dem_simulation_advance(simulation, 20d-3))
   call check(dem_trajectory_finish(file))
   call check(dem_simulation_body(simulation, 0_dem_index, motion))

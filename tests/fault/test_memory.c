@@ -25,7 +25,8 @@ static int left_half(void *context, const double x[2])
 
 static dem_status build(dem_lattice *lattice)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7,
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
                                  .poissons_ratio = 0.4,
                                  .density = 1050.0,
                                  .thickness = 1.0,
@@ -58,7 +59,11 @@ static const double ground[6] = {-0.3, -2e-4, 0.0, -6e-4, 0.3, -2e-4};
 
 static dem_status build_squares(void)
 {
-    const dem_material raw = {.bond_stiffness = 1e3, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-6};
+    const dem_material raw = {.struct_size = sizeof(dem_material),
+                              .bond_stiffness = 1e3,
+                              .density = 1050.0,
+                              .thickness = 1.0,
+                              .damping_time = 1e-6};
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_lattice_init(&lattice);
     dem_status status = dem_lattice_squares(&lattice, 0.02, 0.02, 0.01);
@@ -94,7 +99,7 @@ static dem_status write_and_run(dem_simulation *simulation)
         dem_peaks_destroy(peaks);
         return status;
     }
-    const dem_observer observer = dem_trajectory_observer(trajectory);
+    const dem_observer observer = ask_trajectory_observer(trajectory);
     status = dem_trajectory_note(trajectory, "title", "memory runs out");
     if (status == DEM_OK) status = dem_simulation_observe(simulation, &observer);
     if (status == DEM_OK) status = dem_simulation_advance(simulation, 6e-4);
@@ -106,11 +111,17 @@ static dem_status write_and_run(dem_simulation *simulation)
 
 static dem_status run(void)
 {
-    const dem_obstacle obstacle = {.n_points = 3, .points = ground, .restitution = 0.5};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = ground, .restitution = 0.5};
     const dem_index nodes[2] = {8, 9};
     const double share[2] = {0.3, 0.7};
-    const dem_boundary push = {
-        .kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = nodes, .share = share, .value = {1.0, -2.0}, .ramp = 1e-4};
+    const dem_boundary push = {.struct_size = sizeof(dem_boundary),
+                               .kind = DEM_BOUNDARY_FORCE,
+                               .n_nodes = 2,
+                               .nodes = nodes,
+                               .share = share,
+                               .value = {1.0, -2.0},
+                               .ramp = 1e-4};
     dem_options options = dem_options_default();
     options.n_boundaries = 1;
     options.boundaries = &push;
@@ -154,9 +165,10 @@ static dem_status follow(dem_simulation *simulation, dem_peaks *peaks, const dem
                             ? dem_trajectory_create(&trajectory, "fault.vtkhdf", simulation, &options)
                             : dem_trajectory_resume(&trajectory, "fault.vtkhdf", simulation, &options, checkpoint);
     if (status != DEM_OK) return status;
-    const dem_observer observers[3] = {dem_peaks_observer(peaks),
-                                       dem_trajectory_observer(trajectory),
-                                       {.checkpoint = keep_record, .context = trajectory}};
+    const dem_observer observers[3] = {
+        ask_peaks_observer(peaks),
+        ask_trajectory_observer(trajectory),
+        {.struct_size = sizeof(dem_observer), .checkpoint = keep_record, .context = trajectory}};
     for (int k = 0; k < 3 && status == DEM_OK; k++) status = dem_simulation_observe(simulation, &observers[k]);
     if (status == DEM_OK) status = dem_simulation_advance(simulation, to_the_end ? 3e-4 : 2e-4);
     if (status == DEM_OK && to_the_end) status = dem_trajectory_finish(trajectory);
@@ -191,7 +203,8 @@ static dem_status run_from(const dem_checkpoint *checkpoint, const dem_model *mo
 
 static dem_status build_model(dem_model **model)
 {
-    const dem_obstacle obstacle = {.n_points = 3, .points = ground, .restitution = 0.5, .friction = 0.3};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = ground, .restitution = 0.5, .friction = 0.3};
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     dem_lattice_init(&lattice);
     dem_status status = build(&lattice);
@@ -301,7 +314,8 @@ TEST_WITH(memory_that_stays_away_loses_no_record, NULL, remove_outputs)
  * allocation may fail on the way, and the run goes on. */
 static dem_status fall(double **now, dem_index *n, long failing_one)
 {
-    const dem_obstacle obstacle = {.n_points = 3, .points = ground, .restitution = 0.5, .friction = 0.3};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = ground, .restitution = 0.5, .friction = 0.3};
     dem_options options = dem_options_default();
     dem_lattice lattice;
     dem_model *model;

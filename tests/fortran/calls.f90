@@ -168,6 +168,7 @@ contains
 
   !> A run written to the file that is named on the command line, and read back.
   subroutine films()
+    type(dem_observer) :: observer
     type(dem_trajectory_options) :: options
     type(dem_reader_array), pointer :: array
     type(c_ptr) :: falling, file, reader
@@ -186,7 +187,8 @@ contains
     call succeed(dem_simulation_create(falling, model, dem_options_default()))
     call succeed(dem_trajectory_create(file, path, falling, options))
     call succeed(dem_trajectory_note(file, 'mine'//c_null_char, 'a note'//c_null_char))
-    call succeed(dem_simulation_observe(falling, dem_trajectory_observer(file)))
+    call succeed(dem_trajectory_observer(file, observer))
+    call succeed(dem_simulation_observe(falling, observer))
     call succeed(dem_simulation_advance(falling, t))
     call succeed(dem_trajectory_finish(file))
     call dem_trajectory_destroy(file)

@@ -45,9 +45,14 @@ static dem_trajectory_options recorded(void)
 static dem_model *make_model(void)
 {
     static const double points[] = {-1.0, 0.2, 0.0, 0.0, 0.004, 0.001, 0.008, 0.0, 1.0, 0.2};
-    const dem_obstacle valley = {.n_points = 5, .points = points, .restitution = 0.0, .friction = 0.3};
-    const dem_material soft = {
-        .youngs_modulus = 1e5, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 0.01, .guard = 0.02};
+    const dem_obstacle valley = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 5, .points = points, .restitution = 0.0, .friction = 0.3};
+    const dem_material soft = {.struct_size = sizeof(dem_material),
+                               .youngs_modulus = 1e5,
+                               .poissons_ratio = 0.3,
+                               .density = 1000.0,
+                               .thickness = 0.01,
+                               .guard = 0.02};
     const double lift[2] = {0.002, 0.0035}, velocity[2] = {0.3, -1.0};
     dem_lattice lattice;
     dem_model *model;
@@ -77,7 +82,7 @@ static void checkpoint(base *b)
     const dem_trajectory_options options = recorded();
     dem_trajectory *trajectory;
     require(dem_trajectory_create(&trajectory, b->path, b->simulation, &options) == DEM_OK);
-    watch(b->simulation, dem_trajectory_observer(trajectory));
+    watch(b->simulation, ask_trajectory_observer(trajectory));
     land(b);
     require(dem_trajectory_segment(trajectory, dem_simulation_checkpoint(b->simulation)) == DEM_OK);
     dem_trajectory_destroy(trajectory);
@@ -98,7 +103,7 @@ static void start(base *b, dem_contact_method contact)
     b->options.checkpoint_steps = 16;
     require(dem_simulation_create(&b->simulation, b->model, &b->options) == DEM_OK);
     require(dem_peaks_create(&b->peaks, b->model, 4) == DEM_OK);
-    watch(b->simulation, dem_peaks_observer(b->peaks));
+    watch(b->simulation, ask_peaks_observer(b->peaks));
     checkpoint(b);
 }
 
@@ -205,7 +210,7 @@ static void go_on(dem_simulation *simulation)
 {
     int steps = 0;
     motion state;
-    const dem_observer counter = {.step = count, .context = &steps};
+    const dem_observer counter = {.struct_size = sizeof(dem_observer), .step = count, .context = &steps};
     motion_see(simulation, &state);
     require(dem_simulation_observe(simulation, &counter) == DEM_OK);
     const dem_status status = dem_simulation_advance(simulation, state.t + 0.1);
@@ -239,9 +244,9 @@ static void resume(const base *b, const dem_checkpoint *checkpoint, int with_fil
     require(looked == DEM_OK || (looked == DEM_ERROR_IO && peaks == NULL));
     require(status == DEM_OK || (status == DEM_ERROR_IO && simulation == NULL));
     if (status == DEM_OK && with_files) trajectory = resume_files(b, simulation, checkpoint);
-    if (status == DEM_OK && peaks != NULL) watch(simulation, dem_peaks_observer(peaks));
+    if (status == DEM_OK && peaks != NULL) watch(simulation, ask_peaks_observer(peaks));
     if (trajectory != NULL) {
-        const dem_observer observer = dem_trajectory_observer(trajectory);
+        const dem_observer observer = ask_trajectory_observer(trajectory);
         const dem_status added = dem_simulation_observe(simulation, &observer);
         require(added == DEM_OK || added == DEM_ERROR_ARGUMENT); /* so late that frames cannot be numbered */
     }

@@ -23,8 +23,12 @@ static const char mesh[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
 
 static void write_lattice(void)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02};
     const dem_options options = dem_options_default();
     const dem_trajectory_options bare = dem_trajectory_options_default();
     dem_lattice lattice;

@@ -53,7 +53,8 @@ static void add_obstacle(bytes *from, scene *sc, dem_index n_points)
 {
     static const double restitutions[] = {0.0, 0.5, 0.9, 1.0}, frictions[] = {0.0, 0.3, 1.0};
     dem_obstacle *o = &sc->obstacles[sc->n_obstacles];
-    *o = (dem_obstacle){.n_points = n_points, .points = sc->points[sc->n_obstacles]};
+    *o = (dem_obstacle){
+        .struct_size = sizeof(dem_obstacle), .n_points = n_points, .points = sc->points[sc->n_obstacles]};
     o->restitution = choose(from, restitutions, 4);
     o->friction = choose(from, frictions, 3);
     o->friction_law = bytes_below(from, 4) == 1 ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB;
@@ -172,7 +173,8 @@ static void put_boundary(bytes *from, scene *sc)
 {
     if (bytes_below(from, 8) != 1) return;
     sc->pulled = bytes_below(from, (unsigned)sc->body.n_nodes);
-    sc->boundary = (dem_boundary){.kind = DEM_BOUNDARY_FORCE,
+    sc->boundary = (dem_boundary){.struct_size = sizeof(dem_boundary),
+                                  .kind = DEM_BOUNDARY_FORCE,
                                   .components = DEM_COMPONENT_X | DEM_COMPONENT_Y,
                                   .n_nodes = 1,
                                   .nodes = &sc->pulled,
@@ -262,7 +264,7 @@ static void run(const scene *sc, dem_simulation *simulation)
 {
     const dem_options o = ask_options(simulation);
     judge j = make_judge(sc, simulation);
-    const dem_observer observer = {.step = look, .event = weigh, .context = &j};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = look, .event = weigh, .context = &j};
     require(dem_simulation_observe(simulation, &observer) == DEM_OK);
     const dem_status status = dem_simulation_advance(simulation, 0.1);
     require(status == DEM_OK || status == DEM_STOPPED || status == DEM_ERROR_CONTACT || status == DEM_ERROR_INTEGRATOR);

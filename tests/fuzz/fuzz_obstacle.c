@@ -22,7 +22,11 @@ static double coordinate(bytes *from, unsigned kind)
 static dem_obstacle make(bytes *from, double *points)
 {
     const unsigned shape = bytes_take(from);
-    dem_obstacle o = {.n_points = 2 + shape % (MOST_POINTS - 1), .points = points, .restitution = 0.5, .friction = 0.3};
+    dem_obstacle o = {.struct_size = sizeof(dem_obstacle),
+                      .n_points = 2 + shape % (MOST_POINTS - 1),
+                      .points = points,
+                      .restitution = 0.5,
+                      .friction = 0.3};
     for (dem_index k = 0; k < 2 * o.n_points; k++) points[k] = coordinate(from, shape >> 4);
     if (shape % 2 == 0) memcpy(points + 2 * o.n_points - 2, points, 2 * sizeof *points);
     return o;

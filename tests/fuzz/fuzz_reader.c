@@ -50,9 +50,9 @@ static void read_tables(const dem_reader *reader, double *values)
 
 static void read_obstacles(const dem_reader *reader)
 {
-    dem_index n = 0, segments[2];
-    const dem_obstacle *obstacles = dem_reader_obstacles(reader, &n);
-    for (dem_index k = 0; k < n; k++) require(dem_obstacle_check(&obstacles[k], segments) == DEM_OK);
+    dem_index segments[2];
+    for (dem_index k = 0; k < dem_reader_n_obstacles(reader); k++)
+        require(dem_obstacle_check(dem_reader_obstacle(reader, k), segments) == DEM_OK);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -20,7 +20,7 @@ SECONDS = 120
 LAYOUT = """
 import ctypes, inspect, sys
 import drive
-for name, kind in inspect.getmembers(drive, lambda a: inspect.isclass(a) and issubclass(a, ctypes.Structure)):
+for name, kind in inspect.getmembers(drive, lambda a: inspect.isclass(a) and issubclass(a, ctypes.Structure) and hasattr(a, "_fields_")):
     for field, *_ in kind._fields_:
         print(name, field, getattr(kind, field).offset, getattr(kind, field).size)
     print(name, ctypes.sizeof(kind))

@@ -10,6 +10,7 @@
 #include "kernels.h"
 #include "store.h"
 #include "trace.h"
+#include "ask.h"
 #include "verification/support.h"
 
 enum { NAME = 64, PATH = 4096 };
@@ -107,7 +108,7 @@ static void write_run(const deck *d, const char *path)
     assert_ok(dem_peaks_create(&peaks, run.model, 4));
     const dem_trajectory_options options = all_of(d, peaks);
     assert_ok(dem_trajectory_create(&trajectory, path, run.simulation, &options));
-    const dem_observer observers[2] = {dem_peaks_observer(peaks), dem_trajectory_observer(trajectory)};
+    const dem_observer observers[2] = {ask_peaks_observer(peaks), ask_trajectory_observer(trajectory)};
     for (int k = 0; k < 2; k++) assert_ok(dem_simulation_observe(run.simulation, &observers[k]));
     assert_ok(dem_simulation_advance(run.simulation, d->t_end));
     assert_ok(dem_trajectory_finish(trajectory));

@@ -57,10 +57,18 @@ static void find_top(extras *e, const scene *sc)
 static void add_boundary(extras *e, scene *sc, unsigned long seed)
 {
     static const dem_boundary kinds[4] = {
-        {.n_nodes = 0},
-        {.kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_Y, .value = {0.0, -2.0}, .ramp = 1e-4},
-        {.kind = DEM_BOUNDARY_DISPLACEMENT, .components = 3, .value = {2e-3, -2e-3}, .ramp = 1e-3},
-        {.kind = DEM_BOUNDARY_FORCE, .value = {100.0, -1000.0}, .ramp = 2e-4}};
+        {.struct_size = sizeof(dem_boundary), .n_nodes = 0},
+        {.struct_size = sizeof(dem_boundary),
+         .kind = DEM_BOUNDARY_VELOCITY,
+         .components = DEM_COMPONENT_Y,
+         .value = {0.0, -2.0},
+         .ramp = 1e-4},
+        {.struct_size = sizeof(dem_boundary),
+         .kind = DEM_BOUNDARY_DISPLACEMENT,
+         .components = 3,
+         .value = {2e-3, -2e-3},
+         .ramp = 1e-3},
+        {.struct_size = sizeof(dem_boundary), .kind = DEM_BOUNDARY_FORCE, .value = {100.0, -1000.0}, .ramp = 2e-4}};
     if (seed % 4 == 0) return;
     e->boundary = kinds[seed % 4];
     find_top(e, sc);

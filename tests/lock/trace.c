@@ -164,7 +164,12 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 
 dem_observer trace_observer(trace *t, double interval)
 {
-    return (dem_observer){.interval = interval, .frame = on_frame, .step = on_step, .event = on_event, .context = t};
+    return (dem_observer){.struct_size = sizeof(dem_observer),
+                          .interval = interval,
+                          .frame = on_frame,
+                          .step = on_step,
+                          .event = on_event,
+                          .context = t};
 }
 
 /* ---- a file ---- */

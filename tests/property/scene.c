@@ -119,6 +119,7 @@ static void random_laws(gsl_rng *rng, scene *sc)
     static const double restitutions[5] = {0.0, 0.0, 0.5, 0.9, 1.0}, frictions[5] = {0.0, 0.3, 0.3, 1.0, 1.0};
     for (int k = 0; k < sc->n; k++)
         sc->obstacles[k] = (dem_obstacle){
+            .struct_size = sizeof(dem_obstacle),
             .n_points = sc->solids[k].n_exposed,
             .points = sc->solids[k].points,
             .restitution = one_of(rng, restitutions, 5),
@@ -152,7 +153,8 @@ static void random_obstacles(gsl_rng *rng, scene *sc)
 
 static void random_solid_body(gsl_rng *rng, scene *sc)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7,
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
                                  .poissons_ratio = 1.0 / 3.0,
                                  .density = 1050.0,
                                  .thickness = 1.0,

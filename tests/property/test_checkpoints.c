@@ -85,7 +85,13 @@ static dem_status on_record(void *context, const dem_simulation *simulation, dem
 
 static dem_observer observer_of(diary *d, int keeps)
 {
-    return (dem_observer){7e-6, on_frame, on_step, on_event, keeps ? on_record : NULL, d};
+    return (dem_observer){.struct_size = sizeof(dem_observer),
+                          .interval = 7e-6,
+                          .frame = on_frame,
+                          .step = on_step,
+                          .event = on_event,
+                          .checkpoint = keeps ? on_record : NULL,
+                          .context = d};
 }
 
 /* ---- runs ---- */

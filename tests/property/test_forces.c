@@ -108,7 +108,12 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 
 static void watch_stage(watch *w, stage *s)
 {
-    const dem_observer observer = {1e-4, on_frame, on_step, on_event, NULL, w};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer),
+                                   .interval = 1e-4,
+                                   .frame = on_frame,
+                                   .step = on_step,
+                                   .event = on_event,
+                                   .context = w};
     *w = (watch){.scene = &s->scene};
     judge_boundary(&w->boundary, &s->scene.body);
     assert_ok(dem_simulation_observe(s->simulation, &observer));
@@ -287,7 +292,7 @@ static dem_status enter(void *context, const dem_simulation *simulation)
 
 static void write_diary(diary *d, stage *s, unsigned long seed, manner how)
 {
-    const dem_observer observer = {.step = enter, .context = d};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = enter, .context = d};
     d->n = 0;
     open_stage(s, seed, how, NULL);
     (void)enter(d, s->simulation); /* contacts have not been looked for */

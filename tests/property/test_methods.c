@@ -59,7 +59,7 @@ static void hear(unsigned long seed, dem_contact_method method, double rtol, hit
     CLEANUP(support_close) support_run run;
     open_scene(&run, &sc, seed, method, rtol);
     const dem_options o = ask_options(run.simulation);
-    const dem_observer observer = {.event = listen, .context = h};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .event = listen, .context = h};
     *h = (hits){.v_scale = o.v_scale, .spacing = o.spacing};
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     if (dem_simulation_advance(run.simulation, sc.t_end) < DEM_OK) fault(seed, dem_status_message(), rtol);

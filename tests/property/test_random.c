@@ -148,7 +148,7 @@ static void listen_to(const scene *sc, const dem_index *old, double step_length,
     CLEANUP(support_close) support_run run;
     dem_options options = sc->options;
     *v = (verdict){.scene = sc, .old = old};
-    const dem_observer observer = {.event = listen, .context = v};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .event = listen, .context = v};
     options.fixed_step = step_length;
     support_open(&run, &sc->body, sc->obstacles, sc->n, &options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
@@ -253,7 +253,12 @@ static void run_case(unsigned long seed, census *all)
     scene_random(&sc, seed);
     verdict v = {.scene = &sc};
     judge_boundary(&v.boundary, &sc.body);
-    const dem_observer observer = {sc.interval, look, step, weigh, NULL, &v};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer),
+                                   .interval = sc.interval,
+                                   .frame = look,
+                                   .step = step,
+                                   .event = weigh,
+                                   .context = &v};
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     v.start = ask_energy(run.simulation).ledger;

@@ -127,7 +127,7 @@ static void check_same(const dem_simulation *a, dem_simulation *b, unsigned long
 /* Runs it with all of the surface, and notes what is touched. */
 static dem_simulation *run_whole(const dem_model *model, const scene *sc, touched *nodes)
 {
-    const dem_observer observer = {.context = nodes, .event = hear};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .context = nodes, .event = hear};
     dem_simulation *simulation = support_simulation(model, &sc->options);
     assert_ok(dem_simulation_observe(simulation, &observer));
     assert_ok(dem_simulation_advance(simulation, nodes->half));

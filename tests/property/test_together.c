@@ -38,7 +38,7 @@ static void name(const job *j, const char *ending, char out[64])
 
 static dem_status go(job *j, dem_simulation *simulation, dem_trajectory *trajectory)
 {
-    const dem_observer observer = dem_trajectory_observer(trajectory);
+    const dem_observer observer = ask_trajectory_observer(trajectory);
     dem_status status = dem_simulation_observe(simulation, &observer);
     for (int part = 1; part <= 4 && status == DEM_OK; part++) {
         status = dem_simulation_advance(simulation, 0.02 * part * j->scene.t_end);

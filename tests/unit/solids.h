@@ -7,8 +7,12 @@
 
 #include <dem/dem.h>
 
-static const dem_material rubber = {
-    .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 0.5, .guard = 0.02};
+static const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                    .youngs_modulus = 1e7,
+                                    .poissons_ratio = 1.0 / 3.0,
+                                    .density = 1050.0,
+                                    .thickness = 0.5,
+                                    .guard = 0.02};
 
 static inline dem_lattice make_rectangle(double width, double height, double step)
 {

@@ -44,7 +44,8 @@ static double shear_factor(const block *b)
 
 static dem_model *make_block(const block *b)
 {
-    const dem_material solid = {.youngs_modulus = modulus,
+    const dem_material solid = {.struct_size = sizeof(dem_material),
+                                .youngs_modulus = modulus,
                                 .poissons_ratio = b->nu,
                                 .plane = b->plane,
                                 .density = 1050.0,

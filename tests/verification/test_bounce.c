@@ -154,7 +154,7 @@ static void open_fall(support_run *run, bool pair, bool floored, double step)
     const double x[4] = {0.0, height, 0.0, height + 1.0}, start[4] = {0.0, height, 0.0, height + 1.5};
     const double mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
-    const dem_obstacle ground = {.n_points = 2, .points = floor_points};
+    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points};
     dem_options options = support_options();
     options.spacing = options.v_scale = 1.0;
     options.max_step = 0.01;

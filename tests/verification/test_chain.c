@@ -85,7 +85,7 @@ static void open_chain(impact *s, int n, double height, bool lying)
     double x[2 * most_masses] = {0.0}, v[2 * most_masses] = {0.0}, m[most_masses];
     dem_index ends[2 * most_masses];
     static const double ground[4] = {-1.0, 0.0, 1.0, 0.0}, wall[4] = {0.0, 1.0, 0.0, -1.0};
-    const dem_obstacle obstacle = {.n_points = 2, .points = lying ? wall : ground};
+    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = lying ? wall : ground};
     const int along = lying ? 0 : 1;
     dem_options options = support_options();
     for (int i = 0; i <= n; i++) {
@@ -103,7 +103,8 @@ static void open_chain(impact *s, int n, double height, bool lying)
     for (int i = 1; i <= n; i++) lattice.flags[i] = 0;
     support_start(&lattice, NULL, v);
     support_open(&s->run, &lattice, &obstacle, 1, &options);
-    assert_ok(dem_simulation_observe(s->run.simulation, &(dem_observer){.event = note, .context = s}));
+    assert_ok(dem_simulation_observe(
+        s->run.simulation, &(dem_observer){.struct_size = sizeof(dem_observer), .event = note, .context = s}));
 }
 
 static double total(dem_energy e)

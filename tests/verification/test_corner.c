@@ -163,8 +163,9 @@ TEST(a_wall_of_another_obstacle_stops_a_sliding_node)
 {
     const double x[2] = {-0.5, 0.0}, v[2] = {1.0, 0.0}, mass = 2.0;
     const double ground[4] = {-1.0, 0.0, 1.0, 0.0}, wall[4] = {0.5, -1.0, 0.5, 1.0};
-    const dem_obstacle obstacles[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
-                                       {.n_points = 2, .points = wall, .restitution = 0.5}};
+    const dem_obstacle obstacles[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = ground, .restitution = 0.0},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall, .restitution = 0.5}};
     dem_options options = support_options();
     CLEANUP(support_close) support_run run;
     options.spacing = options.v_scale = 1.0;
@@ -228,12 +229,17 @@ TEST(a_node_at_rest_in_a_corner_stays)
 static void open_block(support_run *run, double restitution, double rest_speed)
 {
     static const double points[] = {-1.0, 0.2, 0.0, 0.0, 0.004, 0.001, 0.008, 0.0, 1.0, 0.2};
-    const dem_obstacle valley = {.n_points = 5,
+    const dem_obstacle valley = {.struct_size = sizeof(dem_obstacle),
+                                 .n_points = 5,
                                  .points = points,
                                  .restitution = restitution,
                                  .friction = 0.3,
                                  .friction_law = DEM_FRICTION_PAPER};
-    const dem_material soft = {.youngs_modulus = 1e5, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 0.01};
+    const dem_material soft = {.struct_size = sizeof(dem_material),
+                               .youngs_modulus = 1e5,
+                               .poissons_ratio = 0.3,
+                               .density = 1000.0,
+                               .thickness = 0.01};
     const double lift[2] = {0.002, 0.0035}, velocity[2] = {0.3, -1.0};
     dem_options options = support_options();
     options.rest_speed = rest_speed;
@@ -267,8 +273,9 @@ TEST(a_wall_that_stands_on_another_obstacle_leaves_no_gap)
         const double angle = 0.1 * (k / 2), c = cos(angle), s = sin(angle), lean = k % 2 == 0 ? 0.0 : -0.1;
         const double ground[4] = {-2.0 * c, -2.0 * s, 2.0 * c, 2.0 * s};
         const double wall[4] = {0.5 * c, 0.5 * s, (0.5 + lean) * c - s, (0.5 + lean) * s + c};
-        const dem_obstacle obstacles[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
-                                           {.n_points = 2, .points = wall, .restitution = 0.0}};
+        const dem_obstacle obstacles[2] = {
+            {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = ground, .restitution = 0.0},
+            {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall, .restitution = 0.0}};
         const double x[2] = {0.0, 0.0}, v[2] = {c, s}, mass = 1.0;
         dem_options options = support_options();
         CLEANUP(support_close) support_run run;

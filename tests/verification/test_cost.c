@@ -115,7 +115,7 @@ static cost run_line(const dem_lattice *block, const line *l, double t, const do
     drift d = {0};
     cost c = {0};
     dem_options options = support_options();
-    const dem_observer observer = {.step = follow, .context = &d};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = follow, .context = &d};
     options.gravity[1] = 0.0;
     options.checkpoint_steps = 0; /* each takes an evaluation */
     options.method = l->method;

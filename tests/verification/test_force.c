@@ -124,7 +124,8 @@ static const double floor_points[4] = {-10.0, 0.0, 100.0, 0.0};
 TEST(friction_holds_until_the_force_exceeds_it)
 {
     const double mu = 0.4;
-    const dem_obstacle ground = {.n_points = 2, .points = floor_points, .friction = mu};
+    const dem_obstacle ground = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .friction = mu};
     field f = {.push = {0.0, -25.0}, .rise = 8.0};
     const double slips = mu * 25.0 / f.rise;
     CLEANUP(support_close) support_run run;
@@ -149,7 +150,7 @@ TEST(friction_holds_until_the_force_exceeds_it)
 TEST(a_contact_opens_when_the_force_lifts_it)
 {
     const double wall[4] = {0.0, 10.0, 0.0, -10.0}; /* bodies on the right: the force along x lifts */
-    const dem_obstacle ground = {.n_points = 2, .points = wall};
+    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall};
     field f = {.push = {-6.0, 0.0}, .rise = 4.0};
     CLEANUP(support_close) support_run run;
     open_node(&run, NULL, &ground, DEM_METHOD_FEHLBERG45, &f);
@@ -167,7 +168,8 @@ TEST(a_contact_opens_when_the_force_lifts_it)
 TEST(a_pushed_node_bounces)
 {
     const double eta = 0.5, h = 0.7, points[4] = {-10.0, -0.7, 10.0, -0.7};
-    const dem_obstacle ground = {.n_points = 2, .points = points, .restitution = eta};
+    const dem_obstacle ground = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = eta};
     field f = {.push = {0.0, -5.0}};
     const double a = 5.0 / mass, t1 = sqrt(2.0 * h / a);
     CLEANUP(support_close) support_run run;
@@ -227,7 +229,7 @@ static const double low[4] = {-1.0, -0.028, 1.0, -0.028};
 TEST(a_force_in_proportion_to_mass_is_a_weight)
 {
     static const double any = 1.0;
-    const dem_obstacle ground = {.n_points = 2, .points = low, .friction = 0.3};
+    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low, .friction = 0.3};
     field f = {.push = {0.0, -200.0}, .mass = &any};
     CLEANUP(support_close) support_run heavy, pushed;
     open_block(&heavy, 0.0, &ground, (load){.gravity = -200.0});
@@ -249,7 +251,7 @@ TEST(a_force_in_proportion_to_mass_is_a_weight)
 TEST(a_drag_in_proportion_to_mass_is_mass_damping)
 {
     static const double any = 1.0;
-    const dem_obstacle ground = {.n_points = 2, .points = low};
+    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low};
     field f = {.drag = 300.0, .mass = &any};
     CLEANUP(support_close) support_run damped, dragged;
     open_block(&damped, 0.0, &ground, (load){.gravity = -200.0, .mass_damping = 300.0});
@@ -283,7 +285,7 @@ static dem_status act_on_pair(void *context, const dem_force_query *q, double *f
 static void compare_with_boundaries(const dem_index *order)
 {
     const double far[4] = {-1.0, -0.028, 1.0, -0.028};
-    const dem_obstacle ground = {.n_points = 2, .points = far, .restitution = 0.3};
+    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = far, .restitution = 0.3};
     dem_options options = support_options();
     CLEANUP(dem_lattice_free) dem_lattice block, again;
     CLEANUP(support_close) support_run by_boundary, by_force;
@@ -301,8 +303,11 @@ static void compare_with_boundaries(const dem_index *order)
     pair p = {{order[5], order[100]}, {{30.0, -400.0}, {-50.0, -300.0}}};
     dem_boundary forces[2];
     for (int e = 0; e < 2; e++)
-        forces[e] = (dem_boundary){
-            .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = &p.nodes[e], .value = {p.force[e][0], p.force[e][1]}};
+        forces[e] = (dem_boundary){.struct_size = sizeof(dem_boundary),
+                                   .kind = DEM_BOUNDARY_FORCE,
+                                   .n_nodes = 1,
+                                   .nodes = &p.nodes[e],
+                                   .value = {p.force[e][0], p.force[e][1]}};
     options.rtol = 1e-8;
     options.v_scale = 1.0;
     options.n_boundaries = 2;
@@ -335,7 +340,7 @@ TEST(forces_of_boundaries_do_the_same)
 TEST(a_floor_bears_weight_and_force)
 {
     static const double any = 1.0;
-    const dem_obstacle ground = {.n_points = 2, .points = low, .friction = 0.2};
+    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low, .friction = 0.2};
     field f = {.push = {10.0, -100.0}, .mass = &any}; /* friction holds it */
     support_run run;
     open_block(&run, 0.0, &ground, (load){.gravity = -150.0, .field = &f});
@@ -362,7 +367,8 @@ TEST(a_floor_bears_weight_and_force)
 TEST(the_ledger_of_a_trap_closes)
 {
     static const double any = 1.0;
-    const dem_obstacle ground = {.n_points = 2, .points = low, .restitution = 0.5, .friction = 0.3};
+    const dem_obstacle ground = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low, .restitution = 0.5, .friction = 0.3};
     field f = {.centre = {0.02, -0.01}, .stiffness = 4e4, .drag = 5.0, .mass = &any};
     CLEANUP(support_close) support_run run;
     open_block(&run, 0.0, &ground, (load){.gravity = -100.0, .field = &f});

@@ -79,7 +79,8 @@ static void open_slide(slide *s, double a, const dem_obstacle *law, double h0, c
     *s = (slide){.normal = {sin(a), cos(a)}, .tangent = {cos(a), -sin(a)}, .mu = law->friction};
     const double *n = s->normal, *t = s->tangent, points[4] = {-20.0 * t[0], -20.0 * t[1], 20.0 * t[0], 20.0 * t[1]};
     const double x[2] = {h0 * n[0], h0 * n[1]};
-    const dem_observer observer = {.step = note_step, .event = note_event, .context = s};
+    const dem_observer observer = {
+        .struct_size = sizeof(dem_observer), .step = note_step, .event = note_event, .context = s};
     dem_obstacle obstacle = *law;
     dem_options options = support_options();
     for (int d = 0; d < 2; d++) s->v0[d] = v0[0] * t[d] + v0[1] * n[d];
@@ -100,7 +101,7 @@ static void open_slide(slide *s, double a, const dem_obstacle *law, double h0, c
 static void open_incline(slide *s, double mu, double v0)
 {
     const double v[2] = {v0, 0.0};
-    open_slide(s, M_PI / 6.0, &(dem_obstacle){.friction = mu}, 0.0, v, g);
+    open_slide(s, M_PI / 6.0, &(dem_obstacle){.struct_size = sizeof(dem_obstacle), .friction = mu}, 0.0, v, g);
 }
 
 static double acceleration(double mu)
@@ -240,7 +241,9 @@ TEST(a_bouncing_block_slides_down_as_fast_as_one_that_stays_whatever_the_restitu
     static const double v0[2] = {1.0, 0.0};
     static slide s;
     for (int k = 0; k < 5; k++) {
-        open_slide(&s, M_PI / 6.0, &(dem_obstacle){.friction = 0.2, .restitution = eta[k]}, 0.05, v0, g);
+        open_slide(&s, M_PI / 6.0,
+                   &(dem_obstacle){.struct_size = sizeof(dem_obstacle), .friction = 0.2, .restitution = eta[k]}, 0.05,
+                   v0, g);
         const motion state = slide_at(&s, 1.5);
         assert_int_equal(state.n_contacts, 1);
         assert_close(dot(state.v, s.tangent), 5.808787237, 1e-7);
@@ -267,7 +270,8 @@ static const oblique rows[5] = {{DEM_FRICTION_COULOMB, 0.3, 0.5, {2.1, 1.0}},
 static void check_oblique(const oblique *row, double angle, double side)
 {
     static slide s;
-    const dem_obstacle law = {.friction = row->mu, .restitution = row->eta, .friction_law = row->law};
+    const dem_obstacle law = {
+        .struct_size = sizeof(dem_obstacle), .friction = row->mu, .restitution = row->eta, .friction_law = row->law};
     const double v0[2] = {3.0 * side, -2.0};
     open_slide(&s, angle, &law, 0.5, v0, 0.0);
     const motion state = slide_at(&s, 0.5);
@@ -301,7 +305,10 @@ TEST(the_law_of_the_paper_has_no_sustained_friction)
     static const double v0[2] = {3.0, 0.0};
     const double fall = sqrt(2.0 * 0.2 / g);
     static slide s;
-    open_slide(&s, 0.0, &(dem_obstacle){.friction = 0.3, .friction_law = DEM_FRICTION_PAPER}, 0.2, v0, g);
+    open_slide(
+        &s, 0.0,
+        &(dem_obstacle){.struct_size = sizeof(dem_obstacle), .friction = 0.3, .friction_law = DEM_FRICTION_PAPER}, 0.2,
+        v0, g);
     check_place(&s, fall + 1.0, 3.0 * fall + 0.9, 0.9, 1e-10);
     check_place(&s, fall + 5.0, 3.0 * fall + 4.5, 0.9, 1e-10);
     const motion state = slide_at(&s, 6.0);
@@ -310,8 +317,10 @@ TEST(the_law_of_the_paper_has_no_sustained_friction)
     assert_close(state.contacts[0].friction[0], 0.0, 0.0);
     assert_close(state.energy.friction, 0.0, 0.0);
     support_close(&s.run);
-    open_slide(&s, M_PI / 6.0, &(dem_obstacle){.friction = 0.3, .friction_law = DEM_FRICTION_PAPER}, 0.0,
-               (double[2]){0.0, 0.0}, g);
+    open_slide(
+        &s, M_PI / 6.0,
+        &(dem_obstacle){.struct_size = sizeof(dem_obstacle), .friction = 0.3, .friction_law = DEM_FRICTION_PAPER}, 0.0,
+        (double[2]){0.0, 0.0}, g);
     check_place(&s, 1.0, 0.25 * g, 0.5 * g, 1e-10);
     support_close(&s.run);
 }

@@ -24,8 +24,9 @@ static const double flat[4] = {-0.2, 0.0, 0.2, 0.0};
 static const double facets[30] = {-0.2,   -2e-3,  -0.044, 1e-3,   -0.036, -1.5e-3, -0.028, 2e-3,  -0.02, -1e-3,
                                   -0.012, 1.2e-3, -0.004, -2e-3,  0.004,  1.5e-3,  0.012,  -1e-3, 0.02,  2e-3,
                                   0.028,  -2e-3,  0.036,  0.5e-3, 0.2,    -1e-3,   0.3,    -1e-3, 0.4,   -1e-3};
-static const dem_obstacle grounds[2] = {{.n_points = 2, .points = flat, .restitution = 1.0},
-                                        {.n_points = 15, .points = facets, .restitution = 1.0}};
+static const dem_obstacle grounds[2] = {
+    {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat, .restitution = 1.0},
+    {.struct_size = sizeof(dem_obstacle), .n_points = 15, .points = facets, .restitution = 1.0}};
 
 /* How a block is dropped. */
 typedef struct drop {
@@ -157,7 +158,6 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
 {
     dem_lattice lattice = *dem_model_lattice(p->model);
     dem_options options = p->options;
-    dem_index n_obstacles;
     double *start = malloc(8 * (size_t)p->n * sizeof *start), *off = start + 4 * p->n;
     CLEANUP(free_model) dem_model *model;
     motion state;
@@ -167,7 +167,10 @@ static double true_error(const parts *p, double t, double t1, const double *y, c
     lattice.velocity = start + 2 * p->n;
     options.contact = DEM_CONTACT_EXACT;
     options.rtol = 1e-12;
-    const dem_obstacle *obstacles = dem_model_obstacles(p->model, &n_obstacles);
+    dem_obstacle obstacles[4];
+    const dem_index n_obstacles = ask_sizes(p->model).n_obstacles;
+    assert_true(n_obstacles <= 4);
+    for (dem_index k = 0; k < n_obstacles; k++) obstacles[k] = *dem_model_obstacle(p->model, k);
     assert_ok(dem_model_create(&model, &lattice, obstacles, n_obstacles));
     CLEANUP(free_simulation) dem_simulation *simulation = support_simulation(model, &options);
     assert_ok(dem_simulation_advance(simulation, t1 - t));
@@ -222,8 +225,11 @@ static void make_parts(parts *p, const support_run *run)
 /* The run, its steps as they are reported, and kept. */
 static void run_block(support_run *run, checkpoint *r, const drop *d)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050.0,
+                                 .thickness = 1.0};
     dem_options options = dem_options_default();
     double gap = INFINITY;
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.08, 0.13, spacing, &rubber);
@@ -238,7 +244,7 @@ static void run_block(support_run *run, checkpoint *r, const drop *d)
     options.vertices = 0;
     support_open(run, &lattice, d->ground, 1, &options);
     *r = (checkpoint){.n = lattice.n_nodes};
-    const dem_observer observer = {.step = keep, .context = r};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = keep, .context = r};
     assert_ok(dem_simulation_observe(run->simulation, &observer));
     assert_ok(dem_simulation_advance(run->simulation, d->t_end));
 }

@@ -32,7 +32,7 @@ static void run_deck(const char *name, double restitution, dem_contact_method me
     CLEANUP(deck_free) deck d;
     CLEANUP(support_close) support_run run;
     *out = (outcome){.first = 0.0};
-    const dem_observer observer = {.event = note, .context = out};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .event = note, .context = out};
     coarse_read(&d, inputs, name, spacing);
     d.obstacles[0].restitution = restitution;
     d.options.contact = method;

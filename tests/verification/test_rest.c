@@ -49,7 +49,8 @@ static double pace(const scene *s)
 /* From an unstrained start, or from positions. */
 static void open_block(block *b, const scene *s, const double *position, bool damped)
 {
-    const dem_material material = {.youngs_modulus = 4.9e6 * pace(s) * pace(s),
+    const dem_material material = {.struct_size = sizeof(dem_material),
+                                   .youngs_modulus = 4.9e6 * pace(s) * pace(s),
                                    .poissons_ratio = 1.0 / 3.0,
                                    .density = 1000.0,
                                    .thickness = 0.1,
@@ -67,7 +68,8 @@ static void open_block(block *b, const scene *s, const double *position, bool da
     *b = (block){0};
     assert_ok(dem_model_create(&b->model, &lattice, &s->obstacle, 1));
     assert_ok(dem_simulation_create(&b->simulation, b->model, &options));
-    assert_ok(dem_simulation_observe(b->simulation, &(dem_observer){.step = note, .context = b}));
+    assert_ok(dem_simulation_observe(b->simulation,
+                                     &(dem_observer){.struct_size = sizeof(dem_observer), .step = note, .context = b}));
 }
 
 static void close_block(block *b)
@@ -150,7 +152,7 @@ static void check_rest(const scene *s, dem_index lasting)
 
 static dem_obstacle straight(const double *points, double friction)
 {
-    return (dem_obstacle){.n_points = 2, .points = points, .friction = friction};
+    return (dem_obstacle){.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .friction = friction};
 }
 
 TEST(a_block_on_a_floor_rests)
@@ -163,7 +165,7 @@ TEST(a_block_on_a_floor_rests)
 TEST(a_block_in_a_groove_rests)
 {
     scene s = {.angle = 0.25 * M_PI, .offset = 2.0 * spacing, .mass_damping = 400.0};
-    s.obstacle = (dem_obstacle){.n_points = 3, .points = groove};
+    s.obstacle = (dem_obstacle){.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = groove};
     check_rest(&s, 8);
     s.obstacle.friction = 0.3;
     check_rest(&s, 8);
@@ -193,7 +195,10 @@ TEST(a_block_below_the_friction_angle_rests_be_it_soft_or_hard)
 TEST(a_block_on_two_pegs_rests)
 {
     static const double pegs[10] = {-1.0, -0.1, -0.13, 0.0, 0.0, -0.1, 0.12, 0.0, 1.0, -0.1};
-    check_rest(&(scene){.obstacle = {.n_points = 5, .points = pegs, .friction = 0.3}, .mass_damping = 400.0}, 2);
+    check_rest(
+        &(scene){.obstacle = {.struct_size = sizeof(dem_obstacle), .n_points = 5, .points = pegs, .friction = 0.3},
+                 .mass_damping = 400.0},
+        2);
 }
 
 /* The springs and friction alone take the energy. */

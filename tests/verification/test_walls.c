@@ -76,8 +76,9 @@ static void open_run(support_run *run, const dem_lattice *chain, const line *l)
 {
     const double right = (n_masses - 1) * spacing + gap;
     const double points[2][4] = {{right, -1.0, right, 1.0}, {-gap, 1.0, -gap, -1.0}};
-    const dem_obstacle walls[2] = {{.n_points = 2, .points = points[0], .restitution = 1.0},
-                                   {.n_points = 2, .points = points[1], .restitution = 1.0}};
+    const dem_obstacle walls[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points[0], .restitution = 1.0},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points[1], .restitution = 1.0}};
     dem_options options = support_options();
     options.gravity[1] = 0.0;
     options.method = l->method;

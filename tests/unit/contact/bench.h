@@ -34,7 +34,8 @@ static inline void bench_open(bench *b, dem_index n)
     assert_true(n <= BENCH_NODES);
     *b = (bench){0};
     b->list[1].friction = 0.3;
-    b->list[2] = (dem_obstacle){.friction = 0.9, .friction_law = DEM_FRICTION_PAPER};
+    b->list[2] =
+        (dem_obstacle){.struct_size = sizeof(dem_obstacle), .friction = 0.9, .friction_law = DEM_FRICTION_PAPER};
     for (dem_index i = 0; i < n; i++) {
         b->mass[i] = b->inverse_mass[i] = 1.0;
         b->candidates[i] = (contact_candidate){.node = i, .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};

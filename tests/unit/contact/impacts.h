@@ -15,7 +15,8 @@ static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0}; /* its r
 
 static inline dem_obstacle obstacle(dem_index n_points, const double *points, double eta, double mu)
 {
-    return (dem_obstacle){.n_points = n_points,
+    return (dem_obstacle){.struct_size = sizeof(dem_obstacle),
+                          .n_points = n_points,
                           .points = points,
                           .restitution = eta,
                           .friction = mu,

@@ -15,8 +15,9 @@ static inline void open_scene(scene *s, dem_index n, const dem_obstacle *obstacl
 }
 
 static const double floor_points[4] = {-4.0, 0.0, 4.0, 0.0}, wall_points[4] = {2.0, -1.0, 2.0, 3.0};
-static const dem_obstacle half = {.n_points = 2, .points = floor_points, .restitution = 0.5},
-                          plastic = {.n_points = 2, .points = floor_points, .restitution = 0.0};
+static const dem_obstacle
+    half = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5},
+    plastic = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.0};
 
 /* ---- the initial state ---- */
 
@@ -42,8 +43,11 @@ static inline void slide(scene *s, const dem_obstacle *obstacle, double x, doubl
     assert_int_equal(s->c.set.list[0].n_closed, 1);
 }
 
-static const dem_obstacle rough = {
-    .n_points = 2, .points = floor_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB};
+static const dem_obstacle rough = {.struct_size = sizeof(dem_obstacle),
+                                   .n_points = 2,
+                                   .points = floor_points,
+                                   .friction = 0.5,
+                                   .friction_law = DEM_FRICTION_COULOMB};
 
 static inline void check_event(const scene *s, int k, dem_event_kind kind, dem_contact_state state)
 {
@@ -64,9 +68,13 @@ static inline void rub(scene *s, double u)
 }
 
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0}; /* its ridge is in the origin */
-static const dem_obstacle roof = {.n_points = 3, .points = roof_points, .restitution = 0.0};
-static const dem_obstacle rough_roof = {
-    .n_points = 3, .points = roof_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB};
+static const dem_obstacle roof = {
+    .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.0};
+static const dem_obstacle rough_roof = {.struct_size = sizeof(dem_obstacle),
+                                        .n_points = 3,
+                                        .points = roof_points,
+                                        .friction = 0.5,
+                                        .friction_law = DEM_FRICTION_COULOMB};
 
 /* A side of nodes 0, 1, 2, whose ends are 1 m from node 1 at (x, y) and higher by `bend`; node 3 above. */
 static inline void open_side(scene *s, const dem_obstacle *obstacle, double x, double y, double bend)

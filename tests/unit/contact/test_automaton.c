@@ -113,7 +113,8 @@ TEST(a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone)
 
 static void land(double eta, double speed, double rest_speed, int closed)
 {
-    const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = eta};
+    const dem_obstacle plane = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = eta};
     CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &plane, 1);
     s.c.set.scene.rule.rest_speed = rest_speed;
@@ -185,8 +186,9 @@ TEST(the_status_of_a_listener_that_stops_is_returned)
 /* Floor of eta 1/2 and wall of eta 1/4 as two obstacles; the wall's solid is on its right, x > 2. */
 TEST(in_a_corner_each_obstacle_gets_the_impulse_along_its_normal)
 {
-    const dem_obstacle corner[2] = {{.n_points = 2, .points = wall_points, .restitution = 0.25},
-                                    {.n_points = 2, .points = floor_points, .restitution = 0.5}};
+    const dem_obstacle corner[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall_points, .restitution = 0.25},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5}};
     CLEANUP(scene_close) scene s;
     open_scene(&s, 1, corner, 2);
     scene_put(&s, 0, 2.0 + penetration_tolerance, -penetration_tolerance, 4.0, -3.0);
@@ -222,7 +224,8 @@ TEST(a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity)
 TEST(closed_contacts_hold_the_acceleration_along_their_normals)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0}; /* a groove of 90 degrees */
-    const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
+    const dem_obstacle groove = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.0};
     CLEANUP(scene_close) scene s;
     open_scene(&s, 3, &groove, 1);
     scene_put(&s, 0, 0.5, 3.0, 0.0, 0.0);
@@ -240,7 +243,8 @@ TEST(closed_contacts_hold_the_acceleration_along_their_normals)
 TEST(contacts_are_listed_in_the_order_of_nodes)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
-    const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
+    const dem_obstacle groove = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.0};
     dem_index n;
     CLEANUP(scene_close) scene s;
     open_scene(&s, 3, &groove, 1);
@@ -263,7 +267,8 @@ TEST(contacts_are_listed_in_the_order_of_nodes)
 TEST(a_held_node_lets_go_of_the_wall_that_would_pull)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
-    const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
+    const dem_obstacle groove = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.0};
     CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &groove, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
@@ -289,7 +294,8 @@ TEST(a_corner_holds_only_what_is_at_rest_in_it)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0}, root = sqrt(0.5);
     const double limit = sqrt(2.0 * g * root * 1e-9), speed[2] = {0.99 * limit, 1.01 * limit};
-    const dem_obstacle groove = {.n_points = 3, .points = slope_points, .restitution = 0.0};
+    const dem_obstacle groove = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.0};
     for (int k = 0; k < 2; k++) {
         CLEANUP(scene_close) scene s;
         const double u = k == 0 ? 0.0 : root * speed[k];
@@ -372,7 +378,7 @@ TEST(at_the_start_a_touching_edge_is_in_contact)
 TEST(at_the_start_an_edge_may_touch_two_vertices)
 {
     const double points[10] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5, 1.0, 0.0, 5.0, -4.0}, mass[3] = {2.0, 2.0, 2.0};
-    const dem_obstacle ridges = {.n_points = 5, .points = points};
+    const dem_obstacle ridges = {.struct_size = sizeof(dem_obstacle), .n_points = 5, .points = points};
     CLEANUP(scene_close) scene s;
     scene_open_triangle(&s, mass, -0.5, 0.0, &ridges, 1);
     assert_ok(scene_take_up(&s));
@@ -420,8 +426,12 @@ TEST(what_arrives_within_the_window_of_an_impact_is_reflected_with_it)
 
 TEST(an_edge_is_reflected_early_too)
 {
-    const dem_obstacle two[2] = {{.n_points = 3, .points = roof_points, .restitution = 0.5},
-                                 {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
+    const dem_obstacle two[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.5},
+        {.struct_size = sizeof(dem_obstacle),
+         .n_points = 2,
+         .points = (double[]){-8.0, -4.0, -4.0, -4.0},
+         .restitution = 0.5}};
     const double x[8] = {-0.75, 0.099, 1.25, 0.099, 0.25, 1.0, -6.0, -4.0 - penetration_tolerance},
                  mass[4] = {2.0, 2.0, 2.0, 2.0};
     CLEANUP(scene_close) scene s;
@@ -441,8 +451,12 @@ TEST(an_edge_is_reflected_early_too)
  * roof falls away: it passes. Straight down it does not. */
 TEST(what_passes_a_vertex_within_the_window_is_not_reflected)
 {
-    const dem_obstacle two[2] = {{.n_points = 3, .points = roof_points, .restitution = 0.5},
-                                 {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5}};
+    const dem_obstacle two[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.5},
+        {.struct_size = sizeof(dem_obstacle),
+         .n_points = 2,
+         .points = (double[]){-8.0, -4.0, -4.0, -4.0},
+         .restitution = 0.5}};
     for (int k = 0; k < 2; k++) {
         const double along = k == 0 ? 8.0 : 0.0;
         CLEANUP(scene_close) scene s;
@@ -463,7 +477,8 @@ TEST(an_early_reflection_takes_what_an_impact_takes_in_any_order)
     static const double height[3] = {-1e-6, 0.3, 0.35};
     for (int k = 0; k < 6; k++) {
         const bool paper = k >= 3;
-        const dem_obstacle gritty = {.n_points = 2,
+        const dem_obstacle gritty = {.struct_size = sizeof(dem_obstacle),
+                                     .n_points = 2,
                                      .points = floor_points,
                                      .restitution = 0.5,
                                      .friction = 0.25,
@@ -491,9 +506,13 @@ TEST(an_early_reflection_takes_what_an_impact_takes_in_any_order)
 TEST(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early)
 {
     const double low_points[4] = {-3.0, -0.05, -0.5, -0.05};
-    const dem_obstacle two[3] = {{.n_points = 3, .points = roof_points, .restitution = 0.0},
-                                 {.n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5},
-                                 {.n_points = 2, .points = low_points, .restitution = 0.5}};
+    const dem_obstacle two[3] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.0},
+        {.struct_size = sizeof(dem_obstacle),
+         .n_points = 2,
+         .points = (double[]){-8.0, -4.0, -4.0, -4.0},
+         .restitution = 0.5},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low_points, .restitution = 0.5}};
     const double x[8] = {-1.0, 0.0, 1.0, 0.0, 0.0, 1.0, -6.0, 0.0}, mass[4] = {2.0, 2.0, 2.0, 2.0};
     for (int k = 0; k < 2; k++) {
         CLEANUP(scene_close) scene s;

@@ -8,14 +8,19 @@ static const double penetration_tolerance = 1e-3;
 
 /* A floor of 4 m and, 3 m above its end, a ceiling; bodies live between them. */
 static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = {6.0, 3.0, 3.0, 3.0};
-static const dem_obstacle room[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.5},
-                                     {.n_points = 2, .points = ceiling_points, .restitution = 0.5}};
-static const dem_obstacle rough = {
-    .n_points = 2, .points = floor_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB};
+static const dem_obstacle room[2] = {
+    {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5},
+    {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = ceiling_points, .restitution = 0.5}};
+static const dem_obstacle rough = {.struct_size = sizeof(dem_obstacle),
+                                   .n_points = 2,
+                                   .points = floor_points,
+                                   .friction = 0.5,
+                                   .friction_law = DEM_FRICTION_COULOMB};
 
 /* A groove of 90 degrees with its bottom in the origin. */
 static const double groove_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
-static const dem_obstacle groove = {.n_points = 3, .points = groove_points, .restitution = 0.0};
+static const dem_obstacle groove = {
+    .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = groove_points, .restitution = 0.0};
 
 static void set_rule(scene *s)
 {
@@ -324,12 +329,14 @@ TEST(a_held_candidate_is_due_when_either_normal_force_ceases)
 /* A roof with its ridge in the origin, and one beside it with its ridge at (0.75, -0.25); the former with friction. */
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5},
                     beside_points[6] = {0.5, -0.5, 0.75, -0.25, 4.0, -3.5};
-static const dem_obstacle roof = {.n_points = 3, .points = roof_points},
-                          rough_roof = {.n_points = 3,
+static const dem_obstacle roof = {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points},
+                          rough_roof = {.struct_size = sizeof(dem_obstacle),
+                                        .n_points = 3,
                                         .points = roof_points,
                                         .friction = 0.5,
                                         .friction_law = DEM_FRICTION_COULOMB};
-static const dem_obstacle roofs[2] = {{.n_points = 3, .points = roof_points}, {.n_points = 3, .points = beside_points}};
+static const dem_obstacle roofs[2] = {{.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points},
+                                      {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = beside_points}};
 
 static const double masses[3] = {2.0, 2.0, 2.0};
 
@@ -505,7 +512,8 @@ static void open_ragged(scene *s, unsigned *seed, bool triangle)
         points[2 * k] = 0.3 * k - 3.0;
         points[2 * k + 1] = uniform(seed, -0.15, 0.15);
     }
-    const dem_obstacle ragged[2] = {{.n_points = 24, .points = points}, {.n_points = 3, .points = plate}};
+    const dem_obstacle ragged[2] = {{.struct_size = sizeof(dem_obstacle), .n_points = 24, .points = points},
+                                    {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = plate}};
     if (triangle)
         scene_open_triangle(s, masses, 0.0, 1.0, ragged, 2);
     else

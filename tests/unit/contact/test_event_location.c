@@ -14,13 +14,15 @@ static const double penetration_tolerance = 1e-3, g = scene_gravity, masses[3] =
 static const vec2 nothing = {0.0, 0.0};
 
 static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0};
-static const dem_obstacle plane = {.n_points = 2, .points = floor_points, .restitution = 0.5};
+static const dem_obstacle plane = {
+    .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5};
 
 /* A roof with its ridge in the origin; the floor of a ledge that ends left of it. */
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0}, ledge_points[4] = {-4.0, 0.0, -0.5, 0.0};
-static const dem_obstacle roof = {.n_points = 3, .points = roof_points};
-static const dem_obstacle roof_and_ledge[2] = {{.n_points = 3, .points = roof_points},
-                                               {.n_points = 2, .points = ledge_points}};
+static const dem_obstacle roof = {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points};
+static const dem_obstacle roof_and_ledge[2] = {
+    {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points},
+    {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = ledge_points}};
 
 static void open_node(scene *s, double x, double y, double u, double v)
 {
@@ -126,7 +128,8 @@ TEST(a_dip_through_a_tip_is_found_whatever_was_known_of_the_gap)
 TEST(a_plate_between_two_ends_that_recede_is_found)
 {
     const double points[10] = {2.0, 0.3, 0.0, 0.3, 0.0, 0.5, 2.0, 0.5, 2.0, 0.3}, at[2] = {1.0, 0.05};
-    const dem_obstacle floor_and_plate[2] = {plane, {.n_points = 5, .points = points}};
+    const dem_obstacle floor_and_plate[2] = {plane,
+                                             {.struct_size = sizeof(dem_obstacle), .n_points = 5, .points = points}};
     CLEANUP(scene_close) scene s;
     scene_flight f;
     scene_open(&s, 1, at, masses, 0, NULL, floor_and_plate, 2);

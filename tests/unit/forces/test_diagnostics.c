@@ -14,10 +14,18 @@ static const double gravity[2] = {0.5, -10.0};
 /* Two rectangles of different density as bodies 0 and 1. */
 static dem_model *make_bodies(void)
 {
-    const dem_material light = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 500.0, .thickness = 1.0, .guard = 0.02};
-    const dem_material heavy = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 2000.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material light = {.struct_size = sizeof(dem_material),
+                                .youngs_modulus = 1e7,
+                                .poissons_ratio = 1.0 / 3.0,
+                                .density = 500.0,
+                                .thickness = 1.0,
+                                .guard = 0.02};
+    const dem_material heavy = {.struct_size = sizeof(dem_material),
+                                .youngs_modulus = 1e7,
+                                .poissons_ratio = 1.0 / 3.0,
+                                .density = 2000.0,
+                                .thickness = 1.0,
+                                .guard = 0.02};
     const double aside[2] = {3.0, 0.5};
     CLEANUP(dem_lattice_free) dem_lattice first, second;
     assert_ok(dem_lattice_rectangle(&first, 0.4, 0.3, 0.1));
@@ -266,7 +274,8 @@ static double pseudo(dem_index k)
 /* A damped block with its lowest row fixed, strained by some 10 % and moving at about 1 m/s. */
 static moving make_damped(double damping_time)
 {
-    const dem_material soft = {.youngs_modulus = 1e5,
+    const dem_material soft = {.struct_size = sizeof(dem_material),
+                               .youngs_modulus = 1e5,
                                .poissons_ratio = 1.0 / 3.0,
                                .density = 1000.0,
                                .thickness = 0.5,

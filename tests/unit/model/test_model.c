@@ -74,7 +74,8 @@ static const double not_a_number = (double)NAN, infinite = (double)INFINITY;
 TEST(null_arguments_are_named)
 {
     const double points[4] = {0.0, 0.0, 1.0, 0.0};
-    const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.0};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.0};
     dem_model *model;
     square s;
     make_square(&s);
@@ -265,7 +266,8 @@ TEST(body_numbers_have_no_holes)
 TEST(obstacles_are_validated_too)
 {
     const double points[4] = {0.0, 0.0, 0.0, 0.0};
-    const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.0};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.0};
     dem_model *model;
     square s;
     make_square(&s);
@@ -293,8 +295,11 @@ TEST(absent_arrays_get_their_defaults)
 
 TEST(by_default_the_boundary_may_touch)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050.0,
+                                 .thickness = 1.0};
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     CLEANUP(free_model) dem_model *model;
     assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
@@ -336,10 +341,10 @@ TEST(fixed_nodes_are_at_rest_take_no_force_and_never_touch)
 TEST(the_model_is_independent_of_what_it_was_made_from)
 {
     double points[4] = {-5.0, 0.0, 5.0, 0.0};
-    const dem_obstacle obstacle = {.n_points = 2, .points = points, .restitution = 0.25};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.25};
     const double at[2] = {0.5, 2.0};
     CLEANUP(free_model) dem_model *model;
-    dem_index n;
     square s;
     make_square(&s);
     s.lattice.position = s.position;
@@ -360,16 +365,20 @@ TEST(the_model_is_independent_of_what_it_was_made_from)
     assert_memory_equal(l->area_stiffness, plain.area_stiffness, sizeof plain.area_stiffness);
     assert_memory_equal(l->position, plain.position, sizeof plain.position);
     assert_close(dem_model_gap(model, at), 2.0, 0.0);
-    assert_close(dem_model_obstacles(model, &n)[0].points[1], 0.0, 0.0);
-    assert_close(dem_model_obstacles(model, &n)[0].restitution, 0.25, 0.0);
-    assert_int_equal(n, 1);
+    assert_close(dem_model_obstacle(model, 0)->points[1], 0.0, 0.0);
+    assert_close(dem_model_obstacle(model, 0)->restitution, 0.25, 0.0);
+    for (dem_index k = -1; k <= 1; k += 2) {
+        assert_null(dem_model_obstacle(model, k));
+        assert_non_null(strstr(dem_status_message(), ": there are 1"));
+    }
 }
 
 TEST(sizes_and_csr_tell_what_is_there)
 {
     const double points[6] = {-5.0, 0.0, 0.0, 0.0, 5.0, 0.0};
-    const dem_obstacle obstacles[2] = {{.n_points = 3, .points = points, .restitution = 0.0},
-                                       {.n_points = 2, .points = points, .restitution = 0.0}};
+    const dem_obstacle obstacles[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = points, .restitution = 0.0},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.0}};
     static const dem_index row[n_nodes + 1] = {0, 3, 5, 8, 10},
                                          neighbour[2 * n_springs] = {1, 2, 3, 0, 2, 0, 1, 3, 0, 2};
     static const dem_index spring[2 * n_springs] = {0, 4, 3, 0, 1, 4, 1, 2, 3, 2};

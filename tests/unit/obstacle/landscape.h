@@ -20,7 +20,8 @@ static const double block[10] = {5.0, 0.0, 5.0, 1.0, 6.0, 1.0, 6.0, 0.0, 5.0, 0.
 
 static inline obstacle_set compile(const double *points, dem_index n_points, double restitution)
 {
-    const dem_obstacle obstacle = {.n_points = n_points, .points = points, .restitution = restitution};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = n_points, .points = points, .restitution = restitution};
     obstacle_set o;
     assert_ok(obstacles_compile(&o, &obstacle, 1));
     return o;
@@ -28,8 +29,9 @@ static inline obstacle_set compile(const double *points, dem_index n_points, dou
 
 static inline obstacle_set compile_both(void)
 {
-    const dem_obstacle list[2] = {{.n_points = 4, .points = valley, .restitution = 0.25},
-                                  {.n_points = 5, .points = block, .restitution = 0.5}};
+    const dem_obstacle list[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = valley, .restitution = 0.25},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 5, .points = block, .restitution = 0.5}};
     obstacle_set o;
     assert_ok(obstacles_compile(&o, list, 2));
     return o;
@@ -41,8 +43,12 @@ static inline obstacle_set compile_moving(vec2 velocity, vec2 way)
     double there[10];
     for (int k = 0; k < 5; k++) vec2_put(there, k, vec2_add(vec2_at(block, k), way));
     const dem_obstacle list[2] = {
-        {.n_points = 4, .points = valley, .restitution = 0.25},
-        {.n_points = 5, .points = there, .restitution = 0.5, .velocity = {velocity.x, velocity.y}}};
+        {.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = valley, .restitution = 0.25},
+        {.struct_size = sizeof(dem_obstacle),
+         .n_points = 5,
+         .points = there,
+         .restitution = 0.5,
+         .velocity = {velocity.x, velocity.y}}};
     obstacle_set o;
     assert_ok(obstacles_compile(&o, list, 2));
     return o;
@@ -83,9 +89,10 @@ enum { ground_points = 41, ring_points = 14, wall_points = 4 };
 static inline landscape random_landscape(gsl_rng *rng)
 {
     double ground[2 * ground_points], ring[2 * ring_points], wall[2 * wall_points];
-    const dem_obstacle list[3] = {{.n_points = ground_points, .points = ground, .restitution = 0.0},
-                                  {.n_points = ring_points, .points = ring, .restitution = 0.0},
-                                  {.n_points = wall_points, .points = wall, .restitution = 0.0}};
+    const dem_obstacle list[3] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = ground_points, .points = ground, .restitution = 0.0},
+        {.struct_size = sizeof(dem_obstacle), .n_points = ring_points, .points = ring, .restitution = 0.0},
+        {.struct_size = sizeof(dem_obstacle), .n_points = wall_points, .points = wall, .restitution = 0.0}};
     const double size = pow(10.0, uniform(rng, -3.0, 1.0)), turn = uniform(rng, 0.0, 6.28);
     landscape l = {.axis = {size * cos(turn), size * sin(turn)}};
     l.origin = gsl_rng_uniform(rng) < 0.5 ? (vec2){0.0, 0.0} : (vec2){uniform(rng, -9.0, 9.0), uniform(rng, -9.0, 9.0)};

@@ -49,7 +49,9 @@ TEST(velocity_and_acceleration_are_those_of_a_point_of_the_body)
 
 TEST(a_constant_velocity_carries_everything_along)
 {
-    const dem_obstacle obstacle = {.velocity = {3.0, -4.0}}, rest = {.n_points = 0}, same = {.velocity = {3.0, -4.0}};
+    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle), .velocity = {3.0, -4.0}},
+                       rest = {.struct_size = sizeof(dem_obstacle), .n_points = 0},
+                       same = {.struct_size = sizeof(dem_obstacle), .velocity = {3.0, -4.0}};
     const motion_law law = motion_law_of(&obstacle), none = motion_law_of(&rest), other = motion_law_of(&same);
     const pose at = motion_law_pose(&law, 0.5);
     assert_true(law.moves && !none.moves);
@@ -67,8 +69,11 @@ TEST(points_go_where_the_obstacle_has_gone_also_in_place)
 {
     const double given[4] = {1.0, 2.0, -3.0, 4.0};
     double points[4] = {1.0, 2.0, -3.0, 4.0};
-    const dem_obstacle obstacle = {.n_points = 2, .points = points, .velocity = {3.0, -4.0}},
-                       rest = {.n_points = 2, .points = given};
+    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
+                                   .n_points = 2,
+                                   .points = points,
+                                   .velocity = {3.0, -4.0}},
+                       rest = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = given};
     dem_obstacle_points(&obstacle, 0.5, points);
     assert_true(points[0] == 2.5 && points[1] == 0.0 && points[2] == -1.5 && points[3] == 2.0);
     dem_obstacle_points(&rest, 0.5, points);
@@ -77,7 +82,8 @@ TEST(points_go_where_the_obstacle_has_gone_also_in_place)
 
 TEST(fields_are_listed_one_by_one)
 {
-    const dem_obstacle moves = {.velocity = {1.0, 0.0}}, rest = {.n_points = 0};
+    const dem_obstacle moves = {.struct_size = sizeof(dem_obstacle), .velocity = {1.0, 0.0}},
+                       rest = {.struct_size = sizeof(dem_obstacle), .n_points = 0};
     const dem_motion_field *field = dem_motion_field_at(0), copy = *field, other = {.n = 1, .offset = 0};
     dem_index k = 0;
     assert_true(field->n == 2 && field->offset == offsetof(dem_obstacle, velocity));
@@ -94,7 +100,8 @@ TEST(fields_are_listed_one_by_one)
 
 TEST(a_motion_that_cannot_be_computed_with_is_refused)
 {
-    const dem_obstacle unknown = {.velocity = {0.0, (double)NAN}}, fast = {.velocity = {1e300, 1e300}};
+    const dem_obstacle unknown = {.struct_size = sizeof(dem_obstacle), .velocity = {0.0, (double)NAN}},
+                       fast = {.struct_size = sizeof(dem_obstacle), .velocity = {1e300, 1e300}};
     assert_int_equal(motion_law_check(&unknown, 3), DEM_ERROR_MODEL);
     assert_message_parts("obstacle 3: velocity * nan m/s * not finite");
     assert_int_equal(motion_law_check(&fast, 3), DEM_ERROR_MODEL);

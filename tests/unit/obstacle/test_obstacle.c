@@ -64,7 +64,8 @@ TEST(segments_and_vertices_are_where_their_obstacle_has_gone)
 TEST(ends_are_buried_in_what_goes_along)
 {
     const double wall[4] = {2.0, 1.0, 2.0, -1.0};
-    dem_obstacle list[2] = {{.n_points = 4, .points = valley}, {.n_points = 2, .points = wall}};
+    dem_obstacle list[2] = {{.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = valley},
+                            {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall}};
     for (int k = 0; k < 3; k++) {
         CLEANUP(obstacles_free) obstacle_set o;
         list[1].velocity[0] = k > 0 ? 1.0 : 0.0;

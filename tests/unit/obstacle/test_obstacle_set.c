@@ -71,12 +71,14 @@ TEST(an_obstacle_is_checked_by_itself)
         dem_obstacle obstacle;
         dem_status status;
         dem_index pair[2];
-    } cases[] = {{{.n_points = 4, .points = valley}, DEM_OK, {-1, -1}},
-                 {{.n_points = 5, .points = block}, DEM_OK, {-1, -1}},
-                 {{.n_points = 4, .points = crossing}, DEM_ERROR_MODEL, {0, 2}},
-                 {{.n_points = 3, .points = back}, DEM_ERROR_MODEL, {0, 1}},
-                 {{.n_points = 2, .points = point}, DEM_ERROR_MODEL, {-1, -1}},
-                 {{.n_points = 4, .points = valley, .restitution = 2.0}, DEM_ERROR_MODEL, {-1, -1}}};
+    } cases[] = {{{.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = valley}, DEM_OK, {-1, -1}},
+                 {{.struct_size = sizeof(dem_obstacle), .n_points = 5, .points = block}, DEM_OK, {-1, -1}},
+                 {{.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = crossing}, DEM_ERROR_MODEL, {0, 2}},
+                 {{.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = back}, DEM_ERROR_MODEL, {0, 1}},
+                 {{.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = point}, DEM_ERROR_MODEL, {-1, -1}},
+                 {{.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = valley, .restitution = 2.0},
+                  DEM_ERROR_MODEL,
+                  {-1, -1}}};
     dem_index pair[2];
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         assert_int_equal(dem_obstacle_check(&cases[k].obstacle, pair), cases[k].status);

@@ -101,8 +101,9 @@ TEST(obstacles_can_be_left_out_or_asked_alone)
 TEST(inside_one_of_several_obstacles_is_inside)
 {
     const double ground[4] = {-4.0, 0.0, 4.0, 0.0}, wall[4] = {2.0, -1.0, 2.0, 3.0};
-    const dem_obstacle list[2] = {{.n_points = 2, .points = ground, .restitution = 0.0},
-                                  {.n_points = 2, .points = wall, .restitution = 0.0}};
+    const dem_obstacle list[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = ground, .restitution = 0.0},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall, .restitution = 0.0}};
     CLEANUP(obstacles_free) obstacle_set o;
     assert_ok(obstacles_compile(&o, list, 2));
     check_gap(&o, 2.3, 0.1, -0.3, 1, -1.0, 0.0);

@@ -31,8 +31,9 @@ typedef struct flight {
 
 static void begin(flight *f, dem_index n_obstacles)
 {
-    const dem_obstacle obstacles[2] = {{.n_points = 2, .points = floor_points, .restitution = 0.0},
-                                       {.n_points = 2, .points = table_points, .restitution = 0.0}};
+    const dem_obstacle obstacles[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.0},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = table_points, .restitution = 0.0}};
     dem_options options = dem_options_default();
     options.spacing = 1.0, options.max_step = 0.01, options.v_scale = 1.0, options.gravity[1] = -g;
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, x0, mass, 0, NULL, 0.0, 0.0, NULL);
@@ -159,7 +160,7 @@ static dem_status record_step(void *context, const dem_simulation *simulation)
 TEST(a_row_has_the_loads_of_its_obstacles)
 {
     flight *f = new_flight(2);
-    const dem_observer observer = {.step = record_step, .context = f};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = record_step, .context = f};
     assert_ok(dem_simulation_observe(f->run.simulation, &observer));
     (void)support_at(&f->run, 0.25);
     assert_ok(table_flush(&f->history.table, &f->file));
@@ -181,7 +182,7 @@ TEST(a_row_has_the_loads_of_its_obstacles)
 static flight *new_landing(void)
 {
     flight *f = new_flight(2);
-    const dem_observer observer = {.step = record_step, .context = f};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = record_step, .context = f};
     assert_ok(dem_simulation_observe(f->run.simulation, &observer));
     (void)support_at(&f->run, 1.5);
     assert_ok(table_flush(&f->history.table, &f->file));

@@ -10,6 +10,7 @@
 
 #include "output/obstacle_file.h"
 #include "unit/output/found.h"
+#include "ask.h"
 #include "unit/scratch.h"
 
 static const double bent[6] = {-1.0, 0.0, 0.0, -0.5, 1.0, 0.0}, flat[4] = {3.0, -2.0, 4.0, -2.0};
@@ -26,13 +27,15 @@ static int make_folder(void **state)
 static dem_model *make_model(void)
 {
     const double x[2] = {0.0, 1.0}, mass = 1.0;
-    const dem_obstacle obstacles[2] = {{.n_points = 3, .points = bent, .restitution = 0.5, .friction = 0.3},
-                                       {.n_points = 2,
-                                        .points = flat,
-                                        .restitution = 0.25,
-                                        .friction = 0.75,
-                                        .friction_law = DEM_FRICTION_PAPER,
-                                        .velocity = {1.5, -2.0}}};
+    const dem_obstacle obstacles[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = bent, .restitution = 0.5, .friction = 0.3},
+        {.struct_size = sizeof(dem_obstacle),
+         .n_points = 2,
+         .points = flat,
+         .restitution = 0.25,
+         .friction = 0.75,
+         .friction_law = DEM_FRICTION_PAPER,
+         .velocity = {1.5, -2.0}}};
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     dem_model *model = support_model(&lattice, obstacles, 2);
     return model;
@@ -71,19 +74,19 @@ TEST(they_are_read_back)
     CLEANUP(free_model) dem_model *model = make_model();
     hdf5_file file;
     dem_obstacle *found = NULL;
-    dem_index n = 0, n_given = 0;
+    dem_index n = 0;
     assert_ok(hdf5_open_new(&file, path, 4096));
     assert_ok(obstacle_file_write(&file, model));
     assert_ok(obstacle_file_read(&file, &found, &n));
-    const dem_obstacle *given = dem_model_obstacles(model, &n_given);
-    assert_int_equal(n, n_given);
+    assert_int_equal(n, ask_sizes(model).n_obstacles);
     for (dem_index o = 0; o < n; o++) {
-        assert_int_equal(found[o].n_points, given[o].n_points);
-        assert_memory_equal(found[o].points, given[o].points, 2 * (size_t)found[o].n_points * sizeof(double));
-        assert_close(found[o].restitution, given[o].restitution, 0.0);
-        assert_memory_equal(found[o].velocity, given[o].velocity, sizeof found[o].velocity);
-        assert_close(found[o].friction, given[o].friction, 0.0);
-        assert_int_equal(found[o].friction_law, given[o].friction_law);
+        const dem_obstacle *given = dem_model_obstacle(model, o);
+        assert_int_equal(found[o].n_points, given->n_points);
+        assert_memory_equal(found[o].points, given->points, 2 * (size_t)found[o].n_points * sizeof(double));
+        assert_close(found[o].restitution, given->restitution, 0.0);
+        assert_memory_equal(found[o].velocity, given->velocity, sizeof found[o].velocity);
+        assert_close(found[o].friction, given->friction, 0.0);
+        assert_int_equal(found[o].friction_law, given->friction_law);
     }
     obstacle_file_free(found, n);
     assert_ok(hdf5_close(&file, DEM_OK));

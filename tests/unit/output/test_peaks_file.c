@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "output/peaks_file.h"
+#include "ask.h"
 #include "unit/solids.h"
 
 /* A block in vibration, its peaks over 2e-4 s, and a file of two frames. */
@@ -29,7 +30,7 @@ static stress_case *begin(dem_index most)
     support_open(&c->run, &lattice, NULL, 0, &options);
     dem_lattice_free(&lattice);
     assert_ok(dem_peaks_create(&c->peaks, c->run.model, 1));
-    const dem_observer observer = dem_peaks_observer(c->peaks);
+    const dem_observer observer = ask_peaks_observer(c->peaks);
     assert_ok(dem_simulation_observe(c->run.simulation, &observer));
     (void)support_at(&c->run, 2e-4);
     stored_open(&c->stored);

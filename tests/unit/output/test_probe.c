@@ -62,7 +62,7 @@ static journal *keep(void)
         assert_ok(probe_create(&j->probes[p], &j->stored.file));
     }
     dem_lattice_free(&lattice);
-    const dem_observer observer = {.step = note, .context = j};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = note, .context = j};
     assert_ok(dem_simulation_observe(j->run.simulation, &observer));
     (void)support_at(&j->run, 5e-4);
     for (int p = 0; p < n_kinds; p++) {

@@ -36,10 +36,15 @@ static void make_model(run *r, int n_obstacles)
 {
     const double floor[8] = {-1.0, 0.0, -0.5, 0.0, 0.5, 0.0, 1.0, 0.0}, far[4] = {4.0, -1.0, 5.0, -1.0};
     const double offset[2] = {0.0, 3e-4}, velocity[2] = {1.0, -5.0};
-    const dem_obstacle obstacles[2] = {{.n_points = 4, .points = floor, .restitution = 0.5},
-                                       {.n_points = 2, .points = far, .restitution = 0.25}};
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 0.4, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_obstacle obstacles[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = floor, .restitution = 0.5},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = far, .restitution = 0.25}};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 0.4,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02};
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(dem_lattice_rectangle(&lattice, 0.02, 0.02, 5e-3), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
@@ -87,7 +92,7 @@ static dem_trajectory_options every_frame(void)
 static void open_trajectory(run *r, const dem_trajectory_options *options)
 {
     assert_int_equal(dem_trajectory_create(&r->trajectory, r->path, r->simulation, options), DEM_OK);
-    const dem_observer observer = dem_trajectory_observer(r->trajectory);
+    const dem_observer observer = ask_trajectory_observer(r->trajectory);
     assert_int_equal(dem_simulation_observe(r->simulation, &observer), DEM_OK);
 }
 
@@ -273,7 +278,7 @@ TEST(a_frame_is_not_written_twice)
 {
     const dem_trajectory_options options = every_frame();
     CLEANUP(end) run r = begin(&options);
-    const dem_observer observer = dem_trajectory_observer(r.trajectory);
+    const dem_observer observer = ask_trajectory_observer(r.trajectory);
     assert_int_equal(dem_simulation_advance(r.simulation, 2.5 * interval), DEM_OK);
     assert_int_equal(count_steps(r.part), 3);
     for (int k = 0; k < 2; k++) {
@@ -307,7 +312,7 @@ TEST(probes_and_peaks_are_in_the_file_in_the_end)
         make_model(&r, 2);
         make_simulation(&r);
         assert_int_equal(dem_peaks_create(&peaks, r.model, 2), DEM_OK);
-        const dem_observer observer = dem_peaks_observer(peaks);
+        const dem_observer observer = ask_peaks_observer(peaks);
         assert_int_equal(dem_simulation_observe(r.simulation, &observer), DEM_OK);
         options.frame_interval = with_frames ? interval : 0.0;
         options.n_probes = 2, options.probes = probes, options.peaks = peaks, options.most_stressed = 4;
@@ -329,7 +334,8 @@ TEST(the_part_can_be_looked_at_while_the_run_goes_on)
 {
     const dem_trajectory_options options = every_frame();
     CLEANUP(end) run r = begin(&options);
-    const dem_observer observer = {.interval = interval, .frame = look_at_part, .context = &r};
+    const dem_observer observer = {
+        .struct_size = sizeof(dem_observer), .interval = interval, .frame = look_at_part, .context = &r};
     assert_int_equal(dem_simulation_observe(r.simulation, &observer), DEM_OK);
     assert_int_equal(dem_simulation_advance(r.simulation, 3 * interval), DEM_OK);
 }
@@ -478,7 +484,7 @@ TEST(events_are_written_only_where_they_are_wanted)
 {
     const dem_trajectory_options options = every_frame();
     CLEANUP(end) run r = begin(&options);
-    assert_null(dem_trajectory_observer(r.trajectory).event);
+    assert_null(ask_trajectory_observer(r.trajectory).event);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     assert_false(has(r.path, "/events"));
 }
@@ -495,7 +501,7 @@ TEST(events_reach_the_file_with_a_frame_or_a_full_buffer)
 {
     const dem_trajectory_options options = with_events();
     CLEANUP(end) run r = begin(&options);
-    const dem_observer observer = dem_trajectory_observer(r.trajectory);
+    const dem_observer observer = ask_trajectory_observer(r.trajectory);
     const hsize_t full = 1024;
     dem_event event = {.kind = DEM_EVENT_SLIP};
     for (hsize_t k = 0; k <= full; k++) {
@@ -650,7 +656,7 @@ TEST(a_finished_trajectory_takes_nothing_more)
     const dem_trajectory_options options = every_frame();
     CLEANUP(end) run r = begin(&options);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
-    const dem_observer observer = dem_trajectory_observer(r.trajectory);
+    const dem_observer observer = ask_trajectory_observer(r.trajectory);
     assert_int_equal(observer.frame(observer.context, r.simulation), DEM_ERROR_ARGUMENT);
     assert_int_equal(observer.step(observer.context, r.simulation), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_trajectory_note(r.trajectory, "late", "x"), DEM_ERROR_ARGUMENT);

@@ -54,7 +54,8 @@ static place open_place(void)
 {
     place p = {.folder = "test_segments_XXXXXX"};
     const double floor[4] = {-1.0, 0.0, 1.0, 0.0}, offset[2] = {0.0, 1.3e-3}, velocity[2] = {1.0, -5.0};
-    const dem_obstacle obstacle = {.n_points = 2, .points = floor, .restitution = 0.5, .friction = 0.3};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor, .restitution = 0.5, .friction = 0.3};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.02, 0.02, 5e-3);
     assert_non_null(mkdtemp(p.folder));
     dem_lattice_move(&lattice, 0.1, offset);
@@ -197,10 +198,14 @@ static dem_simulation *make_simulation(const place *p)
 
 static void watch(dem_simulation *simulation, session *s, dem_peaks *peaks)
 {
-    const dem_observer watching = dem_peaks_observer(peaks);
-    s->to = dem_trajectory_observer(s->trajectory);
-    const dem_observer seeing = {
-        .interval = s->to.interval, .frame = see_frame, .step = see_step, .event = see_event, .context = s};
+    const dem_observer watching = ask_peaks_observer(peaks);
+    s->to = ask_trajectory_observer(s->trajectory);
+    const dem_observer seeing = {.struct_size = sizeof(dem_observer),
+                                 .interval = s->to.interval,
+                                 .frame = see_frame,
+                                 .step = see_step,
+                                 .event = see_event,
+                                 .context = s};
     assert_ok(dem_simulation_observe(simulation, &watching));
     assert_ok(dem_simulation_observe(simulation, &seeing));
 }
@@ -465,7 +470,7 @@ static opened open_run(const place *p, const dem_trajectory_options *options)
     opened o;
     o.simulation = make_simulation(p);
     assert_ok(dem_trajectory_create(&o.trajectory, name_in(p, "run.vtkhdf"), o.simulation, options));
-    o.observer = dem_trajectory_observer(o.trajectory);
+    o.observer = ask_trajectory_observer(o.trajectory);
     assert_ok(dem_simulation_observe(o.simulation, &o.observer));
     assert_ok(dem_simulation_advance(o.simulation, 2 * interval));
     assert_ok(dem_checkpoint_create(&o.checkpoint));
@@ -851,7 +856,7 @@ static dem_trajectory *follow(const place *p, dem_simulation *simulation, dem_pe
     assert_ok(checkpoint != NULL
                   ? dem_trajectory_resume(&trajectory, name_in(p, "run.vtkhdf"), simulation, &options, checkpoint)
                   : dem_trajectory_create(&trajectory, name_in(p, "run.vtkhdf"), simulation, &options));
-    const dem_observer observers[] = {dem_peaks_observer(peaks), dem_trajectory_observer(trajectory)};
+    const dem_observer observers[] = {ask_peaks_observer(peaks), ask_trajectory_observer(trajectory)};
     for (int k = 0; k < 2; k++) assert_ok(dem_simulation_observe(simulation, &observers[k]));
     return trajectory;
 }

@@ -81,12 +81,13 @@ static void start(run *r, dem_trajectory_options options)
 {
     dem_options how = dem_options_default();
     how.spacing = 5e-3, how.max_step = 2e-5, how.v_scale = 5.0, how.checkpoint_steps = 8;
-    const dem_observer watching = {.interval = interval, .frame = see_frame, .context = r};
+    const dem_observer watching = {
+        .struct_size = sizeof(dem_observer), .interval = interval, .frame = see_frame, .context = r};
     assert_ok(dem_simulation_create(&r->simulation, r->model, &how));
     assert_ok(dem_peaks_create(&r->peaks, r->model, 2));
     if (options.peaks != NULL) options.peaks = r->peaks;
     assert_ok(dem_trajectory_create(&r->trajectory, r->path, r->simulation, &options));
-    const dem_observer writing = dem_trajectory_observer(r->trajectory), peaking = dem_peaks_observer(r->peaks);
+    const dem_observer writing = ask_trajectory_observer(r->trajectory), peaking = ask_peaks_observer(r->peaks);
     assert_ok(dem_simulation_observe(r->simulation, &peaking));
     assert_ok(dem_simulation_observe(r->simulation, &writing));
     assert_ok(dem_simulation_observe(r->simulation, &watching));
@@ -96,8 +97,13 @@ static void start(run *r, dem_trajectory_options options)
 static void begin(run *r, const dem_trajectory_options *options)
 {
     const dem_obstacle obstacles[2] = {
-        {.n_points = 3, .points = hill, .restitution = 0.5, .friction = 0.3},
-        {.n_points = 2, .points = far, .restitution = 0.25, .friction = 0.75, .friction_law = DEM_FRICTION_PAPER}};
+        {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = hill, .restitution = 0.5, .friction = 0.3},
+        {.struct_size = sizeof(dem_obstacle),
+         .n_points = 2,
+         .points = far,
+         .restitution = 0.25,
+         .friction = 0.75,
+         .friction_law = DEM_FRICTION_PAPER}};
     const double offset[2] = {0.0, 1.3e-3}, aside[2] = {0.05, 2e-3}, velocity[2] = {1.0, -5.0};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.02, 0.02, 5e-3), other = make_solid(0.01, 0.01, 5e-3);
     make_folder(r);
@@ -430,19 +436,21 @@ TEST(lattice_and_obstacles_are_the_models)
     make(&r, &options);
     CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     const dem_lattice *l = dem_reader_lattice(reader), *own = dem_model_lattice(r.model);
-    dem_index n = 0, n_own = 0;
+    const dem_index n = dem_reader_n_obstacles(reader);
     assert_int_equal(l->n_nodes, own->n_nodes);
     assert_memory_equal(l->x, own->x, 2 * (size_t)own->n_nodes * sizeof *own->x);
     assert_memory_equal(l->velocity, own->velocity, 2 * (size_t)own->n_nodes * sizeof *own->x);
     assert_memory_equal(l->stiffness, own->stiffness, (size_t)own->n_springs * sizeof *own->x);
-    const dem_obstacle *o = dem_reader_obstacles(reader, &n), *given = dem_model_obstacles(r.model, &n_own);
-    assert_int_equal(n, n_own);
+    assert_int_equal(n, ask_sizes(r.model).n_obstacles);
+    assert_null(dem_reader_obstacle(reader, n));
+    assert_null(dem_reader_obstacle(reader, -1));
     for (dem_index k = 0; k < n; k++) {
-        assert_int_equal(o[k].n_points, given[k].n_points);
-        assert_memory_equal(o[k].points, given[k].points, 2 * (size_t)o[k].n_points * sizeof *own->x);
-        assert_close(o[k].restitution, given[k].restitution, 0.0);
-        assert_close(o[k].friction, given[k].friction, 0.0);
-        assert_int_equal(o[k].friction_law, given[k].friction_law);
+        const dem_obstacle *o = dem_reader_obstacle(reader, k), *given = dem_model_obstacle(r.model, k);
+        assert_int_equal(o->n_points, given->n_points);
+        assert_memory_equal(o->points, given->points, 2 * (size_t)o->n_points * sizeof *own->x);
+        assert_close(o->restitution, given->restitution, 0.0);
+        assert_close(o->friction, given->friction, 0.0);
+        assert_int_equal(o->friction_law, given->friction_law);
     }
 }
 
@@ -454,7 +462,6 @@ TEST(a_point_without_springs_and_obstacles_is_read)
     options.n_probes = 0;
     CLEANUP(end) run r;
     begin_point(&r, &options);
-    dem_index n = 0;
     double values[6];
     advance(&r, 10.0);
     assert_ok(dem_trajectory_finish(r.trajectory));
@@ -463,8 +470,7 @@ TEST(a_point_without_springs_and_obstacles_is_read)
     const dem_reader_array *force = dem_reader_array_find(reader, "force");
     assert_false(force->constant);
     assert_ok(dem_reader_read(reader, force, 10, values));
-    (void)dem_reader_obstacles(reader, &n);
-    assert_int_equal(n, 0);
+    assert_int_equal(dem_reader_n_obstacles(reader), 0);
     assert_null(dem_reader_column_find(reader, "history", "obstacle_reaction"));
 }
 

@@ -14,7 +14,8 @@ static const double floor_points[4] = {-1.0, 0.0, 1.0, 0.0};
 static inline dem_model *make_point_at(double height, const double v[2], double restitution)
 {
     const double x[2] = {0.0, height}, mass = 2.0;
-    const dem_obstacle obstacle = {.n_points = 2, .points = floor_points, .restitution = restitution};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = restitution};
     dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     dem_model *model = support_model(&lattice, &obstacle, 1);
@@ -48,8 +49,12 @@ static const double t_whole = 6e-3; /* s */
 
 static inline void make_rectangle(dem_lattice *lattice, double clearance)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1050.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02};
     const double up[2] = {0.01, clearance};
     assert_ok(dem_lattice_rectangle(lattice, 0.03, 0.04, spacing));
     assert_ok(dem_lattice_assemble(lattice, &rubber));
@@ -58,7 +63,8 @@ static inline void make_rectangle(dem_lattice *lattice, double clearance)
 
 static inline dem_model *make_falling(double restitution)
 {
-    const dem_obstacle slope = {.n_points = 3, .points = slope_points, .restitution = restitution};
+    const dem_obstacle slope = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = restitution};
     const double down[2] = {0.5, -4.0};
     dem_lattice lattice;
     make_rectangle(&lattice, 0.006);

@@ -46,8 +46,12 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 
 static void join(observers *a, voice *v, double interval)
 {
-    const dem_observer observer = {
-        .interval = interval, .frame = on_frame, .step = on_step, .event = on_event, .context = v};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer),
+                                   .interval = interval,
+                                   .frame = on_frame,
+                                   .step = on_step,
+                                   .event = on_event,
+                                   .context = v};
     assert_ok(observers_add(a, &observer, -1.0));
 }
 
@@ -63,7 +67,7 @@ TEST(at_most_eight_are_admitted)
 {
     observers a = {0};
     voice v = {'a', DEM_OK};
-    const dem_observer one_more = {.interval = 1.0};
+    const dem_observer one_more = {.struct_size = sizeof(dem_observer), .interval = 1.0};
     for (int k = 0; k < OBSERVERS_MOST; k++) join(&a, &v, 1.0);
     assert_int_equal(observers_add(&a, &one_more, -1.0), DEM_ERROR_ARGUMENT);
     assert_message_parts("at most 8 observers");
@@ -73,7 +77,8 @@ TEST(at_most_eight_are_admitted)
 TEST(an_interval_is_finite)
 {
     observers a = {0};
-    const dem_observer endless = {.interval = (double)INFINITY}, none = {.interval = fabs((double)NAN)};
+    const dem_observer endless = {.struct_size = sizeof(dem_observer), .interval = (double)INFINITY},
+                       none = {.struct_size = sizeof(dem_observer), .interval = fabs((double)NAN)};
     assert_int_equal(observers_add(&a, &endless, -1.0), DEM_ERROR_ARGUMENT);
     assert_message_parts("the interval between frames is inf s");
     assert_int_equal(observers_add(&a, &none, -1.0), DEM_ERROR_ARGUMENT);
@@ -84,7 +89,7 @@ TEST(an_interval_is_finite)
 TEST(frames_too_many_to_be_numbered_are_refused)
 {
     observers a = {0};
-    const dem_observer dense = {.interval = 1e-3};
+    const dem_observer dense = {.struct_size = sizeof(dem_observer), .interval = 1e-3};
     assert_int_equal(observers_add(&a, &dense, 1e300), DEM_ERROR_ARGUMENT);
     assert_message_parts("frames 0.001 s * 1e+300 s");
     assert_int_equal(a.n, 0);
@@ -113,7 +118,7 @@ TEST(observers_without_a_function_are_left_out)
 {
     observers a = {0};
     voice v = {'v', DEM_OK};
-    const dem_observer deaf = {.interval = 1.0};
+    const dem_observer deaf = {.struct_size = sizeof(dem_observer), .interval = 1.0};
     const dem_event event = {.t = 0.75};
     double t = -1.0;
     assert_ok(observers_add(&a, &deaf, -1.0));

@@ -15,7 +15,7 @@ static const boundary_conditions no_boundaries = {0};
 static dem_model *make_point(const double v[2])
 {
     const double x[2] = {0.0, 1.0}, mass = 2.0;
-    const dem_obstacle obstacle = {.n_points = 2, .points = floor_points};
+    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points};
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);
     dem_model *model = support_model(&lattice, &obstacle, 1);
@@ -33,7 +33,8 @@ static dem_options point_options(void)
 /* A small rectangle of rubber in flight; `damping` s, `speed` m/s. */
 static dem_model *make_rectangle(double damping, double speed)
 {
-    const dem_material rubber = {.youngs_modulus = 1e7,
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
                                  .poissons_ratio = 1.0 / 3.0,
                                  .density = 1050.0,
                                  .thickness = 1.0,
@@ -249,8 +250,12 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
 {
     const double v[2] = {30.0, 40.0};
     const dem_index first = 0;
-    const dem_boundary driven = {
-        .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &first, .value = {70.0}};
+    const dem_boundary driven = {.struct_size = sizeof(dem_boundary),
+                                 .kind = DEM_BOUNDARY_VELOCITY,
+                                 .components = DEM_COMPONENT_X,
+                                 .n_nodes = 1,
+                                 .nodes = &first,
+                                 .value = {70.0}};
     CLEANUP(boundary_conditions_free) boundary_conditions b;
     dem_model *model = make_point(NULL);
     dem_options options = point_options();

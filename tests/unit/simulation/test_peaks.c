@@ -51,7 +51,8 @@ typedef struct fall {
 static fall *make_fall(dem_index every)
 {
     static const double points[4] = {-1.0, -1e-4, 1.0, -1e-4}, down[2] = {0.5, -5.0};
-    const dem_obstacle floor = {.n_points = 2, .points = points, .restitution = 0.5, .friction = 0.3};
+    const dem_obstacle floor = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.5, .friction = 0.3};
     const dem_options options = dem_options_default();
     fall *f = calloc(1, sizeof *f);
     assert_non_null(f);
@@ -61,7 +62,8 @@ static fall *make_fall(dem_index every)
     f->witness = (witness){.n_nodes = lattice.n_nodes, .n_springs = lattice.n_springs, .every = every};
     assert_true(lattice.n_nodes <= most_nodes && lattice.n_springs <= most_springs);
     assert_ok(dem_peaks_create(&f->peaks, f->run.model, every));
-    const dem_observer own = {.step = watch, .context = &f->witness}, observer = dem_peaks_observer(f->peaks);
+    const dem_observer own = {.struct_size = sizeof(dem_observer), .step = watch, .context = &f->witness},
+                       observer = ask_peaks_observer(f->peaks);
     assert_ok(dem_simulation_observe(f->run.simulation, &observer));
     assert_ok(dem_simulation_observe(f->run.simulation, &own));
     return f;
@@ -136,7 +138,7 @@ TEST(equals_are_ranked_by_number_and_what_was_never_strained_not_at_all)
     support_open(&run, &lattice, NULL, 0, &options);
     assert_ok(dem_peaks_create(&peaks, run.model, 1));
     assert_int_equal(dem_peaks_most_strained_springs(peaks, 3, springs), 0);
-    const dem_observer observer = dem_peaks_observer(peaks);
+    const dem_observer observer = ask_peaks_observer(peaks);
     assert_ok(observer.step(observer.context, run.simulation)); /* the initial state alone */
     assert_int_equal(dem_peaks_most_strained_springs(peaks, 3, springs), 2);
     assert_int_equal(springs[0], 0);

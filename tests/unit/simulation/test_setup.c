@@ -37,7 +37,7 @@ TEST(null_arguments_are_named)
     refuse(model, NULL, "dem_simulation_create: options is NULL");
     assert_int_equal(dem_simulation_advance(NULL, 1.0), DEM_ERROR_ARGUMENT);
     assert_message_parts("dem_simulation_advance: simulation is NULL");
-    const dem_observer observer = {0};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer)};
     assert_int_equal(dem_simulation_observe(NULL, &observer), DEM_ERROR_ARGUMENT);
     assert_message_parts("dem_simulation_observe: simulation is NULL");
     simulation = simulate(model, &options);
@@ -51,7 +51,8 @@ TEST(null_arguments_are_named)
 TEST(a_start_deeper_than_the_penetration_tolerance_is_refused)
 {
     const double x[2] = {0.25, -0.125}, mass = 2.0;
-    const dem_obstacle obstacle = {.n_points = 2, .points = floor_points, .restitution = 0.5};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5};
     const dem_options options = point_options();
     dem_simulation *simulation = NULL;
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
@@ -114,7 +115,7 @@ TEST(two_simulations_of_a_model_do_not_disturb_each_other)
 TEST(there_are_at_most_8_observers_and_none_after_the_first_advance)
 {
     const dem_options options = point_options();
-    const dem_observer observer = {.interval = 0.1};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .interval = 0.1};
     CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
     CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     for (int k = 0; k < 8; k++) assert_ok(dem_simulation_observe(simulation, &observer));

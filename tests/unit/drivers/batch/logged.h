@@ -110,8 +110,12 @@ static inline int has_line(const char *text, const char *topic)
 
 static inline logged *press(double t_end)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0, .guard = 0.02};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1000.0,
+                                 .thickness = 1.0,
+                                 .guard = 0.02};
     dem_options options = dem_options_default();
     logged *l = make_logged();
     options.max_step = 1e-5, options.v_scale = 1.0;
@@ -157,7 +161,11 @@ static inline logged *new_held(void)
     logged *l = make_logged();
     for (dem_index k = 0; k < n; k++) {
         x[2 * k] = (double)k, masses[k] = 1.0, nodes[k] = k;
-        held[k] = (dem_boundary){.kind = DEM_BOUNDARY_VELOCITY, .components = 3, .n_nodes = 1, .nodes = &nodes[k]};
+        held[k] = (dem_boundary){.struct_size = sizeof(dem_boundary),
+                                 .kind = DEM_BOUNDARY_VELOCITY,
+                                 .components = 3,
+                                 .n_nodes = 1,
+                                 .nodes = &nodes[k]};
     }
     dem_lattice lattice = support_lattice(n, x, masses, 0, NULL, 0.0, 0.0, NULL);
     lattice.body = malloc(n * sizeof *lattice.body);

@@ -79,7 +79,11 @@ TEST(the_preview_tells_what_is_probed_and_where)
 /* A block of nu = 0.1 and a node of its own: E, nu and waves of plane stress, and what cannot be measured. */
 TEST(the_preview_tells_what_was_measured_of_each_body)
 {
-    const dem_material solid = {.youngs_modulus = 1e7, .poissons_ratio = 0.1, .density = 1000.0, .thickness = 0.5};
+    const dem_material solid = {.struct_size = sizeof(dem_material),
+                                .youngs_modulus = 1e7,
+                                .poissons_ratio = 0.1,
+                                .density = 1000.0,
+                                .thickness = 0.5};
     char name[] = "a.nml", title[] = "";
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
     const double x[2] = {9.0, 9.0}, one = 1.0;
@@ -106,8 +110,12 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
 /* A slice of a long body: its own E and nu, not those of the plate that moves alike. */
 TEST(the_preview_tells_the_constants_of_a_slice)
 {
-    const dem_material slice = {
-        .youngs_modulus = 1e7, .poissons_ratio = 0.45, .plane = DEM_PLANE_STRAIN, .density = 1000.0, .thickness = 1.0};
+    const dem_material slice = {.struct_size = sizeof(dem_material),
+                                .youngs_modulus = 1e7,
+                                .poissons_ratio = 0.45,
+                                .plane = DEM_PLANE_STRAIN,
+                                .density = 1000.0,
+                                .thickness = 1.0};
     char name[] = "a.nml", title[] = "";
     body_facts body = {.plane = DEM_PLANE_STRAIN};
     const deck d = {
@@ -231,7 +239,7 @@ static void print_header(logged *l)
 
 TEST(the_preview_tells_the_rules_of_impact)
 {
-    dem_obstacle floor = {0};
+    dem_obstacle floor = {.struct_size = sizeof(dem_obstacle)};
     dem_options options = dem_options_default();
     for (int on = 0; on <= 1; on++) {
         options.window = on ? 2.5e-5 : 0.0, options.vertices = on;
@@ -248,10 +256,11 @@ TEST(the_preview_tells_the_rules_of_impact)
 
 TEST(the_preview_tells_friction_and_damping)
 {
-    dem_obstacle floors[4] = {{.friction = 0.3},
-                              {.friction = 0.0, .velocity = {0.5, -2.0}},
-                              {.friction = 0.5, .friction_law = DEM_FRICTION_PAPER},
-                              {.friction = 1.0, .friction_law = DEM_FRICTION_PAPER}};
+    dem_obstacle floors[4] = {
+        {.struct_size = sizeof(dem_obstacle), .friction = 0.3},
+        {.struct_size = sizeof(dem_obstacle), .friction = 0.0, .velocity = {0.5, -2.0}},
+        {.struct_size = sizeof(dem_obstacle), .friction = 0.5, .friction_law = DEM_FRICTION_PAPER},
+        {.struct_size = sizeof(dem_obstacle), .friction = 1.0, .friction_law = DEM_FRICTION_PAPER}};
     dem_options options = dem_options_default();
     options.mass_damping = 0.75;
     CLEANUP(free_logged) logged *l = new_floors(4, floors, &options);
@@ -263,8 +272,12 @@ TEST(the_preview_tells_friction_and_damping)
 
 TEST(the_preview_tells_the_damping_of_springs)
 {
-    const dem_material solid = {
-        .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0, .damping_time = 2e-6};
+    const dem_material solid = {.struct_size = sizeof(dem_material),
+                                .youngs_modulus = 1e7,
+                                .poissons_ratio = 0.3,
+                                .density = 1000.0,
+                                .thickness = 1.0,
+                                .damping_time = 2e-6};
     const dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = make_logged();
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.04, 0.04, 0.01, &solid);
@@ -277,7 +290,8 @@ TEST(the_preview_tells_the_damping_of_springs)
 TEST(of_many_obstacles_only_the_first_are_listed)
 {
     dem_obstacle floors[20];
-    for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25, .velocity = {1.0, 0.0}};
+    for (int o = 0; o < 20; o++)
+        floors[o] = (dem_obstacle){.struct_size = sizeof(dem_obstacle), .friction = 0.25, .velocity = {1.0, 0.0}};
     const dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = new_floors(20, floors, &options);
     print_header(l);

@@ -31,7 +31,7 @@ static rebound run_nodes(support_run *run, dem_index n, const double *x, const d
     const double mass[2] = {2.0, 2.0};
     dem_options options = dem_options_default();
     rebound r = {0};
-    const dem_observer observer = {.step = step, .event = event, .context = &r};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = step, .event = event, .context = &r};
     options.spacing = 1.0, options.max_step = 0.01, options.rtol = 1e-12, options.v_scale = 1.0;
     options.penetration_tolerance = 1e-13;
     dem_lattice lattice = support_lattice(n, x, mass, 0, NULL, 0.0, 0.0, NULL);
@@ -61,7 +61,7 @@ static const double flat[4] = {-9.0, 0.0, 9.0, 0.0};
 TEST(a_node_leaves_as_restitution_has_it)
 {
     const double x[2] = {0.0, height}, v[2] = {0.25, 0.0}, t = sqrt(2.0 * height / g), fall = g * t;
-    const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta};
+    const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat, .restitution = eta};
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 1.5 * t);
     const rebound_normal along = rebound_along(&r, run.simulation);
@@ -99,7 +99,8 @@ TEST(the_normal_is_that_of_the_slope)
 {
     static const double slope[4] = {-9.0, 9.0, 9.0, -9.0};
     const double x[2] = {0.0, height}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * height / g), fall = g * t;
-    const dem_obstacle floor = {.n_points = 2, .points = slope, .restitution = 1.0};
+    const dem_obstacle floor = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = slope, .restitution = 1.0};
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 1.2 * t);
     const rebound_normal along = rebound_along(&r, run.simulation);
@@ -115,7 +116,8 @@ TEST(the_normal_is_that_of_the_slope)
 TEST(the_ratio_is_against_a_moving_obstacle)
 {
     const double x[2] = {0.0, height}, v[2] = {0.0, -2.0};
-    const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta, .velocity = {0.0, 1.0}};
+    const dem_obstacle floor = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat, .restitution = eta, .velocity = {0.0, 1.0}};
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.2);
     assert_true(r.touched);
@@ -128,7 +130,7 @@ TEST(the_spin_is_angular_momentum_over_inertia)
 {
     static const double left[4] = {-9.0, 0.0, 0.0, 0.0};
     const double x[4] = {-1.0, height, 1.0, height}, v[4] = {0.0, 0.0, 0.0, 0.0}, t = sqrt(2.0 * height / g);
-    const dem_obstacle floor = {.n_points = 2, .points = left, .restitution = eta};
+    const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = left, .restitution = eta};
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 2, x, v, &floor, 1.04 * t);
     /* Measured at the end of the step, at most 0.01 s later: by then the nodes are 0.05 m apart in height. */
@@ -138,7 +140,7 @@ TEST(the_spin_is_angular_momentum_over_inertia)
 TEST(what_rests_touches_all_the_time)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {0.0, 0.0};
-    const dem_obstacle floor = {.n_points = 2, .points = flat};
+    const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat};
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 1.0);
     assert_close(r.first, 0.0, 0.0);
@@ -156,7 +158,7 @@ TEST(what_slides_off_has_touched_from_impact_to_end)
 {
     static const double table[4] = {-9.0, 0.0, 1.0, 0.0};
     const double x[2] = {0.0, 1e-3}, v[2] = {2.0, -1.0};
-    const dem_obstacle floor = {.n_points = 2, .points = table};
+    const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = table};
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.7);
     assert_close(r.last, 0.5, near); /* 1 m at 2 m/s */
@@ -169,7 +171,7 @@ TEST(what_slides_off_has_touched_from_impact_to_end)
 TEST(what_touches_from_the_beginning_comes_with_its_first_velocity)
 {
     const double x[2] = {0.0, 0.0}, v[2] = {1.0, -3.0};
-    const dem_obstacle floor = {.n_points = 2, .points = flat, .restitution = eta};
+    const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat, .restitution = eta};
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.1);
     assert_close(r.approach[0], 1.0, near);
@@ -180,7 +182,7 @@ TEST(what_touches_from_the_beginning_comes_with_its_first_velocity)
 TEST(without_a_touch_there_is_nothing)
 {
     const double x[2] = {0.0, height}, v[2] = {0.0, 0.0};
-    const dem_obstacle floor = {.n_points = 2, .points = flat};
+    const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat};
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.1);
     assert_false(r.touched);

@@ -90,7 +90,8 @@ TEST(what_rests_at_the_end_is_still_touching)
 TEST(the_rebound_is_measured_against_gravity)
 {
     const double wall[4] = {0.0, 9.0, 0.0, -9.0}, x[4] = {drop, 0.0, 50.0, 1.0}, m[2] = {1.0, 3.0};
-    const dem_obstacle obstacle = {.n_points = 2, .points = wall, .restitution = eta};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall, .restitution = eta};
     const double t1 = sqrt(2.0 * drop / 4.0), v1 = 4.0 * t1, centre = (m[0] * eta * v1 - m[1] * v1) / 4.0;
     dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = make_logged();
@@ -251,7 +252,7 @@ TEST(the_most_stressed_are_reported_with_place_and_time)
     CLEANUP(free_peaks) dem_peaks *peaks;
     CLEANUP(free_logged) logged *l = press(1e-4);
     assert_ok(dem_peaks_create(&peaks, l->run.model, 1));
-    const dem_observer observer = dem_peaks_observer(peaks);
+    const dem_observer observer = ask_peaks_observer(peaks);
     assert_ok(dem_simulation_observe(l->run.simulation, &observer));
     l->report.peaks = peaks;
     l->report.most_stressed = 3;
@@ -304,7 +305,7 @@ TEST(on_a_terminal_progress_is_rewritten_in_place)
 TEST(of_many_obstacles_only_the_first_are_listed)
 {
     dem_obstacle floors[20];
-    for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.friction = 0.25};
+    for (int o = 0; o < 20; o++) floors[o] = (dem_obstacle){.struct_size = sizeof(dem_obstacle), .friction = 0.25};
     const dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = new_floors(20, floors, &options);
     finish(l, 0.1);
@@ -334,8 +335,12 @@ TEST(an_open_ledger_is_warned_of_once)
 TEST(a_ledger_is_not_judged_while_a_ramp_grows)
 {
     static const dem_index node[] = {0};
-    const dem_boundary push = {
-        .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node, .value = {1.0, 0.0}, .ramp = 0.2};
+    const dem_boundary push = {.struct_size = sizeof(dem_boundary),
+                               .kind = DEM_BOUNDARY_FORCE,
+                               .n_nodes = 1,
+                               .nodes = node,
+                               .value = {1.0, 0.0},
+                               .ramp = 0.2};
     const double x[2] = {0.0, 0.0};
     for (int after = 0; after < 2; after++) {
         const double t_end = after ? 0.3 : 0.1;

@@ -136,7 +136,7 @@ TEST(the_largest_value_of_6_is_that_of_the_fastest_step)
     dem_options options = dem_options_default();
     support_run run;
     step_report p = {0};
-    const dem_observer observer = {.step = follow, .context = &p};
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = follow, .context = &p};
     options.fixed_step = h, options.spacing = 0.5;
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     support_start(&lattice, NULL, v);

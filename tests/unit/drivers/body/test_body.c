@@ -16,8 +16,9 @@
 
 static const double tiny = 1e-12, quarter = 1.5707963267948966; /* rad */
 static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0}, low_points[4] = {-9.0, -3.0, 9.0, -3.0};
-static const dem_obstacle flat_floors[2] = {{.n_points = 2, .points = low_points, .restitution = 0.0},
-                                            {.n_points = 2, .points = floor_points, .restitution = 0.0}};
+static const dem_obstacle flat_floors[2] = {
+    {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low_points, .restitution = 0.0},
+    {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.0}};
 
 /* A body built from a text. Tests free it with drop_built(). */
 typedef struct built {

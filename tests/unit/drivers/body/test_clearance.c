@@ -14,9 +14,12 @@ typedef struct scene {
 /* A triangle of side 1 m, its lower corners at (x, y) and (x + 1, y), over one polyline. */
 static scene make_scene(double x, double y, const double *points, dem_index n_points)
 {
-    const dem_material material = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0};
-    const dem_obstacle obstacle = {.n_points = n_points, .points = points};
+    const dem_material material = {.struct_size = sizeof(dem_material),
+                                   .youngs_modulus = 1e7,
+                                   .poissons_ratio = 1.0 / 3.0,
+                                   .density = 1000.0,
+                                   .thickness = 1.0};
+    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle), .n_points = n_points, .points = points};
     const double offset[2] = {x + 0.5, y};
     scene s;
     assert_int_equal(dem_lattice_rectangle(&s.lattice, 1.0, 1.0, 1.0), DEM_OK);
@@ -43,8 +46,7 @@ static double distance_to(const double x[2], const double *a, const double *b)
 static double gap_after(const scene *s, const double shift[2])
 {
     const dem_lattice *l = &s->lattice;
-    dem_index n;
-    const dem_obstacle *obstacle = dem_model_obstacles(s->model, &n);
+    const dem_obstacle *obstacle = dem_model_obstacle(s->model, 0);
     double least = (double)INFINITY;
     for (dem_index i = 0; i < l->n_nodes; i++) {
         const double x[2] = {l->x[2 * i] + shift[0], l->x[2 * i + 1] + shift[1]};
@@ -163,7 +165,8 @@ TEST(a_body_that_touches_already_stays)
 static clearance_spike find_spike(const dem_lattice *lattice, const double *points, dem_index n)
 {
     const double floor[] = {-9.0, -1.0, 9.0, -1.0};
-    const dem_obstacle list[] = {{.n_points = 2, .points = floor}, {.n_points = n, .points = points}};
+    const dem_obstacle list[] = {{.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor},
+                                 {.struct_size = sizeof(dem_obstacle), .n_points = n, .points = points}};
     clearance_spike spike;
     assert_true(clearance_find_spike(&spike, lattice, list, 2));
     return spike;
@@ -173,8 +176,11 @@ TEST(the_point_deepest_between_nodes_is_found)
 {
     const double spikes[] = {-0.1, -1.0, 0.0, 0.02, 0.1, -1.0, 0.2, 0.01, 0.3, -1.0};
     const double inner[] = {-0.5, -1.0, -0.5, 0.25, 0.4, -1.0}; /* on the side that two triangles share */
-    const dem_material material = {
-        .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0};
+    const dem_material material = {.struct_size = sizeof(dem_material),
+                                   .youngs_modulus = 1e7,
+                                   .poissons_ratio = 1.0 / 3.0,
+                                   .density = 1000.0,
+                                   .thickness = 1.0};
     CLEANUP(dem_lattice_free) dem_lattice lattice;
     assert_int_equal(dem_lattice_rectangle(&lattice, 3.0, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &material), DEM_OK);

@@ -14,6 +14,7 @@
 
 #include <dem/trajectory.h>
 
+#include "ask.h"
 #include "task.h"
 
 enum { EXPORTED_FRAMES = 3, EXPORTED_TEXT = 1 << 16 };
@@ -54,7 +55,8 @@ static inline void exported_lattice(dem_lattice *l)
 static inline void exported_run(const exported *e, const exported_how *how)
 {
     static const double floor[6] = {-9.0, -1.0, 0.0, -1.0, 9.0, -1.0};
-    const dem_obstacle obstacle = {.n_points = 3, .points = floor, .restitution = 0.5};
+    const dem_obstacle obstacle = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = floor, .restitution = 0.5};
     const dem_probe probe = {"tip", DEM_PROBE_NODE, {0, 0}, 1};
     dem_trajectory_options options = dem_trajectory_options_default();
     dem_options usual = dem_options_default();
@@ -67,7 +69,7 @@ static inline void exported_run(const exported *e, const exported_how *how)
     dem_model *model = support_model(&lattice, &obstacle, how->n_obstacles);
     dem_simulation *simulation = support_simulation(model, &usual);
     assert_ok(dem_trajectory_create(&trajectory, e->path, simulation, &options));
-    const dem_observer observer = dem_trajectory_observer(trajectory);
+    const dem_observer observer = ask_trajectory_observer(trajectory);
     assert_ok(dem_simulation_observe(simulation, &observer));
     if (how->resolved != NULL) assert_ok(dem_trajectory_note(trajectory, "resolved", how->resolved));
     assert_ok(dem_simulation_advance(simulation, 0.6));

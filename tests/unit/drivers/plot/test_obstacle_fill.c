@@ -28,7 +28,7 @@ typedef struct probe {
 
 static void expect(dem_index n, const double *points, const probe *probes, size_t n_probes)
 {
-    const dem_obstacle obstacle = {.n_points = n, .points = points};
+    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle), .n_points = n, .points = points};
     obstacle_fill g;
     assert_true(obstacle_fill_outline(&obstacle, view, &g));
     for (size_t k = 0; k < n_probes; k++)

@@ -70,18 +70,18 @@ static const double slope[] = {-9, -2, 9, -2, 9.1, 50};
 
 TEST(a_view_has_the_ground_that_is_near)
 {
-    const dem_obstacle ground = {.n_points = 3, .points = slope};
+    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope};
     const box far = {0, 0, 1, 1}, near = {0, -1.9, 1, -0.9};
-    assert_true(lies_in(far, strip_view(far, &ground, 1)));
-    assert_true(strip_view(far, &ground, 1).y0 > -0.1);
-    assert_true(lies_in(near, strip_view(near, &ground, 1)));
-    assert_true(strip_view(near, &ground, 1).y0 < -2.0);
-    assert_true(strip_view(near, &ground, 1).x1 < 1.5);
+    assert_true(lies_in(far, strip_view_with(strip_view(far), far, &ground)));
+    assert_true(strip_view_with(strip_view(far), far, &ground).y0 > -0.1);
+    assert_true(lies_in(near, strip_view_with(strip_view(near), near, &ground)));
+    assert_true(strip_view_with(strip_view(near), near, &ground).y0 < -2.0);
+    assert_true(strip_view_with(strip_view(near), near, &ground).x1 < 1.5);
 }
 
 TEST(a_point_has_a_view)
 {
-    const box b = strip_view((box){2, 3, 2, 3}, NULL, 0);
+    const box b = strip_view((box){2, 3, 2, 3});
     assert_true(box_width(b) > 0.0 && box_height(b) > 0.0);
     assert_true(lies_in((box){2, 3, 2, 3}, b));
 }

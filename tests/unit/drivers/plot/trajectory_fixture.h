@@ -3,6 +3,7 @@
 #ifndef DEM_TEST_TRAJECTORY_FIXTURE_H
 #define DEM_TEST_TRAJECTORY_FIXTURE_H
 
+#include "ask.h"
 #include "unit/close.h"
 
 #include <stdio.h>
@@ -25,8 +26,12 @@ typedef struct trajectory_fixture {
 
 static inline dem_lattice trajectory_fixture_lattice(void)
 {
-    const dem_material rubber = {
-        .youngs_modulus = 1e6, .poissons_ratio = 1.0 / 3.0, .density = 1000, .thickness = 1, .guard = 0.02};
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e6,
+                                 .poissons_ratio = 1.0 / 3.0,
+                                 .density = 1000,
+                                 .thickness = 1,
+                                 .guard = 0.02};
     const double velocity[2] = {0.5, -2.0}, at[2] = {0.03, 0.01}, none[1] = {1e-3};
     dem_lattice block, loose;
     trajectory_fixture_ok(dem_lattice_rectangle(&block, 0.02, 0.02, 4e-3));
@@ -44,7 +49,8 @@ static inline dem_lattice trajectory_fixture_lattice(void)
 /** Frames every 2e-4 s. */
 static inline trajectory_fixture trajectory_fixture_open(void)
 {
-    const dem_obstacle slope = {.n_points = 2, .points = trajectory_fixture_slope, .restitution = 0.5};
+    const dem_obstacle slope = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = trajectory_fixture_slope, .restitution = 0.5};
     const dem_options options = dem_options_default();
     dem_trajectory_options how = dem_trajectory_options_default();
     dem_lattice block = trajectory_fixture_lattice();
@@ -58,7 +64,7 @@ static inline trajectory_fixture trajectory_fixture_open(void)
     trajectory_fixture_ok(dem_model_create(&model, &block, &slope, 1));
     trajectory_fixture_ok(dem_simulation_create(&simulation, model, &options));
     trajectory_fixture_ok(dem_trajectory_create(&file, f.path, simulation, &how));
-    const dem_observer observer = dem_trajectory_observer(file);
+    const dem_observer observer = ask_trajectory_observer(file);
     trajectory_fixture_ok(dem_simulation_observe(simulation, &observer));
     trajectory_fixture_ok(dem_simulation_advance(simulation, (TRAJECTORY_FIXTURE_FRAMES - 1) * 2e-4));
     trajectory_fixture_ok(dem_trajectory_finish(file));
