@@ -100,7 +100,7 @@ static int fail(void)
 
 int main(void)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     dem_model *model;
     dem_simulation *simulation;
     block b = {.rate = 2.0 * acos(-1.0) / period};

@@ -29,7 +29,7 @@ class dem_material(Sized):
                 ("thickness", c_double), ("guard", c_double), ("damping_time", c_double)]
 
 
-class dem_lattice(ctypes.Structure):
+class dem_lattice(Sized):
     _fields_ = [("struct_size", c_size_t), ("dim", c_int), ("n_nodes", c_int64), ("n_springs", c_int64),
                 ("n_triangles", c_int64), ("x", doubles), ("mass", doubles), ("ends", indices),
                 ("rest_length", doubles), ("stiffness", doubles), ("triangles", indices), ("viscosity", doubles),

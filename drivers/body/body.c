@@ -310,8 +310,7 @@ static dem_index find_obstacle(const body_scene *scene, const double x[2])
 {
     double place[2] = {x[0], x[1]}, mass = 1.0, least = (double)INFINITY;
     dem_index deepest = 0;
-    dem_lattice point;
-    dem_lattice_init(&point);
+    dem_lattice point = dem_lattice_empty();
     point.n_nodes = 1, point.x = place, point.mass = &mass;
     for (dem_index k = 0; k < scene->n_obstacles; k++) {
         dem_model *model;
@@ -380,7 +379,7 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
                  .number = k + 1,
                  .errors = errors,
                  .start = {.depth = -none, .rest_length = none}};
-    dem_lattice_init(&b.lattice);
+    b.lattice = dem_lattice_empty();
     dem_status status = has_shape(b.body, "file") ? read_file(&b) : make_mesh(&b);
     if (status == DEM_OK) status = put(&b);
     for (dem_index i = 0; status == DEM_OK && i < b.lattice.n_nodes; i++) b.facts.mass += b.lattice.mass[i];

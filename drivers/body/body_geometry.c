@@ -411,7 +411,7 @@ dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, c
     former f = {
         .groups = groups, .body = schema_get(groups, "body", k), .number = k + 1, .folder = folder, .errors = errors};
     shape s = {0};
-    dem_lattice_init(&f.lattice);
+    f.lattice = dem_lattice_empty();
     dem_status status = DEM_OK;
     if (has_shape(f.body, "mesh")) {
         status = read_mesh(&f);

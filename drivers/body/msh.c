@@ -286,7 +286,7 @@ dem_status msh_parse(dem_lattice *out, char *fault, const char *text, size_t siz
 {
     mesh m = {0};
     text_reader w = text_reader_begin(text, size, '\0');
-    dem_lattice_init(out);
+    *out = dem_lattice_empty();
     const bool good = read_format(&w) && read_sections(&m, &w);
     dem_status status = m.out_of_memory ? DEM_ERROR_MEMORY : DEM_ERROR_MODEL;
     if (good)
@@ -301,7 +301,7 @@ dem_status msh_read(dem_lattice *out, char *fault, const char *path)
 {
     char *text, why[FILE_WHY];
     size_t size;
-    dem_lattice_init(out);
+    *out = dem_lattice_empty();
     const file_status read = file_read(&text, &size, path, most, why);
     if (read == FILE_REFUSED) (void)snprintf(fault, MSH_FAULT, " %s", why);
     if (read != FILE_READ) return read == FILE_MEMORY ? DEM_ERROR_MEMORY : DEM_ERROR_MODEL;

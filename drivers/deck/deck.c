@@ -452,7 +452,7 @@ static bool set_texts(deck *d, schema_deck *groups, const char *folder, namelist
 static bool set_body(deck *d, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors)
 {
     const schema_instance *group = schema_get(scene->groups, "body", k);
-    dem_lattice body;
+    dem_lattice body = dem_lattice_empty();
     if (!body_build(&body, &d->bodies[k], start, scene, k, errors)) return false;
     const dem_status status = dem_lattice_append(&d->lattice, &body);
     dem_lattice_free(&body);
@@ -564,7 +564,7 @@ deck_status deck_parse(deck *out, const char *path, const setting *settings, siz
 {
     size_t size = 0;
     *out = (deck){.path = strdup(path), .folder = folder_of(path)};
-    dem_lattice_init(&out->lattice);
+    out->lattice = dem_lattice_empty();
     deck_status status = out->path == NULL || out->folder == NULL ? DECK_MEMORY : read_text(out, &size, errors);
     if (status == DECK_OK) status = parse(out, size, settings, n, errors);
     return conclude(out, status, errors);
@@ -596,5 +596,5 @@ void deck_free(deck *d)
     free(d->title);
     free(d->name);
     *d = (deck){0};
-    dem_lattice_init(&d->lattice);
+    d->lattice = dem_lattice_empty();
 }

@@ -6,6 +6,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <dem/status.h>
 
@@ -44,7 +45,7 @@ enum {
 /** Nodes, springs in triplet form (any order, no duplicates) and triangles. Every array is owned by the lattice and
  *  comes from malloc; dem_lattice_free() frees them all. */
 typedef struct dem_lattice {
-    size_t struct_size;     /**< set by dem_lattice_init(), and needed */
+    size_t struct_size;     /**< set by dem_lattice_empty() */
     int dim;                /**< 2; 3 is reserved */
     dem_index n_nodes;      /**< > 0 */
     dem_index n_springs;    /**< >= 0 */
@@ -69,16 +70,24 @@ typedef struct dem_lattice {
     double *velocity;       /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
 } dem_lattice;
 
-/** An empty lattice: no nodes, all arrays NULL. */
-DEM_API void dem_lattice_init(dem_lattice *lattice);
+/** No nodes, all arrays NULL. Every lattice begins like this: functions that make one write no further than the
+ *  struct_size that this sets. */
+static inline dem_lattice dem_lattice_empty(void) /* inline: sizeof is the caller's */
+{
+    dem_lattice lattice;
+    memset(&lattice, 0, sizeof lattice); /* C++ warns of = {0} */
+    lattice.struct_size = sizeof lattice;
+    lattice.dim = 2;
+    return lattice;
+}
 
-/** Frees the arrays and leaves an empty lattice. Accepts NULL. */
+/** Frees the arrays and leaves an empty lattice. Accepts NULL, and does nothing where there is no struct_size. */
 DEM_API void dem_lattice_free(dem_lattice *lattice);
 
 /** Equilateral triangulation of a rectangle standing on the origin: -width/2 <= x <= width/2, 0 <= y <= height.
  *  Rows alternate between round(width/spacing) + 1 nodes and one less, so that it is mirror symmetric; the spacing is
  *  kept and the height rounded to whole rows. Nodes and triangles only: dem_lattice_assemble() makes it a solid.
- *  \param[out] out  overwritten, not freed; caller owns it
+ *  \param[out] out  from dem_lattice_empty(); overwritten, not freed; caller owns it
  *  \return DEM_ERROR_ARGUMENT unless 0 < spacing <= width, height; DEM_ERROR_MEMORY */
 DEM_API dem_status dem_lattice_rectangle(dem_lattice *out, double width, double height, double spacing);
 

@@ -118,7 +118,7 @@ DEM_API dem_status dem_trajectory_read_note(const char *path, const char *name, 
  *  `fixed` may be boolean as h5py stores it; a number that does not fit is an error. Types, ranks and extents are
  *  checked before anything is allocated; external and soft links, external and virtual storage, and filters other than
  *  deflate, shuffle and fletcher32 are refused.
- *  \param[out] out  overwritten, not freed; caller owns it
+ *  \param[out] out  from dem_lattice_empty(); overwritten, not freed; caller owns it
  *  \return DEM_ERROR_IO with the file, dataset and reason; DEM_ERROR_MODEL for inconsistent extents */
 DEM_API dem_status dem_lattice_read(dem_lattice *out, const char *path);
 

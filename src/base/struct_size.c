@@ -47,6 +47,15 @@ dem_status struct_size_check(const struct_kind *kind, const void *theirs)
     return DEM_OK;
 }
 
+bool struct_size_fits(const struct_kind *kind, const void *theirs)
+{
+    const size_t size = size_of(theirs);
+    const unsigned char *bytes = theirs;
+    bool fits = size >= kind->first && size <= STRUCT_SIZE_MOST;
+    for (size_t k = kind->own; fits && k < size; k++) fits = bytes[k] == 0;
+    return fits;
+}
+
 /* Copies the members that both sides have; the rest of `ours` keeps its defaults. */
 dem_status struct_size_read(const struct_kind *kind, void *ours, const void *theirs)
 {

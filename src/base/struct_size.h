@@ -4,6 +4,7 @@
 #ifndef DEM_BASE_STRUCT_SIZE_H
 #define DEM_BASE_STRUCT_SIZE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include <dem/status.h>
@@ -26,6 +27,9 @@ typedef struct struct_kind {
  *  library's, with zeros in all members that this library does not know.
  *  \return DEM_ERROR_ARGUMENT */
 dem_status struct_size_check(const struct_kind *kind, const void *theirs);
+
+/** Whether a caller's struct can be read, as struct_size_check() says, without a message. */
+bool struct_size_fits(const struct_kind *kind, const void *theirs);
 
 /** Reads a caller's struct.
  *  \param ours  holds the defaults of all members, and keeps those beyond the end of the caller's struct; its

@@ -82,4 +82,8 @@ contains
     options%most_stressed = 5
     options%fields = iand(DEM_FIELD_ALL, not(DEM_FIELD_PRINCIPAL))
   end function
+
+  pure type(dem_lattice) function dem_lattice_empty() result(lattice)
+    lattice%dim = 2
+  end function
 end module

@@ -133,11 +133,6 @@ module dem_c
 
   interface
 
-    subroutine dem_lattice_init(lattice) bind(c)
-      import
-      type(dem_lattice), intent(inout) :: lattice
-    end subroutine
-
     subroutine dem_lattice_free(lattice) bind(c)
       import
       type(dem_lattice), intent(inout) :: lattice

@@ -432,7 +432,7 @@ static dem_status assemble(dem_lattice *lattice, draft *d, dem_index n_materials
 {
     TRY(check_lattice(d->lattice, d->cells));
     TRY(check_materials(d, n_materials));
-    dem_lattice_init(&d->solid);
+    d->solid = dem_lattice_empty();
     const dem_status status = draw(d);
     if (status == DEM_OK) give(lattice, &d->solid);
     dem_lattice_free(&d->solid);

@@ -88,7 +88,7 @@ static dem_status finish(dem_lattice *out, dem_lattice *lattice)
         dem_lattice_free(lattice);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
     }
-    *out = *lattice;
+    lattice_give(out, lattice);
     return DEM_OK;
 }
 
@@ -96,8 +96,7 @@ static dem_status finish(dem_lattice *out, dem_lattice *lattice)
 static dem_status grid_lattice(dem_lattice *out, const grid *g)
 {
     const dem_index wide = g->last / 2 - g->first / 2 + 1;
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = (g->last - g->first + 1) * g->reach + wide;
     lattice.n_triangles = (g->last - g->first) * (2 * g->reach - 1);
     lattice.x = grid_nodes(g, lattice.n_nodes);
@@ -151,7 +150,7 @@ static bool is_positive(double value)
 
 static dem_status check_rectangle(const dem_lattice *out, double width, double height, double spacing)
 {
-    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "out is NULL");
+    TRY(lattice_check_out(out));
     CHECK(is_positive(spacing) && spacing <= width && spacing <= height && isfinite(width) && isfinite(height),
           DEM_ERROR_ARGUMENT, "a rectangle of %g m x %g m cannot have the spacing %g m", width, height, spacing);
     return DEM_OK;
@@ -231,8 +230,7 @@ dem_status dem_lattice_squares(dem_lattice *out, double width, double height, do
     TRY(check_rectangle(out, width, height, spacing));
     const double columns = round(width / spacing), rows = round(height / spacing);
     TRY(check_size(width, height, spacing, (columns + 1.0) * (rows + 1.0)));
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = ((dem_index)columns + 1) * ((dem_index)rows + 1);
     lattice.n_triangles = 2 * (dem_index)columns * (dem_index)rows;
     lattice.x = square_nodes((dem_index)columns, (dem_index)rows, spacing);
@@ -243,7 +241,7 @@ dem_status dem_lattice_squares(dem_lattice *out, double width, double height, do
 /* A grid around the disc, a column wider on each side, of which what is outside is cut. */
 dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
 {
-    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "out is NULL");
+    TRY(lattice_check_out(out));
     CHECK(is_positive(spacing) && spacing <= radius && isfinite(radius), DEM_ERROR_ARGUMENT,
           "a disc of radius %g m cannot have the spacing %g m", radius, spacing);
     double reach = radius + 1e-9 * spacing; /* a radius of whole spacings has its last nodes */
@@ -255,11 +253,11 @@ dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
     const dem_index columns = (dem_index)steps + 1, rows = (dem_index)strips;
     /* Rows and columns on both sides of the centre, where a node is. */
     const grid g = {.reach = 2 * columns, .first = -rows, .last = rows, .spacing = spacing};
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     TRY(grid_lattice(&lattice, &g));
     const dem_status status = dem_lattice_cut(&lattice, is_in_disc, &reach);
     if (status == DEM_OK)
-        *out = lattice;
+        lattice_give(out, &lattice);
     else
         dem_lattice_free(&lattice);
     return status;

@@ -160,11 +160,11 @@ dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
     const bool both = lattice->n_nodes > 0 && other->n_nodes > 0;
     CHECK(!both || (lattice->mass == NULL) == (other->mass == NULL), DEM_ERROR_MODEL,
           "one lattice has masses, the other has none");
-    dem_lattice_init(&joined);
+    joined = dem_lattice_empty();
     const dem_status status = join_all(&joined, lattice, other);
     if (status == DEM_OK) {
         dem_lattice_free(lattice);
-        *lattice = joined;
+        lattice_give(lattice, &joined);
     } else {
         dem_lattice_free(&joined);
     }

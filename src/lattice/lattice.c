@@ -63,35 +63,45 @@ dem_status lattice_check(const dem_lattice *lattice)
 
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs)
 {
-    dem_lattice_init(ours);
+    *ours = dem_lattice_empty();
     return struct_size_read(&kind, ours, theirs);
 }
 
-void dem_lattice_init(dem_lattice *lattice)
+dem_status lattice_check_out(const dem_lattice *out)
 {
-    *lattice = (dem_lattice){.struct_size = sizeof *lattice, .dim = 2};
+    CHECK(out != NULL, DEM_ERROR_ARGUMENT, "out is NULL");
+    return struct_size_check(&kind, out);
 }
 
-/* The struct can be used again afterwards, as an empty lattice. */
+/* The size has been checked before. */
+void lattice_give(dem_lattice *out, const dem_lattice *made)
+{
+    (void)struct_size_write(&kind, out, made);
+}
+
+/* What has no size is no lattice, or not one yet; that is no failure, so that the message of one stays. */
 void dem_lattice_free(dem_lattice *lattice)
 {
-    if (lattice == NULL) return;
-    free(lattice->x);
-    free(lattice->mass);
-    free(lattice->ends);
-    free(lattice->rest_length);
-    free(lattice->stiffness);
-    free(lattice->viscosity);
-    free(lattice->triangles);
-    free(lattice->guard);
-    free(lattice->area_stiffness);
-    free(lattice->thickness);
-    free(lattice->modulus);
-    free(lattice->flags);
-    free(lattice->body);
-    free(lattice->position);
-    free(lattice->velocity);
-    dem_lattice_init(lattice);
+    const dem_lattice empty = dem_lattice_empty();
+    dem_lattice own = empty;
+    if (lattice == NULL || !struct_size_fits(&kind, lattice)) return;
+    (void)struct_size_read(&kind, &own, lattice);
+    free(own.x);
+    free(own.mass);
+    free(own.ends);
+    free(own.rest_length);
+    free(own.stiffness);
+    free(own.viscosity);
+    free(own.triangles);
+    free(own.guard);
+    free(own.area_stiffness);
+    free(own.thickness);
+    free(own.modulus);
+    free(own.flags);
+    free(own.body);
+    free(own.position);
+    free(own.velocity);
+    lattice_give(lattice, &empty);
 }
 
 /* Velocities are turned with the body but not shifted. */

@@ -13,6 +13,12 @@ dem_status lattice_check(const dem_lattice *lattice);
  * copied. */
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs);
 
+/* Whether a lattice can be written: not NULL, and struct_size is that of some version.  \return DEM_ERROR_ARGUMENT */
+dem_status lattice_check_out(const dem_lattice *out);
+
+/* Hands a lattice over to a caller, as far as the caller's struct goes. */
+void lattice_give(dem_lattice *out, const dem_lattice *made);
+
 /* An array of n items that are all zero; it has memory for n = 0, too. NULL if there is no memory. */
 void *lattice_zeros(dem_index n, size_t size);
 

@@ -191,7 +191,7 @@ static void compile_scales(dem_model *m)
 static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
     TRY(check_lattice(lattice));
-    dem_lattice_init(&m->lattice);
+    m->lattice = dem_lattice_empty();
     TRY(dem_lattice_append(&m->lattice, lattice));
     TRY(fill_defaults(&m->lattice));
     TRY(springs_compile(&m->springs, &m->lattice));

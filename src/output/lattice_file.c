@@ -250,14 +250,15 @@ dem_status dem_lattice_read(dem_lattice *out, const char *path)
     reader r = {0};
     dem_lattice lattice;
     CHECK(out != NULL && path != NULL, DEM_ERROR_ARGUMENT, "dem_lattice_read: an argument is NULL");
-    dem_lattice_init(&lattice);
+    TRY(lattice_check_out(out));
+    lattice = dem_lattice_empty();
     dem_status status = read_file(&r, path);
     if (status != DEM_OK) goto out;
     fill(&lattice, &r);
     status = check_indices(&lattice, path);
     if (status == DEM_OK) status = make_flags(&r, &lattice);
     if (status == DEM_OK)
-        *out = lattice;
+        lattice_give(out, &lattice);
     else
         dem_lattice_free(&lattice);
 out:

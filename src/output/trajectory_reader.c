@@ -348,6 +348,7 @@ static dem_status look(dem_reader *reader, const char *path)
     hdf5_file file;
     reader->path = strdup(path);
     CHECK_MEMORY(reader->path);
+    reader->lattice = dem_lattice_empty();
     TRY(dem_lattice_read(&reader->lattice, path));
     TRY(hdf5_untrusted_open(&file, reader->path));
     return hdf5_close(&file, list_all(reader, &file));

@@ -53,7 +53,7 @@ static dem_model *make_model(long columns, long rows, long segments, double roug
     double *points = make_ground(segments, 1.2 * width, roughness);
     const dem_obstacle ground = {
         .struct_size = sizeof(dem_obstacle), .n_points = segments + 1, .points = points, .friction = 0.3};
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     dem_model *model;
     ask(dem_lattice_rectangle(&lattice, width, 0.866025403784 * (double)(rows - 1) * spacing, spacing));
     ask(dem_lattice_assemble(&lattice, &rubber));

@@ -38,7 +38,7 @@ static dem_lattice make_lattice(double nodes)
                                  .thickness = 1.0,
                                  .guard = 0.02};
     const double spacing = 1e-3, columns = sqrt(sqrt(3.0) * nodes), up[2] = {0.0, 1e-3}, speed[2] = {0.0, -1.0};
-    dem_lattice l;
+    dem_lattice l = dem_lattice_empty();
     ask(dem_lattice_rectangle(&l, columns * spacing, 0.5 * columns * spacing, spacing));
     ask(dem_lattice_assemble(&l, &rubber));
     dem_lattice_move(&l, 0.0, up);

@@ -49,8 +49,7 @@ static void join_rows(dem_lattice *l, dem_index columns, dem_index rows)
 
 dem_lattice plate_make(dem_index columns, dem_index rows, double spacing)
 {
-    dem_lattice l;
-    dem_lattice_init(&l);
+    dem_lattice l = dem_lattice_empty();
     l.n_nodes = columns * rows;
     l.x = zeros(2 * l.n_nodes, sizeof *l.x);
     l.velocity = zeros(2 * l.n_nodes, sizeof *l.velocity);

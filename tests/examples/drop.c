@@ -23,7 +23,7 @@ int main(void)
     const dem_options options = dem_options_default();
     dem_trajectory_options frames = dem_trajectory_options_default();
     frames.frame_interval = 1e-3;
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     dem_model *model;
     dem_simulation *simulation;
     dem_trajectory *file;

@@ -33,7 +33,7 @@ static dem_status build(dem_lattice *lattice)
                                  .guard = 0.02,
                                  .damping_time = 1e-6};
     const double down[2] = {0.0, -5.0}, lift[2] = {0.0, 1e-4};
-    dem_lattice other;
+    dem_lattice other = dem_lattice_empty();
     dem_index parts;
     dem_status status = dem_lattice_rectangle(lattice, 0.05, 0.03, 0.01);
     if (status == DEM_OK) status = dem_lattice_cut(lattice, left_half, NULL);
@@ -45,7 +45,7 @@ static dem_status build(dem_lattice *lattice)
     if (status == DEM_OK) status = dem_lattice_parts(lattice, &parts, NULL);
     dem_lattice_move(lattice, 0.01, lift);
     if (status != DEM_OK) return status;
-    dem_lattice_init(&other);
+    other = dem_lattice_empty();
     status = dem_lattice_disc(&other, 0.02, 0.01);
     if (status == DEM_OK) status = dem_lattice_assemble(&other, &rubber);
     dem_lattice_move(&other, 0.0, (const double[2]){0.1, 0.021});
@@ -64,8 +64,7 @@ static dem_status build_squares(void)
                               .density = 1050.0,
                               .thickness = 1.0,
                               .damping_time = 1e-6};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     dem_status status = dem_lattice_squares(&lattice, 0.02, 0.02, 0.01);
     if (status == DEM_OK) status = dem_lattice_jitter(&lattice, 1e-3, 1);
     if (status == DEM_OK) status = dem_lattice_assemble_squares(&lattice, &raw, 0.5);
@@ -125,10 +124,10 @@ static dem_status run(void)
     dem_options options = dem_options_default();
     options.n_boundaries = 1;
     options.boundaries = &push;
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     CLEANUP(free_model) dem_model *model = NULL;
     CLEANUP(free_simulation) dem_simulation *simulation = NULL;
-    dem_lattice_init(&lattice);
+    lattice = dem_lattice_empty();
     dem_status status = build_squares();
     if (status == DEM_OK) status = build(&lattice);
     if (status == DEM_OK) status = dem_model_create(&model, &lattice, &obstacle, 1);
@@ -205,8 +204,7 @@ static dem_status build_model(dem_model **model)
 {
     const dem_obstacle obstacle = {
         .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = ground, .restitution = 0.5, .friction = 0.3};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     dem_status status = build(&lattice);
     if (status == DEM_OK) status = dem_model_create(model, &lattice, &obstacle, 1);
     return status;
@@ -317,7 +315,7 @@ static dem_status fall(double **now, dem_index *n, long failing_one)
     const dem_obstacle obstacle = {
         .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = ground, .restitution = 0.5, .friction = 0.3};
     dem_options options = dem_options_default();
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     dem_model *model;
     dem_simulation *simulation;
     motion state;

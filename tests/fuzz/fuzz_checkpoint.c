@@ -54,7 +54,7 @@ static dem_model *make_model(void)
                                .thickness = 0.01,
                                .guard = 0.02};
     const double lift[2] = {0.002, 0.0035}, velocity[2] = {0.3, -1.0};
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     dem_model *model;
     require(dem_lattice_rectangle(&lattice, 0.02, 0.02, 0.01) == DEM_OK);
     require(dem_lattice_assemble(&lattice, &soft) == DEM_OK);

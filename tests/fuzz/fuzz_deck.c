@@ -31,7 +31,7 @@ static void write_lattice(void)
                                  .guard = 0.02};
     const dem_options options = dem_options_default();
     const dem_trajectory_options bare = dem_trajectory_options_default();
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     dem_model *model;
     dem_simulation *simulation;
     dem_trajectory *trajectory;

@@ -131,7 +131,7 @@ static void put_triangles(bytes *from, scene *sc)
 
 static void put_body(bytes *from, scene *sc)
 {
-    dem_lattice_init(&sc->body);
+    sc->body = dem_lattice_empty();
     put_nodes(from, sc);
     put_springs(from, sc);
     put_triangles(from, sc);

@@ -10,8 +10,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const char *path = scratch_path("lattice.h5");
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     scratch_write(path, data, size);
     const dem_status status = dem_lattice_read(&lattice, path);
     require(status == DEM_OK || status == DEM_ERROR_IO || status == DEM_ERROR_MODEL || status == DEM_ERROR_MEMORY);

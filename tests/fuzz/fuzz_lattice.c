@@ -317,9 +317,9 @@ static void start(const dem_model *model)
 
 static void read_file(const char *path)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     dem_model *model = NULL;
-    dem_lattice_init(&lattice);
+    lattice = dem_lattice_empty();
     const dem_status status = dem_lattice_read(&lattice, path);
     require(status == DEM_OK || status == DEM_ERROR_IO || status == DEM_ERROR_MODEL);
     if (status != DEM_OK) {

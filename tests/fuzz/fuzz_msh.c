@@ -33,7 +33,7 @@ static void check(const dem_lattice *lattice)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     char fault[MSH_FAULT] = "";
     if (msh_parse(&lattice, fault, (const char *)data, size) == DEM_OK)
         check(&lattice);

@@ -161,6 +161,7 @@ static void random_solid_body(gsl_rng *rng, scene *sc)
                                  .guard = 0.02,
                                  .damping_time = chance(rng, 0.25) ? uniform(rng, 1e-6, 3e-5) : 0.0};
     sc->spacing = uniform(rng, 8e-3, 15e-3);
+    sc->body = dem_lattice_empty();
     if (chance(rng, 0.3)) {
         assert_ok(dem_lattice_disc(&sc->body, uniform(rng, 0.02, 0.04), sc->spacing));
     } else { /* one by one: compilers evaluate arguments in different orders */
@@ -306,7 +307,7 @@ static void shuffle_body(dem_lattice *to, const dem_lattice *l, const dem_index 
     CLEANUP(free_memory) dem_index *new_number = malloc((size_t)n * sizeof *new_number);
     assert_non_null(new_number);
     for (dem_index i = 0; i < n; i++) new_number[old[i]] = i;
-    dem_lattice_init(to);
+    *to = dem_lattice_empty();
     to->n_nodes = n;
     to->n_springs = l->n_springs;
     to->n_triangles = l->n_triangles;

@@ -51,7 +51,7 @@ static dem_status go(job *j, dem_simulation *simulation, dem_trajectory *traject
 static dem_status read_again(job *j)
 {
     char nowhere[64];
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     name(j, ".nowhere", nowhere);
     if (dem_lattice_read(&lattice, nowhere) == DEM_OK) return DEM_ERROR_IO;
     (void)snprintf(j->missing, sizeof j->missing, "%s", dem_status_message());

@@ -16,7 +16,7 @@ static const dem_material rubber = {.struct_size = sizeof(dem_material),
 
 static inline dem_lattice make_rectangle(double width, double height, double step)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_rectangle(&lattice, width, height, step), DEM_OK);
     return lattice;
 }

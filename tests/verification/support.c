@@ -17,8 +17,7 @@ static void *copy(const void *from, size_t size)
 dem_lattice support_lattice(dem_index n, const double *x, const double *mass, dem_index n_springs,
                             const dem_index *ends, double rest_length, double stiffness, const unsigned char *fixed)
 {
-    dem_lattice l;
-    dem_lattice_init(&l);
+    dem_lattice l = dem_lattice_empty();
     l.n_nodes = n;
     l.x = copy(x, 2 * (size_t)n * sizeof *x);
     l.mass = copy(mass, (size_t)n * sizeof *mass);
@@ -41,7 +40,7 @@ dem_lattice support_lattice(dem_index n, const double *x, const double *mass, de
 
 dem_lattice support_rectangle(double width, double height, double spacing, const dem_material *material)
 {
-    dem_lattice l;
+    dem_lattice l = dem_lattice_empty();
     assert_ok(dem_lattice_rectangle(&l, width, height, spacing));
     assert_ok(dem_lattice_assemble(&l, material));
     return l;

@@ -51,7 +51,7 @@ static dem_model *make_block(const block *b)
                                 .density = 1050.0,
                                 .thickness = thickness,
                                 .guard = 0.02};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     if (b->diagonal > 0.0) {
         assert_ok(dem_lattice_squares(&lattice, 0.045, 0.05, spacing));
         assert_ok(dem_lattice_assemble_squares(&lattice, &solid, b->diagonal));

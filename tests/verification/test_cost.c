@@ -158,7 +158,7 @@ static void compare(const line *l, int duration, const cost *c)
 
 static void compare_all(int duration)
 {
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     support_block(&block);
     CLEANUP(free_memory) double *y = malloc(4 * (size_t)block.n_nodes * sizeof *y);
     assert_non_null(y);
@@ -183,7 +183,7 @@ TEST(errors_at_20_ms_are_those_known)
 /* A thousand periods of the slowest vibration. Verlet's energy stays where it is, Fehlberg's grows. */
 TEST(energies_at_200_ms_are_those_known)
 {
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     support_block(&block);
     for (const line *l = lines; l < lines + n_lines; l++) {
         const bool verlet = l->method == DEM_METHOD_VERLET;

@@ -112,7 +112,7 @@ static void make_block(dem_lattice *l, const wave *w)
 /* |u|/amplitude at the time where it should be 0 is the relative error of omega times pi/2. */
 static double error_of(const wave *w)
 {
-    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     double e[2];

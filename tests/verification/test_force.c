@@ -198,7 +198,7 @@ static void open_block(support_run *run, double height, const dem_obstacle *grou
 {
     const double lift[2] = {0.0, height};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     support_block(&block);
     for (dem_index i = 0; i < block.n_nodes; i++) block.position[2 * i + 1] += lift[1];
     options.gravity[1] = how.gravity;
@@ -287,7 +287,7 @@ static void compare_with_boundaries(const dem_index *order)
     const double far[4] = {-1.0, -0.028, 1.0, -0.028};
     const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = far, .restitution = 0.3};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice block, again;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty(), again = dem_lattice_empty();
     CLEANUP(support_close) support_run by_boundary, by_force;
     motion a, b;
     support_block(&block);

@@ -33,7 +33,7 @@ static dem_constants measure(const dem_lattice *lattice)
 static dem_lattice make_jittered(bool squares, double nu, double share, uint64_t seed)
 {
     const dem_material solid = solid_of(nu);
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     if (squares)
         assert_ok(dem_lattice_squares(&lattice, 30.0, 30.0, 1.0));
     else
@@ -99,7 +99,7 @@ static void fill_ring(dem_lattice *l, dem_index ring, dem_index *t)
 
 static void make_rings(dem_lattice *l)
 {
-    dem_lattice_init(l);
+    *l = dem_lattice_empty();
     l->n_nodes = first_of(n_rings + 1);
     l->n_triangles = 6 * n_rings * n_rings;
     l->x = calloc((size_t)l->n_nodes, 2 * sizeof *l->x);
@@ -122,7 +122,7 @@ TEST(a_disc_of_rings_is_softer_within_a_band)
     static const double ratios[] = {0.1, 1.0 / 3.0, 0.45};
     for (int k = 0; k < 3; k++) {
         const dem_material solid = solid_of(ratios[k]);
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         make_rings(&lattice);
         assert_ok(dem_lattice_assemble(&lattice, &solid));
         const dem_constants c = measure(&lattice);
@@ -142,7 +142,7 @@ TEST(a_disc_of_rings_is_softer_within_a_band)
 TEST(right_angled_triangles_are_anisotropic)
 {
     const dem_material solid = solid_of(1.0 / 3.0);
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_squares(&lattice, 20.0, 20.0, 1.0));
     assert_ok(dem_lattice_assemble(&lattice, &solid));
     const dem_constants c = measure(&lattice);

@@ -138,7 +138,7 @@ static dem_lattice make_block(double spacing)
 {
     const double row = sqrt(0.75) * spacing, rows = 4.0 * round(0.5 * half / row),
                  columns = 2.0 * round(half / spacing);
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_rectangle(&lattice, columns * spacing, rows * row, spacing));
     return lattice;
 }

@@ -29,7 +29,7 @@ static int layer_at(const layers *l, double y)
 static dem_model *make_block(layers *l)
 {
     dem_material solids[2];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     const double row = (l->squares ? 1.0 : 0.5 * sqrt(3.0)) * spacing;
     for (int k = 0; k < 2; k++)
         solids[k] = (dem_material){.struct_size = sizeof(dem_material),

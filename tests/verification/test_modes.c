@@ -75,7 +75,7 @@ static void check_modes(dem_lattice *body, const double *expected, size_t n_mode
 TEST(a_triangle_has_its_three_modes)
 {
     const double x[6] = {0.0, 0.0, 1.0, 0.0, 0.5, sqrt(3.0) / 2.0};
-    CLEANUP(dem_lattice_free) dem_lattice body;
+    CLEANUP(dem_lattice_free) dem_lattice body = dem_lattice_empty();
     make_body(&body, 3, x);
     check_modes(&body, of_triangle, 3);
 }
@@ -83,7 +83,7 @@ TEST(a_triangle_has_its_three_modes)
 TEST(a_hexagon_has_its_eleven_modes)
 {
     double x[14] = {0.0};
-    CLEANUP(dem_lattice_free) dem_lattice body;
+    CLEANUP(dem_lattice_free) dem_lattice body = dem_lattice_empty();
     for (int i = 0; i < 6; i++) {
         x[2 * i + 2] = cos(M_PI / 3.0 * i);
         x[2 * i + 3] = sin(M_PI / 3.0 * i);

@@ -201,7 +201,7 @@ static void make_body(dem_lattice *out, const view *v, const double frame[2])
 /* As one sees it in whose frame all goes by with this velocity. */
 static void open_view(support_run *run, const view *v, const double frame[2], dem_method method)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     dem_obstacle ground[2];
     dem_options options = support_options();
     memcpy(ground, v->ground, sizeof ground);

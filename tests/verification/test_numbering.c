@@ -119,7 +119,7 @@ static double on_grid(double x)
  * of 1 m/s, both without an order. */
 static dem_lattice make_irregular(void)
 {
-    dem_lattice l;
+    dem_lattice l = dem_lattice_empty();
     assert_ok(dem_lattice_rectangle(&l, 0.6, 0.4, 0.02));
     for (dem_index k = 0; k < 2 * l.n_nodes; k++) l.x[k] = on_grid(l.x[k]);
     assert_ok(dem_lattice_assemble(&l, &rubber));

@@ -74,7 +74,7 @@ static dem_lattice make_square(double nu, double r)
                                    .density = 1000.0,
                                    .thickness = thickness,
                                    .guard = 0.02};
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_squares(&lattice, 6 * spacing, 5 * spacing, spacing));
     assert_ok(dem_lattice_assemble_squares(&lattice, &material, r));
     return lattice;

@@ -111,7 +111,7 @@ static gsl_vector *eigenvalues(const dem_lattice *l)
 
 static void check_ringing(bool squares)
 {
-    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     double peak[n_modes];
     make_rectangle(&l, squares);
     CLEANUP(free_vector) gsl_vector *values = eigenvalues(&l);

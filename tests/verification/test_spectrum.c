@@ -49,7 +49,7 @@ enum { n_ratios = sizeof ratios / sizeof ratios[0] };
 TEST(blocks_are_stable_and_the_bound_is_above_their_frequencies)
 {
     for (int k = 0; k < n_ratios; k++) {
-        dem_lattice lattice;
+        dem_lattice lattice = dem_lattice_empty();
         assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, spacing));
         CLEANUP(free_model) dem_model *model = make_model(&lattice, ratios[k], DEM_PLANE_STRESS);
         check_frequencies(model, ratios[k]);
@@ -59,7 +59,7 @@ TEST(blocks_are_stable_and_the_bound_is_above_their_frequencies)
 TEST(discs_are_stable_and_the_bound_is_above_their_frequencies)
 {
     for (int k = 0; k < n_ratios; k++) {
-        dem_lattice lattice;
+        dem_lattice lattice = dem_lattice_empty();
         assert_ok(dem_lattice_disc(&lattice, 0.02, spacing));
         CLEANUP(free_model) dem_model *model = make_model(&lattice, ratios[k], DEM_PLANE_STRAIN);
         check_frequencies(model, ratios[k]);
@@ -73,7 +73,7 @@ TEST(the_highest_frequency_of_a_block_is_that_of_an_independent_program)
     static const double table[][2] = {{0.0, 5.47},  {0.1, 5.56}, {0.2, 5.85}, {1.0 / 3.0, 6.55},
                                       {0.45, 7.58}, {0.5, 8.19}, {0.7, 12.86}};
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
-        dem_lattice lattice;
+        dem_lattice lattice = dem_lattice_empty();
         assert_ok(dem_lattice_rectangle(&lattice, 0.04, 0.04, spacing));
         CLEANUP(free_model) dem_model *model = make_model(&lattice, table[k][0], DEM_PLANE_STRESS);
         CLEANUP(free_vector) gsl_vector *squared = frequencies_of(model);
@@ -96,7 +96,7 @@ TEST(a_square_cell_warps_with_the_frequency_of_its_sides_and_areas)
                                     .poissons_ratio = nu,
                                     .density = 1050.0,
                                     .thickness = 1.0};
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         assert_ok(dem_lattice_squares(&lattice, spacing, spacing, spacing));
         assert_ok(dem_lattice_assemble_squares(&lattice, &solid, r));
         CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);

@@ -135,7 +135,7 @@ static int has_left(const support_run *run)
 static void run_case(int restitution, int friction, int kind, double rtol, outcome *out)
 {
     ground g;
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     make_ground(&g, kind);

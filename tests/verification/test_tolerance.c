@@ -47,7 +47,7 @@ static void check_errors(const dem_lattice *body, const dem_obstacle *floor, dou
 
 TEST(the_error_of_a_free_block_falls_with_the_tolerance)
 {
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     support_block(&block);
     check_errors(&block, NULL, 2e-3);
 }

@@ -278,7 +278,7 @@ static verdict run_wedge(const wedge *c, double t_end)
                                    .friction = c->friction,
                                    .friction_law = DEM_FRICTION_COULOMB};
     dem_options options = support_options();
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     support_run run;
     options.rtol = c->rtol;
     options.vertices = c->vertices;

@@ -91,7 +91,7 @@ static double unbalance(const dem_simulation *simulation, const motion *state)
 
 static void check_rest(const rack *r)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     CLEANUP(support_close) support_run run;
     double creep = 0.0, worst = 0.0;
     settle(r, &lattice, 0.5);
@@ -244,7 +244,7 @@ static void open_slide(support_run *run, slide *w, double friction, double speed
     r.youngs_modulus = 1e6;
     r.damping_time = 5e-5;
     rack shifted = r;
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     for (int k = 0; k < 10; k += 2) shifted.points[k] -= start;
     settle(&shifted, &lattice, 0.1);
     for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.position[2 * i] += start;
@@ -324,7 +324,7 @@ static void open_drop(support_run *run, drop *w, double slope, double friction, 
                                    .friction = friction,
                                    .friction_law = DEM_FRICTION_COULOMB};
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     options.rtol = 1e-9;
     make_block(&lattice, 8, 1e6, 0.0);
     dem_lattice_move(&lattice, 0.0, offset);

@@ -46,7 +46,7 @@ static void with_gsl(dem_lattice *block, dem_method method, double h, double *y)
 TEST(fixed_steps_agree_with_gsl)
 {
     static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_RK4, DEM_METHOD_VERLET};
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     support_block(&block);
     CLEANUP(free_memory) double *y = malloc(4 * (size_t)block.n_nodes * sizeof *y);
     assert_non_null(y);
@@ -72,7 +72,7 @@ static double duration = 2e-3;        /* s; with 'long' 100 periods */
  * 1e-6 of the energy in 100 fundamental periods at rtol 1e-9; found in as many: 1.9e-7. */
 TEST(a_free_body_keeps_its_momenta_and_energy)
 {
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     CLEANUP(support_close) support_run run;
     dem_options options = support_options();
     const double velocity[2] = {3.0, -2.0};

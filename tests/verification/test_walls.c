@@ -95,7 +95,7 @@ static void open_run(support_run *run, const dem_lattice *chain, const line *l)
 
 TEST(located_contacts_keep_the_energy_as_known)
 {
-    CLEANUP(dem_lattice_free) dem_lattice chain;
+    CLEANUP(dem_lattice_free) dem_lattice chain = dem_lattice_empty();
     make_chain(&chain);
     for (const line *l = lines; l < lines + n_lines; l++) {
         CLEANUP(support_close) support_run run;

@@ -801,7 +801,7 @@ static double impact_time(dem_lattice *lattice, int node, double *y)
 TEST(the_neighbours_events_are_looked_for_anew)
 {
     const double h = 0.16;
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     CLEANUP(close_rig) rig r;
     double y[8];
     open_pair(&r, &lattice, NULL);
@@ -825,7 +825,7 @@ TEST(times_and_motion_converge_with_the_step)
     double wrong[2];
     for (int k = 0; k < 2; k++) {
         const double h = 0.08 / (1 << k);
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         CLEANUP(close_rig) rig r;
         double y[8];
         open_pair(&r, &lattice, NULL);
@@ -852,7 +852,7 @@ TEST(an_error_beyond_what_is_allowed_ends_the_step)
 {
     static const double strict[2] = {1e-12, 1e-12}, lax[2] = {1.0, 1.0};
     for (int k = 0; k < 3; k++) {
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         CLEANUP(close_rig) rig r;
         open_pair(&r, &lattice, k == 0 ? strict : (k == 1 ? lax : NULL));
         swing(&r, &lattice, 0.16);
@@ -875,7 +875,7 @@ TEST(what_events_have_done_bounds_the_next_step)
     double error = 0.0;
     for (int k = 0; k < 3; k++) {
         const double one = k == 0 ? 1.0 : error * (k == 1 ? 1.5 : 30.0), tolerance[2] = {one, one};
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         CLEANUP(close_rig) rig r;
         open_pair(&r, &lattice, tolerance);
         swing(&r, &lattice, 0.16);

@@ -27,7 +27,7 @@ static dem_model *make_bodies(void)
                                 .thickness = 1.0,
                                 .guard = 0.02};
     const double aside[2] = {3.0, 0.5};
-    CLEANUP(dem_lattice_free) dem_lattice first, second;
+    CLEANUP(dem_lattice_free) dem_lattice first = dem_lattice_empty(), second = dem_lattice_empty();
     assert_ok(dem_lattice_rectangle(&first, 0.4, 0.3, 0.1));
     assert_ok(dem_lattice_assemble(&first, &light));
     assert_ok(dem_lattice_rectangle(&second, 0.2, 0.5, 0.1));

@@ -45,6 +45,7 @@ static void make_lattice(dem_lattice *out, double damping_time)
                                  .thickness = 1.0,
                                  .guard = 0.02,
                                  .damping_time = damping_time};
+    *out = dem_lattice_empty();
     assert_ok(dem_lattice_rectangle(out, 5.0 * spacing, 5.0 * spacing, spacing));
     assert_ok(dem_lattice_assemble(out, &rubber));
     assert_true(out->n_nodes <= MOST_NODES && out->n_nodes > 30);

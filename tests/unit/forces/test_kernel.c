@@ -183,7 +183,7 @@ static int outside_hole(void *context, const double x[2])
 
 static dem_lattice make_holed(const dem_material *material)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_disc(&lattice, 0.15, 1e-2));
     dem_lattice_move(&lattice, 0.1, (const double[2]){0.15, 0.15});
     assert_ok(dem_lattice_cut(&lattice, outside_hole, NULL));
@@ -264,7 +264,7 @@ TEST(squares_agree)
                               .density = 1050.0,
                               .thickness = 1.0,
                               .damping_time = 1e-6};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_squares(&lattice, 0.2, 0.13, 0.01));
     assert_ok(dem_lattice_assemble_squares(&lattice, &raw, 0.5));
     check_lattice(&lattice, 0.2);

@@ -189,7 +189,7 @@ TEST(every_spring_may_have_the_same_stiffness)
 
 static dem_lattice make_squares(double width, double height)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_squares(&lattice, width, height, spacing), DEM_OK);
     return lattice;
 }

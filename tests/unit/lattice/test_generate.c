@@ -34,7 +34,7 @@ TEST(the_papers_rectangle_has_1983_nodes_in_61_rows)
 TEST(every_triangle_is_equilateral_and_counter_clockwise)
 {
     const double expected = sqrt(3.0) / 4.0 * spacing * spacing;
-    dem_lattice shapes[2] = {make_rectangle(0.04, 0.03, spacing)};
+    dem_lattice shapes[2] = {make_rectangle(0.04, 0.03, spacing), dem_lattice_empty()};
     assert_int_equal(dem_lattice_disc(&shapes[1], 0.03, spacing), DEM_OK);
     for (int s = 0; s < 2; s++) {
         for (dem_index t = 0; t < shapes[s].n_triangles; t++)
@@ -70,7 +70,7 @@ TEST(a_rectangle_of_one_spacing_is_one_triangle)
 
 TEST(a_rectangle_refuses_impossible_sizes)
 {
-    dem_lattice lattice = {.n_nodes = 7};
+    dem_lattice lattice = {.struct_size = sizeof lattice, .n_nodes = 7};
     assert_refused(dem_lattice_rectangle(&lattice, 1.0, 1.0, 2.0), DEM_ERROR_ARGUMENT,
                    "rectangle * 1 m x 1 m * spacing 2 m");
     assert_refused(dem_lattice_rectangle(&lattice, 1.0, 1.0, 0.0), DEM_ERROR_ARGUMENT,
@@ -91,7 +91,7 @@ TEST(a_disc_fills_its_radius_and_has_a_node_at_the_centre)
 {
     const double radius = 25.0 * spacing, cell = sqrt(0.75) * spacing * spacing;
     int at_centre = 0, on_rim = 0;
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_disc(&lattice, radius, spacing), DEM_OK);
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
         const double r = hypot(lattice.x[2 * i], lattice.x[2 * i + 1]);
@@ -107,7 +107,7 @@ TEST(a_disc_fills_its_radius_and_has_a_node_at_the_centre)
 TEST(a_disc_is_mirror_symmetric_about_both_axes)
 {
     for (int k = 0; k < 20; k++) {
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         dem_index mirrored = 0;
         assert_int_equal(dem_lattice_disc(&lattice, 0.01 * (1.0 + 0.05 * k), spacing), DEM_OK);
         for (dem_index i = 0; i < lattice.n_nodes; i++)
@@ -122,7 +122,7 @@ TEST(a_disc_is_mirror_symmetric_about_both_axes)
 
 TEST(a_disc_of_one_spacing_is_a_hexagon)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_disc(&lattice, spacing, spacing), DEM_OK);
     assert_int_equal(lattice.n_nodes, 7);
     assert_int_equal(lattice.n_triangles, 6);
@@ -130,7 +130,7 @@ TEST(a_disc_of_one_spacing_is_a_hexagon)
 
 TEST(a_disc_refuses_impossible_sizes)
 {
-    dem_lattice lattice = {.n_nodes = 7};
+    dem_lattice lattice = {.struct_size = sizeof lattice, .n_nodes = 7};
     assert_refused(dem_lattice_disc(&lattice, 1.0, 1.5), DEM_ERROR_ARGUMENT, "disc * radius 1 m * spacing 1.5 m");
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, -1.0), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_lattice_disc(&lattice, (double)INFINITY, 1.0), DEM_ERROR_ARGUMENT);
@@ -204,7 +204,7 @@ TEST(a_cut_refuses_to_leave_nothing_and_to_cut_springs)
 
 TEST(squares_are_two_triangles_each_that_meet_along_turning_diagonals)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_squares(&lattice, 0.031, 0.024, 0.01), DEM_OK); /* 3 x 2 cells */
     assert_int_equal(lattice.n_nodes, 12);
     assert_int_equal(lattice.n_triangles, 12);
@@ -228,7 +228,7 @@ TEST(squares_are_two_triangles_each_that_meet_along_turning_diagonals)
 
 TEST(squares_refuse_impossible_sizes)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     assert_refused(dem_lattice_squares(&lattice, 1.0, 1.0, 1.5), DEM_ERROR_ARGUMENT,
                    "rectangle * 1 m x 1 m * spacing 1.5 m");
     assert_refused(dem_lattice_squares(NULL, 1.0, 1.0, 1.0), DEM_ERROR_ARGUMENT, "out is NULL");

@@ -35,8 +35,7 @@ TEST(parts_are_numbered_by_their_lowest_nodes)
     const dem_index expected[7] = {0, 1, 0, 2, 1, 1, 3};
     double x[14] = {0}, ones[3] = {1, 1, 1};
     dem_index ends[6] = {2, 0, 5, 4, 4, 1}, part[7], n_parts;
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = 7, lattice.n_springs = 3;
     lattice.x = x, lattice.ends = ends, lattice.rest_length = ones, lattice.stiffness = ones;
     assert_int_equal(dem_lattice_parts(&lattice, &n_parts, part), DEM_OK);
@@ -110,7 +109,7 @@ TEST(pieces_share_edges_and_a_hinge_has_more_than_two_rims)
 
 TEST(a_hexagon_is_one_piece_without_a_rim_at_its_centre)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     dem_index n, n_edges[7];
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_pieces(&lattice, &n, NULL), DEM_OK);
@@ -146,7 +145,7 @@ TEST(trimming_keeps_triangles_with_their_nodes)
 TEST(a_node_stays_with_what_is_left_of_its_triangles)
 {
     const unsigned char keep[6] = {0, 1, 1, 1, 1, 0};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_trim(&lattice, keep), DEM_OK);
     assert_int_equal(lattice.n_triangles, 4);
@@ -161,8 +160,7 @@ TEST(spin_turns_about_the_centre_of_mass)
 {
     double x[4] = {7.0, 0.0, 7.0, 0.0}, position[4] = {0.0, 5.0, 4.0, 5.0}, mass[2] = {1.0, 3.0};
     const double v[2] = {0.5, 0.25};
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = 2, lattice.x = x, lattice.position = position;
     assert_refused(dem_lattice_spin(&lattice, 2.0), DEM_ERROR_MODEL,
                    "a lattice without masses has no centre of mass to turn about");
@@ -210,7 +208,7 @@ TEST(append_numbers_nodes_and_bodies_behind_the_others)
 {
     const double v[2] = {0.0, -1.0};
     CLEANUP(dem_lattice_free) dem_lattice all, part = make_solid(1.0, 1.6, 1.0);
-    dem_lattice_init(&all);
+    all = dem_lattice_empty();
     assert_int_equal(dem_lattice_append(&all, &part), DEM_OK);
     assert_null(all.body);
     assert_null(all.flags);
@@ -241,7 +239,7 @@ TEST(append_keeps_who_may_touch_and_where_the_motion_starts)
 {
     const double offset[2] = {4.0, 0.0};
     dem_lattice block = make_solid(2.0, 2.0, 1.0), point;
-    dem_lattice_init(&point);
+    point = dem_lattice_empty();
     point.n_nodes = 1;
     point.x = calloc(2, sizeof(double));
     point.position = calloc(2, sizeof(double));
@@ -269,7 +267,7 @@ TEST(append_keeps_who_may_touch_and_where_the_motion_starts)
 TEST(append_gives_undamped_springs_no_viscosity_beside_damped_ones)
 {
     dem_lattice all, damped = make_solid(1.0, 1.6, 1.0), plain = make_solid(1.0, 1.0, 1.0);
-    dem_lattice_init(&all);
+    all = dem_lattice_empty();
     give_viscosity(&damped);
     assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
     assert_null(all.viscosity);
@@ -287,7 +285,7 @@ TEST(append_gives_undamped_springs_no_viscosity_beside_damped_ones)
 TEST(append_gives_thickness_and_modulus_1_beside_given_ones)
 {
     dem_lattice all, given = make_solid(1.0, 1.6, 1.0), plain = make_rectangle(1.0, 1.0, 1.0);
-    dem_lattice_init(&all);
+    all = dem_lattice_empty();
     plain.mass = calloc(3, sizeof *plain.mass);
     assert_non_null(plain.mass);
     given.modulus[1] = 3.0;
@@ -312,7 +310,7 @@ TEST(append_refuses_mixed_and_broken_lattices)
     dem_lattice solid = make_solid(1.0, 1.0, 1.0), bare = make_rectangle(1.0, 1.0, 1.0), broken;
     assert_refused(dem_lattice_append(&solid, &bare), DEM_ERROR_MODEL, "one lattice has masses, the other has none");
     assert_refused(dem_lattice_append(NULL, &bare), DEM_ERROR_ARGUMENT, "lattice is NULL");
-    dem_lattice_init(&broken);
+    broken = dem_lattice_empty();
     broken.n_nodes = 3;
     assert_refused(dem_lattice_append(&solid, &broken), DEM_ERROR_ARGUMENT, "3 nodes * x is NULL");
     broken.n_nodes = -1;

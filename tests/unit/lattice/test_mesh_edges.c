@@ -51,7 +51,7 @@ TEST(an_edge_between_two_triangles_begins_once)
 /* Slots counted as the documentation says: a hexagon of 6 triangles has 12 edges, 6 of them inside. */
 TEST(every_triangle_has_its_three_sides_in_the_list)
 {
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     CLEANUP(mesh_edges_free) mesh_edges s;
     int slots = 0, edges = 0, of_triangle[6] = {0};
     assert_ok(dem_lattice_disc(&lattice, 1.0, 1.0));
@@ -72,7 +72,7 @@ TEST(every_triangle_has_its_three_sides_in_the_list)
 TEST(the_nodes_of_boundary_edges_may_touch_and_those_inside_may_not)
 {
     unsigned char flags[7];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_disc(&lattice, 1.0, 1.0));
     memset(flags, 0xff, sizeof flags);
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
@@ -93,7 +93,7 @@ static int away_from_the_middle(void *context, const double x[2])
 TEST(the_rim_of_a_hole_is_boundary_too)
 {
     unsigned char flags[19];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_disc(&lattice, 2.0, 1.0));
     assert_int_equal(lattice.n_nodes, 19);
     assert_ok(mesh_edges_contact_flags(flags, &lattice));

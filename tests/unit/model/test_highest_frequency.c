@@ -56,7 +56,7 @@ TEST(solids_have_the_highest_frequency_that_gsl_finds)
                                     .poissons_ratio = ratios[k / 2],
                                     .density = 1050.0,
                                     .thickness = 1.0};
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         double omega;
         assert_ok(k % 2 == 0 ? dem_lattice_rectangle(&lattice, 0.05, 0.04, 5e-3)
                              : dem_lattice_disc(&lattice, 0.02, 5e-3));

@@ -39,7 +39,7 @@ static const square plain = {.x = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0},
 static void make_square(square *s)
 {
     *s = plain;
-    dem_lattice_init(&s->lattice);
+    s->lattice = dem_lattice_empty();
     s->lattice.n_nodes = n_nodes;
     s->lattice.n_springs = n_springs;
     s->lattice.n_triangles = n_triangles;
@@ -300,7 +300,7 @@ TEST(by_default_the_boundary_may_touch)
                                  .poissons_ratio = 1.0 / 3.0,
                                  .density = 1050.0,
                                  .thickness = 1.0};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     CLEANUP(free_model) dem_model *model;
     assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
     assert_ok(dem_lattice_assemble(&lattice, &rubber));

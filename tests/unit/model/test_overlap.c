@@ -12,7 +12,7 @@
 /* Two discs of unit spacing, beside each other. */
 static void make_discs(dem_lattice *l)
 {
-    CLEANUP(dem_lattice_free) dem_lattice other;
+    CLEANUP(dem_lattice_free) dem_lattice other = dem_lattice_empty();
     assert_ok(dem_lattice_disc(l, 3.0, 1.0));
     assert_ok(dem_lattice_disc(&other, 3.0, 1.0));
     dem_lattice_move(&other, 0.0, (const double[2]){7.0, 0.0});
@@ -36,7 +36,7 @@ static dem_index count_pairs(const dem_lattice *l, const unsigned char *flags, c
 
 TEST(every_pair_is_counted)
 {
-    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     make_discs(&l);
@@ -62,7 +62,7 @@ TEST(every_pair_is_counted)
 
 TEST(the_first_is_kept)
 {
-    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
     make_discs(&l);
     assert_ok(overlap_create(&o, &l));
@@ -87,7 +87,7 @@ TEST(the_first_is_kept)
 /* A body turned and moved as a whole does not overlap itself: touching is not inside. */
 TEST(a_whole_body_does_not_overlap_itself)
 {
-    CLEANUP(dem_lattice_free) dem_lattice l;
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
     assert_ok(dem_lattice_rectangle(&l, 5.0, 5.0, 1.0));
     assert_ok(overlap_create(&o, &l));

@@ -263,7 +263,7 @@ TEST(materials_do_not_take_each_others_stress)
 {
     static const double modulus[2] = {1e7, 1e9}, thickness[2] = {0.5, 0.02}, F[4] = {1.02, 0.03, 0.0, 0.99};
     double sample[2][3];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     for (int side = 0; side < 2; side++) {
         dem_material material = rubber;
         material.youngs_modulus = modulus[side];

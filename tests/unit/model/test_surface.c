@@ -140,7 +140,7 @@ TEST(a_ring_has_two_boundaries_that_run_opposite_ways)
 {
     const double hexagon = 1.5 * sqrt(3.0);
     unsigned char flags[18];
-    CLEANUP(dem_lattice_free) dem_lattice ring;
+    CLEANUP(dem_lattice_free) dem_lattice ring = dem_lattice_empty();
     CLEANUP(surface_free) surface s;
     assert_ok(dem_lattice_disc(&ring, 2.0, 1.0));
     assert_ok(dem_lattice_cut(&ring, away_from_the_middle, NULL));

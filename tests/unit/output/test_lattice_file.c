@@ -94,7 +94,7 @@ static int remove_lattice(void **state)
 
 static dem_lattice read_lattice(void)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     const dem_status status = dem_lattice_read(&lattice, path);
     if (status != DEM_OK) fail_msg("%s", dem_status_message());
     return lattice;
@@ -102,7 +102,7 @@ static dem_lattice read_lattice(void)
 
 static void assert_refused(const char *file, dem_status status, const char *message)
 {
-    dem_lattice lattice = {.n_nodes = -7};
+    dem_lattice lattice = {.struct_size = sizeof lattice, .n_nodes = -7};
     dem_index size[2] = {-7, -7};
     const dem_status measured = dem_lattice_measure(file, &size[0], &size[1]);
     if (status == DEM_ERROR_IO) assert_int_equal(measured, status);
@@ -304,7 +304,7 @@ TEST_WITH(wrong_types_and_shapes_are_refused, write_lattice, remove_lattice)
 
 TEST_WITH(a_number_that_does_not_fit_is_refused, write_lattice, remove_lattice)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     put_whole("body", 5, 0, (int64_t[5]){0, 0, 5000000000, 0, 0});
     assert_int_equal(dem_lattice_read(&lattice, path), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/lattice/body: cannot be read"));
@@ -362,7 +362,7 @@ TEST_WITH(links_are_refused, write_lattice, remove_lattice)
 
 TEST_WITH(a_group_in_place_of_a_dataset_is_refused, write_lattice, remove_lattice)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     drop("x");
     const hid_t group = open_group(), inner = H5Gcreate2(group, "x", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     (void)H5Gclose(inner);

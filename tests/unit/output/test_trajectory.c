@@ -45,7 +45,7 @@ static void make_model(run *r, int n_obstacles)
                                  .density = 1050.0,
                                  .thickness = 1.0,
                                  .guard = 0.02};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_rectangle(&lattice, 0.02, 0.02, 5e-3), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
     dem_lattice_move(&lattice, 0.1, offset);
@@ -60,8 +60,7 @@ static void make_model(run *r, int n_obstacles)
 static void make_point(run *r)
 {
     double x[2] = {0.25, 0.5}, mass = 2.0;
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = 1, lattice.x = x, lattice.mass = &mass;
     assert_int_equal(dem_model_create(&r->model, &lattice, NULL, 0), DEM_OK);
 }
@@ -538,7 +537,7 @@ TEST(the_lattice_comes_back)
 {
     const dem_trajectory_options options = every_frame();
     CLEANUP(end) run r = begin(&options);
-    CLEANUP(dem_lattice_free) dem_lattice back;
+    CLEANUP(dem_lattice_free) dem_lattice back = dem_lattice_empty();
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     assert_int_equal(dem_lattice_read(&back, r.path), DEM_OK);
     const dem_lattice *lattice = dem_model_lattice(r.model);

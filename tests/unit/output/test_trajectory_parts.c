@@ -413,7 +413,7 @@ static void assert_is_whole(const place *p, const char *name)
     const dem_index frames = count_rows(p, name, "/VTKHDF/Steps/Values"), n = ask_sizes(p->model).n_nodes;
     const hdf5_rows rows = {"/VTKHDF/Steps/PointOffsets", HDF5_I64, 1, {0, 0}, 0, 0};
     char text[16];
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     hdf5_file file;
     assert_true(frames > 0);
     assert_int_equal(count_rows(p, name, "/VTKHDF/Points"), frames * n);

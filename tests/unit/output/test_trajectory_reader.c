@@ -118,9 +118,9 @@ static void begin(run *r, const dem_trajectory_options *options)
 static void begin_point(run *r, const dem_trajectory_options *options)
 {
     double x[2] = {0.25, 0.5}, mass = 2.0;
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     make_folder(r);
-    dem_lattice_init(&lattice);
+    lattice = dem_lattice_empty();
     lattice.n_nodes = 1, lattice.x = x, lattice.mass = &mass;
     assert_ok(dem_model_create(&r->model, &lattice, NULL, 0));
     start(r, *options);

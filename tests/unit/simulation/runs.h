@@ -66,7 +66,7 @@ static inline dem_model *make_falling(double restitution)
     const dem_obstacle slope = {
         .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = restitution};
     const double down[2] = {0.5, -4.0};
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     make_rectangle(&lattice, 0.006);
     assert_ok(dem_lattice_launch(&lattice, down));
     dem_model *model = support_model(&lattice, &slope, 1);

@@ -198,7 +198,7 @@ TEST(a_record_is_of_one_motion)
     const double lift[2] = {0.0, 0.027};
     const char *path = scratch_file("a.checkpoint");
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     CLEANUP(free_checkpoint) dem_checkpoint *before, *after;
     CLEANUP(support_close) support_run run;
     motion s;
@@ -239,7 +239,7 @@ TEST(a_record_is_of_one_motion)
 TEST(a_state_is_taken_over)
 {
     dem_options options = support_options();
-    CLEANUP(dem_lattice_free) dem_lattice block;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     CLEANUP(support_close) support_run from, to;
     support_block(&block);
     options.gravity[1] = 0.0;

@@ -290,7 +290,7 @@ TEST(a_body_without_forces_drifts_in_a_straight_line)
 {
     const double v[2] = {3.0, -2.0};
     dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     motion now;
     options.gravity[1] = 0.0;
     make_rectangle(&lattice, 0.0);
@@ -329,7 +329,7 @@ TEST(fixed_nodes_do_not_move)
 {
     const double down[2] = {0.0, -3.0};
     const dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     motion now;
     dem_index n_fixed = 0, n_moved = 0;
     make_rectangle(&lattice, 0.0);
@@ -432,7 +432,7 @@ static void stop_at_impact(double clearance)
     const dem_obstacle ground = {
         .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = level, .restitution = 0.5};
     const dem_options options = dem_options_default();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     diary d;
     make_rectangle(&lattice, clearance);
     assert_ok(dem_lattice_launch(&lattice, down));

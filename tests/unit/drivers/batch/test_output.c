@@ -35,8 +35,7 @@ static void leave_run(const deck *d, int finished)
     dem_options options = dem_options_default();
     dem_trajectory_options trajectory_options = dem_trajectory_options_default();
     dem_trajectory *trajectory;
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = 1, lattice.x = x, lattice.mass = &mass;
     options.spacing = 1.0, options.max_step = 1.0, options.v_scale = 1.0;
     dem_model *model = support_model(&lattice, NULL, 0);

@@ -21,7 +21,7 @@ static scene make_scene(double x, double y, const double *points, dem_index n_po
                                    .thickness = 1.0};
     const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle), .n_points = n_points, .points = points};
     const double offset[2] = {x + 0.5, y};
-    scene s;
+    scene s = {.lattice = dem_lattice_empty()};
     assert_int_equal(dem_lattice_rectangle(&s.lattice, 1.0, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&s.lattice, &material), DEM_OK);
     dem_lattice_move(&s.lattice, 0.0, offset);
@@ -181,7 +181,7 @@ TEST(the_point_deepest_between_nodes_is_found)
                                    .poissons_ratio = 1.0 / 3.0,
                                    .density = 1000.0,
                                    .thickness = 1.0};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_rectangle(&lattice, 3.0, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &material), DEM_OK);
     clearance_spike found = find_spike(&lattice, spikes, 5);
@@ -205,8 +205,7 @@ TEST(points_on_rims_and_in_fixed_triangles_are_no_spikes)
     dem_index corners[] = {0, 1, 2};
     unsigned char fixed[] = {DEM_NODE_FIXED, DEM_NODE_FIXED, DEM_NODE_FIXED};
     const double rim[] = {0.5, -0.5, 0.5, 0.0, 0.7, -0.5}, inside[] = {0.2, -0.5, 0.2, 0.3, 0.3, -0.5};
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = 3, lattice.x = x, lattice.mass = mass, lattice.n_triangles = 1, lattice.triangles = corners;
     assert_close(find_spike(&lattice, rim, 3).depth, 0.0, 0.0);
     assert_close(find_spike(&lattice, inside, 3).depth, 0.2, 1e-15);

@@ -22,7 +22,7 @@
 
 static dem_lattice read_good(const char *text)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     char fault[MSH_FAULT] = "";
     if (msh_parse(&lattice, fault, text, strlen(text)) != DEM_OK) fail_msg("%s", fault);
     return lattice;
@@ -30,7 +30,7 @@ static dem_lattice read_good(const char *text)
 
 static void expect_fault(const char *text, const char *expected)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     char fault[MSH_FAULT] = "";
     assert_int_equal(msh_parse(&lattice, fault, text, strlen(text)), DEM_ERROR_MODEL);
     assert_string_equal(fault, expected);
@@ -141,7 +141,7 @@ TEST(no_beginning_of_a_mesh_is_harmful)
     static const char text[] = FORMAT ENTITIES NODES ELEMENTS;
     for (size_t n = 0; n + 1 < sizeof text; n++) {
         char fault[MSH_FAULT] = "", *part = malloc(n + 1); /* exact: what reads beyond is seen */
-        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         assert_non_null(part);
         memcpy(part, text, n);
         part[n] = '\0';
@@ -155,7 +155,7 @@ TEST(a_file_is_read_as_its_text_is)
 {
     char path[] = "/tmp/test_msh_XXXXXX", fault[MSH_FAULT] = "";
     const char text[] = FORMAT NODES ELEMENTS;
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     const int file = mkstemp(path);
     assert_true(file >= 0 && write(file, text, sizeof text - 1) == (ssize_t)(sizeof text - 1) && close(file) == 0);
     assert_int_equal(msh_read(&lattice, fault, path), DEM_OK);

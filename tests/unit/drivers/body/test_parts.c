@@ -12,8 +12,7 @@ static dem_index ends[10] = {7, 8, 8, 0, 1, 2, 3, 4, 4, 5};
 
 static dem_lattice make_lattice(int32_t *body)
 {
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = 9, lattice.n_springs = 5;
     lattice.x = x, lattice.ends = ends, lattice.rest_length = ones, lattice.stiffness = ones, lattice.body = body;
     return lattice;
@@ -51,9 +50,9 @@ TEST(every_body_has_a_main_part)
 TEST(a_lattice_without_nodes_has_no_parts)
 {
     unsigned char kept[1];
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     parts_loose loose;
-    dem_lattice_init(&lattice);
+    lattice = dem_lattice_empty();
     assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
     assert_int_equal(loose.n, 0);
 }
@@ -90,8 +89,7 @@ static dem_index fan[9] = {2, 4, 5, 0, 1, 2, 0, 2, 3};
 
 static dem_lattice make_fan(void)
 {
-    dem_lattice lattice;
-    dem_lattice_init(&lattice);
+    dem_lattice lattice = dem_lattice_empty();
     lattice.n_nodes = 6, lattice.n_triangles = 3;
     lattice.x = fan_x, lattice.triangles = fan;
     return lattice;

@@ -63,7 +63,7 @@ TEST(voids_are_not_material)
 TEST(the_lattice_leaves_voids_out)
 {
     CLEANUP(shape_free) shape s = make_rectangle();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     double mass = 0.0;
     add(&s, round_void);
     add(&s, square_void);
@@ -86,7 +86,7 @@ TEST(a_void_takes_nodes_only_where_they_are)
     const outline outside = {.kind = OUTLINE_DISC, .centre = {0.0, -1.0}, .radius = 0.5};
     const double edge[2] = {3.0, 8.0};
     shape s = make_rectangle();
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
     assert_true(shape_takes(&s, &round_void, &lattice));
     assert_true(shape_takes(&s, &square_void, &lattice));
@@ -100,7 +100,7 @@ TEST(a_void_takes_nodes_only_where_they_are)
 TEST(a_void_of_everything_leaves_no_lattice)
 {
     CLEANUP(shape_free) shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 1.0}, .spacing = 0.5};
-    CLEANUP(dem_lattice_free) dem_lattice lattice;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(shape_mesh(&lattice, &s), DEM_OK);
     const dem_index n = lattice.n_nodes;
     assert_int_equal(shape_cut(&lattice, &s), DEM_OK);
@@ -143,7 +143,7 @@ TEST(a_pore_without_a_place_is_reported)
 
 static dem_lattice make_lattice(const shape *s)
 {
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(shape_mesh(&lattice, s), DEM_OK);
     assert_int_equal(shape_cut(&lattice, s), DEM_OK);
     return lattice;

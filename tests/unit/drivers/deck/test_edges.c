@@ -16,7 +16,7 @@ static dem_model *make_model(double (*size)[2], double radius, double angle)
                                 .poissons_ratio = 0.3,
                                 .density = 1.0,
                                 .thickness = 1.0};
-    dem_lattice l;
+    dem_lattice l = dem_lattice_empty();
     dem_model *model;
     if (size != NULL)
         assert_int_equal(dem_lattice_rectangle(&l, (*size)[0], (*size)[1], 0.1), DEM_OK);

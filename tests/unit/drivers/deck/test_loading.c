@@ -17,7 +17,7 @@ static const double spacing = 0.5;
 static void make_block(dem_lattice *l, const placement *place)
 {
     const dem_index first = place->first, n = first + n_nodes;
-    dem_lattice_init(l);
+    *l = dem_lattice_empty();
     l->n_nodes = n;
     l->x = calloc((size_t)n, 2 * sizeof *l->x);
     l->ends = calloc(2, sizeof *l->ends);

@@ -9,9 +9,9 @@ static void expect(const char *groups, const char *faults)
 {
     double x[4] = {7.0, 0.0, 8.0, 0.0}, mass[2] = {1.0, 1.0}, velocity[4] = {0.0, -8.0}, rest = 1.0, stiffness = 1.0;
     dem_index ends[2] = {0, 1};
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     CLEANUP(drop_resolved) resolved r = resolve(groups);
-    dem_lattice_init(&lattice);
+    lattice = dem_lattice_empty();
     lattice.n_nodes = 2, lattice.x = x, lattice.mass = mass, lattice.velocity = velocity;
     lattice.n_springs = 1, lattice.ends = ends, lattice.rest_length = &rest, lattice.stiffness = &stiffness;
     namelist_errors_free(&r.errors);

@@ -45,7 +45,7 @@ static inline void exported_lattice(dem_lattice *l)
     static double rest[3] = {3.0, 4.0, 5.0}, guard[1] = {0.5}, velocity[6] = {0.1, -0.25, 0.1, -0.25, 0.0, 0.0};
     static dem_index ends[6] = {0, 1, 1, 2, 2, 0}, corners[3] = {0, 1, 2};
     static unsigned char flags[3] = {DEM_NODE_CONTACT, DEM_NODE_CONTACT, DEM_NODE_FIXED};
-    dem_lattice_init(l);
+    *l = dem_lattice_empty();
     l->n_nodes = l->n_springs = 3, l->n_triangles = 1;
     l->x = x, l->mass = mass, l->velocity = velocity, l->flags = flags;
     l->ends = ends, l->rest_length = rest, l->stiffness = stiffness;
@@ -60,7 +60,7 @@ static inline void exported_run(const exported *e, const exported_how *how)
     const dem_probe probe = {"tip", DEM_PROBE_NODE, {0, 0}, 1};
     dem_trajectory_options options = dem_trajectory_options_default();
     dem_options usual = dem_options_default();
-    dem_lattice lattice;
+    dem_lattice lattice = dem_lattice_empty();
     dem_trajectory *trajectory;
     usual.gravity[1] = 0.0;
     options.frame_interval = how->frame_interval, options.double_precision = how->double_precision;

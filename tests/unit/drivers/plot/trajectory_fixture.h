@@ -33,10 +33,10 @@ static inline dem_lattice trajectory_fixture_lattice(void)
                                  .thickness = 1,
                                  .guard = 0.02};
     const double velocity[2] = {0.5, -2.0}, at[2] = {0.03, 0.01}, none[1] = {1e-3};
-    dem_lattice block, loose;
+    dem_lattice block = dem_lattice_empty(), loose = dem_lattice_empty();
     trajectory_fixture_ok(dem_lattice_rectangle(&block, 0.02, 0.02, 4e-3));
     trajectory_fixture_ok(dem_lattice_assemble(&block, &rubber));
-    dem_lattice_init(&loose);
+    loose = dem_lattice_empty();
     loose.n_nodes = 1;
     loose.x = malloc(sizeof at), loose.mass = malloc(sizeof none);
     loose.x[0] = at[0], loose.x[1] = at[1], loose.mass[0] = none[0];
