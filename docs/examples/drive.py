@@ -49,14 +49,14 @@ class dem_options(Sized):
     _fields_ = [("struct_size", c_size_t), ("method", c_int), ("gravity", c_double * 3), ("rtol", c_double),
                 ("spacing", c_double), ("v_scale", c_double), ("max_step", c_double), ("fixed_step", c_double),
                 ("penetration_tolerance", c_double), ("rest_speed", c_double), ("max_impacts", c_int64), ("window", c_double),
-                ("mass_damping", c_double), ("vertices", c_int32), ("contact", c_int), ("kernel", c_int),
+                ("mass_damping", c_double), ("vertices", ctypes.c_bool), ("contact", c_int), ("kernel", c_int),
                 ("threads", c_int32), ("checkpoint_steps", c_int64), ("n_boundaries", c_int64), ("boundaries", c_void_p),
                 ("force", dem_force), ("force_context", c_void_p)]
 
     def __init__(self, **given):
         """As dem_options_default(), which is inline in the header."""
         defaults = dict(gravity=(0.0, -9.81, 0.0), rtol=1e-6, max_impacts=10000,
-                        window=-1.0, vertices=1, threads=1, checkpoint_steps=256)
+                        window=-1.0, vertices=True, threads=1, checkpoint_steps=256)
         super().__init__(**{**defaults, **given})
 
 

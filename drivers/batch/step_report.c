@@ -7,7 +7,7 @@
 
 dem_method_traits step_report_method(const dem_simulation *simulation)
 {
-    dem_method_traits traits = {0};
+    dem_method_traits traits = {.struct_size = sizeof traits};
     (void)dem_method_describe(&traits, ask_options(simulation).method);
     return traits;
 }

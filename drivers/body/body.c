@@ -159,7 +159,7 @@ static dem_status settle_parts(builder *b)
 {
     const bool triangles = b->lattice.n_springs == 0, refuse = schema_is(b->body, "disconnected", "refuse");
     const bool remove = schema_is(b->body, "disconnected", "remove");
-    unsigned char *kept = calloc((size_t)(triangles ? b->lattice.n_triangles : b->lattice.n_nodes) + 1, sizeof *kept);
+    bool *kept = calloc((size_t)(triangles ? b->lattice.n_triangles : b->lattice.n_nodes) + 1, sizeof *kept);
     if (kept == NULL) return DEM_ERROR_MEMORY;
     dem_status status = parts_find(&b->facts.loose, kept, &b->lattice);
     b->facts.removed = remove;

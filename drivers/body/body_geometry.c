@@ -341,7 +341,7 @@ static dem_status weigh(former *f, shape *s)
 
 /* ---- cracks ---- */
 
-static dem_status mark_crack(const former *f, unsigned char *keep, const schema_instance *group, double shift)
+static dem_status mark_crack(const former *f, bool *keep, const schema_instance *group, double shift)
 {
     const schema_value *points = schema_value_of(group, "points");
     const dem_index n = crack_mark(keep, &f->lattice, points->reals, (size_t)points->count / 2, shift);
@@ -364,7 +364,7 @@ static dem_status crack(former *f)
 {
     const double shift = aside * f->geometry.spacing;
     const dem_index n = f->lattice.n_triangles;
-    unsigned char *keep = malloc((size_t)n + 1);
+    bool *keep = malloc((size_t)n + 1);
     dem_status status = DEM_OK;
     if (keep == NULL) return DEM_ERROR_MEMORY;
     memset(keep, 1, (size_t)n + 1);

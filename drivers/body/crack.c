@@ -47,8 +47,7 @@ static bool crosses(const double *a, const double *b, const double *const corner
     return true;
 }
 
-dem_index crack_mark(unsigned char *keep, const dem_lattice *lattice, const double *points, size_t n_points,
-                     double shift)
+dem_index crack_mark(bool *keep, const dem_lattice *lattice, const double *points, size_t n_points, double shift)
 {
     const size_t n = 2 * n_points - 2;
     double *path = calloc(n, 2 * sizeof *path);

@@ -12,7 +12,6 @@
  * \param keep    [n_triangles]
  * \param points  [n_points][2], m, n_points >= 2, consecutive ones distinct
  * \return the number of triangles crossed, also where keep was 0; -1 when memory runs out */
-dem_index crack_mark(unsigned char *keep, const dem_lattice *lattice, const double *points, size_t n_points,
-                     double shift);
+dem_index crack_mark(bool *keep, const dem_lattice *lattice, const double *points, size_t n_points, double shift);
 
 #endif

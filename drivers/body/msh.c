@@ -270,7 +270,7 @@ static bool read_sections(mesh *m, text_reader *w)
 /* Hands the arrays over and drops nodes without triangles. */
 static dem_status give(dem_lattice *out, mesh *m)
 {
-    unsigned char *keep = malloc((size_t)m->n_triangles);
+    bool *keep = malloc((size_t)m->n_triangles);
     if (keep == NULL) return DEM_ERROR_MEMORY;
     memset(keep, 1, (size_t)m->n_triangles);
     out->n_nodes = m->n_nodes, out->n_triangles = m->n_triangles;

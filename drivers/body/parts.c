@@ -56,7 +56,7 @@ static void append(parts_loose *loose, const part *p, const double *x)
     for (int c = 0; c < 2; c++) loose->x[k][c] = x[2 * p->node + c];
 }
 
-static dem_status sort_out(parts_loose *loose, unsigned char *kept, const members *m, dem_index n)
+static dem_status sort_out(parts_loose *loose, bool *kept, const members *m, dem_index n)
 {
     part *list = calloc((size_t)n + 1, sizeof *list);
     unsigned char *is_main = calloc((size_t)n + 1, sizeof *is_main); /* by part number */
@@ -73,7 +73,7 @@ static dem_status sort_out(parts_loose *loose, unsigned char *kept, const member
     return status;
 }
 
-dem_status parts_find(parts_loose *loose, unsigned char *kept, const dem_lattice *lattice)
+dem_status parts_find(parts_loose *loose, bool *kept, const dem_lattice *lattice)
 {
     const bool triangles = lattice->n_springs == 0 && lattice->n_triangles > 0;
     members m = {.lattice = lattice, .n = triangles ? lattice->n_triangles : lattice->n_nodes, .triangles = triangles};

@@ -16,7 +16,7 @@ typedef struct parts_loose {
 /* Finds the loose parts of every body of a lattice: of nodes that springs connect, in a lattice without springs of
  * triangles that share edges. Of equally large ones that with the lowest member is the main part.
  * \param[out] kept  [n_nodes], without springs [n_triangles]: 1 for members of the main part of their body, else 0 */
-dem_status parts_find(parts_loose *loose, unsigned char *kept, const dem_lattice *lattice);
+dem_status parts_find(parts_loose *loose, bool *kept, const dem_lattice *lattice);
 
 /* Prints "9 nodes at (0, 1), 3 at (2, 0)": the first ones, "..." behind them if there are more.
  * \param[out] text  [PARTS_LIST]

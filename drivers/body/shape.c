@@ -30,7 +30,7 @@ static bool is_fitted(const shape *s)
     return s->outline.kind == OUTLINE_RECTANGLE || !s->squares;
 }
 
-static int is_kept(void *context, const double x[2])
+static bool is_kept(void *context, const double *x)
 {
     const shape *s = context;
     return (is_fitted(s) || shape_outline_has(s, x)) && void_distance(s, x) > -rounding * s->spacing;
@@ -123,7 +123,7 @@ dem_status shape_mesh(dem_lattice *out, const shape *s)
     return is_fitted(s) ? make_grid(out, s, o->size, (double[2]){0.0, 0.0}) : cover(out, s);
 }
 
-void shape_keep_cells(unsigned char *keep, dem_index n_triangles)
+void shape_keep_cells(bool *keep, dem_index n_triangles)
 {
     for (dem_index t = 0; t + 1 < n_triangles; t += 2) keep[t] = keep[t + 1] = keep[t] != 0 && keep[t + 1] != 0;
 }
@@ -131,7 +131,7 @@ void shape_keep_cells(unsigned char *keep, dem_index n_triangles)
 static dem_status cut_cells(dem_lattice *lattice, const shape *s)
 {
     const dem_index n = lattice->n_triangles;
-    unsigned char *node = malloc((size_t)lattice->n_nodes), *keep = malloc((size_t)n);
+    bool *node = malloc((size_t)lattice->n_nodes), *keep = malloc((size_t)n);
     dem_status status = node != NULL && keep != NULL ? DEM_OK : DEM_ERROR_MEMORY;
     shape cut = *s;
     for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++)

@@ -38,7 +38,7 @@ bool shape_takes(const shape *s, const outline *hole, const dem_lattice *lattice
 pores_status shape_add_pores(shape *s, pores *out, pores_recipe *recipe);
 
 /* Of each cell of a lattice of squares keeps both triangles or none.  \param keep [n_triangles] 0 or 1 */
-void shape_keep_cells(unsigned char *keep, dem_index n_triangles);
+void shape_keep_cells(bool *keep, dem_index n_triangles);
 
 /* Triangulation that has the rectangle or disc of its outline, or covers any other one, without voids. Caller owns
  * *out. */

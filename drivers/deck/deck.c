@@ -215,7 +215,7 @@ static void check_solver(const schema_instance *solver, namelist_errors *errors)
 {
     const schema_value *name = schema_value_of(solver, "method"), *longest = schema_value_of(solver, "max_step");
     dem_method method;
-    dem_method_traits traits;
+    dem_method_traits traits = {.struct_size = sizeof traits};
     if (!name->faulty && dem_method_find(&method, schema_text(solver, "method")) == DEM_OK &&
         dem_method_describe(&traits, method) != DEM_OK)
         namelist_errors_add(errors, name->place, "%s", dem_status_message());

@@ -153,7 +153,7 @@ static double least_stiffness_of(const deck *d, size_t k)
 static double longest_step(const deck *d)
 {
     const dem_options *o = &d->options;
-    dem_method_traits method;
+    dem_method_traits method = {.struct_size = sizeof method};
     double stiffness = 0.0;
     if (o->fixed_step > 0.0) return o->fixed_step;
     if (o->max_step > 0.0) return o->max_step;
@@ -250,7 +250,7 @@ bool estimate_deck(estimate *out, const deck *d)
 static double default_step(const deck *d, const dem_simulation *simulation)
 {
     const double omega = dem_model_omega_max(dem_simulation_model(simulation));
-    dem_method_traits method;
+    dem_method_traits method = {.struct_size = sizeof method};
     if (d->options.fixed_step > 0.0 || d->options.max_step > 0.0 || !(omega > 0.0)) return 0.0;
     if (dem_method_describe(&method, d->options.method) != DEM_OK) return 0.0;
     return (method.adaptive ? 0.5 : 0.125 * method.stable) / omega;

@@ -100,16 +100,16 @@ DEM_API dem_status dem_lattice_squares(dem_lattice *out, double width, double he
  *  dem_lattice_rectangle(), with 0 < spacing <= radius. */
 DEM_API dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing);
 
-/** Removes the nodes for which `keep` returns 0, the triangles that lose a corner, and nodes left without a triangle.
- *  For triangulations not yet assembled; a lattice that has springs is refused.
+/** Removes the nodes for which `keep` returns false, the triangles that lose a corner, and nodes left without a
+ *  triangle. For triangulations not yet assembled; a lattice that has springs is refused.
  *  \return DEM_ERROR_MODEL if nothing is left */
-DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context);
+DEM_API dem_status dem_lattice_cut(dem_lattice *lattice, bool (*keep)(void *context, const double *x), void *context);
 
-/** Keeps the triangles for which keep[t] != 0, and the nodes that have one of them. For triangulations not yet
+/** Keeps the triangles for which keep[t], and the nodes that have one of them. For triangulations not yet
  *  assembled; a lattice that has springs is refused.
  *  \param keep  [n_triangles]
  *  \return DEM_ERROR_MODEL if nothing is left */
-DEM_API dem_status dem_lattice_trim(dem_lattice *lattice, const unsigned char *keep);
+DEM_API dem_status dem_lattice_trim(dem_lattice *lattice, const bool *keep);
 
 /** Number of pieces of a triangulation. Triangles that share an edge are of one piece; those that share but a node, a
  *  hinge, are not.
@@ -153,8 +153,8 @@ DEM_API dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint6
  *  \param[out] part  [n_nodes] the part of each node, numbered by their lowest nodes; may be NULL */
 DEM_API dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem_index *part);
 
-/** Keeps the nodes for which keep[i] != 0, with the springs and triangles among them.  \param keep [n_nodes] */
-DEM_API dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep);
+/** Keeps the nodes for which keep[i], with the springs and triangles among them.  \param keep [n_nodes] */
+DEM_API dem_status dem_lattice_select(dem_lattice *lattice, const bool *keep);
 
 /** Turns the lattice by `angle` (radians, about the origin) and shifts it; initial positions and velocities turn
  *  too. */

@@ -37,10 +37,11 @@ typedef enum dem_method {
 /** What is known of a method before any step. Undamped oscillations of angular frequency omega are multiplied by
  *  dem_method_growth(method, omega h) in a step h. */
 typedef struct dem_method_traits {
+    size_t struct_size;  /**< to be set to sizeof(dem_method_traits) */
     const char *name;    /**< as in decks: "fehlberg45" */
     int32_t order;       /**< of what advances */
     int32_t evaluations; /**< of the right-hand side (4), in an accepted step without contact events */
-    int32_t adaptive;    /**< 1: chooses its steps; 0: they are of one length, `fixed_step` */
+    bool adaptive;       /**< whether it chooses its steps; else they are of one length, `fixed_step` */
     double stable;       /**< largest omega h up to which no oscillation grows; 0: each does in each step */
     double usable;       /**< largest omega h up to which none grows by more than 1e-3 in a step */
 } dem_method_traits;

@@ -52,9 +52,9 @@ typedef struct dem_reader_array {
     const char *name; /**< as in the file: "velocity", "stress", "von_mises", "strain", "force", "body", ... */
     const char *unit; /**< "m/s", "Pa", ...; "1" of a ratio; "" of a number that counts or names, or of one unknown */
     dem_reader_type type; /**< in the file */
-    int of_springs;       /**< 1: [n_springs][components]; 0: [n_nodes][components] */
+    bool of_springs;      /**< true: [n_springs][components]; false: [n_nodes][components] */
     int components;       /**< 1 to 9; vectors have 3, z = 0; symmetric tensors 6: xx yy zz xy yz xz */
-    int constant;         /**< 1: the same in all frames, as "id", "body" and "peak_von_mises" */
+    bool constant;        /**< true: the same in all frames, as "id", "body" and "peak_von_mises" */
 } dem_reader_array;
 
 /** All of them, those of nodes first, else by name, [*n]; a view. Positions are not among them:

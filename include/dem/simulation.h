@@ -99,7 +99,7 @@ typedef struct dem_options {
                                is reflected at once, and hops of less than twice this become lasting contacts;
                                0: every impact by itself */
     double mass_damping;   /**< 1/s, default 0: each node feels -mass_damping m v, so that bodies come to rest */
-    int32_t vertices; /**< default 1: convex vertices of obstacles touch the edges of bodies; 0: only nodes touch */
+    bool vertices; /**< default true: convex vertices of obstacles touch the edges of bodies; false: only nodes touch */
     dem_contact_method contact; /**< default DEM_CONTACT_LOCAL */
     dem_kernel kernel;          /**< default DEM_KERNEL_AUTO */
     int32_t
@@ -123,7 +123,7 @@ static inline dem_options dem_options_default(void) /* inline: sizeof is the cal
     options.rtol = 1e-6;
     options.max_impacts = 10000;
     options.window = -1.0;
-    options.vertices = 1;
+    options.vertices = true;
     options.threads = 1;
     options.checkpoint_steps = 256;
     return options;

@@ -47,9 +47,9 @@ typedef struct dem_probe {
 typedef struct dem_trajectory_options {
     size_t struct_size;     /**< set by dem_trajectory_options_default() */
     double frame_interval;  /**< s between frames; <= 0: none, only the history */
-    int double_precision;   /**< 0: displacement, velocity, strain, force in single precision; 1: in double */
+    bool double_precision;  /**< false: displacement, velocity, strain, force in single precision; true: in double */
     int deflate;            /**< compression 0 (none) to 9; default 1 */
-    int events;             /**< 1: the table /events of all contact events; default 0 */
+    bool events;            /**< true: the table /events of all contact events; default false */
     uint32_t fields;        /**< DEM_FIELD_... ORed; default all but DEM_FIELD_PRINCIPAL */
     const dem_peaks *peaks; /**< written by dem_trajectory_finish(), until when they are borrowed; default NULL: none */
     dem_index most_stressed; /**< nodes and springs of the peaks that are listed; default 5 */

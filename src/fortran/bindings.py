@@ -111,7 +111,8 @@ class Writer:
         if item.stars:
             return "type(c_ptr)", f"{item.name} = c_null_ptr"
         extents = "(" + ", ".join(map(str, reversed(item.shape))) + ")" if item.shape else ""
-        return self.kind(item), item.name + extents + ("" if item.type in self.structs else " = 0")
+        rest = {"bool": " = .false."}.get(item.type, " = 0")
+        return self.kind(item), item.name + extents + ("" if item.type in self.structs else rest)
 
     def declare(self, indent, pairs):
         """Neighbours of one type share a line."""

@@ -72,7 +72,7 @@ contains
     options%rtol = 1d-6
     options%max_impacts = 10000
     options%window = -1
-    options%vertices = 1
+    options%vertices = .true.
     options%threads = 1
     options%checkpoint_steps = 256
   end function

@@ -123,10 +123,10 @@ module dem_c
 
   abstract interface
 
-    integer(c_int) function dem_lattice_cut_keep(context, x) bind(c)
+    logical(c_bool) function dem_lattice_cut_keep(context, x) bind(c)
       import
       type(c_ptr), value :: context
-      real(c_double), intent(in) :: x(2)
+      real(c_double), intent(in) :: x(2, *)
     end function
 
   end interface
@@ -166,7 +166,7 @@ module dem_c
     integer(dem_status) function dem_lattice_trim(lattice, keep) bind(c)
       import
       type(dem_lattice), intent(inout) :: lattice
-      integer(c_signed_char), intent(in) :: keep(*)
+      logical(c_bool), intent(in) :: keep(*)
     end function
 
     integer(dem_status) function dem_lattice_pieces(lattice, n_pieces, piece) bind(c)
@@ -221,7 +221,7 @@ module dem_c
     integer(dem_status) function dem_lattice_select(lattice, keep) bind(c)
       import
       type(dem_lattice), intent(inout) :: lattice
-      integer(c_signed_char), intent(in) :: keep(*)
+      logical(c_bool), intent(in) :: keep(*)
     end function
 
     subroutine dem_lattice_move(lattice, angle, offset) bind(c)
@@ -280,8 +280,10 @@ module dem_c
   end enum
 
   type, bind(c) :: dem_method_traits
+    integer(c_size_t) :: struct_size = 48
     type(c_ptr) :: name = c_null_ptr
-    integer(c_int32_t) :: order = 0, evaluations = 0, adaptive = 0
+    integer(c_int32_t) :: order = 0, evaluations = 0
+    logical(c_bool) :: adaptive = .false.
     real(c_double) :: stable = 0, usable = 0
   end type
 
@@ -505,7 +507,7 @@ module dem_c
     real(c_double) :: penetration_tolerance = 0, rest_speed = 0
     integer(dem_index) :: max_impacts = 0
     real(c_double) :: window = 0, mass_damping = 0
-    integer(c_int32_t) :: vertices = 0
+    logical(c_bool) :: vertices = .false.
     integer(dem_contact_method) :: contact = 0
     integer(dem_kernel) :: kernel = 0
     integer(c_int32_t) :: threads = 0
@@ -881,7 +883,9 @@ module dem_c
   type, bind(c) :: dem_reader_array
     type(c_ptr) :: name = c_null_ptr, unit = c_null_ptr
     integer(dem_reader_type) :: type = 0
-    integer(c_int) :: of_springs = 0, components = 0, constant = 0
+    logical(c_bool) :: of_springs = .false.
+    integer(c_int) :: components = 0
+    logical(c_bool) :: constant = .false.
   end type
 
   type, bind(c) :: dem_reader_column
@@ -1002,7 +1006,9 @@ module dem_c
   type, bind(c) :: dem_trajectory_options
     integer(c_size_t) :: struct_size = 64
     real(c_double) :: frame_interval = 0
-    integer(c_int) :: double_precision = 0, deflate = 0, events = 0
+    logical(c_bool) :: double_precision = .false.
+    integer(c_int) :: deflate = 0
+    logical(c_bool) :: events = .false.
     integer(c_int32_t) :: fields = 0
     type(c_ptr) :: peaks = c_null_ptr
     integer(dem_index) :: most_stressed = 0, n_probes = 0

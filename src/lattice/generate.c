@@ -137,7 +137,7 @@ static dem_index *square_triangles(dem_index columns, dem_index rows)
 /* ---- equilateral triangles: shapes ---- */
 
 /* Edges included; the caller has added what rounding may take. */
-static int is_in_disc(void *context, const double x[2])
+static bool is_in_disc(void *context, const double *x)
 {
     const double *radius = context;
     return vec2_norm(vec2_at(x, 0)) <= *radius;
@@ -264,16 +264,16 @@ dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
 }
 
 /* A triangle stays if all its nodes do; nodes without a triangle go with the rest. */
-dem_status dem_lattice_cut(dem_lattice *lattice, int (*keep)(void *context, const double x[2]), void *context)
+dem_status dem_lattice_cut(dem_lattice *lattice, bool (*keep)(void *context, const double *x), void *context)
 {
     TRY(lattice_check(lattice));
     CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
     CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be cut: %lld springs",
           (long long)lattice->n_springs);
-    unsigned char *stays = lattice_zeros(lattice->n_nodes, sizeof *stays);
-    unsigned char *whole = lattice_zeros(lattice->n_triangles, sizeof *whole);
+    bool *stays = lattice_zeros(lattice->n_nodes, sizeof *stays);
+    bool *whole = lattice_zeros(lattice->n_triangles, sizeof *whole);
     const bool complete = stays != NULL && whole != NULL;
-    for (dem_index i = 0; complete && i < lattice->n_nodes; i++) stays[i] = keep(context, lattice->x + 2 * i) != 0;
+    for (dem_index i = 0; complete && i < lattice->n_nodes; i++) stays[i] = keep(context, lattice->x + 2 * i);
     for (dem_index t = 0; complete && t < lattice->n_triangles; t++) {
         const dem_index *corner = lattice->triangles + 3 * t;
         whole[t] = stays[corner[0]] && stays[corner[1]] && stays[corner[2]];

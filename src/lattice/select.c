@@ -10,7 +10,7 @@
 #include "base/status.h"
 
 /* Moves the items to keep to the front. An array that is NULL stays so. */
-static void pack(void *array, size_t size, dem_index n, const unsigned char *keep)
+static void pack(void *array, size_t size, dem_index n, const bool *keep)
 {
     unsigned char *bytes = array;
     dem_index kept = 0;
@@ -21,7 +21,7 @@ static void pack(void *array, size_t size, dem_index n, const unsigned char *kee
 /* Drops tuples that are not wanted or have lost a node, and renumbers the nodes of the others.
  * \param whole  [n] in: wanted, out: stayed
  * \return how many stay */
-static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const dem_index *number, unsigned char *whole)
+static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const dem_index *number, bool *whole)
 {
     dem_index kept = 0;
     for (dem_index k = 0; k < n; k++) {
@@ -34,7 +34,7 @@ static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const d
 }
 
 /* All arrays of nodes; those of springs and triangles follow with their own flags. */
-static void pack_nodes(dem_lattice *lattice, const unsigned char *keep)
+static void pack_nodes(dem_lattice *lattice, const bool *keep)
 {
     const dem_index n = lattice->n_nodes;
     pack(lattice->x, 2 * sizeof *lattice->x, n, keep);
@@ -46,7 +46,7 @@ static void pack_nodes(dem_lattice *lattice, const unsigned char *keep)
 }
 
 /* `whole` tells the other arrays which springs have stayed. */
-static void pack_springs(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
+static void pack_springs(dem_lattice *lattice, const dem_index *number, bool *whole)
 {
     const dem_index n = lattice->n_springs;
     lattice->n_springs = pack_corners(lattice->ends, 2, n, number, whole);
@@ -56,7 +56,7 @@ static void pack_springs(dem_lattice *lattice, const dem_index *number, unsigned
 }
 
 /* All arrays that have one entry for each triangle. */
-static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsigned char *whole)
+static void pack_triangles(dem_lattice *lattice, const dem_index *number, bool *whole)
 {
     const dem_index n = lattice->n_triangles;
     lattice->n_triangles = pack_corners(lattice->triangles, 3, n, number, whole);
@@ -68,11 +68,11 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, unsign
 
 /* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. A lattice without nodes is
  * refused. Memory is asked for before anything is changed. */
-static dem_status select_both(dem_lattice *lattice, const unsigned char *keep, const unsigned char *wanted)
+static dem_status select_both(dem_lattice *lattice, const bool *keep, const bool *wanted)
 {
     const dem_index n_springs = lattice->n_springs, n_triangles = lattice->n_triangles;
     dem_index *number = lattice_zeros(lattice->n_nodes, sizeof *number), n = 0;
-    unsigned char *whole = lattice_zeros(n_springs + n_triangles, sizeof *whole);
+    bool *whole = lattice_zeros(n_springs + n_triangles, sizeof *whole);
     dem_status status = DEM_OK;
     if (number == NULL || whole == NULL) {
         status = status_fail(DEM_ERROR_MEMORY, "out of memory");
@@ -96,7 +96,7 @@ out:
     return status;
 }
 
-dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep)
+dem_status dem_lattice_select(dem_lattice *lattice, const bool *keep)
 {
     TRY(lattice_check(lattice));
     CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
@@ -104,13 +104,13 @@ dem_status dem_lattice_select(dem_lattice *lattice, const unsigned char *keep)
 }
 
 /* A node that is in none of the triangles to keep goes, too. */
-dem_status dem_lattice_trim(dem_lattice *lattice, const unsigned char *keep)
+dem_status dem_lattice_trim(dem_lattice *lattice, const bool *keep)
 {
     TRY(lattice_check(lattice));
     CHECK(keep != NULL, DEM_ERROR_ARGUMENT, "keep is NULL");
     CHECK(lattice->n_springs == 0, DEM_ERROR_MODEL, "a lattice that has springs cannot be trimmed: %lld springs",
           (long long)lattice->n_springs);
-    unsigned char *used = lattice_zeros(lattice->n_nodes, sizeof *used);
+    bool *used = lattice_zeros(lattice->n_nodes, sizeof *used);
     CHECK_MEMORY(used);
     for (dem_index k = 0; k < 3 * lattice->n_triangles; k++)
         if (keep[k / 3]) used[lattice->triangles[k]] = 1;

@@ -74,7 +74,7 @@ dem_status options_fill(dem_options *o, const dem_model *model, const boundary_c
 {
     if (o->spacing == 0.0) o->spacing = model->spacing;
     CHECK(o->spacing > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option spacing, in m");
-    dem_method_traits method;
+    dem_method_traits method = {.struct_size = sizeof method};
     TRY(dem_method_describe(&method, o->method));
     if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
     const double rate = damping_rate(o, model);

@@ -69,7 +69,7 @@ static dem_status set_up_sources(dem_simulation *s)
 static dem_status set_up_queue(dem_simulation *s)
 {
     const dem_options *o = &s->options;
-    dem_method_traits method;
+    dem_method_traits method = {.struct_size = sizeof method};
     TRY(dem_method_describe(&method, o->method));
     local_springs_create(&s->local_springs, &s->forces, &s->layout);
     s->local_forces = local_springs_forces(&s->local_springs);

@@ -14,6 +14,7 @@
 #include <sundials/sundials_version.h>
 
 #include "base/status.h"
+#include "base/struct_size.h"
 
 /* A table in SUNDIALS, and the first version that has it, 100 major + minor. */
 typedef struct butcher_row {
@@ -191,13 +192,12 @@ dem_status dem_method_describe(dem_method_traits *out, dem_method method)
     butcher_table table;
     CHECK(out != NULL, DEM_ERROR_ARGUMENT, "dem_method_describe: out is NULL");
     CHECK(row != NULL, DEM_ERROR_ARGUMENT, "unknown method %d", (int)method);
-    if (method == DEM_METHOD_VERLET) {
-        *out = (dem_method_traits){.name = row->name, .order = 2, .evaluations = 1, .stable = 2.0, .usable = 2.0};
-        return DEM_OK;
+    dem_method_traits own = {.name = row->name, .order = 2, .evaluations = 1, .stable = 2.0, .usable = 2.0};
+    if (method != DEM_METHOD_VERLET) {
+        TRY(butcher_load(&table, method));
+        own = traits_of(row->name, &table);
     }
-    TRY(butcher_load(&table, method));
-    *out = traits_of(row->name, &table);
-    return DEM_OK;
+    return struct_size_write(&STRUCT_KIND(dem_method_traits), out, &own);
 }
 
 dem_status dem_method_find(dem_method *out, const char *name)

@@ -131,7 +131,7 @@ static result take(const dem_model *model, const plan *p)
 static double time_run(const dem_model *model, dem_method method)
 {
     const double n_springs = (double)model->lattice.n_springs;
-    dem_method_traits traits;
+    dem_method_traits traits = {.struct_size = sizeof traits};
     ask(dem_method_describe(&traits, method));
     const plan p = {method, DEM_KERNEL_AUTO, 1, (dem_index)(3e7 / n_springs / traits.evaluations) + 2, NULL};
     double least = INFINITY;

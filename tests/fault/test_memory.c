@@ -17,7 +17,7 @@
 #include "harness/motion.h"
 #include "base/random.h"
 
-static int left_half(void *context, const double x[2])
+static bool left_half(void *context, const double *x)
 {
     (void)context;
     return x[0] < 0.021;

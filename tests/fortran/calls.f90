@@ -11,10 +11,10 @@ module watching
 
 contains
 
-  integer(c_int) function left_half(context, x) bind(c)
+  logical(c_bool) function left_half(context, x) bind(c)
     type(c_ptr), value :: context
-    real(c_double), intent(in) :: x(2)
-    left_half = merge(1, 0, .not. c_associated(context) .and. x(1) < 0)
+    real(c_double), intent(in) :: x(2, *)
+    left_half = .not. c_associated(context) .and. x(1, 1) < 0
   end function
 
   integer(dem_status) function look(context, simulation) bind(c)

@@ -251,7 +251,7 @@ static dem_status weigh(void *context, const dem_simulation *simulation, const d
 static judge make_judge(const scene *sc, const dem_simulation *simulation)
 {
     const dem_options o = ask_options(simulation);
-    dem_method_traits traits;
+    dem_method_traits traits = {.struct_size = sizeof traits};
     require(dem_method_describe(&traits, o.method) == DEM_OK);
     return (judge){.scene = sc,
                    .deepest = 5.0 * o.penetration_tolerance + (traits.adaptive ? 0.0 : 1e-2 * o.spacing),

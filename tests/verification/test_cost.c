@@ -139,7 +139,7 @@ static cost run_line(const dem_lattice *block, const line *l, double t, const do
 
 static void compare(const line *l, int duration, const cost *c)
 {
-    dem_method_traits method;
+    dem_method_traits method = {.struct_size = sizeof method};
     assert_ok(dem_method_describe(&method, l->method));
     print_message("# %-10s %-6g %5g ms: %6.0f evaluations, energy %.2e at the end, %.2e at most", method.name,
                   l->setting, 1e3 * durations[duration], c->end.evaluations, c->end.energy, c->energy_most);

@@ -127,7 +127,7 @@ typedef struct hole {
     double x, y, radius;
 } hole;
 
-static int is_outside(void *context, const double x[2])
+static bool is_outside(void *context, const double *x)
 {
     const hole *h = context;
     return hypot(x[0] - h->x, x[1] - h->y) > h->radius;

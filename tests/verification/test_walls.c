@@ -103,7 +103,7 @@ TEST(located_contacts_keep_the_energy_as_known)
         const double start = ask_energy(run.simulation).motion;
         const double drift = support_at(&run, t_end).energy.motion / start - 1.0;
         const double evaluations = (double)ask_counts(run.simulation).evaluations;
-        dem_method_traits method;
+        dem_method_traits method = {.struct_size = sizeof method};
         assert_ok(dem_method_describe(&method, l->method));
         print_message("# %-10s %-6g %6.0f evaluations, %lld impacts: energy %+.2e\n", method.name, l->setting,
                       evaluations, (long long)run.n_impacts, drift);

@@ -175,7 +175,7 @@ TEST(rectangles_of_all_sizes_agree)
         }
 }
 
-static int outside_hole(void *context, const double x[2])
+static bool outside_hole(void *context, const double *x)
 {
     (void)context;
     return hypot(x[0] - 0.08, x[1] - 0.1) > 0.043;

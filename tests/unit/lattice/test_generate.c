@@ -146,7 +146,7 @@ typedef struct hole {
     double x, y, radius;
 } hole;
 
-static int outside_hole(void *context, const double x[2])
+static bool outside_hole(void *context, const double *x)
 {
     const hole *h = context;
     return hypot(x[0] - h->x, x[1] - h->y) > h->radius;
@@ -165,7 +165,7 @@ TEST(cutting_a_hole_leaves_the_triangles_outside_it)
     assert_true(lost > 3.1 * h.radius * h.radius && lost < 3.2 * pow(h.radius + spacing, 2.0));
 }
 
-static int is_not_lower_left(void *context, const double x[2])
+static bool is_not_lower_left(void *context, const double *x)
 {
     (void)context;
     return !(x[1] < 0.1 && x[0] < 0.1);
@@ -183,7 +183,7 @@ TEST(a_cut_drops_nodes_left_without_a_triangle)
     dem_lattice_free(&lattice);
 }
 
-static int keep_nothing(void *context, const double x[2])
+static bool keep_nothing(void *context, const double *x)
 {
     (void)context, (void)x;
     return 0;

@@ -52,7 +52,7 @@ TEST(select_keeps_every_array_in_step)
     const double v[2] = {3.0, -2.0}, offset[2] = {0.0, 0.0};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(1.0, 1.6, 1.0);
     const double top_mass = lattice.mass[4], stiffness = lattice.stiffness[5];
-    unsigned char keep[5] = {0, 0, 1, 1, 1};
+    bool keep[5] = {0, 0, 1, 1, 1};
     assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
     lattice.velocity[8] = 7.0;
     lattice.guard[1] = 5.0;
@@ -121,7 +121,7 @@ TEST(a_hexagon_is_one_piece_without_a_rim_at_its_centre)
 
 TEST(trimming_keeps_triangles_with_their_nodes)
 {
-    const unsigned char upper[2] = {0, 3}, none[2] = {0, 0};
+    const bool upper[2] = {0, 3}, none[2] = {0, 0};
     const dem_index expected[3] = {0, 2, 1};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(1.0, 1.6, 1.0);
     lattice.guard = calloc(2, sizeof *lattice.guard);
@@ -144,7 +144,7 @@ TEST(trimming_keeps_triangles_with_their_nodes)
 /* Nodes can lose triangles and all stay: here two of six, opposite to each other. */
 TEST(a_node_stays_with_what_is_left_of_its_triangles)
 {
-    const unsigned char keep[6] = {0, 1, 1, 1, 1, 0};
+    const bool keep[6] = {0, 1, 1, 1, 1, 0};
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_disc(&lattice, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_trim(&lattice, keep), DEM_OK);

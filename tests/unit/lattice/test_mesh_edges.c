@@ -82,7 +82,7 @@ TEST(the_nodes_of_boundary_edges_may_touch_and_those_inside_may_not)
     }
 }
 
-static int away_from_the_middle(void *context, const double x[2])
+static bool away_from_the_middle(void *context, const double *x)
 {
     (void)context;
     return hypot(x[0], x[1]) > 0.5;

@@ -70,7 +70,7 @@ TEST(bodies_are_measured_apart_fixed_nodes_or_not)
     assert_close(stiff.poissons_ratio, 0.2, 1e-11);
 }
 
-static int is_outside(void *context, const double x[2])
+static bool is_outside(void *context, const double *x)
 {
     (void)context;
     return hypot(x[0], x[1] - 0.035) > 0.012;

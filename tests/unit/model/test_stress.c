@@ -53,7 +53,7 @@ static dem_model *make_model(const dem_lattice *lattice)
 }
 
 /* A block with a hole, so that boundaries and corners of all kinds are there. */
-static int outside_hole(void *context, const double x[2])
+static bool outside_hole(void *context, const double *x)
 {
     (void)context;
     return hypot(x[0] - 0.004, x[1] - 0.021) > 0.007;

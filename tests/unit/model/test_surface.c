@@ -130,7 +130,7 @@ TEST(an_edge_has_the_body_on_its_left)
 
 /* A disc of 18 triangles with sides 1 round a hexagonal hole: the rim encloses 24 triangles, the hole 6 of them, run
  * round the other way. */
-static int away_from_the_middle(void *context, const double x[2])
+static bool away_from_the_middle(void *context, const double *x)
 {
     (void)context;
     return hypot(x[0], x[1]) > 0.5;

@@ -193,7 +193,7 @@ TEST(methods_without_error_estimate_take_steps_of_one_length)
     CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
     for (int k = 0; k < 3; k++) {
         dem_options options = dem_options_default();
-        dem_method_traits traits;
+        dem_method_traits traits = {.struct_size = sizeof traits};
         options.method = methods[k];
         assert_ok(dem_method_describe(&traits, options.method));
         assert_ok(options_fill(&options, model, &no_boundaries));

@@ -295,12 +295,13 @@ static void look_at_all(const dem_simulation *s)
     dem_state now = {.struct_size = sizeof now};
     double strain, force, stress[6];
     assert_ok(dem_simulation_state(s, &now));
+    for (dem_index k = 0; k < now.n_contacts; k++) (void)ask_contact(s, k);
     (void)ask_energy(s);
     (void)ask_strain(s);
-    dem_simulation_strains(s, &strain);
-    dem_simulation_forces(s, &force);
-    dem_simulation_stress(s, stress);
-    dem_simulation_stress_at(s, 1, stress);
+    assert_ok(dem_simulation_strains(s, &strain));
+    assert_ok(dem_simulation_forces(s, &force));
+    assert_ok(dem_simulation_stress(s, stress));
+    assert_ok(dem_simulation_stress_at(s, 1, stress));
     (void)ask_overlap(s);
     (void)ask_counts(s);
     (void)ask_body(s, 0);

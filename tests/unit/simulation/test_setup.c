@@ -83,7 +83,7 @@ TEST(methods_without_error_estimate_take_steps_of_one_length)
     dem_options options = dem_options_default();
     CLEANUP(free_model) dem_model *model = make_falling(0.0);
     for (int k = 0; k < 2; k++) {
-        dem_method_traits traits;
+        dem_method_traits traits = {.struct_size = sizeof traits};
         options.method = methods[k];
         assert_ok(dem_method_describe(&traits, options.method));
         CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);

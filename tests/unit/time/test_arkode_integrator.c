@@ -141,7 +141,7 @@ TEST(each_method_has_its_order)
 {
     static const int steps[10] = {0, 0, 400, 400, 480, 120, 60, 30, 20, 16};
     for (int method = DEM_METHOD_FEHLBERG45; method < DEM_METHOD_VERLET; method++) {
-        dem_method_traits traits;
+        dem_method_traits traits = {.struct_size = sizeof traits};
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) {
             assert_non_null(strstr(dem_status_message(), "needs SUNDIALS 6.7 or later"));
             continue;

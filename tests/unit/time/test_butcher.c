@@ -13,7 +13,7 @@ TEST(every_method_has_a_name_by_which_it_is_found)
 {
     dem_method found;
     for (int k = 0; k <= DEM_METHOD_VERLET; k++) {
-        dem_method_traits traits;
+        dem_method_traits traits = {.struct_size = sizeof traits};
         if (dem_method_describe(&traits, (dem_method)k) != DEM_OK) continue;
         assert_ok(dem_method_find(&found, traits.name));
         assert_int_equal(found, k);
@@ -26,7 +26,7 @@ TEST(every_method_has_a_name_by_which_it_is_found)
 
 TEST(what_is_not_there_is_refused_with_the_reason)
 {
-    dem_method_traits traits;
+    dem_method_traits traits = {.struct_size = sizeof traits};
     butcher_table table;
     int number[2] = {0, 0};
     assert_int_equal(dem_method_describe(&traits, (dem_method)20), DEM_ERROR_ARGUMENT);
@@ -90,7 +90,7 @@ TEST(the_stability_bounds_are_those_known)
                  {DEM_METHOD_BS23, 1.7320, 1.734},   {DEM_METHOD_RK4, 2.8284, 2.829},
                  {DEM_METHOD_VERLET, 2.0, 2.0}};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
-        dem_method_traits traits;
+        dem_method_traits traits = {.struct_size = sizeof traits};
         assert_ok(dem_method_describe(&traits, known[k].method));
         assert_close(traits.stable, known[k].stable, 1.1e-3);
         assert_close(traits.usable, known[k].usable, 1.1e-3);

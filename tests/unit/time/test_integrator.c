@@ -41,7 +41,7 @@ TEST(every_method_finds_the_bounces_of_a_ball)
 {
     const double y0[4] = {0.0, 0.5, 1.0, 0.0}, u = sqrt(2.0 * g * 0.5);
     for (int method = 0; method <= DEM_METHOD_VERLET; method++) {
-        dem_method_traits traits;
+        dem_method_traits traits = {.struct_size = sizeof traits};
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
         world w = {.walls.floor = -penetration_tolerance};
         int bounces = 0;
@@ -181,7 +181,7 @@ TEST(a_third_component_goes_as_the_others_do_to_the_bit)
         const state_layout plane = {.dim = 2, .n_nodes = 2, .n_rows = rows},
                            space = {.dim = 3, .n_nodes = 2, .n_rows = rows};
         double y[most_numbers], z[most_numbers];
-        dem_method_traits traits;
+        dem_method_traits traits = {.struct_size = sizeof traits};
         if (dem_method_describe(&traits, (dem_method)method) != DEM_OK) continue;
         swing((dem_method)method, plane, y);
         swing((dem_method)method, space, z);

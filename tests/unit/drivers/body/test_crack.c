@@ -12,7 +12,7 @@ static const double row = 0.86602540378443864676, shift = 1e-6;
 /* Cuts a lattice; returns the number of triangles crossed. */
 static dem_index cut(dem_lattice *lattice, const double *points, size_t n_points)
 {
-    unsigned char *keep = malloc((size_t)lattice->n_triangles);
+    bool *keep = malloc((size_t)lattice->n_triangles);
     assert_non_null(keep);
     memset(keep, 1, (size_t)lattice->n_triangles);
     const dem_index n = crack_mark(keep, lattice, points, n_points, shift);

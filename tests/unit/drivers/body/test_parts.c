@@ -22,7 +22,7 @@ TEST(the_largest_part_of_a_body_is_the_main_one)
 {
     const unsigned char expected[9] = {1, 0, 0, 0, 0, 0, 0, 1, 1}; /* of two with three nodes the one with node 0 */
     const dem_lattice lattice = make_lattice(NULL);
-    unsigned char kept[9];
+    bool kept[9];
     parts_loose loose;
     assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
     assert_memory_equal(kept, expected, sizeof kept);
@@ -39,7 +39,7 @@ TEST(every_body_has_a_main_part)
     const unsigned char expected[9] = {1, 1, 1, 1, 1, 1, 0, 1, 1};
     int32_t body[9] = {0, 5, 5, 2, 2, 2, 0, 0, 0};
     const dem_lattice lattice = make_lattice(body);
-    unsigned char kept[9];
+    bool kept[9];
     parts_loose loose;
     assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
     assert_memory_equal(kept, expected, sizeof kept);
@@ -49,7 +49,7 @@ TEST(every_body_has_a_main_part)
 
 TEST(a_lattice_without_nodes_has_no_parts)
 {
-    unsigned char kept[1];
+    bool kept[1];
     dem_lattice lattice = dem_lattice_empty();
     parts_loose loose;
     lattice = dem_lattice_empty();
@@ -60,7 +60,7 @@ TEST(a_lattice_without_nodes_has_no_parts)
 TEST(more_parts_than_are_listed_are_counted)
 {
     dem_lattice lattice = make_lattice(NULL);
-    unsigned char kept[9];
+    bool kept[9];
     parts_loose loose;
     lattice.n_springs = 0;
     assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);
@@ -75,7 +75,7 @@ TEST(more_parts_than_are_listed_are_counted)
 TEST(a_spring_to_nowhere_is_an_error)
 {
     dem_lattice lattice = make_lattice(NULL);
-    unsigned char kept[9];
+    bool kept[9];
     parts_loose loose;
     lattice.n_nodes = 8;
     assert_int_equal(parts_find(&loose, kept, &lattice), DEM_ERROR_MODEL);
@@ -99,7 +99,7 @@ TEST(triangles_that_share_but_a_node_are_parts_of_their_own)
 {
     const unsigned char expected[3] = {0, 1, 1};
     const dem_lattice lattice = make_fan();
-    unsigned char kept[3];
+    bool kept[3];
     char text[PARTS_LIST];
     parts_loose loose;
     assert_int_equal(parts_find(&loose, kept, &lattice), DEM_OK);

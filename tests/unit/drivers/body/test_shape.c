@@ -255,7 +255,7 @@ TEST(a_disc_of_squares_has_whole_cells_about_its_centre)
 
 TEST(of_a_cell_both_triangles_are_kept_or_none)
 {
-    unsigned char keep[8] = {1, 1, 0, 1, 1, 0, 0, 0};
+    bool keep[8] = {1, 1, 0, 1, 1, 0, 0, 0};
     static const unsigned char expected[8] = {1, 1, 0, 0, 0, 0, 0, 0};
     shape_keep_cells(keep, 8);
     assert_memory_equal(keep, expected, 8);
