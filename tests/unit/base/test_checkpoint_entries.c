@@ -24,7 +24,7 @@ static int enter_folder(void **state)
     (void)scratch_file(PREVIOUS);
     (void)scratch_file("test_record.bad");
     (void)scratch_file("test_record.good");
-    return chdir(scratch_folder);
+    return chdir(scratch.path);
 }
 
 /* An entry of 5 and one of 0 bytes, and the numbers 1 to 1000. */

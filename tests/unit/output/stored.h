@@ -11,27 +11,27 @@
 
 #include "output/hdf5_file.h"
 #include "unit/output/found.h"
+#include "unit/scratch.h"
 
 enum { STORED_VALUES = 4096 };
 
 typedef struct stored {
-    char path[32];
+    scratch_folder folder;
+    const char *path;
     hdf5_file file;
 } stored;
 
 static inline void stored_open(stored *s)
 {
-    (void)strcpy(s->path, "test_stored_XXXXXX");
-    const int file = mkstemp(s->path);
-    assert_true(file >= 0);
-    assert_int_equal(close(file), 0);
+    folder_open(&s->folder);
+    s->path = folder_file(&s->folder, "a.h5");
     assert_ok(hdf5_open_new(&s->file, s->path, 1 << 20));
 }
 
 static inline void stored_close(stored *s)
 {
     assert_ok(hdf5_close(&s->file, DEM_OK));
-    assert_int_equal(unlink(s->path), 0);
+    folder_close(&s->folder);
 }
 
 static inline int stored_has(const stored *s, const char *name)

@@ -10,8 +10,9 @@
 
 #include "harness/cleanup_hdf5.h"
 #include "output/event_table.h"
+#include "unit/scratch.h"
 
-static char path[] = "test_events_XXXXXX";
+static const char *path;
 
 /* An impact of an edge on a slope of 3 in 4 with friction. */
 static const dem_event impact = {.t = 0.5,
@@ -50,13 +51,6 @@ static void end(stored *s)
     assert_ok(hdf5_close(&s->file, DEM_OK));
     table_free(&s->table);
     assert_int_equal(unlink(path), 0);
-}
-
-static int make_path(void **state)
-{
-    (void)state;
-    const int file = mkstemp(path);
-    return file < 0 || close(file) != 0;
 }
 
 /* Row `row` of a dataset of two rows, stored as `type`, of n components. */
@@ -158,4 +152,4 @@ TEST(codes_have_their_names_beside_them)
     expect_name(&s, "/events/state", DEM_CONTACT_STICK, "stick");
 }
 
-TEST_GROUP(make_path, NULL);
+SCRATCH_GROUP({&path, "a.h5"});

@@ -18,15 +18,7 @@
 #include "output/hdf5_file.h"
 #include "unit/scratch.h"
 
-static char *path, *other;
-
-static int make_folder(void **state)
-{
-    if (scratch_make(state) != 0) return 1;
-    path = scratch_file("a.h5");
-    other = scratch_file("b.h5");
-    return 0;
-}
+static const char *path, *other;
 
 static hdf5_file open_new(void)
 {
@@ -631,7 +623,7 @@ TEST_WITH(threads_take_turns, NULL, scratch_sweep)
     fill("text");
     const unsigned before = plugins();
     for (int k = 0; k < 2; k++)
-        assert_int_equal(pthread_create(&threads[k], NULL, open_and_close, k == 0 ? NULL : path), 0);
+        assert_int_equal(pthread_create(&threads[k], NULL, open_and_close, k == 0 ? NULL : threads), 0);
     for (int k = 0; k < 2; k++) {
         void *faulty;
         assert_int_equal(pthread_join(threads[k], &faulty), 0);
@@ -707,4 +699,4 @@ TEST_WITH(what_is_not_there_or_has_no_place_is_not_published, NULL, scratch_swee
     assert_int_equal(access(path, F_OK), 0);
 }
 
-TEST_GROUP(make_folder, scratch_remove);
+SCRATCH_GROUP({&path, "a.h5"}, {&other, "b.h5"});

@@ -12,12 +12,13 @@
 #include "harness/cleanup_hdf5.h"
 #include "ask.h"
 #include "output/history.h"
+#include "unit/scratch.h"
 
 enum { most_cells = 1 << 14 };
 
 static const double mass[2] = {2.0, 3.0}, x0[4] = {0.25, 1.0, 4.0, 2.0}, v0[4] = {1.0, 0.5, 0.0, 0.0}, g = 10.0;
 static const double floor_points[4] = {-9.0, -5.0, 9.0, -5.0}, table_points[4] = {3.0, 2.0, 5.0, 2.0};
-static char path[] = "test_history_XXXXXX";
+static const char *path;
 
 /* Two bodies of one node; the second rests on the second obstacle if there are obstacles. */
 typedef struct flight {
@@ -73,13 +74,6 @@ static void record_at(flight *f, double t)
 {
     (void)support_at(&f->run, t);
     history_record(&f->history, f->run.simulation);
-}
-
-static int make_path(void **state)
-{
-    (void)state;
-    const int file = mkstemp(path);
-    return file < 0 || close(file) != 0;
 }
 
 /* ---- looking into the file ---- */
@@ -294,4 +288,4 @@ TEST(an_instant_has_one_row)
     drop(f);
 }
 
-TEST_GROUP(make_path, NULL);
+SCRATCH_GROUP({&path, "a.h5"});

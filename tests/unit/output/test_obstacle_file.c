@@ -16,14 +16,6 @@
 static const double bent[6] = {-1.0, 0.0, 0.0, -0.5, 1.0, 0.0}, flat[4] = {3.0, -2.0, 4.0, -2.0};
 static const char *path, *part;
 
-static int make_folder(void **state)
-{
-    if (scratch_make(state) != 0) return 1;
-    path = scratch_file("a.h5");
-    part = scratch_file("a.part.h5");
-    return 0;
-}
-
 static dem_model *make_model(void)
 {
     const double x[2] = {0.0, 1.0}, mass = 1.0;
@@ -151,4 +143,4 @@ TEST(a_part_that_cannot_be_published_is_taken_away)
     assert_int_not_equal(access(part, F_OK), 0);
 }
 
-TEST_GROUP(make_folder, scratch_remove);
+SCRATCH_GROUP({&path, "a.h5"}, {&part, "a.part.h5"});

@@ -10,6 +10,7 @@
 
 #include "harness/cleanup_hdf5.h"
 #include "output/table.h"
+#include "unit/scratch.h"
 
 enum { most_cells = 1 << 14, n_columns = 5 };
 
@@ -18,7 +19,7 @@ static const table_column columns[n_columns] = {{"/rows/real", HDF5_F64, 0, 1},
                                                 {"/rows/vector", HDF5_F64, 0, 2},
                                                 {"/rows/vectors", HDF5_F64, 1, 2},
                                                 {"/rows/wholes", HDF5_I64, 2, 1}};
-static char path[] = "test_table_XXXXXX";
+static const char *path;
 
 typedef struct stored {
     table table;
@@ -40,13 +41,6 @@ static void end(stored *s)
     assert_ok(hdf5_close(&s->file, DEM_OK));
     table_free(&s->table);
     assert_int_equal(unlink(path), 0);
-}
-
-static int make_path(void **state)
-{
-    (void)state;
-    const int file = mkstemp(path);
-    return file < 0 || close(file) != 0;
 }
 
 /* Cell k of row n is n + k/64, of columns of wholes 1000 n + k. */
@@ -260,4 +254,4 @@ TEST(rows_that_could_not_be_written_stay_in_the_buffer)
     expect_rows(&s, 2);
 }
 
-TEST_GROUP(make_path, NULL);
+SCRATCH_GROUP({&path, "a.h5"});

@@ -3,6 +3,7 @@
 #include "harness/cleanup_hdf5.h"
 #include "harness/motion.h"
 #include "unit/close.h"
+#include "unit/scratch.h"
 
 #include <dem/trajectory.h>
 
@@ -19,7 +20,8 @@
 
 /* A block in a folder of its own, falling onto two obstacles. */
 typedef struct run {
-    char folder[64], path[96], part[96], obstacle[96];
+    scratch_folder folder;
+    const char *path, *part, *obstacle;
     dem_model *model;
     dem_simulation *simulation;
     dem_trajectory *trajectory;
@@ -74,11 +76,11 @@ static void make_simulation(run *r)
 
 static void make_folder(run *r)
 {
-    *r = (run){.folder = "test_trajectory_XXXXXX"};
-    assert_non_null(mkdtemp(r->folder));
-    (void)snprintf(r->path, sizeof r->path, "%s/run.vtkhdf", r->folder);
-    (void)snprintf(r->part, sizeof r->part, "%s/run.part.vtkhdf", r->folder);
-    (void)snprintf(r->obstacle, sizeof r->obstacle, "%s/run.obstacle.vtkhdf", r->folder);
+    *r = (run){.path = NULL};
+    folder_open(&r->folder);
+    r->path = folder_file(&r->folder, "run.vtkhdf");
+    r->part = folder_file(&r->folder, "run.part.vtkhdf");
+    r->obstacle = folder_file(&r->folder, "run.obstacle.vtkhdf");
 }
 
 static dem_trajectory_options every_frame(void)
@@ -110,10 +112,7 @@ static void end(run *r)
     dem_trajectory_destroy(r->trajectory);
     dem_simulation_destroy(r->simulation);
     dem_model_destroy(r->model);
-    (void)unlink(r->path);
-    (void)unlink(r->part);
-    (void)unlink(r->obstacle);
-    assert_int_equal(rmdir(r->folder), 0); /* nothing else was left behind */
+    folder_close(&r->folder);
 }
 
 /* ---- looking into the file ---- */

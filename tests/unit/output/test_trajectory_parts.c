@@ -20,6 +20,7 @@
 #include "output/hdf5_file.h"
 #include "ask.h"
 #include "unit/solids.h"
+#include "unit/scratch.h"
 
 static const double interval = 2e-4, end = 30e-4;
 
@@ -31,17 +32,13 @@ enum { n_probes = sizeof probes / sizeof probes[0] };
 /* ---- a folder and a body ---- */
 
 typedef struct place {
-    char folder[64];
+    scratch_folder folder;
     dem_model *model;
 } place;
 
 static char *name_in(const place *p, const char *name)
 {
-    static char paths[4][128];
-    static int next;
-    char *path = paths[next++ % 4];
-    (void)snprintf(path, sizeof paths[0], "%s/%s", p->folder, name);
-    return path;
+    return folder_at(&p->folder, name);
 }
 
 static bool has(const place *p, const char *name)
@@ -52,12 +49,12 @@ static bool has(const place *p, const char *name)
 /* A block falls onto a floor that it slides along. */
 static place open_place(void)
 {
-    place p = {.folder = "test_segments_XXXXXX"};
+    place p;
     const double floor[4] = {-1.0, 0.0, 1.0, 0.0}, offset[2] = {0.0, 1.3e-3}, velocity[2] = {1.0, -5.0};
     const dem_obstacle obstacle = {
         .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor, .restitution = 0.5, .friction = 0.3};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.02, 0.02, 5e-3);
-    assert_non_null(mkdtemp(p.folder));
+    folder_open(&p.folder);
     dem_lattice_move(&lattice, 0.1, offset);
     assert_ok(dem_lattice_launch(&lattice, velocity));
     assert_ok(dem_model_create(&p.model, &lattice, &obstacle, 1));
@@ -78,7 +75,7 @@ static void close_place(place *p)
     sweep(p, "quiet.vtkhdf");
     sweep(p, "quiet.obstacle.vtkhdf");
     dem_model_destroy(p->model);
-    assert_int_equal(rmdir(p->folder), 0);
+    folder_close(&p->folder);
 }
 
 static void copy_file(const place *p, const char *from, const char *to)

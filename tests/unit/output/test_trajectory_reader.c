@@ -15,6 +15,7 @@
 #include "output/hdf5_file.h"
 #include "harness/motion.h"
 #include "unit/solids.h"
+#include "unit/scratch.h"
 
 static const double interval = 1e-4;
 enum { MOST_SHOTS = 16 };
@@ -30,7 +31,8 @@ typedef struct shot {
 } shot;
 
 typedef struct run {
-    char folder[64], path[96], part[96], segment[96], obstacle[96];
+    scratch_folder folder;
+    const char *path, *part, *segment, *obstacle;
     dem_model *model;
     dem_simulation *simulation;
     dem_trajectory *trajectory;
@@ -69,12 +71,12 @@ static dem_status see_frame(void *context, const dem_simulation *simulation)
 
 static void make_folder(run *r)
 {
-    *r = (run){.folder = "test_film_XXXXXX"};
-    assert_non_null(mkdtemp(r->folder));
-    (void)snprintf(r->path, sizeof r->path, "%s/run.vtkhdf", r->folder);
-    (void)snprintf(r->part, sizeof r->part, "%s/run.part.vtkhdf", r->folder);
-    (void)snprintf(r->segment, sizeof r->segment, "%s/run.00001.vtkhdf", r->folder);
-    (void)snprintf(r->obstacle, sizeof r->obstacle, "%s/run.obstacle.vtkhdf", r->folder);
+    *r = (run){.path = NULL};
+    folder_open(&r->folder);
+    r->path = folder_file(&r->folder, "run.vtkhdf");
+    r->part = folder_file(&r->folder, "run.part.vtkhdf");
+    r->segment = folder_file(&r->folder, "run.00001.vtkhdf");
+    r->obstacle = folder_file(&r->folder, "run.obstacle.vtkhdf");
 }
 
 static void start(run *r, dem_trajectory_options options)
@@ -148,8 +150,7 @@ static void end(run *r)
     dem_peaks_destroy(r->peaks);
     dem_simulation_destroy(r->simulation);
     dem_model_destroy(r->model);
-    (void)unlink(r->path), (void)unlink(r->part), (void)unlink(r->segment), (void)unlink(r->obstacle);
-    assert_int_equal(rmdir(r->folder), 0); /* a trajectory leaves nothing */
+    folder_close(&r->folder);
 }
 
 static dem_trajectory_options everything(void)
@@ -555,7 +556,7 @@ TEST(what_is_not_there_cannot_be_read)
     assert_int_equal(dem_reader_read_rows(reader, t, 0, -1, values), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_reader_open(&other, NULL), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_reader_open(&other, r.obstacle), DEM_ERROR_IO); /* which has no lattice */
-    assert_int_equal(dem_reader_open(&other, r.folder), DEM_ERROR_IO);
+    assert_int_equal(dem_reader_open(&other, r.folder.path), DEM_ERROR_IO);
     assert_null(other);
     dem_reader_close(reader);
     dem_reader_close(NULL);

@@ -10,21 +10,9 @@
 
 #include "output/vtk_grid.h"
 #include "unit/output/found.h"
+#include "unit/scratch.h"
 
-static char path[] = "test_grid_XXXXXX";
-
-static int make_path(void **state)
-{
-    (void)state;
-    const int file = mkstemp(path);
-    return file < 0 || close(file) != 0;
-}
-
-static int remove_path(void **state)
-{
-    (void)state;
-    return unlink(path);
-}
+static const char *path;
 
 static hdf5_file write_one(const grid *g, int deflate)
 {
@@ -58,4 +46,4 @@ TEST(a_grid_may_have_no_cells)
     assert_ok(hdf5_close(&file, DEM_OK));
 }
 
-TEST_GROUP(make_path, remove_path);
+SCRATCH_GROUP({&path, "a.h5"});

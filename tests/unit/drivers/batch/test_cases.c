@@ -29,8 +29,8 @@ TEST(lists_stand_for_their_decks)
 {
     const char *decks[] = {"a", listed, "f"};
     char b[SCRATCH_PATH], e[SCRATCH_PATH];
-    (void)snprintf(b, sizeof b, "%s/b #1", scratch_folder);
-    (void)snprintf(e, sizeof e, "%s/e", scratch_folder);
+    (void)snprintf(b, sizeof b, "%s/b #1", scratch.path);
+    (void)snprintf(e, sizeof e, "%s/e", scratch.path);
     const char *const expected[] = {"a", b, "/d", e, "f"};
     for (long index = 0; index <= 5; index++) {
         const command c = ask(decks, 3, index);

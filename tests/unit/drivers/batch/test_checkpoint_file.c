@@ -14,16 +14,6 @@
 
 static const char *output, *path, *before, *damaged;
 
-static int make_folder(void **state)
-{
-    if (scratch_make(state) != 0) return 1;
-    output = scratch_file("a.vtkhdf");
-    path = scratch_file("a.checkpoint");
-    before = scratch_file("a.checkpoint.prev");
-    damaged = scratch_file("a.checkpoint.damaged");
-    return 0;
-}
-
 static char course[] = "&run\n    gravity = 0, -9.81\n/\n&material\n    density = 1000\n/\n";
 static const deck mine = {.course = course, .t_end = 2.0};
 
@@ -142,4 +132,5 @@ TEST_WITH(the_first_is_due_after_30_seconds_at_the_latest, NULL, scratch_sweep)
     }
 }
 
-TEST_GROUP(make_folder, scratch_remove);
+SCRATCH_GROUP({&output, "a.vtkhdf"}, {&path, "a.checkpoint"}, {&before, "a.checkpoint.prev"},
+              {&damaged, "a.checkpoint.damaged"});

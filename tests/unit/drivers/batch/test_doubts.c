@@ -67,5 +67,3 @@ TEST(a_speed_is_that_against_an_obstacle)
     assert_int_equal(count_doubts(30.0, -2.0, 1), 1);
     assert_int_equal(count_doubts(1.0, 0.0, 0), 0); /* there is nothing to hit */
 }
-
-TEST_GROUP(NULL, NULL);

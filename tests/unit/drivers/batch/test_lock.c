@@ -13,13 +13,6 @@
 
 static const char *path;
 
-static int make_folder(void **state)
-{
-    if (scratch_make(state) != 0) return 1;
-    path = scratch_file("a.lock");
-    return 0;
-}
-
 /* What another process gets. */
 static lock_status status_elsewhere(char why[256])
 {
@@ -113,4 +106,4 @@ TEST(no_two_hold_it_at_any_time)
     assert_int_not_equal(access(path, F_OK), 0);
 }
 
-TEST_GROUP(make_folder, scratch_remove);
+SCRATCH_GROUP({&path, "a.lock"});

@@ -17,14 +17,6 @@
 
 static const char *path, *part;
 
-static int make_folder(void **state)
-{
-    if (scratch_make(state) != 0) return 1;
-    path = scratch_file("a.vtkhdf");
-    part = scratch_file("a.part.vtkhdf");
-    return 0;
-}
-
 static const deck mine = {.hash = 0x0123456789abcdef, .run_hash = 0xfedcba9876543210, .t_end = 1.0};
 
 /* What a run of this deck leaves; without an end it is the part. */
@@ -55,10 +47,7 @@ static void leave_run(const deck *d, int finished)
 
 static void leave_text(const char *name)
 {
-    FILE *file = fopen(name, "w");
-    assert_non_null(file);
-    assert_true(fputs("something else", file) >= 0);
-    assert_int_equal(fclose(file), 0);
+    file_put(name, "something else", strlen("something else"));
 }
 
 /* Whatever it finds, it says so, and it touches nothing. */
@@ -190,7 +179,7 @@ TEST_WITH(folders_are_made_down_to_the_last, NULL, scratch_sweep)
 {
     char deep[SCRATCH_PATH], deeper[SCRATCH_PATH + 8], at[OUTPUT_PATH], reason[OUTPUT_REASON];
     struct stat found;
-    (void)snprintf(deep, sizeof deep, "%s/x", scratch_folder);
+    (void)snprintf(deep, sizeof deep, "%s/x", scratch.path);
     (void)snprintf(deeper, sizeof deeper, "%s//y/", deep);
     assert_true(output_make_folder(".", at, reason));
     assert_true(output_make_folder("/", at, reason));
@@ -247,7 +236,7 @@ TEST_WITH(a_check_names_a_folder_that_is_read_only, NULL, scratch_sweep)
     const uid_t user = geteuid();
     char below[SCRATCH_PATH + 8];
     (void)snprintf(below, sizeof below, "%s/x/y", path);
-    assert_int_equal(chmod(scratch_folder, 0755), 0);
+    assert_int_equal(chmod(scratch.path, 0755), 0);
     assert_int_equal(mkdir(path, 0555), 0);
     assert_true(user != 0 || seteuid(65534) == 0);
     expect_checked(path, path, "the folder cannot be written to (Permission denied)");
@@ -256,4 +245,4 @@ TEST_WITH(a_check_names_a_folder_that_is_read_only, NULL, scratch_sweep)
     assert_int_equal(rmdir(path), 0);
 }
 
-TEST_GROUP(make_folder, scratch_remove);
+SCRATCH_GROUP({&path, "a.vtkhdf"}, {&part, "a.part.vtkhdf"});

@@ -190,5 +190,3 @@ TEST(without_a_touch_there_is_nothing)
     print(&r, run.simulation);
     assert_string_equal(text, "contact    none\n");
 }
-
-TEST_GROUP(NULL, NULL);

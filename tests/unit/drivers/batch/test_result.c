@@ -12,13 +12,6 @@
 
 static const char *path;
 
-static int make_folder(void **state)
-{
-    if (scratch_make(state) != 0) return 1;
-    path = scratch_file("a.json");
-    return 0;
-}
-
 TEST(a_case_without_a_deck_has_a_line)
 {
     command c = {0};
@@ -66,4 +59,4 @@ TEST(what_cannot_be_written_is_reported)
     assert_string_equal(o.message, "no/such/folder.json.part: error: cannot be written (No such file or directory)");
 }
 
-TEST_GROUP(make_folder, scratch_remove);
+SCRATCH_GROUP({&path, "a.json"});

@@ -55,5 +55,3 @@ TEST(more_warnings_than_are_kept_are_printed)
     assert_int_equal(strlen(l.warnings[RUN_LOG_WARNINGS - 1]), RUN_LOG_TEXT - 1);
     assert_int_equal(strlen(text), (RUN_LOG_WARNINGS + 3) * (strlen("warning    ") + RUN_LOG_TEXT));
 }
-
-TEST_GROUP(NULL, NULL);

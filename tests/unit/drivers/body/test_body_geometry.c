@@ -8,6 +8,7 @@
 
 #include "body_checks.h"
 #include "body_geometry.h"
+#include "unit/scratch.h"
 
 #define RUN    "&run t_end = 1 /\n"
 #define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
@@ -145,7 +146,7 @@ TEST(pores_without_a_place_or_a_radius_are_reported)
 
 /* ---- masks and meshes ---- */
 
-static char path[] = "/tmp/test_form_XXXXXX";
+static const char *path;
 
 static const char *with_file(const char *head, const char *content, const char *tail)
 {
@@ -360,10 +361,4 @@ TEST(relative_files_start_at_the_decks_folder)
     assert_string_equal(plain, "a/b.h5");
 }
 
-int main(void)
-{
-    const int file = mkstemp(path);
-    if (file < 0 || close(file) != 0) return 1;
-    const int failed = test_run();
-    return unlink(path) == 0 ? failed : 1;
-}
+SCRATCH_GROUP({&path, "a"});

@@ -8,15 +8,13 @@
 #include <unistd.h>
 
 #include "mask.h"
+#include "unit/scratch.h"
 
-static char path[] = "/tmp/test_mask_XXXXXX";
+static const char *path;
 
 static void put(const char *bytes, size_t size)
 {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
+    file_put(path, bytes, size);
 }
 
 #define TEXT(text) (text), sizeof(text) - 1
@@ -142,10 +140,4 @@ TEST(an_image_is_measured_by_its_first_bytes)
     assert_false(mask_measure(size, "/no/such/file", 2.0));
 }
 
-int main(void)
-{
-    const int file = mkstemp(path);
-    if (file < 0 || close(file) != 0) return 1;
-    const int failed = test_run();
-    return unlink(path) == 0 ? failed : 1;
-}
+SCRATCH_GROUP({&path, "a"});

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "msh.h"
+#include "unit/scratch.h"
 
 #define FORMAT "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" /* lines 1 to 3 */
 
@@ -153,11 +154,12 @@ TEST(no_beginning_of_a_mesh_is_harmful)
 
 TEST(a_file_is_read_as_its_text_is)
 {
-    char path[] = "/tmp/test_msh_XXXXXX", fault[MSH_FAULT] = "";
-    const char text[] = FORMAT NODES ELEMENTS;
+    CLEANUP(folder_close) scratch_folder f;
+    char fault[MSH_FAULT] = "";
     dem_lattice lattice = dem_lattice_empty();
-    const int file = mkstemp(path);
-    assert_true(file >= 0 && write(file, text, sizeof text - 1) == (ssize_t)(sizeof text - 1) && close(file) == 0);
+    folder_open(&f);
+    const char *path = folder_file(&f, "a.msh");
+    file_put(path, FORMAT NODES ELEMENTS, strlen(FORMAT NODES ELEMENTS));
     assert_int_equal(msh_read(&lattice, fault, path), DEM_OK);
     assert_int_equal(lattice.n_triangles, 2);
     dem_lattice_free(&lattice);

@@ -9,20 +9,18 @@
 #include <unistd.h>
 
 #include "file.h"
+#include "unit/scratch.h"
 
-static char path[] = "/tmp/test_file_XXXXXX";
+static const char *path;
 
 static void put(const char *bytes, size_t size)
 {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
+    file_put(path, bytes, size);
 }
 
 static void expect_refused(const char *name, size_t most, const char *expected)
 {
-    char *bytes = path, why[FILE_WHY];
+    char untouched, *bytes = &untouched, why[FILE_WHY];
     size_t size;
     assert_int_equal(file_read(&bytes, &size, name, most, why), FILE_REFUSED);
     assert_string_equal(why, expected);
@@ -52,7 +50,7 @@ TEST(what_is_too_large_or_empty_is_refused)
 
 TEST(what_is_no_file_is_refused)
 {
-    char fifo[64];
+    char fifo[SCRATCH_PATH + 8];
     expect_refused("/tmp", 1 << 20, "not a regular file");
     expect_refused("/no/such/file", 1 << 20, "No such file or directory");
     (void)snprintf(fifo, sizeof fifo, "%s.pipe", path);
@@ -77,10 +75,4 @@ TEST(the_beginning_and_the_size_of_a_file_are_reported)
     }
 }
 
-int main(void)
-{
-    const int file = mkstemp(path);
-    if (file < 0 || close(file) != 0) return 1;
-    const int failed = test_run();
-    return unlink(path) == 0 ? failed : 1;
-}
+SCRATCH_GROUP({&path, "a"});

@@ -13,38 +13,20 @@
 #include <hdf5.h>
 
 #include "deck.h"
+#include "unit/scratch.h"
 
 #define RUN    "&run t_end = 1 /\n"
 #define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, guard = 0.5 /\n"
 #define FLOOR  "&obstacle points = -9, 0, 9, 0 /\n"
 
-static char folder[] = "/tmp/test_deck_XXXXXX";
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) == NULL;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
-}
-
 static const char *path_of(const char *name)
 {
-    static char path[128];
-    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
+    return folder_at(&scratch, name);
 }
 
 static void write_file(const char *name, const char *bytes, size_t n)
 {
-    FILE *file = fopen(path_of(name), "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, n, file), n);
-    assert_int_equal(fclose(file), 0);
+    file_put(path_of(name), bytes, n);
 }
 
 static deck_status read_deck(deck *d, const char *text, namelist_errors *errors)
@@ -805,14 +787,13 @@ TEST(the_echo_names_a_lattice_file_by_its_whole_path)
     assert_non_null(strstr(d.echo, "    ! material = (not given)\n"));
     assert_non_null(strstr(d.physics, "    file = 'fnv1a:"));
     assert_null(strstr(d.physics, "lattice"));
-    assert_null(strstr(d.physics, folder));
-    char echo[] = "/tmp/test_deck_echo_XXXXXX"; /* in another folder */
-    const int file = mkstemp(echo);
-    const size_t size = strlen(d.echo);
-    assert_true(file >= 0 && write(file, d.echo, size) == (ssize_t)size && close(file) == 0);
+    assert_null(strstr(d.physics, scratch.path));
+    CLEANUP(folder_close) scratch_folder other;
+    folder_open(&other);
+    const char *echo = folder_file(&other, "echo.nml");
+    file_put(echo, d.echo, strlen(d.echo));
     assert_int_equal(whole_deck_read(&again, echo, &errors), DECK_OK);
     assert_true(again.hash == d.hash && again.run_hash == d.run_hash);
-    assert_int_equal(unlink(echo), 0);
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
@@ -857,7 +838,7 @@ TEST(what_is_no_readable_file_is_refused)
     assert_non_null(big);
     memset(big, ' ', size);
     expect_unreadable(path_of("none.nml"), "0:0: No such file or directory\n");
-    expect_unreadable(folder, "0:0: not a regular file\n");
+    expect_unreadable(scratch.path, "0:0: not a regular file\n");
     write_file("empty.nml", "", 0);
     expect_unreadable(path_of("empty.nml"), "0:0: the file is empty\n");
     write_file("big.nml", big, size);
@@ -869,4 +850,4 @@ TEST(what_is_no_readable_file_is_refused)
     assert_int_equal(unlink(path_of("pipe.nml")), 0);
 }
 
-TEST_GROUP(make_folder, remove_folder);
+TEST_GROUP(scratch_make, scratch_remove);

@@ -9,25 +9,18 @@
 #include <unistd.h>
 
 #include "estimate.h"
+#include "unit/scratch.h"
 
 #define HEAD  "&run t_end = 0.1 /\n&output frame_interval = 0.01 /\n"
 #define SOLID HEAD "&material youngs_modulus = 1e7, density = 1000 /\n"
 
-static char path[] = "/tmp/test_estimate_XXXXXX";
-
-static void put(const char *text)
-{
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
+static const char *path, *image;
 
 static deck parse(const char *text)
 {
     namelist_errors errors = {0};
     deck d;
-    put(text);
+    file_put(path, text, strlen(text));
     const deck_status status = deck_parse(&d, path, NULL, 0, &errors);
     if (status != DECK_OK) fail_msg("%s", errors.n > 0 ? errors.list[0].text : "no message");
     return d;
@@ -106,9 +99,7 @@ TEST(bodies_add_up_and_the_one_of_most_nodes_is_reported)
 TEST(files_are_recognized_by_their_first_bytes_and_their_size)
 {
     char text[512];
-    char image[] = "/tmp/test_estimate_image_XXXXXX";
-    const int file = mkstemp(image);
-    assert_true(file >= 0 && write(file, "P2 # 30 by 20\n30 20 255\n", 24) == 24 && close(file) == 0);
+    file_put(image, "P2 # 30 by 20\n30 20 255\n", 24);
     (void)snprintf(text, sizeof text, SOLID "&body shape = 'mask', file = '%s', scale = 1, spacing = 0.5 /\n", image);
     estimate e = of(text);
     assert_close(e.cover, 61.0 * (20.0 / (0.5 * sqrt(0.75)) + 1.0), 1e-6);
@@ -320,10 +311,4 @@ TEST(what_exceeds_one_gets_a_message_with_limit_place_and_option)
         "the limit is 5.9 GB, and --max-disk sets it\n");
 }
 
-int main(void)
-{
-    const int file = mkstemp(path);
-    if (file < 0 || close(file) != 0) return 1;
-    const int failed = test_run();
-    return unlink(path) == 0 ? failed : 1;
-}
+SCRATCH_GROUP({&path, "a.nml"}, {&image, "a.pgm"});

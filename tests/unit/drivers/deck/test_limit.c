@@ -10,22 +10,16 @@
 #include <unistd.h>
 
 #include "limit.h"
-
-static char folder[] = "/tmp/test_limits_XXXXXX";
+#include "unit/scratch.h"
 
 static const char *at(const char *name)
 {
-    static char path[256];
-    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
+    return folder_at(&scratch, name);
 }
 
 static void put(const char *name, const char *text)
 {
-    FILE *file = fopen(at(name), "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
+    file_put(at(name), text, strlen(text));
 }
 
 /* ---- options ---- */
@@ -60,14 +54,14 @@ TEST(the_least_limit_of_all_groups_above_counts)
     put("a/memory.max", "3000000\n");
     put("a/b/memory.max", "max\n");
     put("groups", "1:cpu:/elsewhere\n0::/a/b\n");
-    assert_close(limit_of_groups(folder, at("groups")), 3e6, 0.0);
+    assert_close(limit_of_groups(scratch.path, at("groups")), 3e6, 0.0);
     put("a/b/memory.max", "1000000\n");
-    assert_close(limit_of_groups(folder, at("groups")), 1e6, 0.0);
+    assert_close(limit_of_groups(scratch.path, at("groups")), 1e6, 0.0);
     put("groups", "0::/\n");
-    assert_close(limit_of_groups(folder, at("groups")), 5e6, 0.0);
+    assert_close(limit_of_groups(scratch.path, at("groups")), 5e6, 0.0);
     put("groups", "1:cpu:/a\n");
-    assert_true(isinf(limit_of_groups(folder, at("groups"))));
-    assert_true(isinf(limit_of_groups(folder, at("none"))));
+    assert_true(isinf(limit_of_groups(scratch.path, at("groups"))));
+    assert_true(isinf(limit_of_groups(scratch.path, at("none"))));
     static const char *const made[] = {"a/b/memory.max", "a/memory.max", "memory.max", "groups", "a/b", "a"};
     for (size_t k = 0; k < sizeof made / sizeof *made; k++) assert_int_equal(remove(at(made[k])), 0);
 }
@@ -77,11 +71,11 @@ TEST(the_disk_has_what_is_free_but_for_a_run_that_goes_on)
     limits most = limit_default();
     put("runner.vtkhdf", "another one's\n");
     put("run.json", "of a run that came to nothing\n");
-    assert_true(limit_see_disk(&most, folder, "run"));
+    assert_true(limit_see_disk(&most, scratch.path, "run"));
     assert_true(most.disk > 0.0 && isfinite(most.disk));
     most.disk = INFINITY;
     put("run.part.vtkhdf", "begun\n");
-    assert_true(limit_see_disk(&most, folder, "run"));
+    assert_true(limit_see_disk(&most, scratch.path, "run"));
     assert_true(isinf(most.disk));
     /* a file system without blocks, and missing folders on it */
     static const char *const without[] = {"/proc", "/proc/none", "/proc/none//deep/"};
@@ -98,9 +92,4 @@ TEST(the_disk_has_what_is_free_but_for_a_run_that_goes_on)
     for (size_t k = 0; k < sizeof made / sizeof *made; k++) assert_int_equal(unlink(at(made[k])), 0);
 }
 
-int main(void)
-{
-    if (mkdtemp(folder) == NULL) return 1;
-    const int failed = test_run();
-    return rmdir(folder) == 0 ? failed : 1;
-}
+TEST_GROUP(scratch_make, scratch_remove);

@@ -51,5 +51,3 @@ TEST(where_there_is_no_wall_none_is_thin)
     expect("&body shape = 'mask', file = 'a.pgm', scale = 1, spacing = 0.1 /\n" HOLE("0, 0", "0.25"), none);
     expect("", none);
 }
-
-TEST_GROUP(NULL, NULL);

@@ -16,11 +16,13 @@
 
 #include "ask.h"
 #include "task.h"
+#include "unit/scratch.h"
 
 enum { EXPORTED_FRAMES = 3, EXPORTED_TEXT = 1 << 16 };
 
 typedef struct exported {
-    char folder[64], path[96];
+    scratch_folder folder;
+    const char *path;
     dem_reader *reader;
     outcome outcome;
     task task;
@@ -82,12 +84,12 @@ static inline void exported_run(const exported *e, const exported_how *how)
 /** \param e  set; the task refers to it */
 static inline void exported_open(exported *e, exported_how how)
 {
-    static char folder[80];
+    static char folder[SCRATCH_FOLDER + 1];
     dem_index n = 0;
-    *e = (exported){.folder = "test_export_XXXXXX"};
-    assert_non_null(mkdtemp(e->folder));
-    (void)snprintf(folder, sizeof folder, "%s/", e->folder);
-    (void)snprintf(e->path, sizeof e->path, "%s/run.vtkhdf", e->folder);
+    *e = (exported){.path = NULL};
+    folder_open(&e->folder);
+    (void)snprintf(folder, sizeof folder, "%s/", e->folder.path);
+    e->path = folder_file(&e->folder, "run.vtkhdf");
     exported_run(e, &how);
     assert_ok(dem_reader_open(&e->reader, e->path));
     (void)dem_reader_times(e->reader, &n);
@@ -97,16 +99,12 @@ static inline void exported_open(exported *e, exported_how how)
 
 static inline int exported_has(const exported *e, const char *name)
 {
-    char path[128];
-    (void)snprintf(path, sizeof path, "%s/%s", e->folder, name);
-    return access(path, F_OK) == 0;
+    return access(folder_at(&e->folder, name), F_OK) == 0;
 }
 
 static inline const char *exported_text(exported *e, const char *name)
 {
-    char path[128];
-    (void)snprintf(path, sizeof path, "%s/%s", e->folder, name);
-    FILE *file = fopen(path, "rb");
+    FILE *file = fopen(folder_at(&e->folder, name), "rb");
     if (file == NULL) fail_msg("there is no %s", name);
     const size_t n = fread(e->text, 1, EXPORTED_TEXT - 1, file);
     assert_int_equal(fclose(file), 0);
@@ -122,17 +120,12 @@ static inline void exported_expect(exported *e, const char *name, const char *li
 
 static inline void exported_put(const exported *e, const char *name, const char *text)
 {
-    char path[128];
-    (void)snprintf(path, sizeof path, "%s/%s", e->folder, name);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-    assert_int_equal(fclose(file), 0);
+    file_put(folder_at(&e->folder, name), text, strlen(text));
 }
 
 static inline void exported_close(exported *e)
 {
-    DIR *list = opendir(e->folder);
+    DIR *list = opendir(e->folder.path);
     assert_non_null(list);
     frame_list_free(&e->task.frames);
     dem_reader_close(e->reader);
@@ -141,7 +134,7 @@ static inline void exported_close(exported *e)
         (void)unlinkat(dirfd(list), entry->d_name, 0);
     }
     (void)closedir(list);
-    assert_int_equal(rmdir(e->folder), 0);
+    folder_close(&e->folder);
 }
 
 /** A run for each test, as its state. */

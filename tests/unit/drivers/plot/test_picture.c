@@ -84,12 +84,4 @@ TEST(a_folder_that_is_not_there_is_reported)
     assert_int_equal(o.code, EXIT_IO);
 }
 
-static int make_folder(void **state)
-{
-    if (scratch_make(state) != 0) return 1;
-    path = scratch_file("a.svg");
-    part = scratch_file("a.svg.part");
-    return 0;
-}
-
-TEST_GROUP(make_folder, scratch_remove);
+SCRATCH_GROUP({&path, "a.svg"}, {&part, "a.svg.part"});

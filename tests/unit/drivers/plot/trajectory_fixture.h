@@ -5,6 +5,7 @@
 
 #include "ask.h"
 #include "unit/close.h"
+#include "unit/scratch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +19,8 @@ enum { TRAJECTORY_FIXTURE_FRAMES = 6 };
 static const double trajectory_fixture_slope[4] = {-1.0, -0.011, 1.0, 0.009};
 
 typedef struct trajectory_fixture {
-    char folder[64], path[96];
+    scratch_folder folder;
+    const char *path;
     dem_reader *reader;
 } trajectory_fixture;
 
@@ -57,9 +59,10 @@ static inline trajectory_fixture trajectory_fixture_open(void)
     dem_model *model;
     dem_simulation *simulation;
     dem_trajectory *file;
-    trajectory_fixture f = {.folder = "test_trajectory_fixture_XXXXXX"};
-    assert_non_null(mkdtemp(f.folder));
-    (void)snprintf(f.path, sizeof f.path, "%s/run.vtkhdf", f.folder);
+    trajectory_fixture f;
+    folder_open(&f.folder);
+    f.path = folder_file(&f.folder, "run.vtkhdf");
+    (void)folder_file(&f.folder, "run.obstacle.vtkhdf");
     how.frame_interval = 2e-4;
     trajectory_fixture_ok(dem_model_create(&model, &block, &slope, 1));
     trajectory_fixture_ok(dem_simulation_create(&simulation, model, &options));
@@ -79,20 +82,14 @@ static inline trajectory_fixture trajectory_fixture_open(void)
 /** The path of a file beside it. */
 static inline char *trajectory_fixture_beside(const trajectory_fixture *f, const char *name)
 {
-    static char path[2][128];
-    static int next;
-    next = 1 - next;
-    (void)snprintf(path[next], sizeof path[next], "%s/%s", f->folder, name);
-    return path[next];
+    return folder_at(&f->folder, name);
 }
 
 /** The trajectory and its folder are gone; what else was written there must be gone before. */
 static inline void trajectory_fixture_close(trajectory_fixture *f)
 {
     dem_reader_close(f->reader);
-    (void)remove(f->path);
-    (void)remove(trajectory_fixture_beside(f, "run.obstacle.vtkhdf"));
-    assert_int_equal(rmdir(f->folder), 0);
+    folder_close(&f->folder);
 }
 
 /** For a group of tests, whose state it is. */
