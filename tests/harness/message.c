@@ -4,6 +4,8 @@
 #include <ctype.h>
 #include <string.h>
 
+enum { MESSAGE_LINE = 1024 };
+
 /* Whether a word or a number goes on from one character to the next: "e-05", "0.5", "x_1". */
 static bool are_of_one_word(char before, char after)
 {
@@ -34,4 +36,34 @@ bool message_has_parts(const char *text, const char *pattern)
         pattern = next != NULL ? next + strlen(" * ") : NULL;
     }
     return text != NULL;
+}
+
+/* Whether a line has the parts of a pattern; a pattern that begins with a place, a digit, stands at its beginning. */
+static bool line_has_parts(const char *line, const char *pattern)
+{
+    const char *separator = strstr(pattern, " * ");
+    const size_t n = separator != NULL ? (size_t)(separator - pattern) : strlen(pattern);
+    if (isdigit((unsigned char)pattern[0]) && find_part(line, pattern, n) != line + n) return false;
+    return message_has_parts(line, pattern);
+}
+
+/* Copies the next line; \returns what is behind it, NULL: nothing. */
+static const char *take_line(const char *text, char line[MESSAGE_LINE])
+{
+    const size_t n = strcspn(text, "\n"), kept = n < MESSAGE_LINE ? n : MESSAGE_LINE - 1;
+    memcpy(line, text, kept);
+    line[kept] = '\0';
+    return text[n] == '\n' && text[n + 1] != '\0' ? text + n + 1 : NULL;
+}
+
+bool message_lines_have_parts(const char *text, const char *patterns)
+{
+    char line[MESSAGE_LINE], pattern[MESSAGE_LINE];
+    if (text[0] == '\0' || patterns[0] == '\0') return text[0] == patterns[0];
+    while (text != NULL && patterns != NULL) {
+        text = take_line(text, line);
+        patterns = take_line(patterns, pattern);
+        if (!line_has_parts(line, pattern)) return false;
+    }
+    return text == NULL && patterns == NULL;
 }

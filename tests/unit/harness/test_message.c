@@ -24,3 +24,24 @@ TEST(parts_are_whole_words_and_numbers)
     assert_false(message_has_parts(text, "tol"));
     assert_true(message_has_parts("has 2, 0, 3", "2 * 0 * 3"));
 }
+
+TEST(lines_have_parts_of_their_own)
+{
+    static const char text[] = "3:41 'x' is 0.5 m\n4:1 &body lacks 'y'\n";
+    assert_true(message_lines_have_parts(text, "3:41 * 'x' * 0.5 m\n4:1 * 'y'"));
+    assert_true(message_lines_have_parts(text, "'x'\n&body * 'y'\n"));
+    assert_false(message_lines_have_parts(text, "3:41 * 'x'"));
+    assert_false(message_lines_have_parts(text, "3:41 * 'x'\n4:1 * 'y'\n5:1"));
+    assert_false(message_lines_have_parts(text, "3:41 * 'y'\n4:1 * 'x'"));
+    assert_true(message_lines_have_parts("", ""));
+    assert_false(message_lines_have_parts("", "4:1"));
+    assert_false(message_lines_have_parts("4:1 x", ""));
+}
+
+TEST(a_place_is_at_the_beginning_of_its_line)
+{
+    assert_false(message_lines_have_parts("23:41 'x'", "3:41 * 'x'"));
+    assert_false(message_lines_have_parts("3:411 'x'", "3:41 * 'x'"));
+    assert_false(message_lines_have_parts("2:1 'x' at 3:41", "3:41"));
+    assert_false(message_lines_have_parts("1: 22 pixels", "22 * pixels"));
+}

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "harness/message.h"
 #include "msh.h"
 #include "unit/scratch.h"
 
@@ -34,7 +35,7 @@ static void expect_fault(const char *text, const char *expected)
     dem_lattice lattice = dem_lattice_empty();
     char fault[MSH_FAULT] = "";
     assert_int_equal(msh_parse(&lattice, fault, text, strlen(text)), DEM_ERROR_MODEL);
-    assert_string_equal(fault, expected);
+    assert_line_parts(fault, expected);
     assert_int_equal(lattice.n_nodes, 0);
     assert_null(lattice.x);
     assert_null(lattice.triangles);
@@ -68,47 +69,40 @@ TEST(other_sections_and_parameters_are_passed_over)
 
 TEST(formats_at_fault_are_refused)
 {
-    expect_fault("", "1: the text ends where $MeshFormat is expected");
+    expect_fault("", "1 * ends * $MeshFormat");
     expect_fault("\x7f"
                  "ELF",
-                 "1: '$MeshFormat' is expected, got '?ELF'");
-    expect_fault("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n",
-                 "2: MSH version 4.1 is expected; 'gmsh -format msh41' writes it");
-    expect_fault("$MeshFormat\n4.1 1 8\n", "2: a binary mesh; text is expected ('Mesh.Binary = 0')");
-    expect_fault(FORMAT, "4: the mesh has no triangles");
-    expect_fault(FORMAT "nodes\n", "4: a section is expected, which begins with '$'");
-    expect_fault(FORMAT "$Entities\n1\n", "6: the text ends where a line '$EndEntities' is expected");
-    expect_fault(FORMAT ELEMENTS, "4: the elements stand before the nodes");
-    expect_fault(FORMAT NODES NODES ELEMENTS, "19: a second section of nodes");
-    expect_fault(FORMAT NODES ELEMENTS ELEMENTS, "29: a second section of elements");
-    expect_fault(FORMAT NODES, "19: the mesh has no triangles");
+                 "1 * '$MeshFormat' * '?ELF'");
+    expect_fault("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "2 * MSH * version * 4.1 * 'gmsh -format msh41'");
+    expect_fault("$MeshFormat\n4.1 1 8\n", "2 * binary * mesh * 'Mesh.Binary = 0'");
+    expect_fault(FORMAT, "4 * mesh * triangles");
+    expect_fault(FORMAT "nodes\n", "4 * section * '$'");
+    expect_fault(FORMAT "$Entities\n1\n", "6 * ends * line * '$EndEntities'");
+    expect_fault(FORMAT ELEMENTS, "4 * elements * nodes");
+    expect_fault(FORMAT NODES NODES ELEMENTS, "19 * second * section * nodes");
+    expect_fault(FORMAT NODES ELEMENTS ELEMENTS, "29 * second * section * elements");
+    expect_fault(FORMAT NODES, "19 * mesh * triangles");
 }
 
 /* Nothing of such a size is asked for. */
 TEST(absurd_counts_are_refused)
 {
-    expect_fault(FORMAT "$Nodes\n1 1000000000 1 5\n2 1 0 1\n1\n0 0 0\n",
-                 "5: 1000000000 nodes do not fit in the 21 bytes that follow");
-    expect_fault(FORMAT "$Nodes\n9223372036854775807 1 1 5\n2 1 0 1\n1\n0 0 0\n",
-                 "9: the text ends where the dimension is expected");
+    expect_fault(FORMAT "$Nodes\n1 1000000000 1 5\n2 1 0 1\n1\n0 0 0\n", "5 * 1000000000 * nodes * fit * 21 * bytes");
+    expect_fault(FORMAT "$Nodes\n9223372036854775807 1 1 5\n2 1 0 1\n1\n0 0 0\n", "9 * ends * dimension");
     expect_fault(FORMAT NODES "$Elements\n1 9223372036854775807 1 1\n",
-                 "20: 9223372036854775807 elements do not fit in the 5 bytes that follow");
-    expect_fault(FORMAT "$Nodes\n1 1 1 5\n2 1 0 7\n1\n0 0 0\n",
-                 "6: the number of nodes in a block must be in [0, 1], got 7");
+                 "20 * 9223372036854775807 * elements * fit * 5 * bytes");
+    expect_fault(FORMAT "$Nodes\n1 1 1 5\n2 1 0 7\n1\n0 0 0\n", "6 * nodes * [0, 1] * 7");
 }
 
 TEST(nodes_at_fault_are_refused)
 {
-    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 0 0.1\n$EndNodes",
-                 "8: the mesh must lie in the plane z = 0, but a node has z = 0.1");
-    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 nan 0\n$EndNodes", "8: y must be a finite number, got 'nan'");
-    expect_fault(FORMAT "$Nodes\n1 2 1 7\n2 1 0 2\n7\n7\n0 0 0\n1 0 0\n$EndNodes", "11: two nodes have the tag 7");
-    expect_fault(FORMAT "$Nodes\n1 2 1 7\n2 1 0 1\n7\n0 0 0\n$EndNodes\n$Something\n",
-                 "8: 2 nodes are announced, the blocks have 1");
+    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 0 0.1\n$EndNodes", "8 * mesh * plane * 0 * node * 0.1");
+    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 nan 0\n$EndNodes", "8 * finite * 'nan'");
+    expect_fault(FORMAT "$Nodes\n1 2 1 7\n2 1 0 2\n7\n7\n0 0 0\n1 0 0\n$EndNodes", "11 * nodes * tag 7");
+    expect_fault(FORMAT "$Nodes\n1 2 1 7\n2 1 0 1\n7\n0 0 0\n$EndNodes\n$Something\n", "8 * 2 * nodes * announced * 1");
     expect_fault(FORMAT "$Nodes\n1 1 1 7\n2 1 0 1\n0\n0 0 0\n$EndNodes",
-                 "7: the tag of a node must be in [1, 9223372036854775807], got 0");
-    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 0 0\n$EndElements\n",
-                 "9: '$EndNodes' is expected, got '$EndElements'");
+                 "7 * tag * node * [1, 9223372036854775807] * 0");
+    expect_fault(FORMAT "$Nodes\n1 1 1 1\n2 1 0 1\n1\n0 0 0\n$EndElements\n", "9 * '$EndNodes' * '$EndElements'");
 }
 
 #define SQUARE FORMAT NODES "$Elements\n" /* the counts stand in line 20 */
@@ -116,24 +110,21 @@ TEST(nodes_at_fault_are_refused)
 TEST(elements_at_fault_are_refused)
 {
     expect_fault(SQUARE "1 1 1 1\n2 1 3 1\n1 10 20 30 40\n$EndElements\n",
-                 "21: elements of type 3; only triangles of 3 nodes, type 2, can be read");
-    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20 31\n$EndElements\n", "22: there is no node 31");
-    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20 20\n$EndElements\n", "22: a triangle has the area 0");
-    expect_fault(SQUARE "1 2 1 2\n2 1 2 1\n1 10 20 30\n$EndElements\n",
-                 "22: 2 elements are announced, the blocks have 1");
-    expect_fault(SQUARE "1 1 1 2\n2 1 2 2\n1 10 20 30\n2 10 30 40\n$EndElements\n",
-                 "21: the number of elements in a block must be in [0, 1], got 2");
-    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20\n$EndElements\n",
-                 "23: the node of an element must be an integer, got '$EndElements'");
-    expect_fault(SQUARE "1 1 1 1\n1 1 1 1\n1 10 20\n$EndElements\n", "24: the mesh has no triangles");
+                 "21 * elements * type 3 * only * triangles * 3 * nodes * type 2");
+    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20 31\n$EndElements\n", "22 * node 31");
+    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20 20\n$EndElements\n", "22 * triangle * area * 0");
+    expect_fault(SQUARE "1 2 1 2\n2 1 2 1\n1 10 20 30\n$EndElements\n", "22 * 2 * elements * announced * 1");
+    expect_fault(SQUARE "1 1 1 2\n2 1 2 2\n1 10 20 30\n2 10 30 40\n$EndElements\n", "21 * elements * [0, 1] * 2");
+    expect_fault(SQUARE "1 1 1 1\n2 1 2 1\n1 10 20\n$EndElements\n", "23 * node * element * integer * '$EndElements'");
+    expect_fault(SQUARE "1 1 1 1\n1 1 1 1\n1 10 20\n$EndElements\n", "24 * mesh * triangles");
 }
 
 TEST(triangles_on_the_same_side_of_an_edge_are_refused)
 {
     expect_fault(SQUARE "1 2 1 2\n2 1 2 2\n1 10 20 30\n2 30 20 10\n$EndElements\n",
-                 "23: this triangle overlaps that of line 22");
+                 "23 * triangle * overlaps * line 22");
     expect_fault(SQUARE "1 2 1 2\n2 1 2 2\n1 10 20 30\n2 10 20 40\n$EndElements\n",
-                 "23: this triangle overlaps that of line 22");
+                 "23 * triangle * overlaps * line 22");
 }
 
 /* Every beginning of a good mesh is refused, or is one. */

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "harness/message.h"
 #include "pgm.h"
 
 static image read_good(const char *bytes, size_t size)
@@ -29,7 +30,7 @@ static void expect_fault(const char *bytes, size_t size, const char *expected)
     image out;
     char fault[IMAGE_FAULT] = "";
     assert_int_equal(pgm_parse(&out, fault, bytes, size), IMAGE_REFUSED);
-    assert_string_equal(fault, expected);
+    assert_line_parts(fault, expected);
     assert_null(out.grey);
 }
 
@@ -56,34 +57,33 @@ TEST(bytes_of_8_and_16_bits_are_read)
 
 TEST(headers_at_fault_are_refused)
 {
-    expect_fault(TEXT(""), "1: 'P2' or 'P5' is expected at the beginning");
-    expect_fault(TEXT("P6 1 1 255 x"), "1: 'P2' or 'P5' is expected at the beginning");
-    expect_fault(TEXT("P25 1 1"), "1: 'P2' or 'P5' is expected at the beginning");
-    expect_fault(TEXT("P2\n"), "2: the text ends where the width is expected");
-    expect_fault(TEXT("P2\n0 1 255"), "2: the width must be in [1, 32768], got 0");
-    expect_fault(TEXT("P5\n1\n32769\n255\n"), "3: the height must be in [1, 32768], got 32769");
-    expect_fault(TEXT("P5 1 1 65536 "), "1: the largest value must be in [1, 65535], got 65536");
-    expect_fault(TEXT("P5 1 1 255"), "1: 1 x 1 pixels take 1 bytes, but 0 follow the header");
-    expect_fault(TEXT("P5 1 1 255#x\ny"), "1: a comment behind the largest value");
+    expect_fault(TEXT(""), "1 * 'P2' * 'P5' * beginning");
+    expect_fault(TEXT("P6 1 1 255 x"), "1 * 'P2' * 'P5' * beginning");
+    expect_fault(TEXT("P25 1 1"), "1 * 'P2' * 'P5' * beginning");
+    expect_fault(TEXT("P2\n"), "2 * ends * width");
+    expect_fault(TEXT("P2\n0 1 255"), "2 * width * [1, 32768] * 0");
+    expect_fault(TEXT("P5\n1\n32769\n255\n"), "3 * height * [1, 32768] * 32769");
+    expect_fault(TEXT("P5 1 1 65536 "), "1 * largest * [1, 65535] * 65536");
+    expect_fault(TEXT("P5 1 1 255"), "1 * 1 x 1 * pixels * 1 * bytes * 0 * header");
+    expect_fault(TEXT("P5 1 1 255#x\ny"), "1 * comment * largest");
 }
 
 /* Before anything of that size is asked for. */
 TEST(pixels_that_the_bytes_cannot_hold_are_refused)
 {
-    expect_fault(TEXT("P5 32768 32768 65535\nxyz"),
-                 "1: 32768 x 32768 pixels take 2147483648 bytes, but 3 follow the header");
-    expect_fault(TEXT("P2 32768 32768 65535\n1 2"), "1: 4 bytes cannot hold 32768 x 32768 pixels");
-    expect_fault(TEXT("P5 2 1 255\nabc"), "1: 2 x 1 pixels take 2 bytes, but 3 follow the header");
+    expect_fault(TEXT("P5 32768 32768 65535\nxyz"), "1 * 32768 x 32768 * pixels * 2147483648 * bytes * 3 * header");
+    expect_fault(TEXT("P2 32768 32768 65535\n1 2"), "1 * 4 * bytes * 32768 x 32768 * pixels");
+    expect_fault(TEXT("P5 2 1 255\nabc"), "1 * 2 x 1 * pixels * 2 * bytes * 3 * header");
 }
 
 TEST(pixels_at_fault_are_refused)
 {
-    expect_fault(TEXT("P2 2 2 9\n1 2\n3 10"), "3: a pixel must be in [0, 9], got 10");
-    expect_fault(TEXT("P2 2 2 9\n1 2\n-3 1"), "3: a pixel must be in [0, 9], got -3");
-    expect_fault(TEXT("P2 2 2 9\n1 2\n3x 1"), "3: a pixel must be an integer, got '3x'");
-    expect_fault(TEXT("P2 2 2 9\n1 2\n3      "), "3: the text ends where a pixel is expected");
-    expect_fault(TEXT("P2 2 1 9\n1 2\n3"), "3: there are more than 2 x 1 pixels");
-    expect_fault(TEXT("P5 2 2 9 \x01\x02\x03\x0a"), "1: the pixel in column 2 of row 2 is 10, larger than 9");
+    expect_fault(TEXT("P2 2 2 9\n1 2\n3 10"), "3 * pixel * [0, 9] * 10");
+    expect_fault(TEXT("P2 2 2 9\n1 2\n-3 1"), "3 * pixel * [0, 9] * -3");
+    expect_fault(TEXT("P2 2 2 9\n1 2\n3x 1"), "3 * pixel * integer * '3x'");
+    expect_fault(TEXT("P2 2 2 9\n1 2\n3      "), "3 * ends * pixel");
+    expect_fault(TEXT("P2 2 1 9\n1 2\n3"), "3 * 2 x 1 * pixels");
+    expect_fault(TEXT("P5 2 2 9 \x01\x02\x03\x0a"), "1 * pixel * column 2 * row 2 * 10 * larger * 9");
 }
 
 TEST(beginnings_are_known)

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "harness/message.h"
 #include "png.h"
 
 static const unsigned char grey8[] = {
@@ -70,18 +71,18 @@ static void expect_fault(const unsigned char *bytes, size_t size, const char *ex
     image out;
     char fault[IMAGE_FAULT] = "";
     assert_int_equal(png_parse(&out, fault, text_of(bytes), size), IMAGE_REFUSED);
-    assert_string_equal(fault, expected);
+    assert_line_parts(fault, expected);
     assert_null(out.grey);
 }
 
 TEST(damaged_images_are_refused)
 {
     unsigned char bytes[sizeof grey8];
-    expect_fault(grey8, 23, "the PNG image ends too early");
-    for (size_t size = 24; size < sizeof grey8 - 12; size++) expect_fault(grey8, size, "the PNG image is damaged");
+    expect_fault(grey8, 23, "PNG * ends * early");
+    for (size_t size = 24; size < sizeof grey8 - 12; size++) expect_fault(grey8, size, "PNG * damaged");
     memcpy(bytes, grey8, sizeof bytes);
     bytes[50] ^= 1; /* in the compressed data */
-    expect_fault(bytes, sizeof bytes, "the PNG image is damaged");
+    expect_fault(bytes, sizeof bytes, "PNG * damaged");
 }
 
 TEST(stated_sizes_are_limited)
@@ -89,10 +90,10 @@ TEST(stated_sizes_are_limited)
     unsigned char bytes[sizeof grey8];
     memcpy(bytes, grey8, sizeof bytes);
     bytes[16] = 0x7f;
-    expect_fault(bytes, sizeof bytes, "a PNG image of 2130706435 x 2 pixels; the limit is 67108864");
+    expect_fault(bytes, sizeof bytes, "PNG * 2130706435 x 2 * pixels * limit * 67108864");
     memcpy(bytes, grey8, sizeof bytes);
     bytes[18] = bytes[22] = 0x40; /* 16387 x 16386 */
-    expect_fault(bytes, sizeof bytes, "a PNG image of 16387 x 16386 pixels; the limit is 67108864");
+    expect_fault(bytes, sizeof bytes, "PNG * 16387 x 16386 * pixels * limit * 67108864");
 }
 
 /* A chunk that libpng skips would state another size than the image has, and let any size pass. */
@@ -103,7 +104,7 @@ TEST(an_image_begins_with_its_header)
     memcpy(bytes, grey8, 8);
     memcpy(bytes + 8, chunk, sizeof chunk);
     memcpy(bytes + 8 + sizeof chunk, grey8 + 8, sizeof grey8 - 8);
-    expect_fault(bytes, sizeof bytes, "the PNG image does not begin with its header");
+    expect_fault(bytes, sizeof bytes, "PNG * header");
 }
 #else
 TEST(without_cairo_none_is_read)

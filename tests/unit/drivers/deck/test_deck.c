@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* deck.c and body.c: what decks mean, and the exact words for those that mean nothing. */
-#include "unit/close.h"
+/* deck.c and body.c: what decks mean, and where and why some mean nothing. */
+#include "unit/reading.h"
 #include "unit/whole_deck.h"
 
 #include <fcntl.h>
@@ -47,15 +47,11 @@ static deck good_deck(const char *text)
     return d;
 }
 
-/* All errors, "line:column: text\n" each. */
 static void expect_text(const namelist_errors *errors, const char *expected)
 {
-    char all[4096] = "";
-    size_t n = 0;
-    for (size_t k = 0; k < errors->n; k++)
-        n += (size_t)snprintf(all + n, sizeof all - n, "%d:%d: %s\n", errors->list[k].place.line,
-                              errors->list[k].place.column, errors->list[k].text);
-    assert_string_equal(all, expected);
+    char all[4096];
+    list_faults(errors, all, sizeof all);
+    assert_line_parts(all, expected);
 }
 
 static void expect_errors(const char *text, const char *expected)
@@ -195,11 +191,11 @@ TEST(faults_of_probes_come_with_the_others)
 {
     expect_errors(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
                              "&probe name = 'a' /\n&probe name = 'b', number = 1, place = 0, 0 /\n",
-                  "4:1: &probe needs 'place' or 'number'\n"
-                  "5:32: &probe needs 'place' or 'number', not both\n");
+                  "4:1 * &probe * needs * 'place' * 'number'\n"
+                  "5:32 * &probe * needs * 'place' * 'number' * both");
     expect_errors(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
                              "&probe name = 'a', number = 19 /\n",
-                  "4:20: probe 'a': there is no such node; they are numbered from 0, and there are 19\n");
+                  "4:20 * probe * 'a' * node * 0 * 19");
 }
 
 /* The echo once stated the default of 'body' for a probe by number, which is not used there. */
@@ -235,12 +231,10 @@ TEST(friction_goes_with_its_law)
                                   "&obstacle points = -9, 0, 9, 0, friction = 1.5, friction_law = 'paper' /\n"
                                   "&obstacle points = -9, 0, 9, 0, friction = 'high', friction_law = 'paper' /\n"
                                   "&obstacle points = -9, 0, 9, 0, friction = 1.5, friction_law = 'papper' /\n",
-                  "4:1: 'friction' in &obstacle must be given for friction_law 'paper', in [0, 1]: an impact leaves "
-                  "this part of the tangential velocity, and 1 is frictionless\n"
-                  "5:33: 'friction' in &obstacle must be in [0, 1] for friction_law 'paper', got 1.5\n"
-                  "6:44: 'friction' in &obstacle expects a real, got 'high'\n"
-                  "7:64: 'friction_law' in &obstacle must be 'coulomb' or 'paper', got 'papper' (did you mean "
-                  "'paper'?)\n");
+                  "4:1 * 'friction' * &obstacle * given * 'paper' * [0, 1] * 1\n"
+                  "5:33 * 'friction' * &obstacle * [0, 1] * 'paper' * 1.5\n"
+                  "6:44 * 'friction' * &obstacle * real * 'high'\n"
+                  "7:64 * 'friction_law' * &obstacle * 'coulomb' * 'paper' * 'papper' * 'paper'");
 }
 
 TEST(keys_not_given_are_left_to_the_library)
@@ -376,8 +370,7 @@ TEST(the_echo_is_a_deck_of_the_same_problem)
 TEST(disconnected_parts_are_refused_removed_or_kept)
 {
     expect_errors(BAR(""),
-                  "3:1: body 1 has 1 part that shares no edge with its largest, of 4 triangles at (2, 0) m in its own "
-                  "coordinates; 'disconnected' can remove or keep such parts\n");
+                  "3:1 * body 1 * 1 * shares * edge * largest * 4 * triangles * (2, 0) * coordinates * 'disconnected'");
     CLEANUP(deck_free)
     deck kept = good_deck(BAR(", disconnected = 'keep'")), removed = good_deck(BAR(", disconnected = 'remove'"));
     assert_int_equal(kept.lattice.n_nodes, removed.lattice.n_nodes + 6);
@@ -394,30 +387,29 @@ TEST(keys_that_a_shape_lacks_or_does_not_use_are_named)
                              "      lattice = 'triangular', material = 'rubber' /\n"
                              "&void centre = 0, 0, size = 1, 1 /\n"
                              "&void centre = 0, 0, shape = 'rectangle', radius = 1 /\n",
-                  "3:1: 'radius' in &body must be given for shape 'disc'\n"
-                  "3:1: 'spacing' in &body must be given for shape 'disc'\n"
-                  "3:23: 'size' in &body is not used by shape 'disc'\n"
-                  "4:1: 'size' in &body must be given for shape 'rectangle'\n"
-                  "4:1: 'spacing' in &body must be given for shape 'rectangle'\n"
-                  "4:28: 'radius' in &body is not used by shape 'rectangle'\n"
-                  "5:1: 'file' in &body must be given for shape 'file'\n"
-                  "5:23: 'spacing' in &body is not used by shape 'file'\n"
-                  "6:7: 'lattice' in &body is not used by shape 'file'\n"
-                  "6:31: 'material' in &body is not used by shape 'file'\n"
-                  "7:1: 'radius' in &void must be given for shape 'disc'\n"
-                  "7:22: 'size' in &void is not used by shape 'disc'\n"
-                  "8:1: 'size' in &void must be given for shape 'rectangle'\n"
-                  "8:43: 'radius' in &void is not used by shape 'rectangle'\n");
+                  "3:1 * 'radius' * &body * given * 'disc'\n"
+                  "3:1 * 'spacing' * &body * given * 'disc'\n"
+                  "3:23 * 'size' * &body * used * 'disc'\n"
+                  "4:1 * 'size' * &body * given * 'rectangle'\n"
+                  "4:1 * 'spacing' * &body * given * 'rectangle'\n"
+                  "4:28 * 'radius' * &body * used * 'rectangle'\n"
+                  "5:1 * 'file' * &body * given * 'file'\n"
+                  "5:23 * 'spacing' * &body * used * 'file'\n"
+                  "6:7 * 'lattice' * &body * used * 'file'\n"
+                  "6:31 * 'material' * &body * used * 'file'\n"
+                  "7:1 * 'radius' * &void * given * 'disc'\n"
+                  "7:22 * 'size' * &void * used * 'disc'\n"
+                  "8:1 * 'size' * &void * given * 'rectangle'\n"
+                  "8:43 * 'radius' * &void * used * 'rectangle'");
 }
 
 TEST(names_that_refer_to_nothing_are_named)
 {
     expect_errors(RUN RUBBER RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'ruber' /\n"
                                     "&body shape = 'disc', radius = 1, spacing = 1 /\n",
-                  "3:11: material 'rubber' is given twice, first in line 2\n"
-                  "4:48: there is no material 'ruber' (did you mean 'rubber'?)\n"
-                  "5:1: there is no material 'solid', the default of 'material' in &body; known: 'rubber', "
-                  "'rubber'\n");
+                  "3:11 * material * 'rubber' * given * twice * line 2\n"
+                  "4:48 * material * 'ruber' * 'rubber'\n"
+                  "5:1 * material * 'solid' * default * 'material' * &body * 'rubber' * 'rubber'");
 }
 
 TEST(voids_and_pores_need_a_body_that_can_have_them)
@@ -425,10 +417,10 @@ TEST(voids_and_pores_need_a_body_that_can_have_them)
     expect_errors(RUN RUBBER "&body shape = 'file', file = 'x.h5' /\n"
                              "&void body = 2, centre = 0, 0, radius = 1 /\n"
                              "&pores number = 20000, radius = 2, 1 /\n",
-                  "4:7: &void is for body 2, but the number of bodies is 1\n"
-                  "5:1: &pores is for body 1, which is of shape 'file'\n"
-                  "5:8: 'number' in &pores must be at most 10000, got 20000\n"
-                  "5:24: 'radius' in &pores must be the smallest, then the largest one, got 2, 1\n");
+                  "4:7 * &void * body 2 * 1\n"
+                  "5:1 * &pores * body 1 * 'file'\n"
+                  "5:8 * 'number' * &pores * 10000 * 20000\n"
+                  "5:24 * 'radius' * &pores * smallest * largest * 2 * 1");
 }
 
 TEST(numbers_that_do_not_go_together_are_named)
@@ -437,27 +429,26 @@ TEST(numbers_that_do_not_go_together_are_named)
                   "&body shape = 'rectangle', size = 4, 1, spacing = 2, material = 'rubber', clearance = 1 /\n"
                   "&body shape = 'disc', radius = 1, spacing = 2, material = 'rubber' /\n"
                   "&output name = 'a/b' /\n",
-                  "3:41: 'spacing' in &body must not exceed the size, 4 m x 1 m, got 2 m\n"
-                  "3:75: 'clearance' in &body needs an &obstacle\n"
-                  "3:75: 'clearance' in &body needs gravity, which is 0\n"
-                  "4:35: 'spacing' in &body must not exceed the radius, 1 m, got 2 m\n"
-                  "5:9: 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'\n");
+                  "3:41 * 'spacing' * &body * exceed * size * 4 m x 1 m * 2 m\n"
+                  "3:75 * 'clearance' * &body * needs * &obstacle\n"
+                  "3:75 * 'clearance' * &body * needs * gravity * 0\n"
+                  "4:35 * 'spacing' * &body * exceed * radius * 1 m * 2 m\n"
+                  "5:9 * 'name' * &output * 1 * 100 * characters * '/' * '.' * '-'");
 }
 
 TEST(obstacles_must_be_polylines)
 {
-    expect_errors(RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber' /\n"
-                             "&obstacle points = 0, 0, 1, 1, 2 /\n"
-                             "&obstacle points = 0, 0, 0.5, 1, 0.5, 1, 2, 2, 2, 2 /\n",
-                  "4:11: 'points' in &obstacle must be pairs of x and y, got 5 values\n"
-                  "5:11: 'points' in &obstacle: segment 2 of obstacle 2, from (0.5, 1) to (0.5, 1) m, has no length; "
-                  "so it is with 2 of 4 segments\n");
+    expect_errors(
+        RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber' /\n"
+                   "&obstacle points = 0, 0, 1, 1, 2 /\n"
+                   "&obstacle points = 0, 0, 0.5, 1, 0.5, 1, 2, 2, 2, 2 /\n",
+        "4:11 * 'points' * &obstacle * pairs * 5 * values\n"
+        "5:11 * 'points' * &obstacle * segment 2 * obstacle 2 * (0.5, 1) * (0.5, 1) * length * 2 * 4 * segments");
     expect_errors(RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber' /\n"
                              "&obstacle points = -1e300, 0, 1e300, 0 /\n"
                              "&obstacle points = 0, 0, 1e-300, 0 /\n",
-                  "4:11: 'points' in &obstacle: segment 1 of obstacle 1, from (-1e+300, 0) to (1e+300, 0) m, is too "
-                  "long\n"
-                  "5:11: 'points' in &obstacle: segment 1 of obstacle 2, from (0, 0) to (1e-300, 0) m, is too short\n");
+                  "4:11 * 'points' * &obstacle * segment 1 * obstacle 1 * (-1e+300, 0) * (1e+300, 0) * long\n"
+                  "5:11 * 'points' * &obstacle * segment 1 * obstacle 2 * (0, 0) * (1e-300, 0) * short");
 }
 
 /* ---- profiles ---- */
@@ -529,17 +520,16 @@ TEST(keys_of_another_profile_are_refused)
                                     "  correlation = 1, seed = 1 /\n"
                                     "&obstacle points = -9, 0, 9, 0, profile = 'rough' /\n"
                                     "&obstacle points = -9, 0, 9, 0, profile = 'ruogh', seed = 1 /\n",
-                  "4:33: 'resolution' in &obstacle is not used by profile 'polyline'\n"
-                  "4:49: 'roughness' in &obstacle is not used by profile 'polyline'\n"
-                  "5:3: 'correlation' in &obstacle is not used by profile 'polyline'\n"
-                  "5:20: 'seed' in &obstacle is not used by profile 'polyline'\n"
-                  "6:53: 'roughness' in &obstacle is not used by profile 'smooth'\n"
-                  "7:3: 'correlation' in &obstacle is not used by profile 'smooth'\n"
-                  "7:20: 'seed' in &obstacle is not used by profile 'smooth'\n"
-                  "8:1: 'roughness' in &obstacle must be given for profile 'rough'\n"
-                  "8:1: 'correlation' in &obstacle must be given for profile 'rough'\n"
-                  "9:43: 'profile' in &obstacle must be 'polyline', 'smooth' or 'rough', got 'ruogh' (did you mean "
-                  "'rough'?)\n");
+                  "4:33 * 'resolution' * &obstacle * used * 'polyline'\n"
+                  "4:49 * 'roughness' * &obstacle * used * 'polyline'\n"
+                  "5:3 * 'correlation' * &obstacle * used * 'polyline'\n"
+                  "5:20 * 'seed' * &obstacle * used * 'polyline'\n"
+                  "6:53 * 'roughness' * &obstacle * used * 'smooth'\n"
+                  "7:3 * 'correlation' * &obstacle * used * 'smooth'\n"
+                  "7:20 * 'seed' * &obstacle * used * 'smooth'\n"
+                  "8:1 * 'roughness' * &obstacle * given * 'rough'\n"
+                  "8:1 * 'correlation' * &obstacle * given * 'rough'\n"
+                  "9:43 * 'profile' * &obstacle * 'polyline' * 'smooth' * 'rough' * 'ruogh' * 'rough'");
 }
 
 /* Their extent was once asked for all the same. */
@@ -547,8 +537,8 @@ TEST(a_profile_without_points_lacks_them)
 {
     expect_errors(RUN RUBBER LIFTED "&obstacle profile = 'smooth', resolution = 1 /\n"
                                     "&obstacle points = 0, profile = 'smooth', resolution = 1 /\n",
-                  "4:1: 'points' in &obstacle must be given\n"
-                  "5:11: 'points' in &obstacle expects at least 4 values, got 1\n");
+                  "4:1 * 'points' * &obstacle * given\n"
+                  "5:11 * 'points' * &obstacle * 4 * values * 1");
 }
 
 #define SMOOTH "profile = 'smooth'"
@@ -564,30 +554,27 @@ TEST(profiles_that_cannot_be_compiled_are_named)
                                     "&obstacle points = 0, 0, 20.1, 0, " ROUGH " /\n"
                                     "&obstacle points = 0, 0, 1, 0, " ROUGH ", resolution = 1.9e-4 /\n"
                                     "&obstacle points = 0, 0, 1, 0, 2, " ROUGH ", resolution = 3 /\n",
-                  "4:11: 'points' in &obstacle must increase in x for profile 'smooth'; point 3 of obstacle 1 is at "
-                  "0.5 m, the one before at 1 m\n"
-                  "5:11: 'points' in &obstacle: segment 2 of obstacle 2, from (1, 0) to (1, 0) m, has no length\n"
-                  "6:52: 'resolution' in &obstacle must not exceed the extent of its points, 1 m, got 1.5 m\n"
-                  "7:52: 'resolution' in &obstacle, 1e-06 m, makes 1e+06 segments of obstacle 4; the limit is 100000\n"
-                  "8:1: obstacle 5 has points at x of up to 1e+09 m, so large that rounding blurs its segments of "
-                  "0.005 m\n"
-                  "9:1: 'resolution' in &obstacle must be 1/500 to 1/2 of 'correlation', 0.1 m, got 0.1005 m, the "
-                  "default\n"
-                  "10:88: 'resolution' in &obstacle must be 1/500 to 1/2 of 'correlation', 0.1 m, got 0.00019 m\n"
-                  "11:11: 'points' in &obstacle must be pairs of x and y, got 5 values\n");
+                  "4:11 * 'points' * &obstacle * increase * 'smooth' * point 3 * obstacle 1 * 0.5 m * 1 m\n"
+                  "5:11 * 'points' * &obstacle * segment 2 * obstacle 2 * (1, 0) * (1, 0) * length\n"
+                  "6:52 * 'resolution' * &obstacle * exceed * extent * points * 1 m * 1.5 m\n"
+                  "7:52 * 'resolution' * &obstacle * 1e-06 m * 1e+06 * segments * obstacle 4 * limit * 100000\n"
+                  "8:1 * obstacle 5 * points * 1e+09 m * rounding * blurs * segments * 0.005 m\n"
+                  "9:1 * 'resolution' * &obstacle * 1 * 500 * 1 * 2 * 'correlation' * 0.1 m * 0.1005 m * default\n"
+                  "10:88 * 'resolution' * &obstacle * 1 * 500 * 1 * 2 * 'correlation' * 0.1 m * 0.00019 m\n"
+                  "11:11 * 'points' * &obstacle * pairs * 5 * values");
     expect_errors(RUN RUBBER LIFTED "&obstacle points = 0, 0, 1, 0, " ROUGH ", resolution = 'fine' /\n"
                                     "&obstacle points = 0, 0, 1, zero, " ROUGH " /\n",
-                  "4:101: 'resolution' in &obstacle expects a real, got 'fine'\n"
-                  "5:29: 'points' in &obstacle expects a real, got 'zero'\n");
+                  "4:101 * 'resolution' * &obstacle * real * 'fine'\n"
+                  "5:29 * 'points' * &obstacle * real * 'zero'");
 }
 
 /* Heights beyond what can be squared are found when they are there. */
 TEST(a_profile_of_endless_segments_is_refused)
 {
-    expect_errors(RUN RUBBER LIFTED "&obstacle points = 0, 0, 1, 0, profile = 'rough', roughness = 1e200,\n"
-                                    "  correlation = 2, resolution = 1, seed = 5489 /\n",
-                  "4:11: 'points' in &obstacle: segment 1 of obstacle 1, from (0, -7.20663e+199) to (1, "
-                  "-1.90369e+199) m, is too long\n");
+    expect_errors(
+        RUN RUBBER LIFTED "&obstacle points = 0, 0, 1, 0, profile = 'rough', roughness = 1e200,\n"
+                          "  correlation = 2, resolution = 1, seed = 5489 /\n",
+        "4:11 * 'points' * &obstacle * segment 1 * obstacle 1 * (0, -7.20663e+199) * (1, -1.90369e+199) * long");
 }
 
 TEST(faults_of_syntax_keys_and_meaning_come_together_sorted)
@@ -596,15 +583,13 @@ TEST(faults_of_syntax_keys_and_meaning_come_together_sorted)
                   "&body shape = 'disc', size = 1, 1, radius = 1, spacing = 1, material = 'rubber' /\n"
                   "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 /\n"
                   "&obstacle points = 0, 0, 1, 1, 2, restitution = 'x /\n",
-                  "1:14: 't_end' in &run must be > 0, got -1\n"
-                  "2:23: 'size' in &body is not used by shape 'disc'\n"
-                  "4:11: 'points' in &obstacle must be pairs of x and y, got 5 values\n"
-                  "4:49: the string is not closed\n");
+                  "1:14 * 't_end' * &run * 0 * -1\n"
+                  "2:23 * 'size' * &body * used * 'disc'\n"
+                  "4:11 * 'points' * &obstacle * pairs * 5 * values\n"
+                  "4:49 * string * closed");
 }
 
 /* ---- faults of geometry ---- */
-
-#define REVERSED ", or reverse the obstacle's points: bodies live on the left of each segment"
 
 TEST(faults_of_geometry_are_reported_for_all_bodies)
 {
@@ -617,14 +602,11 @@ TEST(faults_of_geometry_are_reported_for_all_bodies)
         "&body shape = 'disc', radius = 1, spacing = 0.1, material = 'rubber' /\n"
         "&pores body = 4, number = 2, radius = 0.3, 0.3, wall = 0.1 /\n"
         "&void body = 5, centre = 0, 0, radius = 2 /\n" FLOOR,
-        "3:41: body 1 would have more nodes than 2^40 with the spacing 1e-09 m\n"
-        "4:35: body 2 would have more nodes than 2^40 with the spacing 1e-09 m\n"
-        "5:89: 'clearance' in &body cannot be reached: along gravity there is no obstacle below body 3; move "
-        "it" REVERSED "\n"
-        "7:1: body 5: its outline, voids and pores leave none of 367 nodes\n"
-        "8:1: pore 2 of 2, of radius 0.3 m, finds no place in body 4 with walls of 0.1 m; take fewer or smaller ones, "
-        "or a "
-        "thinner 'wall'\n");
+        "3:41 * body 1 * nodes * 2^40 * 1e-09 m\n"
+        "4:35 * body 2 * nodes * 2^40 * 1e-09 m\n"
+        "5:89 * 'clearance' * &body * reached * gravity * obstacle * below * body 3 * move * reverse\n"
+        "7:1 * body 5 * outline * pores * 367 * nodes\n"
+        "8:1 * pore 2 of 2 * radius * 0.3 m * place * body 4 * 0.1 m * 'wall'");
 }
 
 #define DISC(keys) "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber'" keys " /\n"
@@ -634,69 +616,62 @@ TEST(bodies_that_start_in_an_obstacle_are_named)
     const char *bodies = RUN RUBBER DISC("") DISC(", position = 0, 1")
         DISC(", position = 0, 8.5") "&obstacle points = 2, 9, -2, 9 /\n" FLOOR
                                     "&contact penetration_tolerance = 0.25 /\n";
-    expect_errors(bodies,
-                  "3:1: body 1 starts 0.866025 m inside obstacle 2, at (-0.5, -0.866025) m, deeper than the "
-                  "penetration tolerance of 0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n"
-                  "5:1: body 3 starts 0.366025 m inside obstacle 1, at (-0.5, 9.36603) m, deeper than the "
-                  "penetration tolerance of 0.25 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
+    expect_errors(bodies, "3:1 * body 1 * 0.866025 m * inside * obstacle 2 * (-0.5, -0.866025) * penetration * "
+                          "tolerance * 0.25 m * 'position' * 'clearance' * reverse\n"
+                          "5:1 * body 3 * 0.366025 m * inside * obstacle 1 * (-0.5, 9.36603) * penetration * tolerance "
+                          "* 0.25 m * 'position' * 'clearance' * reverse");
     const char *cleared = RUN RUBBER DISC(", clearance = 1e-3") FLOOR;
     deck d = good_deck(cleared);
     deck_free(&d);
     expect_errors(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR,
-                  "3:1: body 1 starts 2.54038e-05 m inside obstacle 1, at (-0.5, -2.54038e-05) m, deeper than the "
-                  "penetration tolerance of 1e-06 m; 'position' or 'clearance' can put it in front" REVERSED "\n");
+                  "3:1 * body 1 * 2.54038e-05 m * inside * obstacle 1 * (-0.5, -2.54038e-05) * penetration * tolerance "
+                  "* 1e-06 m * 'position' * 'clearance' * reverse");
     d = good_deck(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR "&solver spacing = 30 /\n");
     deck_free(&d);
 }
 
 TEST(sizes_that_cannot_be_computed_with_are_named)
 {
-    expect_errors(
-        RUN RUBBER "&material youngs_modulus = 1, density = 1e-308, thickness = 1e-308 /\n"
-                   "&material name = 'soft', youngs_modulus = 1e-308, density = 1, thickness = 1e-9 /\n"
-                   "&body shape = 'disc', radius = 1, spacing = 1 /\n"
-                   "&body shape = 'disc', radius = 1, spacing = 1, material = 'soft' /\n"
-                   "&body shape = 'disc', radius = 1e-200, spacing = 1e-200, material = 'rubber' /\n" DISC(
-                       ", position = 0, 1e300"),
-        "5:1: body 1: the mass of a node, 0 kg, is too small; density 1e-308 kg/m^3, thickness 1e-308 m, spacing 1 m\n"
-        "6:48: body 2: the stiffness of a spring, 1e-317 N, is too small; Young's modulus 1e-308 Pa, thickness "
-        "1e-09 m, spacing 1 m\n"
-        "7:40: body 3: the area of a triangle, 0 m^2, is too small; its sides are 1e-200 m\n"
-        "8:69: body 4 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 1 m\n");
+    expect_errors(RUN RUBBER "&material youngs_modulus = 1, density = 1e-308, thickness = 1e-308 /\n"
+                             "&material name = 'soft', youngs_modulus = 1e-308, density = 1, thickness = 1e-9 /\n"
+                             "&body shape = 'disc', radius = 1, spacing = 1 /\n"
+                             "&body shape = 'disc', radius = 1, spacing = 1, material = 'soft' /\n"
+                             "&body shape = 'disc', radius = 1e-200, spacing = 1e-200, material = 'rubber' /\n" DISC(
+                                 ", position = 0, 1e300"),
+                  "5:1 * body 1 * mass * node * 0 kg * 1e-308 kg/m^3 * 1e-308 m * 1 m\n"
+                  "6:48 * body 2 * stiffness * spring * 1e-317 N * 1e-308 Pa * 1e-09 m * 1 m\n"
+                  "7:40 * body 3 * area * triangle * 0 m^2 * 1e-200 m\n"
+                  "8:69 * body 4 * coordinates * 1e+300 m * rounding * blurs * 1 m");
 }
 
 TEST(one_fault_is_reported_once)
 {
     expect_errors(RUN RUBBER "&body shape = 'disc', radus = 1, spacng = 1, material = 'rubber' /\n"
                              "&body shape = 'rectangle', size(0) = 1, spacing = 1, material = 'rubber' /\n",
-                  "3:23: unknown key 'radus' in &body (did you mean 'radius'?)\n"
-                  "3:34: unknown key 'spacng' in &body (did you mean 'spacing'?)\n"
-                  "4:28: the subscript of 'size' must ascend, from 1 to 100000 at most\n");
+                  "3:23 * unknown * key * 'radus' * &body * 'radius'\n"
+                  "3:34 * unknown * key * 'spacng' * &body * 'spacing'\n"
+                  "4:28 * subscript * 'size' * ascend * 1 * 100000");
     expect_errors(RUN "&material name = rubber, youngs_modulus = 1, density = 1 /\n" RUBBER
                       "&material nam = 'x', youngs_modulus = 1, density = 1 /\n" DISC(
                           "") "&body shape = 'disc', radius = 1, spacing = 1, material = 'x' /\n",
-                  "2:18: 'name' in &material expects a string in quotes, got rubber\n"
-                  "4:11: unknown key 'nam' in &material (did you mean 'name'?)\n");
+                  "2:18 * 'name' * &material * string * quotes * rubber\n"
+                  "4:11 * unknown * key * 'nam' * &material * 'name'");
     expect_errors(RUN "&materal name = 'rubber', youngs_modulus = 1, density = 1 /\n" DISC(""),
-                  "2:1: unknown group &materal (did you mean &material?)\n");
+                  "2:1 * unknown * group * &materal * &material");
     expect_errors(RUN RUBBER DISC("") "&boby /\n&void body = 2, centre = 0, 0, radius = 1 /\n",
-                  "4:1: unknown group &boby (did you mean &body?)\n");
+                  "4:1 * unknown * group * &boby * &body");
 }
 
 TEST(names_and_numbers_of_the_output_are_checked)
 {
-    const char *message = "'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: "
-                          "other files are called so\n";
-    char expected[200];
-    (void)snprintf(expected, sizeof expected, "4:9: %s", message);
+    const char *expected = "4:9 * 'name' * &output * '.obstacle' * '.part' * '.' * five digits";
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.obstacle' /\n", expected);
     expect_errors(RUN RUBBER DISC("") "&output name = '.part' /\n",
-                  "4:9: 'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'\n");
+                  "4:9 * 'name' * &output * 1 * 100 * characters * '/' * '.' * '-'");
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.part' /\n", expected);
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.00001' /\n", expected);
-    expect_errors(
-        "&run t_end = 1e9 /\n" RUBBER DISC("") "&output frame_interval = 1e-3 /\n",
-        "4:9: 'frame_interval' in &output, 0.001 s, makes 1e+12 frames until 't_end'; the limit is 10000000\n");
+    expect_errors("&run t_end = 1e9 /\n" RUBBER DISC("") "&output frame_interval = 1e-3 /\n",
+                  "4:9 * 'frame_interval' * &output * 0.001 s * 1e+12 * frames * 't_end' * limit * 10000000");
     deck d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.parts' /\n");
     deck_free(&d);
     d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.0001' /\n");
@@ -755,7 +730,7 @@ TEST(a_lattice_file_is_turned_placed_cleared_and_launched)
 
 TEST(a_material_is_needed_by_meshes_only)
 {
-    expect_errors(RUN DISC(""), "1:1: &material must be given\n");
+    expect_errors(RUN DISC(""), "1:1 * &material * given");
     write_lattice("a.h5", 1.0, NULL);
     CLEANUP(deck_free) deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n");
     assert_int_equal(unlink(path_of("a.h5")), 0);
@@ -837,14 +812,14 @@ TEST(what_is_no_readable_file_is_refused)
     CLEANUP(free_memory) char *big = calloc(1, size);
     assert_non_null(big);
     memset(big, ' ', size);
-    expect_unreadable(path_of("none.nml"), "0:0: No such file or directory\n");
-    expect_unreadable(scratch.path, "0:0: not a regular file\n");
+    expect_unreadable(path_of("none.nml"), "0:0 * No such file or directory");
+    expect_unreadable(scratch.path, "0:0 * regular * file");
     write_file("empty.nml", "", 0);
-    expect_unreadable(path_of("empty.nml"), "0:0: the file is empty\n");
+    expect_unreadable(path_of("empty.nml"), "0:0 * file * empty");
     write_file("big.nml", big, size);
-    expect_unreadable(path_of("big.nml"), "0:0: the file is larger than 4 MiB\n");
+    expect_unreadable(path_of("big.nml"), "0:0 * file * larger * 4 MiB");
     assert_int_equal(mkfifo(path_of("pipe.nml"), 0600), 0);
-    expect_unreadable(path_of("pipe.nml"), "0:0: not a regular file\n");
+    expect_unreadable(path_of("pipe.nml"), "0:0 * regular * file");
     assert_int_equal(unlink(path_of("empty.nml")), 0);
     assert_int_equal(unlink(path_of("big.nml")), 0);
     assert_int_equal(unlink(path_of("pipe.nml")), 0);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The namelist reader: text and place of every fault, and how reading goes on behind it. */
+/* The namelist reader: place and words of every fault, and how reading goes on behind it. */
 #include "unit/reading.h"
 
 #include <stdlib.h>
@@ -7,23 +7,22 @@
 TEST(columns_count_characters_not_bytes)
 {
     assert_faults("&a t = '\xC3\xA9\xE2\x82\xAC', x = 1+2 /",
-                  "1:18 'x': '1+2' has an exponent without its letter; write 1.5e+3 for 1.5+3");
+                  "1:18 * 'x' * '1+2' * exponent * letter * 1.5e+3 * 1.5+3");
 }
 
 TEST(infinite_numbers_are_refused)
 {
-    assert_faults("&a x = inf, -Infinity nan NaN(3) /", "1:8 'x': 'inf' is not a finite number\n"
-                                                        "1:13 'x': '-Infinity' is not a finite number\n"
-                                                        "1:23 'x': 'nan' is not a finite number\n"
-                                                        "1:27 'x': 'NaN(3)' is not a finite number");
+    assert_faults("&a x = inf, -Infinity nan NaN(3) /", "1:8 * 'x' * 'inf' * finite\n"
+                                                        "1:13 * 'x' * '-Infinity' * finite\n"
+                                                        "1:23 * 'x' * 'nan' * finite\n"
+                                                        "1:27 * 'x' * 'NaN(3)' * finite");
 }
 
 TEST(numbers_that_do_not_fit_are_refused)
 {
-    assert_faults("&a x = 9223372036854775808, 1e309, -1d999 /",
-                  "1:8 'x': '9223372036854775808' is too large for an integer\n"
-                  "1:29 'x': '1e309' is too large for a real\n"
-                  "1:36 'x': '-1d999' is too large for a real");
+    assert_faults("&a x = 9223372036854775808, 1e309, -1d999 /", "1:8 * 'x' * '9223372036854775808' * integer\n"
+                                                                 "1:29 * 'x' * '1e309' * real\n"
+                                                                 "1:36 * 'x' * '-1d999' * real");
 }
 
 TEST(a_number_of_many_digits_is_refused)
@@ -31,64 +30,64 @@ TEST(a_number_of_many_digits_is_refused)
     char text[300] = "&a x = 0.";
     memset(text + 9, '1', 200);
     (void)snprintf(text + 209, 10, " /");
-    assert_faults(text, "1:8 'x': '0.11111111111111111111111111111111111111' has too many digits");
+    assert_faults(text, "1:8 * 'x' * '0.11111111111111111111111111111111111111' * digits");
 }
 
 TEST(a_semicolon_does_not_separate)
 {
-    assert_faults("&a x = 1;2 /", "1:9 values are separated by ',' or blanks, not by ';'");
+    assert_faults("&a x = 1;2 /", "1:9 * values * ',' * blanks * ';'");
 }
 
 TEST(complex_numbers_are_not_understood)
 {
-    assert_faults("&a x = (1, 2) y = (3 /", "1:8 a number is expected; complex ones are not understood\n"
-                                            "1:19 a number is expected; complex ones are not understood");
+    assert_faults("&a x = (1, 2) y = (3 /", "1:8 * complex\n"
+                                            "1:19 * complex");
 }
 
 TEST(two_subscripts_are_not_understood)
 {
-    assert_faults("&a x(1, 2) = 3, y(:,1) = 4, 5 /", "1:4 'x' has more than one subscript; only one is understood\n"
-                                                     "1:17 'y' has more than one subscript; only one is understood");
+    assert_faults("&a x(1, 2) = 3, y(:,1) = 4, 5 /", "1:4 * 'x' * subscript * only\n"
+                                                     "1:17 * 'y' * subscript * only");
 }
 
 TEST(subscripts_outside_their_bounds_are_refused)
 {
     assert_faults("&g a(0)=1 b(3:2)=1 c(1:9:0)=1 d(100001)=1 e(99999999999999999999)=1 f(-)=1 /",
-                  "1:4 the subscript of 'a' must ascend, from 1 to 100000 at most\n"
-                  "1:11 the subscript of 'b' must ascend, from 1 to 100000 at most\n"
-                  "1:20 the subscript of 'c' must ascend, from 1 to 100000 at most\n"
-                  "1:31 the subscript of 'd' must ascend, from 1 to 100000 at most\n"
-                  "1:43 the subscript of 'e' must ascend, from 1 to 100000 at most\n"
-                  "1:69 the subscript of 'f' must be (i), (i:j) or (i:j:k)");
+                  "1:4 * subscript * 'a' * ascend * 1 * 100000\n"
+                  "1:11 * subscript * 'b' * ascend * 1 * 100000\n"
+                  "1:20 * subscript * 'c' * ascend * 1 * 100000\n"
+                  "1:31 * subscript * 'd' * ascend * 1 * 100000\n"
+                  "1:43 * subscript * 'e' * ascend * 1 * 100000\n"
+                  "1:69 * subscript * 'f' * (i) * (i:j) * (i:j:k)");
 }
 
 TEST(a_section_has_room_for_so_many_values)
 {
-    assert_faults("&a x(2:3) = 1, 2, 3 y(1:5:2) = 4*1 /", "1:4 the subscript of 'x' has room for 2, got 3 values\n"
-                                                          "1:21 the subscript of 'y' has room for 3, got 4 values");
+    assert_faults("&a x(2:3) = 1, 2, 3 y(1:5:2) = 4*1 /", "1:4 * subscript * 'x' * room * 2 * 3 * values\n"
+                                                          "1:21 * subscript * 'y' * room * 3 * 4 * values");
 }
 
 TEST(a_subscript_that_is_none_is_named)
 {
-    assert_faults("&a x(n) = 3 /", "1:4 the subscript in 'x(n)' must be (i), (i:j) or (i:j:k)");
+    assert_faults("&a x(n) = 3 /", "1:4 * subscript * 'x(n)' * (i) * (i:j) * (i:j:k)");
 }
 
 TEST(repeat_counts_have_bounds)
 {
-    assert_faults("&a x = 0*1, 100001*2, 99999999999*'x' /", "1:8 repeat count '0' is not in 1 to 100000\n"
-                                                             "1:13 repeat count '100001' is not in 1 to 100000\n"
-                                                             "1:23 repeat count '99999999999' is not in 1 to 100000");
+    assert_faults("&a x = 0*1, 100001*2, 99999999999*'x' /", "1:8 * repeat * '0' * 1 * 100000\n"
+                                                             "1:13 * repeat * '100001' * 1 * 100000\n"
+                                                             "1:23 * repeat * '99999999999' * 1 * 100000");
 }
 
 TEST(the_number_of_values_in_a_file_has_a_bound)
 {
-    assert_faults("&a x = 60000*1 /\n&b x = 60000*1, 2 y = 3 /", "2:8 there are more than 100000 values");
+    assert_faults("&a x = 60000*1 /\n&b x = 60000*1, 2 y = 3 /", "2:8 * 100000 * values");
 }
 
 TEST(a_missing_equal_sign_is_reported_once)
 {
-    assert_faults("&a t_end 20e-3 'x = /' y = 1 /", "1:4 '=' is missing after 't_end'");
-    assert_faults("&a x = 1 ! one\n\ty 2\n z = 3 /", "2:2 '=' is missing after 'y'");
+    assert_faults("&a t_end 20e-3 'x = /' y = 1 /", "1:4 * '=' * missing * 't_end'");
+    assert_faults("&a x = 1 ! one\n\ty 2\n z = 3 /", "2:2 * '=' * missing * 'y'");
     assert_faults("&a x = 1,\n y 2\n z = 3 /", "");
 }
 
@@ -102,26 +101,27 @@ TEST(a_key_with_a_fault_is_kept_without_values)
 
 TEST(what_is_no_key_is_shown)
 {
-    assert_faults("&a 3 = 4, x = 1\n= 2 /", "1:4 a key is expected, got '3'\n2:1 unexpected '='");
+    assert_faults("&a 3 = 4, x = 1\n= 2 /", "1:4 * key * '3'\n"
+                                            "2:1 * unexpected * '='");
 }
 
 TEST(a_hash_is_no_comment)
 {
-    assert_faults("&a # one\n x = 1 # two\n/", "1:4 unexpected '#'; comments begin with '!'\n"
-                                               "2:8 unexpected '#'; comments begin with '!'");
+    assert_faults("&a # one\n x = 1 # two\n/", "1:4 * unexpected * '#' * comments * '!'\n"
+                                               "2:8 * unexpected * '#' * comments * '!'");
 }
 
 TEST(a_value_right_behind_a_string_is_reported)
 {
-    assert_faults("&a x = 'a'b y = 1'c' z = 2 /", "1:11 a blank or a comma is missing here\n"
-                                                  "1:18 a blank or a comma is missing here");
+    assert_faults("&a x = 'a'b y = 1'c' z = 2 /", "1:11 * blank * comma * missing\n"
+                                                  "1:18 * blank * comma * missing");
 }
 
 TEST(an_unclosed_string_does_not_swallow_the_next_key)
 {
-    assert_faults("&a x = 'abc, y = inf /\n&b z = nan /", "1:8 the string is not closed\n"
-                                                          "1:18 'y': 'inf' is not a finite number\n"
-                                                          "2:8 'z': 'nan' is not a finite number");
+    assert_faults("&a x = 'abc, y = inf /\n&b z = nan /", "1:8 * string * closed\n"
+                                                          "1:18 * 'y' * 'inf' * finite\n"
+                                                          "2:8 * 'z' * 'nan' * finite");
 }
 
 TEST(an_unclosed_string_is_found_where_another_opens)
@@ -137,31 +137,31 @@ TEST(a_long_string_is_refused)
     char text[5000] = "&a x = '";
     memset(text + 8, 'b', 4097);
     (void)snprintf(text + 4105, 10, "' /");
-    assert_faults(text, "1:8 the string is longer than 4096 bytes");
+    assert_faults(text, "1:8 * string * longer * 4096 * bytes");
 }
 
 TEST(a_group_that_is_not_closed_ends_at_the_next)
 {
-    assert_faults("&a x = 1\n&b y = 2", "1:1 &a is not closed: '/' is missing before &b in line 2\n"
-                                        "2:1 &b is not closed: '/' is missing before the end of the file");
+    assert_faults("&a x = 1\n&b y = 2", "1:1 * &a * closed * '/' * missing * &b * line 2\n"
+                                        "2:1 * &b * closed * '/' * missing * file");
 }
 
 TEST(an_end_without_group_is_reported)
 {
-    assert_faults("&a x=1 /\n&end", "2:1 '&end' closes no group");
+    assert_faults("&a x=1 /\n&end", "2:1 * '&end' * group");
 }
 
 TEST(an_unquoted_path_does_not_silently_end_its_group)
 {
-    assert_faults("&a x = b/c y = 1 /", "1:10 text right behind the '/' that ends &a; does a path lack its quotes?");
+    assert_faults("&a x = b/c y = 1 /", "1:10 * '/' * ends * &a * quotes");
 }
 
 TEST(bytes_that_are_not_text_are_reported_once)
 {
     static const char text[] = "&a x\0=\001 1\n y = '\xC3\xA9\xE9' ! \xFF\n z = \x7F 3\r/";
-    assert_faults_of(text, sizeof text - 1, "1:5 byte 0x00 is not text; UTF-8 is expected (3 such lines)");
-    assert_faults("&a y = '\xE9' ! \xFF\n z = nan /", "1:9 byte 0xE9 is not text; UTF-8 is expected\n"
-                                                      "2:6 'z': 'nan' is not a finite number");
+    assert_faults_of(text, sizeof text - 1, "1:5 * byte * 0x00 * UTF-8 * 3");
+    assert_faults("&a y = '\xE9' ! \xFF\n z = nan /", "1:9 * byte * 0xE9 * UTF-8\n"
+                                                      "2:6 * 'z' * 'nan' * finite");
 }
 
 static void expect_unreadable(const char *text, size_t size, const char *expected)
@@ -169,28 +169,27 @@ static void expect_unreadable(const char *text, size_t size, const char *expecte
     char got[256];
     CLEANUP(drop) reading r = read_bytes(text, size);
     list_faults(&r.errors, got, sizeof got);
-    assert_string_equal(got, expected);
+    assert_line_parts(got, expected);
     assert_true(r.list.unreadable);
     assert_int_equal(r.list.n_groups, 0);
 }
 
 TEST(a_text_in_utf16_is_reported_and_not_read)
 {
-    const char *message = "1:1 the file is in UTF-16; UTF-8 is expected";
+    const char *message = "1:1 * file * UTF-16 * UTF-8";
     expect_unreadable("\xFF\xFE&\0r\0\n\0", 8, message);
     expect_unreadable("\xFE\xFF\0&\0r\0\n", 8, message);
     expect_unreadable("&\0r\0\n\0", 6, message);
     expect_unreadable("\0&\0r\0\n", 6, message);
-    expect_unreadable("! \xE9\n\n! \xE9\n&b x = nan", 19,
-                      "1:3 byte 0xE9 is not text; UTF-8 is expected (2 such lines)");
+    expect_unreadable("! \xE9\n\n! \xE9\n&b x = nan", 19, "1:3 * byte * 0xE9 * UTF-8 * 2");
 }
 
 TEST(overlong_characters_and_surrogates_are_not_text)
 {
-    assert_faults("\xC0\x80\n", "1:1 byte 0xC0 is not text; UTF-8 is expected");
-    assert_faults("\xE0\x80\x80\n", "1:1 byte 0xE0 is not text; UTF-8 is expected");
-    assert_faults("\xED\xA0\x80\n", "1:1 byte 0xED is not text; UTF-8 is expected");
-    assert_faults("\xF4\x90\x80\x80\n", "1:1 byte 0xF4 is not text; UTF-8 is expected");
+    assert_faults("\xC0\x80\n", "1:1 * byte * 0xC0 * UTF-8");
+    assert_faults("\xE0\x80\x80\n", "1:1 * byte * 0xE0 * UTF-8");
+    assert_faults("\xED\xA0\x80\n", "1:1 * byte * 0xED * UTF-8");
+    assert_faults("\xF4\x90\x80\x80\n", "1:1 * byte * 0xF4 * UTF-8");
     assert_faults("\xF0\x9F\x98\x80", "");
 }
 
@@ -208,14 +207,14 @@ TEST(a_long_line_is_reported)
     text[65536] = '\n';
     assert_faults_of(text, 65600, "");
     text[65536] = ' ';
-    assert_faults_of(text, 70000, "1:65537 the line is longer than 65536 characters");
+    assert_faults_of(text, 70000, "1:65537 * line * longer * 65536 * characters");
 }
 
 TEST(a_large_file_is_refused)
 {
     CLEANUP(free_memory) char *text = filled(NAMELIST_MAX_FILE + 1, '\n');
     assert_faults_of(text, NAMELIST_MAX_FILE, "");
-    expect_unreadable(text, NAMELIST_MAX_FILE + 1, "1:1 the file is larger than 4194304 bytes");
+    expect_unreadable(text, NAMELIST_MAX_FILE + 1, "1:1 * file * larger * 4194304 * bytes");
 }
 
 TEST(many_groups_are_refused)
@@ -223,7 +222,7 @@ TEST(many_groups_are_refused)
     CLEANUP(free_memory) char *text = filled(4 * 2002, ' ');
     for (size_t k = 0; k < 2002; k++) memcpy(text + 4 * k, "&a/\n", 4);
     assert_faults_of(text, 4 * 2000, "");
-    assert_faults_of(text, 4 * 2001, "2001:1 there are more than 2000 groups");
+    assert_faults_of(text, 4 * 2001, "2001:1 * 2000 * groups");
 }
 
 TEST(errors_end_at_a_thousand)
