@@ -196,7 +196,7 @@ static void check_estimates(bool pair, double root, double acceleration, double 
 TEST(the_linear_estimate_of_a_contact_is_of_second_order_and_the_root_is_exact)
 {
     const double fall = sqrt(2.0 * height / g), root = pair_root();
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_fall(&run, false, true, 0.0);
     (void)support_at(&run, fall + 0.001);
     assert_close(run.impacts[0].t, fall, 1e-12);
@@ -206,7 +206,6 @@ TEST(the_linear_estimate_of_a_contact_is_of_second_order_and_the_root_is_exact)
     (void)support_at(&run, root + 0.001);
     assert_close(run.impacts[0].t, root, 1e-12);
     check_estimates(true, run.impacts[0].t, pair_acceleration(root), pair_speed(root));
-    support_close(&run);
 }
 
 TEST(a_ball_starting_at_rest_on_the_floor_stays_there)

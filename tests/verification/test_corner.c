@@ -104,7 +104,7 @@ TEST(a_node_running_into_a_concave_bend_takes_its_impact)
 {
     const double c = cos(M_PI / 6.0), s = sin(M_PI / 6.0), points[6] = {-9.0, 0.0, 0.0, 0.0, 4.0 * c, 4.0 * s};
     const double x[2] = {-1.0, 0.0}, v[2] = {2.0, 0.0}, up_and_down = 2.0 * 2.0 * c / (g * s);
-    support_run run;
+    CLEANUP(support_close) support_run run;
     support_point(&run, 1.0, x, v, points, 3, 0.0);
     motion state = support_at(&run, 0.5 + 0.1);
     const double along = 2.0 * c * 0.1 - 0.5 * g * s * 0.01;
@@ -117,7 +117,6 @@ TEST(a_node_running_into_a_concave_bend_takes_its_impact)
     state = support_at(&run, 0.5 + 0.05);
     check_state(state, 2.0 * cos(M_PI / 3.0) * 0.05, 2.0 * sin(M_PI / 3.0) * 0.05 - 0.5 * g * 0.0025,
                 2.0 * cos(M_PI / 3.0), 2.0 * sin(M_PI / 3.0) - g * 0.05, 1e-9);
-    support_close(&run);
 }
 
 static const double groove[6] = {-1.0, 1.0, 0.0, 0.0, 1.0, 1.0};

@@ -342,7 +342,7 @@ TEST(a_floor_bears_weight_and_force)
     static const double any = 1.0;
     const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low, .friction = 0.2};
     field f = {.push = {10.0, -100.0}, .mass = &any}; /* friction holds it */
-    support_run run;
+    CLEANUP(support_close) support_run run;
     open_block(&run, 0.0, &ground, (load){.gravity = -150.0, .field = &f});
     const double m = dem_model_mass(run.model), scale = m * 250.0 * 0.02;
     for (double t = 1e-3; t < 0.02; t += 1.7e-3) {
@@ -358,7 +358,6 @@ TEST(a_floor_bears_weight_and_force)
     const dem_obstacle_load rest = ask_obstacle(run.simulation, 0);
     assert_close(rest.reaction[0], -m * 10.0, 1e-4 * m * 250.0);
     assert_close(rest.reaction[1], m * 250.0, 1e-4 * m * 250.0);
-    support_close(&run);
 }
 
 /* ---- both methods of contact ---- */

@@ -305,7 +305,7 @@ TEST(the_step_after_an_impact_is_not_blind)
     double worst = 0.0, blind = 0.0;
     for (int k = 0; k < 24; k++) {
         const drop d = {&grounds[0], 1e-8, 0.5, 0.5, 0.02 + k / 24.0 * 0.25 / omega / spacing, 2.5e-4};
-        support_run run;
+        CLEANUP(support_close) support_run run;
         checkpoint r;
         parts p;
         run_block(&run, &r, &d);
@@ -318,7 +318,6 @@ TEST(the_step_after_an_impact_is_not_blind)
             if (error > 0.01) blind = fmax(blind, error / fmax(e.free, e.events));
         }
         forget(&r);
-        support_close(&run);
     }
     print_message("# after a first impact: true error at most %.2f tolerances, %.1f times what is estimated\n", worst,
                   blind);

@@ -345,14 +345,13 @@ TEST(forces_and_friction_power_are_reported_as_rates)
 
 TEST(an_edge_may_touch_a_vertex_but_not_start_with_it_inside)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     open_side(&s, &roof, 0.25, -0.9 * penetration_tolerance, 0.0);
     assert_ok(automaton_check_start(&s.c, 0.0, s.y));
     scene_close(&s);
     open_side(&s, &roof, 0.25, -0.125, 0.0);
     assert_int_equal(automaton_check_start(&s.c, 0.0, s.y), DEM_ERROR_MODEL);
     assert_message_parts("vertex * (0, 0) m * obstacle 0 * 0.125 m inside * penetration tolerance * 1e-06 m");
-    scene_close(&s);
 }
 
 /* At rest, sliding and falling on the ridge; and a nanometre above it. */

@@ -29,7 +29,7 @@ TEST(a_sliding_node_glides_on_where_the_line_goes_on)
 
 TEST(a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     slide(&s, &terrace, 1.0, 1.5);
     scene_put(&s, 0, 2.0 + 1.01 * penetration_tolerance, 0.0, 1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
@@ -42,7 +42,6 @@ TEST(a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end)
     scene_put(&s, 0, -4.0 - 1.01 * penetration_tolerance, 0.0, -1.5, 0.0);
     assert_ok(scene_resolve(&s, 0.1));
     assert_int_equal(s.c.set.list[0].n_closed, 0);
-    scene_close(&s);
 }
 
 /* A rise by 30 degrees: the plastic impact leaves the part of the speed along it, u cos 30. */
@@ -149,7 +148,7 @@ TEST(release_comes_before_stick_and_slip)
 
 TEST(a_sticking_node_does_not_move_in_any_wind_it_withstands)
 {
-    scene s;
+    CLEANUP(scene_close) scene s;
     double a[2] = {0.3 * g, -g};
     rub(&s, 0.0);
     automaton_constrain(&s.c, 0.0, s.y, a);
@@ -162,7 +161,6 @@ TEST(a_sticking_node_does_not_move_in_any_wind_it_withstands)
     automaton_constrain(&s.c, 0.0, s.y, a);
     assert_close(a[0], 0.3 * g - 0.5 * g, 1e-14);
     assert_close(a[1], 0.0, 0.0);
-    scene_close(&s);
 }
 
 /* ---- edges on vertices ---- */

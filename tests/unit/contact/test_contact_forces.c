@@ -486,7 +486,7 @@ TEST(forces_and_accelerations_agree_with_a_dense_solution)
     int n_solved = 0, n_coupled = 0, kinds[2][4] = {{0}};
     for (int k = 0; k < 4000; k++) {
         double solution[MOST_UNKNOWNS];
-        contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         if (!mix_solve(&w, solution)) continue;
         const dem_index n_a = 2 * w.b.model.lattice.n_nodes;
@@ -497,7 +497,6 @@ TEST(forces_and_accelerations_agree_with_a_dense_solution)
         tally(&w, kinds);
         n_solved++;
         for (dem_index g = 0; g < r.n_groups; g++) n_coupled += n_candidates(&r, g) > 2;
-        contact_forces_destroy(&r);
     }
     assert_true(n_solved > 1000 && n_coupled > 500);
     for (int q = 0; q < 4; q++) assert_true(kinds[0][q] > 200 && kinds[1][q] > 200);
@@ -511,7 +510,7 @@ TEST(solving_a_group_starts_from_the_accelerations_of_the_model)
     int n_solved = 0;
     for (int k = 0; k < 500; k++) {
         double solution[MOST_UNKNOWNS];
-        contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         w.b.acting = (forces){.model = &w.b.model, .gravity = {3.0, -7.0}, .mass_damping = 0.5};
         for (dem_index i = 0; i < w.b.model.lattice.n_nodes; i++) {
@@ -525,7 +524,6 @@ TEST(solving_a_group_starts_from_the_accelerations_of_the_model)
             contact_forces_solve(&r, r.groups[g], (scene_state){0.0, w.b.x, w.b.v});
         check_forces(&w, &r, solution + 2 * w.b.model.lattice.n_nodes);
         n_solved++;
-        contact_forces_destroy(&r);
     }
     assert_true(n_solved > 100);
     gsl_rng_free(w.rng);
@@ -537,7 +535,7 @@ TEST(what_is_held_has_the_acceleration_asked_for)
     int n_checked = 0;
     for (int k = 0; k < 2000; k++) {
         double solution[MOST_UNKNOWNS];
-        contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         if (!mix_solve(&w, solution)) continue;
         regroup(&w.b, &r);
@@ -548,7 +546,6 @@ TEST(what_is_held_has_the_acceleration_asked_for)
             if (l->slide == 0) assert_close(part_of(l, w.a, l->tangent), 0.0, dense_tolerance);
             n_checked++;
         }
-        contact_forces_destroy(&r);
     }
     assert_true(n_checked > 1000);
     gsl_rng_free(w.rng);
@@ -670,7 +667,7 @@ TEST(impulses_account_for_the_momentum_of_every_node)
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES], given[2 * BENCH_NODES] = {0.0}, largest = 1.0;
-        contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
         contact_forces_hold(&r, (scene_state){0.0, w.b.x, w.b.v}, w.a); /* forces are not taken for impulses */
@@ -692,7 +689,6 @@ TEST(impulses_account_for_the_momentum_of_every_node)
             /* rounding of some impulses, which nearly redundant contacts make large */
             check_vector(vec2_at(given, i), change.x, change.y, 1e-14 * largest);
         }
-        contact_forces_destroy(&r);
     }
     gsl_rng_free(w.rng);
 }

@@ -15,7 +15,7 @@ TEST(a_vertex_comes_to_rest_in_a_notch_it_would_not_leave)
     const bool rests[4] = {true, true, false, false};
     const dem_obstacle roof = obstacle(3, roof_points, 0.0, 0.0);
     for (int k = 0; k < 4; k++) {
-        scene s;
+        CLEANUP(scene_close) scene s;
         event_listener listener;
         open_side(&s, &roof, 0.0, 0.0, -0.25);
         if (k == 3) s.acting.gravity[1] = g;
@@ -30,6 +30,5 @@ TEST(a_vertex_comes_to_rest_in_a_notch_it_would_not_leave)
         vec2_put(scene_v(&s), 1, (vec2){0.0, 0.0});
         s.acting.gravity[0] = 5.0;
         assert_false(impact_rest_in_notch(&s.c.set, scene_edge(&s, 0, 1), scene_edge(&s, 1, 2), &flat));
-        scene_close(&s);
     }
 }

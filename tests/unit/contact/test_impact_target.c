@@ -92,7 +92,7 @@ TEST(a_flat_side_with_a_node_right_on_an_apex_meets_it_as_a_side)
 TEST(a_sharp_corner_of_the_body_on_an_apex_is_a_node)
 {
     const dem_obstacle roof = obstacle(3, roof_points, 0.5, 0.0);
-    scene s;
+    CLEANUP(scene_close) scene s;
     event_listener listener;
     dem_index at;
     open_side(&s, &roof, 0.0, 0.0, 0.9);
@@ -108,5 +108,4 @@ TEST(a_sharp_corner_of_the_body_on_an_apex_is_a_node)
     open_side(&s, &flat, 0.0, 0.0, 0.9);
     const contact_instant last = moment(&s, &listener);
     assert_int_equal(impact_target_edge(&s.c.set, 1, &last, &at), -1);
-    scene_close(&s);
 }

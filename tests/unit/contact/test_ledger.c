@@ -23,7 +23,7 @@ static dem_status hear(void *context, const dem_event *event)
 
 TEST(a_new_ledger_is_empty)
 {
-    contact_ledger b;
+    CLEANUP(ledger_destroy) contact_ledger b;
     assert_ok(ledger_create(&b, 3));
     for (int k = 0; k < 6; k++) {
         assert_close(b.impulse[k], 0.0, 0.0);
@@ -35,7 +35,6 @@ TEST(a_new_ledger_is_empty)
     ledger_destroy(&b);
     assert_null(b.impulse);
     assert_ok(ledger_create(&b, 0)); /* a model may have no obstacles */
-    ledger_destroy(&b);
 }
 
 TEST(impulses_add_up_for_each_obstacle_by_itself)

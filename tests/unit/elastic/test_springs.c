@@ -117,7 +117,7 @@ TEST(two_springs_between_the_same_nodes_are_named)
 {
     static const dem_index alike[8] = {0, 1, 2, 1, 0, 2, 2, 1}, turned[8] = {2, 1, 0, 1, 2, 0, 1, 0};
     springs s = {.n_nodes = 77};
-    dem_lattice lattice = support_lattice(3, corners, masses, 4, alike, 1.0, 1.0, NULL);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(3, corners, masses, 4, alike, 1.0, 1.0, NULL);
     assert_int_equal(springs_compile(&s, &lattice), DEM_ERROR_MODEL);
     assert_message_parts("springs 1 and 3 * nodes 1 and 2");
     dem_lattice_free(&lattice);
@@ -125,7 +125,6 @@ TEST(two_springs_between_the_same_nodes_are_named)
     assert_int_equal(springs_compile(&s, &lattice), DEM_ERROR_MODEL);
     assert_message_parts("springs 1 and 3 * nodes 0 and 1");
     assert_int_equal(s.n_nodes, 77);
-    dem_lattice_free(&lattice);
 }
 
 TEST(nodes_without_springs_feel_nothing)

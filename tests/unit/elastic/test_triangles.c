@@ -226,7 +226,7 @@ TEST(the_area_term_is_linear_in_the_area)
  * one and (-1/2, 0), (1/2, 0) of those at the sides; a negative kappa does not count. */
 TEST(the_block_of_a_node_has_the_triangles_that_stiffen_it)
 {
-    triangles t = compile_fan(NULL, kappas);
+    CLEANUP(triangles_free) triangles t = compile_fan(NULL, kappas);
     const sym2 block = triangles_block(&t, 4, corners);
     assert_close(block.xx, 70.0 / 0.25 * 0.25, 1e-13);
     assert_close(block.xy, 0.0, 0.0);
@@ -234,7 +234,6 @@ TEST(the_block_of_a_node_has_the_triangles_that_stiffen_it)
     triangles_free(&t);
     t = compile_fan(strengths, NULL);
     assert_close(triangles_block(&t, 4, corners).yy, 0.0, 0.0);
-    triangles_free(&t);
 }
 
 /* The centre at (0.5, y) leaves the lower triangle the share 2 y of its area: W = A0 g w(2 y), force -g w'(2 y)

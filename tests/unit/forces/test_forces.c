@@ -298,7 +298,7 @@ static bool matters(body *b, dem_index i, dem_index other)
 TEST(the_neighbours_of_a_node_are_all_that_matter_to_it)
 {
     for (int broken = 0; broken < 2; broken++) {
-        body b;
+        CLEANUP(close_body) body b;
         dem_index n_pairs = 0;
         open_body(&b, 1e-4);
         if (broken) break_some(&b);
@@ -313,7 +313,6 @@ TEST(the_neighbours_of_a_node_are_all_that_matter_to_it)
             }
         assert_true(n_pairs > 100);
         for (dem_index j = 0; j < b.n && broken; j++) assert_false(has_neighbour(&b.f, 0, j));
-        close_body(&b);
     }
 }
 

@@ -454,7 +454,7 @@ TEST(a_number_that_is_not_finite_shows_in_the_sum)
     CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
     const forces load = {.model = s.model, .gravity = {0.0, -9.81}};
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++) {
-        kernel k;
+        CLEANUP(kernel_destroy) kernel k;
         if (dem_kernel_check(kind) != DEM_OK) continue;
         assert_ok(kernel_create(&k, s.model, kind, 2));
         const kernel_state y = {.x = s.x, .v = s.v, .u = s.u, .a = s.a};
@@ -464,7 +464,6 @@ TEST(a_number_that_is_not_finite_shows_in_the_sum)
             assert_true(!isfinite(kernel_accelerate(&k, &load, &y)));
             *number = kept;
         }
-        kernel_destroy(&k);
     }
 }
 

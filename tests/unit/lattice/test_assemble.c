@@ -250,7 +250,7 @@ TEST(a_uniformly_strained_block_of_squares_is_cubic)
 TEST(squares_need_no_area_term_at_the_ratio_of_their_diagonals)
 {
     dem_material solid = rubber;
-    dem_lattice lattice = make_squares(0.03, 0.03);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_squares(0.03, 0.03);
     assert_int_equal(dem_lattice_assemble_squares(&lattice, &solid, 0.5), DEM_OK);
     assert_null(lattice.area_stiffness);
     dem_lattice_free(&lattice);
@@ -259,7 +259,6 @@ TEST(squares_need_no_area_term_at_the_ratio_of_their_diagonals)
     assert_int_equal(dem_lattice_assemble_squares(&lattice, &solid, 0.3), DEM_OK);
     for (dem_index t = 0; lattice.area_stiffness != NULL && t < lattice.n_triangles; t++)
         assert_close(lattice.area_stiffness[t], 0.0, 1e-15 * 1e7);
-    dem_lattice_free(&lattice);
 }
 
 /* A rhombus and a trapezium: all mass and no more, springs along all six lines. */
@@ -278,7 +277,7 @@ TEST(cells_may_be_any_convex_quadrilaterals)
 
 TEST(squares_refuse_what_is_no_cell)
 {
-    dem_lattice lattice = make_squares(2.0 * spacing, 2.0 * spacing);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_squares(2.0 * spacing, 2.0 * spacing);
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.0), DEM_ERROR_ARGUMENT,
                    "stiffness * diagonal * > 0: 0");
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 1.5), DEM_ERROR_ARGUMENT,
@@ -301,7 +300,6 @@ TEST(squares_refuse_what_is_no_cell)
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_ERROR_MODEL,
                    "cell * nodes 1, 3, 2 and 0 * convex");
     assert_null(lattice.mass);
-    dem_lattice_free(&lattice);
 }
 
 /* ---- refusals ---- */

@@ -410,7 +410,7 @@ TEST(spacing_mass_and_the_frequency_bound_are_those_of_the_springs)
 {
     square s;
     make_square(&s);
-    dem_model *model = compile(&s);
+    CLEANUP(free_model) dem_model *model = compile(&s);
     assert_close(dem_model_spacing(model), 0.5, 0.0);
     assert_close(dem_model_mass(model), 10.0, 0.0);
     dem_model_destroy(model);
@@ -426,7 +426,6 @@ TEST(spacing_mass_and_the_frequency_bound_are_those_of_the_springs)
     s.flags[0] = DEM_NODE_FIXED;
     model = compile(&s);
     assert_close(dem_model_omega_max(model), sqrt(2.0 * 20.0 / 3.0), 1e-15); /* node 1 is fixed as well */
-    dem_model_destroy(model);
 }
 
 /* The triangle 0 1 2 of 0.5 m^2: |g| is half the opposite side, so that node 0, of 1 kg, with its spring along x and
@@ -440,13 +439,12 @@ TEST(area_stiffness_raises_the_frequency_bound)
     s.lattice.n_springs = 2;
     s.lattice.n_nodes = 3;
     s.lattice.n_triangles = 1;
-    dem_model *model = compile(&s);
+    CLEANUP(free_model) dem_model *model = compile(&s);
     assert_close(dem_model_omega_max(model), sqrt(80.0), 1e-14);
     dem_model_destroy(model);
     s.area_stiffness[0] = -40.0;
     model = compile(&s);
     assert_close(dem_model_omega_max(model), sqrt(20.0), 1e-15);
-    dem_model_destroy(model);
 }
 
 TEST(without_springs_spacing_and_frequency_are_zero)

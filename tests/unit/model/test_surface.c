@@ -203,7 +203,7 @@ TEST(an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not)
 {
     static const dem_index base[6] = {1, 2, 2, 3, 3, 0};
     body b;
-    surface s;
+    CLEANUP(surface_free) surface s;
     open_square(&b);
     b.flags[1] |= DEM_NODE_FIXED;
     assert_ok(surface_compile(&s, &b.lattice));
@@ -218,14 +218,13 @@ TEST(an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not)
         assert_int_equal(found, 1);
     }
     check_lists(&s, 4);
-    surface_free(&s);
 }
 
 TEST(an_edge_needs_two_nodes_that_may_touch)
 {
     static const dem_index ends[4] = {0, 1, 1, 2};
     body b;
-    surface s;
+    CLEANUP(surface_free) surface s;
     open_square(&b);
     b.flags[3] = 0;
     assert_ok(surface_compile(&s, &b.lattice));
@@ -237,7 +236,6 @@ TEST(an_edge_needs_two_nodes_that_may_touch)
     assert_ok(surface_compile(&s, &b.lattice));
     check_ends(&s, 0, ends);
     for (int i = 0; i <= 4; i++) assert_int_equal(s.row[i], 0);
-    surface_free(&s);
 }
 
 TEST(nodes_without_triangles_have_no_edges)

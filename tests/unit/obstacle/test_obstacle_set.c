@@ -47,7 +47,7 @@ static void check_vertex(const obstacle_set *o, dem_index k, dem_index before, d
 TEST(vertices_are_where_the_solid_sticks_out)
 {
     const double points[14] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.5e-9, 3.0, 3.0e-9, 4.0, 3.0e-9, 4.0, -1.0, 5.0, -1.0};
-    obstacle_set o = compile_both();
+    CLEANUP(obstacles_free) obstacle_set o = compile_both();
     assert_int_equal(o.n_vertices, 5);
     check_vertex(&o, 0, 0, 1, 0.0, 0.0); /* of the valley; (1, -1) is a bay, the ends are free */
     check_vertex(&o, 1, 3, 4, 5.0, 1.0);
@@ -61,7 +61,6 @@ TEST(vertices_are_where_the_solid_sticks_out)
     assert_int_equal(o.n_vertices, 2);
     check_vertex(&o, 0, 2, 3, 3.0, 3.0e-9);
     check_vertex(&o, 1, 3, 4, 4.0, 3.0e-9);
-    obstacles_free(&o);
 }
 
 TEST(an_obstacle_is_checked_by_itself)

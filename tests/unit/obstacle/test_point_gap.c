@@ -59,7 +59,7 @@ TEST(on_the_vertex_itself_the_gap_is_zero_and_the_normal_that_of_a_segment)
 TEST(a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise)
 {
     double vessel[10];
-    obstacle_set o = compile(block, 5, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(block, 5, 0.0);
     check_gap(&o, 5.5, 0.9, -0.1, 1, 0.0, 1.0);
     check_gap(&o, 5.1, 0.5, -0.1, 0, -1.0, 0.0);
     check_gap(&o, 5.5, -0.5, 0.5, 3, 0.0, -1.0);
@@ -72,7 +72,6 @@ TEST(a_ring_is_solid_inside_when_it_runs_clockwise_and_a_vessel_otherwise)
     o = compile(vessel, 5, 0.0);
     check_gap(&o, 5.5, 0.9, 0.1, 2, 0.0, -1.0);
     assert_close(gap_at(&o, 4.7, -0.4).distance, -0.5, 1e-15);
-    obstacles_free(&o);
 }
 
 TEST(without_obstacles_the_gap_is_infinite)
@@ -310,7 +309,7 @@ TEST(a_free_end_is_longer_by_the_margin_where_another_part_is_nearer)
 TEST(of_equally_near_segments_the_first_counts)
 {
     double comb[2 * 40];
-    obstacle_set o = compile(block, 5, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(block, 5, 0.0);
     assert_int_equal(gap_at(&o, 5.5, 0.5).segment, 0); /* the middle of a square */
     assert_int_equal(gap_at(&o, 4.7, -0.4).segment, 0);
     assert_int_equal(gap_at(&o, 6.3, 1.4).segment, 1);
@@ -322,7 +321,6 @@ TEST(of_equally_near_segments_the_first_counts)
         assert_int_equal(gap_at(&o, 2.0 * k + 1.0, 1.5).segment, 2 * k);
         assert_int_equal(gap_at(&o, 2.0 * k, -0.5).segment, 2 * k - 1);
     }
-    obstacles_free(&o);
 }
 
 TEST(a_point_touches_the_segments_within_the_tolerance_of_their_line_and_ends)

@@ -47,7 +47,7 @@ TEST(a_vertex_pokes_an_edge_from_the_front_or_from_behind)
 
 TEST(a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_gap)
 {
-    obstacle_set o = compile(valley, 4, 0.0);
+    CLEANUP(obstacles_free) obstacle_set o = compile(valley, 4, 0.0);
     obstacle_edge edge = edge_between(0.125, 0.25, 1.0, 0.25);
     assert_no_gap(&o, &edge);
     edge.tolerance = 0.125;
@@ -68,7 +68,6 @@ TEST(a_vertex_beside_an_edge_or_out_of_its_range_or_on_its_back_has_no_gap)
     o = compile(block, 5, 0.0);
     edge = edge_between(4.75, 1.25, 5.25, 0.75);
     assert_no_gap(&o, &edge); /* the corner points along the edge */
-    obstacles_free(&o);
 }
 
 /* Teeth whose tips are at y = 0, but the fifth which is 0.125 m lower and the ninth 0.125 m higher. */

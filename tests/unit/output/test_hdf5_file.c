@@ -102,7 +102,7 @@ TEST_WITH(rows_come_back_as_they_were_appended, NULL, scratch_sweep)
     static const double value[12] = {0.1, -2.0, 3.0, 4.5, 1e300, 6.0, 7.0, 8.0, -0.0, 10.0, 11.0, 12.0};
     const hdf5_rows flat = {"/flat", HDF5_F64, 1, {0, 0}, 4, 0}, pairs = {"/a/pairs", HDF5_F64, 2, {2, 0}, 3, 5};
     const hdf5_rows deep = {"/a/b/deep", HDF5_F64, 3, {3, 2}, 1, 0};
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_create(&file, &flat));
     assert_ok(hdf5_create(&file, &pairs));
     assert_ok(hdf5_create(&file, &deep));
@@ -118,7 +118,6 @@ TEST_WITH(rows_come_back_as_they_were_appended, NULL, scratch_sweep)
     expect_values(&file, "/flat", value, 12);
     expect_values(&file, "/a/pairs", value, 12);
     expect_values(&file, "/a/b/deep", value, 12);
-    finish(&file);
 }
 
 TEST_WITH(what_is_appended_are_the_last_rows, NULL, scratch_sweep)
@@ -138,7 +137,7 @@ TEST_WITH(a_linked_dataset_has_the_same_rows_under_both_names, NULL, scratch_swe
 {
     const double value[3] = {1.0, -2.0, 3.0};
     const hdf5_rows rows = {"/a/rows", HDF5_F64, 1, {0, 0}, 4, 0};
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_create(&file, &rows));
     assert_ok(hdf5_link(&file, "/b/same", "/a/rows"));
     assert_ok(hdf5_append(&file, &rows, 0, 3, value));
@@ -148,7 +147,6 @@ TEST_WITH(a_linked_dataset_has_the_same_rows_under_both_names, NULL, scratch_swe
     expect_values(&file, "/b/same", value, 3);
     assert_int_equal(hdf5_link(&file, "/c", "/none"), DEM_ERROR_IO);
     assert_message_has(": /c: cannot be linked (");
-    finish(&file);
 }
 
 TEST_WITH(numbers_are_stored_little_endian_in_their_own_width, NULL, scratch_sweep)
@@ -321,7 +319,7 @@ TEST_WITH(attributes_are_made_and_overwritten, NULL, scratch_sweep)
 TEST_WITH(a_wrong_or_missing_attribute_is_noticed, NULL, scratch_sweep)
 {
     const int64_t three = 3;
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write_attribute(&file, "/g", "n", HDF5_I64, 1, &three));
     assert_int_equal(hdf5_expect_attribute(&file, "/g", "n", 4), DEM_ERROR_IO);
     assert_message(": /g: n is 3, 4 was written");
@@ -332,7 +330,6 @@ TEST_WITH(a_wrong_or_missing_attribute_is_noticed, NULL, scratch_sweep)
     assert_ok(hdf5_open_read(&file, path));
     assert_int_equal(hdf5_write_attribute(&file, "/h", "n", HDF5_I64, 1, &three), DEM_ERROR_IO);
     assert_message_has("a.h5: /h: an attribute cannot be written (");
-    finish(&file);
 }
 
 TEST_WITH(a_text_attribute_has_its_characters_and_no_terminator, NULL, scratch_sweep)
@@ -361,7 +358,7 @@ static void expect_text(const hdf5_file *file, const char *name, const char *exp
 
 TEST_WITH(texts_are_kept_and_replaced_by_longer_and_shorter_ones, NULL, scratch_sweep)
 {
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     static const char *const texts[] = {"two words", "\xC3\xA9t\xC3\xA9 of more words,\nin two lines", "x", ""};
     for (size_t k = 0; k < 4; k++) {
         assert_ok(hdf5_write_text(&file, "/provenance/title", texts[k]));
@@ -374,7 +371,6 @@ TEST_WITH(texts_are_kept_and_replaced_by_longer_and_shorter_ones, NULL, scratch_
     assert_ok(hdf5_open_read(&file, path));
     expect_text(&file, "/provenance/title", "y");
     assert_int_equal(hdf5_write_text(&file, "/provenance/title", "z"), DEM_ERROR_IO); /* opened to read */
-    finish(&file);
 }
 
 TEST_WITH(a_text_needs_room_for_its_end, NULL, scratch_sweep)
@@ -438,12 +434,11 @@ TEST_WITH(a_file_of_another_kind_is_refused_and_left_alone, NULL, scratch_sweep)
 
 TEST_WITH(a_new_file_replaces_an_older_one, NULL, scratch_sweep)
 {
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write_text(&file, "/old", "x"));
     finish(&file);
     file = open_new();
     assert_int_equal(H5Lexists(file.id, "/old", H5P_DEFAULT), 0);
-    finish(&file);
 }
 
 /* The room claimed is given back: a file is as long as what it holds, however much was asked for. */
@@ -468,7 +463,7 @@ TEST_WITH(without_room_a_file_stays_as_it_was, NULL, scratch_sweep)
 {
     struct rlimit kept, small;
     struct stat before, after;
-    hdf5_file file = open_new();
+    CLEANUP(finish) hdf5_file file = open_new();
     assert_ok(hdf5_write_text(&file, "/t", "x"));
     finish(&file);
     assert_int_equal(stat(path, &before), 0);
@@ -486,7 +481,6 @@ TEST_WITH(without_room_a_file_stays_as_it_was, NULL, scratch_sweep)
     assert_int_equal(after.st_size, before.st_size);
     assert_ok(hdf5_open_read(&file, path));
     expect_text(&file, "/t", "x");
-    finish(&file);
 }
 
 TEST_WITH(closing_passes_a_failure_on, NULL, scratch_sweep)

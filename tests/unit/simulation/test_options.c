@@ -257,7 +257,7 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
                                  .nodes = &first,
                                  .value = {70.0}};
     CLEANUP(boundary_conditions_free) boundary_conditions b;
-    dem_model *model = make_point(NULL);
+    CLEANUP(free_model) dem_model *model = make_point(NULL);
     dem_options options = point_options();
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.v_scale, sqrt(2.0 * 9.81 * 1.0), 1e-15);
@@ -275,7 +275,6 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
     assert_ok(boundary_conditions_compile(&b, &driven, 1, dem_model_lattice(model), 0));
     assert_ok(options_fill(&options, model, &b));
     assert_close(options.v_scale, 70.0, 0.0);
-    dem_model_destroy(model);
 }
 
 /* omega_max is that of the rectangle; an obstacle that shakes ten times as fast is followed alike. */

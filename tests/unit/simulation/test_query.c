@@ -98,7 +98,7 @@ static void rest_loaded(dem_simulation **simulation, dem_model **model)
 TEST(a_struct_is_written_as_far_as_the_callers_size_goes)
 {
     dem_simulation *simulation;
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     rest_loaded(&simulation, &model);
     for (int g = 0; g < n_getters; g++) {
         const size_t whole = getters[g].size, head = sizeof whole;
@@ -119,13 +119,12 @@ TEST(a_struct_is_written_as_far_as_the_callers_size_goes)
         }
     }
     dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
 }
 
 TEST(a_struct_without_a_size_and_null_are_refused_and_nothing_is_written)
 {
     dem_simulation *simulation;
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     rest_loaded(&simulation, &model);
     for (int g = 0; g < n_getters; g++)
         for (size_t size = 0; size < 16; size += 15) {
@@ -144,13 +143,12 @@ TEST(a_struct_without_a_size_and_null_are_refused_and_nothing_is_written)
             assert_memory_equal(out, untouched, sizeof out);
         }
     dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
 }
 
 TEST(a_number_out_of_range_is_refused_and_nothing_is_written)
 {
     dem_simulation *simulation;
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     rest_loaded(&simulation, &model);
     for (int g = 0; g < n_getters; g++)
         for (dem_index number = -1; number <= 1 && getters[g].numbered; number += 2) {
@@ -163,13 +161,12 @@ TEST(a_number_out_of_range_is_refused_and_nothing_is_written)
             assert_memory_equal(out, untouched, sizeof out);
         }
     dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
 }
 
 TEST(arrays_that_are_null_and_a_node_that_is_not_there_are_refused)
 {
     dem_simulation *simulation;
-    dem_model *model;
+    CLEANUP(free_model) dem_model *model;
     double stress[3] = {7.0, 7.0, 7.0};
     rest_loaded(&simulation, &model);
     assert_int_equal(dem_simulation_strains(simulation, NULL), DEM_ERROR_ARGUMENT);
@@ -183,7 +180,6 @@ TEST(arrays_that_are_null_and_a_node_that_is_not_there_are_refused)
     assert_null(dem_simulation_model(NULL));
     assert_null(dem_simulation_checkpoint(NULL));
     dem_simulation_destroy(simulation);
-    dem_model_destroy(model);
 }
 
 /* At rest on the floor after the plastic impact: m g, and m g t of impulse from the beginning on, up to the step in

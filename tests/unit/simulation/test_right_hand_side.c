@@ -104,7 +104,7 @@ TEST(only_exact_contacts_have_a_root_function)
     dem_options options = point_options();
     double y[2 * MOST], f[2 * MOST] = {0.0};
     CLEANUP(free_model) dem_model *model = make_point_at(0.125, down, 0.5);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_true(right_hand_side_problem(simulation).begin_roots == NULL);
     assert_true(right_hand_side_problem(simulation).root_function == NULL);
     dem_simulation_destroy(simulation);
@@ -117,7 +117,6 @@ TEST(only_exact_contacts_have_a_root_function)
     const dense_output step = {simulation->layout, 0.0, 0.015, 0.015, simulation->y, f, y, f, false, NULL};
     problem.begin_roots(0.0, simulation->y, problem.context);
     assert_close(problem.root_function(&step, problem.context), 0.75e-6 / (0.125 - 19e-6), 1e-20); /* rounding */
-    dem_simulation_destroy(simulation);
 }
 
 static int fuse(dem_simulation *s)
@@ -132,7 +131,7 @@ TEST(a_closed_contact_or_damping_allows_no_fused_step)
 {
     dem_options options = point_options();
     CLEANUP(free_model) dem_model *model = make_point(NULL, 0.0);
-    dem_simulation *simulation = simulate(model, &options);
+    CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
     assert_int_equal(fuse(simulation), 0);
     assert_ok(dem_simulation_advance(simulation, 2.0)); /* lies on the floor */
     assert_int_equal(fuse(simulation), -1);
@@ -140,7 +139,6 @@ TEST(a_closed_contact_or_damping_allows_no_fused_step)
     options.mass_damping = 0.5;
     simulation = simulate(model, &options);
     assert_int_equal(fuse(simulation), -1);
-    dem_simulation_destroy(simulation);
 }
 
 /* A force of nothing on a node inside: steps of Verlet's method are taken part by part then, and not in one pass. */

@@ -30,7 +30,7 @@ TEST(null_arguments_are_named)
 {
     const dem_options options = point_options();
     dem_simulation *simulation;
-    dem_model *model = make_point(NULL, 0.5);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
     assert_int_equal(dem_simulation_create(NULL, model, &options), DEM_ERROR_ARGUMENT);
     assert_message_parts("dem_simulation_create: out is NULL");
     refuse(NULL, &options, "dem_simulation_create: model is NULL");
@@ -45,7 +45,6 @@ TEST(null_arguments_are_named)
     assert_message_parts("dem_simulation_observe: observer is NULL");
     dem_simulation_destroy(simulation);
     dem_simulation_destroy(NULL);
-    dem_model_destroy(model);
 }
 
 TEST(a_start_deeper_than_the_penetration_tolerance_is_refused)

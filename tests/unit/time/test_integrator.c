@@ -57,7 +57,7 @@ TEST(every_method_finds_the_bounces_of_a_ball)
                                      .velocity_error = 1.0,
                                      .max_step = 0.05,
                                      .fixed_step = traits.adaptive ? 0.0 : 0.05};
-        integrator e;
+        CLEANUP(integrator_destroy) integrator e;
         dense_output p = {0};
         assert_ok(integrator_create(&e, &problem, 0.0, y0));
         for (; bounces < 4;) {
@@ -75,7 +75,6 @@ TEST(every_method_finds_the_bounces_of_a_ball)
         const dem_counts counts = integrator_counts(&e);
         assert_int_equal(counts.evaluations, w.calls);
         assert_true(counts.steps >= (dem_index)(p.end / 0.05));
-        integrator_destroy(&e);
     }
 }
 
@@ -99,7 +98,7 @@ TEST(steps_are_settled_and_states_changed_where_they_are)
                                      .velocity_error = 1.0,
                                      .max_step = 0.05,
                                      .fixed_step = m == 0 ? 0.0 : 0.05};
-        integrator e;
+        CLEANUP(integrator_destroy) integrator e;
         dense_output p = {0};
         double end[4];
         assert_ok(integrator_create(&e, &problem, 0.0, y0));
@@ -131,7 +130,6 @@ TEST(steps_are_settled_and_states_changed_where_they_are)
         assert_false(rooted);
         assert_close(p.t0, root, 0.0);
         assert_true(p.y0[1] <= 0.0 && p.y1[1] < p.y0[1]);
-        integrator_destroy(&e);
     }
 }
 

@@ -48,14 +48,13 @@ TEST(what_is_not_there_is_a_fault)
     const char *decks[] = {listed, "@/no/list"};
     const command past = ask(decks, 1, 4), missing = ask(decks, 2, 1);
     outcome o = {0};
-    cases all;
+    CLEANUP(cases_free) cases all;
     assert_false(cases_find(&all, &past, &o));
     assert_int_equal(o.code, EXIT_USAGE);
     cases_free(&all);
     o = (outcome){0};
     assert_false(cases_find(&all, &missing, &o));
     assert_int_equal(o.code, EXIT_INVALID);
-    cases_free(&all);
 }
 
 TEST_GROUP(make_list, scratch_remove);

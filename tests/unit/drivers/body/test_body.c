@@ -91,13 +91,12 @@ static const double height = 5.0 * 0.5 * 0.86602540378443865;
 
 TEST(a_rectangle_stands_on_its_origin_and_turns_about_it)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, RUN RUBBER BLOCK ", position = 10, 20 /", NULL, 0);
     expect_box(&b.lattice, 8.0, 20.0, 12.0, 20.0 + height);
     drop_built(&b);
     build_good(&b, RUN RUBBER BLOCK ", position = 10, 20, angle = 90 /", NULL, 0);
     expect_box(&b.lattice, 10.0 - height, 18.0, 10.0, 22.0);
-    drop_built(&b);
 }
 
 TEST(a_disc_is_placed_by_its_centre)
@@ -225,7 +224,7 @@ TEST(the_seed_makes_the_pores)
 /* Turned counter-clockwise by a little, the left lower corner sinks. */
 TEST(the_start_is_that_of_the_lowest_node)
 {
-    built b;
+    CLEANUP(drop_built) built b;
     build_good(&b, RUN RUBBER BLOCK ", position = 1, 0.25, angle = 1e-3 /", flat_floors, 2);
     const double sunk = 2.0 * sin(1e-3 * quarter / 90.0);
     assert_close(b.start.depth, sunk - 0.25, tiny);
@@ -234,7 +233,6 @@ TEST(the_start_is_that_of_the_lowest_node)
     drop_built(&b);
     build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
     assert_true(isinf(b.start.depth) && b.start.depth < 0);
-    drop_built(&b);
 }
 
 /* Gravity along (3, -4)/5: a move by s changes the gap by 0.8 s and x by 0.6 s. */

@@ -227,7 +227,7 @@ TEST(a_rectangle_of_squares_has_its_size)
 TEST(a_disc_of_squares_has_whole_cells_about_its_centre)
 {
     CLEANUP(shape_free) shape s = {.outline = {.kind = OUTLINE_DISC, .radius = 0.5}, .spacing = 0.1, .squares = true};
-    dem_lattice lattice = make_lattice(&s);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_lattice(&s);
     dem_index n_cells = 0;
     for (int i = -5; i < 5; i++)
         for (int j = -5; j < 5; j++) {
@@ -250,7 +250,6 @@ TEST(a_disc_of_squares_has_whole_cells_about_its_centre)
     add(&s, (outline){.kind = OUTLINE_DISC, .radius = 0.02});
     lattice = make_lattice(&s);
     assert_int_equal(lattice.n_triangles, 2 * n_cells - 8); /* the four about the node that is gone */
-    dem_lattice_free(&lattice);
 }
 
 TEST(of_a_cell_both_triangles_are_kept_or_none)

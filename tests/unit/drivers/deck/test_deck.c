@@ -473,7 +473,7 @@ TEST(a_smooth_profile_is_compiled_to_segments)
     const char *points = "&obstacle points = -1, 0, 0, 1, 1, 0, restitution = 0.25, profile = 'smooth'";
     char text[600];
     (void)snprintf(text, sizeof text, "%s%s /\n", RUN RUBBER LIFTED, points);
-    deck d = good_deck(text);
+    CLEANUP(deck_free) deck d = good_deck(text);
     assert_int_equal(d.obstacles[0].n_points, 201);
     assert_close(d.obstacles[0].restitution, 0.25, 0.0);
     assert_close(d.obstacles[0].points[2 * 50], -0.5, 1e-15);
@@ -483,7 +483,6 @@ TEST(a_smooth_profile_is_compiled_to_segments)
     d = good_deck(text);
     assert_int_equal(d.obstacles[0].n_points, 8); /* 2/0.3 are 6.7 */
     assert_close(d.obstacles[0].points[14], 1.0, 0.0);
-    deck_free(&d);
 }
 
 /* 18/0.018 is 1000 and a little in floating point: no segment more. */
@@ -621,13 +620,12 @@ TEST(bodies_that_start_in_an_obstacle_are_named)
                           "5:1 * body 3 * 0.366025 m * inside * obstacle 1 * (-0.5, 9.36603) * penetration * tolerance "
                           "* 0.25 m * 'position' * 'clearance' * reverse");
     const char *cleared = RUN RUBBER DISC(", clearance = 1e-3") FLOOR;
-    deck d = good_deck(cleared);
+    CLEANUP(deck_free) deck d = good_deck(cleared);
     deck_free(&d);
     expect_errors(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR,
                   "3:1 * body 1 * 2.54038e-05 m * inside * obstacle 1 * (-0.5, -2.54038e-05) * penetration * tolerance "
                   "* 1e-06 m * 'position' * 'clearance' * reverse");
     d = good_deck(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR "&solver spacing = 30 /\n");
-    deck_free(&d);
 }
 
 TEST(sizes_that_cannot_be_computed_with_are_named)
@@ -672,10 +670,9 @@ TEST(names_and_numbers_of_the_output_are_checked)
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.00001' /\n", expected);
     expect_errors("&run t_end = 1e9 /\n" RUBBER DISC("") "&output frame_interval = 1e-3 /\n",
                   "4:9 * 'frame_interval' * &output * 0.001 s * 1e+12 * frames * 't_end' * limit * 10000000");
-    deck d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.parts' /\n");
+    CLEANUP(deck_free) deck d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.parts' /\n");
     deck_free(&d);
     d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.0001' /\n");
-    deck_free(&d);
 }
 
 /* ---- lattice files ---- */

@@ -51,13 +51,12 @@ static counts count(const char *body, const dem_model *model)
 
 TEST(a_disc_has_a_stepped_edge_and_a_mesh_has_none)
 {
-    dem_model *model = make_model(NULL, 1.0, 0.0);
+    CLEANUP(free_model) dem_model *model = make_model(NULL, 1.0, 0.0);
     const counts n = count(DISC, model);
     assert_int_equal(n.stepped, n.boundary);
     assert_true(n.boundary > 20);
     assert_int_equal(count("&body shape = 'mesh', file = 'a.msh' /\n", model).stepped, 0);
     assert_int_equal(count("&body shape = 'file', file = 'a.h5' /\n", model).stepped, 0);
-    dem_model_destroy(model);
 }
 
 /* Rows of 0.0866 m, of which 0.8 m has 10 with 11 and 10 nodes by turns: the lower and the upper side have 21 of them,
@@ -66,18 +65,16 @@ TEST(of_a_rectangle_of_triangles_the_sides_along_the_rows_are_straight)
 {
     double size[2] = {1.0, 0.8};
     const double angle = 30.0;
-    dem_model *model = make_model(&size, 0.0, angle * 3.14159265358979323846 / 180.0);
+    CLEANUP(free_model) dem_model *model = make_model(&size, 0.0, angle * 3.14159265358979323846 / 180.0);
     const counts n = count("&body shape = 'rectangle', size = 1, 0.8, spacing = 0.1, angle = 30 /\n", model);
     assert_true(n.stepped > 0 && n.stepped < n.boundary);
     assert_int_equal(n.boundary - n.stepped, 21);
     const counts wrong = count("&body shape = 'rectangle', size = 1, 0.8, spacing = 0.1, angle = 20 /\n", model);
     assert_int_equal(wrong.boundary - wrong.stepped, 2); /* two corners */
-    dem_model_destroy(model);
 }
 
 TEST(nothing_is_said_of_bodies_that_are_not_those_of_the_deck)
 {
-    dem_model *model = make_model(NULL, 1.0, 0.0);
+    CLEANUP(free_model) dem_model *model = make_model(NULL, 1.0, 0.0);
     assert_int_equal(count(DISC DISC, model).stepped, 0);
-    dem_model_destroy(model);
 }

@@ -155,7 +155,7 @@ TEST(a_component_has_one_motion)
     static const char twice[] = BASE "&boundary where = 'side', side = 'left' /\n"
                                      "&boundary where = 'side', side = 'top', kind = 'force', force = 1, 1 /\n"
                                      "&boundary where = 'side', side = 'bottom', components = 'y' /\n";
-    loaded l;
+    CLEANUP(drop_loaded) loaded l;
     load(&l, both);
     drop_loaded(&l);
     build(&l, twice);
@@ -163,7 +163,6 @@ TEST(a_component_has_one_motion)
     assert_int_equal(l.errors.list[0].place.line, 5);
     assert_string_equal(l.errors.list[0].text,
                         "&boundary prescribes the motion of node 3 at (7, -2) m, as the one in line 3 does");
-    drop_loaded(&l);
 }
 
 /* Of a side of 3 m by 0.5 m a traction of (10, 20) Pa; other shapes, places and kinds ask for nothing of the sort. */
@@ -185,11 +184,10 @@ TEST(a_traction_on_a_side_of_a_rectangle_asks_for_a_force)
         double force[2] = {0.0, 0.0};
         char text[600];
         (void)snprintf(text, sizeof text, "&run t_end = 1 /\n%s", all[k].text);
-        resolved r = resolve_clean(text);
+        CLEANUP(drop_resolved) resolved r = resolve_clean(text);
         assert_int_equal(loading_asked(force, &r.deck, 0), all[k].length > 0.0);
         assert_false(loading_asked(force, &r.deck, 1)); /* there is no second one */
         assert_close(force[0], 5.0 * all[k].length, 1e-15);
         assert_close(force[1], 10.0 * all[k].length, 1e-15);
-        drop_resolved(&r);
     }
 }

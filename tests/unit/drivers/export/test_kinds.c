@@ -37,7 +37,7 @@ TEST(small_differences_do_not_add_up)
     kinds_pair pairs[8];
     outcome o = {0};
     const task t = {.outcome = &o};
-    kinds k;
+    CLEANUP(kinds_free) kinds k;
     for (int j = 0; j < 8; j++) pairs[j] = (kinds_pair){1.0, 1.0 + 0.4e-12 * (double)j};
     assert_true(kinds_find(&k, &t, 8, pairs));
     assert_int_equal(k.n, 3);
@@ -45,7 +45,6 @@ TEST(small_differences_do_not_add_up)
     for (int j = 0; j < 8; j++) pairs[j] = (kinds_pair){1.0 + 0.4e-12 * (double)j, 1.0};
     assert_true(kinds_find(&k, &t, 8, pairs));
     assert_int_equal(k.n, 3);
-    kinds_free(&k);
 }
 
 TEST(of_nothing_there_are_none)

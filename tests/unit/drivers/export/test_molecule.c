@@ -75,7 +75,7 @@ TEST(the_box_has_room)
 
 TEST(what_is_left_out_is_reported)
 {
-    molecule m;
+    CLEANUP(end) molecule m;
     exported_how how = exported_usual();
     make(&m, how, 0);
     assert_string_equal(m.omissions, "left out: the folding guard of 1 triangle, 1 obstacle, gravity, which a run "
@@ -84,5 +84,4 @@ TEST(what_is_left_out_is_reported)
     how.n_obstacles = 0, how.resolved = "&solver mass_damping = 2 /";
     make(&m, how, 0);
     assert_string_equal(m.omissions, "left out: the folding guard of 1 triangle, the damping of masses, 2 1/s");
-    end(&m);
 }

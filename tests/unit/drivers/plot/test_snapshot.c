@@ -44,7 +44,7 @@ TEST(nodes_lend_their_numbers)
 {
     trajectory_fixture *f = *test_state;
     const quantity q = find(f, "von_mises"), none = find(f, "none");
-    snapshot s;
+    CLEANUP(snapshot_free) snapshot s;
     load(&s, f, &q, TRAJECTORY_FIXTURE_FRAMES - 1);
     const dem_index *ends = s.lattice->ends + 2 * 5, *corners = s.lattice->triangles + 3 * 4;
     assert_close(snapshot_spring_value(&s, 5), 0.5 * (s.value[ends[0]] + s.value[ends[1]]), 1e-9);
@@ -54,7 +54,6 @@ TEST(nodes_lend_their_numbers)
     snapshot_free(&s);
     load(&s, f, &none, 0);
     assert_close(snapshot_spring_value(&s, 5), 0.0, 0.0);
-    snapshot_free(&s);
 }
 
 static uint64_t hash_of(const trajectory_fixture *f, const char *name, dem_index frame)
