@@ -97,8 +97,8 @@ static void warn_rest_speed(run_log *log, const dem_options *o)
     const double kept_up = sqrt(2.0 * hypot(o->gravity[0], o->gravity[1]) * o->penetration_tolerance);
     if (o->rest_speed > 0.0 && o->rest_speed < kept_up)
         run_log_warn(log,
-                     "'rest_speed' %.3g m/s is below sqrt(2 g penetration tolerance) = %.3g m/s: where the rule of "
-                     "docs/method.md asks for more, the rule holds",
+                     "'rest_speed' %.3g m/s is below sqrt(2 g penetration tolerance) = %.3g m/s and has little or no "
+                     "effect: leave it out",
                      o->rest_speed, kept_up);
 }
 

@@ -22,7 +22,7 @@ typedef struct dem_obstacle {
     size_t struct_size;   /**< to be set to sizeof(dem_obstacle), in each of an array */
     dem_index n_points;   /**< >= 2 */
     const double *points; /**< [n_points][2], m, at t = 0; from one to the next a length that can be squared */
-    double restitution;   /**< eta in [0, 1]: 0 perfectly plastic, 1 perfectly elastic          (9) */
+    double restitution;   /**< eta in [0, 1], of a single node: a body rebounds by its waves even with 0   (9) */
     double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
     dem_friction_law friction_law;
     double velocity[3]; /**< m/s, constant and finite; 0: at rest. Nothing pushes an obstacle off its way */
