@@ -63,19 +63,42 @@ static void initial_velocity(const dem_lattice *l, double v[2])
     for (int c = 0; c < 2; c++) v[c] = momentum[c] / mass;
 }
 
-/* The bodies have been in free flight since the last step. */
-static void meet(rebound *r, const dem_simulation *simulation, double t)
+static double along(const double v[2], const dem_simulation *simulation, dem_index obstacle, const double normal[2])
 {
+    const double *u = dem_model_obstacle(dem_simulation_model(simulation), obstacle)->velocity;
+    return (v[0] - u[0]) * normal[0] + (v[1] - u[1]) * normal[1];
+}
+
+/* Nodes part and touch again within a bounce: its centre of mass tells whether a body had left and comes back. */
+static bool comes_back(const rebound *r, const dem_simulation *simulation, const dem_event *event, const double v[2])
+{
+    const bool apart = r->n_contacts == 0 && r->last <= r->t && event->t > r->last;
+    return apart && along(r->velocity, simulation, r->obstacle, r->normal) > 0.0 &&
+           along(v, simulation, event->obstacle, event->normal) < 0.0;
+}
+
+/* Where a bounce begins the bodies have been in free flight since the last step. */
+static void meet(rebound *r, const dem_simulation *simulation, const dem_event *event)
+{
+    double v[2];
     const dem_options options = ask_options(simulation);
     if (!r->started) initial_velocity(dem_model_lattice(dem_simulation_model(simulation)), r->before);
-    for (int c = 0; c < 2; c++) r->approach[c] = r->before[c] + options.gravity[c] * (t - r->t);
+    for (int c = 0; c < 2; c++) v[c] = r->before[c] + options.gravity[c] * (event->t - r->t);
+    if (r->touched && !comes_back(r, simulation, event, v)) return;
+    if (!r->touched) r->first = event->t;
     r->touched = true;
-    r->first = t;
+    r->several = false;
+    r->n_bounces++;
+    r->begin = event->t;
+    r->obstacle = event->obstacle;
+    memcpy(r->approach, v, sizeof v);
+    memcpy(r->given_before, r->given, sizeof r->given);
 }
 
 void rebound_note(rebound *r, const dem_simulation *simulation, const dem_event *event)
 {
-    if (!r->touched) meet(r, simulation, event->t);
+    meet(r, simulation, event);
+    if (event->obstacle != r->obstacle) r->several = true;
     r->last = event->t;
     r->obstacle = event->obstacle;
     for (int c = 0; c < 2; c++) {
@@ -119,26 +142,38 @@ static void follow_normal(rebound *r, const dem_simulation *simulation, const de
     r->obstacle = most.obstacle;
 }
 
-static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_state *state)
+static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_state *state, const motion *now)
 {
     const dem_options options = ask_options(simulation);
     const double since = state->t - r->last; /* for which the bodies have been in free flight again */
-    const motion now = measure(simulation);
-    r->spin = spin_of(dem_model_lattice(dem_simulation_model(simulation)), state, now.velocity);
-    for (int c = 0; c < 2; c++) r->velocity[c] = now.velocity[c] - options.gravity[c] * since;
-    r->speed = now.rising + hypot(options.gravity[0], options.gravity[1]) * since;
+    r->spin = spin_of(dem_model_lattice(dem_simulation_model(simulation)), state, now->velocity);
+    for (int c = 0; c < 2; c++) r->velocity[c] = now->velocity[c] - options.gravity[c] * since;
+    r->speed = now->rising + hypot(options.gravity[0], options.gravity[1]) * since;
+}
+
+/* Asked for only where nothing touches any more: each obstacle looks through all contacts. */
+static void follow_impulse(rebound *r, const dem_simulation *simulation)
+{
+    const dem_index n = ask_sizes(dem_simulation_model(simulation)).n_obstacles;
+    r->given[0] = r->given[1] = 0.0;
+    for (dem_index o = 0; o < n; o++) {
+        const dem_obstacle_load load = ask_obstacle(simulation, o);
+        for (int c = 0; c < 2; c++) r->given[c] += load.impulse[c];
+    }
 }
 
 void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_index impacts = ask_counts(simulation).impacts;
     const bool contact = state->n_contacts > 0 || r->n_contacts > 0 || impacts > r->n_impacts;
+    const motion now = measure(simulation);
     if (state->n_contacts > 0) r->last = state->t;
     if (state->n_contacts > 0) follow_normal(r, simulation, state);
     r->touching += touching_in(r, state);
     follow_reaction(r, simulation, state);
-    if (contact) follow_velocity(r, simulation, state);
-    if (!r->touched) memcpy(r->before, measure(simulation).velocity, sizeof r->before);
+    if (contact) follow_velocity(r, simulation, state, &now);
+    if (contact && state->n_contacts == 0) follow_impulse(r, simulation);
+    memcpy(r->before, now.velocity, sizeof r->before);
     r->started = true;
     r->t = state->t;
     r->opened = r->closed = -1.0;
@@ -148,26 +183,63 @@ void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_stat
 
 /* ---- what came of it ---- */
 
+bool rebound_is_over(const rebound *r)
+{
+    return r->touched && r->n_contacts == 0;
+}
+
+/* To the rounding of coordinates. */
+static bool is_straight(const dem_obstacle *o)
+{
+    const double *p = o->points, *last = p + 2 * (o->n_points - 1);
+    const double x = last[0] - p[0], y = last[1] - p[1], length = x * x + y * y;
+    for (dem_index k = 1; k < o->n_points - 1; k++) {
+        const double dx = p[2 * k] - p[0], dy = p[2 * k + 1] - p[1], share = x * dx + y * dy;
+        if (!(fabs(x * dy - y * dx) <= 1e-12 * length && share >= 0.0 && share <= length)) return false;
+    }
+    return true;
+}
+
 rebound_normal rebound_along(const rebound *r, const dem_simulation *simulation)
 {
     const double none = (double)NAN;
-    if (!r->touched) return (rebound_normal){none, none, none};
-    const double *u = dem_model_obstacle(dem_simulation_model(simulation), r->obstacle)->velocity;
-    const double in = (r->approach[0] - u[0]) * r->normal[0] + (r->approach[1] - u[1]) * r->normal[1];
-    const double out = (r->velocity[0] - u[0]) * r->normal[0] + (r->velocity[1] - u[1]) * r->normal[1];
-    return (rebound_normal){in, out, in < 0.0 ? -out / in : none};
+    rebound_normal n = {.normal = {none, none}, .in = none, .out = none, .ratio = none};
+    if (!rebound_is_over(r)) return n;
+    const double given[2] = {r->given[0] - r->given_before[0], r->given[1] - r->given_before[1]};
+    const double size = hypot(given[0], given[1]);
+    const dem_obstacle *obstacle = dem_model_obstacle(dem_simulation_model(simulation), r->obstacle);
+    n.along_impulse = size > 0.0 && (r->several || !is_straight(obstacle));
+    for (int c = 0; c < 2; c++) n.normal[c] = n.along_impulse ? given[c] / size : r->normal[c];
+    n.in = along(r->approach, simulation, r->obstacle, n.normal);
+    n.out = along(r->velocity, simulation, r->obstacle, n.normal);
+    if (n.in < 0.0) n.ratio = -n.out / n.in;
+    return n;
 }
 
 static void print_normal(FILE *out, const rebound *r, const dem_simulation *simulation)
 {
-    const rebound_normal along = rebound_along(r, simulation);
-    (void)fprintf(out, "normal     of obstacle %lld, (%.4g, %.4g): %+.5g m/s before, %+.5g m/s after",
-                  (long long)r->obstacle + 1, r->normal[0] + 0.0, r->normal[1] + 0.0 /* no -0 */, along.in, along.out);
-    if (isfinite(along.ratio)) (void)fprintf(out, ", ratio %.4f", along.ratio);
+    const rebound_normal n = rebound_along(r, simulation);
+    (void)fprintf(out, "normal     of obstacle %lld, (%.4g, %.4g)%s: ", (long long)r->obstacle + 1, n.normal[0] + 0.0,
+                  n.normal[1] + 0.0 /* no -0 */, n.along_impulse ? " along its impulse" : "");
+    if (r->n_bounces > 1) (void)fprintf(out, "%lld bounces; last: ", (long long)r->n_bounces);
+    (void)fprintf(out, "%+.5g m/s before, %+.5g m/s after", n.in, n.out);
+    if (isfinite(n.ratio)) (void)fprintf(out, ", ratio %.4f", n.ratio);
     (void)fprintf(out, "\n");
 }
 
-void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation)
+static void print_rebound(FILE *out, const rebound *r, const dem_simulation *simulation)
+{
+    if (!rebound_is_over(r)) {
+        (void)fprintf(out, "rebound    not yet: %lld contact%s at t_end; give a later t_end\n",
+                      (long long)r->n_contacts, r->n_contacts == 1 ? "" : "s");
+        return;
+    }
+    (void)fprintf(out, "rebound    (%+.5g, %+.5g) m/s of the centre of mass at the last contact, spin %+.4g rad/s\n",
+                  r->velocity[0], r->velocity[1], r->spin);
+    print_normal(out, r, simulation);
+}
+
+void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation, bool rests)
 {
     if (!r->touched) {
         (void)fprintf(out, "contact    none\n");
@@ -175,9 +247,7 @@ void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation
     }
     (void)fprintf(out, "contact    first at %.6e s, last at %.6e s, %.4e s apart, touching %.4e s of it%s\n", r->first,
                   r->last, r->last - r->first, r->touching, r->n_contacts > 0 ? " (still touching)" : "");
-    (void)fprintf(out, "rebound    (%+.5g, %+.5g) m/s of the centre of mass at the last contact, spin %+.4g rad/s\n",
-                  r->velocity[0], r->velocity[1], r->spin);
-    print_normal(out, r, simulation);
+    if (!rests) print_rebound(out, r, simulation);
     (void)fprintf(out,
                   "force      largest (%.6g, %.6g) N, by lasting contacts, at %.4e s; impacts gave (%.6g, %.6g) N s\n",
                   r->reaction[0], r->reaction[1], r->reaction_t, r->impulse[0], r->impulse[1]);
@@ -185,7 +255,7 @@ void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation
 
 void rebound_print_details(FILE *out, const rebound *r, const dem_simulation *simulation)
 {
-    if (r->touched)
+    if (rebound_is_over(r))
         (void)fprintf(out,
                       "rebound    vertical velocity of the centre of mass %+.5g m/s at the last contact, %+.5g m/s at "
                       "t_end\n",

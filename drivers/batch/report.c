@@ -398,13 +398,25 @@ static void print_overlap(FILE *out, const dem_simulation *simulation)
                       (long long)o.node, (long long)o.triangle, (long long)o.most, (long long)o.now);
 }
 
+/* The line of the rebound says it in the log. */
+static void warn_touching(report *r)
+{
+    const rebound *found = &r->so_far.rebound;
+    if (r->rest != NULL || !found->touched || rebound_is_over(found)) return;
+    r->log->quiet = true;
+    run_log_warn(r->log, "no rebound yet: %lld contact%s at t_end; give a later t_end", (long long)found->n_contacts,
+                 found->n_contacts == 1 ? "" : "s");
+    r->log->quiet = false;
+}
+
 void report_summary(report *r, const dem_simulation *simulation)
 {
     const dem_counts c = ask_counts(simulation);
     const dem_energy e = ask_energy(simulation);
     const bool details = r->log->verbose;
     run_log_begin(r->log);
-    rebound_print(r->log->out, &r->so_far.rebound, simulation);
+    rebound_print(r->log->out, &r->so_far.rebound, simulation, r->rest != NULL);
+    warn_touching(r);
     if (details) rebound_print_details(r->log->out, &r->so_far.rebound, simulation);
     if (details) print_strain(r);
     print_peaks(r, dem_simulation_model(simulation));

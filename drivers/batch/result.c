@@ -86,16 +86,18 @@ static void write_contact(json *j, const rebound *r, const dem_state *state, con
 static void write_rebound(json *j, const rebound *r, const dem_simulation *simulation)
 {
     const rebound_normal along = rebound_along(r, simulation);
-    if (!r->touched) {
+    if (!rebound_is_over(r)) {
         json_text(j, "rebound", NULL);
         return;
     }
     json_open(j, "rebound", '{');
+    json_integer(j, "bounces", r->n_bounces);
     json_reals(j, "approach", r->approach, 2);
     json_reals(j, "velocity", r->velocity, 2);
     json_real(j, "spin", r->spin);
     json_integer(j, "obstacle", r->obstacle);
-    json_reals(j, "normal", r->normal, 2);
+    json_reals(j, "normal", along.normal, 2);
+    json_truth(j, "along_impulse", along.along_impulse);
     json_real(j, "normal_before", along.in);
     json_real(j, "normal_after", along.out);
     json_real(j, "ratio", along.ratio);

@@ -421,7 +421,7 @@ class Run(Case):
         self.assertAlmostEqual(at_last - at_end, 9.81 * (8e-3 - last), delta=1e-3)
         x, y, _ = numbers("rebound    (#, #) m/s of the centre of mass at the last contact, spin # rad/s", log)
         self.assertEqual(y, at_last, "gravity is along y")
-        obstacle, *normal, before, after, ratio = numbers("normal     of obstacle #, (#, #): # m/s before, # m/s after, ratio #", log)
+        obstacle, *normal, before, after, ratio = numbers("normal     of obstacle #, (#, #) along its impulse: # m/s before, # m/s after, ratio #", log)
         self.assertEqual(obstacle, 1)
         self.assertAlmostEqual(before, -10 * normal[1], delta=1e-2)
         self.assertAlmostEqual(after, x * normal[0] + y * normal[1], delta=1e-2)

@@ -46,14 +46,19 @@ static rebound run_nodes(support_run *run, dem_index n, const double *x, const d
     return r;
 }
 
-static void print(const rebound *r, const dem_simulation *simulation)
+static void print_run(const rebound *r, const dem_simulation *simulation, bool rests)
 {
     FILE *file = tmpfile();
     assert_non_null(file);
-    rebound_print(file, r, simulation);
+    rebound_print(file, r, simulation, rests);
     rewind(file);
     text[fread(text, 1, sizeof text - 1, file)] = '\0';
     assert_int_equal(fclose(file), 0);
+}
+
+static void print(const rebound *r, const dem_simulation *simulation)
+{
+    print_run(r, simulation, false);
 }
 
 static const double flat[4] = {-9.0, 0.0, 9.0, 0.0};
@@ -69,6 +74,7 @@ TEST(a_node_leaves_as_restitution_has_it)
     assert_close(r.first, t, near);
     assert_close(r.last, t, near);
     assert_close(r.touching, 0.0, 0.0);
+    assert_int_equal(r.n_bounces, 1);
     assert_close(r.approach[0], 0.25, near);
     assert_close(r.approach[1], -fall, near);
     assert_close(r.velocity[0], 0.25, near);
@@ -92,6 +98,62 @@ TEST(a_node_leaves_as_restitution_has_it)
     assert_non_null(strstr(text,
                            "\nforce      largest (0, 0) N, by lasting contacts, at 0.0000e+00 s; impacts gave (0, "
                            "9.39628) N s\n"));
+}
+
+/* The third bounce comes at t (1 + 2 eta + 2 eta^2) with eta^2 of the first speed. */
+TEST(of_three_bounces_the_last_is_given)
+{
+    const double x[2] = {0.0, height}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * height / g), fall = g * t;
+    const double third = t * (1.0 + 2.0 * eta + 2.0 * eta * eta);
+    const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat, .restitution = eta};
+    CLEANUP(support_close) support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, third + 0.1 * t);
+    const rebound_normal along = rebound_along(&r, run.simulation);
+    assert_int_equal(r.n_bounces, 3);
+    assert_close(r.first, t, near);
+    assert_close(r.begin, third, near);
+    assert_close(along.in, -eta * eta * fall, near);
+    assert_close(along.out, eta * eta * eta * fall, near);
+    assert_close(along.ratio, eta, near);
+    assert_false(along.along_impulse);
+    print(&r, run.simulation);
+    assert_non_null(strstr(text, "\nnormal     of obstacle 1, (0, 1): 3 bounces; last: -0.78302 m/s before, +0.39151 "
+                                 "m/s after, ratio 0.5"));
+}
+
+/* Two nodes hit the sides of a groove, whose slopes are -1 and 1/3, at once: they are given impulses like (5, 5) and
+ * (-3, 9), together along (1, 7). With them their centre of mass leaves at (0.15, 0.05) of the speed of the fall. */
+TEST(in_a_groove_the_normal_is_along_the_impulse)
+{
+    static const double groove[6] = {-9.0, 9.0, 0.0, 0.0, 9.0, 3.0};
+    const double x[4] = {-1.0, 1.0 + height, 3.0, 1.0 + height}, v[4] = {0.0, 0.0, 0.0, 0.0};
+    const double t = sqrt(2.0 * height / g), fall = g * t, size = sqrt(50.0);
+    const dem_obstacle floor = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = groove, .restitution = eta};
+    CLEANUP(support_close) support_run run;
+    const rebound r = run_nodes(&run, 2, x, v, &floor, 1.04 * t);
+    const rebound_normal along = rebound_along(&r, run.simulation);
+    assert_int_equal(r.n_bounces, 1);
+    assert_true(along.along_impulse);
+    assert_close(along.normal[0], 1.0 / size, near);
+    assert_close(along.normal[1], 7.0 / size, near);
+    assert_close(along.in, -7.0 / size * fall, near);
+    assert_close(along.out, 0.5 / size * fall, near);
+    assert_close(along.ratio, 1.0 / 14.0, near);
+    print(&r, run.simulation);
+    assert_non_null(strstr(text, "\nnormal     of obstacle 1, (0.1414, 0.9899) along its impulse: -3.1"));
+}
+
+/* A point on the straight line does not make it a polyline. */
+TEST(a_straight_line_of_several_points_keeps_its_normal)
+{
+    static const double points[6] = {-9.0, 0.0, 3.0, 0.0, 9.0, 0.0};
+    const double x[2] = {0.0, height}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * height / g);
+    const dem_obstacle floor = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = points, .restitution = eta};
+    CLEANUP(support_close) support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 1.5 * t);
+    assert_false(rebound_along(&r, run.simulation).along_impulse);
 }
 
 /* A slope of 45 degrees turns the fall into a flight along x; of that the normal has 1/sqrt(2). */
@@ -150,7 +212,10 @@ TEST(what_rests_touches_all_the_time)
     assert_true(isnan(rebound_along(&r, run.simulation).ratio)); /* it did not come */
     print(&r, run.simulation);
     assert_non_null(strstr(text, " s of it (still touching)\n"));
+    assert_non_null(strstr(text, "\nrebound    not yet: 1 contact at t_end; give a later t_end\n"));
     assert_null(strstr(text, "ratio"));
+    print_run(&r, run.simulation, true); /* a run that ends at rest has no rebound to come */
+    assert_null(strstr(text, "rebound"));
 }
 
 /* A perfectly plastic impact at 1 m/s upon a floor that ends: it slides on the floor and leaves it at its end. */
