@@ -117,7 +117,7 @@ static long size_of(const char *path)
 
 TEST(a_file_holds_all_and_the_one_before_is_kept)
 {
-    dem_checkpoint *checkpoint = make(), *back;
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = make(), *back;
     (void)unlink(FILE_NAME);
     (void)unlink(PREVIOUS);
     assert_ok(dem_checkpoint_write(checkpoint, FILE_NAME));
@@ -133,8 +133,6 @@ TEST(a_file_holds_all_and_the_one_before_is_kept)
     assert_int_equal(size_of(FILE_NAME ".part"), -1);
     assert_ok(dem_checkpoint_read(&back, PREVIOUS));
     check(back);
-    dem_checkpoint_destroy(back);
-    dem_checkpoint_destroy(checkpoint);
 }
 
 static void put_file(const unsigned char *bytes, size_t size)

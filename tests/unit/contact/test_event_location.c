@@ -293,18 +293,24 @@ TEST(a_node_is_first_due_when_the_edge_beside_it_takes_its_weight)
     assert_int_equal(s.c.set.forces.group[0], s.c.set.forces.group[k]);
 }
 
-/* A square 0 to 3, of which edge 0-1 is closed, and two more nodes: those of the group, and the edge's neighbours, are
- * where the dense output has them; others are not looked at. */
-TEST(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours)
+/* A square 0 to 3 and two more nodes, in free flight. */
+static void fly_square(scene *s, scene_flight *f)
 {
     const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
     const double mass[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
     const dem_index corners[6] = {0, 1, 2, 0, 2, 3};
+    scene_open(s, 6, x, mass, 2, corners, &roof, 1);
+    scene_fly(s, (vec2){1.0, -g}, 0.0, 1.0, f);
+}
+
+/* Edge 0-1 of the square is closed: those of the group, and the edge's neighbours, are
+ * where the dense output has them; others are not looked at. */
+TEST(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours)
+{
     CLEANUP(scene_close) scene s;
     scene_flight f;
     double y[24];
-    scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
-    scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
+    fly_square(&s, &f);
     close_contact(&s, scene_edge(&s, 0, 1), 0, 1);
     assert_ok(contact_set_regroup(&s.c.set));
     dense_output_state(&f.dense, 0.3, y);
@@ -313,17 +319,13 @@ TEST(the_state_of_a_group_is_that_of_its_nodes_and_their_neighbours)
     for (int k = 0; k < 24; k++) assert_close(f.scratch[k], k % 12 < 8 ? y[k] : 77.0, 0.0);
 }
 
-/* A square 0 to 3 and two more nodes: the gap of an edge depends on its nodes and on those before and after it. */
+/* The gap of an edge depends on its nodes and on those before and after it. */
 TEST(the_place_of_a_candidate_is_that_of_its_nodes_and_those_beside_them)
 {
-    const double x[12] = {0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 1.0, 7.0, 5.0, 6.0, 6.0};
-    const double mass[6] = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
-    const dem_index corners[6] = {0, 1, 2, 0, 2, 3};
     CLEANUP(scene_close) scene s;
     scene_flight f;
     double y[24];
-    scene_open(&s, 6, x, mass, 2, corners, &roof, 1);
-    scene_fly(&s, (vec2){1.0, -g}, 0.0, 1.0, &f);
+    fly_square(&s, &f);
     dense_output_state(&f.dense, 0.3, y);
     for (int k = 0; k < 24; k++) f.scratch[k] = 77.0;
     event_location_place(&s.c.set.list[0], &f.dense, 0.3, f.scratch);

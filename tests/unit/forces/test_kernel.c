@@ -191,14 +191,21 @@ static dem_lattice make_holed(const dem_material *material)
     return lattice;
 }
 
-/* Discs with holes; every law there is: with and without area term, guard and damping of the springs. */
+/* One of eight laws: with and without area term, guard and damping of the springs. */
+static dem_material law_of(int laws)
+{
+    dem_material material = rubber;
+    if (laws & 1) material.poissons_ratio = 0.45;
+    if (laws & 2) material.guard = 0.0;
+    if (laws & 4) material.damping_time = 1e-5;
+    return material;
+}
+
+/* Discs with holes; every law there is. */
 TEST(every_law_agrees_on_bodies_with_holes)
 {
     for (int laws = 0; laws < 8; laws++) {
-        dem_material material = rubber;
-        if (laws & 1) material.poissons_ratio = 0.45;
-        if (laws & 2) material.guard = 0.0;
-        if (laws & 4) material.damping_time = 1e-5;
+        const dem_material material = law_of(laws);
         CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
         check_lattice(&lattice, 0.1);
     }
@@ -221,10 +228,7 @@ TEST(squeezed_triangles_agree)
 TEST(broken_elements_agree)
 {
     for (int laws = 0; laws < 8; laws++) {
-        dem_material material = rubber;
-        if (laws & 1) material.poissons_ratio = 0.45;
-        if (laws & 2) material.guard = 0.0;
-        if (laws & 4) material.damping_time = 1e-5;
+        const dem_material material = law_of(laws);
         CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
         CLEANUP(element_state_destroy) element_state broken;
         assert_ok(element_state_create(&broken, &lattice));

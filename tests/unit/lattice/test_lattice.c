@@ -238,7 +238,7 @@ TEST(append_numbers_nodes_and_bodies_behind_the_others)
 TEST(append_keeps_who_may_touch_and_where_the_motion_starts)
 {
     const double offset[2] = {4.0, 0.0};
-    dem_lattice block = make_solid(2.0, 2.0, 1.0), point;
+    CLEANUP(dem_lattice_free) dem_lattice block = make_solid(2.0, 2.0, 1.0), point;
     point = dem_lattice_empty();
     point.n_nodes = 1;
     point.x = calloc(2, sizeof(double));
@@ -260,8 +260,6 @@ TEST(append_keeps_who_may_touch_and_where_the_motion_starts)
     int n_contact = 0;
     for (dem_index i = 0; i < block.n_nodes; i++) n_contact += block.flags[i] == DEM_NODE_CONTACT;
     assert_int_equal(n_contact, 15 - 3); /* inside: one node of row 1, two of row 2 */
-    dem_lattice_free(&block);
-    dem_lattice_free(&point);
 }
 
 TEST(append_gives_undamped_springs_no_viscosity_beside_damped_ones)

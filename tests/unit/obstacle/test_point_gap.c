@@ -351,9 +351,8 @@ TEST(what_moves_is_met_where_it_is)
     const double t = 1.25;
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_hits = 0;
-    CLEANUP(obstacles_free)
-    obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0}),
-                 there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
+    CLEANUP(obstacles_free) obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0});
+    CLEANUP(obstacles_free) obstacle_set there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
     for (int k = 0; k < 2000; k++) {
         const vec2 x = {uniform(rng, -3.0, 7.0), uniform(rng, -2.0, 2.0)};
         const obstacle_gap a = obstacles_gap(&moving, t, x, 0.1, -1, -1),

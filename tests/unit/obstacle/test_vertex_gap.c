@@ -175,9 +175,8 @@ TEST(what_moves_is_met_where_it_is)
     const double t = 1.25;
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     int n_of_valley = 0, n_of_block = 0;
-    CLEANUP(obstacles_free)
-    obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0}),
-                 there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
+    CLEANUP(obstacles_free) obstacle_set moving = compile_moving(velocity, (vec2){0.0, 0.0});
+    CLEANUP(obstacles_free) obstacle_set there = compile_moving((vec2){0.0, 0.0}, vec2_scale(t, velocity));
     for (int k = 0; k < 4000; k++) {
         const double x = uniform(rng, -3.0, 4.0), y = uniform(rng, -1.5, 1.5);
         obstacle_edge edge = edge_between(x, y, x + uniform(rng, -1.0, 1.0), y + uniform(rng, -1.0, 1.0));

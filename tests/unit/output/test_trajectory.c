@@ -107,6 +107,13 @@ static run begin(const dem_trajectory_options *options)
     return r;
 }
 
+/* With every frame. */
+static run begin_usual(void)
+{
+    const dem_trajectory_options options = every_frame();
+    return begin(&options);
+}
+
 static void end(run *r)
 {
     dem_trajectory_destroy(r->trajectory);
@@ -244,8 +251,7 @@ TEST(a_frame_holds_the_state)
 
 TEST(offsets_tell_where_a_frame_begins)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     const dem_model_size size = ask_sizes(r.model);
     const struct {
         const char *name;
@@ -274,8 +280,7 @@ TEST(offsets_tell_where_a_frame_begins)
 
 TEST(a_frame_is_not_written_twice)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     const dem_observer observer = ask_trajectory_observer(r.trajectory);
     assert_int_equal(dem_simulation_advance(r.simulation, 2.5 * interval), DEM_OK);
     assert_int_equal(count_steps(r.part), 3);
@@ -330,8 +335,7 @@ TEST(probes_and_peaks_are_in_the_file_in_the_end)
 
 TEST(the_part_can_be_looked_at_while_the_run_goes_on)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     const dem_observer observer = {
         .struct_size = sizeof(dem_observer), .interval = interval, .frame = look_at_part, .context = &r};
     assert_int_equal(dem_simulation_observe(r.simulation, &observer), DEM_OK);
@@ -340,8 +344,7 @@ TEST(the_part_can_be_looked_at_while_the_run_goes_on)
 
 TEST(a_reader_does_not_stop_the_run)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     const int lock = open(r.part, O_RDONLY);
     assert_int_equal(flock(lock, LOCK_SH), 0); /* as HDF5 does for a reader */
     assert_int_equal(dem_simulation_advance(r.simulation, interval), DEM_OK);
@@ -370,8 +373,7 @@ TEST(a_body_of_one_node_has_points_and_no_cells)
 
 TEST(history_has_a_row_for_every_accepted_step)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     const table t = read_table(r.path, "/history/t"), h = read_table(r.path, "/history/h");
@@ -418,8 +420,7 @@ TEST(history_has_a_row_for_every_accepted_step)
 
 TEST(history_tells_bodies_and_obstacles_apart)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     assert_int_equal(dem_simulation_advance(r.simulation, 20 * interval), DEM_OK);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     const table impulse = read_table(r.path, "/history/obstacle_impulse");
@@ -480,8 +481,7 @@ TEST(every_event_has_a_row_in_the_order_of_time)
 
 TEST(events_are_written_only_where_they_are_wanted)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     assert_null(ask_trajectory_observer(r.trajectory).event);
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     assert_false(has(r.path, "/events"));
@@ -534,8 +534,7 @@ TEST(a_lost_event_is_not_published)
 
 TEST(the_lattice_comes_back)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     CLEANUP(dem_lattice_free) dem_lattice back = dem_lattice_empty();
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     assert_int_equal(dem_lattice_read(&back, r.path), DEM_OK);
@@ -560,8 +559,7 @@ TEST(the_lattice_comes_back)
 
 TEST(obstacles_are_in_a_file_beside_the_run)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     const double ends[8] = {0, 1, 1, 2, 2, 3, 4, 5}, owner[4] = {0, 0, 0, 1};
     const table connectivity = read_table(r.obstacle, "/VTKHDF/Connectivity");
     const table obstacle = read_table(r.obstacle, "/VTKHDF/CellData/obstacle");
@@ -577,8 +575,7 @@ TEST(obstacles_are_in_a_file_beside_the_run)
 
 TEST(notes_are_kept_and_replaced)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     char text[16] = "unchanged";
     assert_int_equal(dem_trajectory_note(r.trajectory, "deck", "first and longer"), DEM_OK);
     assert_int_equal(dem_trajectory_note(r.trajectory, "deck", "&run\n/\n"), DEM_OK);
@@ -637,8 +634,7 @@ TEST(two_runs_make_the_same_bytes)
 
 TEST(finishing_replaces_an_older_run)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     FILE *old = fopen(r.path, "w");
     assert_non_null(old);
     (void)fputs("old", old);
@@ -651,8 +647,7 @@ TEST(finishing_replaces_an_older_run)
 
 TEST(a_finished_trajectory_takes_nothing_more)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
     const dem_observer observer = ask_trajectory_observer(r.trajectory);
     assert_int_equal(observer.frame(observer.context, r.simulation), DEM_ERROR_ARGUMENT);
@@ -708,8 +703,7 @@ TEST(bad_arguments_are_refused)
 
 TEST(a_lost_part_ends_the_run_with_its_name)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     assert_int_equal(dem_simulation_advance(r.simulation, interval), DEM_OK);
     assert_int_equal(unlink(r.part), 0);
     assert_int_equal(dem_simulation_advance(r.simulation, 2 * interval), DEM_ERROR_IO);
@@ -721,8 +715,7 @@ TEST(a_lost_part_ends_the_run_with_its_name)
 /* Overwrites the middle of the file, where deflated frames lie: HDF5 opens it all the same. */
 TEST(a_damaged_part_is_not_published)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     char junk[4096];
     memset(junk, 0x5a, sizeof junk);
     const hid_t file = H5Fopen(r.part, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -747,8 +740,7 @@ TEST(a_damaged_part_is_not_published)
 /* RLIMIT_FSIZE stands in for a full disk. */
 TEST(a_full_disk_leaves_the_frames_before_it)
 {
-    const dem_trajectory_options options = every_frame();
-    CLEANUP(end) run r = begin(&options);
+    CLEANUP(end) run r = begin_usual();
     struct rlimit kept, small;
     struct stat about;
     assert_int_equal(stat(r.part, &about), 0);

@@ -127,6 +127,11 @@ typedef struct point {
     dem_checkpoint *checkpoint;
 } point;
 
+static void drop_point(const point *p)
+{
+    dem_checkpoint_destroy(p->checkpoint);
+}
+
 /* Steps at which something happens; 0: never. */
 typedef struct plan {
     dem_index checkpoint; /* one is taken, */
@@ -431,8 +436,9 @@ TEST(a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record)
 {
     CLEANUP(close_place) place p = open_place();
     run_quietly(&p);
+    CLEANUP(drop_point)
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 58, 58}), b = run(&p, "run.vtkhdf", &a, (plan){80, 80, 80});
-    const point c = run(&p, "run.vtkhdf", &b, (plan){110, 130, 130});
+    CLEANUP(drop_point) const point c = run(&p, "run.vtkhdf", &b, (plan){110, 130, 130});
     const char *const names[] = {"run.00001.vtkhdf", "run.00002.vtkhdf", "run.00003.vtkhdf", "run.part.vtkhdf"};
     const dem_index rows[] = {40, 40, 30, 20};
     dem_index frames = 0, steps = 0, events = 0, corner = 0;
@@ -449,9 +455,6 @@ TEST(a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record)
         events += count_rows(&p, names[k], "/events/t");
         sweep(&p, names[k]);
     }
-    dem_checkpoint_destroy(a.checkpoint);
-    dem_checkpoint_destroy(b.checkpoint);
-    dem_checkpoint_destroy(c.checkpoint);
 }
 
 /* A trajectory that has seen the first steps of a run. */
@@ -517,13 +520,10 @@ TEST(a_bare_run_is_cut_as_well)
     CLEANUP(close_place) place p = open_place();
     dem_trajectory_options options = dem_trajectory_options_default();
     options.fields = 0;
-    const point whole = run_until(&p, "quiet.vtkhdf", options, NULL, (plan){0, 0, 0}, end);
-    const point a = run_until(&p, "run.vtkhdf", options, NULL, (plan){20, 31, 40}, end);
-    const point b = run_until(&p, "run.vtkhdf", options, &a, (plan){0, 0, 0}, end);
+    CLEANUP(drop_point) const point whole = run_until(&p, "quiet.vtkhdf", options, NULL, (plan){0, 0, 0}, end);
+    CLEANUP(drop_point) const point a = run_until(&p, "run.vtkhdf", options, NULL, (plan){20, 31, 40}, end);
+    CLEANUP(drop_point) const point b = run_until(&p, "run.vtkhdf", options, &a, (plan){0, 0, 0}, end);
     assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
-    dem_checkpoint_destroy(whole.checkpoint);
-    dem_checkpoint_destroy(a.checkpoint);
-    dem_checkpoint_destroy(b.checkpoint);
 }
 
 /* ---- going on ---- */
@@ -535,15 +535,13 @@ TEST(a_finished_run_is_continued_from_its_own_file)
     CLEANUP(close_place) place p = open_place();
     run_quietly(&p);
     for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
+        CLEANUP(drop_point)
         const point a = run_until(&p, "run.vtkhdf", everything(), NULL, (plan){25, k == 2 ? 27 : 0, 0}, ends[k]);
-        const point b = run(&p, "run.vtkhdf", &a, (plan){70, 75, 75});
+        CLEANUP(drop_point) const point b = run(&p, "run.vtkhdf", &a, (plan){70, 75, 75});
         assert_true(has(&p, "run.vtkhdf") && has(&p, "run.00001.vtkhdf") && has(&p, "run.00002.vtkhdf"));
         assert_true(count_rows(&p, "run.vtkhdf", "/VTKHDF/Steps/Values") < 23);
-        const point c = run(&p, "run.vtkhdf", &b, (plan){0, 0, 0});
+        CLEANUP(drop_point) const point c = run(&p, "run.vtkhdf", &b, (plan){0, 0, 0});
         assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
-        dem_checkpoint_destroy(a.checkpoint);
-        dem_checkpoint_destroy(b.checkpoint);
-        dem_checkpoint_destroy(c.checkpoint);
     }
 }
 
@@ -562,7 +560,7 @@ TEST(other_options_are_refused)
 {
     CLEANUP(close_place) place p = open_place();
     dem_probe other[n_probes];
-    const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
+    CLEANUP(drop_point) const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
     const point none = {0, NULL};
     dem_trajectory_options options = everything();
     options.fields = DEM_FIELD_STRESS;
@@ -589,9 +587,7 @@ TEST(other_options_are_refused)
     assert_ok(dem_checkpoint_create(&empty));
     assert_resume_fails(&p, &(point){0, empty}, everything(), DEM_ERROR_IO, "trajectory");
     dem_checkpoint_destroy(empty);
-    const point b = run(&p, "run.vtkhdf", &a, (plan){0, 0, 0}); /* nothing has changed */
-    dem_checkpoint_destroy(a.checkpoint);
-    dem_checkpoint_destroy(b.checkpoint);
+    CLEANUP(drop_point) const point b = run(&p, "run.vtkhdf", &a, (plan){0, 0, 0}); /* nothing has changed */
 }
 
 /* What becomes of segment 2 of two, and of what is said then. */
@@ -651,6 +647,7 @@ TEST(a_segment_that_is_not_right_is_named)
         {take_anothers, "run.00002.vtkhdf: is of another run: row 49 of its history is at t = 1 s"},
     };
     CLEANUP(close_place) place p = open_place();
+    CLEANUP(drop_point)
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", &a, (plan){90, 90, 99});
     copy_file(&p, "run.00002.vtkhdf", "kept");
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
@@ -666,21 +663,17 @@ TEST(a_segment_that_is_not_right_is_named)
     assert_resume_fails(&p, &b, everything(), DEM_ERROR_IO, "run.00001.vtkhdf is missing, and ");
     assert_says("run.vtkhdf does not hold its rows");
     sweep(&p, "kept");
-    dem_checkpoint_destroy(a.checkpoint);
-    dem_checkpoint_destroy(b.checkpoint);
 }
 
 /* A checkpoint between two segments: the second of them goes beyond it. */
 TEST(a_record_that_no_segment_ends_at_is_refused)
 {
     CLEANUP(close_place) place p = open_place();
+    CLEANUP(drop_point)
     const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", NULL, (plan){30, 0, 35});
-    const point c = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
+    CLEANUP(drop_point) const point c = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
     assert_resume_fails(&p, &b, everything(), DEM_ERROR_IO, "run.00001.vtkhdf: has history beyond row 30");
     sweep(&p, "run.00001.vtkhdf");
-    dem_checkpoint_destroy(a.checkpoint);
-    dem_checkpoint_destroy(b.checkpoint);
-    dem_checkpoint_destroy(c.checkpoint);
 }
 
 /* ---- whose files they are ---- */
@@ -689,7 +682,8 @@ TEST(a_new_run_removes_the_segments_of_an_old_one_and_nothing_else)
 {
     CLEANUP(close_place) place p = open_place();
     const dem_trajectory_options options = everything();
-    const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45}), b = run(&p, "run.vtkhdf", &a, (plan){90, 90, 99});
+    CLEANUP(drop_point) const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 45});
+    CLEANUP(drop_point) const point b = run(&p, "run.vtkhdf", &a, (plan){90, 90, 99});
     copy_file(&p, "run.part.vtkhdf", "run.00003.vtkhdf"); /* a file of another run, say */
     copy_file(&p, "run.part.vtkhdf", "run.vtkhdf.new");
     copy_file(&p, "run.part.vtkhdf", "run.part.vtkhdf.new");
@@ -704,8 +698,6 @@ TEST(a_new_run_removes_the_segments_of_an_old_one_and_nothing_else)
     assert_true(has(&p, "run.00001.vtkhdf"));
     close_run(&o);
     sweep(&p, "run.00001.vtkhdf");
-    dem_checkpoint_destroy(a.checkpoint);
-    dem_checkpoint_destroy(b.checkpoint);
 }
 
 /* What a kill leaves that hits a run while it removes what it has joined. */
@@ -818,6 +810,7 @@ TEST(a_kill_between_two_names_loses_nothing)
     assert_true(shared != NULL && ftruncate(fileno(shared), sizeof *progress) == 0);
     progress = mmap(NULL, sizeof *progress, PROT_READ | PROT_WRITE, MAP_SHARED, fileno(shared), 0);
     assert_true(progress != MAP_FAILED);
+    CLEANUP(drop_point)
     const point whole = run_until(&p, "quiet.vtkhdf", everything(), NULL, (plan){0, 0, 0}, short_end);
     point points[3] = {{0, NULL}};
     points[1] = run_until(&p, "run.vtkhdf", everything(), NULL, first, short_end);
@@ -836,7 +829,6 @@ TEST(a_kill_between_two_names_loses_nothing)
     assert_true(n > 12);
     sweep(&p, "run.obstacle.part.vtkhdf");
     for (int k = 1; k < 3; k++) dem_checkpoint_destroy(points[k].checkpoint);
-    dem_checkpoint_destroy(whole.checkpoint);
     assert_int_equal(munmap(progress, sizeof *progress), 0);
     progress = &own_progress;
     (void)fclose(shared);

@@ -162,6 +162,12 @@ static dem_trajectory_options everything(void)
     return options;
 }
 
+static void make_whole(run *r)
+{
+    const dem_trajectory_options options = everything();
+    make(r, &options);
+}
+
 static dem_reader *open_film(const char *path)
 {
     dem_reader *reader;
@@ -310,9 +316,8 @@ TEST(arrays_are_listed_with_what_they_are)
 
 TEST(constants_are_the_same_in_all_frames)
 {
-    const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
-    make(&r, &options);
+    make_whole(&r);
     CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     const dem_lattice *l = dem_model_lattice(r.model);
     const dem_node_peak *nodes = dem_peaks_nodes(r.peaks);
@@ -371,9 +376,8 @@ static void assert_column(const dem_reader *reader, const char *path, const dem_
 
 TEST(tables_are_what_hdf5_finds)
 {
-    const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
-    make(&r, &options);
+    make_whole(&r);
     CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     dem_index n = 0, tables = 0;
     const dem_reader_column *columns = dem_reader_columns(reader, &n);
@@ -420,9 +424,8 @@ TEST(columns_have_items_and_components)
         {"probes/width", "length", "m", DEM_READER_F64, 0, 1, 1, 0},
         {"most_stressed/nodes", "x", "m", DEM_READER_F64, 0, 1, 2, 0},
     };
-    const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
-    make(&r, &options);
+    make_whole(&r);
     CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) expect_column(reader, &expected[k]);
     assert_null(dem_reader_column_find(reader, "history", "kind"));
@@ -432,9 +435,8 @@ TEST(columns_have_items_and_components)
 
 TEST(lattice_and_obstacles_are_the_models)
 {
-    const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
-    make(&r, &options);
+    make_whole(&r);
     CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     const dem_lattice *l = dem_reader_lattice(reader), *own = dem_model_lattice(r.model);
     const dem_index n = dem_reader_n_obstacles(reader);
@@ -538,9 +540,8 @@ TEST(segment_and_part_follow_each_other)
 
 TEST(what_is_not_there_cannot_be_read)
 {
-    const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
-    make(&r, &options);
+    make_whole(&r);
     dem_reader *reader = open_film(r.path), *other = NULL;
     double values[1024];
     const dem_reader_array *v = dem_reader_array_find(reader, "velocity");
@@ -712,9 +713,8 @@ static void copy_file(const char *from, const char *to)
 
 TEST(damaged_files_are_refused)
 {
-    const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
-    make(&r, &options);
+    make_whole(&r);
     dem_reader *reader = NULL;
     for (size_t k = 0; k < sizeof damages / sizeof damages[0]; k++) {
         copy_file(r.path, r.part);
@@ -732,9 +732,8 @@ TEST(damaged_files_are_refused)
 
 TEST(what_has_changed_since_is_refused)
 {
-    const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
-    make(&r, &options);
+    make_whole(&r);
     CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
     CLEANUP(free_memory) double *values = copy_of(NULL, 4096);
     const hid_t file = H5Fopen(r.path, H5F_ACC_RDWR, H5P_DEFAULT);
@@ -757,9 +756,8 @@ TEST(what_has_changed_since_is_refused)
 /* What others have put there is read as well; the rows of a table are those that all columns have. */
 TEST(other_arrays_and_uneven_tables_are_read)
 {
-    const dem_trajectory_options options = everything();
     CLEANUP(end) run r;
-    make(&r, &options);
+    make_whole(&r);
     const dem_index n = ask_sizes(r.model).n_springs;
     hdf5_file file;
     double values[11], *mine = copy_of(NULL, 2 * n);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* options.c: what is refused, and what stands for a default. */
-#include "verification/support.h"
+#include "unit/simulation/runs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,30 +8,10 @@
 #include "harness/message.h"
 #include "simulation/options.h"
 
-static const double floor_points[4] = {-1.0, 0.0, 1.0, 0.0};
 static const boundary_conditions no_boundaries = {0};
 
-/* One node of 2 kg, 1 m above a floor. */
-static dem_model *make_point(const double v[2])
-{
-    const double x[2] = {0.0, 1.0}, mass = 2.0;
-    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points};
-    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
-    support_start(&lattice, NULL, v);
-    dem_model *model = support_model(&lattice, &obstacle, 1);
-    return model;
-}
-
-static dem_options point_options(void)
-{
-    dem_options options = dem_options_default();
-    options.spacing = 1.0;
-    options.max_step = 0.03;
-    return options;
-}
-
 /* A small rectangle of rubber in flight; `damping` s, `speed` m/s. */
-static dem_model *make_rectangle(double damping, double speed)
+static dem_model *make_rubber(double damping, double speed)
 {
     const dem_material rubber = {.struct_size = sizeof(dem_material),
                                  .youngs_modulus = 1e7,
@@ -92,36 +72,28 @@ TEST(lengths_times_and_speeds_are_finite_and_not_negative)
     }
 }
 
+/* One option of those of a point is wrong. */
+#define REFUSE(option, wrong, message)                                                                                 \
+    do {                                                                                                               \
+        dem_options options = point_options();                                                                         \
+        options.option = wrong;                                                                                        \
+        refuse(&options, message);                                                                                     \
+    } while (0)
+
 TEST(options_outside_their_ranges_are_named)
 {
-    dem_options options = point_options();
-    assert_ok(options_check(&options));
-    options.gravity[0] = fabs((double)NAN);
-    refuse(&options, "gravity (nan, -9.81) * not finite");
-    options = point_options();
-    options.rtol = 0.2;
-    refuse(&options, "rtol * [1e-13, 0.1] * 0.2");
-    options.rtol = 0.0;
-    refuse(&options, "rtol * [1e-13, 0.1] * 0");
-    options.rtol = fabs((double)NAN);
-    refuse(&options, "rtol * [1e-13, 0.1] * nan");
-    options = point_options();
-    options.mass_damping = -2.0;
-    refuse(&options, "mass_damping * >= 0 * -2");
-    options = point_options();
-    options.window = (double)INFINITY;
-    refuse(&options, "window * finite * inf");
-    options = point_options();
-    options.max_impacts = 0;
-    refuse(&options, "max_impacts * >= 1 * 0");
-    options = point_options();
-    options.contact = (dem_contact_method)7;
-    refuse(&options, "method 7");
-    options = point_options();
-    options.threads = 0;
-    refuse(&options, "threads * [1, 1024] * 0");
-    options.threads = 1025;
-    refuse(&options, "threads * [1, 1024] * 1025");
+    const dem_options good = point_options();
+    assert_ok(options_check(&good));
+    REFUSE(gravity[0], fabs((double)NAN), "gravity (nan, -9.81) * not finite");
+    REFUSE(rtol, 0.2, "rtol * [1e-13, 0.1] * 0.2");
+    REFUSE(rtol, 0.0, "rtol * [1e-13, 0.1] * 0");
+    REFUSE(rtol, fabs((double)NAN), "rtol * [1e-13, 0.1] * nan");
+    REFUSE(mass_damping, -2.0, "mass_damping * >= 0 * -2");
+    REFUSE(window, (double)INFINITY, "window * finite * inf");
+    REFUSE(max_impacts, 0, "max_impacts * >= 1 * 0");
+    REFUSE(contact, (dem_contact_method)7, "method 7");
+    REFUSE(threads, 0, "threads * [1, 1024] * 0");
+    REFUSE(threads, 1025, "threads * [1, 1024] * 1025");
 }
 
 static void refuse_filling(const dem_model *model, dem_options options, const char *message)
@@ -132,7 +104,7 @@ static void refuse_filling(const dem_model *model, dem_options options, const ch
 
 TEST(a_model_without_springs_needs_its_scales)
 {
-    CLEANUP(free_model) dem_model *model = make_point(NULL);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.0);
     dem_options options = point_options();
     options.spacing = 0.0;
     refuse_filling(model, options, "a model without springs needs the option spacing, in m");
@@ -151,7 +123,7 @@ TEST(a_model_without_springs_needs_its_scales)
 
 TEST(defaults_come_from_the_model)
 {
-    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rubber(0.0, 4.0);
     dem_options options = dem_options_default();
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_int_equal(options.struct_size, sizeof options);
@@ -170,7 +142,7 @@ TEST(defaults_come_from_the_model)
 
 TEST(what_is_given_counts)
 {
-    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rubber(0.0, 4.0);
     dem_options options = dem_options_default();
     options.spacing = 0.125;
     options.v_scale = 0.25;
@@ -190,7 +162,7 @@ TEST(what_is_given_counts)
 TEST(methods_without_error_estimate_take_steps_of_one_length)
 {
     static const dem_method methods[3] = {DEM_METHOD_RK4, DEM_METHOD_KNOTHWOLKE3, DEM_METHOD_VERLET};
-    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rubber(0.0, 4.0);
     for (int k = 0; k < 3; k++) {
         dem_options options = dem_options_default();
         dem_method_traits traits = {.struct_size = sizeof traits};
@@ -213,7 +185,7 @@ TEST(methods_without_error_estimate_take_steps_of_one_length)
 /* Where damping is faster than the springs it sets the longest step, 1/(2 (rate + mass damping)). */
 TEST(strong_damping_shortens_the_longest_step)
 {
-    CLEANUP(free_model) dem_model *model = make_rectangle(1e-2, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rubber(1e-2, 4.0);
     dem_options options = dem_options_default();
     assert_ok(options_fill(&options, model, &no_boundaries));
     const double rate = 0.5 / options.max_step;
@@ -228,7 +200,7 @@ TEST(strong_damping_shortens_the_longest_step)
  * twice the longest step. */
 TEST(the_window_is_for_stops_of_the_whole_body)
 {
-    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rubber(0.0, 4.0);
     dem_options options = dem_options_default();
     const double omega = dem_model_omega_max(model);
     assert_ok(options_fill(&options, model, &no_boundaries));
@@ -257,17 +229,17 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
                                  .nodes = &first,
                                  .value = {70.0}};
     CLEANUP(boundary_conditions_free) boundary_conditions b;
-    CLEANUP(free_model) dem_model *model = make_point(NULL);
+    CLEANUP(free_model) dem_model *model = make_point(NULL, 0.0);
     dem_options options = point_options();
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.v_scale, sqrt(2.0 * 9.81 * 1.0), 1e-15);
     dem_model_destroy(model);
-    model = make_point(v);
+    model = make_point(v, 0.0);
     options = point_options();
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.v_scale, 50.0, 1e-14);
     dem_model_destroy(model);
-    model = make_rectangle(0.0, 0.0);
+    model = make_rubber(0.0, 0.0);
     options = dem_options_default();
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.v_scale, 1e-3 * 0.5 * dem_model_omega_max(model) * dem_model_spacing(model), 1e-15);
@@ -281,7 +253,7 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
 TEST(steps_follow_obstacles_that_shake)
 {
     char message[160];
-    CLEANUP(free_model) dem_model *model = make_rectangle(0.0, 4.0);
+    CLEANUP(free_model) dem_model *model = make_rubber(0.0, 4.0);
     const double rate = 10.0 * dem_model_omega_max(model);
     dem_options options = dem_options_default();
     model->obstacles.bounds.rate = rate;

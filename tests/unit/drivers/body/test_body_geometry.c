@@ -25,6 +25,11 @@ typedef struct formed {
     body_geometry geometry;
 } formed;
 
+static void drop_formed(formed *f)
+{
+    dem_lattice_free(&f->lattice);
+}
+
 /* Body k of a text after the groups of RUN and RUBBER. */
 static dem_status build(formed *out, const char *text, size_t k, namelist_errors *errors)
 {
@@ -103,6 +108,7 @@ TEST(voids_of_every_shape_are_turned_and_placed)
     expect_area(BLOCK "&void shape = 'rectangle', centre = 0, 1, size = 1, 0.5, angle = 30 /", 8.0 - 0.5, 0.08);
     expect_area(BLOCK "&void shape = 'polygon', centre = 0, 1, points = 0,0, 1,0, 0,1 /", 8.0 - 0.5, 0.08);
     expect_area(BLOCK "&void shape = 'ring', centre = 0, 1, radius = 0.8, inner_radius = 0.4 /", 8.0 - 0.48 * pi, 0.1);
+    CLEANUP(drop_formed)
     formed f =
         build_good(BLOCK "&void shape = 'polygon', centre = 1, 1, points = 0.2,0, 0.8,0, 0.8,0.2, 0.2,0.2, "
                          "angle = 90 /\n&void shape = 'rectangle', centre = -1, 1, size = 1.4, 0.4, angle = 90 /");
@@ -110,30 +116,29 @@ TEST(voids_of_every_shape_are_turned_and_placed)
     assert_true(distance_to(&f.lattice, 1.5, 1.1) < 0.09);
     assert_true(distance_to(&f.lattice, -1.0, 1.6) > 0.09);
     assert_true(distance_to(&f.lattice, -1.6, 1.0) < 0.09);
-    dem_lattice_free(&f.lattice);
 }
 
 /* ---- pores ---- */
 
 TEST(a_porosity_is_met_to_half_a_pore)
 {
+    CLEANUP(drop_formed)
     formed f =
         build_good(BODY "'disc', radius = 10 /\n&void centre = 0, 0, radius = 2 /\n&pores porosity = 0.2, radius = "
                         "0.4, 0.9, wall = 0.2, distribution = 'lognormal', mean = 0.5, deviation = 0.2 /");
     assert_close(f.geometry.pore_area, 0.2 * 96.0 * pi, 0.5 * pi * 0.81);
     assert_close(f.geometry.area + f.geometry.pore_area, 96.0 * pi, 1e-4 * 96.0 * pi);
     assert_true(f.geometry.n_pores > 40);
-    dem_lattice_free(&f.lattice);
 }
 
 TEST(groups_of_pores_add_up)
 {
+    CLEANUP(drop_formed)
     formed f = build_good(BLOCK "&pores number = 2, radius = 0.2, 0.2, wall = 0.1 /\n"
                                 "&pores number = 3, radius = 0.1, 0.1, wall = 0.1, seed = 2 /");
     assert_int_equal(f.geometry.n_pores, 5);
     assert_close(f.geometry.pore_area, 0.11 * pi, 1e-15);
     assert_close(f.geometry.area, 8.0 - 0.11 * pi, 1e-12);
-    dem_lattice_free(&f.lattice);
 }
 
 TEST(pores_without_a_place_or_a_radius_are_reported)
@@ -231,17 +236,18 @@ TEST(every_shape_may_be_of_squares)
 
 TEST(cracks_take_whole_cells)
 {
+    CLEANUP(drop_formed)
     formed f = build_good(SQUARES " /\n&crack points = -0.27,1.02, -0.23,1.04 /"); /* a corner of one triangle */
     assert_int_equal(f.geometry.n_cracked, 2);
-    dem_lattice_free(&f.lattice);
 }
 
 /* By at most the share of the spacing, the same for the same seed. */
 TEST(jitter_moves_nodes_that_are_not_on_the_boundary)
 {
-    formed f = build_good(BLOCK), g = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2 /"),
-           h = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 1 /"),
-           other = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 2 /");
+    CLEANUP(drop_formed) formed f = build_good(BLOCK);
+    CLEANUP(drop_formed) formed g = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2 /");
+    CLEANUP(drop_formed) formed h = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 1 /");
+    CLEANUP(drop_formed) formed other = build_good(BODY "'rectangle', size = 4, 2, jitter = 0.2, seed = 2 /");
     const dem_index n = f.lattice.n_nodes;
     double most = 0.0;
     for (dem_index i = 0; i < n; i++)
@@ -251,10 +257,6 @@ TEST(jitter_moves_nodes_that_are_not_on_the_boundary)
     assert_memory_equal(g.lattice.x, h.lattice.x, 2 * (size_t)n * sizeof(double));
     assert_memory_not_equal(g.lattice.x, other.lattice.x, 2 * (size_t)n * sizeof(double));
     assert_memory_equal(g.lattice.x, f.lattice.x, 2 * 41 * sizeof(double)); /* the lowest row */
-    dem_lattice_free(&f.lattice);
-    dem_lattice_free(&g.lattice);
-    dem_lattice_free(&h.lattice);
-    dem_lattice_free(&other.lattice);
 }
 
 /* ---- inclusions ---- */
@@ -282,7 +284,7 @@ static dem_index *mark(formed *f, const char *text, size_t n)
 
 TEST(triangles_with_their_centres_in_an_inclusion_are_of_it)
 {
-    formed f;
+    CLEANUP(drop_formed) formed f;
     CLEANUP(free_memory)
     dem_index *of = mark(&f,
                          HEAVY BLOCK DISC "&inclusion material = 'heavy', centre = 0, 1, radius = 0.6 /\n"
@@ -296,12 +298,11 @@ TEST(triangles_with_their_centres_in_an_inclusion_are_of_it)
         const bool inner = fabs(x[0]) < 0.14 && fabs(x[1] - 1.0) < 0.25, outer = hypot(x[0], x[1] - 1.0) < 0.6;
         assert_int_equal(of[t], inner ? 2 : (outer ? 1 : 0));
     }
-    dem_lattice_free(&f.lattice);
 }
 
 TEST(of_squares_whole_cells_are_of_an_inclusion)
 {
-    formed f;
+    CLEANUP(drop_formed) formed f;
     dem_index n = 0,
               *of =
                   mark(&f, HEAVY SQUARES " /\n&inclusion material = 'heavy', centre = 0.35, 1.05, radius = 0.12 /", 1);
@@ -311,7 +312,6 @@ TEST(of_squares_whole_cells_are_of_an_inclusion)
     }
     assert_int_equal(n, 2 * 5); /* the cell about its centre and its neighbours */
     free(of);
-    dem_lattice_free(&f.lattice);
 }
 
 /* Ring of 3000 * 0.5 in 1000, a quarter of which a void takes; overlaps count once, what is outside does not. */
@@ -336,15 +336,14 @@ TEST(the_true_mass_is_that_of_all_materials)
 TEST(an_inclusion_without_a_triangle_is_reported)
 {
     CLEANUP(namelist_errors_free) namelist_errors errors = {0};
-    formed f = build_good(BLOCK);
+    CLEANUP(drop_formed) formed f = build_good(BLOCK);
+    CLEANUP(drop_resolved)
     resolved r = resolve_clean(RUN RUBBER BLOCK "&inclusion material = 'rubber', centre = 0, 5, radius = 1 /");
     CLEANUP(free_memory) dem_index *of = calloc((size_t)f.lattice.n_triangles, sizeof *of);
     assert_non_null(of);
     assert_int_equal(body_geometry_mark(of, &f.lattice, &r.deck, 0, &errors), DEM_ERROR_MODEL);
     assert_int_equal(errors.n, 1);
     assert_non_null(strstr(errors.list[0].text, "inclusion has no triangle of body 1"));
-    drop_resolved(&r);
-    dem_lattice_free(&f.lattice);
 }
 
 /* ---- files ---- */

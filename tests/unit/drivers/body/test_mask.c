@@ -45,13 +45,11 @@ TEST(bright_pixels_are_material_and_the_top_row_comes_first)
 
 TEST(inverted_the_dark_pixels_are_material)
 {
-    mask bright = read_steps(0.5), dark;
+    CLEANUP(mask_free) mask bright = read_steps(0.5), dark;
     char fault[IMAGE_FAULT] = "";
     assert_int_equal(mask_read(&dark, fault, path, 0.5, 0.5, true), IMAGE_READ);
     assert_int_equal(bright.n_solid + dark.n_solid, 12);
     for (size_t k = 0; k < 12; k++) assert_int_equal(bright.solid[k] + dark.solid[k], 1);
-    mask_free(&bright);
-    mask_free(&dark);
 }
 
 static bool has(const mask *m, double x, double y)

@@ -151,6 +151,7 @@ TEST(long_names_are_near_to_nothing)
 
 TEST(what_was_at_fault_is_known)
 {
+    CLEANUP(drop_resolved)
     resolved r = resolve(RUN MATERIAL "&body shape = 'disc', radus = 1, spacing = , size(0) = 1, clearance = 'x'\n"
                                       " position 2 /\n&obstacel /");
     const schema_instance *body = schema_get(&r.deck, "body", 0);
@@ -163,7 +164,6 @@ TEST(what_was_at_fault_is_known)
     drop_resolved(&r);
     r = resolve("&weather /\n" RUN MATERIAL BODY);
     assert_false(r.deck.misspelt);
-    drop_resolved(&r);
 }
 
 TEST(values_can_be_dropped_and_texts_replaced)
