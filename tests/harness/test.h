@@ -14,6 +14,12 @@
 
 #include "harness/cleanup.h"
 
+/** The initializer of a struct of the library, which begins with its size: `SIZED(dem_obstacle, .n_points = 2)`. */
+#define SIZED(type, ...)                                                                                               \
+    {                                                                                                                  \
+        .struct_size = sizeof(type), __VA_ARGS__                                                                       \
+    }
+
 /** Enters a test, which runs after those of lower places. */
 void test_add(const struct CMUnitTest *test, int place);
 

@@ -118,14 +118,10 @@ static void random_laws(gsl_rng *rng, scene *sc)
 {
     static const double restitutions[5] = {0.0, 0.0, 0.5, 0.9, 1.0}, frictions[5] = {0.0, 0.3, 0.3, 1.0, 1.0};
     for (int k = 0; k < sc->n; k++)
-        sc->obstacles[k] = (dem_obstacle){
-            .struct_size = sizeof(dem_obstacle),
-            .n_points = sc->solids[k].n_exposed,
-            .points = sc->solids[k].points,
-            .restitution = one_of(rng, restitutions, 5),
-            .friction = one_of(rng, frictions, 5),
-            .friction_law = chance(rng, 0.25) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB,
-        };
+        sc->obstacles[k] =
+            (dem_obstacle)SIZED(dem_obstacle, .n_points = sc->solids[k].n_exposed, .points = sc->solids[k].points,
+                                .restitution = one_of(rng, restitutions, 5), .friction = one_of(rng, frictions, 5),
+                                .friction_law = chance(rng, 0.25) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB);
 }
 
 /* Open ground with blocks and walls, or a closed room, now and then with a block in it. */
@@ -153,13 +149,9 @@ static void random_obstacles(gsl_rng *rng, scene *sc)
 
 static void random_solid_body(gsl_rng *rng, scene *sc)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02,
-                                 .damping_time = chance(rng, 0.25) ? uniform(rng, 1e-6, 3e-5) : 0.0};
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0,
+              .guard = 0.02, .damping_time = chance(rng, 0.25) ? uniform(rng, 1e-6, 3e-5) : 0.0);
     sc->spacing = uniform(rng, 8e-3, 15e-3);
     sc->body = dem_lattice_empty();
     if (chance(rng, 0.3)) {

@@ -85,11 +85,7 @@ static dem_status hear_nothing(void *context, const dem_simulation *simulation, 
 
 static const dem_observer observers[] = {
     {.struct_size = sizeof(dem_observer), .interval = 0.0},
-    {.struct_size = sizeof(dem_observer),
-     .interval = 1e-5,
-     .frame = ask_nothing,
-     .step = ask_nothing,
-     .event = hear_nothing},
+    SIZED(dem_observer, .interval = 1e-5, .frame = ask_nothing, .step = ask_nothing, .event = hear_nothing),
     {.struct_size = sizeof(dem_observer), .interval = 3e-6, .frame = ask},
     {.struct_size = sizeof(dem_observer), .interval = 0.0, .event = ask_at_event},
     {.struct_size = sizeof(dem_observer), .interval = 7e-6, .frame = ask, .step = ask, .event = ask_at_event},
@@ -153,15 +149,10 @@ TEST(nobody_leaves_a_trace)
 static picture run_strip(int threads)
 {
     static const double lift[2] = {0.0, 2.5e-4}, down[2] = {1.0, -5.0};
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.0};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.0);
     double points[2 * 61];
-    dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 61, .points = points, .restitution = 0.5, .friction = 0.3};
+    dem_obstacle ground = SIZED(dem_obstacle, .n_points = 61, .points = points, .restitution = 0.5, .friction = 0.3);
     dem_options options = support_options();
     CLEANUP(support_close) support_run run;
     for (int k = 0; k <= 60; k++) {

@@ -85,13 +85,8 @@ static dem_status on_record(void *context, const dem_simulation *simulation, dem
 
 static dem_observer observer_of(diary *d, int keeps)
 {
-    return (dem_observer){.struct_size = sizeof(dem_observer),
-                          .interval = 7e-6,
-                          .frame = on_frame,
-                          .step = on_step,
-                          .event = on_event,
-                          .checkpoint = keeps ? on_record : NULL,
-                          .context = d};
+    return (dem_observer)SIZED(dem_observer, .interval = 7e-6, .frame = on_frame, .step = on_step, .event = on_event,
+                               .checkpoint = keeps ? on_record : NULL, .context = d);
 }
 
 /* ---- runs ---- */

@@ -108,12 +108,8 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 
 static void watch_stage(watch *w, stage *s)
 {
-    const dem_observer observer = {.struct_size = sizeof(dem_observer),
-                                   .interval = 1e-4,
-                                   .frame = on_frame,
-                                   .step = on_step,
-                                   .event = on_event,
-                                   .context = w};
+    const dem_observer observer =
+        SIZED(dem_observer, .interval = 1e-4, .frame = on_frame, .step = on_step, .event = on_event, .context = w);
     *w = (watch){.scene = &s->scene};
     judge_boundary(&w->boundary, &s->scene.body);
     assert_ok(dem_simulation_observe(s->simulation, &observer));

@@ -253,12 +253,8 @@ static void run_case(unsigned long seed, census *all)
     scene_random(&sc, seed);
     verdict v = {.scene = &sc};
     judge_boundary(&v.boundary, &sc.body);
-    const dem_observer observer = {.struct_size = sizeof(dem_observer),
-                                   .interval = sc.interval,
-                                   .frame = look,
-                                   .step = step,
-                                   .event = weigh,
-                                   .context = &v};
+    const dem_observer observer =
+        SIZED(dem_observer, .interval = sc.interval, .frame = look, .step = step, .event = weigh, .context = &v);
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     v.start = ask_energy(run.simulation).ledger;

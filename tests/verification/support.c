@@ -70,12 +70,8 @@ void support_start(dem_lattice *lattice, const double *position, const double *v
 /* e(s) = (1 - s^2)^2 and its first and second integral over y = half s. */
 void support_block(dem_lattice *out)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.0};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.0);
     const double stretch = 0.04, curvature = 1.4, spacing = 5e-3, half = 3.0 * sqrt(3.0) * spacing;
     assert_ok(dem_lattice_rectangle(out, 0.05, 2.0 * half, spacing));
     assert_ok(dem_lattice_assemble(out, &rubber));
@@ -136,8 +132,8 @@ motion support_at(support_run *run, double t)
 void support_point(support_run *run, double m, const double x[2], const double v[2], const double *points,
                    dem_index n_points, double restitution)
 {
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = n_points, .points = points, .restitution = restitution};
+    const dem_obstacle obstacle =
+        SIZED(dem_obstacle, .n_points = n_points, .points = points, .restitution = restitution);
     dem_options options = support_options();
     options.spacing = 1.0;
     options.max_step = 0.01;

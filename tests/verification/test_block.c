@@ -44,13 +44,8 @@ static double shear_factor(const block *b)
 
 static dem_model *make_block(const block *b)
 {
-    const dem_material solid = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = modulus,
-                                .poissons_ratio = b->nu,
-                                .plane = b->plane,
-                                .density = 1050.0,
-                                .thickness = thickness,
-                                .guard = 0.02};
+    const dem_material solid = SIZED(dem_material, .youngs_modulus = modulus, .poissons_ratio = b->nu,
+                                     .plane = b->plane, .density = 1050.0, .thickness = thickness, .guard = 0.02);
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     if (b->diagonal > 0.0) {
         assert_ok(dem_lattice_squares(&lattice, 0.045, 0.05, spacing));

@@ -228,17 +228,10 @@ TEST(a_node_at_rest_in_a_corner_stays)
 static void open_block(support_run *run, double restitution, double rest_speed)
 {
     static const double points[] = {-1.0, 0.2, 0.0, 0.0, 0.004, 0.001, 0.008, 0.0, 1.0, 0.2};
-    const dem_obstacle valley = {.struct_size = sizeof(dem_obstacle),
-                                 .n_points = 5,
-                                 .points = points,
-                                 .restitution = restitution,
-                                 .friction = 0.3,
-                                 .friction_law = DEM_FRICTION_PAPER};
-    const dem_material soft = {.struct_size = sizeof(dem_material),
-                               .youngs_modulus = 1e5,
-                               .poissons_ratio = 0.3,
-                               .density = 1000.0,
-                               .thickness = 0.01};
+    const dem_obstacle valley = SIZED(dem_obstacle, .n_points = 5, .points = points, .restitution = restitution,
+                                      .friction = 0.3, .friction_law = DEM_FRICTION_PAPER);
+    const dem_material soft =
+        SIZED(dem_material, .youngs_modulus = 1e5, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 0.01);
     const double lift[2] = {0.002, 0.0035}, velocity[2] = {0.3, -1.0};
     dem_options options = support_options();
     options.rest_speed = rest_speed;

@@ -200,12 +200,8 @@ static double energy_of_vibration(const dem_simulation *simulation, const motion
  * error of steps of 0.5/omega_max: 1e-10, and below 1e-12 with steps half as long. */
 TEST(a_damped_plate_comes_to_turn_rigidly_and_keeps_its_momenta)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .damping_time = 1e-4};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .damping_time = 1e-4);
     dem_options options = support_options();
     CLEANUP(support_close) support_run run;
     options.gravity[1] = 0.0;

@@ -50,8 +50,7 @@ static double run_deck(const char *name, double restitution, double rtol)
     CLEANUP(support_close) support_run run;
     coarse_read(&d, inputs, name, spacing);
     watch w = {.d = &d};
-    const dem_observer observer = {
-        .struct_size = sizeof(dem_observer), .interval = 1e-6, .frame = look, .step = look, .context = &w};
+    const dem_observer observer = SIZED(dem_observer, .interval = 1e-6, .frame = look, .step = look, .context = &w);
     d.obstacles[0].restitution = restitution;
     d.options.rtol = rtol;
     support_open(&run, &d.lattice, d.obstacles, d.n_obstacles, &d.options);

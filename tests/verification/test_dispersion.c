@@ -95,11 +95,8 @@ static dem_index middle_of(const dem_lattice *l)
 
 static void make_block(dem_lattice *l, const wave *w)
 {
-    const dem_material solid = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = E,
-                                .poissons_ratio = w->nu,
-                                .density = rho,
-                                .thickness = 1.0};
+    const dem_material solid =
+        SIZED(dem_material, .youngs_modulus = E, .poissons_ratio = w->nu, .density = rho, .thickness = 1.0);
     if (w->squares) {
         assert_ok(dem_lattice_squares(l, 26.0 * a, 26.0 * a, a));
         assert_ok(dem_lattice_assemble_squares(l, &solid, w->diagonal));

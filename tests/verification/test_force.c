@@ -124,8 +124,7 @@ static const double floor_points[4] = {-10.0, 0.0, 100.0, 0.0};
 TEST(friction_holds_until_the_force_exceeds_it)
 {
     const double mu = 0.4;
-    const dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .friction = mu};
+    const dem_obstacle ground = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .friction = mu);
     field f = {.push = {0.0, -25.0}, .rise = 8.0};
     const double slips = mu * 25.0 / f.rise;
     CLEANUP(support_close) support_run run;
@@ -168,8 +167,7 @@ TEST(a_contact_opens_when_the_force_lifts_it)
 TEST(a_pushed_node_bounces)
 {
     const double eta = 0.5, h = 0.7, points[4] = {-10.0, -0.7, 10.0, -0.7};
-    const dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = eta};
+    const dem_obstacle ground = SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = eta);
     field f = {.push = {0.0, -5.0}};
     const double a = 5.0 / mass, t1 = sqrt(2.0 * h / a);
     CLEANUP(support_close) support_run run;
@@ -303,11 +301,8 @@ static void compare_with_boundaries(const dem_index *order)
     pair p = {{order[5], order[100]}, {{30.0, -400.0}, {-50.0, -300.0}}};
     dem_boundary forces[2];
     for (int e = 0; e < 2; e++)
-        forces[e] = (dem_boundary){.struct_size = sizeof(dem_boundary),
-                                   .kind = DEM_BOUNDARY_FORCE,
-                                   .n_nodes = 1,
-                                   .nodes = &p.nodes[e],
-                                   .value = {p.force[e][0], p.force[e][1]}};
+        forces[e] = (dem_boundary)SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = &p.nodes[e],
+                                        .value = {p.force[e][0], p.force[e][1]});
     options.rtol = 1e-8;
     options.v_scale = 1.0;
     options.n_boundaries = 2;
@@ -366,8 +361,7 @@ TEST(a_floor_bears_weight_and_force)
 TEST(the_ledger_of_a_trap_closes)
 {
     static const double any = 1.0;
-    const dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low, .restitution = 0.5, .friction = 0.3};
+    const dem_obstacle ground = SIZED(dem_obstacle, .n_points = 2, .points = low, .restitution = 0.5, .friction = 0.3);
     field f = {.centre = {0.02, -0.01}, .stiffness = 4e4, .drag = 5.0, .mass = &any};
     CLEANUP(support_close) support_run run;
     open_block(&run, 0.0, &ground, (load){.gravity = -100.0, .field = &f});

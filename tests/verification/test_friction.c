@@ -79,8 +79,7 @@ static void open_slide(slide *s, double a, const dem_obstacle *law, double h0, c
     *s = (slide){.normal = {sin(a), cos(a)}, .tangent = {cos(a), -sin(a)}, .mu = law->friction};
     const double *n = s->normal, *t = s->tangent, points[4] = {-20.0 * t[0], -20.0 * t[1], 20.0 * t[0], 20.0 * t[1]};
     const double x[2] = {h0 * n[0], h0 * n[1]};
-    const dem_observer observer = {
-        .struct_size = sizeof(dem_observer), .step = note_step, .event = note_event, .context = s};
+    const dem_observer observer = SIZED(dem_observer, .step = note_step, .event = note_event, .context = s);
     dem_obstacle obstacle = *law;
     dem_options options = support_options();
     for (int d = 0; d < 2; d++) s->v0[d] = v0[0] * t[d] + v0[1] * n[d];
@@ -270,8 +269,8 @@ static const oblique rows[5] = {{DEM_FRICTION_COULOMB, 0.3, 0.5, {2.1, 1.0}},
 static void check_oblique(const oblique *row, double angle, double side)
 {
     static slide s;
-    const dem_obstacle law = {
-        .struct_size = sizeof(dem_obstacle), .friction = row->mu, .restitution = row->eta, .friction_law = row->law};
+    const dem_obstacle law =
+        SIZED(dem_obstacle, .friction = row->mu, .restitution = row->eta, .friction_law = row->law);
     const double v0[2] = {3.0 * side, -2.0};
     open_slide(&s, angle, &law, 0.5, v0, 0.0);
     const motion state = slide_at(&s, 0.5);

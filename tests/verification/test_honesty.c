@@ -225,11 +225,8 @@ static void make_parts(parts *p, const support_run *run)
 /* The run, its steps as they are reported, and kept. */
 static void run_block(support_run *run, checkpoint *r, const drop *d)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0};
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
     dem_options options = dem_options_default();
     double gap = INFINITY;
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.08, 0.13, spacing, &rubber);

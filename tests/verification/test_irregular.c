@@ -15,11 +15,8 @@ static void assert_in_band(double value, double low, double high)
 
 static dem_material solid_of(double nu)
 {
-    return (dem_material){.struct_size = sizeof(dem_material),
-                          .youngs_modulus = E,
-                          .poissons_ratio = nu,
-                          .density = 1050.0,
-                          .thickness = 0.5};
+    return (dem_material)SIZED(dem_material, .youngs_modulus = E, .poissons_ratio = nu, .density = 1050.0,
+                               .thickness = 0.5);
 }
 
 static dem_constants measure(const dem_lattice *lattice)
@@ -155,10 +152,8 @@ TEST(right_angled_triangles_are_anisotropic)
  * E is too high by (boundary length) a/(area) times a number; nu of the inside, 1/3. */
 TEST(equal_springs_are_too_stiff_by_the_order_of_spacing_over_width)
 {
-    const dem_material raw = {.struct_size = sizeof(dem_material),
-                              .bond_stiffness = sqrt(3.0) / 2.0 * E * 0.5,
-                              .density = 1050.0,
-                              .thickness = 0.5};
+    const dem_material raw =
+        SIZED(dem_material, .bond_stiffness = sqrt(3.0) / 2.0 * E * 0.5, .density = 1050.0, .thickness = 0.5);
     double excess[2];
     for (int k = 0; k < 2; k++) {
         const double width = k == 0 ? 16.0 : 32.0;

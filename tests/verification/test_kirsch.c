@@ -226,11 +226,8 @@ static double *pull(dem_lattice *l, double spacing)
     return stress;
 }
 
-static const dem_material sheet = {.struct_size = sizeof(dem_material),
-                                   .youngs_modulus = modulus,
-                                   .poissons_ratio = 1.0 / 3.0,
-                                   .density = 1000.0,
-                                   .thickness = 1.0};
+static const dem_material sheet =
+    SIZED(dem_material, .youngs_modulus = modulus, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0);
 
 TEST(without_a_hole_the_tension_is_uniform)
 {

@@ -32,11 +32,8 @@ static dem_model *make_block(layers *l)
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     const double row = (l->squares ? 1.0 : 0.5 * sqrt(3.0)) * spacing;
     for (int k = 0; k < 2; k++)
-        solids[k] = (dem_material){.struct_size = sizeof(dem_material),
-                                   .youngs_modulus = l->E[k],
-                                   .poissons_ratio = l->nu[k],
-                                   .density = 1050.0 * (k + 1),
-                                   .thickness = thickness};
+        solids[k] = (dem_material)SIZED(dem_material, .youngs_modulus = l->E[k], .poissons_ratio = l->nu[k],
+                                        .density = 1050.0 * (k + 1), .thickness = thickness);
     assert_ok(l->squares ? dem_lattice_squares(&lattice, columns * spacing, rows * row, spacing)
                          : dem_lattice_rectangle(&lattice, columns * spacing, rows * row, spacing));
     l->interface = n_below * row;

@@ -36,11 +36,8 @@ TEST(a_mass_follows_a_driven_one)
     static const dem_index node[] = {0};
     const double v = 0.01, w = sqrt(stiffness / (length * mass));
     const double start[] = {v, 0.0, 0.0, 0.0};
-    const dem_boundary drive = {.struct_size = sizeof(dem_boundary),
-                                .components = DEM_COMPONENT_X | DEM_COMPONENT_Y,
-                                .n_nodes = 1,
-                                .nodes = node,
-                                .value = {v, 0.0}};
+    const dem_boundary drive = SIZED(dem_boundary, .components = DEM_COMPONENT_X | DEM_COMPONENT_Y, .n_nodes = 1,
+                                     .nodes = node, .value = {v, 0.0});
     CLEANUP(support_close) support_run run;
     open_pair(&run, &drive, NULL);
     const double initial = ask_energy(run.simulation).ledger;
@@ -63,13 +60,8 @@ TEST(a_ramp_is_followed)
 {
     static const dem_index node[] = {0};
     const double way = 0.02, ramp = 1.5;
-    const dem_boundary drive = {.struct_size = sizeof(dem_boundary),
-                                .kind = DEM_BOUNDARY_DISPLACEMENT,
-                                .components = DEM_COMPONENT_X,
-                                .n_nodes = 1,
-                                .nodes = node,
-                                .value = {way, 0.0},
-                                .ramp = ramp};
+    const dem_boundary drive = SIZED(dem_boundary, .kind = DEM_BOUNDARY_DISPLACEMENT, .components = DEM_COMPONENT_X,
+                                     .n_nodes = 1, .nodes = node, .value = {way, 0.0}, .ramp = ramp);
     CLEANUP(support_close) support_run run;
     open_pair(&run, &drive, NULL);
     const double initial = ask_energy(run.simulation).ledger;
@@ -86,15 +78,9 @@ TEST(a_sudden_force_swings_to_twice_the_static_way)
 {
     static const dem_index held[] = {0}, pulled[] = {1};
     const double force = 0.05, k = stiffness / length, w = sqrt(k / mass);
-    const dem_boundary both[] = {{.struct_size = sizeof(dem_boundary),
-                                  .components = DEM_COMPONENT_X | DEM_COMPONENT_Y,
-                                  .n_nodes = 1,
-                                  .nodes = held},
-                                 {.struct_size = sizeof(dem_boundary),
-                                  .kind = DEM_BOUNDARY_FORCE,
-                                  .n_nodes = 1,
-                                  .nodes = pulled,
-                                  .value = {force, 0.0}}};
+    const dem_boundary both[] = {
+        SIZED(dem_boundary, .components = DEM_COMPONENT_X | DEM_COMPONENT_Y, .n_nodes = 1, .nodes = held),
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = pulled, .value = {force, 0.0})};
     const double x[] = {0.0, 0.0, 0.5, 0.0}, masses[] = {3.0, mass};
     const dem_index ends[] = {0, 1};
     dem_options options = support_options();
@@ -123,12 +109,8 @@ TEST(friction_holds_until_the_force_exceeds_it)
     static const dem_index node[] = {0};
     const double x[] = {0.0, 0.0}, one[] = {mass}, floor[] = {-10.0, 0.0, 100.0, 0.0};
     const double mu = 0.4, g = 10.0, force = 20.0, ramp = 1.0;
-    const dem_boundary push = {.struct_size = sizeof(dem_boundary),
-                               .kind = DEM_BOUNDARY_FORCE,
-                               .n_nodes = 1,
-                               .nodes = node,
-                               .value = {force, -5.0},
-                               .ramp = ramp};
+    const dem_boundary push = SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node,
+                                    .value = {force, -5.0}, .ramp = ramp);
     const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor, .friction = mu};
     dem_options options = support_options();
     CLEANUP(support_close) support_run run;
@@ -166,11 +148,8 @@ TEST(friction_holds_until_the_force_exceeds_it)
  * The strain of 1e-7 is the error of small strains; rounding of the coordinates is 1e-9 of it. */
 TEST(a_pulled_block_comes_to_rest_with_its_modulus)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1000.0,
-                                 .thickness = 0.5};
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 0.5);
     const double a = 0.01, width = 0.08, traction = 1.0; /* Pa: a strain of 1e-7 */
     dem_index foot[32], head[32], corner[1] = {0}, n_foot = 0, n_head = 0;
     double share[32], top = 0.0;
@@ -184,12 +163,8 @@ TEST(a_pulled_block_comes_to_rest_with_its_modulus)
     const dem_boundary list[] = {
         {.struct_size = sizeof(dem_boundary), .components = DEM_COMPONENT_Y, .n_nodes = n_foot, .nodes = foot},
         {.struct_size = sizeof(dem_boundary), .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = corner},
-        {.struct_size = sizeof(dem_boundary),
-         .kind = DEM_BOUNDARY_FORCE,
-         .n_nodes = n_head,
-         .nodes = head,
-         .share = share,
-         .value = {0.0, traction}}};
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = n_head, .nodes = head, .share = share,
+              .value = {0.0, traction})};
     dem_options options = support_options();
     options.gravity[1] = 0.0;
     options.v_scale = 1e-5; /* of the wave that the sudden traction sends, traction/(rho c) */

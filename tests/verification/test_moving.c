@@ -38,12 +38,8 @@ TEST(a_wall_at_speed_throws_a_node_at_rest_by_one_plus_eta)
     const double speed = 3.0;
     for (int k = 0; k < 3; k++) {
         CLEANUP(support_close) support_run run;
-        const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                       .n_points = 2,
-                                       .points = upright,
-                                       .restitution = eta[k],
-                                       .friction = 0.5,
-                                       .velocity = {speed, 0.7}};
+        const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = upright, .restitution = eta[k],
+                                            .friction = 0.5, .velocity = {speed, 0.7});
         open_node(&run, x, &obstacle, 1, 0.0);
         const double start = ask_energy(run.simulation).ledger;
         const motion s = support_at(&run, 1.0);
@@ -72,11 +68,8 @@ TEST(a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost)
     const double mu = 0.4, speed = 1.5, t = speed / (mu * g);
     for (int side = -1; side <= 1; side += 2) {
         CLEANUP(support_close) support_run run;
-        const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                       .n_points = 2,
-                                       .points = belt,
-                                       .friction = mu,
-                                       .velocity = {side * speed, 0.0}};
+        const dem_obstacle obstacle =
+            SIZED(dem_obstacle, .n_points = 2, .points = belt, .friction = mu, .velocity = {side * speed, 0.0});
         open_node(&run, x, &obstacle, 1, g);
         motion s = support_at(&run, 0.5 * t);
         assert_int_equal(s.n_contacts, 1);
@@ -98,8 +91,7 @@ TEST(a_node_on_a_belt_reaches_its_speed_and_half_of_the_work_is_lost)
 TEST(a_floor_that_rises_carries_a_node_and_does_the_work_of_its_weight)
 {
     static const double level[4] = {-9.0, 0.0, 9.0, 0.0}, x[2] = {0.0, 0.0};
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = level, .velocity = {0.0, 2.0}};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = level, .velocity = {0.0, 2.0});
     CLEANUP(support_close) support_run run;
     open_node(&run, x, &obstacle, 1, g);
     const motion s = support_at(&run, 3.0);
@@ -119,11 +111,7 @@ TEST(a_node_between_a_wall_and_one_that_comes_gains_twice_its_speed_each_time)
     static const double right[4] = {1.0, -9.0, 1.0, 9.0}, left[4] = {0.0, 9.0, 0.0, -9.0}, x[2] = {0.5, 0.0};
     const dem_obstacle list[2] = {
         {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = left, .restitution = 1.0},
-        {.struct_size = sizeof(dem_obstacle),
-         .n_points = 2,
-         .points = right,
-         .restitution = 1.0,
-         .velocity = {-0.1, 0.0}}};
+        SIZED(dem_obstacle, .n_points = 2, .points = right, .restitution = 1.0, .velocity = {-0.1, 0.0})};
     CLEANUP(support_close) support_run run;
     double at = 0.5, t = 0.0, v = 0.0;
     open_node(&run, x, list, 2, 0.0);
@@ -180,11 +168,8 @@ static const double flat[4] = {-0.3, 0.0, 0.3, 0.0}, teeth[14] = {-0.3,  -0.01, 
 /* A rubber block of 20 x 25 mm, 5 mm apart, turned by the tilt. */
 static void make_body(dem_lattice *out, const view *v, const double frame[2])
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0};
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
     assert_ok(dem_lattice_rectangle(out, 0.02, 0.025, 5e-3));
     for (dem_index i = 0; i < out->n_nodes; i++) {
         const double x = out->x[2 * i], y = out->x[2 * i + 1];
@@ -325,8 +310,7 @@ TEST(a_record_of_another_velocity_is_refused)
 
 TEST(a_velocity_that_is_not_finite_is_refused)
 {
-    const dem_obstacle nan = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat, .velocity = {0.0, NAN}};
+    const dem_obstacle nan = SIZED(dem_obstacle, .n_points = 2, .points = flat, .velocity = {0.0, NAN});
     dem_index segments[2];
     assert_int_equal(dem_obstacle_check(&nan, segments), DEM_ERROR_MODEL);
     assert_message_parts("obstacle 0: velocity * nan m/s * not finite");

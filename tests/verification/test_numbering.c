@@ -9,12 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                    .youngs_modulus = 1e7,
-                                    .poissons_ratio = 0.4,
-                                    .density = 1050.0,
-                                    .thickness = 1.0,
-                                    .guard = 0.02};
+static const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.4, .density = 1050.0,
+                                         .thickness = 1.0, .guard = 0.02);
 
 static dem_lattice make_block(double width, double height, double spacing)
 {
@@ -102,8 +98,8 @@ TEST(a_free_body_moves_alike)
 TEST(a_body_that_hits_the_ground_moves_alike)
 {
     const double points[4] = {-1.0, -0.004, 1.0, -0.004};
-    const dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.0, .friction = 0.3};
+    const dem_obstacle ground =
+        SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 0.0, .friction = 0.3);
     assert_close(difference(0.1, 0.06, 1e-2, &ground, 2e-3), 0.0, 1e-12);
 }
 

@@ -55,25 +55,16 @@ static void exact_stress(const law *d, const double F[4], double stress[3])
 
 static dem_lattice make_triangular(double nu, dem_plane plane)
 {
-    const dem_material material = {.struct_size = sizeof(dem_material),
-                                   .youngs_modulus = modulus,
-                                   .poissons_ratio = nu,
-                                   .plane = plane,
-                                   .density = 1000.0,
-                                   .thickness = thickness,
-                                   .guard = 0.02};
+    const dem_material material = SIZED(dem_material, .youngs_modulus = modulus, .poissons_ratio = nu, .plane = plane,
+                                        .density = 1000.0, .thickness = thickness, .guard = 0.02);
     dem_lattice lattice = support_rectangle(8 * spacing, 6 * spacing, spacing, &material);
     return lattice;
 }
 
 static dem_lattice make_square(double nu, double r)
 {
-    const dem_material material = {.struct_size = sizeof(dem_material),
-                                   .youngs_modulus = modulus,
-                                   .poissons_ratio = nu,
-                                   .density = 1000.0,
-                                   .thickness = thickness,
-                                   .guard = 0.02};
+    const dem_material material = SIZED(dem_material, .youngs_modulus = modulus, .poissons_ratio = nu,
+                                        .density = 1000.0, .thickness = thickness, .guard = 0.02);
     dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_squares(&lattice, 6 * spacing, 5 * spacing, spacing));
     assert_ok(dem_lattice_assemble_squares(&lattice, &material, r));

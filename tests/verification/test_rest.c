@@ -49,12 +49,9 @@ static double pace(const scene *s)
 /* From an unstrained start, or from positions. */
 static void open_block(block *b, const scene *s, const double *position, bool damped)
 {
-    const dem_material material = {.struct_size = sizeof(dem_material),
-                                   .youngs_modulus = 4.9e6 * pace(s) * pace(s),
-                                   .poissons_ratio = 1.0 / 3.0,
-                                   .density = 1000.0,
-                                   .thickness = 0.1,
-                                   .damping_time = damped ? s->damping_time / pace(s) : 0.0};
+    const dem_material material =
+        SIZED(dem_material, .youngs_modulus = 4.9e6 * pace(s) * pace(s), .poissons_ratio = 1.0 / 3.0, .density = 1000.0,
+              .thickness = 0.1, .damping_time = damped ? s->damping_time / pace(s) : 0.0);
     const double offset[2] = {s->offset, 0.0}, start[2] = {0.0, s->height};
     dem_options options = support_options();
     options.rtol = 1e-10;

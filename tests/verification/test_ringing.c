@@ -20,11 +20,8 @@ static const double width = 0.1;                      /* standard deviation of t
 /* Six spacings by five rows: no two of the ten frequencies are nearer than seven widths of a peak. */
 static void make_rectangle(dem_lattice *l, bool squares)
 {
-    const dem_material solid = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1e7,
-                                .poissons_ratio = 0.2,
-                                .density = 1050.0,
-                                .thickness = 1.0};
+    const dem_material solid =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.2, .density = 1050.0, .thickness = 1.0);
     if (squares) {
         assert_ok(dem_lattice_squares(l, 6.0 * spacing, 5.0 * spacing, spacing));
         assert_ok(dem_lattice_assemble_squares(l, &solid, 0.5));

@@ -8,13 +8,8 @@ static const double spacing = 5e-3;
 
 static dem_model *make_model(dem_lattice *lattice, double nu, dem_plane plane)
 {
-    const dem_material solid = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1e7,
-                                .poissons_ratio = nu,
-                                .plane = plane,
-                                .density = 1050.0,
-                                .thickness = 1.0,
-                                .guard = 0.02};
+    const dem_material solid = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = nu, .plane = plane,
+                                     .density = 1050.0, .thickness = 1.0, .guard = 0.02);
     assert_ok(dem_lattice_assemble(lattice, &solid));
     dem_model *model = support_model(lattice, NULL, 0);
     dem_lattice_free(lattice);
@@ -91,11 +86,8 @@ TEST(a_square_cell_warps_with_the_frequency_of_its_sides_and_areas)
     for (size_t j = 0; j < sizeof table / sizeof table[0]; j++) {
         const double nu = table[j][0], r = table[j][1], k = 1e7 / (1.0 + nu);
         const double kappa = 1e7 * ((1.0 + r) * nu - r) / (1.0 - nu * nu), m = 1050.0 * spacing * spacing;
-        const dem_material solid = {.struct_size = sizeof(dem_material),
-                                    .youngs_modulus = 1e7,
-                                    .poissons_ratio = nu,
-                                    .density = 1050.0,
-                                    .thickness = 1.0};
+        const dem_material solid =
+            SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = nu, .density = 1050.0, .thickness = 1.0);
         CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         assert_ok(dem_lattice_squares(&lattice, spacing, spacing, spacing));
         assert_ok(dem_lattice_assemble_squares(&lattice, &solid, r));

@@ -105,12 +105,8 @@ static dem_status weigh(void *context, const dem_simulation *simulation, const d
 /* The block starts a little above the highest point below it, or within the groove. */
 static void make_block(dem_lattice *l, const ground *g)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.02);
     double lift = 0.0;
     assert_ok(dem_lattice_rectangle(l, 0.04, 0.04, spacing));
     assert_ok(dem_lattice_assemble(l, &rubber));
@@ -140,21 +136,14 @@ static void run_case(int restitution, int friction, int kind, double rtol, outco
     dem_options options = support_options();
     make_ground(&g, kind);
     make_block(&block, &g);
-    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                   .n_points = g.n,
-                                   .points = g.points,
-                                   .restitution = restitutions[restitution],
-                                   .friction = frictions[friction].friction,
-                                   .friction_law = frictions[friction].law};
+    const dem_obstacle obstacle =
+        SIZED(dem_obstacle, .n_points = g.n, .points = g.points, .restitution = restitutions[restitution],
+              .friction = frictions[friction].friction, .friction_law = frictions[friction].law);
     options.rtol = rtol;
     options.window = window;
     *out = (outcome){.tally = {.ground = &g}};
-    const dem_observer observer = {.struct_size = sizeof(dem_observer),
-                                   .interval = 2e-6,
-                                   .frame = NULL,
-                                   .step = look,
-                                   .event = weigh,
-                                   .context = &out->tally};
+    const dem_observer observer =
+        SIZED(dem_observer, .interval = 2e-6, .frame = NULL, .step = look, .event = weigh, .context = &out->tally);
     support_open(&run, &block, &obstacle, 1, &options);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     out->tally.start = ask_energy(run.simulation).ledger;

@@ -56,14 +56,10 @@ TEST(the_error_of_a_free_block_falls_with_the_tolerance)
 TEST(the_error_of_a_block_dropped_with_friction_falls_too)
 {
     static const double angles[2] = {0.0, 0.3}, velocity[2] = {2.0, -5.0}, points[4] = {-1.0, 0.0, 1.0, 0.0};
-    const dem_obstacle floor = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.0, .friction = 0.3};
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.0};
+    const dem_obstacle floor =
+        SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 0.0, .friction = 0.3);
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.0);
     for (int k = 0; k < 2; k++) {
         const double none[2] = {0.0, 0.0};
         double lowest = 1.0;

@@ -65,12 +65,8 @@ static outcome run_fall(const fall *f)
     double x[6], v[6];
     const double mass[3] = {mass_a, mass_b, 1e-3};
     const dem_index ends[6] = {0, 1, 0, 2, 1, 2}, corners[3] = {0, 1, 2};
-    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                   .n_points = 3,
-                                   .points = apex,
-                                   .restitution = f->restitution,
-                                   .friction = f->friction,
-                                   .friction_law = f->law};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 3, .points = apex, .restitution = f->restitution,
+                                        .friction = f->friction, .friction_law = f->law);
     dem_options options = support_options();
     outcome o = {0};
     const dem_observer observer = {.struct_size = sizeof(dem_observer), .event = first_impact, .context = &o};
@@ -236,12 +232,8 @@ static const double frame_interval = 2e-6, block_height = 0.03, start_gap = 1e-6
 
 static void make_block(const wedge *c, dem_lattice *lattice)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.02);
     const double up[2] = {0.0, start_gap}, down[2] = {0.0, -speed};
     assert_ok(dem_lattice_rectangle(lattice, c->cells * spacing, block_height, spacing));
     assert_ok(dem_lattice_assemble(lattice, &rubber));
@@ -271,12 +263,8 @@ static verdict run_wedge(const wedge *c, double t_end)
 {
     const double tall = tan(c->flank * M_PI / 180.0);
     const double points[6] = {c->at - 0.2, -0.2 * tall, c->at, 0.0, c->at + 0.2, -0.2 * tall};
-    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                   .n_points = 3,
-                                   .points = points,
-                                   .restitution = c->restitution,
-                                   .friction = c->friction,
-                                   .friction_law = DEM_FRICTION_COULOMB};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 3, .points = points, .restitution = c->restitution,
+                                        .friction = c->friction, .friction_law = DEM_FRICTION_COULOMB);
     dem_options options = support_options();
     dem_lattice lattice = dem_lattice_empty();
     support_run run;
@@ -286,12 +274,8 @@ static verdict run_wedge(const wedge *c, double t_end)
     support_open(&run, &lattice, &obstacle, 1, &options);
     watch w = {.body = outline_create(&lattice), .slope = tall, .at = c->at};
     dem_lattice_free(&lattice);
-    const dem_observer observer = {.struct_size = sizeof(dem_observer),
-                                   .interval = frame_interval,
-                                   .frame = look,
-                                   .step = look_and_weigh,
-                                   .event = add_event,
-                                   .context = &w};
+    const dem_observer observer = SIZED(dem_observer, .interval = frame_interval, .frame = look, .step = look_and_weigh,
+                                        .event = add_event, .context = &w);
     const dem_body_motion start = ask_body(run.simulation, 0);
     for (int d = 0; d < 2; d++) w.start[d] = start.mass * start.velocity[d];
     assert_ok(dem_simulation_observe(run.simulation, &observer));

@@ -179,12 +179,8 @@ static const double tip[6] = {-2.0, -8.0, 0.0, 0.0, 2.0, -8.0};
 static void open_triangle(support_run *run, const triangle *q, const double *y, double rtol)
 {
     const dem_index ends[6] = {A, B, B, C, C, A}, corners[3] = {A, B, C};
-    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                   .n_points = 3,
-                                   .points = tip,
-                                   .restitution = 0.0,
-                                   .friction = q->mu,
-                                   .friction_law = DEM_FRICTION_COULOMB};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 3, .points = tip, .restitution = 0.0,
+                                        .friction = q->mu, .friction_law = DEM_FRICTION_COULOMB);
     dem_options options = support_options();
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(3, y, q->mass, 3, ends, 1.0, 1.0, NULL);
     memcpy(lattice.rest_length, q->rest, sizeof q->rest);

@@ -12,12 +12,8 @@ static const double g = 9.81, spacing = 5e-3;
 
 static void make_block(dem_lattice *lattice, int cells, double youngs_modulus, double damping_time)
 {
-    const dem_material soft = {.struct_size = sizeof(dem_material),
-                               .youngs_modulus = youngs_modulus,
-                               .poissons_ratio = 1.0 / 3.0,
-                               .density = 1050.0,
-                               .thickness = 1.0,
-                               .damping_time = damping_time};
+    const dem_material soft = SIZED(dem_material, .youngs_modulus = youngs_modulus, .poissons_ratio = 1.0 / 3.0,
+                                    .density = 1050.0, .thickness = 1.0, .damping_time = damping_time);
     assert_ok(dem_lattice_rectangle(lattice, cells * spacing, 0.02, spacing));
     assert_ok(dem_lattice_assemble(lattice, &soft));
 }
@@ -48,12 +44,8 @@ static void lay(const rack *r, dem_lattice *lattice)
 
 static void open_block(support_run *run, const dem_lattice *lattice, const rack *r, double damping)
 {
-    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                   .n_points = 5,
-                                   .points = r->points,
-                                   .restitution = 0.0,
-                                   .friction = r->friction,
-                                   .friction_law = DEM_FRICTION_COULOMB};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 5, .points = r->points, .restitution = 0.0,
+                                        .friction = r->friction, .friction_law = DEM_FRICTION_COULOMB);
     dem_options options = support_options();
     options.penetration_tolerance = 1e-12;
     options.rtol = 1e-9;
@@ -252,8 +244,7 @@ static void open_slide(support_run *run, slide *w, double friction, double speed
     open_block(run, &lattice, &r, 0.0);
     *w = (slide){
         .momentum = dem_model_mass(run->model) * speed, .mu = friction, .ledger = ask_energy(run->simulation).ledger};
-    const dem_observer observer = {
-        .struct_size = sizeof(dem_observer), .step = watch_slide, .event = follow_passages, .context = w};
+    const dem_observer observer = SIZED(dem_observer, .step = watch_slide, .event = follow_passages, .context = w);
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
 
@@ -317,12 +308,8 @@ static void open_drop(support_run *run, drop *w, double slope, double friction, 
 {
     const double points[6] = {-0.1, -0.1 * steep, 0.0, 0.0, 0.5, -0.5 * slope}, v[2] = {speed, 0.0};
     const double offset[2] = {0.5 * 8 * spacing - 0.004, 0.0};
-    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                   .n_points = 3,
-                                   .points = points,
-                                   .restitution = 0.0,
-                                   .friction = friction,
-                                   .friction_law = DEM_FRICTION_COULOMB};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 3, .points = points, .restitution = 0.0,
+                                        .friction = friction, .friction_law = DEM_FRICTION_COULOMB);
     dem_options options = support_options();
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     options.rtol = 1e-9;
@@ -334,12 +321,8 @@ static void open_drop(support_run *run, drop *w, double slope, double friction, 
     for (dem_index i = 0; i < lattice.n_nodes; i++)
         if (lattice.x[2 * i] + lattice.x[2 * i + 1] < lattice.x[2 * w->corner] + lattice.x[2 * w->corner + 1])
             w->corner = i;
-    const dem_observer observer = {.struct_size = sizeof(dem_observer),
-                                   .interval = 1e-6,
-                                   .frame = look_at_drop,
-                                   .step = look_at_drop,
-                                   .event = note_drop,
-                                   .context = w};
+    const dem_observer observer = SIZED(dem_observer, .interval = 1e-6, .frame = look_at_drop, .step = look_at_drop,
+                                        .event = note_drop, .context = w);
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
 

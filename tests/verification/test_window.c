@@ -13,8 +13,7 @@ static const double g = 9.81, floor_points[4] = {-4.0, 0.0, 4.0, 0.0};
 static void open_masses(support_run *run, dem_index n, const double *height, double eta, double window)
 {
     double x[8], mass[4];
-    const dem_obstacle level = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = eta};
+    const dem_obstacle level = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = eta);
     dem_options options = support_options();
     for (dem_index i = 0; i < n; i++) {
         x[2 * i] = 0.5 * (double)i;
@@ -136,24 +135,16 @@ static dem_status note(void *context, const dem_simulation *simulation, const de
 static double drop_block(double eta, double friction, double kappa, dem_counts *counts)
 {
     static const double ground[10] = {-0.2, -0.012, -0.021, 0.0, 0.013, -0.008, 0.04, 0.001, 0.2, -0.01};
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02};
-    const dem_obstacle rough = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 5, .points = ground, .restitution = eta, .friction = friction};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.02);
+    const dem_obstacle rough =
+        SIZED(dem_obstacle, .n_points = 5, .points = ground, .restitution = eta, .friction = friction);
     const double lift[2] = {0.0, 0.0015}, speed[2] = {1.0, -5.0};
     dem_options options = support_options();
     support_run run;
     audit a = {.ground = ground, .v0 = {speed[0], speed[1]}};
-    const dem_observer observer = {.struct_size = sizeof(dem_observer),
-                                   .interval = 1e-6,
-                                   .frame = follow,
-                                   .step = follow,
-                                   .event = note,
-                                   .context = &a};
+    const dem_observer observer =
+        SIZED(dem_observer, .interval = 1e-6, .frame = follow, .step = follow, .event = note, .context = &a);
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.08, 0.06, 0.01, &rubber);
     dem_lattice_move(&lattice, 0.0, lift);
     assert_ok(dem_lattice_launch(&lattice, speed));

@@ -113,8 +113,7 @@ TEST(a_node_not_yet_as_deep_as_the_penetration_tolerance_is_left_alone)
 
 static void land(double eta, double speed, double rest_speed, int closed)
 {
-    const dem_obstacle plane = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = eta};
+    const dem_obstacle plane = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = eta);
     CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &plane, 1);
     s.c.set.scene.rule.rest_speed = rest_speed;
@@ -224,8 +223,7 @@ TEST(a_contact_that_would_have_to_pull_lets_go_and_changes_no_velocity)
 TEST(closed_contacts_hold_the_acceleration_along_their_normals)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0}; /* a groove of 90 degrees */
-    const dem_obstacle groove = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.0};
+    const dem_obstacle groove = SIZED(dem_obstacle, .n_points = 3, .points = slope_points, .restitution = 0.0);
     CLEANUP(scene_close) scene s;
     open_scene(&s, 3, &groove, 1);
     scene_put(&s, 0, 0.5, 3.0, 0.0, 0.0);
@@ -243,8 +241,7 @@ TEST(closed_contacts_hold_the_acceleration_along_their_normals)
 TEST(contacts_are_listed_in_the_order_of_nodes)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
-    const dem_obstacle groove = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.0};
+    const dem_obstacle groove = SIZED(dem_obstacle, .n_points = 3, .points = slope_points, .restitution = 0.0);
     dem_index n;
     CLEANUP(scene_close) scene s;
     open_scene(&s, 3, &groove, 1);
@@ -267,8 +264,7 @@ TEST(contacts_are_listed_in_the_order_of_nodes)
 TEST(a_held_node_lets_go_of_the_wall_that_would_pull)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
-    const dem_obstacle groove = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.0};
+    const dem_obstacle groove = SIZED(dem_obstacle, .n_points = 3, .points = slope_points, .restitution = 0.0);
     CLEANUP(scene_close) scene s;
     open_scene(&s, 1, &groove, 1);
     scene_put(&s, 0, 0.0, 0.0, 0.0, 0.0);
@@ -294,8 +290,7 @@ TEST(a_corner_holds_only_what_is_at_rest_in_it)
 {
     const double slope_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0}, root = sqrt(0.5);
     const double limit = sqrt(2.0 * g * root * 1e-9), speed[2] = {0.99 * limit, 1.01 * limit};
-    const dem_obstacle groove = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = slope_points, .restitution = 0.0};
+    const dem_obstacle groove = SIZED(dem_obstacle, .n_points = 3, .points = slope_points, .restitution = 0.0);
     for (int k = 0; k < 2; k++) {
         CLEANUP(scene_close) scene s;
         const double u = k == 0 ? 0.0 : root * speed[k];
@@ -427,10 +422,7 @@ TEST(an_edge_is_reflected_early_too)
 {
     const dem_obstacle two[2] = {
         {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.5},
-        {.struct_size = sizeof(dem_obstacle),
-         .n_points = 2,
-         .points = (double[]){-8.0, -4.0, -4.0, -4.0},
-         .restitution = 0.5}};
+        SIZED(dem_obstacle, .n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5)};
     const double x[8] = {-0.75, 0.099, 1.25, 0.099, 0.25, 1.0, -6.0, -4.0 - penetration_tolerance},
                  mass[4] = {2.0, 2.0, 2.0, 2.0};
     CLEANUP(scene_close) scene s;
@@ -452,10 +444,7 @@ TEST(what_passes_a_vertex_within_the_window_is_not_reflected)
 {
     const dem_obstacle two[2] = {
         {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.5},
-        {.struct_size = sizeof(dem_obstacle),
-         .n_points = 2,
-         .points = (double[]){-8.0, -4.0, -4.0, -4.0},
-         .restitution = 0.5}};
+        SIZED(dem_obstacle, .n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5)};
     for (int k = 0; k < 2; k++) {
         const double along = k == 0 ? 8.0 : 0.0;
         CLEANUP(scene_close) scene s;
@@ -476,12 +465,9 @@ TEST(an_early_reflection_takes_what_an_impact_takes_in_any_order)
     static const double height[3] = {-1e-6, 0.3, 0.35};
     for (int k = 0; k < 6; k++) {
         const bool paper = k >= 3;
-        const dem_obstacle gritty = {.struct_size = sizeof(dem_obstacle),
-                                     .n_points = 2,
-                                     .points = floor_points,
-                                     .restitution = 0.5,
-                                     .friction = 0.25,
-                                     .friction_law = paper ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
+        const dem_obstacle gritty =
+            SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5, .friction = 0.25,
+                  .friction_law = paper ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB);
         CLEANUP(scene_close) scene s;
         open_scene(&s, 3, &gritty, 1);
         s.c.set.scene.rule.window = 0.1;
@@ -507,10 +493,7 @@ TEST(what_shares_a_node_with_a_lasting_contact_is_not_reflected_early)
     const double low_points[4] = {-3.0, -0.05, -0.5, -0.05};
     const dem_obstacle two[3] = {
         {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.0},
-        {.struct_size = sizeof(dem_obstacle),
-         .n_points = 2,
-         .points = (double[]){-8.0, -4.0, -4.0, -4.0},
-         .restitution = 0.5},
+        SIZED(dem_obstacle, .n_points = 2, .points = (double[]){-8.0, -4.0, -4.0, -4.0}, .restitution = 0.5),
         {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low_points, .restitution = 0.5}};
     const double x[8] = {-1.0, 0.0, 1.0, 0.0, 0.0, 1.0, -6.0, 0.0}, mass[4] = {2.0, 2.0, 2.0, 2.0};
     for (int k = 0; k < 2; k++) {

@@ -215,8 +215,7 @@ TEST(the_check_goes_by_the_root_functions_at_the_end_of_the_step)
 TEST(what_goes_round_a_free_end_at_a_distance_is_behind_it)
 {
     const double points[4] = {0.0, -1.0, 0.0, 0.0}, x[2] = {2e-3, 5e-4}, m = 1.0;
-    const dem_obstacle wall = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.5};
+    const dem_obstacle wall = SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 0.5);
     CLEANUP(scene_close) scene s;
     scene_flight f;
     scene_open(&s, 1, x, &m, 0, NULL, &wall, 1);

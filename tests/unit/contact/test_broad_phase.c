@@ -8,12 +8,10 @@ static const double penetration_tolerance = scene_penetration_tolerance, masses[
                     max_step = 0.01; /* as in scene.h */
 
 static const double floor_points[4] = {-4.0, 0.0, 4.0, 0.0};
-static const dem_obstacle plane = {
-    .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5};
+static const dem_obstacle plane = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5);
 
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0};
-static const dem_obstacle roof = {
-    .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.5};
+static const dem_obstacle roof = SIZED(dem_obstacle, .n_points = 3, .points = roof_points, .restitution = 0.5);
 
 static void open_nodes(scene *s, dem_index n, const double *x)
 {

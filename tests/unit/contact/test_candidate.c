@@ -11,16 +11,12 @@ static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0}, ceiling_points[4] = 
 static const dem_obstacle room[2] = {
     {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5},
     {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = ceiling_points, .restitution = 0.5}};
-static const dem_obstacle rough = {.struct_size = sizeof(dem_obstacle),
-                                   .n_points = 2,
-                                   .points = floor_points,
-                                   .friction = 0.5,
-                                   .friction_law = DEM_FRICTION_COULOMB};
+static const dem_obstacle rough =
+    SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB);
 
 /* A groove of 90 degrees with its bottom in the origin. */
 static const double groove_points[6] = {-2.0, 2.0, 0.0, 0.0, 2.0, 2.0};
-static const dem_obstacle groove = {
-    .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = groove_points, .restitution = 0.0};
+static const dem_obstacle groove = SIZED(dem_obstacle, .n_points = 3, .points = groove_points, .restitution = 0.0);
 
 static void set_rule(scene *s)
 {
@@ -330,11 +326,8 @@ TEST(a_held_candidate_is_due_when_either_normal_force_ceases)
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5},
                     beside_points[6] = {0.5, -0.5, 0.75, -0.25, 4.0, -3.5};
 static const dem_obstacle roof = {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points},
-                          rough_roof = {.struct_size = sizeof(dem_obstacle),
-                                        .n_points = 3,
-                                        .points = roof_points,
-                                        .friction = 0.5,
-                                        .friction_law = DEM_FRICTION_COULOMB};
+                          rough_roof = SIZED(dem_obstacle, .n_points = 3, .points = roof_points, .friction = 0.5,
+                                             .friction_law = DEM_FRICTION_COULOMB);
 static const dem_obstacle roofs[2] = {{.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points},
                                       {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = beside_points}};
 

@@ -9,8 +9,7 @@
 
 /* Level, then straight on, then down by 45 degrees at x = 2. */
 static const double terrace_points[8] = {-4.0, 0.0, 0.0, 0.0, 2.0, 0.0, 4.0, -2.0};
-static const dem_obstacle terrace = {
-    .struct_size = sizeof(dem_obstacle), .n_points = 4, .points = terrace_points, .restitution = 0.0};
+static const dem_obstacle terrace = SIZED(dem_obstacle, .n_points = 4, .points = terrace_points, .restitution = 0.0);
 
 TEST(a_sliding_node_glides_on_where_the_line_goes_on)
 {
@@ -48,8 +47,7 @@ TEST(a_sliding_node_flies_off_a_convex_bend_and_off_a_free_end)
 TEST(a_sliding_node_takes_its_impact_at_a_concave_bend)
 {
     const double cosine = sqrt(0.75), ramp_points[6] = {-4.0, 0.0, 0.0, 0.0, 2.0 * cosine, 1.0};
-    const dem_obstacle ramp = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = ramp_points, .restitution = 0.0};
+    const dem_obstacle ramp = SIZED(dem_obstacle, .n_points = 3, .points = ramp_points, .restitution = 0.0);
     CLEANUP(scene_close) scene s;
     slide(&s, &ramp, -1.0, 2.0);
     scene_put(&s, 0, 1.01 * penetration_tolerance, 0.0, 2.0, 0.0);
@@ -308,8 +306,7 @@ TEST(a_vertex_let_go_by_one_side_of_a_notch_sticks_to_the_other_where_it_is)
 /* The node hits first, but it is the side that has come down on the ridge. */
 TEST(a_flat_side_comes_down_on_an_apex_with_its_own_normal)
 {
-    const dem_obstacle springy = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points, .restitution = 0.5};
+    const dem_obstacle springy = SIZED(dem_obstacle, .n_points = 3, .points = roof_points, .restitution = 0.5);
     const double x[3] = {0.0, 0.1 * penetration_tolerance, -0.1 * penetration_tolerance};
     for (int k = 0; k < 3; k++) {
         CLEANUP(scene_close) scene s;

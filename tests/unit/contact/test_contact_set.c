@@ -8,27 +8,20 @@
 static const double g = scene_gravity, masses[6] = {1.0, 3.0, 2.0, 1.0, 3.0, 2.0};
 
 static const double floor_points[4] = {-8.0, 0.0, 8.0, 0.0};
-static const dem_obstacle plane = {
-    .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5};
+static const dem_obstacle plane = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5);
 
 /* A roof with its ridge in the origin, and one with its ridge at (1, 0). */
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 0.5, -0.5},
                     beside_points[6] = {0.5, -0.5, 1.0, 0.0, 4.0, -3.0};
-static const dem_obstacle roofs[2] = {{.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points},
-                                      {.struct_size = sizeof(dem_obstacle),
-                                       .n_points = 3,
-                                       .points = beside_points,
-                                       .friction = 0.5,
-                                       .friction_law = DEM_FRICTION_COULOMB}};
+static const dem_obstacle roofs[2] = {
+    {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = roof_points},
+    SIZED(dem_obstacle, .n_points = 3, .points = beside_points, .friction = 0.5, .friction_law = DEM_FRICTION_COULOMB)};
 
 /* A groove of 90 degrees with its bottom in the origin. */
 static const double groove_points[6] = {-4.0, 4.0, 0.0, 0.0, 4.0, 4.0};
 static const dem_obstacle groove = {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = groove_points},
-                          rough_groove = {.struct_size = sizeof(dem_obstacle),
-                                          .n_points = 3,
-                                          .points = groove_points,
-                                          .friction = 0.5,
-                                          .friction_law = DEM_FRICTION_COULOMB};
+                          rough_groove = SIZED(dem_obstacle, .n_points = 3, .points = groove_points, .friction = 0.5,
+                                               .friction_law = DEM_FRICTION_COULOMB);
 
 /* A square of two triangles: nodes 0 (0, 0), 1 (1, 0), 2 (1, 1), 3 (0, 1). */
 static void open_square(scene *s, const dem_obstacle *obstacles, dem_index n)

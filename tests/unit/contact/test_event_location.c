@@ -14,8 +14,7 @@ static const double penetration_tolerance = 1e-3, g = scene_gravity, masses[3] =
 static const vec2 nothing = {0.0, 0.0};
 
 static const double floor_points[4] = {0.0, 0.0, 4.0, 0.0};
-static const dem_obstacle plane = {
-    .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5};
+static const dem_obstacle plane = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5);
 
 /* A roof with its ridge in the origin; the floor of a ledge that ends left of it. */
 static const double roof_points[6] = {-4.0, -4.0, 0.0, 0.0, 4.0, -4.0}, ledge_points[4] = {-4.0, 0.0, -0.5, 0.0};

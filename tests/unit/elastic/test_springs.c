@@ -366,12 +366,8 @@ static double highest_damping_rate(const springs *s, const dem_lattice *lattice)
 /* About the rest shape C = damping_time K, so that the bound follows that of the frequency: see verify_spectrum. */
 TEST(the_damping_bound_is_above_the_highest_rate_by_less_than_six_tenths)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .damping_time = 1e-5};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .damping_time = 1e-5);
     const double sizes[3][2] = {{0.02, 0.02}, {0.04, 0.06}, {0.08, 0.03}};
     for (int k = 0; k < 3; k++) {
         CLEANUP(springs_free) springs s;

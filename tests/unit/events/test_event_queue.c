@@ -38,11 +38,8 @@ static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0};
 
 static void open_rig(rig *r, const dem_lattice *lattice, double eta, double friction, const double error[2])
 {
-    const dem_obstacle plane = {.struct_size = sizeof(dem_obstacle),
-                                .n_points = 2,
-                                .points = floor_points,
-                                .restitution = eta,
-                                .friction = friction};
+    const dem_obstacle plane =
+        SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = eta, .friction = friction);
     const contact_rule rule = {.penetration_tolerance = penetration_tolerance,
                                .position_error = 1e-12,
                                .max_step = 0.1,

@@ -106,18 +106,12 @@ static void make_model(step *s)
 {
     static const double floor_points[4] = {-1.0, 0.0, 1.0, 0.0};
     static const double ridge_points[10] = {-1.0, -1.0, -0.013, 0.0, 0.003, -0.01, 0.014, 0.0, 1.0, -1.0};
-    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle),
-                                 .n_points = s->kind.ridges ? 5 : 2,
-                                 .points = s->kind.ridges ? ridge_points : floor_points,
-                                 .restitution = 0.5,
-                                 .friction = 0.3};
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = s->kind.nu,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02,
-                                 .damping_time = s->kind.damping_time};
+    const dem_obstacle ground =
+        SIZED(dem_obstacle, .n_points = s->kind.ridges ? 5 : 2, .points = s->kind.ridges ? ridge_points : floor_points,
+              .restitution = 0.5, .friction = 0.3);
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = s->kind.nu, .density = 1050.0, .thickness = 1.0,
+              .guard = 0.02, .damping_time = s->kind.damping_time);
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.15, 0.13, spacing, &rubber);
     assert_ok(dem_model_create(&s->model, &lattice, &ground, 1));
 }
@@ -140,20 +134,10 @@ static dem_index node_near(const step *s, double x, double y)
 static void make_boundaries(step *s)
 {
     const dem_index driven = node_near(s, 0.0, 0.017), pushed = node_near(s, 0.02, 0.01);
-    const dem_boundary list[2] = {{.struct_size = sizeof(dem_boundary),
-                                   .kind = DEM_BOUNDARY_VELOCITY,
-                                   .components = DEM_COMPONENT_Y,
-                                   .n_nodes = 1,
-                                   .nodes = &driven,
-                                   .value = {0.0, 3.0},
-                                   .ramp = 1e-3},
-                                  {.struct_size = sizeof(dem_boundary),
-                                   .kind = DEM_BOUNDARY_FORCE,
-                                   .components = 3,
-                                   .n_nodes = 1,
-                                   .nodes = &pushed,
-                                   .value = {50.0, -20.0},
-                                   .ramp = 1e-3}};
+    const dem_boundary list[2] = {SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_Y,
+                                        .n_nodes = 1, .nodes = &driven, .value = {0.0, 3.0}, .ramp = 1e-3),
+                                  SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .components = 3, .n_nodes = 1,
+                                        .nodes = &pushed, .value = {50.0, -20.0}, .ramp = 1e-3)};
     dem_lattice lattice = s->model->lattice;
     unsigned char *flags = malloc((size_t)s->n);
     assert_non_null(flags);
@@ -624,11 +608,8 @@ TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
 static void errors_of_jump(double h, double *at_end, double *inside)
 {
     const double at = 0.3 * h, at_inside = 0.65 * h;
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0};
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
     const double points[4] = {-1.0, -0.5, 1.0, -0.5};
     const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points};
     contact_rule rule = {.penetration_tolerance = 1e-8, .max_step = h};

@@ -28,12 +28,8 @@ static void open_rig(rig *r, int n_rings)
 {
     static const double points[4] = {-1.0, 0.0, 1.0, 0.0};
     const dem_obstacle floor = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .friction = 0.3};
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.0};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .guard = 0.0);
     CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.05, 5e-3, &rubber);
     *r = (rig){.n = block.n_nodes};
     assert_ok(dem_model_create(&r->model, &block, &floor, 1));

@@ -64,18 +64,10 @@ TEST(forces_add_up_on_a_node_and_follow_their_ramps)
 {
     static const dem_index nodes[] = {0, 2}, one[] = {2};
     static const double share[] = {0.25, 3.0};
-    const dem_boundary list[] = {{.struct_size = sizeof(dem_boundary),
-                                  .kind = DEM_BOUNDARY_FORCE,
-                                  .n_nodes = 2,
-                                  .nodes = nodes,
-                                  .share = share,
-                                  .value = {4.0, 8.0},
-                                  .ramp = 2.0},
-                                 {.struct_size = sizeof(dem_boundary),
-                                  .kind = DEM_BOUNDARY_FORCE,
-                                  .n_nodes = 1,
-                                  .nodes = one,
-                                  .value = {0.0, 1.0}}};
+    const dem_boundary list[] = {
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = nodes, .share = share,
+              .value = {4.0, 8.0}, .ramp = 2.0),
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = one, .value = {0.0, 1.0})};
     CLEANUP(boundary_conditions_free) boundary_conditions b;
     compiled(&b, list, 2);
     assert_close(boundary_conditions_force(&b, 0, 1.0).x, 0.5, 1e-15);
@@ -92,12 +84,8 @@ TEST(forces_add_up_on_a_node_and_follow_their_ramps)
 TEST(a_prescribed_component_leaves_the_other_one_free)
 {
     static const dem_index nodes[] = {1};
-    const dem_boundary list[] = {{.struct_size = sizeof(dem_boundary),
-                                  .kind = DEM_BOUNDARY_VELOCITY,
-                                  .components = DEM_COMPONENT_Y,
-                                  .n_nodes = 1,
-                                  .nodes = nodes,
-                                  .value = {7.0, 5.0}}};
+    const dem_boundary list[] = {SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_Y,
+                                       .n_nodes = 1, .nodes = nodes, .value = {7.0, 5.0})};
     const double mass[n_nodes] = {1.0, 2.0, 1.0, 1.0};
     double v[2 * n_nodes] = {0.0}, f[2 * n_nodes] = {0.0}, a[2 * n_nodes] = {0.0};
     CLEANUP(boundary_conditions_free) boundary_conditions b;
@@ -118,13 +106,8 @@ TEST(a_prescribed_component_leaves_the_other_one_free)
 TEST(the_speed_of_a_displacement_is_that_of_its_middle)
 {
     static const dem_index nodes[] = {1};
-    const dem_boundary list[] = {{.struct_size = sizeof(dem_boundary),
-                                  .kind = DEM_BOUNDARY_DISPLACEMENT,
-                                  .components = DEM_COMPONENT_X,
-                                  .n_nodes = 1,
-                                  .nodes = nodes,
-                                  .value = {-4.0, 0.0},
-                                  .ramp = 2.0}};
+    const dem_boundary list[] = {SIZED(dem_boundary, .kind = DEM_BOUNDARY_DISPLACEMENT, .components = DEM_COMPONENT_X,
+                                       .n_nodes = 1, .nodes = nodes, .value = {-4.0, 0.0}, .ramp = 2.0)};
     CLEANUP(boundary_conditions_free) boundary_conditions b;
     compiled(&b, list, 1);
     assert_close(boundary_conditions_speed(&b), -boundary_condition_velocity(&b.list[0], 1.0).x, 1e-15);
@@ -141,11 +124,8 @@ static void refused(dem_boundary one, dem_status status, const char *message)
 TEST(faults_are_named)
 {
     static const dem_index nodes[] = {1, 2}, twice[] = {2, 2}, beyond[] = {4}, touching[] = {0}, fixed[] = {3};
-    const dem_boundary good = {.struct_size = sizeof(dem_boundary),
-                               .kind = DEM_BOUNDARY_VELOCITY,
-                               .components = DEM_COMPONENT_X,
-                               .n_nodes = 2,
-                               .nodes = nodes};
+    const dem_boundary good =
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 2, .nodes = nodes);
     dem_boundary bad = good;
     bad.kind = (dem_boundary_kind)9;
     refused(bad, DEM_ERROR_ARGUMENT, "boundary 0 * kind 9");
@@ -172,16 +152,10 @@ TEST(faults_are_named)
 TEST(a_component_is_prescribed_once)
 {
     static const dem_index nodes[] = {1, 2};
-    dem_boundary list[] = {{.struct_size = sizeof(dem_boundary),
-                            .kind = DEM_BOUNDARY_VELOCITY,
-                            .components = DEM_COMPONENT_X,
-                            .n_nodes = 2,
-                            .nodes = nodes},
-                           {.struct_size = sizeof(dem_boundary),
-                            .kind = DEM_BOUNDARY_VELOCITY,
-                            .components = DEM_COMPONENT_Y,
-                            .n_nodes = 2,
-                            .nodes = nodes}};
+    dem_boundary list[] = {
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X, .n_nodes = 2, .nodes = nodes),
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_Y, .n_nodes = 2,
+              .nodes = nodes)};
     boundary_conditions b;
     compiled(&b, list, 2);
     boundary_conditions_free(&b);

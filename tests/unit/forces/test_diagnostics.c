@@ -14,18 +14,10 @@ static const double gravity[2] = {0.5, -10.0};
 /* Two rectangles of different density as bodies 0 and 1. */
 static dem_model *make_bodies(void)
 {
-    const dem_material light = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1e7,
-                                .poissons_ratio = 1.0 / 3.0,
-                                .density = 500.0,
-                                .thickness = 1.0,
-                                .guard = 0.02};
-    const dem_material heavy = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1e7,
-                                .poissons_ratio = 1.0 / 3.0,
-                                .density = 2000.0,
-                                .thickness = 1.0,
-                                .guard = 0.02};
+    const dem_material light = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 500.0,
+                                     .thickness = 1.0, .guard = 0.02);
+    const dem_material heavy = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                     .density = 2000.0, .thickness = 1.0, .guard = 0.02);
     const double aside[2] = {3.0, 0.5};
     CLEANUP(dem_lattice_free) dem_lattice first = dem_lattice_empty(), second = dem_lattice_empty();
     assert_ok(dem_lattice_rectangle(&first, 0.4, 0.3, 0.1));
@@ -274,12 +266,8 @@ static double pseudo(dem_index k)
 /* A damped block with its lowest row fixed, strained by some 10 % and moving at about 1 m/s. */
 static moving make_damped(double damping_time)
 {
-    const dem_material soft = {.struct_size = sizeof(dem_material),
-                               .youngs_modulus = 1e5,
-                               .poissons_ratio = 1.0 / 3.0,
-                               .density = 1000.0,
-                               .thickness = 0.5,
-                               .damping_time = damping_time};
+    const dem_material soft = SIZED(dem_material, .youngs_modulus = 1e5, .poissons_ratio = 1.0 / 3.0, .density = 1000.0,
+                                    .thickness = 0.5, .damping_time = damping_time);
     moving m = {.model = NULL};
     dem_lattice lattice = support_rectangle(0.4, 0.3, 0.1, &soft);
     lattice.flags = calloc((size_t)lattice.n_nodes, 1);

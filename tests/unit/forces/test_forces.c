@@ -38,13 +38,8 @@ static dem_status wind(void *context, const dem_force_query *q, double *force)
 /* nu = 0.2 brings the area term; nodes are moved by up to half a spacing, so that the guard acts. */
 static void make_lattice(dem_lattice *out, double damping_time)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 0.2,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02,
-                                 .damping_time = damping_time};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.2, .density = 1050.0,
+                                      .thickness = 1.0, .guard = 0.02, .damping_time = damping_time);
     *out = dem_lattice_empty();
     assert_ok(dem_lattice_rectangle(out, 5.0 * spacing, 5.0 * spacing, spacing));
     assert_ok(dem_lattice_assemble(out, &rubber));
@@ -75,19 +70,10 @@ static void open_body(body *b, double damping_time)
 static void drive(body *b)
 {
     const dem_index pushed[2] = {7, 12}, moved[1] = {9};
-    const dem_boundary list[2] = {{.struct_size = sizeof(dem_boundary),
-                                   .kind = DEM_BOUNDARY_FORCE,
-                                   .n_nodes = 2,
-                                   .nodes = pushed,
-                                   .value = {40.0, -20.0},
-                                   .ramp = 2.0},
-                                  {.struct_size = sizeof(dem_boundary),
-                                   .kind = DEM_BOUNDARY_VELOCITY,
-                                   .components = DEM_COMPONENT_Y,
-                                   .n_nodes = 1,
-                                   .nodes = moved,
-                                   .value = {0.0, 2.0},
-                                   .ramp = 2.0}};
+    const dem_boundary list[2] = {SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = pushed,
+                                        .value = {40.0, -20.0}, .ramp = 2.0),
+                                  SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_Y,
+                                        .n_nodes = 1, .nodes = moved, .value = {0.0, 2.0}, .ramp = 2.0)};
     const dem_options options = {.force = wind};
     assert_ok(boundary_conditions_compile(&b->boundaries, list, 2, &b->model->lattice, 0));
     assert_ok(external_force_create(&b->external, &options, 2, b->n));

@@ -151,12 +151,8 @@ static void check_lattice(const dem_lattice *lattice, double share)
     check_load(&s, &drag);
 }
 
-static const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                    .youngs_modulus = 1e7,
-                                    .poissons_ratio = 1.0 / 3.0,
-                                    .density = 1050.0,
-                                    .thickness = 0.5,
-                                    .guard = 0.02};
+static const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                         .density = 1050.0, .thickness = 0.5, .guard = 0.02);
 
 static dem_lattice make_solid(double width, double height, const dem_material *material)
 {
@@ -263,11 +259,8 @@ TEST(the_ends_of_a_broken_spring_may_meet)
 
 TEST(squares_agree)
 {
-    const dem_material raw = {.struct_size = sizeof(dem_material),
-                              .bond_stiffness = 1e3,
-                              .density = 1050.0,
-                              .thickness = 1.0,
-                              .damping_time = 1e-6};
+    const dem_material raw =
+        SIZED(dem_material, .bond_stiffness = 1e3, .density = 1050.0, .thickness = 1.0, .damping_time = 1e-6);
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_ok(dem_lattice_squares(&lattice, 0.2, 0.13, 0.01));
     assert_ok(dem_lattice_assemble_squares(&lattice, &raw, 0.5));
@@ -390,16 +383,9 @@ TEST(fixed_and_pushed_nodes_agree)
 {
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
     const dem_index pushed[] = {3, 17, 40}, others[] = {17, 5};
-    const dem_boundary list[] = {{.struct_size = sizeof(dem_boundary),
-                                  .kind = DEM_BOUNDARY_FORCE,
-                                  .n_nodes = 3,
-                                  .nodes = pushed,
-                                  .value = {1e3, -2e3}},
-                                 {.struct_size = sizeof(dem_boundary),
-                                  .kind = DEM_BOUNDARY_FORCE,
-                                  .n_nodes = 2,
-                                  .nodes = others,
-                                  .value = {5.0, 1.0}}};
+    const dem_boundary list[] = {
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = pushed, .value = {1e3, -2e3}),
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 2, .nodes = others, .value = {5.0, 1.0})};
     CLEANUP(boundary_conditions_free) boundary_conditions pushes;
     lattice.flags = calloc((size_t)lattice.n_nodes, sizeof *lattice.flags);
     assert_non_null(lattice.flags);

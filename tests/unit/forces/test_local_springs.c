@@ -22,11 +22,8 @@ typedef struct rig {
 /* nu other than 1/3 brings the area term, for which each node is asked. */
 static void open_rig(rig *r, double poissons_ratio)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = poissons_ratio,
-                                 .density = 1050.0,
-                                 .thickness = 1.0};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = poissons_ratio,
+                                      .density = 1050.0, .thickness = 1.0);
     *r = (rig){0};
     CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.05, 5e-3, &rubber);
     assert_ok(dem_model_create(&r->model, &block, NULL, 0));

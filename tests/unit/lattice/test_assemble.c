@@ -163,12 +163,8 @@ TEST(area_stiffness_is_that_of_poissons_ratio_and_NULL_where_springs_have_it)
  * E_ij inside: E_ij = sqrt(3)/2 E h a. */
 TEST(every_spring_may_have_the_same_stiffness)
 {
-    const dem_material raw = {.struct_size = sizeof(dem_material),
-                              .bond_stiffness = 300.0,
-                              .density = 1050.0,
-                              .thickness = 0.5,
-                              .guard = 0.02,
-                              .damping_time = 1e-3};
+    const dem_material raw = SIZED(dem_material, .bond_stiffness = 300.0, .density = 1050.0, .thickness = 0.5,
+                                   .guard = 0.02, .damping_time = 1e-3);
     CLEANUP(dem_lattice_free)
     dem_lattice lattice = make_rectangle(0.03, 0.03, spacing), plain = make_solid(0.03, 0.03, spacing);
     assert_int_equal(dem_lattice_assemble(&lattice, &raw), DEM_OK);
@@ -306,14 +302,9 @@ TEST(squares_refuse_what_is_no_cell)
 
 /* ---- several materials ---- */
 
-static const dem_material steel = {.struct_size = sizeof(dem_material),
-                                   .youngs_modulus = 2e8,
-                                   .poissons_ratio = 0.2,
-                                   .plane = DEM_PLANE_STRAIN,
-                                   .density = 7800.0,
-                                   .thickness = 0.25,
-                                   .guard = 0.03,
-                                   .damping_time = 2e-6};
+static const dem_material steel =
+    SIZED(dem_material, .youngs_modulus = 2e8, .poissons_ratio = 0.2, .plane = DEM_PLANE_STRAIN, .density = 7800.0,
+          .thickness = 0.25, .guard = 0.03, .damping_time = 2e-6);
 
 static bool is_right(const dem_lattice *l, dem_index t)
 {

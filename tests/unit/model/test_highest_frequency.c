@@ -51,11 +51,8 @@ TEST(solids_have_the_highest_frequency_that_gsl_finds)
 {
     static const double ratios[3] = {0.0, 1.0 / 3.0, 0.45};
     for (int k = 0; k < 6; k++) {
-        const dem_material solid = {.struct_size = sizeof(dem_material),
-                                    .youngs_modulus = 1e7,
-                                    .poissons_ratio = ratios[k / 2],
-                                    .density = 1050.0,
-                                    .thickness = 1.0};
+        const dem_material solid = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = ratios[k / 2],
+                                         .density = 1050.0, .thickness = 1.0);
         CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
         double omega;
         assert_ok(k % 2 == 0 ? dem_lattice_rectangle(&lattice, 0.05, 0.04, 5e-3)

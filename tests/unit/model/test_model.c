@@ -74,8 +74,7 @@ static const double not_a_number = (double)NAN, infinite = (double)INFINITY;
 TEST(null_arguments_are_named)
 {
     const double points[4] = {0.0, 0.0, 1.0, 0.0};
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.0};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 0.0);
     dem_model *model;
     square s;
     make_square(&s);
@@ -266,8 +265,7 @@ TEST(body_numbers_have_no_holes)
 TEST(obstacles_are_validated_too)
 {
     const double points[4] = {0.0, 0.0, 0.0, 0.0};
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.0};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 0.0);
     dem_model *model;
     square s;
     make_square(&s);
@@ -295,11 +293,8 @@ TEST(absent_arrays_get_their_defaults)
 
 TEST(by_default_the_boundary_may_touch)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0};
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     CLEANUP(free_model) dem_model *model;
     assert_ok(dem_lattice_rectangle(&lattice, 4.0, 4.0, 1.0));
@@ -341,8 +336,7 @@ TEST(fixed_nodes_are_at_rest_take_no_force_and_never_touch)
 TEST(the_model_is_independent_of_what_it_was_made_from)
 {
     double points[4] = {-5.0, 0.0, 5.0, 0.0};
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.25};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 0.25);
     const double at[2] = {0.5, 2.0};
     CLEANUP(free_model) dem_model *model;
     square s;

@@ -19,12 +19,8 @@ static const double spacing = 0.01;
 
 static dem_model *make_block(double nu)
 {
-    const dem_material solid = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1e7,
-                                .poissons_ratio = nu,
-                                .density = 1050.0,
-                                .thickness = 1.0,
-                                .guard = 0.02};
+    const dem_material solid = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = nu, .density = 1050.0,
+                                     .thickness = 1.0, .guard = 0.02);
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.04, 0.05, spacing, &solid);
     dem_model *model = support_model(&lattice, NULL, 0);
     return model;

@@ -69,10 +69,7 @@ TEST(points_go_where_the_obstacle_has_gone_also_in_place)
 {
     const double given[4] = {1.0, 2.0, -3.0, 4.0};
     double points[4] = {1.0, 2.0, -3.0, 4.0};
-    const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle),
-                                   .n_points = 2,
-                                   .points = points,
-                                   .velocity = {3.0, -4.0}},
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = points, .velocity = {3.0, -4.0}),
                        rest = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = given};
     dem_obstacle_points(&obstacle, 0.5, points);
     assert_true(points[0] == 2.5 && points[1] == 0.0 && points[2] == -1.5 && points[3] == 2.0);

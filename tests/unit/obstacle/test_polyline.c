@@ -27,10 +27,7 @@ TEST(restitution_must_lie_between_0_and_1)
 TEST(a_point_that_is_not_finite_is_named)
 {
     const double infinite[6] = {0.0, 0.0, 1.0, 0.0, 2.0, (double)INFINITY}, nan[4] = {0.0, 0.0, (double)NAN, 0.0};
-    const dem_obstacle first = {.struct_size = sizeof(dem_obstacle),
-                                .n_points = 3,
-                                .points = infinite,
-                                .restitution = 0.0},
+    const dem_obstacle first = SIZED(dem_obstacle, .n_points = 3, .points = infinite, .restitution = 0.0),
                        second = {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = nan, .restitution = 0.0};
     refuse(&first, 1, "obstacle 0: point 2 * not finite");
     refuse(&second, 1, "obstacle 0: point 1 * not finite");
@@ -86,8 +83,7 @@ TEST(of_10000_segments_the_pair_that_meets_is_named)
 {
     enum { n = 10001 };
     static double points[2 * n];
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = n, .points = points, .restitution = 0.0};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = n, .points = points, .restitution = 0.0);
     for (int k = 0; k < n; k++) vec2_put(points, k, (vec2){1e-4 * k, k % 2 == 0 ? 0.0 : 1e-3});
     CLEANUP(obstacles_free) obstacle_set o = compile(points, n, 0.0);
     assert_int_equal(obstacles_gap(&o, 0.0, (vec2){0.77770001, 2e-3}, 0.0, -1, -1).segment, 7776);

@@ -21,13 +21,8 @@ static dem_model *make_model(void)
     const double x[2] = {0.0, 1.0}, mass = 1.0;
     const dem_obstacle obstacles[2] = {
         {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = bent, .restitution = 0.5, .friction = 0.3},
-        {.struct_size = sizeof(dem_obstacle),
-         .n_points = 2,
-         .points = flat,
-         .restitution = 0.25,
-         .friction = 0.75,
-         .friction_law = DEM_FRICTION_PAPER,
-         .velocity = {1.5, -2.0}}};
+        SIZED(dem_obstacle, .n_points = 2, .points = flat, .restitution = 0.25, .friction = 0.75,
+              .friction_law = DEM_FRICTION_PAPER, .velocity = {1.5, -2.0})};
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     dem_model *model = support_model(&lattice, obstacles, 2);
     return model;

@@ -41,12 +41,8 @@ static void make_model(run *r, int n_obstacles)
     const dem_obstacle obstacles[2] = {
         {.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = floor, .restitution = 0.5},
         {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = far, .restitution = 0.25}};
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 0.4,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .guard = 0.02};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.4, .density = 1050.0,
+                                      .thickness = 1.0, .guard = 0.02);
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_rectangle(&lattice, 0.02, 0.02, 5e-3), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &rubber), DEM_OK);
@@ -336,8 +332,7 @@ TEST(probes_and_peaks_are_in_the_file_in_the_end)
 TEST(the_part_can_be_looked_at_while_the_run_goes_on)
 {
     CLEANUP(end) run r = begin_usual();
-    const dem_observer observer = {
-        .struct_size = sizeof(dem_observer), .interval = interval, .frame = look_at_part, .context = &r};
+    const dem_observer observer = SIZED(dem_observer, .interval = interval, .frame = look_at_part, .context = &r);
     assert_int_equal(dem_simulation_observe(r.simulation, &observer), DEM_OK);
     assert_int_equal(dem_simulation_advance(r.simulation, 3 * interval), DEM_OK);
 }

@@ -51,8 +51,8 @@ static place open_place(void)
 {
     place p;
     const double floor[4] = {-1.0, 0.0, 1.0, 0.0}, offset[2] = {0.0, 1.3e-3}, velocity[2] = {1.0, -5.0};
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor, .restitution = 0.5, .friction = 0.3};
+    const dem_obstacle obstacle =
+        SIZED(dem_obstacle, .n_points = 2, .points = floor, .restitution = 0.5, .friction = 0.3);
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.02, 0.02, 5e-3);
     folder_open(&p.folder);
     dem_lattice_move(&lattice, 0.1, offset);
@@ -202,12 +202,8 @@ static void watch(dem_simulation *simulation, session *s, dem_peaks *peaks)
 {
     const dem_observer watching = ask_peaks_observer(peaks);
     s->to = ask_trajectory_observer(s->trajectory);
-    const dem_observer seeing = {.struct_size = sizeof(dem_observer),
-                                 .interval = s->to.interval,
-                                 .frame = see_frame,
-                                 .step = see_step,
-                                 .event = see_event,
-                                 .context = s};
+    const dem_observer seeing = SIZED(dem_observer, .interval = s->to.interval, .frame = see_frame, .step = see_step,
+                                      .event = see_event, .context = s);
     assert_ok(dem_simulation_observe(simulation, &watching));
     assert_ok(dem_simulation_observe(simulation, &seeing));
 }

@@ -83,8 +83,7 @@ static void start(run *r, dem_trajectory_options options)
 {
     dem_options how = dem_options_default();
     how.spacing = 5e-3, how.max_step = 2e-5, how.v_scale = 5.0, how.checkpoint_steps = 8;
-    const dem_observer watching = {
-        .struct_size = sizeof(dem_observer), .interval = interval, .frame = see_frame, .context = r};
+    const dem_observer watching = SIZED(dem_observer, .interval = interval, .frame = see_frame, .context = r);
     assert_ok(dem_simulation_create(&r->simulation, r->model, &how));
     assert_ok(dem_peaks_create(&r->peaks, r->model, 2));
     if (options.peaks != NULL) options.peaks = r->peaks;
@@ -100,12 +99,8 @@ static void begin(run *r, const dem_trajectory_options *options)
 {
     const dem_obstacle obstacles[2] = {
         {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = hill, .restitution = 0.5, .friction = 0.3},
-        {.struct_size = sizeof(dem_obstacle),
-         .n_points = 2,
-         .points = far,
-         .restitution = 0.25,
-         .friction = 0.75,
-         .friction_law = DEM_FRICTION_PAPER}};
+        SIZED(dem_obstacle, .n_points = 2, .points = far, .restitution = 0.25, .friction = 0.75,
+              .friction_law = DEM_FRICTION_PAPER)};
     const double offset[2] = {0.0, 1.3e-3}, aside[2] = {0.05, 2e-3}, velocity[2] = {1.0, -5.0};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.02, 0.02, 5e-3), other = make_solid(0.01, 0.01, 5e-3);
     make_folder(r);

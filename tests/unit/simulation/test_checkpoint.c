@@ -22,14 +22,10 @@ typedef struct pair {
 static void open_pair(pair *p)
 {
     static const double points[] = {-0.1, -0.1, -0.01, -1e-5, 0.0, -0.02, 0.01, -1e-5, 0.1, -0.1};
-    const dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 5, .points = points, .restitution = 0.3, .friction = 0.8};
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .damping_time = 1e-5};
+    const dem_obstacle ground =
+        SIZED(dem_obstacle, .n_points = 5, .points = points, .restitution = 0.3, .friction = 0.8);
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .damping_time = 1e-5);
     dem_options options = dem_options_default();
     options.mass_damping = 500.0;
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.05, 0.03, 0.01, &rubber);

@@ -46,12 +46,8 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 
 static void join(observers *a, voice *v, double interval)
 {
-    const dem_observer observer = {.struct_size = sizeof(dem_observer),
-                                   .interval = interval,
-                                   .frame = on_frame,
-                                   .step = on_step,
-                                   .event = on_event,
-                                   .context = v};
+    const dem_observer observer =
+        SIZED(dem_observer, .interval = interval, .frame = on_frame, .step = on_step, .event = on_event, .context = v);
     assert_ok(observers_add(a, &observer, -1.0));
 }
 

@@ -13,12 +13,8 @@ static const boundary_conditions no_boundaries = {0};
 /* A small rectangle of rubber in flight; `damping` s, `speed` m/s. */
 static dem_model *make_rubber(double damping, double speed)
 {
-    const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                 .youngs_modulus = 1e7,
-                                 .poissons_ratio = 1.0 / 3.0,
-                                 .density = 1050.0,
-                                 .thickness = 1.0,
-                                 .damping_time = damping};
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                      .density = 1050.0, .thickness = 1.0, .damping_time = damping);
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.03, 0.04, 0.01, &rubber);
     assert_ok(dem_lattice_launch(&lattice, (const double[2]){0.6 * speed, 0.8 * speed}));
     dem_model *model = support_model(&lattice, NULL, 0);
@@ -222,12 +218,8 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
 {
     const double v[2] = {30.0, 40.0};
     const dem_index first = 0;
-    const dem_boundary driven = {.struct_size = sizeof(dem_boundary),
-                                 .kind = DEM_BOUNDARY_VELOCITY,
-                                 .components = DEM_COMPONENT_X,
-                                 .n_nodes = 1,
-                                 .nodes = &first,
-                                 .value = {70.0}};
+    const dem_boundary driven = SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_X,
+                                      .n_nodes = 1, .nodes = &first, .value = {70.0});
     CLEANUP(boundary_conditions_free) boundary_conditions b;
     CLEANUP(free_model) dem_model *model = make_point(NULL, 0.0);
     dem_options options = point_options();

@@ -51,8 +51,8 @@ typedef struct fall {
 static fall *make_fall(dem_index every)
 {
     static const double points[4] = {-1.0, -1e-4, 1.0, -1e-4}, down[2] = {0.5, -5.0};
-    const dem_obstacle floor = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .restitution = 0.5, .friction = 0.3};
+    const dem_obstacle floor =
+        SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 0.5, .friction = 0.3);
     const dem_options options = dem_options_default();
     fall *f = calloc(1, sizeof *f);
     assert_non_null(f);

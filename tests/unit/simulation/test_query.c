@@ -79,12 +79,8 @@ enum { n_getters = sizeof getters / sizeof getters[0], largest = 4096 };
 static void rest_loaded(dem_simulation **simulation, dem_model **model)
 {
     static const dem_index node = 0;
-    const dem_boundary load = {.struct_size = sizeof(dem_boundary),
-                               .kind = DEM_BOUNDARY_FORCE,
-                               .components = 3,
-                               .n_nodes = 1,
-                               .nodes = &node,
-                               .value = {0.0, -1.0}};
+    const dem_boundary load = SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .components = 3, .n_nodes = 1,
+                                    .nodes = &node, .value = {0.0, -1.0});
     dem_options options = point_options();
     options.boundaries = &load;
     options.n_boundaries = 1;
@@ -228,8 +224,7 @@ TEST(what_is_seen_within_a_step_is_without_later_events)
 {
     dem_options options = point_options();
     look seen = {.n = 0};
-    const dem_observer observer = {
-        .struct_size = sizeof(dem_observer), .interval = 0.4, .frame = see, .context = &seen};
+    const dem_observer observer = SIZED(dem_observer, .interval = 0.4, .frame = see, .context = &seen);
     options.method = DEM_METHOD_RK4;
     options.max_step = options.fixed_step = 0.8;
     CLEANUP(free_model) dem_model *model = make_point(NULL, 0.5);
@@ -263,10 +258,8 @@ static dem_simulation *drop_pair(dem_model **model, dem_contact_method contact, 
 {
     const double x[4] = {0.0, 0.1, 0.0, 1.1}, mass[2] = {1.0, 2.0}, v[4] = {0.0, -3.0, 0.0, -3.0};
     const dem_index ends[2] = {0, 1}, upper = 1;
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5};
-    const dem_boundary rail = {
-        .struct_size = sizeof(dem_boundary), .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &upper};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5);
+    const dem_boundary rail = SIZED(dem_boundary, .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &upper);
     dem_options options = dem_options_default();
     dem_lattice lattice = support_lattice(2, x, mass, 1, ends, 1.0, 1000.0, NULL);
     support_start(&lattice, NULL, v);
@@ -333,13 +326,8 @@ static dem_status only_look_at_record(void *context, const dem_simulation *simul
 
 static dem_observer looker(pusher *p)
 {
-    return (dem_observer){.struct_size = sizeof(dem_observer),
-                          .interval = 0.007,
-                          .frame = only_look,
-                          .step = only_look,
-                          .event = only_look_at_event,
-                          .checkpoint = only_look_at_record,
-                          .context = p};
+    return (dem_observer)SIZED(dem_observer, .interval = 0.007, .frame = only_look, .step = only_look,
+                               .event = only_look_at_event, .checkpoint = only_look_at_record, .context = p);
 }
 
 enum { n_advances = 12 }; /* of 0.01 s each, with the impact after some 0.03 s */

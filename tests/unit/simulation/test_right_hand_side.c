@@ -150,8 +150,7 @@ TEST(steps_in_one_pass_are_those_in_parts)
         dem_obstacle_load load[2];
         dem_index inside = 0;
         while (dem_model_lattice(model)->flags[inside] & DEM_NODE_CONTACT) inside++;
-        const dem_boundary nothing = {
-            .struct_size = sizeof(dem_boundary), .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = &inside};
+        const dem_boundary nothing = SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = &inside);
         for (int in_parts = 0; in_parts < 2; in_parts++) {
             dem_options options = dem_options_default();
             options.method = DEM_METHOD_VERLET;

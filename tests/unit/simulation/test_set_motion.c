@@ -106,13 +106,9 @@ static void open_row(support_run *run)
     static const double x[6] = {0.0, 1.0, 0.5, 1.0, 1.0, 1.0}, masses[3] = {1.0, 1.0, 1.0};
     static const unsigned char fixed[3] = {1, 0, 0};
     static const dem_index ends[4] = {0, 1, 1, 2}, driven[1] = {1};
-    const dem_boundary drive = {.struct_size = sizeof(dem_boundary),
-                                .components = DEM_COMPONENT_X,
-                                .n_nodes = 1,
-                                .nodes = driven,
-                                .value = {0.1, 0.0}};
-    const dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5};
+    const dem_boundary drive =
+        SIZED(dem_boundary, .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = driven, .value = {0.1, 0.0});
+    const dem_obstacle ground = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5);
     dem_options options = support_options();
     CLEANUP(dem_lattice_free) dem_lattice row = support_lattice(3, x, masses, 2, ends, 0.5, 50.0, fixed);
     row.flags[1] = 0;
@@ -127,8 +123,7 @@ TEST(what_cannot_be_is_refused_and_changes_nothing)
     CLEANUP(support_close) support_run run, untouched;
     open_row(&run);
     open_row(&untouched);
-    const dem_observer observer = {
-        .struct_size = sizeof(dem_observer), .step = set_from_within, .context = &run.simulation};
+    const dem_observer observer = SIZED(dem_observer, .step = set_from_within, .context = &run.simulation);
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     refuse(NULL, NULL, NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
     const motion now = support_at(&run, 0.1);
@@ -190,11 +185,8 @@ static void same(const dem_simulation *a, const dem_simulation *b)
 /* A checkpoint from before leads on to what was; the one that the next advance takes, to what is now. */
 TEST(a_record_is_of_one_motion)
 {
-    const dem_obstacle ground = {.struct_size = sizeof(dem_obstacle),
-                                 .n_points = 2,
-                                 .points = floor_points,
-                                 .restitution = 0.5,
-                                 .friction = 0.2};
+    const dem_obstacle ground =
+        SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5, .friction = 0.2);
     const double lift[2] = {0.0, 0.027};
     const char *path = scratch_file("a.checkpoint");
     dem_options options = support_options();

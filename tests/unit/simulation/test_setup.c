@@ -50,8 +50,7 @@ TEST(null_arguments_are_named)
 TEST(a_start_deeper_than_the_penetration_tolerance_is_refused)
 {
     const double x[2] = {0.25, -0.125}, mass = 2.0;
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.5};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5);
     const dem_options options = point_options();
     dem_simulation *simulation = NULL;
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);

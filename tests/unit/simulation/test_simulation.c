@@ -113,12 +113,8 @@ static dem_status on_impact(void *context, const dem_simulation *simulation, con
 
 static void watch(dem_simulation *simulation, diary *d, double interval)
 {
-    const dem_observer observer = {.struct_size = sizeof(dem_observer),
-                                   .interval = interval,
-                                   .frame = on_frame,
-                                   .step = on_step,
-                                   .event = on_impact,
-                                   .context = d};
+    const dem_observer observer =
+        SIZED(dem_observer, .interval = interval, .frame = on_frame, .step = on_step, .event = on_impact, .context = d);
     memset(d, 0, sizeof *d);
     assert_ok(dem_simulation_observe(simulation, &observer));
 }
@@ -407,8 +403,7 @@ TEST(a_contact_event_after_which_the_motion_overflows_ends_the_run)
 {
     const double x[4] = {0.0, 1.0, 0.0, 2.0}, v[4] = {0.0, -1.0, 0.0, -1.0}, mass[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
-    const dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 1.0};
+    const dem_obstacle ground = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 1.0);
     dem_options options = dem_options_default();
     motion now;
     options.gravity[1] = 0.0;
@@ -429,8 +424,7 @@ TEST(a_contact_event_after_which_the_motion_overflows_ends_the_run)
 static void stop_at_impact(double clearance)
 {
     const double level[4] = {-1.0, 0.0, 1.0, 0.0}, down[2] = {0.5, -4.0};
-    const dem_obstacle ground = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = level, .restitution = 0.5};
+    const dem_obstacle ground = SIZED(dem_obstacle, .n_points = 2, .points = level, .restitution = 0.5);
     const dem_options options = dem_options_default();
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     diary d;

@@ -38,8 +38,7 @@ static size_t count_doubts(double wave_speed, double floor_speed, dem_index n_fl
 {
     static const double points[4] = {-9.0, -9.0, 9.0, -9.0};
     const double x[2] = {0.0, 0.0}, v[2] = {2.0, 0.0}, mass = 3.0;
-    const dem_obstacle floor = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .velocity = {floor_speed, 0.0}};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = points, .velocity = {floor_speed, 0.0});
     run_log log = {.out = tmpfile()};
     assert_non_null(log.out);
     dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);

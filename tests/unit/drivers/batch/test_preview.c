@@ -79,11 +79,8 @@ TEST(the_preview_tells_what_is_probed_and_where)
 /* A block of nu = 0.1 and a node of its own: E, nu and waves of plane stress, and what cannot be measured. */
 TEST(the_preview_tells_what_was_measured_of_each_body)
 {
-    const dem_material solid = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1e7,
-                                .poissons_ratio = 0.1,
-                                .density = 1000.0,
-                                .thickness = 0.5};
+    const dem_material solid =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.1, .density = 1000.0, .thickness = 0.5);
     char name[] = "a.nml", title[] = "";
     const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01};
     const double x[2] = {9.0, 9.0}, one = 1.0;
@@ -110,12 +107,8 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
 /* A slice of a long body: its own E and nu, not those of the plate that moves alike. */
 TEST(the_preview_tells_the_constants_of_a_slice)
 {
-    const dem_material slice = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1e7,
-                                .poissons_ratio = 0.45,
-                                .plane = DEM_PLANE_STRAIN,
-                                .density = 1000.0,
-                                .thickness = 1.0};
+    const dem_material slice = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.45,
+                                     .plane = DEM_PLANE_STRAIN, .density = 1000.0, .thickness = 1.0);
     char name[] = "a.nml", title[] = "";
     body_facts body = {.plane = DEM_PLANE_STRAIN};
     const deck d = {
@@ -272,12 +265,8 @@ TEST(the_preview_tells_friction_and_damping)
 
 TEST(the_preview_tells_the_damping_of_springs)
 {
-    const dem_material solid = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1e7,
-                                .poissons_ratio = 0.3,
-                                .density = 1000.0,
-                                .thickness = 1.0,
-                                .damping_time = 2e-6};
+    const dem_material solid = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0,
+                                     .thickness = 1.0, .damping_time = 2e-6);
     const dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = make_logged();
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(0.04, 0.04, 0.01, &solid);

@@ -161,8 +161,7 @@ TEST(the_normal_is_that_of_the_slope)
 {
     static const double slope[4] = {-9.0, 9.0, 9.0, -9.0};
     const double x[2] = {0.0, height}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * height / g), fall = g * t;
-    const dem_obstacle floor = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = slope, .restitution = 1.0};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = slope, .restitution = 1.0);
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 1.2 * t);
     const rebound_normal along = rebound_along(&r, run.simulation);
@@ -178,8 +177,8 @@ TEST(the_normal_is_that_of_the_slope)
 TEST(the_ratio_is_against_a_moving_obstacle)
 {
     const double x[2] = {0.0, height}, v[2] = {0.0, -2.0};
-    const dem_obstacle floor = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = flat, .restitution = eta, .velocity = {0.0, 1.0}};
+    const dem_obstacle floor =
+        SIZED(dem_obstacle, .n_points = 2, .points = flat, .restitution = eta, .velocity = {0.0, 1.0});
     CLEANUP(support_close) support_run run;
     const rebound r = run_nodes(&run, 1, x, v, &floor, 0.2);
     assert_true(r.touched);

@@ -73,12 +73,8 @@ TEST(what_is_not_at_rest_goes_on)
 TEST(ramps_are_waited_for)
 {
     static const dem_index node[] = {1};
-    const dem_boundary pull = {.struct_size = sizeof(dem_boundary),
-                               .kind = DEM_BOUNDARY_FORCE,
-                               .n_nodes = 1,
-                               .nodes = node,
-                               .value = {0.0, -20.0},
-                               .ramp = 10.0};
+    const dem_boundary pull = SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node,
+                                    .value = {0.0, -20.0}, .ramp = 10.0);
     dem_options options = dem_options_default();
     CLEANUP(support_close) support_run run;
     dem_state state = {.struct_size = sizeof state};

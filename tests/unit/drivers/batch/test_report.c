@@ -90,8 +90,7 @@ TEST(what_rests_at_the_end_is_still_touching)
 TEST(the_rebound_is_measured_against_gravity)
 {
     const double wall[4] = {0.0, 9.0, 0.0, -9.0}, x[4] = {drop, 0.0, 50.0, 1.0}, m[2] = {1.0, 3.0};
-    const dem_obstacle obstacle = {
-        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall, .restitution = eta};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = wall, .restitution = eta);
     const double t1 = sqrt(2.0 * drop / 4.0), v1 = 4.0 * t1, centre = (m[0] * eta * v1 - m[1] * v1) / 4.0;
     dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = make_logged();
@@ -335,12 +334,8 @@ TEST(an_open_ledger_is_warned_of_once)
 TEST(a_ledger_is_not_judged_while_a_ramp_grows)
 {
     static const dem_index node[] = {0};
-    const dem_boundary push = {.struct_size = sizeof(dem_boundary),
-                               .kind = DEM_BOUNDARY_FORCE,
-                               .n_nodes = 1,
-                               .nodes = node,
-                               .value = {1.0, 0.0},
-                               .ramp = 0.2};
+    const dem_boundary push =
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = node, .value = {1.0, 0.0}, .ramp = 0.2);
     const double x[2] = {0.0, 0.0};
     for (int after = 0; after < 2; after++) {
         const double t_end = after ? 0.3 : 0.1;

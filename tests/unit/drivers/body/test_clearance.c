@@ -14,11 +14,8 @@ typedef struct scene {
 /* A triangle of side 1 m, its lower corners at (x, y) and (x + 1, y), over one polyline. */
 static scene make_scene(double x, double y, const double *points, dem_index n_points)
 {
-    const dem_material material = {.struct_size = sizeof(dem_material),
-                                   .youngs_modulus = 1e7,
-                                   .poissons_ratio = 1.0 / 3.0,
-                                   .density = 1000.0,
-                                   .thickness = 1.0};
+    const dem_material material =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0);
     const dem_obstacle obstacle = {.struct_size = sizeof(dem_obstacle), .n_points = n_points, .points = points};
     const double offset[2] = {x + 0.5, y};
     scene s = {.lattice = dem_lattice_empty()};
@@ -176,11 +173,8 @@ TEST(the_point_deepest_between_nodes_is_found)
 {
     const double spikes[] = {-0.1, -1.0, 0.0, 0.02, 0.1, -1.0, 0.2, 0.01, 0.3, -1.0};
     const double inner[] = {-0.5, -1.0, -0.5, 0.25, 0.4, -1.0}; /* on the side that two triangles share */
-    const dem_material material = {.struct_size = sizeof(dem_material),
-                                   .youngs_modulus = 1e7,
-                                   .poissons_ratio = 1.0 / 3.0,
-                                   .density = 1000.0,
-                                   .thickness = 1.0};
+    const dem_material material =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1000.0, .thickness = 1.0);
     CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
     assert_int_equal(dem_lattice_rectangle(&lattice, 3.0, 1.0, 1.0), DEM_OK);
     assert_int_equal(dem_lattice_assemble(&lattice, &material), DEM_OK);

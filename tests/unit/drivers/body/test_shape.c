@@ -6,11 +6,8 @@
 
 #include "shape.h"
 
-static const dem_material rubber = {.struct_size = sizeof(dem_material),
-                                    .youngs_modulus = 1e7,
-                                    .poissons_ratio = 1.0 / 3.0,
-                                    .density = 1050.0,
-                                    .thickness = 1.0};
+static const dem_material rubber =
+    SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
 static const outline round_void = {.kind = OUTLINE_DISC, .centre = {1.0, 2.0}, .radius = 0.5};
 static const outline square_void = {.centre = {-1.0, 4.0}, .size = {2.0, 1.0}};
 

@@ -11,11 +11,8 @@
 /* Of one body; nodes on the boundary may touch. */
 static dem_model *make_model(double (*size)[2], double radius, double angle)
 {
-    const dem_material solid = {.struct_size = sizeof(dem_material),
-                                .youngs_modulus = 1.0,
-                                .poissons_ratio = 0.3,
-                                .density = 1.0,
-                                .thickness = 1.0};
+    const dem_material solid =
+        SIZED(dem_material, .youngs_modulus = 1.0, .poissons_ratio = 0.3, .density = 1.0, .thickness = 1.0);
     dem_lattice l = dem_lattice_empty();
     dem_model *model;
     if (size != NULL)
