@@ -66,7 +66,7 @@ void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double w
     }
     if (n == 0 || !(least > fast * wave_speed)) return;
     run_log_warn(log,
-                 "body %lld moves at %.3g m/s, %.2g of its wave speed of %.4g m/s: strains of that size will come; are "
-                 "velocity, Young's modulus and density in SI units?",
-                 (long long)b + 1, least, least / wave_speed, wave_speed);
+                 "body %lld moves at %.3g m/s, %.3g %s its wave speed of %.4g m/s (strains of that size): is E in Pa "
+                 "(210e9, not 210e3)?",
+                 (long long)b + 1, least, least / wave_speed, least < wave_speed ? "of" : "times", wave_speed);
 }

@@ -55,9 +55,10 @@ TEST(a_speed_near_that_of_waves_is_doubted)
 {
     assert_int_equal(count_doubts(20.1, 0.0, 1), 0);
     assert_int_equal(count_doubts(16.0, 0.0, 1), 1);
-    assert_string_equal(text,
-                        "warning    body 1 moves at 2 m/s, 0.12 of its wave speed of 16 m/s: strains of that size will "
-                        "come; are velocity, Young's modulus and density in SI units?\n");
+    assert_string_equal(text, "warning    body 1 moves at 2 m/s, 0.125 of its wave speed of 16 m/s (strains of that "
+                              "size): is E in Pa (210e9, not 210e3)?\n");
+    assert_int_equal(count_doubts(0.1, 0.0, 1), 1);
+    assert_non_null(strstr(text, "moves at 2 m/s, 20 times its wave speed of 0.1 m/s (strains"));
 }
 
 TEST(a_speed_is_that_against_an_obstacle)
