@@ -119,7 +119,7 @@ static double *sizes_of(timeline *of, const double *vector, size_t width)
     return size;
 }
 
-/* Of one both components, of several the sizes. */
+/* Of one both components, of several the sizes, numbered from 1, as decks are. */
 static void add_vectors(timeline *of, const char *column, const char *label, const char *each)
 {
     size_t width;
@@ -134,7 +134,7 @@ static void add_vectors(timeline *of, const char *column, const char *label, con
     const double *size = sizes_of(of, vector, width);
     for (size_t k = 0; k < width / 2 && k < VECTORS && size != NULL; k++) {
         char *name = of->name[of->n_charts - 1][k];
-        (void)snprintf(name, NAME, "%s %zu", each, k);
+        (void)snprintf(name, NAME, "%s %zu", each, k + 1);
         add_line(to, name, (int)k + 1, size + k, width / 2);
     }
 }

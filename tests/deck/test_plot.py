@@ -306,6 +306,20 @@ class Decks(unittest.TestCase):
         self.assertLess(heights.pop("#1a1a1a"), 1.0)
         self.assertGreater(sorted(heights.values())[-2], 100.0)
 
+    def test_obstacles_of_a_history_are_numbered_from_1(self):
+        deck = self.folder / "two.nml"
+        deck.write_text("""&run t_end = 2e-4 /
+&material youngs_modulus = 1e7, density = 1050 /
+&body shape = 'rectangle', size = 0.02, 0.02, spacing = 1e-2, velocity = 0, -10, clearance = 1e-4 /
+&obstacle points = -0.3, -0.02, 0, 0.02 /
+&obstacle points = 0, 0.02, 0.3, -0.02 /
+&output name = 'two', frame_interval = 1e-4 /
+""", encoding="utf-8")
+        self.batch(deck)
+        run_plot(self.at("two"), "--history", "-o", self.folder / "two.svg")
+        texts = Strip(self.folder / "two.svg").texts
+        self.assertTrue({"obstacle 1", "obstacle 2"} <= set(texts) and "obstacle 0" not in texts)
+
     def test_faults_are_one_line_and_leave_nothing(self):
         disc, out = self.at("disc"), self.folder / "none.svg"
         broken = self.folder / "broken.vtkhdf"
