@@ -112,6 +112,24 @@ static void print_method(FILE *out, const dem_options *o)
         (void)fprintf(out, "; each impact is taken by itself ('%s')", name);
 }
 
+static const char *plural(dem_index n)
+{
+    return n == 1 ? "" : "s";
+}
+
+static void print_contact(FILE *out, const dem_model_size *size, const dem_options *o)
+{
+    if (size->n_obstacles == 0) {
+        (void)fprintf(out, "contact    none: there are no obstacles\n");
+        return;
+    }
+    (void)fprintf(out, "contact    %lld node%s may touch %lld obstacle%s of %lld segment%s",
+                  (long long)size->n_contact_nodes, plural(size->n_contact_nodes), (long long)size->n_obstacles,
+                  plural(size->n_obstacles), (long long)size->n_segments, plural(size->n_segments));
+    print_method(out, o);
+    (void)fprintf(out, "\n");
+}
+
 static void print_sizes(FILE *out, const dem_model *model, const dem_options *o)
 {
     const dem_model_size size = ask_sizes(model);
@@ -119,11 +137,7 @@ static void print_sizes(FILE *out, const dem_model *model, const dem_options *o)
                   "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg, spacing %.4g m\n",
                   (long long)size.n_nodes, (long long)size.n_springs, (long long)size.n_triangles,
                   (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model), o->spacing);
-    (void)fprintf(out, "contact    %lld nodes may touch %lld obstacle%s of %lld segments",
-                  (long long)size.n_contact_nodes, (long long)size.n_obstacles, size.n_obstacles == 1 ? "" : "s",
-                  (long long)size.n_segments);
-    if (size.n_obstacles > 0) print_method(out, o);
-    (void)fprintf(out, "\n");
+    print_contact(out, &size, o);
 }
 
 /* What is probed, where at rest. */
@@ -246,9 +260,9 @@ static void print_estimates(FILE *out, const deck *d, const dem_simulation *simu
     const double end = rests ? fmin(relaxation_expected(simulation, &d->options, d->residual), d->t_end) : d->t_end;
     const estimate e = estimate_run(d, simulation, end);
     if (rests) (void)fprintf(out, "estimate   at rest at about %.2g s, ", end);
-    (void)fprintf(out, "%s%.0f steps of %d evaluations, %.0f frames, about %.3g MB of output\n",
+    (void)fprintf(out, "%s%.0f steps of %d evaluations, %.0f frame%s, about %.3g MB of output\n",
                   rests ? "" : "estimate   at least ", e.steps, (int)step_report_method(simulation).evaluations,
-                  e.frames, 1e-6 * e.output);
+                  e.frames, e.frames == 1.0 ? "" : "s", 1e-6 * e.output);
 }
 
 /* All that is set up by now: a run takes no more, but for what HDF5 buffers. */
@@ -281,9 +295,13 @@ static void print_boundary(FILE *out, const deck *d, dem_index number)
     static const char *const axes[] = {"", " x", " y", " x and y"};
     double share = b->share == NULL;
     for (dem_index k = 0; k < b->n_nodes && b->share != NULL; k++) share += b->share[k];
-    (void)fprintf(out, "boundary   %lld: %lld nodes, %s%s (%g, %g) %s", (long long)number, (long long)b->n_nodes,
-                  kinds[b->kind], b->kind == DEM_BOUNDARY_FORCE ? "" : axes[b->components & 3], share * b->value[0],
-                  share * b->value[1], units[b->kind]);
+    (void)fprintf(out, "boundary   %lld: %lld node%s, ", (long long)number, (long long)b->n_nodes, plural(b->n_nodes));
+    if (b->kind != DEM_BOUNDARY_FORCE && b->value[0] == 0.0 && b->value[1] == 0.0)
+        (void)fprintf(out, "held in%s", axes[b->components & 3]);
+    else
+        (void)fprintf(out, "%s%s (%g, %g) %s", kinds[b->kind],
+                      b->kind == DEM_BOUNDARY_FORCE ? "" : axes[b->components & 3], share * b->value[0],
+                      share * b->value[1], units[b->kind]);
     if (b->ramp > 0.0) (void)fprintf(out, " within %g s", b->ramp);
     print_asked(out, d, number - 1, share * hypot(b->value[0], b->value[1]));
     (void)fprintf(out, "\n");

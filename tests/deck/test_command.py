@@ -521,6 +521,12 @@ class Run(Case):
                  "&body shape = 'rectangle', size = 0.08, 0.12, spacing = 1e-2, lattice = 'square' /\n")
         self.assertNotIn("warning", self.call(0, "--check", "deck.nml"))
 
+    def test_a_body_that_is_held_and_touches_nothing_is_reported(self):
+        self.put(HANG + "&boundary where = 'side', side = 'bottom', components = 'x' /\n")
+        log = self.call(0, "--check", "deck.nml")
+        self.assertIn("\ncontact    none: there are no obstacles\n", log)
+        self.assertEqual(re.findall(r"(?m)^boundary   \d: \d+ nodes, (.*)$", log), ["held in x and y", "held in x"])
+
     def test_a_load_that_is_not_what_was_asked_for_is_reported(self):
         self.put(HANG.replace("t_end = 1, residual = 1e-3", "t_end = 1e-3") +
                  "&boundary where = 'side', side = 'right', kind = 'traction', traction = 1e3, 0 /\n")
@@ -571,7 +577,7 @@ class Run(Case):
         log = self.call(0, "deck.nml")
         reached, when = numbers("rest       residual # at # s", log)
         self.assertTrue(reached <= 1e-3 and 0 < when < 1)
-        expected, steps, *_ = numbers("estimate   at rest at about # s, # steps of # evaluations, # frames, about # MB of output", log)
+        expected, steps, *_ = numbers("estimate   at rest at about # s, # steps of # evaluations, # frame, about # MB of output", log)
         self.assertTrue(0.25 < when / expected < 4, "the slowest motion that the extent allows")
         taken, *_ = numbers("run        # steps, # rejected, # retried, # evaluations, # s", log)
         self.assertTrue(0.25 < taken / steps < 4)

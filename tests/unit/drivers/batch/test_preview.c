@@ -17,7 +17,7 @@ TEST(the_preview_tells_what_is_about_to_run)
     assert_non_null(strstr(l->text, "there/drop.vtkhdf"));
     assert_close(number_before(l->text, " nodes, "), 1.0, 0.0);
     assert_close(number_before(l->text, " springs"), 0.0, 0.0);
-    assert_close(number_before(l->text, " segments"), 1.0, 0.0);
+    assert_close(number_before(l->text, " segment"), 1.0, 0.0);
     assert_close(number_in(l->text, "lattice", "mass"), mass, 0.0);
     assert_close(number_in(l->text, "time", "t_end"), 0.25, 0.0);
     assert_close(number_before(l->text, " frames"), 26.0, 0.0);       /* the one at 0 too */
@@ -241,8 +241,8 @@ TEST(the_preview_tells_the_rules_of_impact)
         print_header(l);
         assert_non_null(strstr(l->text, on ? "\nimpacts    exact, window 2.5e-05 s, vertices on: 0 may touch 0 edges\n"
                                            : "\nimpacts    local, window 0 s (each by itself), vertices off\n"));
-        assert_non_null(strstr(l->text, on ? " of 1 segments; impacts within 2.5e-05 s are taken together ('exact')\n"
-                                           : " of 1 segments; each impact is taken by itself ('local')\n"));
+        assert_non_null(strstr(l->text, on ? " of 1 segment; impacts within 2.5e-05 s are taken together ('exact')\n"
+                                           : " of 1 segment; each impact is taken by itself ('local')\n"));
         assert_false(has_line(l->text, "friction") || has_line(l->text, "damping"));
     }
 }
