@@ -216,11 +216,17 @@ rebound_normal rebound_along(const rebound *r, const dem_simulation *simulation)
     return n;
 }
 
+static const char *say_direction(const rebound *r, const rebound_normal *n)
+{
+    if (!n->along_impulse) return "";
+    return r->several ? " along the impulse of all obstacles" : " along its impulse";
+}
+
 static void print_normal(FILE *out, const rebound *r, const dem_simulation *simulation)
 {
     const rebound_normal n = rebound_along(r, simulation);
     (void)fprintf(out, "normal     of obstacle %lld, (%.4g, %.4g)%s: ", (long long)r->obstacle + 1, n.normal[0] + 0.0,
-                  n.normal[1] + 0.0 /* no -0 */, n.along_impulse ? " along its impulse" : "");
+                  n.normal[1] + 0.0 /* no -0 */, say_direction(r, &n));
     if (r->n_bounces > 1) (void)fprintf(out, "%lld bounces; last: ", (long long)r->n_bounces);
     (void)fprintf(out, "%+.5g m/s before, %+.5g m/s after", n.in, n.out);
     if (isfinite(n.ratio)) (void)fprintf(out, ", ratio %.4f", n.ratio);

@@ -193,13 +193,13 @@ class Settings(Case):
 
 class Results(Case):
     def test_it_is_what_the_log_says(self):
-        log = self.call(0, "--verbose", "a.nml")
+        log = self.call(0, "--verbose", "a.nml", "--set", "run.t_end=5e-4")  # a contact lasts at 2e-4 s
         result = self.result()
         self.assertEqual(log.splitlines(True)[-1], (self.folder / "a.json").read_text(encoding="utf-8"))
         self.assertEqual((result["deck"], result["name"], result["output"]), ("a.nml", "a", "a.vtkhdf"))
         self.assertEqual((result["status"], result["exit_code"], result["message"]), ("done", 0, ""))
         self.assertIn(f"problem {result['problem']}\n", log)
-        self.assertEqual((result["t_end"], result["t"]), (2e-4, 2e-4))
+        self.assertEqual((result["t_end"], result["t"]), (5e-4, 5e-4))
         for key, pattern in (("steps", r"\nrun        (\d+) steps"), ("evaluations", r"retried, (\d+) evaluations"),
                              ("events", r"\nevents     (\d+) times"), ("impacts", r" (\d+) impacts,"),
                              ("closings", r"\nlasting    (\d+) closings")):
@@ -218,10 +218,20 @@ class Results(Case):
         rebound, impacts = result["rebound"], result["impact_impulse"]
         self.assertEqual(rebound["velocity"][1], result["rebound_speed"], "gravity is along y")
         self.assertAlmostEqual(rebound["ratio"], -rebound["normal_after"] / rebound["normal_before"], delta=1e-12)
-        self.assertIn("normal     of obstacle %d, (%.4g" % (rebound["obstacle"] + 1, rebound["normal"][0]), log)
+        self.assertEqual((rebound["bounces"], rebound["along_impulse"]), (1, True))
+        self.assertIn("normal     of obstacle %d, (%.4g, %.4g) along the impulse of all obstacles: " %
+                      (rebound["obstacle"] + 1, *rebound["normal"]), log)
         self.assertIn("force      largest (%.6g, %.6g) N, by lasting contacts, at %.4e s; impacts gave (%.6g, %.6g) N s" %
                       (*result["largest_reaction"]["force"], result["largest_reaction"]["t"], *impacts), log)
         self.assertIn(f"touching {result['touching_time']:.4e} s", log)
+
+    def test_while_a_contact_lasts_there_is_no_rebound(self):
+        log = self.call(0, "a.nml")
+        result = self.result()
+        self.assertEqual((result["contacts"], result["rebound"]), (1, None))
+        self.assertEqual(result["warnings"][-1], "no rebound yet: 1 contact at t_end; give a later t_end")
+        self.assertIn("\nrebound    not yet: 1 contact at t_end; give a later t_end\n", log)
+        self.assertNotIn("no rebound yet", log[:log.index("{")])
 
     def test_but_for_the_time_it_is_the_same_each_time(self):
         first, = self.results(0, "a.nml")
