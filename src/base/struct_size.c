@@ -31,29 +31,40 @@ static dem_status check_least(const struct_kind *kind, size_t size)
     return DEM_OK;
 }
 
+static bool is_possible(const struct_kind *kind, size_t size)
+{
+    return size >= kind->first && size <= STRUCT_SIZE_MOST;
+}
+
+/* The first byte beyond this library's struct that is not 0; the end of the caller's struct if there is none. */
+static size_t first_unknown(const struct_kind *kind, const void *theirs)
+{
+    const size_t size = size_of(theirs);
+    const unsigned char *bytes = theirs;
+    size_t k = kind->own;
+    while (k < size && bytes[k] == 0) k++;
+    return k;
+}
+
 /* A member unknown to this library must be 0, which stands for its default. Otherwise the caller would get a run
  * without what it asked for. A size beyond STRUCT_SIZE_MOST is that of a struct that was never initialised. */
 dem_status struct_size_check(const struct_kind *kind, const void *theirs)
 {
     const size_t size = size_of(theirs);
-    const unsigned char *bytes = theirs;
     TRY(check_least(kind, size));
-    CHECK(size <= STRUCT_SIZE_MOST, DEM_ERROR_ARGUMENT, "%s: struct_size is %zu, at most %d expected", kind->name, size,
+    CHECK(is_possible(kind, size), DEM_ERROR_ARGUMENT, "%s: struct_size is %zu, at most %d expected", kind->name, size,
           STRUCT_SIZE_MOST);
-    for (size_t k = kind->own; k < size; k++)
-        CHECK(bytes[k] == 0, DEM_ERROR_ARGUMENT,
-              "%s: struct_size is %zu, and what is set at byte %zu is unknown to this library, whose own has %zu",
-              kind->name, size, k, kind->own);
+    const size_t unknown = first_unknown(kind, theirs);
+    CHECK(unknown >= size, DEM_ERROR_ARGUMENT,
+          "%s: struct_size is %zu, and what is set at byte %zu is unknown to this library, whose own has %zu",
+          kind->name, size, unknown, kind->own);
     return DEM_OK;
 }
 
 bool struct_size_fits(const struct_kind *kind, const void *theirs)
 {
     const size_t size = size_of(theirs);
-    const unsigned char *bytes = theirs;
-    bool fits = size >= kind->first && size <= STRUCT_SIZE_MOST;
-    for (size_t k = kind->own; fits && k < size; k++) fits = bytes[k] == 0;
-    return fits;
+    return is_possible(kind, size) && first_unknown(kind, theirs) >= size;
 }
 
 /* Copies the members that both sides have; the rest of `ours` keeps its defaults. */
