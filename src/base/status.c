@@ -43,6 +43,13 @@ const char *dem_status_name(dem_status status)
     return NULL; /* a callback may return any number */
 }
 
+dem_status status_check_number(const char *what, dem_index number, dem_index n)
+{
+    CHECK(number >= 0 && number < n, DEM_ERROR_ARGUMENT, "there is no %s %lld: there are %lld, from 0 on", what,
+          (long long)number, (long long)n);
+    return DEM_OK;
+}
+
 /* Allocates nothing, so that a lack of memory can be reported, too. */
 dem_status status_fail(dem_status status, const char *format, ...)
 {

@@ -25,6 +25,11 @@ static inline dem_status status_first(dem_status status, dem_status next)
     return status != DEM_OK ? status : next;
 }
 
+/** Checks the number of one of n things, such as bodies.
+ *  \param what  names one in the message
+ *  \return DEM_ERROR_ARGUMENT */
+dem_status status_check_number(const char *what, dem_index number, dem_index n);
+
 /** Stores a message for this thread, as printf would write it, and returns `status`. */
 dem_status status_fail(dem_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

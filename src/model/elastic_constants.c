@@ -188,8 +188,7 @@ static dem_status run(loading *l, dem_constants *out)
 dem_status dem_model_constants(const dem_model *model, dem_index body, dem_constants *out)
 {
     CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_constants: %s is NULL", model ? "out" : "model");
-    CHECK(body >= 0 && body < model->n_bodies, DEM_ERROR_ARGUMENT, "there is no body %lld: there are %lld",
-          (long long)body, (long long)model->n_bodies);
+    TRY(status_check_number("body", body, model->n_bodies));
     const dem_index n = model->lattice.n_nodes;
     loading l = {.model = model, .body = body, .held = lattice_zeros(n, sizeof *l.held)};
     double *vectors = lattice_zeros(2 * N_CASES * n, 2 * sizeof *vectors);

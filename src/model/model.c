@@ -273,10 +273,8 @@ const dem_lattice *dem_model_lattice(const dem_model *model)
 
 const dem_obstacle *dem_model_obstacle(const dem_model *model, dem_index obstacle)
 {
-    if (model != NULL && obstacle >= 0 && obstacle < model->obstacles.n) return &model->obstacles.list[obstacle];
-    (void)status_fail(DEM_ERROR_ARGUMENT, "there is no obstacle %lld: there are %lld, from 0 on", (long long)obstacle,
-                      model != NULL ? (long long)model->obstacles.n : 0);
-    return NULL;
+    const dem_index n = model != NULL ? model->obstacles.n : 0;
+    return status_check_number("obstacle", obstacle, n) == DEM_OK ? &model->obstacles.list[obstacle] : NULL;
 }
 
 dem_status dem_model_sizes(const dem_model *model, dem_model_size *out)

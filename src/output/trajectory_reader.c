@@ -396,10 +396,8 @@ dem_index dem_reader_n_obstacles(const dem_reader *reader)
 
 const dem_obstacle *dem_reader_obstacle(const dem_reader *reader, dem_index obstacle)
 {
-    if (reader != NULL && obstacle >= 0 && obstacle < reader->n_obstacles) return &reader->obstacles[obstacle];
-    (void)status_fail(DEM_ERROR_ARGUMENT, "there is no obstacle %lld: there are %lld, from 0 on", (long long)obstacle,
-                      reader != NULL ? (long long)reader->n_obstacles : 0);
-    return NULL;
+    const dem_index n = reader != NULL ? reader->n_obstacles : 0;
+    return status_check_number("obstacle", obstacle, n) == DEM_OK ? &reader->obstacles[obstacle] : NULL;
 }
 
 const double *dem_reader_times(const dem_reader *reader, dem_index *n_frames)

@@ -74,13 +74,6 @@ static dem_status check_given(const char *function, const dem_simulation *s, con
     return DEM_OK;
 }
 
-static dem_status check_number(const char *what, dem_index number, dem_index n)
-{
-    CHECK(number >= 0 && number < n, DEM_ERROR_ARGUMENT, "there is no %s %lld: there are %lld, from 0 on", what,
-          (long long)number, (long long)n);
-    return DEM_OK;
-}
-
 #define GIVE(type, theirs, ours) struct_size_write(&STRUCT_KIND(type), theirs, ours)
 
 /* ---- public ---- */
@@ -141,7 +134,7 @@ dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, de
     TRY(check_given("dem_simulation_contact", s, out));
     dem_index n;
     const dem_contact *contacts = contacts_of(s, &n);
-    TRY(check_number("contact", contact, n));
+    TRY(status_check_number("contact", contact, n));
     return GIVE(dem_contact, out, &contacts[contact]);
 }
 
@@ -175,7 +168,7 @@ dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
     TRY(check_given("dem_simulation_stress_at", s, stress));
-    TRY(check_number("node", node, s->model->lattice.n_nodes));
+    TRY(status_check_number("node", node, s->model->lattice.n_nodes));
     stress_at(s, node, stress);
     return DEM_OK;
 }
@@ -211,7 +204,7 @@ dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body_motion *out)
 {
     TRY(check_given("dem_simulation_body", s, out));
-    TRY(check_number("body", body, s->model->n_bodies));
+    TRY(status_check_number("body", body, s->model->n_bodies));
     run_measures *m = s->measures;
     if (!m->has_body || m->body != body)
         m->motion = diagnostics_body(s->model, body, seen_of(s), s->seen + state_velocities(&s->layout));
@@ -223,7 +216,7 @@ dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body
 dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *out)
 {
     TRY(check_given("dem_simulation_obstacle", s, out));
-    TRY(check_number("obstacle", obstacle, s->model->obstacles.n));
+    TRY(status_check_number("obstacle", obstacle, s->model->obstacles.n));
     const contact_ledger *ledger = &contact_of(s)->set.ledger;
     const state_layout *l = &s->layout;
     dem_index n_closed;
@@ -241,7 +234,7 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
 dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_boundary_load *out)
 {
     TRY(check_given("dem_simulation_boundary", s, out));
-    TRY(check_number("boundary", k, s->boundaries.n));
+    TRY(status_check_number("boundary", k, s->boundaries.n));
     const boundary_condition *b = &s->boundaries.list[k];
     const double *y = seen_of(s), *external = s->held_forces.force;
     dem_boundary_load load = diagnostics_boundary(&s->forces, b, external, y, y + state_velocities(&s->layout));
