@@ -25,13 +25,13 @@ typedef struct dem_obstacle {
     double restitution;   /**< eta in [0, 1], of a single node: a body rebounds by its waves even with 0   (9) */
     double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
     dem_friction_law friction_law;
-    double velocity[3]; /**< m/s, constant and finite; 0: at rest. Nothing pushes an obstacle off its way */
+    double velocity[3]; /**< m/s, constant and finite, the third 0. Nothing pushes an obstacle off its way */
 } dem_obstacle;
 
 /** A field of dem_obstacle that says how it moves: of this name in decks and files too. */
 typedef struct dem_motion_field {
     const char *name, *unit;
-    dem_index n;   /**< 1 or 2 numbers of type double, */
+    dem_index n;   /**< 1 or 2 numbers of type double, 2 of a vector, whose third is 0 in the plane, */
     size_t offset; /**< this many bytes behind the begin of dem_obstacle */
 } dem_motion_field;
 
@@ -133,7 +133,7 @@ DEM_API double dem_model_mass(const dem_model *model);
 DEM_API const double *dem_model_volumes(const dem_model *model);
 
 /** Signed distance of a point to the nearest obstacle, m: > 0 in front, < 0 inside; infinity without obstacles. */
-DEM_API double dem_model_gap(const dem_model *model, const double x[2]);
+DEM_API double dem_model_gap(const dem_model *model, const double *x);
 
 #ifdef __cplusplus
 }

@@ -32,7 +32,7 @@ typedef struct dem_boundary {
     dem_index n_nodes;
     const dem_index *nodes; /**< [n_nodes] distinct; a component of a node is prescribed only once */
     const double *share;    /**< [n_nodes] of a force; NULL: 1/n_nodes each */
-    double value[3];        /**< m/s, m, or N */
+    double value[3];        /**< m/s, m, or N; the third 0 */
     double ramp;            /**< s, >= 0; > 0 for a displacement */
 } dem_boundary;
 
@@ -81,7 +81,7 @@ DEM_API dem_status dem_kernel_check(dem_kernel kind);
 typedef struct dem_options {
     size_t struct_size; /**< set by dem_options_default(); docs/linking.md says how structs may grow */
     dem_method method;  /**< default DEM_METHOD_FEHLBERG45 */
-    double gravity[3];  /**< m/s^2, default {0, -9.81, 0}                                               (2) */
+    double gravity[3];  /**< m/s^2, default {0, -9.81, 0}; the third is 0 in the plane                    (2) */
     double rtol;        /**< default 1e-6: error of a position over spacing, of a velocity over v_scale */
     double spacing;     /**< m, default 0: shortest rest length; required for a model without springs */
     double v_scale;     /**< m/s, default 0: largest of initial speed, sqrt(2 g drop), 1e-3 sound speed */
@@ -102,13 +102,11 @@ typedef struct dem_options {
     bool vertices; /**< default true: convex vertices of obstacles touch the edges of bodies; false: only nodes touch */
     dem_contact_method contact; /**< default DEM_CONTACT_LOCAL */
     dem_kernel kernel;          /**< default DEM_KERNEL_AUTO */
-    int32_t
-        threads; /**< default 1, 1 to 1024: threads that work at once; the results are the same to the bit. A library
-                          built without OpenMP does the work of all in one */
-    dem_index
-        checkpoint_steps;   /**< default 256: accepted steps between checkpoints, of which the bits of a run depend as
-                                         on a tolerance; 0: no checkpoints */
-    dem_index n_boundaries; /**< default 0 */
+    int32_t threads; /**< default 1, 1 to 1024: threads that work at once; the results are the same to the bit.
+                                     A library built without OpenMP does the work of all in one */
+    dem_index checkpoint_steps; /**< default 256: accepted steps between checkpoints, of which the bits of a run depend
+                                     as on a tolerance; 0: no checkpoints */
+    dem_index n_boundaries;     /**< default 0 */
     const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
     dem_force force;                /**< default NULL: no external force */
     void *force_context;            /**< handed to it */
@@ -196,7 +194,7 @@ typedef struct dem_event {
     dem_index segment;          /**< of the obstacle; of a vertex, the segment that ends there */
     dem_index other_body;       /**< the partner; -1 if that is an obstacle, as in every event yet */
     double x[3];                /**< m, place on the partner */
-    double normal[3];           /**< unit, out of the obstacle; in a corner that of the faster approached segment */
+    double normal[3];           /**< unit, out of the partner; in a corner that of the faster approached segment */
     double impulse[3];          /**< N s, given to the body; 0 but for impacts */
     double before[3], after[3]; /**< m/s, of the body at the contact */
     double energy;              /**< J, taken by the impact, >= 0 */

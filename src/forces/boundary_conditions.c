@@ -183,6 +183,8 @@ static dem_status check_one(const dem_boundary *b, dem_index k)
           "boundary %lld: components must be DEM_COMPONENT_X, DEM_COMPONENT_Y or both, got %d", number, (int)wanted);
     CHECK(isfinite(b->value[0]) && isfinite(b->value[1]), DEM_ERROR_ARGUMENT,
           "boundary %lld: value (%g, %g) is not finite", number, b->value[0], b->value[1]);
+    CHECK(b->value[2] == 0.0, DEM_ERROR_ARGUMENT, "boundary %lld: value has a third component in the plane: %g", number,
+          b->value[2]);
     CHECK(isfinite(b->ramp) && b->ramp >= 0.0, DEM_ERROR_ARGUMENT, "boundary %lld: ramp must be >= 0, got %g s", number,
           b->ramp);
     CHECK(b->kind != DEM_BOUNDARY_DISPLACEMENT || b->ramp > 0.0, DEM_ERROR_ARGUMENT,

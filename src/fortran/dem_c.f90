@@ -448,7 +448,7 @@ module dem_c
     real(c_double) function dem_model_gap(model, x) bind(c)
       import
       type(c_ptr), value :: model
-      real(c_double), intent(in) :: x(2)
+      real(c_double), intent(in) :: x(*)
     end function
 
   end interface

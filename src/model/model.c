@@ -313,7 +313,7 @@ const double *dem_model_volumes(const dem_model *model)
 }
 
 /* At t = 0; free ends are not lengthened, and no obstacle is left out. */
-double dem_model_gap(const dem_model *model, const double x[2])
+double dem_model_gap(const dem_model *model, const double *x)
 {
     return obstacles_gap(&model->obstacles, 0.0, vec2_at(x, 0), 0.0, -1, -1).distance;
 }

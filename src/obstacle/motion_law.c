@@ -61,6 +61,14 @@ static void read_field(const dem_obstacle *obstacle, const dem_motion_field *fie
     memcpy(value, (const char *)obstacle + field->offset, (size_t)field->n * sizeof *value);
 }
 
+/* The third component of a field that is a vector; 0 of one that is a number. */
+static double third_of(const dem_obstacle *obstacle, const dem_motion_field *field)
+{
+    double third = 0.0;
+    if (field->n == 2) memcpy(&third, (const char *)obstacle + field->offset + 2 * sizeof third, sizeof third);
+    return third;
+}
+
 /* Fields must be finite, and so must the bounds that follow from them: products may overflow. */
 static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstacle, dem_index o)
 {
@@ -71,6 +79,11 @@ static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstac
         for (int d = 0; d < 2; d++)
             CHECK(isfinite(value[d]), DEM_ERROR_MODEL, "obstacle %lld: %s of %g %s is not finite", (long long)o,
                   field->name, value[d], field->unit);
+    }
+    for (dem_index f = 0; f < kind->n_fields; f++) {
+        const double third = third_of(obstacle, &kind->fields[f]);
+        CHECK(third == 0.0, DEM_ERROR_MODEL, "obstacle %lld: %s has a third component in the plane: %g", (long long)o,
+              kind->fields[f].name, third);
     }
     const motion_bounds b = kind->bounds(obstacle);
     CHECK(isfinite(b.speed) && isfinite(b.acceleration) && isfinite(b.rate), DEM_ERROR_MODEL,

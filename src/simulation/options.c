@@ -31,6 +31,7 @@ dem_status options_check(const dem_options *o)
                                         "rest_speed"};
     CHECK(isfinite(o->gravity[0]) && isfinite(o->gravity[1]), DEM_ERROR_ARGUMENT, "gravity (%g, %g) is not finite",
           o->gravity[0], o->gravity[1]);
+    CHECK(o->gravity[2] == 0.0, DEM_ERROR_ARGUMENT, "gravity has a third component in the plane: %g", o->gravity[2]);
     CHECK(o->rtol >= 1e-13 && o->rtol <= 0.1, DEM_ERROR_ARGUMENT, "rtol must be in [1e-13, 0.1], got %g", o->rtol);
     for (int k = 0; k < 6; k++)
         CHECK(isfinite(lengths[k]) && lengths[k] >= 0.0, DEM_ERROR_ARGUMENT, "%s must be >= 0, got %g", names[k],

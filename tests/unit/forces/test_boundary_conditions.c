@@ -135,6 +135,8 @@ TEST(faults_are_named)
     refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: components * DEM_COMPONENT_X, DEM_COMPONENT_Y * 4");
     bad = good, bad.value[1] = (double)NAN;
     refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: value (0, nan) * not finite");
+    bad = good, bad.value[2] = 2.5;
+    refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: value * third component * 2.5");
     bad = good, bad.ramp = -1.0;
     refused(bad, DEM_ERROR_ARGUMENT, "boundary 0: ramp * >= 0 * -1 s");
     bad = good, bad.kind = DEM_BOUNDARY_DISPLACEMENT;

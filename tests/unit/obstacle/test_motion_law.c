@@ -98,9 +98,12 @@ TEST(fields_are_listed_one_by_one)
 TEST(a_motion_that_cannot_be_computed_with_is_refused)
 {
     const dem_obstacle unknown = {.struct_size = sizeof(dem_obstacle), .velocity = {0.0, (double)NAN}},
-                       fast = {.struct_size = sizeof(dem_obstacle), .velocity = {1e300, 1e300}};
+                       fast = {.struct_size = sizeof(dem_obstacle), .velocity = {1e300, 1e300}},
+                       rising = {.struct_size = sizeof(dem_obstacle), .velocity = {0.0, 0.0, 1.5}};
     assert_int_equal(motion_law_check(&unknown, 3), DEM_ERROR_MODEL);
     assert_message_parts("obstacle 3: velocity * nan m/s * not finite");
     assert_int_equal(motion_law_check(&fast, 3), DEM_ERROR_MODEL);
     assert_message_parts("obstacle 3: velocity * inf m/s * 0 m/s^2");
+    assert_int_equal(motion_law_check(&rising, 3), DEM_ERROR_MODEL);
+    assert_message_parts("obstacle 3: velocity * third component * 1.5");
 }

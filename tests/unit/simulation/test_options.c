@@ -81,6 +81,7 @@ TEST(options_outside_their_ranges_are_named)
     const dem_options good = point_options();
     assert_ok(options_check(&good));
     REFUSE(gravity[0], fabs((double)NAN), "gravity (nan, -9.81) * not finite");
+    REFUSE(gravity[2], -9.81, "gravity * third component * -9.81");
     REFUSE(rtol, 0.2, "rtol * [1e-13, 0.1] * 0.2");
     REFUSE(rtol, 0.0, "rtol * [1e-13, 0.1] * 0");
     REFUSE(rtol, fabs((double)NAN), "rtol * [1e-13, 0.1] * nan");
