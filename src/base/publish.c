@@ -2,7 +2,7 @@
 /* Publishing a file: sync the file, rename it to its final name, sync the folder, in this order. A rename replaces the
  * name at once, but without the first sync the name may reach the disk before the bytes do, and without the last one
  * the rename itself may be lost. Whenever the machine stops, a name therefore stands for a whole file, old or new. What
- * is written into the files is the business of record.c and of output/; this file sees paths only. */
+ * is written into the files is the business of checkpoint_entries.c and of output/; this file sees paths only. */
 #include "base/publish.h"
 
 #include <errno.h>

@@ -169,19 +169,19 @@ static dem_status check_options_then(const progress *now, const progress *then)
 }
 
 /* What a checkpoint says of this trajectory; the probes are a view into it. */
-typedef struct recorded {
+typedef struct checkpointed {
     progress progress;
     const probe_progress *probes; /* [n_probes] */
     hsize_t *rows;                /* [kinds] */
-} recorded;
+} checkpointed;
 
 /* `rows` must be freed after a failure, too. */
-static dem_status read_checkpoint(recorded *out, const dem_trajectory *t, const dem_checkpoint *checkpoint)
+static dem_status read_checkpoint(checkpointed *out, const dem_trajectory *t, const dem_checkpoint *checkpoint)
 {
     const progress now = read_progress(t);
     const size_t n = (size_t)now.n_probes;
     size_t size = 0;
-    *out = (recorded){.rows = calloc((size_t)t->rows.n_kinds, sizeof *out->rows)};
+    *out = (checkpointed){.rows = calloc((size_t)t->rows.n_kinds, sizeof *out->rows)};
     CHECK_MEMORY(out->rows);
     TRY(dem_checkpoint_get(checkpoint, entry, &out->progress, sizeof out->progress));
     TRY(check_options_then(&now, &out->progress));
@@ -272,7 +272,7 @@ static dem_status hand_out(dem_trajectory **out, dem_trajectory *t, dem_status s
  * they must end with it. */
 static dem_status go_on(dem_trajectory *t, const dem_checkpoint *checkpoint)
 {
-    recorded then;
+    checkpointed then;
     trajectory_rows *r = &t->rows;
     dem_status status = read_checkpoint(&then, t, checkpoint);
     for (dem_index k = 0; k < r->options.n_probes && status == DEM_OK; k++)
@@ -340,7 +340,7 @@ dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, con
  * names. */
 dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_checkpoint *checkpoint)
 {
-    recorded then;
+    checkpointed then;
     CHECK(trajectory != NULL && checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_segment: an argument is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more segments", path_of(trajectory));
     TRY(flush(trajectory));

@@ -97,7 +97,7 @@ def image_of(path):
     return np.round(255 * matplotlib.image.imread(path)[:, :, :3]).astype(int)
 
 
-class Film:
+class Frames:
     def __init__(self, path):
         with h5py.File(path) as file:
             self.t = file["VTKHDF/Steps/Values"][...]
@@ -140,19 +140,19 @@ class Decks(unittest.TestCase):
 
     def test_every_spring_of_every_frame_is_where_the_file_has_it(self):
         for name in ("rectangle", "disc", "porous"):
-            film, strip = Film(self.at(name)), self.strip(name)
-            self.assertTrue({0, len(film.t) - 1} < set(strip.frames) and len(strip.frames) >= 5)
+            frames, strip = Frames(self.at(name)), self.strip(name)
+            self.assertTrue({0, len(frames.t) - 1} < set(strip.frames) and len(strip.frames) >= 5)
             for frame, group in strip.frames.items():
                 drawn = strip.shapes(frame, "springs")
-                self.assertEqual(len(drawn), len(film.ends))
+                self.assertEqual(len(drawn), len(frames.ends))
                 # they are sorted by colour: each is the one whose middle is nearest, and none is met twice
-                expected = to_picture(group, film.x[frame])[film.ends]
+                expected = to_picture(group, frames.x[frame])[frames.ends]
                 middle, drawn_middle = expected.mean(axis=1), drawn.mean(axis=1)
                 nearest = [np.argmin(np.abs(middle - m).max(axis=1)) for m in drawn_middle]
-                self.assertEqual(len(set(nearest)), len(film.ends))
+                self.assertEqual(len(set(nearest)), len(frames.ends))
                 self.assertLess(np.abs(drawn - expected[nearest]).max(), 0.006)  # rounded to hundredths
-                np.testing.assert_allclose(numbers(group.get("data-bounds")), bounds(film.x[frame]), rtol=1e-8, atol=1e-12)
-                self.assertAlmostEqual(float(group.get("data-time")), film.t[frame], delta=1e-9 * film.t[-1])
+                np.testing.assert_allclose(numbers(group.get("data-bounds")), bounds(frames.x[frame]), rtol=1e-8, atol=1e-12)
+                self.assertAlmostEqual(float(group.get("data-time")), frames.t[frame], delta=1e-9 * frames.t[-1])
 
     def test_no_body_is_clipped_and_all_frames_have_one_scale(self):
         for name in ("rectangle", "disc", "porous"):
@@ -165,16 +165,16 @@ class Decks(unittest.TestCase):
 
     def test_greatest_compression_is_the_third_of_the_frames(self):
         for name in ("rectangle", "disc", "porous"):
-            film = Film(self.at(name))
-            peak = film.history["t"][np.argmax(film.history["elastic"])]
-            self.assertEqual(sorted(self.strip(name).frames)[2], np.argmin(np.abs(film.t - peak)))
+            frames = Frames(self.at(name))
+            peak = frames.history["t"][np.argmax(frames.history["elastic"])]
+            self.assertEqual(sorted(self.strip(name).frames)[2], np.argmin(np.abs(frames.t - peak)))
 
     def test_limits_are_symmetric_and_hold_what_is_usual(self):
-        film, strip = Film(self.at("disc")), self.strip("disc")
+        frames, strip = Frames(self.at("disc")), self.strip("disc")
         limits = [float(text.replace("−", "-")) for text in strip.texts if re.fullmatch(r"−?[\d.]+", text)]
         self.assertEqual(len(limits), 5)
         np.testing.assert_allclose(limits, -np.array(limits[::-1]), atol=1e-12)
-        usual = max(np.quantile(np.abs(film.strain[frame]), 0.995) for frame in strip.frames)
+        usual = max(np.quantile(np.abs(frames.strain[frame]), 0.995) for frame in strip.frames)
         self.assertTrue(0.9 * usual <= limits[-1] <= 1.6 * usual, (usual, limits))
         stdout = run_plot(self.at("disc"), "-o", self.folder / "a.png", "--range", "0.125").stdout
         self.assertIn("strain -0.125 to 0.125", stdout)
@@ -230,11 +230,11 @@ class Decks(unittest.TestCase):
             self.assertEqual(len(strip.shapes(frame, "triangles")), triangles)
 
     def test_a_zoom_draws_what_it_shows(self):
-        film, strip = Film(self.at("rectangle")), self.strip("rectangle", "--zoom", "-0.02:0.02,0.0:0.04", "--frames", "0,2")
+        frames, strip = Frames(self.at("rectangle")), self.strip("rectangle", "--zoom", "-0.02:0.02,0.0:0.04", "--frames", "0,2")
         for frame, group in strip.frames.items():
             view = numbers(group.get("data-view"))
             np.testing.assert_allclose([(view[0] + view[2]) / 2, (view[1] + view[3]) / 2], [0.0, 0.02], atol=1e-9)
-            ends = film.x[frame][film.ends]
+            ends = frames.x[frame][frames.ends]
             low, high = ends.min(axis=1), ends.max(axis=1)
             seen = np.all((high >= view[:2]) & (low <= view[2:]), axis=1)
             self.assertEqual(len(strip.shapes(frame, "springs")), seen.sum())
@@ -242,8 +242,8 @@ class Decks(unittest.TestCase):
 
     def test_binned_springs_cover_the_body(self):
         """The pixels of a fine lattice are those of its area: all of the rectangle without its hole, and nothing else."""
-        path, film = self.folder / "e.png", Film(self.at("fine"))
-        self.assertGreater(len(film.ends), 50000)
+        path, frames = self.folder / "e.png", Frames(self.at("fine"))
+        self.assertGreater(len(frames.ends), 50000)
         self.assertIn("binned to pixels", run_plot(self.at("fine"), "-o", path, "--frames", "0", "--width", 400).stdout)
         strip = self.strip("fine", "--frames", "0", "--width", 400)
         group = strip.frames[0]
@@ -252,8 +252,8 @@ class Decks(unittest.TestCase):
         pixels = image_of(path)[y, x]
         ink = pixels.sum(axis=2) < 3 * 250
         above = y < to_picture(group, np.array([[0.0, -0.02]]))[0, 1] - 2  # the ground
-        corner = to_picture(group, np.array([film.x[0].min(axis=0), film.x[0].max(axis=0), [0.0, 0.0], [0.012, 0.0]]))
-        centre = to_picture(group, film.x[0].min(axis=0)[None] + [0.05, 0.03])[0]
+        corner = to_picture(group, np.array([frames.x[0].min(axis=0), frames.x[0].max(axis=0), [0.0, 0.0], [0.012, 0.0]]))
+        centre = to_picture(group, frames.x[0].min(axis=0)[None] + [0.05, 0.03])[0]
         radius, spacing = corner[3, 0] - corner[2, 0], 4e-4 * (corner[1, 0] - corner[0, 0]) / 0.08
         hole = np.hypot(x + 0.5 - centre[0], y + 0.5 - centre[1]) - radius
         inside = np.minimum.reduce([x + 0.5 - corner[0, 0], corner[1, 0] - x - 0.5, y + 0.5 - corner[1, 1],
@@ -265,20 +265,20 @@ class Decks(unittest.TestCase):
 
     def test_a_point_is_a_dot(self):
         strip = self.strip("point")
-        film = Film(self.at("point"))
+        frames = Frames(self.at("point"))
         for frame, group in strip.frames.items():
             self.assertEqual(len(strip.shapes(frame, "springs")), 0)
             dots = [line for path in group.findall(f"{SVG}path") if path.get("stroke-width") == "7.00" for line in points_of(path.get("d"))]
-            np.testing.assert_allclose(np.array(dots).reshape(-1, 2), np.repeat(to_picture(group, film.x[frame]), 2, axis=0), atol=0.006)
+            np.testing.assert_allclose(np.array(dots).reshape(-1, 2), np.repeat(to_picture(group, frames.x[frame]), 2, axis=0), atol=0.006)
         speed = self.strip("point", "--color", "speed")
         self.assertIn("speed, m/s", speed.texts)
 
     def test_an_animation_has_one_size_and_even_sides(self):
-        folder, film = self.folder / "film", Film(self.at("disc"))
+        folder, frames = self.folder / "animation", Frames(self.at("disc"))
         stdout = run_plot(self.at("disc"), "--animate", folder, "--width", 501).stdout
         self.assertIn(f"ffmpeg -framerate 25 -i {folder}/frame_%05d.png", stdout)
         files = sorted(folder.iterdir())
-        self.assertEqual([file.name for file in files], [f"frame_{k:05}.png" for k in range(len(film.t))])
+        self.assertEqual([file.name for file in files], [f"frame_{k:05}.png" for k in range(len(frames.t))])
         sizes = {struct.unpack(">II", file.read_bytes()[16:24]) for file in files}
         self.assertEqual(len(sizes), 1)
         self.assertTrue(all(side % 2 == 0 for side in sizes.pop()))
@@ -292,7 +292,7 @@ class Decks(unittest.TestCase):
         strip = Strip(self.folder / "h.svg")
         for text in ("energy, J", "reaction, kN", "contacts", "step, µs", "time, ms", "sum", "kinetic", "springs"):
             self.assertIn(text, strip.texts)
-        rows = len(Film(self.at("disc")).history["t"])
+        rows = len(Frames(self.at("disc")).history["t"])
         charts = [g for g in strip.root.iter(f"{SVG}g") if g.get("class") == "chart"]
         self.assertEqual([int(g.get("data-rows")) for g in charts], [rows] * 4)
 

@@ -46,8 +46,8 @@ REST = """
 """
 FILES = {"a.vtkhdf", "a.obstacle.vtkhdf", "a.json", "a.checkpoint"}
 WAY_OUT = "move it away, change 'name' in &output, or use --overwrite"
-OFTEN = ("--checkpoint-interval", "1e-9")  # every record goes to disk
-AT_ONCE = ("--max-wall", "1e-9")           # a record further with each command
+OFTEN = ("--checkpoint-interval", "1e-9")  # every checkpoint goes to disk
+AT_ONCE = ("--max-wall", "1e-9")           # a checkpoint further with each command
 
 
 def lasting(result):
@@ -111,7 +111,7 @@ class Case(unittest.TestCase):
 
 
 class Cuts(Case):
-    def test_at_every_record(self):
+    def test_at_every_checkpoint(self):
         self.put(DECK.replace("events = .true.", "closure = 1e-9, events = .true.") + "&contact rest_speed = 1e-9 /\n")
         log = self.call(0, outdir="whole")
         result = self.result("whole")
@@ -237,7 +237,7 @@ class Signals(Case):
 class Refusals(Case):
     def setUp(self):
         super().setUp()
-        self.call(75, "--max-wall", "1e-9")  # at the record of t = 0
+        self.call(75, "--max-wall", "1e-9")  # at the checkpoint of t = 0
         self.call(75, "--max-wall", "1e-9")
 
     def state(self):
@@ -278,7 +278,7 @@ class Refusals(Case):
             with self.subTest(len(damage)):
                 (self.folder / "a.checkpoint").write_bytes(damage)
                 self.assertIn("\nresumed    from 0 s", self.call(75, *AT_ONCE))
-                self.assertEqual((self.folder / "a.checkpoint").read_bytes(), text, "the same record again")
+                self.assertEqual((self.folder / "a.checkpoint").read_bytes(), text, "the same checkpoint again")
                 self.assertTrue({"a.checkpoint", "a.checkpoint.prev"} <= self.files())
         (self.folder / "a.checkpoint").write_bytes(text[:-1])
         self.call(0)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks that take a tenth of a second and have in them what a file or a record of a run can have."""
+"""Decks that take a tenth of a second and have in them what a file or a checkpoint of a run can have."""
 
-OPTIONS = ("--checkpoint-interval", "1e-9")  # every record goes to the disk
+OPTIONS = ("--checkpoint-interval", "1e-9")  # every checkpoint goes to the disk
 
 # A disc slides over the ground: impacts, sticking, sliding, slipping, events, probes, peaks.
 STICKS = """

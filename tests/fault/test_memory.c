@@ -142,7 +142,7 @@ static dem_status run(void)
 static const char *const checkpoints[] = {"fault.checkpoint", "fault.checkpoint.prev"};
 static bool kept; /* a checkpoint has been written */
 
-static dem_status keep_record(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
+static dem_status keep_checkpoint(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     if (ask_counts(simulation).steps == 0) return DEM_OK;
     dem_status status = dem_trajectory_segment(context, checkpoint);
@@ -167,7 +167,7 @@ static dem_status follow(dem_simulation *simulation, dem_peaks *peaks, const dem
     const dem_observer observers[3] = {
         ask_peaks_observer(peaks),
         ask_trajectory_observer(trajectory),
-        {.struct_size = sizeof(dem_observer), .checkpoint = keep_record, .context = trajectory}};
+        {.struct_size = sizeof(dem_observer), .checkpoint = keep_checkpoint, .context = trajectory}};
     for (int k = 0; k < 3 && status == DEM_OK; k++) status = dem_simulation_observe(simulation, &observers[k]);
     if (status == DEM_OK) status = dem_simulation_advance(simulation, to_the_end ? 3e-4 : 2e-4);
     if (status == DEM_OK && to_the_end) status = dem_trajectory_finish(trajectory);
@@ -210,7 +210,7 @@ static dem_status build_model(dem_model **model)
     return status;
 }
 
-static dem_status run_with_records(void)
+static dem_status run_with_checkpoints(void)
 {
     CLEANUP(free_model) dem_model *model = NULL;
     CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = NULL;
@@ -298,14 +298,14 @@ TEST_WITH(memory_that_stays_away_ends_a_run_with_its_status, NULL, remove_output
     allocations_may_fail(run, 1.0, 1);
 }
 
-TEST_WITH(one_failed_allocation_loses_no_record, NULL, remove_outputs)
+TEST_WITH(one_failed_allocation_loses_no_checkpoint, NULL, remove_outputs)
 {
-    allocations_may_fail(run_with_records, segment_share, 0);
+    allocations_may_fail(run_with_checkpoints, segment_share, 0);
 }
 
-TEST_WITH(memory_that_stays_away_loses_no_record, NULL, remove_outputs)
+TEST_WITH(memory_that_stays_away_loses_no_checkpoint, NULL, remove_outputs)
 {
-    allocations_may_fail(run_with_records, segment_share, 1);
+    allocations_may_fail(run_with_checkpoints, segment_share, 1);
 }
 
 /* A body that has fallen on the ground in steps of one length. In `now` its state at the end, to be freed; an

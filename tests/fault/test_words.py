@@ -33,7 +33,7 @@ READS = """&run t_end = 1e-4 /
 &body shape = 'file', file = 'lattice.h5' /
 &output name = 'read' /
 """
-LONGER = ("--set", "run.t_end=8e-4")  # goes on from the record of a run that is done
+LONGER = ("--set", "run.t_end=8e-4")  # goes on from the checkpoint of a run that is done
 SLOW = ("--set", "solver.rtol=1e-9", "--set", "run.t_end=5")  # until it is stopped
 
 

@@ -45,7 +45,7 @@ program calls
   call models()
   call simulations()
   call checkpoints()
-  call films()
+  call readers()
   call dem_simulation_destroy(simulation)
   call dem_model_destroy(model)
   call dem_lattice_free(lattice)
@@ -167,7 +167,7 @@ contains
   end subroutine
 
   !> A run written to the file that is named on the command line, and read back.
-  subroutine films()
+  subroutine readers()
     type(dem_observer) :: observer
     type(dem_trajectory_options) :: options
     type(dem_reader_array), pointer :: array

@@ -31,7 +31,7 @@ static void watch(dem_simulation *simulation, dem_observer observer)
     require(dem_simulation_observe(simulation, &observer) == DEM_OK);
 }
 
-static dem_trajectory_options recorded(void)
+static dem_trajectory_options fuzz_options(void)
 {
     static const dem_probe probe = {.name = "p", .kind = DEM_PROBE_NODE, .every = 3};
     dem_trajectory_options options = dem_trajectory_options_default();
@@ -79,7 +79,7 @@ static void land(base *b)
 /* Lands, with a trajectory of which there is one segment. */
 static void checkpoint(base *b)
 {
-    const dem_trajectory_options options = recorded();
+    const dem_trajectory_options options = fuzz_options();
     dem_trajectory *trajectory;
     require(dem_trajectory_create(&trajectory, b->path, b->simulation, &options) == DEM_OK);
     watch(b->simulation, ask_trajectory_observer(trajectory));
@@ -223,7 +223,7 @@ static void go_on(dem_simulation *simulation)
 /* With the files as they were. */
 static dem_trajectory *resume_files(const base *b, const dem_simulation *simulation, const dem_checkpoint *checkpoint)
 {
-    const dem_trajectory_options options = recorded();
+    const dem_trajectory_options options = fuzz_options();
     dem_trajectory *trajectory = NULL;
     (void)unlink(b->path);
     (void)unlink(b->part);

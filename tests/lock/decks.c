@@ -118,7 +118,7 @@ static void check_file(const deck *d, const char *name)
 {
     trace t = trace_begin();
     write_run(d, "lock.vtkhdf");
-    trace_add_film(&t, "lock.vtkhdf");
+    trace_add_frames(&t, "lock.vtkhdf");
     (void)remove("lock.vtkhdf");
     (void)remove("lock.obstacle.vtkhdf");
     store_check(name, t.hash);

@@ -222,7 +222,7 @@ static void add_tables(trace *t, const dem_reader *reader)
     }
 }
 
-void trace_add_film(trace *t, const char *path)
+void trace_add_frames(trace *t, const char *path)
 {
     CLEANUP(free_reader) dem_reader *reader;
     dem_index n;

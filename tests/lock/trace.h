@@ -22,6 +22,6 @@ dem_observer trace_observer(trace *t, double interval);
 void trace_add_all(trace *t, const dem_simulation *simulation);
 
 /** Adds what a trajectory's file says: lattice, times, arrays of all frames and tables, as decoded. */
-void trace_add_film(trace *t, const char *path);
+void trace_add_frames(trace *t, const char *path);
 
 #endif

@@ -12,14 +12,14 @@
 
 static long n_cases = 2, first_seed = 1, every = 3;
 
-enum { MOST_RECORDS = 400 };
+enum { MOST_CHECKPOINTS = 400 };
 
 /* What is reported of a run, as one number for each step: the hash of all before. */
 typedef struct diary {
     uint64_t hash;
-    dem_index n_records, n_frames, n_events;
-    dem_checkpoint *checkpoints[MOST_RECORDS];
-    uint64_t at[MOST_RECORDS]; /* the hash when the checkpoint was taken */
+    dem_index n_checkpoints, n_frames, n_events;
+    dem_checkpoint *checkpoints[MOST_CHECKPOINTS];
+    uint64_t at[MOST_CHECKPOINTS]; /* the hash when the checkpoint was taken */
 } diary;
 
 static void enter(diary *d, const void *bytes, size_t n)
@@ -72,21 +72,21 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
 }
 
 /* Keeps a copy, by way of its entries. */
-static dem_status on_record(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
+static dem_status on_checkpoint(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     diary *d = context;
     assert_ptr_equal(dem_simulation_checkpoint(simulation), checkpoint);
-    assert_true(d->n_records < MOST_RECORDS);
+    assert_true(d->n_checkpoints < MOST_CHECKPOINTS);
     assert_ok(dem_checkpoint_write(checkpoint, "checkpoints.checkpoint"));
-    assert_ok(dem_checkpoint_read(&d->checkpoints[d->n_records], "checkpoints.checkpoint"));
-    d->at[d->n_records++] = d->hash;
+    assert_ok(dem_checkpoint_read(&d->checkpoints[d->n_checkpoints], "checkpoints.checkpoint"));
+    d->at[d->n_checkpoints++] = d->hash;
     return DEM_OK;
 }
 
 static dem_observer observer_of(diary *d, int keeps)
 {
     return (dem_observer)SIZED(dem_observer, .interval = 7e-6, .frame = on_frame, .step = on_step, .event = on_event,
-                               .checkpoint = keeps ? on_record : NULL, .context = d);
+                               .checkpoint = keeps ? on_checkpoint : NULL, .context = d);
 }
 
 /* ---- runs ---- */
@@ -139,20 +139,20 @@ static void check(unsigned long seed, manner how)
 {
     diary whole = {.hash = UINT64_C(0xcbf29ce484222325)};
     run_through(seed, how, &whole);
-    assert_true(whole.n_records > 1);
+    assert_true(whole.n_checkpoints > 1);
     n_events += whole.n_events;
-    for (dem_index k = 0; k < whole.n_records; k++) {
+    for (dem_index k = 0; k < whole.n_checkpoints; k++) {
         if (k % every == 0) {
             const manner again = {how.method, how.contact, 1 + (int)(k % 2)};
             if (go_on_from(seed, again, &whole, k) != whole.hash)
                 fail_msg("seed %lu, method %d, contact %d: resumed from checkpoint %lld of %lld the run is another",
-                         seed, (int)how.method, (int)how.contact, (long long)k, (long long)whole.n_records);
+                         seed, (int)how.method, (int)how.contact, (long long)k, (long long)whole.n_checkpoints);
         }
         dem_checkpoint_destroy(whole.checkpoints[k]);
     }
 }
 
-TEST(every_record_leads_to_the_same_end)
+TEST(every_checkpoint_leads_to_the_same_end)
 {
     static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET, DEM_METHOD_RK4};
     for (long k = 0; k < n_cases; k++)

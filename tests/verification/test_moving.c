@@ -271,7 +271,7 @@ TEST(nor_with_fixed_steps)
 
 /* ---- checkpoints ---- */
 
-TEST(a_run_goes_on_from_its_record_to_the_same_bits)
+TEST(a_run_goes_on_from_its_checkpoint_to_the_same_bits)
 {
     for (size_t k = 0; k < sizeof views / sizeof *views; k++) {
         const view *v = &views[k];
@@ -294,7 +294,7 @@ TEST(a_run_goes_on_from_its_record_to_the_same_bits)
     }
 }
 
-TEST(a_record_of_another_velocity_is_refused)
+TEST(a_checkpoint_of_another_velocity_is_refused)
 {
     CLEANUP(support_close) support_run run, other;
     dem_simulation *resumed = NULL;

@@ -13,7 +13,7 @@
 #include "base/checkpoint_entries.h"
 #include "unit/scratch.h"
 
-#define FILE_NAME "test_record.checkpoint"
+#define FILE_NAME "test_checkpoint.checkpoint"
 #define PREVIOUS  FILE_NAME ".prev"
 
 /* Messages name the files as the tests do: by their names in the folder. */
@@ -22,8 +22,8 @@ static int enter_folder(void **state)
     if (scratch_make(state) != 0) return 1;
     (void)scratch_file(FILE_NAME);
     (void)scratch_file(PREVIOUS);
-    (void)scratch_file("test_record.bad");
-    (void)scratch_file("test_record.good");
+    (void)scratch_file("test_checkpoint.bad");
+    (void)scratch_file("test_checkpoint.good");
     return chdir(scratch.path);
 }
 
@@ -137,7 +137,7 @@ TEST(a_file_holds_all_and_the_one_before_is_kept)
 
 static void put_file(const unsigned char *bytes, size_t size)
 {
-    FILE *file = fopen("test_record.bad", "wb");
+    FILE *file = fopen("test_checkpoint.bad", "wb");
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
     assert_int_equal(fclose(file), 0);
@@ -147,7 +147,7 @@ static void refuse_file(const unsigned char *bytes, size_t size, const char *mes
 {
     dem_checkpoint *checkpoint = NULL;
     put_file(bytes, size);
-    refuse(dem_checkpoint_read(&checkpoint, "test_record.bad"), DEM_ERROR_IO, message);
+    refuse(dem_checkpoint_read(&checkpoint, "test_checkpoint.bad"), DEM_ERROR_IO, message);
     assert_null(checkpoint);
 }
 
@@ -168,27 +168,27 @@ TEST(damaged_files_are_refused)
     for (size_t k = 0; k < 8 * size; k++) {
         bytes[k / 8] ^= (unsigned char)(1u << k % 8);
         put_file(bytes, size);
-        assert_int_equal(dem_checkpoint_read(&back, "test_record.bad"), DEM_ERROR_IO);
+        assert_int_equal(dem_checkpoint_read(&back, "test_checkpoint.bad"), DEM_ERROR_IO);
         bytes[k / 8] ^= (unsigned char)(1u << k % 8);
     }
     for (size_t k = 0; k < size; k++) {
         put_file(bytes, k);
-        assert_int_equal(dem_checkpoint_read(&back, "test_record.bad"), DEM_ERROR_IO);
+        assert_int_equal(dem_checkpoint_read(&back, "test_checkpoint.bad"), DEM_ERROR_IO);
     }
-    refuse_file(bytes, 10, "test_record.bad: is no checkpoint, or has been cut short");
+    refuse_file(bytes, 10, "test_checkpoint.bad: is no checkpoint, or has been cut short");
     bytes[size] = 0;
-    refuse_file(bytes, size + 1, "test_record.bad: has 161 bytes, 160 were written");
+    refuse_file(bytes, size + 1, "test_checkpoint.bad: has 161 bytes, 160 were written");
     bytes[size - 1] ^= 1;
-    refuse_file(bytes, size, "test_record.bad: is damaged");
+    refuse_file(bytes, size, "test_checkpoint.bad: is damaged");
     bytes[size - 1] ^= 1;
     bytes[12] = 2;
-    refuse_file(bytes, size, "test_record.bad: has format 2, this version reads 1");
+    refuse_file(bytes, size, "test_checkpoint.bad: has format 2, this version reads 1");
     bytes[12] = 1;
     bytes[8] = 1;
     bytes[11] = 4;
-    refuse_file(bytes, size, "test_record.bad: was written on a machine of another byte order");
+    refuse_file(bytes, size, "test_checkpoint.bad: was written on a machine of another byte order");
     bytes[0] = 'D';
-    refuse_file(bytes, size, "test_record.bad: is no checkpoint");
+    refuse_file(bytes, size, "test_checkpoint.bad: is no checkpoint");
     dem_checkpoint_destroy(checkpoint);
 }
 
@@ -205,10 +205,10 @@ TEST(files_that_are_none_are_refused)
     refuse(dem_publish("no/file", "no/other"), DEM_ERROR_IO,
            "no/file: cannot be opened to sync it (No such file or directory)");
     put_file((const unsigned char *)"x", 1);
-    refuse(dem_publish("test_record.bad", "no/file"), DEM_ERROR_IO,
-           "test_record.bad: cannot be renamed to no/file (No such file or directory)");
-    assert_ok(dem_publish("test_record.bad", "test_record.good"));
-    assert_int_equal(size_of("test_record.good"), 1);
+    refuse(dem_publish("test_checkpoint.bad", "no/file"), DEM_ERROR_IO,
+           "test_checkpoint.bad: cannot be renamed to no/file (No such file or directory)");
+    assert_ok(dem_publish("test_checkpoint.bad", "test_checkpoint.good"));
+    assert_int_equal(size_of("test_checkpoint.good"), 1);
     dem_checkpoint_destroy(checkpoint);
 }
 

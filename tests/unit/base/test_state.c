@@ -7,7 +7,7 @@
 enum { dim_most = STATE_DIM_MOST, most_numbers = 1024 };
 
 /* 5 nodes, 3 rows of padding, 3 impulses, 3 of friction, 2 rows of totals: checkpoints of states have them so. */
-TEST(two_components_stand_where_records_have_them)
+TEST(two_components_stand_where_checkpoints_have_them)
 {
     const state_layout l = state_layout_of(2, 5, 3, false);
     assert_int_equal(l.n_nodes, 5);

@@ -68,7 +68,7 @@ TEST(each_source_comes_back_from_its_own_entry)
     source_list_destroy(&s);
 }
 
-TEST(a_record_without_the_entry_of_a_source_is_refused)
+TEST(a_checkpoint_without_the_entry_of_a_source_is_refused)
 {
     counter one = {.entry = "one", .count = 7}, both[2] = {{.entry = "one"}, {.entry = "two"}};
     const double y = 0.0;

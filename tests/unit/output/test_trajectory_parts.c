@@ -428,7 +428,7 @@ static void assert_is_whole(const place *p, const char *name)
 }
 
 /* Three sessions: what is in the part when the last of them is killed. */
-TEST(a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_record)
+TEST(a_segment_is_a_file_of_its_own_with_just_the_rows_up_to_its_checkpoint)
 {
     CLEANUP(close_place) place p = open_place();
     run_quietly(&p);
@@ -486,7 +486,7 @@ static void assert_says(const char *words)
     if (strstr(dem_status_message(), words) == NULL) fail_msg("\"%s\" lacks \"%s\"", dem_status_message(), words);
 }
 
-TEST(the_segment_of_a_record_is_made_once)
+TEST(the_segment_of_a_checkpoint_is_made_once)
 {
     CLEANUP(close_place) place p = open_place();
     const dem_trajectory_options options = everything();
@@ -662,7 +662,7 @@ TEST(a_segment_that_is_not_right_is_named)
 }
 
 /* A checkpoint between two segments: the second of them goes beyond it. */
-TEST(a_record_that_no_segment_ends_at_is_refused)
+TEST(a_checkpoint_that_no_segment_ends_at_is_refused)
 {
     CLEANUP(close_place) place p = open_place();
     CLEANUP(drop_point)
@@ -872,7 +872,7 @@ static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoin
     return last;
 }
 
-TEST(a_run_goes_on_from_the_records_of_its_simulation)
+TEST(a_run_goes_on_from_the_checkpoints_of_its_simulation)
 {
     CLEANUP(close_place) place p = open_place();
     assert_null(follow_to(&p, NULL, end));

@@ -163,7 +163,7 @@ static void make_whole(run *r)
     make(r, &options);
 }
 
-static dem_reader *open_film(const char *path)
+static dem_reader *open_reader(const char *path)
 {
     dem_reader *reader;
     assert_ok(dem_reader_open(&reader, path));
@@ -243,7 +243,7 @@ TEST(frames_are_what_was_seen)
         options.double_precision = in_double;
         CLEANUP(end) run r;
         make(&r, &options);
-        CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+        CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
         assert_int_equal(r.n_shots, 11);
         assert_frames(reader, &r, in_double ? 0.0 : 1.0);
         const dem_reader_array *v = dem_reader_array_find(reader, "velocity");
@@ -259,7 +259,7 @@ TEST(any_fields_may_be_there)
         options.fields = some[k], options.deflate = 0;
         CLEANUP(end) run r;
         make(&r, &options);
-        CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+        CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
         assert_frames(reader, &r, 0.0);
         assert_int_equal(dem_reader_array_find(reader, "velocity") != NULL, (some[k] & DEM_FIELD_VELOCITY) != 0);
         assert_int_equal(dem_reader_array_find(reader, "strain") != NULL, (some[k] & DEM_FIELD_STRAIN) != 0);
@@ -293,7 +293,7 @@ TEST(arrays_are_listed_with_what_they_are)
         dem_index n = 0;
         advance(&r, frames == 1 ? 0.5 : 9.0);
         assert_ok(dem_trajectory_finish(r.trajectory));
-        CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+        CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
         (void)dem_reader_times(reader, &n);
         assert_int_equal(n, frames);
         const dem_reader_array *arrays = dem_reader_arrays(reader, &n);
@@ -313,7 +313,7 @@ TEST(constants_are_the_same_in_all_frames)
 {
     CLEANUP(end) run r;
     make_whole(&r);
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     const dem_lattice *l = dem_model_lattice(r.model);
     const dem_node_peak *nodes = dem_peaks_nodes(r.peaks);
     const dem_spring_peak *springs = dem_peaks_springs(r.peaks);
@@ -373,7 +373,7 @@ TEST(tables_are_what_hdf5_finds)
 {
     CLEANUP(end) run r;
     make_whole(&r);
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     dem_index n = 0, tables = 0;
     const dem_reader_column *columns = dem_reader_columns(reader, &n);
     const char *table = "";
@@ -421,7 +421,7 @@ TEST(columns_have_items_and_components)
     };
     CLEANUP(end) run r;
     make_whole(&r);
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) expect_column(reader, &expected[k]);
     assert_null(dem_reader_column_find(reader, "history", "kind"));
 }
@@ -432,7 +432,7 @@ TEST(lattice_and_obstacles_are_the_models)
 {
     CLEANUP(end) run r;
     make_whole(&r);
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     const dem_lattice *l = dem_reader_lattice(reader), *own = dem_model_lattice(r.model);
     const dem_index n = dem_reader_n_obstacles(reader);
     assert_int_equal(l->n_nodes, own->n_nodes);
@@ -463,7 +463,7 @@ TEST(a_point_without_springs_and_obstacles_is_read)
     double values[6];
     advance(&r, 10.0);
     assert_ok(dem_trajectory_finish(r.trajectory));
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     assert_frames(reader, &r, 0.0);
     const dem_reader_array *force = dem_reader_array_find(reader, "force");
     assert_false(force->constant);
@@ -478,7 +478,7 @@ TEST(a_run_without_frames_has_its_tables)
     options.frame_interval = 0.0, options.events = 0;
     CLEANUP(end) run r;
     make(&r, &options);
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     dem_index n = -1;
     double x[64];
     (void)dem_reader_times(reader, &n);
@@ -497,7 +497,7 @@ TEST(a_part_is_seen_as_it_was_when_it_was_opened)
     begin(&r, &options);
     dem_index n = 0;
     advance(&r, 4.5);
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.part);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.part);
     const dem_reader_column *t = dem_reader_column_find(reader, "history", "t");
     CLEANUP(free_memory) double *times = copy_of(NULL, t->n_rows);
     (void)dem_reader_times(reader, &n);
@@ -522,7 +522,7 @@ TEST(segment_and_part_follow_each_other)
     advance(&r, 6.5);
     assert_ok(dem_trajectory_segment(r.trajectory, dem_simulation_checkpoint(r.simulation)));
     advance(&r, 10.0);
-    CLEANUP(free_reader) dem_reader *segment = open_film(r.segment), *part = open_film(r.part);
+    CLEANUP(free_reader) dem_reader *segment = open_reader(r.segment), *part = open_reader(r.part);
     const double *first = dem_reader_times(segment, &n[0]), *then = dem_reader_times(part, &n[1]);
     assert_true(n[0] > 1 && n[1] > 1);
     assert_int_equal(n[0] + n[1], 11);
@@ -537,7 +537,7 @@ TEST(what_is_not_there_cannot_be_read)
 {
     CLEANUP(end) run r;
     make_whole(&r);
-    dem_reader *reader = open_film(r.path), *other = NULL;
+    dem_reader *reader = open_reader(r.path), *other = NULL;
     double values[1024];
     const dem_reader_array *v = dem_reader_array_find(reader, "velocity");
     const dem_reader_column *t = dem_reader_column_find(reader, "history", "t");
@@ -729,7 +729,7 @@ TEST(what_has_changed_since_is_refused)
 {
     CLEANUP(end) run r;
     make_whole(&r);
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     CLEANUP(free_memory) double *values = copy_of(NULL, 4096);
     const hid_t file = H5Fopen(r.path, H5F_ACC_RDWR, H5P_DEFAULT);
     put_flat(file, "/VTKHDF/PointData/velocity");
@@ -761,7 +761,7 @@ TEST(other_arrays_and_uneven_tables_are_read)
     assert_ok(hdf5_write(&file, (hdf5_rows){"/VTKHDF/CellData/mine", HDF5_F32, 2, {2}, 0, 0}, (hsize_t)n, mine));
     put_flat(file.id, "/history/short");
     assert_ok(hdf5_close(&file, DEM_OK));
-    CLEANUP(free_reader) dem_reader *reader = open_film(r.path);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     CLEANUP(free_memory) double *found = read_array(reader, "mine", 7);
     assert_memory_equal(found, mine, 2 * (size_t)n * sizeof *mine);
     assert_true(dem_reader_array_find(reader, "mine")->constant);

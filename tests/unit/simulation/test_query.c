@@ -318,7 +318,7 @@ static dem_status only_look_at_event(void *context, const dem_simulation *simula
     return only_look(context, simulation);
 }
 
-static dem_status only_look_at_record(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
+static dem_status only_look_at_checkpoint(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
     (void)checkpoint;
     return only_look(context, simulation);
@@ -327,7 +327,7 @@ static dem_status only_look_at_record(void *context, const dem_simulation *simul
 static dem_observer looker(pusher *p)
 {
     return (dem_observer)SIZED(dem_observer, .interval = 0.007, .frame = only_look, .step = only_look,
-                               .event = only_look_at_event, .checkpoint = only_look_at_record, .context = p);
+                               .event = only_look_at_event, .checkpoint = only_look_at_checkpoint, .context = p);
 }
 
 enum { n_advances = 12 }; /* of 0.01 s each, with the impact after some 0.03 s */

@@ -183,7 +183,7 @@ static void same(const dem_simulation *a, const dem_simulation *b)
 }
 
 /* A checkpoint from before leads on to what was; the one that the next advance takes, to what is now. */
-TEST(a_record_is_of_one_motion)
+TEST(a_checkpoint_is_of_one_motion)
 {
     const dem_obstacle ground =
         SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5, .friction = 0.2);

@@ -107,7 +107,7 @@ TEST_WITH(a_damaged_one_gives_way_to_the_one_before, NULL, scratch_sweep)
     expect(CHECKPOINT_FOUND, false, "");
 }
 
-TEST_WITH(a_record_of_another_program_is_refused, NULL, scratch_sweep)
+TEST_WITH(a_checkpoint_of_another_program_is_refused, NULL, scratch_sweep)
 {
     dem_checkpoint *checkpoint;
     assert_ok(dem_checkpoint_create(&checkpoint));

@@ -45,7 +45,7 @@ static request asking(const trajectory_fixture *f, request_action action, const 
     return (request){.action = action, .input = f->path, .output = output, .width = 800.0};
 }
 
-TEST(a_strip_has_all_frames_of_a_short_film)
+TEST(a_strip_has_all_frames_of_a_short_run)
 {
     trajectory_fixture *f = *test_state;
     const request r = asking(f, REQUEST_STRIP, trajectory_fixture_beside(f, "a.svg"));
@@ -77,7 +77,7 @@ TEST(an_animation_has_a_file_for_each_frame)
 {
     trajectory_fixture *f = *test_state;
     request r = asking(f, REQUEST_ANIMATION, NULL);
-    r.folder = trajectory_fixture_beside(f, "film");
+    r.folder = trajectory_fixture_beside(f, "animation");
     draw(show_animation, f, &r, r.folder);
     draw(show_animation, f, &r, r.folder); /* over an older one */
     for (int k = 0; k < TRAJECTORY_FIXTURE_FRAMES; k++) {

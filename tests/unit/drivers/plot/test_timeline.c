@@ -47,7 +47,7 @@ TEST(what_never_is_has_no_line)
     assert_null(strstr(text, "boundar"));
 }
 
-TEST(the_same_film_has_the_same_hash)
+TEST(the_same_frames_have_the_same_hash)
 {
     CLEANUP(free_memory) char *a = draw(*test_state), *b = draw(*test_state);
     assert_string_equal(a, b);
