@@ -13,6 +13,7 @@
 #include "base/struct_size.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
+#include "obstacle/obstacle_input.h"
 #include "obstacle/obstacle_set.h"
 #include "obstacle/point_gap.h"
 
@@ -236,7 +237,7 @@ dem_status dem_model_create(dem_model **out, const dem_lattice *lattice, const d
     dem_lattice own;
     void *list;
     TRY(lattice_read(&own, lattice));
-    TRY(motion_law_read_all(&list, obstacles, n_obstacles));
+    TRY(obstacle_input_read_all(&list, obstacles, n_obstacles));
     const dem_status status = create(out, &own, list, n_obstacles);
     free(list);
     return status;

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "base/struct_size.h"
+#include "obstacle/obstacle_input.h"
 #include "obstacle/uniform_motion.h"
 
 static const motion_kind *const kinds[] = {&uniform_motion};
@@ -121,22 +121,6 @@ bool motion_law_is_same(const motion_law *a, const motion_law *b)
 
 /* ---- public ---- */
 
-/* `velocity` is the last member of the first version. */
-static const struct_kind kind_of_struct = {"dem_obstacle", STRUCT_SIZE_WITH(dem_obstacle, velocity),
-                                           sizeof(dem_obstacle)};
-
-dem_status motion_law_read(dem_obstacle *ours, const dem_obstacle *theirs)
-{
-    CHECK(theirs != NULL, DEM_ERROR_ARGUMENT, "obstacle is NULL");
-    *ours = (dem_obstacle){0};
-    return struct_size_read(&kind_of_struct, ours, theirs);
-}
-
-dem_status motion_law_read_all(void **ours, const dem_obstacle *theirs, dem_index n)
-{
-    return struct_size_read_array(&kind_of_struct, ours, theirs, n);
-}
-
 /* Field k when the fields of all kinds are numbered through. */
 const dem_motion_field *dem_motion_field_at(dem_index k)
 {
@@ -156,7 +140,7 @@ static bool has_field(const motion_kind *kind, const dem_motion_field *field)
 bool dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by)
 {
     dem_obstacle own;
-    if (motion_law_read(&own, obstacle) != DEM_OK) return false;
+    if (obstacle_input_read(&own, obstacle) != DEM_OK) return false;
     const motion_law law = motion_law_of(&own);
     bool moves = by == NULL && law.moves;
     for (int k = 0; k < N_KINDS; k++) moves = moves || (moves_by(&law, k) && has_field(kinds[k], by));
@@ -168,7 +152,7 @@ dem_status dem_obstacle_points(const dem_obstacle *obstacle, double t, double *p
 {
     dem_obstacle own;
     CHECK(points != NULL, DEM_ERROR_ARGUMENT, "dem_obstacle_points: points is NULL");
-    TRY(motion_law_read(&own, obstacle));
+    TRY(obstacle_input_read(&own, obstacle));
     const motion_law law = motion_law_of(&own);
     const pose at = motion_law_pose(&law, t);
     memmove(points, own.points, 2 * (size_t)own.n_points * sizeof *points);

@@ -35,9 +35,4 @@ static inline motion_bounds motion_bounds_of_both(motion_bounds a, motion_bounds
 /** Whether two obstacles are at rest relative to each other at all times. */
 bool motion_law_is_same(const motion_law *a, const motion_law *b);
 
-/** Reads a caller's obstacle, or n of them into an array to be freed; they may be of another version of the library.
- *  The points remain the caller's.  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MEMORY */
-dem_status motion_law_read(dem_obstacle *ours, const dem_obstacle *theirs);
-dem_status motion_law_read_all(void **ours, const dem_obstacle *theirs, dem_index n);
-
 #endif

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "obstacle/obstacle_input.h"
 #include "obstacle/point_gap.h"
 #include "obstacle/polyline.h"
 
@@ -201,7 +202,7 @@ dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2
     CHECK(obstacle != NULL && segments != NULL, DEM_ERROR_ARGUMENT, "dem_obstacle_check: %s is NULL",
           obstacle ? "segments" : "obstacle");
     dem_obstacle own;
-    TRY(motion_law_read(&own, obstacle));
+    TRY(obstacle_input_read(&own, obstacle));
     segments[0] = segments[1] = -1;
     return find_crossing(&own, segments);
 }
