@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Boundary conditions: components of the motion of chosen nodes that are prescribed, and forces put on nodes, both
- * times a ramp r(t) (docs/method.md, Boundary conditions). With s = t/T for a ramp of length T,
- *     r = 10 s^3 - 15 s^4 + 6 s^5,
- * which is twice continuously differentiable and of degree 5, so that a method of order 5 integrates it to rounding.
+ * times a ramp r(t) (base/ramp.h; docs/method.md, Boundary conditions).
  * Prescribed components stay unknowns of the ODE and get given derivatives; the force that this takes follows as a
  * reaction. Fixed nodes are not here but have an inverse mass of 0 (model/model.c); forces that a program computes are
  * in external_force.c. */
@@ -12,68 +10,37 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/ramp.h"
 #include "base/status.h"
 #include "base/struct_size.h"
 
 enum { BOTH = DEM_COMPONENT_X | DEM_COMPONENT_Y };
 
-/* ---- the ramp ---- */
+/* ---- functions of time ---- */
 
-/* Sets s = t/T, and tells whether the ramp is going on there. Before and after it its derivatives are 0. Without a ramp
- * (T = 0) it is over from the start. */
-static bool within(const boundary_condition *b, double t, double *s)
-{
-    *s = b->ramp > 0.0 ? t / b->ramp : 1.0;
-    return *s > 0.0 && *s < 1.0;
-}
-
-/* r(t), between 0 and 1. */
 double boundary_condition_ramp(const boundary_condition *b, double t)
 {
-    double s;
-    if (within(b, t, &s)) return s * s * s * (10.0 + s * (6.0 * s - 15.0));
-    return s > 0.0 ? 1.0 : 0.0;
-}
-
-/* dr/dt = 30 s^2 (1 - s)^2/T, 1/s. */
-static double ramp_slope(const boundary_condition *b, double t)
-{
-    double s;
-    return within(b, t, &s) ? 30.0 * s * s * (1.0 - s) * (1.0 - s) / b->ramp : 0.0;
-}
-
-/* d^2r/dt^2 = 60 s (1 - s) (1 - 2 s)/T^2, 1/s^2. */
-static double ramp_curvature(const boundary_condition *b, double t)
-{
-    double s;
-    return within(b, t, &s) ? 60.0 * s * (1.0 - s) * (1.0 - 2.0 * s) / (b->ramp * b->ramp) : 0.0;
-}
-
-/* Integral of r from 0 to t, s: T (5/2 s^4 - 3 s^5 + s^6) within the ramp, T/2 at its end, and t - T/2 from there
- * on. */
-static double ramp_area(const boundary_condition *b, double t)
-{
-    double s;
-    if (within(b, t, &s)) return b->ramp * s * s * s * s * (2.5 + s * (s - 3.0));
-    return s > 0.0 ? t - 0.5 * b->ramp : 0.0;
+    return ramp_value(b->ramp, t);
 }
 
 /* A velocity condition moves its nodes with V r, hence by V times the integral of r; a displacement condition by U
  * r. */
 vec2 boundary_condition_displacement(const boundary_condition *b, double t)
 {
-    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_area(b, t) : boundary_condition_ramp(b, t), b->value);
+    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_area(b->ramp, t) : boundary_condition_ramp(b, t),
+                      b->value);
 }
 
 /* This is the time derivative of the displacement, and the acceleration below is that of the velocity. */
 vec2 boundary_condition_velocity(const boundary_condition *b, double t)
 {
-    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? boundary_condition_ramp(b, t) : ramp_slope(b, t), b->value);
+    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? boundary_condition_ramp(b, t) : ramp_slope(b->ramp, t),
+                      b->value);
 }
 
 vec2 boundary_condition_acceleration(const boundary_condition *b, double t)
 {
-    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_slope(b, t) : ramp_curvature(b, t), b->value);
+    return vec2_scale(b->kind == DEM_BOUNDARY_VELOCITY ? ramp_slope(b->ramp, t) : ramp_curvature(b->ramp, t), b->value);
 }
 
 /* ---- all of them, in a state ---- */
@@ -156,7 +123,6 @@ bool boundary_conditions_move(const boundary_conditions *b)
     return false;
 }
 
-/* The largest slope of r is 1.875/T, in the middle of the ramp. */
 double boundary_conditions_speed(const boundary_conditions *b)
 {
     double fastest = 0.0;
@@ -164,7 +130,7 @@ double boundary_conditions_speed(const boundary_conditions *b)
         const boundary_condition *one = &b->list[k];
         const double size = vec2_norm(one->value);
         if (one->kind == DEM_BOUNDARY_VELOCITY) fastest = fmax(fastest, size);
-        if (one->kind == DEM_BOUNDARY_DISPLACEMENT) fastest = fmax(fastest, 1.875 * size / one->ramp); /* its middle */
+        if (one->kind == DEM_BOUNDARY_DISPLACEMENT) fastest = fmax(fastest, RAMP_STEEPEST * size / one->ramp);
     }
     return fastest;
 }

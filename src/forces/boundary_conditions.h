@@ -41,8 +41,7 @@ dem_status boundary_conditions_compile(boundary_conditions *out, const dem_bound
                                        const dem_lattice *lattice, dem_index n_obstacles);
 void boundary_conditions_free(boundary_conditions *b);
 
-/** 10 s^3 - 15 s^4 + 6 s^5 with s = t/ramp, from 0 to 1 and twice continuously differentiable; 1 for ramp = 0.
- *  Degree 5, so that a method of order 5 integrates its derivatives to rounding. */
+/** The factor of the condition at t, from 0 to 1 (base/ramp.h); 1 without a ramp. */
 double boundary_condition_ramp(const boundary_condition *b, double t);
 
 /** Velocity, m/s, and acceleration, m/s^2, of prescribed components at t. */
