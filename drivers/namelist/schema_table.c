@@ -224,7 +224,7 @@ static const schema_key solver_keys[] = {
     {"method", SCHEMA_CHOICE, 1, 1, "-", "'fehlberg45'", ANY,
      "fehlberg45|dopri45|cashkarp45|zonneveld34|bs23|heun12|sayfyaburub34|ark23|ark34|ark34b|ark45|ark45b|verner56|"
      "verner67|verner78|verner89|fehlberg78|knothwolke3|rk4|verlet",
-     PHYSICS, "By name and orders; knothwolke3, rk4 and verlet take fixed steps. The table is in docs/method.md.",
+     PHYSICS, "By name and orders; knothwolke3, rk4 and verlet take fixed steps. The table is in docs/integrators.md.",
      NULL},
     {"rtol", SCHEMA_REAL, 1, 1, "-", "1e-6", "[1e-13, 1e-1]", NULL, PHYSICS,
      "Largest error of a step: of a position over `spacing`, of a velocity over `v_scale`.", NULL},

@@ -6,7 +6,7 @@
  *     nor behind a condition that is not the same for all;
  *   - what is the same for all anyway (options, obstacles, time, counts of steps) is not reduced;
  *   - what only saves a rank work of its own is not reduced.
- * docs/algorithms.md lists the calls, and what is still missing. */
+ * docs/architecture.md lists the calls, and what is still missing. */
 #ifndef DEM_BASE_REDUCE_H
 #define DEM_BASE_REDUCE_H
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What is measured on a state: energies, motion of bodies, extreme strains, reactions of obstacles and boundary
  * conditions, residual. Sums are exact, and equal extremes are distinguished by the nodes of a spring, so that the
- * numbers do not depend on the numbering of nodes and springs (docs/algorithms.md, Numbers of the whole). Nothing here
- * feeds back into the motion. What damping and friction take is not measured but integrated with the motion
+ * numbers do not depend on the numbering of nodes and springs (docs/architecture.md, Numbers of the whole). Nothing
+ * here feeds back into the motion. What damping and friction take is not measured but integrated with the motion
  * (simulation/right_hand_side.c); impacts have their ledger in contact/ledger.c. */
 #include "forces/diagnostics.h"
 

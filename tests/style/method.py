@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does docs/method.md take all ten equations to functions and tests that are there? `method.py SOURCE_ROOT`."""
+"""Does docs/method.md have the ten equations, and docs/algorithms.md take them to functions and tests that are there?
+Is the page of physics free of files of the code? `method.py SOURCE_ROOT`."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(sys.argv[1])
+WANTED = [f"({k})" for k in range(1, 11)]
 faults = []
 
 
@@ -45,14 +47,29 @@ def check_row(row, cells):
             faults.append(f"{row}: {test} is not there")
 
 
-text = (ROOT / "docs/method.md").read_text(encoding="utf-8")
-rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if re.match(r"\| (\(\d+\)|-) \|", line)]
-found = [row[0] for row in rows if row[0] != "-"]
-wanted = [f"({k})" for k in range(1, 11)]
-if found != wanted:
-    faults.append(f"equations {' '.join(found)} instead of {' '.join(wanted)}")
+def rows_of(page):
+    """The rows of its table of equations; those without a number begin with a dash."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if re.match(r"\| (\(\d+\)|-) \|", line)]
+    table = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    found = [row[0] for row in table if row[0] != "-"]
+    if found != WANTED:
+        faults.append(f"{page}: equations {' '.join(found)} instead of {' '.join(WANTED)}")
+    return table
+
+
+def check_physics(page):
+    """Functions and files of the code stand on the page for developers."""
+    for number, line in enumerate((ROOT / page).read_text(encoding="utf-8").splitlines(), 1):
+        for place in re.findall(r"\b(?:src|drivers|include)/[\w/]*", line):
+            faults.append(f"{page}:{number}: {place} belongs to docs/algorithms.md")
+
+
+rows_of("docs/method.md")
+check_physics("docs/method.md")
+rows = rows_of("docs/algorithms.md")
 for row in rows:
     check_row(row[0] if row[0] != "-" else row[1], row[2:4])
 
-print("\n".join(faults) if faults else f"{len(found)} equations, {len(rows)} rows")
+print("\n".join(faults) if faults else f"{len(WANTED)} equations, {len(rows)} rows")
 sys.exit(1 if faults else 0)
