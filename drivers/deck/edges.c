@@ -1,47 +1,119 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* The boundary is found from the triangles, not from the flags of contact: nodes that are held may not touch, and yet
+ * the peak of a plate with lines of symmetry is at one of them. */
 #include "edges.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-#include "body_geometry.h"
+#include "body_checks.h"
 
 static const double degree = 3.14159265358979323846 / 180.0;
 static const double blur = 1e-6; /* of the spacing: turned coordinates are rounded */
+
+enum { most_ends = 32 }; /* a node of a lattice of triangles has 6 of them, one of squares at most 8 */
+
+/* A node and its body. */
+typedef struct place {
+    const dem_lattice *lattice;
+    const schema_instance *body;
+    dem_index node;
+} place;
 
 static dem_index body_of(const dem_lattice *l, dem_index node)
 {
     return l->body != NULL ? l->body[node] : 0;
 }
 
-/* Whether no node of its body lies farther out along a direction. */
-static bool is_outermost(const dem_lattice *l, dem_index node, const double direction[2], double slack)
+/* ---- sides of the outline ---- */
+
+/* How much farther out than the place a node lies, m. */
+static double ahead(const place *p, dem_index node, const double outwards[2])
 {
-    const double *x = l->x + 2 * node;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const double *y = l->x + 2 * i;
-        if (body_of(l, i) != body_of(l, node)) continue;
-        if ((y[0] - x[0]) * direction[0] + (y[1] - x[1]) * direction[1] > slack) return false;
-    }
+    const double *x = p->lattice->x + 2 * p->node, *y = p->lattice->x + 2 * node;
+    return (y[0] - x[0]) * outwards[0] + (y[1] - x[1]) * outwards[1];
+}
+
+static bool is_outermost(const place *p, const double outwards[2], double slack)
+{
+    const dem_lattice *l = p->lattice;
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (body_of(l, i) == body_of(l, p->node) && ahead(p, i, outwards) > slack) return false;
     return true;
 }
 
-/* Of a rectangle. */
-static bool is_on_straight_side(const dem_lattice *l, dem_index node, const schema_instance *body)
+/* Twice, m^2; > 0 where the points run counter-clockwise. */
+static double polygon_area(const outline *o)
 {
-    const double angle = degree * schema_real(body, "angle"), slack = blur * schema_real(body, "spacing");
-    const double c = cos(angle), s = sin(angle), outwards[4][2] = {{-s, c}, {s, -c}, {c, s}, {-c, -s}};
-    const int n_straight = body_geometry_has_squares(body) ? 4 : 2;
-    for (int k = 0; k < n_straight; k++)
-        if (is_outermost(l, node, outwards[k], slack)) return true;
+    double sum = 0.0;
+    for (size_t k = 0; k < o->n_points; k++) {
+        const double *a = o->points + 2 * k, *b = o->points + 2 * ((k + 1) % o->n_points);
+        sum += a[0] * b[1] - a[1] * b[0];
+    }
+    return sum;
+}
+
+/* Whether an edge from the place runs along a side of a polygon, and no node of its body lies farther out. */
+static bool follows_side(const place *p, dem_index end, const outline *o)
+{
+    const double angle = degree * schema_real(p->body, "angle"), slack = blur * schema_real(p->body, "spacing");
+    const double c = cos(angle), s = sin(angle), sense = polygon_area(o) > 0.0 ? 1.0 : -1.0;
+    for (size_t k = 0; k < o->n_points; k++) {
+        const double *a = o->points + 2 * k, *b = o->points + 2 * ((k + 1) % o->n_points);
+        const double length = sense * hypot(b[0] - a[0], b[1] - a[1]);
+        const double normal[2] = {(b[1] - a[1]) / length, (a[0] - b[0]) / length};
+        const double outwards[2] = {c * normal[0] - s * normal[1], s * normal[0] + c * normal[1]};
+        if (fabs(ahead(p, end, outwards)) <= slack && is_outermost(p, outwards, slack)) return true;
+    }
+    return false;
+}
+
+/* Of an edge from the place. Discs, rings and images have no straight side. */
+static bool is_straight(const place *p, dem_index end)
+{
+    if (schema_is(p->body, "shape", "polygon")) {
+        const outline o = body_checks_polygon(p->body);
+        return follows_side(p, end, &o);
+    }
+    if (!schema_is(p->body, "shape", "rectangle")) return false;
+    double corners[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0}; /* only directions count */
+    return follows_side(p, end, &(outline){.kind = OUTLINE_POLYGON, .n_points = 4, .points = corners});
+}
+
+/* ---- edges of the lattice ---- */
+
+/* The other ends of the sides at the place, one for each triangle that has the side. \return their number */
+static int find_ends(dem_index *ends, const place *p)
+{
+    const dem_lattice *l = p->lattice;
+    int n = 0;
+    for (dem_index t = 0; t < l->n_triangles; t++)
+        for (int k = 0; k < 3; k++) {
+            const dem_index *corner = l->triangles + 3 * t;
+            if (corner[k] != p->node || n + 2 > most_ends) continue;
+            ends[n++] = corner[(k + 1) % 3];
+            ends[n++] = corner[(k + 2) % 3];
+        }
+    return n;
+}
+
+/* Sides that only one triangle has are the edges of the boundary. */
+static bool has_stepped_edge(const place *p)
+{
+    dem_index ends[most_ends];
+    const int n = find_ends(ends, p);
+    for (int k = 0; k < n; k++) {
+        int shared = 0;
+        for (int q = 0; q < n; q++) shared += ends[q] == ends[k];
+        if (shared == 1 && !is_straight(p, ends[k])) return true;
+    }
     return false;
 }
 
 bool edges_stepped(const schema_deck *groups, const dem_lattice *lattice, dem_index n_bodies, dem_index node)
 {
     if ((dem_index)schema_count(groups, "body") != n_bodies) return false;
-    if (lattice->flags == NULL || (lattice->flags[node] & DEM_NODE_CONTACT) == 0) return false;
-    const schema_instance *body = schema_get(groups, "body", (size_t)body_of(lattice, node));
-    if (schema_is(body, "shape", "mesh") || schema_is(body, "shape", "file")) return false;
-    if (!schema_is(body, "shape", "rectangle")) return true;
-    return !is_on_straight_side(lattice, node, body);
+    const place p = {lattice, schema_get(groups, "body", (size_t)body_of(lattice, node)), node};
+    if (schema_is(p.body, "shape", "mesh") || schema_is(p.body, "shape", "file")) return false;
+    return has_stepped_edge(&p);
 }

@@ -9,10 +9,11 @@
 
 #include "schema.h"
 
-/** Whether a node that may touch is on such an edge, of a body that is neither a mesh nor a file: on any but the
- *  straight sides of a rectangle, those along its rows of nodes: the upper and the lower one of triangles, all of
- *  squares. The edge of a void counts though it may run along a row, too. False where bodies of the lattice are not one
- *  for one those of the deck. */
+/** Whether a node is on such an edge, of a body that is neither a mesh nor a file: at an end of an edge of the boundary
+ *  that does not run along a side of a rectangle or polygon. A lattice of triangles has rows along the lower and the
+ *  upper side of a rectangle, one of squares along all. The edge of a void counts though it may run along a row, too.
+ *  Whether the node may touch does not matter. False where bodies of the lattice are not one for one those of the deck.
+ */
 bool edges_stepped(const schema_deck *groups, const dem_lattice *lattice, dem_index n_bodies, dem_index node);
 
 #endif
