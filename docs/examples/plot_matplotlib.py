@@ -26,7 +26,7 @@ with h5py.File(path) as file:
     limit = np.abs(vtk["CellData/strain"][...]).max()  # of all frames, so that their colours compare
     obstacles = [obstacle["points"][...] for obstacle in file.get("obstacles", {}).values()]
 
-figure, axes = pyplot.subplots(figsize=(8, 6), dpi=150, layout="constrained")
+figure, axes = pyplot.subplots(figsize=(8, 6), dpi=150, layout="compressed")
 springs = LineCollection(x[ends[whole]], array=strain[whole], cmap="coolwarm", clim=(-limit, limit), linewidths=1.2)
 axes.add_collection(springs)
 for points in obstacles:

@@ -155,6 +155,13 @@ def check_picture(path, segments, strain, pixels, half):
     print(f"{len(strain)} springs, {colours} colours, redness and strain correlate by {correlation:.3f}")
 
 
+def check_margins(path):
+    """What matplotlib draws, with its scales, stands in the middle: to a twentieth of the width, as labels differ."""
+    columns = np.flatnonzero(imread(path)[:, :, :3].min(axis=(0, 2)) < 0.98)
+    left, right = columns[0], WIDTH - 1 - columns[-1]
+    assert abs(left - right) < 0.05 * WIDTH, (left, right)
+
+
 with tempfile.TemporaryDirectory() as folder:
     run = run_deck(folder)
     if LIBRARY == "ovito":  # before it draws: OVITO 3.17 at times takes a file for a single frame afterwards
@@ -167,3 +174,5 @@ with tempfile.TemporaryDirectory() as folder:
     segments, strain = read_frames(run)[FRAME]
     assert np.array_equal(found[0], segments) and np.array_equal(found[1], strain)
     check_picture(picture, *found)
+    if LIBRARY == "matplotlib":
+        check_margins(picture)
