@@ -5,6 +5,8 @@
 
 #include "ticks.h"
 
+static const double least_side = 0.05; /* of the limit: what is smaller has next to the colour of 0 */
+
 colour_range_extent colour_range_extent_none(void)
 {
     return (colour_range_extent){(double)INFINITY, -(double)INFINITY, 0.0};
@@ -69,5 +71,7 @@ colour_range colour_range_around(colour_range_extent reach, bool both_sides)
 {
     const double most = fmax(fabs(reach.least), fabs(reach.most)), usual = fmax(reach.usual, 0.1 * most);
     const double limit = usual > 0.0 && isfinite(usual) ? ticks_above(usual) : 1.0;
-    return colour_range_given(both_sides ? -limit : 0.0, limit, reach);
+    if (!both_sides) return colour_range_given(0.0, limit, reach);
+    const bool is_above = reach.most > least_side * limit, is_below = reach.least < -least_side * limit;
+    return colour_range_given(is_above && !is_below ? 0.0 : -limit, is_below && !is_above ? 0.0 : limit, reach);
 }

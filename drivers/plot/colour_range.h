@@ -26,7 +26,8 @@ colour_range_extent colour_range_extent_of(size_t n, const double *value, double
 colour_range_extent colour_range_extent_join(colour_range_extent a, colour_range_extent b);
 
 /** Round limits that hold what is usual, and no less than a tenth of the largest, beside which the rest may be nothing:
- *  the same on both sides of 0, or from 0. */
+ *  the same on both sides of 0, or from 0. One of both sides is left out where no value on it reaches a twentieth of
+ *  the limit. */
 colour_range colour_range_around(colour_range_extent reach, bool both_sides);
 
 /** Limits as given. */

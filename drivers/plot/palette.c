@@ -9,12 +9,21 @@ typedef struct shade {
 
 enum { STOPS = 7 };
 
+enum { DIVERGING, SEQUENTIAL };
+
 static const shade stops[][STOPS] = {
-    [PALETTE_DIVERGING] =
-        {{30, 8, -46}, {42, 0, -45}, {58, -7, -34}, {78, 0, 0}, {58, 36, 42}, {42, 53, 46}, {30, 45, 36}},
-    [PALETTE_SEQUENTIAL] =
+    [DIVERGING] = {{30, 8, -46}, {42, 0, -45}, {58, -7, -34}, {78, 0, 0}, {58, 36, 42}, {42, 53, 46}, {30, 45, 36}},
+    [SEQUENTIAL] =
         {{88, -6, 40}, {77, 12, 50}, {65, 32, 41}, {53, 46, 20}, {41, 45, -12}, {30, 34, -30}, {18, 20, -33}},
 };
+
+/* Which part of which row of stops a palette has. */
+static const struct {
+    int row, first, last;
+} parts[] = {[PALETTE_DIVERGING] = {DIVERGING, 0, STOPS - 1},
+             [PALETTE_SEQUENTIAL] = {SEQUENTIAL, 0, STOPS - 1},
+             [PALETTE_UPPER] = {DIVERGING, STOPS / 2, STOPS - 1},
+             [PALETTE_LOWER] = {DIVERGING, 0, STOPS / 2}};
 
 /* f of the CIE, turned round: X/X_white = f^-1(...). */
 static double unbend(double t)
@@ -42,15 +51,23 @@ static colour render(shade s)
 palette palette_make(palette_kind kind)
 {
     palette made = {.kind = kind};
+    const shade *row = stops[parts[kind].row];
+    const int first = parts[kind].first, last = parts[kind].last;
     for (int k = 0; k < PALETTE_SIZE; k++) {
-        const double place = (double)k * (STOPS - 1) / (PALETTE_SIZE - 1);
+        const double place = first + (double)k * (last - first) / (PALETTE_SIZE - 1);
         const int stop = place < STOPS - 1 ? (int)place : STOPS - 2;
-        const shade from = stops[kind][stop], to = stops[kind][stop + 1];
+        const shade from = row[stop], to = row[stop + 1];
         const double u = place - stop;
         made.of[k] = render((shade){from.light + u * (to.light - from.light), from.a + u * (to.a - from.a),
                                     from.b + u * (to.b - from.b)});
     }
     return made;
+}
+
+palette_kind palette_between(palette_kind kind, double lo, double hi)
+{
+    if (kind != PALETTE_DIVERGING || (lo != 0.0 && hi != 0.0)) return kind;
+    return lo == 0.0 ? PALETTE_UPPER : PALETTE_LOWER;
 }
 
 palette palette_plain(colour ink)

@@ -9,8 +9,10 @@ typedef struct colour {
 } colour;
 
 typedef enum palette_kind {
-    PALETTE_DIVERGING, /* blue, grey in the middle, red: both ends equally dark */
-    PALETTE_SEQUENTIAL /* from a light yellow to a dark blue */
+    PALETTE_DIVERGING,  /* blue, grey in the middle, red: both ends equally dark */
+    PALETTE_SEQUENTIAL, /* from a light yellow to a dark blue */
+    PALETTE_UPPER,      /* half of the diverging one, from grey to red */
+    PALETTE_LOWER       /* the other half, from blue to grey */
 } palette_kind;
 
 enum { PALETTE_SIZE = 255 }; /* odd: there is a middle */
@@ -21,6 +23,9 @@ typedef struct palette {
 } palette;
 
 palette palette_make(palette_kind kind);
+
+/** What a scale becomes between these limits: a diverging one its half where one of them is 0. */
+palette_kind palette_between(palette_kind kind, double lo, double hi);
 
 /** Of one colour, for what stands for nothing. */
 palette palette_plain(colour ink);

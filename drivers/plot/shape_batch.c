@@ -19,10 +19,11 @@ void shape_batch_free(shape_batch *s)
     *s = (shape_batch){0};
 }
 
-/* From the middle of a diverging palette outwards, from the beginning of a sequential one upwards. */
+/* From the colour of 0 outwards: both ways of a diverging palette, else to its other end. */
 static int shade_at(palette_kind kind, int rank)
 {
-    if (kind == PALETTE_SEQUENTIAL) return rank;
+    if (kind == PALETTE_LOWER) return PALETTE_SIZE - 1 - rank;
+    if (kind != PALETTE_DIVERGING) return rank;
     const int out = (rank + 1) / 2;
     return PALETTE_SIZE / 2 + (rank % 2 == 0 ? out : -out);
 }

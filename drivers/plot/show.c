@@ -123,7 +123,8 @@ static bool open_show(show *s, const dem_reader *reader, const request *asked, o
     *s = (show){.reader = reader, .asked = asked, .hash = DIGEST_BEGIN};
     if (!quantity_find(&s->shown, reader, asked->color, o) || !choose(s, o) || !set_times(s, o)) return false;
     if (!snapshot_create(&s->now, reader, &s->shown, o) || !survey(s, o)) return false;
-    s->colours = s->shown.source != NULL ? palette_make(s->shown.scale) : palette_plain(canvas_grey);
+    const palette_kind kind = palette_between(s->shown.scale, s->look.range.lo, s->look.range.hi);
+    s->colours = s->shown.source != NULL ? palette_make(kind) : palette_plain(canvas_grey);
     s->look.colours = &s->colours;
     s->look.is_binned = s->now.lattice->n_springs > PANEL_BINNED_FROM;
     return true;

@@ -65,6 +65,27 @@ TEST(frames_are_joined_by_the_larger)
     assert_close(colour_range_around(both, false).hi, 3.0, 1e-15);
 }
 
+static void expect_limits(double least, double most, double lo, double hi)
+{
+    const colour_range s = colour_range_around((colour_range_extent){least, most, fmax(most, -least)}, true);
+    assert_close(s.lo, lo, 0.0);
+    assert_close(s.hi, hi, 0.0);
+    assert_int_equal(s.below, least < lo);
+    assert_int_equal(s.above, most > hi);
+}
+
+/* 1.9 and 2 of 40 are on either side of a twentieth. */
+TEST(a_side_with_next_to_nothing_is_left_out)
+{
+    expect_limits(0.0, 40.0, 0.0, 40.0);
+    expect_limits(-1.9, 40.0, 0.0, 40.0);
+    expect_limits(-2.1, 40.0, -40.0, 40.0);
+    expect_limits(-40.0, 0.0, -40.0, 0.0);
+    expect_limits(-40.0, 1.9, -40.0, 0.0);
+    expect_limits(-40.0, 2.1, -40.0, 40.0);
+    expect_limits(3.0, 40.0, 0.0, 40.0);
+}
+
 TEST(without_values_there_are_limits_all_the_same)
 {
     double value[2] = {0.0, (double)NAN}, size[2];
@@ -73,6 +94,8 @@ TEST(without_values_there_are_limits_all_the_same)
     assert_close(none.hi, 1.0, 0.0);
     assert_false(none.above || none.below);
     assert_close(zero.hi, 1.0, 0.0);
+    assert_close(none.lo, -1.0, 0.0);
+    assert_close(zero.lo, -1.0, 0.0);
 }
 
 TEST(given_limits_are_taken_as_they_are)

@@ -72,6 +72,25 @@ TEST(both_sides_of_diverging_are_as_dark)
         assert_close(seen(p.of[k], 0).light, seen(p.of[PALETTE_SIZE - 1 - k], 0).light, 2.0);
 }
 
+TEST(a_half_of_diverging_has_its_colours)
+{
+    const palette whole = palette_make(PALETTE_DIVERGING), upper = palette_make(PALETTE_UPPER),
+                  lower = palette_make(PALETTE_LOWER);
+    for (int k = 0; k <= PALETTE_SIZE / 2; k++) {
+        assert_memory_equal(&upper.of[2 * k], &whole.of[PALETTE_SIZE / 2 + k], sizeof(colour));
+        assert_memory_equal(&lower.of[2 * k], &whole.of[k], sizeof(colour));
+    }
+}
+
+TEST(a_limit_of_0_takes_a_half_of_diverging)
+{
+    assert_int_equal(palette_between(PALETTE_DIVERGING, -1.0, 1.0), PALETTE_DIVERGING);
+    assert_int_equal(palette_between(PALETTE_DIVERGING, 0.5, 1.0), PALETTE_DIVERGING);
+    assert_int_equal(palette_between(PALETTE_DIVERGING, 0.0, 1.0), PALETTE_UPPER);
+    assert_int_equal(palette_between(PALETTE_DIVERGING, -1.0, 0.0), PALETTE_LOWER);
+    assert_int_equal(palette_between(PALETTE_SEQUENTIAL, 0.0, 1.0), PALETTE_SEQUENTIAL);
+}
+
 /* 20 is a plain difference, 2 one that can just be seen. */
 TEST(every_eye_tells_the_sides_apart)
 {

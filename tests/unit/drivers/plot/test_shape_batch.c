@@ -40,6 +40,15 @@ TEST(the_end_of_sequential_lies_on_top)
     draw(&s, &p, 0.0, 3, order);
 }
 
+TEST(the_coloured_end_of_a_half_lies_on_top)
+{
+    const palette upper = palette_make(PALETTE_UPPER), lower = palette_make(PALETTE_LOWER);
+    const unsigned char shades[] = {254, 127, 0}, up[] = {0, 127, 254}, down[] = {254, 127, 0};
+    CLEANUP(shape_batch_free) shape_batch s = lines_of(3, shades);
+    draw(&s, &upper, 1.0, 3, up);
+    draw(&s, &lower, 1.0, 3, down);
+}
+
 TEST(nothing_draws_nothing)
 {
     const palette p = palette_make(PALETTE_SEQUENTIAL);

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "palette.h"
 #include "show.h"
 
 static char *read_text(const char *path)
@@ -71,6 +72,25 @@ TEST(frames_and_times_are_taken)
     assert_false(show_strip(f->reader, &r, NULL, &o));
     assert_int_equal(o.code, EXIT_INVALID);
     assert_int_equal(access(r.output, F_OK), -1);
+}
+
+/* From 0 on, what is compressed is as grey as what is not strained; the block has springs of either sign. */
+TEST(a_range_from_0_has_no_blue)
+{
+    trajectory_fixture *f = *test_state;
+    request r = asking(f, REQUEST_STRIP, trajectory_fixture_beside(f, "a.svg"));
+    const palette p = palette_make(PALETTE_DIVERGING);
+    const colour blue = p.of[0], red = p.of[PALETTE_SIZE - 1];
+    for (int k = 0; k < 2; k++) {
+        char inks[2][16];
+        (void)snprintf(inks[0], sizeof *inks, "#%02x%02x%02x", blue.red, blue.green, blue.blue);
+        (void)snprintf(inks[1], sizeof *inks, "#%02x%02x%02x", red.red, red.green, red.blue);
+        r.has_range = true, r.lo = k == 0 ? -1e-6 : 0.0, r.hi = 1e-6;
+        draw(show_strip, f, &r, r.output);
+        CLEANUP(free_memory) char *text = read_text(r.output);
+        assert_int_equal(count(text, inks[0]) > 0, k == 0);
+        assert_true(count(text, inks[1]) > 0);
+    }
 }
 
 TEST(an_animation_has_a_file_for_each_frame)
