@@ -239,7 +239,7 @@ static result describe(const job *j)
                     .read = j->deck.name != NULL ? &j->deck : NULL,
                     .output = j->path[0] != '\0' ? j->path : NULL,
                     .simulation = j->simulation,
-                    .log = j->trajectory != NULL ? &j->report : NULL,
+                    .report = j->trajectory != NULL ? &j->report : NULL,
                     .rest = &j->rest,
                     .outcome = &j->outcome,
                     .start = j->start,

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* When damped bodies have come to rest. */
-#include "ask.h"
 #include "relaxation.h"
 
 #include <math.h>
+
+#include "ask.h"
 
 enum { between_looks = 16 }; /* steps: a look costs as much as half an evaluation */
 

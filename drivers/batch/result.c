@@ -9,10 +9,10 @@
 
 #include <dem/checkpoint.h>
 
+#include "ask.h"
 #include "file.h"
 #include "json.h"
 #include "output.h"
-#include "ask.h"
 #include "preview.h"
 
 enum { MOST_LINE = 64 << 20 }; /* bytes: obstacles and boundaries are listed */
@@ -23,7 +23,7 @@ static const char *status_of(const result *r)
 {
     if (r->outcome->code == EXIT_STOPPED) return "stopped";
     if (r->outcome->code != EXIT_DONE) return "failed";
-    return r->log != NULL && ask_overlap(r->simulation).node >= 0 ? overlapped : done;
+    return r->report != NULL && ask_overlap(r->simulation).node >= 0 ? overlapped : done;
 }
 
 /* ---- the fields ---- */
@@ -113,11 +113,11 @@ static void write_force(json *j, const rebound *r)
     json_reals(j, "impact_impulse", r->impulse, 2);
 }
 
-static void write_energy(json *j, const report *log, const dem_energy *e)
+static void write_energy(json *j, const report *r, const dem_energy *e)
 {
     json_open(j, "energy", '{');
-    json_real(j, "start", log->so_far.energy_start);
-    json_real(j, "largest", log->so_far.energy_max);
+    json_real(j, "start", r->so_far.energy_start);
+    json_real(j, "largest", r->so_far.energy_max);
     json_real(j, "kinetic", e->kinetic);
     json_real(j, "elastic", e->elastic);
     json_real(j, "area", e->area);
@@ -132,9 +132,9 @@ static void write_energy(json *j, const report *log, const dem_energy *e)
     json_real(j, "boundary", e->boundary);
     json_real(j, "obstacle", e->obstacle);
     json_close(j, '}');
-    json_real(j, "closure", report_closure(log, *e));
-    json_real(j, "elastic_share", log->so_far.elastic_share_max);
-    json_real(j, "elastic_share_t", log->so_far.elastic_share_t);
+    json_real(j, "closure", report_closure(r, *e));
+    json_real(j, "elastic_share", r->so_far.elastic_share_max);
+    json_real(j, "elastic_share_t", r->so_far.elastic_share_t);
 }
 
 static void write_extreme(json *j, const char *key, double strain, dem_index spring, double t)
@@ -146,40 +146,40 @@ static void write_extreme(json *j, const char *key, double strain, dem_index spr
     json_close(j, '}');
 }
 
-static void write_strain(json *j, const report *log)
+static void write_strain(json *j, const report *r)
 {
-    if (log->so_far.strain_min.spring_min >= 0)
-        write_extreme(j, "strain_min", log->so_far.strain_min.min, log->so_far.strain_min.spring_min,
-                      log->so_far.strain_min_t);
-    if (log->so_far.strain_max.spring_max >= 0)
-        write_extreme(j, "strain_max", log->so_far.strain_max.max, log->so_far.strain_max.spring_max,
-                      log->so_far.strain_max_t);
-    json_real(j, "area_min", log->so_far.area_min);
-    json_real(j, "area_min_t", log->so_far.area_min_t);
-    json_integer(j, "guarded", log->so_far.guarded_max);
-    json_integer(j, "inverted", log->so_far.inverted_max);
+    if (r->so_far.strain_min.spring_min >= 0)
+        write_extreme(j, "strain_min", r->so_far.strain_min.min, r->so_far.strain_min.spring_min,
+                      r->so_far.strain_min_t);
+    if (r->so_far.strain_max.spring_max >= 0)
+        write_extreme(j, "strain_max", r->so_far.strain_max.max, r->so_far.strain_max.spring_max,
+                      r->so_far.strain_max_t);
+    json_real(j, "area_min", r->so_far.area_min);
+    json_real(j, "area_min_t", r->so_far.area_min_t);
+    json_integer(j, "guarded", r->so_far.guarded_max);
+    json_integer(j, "inverted", r->so_far.inverted_max);
 }
 
-static void write_node_peak(json *j, const report *log, const dem_model *model)
+static void write_node_peak(json *j, const report *r, const dem_model *model)
 {
     dem_index node;
-    if (dem_peaks_most_stressed_nodes(log->peaks, 1, &node) == 0) return;
-    const dem_node_peak *peak = &dem_peaks_nodes(log->peaks)[node];
+    if (dem_peaks_most_stressed_nodes(r->peaks, 1, &node) == 0) return;
+    const dem_node_peak *peak = &dem_peaks_nodes(r->peaks)[node];
     json_open(j, "most_stressed", '{');
     json_integer(j, "node", node);
     json_real(j, "von_mises", peak->von_mises);
     json_real(j, "t", peak->t);
     json_reals(j, "stress", peak->stress, 3);
-    json_truth(j, "stepped_edge", report_is_stepped(log, model, node));
-    json_real(j, "touches", report_touched(log, node) > 0 ? (double)(report_touched(log, node) - 1) : (double)NAN);
+    json_truth(j, "stepped_edge", report_is_stepped(r, model, node));
+    json_real(j, "touches", report_touched(r, node) > 0 ? (double)(report_touched(r, node) - 1) : (double)NAN);
     json_close(j, '}');
 }
 
-static void write_spring_peak(json *j, const report *log)
+static void write_spring_peak(json *j, const report *r)
 {
     dem_index spring;
-    if (dem_peaks_most_strained_springs(log->peaks, 1, &spring) == 0) return;
-    const dem_spring_peak *peak = &dem_peaks_springs(log->peaks)[spring];
+    if (dem_peaks_most_strained_springs(r->peaks, 1, &spring) == 0) return;
+    const dem_spring_peak *peak = &dem_peaks_springs(r->peaks)[spring];
     write_extreme(j, "most_strained", peak->strain, spring, peak->t);
 }
 
@@ -233,21 +233,21 @@ static void write_run(json *j, const result *r)
     const dem_counts counts = ask_counts(r->simulation);
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(r->simulation, &state);
-    write_warnings(j, r->log->log);
+    write_warnings(j, r->report->log);
     json_real(j, "t", state.t);
     write_counts(j, &counts);
-    write_contact(j, &r->log->so_far.rebound, &state, r->simulation);
-    write_rebound(j, &r->log->so_far.rebound, r->simulation);
-    write_force(j, &r->log->so_far.rebound);
+    write_contact(j, &r->report->so_far.rebound, &state, r->simulation);
+    write_rebound(j, &r->report->so_far.rebound, r->simulation);
+    write_force(j, &r->report->so_far.rebound);
     const dem_energy energy = ask_energy(r->simulation);
-    write_energy(j, r->log, &energy);
-    write_strain(j, r->log);
-    if (r->log->peaks != NULL) write_node_peak(j, r->log, dem_simulation_model(r->simulation));
-    if (r->log->peaks != NULL) write_spring_peak(j, r->log);
+    write_energy(j, r->report, &energy);
+    write_strain(j, r->report);
+    if (r->report->peaks != NULL) write_node_peak(j, r->report, dem_simulation_model(r->simulation));
+    if (r->report->peaks != NULL) write_spring_peak(j, r->report);
     write_loads(j, r->simulation);
     write_overlap(j, r->simulation);
-    json_real(j, "formula_6", r->log->so_far.step_report.largest);
-    json_real(j, "formula_6_t", r->log->so_far.step_report.t);
+    json_real(j, "formula_6", r->report->so_far.step_report.largest);
+    json_real(j, "formula_6_t", r->report->so_far.step_report.t);
     if (r->read->residual > 0.0) json_real(j, "residual", r->rest->reached);
 }
 
@@ -270,7 +270,7 @@ char *result_line(const result *r)
     if (j.out == NULL) return NULL;
     json_open(&j, NULL, '{');
     write_case(&j, r);
-    if (r->log != NULL) write_run(&j, r);
+    if (r->report != NULL) write_run(&j, r);
     write_wall(&j, r);
     json_close(&j, '}');
     (void)fputc('\n', j.out);

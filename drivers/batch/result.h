@@ -17,7 +17,7 @@ typedef struct result {
     const deck *read;       /* NULL: it has faults */
     const char *output;     /* NAME.vtkhdf; NULL: not known */
     const dem_simulation *simulation;
-    const report *log; /* NULL: the run has not begun */
+    const report *report; /* NULL: the run has not begun */
     const relaxation *rest;
     const outcome *outcome;
     time_t start;
