@@ -373,6 +373,14 @@ static bool make_folder(job *j)
     return good;
 }
 
+static bool check_folder(job *j)
+{
+    char path[OUTPUT_PATH], why[OUTPUT_REASON];
+    const bool good = output_check_folder(j->command->outdir, path, why);
+    if (!good) outcome_fail(&j->outcome, EXIT_IO, path, "%s", why);
+    return good;
+}
+
 static bool take_lock(job *j)
 {
     char path[OUTPUT_PATH], why[512];
@@ -475,23 +483,15 @@ static void claim_and_run(job *j)
         outcome_fail(&j->outcome, EXIT_TAKEN, j->path, "%s", reason);
         return;
     }
-    if (!passes(j, build(j), j->deck.path) || !ends(j) || !make_folder(j) || !take_lock(j)) return;
+    if (!passes(j, build(j), j->deck.path) || !ends(j) || !make_folder(j) || !check_folder(j) || !take_lock(j)) return;
     j->claimed = claim(j);
     if (j->claimed && begin_or_resume(j)) run(j);
 }
 
-static bool check_folder(job *j)
-{
-    char path[OUTPUT_PATH], why[OUTPUT_REASON];
-    const bool good = output_check_folder(j->command->outdir, path, why);
-    if (!good) outcome_fail(&j->outcome, EXIT_IO, path, "%s", why);
-    return good;
-}
-
 static void check(job *j)
 {
-    if (!check_folder(j)) return;
-    if (passes(j, build(j), j->deck.path) && ends(j)) preview_print(&j->log, &j->deck, j->simulation, NULL);
+    if (passes(j, build(j), j->deck.path) && ends(j) && check_folder(j))
+        preview_print(&j->log, &j->deck, j->simulation, NULL);
 }
 
 static bool succeeded(job *j, deck_status status, namelist_errors *errors)

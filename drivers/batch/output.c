@@ -4,7 +4,6 @@
 
 #include <dirent.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,6 +79,17 @@ static bool is_missing(const char *path)
     return lstat(path, &found) != 0 && errno == ENOENT;
 }
 
+/* Rights do not tell it for root, nor where the system has no place for new files, as in /proc: a folder is made, and
+ * removed. It has a name of its own, so that no run can take it for its output's folder. Where not, errno says why. */
+static bool takes_entries(const char *folder)
+{
+    char trial[OUTPUT_PATH + 64];
+    (void)snprintf(trial, sizeof trial, "%s/.dem_batch.%ld.trial", folder, (long)getpid());
+    if (mkdir(trial, 0700) != 0 && errno != EEXIST) return false;
+    (void)rmdir(trial);
+    return true;
+}
+
 bool output_check_folder(const char *folder, char path[OUTPUT_PATH], char reason[OUTPUT_REASON])
 {
     char deepest[OUTPUT_PATH] = ".";
@@ -89,9 +99,8 @@ bool output_check_folder(const char *folder, char path[OUTPUT_PATH], char reason
         (void)is_folder(path); /* for its errno */
         return refuse_folder(reason, "made");
     }
-    memcpy(path, deepest, sizeof deepest);
-    if (faccessat(AT_FDCWD, path, W_OK | X_OK, AT_EACCESS) == 0) return true;
-    return refuse_folder(reason, "written to");
+    if (end == NULL) memcpy(path, deepest, sizeof deepest);
+    return takes_entries(deepest) || refuse_folder(reason, end == NULL ? "written to" : "made");
 }
 
 /* ---- what is there ---- */

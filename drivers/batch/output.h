@@ -33,8 +33,8 @@ bool output_path(char *path, size_t size, const char *folder, const char *name);
  *  `reason` says why. */
 bool output_make_folder(const char *folder, char path[OUTPUT_PATH], char reason[OUTPUT_REASON]);
 
-/** Whether a run could write into the folder, or make it; nothing is made. Where not, `path` is the folder that
- *  is in the way, and `reason` says why. */
+/** Whether a run could write into the folder, or make it; nothing is left behind. Where not, `path` is the folder that
+ *  is in the way or cannot be made, and `reason` says why. */
 bool output_check_folder(const char *folder, char path[OUTPUT_PATH], char reason[OUTPUT_REASON]);
 
 /** The path of a file beside it: with another end than ".vtkhdf". */

@@ -572,6 +572,14 @@ class Run(Case):
         self.assertIn("stopped.part.vtkhdf", self.files())
         self.assertNotIn("stopped.vtkhdf", self.files())
 
+    def test_a_check_refuses_a_folder_as_the_run_does(self):
+        for folder, words in (("/proc/x", "made"), ("/proc", "written to")):
+            errors = [run(*options, "--outdir", folder, "deck.nml", cwd=self.folder) for options in (("--check",), ())]
+            self.assertEqual([done.returncode for done in errors], [5, 5])
+            self.assertEqual(errors[0].stderr, errors[1].stderr)
+            self.assertIn(f"{folder}: error: the folder cannot be {words} (", errors[0].stderr)
+        self.assertEqual(self.files(), set())
+
     def test_a_body_comes_to_rest_or_has_no_result(self):
         self.put(HANG)
         log = self.call(0, "deck.nml")

@@ -234,15 +234,33 @@ TEST_WITH(a_check_makes_no_folder_and_names_what_is_in_the_way, NULL, scratch_sw
 TEST_WITH(a_check_names_a_folder_that_is_read_only, NULL, scratch_sweep)
 {
     const uid_t user = geteuid();
-    char below[SCRATCH_PATH + 8];
+    char at[OUTPUT_PATH], reason[OUTPUT_REASON];
+    char first[SCRATCH_PATH + 8], below[SCRATCH_PATH + 8];
+    (void)snprintf(first, sizeof first, "%s/x", path);
     (void)snprintf(below, sizeof below, "%s/x/y", path);
     assert_int_equal(chmod(scratch.path, 0755), 0);
     assert_int_equal(mkdir(path, 0555), 0);
     assert_true(user != 0 || seteuid(65534) == 0);
     expect_checked(path, path, "the folder cannot be written to (Permission denied)");
-    expect_checked(below, path, "the folder cannot be written to (Permission denied)");
+    expect_checked(below, first, "the folder cannot be made (Permission denied)");
+    assert_false(output_make_folder(below, at, reason)); /* a run says the same */
+    assert_string_equal(at, first);
+    assert_string_equal(reason, "the folder cannot be made (Permission denied)");
     assert_int_equal(seteuid(user), 0);
     assert_int_equal(rmdir(path), 0);
+}
+
+/* In /proc nobody makes a file, though its rights let root. */
+TEST_WITH(a_check_names_a_folder_that_takes_no_files, NULL, scratch_sweep)
+{
+    char at[OUTPUT_PATH], reason[OUTPUT_REASON], why[OUTPUT_REASON];
+    assert_false(output_check_folder("/proc/x/y", at, reason));
+    assert_string_equal(at, "/proc/x");
+    assert_false(output_make_folder("/proc/x/y", at, why));
+    assert_string_equal(at, "/proc/x");
+    assert_string_equal(reason, why);
+    assert_false(output_check_folder("/proc", at, reason));
+    assert_string_equal(at, "/proc");
 }
 
 SCRATCH_GROUP({&path, "a.vtkhdf"}, {&part, "a.part.vtkhdf"});
