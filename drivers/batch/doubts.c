@@ -4,8 +4,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "step_report.h"
 #include "ask.h"
+#include "initial_motion.h"
+#include "step_report.h"
 #include "walls.h"
 
 enum { most_listed = 16 }; /* bodies */
@@ -44,22 +45,11 @@ void doubts_of_step(run_log *log, const dem_simulation *simulation)
     if (step_report_is_long(simulation, why)) run_log_warn(log, "%s: with it the run may overflow", why);
 }
 
-static void initial_velocity(const dem_lattice *l, dem_index b, double v[2])
-{
-    double mass = 0.0, momentum[2] = {0.0, 0.0};
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        if (l->body != NULL && l->body[i] != b) continue;
-        mass += l->mass[i];
-        for (int c = 0; c < 2 && l->velocity != NULL; c++) momentum[c] += l->mass[i] * l->velocity[2 * i + c];
-    }
-    for (int c = 0; c < 2; c++) v[c] = momentum[c] / mass;
-}
-
 void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double wave_speed)
 {
     const dem_index n = ask_sizes(model).n_obstacles;
     double v[2], least = (double)INFINITY;
-    initial_velocity(dem_model_lattice(model), b, v);
+    initial_motion_velocity(dem_model_lattice(model), b, v);
     for (dem_index o = 0; o < n; o++) {
         const double *w = dem_model_obstacle(model, o)->velocity;
         least = fmin(least, hypot(v[0] - w[0], v[1] - w[1]));

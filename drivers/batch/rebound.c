@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "ask.h"
 #include "rebound.h"
 
 #include <math.h>
 #include <string.h>
+
+#include "ask.h"
+#include "initial_motion.h"
 
 /* ---- motion of all bodies ---- */
 
@@ -52,17 +54,6 @@ static double spin_of(const dem_lattice *l, const dem_state *state, const double
 
 /* ---- following a run ---- */
 
-/* At t = 0: bodies that touch from the beginning have had no step before. */
-static void initial_velocity(const dem_lattice *l, double v[2])
-{
-    double mass = 0.0, momentum[2] = {0.0, 0.0};
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        mass += l->mass[i];
-        for (int c = 0; c < 2 && l->velocity != NULL; c++) momentum[c] += l->mass[i] * l->velocity[2 * i + c];
-    }
-    for (int c = 0; c < 2; c++) v[c] = momentum[c] / mass;
-}
-
 static double along(const double v[2], const dem_simulation *simulation, dem_index obstacle, const double normal[2])
 {
     const double *u = dem_model_obstacle(dem_simulation_model(simulation), obstacle)->velocity;
@@ -77,12 +68,13 @@ static bool comes_back(const rebound *r, const dem_simulation *simulation, const
            along(v, simulation, event->obstacle, event->normal) < 0.0;
 }
 
-/* Where a bounce begins the bodies have been in free flight since the last step. */
+/* Where a bounce begins the bodies have been in free flight since the last step; bodies that touch from the beginning
+ * have had no step before. */
 static void meet(rebound *r, const dem_simulation *simulation, const dem_event *event)
 {
     double v[2];
     const dem_options options = ask_options(simulation);
-    if (!r->started) initial_velocity(dem_model_lattice(dem_simulation_model(simulation)), r->before);
+    if (!r->started) initial_motion_velocity(dem_model_lattice(dem_simulation_model(simulation)), -1, r->before);
     for (int c = 0; c < 2; c++) v[c] = r->before[c] + options.gravity[c] * (event->t - r->t);
     if (r->touched && !comes_back(r, simulation, event, v)) return;
     if (!r->touched) r->first = event->t;
@@ -146,7 +138,8 @@ static void follow_velocity(rebound *r, const dem_simulation *simulation, const 
 {
     const dem_options options = ask_options(simulation);
     const double since = state->t - r->last; /* for which the bodies have been in free flight again */
-    r->spin = spin_of(dem_model_lattice(dem_simulation_model(simulation)), state, now->velocity);
+    if (state->n_contacts == 0)
+        r->spin = spin_of(dem_model_lattice(dem_simulation_model(simulation)), state, now->velocity);
     for (int c = 0; c < 2; c++) r->velocity[c] = now->velocity[c] - options.gravity[c] * since;
     r->speed = now->rising + hypot(options.gravity[0], options.gravity[1]) * since;
 }

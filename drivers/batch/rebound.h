@@ -18,7 +18,8 @@ typedef struct rebound {
     double begin;        /* s, of the last bounce */
     double approach[2];  /* m/s, just before the last bounce */
     double velocity[2];  /* m/s, at the last instant of contact */
-    double spin;         /* rad/s, the same: angular momentum over moment of inertia, both about that centre */
+    double spin;         /* rad/s, the same, known when that contact is over: angular momentum over moment of inertia,
+                            both about that centre */
     double speed;        /* m/s, the part of `velocity` against gravity */
     double normal[2];    /* out of the obstacle that was touched last, there */
     dem_index obstacle;  /* which one */
