@@ -141,11 +141,13 @@ static void add_vectors(timeline *of, const char *column, const char *label, con
 
 /* ---- counts and steps ---- */
 
+/* A run in which no contact lasted has no chart of them. */
 static void add_contacts(timeline *of)
 {
     size_t width;
     const double *contacts = read_column(of, "contacts", &width);
-    if (contacts != NULL) add_line(add_chart(of, "contacts", ""), "", 0, contacts, width);
+    if (contacts != NULL && largest_of(contacts, of->n * width) > 0.0)
+        add_line(add_chart(of, "contacts", ""), "", 0, contacts, width);
 }
 
 /* The row of the beginning has no step before it. */

@@ -306,6 +306,19 @@ class Decks(unittest.TestCase):
         self.assertLess(heights.pop("#1a1a1a"), 1.0)
         self.assertGreater(sorted(heights.values())[-2], 100.0)
 
+    def test_a_history_without_contacts_has_no_chart_of_them(self):
+        deck = self.folder / "free.nml"
+        deck.write_text("""&run t_end = 2e-4 /
+&material youngs_modulus = 1e7, density = 1050 /
+&body shape = 'rectangle', size = 0.02, 0.02, spacing = 1e-2, spin = 100 /
+&output name = 'free', frame_interval = 1e-4 /
+""", encoding="utf-8")
+        self.batch(deck)
+        self.assertIn("2 charts", run_plot(self.at("free"), "--history", "-o", self.folder / "free.svg").stdout)
+        texts = Strip(self.folder / "free.svg").texts
+        self.assertFalse([text for text in texts if "contacts" in text])
+        self.assertTrue("energy, mJ" in texts or "energy, J" in texts)
+
     def test_obstacles_of_a_history_are_numbered_from_1(self):
         deck = self.folder / "two.nml"
         deck.write_text("""&run t_end = 2e-4 /
