@@ -258,7 +258,7 @@ static void list_files(job *j)
         (void)fprintf(j->log.out, "%s %s", before, path);
         before = ",";
     }
-    (void)fputs("\n", j->log.out);
+    (void)fprintf(j->log.out, "; wall time %.2f s\n", wall_clock() - j->wall_start);
 }
 
 /* Reports what came out, in NAME.json too if the output is ours. */

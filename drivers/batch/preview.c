@@ -4,6 +4,7 @@
 #include <gsl/gsl_version.h>
 #include <math.h>
 
+#include "ask.h"
 #include "commit.h"
 #include "doubts.h"
 #include "estimate.h"
@@ -11,10 +12,10 @@
 #include "memory.h"
 #include "relaxation.h"
 #include "step_report.h"
-#include "ask.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16 };            /* obstacles, bodies */
+enum { most_in_short = 2 };           /* bodies, of which the constants are listed without details */
 enum { most_measured = 1000 * 1000 }; /* nodes: a minute's work where lattices are regular */
 
 static bool has_friction(const dem_obstacle *o)
@@ -130,14 +131,27 @@ static void print_contact(FILE *out, const dem_model_size *size, const dem_optio
     (void)fprintf(out, "\n");
 }
 
-static void print_sizes(FILE *out, const dem_model *model, const dem_options *o)
+/* The mass of all bodies over that of their true shapes; 0 where one of these is not known. */
+static double mass_ratio(const deck *d)
+{
+    double mass = 0.0, true_mass = 0.0;
+    for (size_t k = 0; k < d->n_bodies; k++) {
+        if (!(d->bodies[k].true_mass > 0.0)) return 0.0;
+        mass += d->bodies[k].mass;
+        true_mass += d->bodies[k].true_mass;
+    }
+    return true_mass > 0.0 ? mass / true_mass : 0.0;
+}
+
+static void print_sizes(FILE *out, const deck *d, const dem_model *model, const dem_options *o)
 {
     const dem_model_size size = ask_sizes(model);
-    (void)fprintf(out,
-                  "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg, spacing %.4g m\n",
+    const double ratio = mass_ratio(d);
+    (void)fprintf(out, "lattice    %lld nodes, %lld springs, %lld triangles, %lld bod%s, mass %.6g kg",
                   (long long)size.n_nodes, (long long)size.n_springs, (long long)size.n_triangles,
-                  (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model), o->spacing);
-    print_contact(out, &size, o);
+                  (long long)size.n_bodies, size.n_bodies == 1 ? "y" : "ies", dem_model_mass(model));
+    if (ratio > 0.0) (void)fprintf(out, " (%.4f of the true shape)", ratio);
+    (void)fprintf(out, ", spacing %.4g m\n", o->spacing);
 }
 
 /* What is probed, where at rest. */
@@ -173,26 +187,26 @@ static void print_modulus(FILE *out, const dem_constants *c, bool slice)
                   slice ? " in plane strain" : "", c->anisotropy, c->longitudinal_speed, c->transverse_speed);
 }
 
-static void print_known(run_log *log, const deck *d, const dem_model *model, dem_index b, const dem_constants *c)
+/* As the library measures them, by loading the model. A body that is not listed may still be too fast. */
+static void print_body_constants(run_log *log, const deck *d, const dem_model *model, dem_index b)
 {
-    print_modulus(log->out, c, is_slice(d, ask_sizes(model).n_bodies, b));
-    doubts_of_speed(log, model, b, c->longitudinal_speed);
+    const bool listed = log->verbose || b < most_in_short;
+    dem_constants c = {.struct_size = sizeof c};
+    const dem_status status = dem_model_constants(model, b, &c);
+    if (listed) (void)fprintf(log->out, "constants  body %lld: ", (long long)b + 1);
+    if (listed && status != DEM_OK) (void)fprintf(log->out, "not measured: %s\n", dem_status_message());
+    if (listed && status == DEM_OK) print_modulus(log->out, &c, is_slice(d, ask_sizes(model).n_bodies, b));
+    if (status == DEM_OK) doubts_of_speed(log, model, b, c.longitudinal_speed);
 }
 
-/* As the library measures them, by loading the model. */
 static void print_constants(run_log *log, const deck *d, const dem_model *model)
 {
     FILE *out = log->out;
     const dem_index n_bodies = ask_sizes(model).n_bodies;
-    for (dem_index b = 0; b < n_bodies && b < most_listed; b++) {
-        dem_constants c = {.struct_size = sizeof c};
-        (void)fprintf(out, "constants  body %lld: ", (long long)b + 1);
-        if (dem_model_constants(model, b, &c) == DEM_OK)
-            print_known(log, d, model, b, &c);
-        else
-            (void)fprintf(out, "not measured: %s\n", dem_status_message());
-    }
-    if (n_bodies > most_listed)
+    for (dem_index b = 0; b < n_bodies && b < most_listed; b++) print_body_constants(log, d, model, b);
+    if (!log->verbose && n_bodies > most_in_short)
+        (void)fprintf(out, "constants  of %lld more bodies: see --verbose\n", (long long)n_bodies - most_in_short);
+    else if (n_bodies > most_listed)
         (void)fprintf(out, "constants  bodies %d to %lld: not measured\n", (int)most_listed + 1, (long long)n_bodies);
 }
 
@@ -224,7 +238,6 @@ static void print_measured(run_log *log, const deck *d, const dem_model *model)
 /* Numbered from 1, as decks are. */
 static void print_body(FILE *out, size_t number, const body_facts *b)
 {
-    char list[PARTS_LIST];
     if (b->true_mass > 0.0)
         (void)fprintf(out, "mass       body %zu: %.6g kg, of the true shape %.6g kg (ratio %.4f)\n", number, b->mass,
                       b->true_mass, b->mass / b->true_mass);
@@ -237,6 +250,12 @@ static void print_body(FILE *out, size_t number, const body_facts *b)
     if (b->geometry.n_cracked > 0)
         (void)fprintf(out, "cracks     body %zu: through %lld triangles, which are taken away\n", number,
                       (long long)b->geometry.n_cracked);
+}
+
+/* What a deck does not ask for, and so the short log has it too. */
+static void print_loose(FILE *out, size_t number, const body_facts *b)
+{
+    char list[PARTS_LIST];
     parts_print(list, &b->loose, b->true_mass > 0.0 ? "triangle" : "node");
     if (b->loose.n > 0)
         (void)fprintf(out, "parts      body %zu: %lld %s, of %s m in its own coordinates\n", number,
@@ -246,23 +265,31 @@ static void print_body(FILE *out, size_t number, const body_facts *b)
                       number, (long long)b->hinges.n, b->hinges.n == 1 ? "" : "s", b->hinges.x[0], b->hinges.x[1]);
 }
 
-static void print_bodies(FILE *out, const deck *d)
+static void print_bodies(FILE *out, const deck *d, bool details)
 {
-    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) print_body(out, k + 1, &d->bodies[k]);
-    if (d->n_bodies > most_listed)
+    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) {
+        if (details) print_body(out, k + 1, &d->bodies[k]);
+        print_loose(out, k + 1, &d->bodies[k]);
+    }
+    if (details && d->n_bodies > most_listed)
         (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);
 }
 
 /* Where a quasi-static run will end is not known, only about. */
-static void print_estimates(FILE *out, const deck *d, const dem_simulation *simulation)
+static void print_time(FILE *out, const deck *d, const dem_simulation *simulation, double end, const estimate *e)
 {
-    const bool rests = d->residual > 0.0;
-    const double end = rests ? fmin(relaxation_expected(simulation, &d->options, d->residual), d->t_end) : d->t_end;
-    const estimate e = estimate_run(d, simulation, end);
-    if (rests) (void)fprintf(out, "estimate   at rest at about %.2g s, ", end);
-    (void)fprintf(out, "%s%.0f steps of %d evaluations, %.0f frame%s, about %.3g MB of output\n",
-                  rests ? "" : "estimate   at least ", e.steps, (int)step_report_method(simulation).evaluations,
-                  e.frames, e.frames == 1.0 ? "" : "s", 1e-6 * e.output);
+    char until[96];
+    if (d->residual > 0.0)
+        (void)snprintf(until, sizeof until, "at rest at about %.2g s, t_end %.6g s:", end, d->t_end);
+    else
+        (void)snprintf(until, sizeof until, "t_end %.6g s, at least", d->t_end);
+    step_report_print(out, until, e->steps, e->undamped, simulation);
+}
+
+static void print_output(FILE *out, const char *path, const estimate *e)
+{
+    (void)fprintf(out, "output     %s%s%.0f frame%s, about %.3g MB\n", path != NULL ? path : "",
+                  path != NULL ? ": " : "", e->frames, e->frames == 1.0 ? "" : "s", 1e-6 * e->output);
 }
 
 /* All that is set up by now: a run takes no more, but for what HDF5 buffers. */
@@ -274,15 +301,29 @@ static void print_memory(FILE *out, const dem_simulation *simulation)
         (void)fprintf(out, "memory     at most %.4g MB, %.4g bytes a node\n", 1e-6 * bytes, bytes / (double)n_nodes);
 }
 
-/* What a traction asks for, if the lattice's side gives less or more. */
-static void print_asked(FILE *out, const deck *d, dem_index k, double given)
+/* The force of a boundary over its nodes, N; of one that is moved what stands in the deck. */
+static double share_of(const dem_boundary *b)
 {
-    double force[2];
-    if (!loading_asked(force, &d->groups, (size_t)k)) return;
-    const double asked = hypot(force[0], force[1]);
-    if (fabs(given - asked) > 1e-3 * asked)
+    double share = b->share == NULL;
+    for (dem_index k = 0; k < b->n_nodes && b->share != NULL; k++) share += b->share[k];
+    return share;
+}
+
+/* Whether a traction asks for another force than the lattice's side gives; the ratio is given over asked. */
+static bool is_off(const deck *d, dem_index k, double asked[2], double *ratio)
+{
+    const dem_boundary *b = &d->boundaries[k];
+    if (!loading_asked(asked, &d->groups, (size_t)k)) return false;
+    *ratio = share_of(b) * hypot(b->value[0], b->value[1]) / hypot(asked[0], asked[1]);
+    return fabs(*ratio - 1.0) > 1e-3;
+}
+
+static void print_asked(FILE *out, const deck *d, dem_index k)
+{
+    double asked[2], ratio;
+    if (is_off(d, k, asked, &ratio))
         (void)fprintf(out, ", of (%g, %g) N asked for: the side of the lattice is %.2f %% %s than that of the shape",
-                      force[0], force[1], 100.0 * fabs(given / asked - 1.0), given < asked ? "shorter" : "longer");
+                      asked[0], asked[1], 100.0 * fabs(ratio - 1.0), ratio < 1.0 ? "shorter" : "longer");
 }
 
 static void print_boundary(FILE *out, const deck *d, dem_index number)
@@ -293,8 +334,7 @@ static void print_boundary(FILE *out, const deck *d, dem_index number)
                                         [DEM_BOUNDARY_FORCE] = "force"};
     static const char *const units[] = {"m/s", "m", "N"};
     static const char *const axes[] = {"", " x", " y", " x and y"};
-    double share = b->share == NULL;
-    for (dem_index k = 0; k < b->n_nodes && b->share != NULL; k++) share += b->share[k];
+    const double share = share_of(b);
     (void)fprintf(out, "boundary   %lld: %lld node%s, ", (long long)number, (long long)b->n_nodes, plural(b->n_nodes));
     if (b->kind != DEM_BOUNDARY_FORCE && b->value[0] == 0.0 && b->value[1] == 0.0)
         (void)fprintf(out, "held in%s", axes[b->components & 3]);
@@ -303,7 +343,7 @@ static void print_boundary(FILE *out, const deck *d, dem_index number)
                       b->kind == DEM_BOUNDARY_FORCE ? "" : axes[b->components & 3], share * b->value[0],
                       share * b->value[1], units[b->kind]);
     if (b->ramp > 0.0) (void)fprintf(out, " within %g s", b->ramp);
-    print_asked(out, d, number - 1, share * hypot(b->value[0], b->value[1]));
+    print_asked(out, d, number - 1);
     (void)fprintf(out, "\n");
 }
 
@@ -313,9 +353,24 @@ void preview_versions(char *text, size_t size)
                    __VERSION__, dem_version_sundials(), dem_version_hdf5(), GSL_VERSION);
 }
 
-static void print_boundaries(FILE *out, const deck *d)
+/* A load that is not the one asked for is in the short log too. */
+static void print_boundaries(FILE *out, const deck *d, bool details)
 {
-    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++) print_boundary(out, d, k + 1);
+    double asked[2], ratio;
+    for (dem_index k = 0; k < d->n_boundaries && k < most_listed; k++)
+        if (details || is_off(d, k, asked, &ratio)) print_boundary(out, d, k + 1);
+}
+
+/* What the deck itself says of contact and damping. */
+static void print_rules(FILE *out, const dem_simulation *simulation)
+{
+    const dem_model *model = dem_simulation_model(simulation);
+    const dem_options o = ask_options(simulation);
+    const dem_model_size size = ask_sizes(model);
+    print_contact(out, &size, &o);
+    print_friction(out, model);
+    print_motion(out, model);
+    print_damping(out, o.mass_damping, damping_time(dem_model_lattice(model)));
 }
 
 static void print_details(FILE *out, const deck *d, const dem_simulation *simulation)
@@ -346,21 +401,19 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
 {
     const dem_model *model = dem_simulation_model(simulation);
     const dem_options o = ask_options(simulation);
-    FILE *out = log->out;
+    const double expected = d->residual > 0.0 ? relaxation_expected(simulation, &d->options, d->residual) : d->t_end;
+    const estimate needed = estimate_run(d, simulation, fmin(expected, d->t_end));
     print_title(log, d);
-    print_sizes(out, model, &o);
-    print_bodies(out, d);
-    print_friction(out, model);
-    print_motion(out, model);
-    print_damping(out, o.mass_damping, damping_time(dem_model_lattice(model)));
-    print_boundaries(out, d);
+    print_sizes(log->out, d, model, &o);
+    print_bodies(log->out, d, log->verbose);
+    if (log->verbose) print_rules(log->out, simulation);
+    print_boundaries(log->out, d, log->verbose);
     print_measured(log, d, model);
-    step_report_print(out, d->t_end, estimate_run(d, simulation, d->t_end).undamped, simulation);
-    print_estimates(out, d, simulation);
+    print_time(log->out, d, simulation, fmin(expected, d->t_end), &needed);
     doubts_of_lattices(log, d);
     warn_rest_speed(log, &o);
     doubts_of_step(log, simulation);
-    if (log->verbose) print_details(out, d, simulation);
-    if (output != NULL) (void)fprintf(out, "output     %s\n", output);
-    (void)fflush(out);
+    if (log->verbose) print_details(log->out, d, simulation);
+    print_output(log->out, output, &needed);
+    (void)fflush(log->out);
 }

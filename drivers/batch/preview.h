@@ -8,8 +8,8 @@
 #include "deck.h"
 #include "run_log.h"
 
-/** Sizes, bodies, friction, steps, constants as measured, estimates, the `output` that will be written (NULL: none).
- *  A verbose log has versions, rules of contact, probes, scales, stability, frequency and memory, too. */
+/** Sizes, mass, constants as measured, steps, warnings, the `output` that will be written (NULL: none). A verbose log
+ *  has versions, contact, details of the bodies, loads, probes, scales, stability, frequency and memory, too. */
 void preview_print(run_log *log, const deck *d, const dem_simulation *simulation, const char *output);
 
 /** The versions of program, compiler and libraries in one line. */

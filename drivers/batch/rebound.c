@@ -209,6 +209,32 @@ rebound_normal rebound_along(const rebound *r, const dem_simulation *simulation)
     return n;
 }
 
+/* ---- in the log ---- */
+
+/* What is zero in exact arithmetic comes out as the rounding of a sum over all nodes: of 1e5 nodes about 1e-13 of the
+ * largest term. Its digits would look like a result. */
+static double clean(double value, double scale)
+{
+    return fabs(value) <= 1e-12 * scale ? 0.0 : value;
+}
+
+static double speed_scale(const rebound *r)
+{
+    return fmax(hypot(r->approach[0], r->approach[1]), hypot(r->velocity[0], r->velocity[1]));
+}
+
+/* At which the ends of the bodies, at rest this far apart, would move as fast as their centre of mass. */
+static double spin_scale(const rebound *r, const dem_lattice *l)
+{
+    double low[2] = {l->x[0], l->x[1]}, high[2] = {l->x[0], l->x[1]};
+    for (dem_index k = 2; k < 2 * l->n_nodes; k++) {
+        low[k % 2] = fmin(low[k % 2], l->x[k]);
+        high[k % 2] = fmax(high[k % 2], l->x[k]);
+    }
+    const double extent = hypot(high[0] - low[0], high[1] - low[1]);
+    return extent > 0.0 ? speed_scale(r) / extent : 0.0;
+}
+
 static const char *say_direction(const rebound *r, const rebound_normal *n)
 {
     if (!n->along_impulse) return "";
@@ -218,45 +244,53 @@ static const char *say_direction(const rebound *r, const rebound_normal *n)
 static void print_normal(FILE *out, const rebound *r, const dem_simulation *simulation)
 {
     const rebound_normal n = rebound_along(r, simulation);
-    (void)fprintf(out, "normal     of obstacle %lld, (%.4g, %.4g)%s: ", (long long)r->obstacle + 1, n.normal[0] + 0.0,
-                  n.normal[1] + 0.0 /* no -0 */, say_direction(r, &n));
+    const double scale = fmax(speed_scale(r), fabs(n.in));
+    (void)fprintf(out, "normal     of obstacle %lld, (%.4g, %.4g)%s: ", (long long)r->obstacle + 1,
+                  clean(n.normal[0], 1.0), clean(n.normal[1], 1.0), say_direction(r, &n));
     if (r->n_bounces > 1) (void)fprintf(out, "%lld bounces; last: ", (long long)r->n_bounces);
-    (void)fprintf(out, "%+.5g m/s before, %+.5g m/s after", n.in, n.out);
-    if (isfinite(n.ratio)) (void)fprintf(out, ", ratio %.4f", n.ratio);
+    (void)fprintf(out, "%+.5g m/s before, %+.5g m/s after", clean(n.in, scale), clean(n.out, scale));
+    if (isfinite(n.ratio)) (void)fprintf(out, ", ratio %.4f", clean(n.ratio, 1.0));
     (void)fprintf(out, "\n");
 }
 
 static void print_rebound(FILE *out, const rebound *r, const dem_simulation *simulation)
 {
+    const double scale = speed_scale(r);
     if (!rebound_is_over(r)) {
         (void)fprintf(out, "rebound    not yet: %lld contact%s at t_end; give a later t_end\n",
                       (long long)r->n_contacts, r->n_contacts == 1 ? "" : "s");
         return;
     }
     (void)fprintf(out, "rebound    (%+.5g, %+.5g) m/s of the centre of mass at the last contact, spin %+.4g rad/s\n",
-                  r->velocity[0], r->velocity[1], r->spin);
+                  clean(r->velocity[0], scale), clean(r->velocity[1], scale),
+                  clean(r->spin, spin_scale(r, dem_model_lattice(dem_simulation_model(simulation)))));
     print_normal(out, r, simulation);
 }
 
 void rebound_print(FILE *out, const rebound *r, const dem_simulation *simulation, bool rests)
 {
+    const double size = hypot(r->reaction[0], r->reaction[1]);
     if (!r->touched) {
         (void)fprintf(out, "contact    none\n");
         return;
     }
-    (void)fprintf(out, "contact    first at %.6e s, last at %.6e s, %.4e s apart, touching %.4e s of it%s\n", r->first,
-                  r->last, r->last - r->first, r->touching, r->n_contacts > 0 ? " (still touching)" : "");
+    (void)fprintf(out, "contact    first at %.6e s, last at %.6e s, touching %.4e s%s", r->first, r->last, r->touching,
+                  r->n_contacts > 0 ? " (still touching)" : "");
+    if (size > 0.0)
+        (void)fprintf(out, "; largest force (%.6g, %.6g) N", clean(r->reaction[0], size), clean(r->reaction[1], size));
+    (void)fprintf(out, "\n");
     if (!rests) print_rebound(out, r, simulation);
-    (void)fprintf(out,
-                  "force      largest (%.6g, %.6g) N, by lasting contacts, at %.4e s; impacts gave (%.6g, %.6g) N s\n",
-                  r->reaction[0], r->reaction[1], r->reaction_t, r->impulse[0], r->impulse[1]);
 }
 
 void rebound_print_details(FILE *out, const rebound *r, const dem_simulation *simulation)
 {
+    const double given = hypot(r->impulse[0], r->impulse[1]);
+    if (!r->touched) return;
     if (rebound_is_over(r))
         (void)fprintf(out,
                       "rebound    vertical velocity of the centre of mass %+.5g m/s at the last contact, %+.5g m/s at "
                       "t_end\n",
-                      r->speed, rebound_rising_speed(simulation));
+                      clean(r->speed, speed_scale(r)), rebound_rising_speed(simulation));
+    (void)fprintf(out, "force      largest at %.4e s, by lasting contacts; impacts gave (%.6g, %.6g) N s\n",
+                  r->reaction_t, clean(r->impulse[0], given), clean(r->impulse[1], given));
 }

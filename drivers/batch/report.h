@@ -60,8 +60,8 @@ void report_warn_again(report *r, const dem_simulation *simulation);
 /** To be handed to the simulation: follows extremes and prints progress. */
 dem_observer report_observer(report *r);
 
-/** First and last contact, rebound, what was stressed most, energy ledger and its closure, obstacles, wall time; with
- *  the details of a verbose log strains, energies and counts. */
+/** First and last contact, rebound, what was stressed most, the energy ledger and its closure, obstacles that carry,
+ *  boundaries; with the details of a verbose log all obstacles, strains, energies, counts and wall time. */
 void report_summary(report *r, const dem_simulation *simulation);
 
 /** Whether a node is on an edge that its lattice follows in steps: edges.h. */

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the log says of steps, before a run and after it. */
-#include "ask.h"
 #include "step_report.h"
 
 #include <math.h>
+
+#include "ask.h"
 
 dem_method_traits step_report_method(const dem_simulation *simulation)
 {
@@ -35,13 +36,13 @@ static void print_stability(FILE *out, const dem_method_traits *method, const de
                       largest_growth(o->method, z));
 }
 
-void step_report_print(FILE *out, double t_end, double undamped, const dem_simulation *simulation)
+void step_report_print(FILE *out, const char *until, double steps, double undamped, const dem_simulation *simulation)
 {
     const dem_options o = ask_options(simulation);
     const dem_method_traits method = step_report_method(simulation);
     const double omega = dem_model_omega_max(dem_simulation_model(simulation));
-    (void)fprintf(out, "time       t_end %.6g s, %s of order %d, rtol %.3g, %s step %.4g s", t_end, method.name,
-                  (int)method.order, o.rtol, o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
+    (void)fprintf(out, "time       %s %.0f steps of %s; %s step %.4g s", until, steps, method.name,
+                  o.fixed_step > 0.0 ? "fixed" : "largest", o.max_step);
     if (undamped > 0.0)
         (void)fprintf(out, " (damping shortens it from %.4g s)", undamped);
     else if (omega > 0.0)
@@ -69,6 +70,8 @@ void step_report_print_details(FILE *out, const dem_simulation *simulation)
 {
     const dem_options o = ask_options(simulation);
     const dem_method_traits method = step_report_method(simulation);
+    (void)fprintf(out, "method     %s of order %d, %d evaluation%s a step, rtol %.3g\n", method.name, (int)method.order,
+                  (int)method.evaluations, method.evaluations > 1 ? "s" : "", o.rtol);
     print_stability(out, &method, &o, dem_model_omega_max(dem_simulation_model(simulation)));
     (void)fprintf(out, "kernel     %s, %d thread%s\n", dem_kernel_name(o.kernel), (int)o.threads,
                   o.threads > 1 ? "s" : "");

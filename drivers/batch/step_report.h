@@ -18,12 +18,13 @@ typedef struct step_report {
 /** The method of a simulation; it exists, so that the method is known. */
 dem_method_traits step_report_method(const dem_simulation *simulation);
 
-/** What is known before the run: the method, its step, and up to which step the run is safe: up to there no undamped
- *  oscillation grows by more than a thousandth in a step.
+/** What is known before the run: its steps, and up to which step it is safe: up to there no undamped oscillation grows
+ *  by more than a thousandth in a step.
+ *  \param until     the end of the run in words, which "N steps" follows
  *  \param undamped  s, the step that damping has shortened; 0: it has not */
-void step_report_print(FILE *out, double t_end, double undamped, const dem_simulation *simulation);
+void step_report_print(FILE *out, const char *until, double steps, double undamped, const dem_simulation *simulation);
 
-/** Stability bound, kernel, (6) at v_scale. */
+/** Order and cost of the method, stability bound, kernel, (6) at v_scale. */
 void step_report_print_details(FILE *out, const dem_simulation *simulation);
 
 /** Whether a fixed step is longer than that, and what to do about it.

@@ -23,7 +23,7 @@ DECK = """
 def run(folder, floor, body, method):
     path = pathlib.Path(folder, "a.nml")
     path.write_text(DECK.format(floor=floor, body=body, method=method), encoding="utf-8")
-    done = subprocess.run([DEM_BATCH, path, "--overwrite"], cwd=folder, capture_output=True, text=True, check=False)
+    done = subprocess.run([DEM_BATCH, path, "--overwrite", "--verbose"], cwd=folder, capture_output=True, text=True, check=False)
     return done.returncode, done.stderr + done.stdout
 
 

@@ -20,10 +20,10 @@ TEST(the_preview_tells_what_is_about_to_run)
     assert_close(number_before(l->text, " segment"), 1.0, 0.0);
     assert_close(number_in(l->text, "lattice", "mass"), mass, 0.0);
     assert_close(number_in(l->text, "time", "t_end"), 0.25, 0.0);
-    assert_close(number_before(l->text, " frames"), 26.0, 0.0);       /* the one at 0 too */
-    assert_close(number_in(l->text, "estimate", "least"), 25.0, 0.0); /* steps of 0.01 s */
+    assert_close(number_before(l->text, " frames"), 26.0, 0.0);   /* the one at 0 too */
+    assert_close(number_in(l->text, "time", "least"), 25.0, 0.0); /* steps of 0.01 s */
     /* one chunk of 1024 rows of 49 numbers, and 26 frames of three */
-    assert_close(number_in(l->text, "estimate", "about"), 1e-6 * (1024 * 49 * 8 + 26 * 24), 5e-4);
+    assert_close(number_in(l->text, "output", "about"), 1e-6 * (1024 * 49 * 8 + 26 * 24), 5e-4);
 }
 
 /* Under a g of 5 m/s^2 a penetration tolerance of 1e-5 m keeps up hops of 1e-2 m/s. */
@@ -73,7 +73,7 @@ TEST(the_preview_tells_what_is_probed_and_where)
     assert_close(number_in(l->text, "probe", "strut: spring"), 1.0, 0.0);
     assert_close(number_in(l->text, "probe", "strut: spring 1 at ("), 0.5 * (a[0] + b[0]), six_digits);
     /* 25000 steps: chunks of 1024 rows, of the history, foot and span, and one of the strut */
-    assert_close(number_in(l->text, "estimate", "about"), 1e-6 * (25 * (40 + 9 + 3) + 3) * 1024 * 8, 0.05);
+    assert_close(number_in(l->text, "output", "about"), 1e-6 * (25 * (40 + 9 + 3) + 3) * 1024 * 8, 0.05);
 }
 
 /* A block of nu = 0.1 and a node of its own: E, nu and waves of plane stress, and what cannot be measured. */
@@ -176,7 +176,7 @@ TEST(without_an_output_none_is_reported)
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
-    assert_false(has_line(l->text, "output"));
+    assert_non_null(strstr(l->text, "\noutput     26 frames, about "));
     assert_true(has_line(l->text, "deck"));
 }
 
@@ -216,9 +216,9 @@ TEST(details_are_left_out_unless_they_are_wanted)
         l->log.verbose = verbose;
         preview_print(&l->log, &d, l->run.simulation, "there/a.vtkhdf");
         read_log(l);
-        expect_topics(l->text, verbose ? "dem deck lattice contact mass constants time estimate impacts scales kernel "
+        expect_topics(l->text, verbose ? "dem deck lattice mass contact constants time impacts scales method kernel "
                                          "formula output"
-                                       : "deck lattice contact mass constants time estimate output");
+                                       : "deck lattice constants time output");
     }
 }
 
@@ -294,4 +294,30 @@ TEST(of_many_bodies_only_the_first_are_measured)
     CLEANUP(free_logged) logged *l = new_held();
     print_header(l);
     assert_non_null(strstr(l->text, "\nconstants  bodies 17 to 20: not measured\n"));
+}
+
+TEST(the_short_log_lists_few_bodies)
+{
+    CLEANUP(free_logged) logged *l = new_held();
+    l->log.verbose = false;
+    print_header(l);
+    assert_non_null(strstr(l->text, "\nconstants  body 2: "));
+    assert_null(strstr(l->text, "\nconstants  body 3: "));
+    assert_non_null(strstr(l->text, "\nconstants  of 18 more bodies: see --verbose\n"));
+}
+
+/* The deck does not ask for loose parts; what it asks for is left out. */
+TEST(the_short_log_has_parts_and_no_masses_of_bodies)
+{
+    char name[] = "a.nml", title[] = "";
+    body_facts body = {.mass = 3.0, .true_mass = 4.0, .geometry = {.n_pores = 7}, .loose = {.n = 1, .size = {5}}};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = &body, .n_bodies = 1};
+    CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
+    l->log.verbose = false;
+    preview_print(&l->log, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, " kg (0.7500 of the true shape), spacing "));
+    assert_true(has_line(l->text, "parts"));
+    assert_false(has_line(l->text, "mass") || has_line(l->text, "pores"));
 }
