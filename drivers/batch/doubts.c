@@ -45,6 +45,16 @@ void doubts_of_step(run_log *log, const dem_simulation *simulation)
     if (step_report_is_long(simulation, why)) run_log_warn(log, "%s: with it the run may overflow", why);
 }
 
+void doubts_of_overlap(run_log *log, const dem_simulation *simulation)
+{
+    const dem_overlap o = ask_overlap(simulation);
+    if (o.node < 0 || o.t > 0.0) return;
+    run_log_warn(log,
+                 "bodies overlap at t = 0, which nothing undoes: node %lld is inside triangle %lld at (%g, %g) m; move "
+                 "a body by 'position' in &body",
+                 (long long)o.node, (long long)o.triangle, o.x[0], o.x[1]);
+}
+
 void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double wave_speed)
 {
     const dem_index n = ask_sizes(model).n_obstacles;

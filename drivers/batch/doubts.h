@@ -12,6 +12,9 @@ void doubts_of_lattices(run_log *log, const deck *d);
 /** Warns of a fixed step with which the run may overflow. */
 void doubts_of_step(run_log *log, const dem_simulation *simulation);
 
+/** Warns of bodies that overlap at t = 0. */
+void doubts_of_overlap(run_log *log, const dem_simulation *simulation);
+
 /** Warns if body b, from 0, comes to the obstacles fast for the waves in it.  \param wave_speed  m/s, of long waves */
 void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double wave_speed);
 

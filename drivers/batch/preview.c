@@ -413,6 +413,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     doubts_of_lattices(log, d);
     warn_rest_speed(log, &o);
     doubts_of_step(log, simulation);
+    doubts_of_overlap(log, simulation);
     if (log->verbose) print_details(log->out, d, simulation);
     print_output(log->out, output, &needed);
     (void)fflush(log->out);

@@ -107,9 +107,11 @@ static void watch_ledger(report *r, const dem_simulation *simulation, const dem_
     warn_ledger(r, simulation);
 }
 
+/* Of one at t = 0 the preview has warned. */
 static void watch_overlap(report *r, const dem_simulation *simulation)
 {
-    if (r->so_far.overlapped || ask_overlap(simulation).node < 0) return;
+    const dem_overlap o = ask_overlap(simulation);
+    if (r->so_far.overlapped || o.node < 0 || !(o.t > 0.0)) return;
     r->so_far.overlapped = true;
     warn_overlap(r, simulation);
 }

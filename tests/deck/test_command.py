@@ -572,6 +572,17 @@ class Run(Case):
         self.assertIn("stopped.part.vtkhdf", self.files())
         self.assertNotIn("stopped.vtkhdf", self.files())
 
+    def test_bodies_that_overlap_at_the_start_are_warned_of_once(self):
+        block = "&body shape = 'rectangle', size = 0.1, 0.1, spacing = 1e-2, position = {} /\n"
+        self.put("&run t_end = 1e-3 /\n&material youngs_modulus = 1e7, density = 1000 /\n" + 
+                 block.format("0, 0") + block.format("0.052, 0.053"))  # nodes on nodes would be inside of nothing
+        for log in self.call(0, "--check", "deck.nml"), self.call(0, "deck.nml"):
+            found = re.findall(r"(?m)^warning    (.*)$", log)
+            self.assertEqual(len(found), 1)
+            self.assertRegex(found[0], r"^bodies overlap at t = 0, which nothing undoes: node \d+ is inside triangle \d+ at ")
+        result = json.loads(log.splitlines()[-1])
+        self.assertEqual((result["status"], result["warnings"], result["overlap"]["t"]), ("overlapped", found, 0))
+
     def test_a_check_refuses_a_folder_as_the_run_does(self):
         for folder, words in (("/proc/x", "made"), ("/proc", "written to")):
             errors = [run(*options, "--outdir", folder, "deck.nml", cwd=self.folder) for options in (("--check",), ())]

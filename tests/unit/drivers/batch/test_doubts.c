@@ -67,3 +67,35 @@ TEST(a_speed_is_that_against_an_obstacle)
     assert_int_equal(count_doubts(30.0, -2.0, 1), 1);
     assert_int_equal(count_doubts(1.0, 0.0, 0), 0); /* there is nothing to hit */
 }
+
+/* Two rectangles, of which the second one is moved by (x, 0.3). */
+static size_t count_overlaps(double x)
+{
+    const dem_material solid =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0);
+    dem_options options = dem_options_default();
+    run_log log = {.out = tmpfile()};
+    support_run run;
+    assert_non_null(log.out);
+    options.v_scale = 1.0;
+    CLEANUP(dem_lattice_free) dem_lattice both = support_rectangle(4.0, 4.0, 1.0, &solid);
+    CLEANUP(dem_lattice_free) dem_lattice second = support_rectangle(4.0, 4.0, 1.0, &solid);
+    for (dem_index i = 0; i < second.n_nodes; i++) { /* not along a row: nodes on edges are not inside */
+        second.x[2 * i] += x;
+        second.x[2 * i + 1] += 0.3;
+    }
+    assert_ok(dem_lattice_append(&both, &second));
+    support_open(&run, &both, NULL, 0, &options);
+    doubts_of_overlap(&log, run.simulation);
+    support_close(&run);
+    read_log(&log);
+    return log.n_warnings;
+}
+
+TEST(bodies_that_overlap_at_the_start_are_doubted)
+{
+    assert_int_equal(count_overlaps(9.0), 0);
+    assert_int_equal(count_overlaps(2.2), 1);
+    assert_non_null(strstr(text, "warning    bodies overlap at t = 0, which nothing undoes: node "));
+    assert_non_null(strstr(text, " m; move a body by 'position' in &body\n"));
+}
