@@ -25,10 +25,17 @@ static double rectangle_distance(const outline *o, double x, double y)
     return sqrt(ox * ox + oy * oy) + fmin(fmax(dx, dy), 0.0);
 }
 
+/* Where on an edge its nearest point is: 0 at its first end, 1 at its second. */
+static double edge_share(edge e, double x, double y)
+{
+    const double tx = e.b[0] - e.a[0], ty = e.b[1] - e.a[1], dx = x - e.a[0], dy = y - e.a[1];
+    return fmin(fmax((dx * tx + dy * ty) / (tx * tx + ty * ty), 0.0), 1.0);
+}
+
 static double edge_distance(edge e, double x, double y)
 {
     const double tx = e.b[0] - e.a[0], ty = e.b[1] - e.a[1], dx = x - e.a[0], dy = y - e.a[1];
-    const double s = fmin(fmax((dx * tx + dy * ty) / (tx * tx + ty * ty), 0.0), 1.0);
+    const double s = edge_share(e, x, y);
     const double rx = dx - s * tx, ry = dy - s * ty;
     return sqrt(rx * rx + ry * ry);
 }
@@ -69,6 +76,87 @@ double outline_distance(const outline *o, double x, double y)
     }
     return (double)INFINITY;
 }
+
+/* ---- nearest point ---- */
+
+/* On the side that is nearest, or, from outside, where clamping both coordinates leads. */
+static void nearest_of_rectangle(const outline *o, const double x[2], double near[2])
+{
+    const double dx = x[0] - o->centre[0], dy = x[1] - o->centre[1];
+    const double half[2] = {0.5 * o->size[0], 0.5 * o->size[1]};
+    const double depth[2] = {half[0] - fabs(dx), half[1] - fabs(dy)};
+    double at[2] = {fmin(fabs(dx), half[0]), fmin(fabs(dy), half[1])};
+    if (depth[0] > 0.0 && depth[1] > 0.0) {
+        const int c = depth[0] < depth[1] ? 0 : 1;
+        at[c] = half[c];
+    }
+    near[0] = o->centre[0] + copysign(at[0], dx);
+    near[1] = o->centre[1] + copysign(at[1], dy);
+}
+
+/* From the centre every direction is as good; the right one is taken. */
+static void nearest_of_circle(const outline *o, double radius, const double x[2], double near[2])
+{
+    const double dx = x[0] - o->centre[0], dy = x[1] - o->centre[1], r = sqrt(dx * dx + dy * dy);
+    near[0] = o->centre[0] + (r > 0.0 ? radius * (dx / r) : radius);
+    near[1] = o->centre[1] + (r > 0.0 ? radius * (dy / r) : 0.0);
+}
+
+static void nearest_of_polygon(const outline *o, const double x[2], double near[2])
+{
+    double least = (double)INFINITY;
+    for (size_t k = 0; k < o->n_points; k++) {
+        const edge e = edge_of(o, k);
+        const double distance = edge_distance(e, x[0], x[1]), s = edge_share(e, x[0], x[1]);
+        if (distance >= least) continue;
+        least = distance;
+        for (int c = 0; c < 2; c++) near[c] = s < 1.0 ? e.a[c] + s * (e.b[c] - e.a[c]) : e.b[c];
+    }
+}
+
+void outline_nearest(const outline *o, const double x[2], double near[2])
+{
+    const double dx = x[0] - o->centre[0], dy = x[1] - o->centre[1], r = sqrt(dx * dx + dy * dy);
+    switch (o->kind) {
+    case OUTLINE_RECTANGLE:
+        nearest_of_rectangle(o, x, near);
+        break;
+    case OUTLINE_DISC:
+        nearest_of_circle(o, o->radius, x, near);
+        break;
+    case OUTLINE_RING:
+        nearest_of_circle(o, r - o->inner < o->radius - r ? o->inner : o->radius, x, near);
+        break;
+    case OUTLINE_POLYGON:
+        nearest_of_polygon(o, x, near);
+        break;
+    }
+}
+
+/* ---- corners ---- */
+
+size_t outline_corners(const outline *o)
+{
+    return o->kind == OUTLINE_POLYGON ? o->n_points : (o->kind == OUTLINE_RECTANGLE ? 4 : 0);
+}
+
+/* Those of a rectangle begin at the lower left. */
+static outline_corner corner_of_rectangle(const outline *o, size_t k)
+{
+    const double right = k == 1 || k == 2 ? 0.5 : -0.5, top = k >= 2 ? 0.5 : -0.5;
+    return (outline_corner){{o->centre[0] + right * o->size[0], o->centre[1] + top * o->size[1]}, 0.0};
+}
+
+outline_corner outline_corner_at(const outline *o, size_t k)
+{
+    if (o->kind == OUTLINE_RECTANGLE) return corner_of_rectangle(o, k);
+    const edge before = edge_of(o, k > 0 ? k - 1 : o->n_points - 1), e = edge_of(o, k);
+    const double ux = before.b[0] - before.a[0], uy = before.b[1] - before.a[1];
+    const double vx = e.b[0] - e.a[0], vy = e.b[1] - e.a[1];
+    return (outline_corner){{e.a[0], e.a[1]}, (ux * vx + uy * vy) / sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy))};
+}
+
+/* ---- box ---- */
 
 void outline_box(const outline *o, double box[4])
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plane figures in their place: how far a point is from one, and where it cuts a horizontal line. */
+/* Plane figures in their place: how far a point is from one, its nearest point, and where it cuts a horizontal line. */
 #ifndef DEM_OUTLINE_H
 #define DEM_OUTLINE_H
 
@@ -27,6 +27,18 @@ bool outline_place(outline *o, const double turn[2], const double shift[2]);
 
 /* Signed distance to the edge, m: > 0 outside. */
 double outline_distance(const outline *o, double x, double y);
+
+/* The point of the edge that is nearest to x, m. */
+void outline_nearest(const outline *o, const double x[2], double near[2]);
+
+/* A corner of a rectangle or a polygon, and the cosine of the angle by which the edge turns there: 1 straight on. */
+typedef struct outline_corner {
+    double x[2]; /* m */
+    double cosine;
+} outline_corner;
+
+size_t outline_corners(const outline *o);
+outline_corner outline_corner_at(const outline *o, size_t k);
 
 /* left, bottom, right, top, m */
 void outline_box(const outline *o, double box[4]);

@@ -63,6 +63,29 @@ bool shape_outline_has(const shape *s, const double x[2])
     return is_mask(s) ? mask_has(&s->mask, x, slack) : outline_distance(&s->outline, x[0], x[1]) <= slack;
 }
 
+const outline *shape_edge_at(const shape *s, size_t edge)
+{
+    return edge == 0 ? &s->outline : &s->voids[edge - 1];
+}
+
+size_t shape_edge(const shape *s, const double x[2])
+{
+    double least = (double)INFINITY;
+    size_t nearest = 0;
+    for (size_t k = 0; k <= s->n_voids; k++) {
+        const double distance = fabs(outline_distance(shape_edge_at(s, k), x[0], x[1]));
+        if (distance >= least) continue;
+        least = distance;
+        nearest = k;
+    }
+    return nearest;
+}
+
+double shape_distance(const shape *s, const double x[2])
+{
+    return fmax(outline_distance(&s->outline, x[0], x[1]), -void_distance(s, x));
+}
+
 bool shape_fits(const shape *s, const double x[2], double radius)
 {
     const bool inside =

@@ -28,6 +28,13 @@ bool shape_add_void(shape *s, outline *hole);
 /* Whether x lies in the material, voids apart; on the edge it does. */
 bool shape_outline_has(const shape *s, const double x[2]);
 
+/* What bounds the material: 0 is the outline, k + 1 is void k. \return the one whose edge is nearest to x, m */
+size_t shape_edge(const shape *s, const double x[2]);
+const outline *shape_edge_at(const shape *s, size_t edge);
+
+/* Signed distance from the material, m: > 0 outside of it. Not of a mask. */
+double shape_distance(const shape *s, const double x[2]);
+
 /* Whether a disc about x is all material, m. */
 bool shape_fits(const shape *s, const double x[2], double radius);
 

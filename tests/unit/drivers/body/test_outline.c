@@ -72,6 +72,70 @@ TEST(the_way_round_does_not_matter)
     }
 }
 
+/* What the nearest point must be: on the edge, as far as the distance says, and no point of the edge is nearer. */
+static void expect_nearest(const outline *o, double x, double y)
+{
+    const double point[2] = {x, y}, distance = fabs(outline_distance(o, x, y));
+    double near[2];
+    outline_nearest(o, point, near);
+    assert_close(outline_distance(o, near[0], near[1]), 0.0, 4e-15); /* a few roundings of coordinates up to 10 */
+    assert_close(hypot(near[0] - x, near[1] - y), distance, 4e-15);
+}
+
+TEST(the_nearest_point_is_on_the_edge_and_as_far_as_the_distance_says)
+{
+    const outline *const kinds[] = {&block, &disc, &ring, &notched};
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 400; i++) expect_nearest(kinds[k], 0.61 * (i % 20) - 5.03, 0.59 * (i / 20) - 4.01);
+}
+
+TEST(the_nearest_point_of_a_centre_is_on_the_edge)
+{
+    expect_nearest(&block, 1.0, 2.0);
+    expect_nearest(&disc, 1.0, 2.0);
+    expect_nearest(&ring, 1.0, 2.0);
+}
+
+TEST(beyond_a_corner_the_corner_is_nearest)
+{
+    double near[2];
+    outline_nearest(&block, (double[2]){7.0, 8.0}, near);
+    assert_close(near[0], 4.0, 0.0);
+    assert_close(near[1], 4.0, 0.0);
+    outline_nearest(&notched, (double[2]){-3.0, -4.0}, near);
+    assert_close(near[0], 0.0, 0.0);
+    assert_close(near[1], 0.0, 0.0);
+}
+
+/* Mirrored points have mirrored nearest points to the bit, so that mirrored bodies stay so. */
+TEST(nearest_points_are_mirror_symmetric)
+{
+    const outline kinds[] = {{.kind = OUTLINE_RECTANGLE, .centre = {0.0, 0.7}, .size = {0.3, 0.9}},
+                             {.kind = OUTLINE_DISC, .centre = {0.0, 0.7}, .radius = 0.31},
+                             {.kind = OUTLINE_RING, .centre = {0.0, 0.7}, .radius = 0.31, .inner = 0.17}};
+    for (int k = 0; k < 3; k++)
+        for (int i = 1; i < 50; i++) {
+            const double x = 0.0123 * i, y = 0.7 + 0.0301 * (i % 17 - 8);
+            double right[2], left[2];
+            outline_nearest(&kinds[k], (double[2]){x, y}, right);
+            outline_nearest(&kinds[k], (double[2]){-x, y}, left);
+            assert_true(right[0] == -left[0] && right[1] == left[1]);
+        }
+}
+
+TEST(corners_turn_by_their_angles)
+{
+    assert_int_equal(outline_corners(&disc), 0);
+    assert_int_equal(outline_corners(&ring), 0);
+    assert_int_equal(outline_corners(&block), 4);
+    assert_int_equal(outline_corners(&notched), 7);
+    const outline_corner upper_right = outline_corner_at(&block, 2), tip = outline_corner_at(&notched, 4);
+    assert_true(upper_right.x[0] == 4.0 && upper_right.x[1] == 4.0 && upper_right.cosine == 0.0);
+    assert_true(tip.x[0] == 2.0 && tip.x[1] == 1.0);
+    assert_close(tip.cosine, -0.8, 1e-15); /* slopes of -3 and 3: (1 - 9)/10 */
+    assert_close(outline_corner_at(&notched, 0).cosine, 0.0, 0.0);
+}
+
 static void expect_box(const outline *o, double left, double bottom, double right, double top)
 {
     double box[4];

@@ -57,6 +57,21 @@ TEST(voids_are_not_material)
     expect_depth(&s, 0.3, 4.9, 0.5); /* corner of the square one at (0, 4.5): 3-4-5 */
 }
 
+TEST(the_nearest_edge_is_that_of_a_void_where_that_is_nearer)
+{
+    CLEANUP(shape_free) shape s = make_rectangle();
+    add(&s, round_void);
+    add(&s, square_void);
+    assert_int_equal(shape_edge(&s, (double[2]){1.0, 0.5}), 0); /* 0.5 from the lower side, 1 from the void */
+    assert_int_equal(shape_edge(&s, (double[2]){1.0, 1.2}), 1);
+    assert_int_equal(shape_edge(&s, (double[2]){1.0, 2.0}), 1);
+    assert_int_equal(shape_edge(&s, (double[2]){-1.0, 5.0}), 2);
+    assert_true(shape_edge_at(&s, 0) == &s.outline && shape_edge_at(&s, 2) == &s.voids[1]);
+    assert_close(shape_distance(&s, (double[2]){1.0, 1.2}), -0.3, 1e-15);
+    assert_close(shape_distance(&s, (double[2]){1.0, 1.7}), 0.2, 1e-15);
+    assert_close(shape_distance(&s, (double[2]){3.5, 4.0}), 0.5, 1e-15);
+}
+
 TEST(the_lattice_leaves_voids_out)
 {
     CLEANUP(shape_free) shape s = make_rectangle();
