@@ -6,6 +6,8 @@
 
 static const double rounding = 1e-9; /* of the spacing: a node on an edge stays, whatever its rounding */
 
+static const double sqrt3_2 = 0.86602540378443864676; /* height of a row of triangles, in spacings */
+
 static bool is_mask(const shape *s)
 {
     return s->mask.solid != NULL;
@@ -139,9 +141,22 @@ static dem_status cover_disc(dem_lattice *out, const shape *s)
     return make_grid(out, s, (double[2]){2.0 * reach, 2.0 * reach}, (double[2]){0.0, -reach});
 }
 
+/* With two spacings, or rows, about it; what is not smooth has a node, or a row, in the same place. */
+static dem_status cover_widely(dem_lattice *out, const shape *s)
+{
+    const double below = 2.0 * sqrt3_2 * s->spacing, around = 2.0 * s->spacing;
+    double box[4];
+    if (s->outline.kind == OUTLINE_DISC || s->outline.kind == OUTLINE_RING)
+        return dem_lattice_disc(out, s->outline.radius + around, s->spacing);
+    outline_box(&s->outline, box);
+    const double size[2] = {box[2] - box[0] + 2.0 * around, box[3] - box[1] + 2.5 * below};
+    return make_grid(out, s, size, (double[2]){0.5 * (box[0] + box[2]), box[1] - below});
+}
+
 dem_status shape_mesh(dem_lattice *out, const shape *s)
 {
     const outline *o = &s->outline;
+    if (s->smooth) return cover_widely(out, s);
     if (o->kind == OUTLINE_DISC || o->kind == OUTLINE_RING) return cover_disc(out, s);
     return is_fitted(s) ? make_grid(out, s, o->size, (double[2]){0.0, 0.0}) : cover(out, s);
 }
@@ -172,8 +187,23 @@ static dem_status cut_cells(dem_lattice *lattice, const shape *s)
     return status;
 }
 
+static dem_status cut_by_centres(dem_lattice *lattice, const shape *s)
+{
+    bool *keep = malloc((size_t)lattice->n_triangles + 1);
+    if (keep == NULL) return DEM_ERROR_MEMORY;
+    for (dem_index t = 0; t < lattice->n_triangles; t++) {
+        double centre[2] = {0.0, 0.0};
+        for (int k = 0; k < 6; k++) centre[k % 2] += lattice->x[2 * lattice->triangles[3 * t + k / 2] + k % 2] / 3.0;
+        keep[t] = shape_distance(s, centre) < -rounding * s->spacing;
+    }
+    const dem_status status = dem_lattice_trim(lattice, keep);
+    free(keep);
+    return status;
+}
+
 dem_status shape_cut(dem_lattice *lattice, const shape *s)
 {
+    if (s->smooth) return cut_by_centres(lattice, s);
     shape cut = *s;
     if (s->squares) return cut_cells(lattice, s);
     return is_fitted(s) && s->n_voids == 0 ? DEM_OK : dem_lattice_cut(lattice, is_kept, &cut);

@@ -16,6 +16,7 @@ typedef struct shape {
     mask mask;       /* owned; without pixels: none */
     double spacing;  /* m */
     bool squares;    /* its lattice is of squares, each of two triangles, 2 k and 2 k + 1; else of triangles */
+    bool smooth;     /* nodes are to lie on its edges: triangles are kept by their centres, and smoothing.h goes on */
     size_t n_voids;
     outline *voids; /* owned */
 } shape;
@@ -47,11 +48,12 @@ pores_status shape_add_pores(shape *s, pores *out, pores_recipe *recipe);
 /* Of each cell of a lattice of squares keeps both triangles or none.  \param keep [n_triangles] 0 or 1 */
 void shape_keep_cells(bool *keep, dem_index n_triangles);
 
-/* Triangulation that has the rectangle or disc of its outline, or covers any other one, without voids. Caller owns
- * *out. */
+/* Triangulation that has the rectangle or disc of its outline, or covers any other one, without voids; of a smooth
+ * shape it covers all, with two spacings about it. Caller owns *out. */
 dem_status shape_mesh(dem_lattice *out, const shape *s);
 
-/* Takes out what is beyond the outline or in a void, whole cells of squares: nodes on the edge of one stay.
+/* Takes out what is beyond the outline or in a void, whole cells of squares: nodes on the edge of one stay. Of a smooth
+ * shape the triangles go whose centres are there.
  * \return DEM_ERROR_MODEL if nothing is left */
 dem_status shape_cut(dem_lattice *lattice, const shape *s);
 
