@@ -14,6 +14,7 @@
 #include "digest.h"
 #include "file.h"
 #include "loading.h"
+#include "motion.h"
 #include "precision.h"
 #include "probes.h"
 #include "profile.h"
@@ -188,6 +189,7 @@ static void check_obstacle(const schema_instance *obstacle, size_t number, namel
     const bool pairs = points->count % 2 == 0;
     conditional_keys_check(obstacle, &profile_uses, errors);
     check_friction(obstacle, errors);
+    motion_check(obstacle, errors);
     if (!pairs)
         namelist_errors_add(errors, points->place, "'points' in &obstacle must be pairs of x and y, got %d values",
                             points->count);
@@ -354,15 +356,6 @@ static double *make_points(size_t *n_points, const schema_instance *obstacle)
     return NULL;
 }
 
-/* Fields of an obstacle that say how it moves have the names of their keys. */
-static void set_motion(dem_obstacle *made, const schema_instance *group)
-{
-    const dem_motion_field *field;
-    for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++)
-        memcpy((char *)made + field->offset, schema_value_of(group, field->name)->reals,
-               (size_t)field->n * sizeof(double));
-}
-
 static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *errors)
 {
     const size_t n = schema_count(groups, "obstacle");
@@ -380,7 +373,7 @@ static bool set_obstacles(deck *d, const schema_deck *groups, namelist_errors *e
                                .restitution = schema_real(group, "restitution"),
                                .friction = schema_real(group, "friction"),
                                .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
-        set_motion(made, group);
+        motion_set(made, group);
         if (good && !check_crossings(made, k + 1, schema_place(group, "points"), errors)) return false;
     }
     return d->obstacles != NULL;
@@ -524,6 +517,7 @@ static bool interpret(deck *d)
     loading_drop_unused(&d->groups);
     probes_drop_unused(&d->groups);
     conditional_keys_drop(&d->groups, &profile_uses);
+    motion_drop_unused(&d->groups);
     return set_scalars(d, &d->groups);
 }
 

@@ -196,8 +196,21 @@ static const schema_key obstacle_keys[] = {
      "Coefficient of friction; 0 is none. By law 'paper' 1 is none: it must be given there, in [0, 1].", NULL},
     {"friction_law", SCHEMA_CHOICE, 1, 1, "-", "'coulomb'", ANY, "coulomb|paper", PHYSICS,
      "Coulomb's dry friction, or the paper's: an impact leaves `friction` of the tangential velocity.", NULL},
+    {"motion", SCHEMA_CHOICE, 1, 3, "-", NONE, ANY, "fixed|translate|oscillate|rotate", PHYSICS,
+     "How it moves; several kinds add up. Default: 'translate' if `velocity` is given, else 'fixed'.", NONE},
     {"velocity", SCHEMA_REAL, 2, 2, "m/s", "0, 0", ANY, NULL, PHYSICS,
-     "Constant velocity with which it moves, x and y; its points are where it is at t = 0.", NULL},
+     "Constant velocity of 'translate', x and y; its points are where it is at t = 0.", NULL},
+    {"amplitude", SCHEMA_REAL, 2, 2, "m", NONE, ANY, NULL, PHYSICS,
+     "Of 'oscillate', x and y: amplitude sin(2 pi frequency t + phase), about where the points are given.", NONE},
+    {"frequency", SCHEMA_REAL, 1, 1, "Hz", NONE, "> 0", NULL, PHYSICS, "Frequency of 'oscillate'.", NONE},
+    {"phase", SCHEMA_REAL, 1, 1, "degrees", NONE, ANY, NULL, PHYSICS, "Phase of 'oscillate' at t = 0; default: 0.",
+     NONE},
+    {"pivot", SCHEMA_REAL, 2, 2, "m", NONE, ANY, NULL, PHYSICS,
+     "Point about which 'rotate' turns, x and y; it goes with the other kinds. Default: 0, 0.", NONE},
+    {"spin", SCHEMA_REAL, 1, 1, "rad/s", NONE, ANY, NULL, PHYSICS,
+     "Angular velocity of 'rotate', counterclockwise if > 0.", NONE},
+    {"ramp", SCHEMA_REAL, 1, 1, "s", NONE, ">= 0", NULL, PHYSICS,
+     "Time over which velocity, amplitude and spin grow from 0, twice continuously differentiable; default: 0.", NONE},
 };
 
 static const schema_key contact_keys[] = {

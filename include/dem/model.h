@@ -17,15 +17,22 @@ typedef enum dem_friction_law {
 
 /** A rigid polyline, at rest or moving; bodies live on the left of each segment, the solid is on its right. Closed if
  *  the last point is the first. The ends of an open one are free: what has passed round an end may come back from
- *  behind, unhindered. Restitution and friction are those of velocities relative to it. */
+ *  behind, unhindered. Restitution and friction are those of velocities relative to it. Its motions add up; nothing
+ *  pushes it off its way. */
 typedef struct dem_obstacle {
     size_t struct_size;   /**< to be set to sizeof(dem_obstacle), in each of an array */
     dem_index n_points;   /**< >= 2 */
-    const double *points; /**< [n_points][2], m, at t = 0; from one to the next a length that can be squared */
+    const double *points; /**< [n_points][2], m; from one to the next a length that can be squared */
     double restitution;   /**< eta in [0, 1], of a single node: a body rebounds by its waves even with 0   (9) */
     double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
     dem_friction_law friction_law;
-    double velocity[3]; /**< m/s, constant and finite, the third 0. Nothing pushes an obstacle off its way */
+    double velocity[3];  /**< m/s, of a translation. All vectors have a third component of 0 */
+    double amplitude[3]; /**< m, of an oscillation amplitude sin(2 pi frequency t + phase) about the points given */
+    double frequency;    /**< Hz, of it; > 0 */
+    double phase;        /**< degrees, of it */
+    double pivot[3];     /**< m, about which it turns, as the points are given; goes with the other motions */
+    double spin;         /**< rad/s, of a rotation, counterclockwise */
+    double ramp;         /**< s, >= 0: velocity, amplitude and spin grow from 0 in this time, as a boundary's value */
 } dem_obstacle;
 
 /** A field of dem_obstacle that says how it moves: of this name in decks and files too. */

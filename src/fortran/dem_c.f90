@@ -317,12 +317,12 @@ module dem_c
   end enum
 
   type, bind(c) :: dem_obstacle
-    integer(c_size_t) :: struct_size = 72
+    integer(c_size_t) :: struct_size = 152
     integer(dem_index) :: n_points = 0
     type(c_ptr) :: points = c_null_ptr
     real(c_double) :: restitution = 0, friction = 0
     integer(dem_friction_law) :: friction_law = 0
-    real(c_double) :: velocity(3) = 0
+    real(c_double) :: velocity(3) = 0, amplitude(3) = 0, frequency = 0, phase = 0, pivot(3) = 0, spin = 0, ramp = 0
   end type
 
   type, bind(c) :: dem_motion_field

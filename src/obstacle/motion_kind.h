@@ -4,6 +4,7 @@
 #ifndef DEM_OBSTACLE_MOTION_KIND_H
 #define DEM_OBSTACLE_MOTION_KIND_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "obstacle/pose.h"
@@ -11,12 +12,13 @@
 /** Bounds that no point of an obstacle exceeds at any time. */
 typedef struct motion_bounds {
     double speed, acceleration; /* m/s, m/s^2; not finite if the motion cannot be computed with */
-    double rate;                /* rad/s, highest angular frequency of the motion */
+    double step_rate;           /* 1/s: the motion wants that many steps in a second at least */
 } motion_bounds;
 
 typedef struct motion_kind {
     const dem_motion_field *fields; /* [n_fields] by which it is given */
     dem_index n_fields;
+    const char *(*fault)(const dem_obstacle *obstacle);    /* what is wrong with its fields, NULL: nothing; or NULL */
     motion_bounds (*bounds)(const dem_obstacle *obstacle); /* speed 0: the obstacle does not move in this way */
     void (*add)(const dem_obstacle *obstacle, double t, pose *to);
 } motion_kind;

@@ -9,10 +9,15 @@
 
 #include "base/status.h"
 #include "obstacle/obstacle_input.h"
+#include "obstacle/oscillation.h"
+#include "obstacle/rotation.h"
 #include "obstacle/uniform_motion.h"
 
-static const motion_kind *const kinds[] = {&uniform_motion};
+static const motion_kind *const kinds[] = {&uniform_motion, &oscillation, &rotation};
 enum { N_KINDS = sizeof kinds / sizeof kinds[0] };
+
+/* The field that all kinds share. */
+static const dem_motion_field ramp_field = {"ramp", "s", 1, offsetof(dem_obstacle, ramp)};
 
 /* Whether the motion has a part of this kind. */
 static bool moves_by(const motion_law *law, int kind)
@@ -30,8 +35,8 @@ motion_law motion_law_of(const dem_obstacle *obstacle)
     return law;
 }
 
-/* Kinds add to c, c' and c''. The sums begin at -0, since adding to -0 changes no bit: the first kind keeps the sign
- * even of its zeros. */
+/* Kinds add to c, c' and c''; one of them turns. The sums begin at -0, since adding to -0 changes no bit: the first
+ * kind keeps the sign even of its zeros. */
 pose motion_law_pose(const motion_law *law, double t)
 {
     const vec2 none = {-0.0, -0.0};
@@ -41,7 +46,7 @@ pose motion_law_pose(const motion_law *law, double t)
     return sum;
 }
 
-/* Speeds and accelerations of kinds add up at most; the highest frequency is that of the fastest kind. */
+/* Speeds and accelerations of kinds add up at most; the shortest step is that of the fastest kind. */
 motion_bounds motion_law_bounds(const motion_law *law)
 {
     motion_bounds sum = {0};
@@ -50,7 +55,7 @@ motion_bounds motion_law_bounds(const motion_law *law)
         const motion_bounds b = kinds[k]->bounds(law->of);
         sum.speed += b.speed;
         sum.acceleration += b.acceleration;
-        sum.rate = fmax(sum.rate, b.rate);
+        sum.step_rate = fmax(sum.step_rate, b.step_rate);
     }
     return sum;
 }
@@ -69,24 +74,28 @@ static double third_of(const dem_obstacle *obstacle, const dem_motion_field *fie
     return third;
 }
 
-/* Fields must be finite, and so must the bounds that follow from them: products may overflow. */
+/* A field has finite numbers, and no third one in the plane. */
+static dem_status check_field(const dem_motion_field *field, const dem_obstacle *obstacle, dem_index o)
+{
+    double value[2] = {0.0, 0.0};
+    const double third = third_of(obstacle, field);
+    read_field(obstacle, field, value);
+    for (int d = 0; d < 2; d++)
+        CHECK(isfinite(value[d]), DEM_ERROR_MODEL, "obstacle %lld: %s of %g %s is not finite", (long long)o,
+              field->name, value[d], field->unit);
+    CHECK(third == 0.0, DEM_ERROR_MODEL, "obstacle %lld: %s has a third component in the plane: %g", (long long)o,
+          field->name, third);
+    return DEM_OK;
+}
+
+/* The bounds that follow from the fields must be finite, too: products may overflow. */
 static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstacle, dem_index o)
 {
-    for (dem_index f = 0; f < kind->n_fields; f++) {
-        const dem_motion_field *field = &kind->fields[f];
-        double value[2] = {0.0, 0.0};
-        read_field(obstacle, field, value);
-        for (int d = 0; d < 2; d++)
-            CHECK(isfinite(value[d]), DEM_ERROR_MODEL, "obstacle %lld: %s of %g %s is not finite", (long long)o,
-                  field->name, value[d], field->unit);
-    }
-    for (dem_index f = 0; f < kind->n_fields; f++) {
-        const double third = third_of(obstacle, &kind->fields[f]);
-        CHECK(third == 0.0, DEM_ERROR_MODEL, "obstacle %lld: %s has a third component in the plane: %g", (long long)o,
-              kind->fields[f].name, third);
-    }
+    for (dem_index f = 0; f < kind->n_fields; f++) TRY(check_field(&kind->fields[f], obstacle, o));
+    const char *fault = kind->fault != NULL ? kind->fault(obstacle) : NULL;
+    CHECK(fault == NULL, DEM_ERROR_MODEL, "obstacle %lld: %s", (long long)o, fault);
     const motion_bounds b = kind->bounds(obstacle);
-    CHECK(isfinite(b.speed) && isfinite(b.acceleration) && isfinite(b.rate), DEM_ERROR_MODEL,
+    CHECK(isfinite(b.speed) && isfinite(b.acceleration) && isfinite(b.step_rate), DEM_ERROR_MODEL,
           "obstacle %lld: %s makes it move by up to %g m/s and %g m/s^2, which cannot be computed with", (long long)o,
           kind->fields[0].name, b.speed, b.acceleration);
     return DEM_OK;
@@ -94,6 +103,9 @@ static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstac
 
 dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o)
 {
+    TRY(check_field(&ramp_field, obstacle, o));
+    CHECK(obstacle->ramp >= 0.0, DEM_ERROR_MODEL, "obstacle %lld: ramp must be >= 0, got %g s", (long long)o,
+          obstacle->ramp);
     for (int k = 0; k < N_KINDS; k++) TRY(check_kind(kinds[k], obstacle, o));
     return DEM_OK;
 }
@@ -113,7 +125,7 @@ static bool is_same_kind(const motion_kind *kind, const dem_obstacle *a, const d
 /* Equal numbers mean equal poses at all times: neither moves as seen from the other. */
 bool motion_law_is_same(const motion_law *a, const motion_law *b)
 {
-    if (a->kinds != b->kinds) return false;
+    if (a->kinds != b->kinds || (a->moves && a->of->ramp != b->of->ramp)) return false;
     for (int k = 0; k < N_KINDS; k++)
         if (moves_by(a, k) && !is_same_kind(kinds[k], a->of, b->of)) return false;
     return true;
@@ -121,12 +133,13 @@ bool motion_law_is_same(const motion_law *a, const motion_law *b)
 
 /* ---- public ---- */
 
-/* Field k when the fields of all kinds are numbered through. */
+/* Field k when the fields of all kinds are numbered through; the one that they share is the last. */
 const dem_motion_field *dem_motion_field_at(dem_index k)
 {
-    for (int kind = 0; kind < N_KINDS && k >= 0; k -= kinds[kind++]->n_fields)
+    if (k < 0) return NULL;
+    for (int kind = 0; kind < N_KINDS; k -= kinds[kind++]->n_fields)
         if (k < kinds[kind]->n_fields) return &kinds[kind]->fields[k];
-    return NULL;
+    return k == 0 ? &ramp_field : NULL;
 }
 
 static bool has_field(const motion_kind *kind, const dem_motion_field *field)
@@ -136,13 +149,13 @@ static bool has_field(const motion_kind *kind, const dem_motion_field *field)
     return false;
 }
 
-/* Whether it moves at all (by = NULL), or by the kind of motion that has this field. */
+/* Whether it moves at all (by = NULL), or by the kind of motion that has this field; a ramp of 0 is none. */
 bool dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_field *by)
 {
     dem_obstacle own;
     if (obstacle_input_read(&own, obstacle) != DEM_OK) return false;
     const motion_law law = motion_law_of(&own);
-    bool moves = by == NULL && law.moves;
+    bool moves = law.moves && (by == NULL || (by->offset == ramp_field.offset && own.ramp != 0.0));
     for (int k = 0; k < N_KINDS; k++) moves = moves || (moves_by(&law, k) && has_field(kinds[k], by));
     return moves;
 }

@@ -20,7 +20,7 @@ dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o);
 /** The law of an obstacle as it is given, which must stay where it is. */
 motion_law motion_law_of(const dem_obstacle *obstacle);
 
-/** The pose at t. At t = 0 places are those of the points as given. */
+/** The pose at t. The points are given where they are at t = 0; those of an oscillation in its middle. */
 pose motion_law_pose(const motion_law *law, double t);
 
 /* Bounds over all time; 0 at rest. */
@@ -29,7 +29,8 @@ motion_bounds motion_law_bounds(const motion_law *law);
 /** Bounds that hold for both of two obstacles. */
 static inline motion_bounds motion_bounds_of_both(motion_bounds a, motion_bounds b)
 {
-    return (motion_bounds){fmax(a.speed, b.speed), fmax(a.acceleration, b.acceleration), fmax(a.rate, b.rate)};
+    return (motion_bounds){fmax(a.speed, b.speed), fmax(a.acceleration, b.acceleration),
+                           fmax(a.step_rate, b.step_rate)};
 }
 
 /** Whether two obstacles are at rest relative to each other at all times. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Where a rigid body is at one time and how it moves: the frame in which its geometry is given, in the axes of space.
- * With c the centre, q the angle and r = x - c, a point of the body at x moves with
+ * With c the centre, o the origin and q the angle, the point that is given at X is at x = c + R(q) (X - o). With
+ * r = x - c it moves with
  *   w = c' + q' z x r,    w' = c'' + q'' z x r - q'^2 r. */
 #ifndef DEM_OBSTACLE_POSE_H
 #define DEM_OBSTACLE_POSE_H
@@ -8,9 +9,10 @@
 #include "base/vec2.h"
 
 typedef struct pose {
+    vec2 origin;                         /* o m, the point of the body that is at the centre, as it is given */
     vec2 centre, velocity, acceleration; /* c m, c' m/s, c'' m/s^2 */
     vec2 axis;                           /* (cos q, sin q) */
-    double spin, spin_rate;              /* q' rad/s, q'' rad/s^2 */
+    double angle, spin, spin_rate;       /* q rad, q' rad/s, q'' rad/s^2 */
 } pose;
 
 /** A direction of the body, in the axes of space. */
@@ -22,14 +24,15 @@ static inline vec2 pose_turn(const pose *p, vec2 d)
 /** A place given in the body's frame, in the axes of space. */
 static inline vec2 pose_outside(const pose *p, vec2 x)
 {
-    return vec2_add(p->centre, pose_turn(p, x));
+    return vec2_add(p->centre, pose_turn(p, vec2_sub(x, p->origin)));
 }
 
 /** A place in the axes of space, in the body's frame. */
 static inline vec2 pose_inside(const pose *p, vec2 x)
 {
     const vec2 r = vec2_sub(x, p->centre);
-    return (vec2){p->axis.x * r.x + p->axis.y * r.y, p->axis.x * r.y - p->axis.y * r.x};
+    const vec2 turned_back = {p->axis.x * r.x + p->axis.y * r.y, p->axis.x * r.y - p->axis.y * r.x};
+    return vec2_add(turned_back, p->origin);
 }
 
 /** w, m/s: the velocity of the body's point at x. */

@@ -80,14 +80,16 @@ dem_status options_fill(dem_options *o, const dem_model *model, const boundary_c
     if (o->fixed_step > 0.0) o->max_step = o->fixed_step;
     const double rate = damping_rate(o, model);
     CHECK(isfinite(rate), DEM_ERROR_ARGUMENT, "damping of springs or masses is too strong to compute with");
-    const double shaking = model->obstacles.bounds.rate;
+    const double needed = model->obstacles.bounds.step_rate;
     if (o->max_step == 0.0 && model->omega_max > 0.0)
-        o->max_step = (method.adaptive ? adaptive_share : fixed_share * method.stable) /
-                      fmax(fmax(model->omega_max, rate), shaking);
+        o->max_step =
+            fmin((method.adaptive ? adaptive_share : fixed_share * method.stable) / fmax(model->omega_max, rate),
+                 1.0 / needed);
     CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
-    CHECK(shaking * o->max_step <= 1.0, DEM_ERROR_ARGUMENT,
-          "obstacles move with up to %g rad/s: max_step and fixed_step must be at most 1/%g s, got %g s", shaking,
-          shaking, o->max_step);
+    CHECK(needed * o->max_step <= 1.0 + 1e-9, DEM_ERROR_ARGUMENT,
+          "obstacles that oscillate or turn need steps of at most %g s (1/20 of a period, 0.05 rad): max_step and "
+          "fixed_step must not be longer, got %g s",
+          1.0 / needed, o->max_step);
     if (!method.adaptive) o->fixed_step = o->max_step;
     if (o->penetration_tolerance == 0.0) o->penetration_tolerance = 1e-6 * o->spacing;
     if (o->window < 0.0 && o->contact == DEM_CONTACT_EXACT && model->omega_max > 0.0)

@@ -56,13 +56,140 @@ TEST(a_constant_velocity_carries_everything_along)
     const pose at = motion_law_pose(&law, 0.5);
     assert_true(law.moves && !none.moves);
     const motion_bounds bounds = motion_law_bounds(&law);
-    assert_true(bounds.speed == 5.0 && bounds.acceleration == 0.0 && bounds.rate == 0.0);
+    assert_true(bounds.speed == 5.0 && bounds.acceleration == 0.0 && bounds.step_rate == 0.0);
     assert_close(motion_law_bounds(&none).speed, 0.0, 0.0);
     assert_true(motion_law_is_same(&law, &other) && !motion_law_is_same(&law, &none));
     assert_near(pose_outside(&at, (vec2){1.0, 1.0}), (vec2){2.5, -1.0}, 0.0);
     assert_near(pose_velocity(&at, (vec2){7.0, 7.0}), (vec2){3.0, -4.0}, 0.0);
     assert_near(pose_acceleration(&at, (vec2){7.0, 7.0}), (vec2){0.0, 0.0}, 0.0);
     assert_near(pose_outside(&(pose){.axis = {1.0, 0.0}}, (vec2){1.0, 1.0}), (vec2){1.0, 1.0}, 0.0);
+}
+
+/* ---- kinds, their sum and the ramp ---- */
+
+/* One that does all at once, with points up to 2 m from its pivot. */
+static const double flag[6] = {1.0, 0.5, 1.0, -1.5, 2.2, -1.1};
+static const dem_obstacle all_at_once = {.struct_size = sizeof(dem_obstacle),
+                                         .n_points = 3,
+                                         .points = flag,
+                                         .velocity = {0.3, -0.2},
+                                         .amplitude = {0.1, 0.2},
+                                         .frequency = 1.7,
+                                         .phase = 40.0,
+                                         .pivot = {1.0, 0.5},
+                                         .spin = -2.5,
+                                         .ramp = 0.6};
+
+TEST(an_oscillation_swings_about_the_points_given)
+{
+    const dem_obstacle table = {
+        .struct_size = sizeof(dem_obstacle), .amplitude = {0.0, 2e-3}, .frequency = 50.0, .phase = 90.0};
+    const motion_law law = motion_law_of(&table);
+    const double omega = 100.0 * M_PI, amplitude = 2e-3;
+    assert_close(motion_law_pose(&law, 0.0).centre.y, amplitude, 1e-18);
+    assert_close(motion_law_pose(&law, 0.0).acceleration.y, -amplitude * omega * omega, 1e-12);
+    assert_close(motion_law_pose(&law, 0.005).centre.y, 0.0, 1e-17);
+    assert_close(motion_law_pose(&law, 0.005).velocity.y, -amplitude * omega, 1e-14);
+    assert_close(motion_law_pose(&law, 0.01).centre.y, -amplitude, 1e-17);
+    const motion_bounds bounds = motion_law_bounds(&law);
+    assert_close(bounds.speed, amplitude * omega, 1e-15);
+    assert_close(bounds.acceleration, amplitude * omega * omega, 1e-12);
+    assert_close(bounds.step_rate, 1000.0, 0.0); /* 20 steps to a period */
+}
+
+TEST(a_rotation_turns_about_its_pivot)
+{
+    const dem_obstacle wheel = SIZED(dem_obstacle, .n_points = 3, .points = flag, .pivot = {1.0, 0.5}, .spin = 3.0);
+    const motion_law law = motion_law_of(&wheel);
+    const pose at = motion_law_pose(&law, M_PI / 6.0); /* a quarter turn */
+    assert_near(pose_outside(&at, (vec2){1.0, 0.5}), (vec2){1.0, 0.5}, 0.0);
+    assert_near(pose_outside(&at, (vec2){3.0, 0.5}), (vec2){1.0, 2.5}, 1e-15);
+    assert_near(pose_velocity(&at, (vec2){1.0, 2.5}), (vec2){-6.0, 0.0}, 1e-15);
+    assert_near(pose_acceleration(&at, (vec2){1.0, 2.5}), (vec2){0.0, -18.0}, 1e-14);
+    assert_close(at.angle, 0.5 * M_PI, 1e-15);
+    const motion_bounds bounds = motion_law_bounds(&law);
+    assert_close(bounds.speed, 3.0 * 2.0, 1e-14); /* the point (2.2, -1.1) is 2 m from the pivot, as is (1, -1.5) */
+    assert_close(bounds.acceleration, 9.0 * 2.0, 1e-13);
+    assert_close(1.0 / bounds.step_rate, 0.05 / 3.0, 1e-17);
+}
+
+/* The pose is that of a turn about the pivot, which is carried by the other two. */
+TEST(kinds_add_up)
+{
+    dem_obstacle alone = all_at_once;
+    alone.ramp = 0.0;
+    const double t = 0.37, swing = sin(2.0 * M_PI * 1.7 * t + 40.0 * M_PI / 180.0), angle = -2.5 * t;
+    const motion_law law = motion_law_of(&alone);
+    const pose at = motion_law_pose(&law, t);
+    const vec2 x = {2.2, -1.1}, r = {1.2, -1.6};
+    const vec2 expected = {1.0 + 0.3 * t + 0.1 * swing + cos(angle) * r.x - sin(angle) * r.y,
+                           0.5 - 0.2 * t + 0.2 * swing + sin(angle) * r.x + cos(angle) * r.y};
+    assert_near(pose_outside(&at, x), expected, 1e-15);
+    assert_near(pose_inside(&at, expected), x, 1e-15);
+}
+
+/* Derivatives are those of the place by differences: the fourth derivative is 1e4, so that over h = 1e-4 the error is
+ * 1e-6 of the velocity and 1e-5 of the acceleration, and rounding is below. */
+TEST(velocities_and_accelerations_of_the_sum_follow_from_its_places)
+{
+    const motion_law law = motion_law_of(&all_at_once);
+    const double h = 1e-4;
+    for (double t = 0.013; t < 1.0; t += 0.0617) {
+        const pose before = motion_law_pose(&law, t - h), at = motion_law_pose(&law, t),
+                   after = motion_law_pose(&law, t + h);
+        const vec2 x = {2.2, -1.1};
+        const vec2 a = pose_outside(&before, x), b = pose_outside(&at, x), c = pose_outside(&after, x);
+        assert_near(pose_velocity(&at, b), vec2_scale(0.5 / h, vec2_sub(c, a)), 1e-5);
+        assert_near(pose_acceleration(&at, b), vec2_scale(1.0 / (h * h), vec2_sub(vec2_add(a, c), vec2_scale(2.0, b))),
+                    1e-4);
+        assert_close(at.spin, (after.angle - before.angle) / (2.0 * h), 1e-6);
+        assert_close(at.spin_rate, (after.spin - before.spin) / (2.0 * h), 1e-5);
+        assert_near(at.axis, (vec2){cos(at.angle), sin(at.angle)}, 0.0);
+    }
+}
+
+/* At t = 0 everything is at rest where it was given, and stays continuous up to accelerations. */
+TEST(with_a_ramp_all_begins_at_rest)
+{
+    const motion_law law = motion_law_of(&all_at_once);
+    const pose at = motion_law_pose(&law, 0.0), soon = motion_law_pose(&law, 1e-6);
+    const vec2 x = {2.2, -1.1};
+    assert_near(pose_outside(&at, x), x, 1e-15);
+    assert_near(pose_velocity(&at, x), (vec2){0.0, 0.0}, 0.0);
+    assert_near(pose_acceleration(&at, x), (vec2){0.0, 0.0}, 0.0);
+    assert_near(pose_acceleration(&soon, x), (vec2){0.0, 0.0}, 1e-3);
+}
+
+TEST(no_point_exceeds_the_bounds)
+{
+    dem_obstacle sudden = all_at_once;
+    sudden.ramp = 0.0;
+    const dem_obstacle *const both[2] = {&all_at_once, &sudden};
+    for (int k = 0; k < 2; k++) {
+        const motion_law law = motion_law_of(both[k]);
+        const motion_bounds bounds = motion_law_bounds(&law);
+        double speed = 0.0, acceleration = 0.0;
+        for (double t = 0.0; t < 3.0; t += 1e-3) {
+            const pose at = motion_law_pose(&law, t);
+            const vec2 x = pose_outside(&at, (vec2){2.2, -1.1});
+            speed = fmax(speed, vec2_norm(pose_velocity(&at, x)));
+            acceleration = fmax(acceleration, vec2_norm(pose_acceleration(&at, x)));
+        }
+        assert_true(speed <= bounds.speed && acceleration <= bounds.acceleration);
+        assert_true(speed > 0.5 * bounds.speed && acceleration > 0.3 * bounds.acceleration); /* not far off */
+    }
+}
+
+TEST(equal_motions_are_those_with_equal_numbers)
+{
+    dem_obstacle other = all_at_once;
+    const motion_law law = motion_law_of(&all_at_once), same = motion_law_of(&other);
+    assert_true(motion_law_is_same(&law, &same));
+    other.ramp = 0.7;
+    assert_false(motion_law_is_same(&law, &same));
+    other = all_at_once;
+    other.pivot[1] = 0.6;
+    assert_false(motion_law_is_same(&law, &same));
 }
 
 TEST(points_go_where_the_obstacle_has_gone_also_in_place)
@@ -92,7 +219,21 @@ TEST(fields_are_listed_one_by_one)
     assert_false(dem_obstacle_moves(&rest, NULL));
     while (dem_motion_field_at(k) != NULL) k++;
     assert_null(dem_motion_field_at(-1));
-    assert_true(k >= 1);
+    assert_int_equal(k, 7);
+}
+
+/* The ramp is of all kinds; without one it is not a field of the motion. */
+TEST(a_field_is_of_the_kinds_that_use_it)
+{
+    static const char *const names[7] = {"velocity", "amplitude", "frequency", "phase", "pivot", "spin", "ramp"};
+    dem_obstacle wheel = SIZED(dem_obstacle, .n_points = 3, .points = flag, .spin = 3.0, .ramp = 0.1);
+    for (dem_index k = 0; k < 7; k++) {
+        const dem_motion_field *field = dem_motion_field_at(k);
+        assert_string_equal(field->name, names[k]);
+        assert_true(dem_obstacle_moves(&wheel, field) == (k >= 4));
+    }
+    wheel.ramp = 0.0;
+    assert_false(dem_obstacle_moves(&wheel, dem_motion_field_at(6)));
 }
 
 TEST(a_motion_that_cannot_be_computed_with_is_refused)
@@ -106,4 +247,22 @@ TEST(a_motion_that_cannot_be_computed_with_is_refused)
     assert_message_parts("obstacle 3: velocity * inf m/s * 0 m/s^2");
     assert_int_equal(motion_law_check(&rising, 3), DEM_ERROR_MODEL);
     assert_message_parts("obstacle 3: velocity * third component * 1.5");
+}
+
+static void refuse(const dem_obstacle *obstacle, const char *message)
+{
+    assert_int_equal(motion_law_check(obstacle, 3), DEM_ERROR_MODEL);
+    assert_message_parts(message);
+}
+
+TEST(an_amplitude_needs_a_frequency_and_no_time_is_negative)
+{
+    const dem_obstacle still = {.struct_size = sizeof(dem_obstacle), .amplitude = {0.0, 1.0}},
+                       back = {.struct_size = sizeof(dem_obstacle), .frequency = -1.0},
+                       ramp = {.struct_size = sizeof(dem_obstacle), .ramp = -0.5},
+                       high = {.struct_size = sizeof(dem_obstacle), .pivot = {0.0, 0.0, 1.0}};
+    refuse(&still, "obstacle 3: an amplitude * without a frequency");
+    refuse(&back, "obstacle 3: * frequency * below 0");
+    refuse(&ramp, "obstacle 3: ramp * -0.5 s");
+    refuse(&high, "obstacle 3: pivot has a third component");
 }

@@ -242,19 +242,22 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
     assert_close(options.v_scale, 70.0, 0.0);
 }
 
-/* omega_max is that of the rectangle; an obstacle that shakes ten times as fast is followed alike. */
-TEST(steps_follow_obstacles_that_shake)
+/* omega_max is that of the rectangle; an obstacle that wants ten times as many steps gets them. */
+TEST(steps_follow_obstacles_that_oscillate_or_turn)
 {
-    char message[160];
+    char message[200];
     CLEANUP(free_model) dem_model *model = make_rubber(0.0, 4.0);
     const double rate = 10.0 * dem_model_omega_max(model);
     dem_options options = dem_options_default();
-    model->obstacles.bounds.rate = rate;
+    model->obstacles.bounds.step_rate = rate;
     assert_ok(options_fill(&options, model, &no_boundaries));
-    assert_close(options.max_step, 0.5 / rate, 0.0);
+    assert_close(options.max_step, 1.0 / rate, 0.0);
+    options = dem_options_default();
+    options.max_step = 1.0 / rate;
+    assert_ok(options_fill(&options, model, &no_boundaries));
     options.max_step = 1.5 / rate;
     (void)snprintf(message, sizeof message,
-                   "obstacles move with up to %g rad/s: max_step and fixed_step must be at most 1/%g s, got %g s", rate,
-                   rate, options.max_step);
+                   "obstacles * oscillate or turn * at most %g s * max_step and fixed_step * got %g s", 1.0 / rate,
+                   options.max_step);
     refuse_filling(model, options, message);
 }
