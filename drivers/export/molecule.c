@@ -143,9 +143,11 @@ static void find_omissions(molecule *m)
     const dem_index obstacles = dem_reader_n_obstacles(m->task->reader);
     const dem_reader_column *boundaries = dem_reader_column_find(m->task->reader, "history", "boundary_force");
     const dem_index area = count(l->area_stiffness, l->n_triangles), guard = count(l->guard, l->n_triangles);
+    const dem_index coupled = count(l->coupling, 3 * l->n_triangles);
     const dem_index held = boundaries != NULL ? boundaries->items : 0;
     const dem_index damped = count(l->viscosity, l->n_springs);
     omit(m, area > 0, "the area term of %lld triangle%s", (long long)area, plural(area));
+    omit(m, coupled > 0, "%lld coupling%s of springs", (long long)coupled, plural(coupled));
     omit(m, guard > 0, "the folding guard of %lld triangle%s", (long long)guard, plural(guard));
     omit(m, damped > 0, "the damping of %lld spring%s", (long long)damped, plural(damped));
     omit(m, m->loads.mass_damping > 0.0, "the damping of masses, %.17g 1/s", m->loads.mass_damping);

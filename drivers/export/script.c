@@ -13,12 +13,12 @@ typedef struct course {
     double steps;
 } course;
 
-/* Springs alone: the area term is left out. */
+/* Springs alone: area term and couplings are left out. */
 static bool find_omega(const molecule *m, double *omega)
 {
     dem_lattice springs = *m->lattice;
     dem_model *model = NULL;
-    springs.area_stiffness = NULL;
+    springs.area_stiffness = springs.coupling = NULL;
     if (!task_holds(m->task, dem_model_create(&model, &springs, NULL, 0))) return false;
     *omega = dem_model_omega_max(model);
     dem_model_destroy(model);

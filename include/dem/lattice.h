@@ -21,6 +21,12 @@ typedef enum dem_plane {
     DEM_PLANE_STRAIN      /**< a slice of a long body, which keeps its thickness */
 } dem_plane;
 
+/** How the three springs of a triangle answer to its strain. */
+typedef enum dem_springs {
+    DEM_SPRINGS_INDEPENDENT = 0, /**< each for itself: exact in equilateral triangles */
+    DEM_SPRINGS_COUPLED          /**< the tension of each depends on all three: exact in any triangle */
+} dem_springs;
+
 /** An isotropic solid; `plane` says how it is a body in the plane. */
 typedef struct dem_material {
     size_t struct_size;    /**< to be set to sizeof(dem_material), in each of an array */
@@ -35,6 +41,7 @@ typedef struct dem_material {
     double guard;        /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
     double damping_time; /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
                                 damping_time e'; 0: none */
+    dem_springs springs; /**< of triangles; coupled ones go neither with bond_stiffness nor with cells */
 } dem_material;
 
 enum {
@@ -68,6 +75,8 @@ typedef struct dem_lattice {
     int32_t *body;          /**< [n_nodes]        body number from 0; NULL: one body */
     double *position;       /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
     double *velocity;       /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
+    double *coupling;       /**< [n_triangles][3] of any sign, N/m: at each corner the tension of one of its two edges
+                                per change of length of the other. An edge that has one needs a spring; NULL: none */
 } dem_lattice;
 
 /** No nodes, all arrays NULL. Every lattice begins like this: functions that make one write no further than the
@@ -124,6 +133,8 @@ DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edg
  *  stiffness (8/3) G h A/|e|^2 times the edge's length, in N, and each corner a third of its mass; its area
  *  stiffness is (lambda - G) h. G = E/(2 (1 + nu)) and lambda = E nu/(1 - nu^2) are those of plane stress; a solid in
  *  plane strain is a plate of E/(1 - nu^2) and nu/(1 - nu). A block of equilateral triangles then has exactly E and nu.
+ *  With coupled springs the triangles that are not equilateral get other stiffnesses, and couplings, such that any
+ *  block of triangles has exactly E and nu.
  *  With a damping time each spring gets the viscosity damping_time times its stiffness.                         (1) */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
 

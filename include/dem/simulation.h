@@ -135,7 +135,7 @@ typedef struct dem_energy {
                             what stays constant in a run, up to the integrator's error */
     double motion;   /**< kinetic + elastic + area + guard + contact: what the ledger is compared with */
     double kinetic;  /**< sum m_i v_i.v_i/2 */
-    double elastic;  /**< of the springs                                                               (1) */
+    double elastic;  /**< of the springs and their couplings                                           (1) */
     double area;     /**< of the area term; < 0 where nu < 1/3 in plane stress */
     double guard;    /**< of the folding guard */
     double contact;  /**< of surfaces that press on each other: 0, as bodies do not touch each other yet */
@@ -329,7 +329,7 @@ DEM_API dem_status dem_simulation_contact(const dem_simulation *simulation, dem_
 /** Strain (d - d0)/d0 of every spring.  \param[out] strain  [n_springs], in the order of the lattice */
 DEM_API dem_status dem_simulation_strains(const dem_simulation *simulation, double *strain);
 
-/** Force (1) along every spring, > 0 in tension; what damping adds to it is left out.
+/** Force (1) along every spring, with what couplings add to it, > 0 in tension; what damping adds is left out.
  *  \param[out] force  [n_springs] N, in the order of the lattice */
 DEM_API dem_status dem_simulation_forces(const dem_simulation *simulation, double *force);
 

@@ -83,6 +83,11 @@ static inline sym2 sym2_along(sym2 A, double s, vec2 a)
     return (sym2){A.xx + s * a.x * a.x, A.xy + s * a.x * a.y, A.yy + s * a.y * a.y};
 }
 
+static inline sym2 sym2_add(sym2 A, sym2 B)
+{
+    return (sym2){A.xx + B.xx, A.xy + B.xy, A.yy + B.yy};
+}
+
 /** The larger eigenvalue: the mean of xx and yy plus the radius of Mohr's circle. */
 static inline double sym2_largest(sym2 A)
 {

@@ -484,10 +484,10 @@ static dem_status allocate(builder *b)
 }
 
 /* Places are of 32 bits, which halves the memory of entries; larger lattices are refused. */
-dem_status layout_compile(layout *out, const springs *s, const triangles *t)
+dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c)
 {
     layout l = {.n_nodes = s->n_nodes,
-                .n_blocks = s->n_nodes / LAYOUT_LANES,
+                .n_blocks = c->n > 0 ? 0 : s->n_nodes / LAYOUT_LANES,
                 .damped = s->viscosity != NULL,
                 .stiff = t->area_stiffness != NULL};
     builder b = {.l = &l, .s = s, .t = t};

@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "base/intern.h"
+#include "elastic/couplings.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
 
@@ -64,9 +65,9 @@ typedef struct layout {
     dem_index ring_length; /* forces in the ring */
 } layout;
 
-/** Compiles. A lattice in which a node has springs to a great part of the others gets no blocks. Free with
- *  layout_free(). */
-dem_status layout_compile(layout *out, const springs *s, const triangles *t);
+/** Compiles. A lattice in which a node has springs to a great part of the others, or springs are coupled, gets no
+ *  blocks. Free with layout_free(). */
+dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c);
 void layout_free(layout *l);
 
 #endif

@@ -39,8 +39,10 @@ static void fill_weight(const forces *f, const double *x, dem_index first, int n
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
     const dem_model *model = f->model;
+    const unsigned char *broken = element_state_triangles(f->elements);
     dem_energy energy = {.elastic = springs_energy(&model->lattice, element_state_springs(f->elements), x)};
-    triangles_energy(&model->triangles, element_state_triangles(f->elements), x, &energy.area, &energy.guard);
+    energy.elastic += couplings_energy(&model->couplings, broken, x);
+    triangles_energy(&model->triangles, broken, x, &energy.area, &energy.guard);
     exact_sum kinetic = {0}, weight = {0};
     double terms[EXACT_SUM_BLOCK];
     for (dem_index first = 0; first < model->lattice.n_nodes; first += EXACT_SUM_BLOCK) {

@@ -61,7 +61,7 @@ static inline bool forces_are_damped(const forces *f)
 static inline bool forces_are_plain(const forces *f)
 {
     const triangles *t = &f->model->triangles;
-    return !forces_couple_velocities(f) && t->row[t->n_nodes] == 0 && !forces_push(f);
+    return !forces_couple_velocities(f) && t->row[t->n_nodes] == 0 && f->model->couplings.n == 0 && !forces_push(f);
 }
 
 /** Whether forces_node_power() may be other than 0. */
@@ -77,7 +77,8 @@ static inline unsigned forces_held(const forces *f, dem_index i)
 }
 
 /** Goes through the nodes on which the force on one node depends: the other ends of its springs, then the other corners
- *  of its triangles, of elements that are whole. Some nodes come more than once. */
+ *  of its triangles, of elements that are whole. Couplings add none, as every edge of a coupled triangle is a spring.
+ *  Some nodes come more than once. */
 typedef struct forces_neighbours {
     const forces *f;
     const element_state *state;      /* NULL: the elements of the node are whole */
@@ -125,6 +126,8 @@ static inline vec2 forces_of_whole_elements(const forces *f, const element_state
     const springs *s = &f->model->springs;
     const triangles *t = &f->model->triangles;
     vec2 bonds = springs_force(s, element_state_springs(state), i, x);
+    if (f->model->couplings.n > 0)
+        bonds = couplings_add_force(&f->model->couplings, element_state_triangles(state), i, x, bonds);
     if (s->viscosity != NULL) bonds = vec2_add(bonds, springs_damping(s, element_state_springs(state), i, x, v));
     if (t->row[i] == t->row[i + 1]) return bonds;
     return vec2_add(bonds, triangles_force(t, element_state_triangles(state), i, x));
@@ -195,13 +198,15 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
 /** Power that damping takes, of all springs and masses, W, >= 0. */
 double forces_damping_power(const forces *f, const double *x, const double *v);
 
-/** Energy that depends on the position of node i, J: that of its springs, its triangles and its weight. */
+/** Energy that depends on the position of node i, J: that of its springs and their couplings, its triangles and its
+ *  weight. */
 static inline double forces_node_energy(const forces *f, dem_index i, const double *x)
 {
     const dem_model *model = f->model;
     const double weight = model->lattice.mass[i] * vec2_dot(vec2_at(f->gravity, 0), vec2_at(x, i));
     const element_state *state = element_state_at(f->elements, i);
     return springs_node_energy(&model->springs, element_state_springs(state), i, x) +
+           couplings_node_energy(&model->couplings, element_state_triangles(state), i, x) +
            triangles_node_energy(&model->triangles, element_state_triangles(state), i, x) - weight;
 }
 

@@ -100,25 +100,31 @@ module dem_c
     enumerator :: DEM_PLANE_STRESS = 0, DEM_PLANE_STRAIN = 1
   end enum
 
+  integer, parameter :: dem_springs = c_int
+  enum, bind(c)
+    enumerator :: DEM_SPRINGS_INDEPENDENT = 0, DEM_SPRINGS_COUPLED = 1
+  end enum
+
   enum, bind(c)
     enumerator :: DEM_NODE_FIXED = 1, DEM_NODE_CONTACT = 2
   end enum
 
   type, bind(c) :: dem_material
-    integer(c_size_t) :: struct_size = 72
+    integer(c_size_t) :: struct_size = 80
     real(c_double) :: youngs_modulus = 0, bond_stiffness = 0, poissons_ratio = 0
     integer(dem_plane) :: plane = 0
     real(c_double) :: density = 0, thickness = 0, guard = 0, damping_time = 0
+    integer(dem_springs) :: springs = 0
   end type
 
   type, bind(c) :: dem_lattice
-    integer(c_size_t) :: struct_size = 160
+    integer(c_size_t) :: struct_size = 168
     integer(c_int) :: dim = 0
     integer(dem_index) :: n_nodes = 0, n_springs = 0, n_triangles = 0
     type(c_ptr) :: x = c_null_ptr, mass = c_null_ptr, ends = c_null_ptr, rest_length = c_null_ptr
     type(c_ptr) :: stiffness = c_null_ptr, triangles = c_null_ptr, viscosity = c_null_ptr, guard = c_null_ptr
     type(c_ptr) :: area_stiffness = c_null_ptr, thickness = c_null_ptr, modulus = c_null_ptr, flags = c_null_ptr
-    type(c_ptr) :: body = c_null_ptr, position = c_null_ptr, velocity = c_null_ptr
+    type(c_ptr) :: body = c_null_ptr, position = c_null_ptr, velocity = c_null_ptr, coupling = c_null_ptr
   end type
 
   abstract interface

@@ -16,6 +16,7 @@
 #include "base/struct_size.h"
 #include "base/vec2.h"
 #include "lattice/lattice.h"
+#include "lattice/triangle_share.h"
 
 /* ---- materials ---- */
 
@@ -50,6 +51,10 @@ static dem_status check_material(const dem_material *m)
 {
     CHECK(m != NULL, DEM_ERROR_ARGUMENT, "material is NULL");
     TRY(check_elasticity(m));
+    CHECK(m->springs == DEM_SPRINGS_INDEPENDENT || m->springs == DEM_SPRINGS_COUPLED, DEM_ERROR_ARGUMENT,
+          "springs is %d, which is neither independent nor coupled", (int)m->springs);
+    CHECK(m->springs == DEM_SPRINGS_INDEPENDENT || m->bond_stiffness == 0.0, DEM_ERROR_ARGUMENT,
+          "springs of a given bond stiffness, %g N, cannot be coupled", m->bond_stiffness);
     CHECK(is_positive(m->density), DEM_ERROR_ARGUMENT, "density must be > 0: %g kg/m^3", m->density);
     CHECK(is_positive(m->thickness), DEM_ERROR_ARGUMENT, "thickness must be > 0: %g m", m->thickness);
     CHECK(isfinite(m->guard) && m->guard >= 0.0, DEM_ERROR_ARGUMENT, "guard must be >= 0: %g", m->guard);
@@ -145,16 +150,26 @@ static void give_mass(const draft *d, double weight, const dem_material *m, cons
     for (int c = 0; c < 3; c++) d->solid.mass[corner[c]] += mass;
 }
 
-/* (8/3) G h A/|e| to each edge. The energy of the three springs under a uniform strain is that of Hooke's law at nu =
- * 1/3 if the triangle is equilateral; the area term adds what other ratios need. */
+/* What the triangle gives to its edges over what an equilateral one would. */
+static triangle_share share_of_triangle(const draft *d, dem_index t)
+{
+    const dem_index *c = d->lattice->triangles + 3 * t;
+    const double *x = d->lattice->x;
+    if (material_of(d, t)->springs == DEM_SPRINGS_INDEPENDENT) return triangle_share_independent();
+    return triangle_share_coupled((const vec2[]){vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])});
+}
+
+/* (8/3) G h A/|e| to each edge, times its weight. The energy of the three springs, and of their couplings, under a
+ * uniform strain is that of Hooke's law at nu = 1/3; the area term adds what other ratios need. */
 static void share_triangle(const draft *d, dem_index t)
 {
     const dem_index *corner = d->lattice->triangles + 3 * t;
     const dem_material *m = material_of(d, t);
+    const triangle_share own = share_of_triangle(d, t);
     const double modulus = spring_modulus(plate_of(m)), area = area_of(d->lattice, corner[0], corner[1], corner[2]);
     for (int c = 0; c < 3; c++) {
         const dem_index i = corner[c], j = corner[(c + 1) % 3];
-        d->shares[3 * t + c] = share_of(i, j, modulus * area / distance(d->lattice, i, j), m);
+        d->shares[3 * t + c] = share_of(i, j, own.weight[c] * (modulus * area / distance(d->lattice, i, j)), m);
     }
     give_mass(d, 1.0, m, corner);
 }
@@ -335,7 +350,17 @@ static double area_modulus(const draft *d, const dem_material *m)
     return m->bond_stiffness > 0.0 ? 0.0 : p.modulus * ((1.0 + r) * nu - r) / (1.0 - nu * nu);
 }
 
-/* Guard, area term, thickness and the modulus by which stresses share springs out (model/stress.c). */
+/* N/m; 0 in cells and in equilateral triangles. */
+static void fill_couplings(draft *d)
+{
+    for (dem_index t = 0; t < d->lattice->n_triangles && !d->cells; t++) {
+        const triangle_share own = share_of_triangle(d, t);
+        const double modulus = spring_modulus(plate_of(material_of(d, t)));
+        for (int c = 0; c < 3; c++) d->solid.coupling[3 * t + c] = modulus * own.coupling[c];
+    }
+}
+
+/* Guard, area term, couplings, thickness and the modulus by which stresses share springs out (model/stress.c). */
 static dem_status fill_triangles(draft *d)
 {
     const dem_index n = d->lattice->n_triangles;
@@ -344,7 +369,8 @@ static dem_status fill_triangles(draft *d)
     s->area_stiffness = lattice_zeros(n, sizeof *s->area_stiffness);
     s->thickness = lattice_zeros(n, sizeof *s->thickness);
     s->modulus = lattice_zeros(n, sizeof *s->modulus);
-    CHECK(s->guard && s->area_stiffness && s->thickness && s->modulus, DEM_ERROR_MEMORY,
+    s->coupling = lattice_zeros(3 * n, sizeof *s->coupling);
+    CHECK(s->guard && s->area_stiffness && s->thickness && s->modulus && s->coupling, DEM_ERROR_MEMORY,
           "out of memory for %lld triangles", (long long)n);
     for (dem_index t = 0; t < n; t++) {
         const dem_material *m = material_of(d, t);
@@ -354,6 +380,10 @@ static dem_status fill_triangles(draft *d)
         /* Triangles share the stress of a spring as they have given to its stiffness: by (8/3) G h A. */
         s->modulus[t] = spring_modulus(plate_of(m)) / m->thickness;
     }
+    fill_couplings(d);
+    drop_zeros(&s->coupling, 3 * n);
+    CHECK(s->coupling == NULL || lattice_has_couplings(d->lattice), DEM_ERROR_ARGUMENT,
+          "dem_lattice: struct_size is %zu, without room for couplings", d->lattice->struct_size);
     drop_zeros(&s->guard, n);
     drop_zeros(&s->area_stiffness, n);
     drop_zeros(&s->modulus, n);
@@ -384,6 +414,7 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     swap(&lattice->area_stiffness, &solid->area_stiffness);
     swap(&lattice->thickness, &solid->thickness);
     swap(&lattice->modulus, &solid->modulus);
+    if (lattice_has_couplings(lattice)) swap(&lattice->coupling, &solid->coupling);
 }
 
 /* Shares first, then springs made of them, then triangles. */
@@ -406,6 +437,8 @@ static dem_status check_materials(const draft *d, dem_index n_materials)
         TRY(check_material(m));
         CHECK(n_materials == 1 || m->bond_stiffness == 0.0, DEM_ERROR_ARGUMENT,
               "a bond stiffness, %g N, is for bodies of one material", m->bond_stiffness);
+        CHECK(!d->cells || m->springs == DEM_SPRINGS_INDEPENDENT, DEM_ERROR_ARGUMENT,
+              "coupled springs are those of triangles, but cells are asked for");
         if (d->cells && m->bond_stiffness == 0.0) TRY(check_diagonal(plate_of(m), d->diagonal));
     }
     for (dem_index t = 0; d->of != NULL && t < d->lattice->n_triangles; t++)

@@ -116,7 +116,7 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     return DEM_OK;
 }
 
-/* A guard and an area stiffness that are missing are 0. */
+/* A guard, an area stiffness and couplings that are missing are 0. */
 static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_triangles, m = b->n_triangles;
@@ -134,6 +134,10 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     if (a->area_stiffness != NULL || b->area_stiffness != NULL) {
         out->area_stiffness = join(a->area_stiffness, n, b->area_stiffness, m, sizeof *out->area_stiffness);
         CHECK_MEMORY(out->area_stiffness);
+    }
+    if (a->coupling != NULL || b->coupling != NULL) {
+        out->coupling = join(a->coupling, n, b->coupling, m, 3 * sizeof *out->coupling);
+        CHECK_MEMORY(out->coupling);
     }
     return DEM_OK;
 }
@@ -153,15 +157,20 @@ static dem_status join_all(dem_lattice *out, const dem_lattice *a, const dem_lat
  * default. */
 dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
 {
-    dem_lattice joined;
+    dem_lattice joined, first, second; /* the latter two as this version of the library has them */
     TRY(lattice_check(lattice));
     TRY(lattice_check(other));
+    TRY(lattice_read(&first, lattice));
+    TRY(lattice_read(&second, other));
     /* An empty lattice takes whatever it is joined with. */
     const bool both = lattice->n_nodes > 0 && other->n_nodes > 0;
     CHECK(!both || (lattice->mass == NULL) == (other->mass == NULL), DEM_ERROR_MODEL,
           "one lattice has masses, the other has none");
     joined = dem_lattice_empty();
-    const dem_status status = join_all(&joined, lattice, other);
+    dem_status status = join_all(&joined, &first, &second);
+    if (status == DEM_OK && joined.coupling != NULL && !lattice_has_couplings(lattice))
+        status = status_fail(DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is %zu, without room for couplings",
+                             lattice->struct_size);
     if (status == DEM_OK) {
         dem_lattice_free(lattice);
         lattice_give(lattice, &joined);

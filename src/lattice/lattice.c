@@ -61,6 +61,11 @@ dem_status lattice_check(const dem_lattice *lattice)
     return check_corners("triangle", lattice->n_triangles, 3, lattice->triangles, lattice->n_nodes);
 }
 
+bool lattice_has_couplings(const dem_lattice *lattice)
+{
+    return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, coupling);
+}
+
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs)
 {
     *ours = dem_lattice_empty();
@@ -97,6 +102,7 @@ void dem_lattice_free(dem_lattice *lattice)
     free(own.area_stiffness);
     free(own.thickness);
     free(own.modulus);
+    free(own.coupling);
     free(own.flags);
     free(own.body);
     free(own.position);

@@ -3,6 +3,8 @@
 #ifndef DEM_LATTICE_LATTICE_H
 #define DEM_LATTICE_LATTICE_H
 
+#include <stdbool.h>
+
 #include <dem/dem.h>
 
 /* Whether struct_size is one that this library knows, and whether springs and triangles stay inside the arrays: numbers
@@ -12,6 +14,10 @@ dem_status lattice_check(const dem_lattice *lattice);
 /* Copies a caller's lattice struct, of whatever version; members that it does not have are NULL. Arrays are not
  * copied. */
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs);
+
+/* Whether a caller's struct has the member `coupling`, which came after the first version. A lattice of an older struct
+ * has no couplings. */
+bool lattice_has_couplings(const dem_lattice *lattice);
 
 /* Whether a lattice can be written: not NULL, and struct_size is that of some version.  \return DEM_ERROR_ARGUMENT */
 dem_status lattice_check_out(const dem_lattice *out);

@@ -64,6 +64,7 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, bool *
     pack(lattice->area_stiffness, sizeof *lattice->area_stiffness, n, whole);
     pack(lattice->thickness, sizeof *lattice->thickness, n, whole);
     pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
+    if (lattice_has_couplings(lattice)) pack(lattice->coupling, 3 * sizeof *lattice->coupling, n, whole);
 }
 
 /* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. A lattice without nodes is

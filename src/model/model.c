@@ -78,6 +78,9 @@ static dem_status check_triangles(const dem_lattice *l)
               "triangle %lld: guard must be >= 0, got %g N/m", (long long)k, l->guard[k]);
         CHECK(l->area_stiffness == NULL || isfinite(l->area_stiffness[k]), DEM_ERROR_MODEL,
               "triangle %lld: area stiffness must be finite, got %g N/m", (long long)k, l->area_stiffness[k]);
+        for (int q = 0; q < 3 && l->coupling != NULL; q++)
+            CHECK(isfinite(l->coupling[3 * k + q]), DEM_ERROR_MODEL,
+                  "triangle %lld: coupling must be finite, got %g N/m", (long long)k, l->coupling[3 * k + q]);
         CHECK(l->thickness == NULL || (isfinite(l->thickness[k]) && l->thickness[k] > 0.0), DEM_ERROR_MODEL,
               "triangle %lld: thickness must be > 0, got %g m", (long long)k, l->thickness[k]);
         CHECK(l->modulus == NULL || (isfinite(l->modulus[k]) && l->modulus[k] > 0.0), DEM_ERROR_MODEL,
@@ -154,15 +157,17 @@ static dem_status compile_nodes(dem_model *m)
     return DEM_OK;
 }
 
-/* omega_max, rad/s: omega^2 <= max |2 S_i + 3 T_i|/m_i over the nodes (docs/method.md, Integration in time). S_i is the
- * sum of k n n^T over the springs of node i, since (n.(u_j - u_i))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2; T_i that of
- * max(kappa, 0)/A0 g g^T over its triangles with g = dA/dx_i, since (sum of three)^2 <= 3 (sum of squares). */
+/* omega_max, rad/s: omega^2 <= max |2 S_i + 2 C_i + 3 T_i|/m_i over the nodes (docs/method.md, Integration in time).
+ * S_i is the sum of k n n^T over the springs of node i, since (n.(u_j - u_i))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2; C_i that
+ * of the absolute values of their couplings; T_i that of max(kappa, 0)/A0 g g^T over its triangles with g = dA/dx_i,
+ * since (sum of three)^2 <= 3 (sum of squares). */
 static double frequency_bound(const dem_model *m)
 {
     const double *x = m->lattice.x;
     double squared = 0.0;
     for (dem_index i = 0; i < m->lattice.n_nodes; i++) {
-        const sym2 bonds = springs_block(&m->springs, m->springs.stiffness, i, x);
+        const sym2 bonds =
+            sym2_add(springs_block(&m->springs, m->springs.stiffness, i, x), couplings_block(&m->couplings, i, x));
         const sym2 areas = triangles_block(&m->triangles, i, x);
         const sym2 sum = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
                           2.0 * bonds.yy + 3.0 * areas.yy};
@@ -197,9 +202,10 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     TRY(fill_defaults(&m->lattice));
     TRY(springs_compile(&m->springs, &m->lattice));
     TRY(triangles_compile(&m->triangles, &m->lattice));
-    TRY(layout_compile(&m->layout, &m->springs, &m->triangles));
+    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
+    TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
     TRY(surface_compile(&m->surface, &m->lattice));
-    TRY(stress_compile(&m->stress, &m->lattice, &m->springs));
+    TRY(stress_compile(&m->stress, &m->lattice, &m->springs, &m->couplings));
     TRY(obstacles_compile(&m->obstacles, list, n));
     return compile_nodes(m);
 }
@@ -249,6 +255,7 @@ void dem_model_destroy(dem_model *model)
     dem_lattice_free(&model->lattice);
     springs_free(&model->springs);
     triangles_free(&model->triangles);
+    couplings_free(&model->couplings);
     layout_free(&model->layout);
     surface_free(&model->surface);
     stress_free(&model->stress);

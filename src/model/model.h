@@ -3,6 +3,7 @@
 #ifndef DEM_MODEL_MODEL_H
 #define DEM_MODEL_MODEL_H
 
+#include "elastic/couplings.h"
 #include "elastic/layout.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
@@ -14,6 +15,7 @@ struct dem_model {
     dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
     springs springs;
     triangles triangles;
+    couplings couplings;
     surface surface; /* nodes and edges that may touch, of whole bodies */
     stress_map stress;
     layout layout; /* of springs and triangles, for sweeps over all nodes */

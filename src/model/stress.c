@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stress of nodes (docs/method.md, Stress). The stress of a triangle is
- *     S = (1/V) (sum over its springs of w r x f + A dW/dA I),
+ *     S = (1/V) (sum over its springs of w r x f + sum of r x f of its couplings + A dW/dA I),
  * and that of a node the mean of its triangles' by volume. A spring's r x f goes to the triangles that have it for a
  * side, or between whose outer corners it is (the second diagonal of a square), with shares w in proportion to modulus
- * * thickness * area: what they gave to its stiffness. A spring outside of all triangles gives half to each of its
- * ends. The file compiles the shares into rows by node, once; the stress itself is then a sum over a row. Largest
- * stresses over time are in simulation/peaks.c; forces are not computed from stresses anywhere. */
+ * * thickness * area * weight (lattice/triangle_share.h): what they gave to its stiffness. A spring outside of all
+ * triangles gives half to each of its ends. The file compiles the shares into rows by node, once; the stress itself is
+ * then a sum over a row. Largest stresses over time are in simulation/peaks.c; forces are not computed from stresses
+ * anywhere. */
 #include "model/stress.h"
 
 #include <stdbool.h>
@@ -14,6 +15,7 @@
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
+#include "lattice/triangle_share.h"
 
 /* ---- compilation ---- */
 
@@ -49,6 +51,26 @@ static dem_index opposite(const dem_lattice *l, dem_index triangle, dem_index i,
     return c[0] != i && c[0] != j ? c[0] : (c[1] != i && c[1] != j ? c[1] : c[2]);
 }
 
+/* The weight that a triangle has given a spring by, if its springs are coupled as dem_lattice_assemble() does it. A
+ * spring that is no edge of the triangle is a diagonal of cells, which have no couplings. */
+static double weight_of(const dem_lattice *l, dem_index triangle, dem_index spring)
+{
+    const dem_index *c = &l->triangles[3 * triangle], *ends = &l->ends[2 * spring];
+    const double *coupling = l->coupling != NULL ? &l->coupling[3 * triangle] : NULL;
+    if (coupling == NULL || (coupling[0] == 0.0 && coupling[1] == 0.0 && coupling[2] == 0.0)) return 1.0;
+    const triangle_share share =
+        triangle_share_coupled((const vec2[]){vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2])});
+    for (int q = 0; q < 3; q++)
+        if (c[(q + 2) % 3] != ends[0] && c[(q + 2) % 3] != ends[1]) return share.weight[q];
+    return 1.0;
+}
+
+/* What a triangle has given to a spring, in units that all triangles of the spring share. */
+static double given_by(const dem_lattice *l, dem_index triangle, dem_index spring)
+{
+    return one_or(l->modulus, triangle) * volume_of(l, triangle) * weight_of(l, triangle, spring);
+}
+
 /* The spring between two nodes, or -1. */
 static dem_index find_spring(const springs *s, dem_index i, dem_index j)
 {
@@ -67,16 +89,15 @@ static void give(draft *d, dem_index node, dem_index spring, double share)
 }
 
 /* Shares a spring between the triangles of the edge in slots p to end - 1 of the sides: to each in proportion to
- * modulus * volume, and from each a third to every corner. */
+ * what it has given to the spring, and from each a third to every corner. */
 static void give_triangles(draft *d, dem_index spring, dem_index p, dem_index end)
 {
     const dem_lattice *l = d->lattice;
     double sum = 0.0;
-    for (dem_index q = p; q < end; q++)
-        sum += one_or(l->modulus, d->sides.list[q].triangle) * volume_of(l, d->sides.list[q].triangle);
+    for (dem_index q = p; q < end; q++) sum += given_by(l, d->sides.list[q].triangle, spring);
     for (dem_index q = p; q < end; q++) {
         const dem_index t = d->sides.list[q].triangle;
-        const double share = one_or(l->modulus, t) * volume_of(l, t) / sum;
+        const double share = given_by(l, t, spring) / sum;
         for (int c = 0; c < 3; c++) give(d, l->triangles[3 * t + c], spring, share / 3.0);
     }
     d->placed[spring] = true;
@@ -180,9 +201,9 @@ static dem_status compile(draft *d)
 }
 
 /* The sides and counters are needed only while the shares are found. */
-dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s)
+dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s, const couplings *c)
 {
-    stress_map map = {0};
+    stress_map map = {.couplings = c};
     draft d = {.lattice = lattice, .springs = s, .map = &map};
     const dem_status status = compile(&d);
     mesh_edges_free(&d.sides);
@@ -206,6 +227,17 @@ void stress_free(stress_map *map)
 
 /* ---- stresses ---- */
 
+/* A third of the r x f of the couplings of each triangle falls to each corner. */
+static void add_couplings(const stress_map *map, dem_index i, const double *x, double stress[3])
+{
+    const couplings *c = map->couplings;
+    for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
+        double virial[3];
+        couplings_virial(c, p, x, virial);
+        for (int k = 0; k < 3; k++) stress[k] += virial[k] / (3.0 * map->volume[i]);
+    }
+}
+
 /* The sum over the node's row of share r x f, Pa, and the isotropic part A dW/dA of its triangles, of which a third
  * falls to each corner. */
 void stress_of_node(const stress_map *map, const dem_lattice *lattice, const triangles *t, dem_index i, const double *x,
@@ -225,6 +257,7 @@ void stress_of_node(const stress_map *map, const dem_lattice *lattice, const tri
     stress[0] = xx + spread;
     stress[1] = yy + spread;
     stress[2] = xy;
+    if (map->couplings->n > 0) add_couplings(map, i, x, stress);
 }
 
 /* Of plane stress. */

@@ -5,6 +5,7 @@
 #ifndef DEM_MODEL_STRESS_H
 #define DEM_MODEL_STRESS_H
 
+#include "elastic/couplings.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
 
@@ -14,10 +15,11 @@ typedef struct stress_map {
     dem_index *spring; /* slots row[i] .. row[i + 1] - 1: springs of the lattice */
     double *share;     /* of their r x f, over the node's volume, 1/m^3 */
     double *volume;    /* [n_nodes] m^3, a third of the triangles at rest; 0 of a node in no triangle, without stress */
+    const couplings *couplings; /* borrowed */
 } stress_map;
 
-/** Free with stress_free(). */
-dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s);
+/** Borrows the couplings. Free with stress_free(). */
+dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s, const couplings *c);
 void stress_free(stress_map *map);
 
 /** Stress of node i at positions x [n][2], Pa: xx, yy, xy.  \param lattice, t  from which the map was compiled */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The tangent stiffness of a model: K, the second derivative of the energy of springs, area term and guard at any
- * positions. */
+/* The tangent stiffness of a model: K, the second derivative of the energy of springs and their couplings, area term
+ * and guard at any positions. */
 #ifndef DEM_MODEL_TANGENT_STIFFNESS_H
 #define DEM_MODEL_TANGENT_STIFFNESS_H
 
@@ -9,7 +9,9 @@
 /** K u at node i, N: minus the change of its force when the nodes move from x [n][2] by u [n][2]. */
 static inline vec2 tangent_row(const dem_model *model, dem_index i, const double *x, const double *u)
 {
-    return vec2_add(springs_tangent(&model->springs, i, x, u), triangles_tangent(&model->triangles, i, x, u));
+    const vec2 bonds =
+        vec2_add(springs_tangent(&model->springs, i, x, u), couplings_tangent(&model->couplings, i, x, u));
+    return vec2_add(bonds, triangles_tangent(&model->triangles, i, x, u));
 }
 
 /** out = K u, [n][2], N; all nodes, fixed ones included. */

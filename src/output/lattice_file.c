@@ -34,6 +34,7 @@ enum array {
     AREA_STIFFNESS,
     THICKNESS,
     MODULUS,
+    COUPLING,
     BODY,
     POSITION,
     VELOCITY,
@@ -62,6 +63,7 @@ static const struct dataset {
     [AREA_STIFFNESS] = {"/lattice/area_stiffness", HDF5_F64, TRIANGLES, 1, 0},
     [THICKNESS] = {"/lattice/thickness", HDF5_F64, TRIANGLES, 1, 0},
     [MODULUS] = {"/lattice/modulus", HDF5_F64, TRIANGLES, 1, 0},
+    [COUPLING] = {"/lattice/coupling", HDF5_F64, TRIANGLES, 3, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
     [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
     [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
@@ -142,7 +144,7 @@ static dem_status read_array(reader *r, enum array a)
 static dem_status check_name(void *context, const char *name)
 {
     reader *r = context;
-    char known[192] = "", printable[HDF5_UNTRUSTED_PRINTABLE];
+    char known[256] = "", printable[HDF5_UNTRUSTED_PRINTABLE];
     size_t n = 0;
     for (int a = 0; a < N_ARRAYS; a++) {
         const char *own = datasets[a].name + sizeof "/lattice";
@@ -220,6 +222,7 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->area_stiffness = r->data[AREA_STIFFNESS];
     lattice->thickness = r->data[THICKNESS];
     lattice->modulus = r->data[MODULUS];
+    lattice->coupling = r->data[COUPLING];
     lattice->body = r->data[BODY];
     lattice->position = r->data[POSITION];
     lattice->velocity = r->data[VELOCITY];
@@ -326,6 +329,7 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, AREA_STIFFNESS, deflate, t, lattice->area_stiffness));
     TRY(write_array(file, THICKNESS, deflate, t, lattice->thickness));
     TRY(write_array(file, MODULUS, deflate, t, lattice->modulus));
+    TRY(write_array(file, COUPLING, deflate, t, lattice->coupling));
     TRY(write_array(file, BODY, deflate, n, lattice->body));
     TRY(write_array(file, POSITION, deflate, n, lattice->position));
     TRY(write_array(file, VELOCITY, deflate, n, lattice->velocity));

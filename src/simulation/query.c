@@ -149,6 +149,7 @@ dem_status dem_simulation_forces(const dem_simulation *s, double *force)
 {
     TRY(check_given("dem_simulation_forces", s, force));
     springs_forces(&s->model->lattice, element_state_springs(s->forces.elements), seen_of(s), force);
+    couplings_add_tensions(&s->model->couplings, element_state_triangles(s->forces.elements), seen_of(s), force);
     return DEM_OK;
 }
 

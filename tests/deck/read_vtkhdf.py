@@ -130,7 +130,7 @@ def check_physics(here, lattice, points, vtk_group, frame, n_frames):
     if "strain" in found:
         close(here + "strain", found["strain"], strain, 2e-7 * largest + 1e-13)
     if "force" in found:
-        close(here + "force", found["force"], stiffness * strain,
+        close(here + "force", found["force"], stiffness * strain + couplings_of(lattice, points[:, :2])[0],
               (2e-7 * largest + 1e-13) * np.max(stiffness, initial=0.0))
     check_stresses(here, lattice, points[:, :2], found)
 
@@ -167,6 +167,41 @@ def slopes_of(lattice, area, rest_area):
     return kappa * (J - 1.0) + guard * (-3.0 * L * L / capped + np.minimum(J - capped, 0.0) * bend)
 
 
+def sides_of(lattice):
+    """The spring of each triangle's side from corner k to the next one."""
+    corners = lattice["triangles"][...] if "triangles" in lattice else np.empty((0, 3), int)
+    springs = {tuple(sorted(pair)): k for k, pair in enumerate(lattice["ends"][...].tolist())}
+    return np.array([[springs[tuple(sorted((t[k], t[(k + 1) % 3])))] for k in range(3)] for t in corners.tolist()],
+                    dtype=int).reshape(-1, 3)
+
+
+def couplings_of(lattice, points):
+    """What couplings add to the tension of every spring, N, and to r x f of every triangle, J."""
+    force, side = np.zeros(len(lattice["ends"])), sides_of(lattice)
+    if "coupling" not in lattice:
+        return force, np.zeros((len(side), 3))
+    coupling, corners, rest = lattice["coupling"][...], lattice["triangles"][...], lattice["rest_length"][...]
+    r = points[np.roll(corners, -1, axis=1)] - points[corners]
+    length = np.linalg.norm(r, axis=2)
+    stretch = length - rest[side]
+    tension = coupling * np.roll(stretch, 1, axis=1) + np.roll(coupling, -1, axis=1) * np.roll(stretch, -1, axis=1)
+    np.add.at(force, side, tension)
+    products = np.stack([r[..., 0]**2, r[..., 1]**2, r[..., 0] * r[..., 1]], axis=2)
+    return force, np.sum((tension / length)[..., None] * products, axis=1)
+
+
+def weights_of(lattice, area):
+    """Stiffness of a coupled triangle's sides over that of an equilateral one's: (3 L^4/(32 A^2)) (1 + 3 cot^2)."""
+    corners, x = lattice["triangles"][...] if "triangles" in lattice else np.empty((0, 3), int), lattice["x"][...]
+    if "coupling" not in lattice:
+        return np.ones((len(corners), 3))
+    r = x[np.roll(corners, -1, axis=1)] - x[corners]
+    dot = -np.sum(r * np.roll(r, 1, axis=1), axis=2)  # at corner k, opposite to side k + 1
+    cotangent = np.roll(dot, 1, axis=1) / (2.0 * area[:, None])
+    weight = 3.0 / 32.0 * np.sum(r * r, axis=2)**2 / area[:, None]**2 * (1.0 + 3.0 * cotangent**2)
+    return np.where(np.any(lattice["coupling"][...] != 0.0, axis=1)[:, None], weight, 1.0)
+
+
 def stress_of(lattice, points):
     """Triangle by triangle: a side's r x f by the share of modulus * thickness * area, then the mean at the nodes."""
     n, corners = len(points), lattice["triangles"][...] if "triangles" in lattice else np.empty((0, 3), int)
@@ -179,18 +214,17 @@ def stress_of(lattice, points):
         return 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
 
     rest_area, area = areas(x), areas(points)
-    springs = {tuple(sorted(pair)): k for k, pair in enumerate(lattice["ends"][...].tolist())}
-    side = np.array([[springs[tuple(sorted((t[k], t[(k + 1) % 3])))] for k in range(3)] for t in corners.tolist()],
-                    dtype=int).reshape(-1, 3)
-    weight = modulus * thickness * rest_area
-    sums = np.zeros(len(springs))
-    np.add.at(sums, side, weight[:, None])
+    side = sides_of(lattice)
+    weight = (modulus * thickness * rest_area)[:, None] * weights_of(lattice, rest_area)
+    sums = np.zeros(len(lattice["ends"]))
+    np.add.at(sums, side, weight)
     i, j = lattice["ends"][...].T
     r, rest = points[j] - points[i], lattice["rest_length"][...]
     length = np.linalg.norm(r, axis=1)
     tension = lattice["stiffness"][...] * (length - rest) / rest / length
     virial = tension[:, None] * np.stack([r[:, 0]**2, r[:, 1]**2, r[:, 0] * r[:, 1]], axis=1)
-    of_triangle = np.einsum("tk,tkc->tc", weight[:, None] / sums[side], virial[side])
+    of_triangle = np.einsum("tk,tkc->tc", weight / sums[side], virial[side])
+    of_triangle += couplings_of(lattice, points)[1]
     of_triangle[:, :2] += (area * slopes_of(lattice, area, rest_area))[:, None]
     total, volume = np.zeros((n, 3)), np.zeros(n)
     np.add.at(total, corners, of_triangle[:, None, :] / 3.0)

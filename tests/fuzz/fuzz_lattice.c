@@ -9,7 +9,7 @@
 #include "ask.h"
 #include "scratch.h"
 
-enum { MOST_VALUES = 256, N_NAMES = 17 };
+enum { MOST_VALUES = 256, N_NAMES = 18 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -19,23 +19,12 @@ static const struct place {
     unsigned width;
     char of;   /* nodes, springs, triangles, any number */
     char kind; /* x, another real, i: a node, b: a number */
-} places[N_NAMES] = {{"x", 2, 'n', 'x'},
-                     {"mass", 1, 'n', 'r'},
-                     {"ends", 2, 's', 'i'},
-                     {"rest_length", 1, 's', 'r'},
-                     {"stiffness", 1, 's', 'r'},
-                     {"viscosity", 1, 's', 'r'},
-                     {"triangles", 3, 't', 'i'},
-                     {"guard", 1, 't', 'r'},
-                     {"area_stiffness", 1, 't', 'r'},
-                     {"thickness", 1, 't', 'r'},
-                     {"modulus", 1, 't', 'r'},
-                     {"body", 1, 'n', 'b'},
-                     {"position", 2, 'n', 'x'},
-                     {"velocity", 2, 'n', 'r'},
-                     {"fixed", 1, 'n', 'b'},
-                     {"contact_nodes", 1, 'a', 'i'},
-                     {"viscosty", 1, 's', 'r'}};
+} places[N_NAMES] = {{"x", 2, 'n', 'x'},           {"mass", 1, 'n', 'r'},          {"ends", 2, 's', 'i'},
+                     {"rest_length", 1, 's', 'r'}, {"stiffness", 1, 's', 'r'},     {"viscosity", 1, 's', 'r'},
+                     {"triangles", 3, 't', 'i'},   {"guard", 1, 't', 'r'},         {"area_stiffness", 1, 't', 'r'},
+                     {"thickness", 1, 't', 'r'},   {"modulus", 1, 't', 'r'},       {"coupling", 3, 't', 'r'},
+                     {"body", 1, 'n', 'b'},        {"position", 2, 'n', 'x'},      {"velocity", 2, 'n', 'r'},
+                     {"fixed", 1, 'n', 'b'},       {"contact_nodes", 1, 'a', 'i'}, {"viscosty", 1, 's', 'r'}};
 
 typedef struct counts {
     hsize_t nodes, springs, triangles;

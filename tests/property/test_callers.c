@@ -181,3 +181,42 @@ TEST(a_longer_lattice_keeps_what_is_behind)
     assert_message_parts("dem_lattice: struct_size * 16");
     assert_null(lattice->x);
 }
+
+static bool is_left(void *context, const double *x)
+{
+    (void)context;
+    return x[0] < 0.2;
+}
+
+/* A lattice of the first header, which ends before the couplings, is made, cut, assembled, joined and selected; what
+ * would need them is refused, and leaves it as it was. */
+TEST(an_older_lattice_has_no_couplings)
+{
+    double behind = 7.0;
+    dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .density = 1e3, .thickness = 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice coupled = dem_lattice_empty(), older = dem_lattice_empty();
+    dem_lattice *lattice = &older;
+    bool keep[64] = {false};
+    older.struct_size = offsetof(dem_lattice, coupling);
+    older.coupling = &behind; /* what the caller has there */
+    assert_ok(dem_lattice_rectangle(lattice, 0.4, 0.4, 0.1));
+    assert_ok(dem_lattice_cut(lattice, is_left, NULL));
+    assert_ok(dem_lattice_jitter(lattice, 0.02, 1));
+    rubber.springs = DEM_SPRINGS_COUPLED;
+    assert_int_equal(dem_lattice_assemble(lattice, &rubber), DEM_ERROR_ARGUMENT);
+    assert_message_parts("dem_lattice: struct_size * 160 * couplings");
+    assert_int_equal(lattice->n_springs, 0);
+    assert_ok(dem_lattice_append(&coupled, lattice));
+    assert_ok(dem_lattice_assemble(&coupled, &rubber));
+    rubber.springs = DEM_SPRINGS_INDEPENDENT;
+    assert_ok(dem_lattice_assemble(lattice, &rubber));
+    assert_ok(dem_lattice_append(lattice, lattice));
+    assert_int_equal(dem_lattice_append(lattice, &coupled), DEM_ERROR_ARGUMENT);
+    assert_message_parts("dem_lattice: struct_size * 160 * couplings");
+    assert_true(lattice->n_nodes == 2 * coupled.n_nodes && lattice->n_nodes <= 64);
+    for (dem_index i = 0; i < coupled.n_nodes; i++) keep[i] = true;
+    assert_ok(dem_lattice_select(lattice, keep));
+    assert_int_equal(lattice->n_triangles, coupled.n_triangles);
+    dem_lattice_free(lattice);
+    assert_true(older.coupling == &behind && behind == 7.0 && older.n_nodes == 0);
+}

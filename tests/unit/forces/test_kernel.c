@@ -183,24 +183,26 @@ static dem_lattice make_holed(const dem_material *material)
     assert_ok(dem_lattice_disc(&lattice, 0.15, 1e-2));
     dem_lattice_move(&lattice, 0.1, (const double[2]){0.15, 0.15});
     assert_ok(dem_lattice_cut(&lattice, outside_hole, NULL));
+    if (material->springs == DEM_SPRINGS_COUPLED) assert_ok(dem_lattice_jitter(&lattice, 2e-3, 1));
     assert_ok(dem_lattice_assemble(&lattice, material));
     return lattice;
 }
 
-/* One of eight laws: with and without area term, guard and damping of the springs. */
+/* One of sixteen laws: with and without area term, guard, damping of the springs, and their couplings. */
 static dem_material law_of(int laws)
 {
     dem_material material = rubber;
     if (laws & 1) material.poissons_ratio = 0.45;
     if (laws & 2) material.guard = 0.0;
     if (laws & 4) material.damping_time = 1e-5;
+    if (laws & 8) material.springs = DEM_SPRINGS_COUPLED;
     return material;
 }
 
 /* Discs with holes; every law there is. */
 TEST(every_law_agrees_on_bodies_with_holes)
 {
-    for (int laws = 0; laws < 8; laws++) {
+    for (int laws = 0; laws < 16; laws++) {
         const dem_material material = law_of(laws);
         CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
         check_lattice(&lattice, 0.1);
@@ -223,7 +225,7 @@ TEST(squeezed_triangles_agree)
 /* Every seventh spring and every fifth triangle; what is left of the guard stiffens less. */
 TEST(broken_elements_agree)
 {
-    for (int laws = 0; laws < 8; laws++) {
+    for (int laws = 0; laws < 16; laws++) {
         const dem_material material = law_of(laws);
         CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
         CLEANUP(element_state_destroy) element_state broken;

@@ -93,7 +93,16 @@ TEST(viscosity_is_damping_time_times_stiffness)
         assert_close(lattice.viscosity[k], 3e-5 * plain.stiffness[k], 0.0);
 }
 
-/* Energy (1) and of the area term under x -> (1 + s strain) x; strain = xx, yy, xy. */
+/* How much longer the side from one node to another is under x -> (1 + s strain) x. */
+static double stretch_of(const dem_lattice *lattice, const dem_index ends[2], const double strain[3], double s)
+{
+    const double *a = lattice->x + 2 * ends[0], *b = lattice->x + 2 * ends[1];
+    const double dx = b[0] - a[0], dy = b[1] - a[1];
+    return hypot(dx + s * (strain[0] * dx + strain[2] * dy), dy + s * (strain[2] * dx + strain[1] * dy)) -
+           hypot(dx, dy);
+}
+
+/* Energy (1), of couplings and of the area term under x -> (1 + s strain) x; strain = xx, yy, xy. */
 static double energy_of(const dem_lattice *lattice, const double strain[3], double s)
 {
     const double J = (1.0 + s * strain[0]) * (1.0 + s * strain[1]) - s * s * strain[2] * strain[2];
@@ -101,18 +110,20 @@ static double energy_of(const dem_lattice *lattice, const double strain[3], doub
     for (dem_index t = 0; t < lattice->n_triangles && lattice->area_stiffness != NULL; t++)
         energy += 0.5 * lattice->area_stiffness[t] * area_of(lattice, t) * (J - 1.0) * (J - 1.0);
     for (dem_index k = 0; k < lattice->n_springs; k++) {
-        const double *a = lattice->x + 2 * lattice->ends[2 * k], *b = lattice->x + 2 * lattice->ends[2 * k + 1];
-        const double dx = b[0] - a[0], dy = b[1] - a[1], rest = lattice->rest_length[k];
-        const double length =
-            hypot(dx + s * (strain[0] * dx + strain[2] * dy), dy + s * (strain[2] * dx + strain[1] * dy));
-        energy += 0.5 * lattice->stiffness[k] * (length - rest) * (length - rest) / rest;
+        const double stretch = stretch_of(lattice, lattice->ends + 2 * k, strain, s);
+        energy += 0.5 * lattice->stiffness[k] * stretch * stretch / lattice->rest_length[k];
+    }
+    for (dem_index k = 0; k < 3 * lattice->n_triangles && lattice->coupling != NULL; k++) {
+        const dem_index *corner = lattice->triangles + 3 * (k / 3), here = corner[k % 3];
+        energy += lattice->coupling[k] * stretch_of(lattice, (dem_index[]){here, corner[(k + 1) % 3]}, strain, s) *
+                  stretch_of(lattice, (dem_index[]){here, corner[(k + 2) % 3]}, strain, s);
     }
     return energy;
 }
 
 /* Hooke's law of a solid in three dimensions: of plane strain as it is, of plane stress with the strain across that
  * leaves no stress there. The third order in s cancels in the mean of s and -s; the fourth is of order s^2. */
-static void expect_energy_of(const dem_material *solid, const double e[3])
+static void expect_energy_of(const dem_material *solid, double jitter, const double e[3])
 {
     const double nu = solid->poissons_ratio, s = 1e-4, G = 0.5 * solid->youngs_modulus / (1.0 + nu);
     const double lambda = 2.0 * G * nu / (1.0 - 2.0 * nu);
@@ -120,13 +131,16 @@ static void expect_energy_of(const dem_material *solid, const double e[3])
     const double trace = e[0] + e[1] + across;
     const double squares = e[0] * e[0] + e[1] * e[1] + across * across + 2.0 * e[2] * e[2];
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.03, 0.05, spacing);
-    assert_int_equal(dem_lattice_assemble(&lattice, solid), DEM_OK);
     const double volume = (double)lattice.n_triangles * sqrt(3.0) / 4.0 * spacing * spacing * solid->thickness;
+    assert_int_equal(dem_lattice_jitter(&lattice, jitter * spacing, 3), DEM_OK); /* the boundary stays */
+    assert_int_equal(dem_lattice_assemble(&lattice, solid), DEM_OK);
+    assert_int_equal(lattice.coupling != NULL, jitter > 0.0);
     const double expected = s * s * volume * (0.5 * lambda * trace * trace + G * squares);
     const double mean = 0.5 * (energy_of(&lattice, e, s) + energy_of(&lattice, e, -s));
     assert_close(mean / expected, 1.0, 1e-7);
 }
 
+/* Independent springs of equilateral triangles; coupled ones of any. */
 TEST(a_uniformly_strained_block_has_the_energy_of_its_solid)
 {
     static const double strains[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, -1, 0}, {1, 1, 0}, {0.3, -0.7, 0.5}};
@@ -137,8 +151,23 @@ TEST(a_uniformly_strained_block_has_the_energy_of_its_solid)
             for (size_t k = 0; k < sizeof strains / sizeof *strains; k++) {
                 solid.plane = plane == 0 ? DEM_PLANE_STRESS : DEM_PLANE_STRAIN;
                 solid.poissons_ratio = ratios[n];
-                expect_energy_of(&solid, strains[k]);
+                solid.springs = DEM_SPRINGS_INDEPENDENT;
+                expect_energy_of(&solid, 0.0, strains[k]);
+                solid.springs = DEM_SPRINGS_COUPLED;
+                expect_energy_of(&solid, 0.3, strains[k]);
             }
+}
+
+/* To the bit; without couplings. */
+TEST(coupled_springs_of_equilateral_triangles_are_independent)
+{
+    dem_material solid = rubber;
+    solid.springs = DEM_SPRINGS_COUPLED;
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = make_rectangle(0.08, 0.13, spacing), plain = make_solid(0.08, 0.13, spacing);
+    assert_int_equal(dem_lattice_assemble(&lattice, &solid), DEM_OK);
+    assert_memory_equal(lattice.stiffness, plain.stiffness, (size_t)plain.n_springs * sizeof *plain.stiffness);
+    assert_null(lattice.coupling);
 }
 
 /* kappa = E h (3 nu - 1)/(2 (1 - nu^2)): at 0.5 E h/3; springs alone have 1/3 in plane stress, 1/4 in plane strain. */
@@ -278,6 +307,10 @@ TEST(squares_refuse_what_is_no_cell)
                    "stiffness * diagonal * > 0: 0");
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 1.5), DEM_ERROR_ARGUMENT,
                    "stiffness * diagonal * 1 * Poisson's ratio 0.333333 * plane stress: 1.5");
+    dem_material coupled = rubber;
+    coupled.springs = DEM_SPRINGS_COUPLED;
+    assert_refused(dem_lattice_assemble_squares(&lattice, &coupled, 0.5), DEM_ERROR_ARGUMENT,
+                   "coupled springs * triangles * cells");
     lattice.n_triangles = 7;
     assert_refused(dem_lattice_assemble_squares(&lattice, &rubber, 0.5), DEM_ERROR_MODEL,
                    "7 triangles do not pair up to cells");
@@ -416,6 +449,10 @@ TEST(assembling_refuses_impossible_materials)
                    "Young's modulus, 1e+07 Pa * bond stiffness, 3 N");
     m.youngs_modulus = 0.0, m.bond_stiffness = -3.0;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "bond stiffness * > 0: -3 N");
+    m.bond_stiffness = 3.0, m.springs = DEM_SPRINGS_COUPLED;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "bond stiffness, 3 N * coupled");
+    m = rubber, m.springs = (dem_springs)7;
+    assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT, "springs is 7 * independent nor coupled");
     m = rubber, m.poissons_ratio = 1.0;
     assert_refused(dem_lattice_assemble(&lattice, &m), DEM_ERROR_ARGUMENT,
                    "Poisson's ratio * (-1, 1) * plane stress: 1");

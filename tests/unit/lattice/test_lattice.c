@@ -20,9 +20,12 @@ static void give_viscosity(dem_lattice *lattice)
     for (dem_index k = 0; k < lattice->n_springs; k++) lattice->viscosity[k] = 0.5 + (double)k;
 }
 
-/* 0, -1, -2, ... N/m */
-static void give_area_stiffness(dem_lattice *lattice)
+/* Area stiffnesses 0, -1, -2, ... and couplings 0, 1, 2, ... N/m */
+static void give_triangles(dem_lattice *lattice)
 {
+    lattice->coupling = calloc(3 * (size_t)lattice->n_triangles, sizeof *lattice->coupling);
+    assert_non_null(lattice->coupling);
+    for (dem_index t = 0; t < 3 * lattice->n_triangles; t++) lattice->coupling[t] = (double)t;
     lattice->area_stiffness = calloc((size_t)lattice->n_triangles, sizeof *lattice->area_stiffness);
     assert_non_null(lattice->area_stiffness);
     for (dem_index t = 0; t < lattice->n_triangles; t++) lattice->area_stiffness[t] = -(double)t;
@@ -56,7 +59,7 @@ TEST(select_keeps_every_array_in_step)
     assert_int_equal(dem_lattice_launch(&lattice, v), DEM_OK);
     lattice.velocity[8] = 7.0;
     lattice.guard[1] = 5.0;
-    give_area_stiffness(&lattice);
+    give_triangles(&lattice);
     lattice.thickness[1] = 6.0;
     lattice.modulus[1] = 7.0;
     give_viscosity(&lattice);
@@ -78,6 +81,7 @@ TEST(select_keeps_every_array_in_step)
     assert_close(lattice.position[5], 8.0, 0.0);
     assert_close(lattice.guard[0], 5.0, 0.0);
     assert_close(lattice.area_stiffness[0], -1.0, 0.0);
+    for (int c = 0; c < 3; c++) assert_close(lattice.coupling[c], 3.0 + c, 0.0);
     assert_close(lattice.thickness[0], 6.0, 0.0);
     assert_close(lattice.modulus[0], 7.0, 0.0);
     assert_int_equal(lattice.body[2], 6);
@@ -215,7 +219,7 @@ TEST(append_numbers_nodes_and_bodies_behind_the_others)
     assert_int_equal(dem_lattice_launch(&part, v), DEM_OK);
     free(part.guard);
     part.guard = NULL;
-    give_area_stiffness(&part);
+    give_triangles(&part);
     assert_int_equal(dem_lattice_append(&all, &part), DEM_OK);
     assert_int_equal(dem_lattice_append(&all, &all), DEM_OK);
     assert_int_equal(all.n_nodes, 20);
@@ -231,6 +235,7 @@ TEST(append_numbers_nodes_and_bodies_behind_the_others)
     for (dem_index k = 0; k < 24; k++) assert_int_equal(all.triangles[k], part.triangles[k % 6] + k / 6 * 5);
     for (dem_index t = 0; t < 8; t++) assert_close(all.guard[t], t / 2 % 2 == 0 ? 1e5 : 0.0, 1e-9);
     for (dem_index t = 0; t < 8; t++) assert_close(all.area_stiffness[t], t % 4 == 3 ? -1.0 : 0.0, 0.0);
+    for (dem_index t = 0; t < 24; t++) assert_close(all.coupling[t], t / 6 % 2 == 1 ? (double)(t % 6) : 0.0, 0.0);
     assert_null(all.position);
     assert_null(all.flags);
 }

@@ -59,16 +59,23 @@ static bool outside_hole(void *context, const double *x)
     return hypot(x[0] - 0.004, x[1] - 0.021) > 0.007;
 }
 
-static dem_model *make_holed(double guard, double ratio)
+static dem_model *make_jittered(double guard, double ratio, double jitter)
 {
     dem_material material = rubber;
     material.guard = guard;
     material.poissons_ratio = ratio;
+    if (jitter > 0.0) material.springs = DEM_SPRINGS_COUPLED;
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.03, 0.04, 2.5e-3);
     assert_ok(dem_lattice_cut(&lattice, outside_hole, NULL));
+    assert_ok(dem_lattice_jitter(&lattice, jitter * 2.5e-3, 1));
     assert_ok(dem_lattice_assemble(&lattice, &material));
     dem_model *model = make_model(&lattice);
     return model;
+}
+
+static dem_model *make_holed(double guard, double ratio)
+{
+    return make_jittered(guard, ratio, 0.0);
 }
 
 /* Squeezed to `height` and stirred by up to `share` of the spacing. */
@@ -106,7 +113,7 @@ TEST(volumes_add_up_to_that_of_the_triangles)
 /* Shares of a spring, times the volumes: each is given once, whole. */
 TEST(every_spring_is_shared_out_whole)
 {
-    CLEANUP(free_model) dem_model *model = make_holed(0.0, 1.0 / 3.0);
+    CLEANUP(free_model) dem_model *model = make_jittered(0.0, 1.0 / 3.0, 0.2);
     const stress_map *map = &model->stress;
     CLEANUP(free_memory) double *given = calloc((size_t)model->lattice.n_springs, sizeof *given);
     assert_non_null(given);
@@ -150,12 +157,12 @@ TEST(the_sum_over_nodes_is_that_of_r_times_f)
     }
 }
 
-/* The same by the forces on the nodes, of area term and guard too: sum V sigma = - sum x_i f_i, symmetric since
- * they have no torque. Here every triangle is below the onset, some are inverted. */
+/* The same by the forces on the nodes, of couplings, area term and guard too: sum V sigma = - sum x_i f_i, symmetric
+ * since they have no torque. Here every triangle is below the onset, some are inverted. */
 TEST(the_sum_over_nodes_is_minus_that_of_places_times_forces)
 {
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    CLEANUP(free_model) dem_model *model = make_holed(0.02, 0.45);
+    CLEANUP(free_model) dem_model *model = make_jittered(0.02, 0.45, 0.2);
     CLEANUP(free_memory) double *v = calloc(2 * (size_t)model->lattice.n_nodes, sizeof *v);
     const forces acting = {.model = model};
     assert_non_null(v);
@@ -177,6 +184,29 @@ TEST(the_sum_over_nodes_is_minus_that_of_places_times_forces)
     }
 }
 
+/* Under a small uniform strain every node of coupled triangles has the stress of Hooke's law, boundary and corners too:
+ * terms of second order are some 1e-7 of it. */
+TEST(jittered_nodes_have_the_exact_stress)
+{
+    static const double e[3] = {3e-8, -1e-8, 2e-8}, F[4] = {1.0 + 3e-8, 2e-8, 2e-8, 1.0 - 1e-8};
+    static const double ratios[3] = {0.0, 0.3, 0.45};
+    for (int k = 0; k < 3; k++) {
+        const double nu = ratios[k], E = rubber.youngs_modulus, G = 0.5 * E / (1.0 + nu),
+                     lambda = E * nu / (1 - nu * nu);
+        CLEANUP(free_model) dem_model *model = make_jittered(0.02, nu, 0.3);
+        CLEANUP(free_memory) double *x = copy_positions(model);
+        deform(x, model->lattice.n_nodes, F);
+        for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
+            double stress[3];
+            stress_at(model, i, x, stress);
+            for (int c = 0; c < 3; c++) {
+                const double expected = 2.0 * G * e[c] + (c < 2 ? lambda * (e[0] + e[1]) : 0.0);
+                assert_close(stress[c], expected, 1e-6 * E * 3e-8);
+            }
+        }
+    }
+}
+
 /* ---- energies ---- */
 
 static double energy_of(const dem_model *model, const double *x, const double F[4])
@@ -184,7 +214,8 @@ static double energy_of(const dem_model *model, const double *x, const double F[
     CLEANUP(free_memory) double *turned = copy_positions(model);
     memcpy(turned, x, 2 * (size_t)model->lattice.n_nodes * sizeof *x);
     deform(turned, model->lattice.n_nodes, F);
-    const double energy = springs_energy(&model->lattice, NULL, turned) + triangles_energy_at(model, turned);
+    const double energy = springs_energy(&model->lattice, NULL, turned) +
+                          couplings_energy(&model->couplings, NULL, turned) + triangles_energy_at(model, turned);
     return energy;
 }
 
@@ -195,7 +226,7 @@ TEST(it_is_the_derivative_of_the_energy_by_the_strain)
     static const double heights[3] = {0.95, 0.35, 0.15};
     const double h = 1e-6;
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    CLEANUP(free_model) dem_model *model = make_holed(0.02, 0.1);
+    CLEANUP(free_model) dem_model *model = make_jittered(0.02, 0.1, 0.2);
     for (int trial = 0; trial < 3; trial++) {
         double *x = stir(model, heights[trial], 0.1, rng), total[3];
         const double W = energy_of(model, x, (const double[4]){1, 0, 0, 1});

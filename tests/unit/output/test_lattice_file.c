@@ -131,6 +131,7 @@ TEST_WITH(what_is_not_there_is_null, write_lattice, remove_lattice)
     assert_null(lattice.area_stiffness);
     assert_null(lattice.thickness);
     assert_null(lattice.modulus);
+    assert_null(lattice.coupling);
     assert_null(lattice.flags);
     assert_null(lattice.body);
     assert_null(lattice.position);
@@ -166,16 +167,19 @@ TEST_WITH(integers_do_for_reals, write_lattice, remove_lattice)
 TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_lattice, remove_lattice)
 {
     const double viscosity[6] = {0.5, 0.0, 1e-3, 2.0, 3.0, 4.0}, thickness[2] = {0.1, 3.0}, modulus[2] = {1e7, 2e9};
+    const double coupling[6] = {3.0, -1.0, 0.0, 5.0, 1e9, -2.5};
     put_real("viscosity", 6, 0, viscosity);
     put_whole("triangles", 2, 3, corners);
     put_real("thickness", 2, 0, thickness);
     put_real("modulus", 2, 0, modulus);
+    put_real("coupling", 2, 3, coupling);
     for (int deflate = 0; deflate < 2; deflate++) {
         hdf5_file file;
         CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
         assert_memory_equal(lattice.viscosity, viscosity, sizeof viscosity);
         assert_memory_equal(lattice.thickness, thickness, sizeof thickness);
         assert_memory_equal(lattice.modulus, modulus, sizeof modulus);
+        assert_memory_equal(lattice.coupling, coupling, sizeof coupling);
         assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
         assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
     }
@@ -183,6 +187,7 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
     assert_memory_equal(back.viscosity, viscosity, sizeof viscosity);
     assert_memory_equal(back.thickness, thickness, sizeof thickness);
     assert_memory_equal(back.modulus, modulus, sizeof modulus);
+    assert_memory_equal(back.coupling, coupling, sizeof coupling);
 }
 
 static void assert_flags(const unsigned char expected[5])
@@ -265,7 +270,7 @@ TEST_WITH(unknown_names_are_refused, write_lattice, remove_lattice)
         (void)snprintf(message, sizeof message,
                        "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
                        "viscosity, triangles, guard, area_stiffness, "
-                       "thickness, modulus, body, position, velocity, fixed, contact_nodes",
+                       "thickness, modulus, coupling, body, position, velocity, fixed, contact_nodes",
                        path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);
