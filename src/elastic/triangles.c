@@ -9,27 +9,12 @@
 
 #include <stdlib.h>
 
+#include "base/natural_log.h"
 #include "base/reduce.h"
 #include "base/status.h"
 
 /* Below this J the guard's energy goes on as its Taylor polynomial of second degree. */
 static const double taylor_below = 0.05;
-
-/* ln(r) for 0 < r <= 1, the same bits on every machine, which the library's log() does not promise. r = m 2^-k with
- * 1/sqrt(2) <= m <= 1, and ln m = 2 artanh(s) = 2 (s + s^3/3 + s^5/5 + ...) with s = (m - 1)/(m + 1). */
-static double natural_log(double r)
-{
-    const double ln2 = 0.693147180559945309417;
-    double m = r, halvings = 0.0;
-    while (m < 0.70710678118654752) {
-        m *= 2.0;
-        halvings += 1.0;
-    }
-    const double s = (m - 1.0) / (m + 1.0), s2 = s * s; /* |s| < 0.1716: the first term left out is below 1e-17 */
-    double series = 0.0;
-    for (int k = 21; k >= 1; k -= 2) series = series * s2 + 1.0 / k;
-    return 2.0 * s * series - halvings * ln2;
-}
 
 /* With L = -ln(J/Jc) > 0:  w = L^3,  w' = -3 L^2/J,  w'' = (6 L + 3 L^2)/J^2, all 0 at the onset L = 0. `beyond` is how
  * far J is below the limit of Taylor's polynomial; there the energy stays finite and its slope goes on pushing J up,

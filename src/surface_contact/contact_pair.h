@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A contact pair: a node of a surface, and an edge of a surface that may push it. The potential of a node against a
+ * surface is the sum over the edges less the sum over the vertices that two of them count, so that it has no closest
+ * feature that could change: where the surface is smooth it is that of the distance, and elsewhere it is continuously
+ * differentiable. Each edge brings the vertex at its first end. */
+#ifndef DEM_SURFACE_CONTACT_CONTACT_PAIR_H
+#define DEM_SURFACE_CONTACT_CONTACT_PAIR_H
+
+#include <stdbool.h>
+
+#include "base/vec2.h"
+
+/** What the nodes of a pair are. */
+enum {
+    CONTACT_PAIR_NODE,   /**< the node that is pushed */
+    CONTACT_PAIR_FIRST,  /**< first end of the edge, which runs with its body on the left */
+    CONTACT_PAIR_SECOND, /**< its second end */
+    CONTACT_PAIR_BEFORE, /**< the node before the first end on the same surface, on which nothing acts */
+    CONTACT_PAIR_NODES
+};
+
+typedef struct contact_pair {
+    dem_index nodes[CONTACT_PAIR_NODES];
+    dem_index edge;   /* number on the surface */
+    double thickness; /* m, contact thickness of the two bodies */
+    double weight;    /* N, half the node's length of surface times the contact modulus of the two bodies */
+} contact_pair;
+
+/** The forces of a pair, N. */
+typedef struct contact_push {
+    vec2 by_edge;   /* on the node, by the inside of the edge */
+    double share;   /* of it the second end takes this part, and the first end the rest */
+    vec2 by_vertex; /* on the node, by the first end */
+} contact_push;
+
+/** Forces of a pair at positions x [n][2].  \return whether the node is near enough for any */
+bool contact_pair_push(const contact_pair *p, const double *x, contact_push *out);
+
+/** Force on one of the nodes, N. Over all of them the forces sum up to 0, and so do their moments. */
+static inline vec2 contact_push_on(const contact_push *push, int which)
+{
+    if (which == CONTACT_PAIR_NODE) return vec2_add(push->by_edge, push->by_vertex);
+    if (which == CONTACT_PAIR_FIRST)
+        return vec2_along(vec2_scale(-1.0, push->by_vertex), push->share - 1.0, push->by_edge);
+    if (which == CONTACT_PAIR_SECOND) return vec2_scale(-push->share, push->by_edge);
+    return (vec2){0.0, 0.0};
+}
+
+/** Energy at positions x, J; < 0 where it takes back what another pair has too much. */
+double contact_pair_energy(const contact_pair *p, const double *x);
+
+/** Bounds of what the pair adds to the stiffness at each of its nodes, N/m: K (n.(u_p - (1-s) u_A - s u_B))^2 is at
+ *  most 2 K (u_p^2 + (1-s) u_A^2 + s u_B^2).
+ *  \param[out] added  of all nodes of the pair, 0 where there is none */
+void contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_NODES]);
+
+/** Distance of a point from the segment ab, m. */
+double contact_pair_distance(vec2 point, vec2 a, vec2 b);
+
+/** Whether the node crosses the edge when all move along straight lines from x0 to x1.
+ *  \param[out] when  the part of the way at which it does */
+bool contact_pair_crosses(const contact_pair *p, const double *x0, const double *x1, double *when);
+
+#endif

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* contact_pair.c: forces against differences of the energy in every region of an edge and its vertex, momenta,
+ * invariance, outlines as a whole, and crossings. */
+#include "surface_contact/contact_pair.h"
+
+#include <string.h>
+
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_rng.h>
+
+#include "../close.h"
+#include "harness/cleanup_gsl.h"
+#include "surface_contact/contact_potential.h"
+
+/* The node, A, B, Z: numbered as in a pair. The thickness is 1 m and the weight 1 N. */
+static const contact_pair pair = {.nodes = {0, 1, 2, 3}, .thickness = 1.0, .weight = 1.0};
+
+enum { N = 2 * CONTACT_PAIR_NODES };
+
+static double draw(gsl_rng *rng, double from, double to)
+{
+    return from + (to - from) * gsl_rng_uniform(rng);
+}
+
+static vec2 unit_at(double angle)
+{
+    return (vec2){cos(angle), sin(angle)};
+}
+
+/* Edges 2 to 4 m long that meet at any angle but a fold, and a node within 1.3 m of their vertex. */
+static void draw_nodes(gsl_rng *rng, double *x)
+{
+    const double way = draw(rng, -M_PI, M_PI), turn = draw(rng, -2.6, 2.6);
+    const vec2 a = {draw(rng, -1.0, 1.0), draw(rng, -1.0, 1.0)};
+    vec2_put(x, CONTACT_PAIR_FIRST, a);
+    vec2_put(x, CONTACT_PAIR_SECOND, vec2_along(a, draw(rng, 2.0, 4.0), unit_at(way + turn)));
+    vec2_put(x, CONTACT_PAIR_BEFORE, vec2_along(a, -draw(rng, 2.0, 4.0), unit_at(way)));
+    vec2_put(x, CONTACT_PAIR_NODE, vec2_along(a, 1.3 * sqrt(gsl_rng_uniform(rng)), unit_at(draw(rng, -M_PI, M_PI))));
+}
+
+/* Which terms push. A concave vertex is taken off only where its edge pushes. */
+enum { NOTHING, BEHIND, EDGE, CONVEX, CONCAVE, REGIONS };
+
+static int region_of(const double *x)
+{
+    contact_push push;
+    const vec2 r = vec2_sub(vec2_at(x, 0), vec2_at(x, 1)), t = vec2_sub(vec2_at(x, 2), vec2_at(x, 1));
+    if (!contact_pair_push(&pair, x, &push)) return vec2_norm(r) < 1.0 && vec2_cross(r, t) < 0.0 ? BEHIND : NOTHING;
+    const double outward = vec2_dot(push.by_vertex, r);
+    return outward > 0.0 ? CONVEX : (outward < 0.0 ? CONCAVE : EDGE);
+}
+
+static double component(const contact_push *push, int c)
+{
+    const vec2 force = contact_push_on(push, c / 2);
+    return c % 2 == 0 ? force.x : force.y;
+}
+
+/* Minus the slope of the energy by component c, by differences of fourth order; NAN where another region begins within
+ * them. */
+static double difference(const double *x, int c)
+{
+    const double h = 1e-4, steps[4] = {h, -h, 2.0 * h, -2.0 * h};
+    double moved[N], energy[4];
+    memcpy(moved, x, sizeof moved);
+    for (int k = 0; k < 4; k++) {
+        moved[c] = x[c] + steps[k];
+        energy[k] = contact_pair_energy(&pair, moved);
+        if (region_of(moved) != region_of(x)) return (double)NAN;
+    }
+    return -(8.0 * (energy[0] - energy[1]) - (energy[2] - energy[3])) / (12.0 * h);
+}
+
+/* Draws until the node is no nearer than 0.1 m to the edge: below, differences lose their digits. */
+static void draw_apart(gsl_rng *rng, double *x)
+{
+    do draw_nodes(rng, x);
+    while (contact_pair_distance(vec2_at(x, 0), vec2_at(x, 1), vec2_at(x, 2)) < 0.1);
+}
+
+TEST(forces_are_minus_the_gradient_of_the_energy_in_every_region)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_of[REGIONS] = {0};
+    for (int k = 0; k < 12000; k++) {
+        double x[N];
+        contact_push push;
+        draw_apart(rng, x);
+        (void)contact_pair_push(&pair, x, &push);
+        for (int c = 0; c < N; c++) {
+            const double expected = difference(x, c), actual = component(&push, c);
+            if (!isnan(expected)) assert_close(actual, expected, 1e-8 * (1.0 + fabs(actual)));
+        }
+        n_of[region_of(x)]++;
+    }
+    for (int region = 0; region < REGIONS; region++) assert_true(n_of[region] > 300);
+}
+
+/* Every force acts along the line from the foot to the node. What is left is the rounding of sums of terms as large as
+ * the force times the distance from the origin, at most 6 m. */
+TEST(a_pair_keeps_momentum_and_angular_momentum)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    for (int k = 0; k < 10000; k++) {
+        double x[N], moment = 0.0;
+        contact_push push;
+        vec2 sum = {0.0, 0.0};
+        draw_nodes(rng, x);
+        (void)contact_pair_push(&pair, x, &push);
+        const double size = 3.0 * (vec2_norm(push.by_edge) + vec2_norm(push.by_vertex));
+        for (int which = 0; which < CONTACT_PAIR_NODES; which++) {
+            const vec2 force = contact_push_on(&push, which);
+            sum = vec2_add(sum, force);
+            moment += vec2_cross(vec2_at(x, which), force);
+        }
+        assert_close(vec2_norm(sum), 0.0, 1e-15 * size);
+        assert_close(moment, 0.0, 6e-15 * size);
+    }
+}
+
+static vec2 turned_by(vec2 turn, vec2 a)
+{
+    return (vec2){turn.x * a.x - turn.y * a.y, turn.y * a.x + turn.x * a.y};
+}
+
+/* A rounding of a place, 4e-16 m, changes a force at u = 0.1 by the stiffness of 100 N/m at most. */
+TEST(forces_turn_with_the_nodes_and_do_not_depend_on_the_place)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    for (int k = 0; k < 10000; k++) {
+        double x[N], moved[N];
+        contact_push push, after;
+        draw_apart(rng, x);
+        const vec2 turn = unit_at(draw(rng, -M_PI, M_PI)), shift = {draw(rng, -1.0, 1.0), draw(rng, -1.0, 1.0)};
+        for (int which = 0; which < CONTACT_PAIR_NODES; which++)
+            vec2_put(moved, which, vec2_add(shift, turned_by(turn, vec2_at(x, which))));
+        (void)contact_pair_push(&pair, x, &push);
+        (void)contact_pair_push(&pair, moved, &after);
+        for (int which = 0; which < CONTACT_PAIR_NODES; which++) {
+            const vec2 expected = turned_by(turn, contact_push_on(&push, which)),
+                       actual = contact_push_on(&after, which);
+            assert_close(vec2_norm(vec2_sub(actual, expected)), 0.0, 1e-13);
+        }
+    }
+}
+
+/* The node before the vertex is its neighbour: at the same place another node is pushed. */
+TEST(a_vertex_does_not_push_the_node_before_it)
+{
+    const double x[N] = {-0.3, -0.4, 0.0, 0.0, 3.0, 0.0, -0.3, -0.4};
+    const contact_pair neighbour = {.nodes = {3, 1, 2, 3}, .thickness = 1.0, .weight = 1.0};
+    const double other[N] = {-0.3, 0.1, 0.0, 0.0, 0.0, 3.0, -3.0, 0.0};
+    contact_push push;
+    assert_false(contact_pair_push(&neighbour, x, &push));
+    assert_close(contact_pair_energy(&neighbour, x), 0.0, 0.0);
+    assert_false(contact_pair_push(&pair, other, &push)); /* behind the edge */
+}
+
+/* ---- outlines ---- */
+
+enum { CORNERS = 7 };
+
+/* A star with a node between corners that go in and out, counter-clockwise; edges are longer than the thickness. */
+typedef struct outline {
+    double x[2 * (CORNERS + 1)]; /* the last one is the node */
+} outline;
+
+static void draw_outline(gsl_rng *rng, outline *out)
+{
+    for (int k = 0; k < CORNERS; k++)
+        vec2_put(out->x, k,
+                 vec2_scale(draw(rng, 3.0, 6.0), unit_at(2.0 * M_PI * (k + draw(rng, -0.2, 0.2)) / CORNERS)));
+}
+
+static contact_pair pair_with(int edge)
+{
+    return (contact_pair){.nodes = {CORNERS, edge, (edge + 1) % CORNERS, (edge + CORNERS - 1) % CORNERS},
+                          .thickness = 1.0,
+                          .weight = 1.0};
+}
+
+static double energy_of(const outline *o)
+{
+    double sum = 0.0;
+    for (int edge = 0; edge < CORNERS; edge++) {
+        const contact_pair of_edge = pair_with(edge);
+        sum += contact_pair_energy(&of_edge, o->x);
+    }
+    return sum;
+}
+
+static vec2 force_of(const outline *o)
+{
+    vec2 sum = {0.0, 0.0};
+    contact_push push;
+    for (int edge = 0; edge < CORNERS; edge++) {
+        const contact_pair of_edge = pair_with(edge);
+        if (contact_pair_push(&of_edge, o->x, &push)) sum = vec2_add(sum, contact_push_on(&push, CONTACT_PAIR_NODE));
+    }
+    return sum;
+}
+
+/* Distance of the node from the outline. */
+static double gap_of(const outline *o)
+{
+    double gap = INFINITY;
+    for (int k = 0; k < CORNERS; k++)
+        gap = fmin(gap,
+                   contact_pair_distance(vec2_at(o->x, CORNERS), vec2_at(o->x, k), vec2_at(o->x, (k + 1) % CORNERS)));
+    return gap;
+}
+
+/* On a way round the outline, 0.2 to 0.9 m in front of it, the work of the force is the difference of energies, over
+ * all borders between edges and vertices: a jump of the force or of the energy would show. The trapezoidal rule on
+ * steps of 2 mm is off by 1e-6 of the largest curvature of the force, 2/u^3 = 250 N/m^2, over 12, at each of some
+ * hundred steps that count. */
+TEST(the_energy_is_the_work_on_any_way_along_an_outline)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_counted = 0;
+    for (int k = 0; k < 40; k++) {
+        outline o;
+        draw_outline(rng, &o);
+        const vec2 start = vec2_scale(8.0, unit_at(draw(rng, -M_PI, M_PI))),
+                   end = vec2_scale(8.0, unit_at(draw(rng, -M_PI, M_PI)));
+        const double length = vec2_norm(vec2_sub(end, start));
+        const int n = 1 + (int)(length / 2e-3);
+        double before = 0.0, work = 0.0;
+        vec2 force = {0.0, 0.0};
+        for (int step = 0; step <= n; step++) {
+            vec2_put(o.x, CORNERS, vec2_along(start, (double)step / n, vec2_sub(end, start)));
+            if (gap_of(&o) < 0.2) break; /* the way goes into the body */
+            const vec2 now = force_of(&o);
+            work += 0.5 * vec2_dot(vec2_add(force, now), vec2_scale(step > 0 ? 1.0 / n : 0.0, vec2_sub(end, start)));
+            force = now;
+            assert_close(before - energy_of(&o), work, 1e-5);
+            n_counted += energy_of(&o) > 0.0;
+        }
+    }
+    assert_true(n_counted > 2000);
+}
+
+/* Beside a straight surface of two edges the potential is that of the distance, wherever the node is: also exactly in
+ * front of the vertex, where two mirrored bodies have it. */
+TEST(beside_a_straight_surface_the_force_is_that_of_the_distance)
+{
+    for (double along = -1.5; along <= 1.5; along += 0.0625) {
+        const double x[8] = {along, -0.3, 0.0, 0.0, 3.0, 0.0, -3.0, 0.0};
+        const contact_pair second = pair, first = {.nodes = {0, 3, 1, 3}, .thickness = 1.0, .weight = 1.0};
+        contact_push a, b;
+        (void)contact_pair_push(&first, x, &a);
+        (void)contact_pair_push(&second, x, &b);
+        const vec2 sum = vec2_add(contact_push_on(&a, 0), contact_push_on(&b, 0));
+        assert_close(sum.x, 0.0, 0.0);
+        assert_close(sum.y, -contact_potential_pressure(0.3), 1e-15);
+    }
+}
+
+/* The same in other directions, where the vertex is straight but for rounding: the node is in front of it but for
+ * rounding, and neither edge nor vertex may lose it, or have it twice. */
+TEST(no_node_falls_between_two_edges_by_rounding)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    for (int k = 0; k < 20000; k++) {
+        const vec2 along = unit_at(draw(rng, -M_PI, M_PI)), out = {along.y, -along.x};
+        const vec2 at = {draw(rng, -1.0, 1.0), draw(rng, -1.0, 1.0)};
+        double x[8];
+        vec2_put(x, 0, vec2_along(vec2_along(at, 0.3, out), draw(rng, -2e-16, 2e-16), along));
+        vec2_put(x, 1, at);
+        vec2_put(x, 2, vec2_along(at, draw(rng, 2.0, 3.0), along));
+        vec2_put(x, 3, vec2_along(at, -draw(rng, 2.0, 3.0), along));
+        const contact_pair last = {.nodes = {0, 3, 1, 3}, .thickness = 1.0, .weight = 1.0};
+        contact_push a, b;
+        (void)contact_pair_push(&last, x, &a);
+        (void)contact_pair_push(&pair, x, &b);
+        const vec2 sum = vec2_add(contact_push_on(&a, 0), contact_push_on(&b, 0));
+        assert_close(vec2_dot(sum, out), contact_potential_pressure(0.3), 1e-14); /* a rounding of places */
+    }
+}
+
+/* ---- crossing ---- */
+
+TEST(a_node_crosses_an_edge_where_the_straight_ways_meet)
+{
+    /* The edge from (0, 0) to (2, 0) rises by 1 m, the node falls by 3 m from 1 m above it: at a quarter of the way. */
+    const double x0[N] = {0.5, 1.0, 0.0, 0.0, 2.0, 0.0, -2.0, 0.0}, x1[N] = {0.5, -2.0, 0.0, 1.0, 2.0, 1.0, -2.0, 1.0};
+    const double beside[N] = {2.5, -2.0, 0.0, 1.0, 2.0, 1.0, -2.0, 1.0};
+    double when;
+    assert_true(contact_pair_crosses(&pair, x0, x1, &when));
+    assert_close(when, 0.25, 1e-15);
+    assert_false(contact_pair_crosses(&pair, x0, x0, &when));
+    assert_false(contact_pair_crosses(&pair, x1, x1, &when));
+    assert_true(contact_pair_crosses(&pair, x0, beside, &when)); /* before it has left it sideways */
+    assert_true(contact_pair_crosses(&pair, x1, x0, &when));
+}
+
+/* Both ways that an edge may turn while a node goes by are seen; an independent search in steps of 1/4000 finds the
+ * same, but for crossings near the ends of the edge or of the way. */
+TEST(crossings_are_those_that_small_steps_find)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_crossings = 0;
+    for (int k = 0; k < 2000; k++) {
+        double x0[N], x1[N], when, found = -1.0, last = 0.0;
+        draw_nodes(rng, x0);
+        for (int c = 0; c < N; c++) x1[c] = x0[c] + draw(rng, -2.0, 2.0);
+        bool is_near_an_end = false;
+        for (int step = 0; step <= 4000 && found < 0.0; step++) {
+            double x[N];
+            for (int c = 0; c < N; c++) x[c] = x0[c] + step / 4000.0 * (x1[c] - x0[c]);
+            const vec2 r = vec2_sub(vec2_at(x, 0), vec2_at(x, 1)), t = vec2_sub(vec2_at(x, 2), vec2_at(x, 1));
+            const double side = vec2_cross(r, t), s = vec2_dot(r, t) / vec2_dot(t, t);
+            if (step > 0 && side * last <= 0.0 && s > 0.0 && s < 1.0) found = step / 4000.0;
+            if (fabs(side) < 0.02 && (fmin(fabs(s), fabs(s - 1.0)) < 0.01 || step > 3980)) is_near_an_end = true;
+            last = side;
+        }
+        const bool crosses = contact_pair_crosses(&pair, x0, x1, &when);
+        if (is_near_an_end) continue;
+        assert_int_equal(crosses, found >= 0.0);
+        if (crosses) assert_close(when, found, 1.1 / 4000.0);
+        n_crossings += crosses;
+    }
+    assert_true(n_crossings > 300);
+}
