@@ -204,7 +204,7 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     TRY(triangles_compile(&m->triangles, &m->lattice));
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
     TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
-    TRY(surface_compile(&m->surface, &m->lattice));
+    TRY(surface_compile(&m->surface, &m->lattice, SURFACE_TOUCHING));
     TRY(stress_compile(&m->stress, &m->lattice, &m->springs, &m->couplings));
     TRY(obstacles_compile(&m->obstacles, list, n));
     return compile_nodes(m);

@@ -27,9 +27,10 @@ static dem_status list_nodes(surface *s, const dem_lattice *l)
     return DEM_OK;
 }
 
-/* An edge takes part if both its nodes may touch and one of them moves. */
-static bool may_touch(const dem_lattice *l, dem_index a, dem_index b)
+/* An edge touches obstacles if both its nodes may touch and one of them moves. */
+static bool takes_part(const dem_lattice *l, surface_extent extent, dem_index a, dem_index b)
 {
+    if (extent == SURFACE_WHOLE) return true;
     return (l->flags[a] & l->flags[b] & DEM_NODE_CONTACT) && !(l->flags[a] & l->flags[b] & DEM_NODE_FIXED);
 }
 
@@ -43,13 +44,13 @@ static bool runs_from(const dem_index *corner, dem_index i, dem_index j)
 /* Boundary edges, in the order of their lower nodes, each running with the body on its left, as its triangle does.
  * \param ends  NULL: they are only counted
  * \return how many there are */
-static dem_index find_edges(const dem_lattice *l, const mesh_edges *list, dem_index *ends)
+static dem_index find_edges(const dem_lattice *l, surface_extent extent, const mesh_edges *list, dem_index *ends)
 {
     dem_index n = 0;
     for (dem_index i = 0; i < l->n_nodes; i++)
         for (dem_index p = list->row[i]; p < list->row[i + 1]; p++) {
             const dem_index j = list->list[p].upper;
-            if (!mesh_edges_is_boundary(list, i, p) || !may_touch(l, i, j)) continue;
+            if (!mesh_edges_is_boundary(list, i, p) || !takes_part(l, extent, i, j)) continue;
             const bool forward = runs_from(&l->triangles[3 * list->list[p].triangle], i, j);
             if (ends != NULL) {
                 ends[2 * n] = forward ? i : j;
@@ -158,18 +159,18 @@ static dem_status allocate(surface *s, const dem_lattice *l)
 }
 
 /* Edges are counted, then listed, then put in order. */
-dem_status surface_compile(surface *out, const dem_lattice *lattice)
+dem_status surface_compile(surface *out, const dem_lattice *lattice, surface_extent extent)
 {
     surface s = {0};
     mesh_edges list = {0};
     dem_status status = list_nodes(&s, lattice);
     if (status == DEM_OK) status = mesh_edges_create(&list, lattice);
     if (status == DEM_OK) {
-        s.n_edges = find_edges(lattice, &list, NULL);
+        s.n_edges = find_edges(lattice, extent, &list, NULL);
         status = allocate(&s, lattice);
     }
     if (status == DEM_OK) {
-        (void)find_edges(lattice, &list, s.ends);
+        (void)find_edges(lattice, extent, &list, s.ends);
         status = sort_edges(&s, lattice);
     }
     mesh_edges_free(&list);

@@ -15,8 +15,14 @@ typedef struct surface {
     dem_index *at;              /* [2 n_edges] edges at node i: slots row[i] .. row[i+1]-1 */
 } surface;
 
+/** Which boundary edges a surface has. */
+typedef enum surface_extent {
+    SURFACE_TOUCHING, /* those that may touch obstacles: both nodes may, and one of them moves */
+    SURFACE_WHOLE     /* all */
+} surface_extent;
+
 /** Finds nodes and edges; `flags` of the lattice must be filled. Free with surface_free. */
-dem_status surface_compile(surface *out, const dem_lattice *lattice);
+dem_status surface_compile(surface *out, const dem_lattice *lattice, surface_extent extent);
 void surface_free(surface *s);
 
 #endif

@@ -107,7 +107,7 @@ static surface half_surface(const scene *s)
     lattice.n_triangles = 1;
     lattice.flags = flags;
     assert_ok(mesh_edges_contact_flags(flags, &lattice));
-    assert_ok(surface_compile(&half, &lattice));
+    assert_ok(surface_compile(&half, &lattice, SURFACE_TOUCHING));
     return half;
 }
 

@@ -95,7 +95,7 @@ TEST(a_square_has_its_four_sides_in_the_order_of_a_walk)
     body b;
     surface s;
     open_square(&b);
-    assert_ok(surface_compile(&s, &b.lattice));
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     check_ends(&s, 4, ends);
     assert_memory_equal(s.row, row, sizeof row);
     assert_memory_equal(s.at, at, sizeof at);
@@ -117,7 +117,7 @@ TEST(an_edge_has_the_body_on_its_left)
         CLEANUP(surface_free) surface s;
         for (int q = 0; q < 3; q++) vec2_put(x, names[k][q], vec2_at(at, q));
         body_open(&b, 3, x, 1, names[k]);
-        assert_ok(surface_compile(&s, &b.lattice));
+        assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
         assert_int_equal(s.n_edges, 3);
         for (dem_index e = 0; e < 3; e++) {
             const vec2 from = vec2_at(x, s.ends[2 * e]), to = vec2_at(x, s.ends[2 * e + 1]);
@@ -146,7 +146,7 @@ TEST(a_ring_has_two_boundaries_that_run_opposite_ways)
     assert_ok(dem_lattice_cut(&ring, away_from_the_middle, NULL));
     assert_ok(mesh_edges_contact_flags(flags, &ring));
     ring.flags = flags;
-    assert_ok(surface_compile(&s, &ring));
+    assert_ok(surface_compile(&s, &ring, SURFACE_TOUCHING));
     assert_int_equal(s.n_edges, 18);
     assert_int_equal(count_loops(&s), 2);
     check_lists(&s, 18);
@@ -169,7 +169,7 @@ TEST(the_boundaries_of_two_bodies_follow_one_another)
     body b;
     CLEANUP(surface_free) surface s;
     body_open(&b, 8, x, 4, triangles);
-    assert_ok(surface_compile(&s, &b.lattice));
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     check_ends(&s, 8, ends);
     check_lists(&s, 8);
     assert_int_equal(count_loops(&s), 2);
@@ -185,7 +185,7 @@ TEST(at_a_pinch_node_two_boundaries_meet)
     body b;
     CLEANUP(surface_free) surface s;
     body_open(&b, 5, x, 2, triangles);
-    assert_ok(surface_compile(&s, &b.lattice));
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     assert_int_equal(s.n_edges, 6);
     check_lists(&s, 5);
     assert_int_equal(s.row[3] - s.row[2], 4);
@@ -206,11 +206,11 @@ TEST(an_edge_between_two_fixed_nodes_is_left_out_and_one_with_one_is_not)
     CLEANUP(surface_free) surface s;
     open_square(&b);
     b.flags[1] |= DEM_NODE_FIXED;
-    assert_ok(surface_compile(&s, &b.lattice));
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     assert_int_equal(s.n_edges, 4);
     surface_free(&s);
     b.flags[0] |= DEM_NODE_FIXED;
-    assert_ok(surface_compile(&s, &b.lattice));
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     assert_int_equal(s.n_edges, 3);
     for (dem_index e = 0; e < 3; e++) {
         int found = 0;
@@ -227,13 +227,13 @@ TEST(an_edge_needs_two_nodes_that_may_touch)
     CLEANUP(surface_free) surface s;
     open_square(&b);
     b.flags[3] = 0;
-    assert_ok(surface_compile(&s, &b.lattice));
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     check_ends(&s, 2, ends);
     assert_int_equal(s.row[4] - s.row[3], 0);
     check_lists(&s, 4);
     surface_free(&s);
     memset(b.flags, 0, 4);
-    assert_ok(surface_compile(&s, &b.lattice));
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     check_ends(&s, 0, ends);
     for (int i = 0; i <= 4; i++) assert_int_equal(s.row[i], 0);
 }
@@ -244,7 +244,20 @@ TEST(nodes_without_triangles_have_no_edges)
     CLEANUP(surface_free) surface s;
     open_square(&b);
     b.lattice.n_triangles = 0;
-    assert_ok(surface_compile(&s, &b.lattice));
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     assert_int_equal(s.n_edges, 0);
     for (int i = 0; i <= 4; i++) assert_int_equal(s.row[i], 0);
+}
+
+/* A fixed edge and one between nodes that may not touch obstacles are edges of the whole surface. */
+TEST(the_whole_surface_has_all_boundary_edges)
+{
+    static const dem_index ends[8] = {0, 1, 1, 2, 2, 3, 3, 0};
+    CLEANUP(surface_free) surface s;
+    body b;
+    open_square(&b);
+    b.flags[0] = b.flags[1] = DEM_NODE_FIXED | DEM_NODE_CONTACT;
+    b.flags[3] = 0;
+    assert_ok(surface_compile(&s, &b.lattice, SURFACE_WHOLE));
+    check_ends(&s, 4, ends);
 }

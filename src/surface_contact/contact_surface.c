@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Compiles the surface of the bodies for contact with each other. The modulus of a body is
+ *   M = (sum over its springs of E_ij d0_ij)/(3 A),
+ * with A the area of its triangles: E h of a regular lattice, so that its surface is about as stiff as what is behind
+ * it. Thickness and modulus are those of the rest shape and never change. Which nodes are near which edges is found in
+ * pair_list.c. */
+#include "surface_contact/contact_surface.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+
+static const double usual_thickness = 0.2;    /* of the mean edge of a body */
+static const double largest_thickness = 0.45; /* of its shortest edge, if nothing is asked for */
+
+/* Sums over a body. */
+typedef struct body_sums {
+    double length, shortest, springs, area; /* m, m, N m, m^2 */
+    dem_index n_edges;
+} body_sums;
+
+static dem_index body_count(const dem_lattice *l)
+{
+    dem_index n = 0;
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (l->body[i] >= n) n = l->body[i] + 1;
+    return n;
+}
+
+/* The triangle's corner opposite to its side from i to j, if that side is an edge of the surface. */
+static void note_corner(contact_surface *c, dem_index i, dem_index j, dem_index opposite)
+{
+    const surface *s = &c->surface;
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+        if (s->ends[2 * s->at[p]] == i && s->ends[2 * s->at[p] + 1] == j) c->corner[s->at[p]] = opposite;
+}
+
+static void find_corners(contact_surface *c)
+{
+    const dem_lattice *l = c->lattice;
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        const dem_index *corner = &l->triangles[3 * k];
+        for (int side = 0; side < 3; side++)
+            note_corner(c, corner[side], corner[(side + 1) % 3], corner[(side + 2) % 3]);
+    }
+}
+
+static double rest_length(const contact_surface *c, dem_index edge)
+{
+    const double *x = c->lattice->x;
+    return vec2_norm(vec2_sub(vec2_at(x, contact_surface_second(c, edge)), vec2_at(x, contact_surface_first(c, edge))));
+}
+
+/* A node has half of each of its edges, and feels half of the pressure on that: the other half comes from the other
+ * surface's nodes. */
+static void list_nodes(contact_surface *c)
+{
+    const surface *s = &c->surface;
+    for (dem_index e = 0; e < s->n_edges; e++) c->length[e] = rest_length(c, e);
+    for (dem_index i = 0; i < c->lattice->n_nodes; i++) {
+        if (s->row[i] == s->row[i + 1]) continue;
+        double length = 0.0;
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) length += c->length[s->at[p]];
+        c->nodes[c->n_nodes] = i;
+        c->half_length[c->n_nodes++] = 0.25 * length;
+    }
+}
+
+static dem_status allocate(contact_surface *c, dem_index n_bodies)
+{
+    const size_t n = (size_t)c->surface.n_edges + 1; /* no more nodes than edges, where no two outlines meet */
+    c->nodes = malloc(n * sizeof *c->nodes);
+    c->half_length = malloc(n * sizeof *c->half_length);
+    c->corner = malloc(n * sizeof *c->corner);
+    c->length = malloc(n * sizeof *c->length);
+    c->laws = malloc((size_t)n_bodies * sizeof *c->laws);
+    CHECK(c->nodes && c->half_length && c->corner && c->length && c->laws, DEM_ERROR_MEMORY,
+          "out of memory for the surface of %lld bodies", (long long)n_bodies);
+    return DEM_OK;
+}
+
+static void sum_up(contact_surface *c, body_sums *sums, dem_index n_bodies)
+{
+    const dem_lattice *l = c->lattice;
+    for (dem_index b = 0; b < n_bodies; b++) sums[b].shortest = INFINITY;
+    for (dem_index e = 0; e < c->surface.n_edges; e++) {
+        body_sums *sum = &sums[contact_surface_body(c, contact_surface_first(c, e))];
+        sum->length += c->length[e];
+        sum->shortest = fmin(sum->shortest, c->length[e]);
+        sum->n_edges++;
+        c->mean_length += c->length[e] / (double)c->surface.n_edges;
+    }
+    for (dem_index k = 0; k < l->n_springs; k++)
+        sums[l->body[l->ends[2 * k]]].springs += l->stiffness[k] * l->rest_length[k];
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        const dem_index *corner = &l->triangles[3 * k];
+        sums[l->body[corner[0]]].area +=
+            vec2_triangle_area(vec2_at(l->x, corner[0]), vec2_at(l->x, corner[1]), vec2_at(l->x, corner[2]));
+    }
+}
+
+static dem_status choose_law(contact_surface *c, dem_index body, const body_sums *sum, double thickness,
+                             double stiffness)
+{
+    CHECK(sum->n_edges > 0, DEM_ERROR_MODEL, "body %lld has no triangles, and so no surface that could touch bodies",
+          (long long)body);
+    const double usual = fmin(usual_thickness * sum->length / (double)sum->n_edges, largest_thickness * sum->shortest);
+    const contact_law law = {thickness > 0.0 ? thickness : usual, stiffness * sum->springs / (3.0 * sum->area)};
+    CHECK(law.thickness < 0.5 * sum->shortest, DEM_ERROR_MODEL,
+          "the contact thickness of %g m is not below half of the shortest boundary edge of body %lld, %g m",
+          law.thickness, (long long)body, sum->shortest);
+    c->laws[body] = law;
+    c->most_thickness = fmax(c->most_thickness, law.thickness);
+    return DEM_OK;
+}
+
+static dem_status choose_laws(contact_surface *c, dem_index n_bodies, double thickness, double stiffness)
+{
+    body_sums *sums = calloc((size_t)n_bodies, sizeof *sums);
+    CHECK_MEMORY(sums);
+    dem_status status = DEM_OK;
+    sum_up(c, sums, n_bodies);
+    for (dem_index b = 0; b < n_bodies && status == DEM_OK; b++)
+        status = choose_law(c, b, &sums[b], thickness, stiffness);
+    free(sums);
+    return status;
+}
+
+dem_status contact_surface_compile(contact_surface *out, const dem_lattice *lattice, double thickness, double stiffness)
+{
+    contact_surface c = {.lattice = lattice};
+    const dem_index n_bodies = body_count(lattice);
+    TRY(surface_compile(&c.surface, lattice, SURFACE_WHOLE));
+    dem_status status = allocate(&c, n_bodies);
+    if (status == DEM_OK) {
+        list_nodes(&c);
+        find_corners(&c);
+        status = choose_laws(&c, n_bodies, thickness, stiffness);
+    }
+    if (status == DEM_OK)
+        *out = c;
+    else
+        contact_surface_free(&c);
+    return status;
+}
+
+void contact_surface_free(contact_surface *c)
+{
+    surface_free(&c->surface);
+    free(c->nodes);
+    free(c->half_length);
+    free(c->corner);
+    free(c->length);
+    free(c->laws);
+    *c = (contact_surface){0};
+}
