@@ -15,6 +15,12 @@ static const double light = 0.97;       /* mass over that of the true shape */
 static const double least_across = 8.0; /* spacings of a wall */
 static const double fast = 0.1;         /* of the wave speed */
 
+/* The key has a meaning, and a value, only where it can be chosen. */
+static bool is_jagged(const deck *d, size_t k)
+{
+    return k < schema_count(&d->groups, "body") && schema_is(schema_get(&d->groups, "body", k), "outline", "lattice");
+}
+
 /* Numbered from 1, as decks are. */
 static void warn_lattice(run_log *log, const deck *d, size_t k)
 {
@@ -30,8 +36,8 @@ static void warn_lattice(run_log *log, const deck *d, size_t k)
     if (less[0] != '\0' || thin[0] != '\0')
         run_log_warn(log,
                      "body %zu %s%s: its stiffness is off, and stresses at its edges do not converge; "
-                     "take a finer 'spacing' in &body, or a mesh (shape = 'mesh')",
-                     k + 1, less, thin);
+                     "take a finer 'spacing' in &body, %sor a mesh (shape = 'mesh')",
+                     k + 1, less, thin, is_jagged(d, k) ? "outline = 'smooth', " : "");
 }
 
 void doubts_of_lattices(run_log *log, const deck *d)

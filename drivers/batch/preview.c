@@ -235,12 +235,27 @@ static void print_measured(run_log *log, const deck *d, const dem_model *model)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
 }
 
+static void print_outline(FILE *out, size_t number, const smoothing *s)
+{
+    if (s->n_rim == 0) return;
+    (void)fprintf(out, "outline    body %zu: smooth, %lld nodes on it, least angle of a triangle %.1f degrees", number,
+                  (long long)(s->n_rim - s->n_off), s->least_angle);
+    if (s->n_off > 0)
+        (void)fprintf(out, "; %lld node%s off it by up to %.3g m, so that triangles stay sound", (long long)s->n_off,
+                      s->n_off == 1 ? "" : "s", s->farthest);
+    if (s->n_cut > 0)
+        (void)fprintf(out, "; %lld corner%s cut off, too sharp for the spacing", (long long)s->n_cut,
+                      s->n_cut == 1 ? "" : "s");
+    (void)fprintf(out, "\n");
+}
+
 /* Numbered from 1, as decks are. */
 static void print_body(FILE *out, size_t number, const body_facts *b)
 {
     if (b->true_mass > 0.0)
         (void)fprintf(out, "mass       body %zu: %.6g kg, of the true shape %.6g kg (ratio %.4f)\n", number, b->mass,
                       b->true_mass, b->mass / b->true_mass);
+    print_outline(out, number, &b->geometry.smoothing);
     if (b->geometry.n_pores > 0)
         (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->geometry.n_pores,
                       b->geometry.pore_area / (b->geometry.area + b->geometry.pore_area));

@@ -24,6 +24,7 @@ static const conditional_key body_keys[] = {
     {"spacing", OURS, true},
     {"lattice", OURS, false},
     {"diagonal", OURS, false},
+    {"outline", "rectangle, disc, ring, polygon", false},
     {"jitter", OURS, false},
     {"seed", OURS, false},
     {"material", OURS ", mesh", false},
@@ -36,7 +37,7 @@ static const conditional_key void_keys[] = {
     {"size", "rectangle", true}, {"radius", "disc, ring", true},         {"inner_radius", "ring", true},
     {"points", "polygon", true}, {"angle", "rectangle, polygon", false},
 };
-static const conditional_key lattice_keys[] = {{"diagonal", "square", false}};
+static const conditional_key lattice_keys[] = {{"diagonal", "square", false}, {"outline", "triangular", false}};
 static const conditional_key pores_keys[] = {{"mean", "lognormal, normal", true},
                                              {"deviation", "lognormal, normal", true}};
 

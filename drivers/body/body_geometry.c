@@ -155,6 +155,7 @@ static dem_status make_shape(former *f, shape *s)
     dem_status status = read_outline(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
     s->spacing = f->geometry.spacing = schema_real(f->body, "spacing");
     s->squares = body_geometry_has_squares(f->body);
+    s->smooth = schema_is(f->body, "outline", "smooth");
     if (status == DEM_OK && has_shape(f->body, "mask")) status = read_mask(f, s);
     if (s->outline.kind == OUTLINE_RECTANGLE) s->outline.centre[1] = 0.5 * s->outline.size[1];
     for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "void"); k++)
@@ -194,7 +195,7 @@ static dem_status cut_lattice(former *f, const shape *s)
     if (status == DEM_OK) status = check_voids(f, s);
     if (status != DEM_OK) return status;
     const dem_index n = f->lattice.n_nodes;
-    status = shape_cut(&f->lattice, s);
+    status = s->smooth ? smoothing_apply(&f->geometry.smoothing, &f->lattice, s) : shape_cut(&f->lattice, s);
     if (status == DEM_ERROR_MODEL)
         namelist_errors_add(f->errors, f->body->place,
                             "body %zu: its outline, voids and pores leave none of %lld nodes%s", f->number,

@@ -7,6 +7,7 @@
 #include <dem/dem.h>
 
 #include "schema.h"
+#include "smoothing.h"
 
 /* What came out beside the triangulation. */
 typedef struct body_geometry {
@@ -17,6 +18,7 @@ typedef struct body_geometry {
     size_t n_pores;   /* random ones */
     size_t n_inclusions;
     dem_index n_cracked; /* triangles that cracks took */
+    smoothing smoothing; /* of a smooth outline; else n_rim is 0 */
 } body_geometry;
 
 /* Triangulates body k, from 0, of any shape but 'file'. Caller owns *lattice, which is empty unless DEM_OK is returned;

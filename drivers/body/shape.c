@@ -187,23 +187,8 @@ static dem_status cut_cells(dem_lattice *lattice, const shape *s)
     return status;
 }
 
-static dem_status cut_by_centres(dem_lattice *lattice, const shape *s)
-{
-    bool *keep = malloc((size_t)lattice->n_triangles + 1);
-    if (keep == NULL) return DEM_ERROR_MEMORY;
-    for (dem_index t = 0; t < lattice->n_triangles; t++) {
-        double centre[2] = {0.0, 0.0};
-        for (int k = 0; k < 6; k++) centre[k % 2] += lattice->x[2 * lattice->triangles[3 * t + k / 2] + k % 2] / 3.0;
-        keep[t] = shape_distance(s, centre) < -rounding * s->spacing;
-    }
-    const dem_status status = dem_lattice_trim(lattice, keep);
-    free(keep);
-    return status;
-}
-
 dem_status shape_cut(dem_lattice *lattice, const shape *s)
 {
-    if (s->smooth) return cut_by_centres(lattice, s);
     shape cut = *s;
     if (s->squares) return cut_cells(lattice, s);
     return is_fitted(s) && s->n_voids == 0 ? DEM_OK : dem_lattice_cut(lattice, is_kept, &cut);

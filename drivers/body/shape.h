@@ -16,7 +16,7 @@ typedef struct shape {
     mask mask;       /* owned; without pixels: none */
     double spacing;  /* m */
     bool squares;    /* its lattice is of squares, each of two triangles, 2 k and 2 k + 1; else of triangles */
-    bool smooth;     /* nodes are to lie on its edges: triangles are kept by their centres, and smoothing.h goes on */
+    bool smooth;     /* nodes are to lie on its edges, as smoothing.h moves them */
     size_t n_voids;
     outline *voids; /* owned */
 } shape;
@@ -52,8 +52,7 @@ void shape_keep_cells(bool *keep, dem_index n_triangles);
  * shape it covers all, with two spacings about it. Caller owns *out. */
 dem_status shape_mesh(dem_lattice *out, const shape *s);
 
-/* Takes out what is beyond the outline or in a void, whole cells of squares: nodes on the edge of one stay. Of a smooth
- * shape the triangles go whose centres are there.
+/* Takes out what is beyond the outline or in a void, whole cells of squares: nodes on the edge of one stay.
  * \return DEM_ERROR_MODEL if nothing is left */
 dem_status shape_cut(dem_lattice *lattice, const shape *s);
 

@@ -2,8 +2,8 @@
 /* The nodes of the rim go to the nearest point of their edge, and one node to each corner. Then rim nodes slide along
  * their edges to the middle between their neighbours, and nodes in a few layers behind them go to the mean of theirs.
  * Pairs of triangles that are still poor get their other diagonal. In the end nodes of triangles that are too flat go
- * back towards their places in the grid, where all triangles are sound. shape_cut() keeps triangles by their centres,
- * so that the rim is about the edge. If it kept them by their nodes, the rim would be half a spacing inside, and a
+ * back towards their places in the grid, where all triangles are sound. Triangles are kept by their centres,
+ * so that the rim is about the edge. If they were kept by their nodes, the rim would be half a spacing inside, and a
  * quarter of its nodes too far off: areas were found 5 % (discs) and 12 % (rings) too small at R/10. */
 #include "smoothing.h"
 
@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shape.h"
 #include "stars.h"
 
 enum { layers = 3, sweeps = 8, last_sweeps = 2, crumb = 4 /* triangles */ };
@@ -31,6 +32,7 @@ typedef struct draft {
     double *sum;             /* [n_nodes][3] of the places of neighbours, m, and their number */
     unsigned char *depth;    /* [n_nodes] sides away from the rim, 0 to layers; layers + 1: farther */
     bool *held;              /* [n_nodes] rim nodes that do not slide */
+    dem_index n_cut;         /* corners without a node */
     double *turn;            /* [n_nodes] cosine of the corner that a node is at; 2: none */
     size_t *edge;            /* [n_nodes] of rim nodes: the edge of the shape that they belong to */
     dem_index *beside;       /* [n_nodes][2] the rim nodes before and behind; -1: none */
@@ -102,6 +104,106 @@ static double cotangent_of(const draft *d, dem_index t)
     return cotangent(d->x, corner[0], corner[1], corner[2]);
 }
 
+/* ---- what is kept ---- */
+
+static dem_index count(const bool *flag, dem_index n)
+{
+    dem_index sum = 0;
+    for (dem_index t = 0; t < n; t++) sum += flag[t];
+    return sum;
+}
+
+/* Work on the triangles on one side of the cut. */
+typedef struct half {
+    dem_lattice lattice; /* the nodes of all, but its own triangles */
+    dem_index *number;   /* [n_triangles] of each of its triangles among all */
+    dem_index *piece;    /* [n_triangles] */
+    dem_index *size;     /* [n_pieces] triangles */
+    dem_index *at;       /* [n_nodes] a piece that has the node, or -1 */
+    bool *touches;       /* [n_pieces] another piece in a node */
+    dem_index largest;   /* triangles */
+} half;
+
+static void half_free(half *s)
+{
+    free(s->lattice.triangles);
+    free(s->number);
+    free(s->piece);
+    free(s->size);
+    free(s->at);
+    free(s->touches);
+}
+
+/* Pieces share no edge. */
+static dem_status find_pieces(half *s)
+{
+    dem_index n_pieces;
+    const dem_status status = dem_lattice_pieces(&s->lattice, &n_pieces, s->piece);
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++) s->at[i] = -1;
+    for (dem_index t = 0; status == DEM_OK && t < s->lattice.n_triangles; t++) {
+        const dem_index piece = s->piece[t], now = ++s->size[piece];
+        if (now > s->largest) s->largest = now;
+        for (int c = 0; c < 3; c++) {
+            dem_index *at = &s->at[s->lattice.triangles[3 * t + c]];
+            if (*at >= 0 && *at != piece) s->touches[*at] = s->touches[piece] = true;
+            *at = piece;
+        }
+    }
+    return status;
+}
+
+/* The triangles for which keep[t] is `kept`. */
+static dem_status half_create(half *s, const dem_lattice *l, const bool *keep, bool kept)
+{
+    const dem_index n_kept = count(keep, l->n_triangles), n = kept ? n_kept : l->n_triangles - n_kept;
+    *s = (half){.lattice = *l};
+    s->lattice.n_triangles = 0;
+    s->lattice.triangles = calloc((size_t)n + 1, 3 * sizeof *s->lattice.triangles);
+    s->number = calloc((size_t)n + 1, sizeof *s->number);
+    s->piece = calloc((size_t)n + 1, sizeof *s->piece);
+    s->size = calloc((size_t)n + 1, sizeof *s->size);
+    s->at = calloc((size_t)l->n_nodes + 1, sizeof *s->at);
+    s->touches = calloc((size_t)n + 1, sizeof *s->touches);
+    if (!s->lattice.triangles || !s->number || !s->piece || !s->size || !s->at || !s->touches) return DEM_ERROR_MEMORY;
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        if (keep[t] != kept) continue;
+        const dem_index to = s->lattice.n_triangles++;
+        memcpy(s->lattice.triangles + 3 * to, l->triangles + 3 * t, 3 * sizeof *l->triangles);
+        s->number[to] = t;
+    }
+    return find_pieces(s);
+}
+
+/* Cutting leaves pieces of a few triangles in sharp corners: of the material those that share no edge with others go,
+ * of a void those that meet others in a node are filled, since its rim would run through that node twice. */
+static dem_status mend_crumbs(bool *keep, const dem_lattice *l, bool kept)
+{
+    half s;
+    const dem_status status = half_create(&s, l, keep, kept);
+    for (dem_index t = 0; status == DEM_OK && t < s.lattice.n_triangles; t++) {
+        const dem_index size = s.size[s.piece[t]];
+        if (size <= crumb && size < s.largest && (kept || s.touches[s.piece[t]])) keep[s.number[t]] = !kept;
+    }
+    half_free(&s);
+    return status;
+}
+
+static dem_status cut(dem_lattice *l, const shape *s)
+{
+    bool *keep = calloc((size_t)l->n_triangles + 1, sizeof *keep);
+    if (keep == NULL) return DEM_ERROR_MEMORY;
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        double centre[2] = {0.0, 0.0};
+        for (int k = 0; k < 6; k++) centre[k % 2] += l->x[2 * l->triangles[3 * t + k / 2] + k % 2] / 3.0;
+        keep[t] = shape_distance(s, centre) < -rounding * s->spacing;
+    }
+    dem_status status = mend_crumbs(keep, l, true);
+    if (status == DEM_OK) status = mend_crumbs(keep, l, false);
+    if (status == DEM_OK) status = dem_lattice_trim(l, keep);
+    free(keep);
+    return status;
+}
+
 /* ---- rim ---- */
 
 /* A node that several stretches of the rim run through is a hinge and does not slide. */
@@ -153,6 +255,7 @@ static void place_corner(draft *d, size_t edge, const outline_corner *corner)
         least = distance(corner->x, l->x + 2 * i);
         nearest = i;
     }
+    d->n_cut += nearest < 0;
     if (nearest < 0 || d->turn[nearest] <= corner->cosine) return;
     memcpy(d->x + 2 * nearest, corner->x, sizeof corner->x);
     d->turn[nearest] = corner->cosine;
@@ -171,27 +274,7 @@ static void place_corners(draft *d)
     }
 }
 
-/* ---- what goes ---- */
-
-/* Parts of a few triangles that share no edge with the others, as cutting leaves them in sharp corners. */
-static dem_status drop_crumbs(dem_lattice *l)
-{
-    const size_t n = (size_t)l->n_triangles;
-    dem_index n_pieces, *piece = calloc(n + 1, sizeof *piece), *size = calloc(n + 1, sizeof *size), largest = 0;
-    bool *keep = calloc(n + 1, sizeof *keep);
-    dem_status status = piece != NULL && size != NULL && keep != NULL ? DEM_OK : DEM_ERROR_MEMORY;
-    if (status == DEM_OK) status = dem_lattice_pieces(l, &n_pieces, piece);
-    for (size_t t = 0; status == DEM_OK && t < n; t++) {
-        const dem_index now = ++size[piece[t]];
-        if (now > largest) largest = now;
-    }
-    for (size_t t = 0; status == DEM_OK && t < n; t++) keep[t] = size[piece[t]] > crumb || size[piece[t]] == largest;
-    if (status == DEM_OK) status = dem_lattice_trim(l, keep);
-    free(piece);
-    free(size);
-    free(keep);
-    return status;
-}
+/* ---- teeth ---- */
 
 /* Whether a triangle has two sides on the rim and is flat there. Without it its neighbour is on the rim. */
 static bool is_flat_tooth(const draft *d, dem_index t)
@@ -376,7 +459,7 @@ static void relent(draft *d)
 static void measure(smoothing *out, const draft *d)
 {
     double worst = 0.0;
-    *out = (smoothing){0};
+    *out = (smoothing){.n_cut = d->n_cut};
     for (dem_index t = 0; t < d->lattice->n_triangles; t++) worst = fmax(worst, cotangent_of(d, t));
     out->least_angle = 57.295779513082321 * atan(1.0 / worst);
     for (dem_index i = 0; i < d->lattice->n_nodes; i++) {
@@ -389,10 +472,10 @@ static void measure(smoothing *out, const draft *d)
     }
 }
 
-dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const shape *s)
+dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const struct shape *s)
 {
     draft d = {0};
-    dem_status status = drop_crumbs(lattice);
+    dem_status status = cut(lattice, s);
     if (status == DEM_OK) status = settle_rim(&d, lattice, s);
     if (status == DEM_OK) {
         find_layers(&d);

@@ -6,19 +6,19 @@
 
 #include <dem/dem.h>
 
-#include "shape.h"
+struct shape;
 
 /* What came out. */
 typedef struct smoothing {
     double least_angle; /* degrees, of all triangles */
     dem_index n_rim;    /* nodes at the rim */
     dem_index n_off;    /* of them those that could not be moved on to an edge */
+    dem_index n_cut;    /* corners that no node is near, so that they are cut off */
     double farthest;    /* m, of these from their edges */
 } smoothing;
 
-/* Takes a lattice that shape_cut() has cut out of equilateral triangles for a smooth shape, without springs. It loses
- * what hangs on it by nodes alone and what gets flat; a few pairs of triangles get their other diagonal as their common
- * side. \return DEM_OK, DEM_ERROR_MEMORY, or DEM_ERROR_MODEL if nothing is left */
-dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const shape *s);
+/* Cuts a smooth shape out of its shape_mesh(), and moves the nodes at the rim. A few pairs of triangles get their other
+ * diagonal as their common side. \return DEM_OK, DEM_ERROR_MEMORY, or DEM_ERROR_MODEL if nothing is left */
+dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const struct shape *s);
 
 #endif

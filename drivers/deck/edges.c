@@ -110,10 +110,21 @@ static bool has_stepped_edge(const place *p)
     return false;
 }
 
+/* Only cracks leave steps in it. */
+static bool is_smooth(const schema_deck *groups, const schema_instance *body)
+{
+    for (size_t k = 0; k < schema_count(groups, "crack"); k++) {
+        const size_t number = (size_t)schema_real(schema_get(groups, "crack", k), "body");
+        if (schema_get(groups, "body", number - 1) == body) return false;
+    }
+    return schema_is(body, "outline", "smooth");
+}
+
 bool edges_stepped(const schema_deck *groups, const dem_lattice *lattice, dem_index n_bodies, dem_index node)
 {
     if ((dem_index)schema_count(groups, "body") != n_bodies) return false;
     const place p = {lattice, schema_get(groups, "body", (size_t)body_of(lattice, node)), node};
     if (schema_is(p.body, "shape", "mesh") || schema_is(p.body, "shape", "file")) return false;
+    if (is_smooth(groups, p.body)) return false;
     return has_stepped_edge(&p);
 }

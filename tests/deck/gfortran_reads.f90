@@ -29,14 +29,14 @@ contains
   end subroutine
 
   subroutine read_body()
-    character(4096) :: shape, lattice, material, disconnected, file
+    character(4096) :: shape, lattice, outline, material, disconnected, file
     real(dp), save :: points(20000)
     real(dp) :: size(2), radius, inner_radius, spacing, position(2), angle, clearance, velocity(2), spin, scale, threshold
     real(dp) :: diagonal, jitter
     integer(selected_int_kind(18)) :: seed
     logical :: invert
-    namelist /body/ shape, size, radius, inner_radius, points, lattice, diagonal, spacing, jitter, seed, material, &
-      position, angle, clearance, velocity, spin, disconnected, file, scale, threshold, invert
+    namelist /body/ shape, size, radius, inner_radius, points, lattice, diagonal, spacing, outline, jitter, seed, &
+      material, position, angle, clearance, velocity, spin, disconnected, file, scale, threshold, invert
     read (unit, nml=body, iostat=status, iomsg=message)
   end subroutine
 

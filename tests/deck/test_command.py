@@ -515,7 +515,7 @@ class Run(Case):
         self.put(coarse(youngs_modulus="1e4"))
         lattice, speed = re.findall(r"(?m)^warning    (.*)$", self.call(0, "--check", "deck.nml"))[::-1]
         self.assertRegex(lattice, r"^body 1 has \d+\.\d % less mass than its true shape and has a wall of 0\.016 m, only 1\.6 "
-                                  r"spacings: .* take a finer 'spacing' in &body, or a mesh \(shape = 'mesh'\)$")
+                                  r"spacings: .* take a finer 'spacing' in &body, outline = 'smooth', or a mesh \(shape = 'mesh'\)$")
         self.assertRegex(speed, r"^body 1 moves at 10 m/s, 3\.06 times its wave speed of 3\.273 m/s .*: is E in Pa .*\?$")
         self.put("&run t_end = 1e-3 /\n&material youngs_modulus = 1e7, density = 1050 /\n"
                  "&body shape = 'rectangle', size = 0.08, 0.12, spacing = 1e-2, lattice = 'square' /\n")

@@ -69,6 +69,11 @@ SHAPES = [
     ("ring", BODY + "'ring', radius = 0.06, inner_radius = 0.03 /\n", 0, 2700 * math.pi, 0.75, 1),
     ("polygon", BODY + "'polygon', points = -0.05,0, 0.05,0, 0.05,0.08, 0.02,0.08, 0,0.02, -0.02,0.08, -0.05,0.08 /\n", 1,
      8000 - 1200, 0.85, 1.05),
+    ("smooth disc", BODY + "'disc', radius = 0.06, outline = 'smooth' /\n", 1, 3600 * math.pi, 0.998, 1),
+    ("smooth ring", BODY + "'ring', radius = 0.06, inner_radius = 0.03, outline = 'smooth' /\n", 0, 2700 * math.pi, 0.998, 1.002),
+    ("smooth plate", BODY + "'rectangle', size = 0.1, 0.08, outline = 'smooth', jitter = 0.2 /\n"
+     "&void shape = 'polygon', centre = 0.02, 0.04, points = -0.015,-0.01, 0.015,-0.01, 0,0.015 /\n"
+     "&void centre = -0.02, 0.04, radius = 0.015 /\n", -1, 8000 - 375 - 225 * math.pi, 0.998, 1.004),
     ("squares", BODY + "'rectangle', size = 0.1, 0.08, lattice = 'square' /\n", 1, 8000, 1, 1),
     ("ring of squares", BODY + "'ring', radius = 0.06, inner_radius = 0.03, lattice = 'square', jitter = 0.2 /\n", 0,
      2700 * math.pi, 0.65, 1),

@@ -117,6 +117,8 @@ def body(dice, number, soft):
             made.keys.update({"jitter": dice.between(0.0, 0.3), "seed": dice.whole(0, 1000)})
         if dice.chance(0.25):
             made.keys["lattice"] = "square"
+        elif shape != "mask" and dice.chance(0.3):
+            made.keys["outline"] = "smooth"
     if shape == "mask":
         made.keys["threshold"] = 0.3
     if made.room > 3.5 and dice.chance(0.35):

@@ -135,7 +135,9 @@ TEST(the_preview_tells_how_bodies_came_out)
          .loose = {.n = 2, .size = {5, 1}, .x = {{0.5, 2.0}, {3.0, 4.0}}},
          .removed = true,
          .hinges = {.n = 1, .x = {6.0, 7.0}}},
-        {.mass = 1.0, .loose = {.n = 1, .size = {3}}},
+        {.mass = 1.0,
+         .geometry = {.smoothing = {.least_angle = 26.54, .n_rim = 90, .n_off = 2, .n_cut = 1, .farthest = 0.125}},
+         .loose = {.n = 1, .size = {3}}},
     };
     const deck d = {
         .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 2};
@@ -152,6 +154,11 @@ TEST(the_preview_tells_how_bodies_came_out)
     assert_non_null(strstr(l->text, "\nparts      body 2: 1 apart from the largest, of 3 nodes at (0, 0) m in its own "
                                     "coordinates\n"));
     assert_null(strstr(l->text, "mass       body 2"));
+    assert_null(strstr(l->text, "outline    body 1"));
+    assert_non_null(strstr(l->text,
+                           "\noutline    body 2: smooth, 88 nodes on it, least angle of a triangle 26.5 degrees; "
+                           "2 nodes off it by up to 0.125 m, so that triangles stay sound; 1 corner cut off, too sharp "
+                           "for the spacing\n"));
 }
 
 TEST(a_long_list_of_bodies_is_cut)

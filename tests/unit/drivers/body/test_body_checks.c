@@ -83,6 +83,17 @@ TEST(pores_have_a_number_or_a_porosity)
     assert_checked(BLOCK "&pores number = 1, radius = 1, 1, mean = 1 /", 2, "'mean' in &pores is not used");
 }
 
+TEST(only_triangles_made_here_have_a_smooth_outline)
+{
+    assert_checked("&body shape = 'disc', radius = 1, spacing = 0.1, outline = 'smooth' /", 0, NULL);
+    assert_checked("&body shape = 'disc', radius = 1, spacing = 0.1, lattice = 'square', outline = 'smooth' /", 1,
+                   "'outline' in &body is not used by lattice 'square'");
+    assert_checked("&body shape = 'mask', file = 'a', scale = 1, spacing = 0.1, outline = 'smooth' /", 1,
+                   "'outline' in &body is not used by shape 'mask'");
+    assert_checked("&body shape = 'mesh', file = 'a', scale = 1, outline = 'smooth' /", 1,
+                   "'outline' in &body is not used by shape 'mesh'");
+}
+
 TEST(cracks_have_points_that_are_apart)
 {
     assert_checked(BLOCK "&crack points = 0,0, 1,0, 0,0 /", 0, NULL); /* may meet itself */

@@ -118,6 +118,26 @@ TEST(voids_of_every_shape_are_turned_and_placed)
     assert_true(distance_to(&f.lattice, -1.6, 1.0) < 0.09);
 }
 
+/* What chords cut off is 0.5 a^2 of each circle, and straight edges lose nothing. */
+TEST(smooth_outlines_have_their_areas)
+{
+    const char *smooth = BODY "'disc', radius = 1, outline = 'smooth' /";
+    expect_area(smooth, pi, 2e-3);
+    expect_area(BODY "'ring', radius = 2, inner_radius = 1, outline = 'smooth' /", 3.0 * pi, 1e-3);
+    expect_area(BODY "'polygon', points = 0,0, 4,0, 4,4, 3,4, 2,1, 1,4, 0,4, outline = 'smooth' /", 13.0, 1e-12);
+    expect_area(BODY "'rectangle', size = 4.03, 2.01, outline = 'smooth' /\n&void centre = 0, 1, radius = 0.5 /\n"
+                     "&void shape = 'rectangle', centre = -1.2, 1, size = 0.7, 0.5, angle = 30 /",
+                4.03 * 2.01 - 0.25 * pi - 0.35, 2e-3);
+    CLEANUP(drop_formed) formed jagged = build_good(DISC), good = build_good(smooth);
+    CLEANUP(drop_formed)
+    formed porous = build_good(BODY "'rectangle', size = 4, 2, outline = 'smooth', jitter = 0.2 /\n"
+                                    "&pores number = 3, radius = 0.3, 0.3, wall = 0.2 /");
+    assert_int_equal(jagged.geometry.smoothing.n_rim, 0);
+    assert_true(good.geometry.smoothing.n_rim > 60 && good.geometry.smoothing.least_angle > 20.0);
+    assert_int_equal(porous.geometry.smoothing.n_off, 0);
+    assert_close(area_of_all(&porous.lattice) / (8.0 - 0.27 * pi), 1.0, 5e-3);
+}
+
 /* ---- pores ---- */
 
 TEST(a_porosity_is_met_to_half_a_pore)

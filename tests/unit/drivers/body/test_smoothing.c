@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "area.h"
+#include "shape.h"
 #include "smoothing.h"
 
 static const double pi = 3.14159265358979323846;
@@ -78,7 +79,6 @@ static dem_lattice make(const shape *s, smoothing *out)
 {
     dem_lattice l = dem_lattice_empty();
     assert_int_equal(shape_mesh(&l, s), DEM_OK);
-    assert_int_equal(shape_cut(&l, s), DEM_OK);
     assert_int_equal(smoothing_apply(out, &l, s), DEM_OK);
     return l;
 }
@@ -182,6 +182,7 @@ TEST(corners_have_nodes)
         CLEANUP(shape_free) shape s = draw_shape(&state, k % 2 == 0 ? POLYGON : BLOCK, 12.0);
         smoothing out;
         CLEANUP(dem_lattice_free) dem_lattice l = make(&s, &out);
+        assert_int_equal(out.n_cut, 0);
         for (size_t c = 0; c < outline_corners(&s.outline); c++)
             assert_close(distance_of_node(&l, outline_corner_at(&s.outline, c).x), 0.0, 0.0);
     }
@@ -211,6 +212,27 @@ TEST(triangles_are_sound_where_the_shape_is_finer_than_the_lattice)
         CLEANUP(dem_lattice_free) dem_lattice l = make(&s, &out);
         expect_sound(&l, &out);
     }
+}
+
+/* The tip of a void is narrower than a triangle for two spacings. It is reported, and no rim passes a node twice. */
+TEST(sharp_tips_are_cut_off_and_counted)
+{
+    CLEANUP(shape_free)
+    shape s = {.outline = {.centre = {0.0, 8.0}, .size = {20.0, 16.0}}, .spacing = 1.0, .smooth = true};
+    double tip[] = {2, 4, 6, 4, 4, 12};
+    outline hole = {.kind = OUTLINE_POLYGON, .n_points = 3, .points = malloc(sizeof tip)};
+    smoothing out;
+    assert_non_null(hole.points);
+    memcpy(hole.points, tip, sizeof tip);
+    assert_true(shape_add_void(&s, &hole));
+    CLEANUP(dem_lattice_free) dem_lattice l = make(&s, &out);
+    expect_sound(&l, &out);
+    assert_int_equal(out.n_cut, 1);
+    dem_index *n_edges = calloc((size_t)l.n_nodes, sizeof *n_edges);
+    assert_non_null(n_edges);
+    assert_int_equal(dem_lattice_rims(&l, n_edges), DEM_OK);
+    for (dem_index i = 0; i < l.n_nodes; i++) assert_true(n_edges[i] <= 2);
+    free(n_edges);
 }
 
 /* More than three layers behind the rim all nodes are where the grid has them. */

@@ -108,6 +108,17 @@ TEST(meshes_and_files_have_no_stepped_edges)
     assert_int_equal(count_nodes(&file.deck, &b.lattice, 1).stepped, 0);
 }
 
+/* Cracks are as wide as a row of triangles, and their faces are steps. */
+TEST(smooth_outlines_have_stepped_edges_at_cracks_only)
+{
+    const char *ring = "&body shape = 'ring', radius = 1, inner_radius = 0.5, outline = 'smooth'" SPACING " /\n";
+    char cracked[512];
+    assert_int_equal(count(ring).stepped, 0);
+    assert_int_equal(count(BLOCK SPACING ", outline = 'smooth' /\n&void centre = 0, 0.4, radius = 0.2 /\n").stepped, 0);
+    (void)snprintf(cracked, sizeof cracked, "%s&crack points = 0.6, 0, 0.9, 0.1 /\n", ring);
+    assert_true(count(cracked).stepped > 0);
+}
+
 /* Rows of 0.0866 m, of which 0.8 m has 10 with 11 and 10 nodes by turns: the lower and the upper side have 21 of them,
  * and their corners are the ends of the zigzag sides, too. */
 TEST(of_a_rectangle_of_triangles_the_sides_along_the_rows_are_straight)
