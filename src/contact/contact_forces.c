@@ -303,11 +303,13 @@ static void hold_corner(contact_forces *r, dem_index k, const scene_state *state
 {
     const contact_candidate *candidate = &r->candidates[k];
     double part[2];
-    const vec2 carried = corner_motion(r, candidate, state).acceleration;
+    const surface_line lines[2] = {surface_line_at(r->scene, candidate->closed[0].feature, state->t),
+                                   surface_line_at(r->scene, candidate->closed[1].feature, state->t)};
+    const obstacle_motion corner = corner_motion(r, candidate, state);
+    const vec2 carried = contact_point_keep_corner(r->scene, candidate->node, lines, &corner, *state);
     const vec2 f =
         vec2_scale(-r->scene->model->lattice.mass[candidate->node], vec2_sub(vec2_at(a, candidate->node), carried));
-    vec2_parts(f, surface_line_at(r->scene, candidate->closed[0].feature, state->t).normal,
-               surface_line_at(r->scene, candidate->closed[1].feature, state->t).normal, part);
+    vec2_parts(f, lines[0].normal, lines[1].normal, part);
     for (int q = 0; q < 2; q++) r->force[k][q] = (contact_force){part[q], 0.0};
     vec2_put(a, candidate->node, carried);
 }

@@ -89,6 +89,19 @@ vec2 contact_point_keep(const contact_scene *scene, dem_index node, const surfac
     return vec2_add(carried, back);
 }
 
+/* A node in a corner stays in it. The heights over both lines give by how much it is off the corner. */
+vec2 contact_point_keep_corner(const contact_scene *scene, dem_index node, const surface_line lines[2],
+                               const obstacle_motion *corner, scene_state state)
+{
+    if (surface_acceleration(scene) == 0.0) return corner->acceleration;
+    const vec2 x = vec2_at(state.x, node), v = vec2_at(state.v, node);
+    const double beta = draw_back / scene->rule.max_step;
+    const vec2 off = vec2_with_products(surface_height(&lines[0], x), lines[0].normal, surface_height(&lines[1], x),
+                                        lines[1].normal);
+    const vec2 back = vec2_along(vec2_scale(-2.0 * beta, obstacle_motion_relative(corner, v)), -beta * beta, off);
+    return vec2_add(corner->acceleration, back);
+}
+
 /* The frame of a node or an edge with the motion of the obstacle at the point that is touched. */
 contact_frame contact_frame_moving(const contact_scene *scene, const contact_candidate *candidate, int q,
                                    scene_state state)

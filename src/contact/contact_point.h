@@ -118,6 +118,10 @@ contact_frame contact_frame_moving(const contact_scene *scene, const contact_can
 vec2 contact_point_keep(const contact_scene *scene, dem_index node, const surface_line *line,
                         const obstacle_motion *wall, scene_state state);
 
+/** The same of a node that is held in the corner of two segments with these lines, which moves as `corner`. */
+vec2 contact_point_keep_corner(const contact_scene *scene, dem_index node, const surface_line lines[2],
+                               const obstacle_motion *corner, scene_state state);
+
 /** Bound of the error of a contact's force by rounding of the coordinates, N. */
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x);
 

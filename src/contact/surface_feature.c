@@ -23,8 +23,9 @@ bool surface_in_cone(const contact_scene *scene, dem_index vertex, double t, vec
            vec2_cross(direction, surface_line_at(scene, v->after, t).normal) <= 0.0;
 }
 
-/* The motion w of the corner of two walls with velocities a and b: w.n = a.n and w.m = b.m, two equations for two
- * components, and alike for the accelerations. */
+/* The motion of the corner of two walls, of which a point follows both: its velocity v has v.n = w_a.n and
+ * v.m = w_b.m, and its acceleration the normal parts of b_a and b_b, those of points that slide along each wall with v
+ * (docs/method.md, Moving obstacles). Two equations each for two components. */
 obstacle_motion surface_corner_motion(const contact_scene *scene, const dem_index ids[2], surface_query at)
 {
     const obstacle_set *o = &scene->model->obstacles;
@@ -32,8 +33,9 @@ obstacle_motion surface_corner_motion(const contact_scene *scene, const dem_inde
     const obstacle_motion a = surface_motion(scene, ids[0], at), b = surface_motion(scene, ids[1], at);
     if (motion_law_is_same(&o->laws[here->obstacle], &o->laws[there->obstacle])) return a;
     const vec2 n = surface_line_at(scene, ids[0], at.t).normal, m = surface_line_at(scene, ids[1], at.t).normal;
+    const vec2 v = vec2_with_products(vec2_dot(a.velocity, n), n, vec2_dot(b.velocity, m), m);
     return (obstacle_motion){.moves = true,
-                             .velocity = vec2_with_products(vec2_dot(a.velocity, n), n, vec2_dot(b.velocity, m), m),
-                             .acceleration =
-                                 vec2_with_products(vec2_dot(a.acceleration, n), n, vec2_dot(b.acceleration, m), m)};
+                             .velocity = v,
+                             .acceleration = vec2_with_products(vec2_dot(obstacle_motion_sliding(&a, v), n), n,
+                                                                vec2_dot(obstacle_motion_sliding(&b, v), m), m)};
 }

@@ -139,8 +139,8 @@ static inline obstacle_motion surface_motion(const contact_scene *scene, dem_ind
     return obstacles_motion(o, o->segments[id].obstacle, at.t, at.x);
 }
 
-/** Motion of the corner in which two segments meet: theirs if both move alike, else the one whose normal components are
- *  those of both. For obstacles that turn against each other only the velocity is exact. */
+/** Motion of the corner in which two segments meet: theirs if both move alike, else that of the point where their lines
+ *  cross. */
 obstacle_motion surface_corner_motion(const contact_scene *scene, const dem_index ids[2], surface_query at);
 
 /** Smallest of the signed distances of a point to the surfaces, leaving out up to two obstacles (-1: none). Free ends

@@ -27,6 +27,13 @@ vec2 obstacles_inside(const obstacle_set *o, dem_index obstacle, double t, vec2 
     return pose_inside(&at, x);
 }
 
+vec2 obstacles_outside(const obstacle_set *o, dem_index obstacle, double t, vec2 x)
+{
+    if (!o->laws[obstacle].moves) return x;
+    const pose at = motion_law_pose(&o->laws[obstacle], t);
+    return pose_outside(&at, x);
+}
+
 /* Ends are carried along, directions are only turned. */
 const segment *obstacles_segment_moving(const obstacle_set *o, dem_index s, double t, segment *moved)
 {
@@ -43,10 +50,7 @@ const segment *obstacles_segment_moving(const obstacle_set *o, dem_index s, doub
 vec2 obstacles_vertex(const obstacle_set *o, dem_index vertex, double t)
 {
     const obstacle_vertex *v = &o->vertices[vertex];
-    const motion_law *law = &o->laws[o->segments[v->before].obstacle];
-    if (!law->moves) return v->at;
-    const pose at = motion_law_pose(law, t);
-    return pose_outside(&at, v->at);
+    return obstacles_outside(o, o->segments[v->before].obstacle, t, v->at);
 }
 
 /* *vertex is the end of s if `other` follows it, else its start, which is their vertex if `other` precedes it. */

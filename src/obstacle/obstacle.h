@@ -95,6 +95,9 @@ static inline vec2 obstacle_motion_sliding(const obstacle_motion *m, vec2 v)
 /** A place at t, in the axes of space, as coordinates in the frame of an obstacle. */
 vec2 obstacles_inside(const obstacle_set *o, dem_index obstacle, double t, vec2 x);
 
+/** The place at t, in the axes of space, of a point given in the frame of an obstacle. */
+vec2 obstacles_outside(const obstacle_set *o, dem_index obstacle, double t, vec2 x);
+
 /** The segment as it lies at t: the compiled one if its obstacle is at rest; otherwise *moved is filled and
  *  returned. */
 const segment *obstacles_segment_moving(const obstacle_set *o, dem_index s, double t, segment *moved);

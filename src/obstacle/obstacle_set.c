@@ -43,10 +43,11 @@ static bool go_together(const obstacle_set *o, dem_index a, dem_index b)
     return a != b && motion_law_is_same(&o->laws[a], &o->laws[b]);
 }
 
-/* Smallest gap of a place at t = 0 to the obstacles on which one may stand. */
-static double distance_to_others(const obstacle_set *o, vec2 x, dem_index obstacle)
+/* Smallest gap of a point of an obstacle, in its frame, to the obstacles on which it may stand. */
+static double distance_to_others(const obstacle_set *o, vec2 point, dem_index obstacle)
 {
     double smallest = INFINITY;
+    const vec2 x = obstacles_outside(o, obstacle, 0.0, point);
     for (dem_index k = 0; k < o->n; k++)
         if (go_together(o, k, obstacle)) smallest = fmin(smallest, obstacles_gap_of(o, 0.0, x, 0.0, k).distance);
     return smallest;

@@ -135,6 +135,70 @@ TEST(the_corner_of_two_obstacles_moves_along_the_normals_as_they_do)
     assert_close(corner.velocity.y, 0.5, 0.0);
 }
 
+/* Where the lines of two segments cross at t. */
+static vec2 crossing(const bench *b, double t)
+{
+    const surface_line a = surface_line_at(&b->scene, 0, t), c = surface_line_at(&b->scene, 1, t);
+    const double along = vec2_cross(vec2_sub(c.start, a.start), c.tangent) / vec2_cross(a.tangent, c.tangent);
+    return vec2_along(a.start, along, a.tangent);
+}
+
+/* A line that turns and oscillates against one that turns the other way, by a ramp. Differences over 1e-4 s are off by
+ * 1e-8 of the fourth derivatives, some 1e3 here, and by 1e-16/1e-8 of rounding. */
+TEST(the_corner_of_two_obstacles_that_turn_moves_as_their_crossing)
+{
+    const dem_index both[2] = {0, 1};
+    const double t = 0.3, h = 1e-4, points[4] = {-1.0, 0.0, 1.0, 0.0};
+    bench b;
+    bench_open(&b, 1);
+    for (int k = 0; k < 2; k++) {
+        b.list[k].points = points; /* a rotation needs some extent */
+        b.list[k].n_points = 2;
+    }
+    b.segments[0] = (segment){.start = {-0.2, 0.1}, .normal = {0.0, 1.0}, .tangent = {1.0, 0.0}, .length = 1.0};
+    b.segments[1] =
+        (segment){.start = {0.3, 0.4}, .normal = {0.8, 0.6}, .tangent = {0.6, -0.8}, .length = 1.0, .obstacle = 1};
+    vec2_put(b.list[0].amplitude, 0, (vec2){0.0, 0.05});
+    b.list[0].frequency = 0.7;
+    b.list[0].spin = 0.9;
+    b.list[1].spin = -1.4;
+    b.list[1].ramp = 0.5;
+    vec2_put(b.list[1].pivot, 0, (vec2){0.5, -0.3});
+    move(&b, 0, (vec2){0.3, 0.2});
+    move(&b, 1, (vec2){-0.4, 0.1});
+    const vec2 before = crossing(&b, t - h), x = crossing(&b, t), after = crossing(&b, t + h);
+    const obstacle_motion corner = surface_corner_motion(&b.scene, both, (surface_query){t, x});
+    const vec2 v = vec2_scale(0.5 / h, vec2_sub(after, before)),
+               a = vec2_scale(1.0 / (h * h), vec2_sub(vec2_add(before, after), vec2_scale(2.0, x)));
+    assert_true(corner.moves && vec2_norm(a) > 1.0);
+    assert_close(corner.velocity.x, v.x, 1e-6);
+    assert_close(corner.velocity.y, v.y, 1e-6);
+    assert_close(corner.acceleration.x, a.x, 1e-5);
+    assert_close(corner.acceleration.y, a.y, 1e-5);
+}
+
+/* The node is 0.05 m off the corner along each of two walls that are not square, and drifts at (-0.2, 0.3) m/s; beta is
+ * 1/s for steps of 0.1 s. */
+TEST(a_node_is_drawn_back_into_a_corner)
+{
+    bench b;
+    bench_open(&b, 1);
+    b.scene.rule.max_step = 0.1;
+    b.model.obstacles.bounds.acceleration = 5.0;
+    vec2_put(b.x, 0, (vec2){0.03, -0.04});
+    vec2_put(b.v, 0, (vec2){1.8, 0.3});
+    const surface_line lines[2] = {{.normal = {0.0, 1.0}, .tangent = {1.0, 0.0}},
+                                   {.normal = {0.6, 0.8}, .tangent = {0.8, -0.6}}};
+    const obstacle_motion corner = {.moves = true, .velocity = {2.0, 0.0}, .acceleration = {7.0, 8.0}};
+    const scene_state state = {0.0, b.x, b.v};
+    vec2 keep = contact_point_keep_corner(&b.scene, 0, lines, &corner, state);
+    assert_close(keep.x, 7.0 + 2.0 * 0.2 - 0.03, 1e-14);
+    assert_close(keep.y, 8.0 - 2.0 * 0.3 + 0.04, 1e-14);
+    b.model.obstacles.bounds.acceleration = 0.0;
+    keep = contact_point_keep_corner(&b.scene, 0, lines, &corner, state);
+    assert_true(keep.x == 7.0 && keep.y == 8.0);
+}
+
 TEST(a_fixed_node_has_no_mobility)
 {
     bench b;

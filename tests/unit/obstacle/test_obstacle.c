@@ -74,3 +74,38 @@ TEST(ends_are_buried_in_what_goes_along)
         assert_true((o.segments[3].buried[1] > 0.0) == (k != 1));
     }
 }
+
+/* Both oscillate alike, and are off the place of their points at t = 0. */
+TEST(ends_are_buried_wherever_an_oscillation_begins)
+{
+    const double wall[4] = {2.0, 1.0, 2.0, -1.0};
+    dem_obstacle list[2] = {{.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = valley},
+                            {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall}};
+    double still = 0.0;
+    for (int k = 0; k < 2; k++) {
+        CLEANUP(obstacles_free) obstacle_set o;
+        for (int q = 0; q < 2 && k > 0; q++) {
+            list[q].amplitude[0] = 0.7;
+            list[q].frequency = 2.0;
+            list[q].phase = 90.0;
+        }
+        assert_ok(obstacles_compile(&o, list, 2));
+        if (k == 0) still = o.segments[3].buried[1];
+        assert_true(still > 0.0);
+        assert_close(o.segments[3].buried[1], still, 0.0);
+    }
+}
+
+TEST(places_go_out_of_the_frame_of_an_obstacle_and_back)
+{
+    const dem_obstacle list[2] = {
+        {.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = valley},
+        {.struct_size = sizeof(dem_obstacle), .n_points = 4, .points = valley, .spin = 2.0, .pivot = {3.0, 1.0}}};
+    CLEANUP(obstacles_free) obstacle_set o;
+    assert_ok(obstacles_compile(&o, list, 2));
+    const vec2 x = {0.3, -0.4}, rest = obstacles_outside(&o, 0, 0.7, x), out = obstacles_outside(&o, 1, 0.7, x);
+    const vec2 back = obstacles_inside(&o, 1, 0.7, out);
+    assert_true(rest.x == x.x && rest.y == x.y && fabs(out.x - x.x) > 0.1);
+    assert_close(back.x, x.x, 1e-15);
+    assert_close(back.y, x.y, 1e-15);
+}
