@@ -9,6 +9,7 @@
 #include "harness/motion.h"
 #include "support.h"
 #include "harness/message.h"
+#include "view.h"
 
 static const double g = 9.81, mass = 2.0;
 
@@ -153,36 +154,6 @@ TEST(the_corner_of_a_floor_and_a_wall_that_comes_takes_a_node_along)
 
 /* ---- bodies, seen by one who moves ---- */
 
-typedef struct view {
-    const char *name;
-    dem_obstacle ground[2];
-    dem_index n;
-    double height, tilt, velocity[2], gravity, t_end; /* tilt: rad */
-} view;
-
-static const double flat[4] = {-0.3, 0.0, 0.3, 0.0}, teeth[14] = {-0.3,  -0.01, -0.021, -0.01, -0.013, 0.0, -0.002,
-                                                                  -0.01, 0.008, 0.0,    0.017, -0.01,  0.3, -0.01},
-                    groove[6] = {-0.05, 0.05, 0.0, 0.0, 0.05, 0.05}, post[4] = {0.02, 0.0, 0.02, 0.06},
-                    plate[4] = {0.3, 0.032, -0.3, 0.033};
-
-/* A rubber block of 20 x 25 mm, 5 mm apart, turned by the tilt. */
-static void make_body(dem_lattice *out, const view *v, const double frame[2])
-{
-    const dem_material rubber =
-        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
-    assert_ok(dem_lattice_rectangle(out, 0.02, 0.025, 5e-3));
-    for (dem_index i = 0; i < out->n_nodes; i++) {
-        const double x = out->x[2 * i], y = out->x[2 * i + 1];
-        out->x[2 * i] = cos(v->tilt) * x - sin(v->tilt) * y;
-        out->x[2 * i + 1] = sin(v->tilt) * x + cos(v->tilt) * y + v->height;
-    }
-    assert_ok(dem_lattice_assemble(out, &rubber));
-    CLEANUP(free_memory) double *velocity = malloc(2 * (size_t)out->n_nodes * sizeof *velocity);
-    assert_non_null(velocity);
-    for (dem_index k = 0; k < 2 * out->n_nodes; k++) velocity[k] = v->velocity[k % 2] + frame[k % 2];
-    support_start(out, NULL, velocity);
-}
-
 /* As one sees it in whose frame all goes by with this velocity. */
 static void open_view(support_run *run, const view *v, const double frame[2], dem_method method)
 {
@@ -196,7 +167,8 @@ static void open_view(support_run *run, const view *v, const double frame[2], de
     options.gravity[1] = -v->gravity;
     options.rtol = 1e-9;
     options.v_scale = 1.0;
-    make_body(&lattice, v, frame);
+    view_make_body(&lattice, v);
+    for (dem_index k = 0; k < 2 * lattice.n_nodes; k++) lattice.velocity[k] += frame[k % 2];
     support_open(run, &lattice, ground, v->n, &options);
 }
 
@@ -231,41 +203,17 @@ static void compare_views(const view *v, const double frame[2], dem_method metho
     if (adaptive) assert_close(ask_energy(passing.simulation).ledger, start, 1e-6);
 }
 
-#define GROUND(line, e, mu)                                                                                            \
-    {                                                                                                                  \
-        .struct_size = sizeof(dem_obstacle), .n_points = (dem_index)(sizeof(line) / sizeof *(line) / 2),               \
-        .points = line, .restitution = e, .friction = mu                                                               \
-    }
-
-static const view views[] = {
-    {"flat, bouncing", {GROUND(flat, 0.5, 0.3)}, 1, 0.005, 0.1, {1.0, -3.0}, 9.81, 0.006},
-    {"flat, lasting", {GROUND(flat, 0.0, 0.3)}, 1, 0.0002, 0.0, {1.0, -0.5}, 9.81, 0.02},
-    {"teeth", {GROUND(teeth, 0.2, 0.3)}, 1, 0.002, 0.05, {0.5, -2.0}, 9.81, 0.01},
-    {"groove", {GROUND(groove, 0.0, 0.2)}, 1, 0.02, 0.2, {0.0, -2.0}, 9.81, 0.02},
-    {"floor and post", {GROUND(flat, 0.0, 0.5), GROUND(post, 0.3, 0.0)}, 2, 0.0002, 0.0, {2.0, -0.5}, 9.81, 0.01},
-    {"from afar", {GROUND(teeth, 0.5, 0.3)}, 1, 0.1, 0.3, {0.0, -20.0}, 0.0, 0.01},
-    {"press",
-     {GROUND(teeth, 0.0, 0.3),
-      {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = plate, .friction = 0.5, .velocity = {0.3, -2.0}}},
-     2,
-     0.002,
-     0.05,
-     {0.0, -1.0},
-     9.81,
-     0.006},
-};
-
 static const double frames[2][2] = {{-1.0, 3.0}, {4.7, -0.6}};
 
 TEST(what_happens_does_not_depend_on_who_looks)
 {
-    for (size_t k = 0; k < sizeof views / sizeof *views; k++)
+    for (int k = 0; k < VIEWS; k++)
         for (int f = 0; f < 2; f++) compare_views(&views[k], frames[f], DEM_METHOD_FEHLBERG45);
 }
 
 TEST(nor_with_fixed_steps)
 {
-    for (size_t k = 0; k < sizeof views / sizeof *views; k++)
+    for (int k = 0; k < VIEWS; k++)
         compare_views(&views[k], frames[0], k % 2 == 0 ? DEM_METHOD_VERLET : DEM_METHOD_RK4);
 }
 
@@ -273,7 +221,7 @@ TEST(nor_with_fixed_steps)
 
 TEST(a_run_goes_on_from_its_checkpoint_to_the_same_bits)
 {
-    for (size_t k = 0; k < sizeof views / sizeof *views; k++) {
+    for (int k = 0; k < VIEWS; k++) {
         const view *v = &views[k];
         CLEANUP(support_close) support_run run;
         CLEANUP(free_simulation) dem_simulation *resumed;
@@ -310,7 +258,8 @@ TEST(a_checkpoint_of_another_velocity_is_refused)
 
 TEST(a_velocity_that_is_not_finite_is_refused)
 {
-    const dem_obstacle nan = SIZED(dem_obstacle, .n_points = 2, .points = flat, .velocity = {0.0, NAN});
+    const double line[4] = {-0.3, 0.0, 0.3, 0.0};
+    const dem_obstacle nan = SIZED(dem_obstacle, .n_points = 2, .points = line, .velocity = {0.0, NAN});
     dem_index segments[2];
     assert_int_equal(dem_obstacle_check(&nan, segments), DEM_ERROR_MODEL);
     assert_message_parts("obstacle 0: velocity * nan m/s * not finite");
