@@ -40,17 +40,17 @@ static dem_status feel_inertia(void *context, const dem_force_query *query, doub
 }
 
 /* The ground of a view with a motion. */
-static void set_motion(dem_obstacle ground[2], const view *v, const dem_obstacle *motion)
+static void set_motion(dem_obstacle ground[2], const view *v, const dem_obstacle *moves)
 {
     memcpy(ground, v->ground, sizeof v->ground);
     for (dem_index k = 0; k < v->n; k++) {
-        memcpy(ground[k].velocity, motion->velocity, sizeof motion->velocity);
-        memcpy(ground[k].amplitude, motion->amplitude, sizeof motion->amplitude);
-        memcpy(ground[k].pivot, motion->pivot, sizeof motion->pivot);
-        ground[k].frequency = motion->frequency;
-        ground[k].phase = motion->phase;
-        ground[k].spin = motion->spin;
-        ground[k].ramp = motion->ramp;
+        memcpy(ground[k].velocity, moves->velocity, sizeof moves->velocity);
+        memcpy(ground[k].amplitude, moves->amplitude, sizeof moves->amplitude);
+        memcpy(ground[k].pivot, moves->pivot, sizeof moves->pivot);
+        ground[k].frequency = moves->frequency;
+        ground[k].phase = moves->phase;
+        ground[k].spin = moves->spin;
+        ground[k].ramp = moves->ramp;
     }
 }
 
@@ -87,12 +87,12 @@ typedef struct pair {
     dem_obstacle ground[2];
 } pair;
 
-static void open_pair(pair *p, const view *v, const dem_obstacle *motion)
+static void open_pair(pair *p, const view *v, const dem_obstacle *moves)
 {
     CLEANUP(dem_lattice_free) dem_lattice seen = dem_lattice_empty(), body = dem_lattice_empty();
-    const dem_options options = view_options(v->gravity, motion->spin);
-    dem_options felt = view_options(0.0, motion->spin);
-    set_motion(p->ground, v, motion);
+    const dem_options options = view_options(v->gravity, moves->spin);
+    dem_options felt = view_options(0.0, moves->spin);
+    set_motion(p->ground, v, moves);
     p->carrier = (carrier){motion_law_of(&p->ground[0]), v->gravity, NULL};
     view_make_body(&seen, v);
     view_make_body(&body, v);
