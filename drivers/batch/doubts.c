@@ -67,7 +67,9 @@ void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double w
     double v[2], least = (double)INFINITY;
     initial_motion_velocity(dem_model_lattice(model), b, v);
     for (dem_index o = 0; o < n; o++) {
-        const double *w = dem_model_obstacle(model, o)->velocity;
+        const dem_obstacle *obstacle = dem_model_obstacle(model, o);
+        double w[2];
+        (void)dem_obstacle_velocity(obstacle, 0.0, obstacle->points, w);
         least = fmin(least, hypot(v[0] - w[0], v[1] - w[1]));
     }
     if (n == 0 || !(least > fast * wave_speed)) return;

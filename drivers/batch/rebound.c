@@ -54,18 +54,27 @@ static double spin_of(const dem_lattice *l, const dem_state *state, const double
 
 /* ---- following a run ---- */
 
-static double along(const double v[2], const dem_simulation *simulation, dem_index obstacle, const double normal[2])
+/* Where and when an obstacle is touched. */
+typedef struct touch {
+    dem_index obstacle;
+    double t;
+    const double *place, *normal;
+} touch;
+
+/* Velocity along the normal, against that of the obstacle's point. */
+static double along(const double v[2], const dem_simulation *simulation, touch at)
 {
-    const double *u = dem_model_obstacle(dem_simulation_model(simulation), obstacle)->velocity;
-    return (v[0] - u[0]) * normal[0] + (v[1] - u[1]) * normal[1];
+    double u[2] = {0.0, 0.0};
+    (void)dem_obstacle_velocity(dem_model_obstacle(dem_simulation_model(simulation), at.obstacle), at.t, at.place, u);
+    return (v[0] - u[0]) * at.normal[0] + (v[1] - u[1]) * at.normal[1];
 }
 
 /* Nodes part and touch again within a bounce: its centre of mass tells whether a body had left and comes back. */
 static bool comes_back(const rebound *r, const dem_simulation *simulation, const dem_event *event, const double v[2])
 {
     const bool apart = r->n_contacts == 0 && r->last <= r->t && event->t > r->last;
-    return apart && along(r->velocity, simulation, r->obstacle, r->normal) > 0.0 &&
-           along(v, simulation, event->obstacle, event->normal) < 0.0;
+    return apart && along(r->velocity, simulation, (touch){r->obstacle, r->last, r->place, r->normal}) > 0.0 &&
+           along(v, simulation, (touch){event->obstacle, event->t, event->x, event->normal}) < 0.0;
 }
 
 /* Where a bounce begins the bodies have been in free flight since the last step; bodies that touch from the beginning
@@ -95,6 +104,7 @@ void rebound_note(rebound *r, const dem_simulation *simulation, const dem_event 
     r->obstacle = event->obstacle;
     for (int c = 0; c < 2; c++) {
         r->normal[c] = event->normal[c];
+        r->place[c] = event->x[c];
         r->impulse[c] += event->impulse[c];
     }
     if (event->state != DEM_CONTACT_FREE && r->opened < 0.0) r->opened = event->t;
@@ -131,6 +141,7 @@ static void follow_normal(rebound *r, const dem_simulation *simulation, const de
         if (c.force > most.force) most = c;
     }
     memcpy(r->normal, most.normal, sizeof r->normal);
+    memcpy(r->place, most.x, sizeof r->place);
     r->obstacle = most.obstacle;
 }
 
@@ -203,8 +214,8 @@ rebound_normal rebound_along(const rebound *r, const dem_simulation *simulation)
     const dem_obstacle *obstacle = dem_model_obstacle(dem_simulation_model(simulation), r->obstacle);
     n.along_impulse = size > 0.0 && (r->several || !is_straight(obstacle));
     for (int c = 0; c < 2; c++) n.normal[c] = n.along_impulse ? given[c] / size : r->normal[c];
-    n.in = along(r->approach, simulation, r->obstacle, n.normal);
-    n.out = along(r->velocity, simulation, r->obstacle, n.normal);
+    n.in = along(r->approach, simulation, (touch){r->obstacle, r->begin, r->place, n.normal});
+    n.out = along(r->velocity, simulation, (touch){r->obstacle, r->last, r->place, n.normal});
     if (n.in < 0.0) n.ratio = -n.out / n.in;
     return n;
 }

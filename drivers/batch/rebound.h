@@ -21,7 +21,8 @@ typedef struct rebound {
     double spin;         /* rad/s, the same, known when that contact is over: angular momentum over moment of inertia,
                             both about that centre */
     double speed;        /* m/s, the part of `velocity` against gravity */
-    double normal[2];    /* out of the obstacle that was touched last, there */
+    double normal[2];    /* out of the obstacle that was touched last, there, */
+    double place[2];     /* m, and where that was */
     dem_index obstacle;  /* which one */
     bool several;        /* the last bounce touched several obstacles */
     double given[2];     /* N s, by all obstacles, when nothing touched any more */

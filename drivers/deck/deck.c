@@ -478,9 +478,10 @@ static bool set_probes(deck *d, const schema_deck *groups, const placement *bodi
 
 static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, namelist_errors *errors)
 {
+    dem_obstacle *still = motion_still(d->obstacles, d->n_obstacles);
     const body_scene scene = {.groups = groups,
                               .folder = folder,
-                              .obstacles = d->obstacles,
+                              .obstacles = still,
                               .n_obstacles = d->n_obstacles,
                               .gravity = {d->options.gravity[0], d->options.gravity[1]}};
     const size_t n = schema_count(groups, "body");
@@ -488,7 +489,7 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
     placement *places = calloc(n + 1, sizeof *places);
     d->bodies = calloc(n + 1, sizeof *d->bodies);
     d->n_bodies = n;
-    bool good = starts != NULL && places != NULL && d->bodies != NULL;
+    bool good = starts != NULL && places != NULL && d->bodies != NULL && still != NULL;
     for (size_t k = 0; k < n && good; k++) {
         const dem_index first = d->lattice.n_nodes;
         good = set_body(d, &starts[k], &scene, k, errors);
@@ -504,6 +505,7 @@ static bool set_bodies(deck *d, const schema_deck *groups, const char *folder, n
     if (good && errors->n == 0) good = set_probes(d, groups, places, errors);
     d->options.boundaries = d->boundaries;
     d->options.n_boundaries = d->n_boundaries;
+    motion_free_still(still, d->n_obstacles);
     free(starts);
     free(places);
     return good;

@@ -3,6 +3,8 @@
  * decks before there were other kinds. Fields of an obstacle have the names of their keys (dem_motion_field_at). */
 #include "motion.h"
 
+#include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct motion_key {
@@ -75,4 +77,36 @@ void motion_set(dem_obstacle *made, const schema_instance *obstacle)
         const double *numbers = schema_reals(obstacle, field->name);
         if (numbers != NULL) memcpy((char *)made + field->offset, numbers, (size_t)field->n * sizeof *numbers);
     }
+}
+
+/* A copy with points of its own; those are NULL when memory runs out. */
+static dem_obstacle still_one(const dem_obstacle *moving)
+{
+    double *points = malloc(2 * (size_t)moving->n_points * sizeof *points);
+    if (points != NULL) (void)dem_obstacle_points(moving, 0.0, points);
+    return (dem_obstacle){.struct_size = sizeof(dem_obstacle),
+                          .n_points = moving->n_points,
+                          .points = points,
+                          .restitution = moving->restitution,
+                          .friction = moving->friction,
+                          .friction_law = moving->friction_law};
+}
+
+dem_obstacle *motion_still(const dem_obstacle *list, dem_index n)
+{
+    bool good = true;
+    dem_obstacle *still = calloc((size_t)n + 1, sizeof *still);
+    for (dem_index k = 0; k < n && still != NULL; k++) {
+        still[k] = still_one(&list[k]);
+        good = good && still[k].points != NULL;
+    }
+    if (good) return still;
+    motion_free_still(still, n);
+    return NULL;
+}
+
+void motion_free_still(dem_obstacle *still, dem_index n)
+{
+    for (dem_index k = 0; k < n && still != NULL; k++) free((void *)(uintptr_t)still[k].points);
+    free(still);
 }

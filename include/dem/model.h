@@ -52,6 +52,10 @@ DEM_API bool dem_obstacle_moves(const dem_obstacle *obstacle, const dem_motion_f
  *  \param[out] points  [n_points][2], m; may be those of the obstacle */
 DEM_API dem_status dem_obstacle_points(const dem_obstacle *obstacle, double t, double *points);
 
+/** Velocity of the point of an obstacle that is at x at t.
+ *  \param[out] velocity  [2] m/s */
+DEM_API dem_status dem_obstacle_velocity(const dem_obstacle *obstacle, double t, const double *x, double *velocity);
+
 /** Whether dem_model_create() takes the obstacle: its message otherwise, in which the obstacle has the number 0.
  *  \param[out] segments  two of it that meet, the second following the first if it goes back over it; else -1 */
 DEM_API dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2]);

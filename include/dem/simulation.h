@@ -218,7 +218,7 @@ typedef struct dem_body_motion {
     double angular_momentum[3]; /**< about the centre of mass, kg m^2/s; in the plane the third alone is not 0 */
 } dem_body_motion;
 
-/** What an obstacle gives to the bodies. */
+/** What an obstacle gives to the bodies, and where it is. */
 typedef struct dem_obstacle_load {
     size_t struct_size;         /**< to be set to sizeof(dem_obstacle_load) */
     double reaction[3];         /**< N, instantaneous sum over its lasting contacts */
@@ -227,6 +227,9 @@ typedef struct dem_obstacle_load {
     double impulse[3];          /**< N s, so far: impacts, and the reactions integrated over time */
     double friction_impulse[3]; /**< N s, the tangential part of it */
     dem_index n_contacts;       /**< closed now */
+    double displacement[3];     /**< m, way of its pivot from where its points were given */
+    double angle;               /**< rad, by which it has turned about it */
+    double power;               /**< W, of its reaction: what it puts into the bodies through lasting contacts */
 } dem_obstacle_load;
 
 /** What a boundary does to its nodes. */

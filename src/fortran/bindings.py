@@ -21,7 +21,7 @@ ONE = {"out", "omega", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts
 MANY = {
     "obstacles": "*", "materials": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "n_edges": "*",
     "nodes": "*", "springs": "*", "area": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
-    "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_model_gap.x": "*",
+    "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_model_gap.x": "*", "dem_obstacle_velocity.x": "*", "velocity": "*",
     "dem_force.force": "2, *", "direction": "2", "points": "2, *"}
 MAY_BE_NULL = {
     "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of",

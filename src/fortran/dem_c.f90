@@ -376,6 +376,14 @@ module dem_c
       real(c_double), intent(out) :: points(2, *)
     end function
 
+    integer(dem_status) function dem_obstacle_velocity(obstacle, t, x, velocity) bind(c)
+      import
+      type(dem_obstacle), intent(in) :: obstacle
+      real(c_double), value :: t
+      real(c_double), intent(in) :: x(*)
+      real(c_double), intent(out) :: velocity(*)
+    end function
+
     integer(dem_status) function dem_obstacle_check(obstacle, segments) bind(c)
       import
       type(dem_obstacle), intent(in) :: obstacle
@@ -563,9 +571,10 @@ module dem_c
   end type
 
   type, bind(c) :: dem_obstacle_load
-    integer(c_size_t) :: struct_size = 112
+    integer(c_size_t) :: struct_size = 152
     real(c_double) :: reaction(3) = 0, point(3) = 0, impulse(3) = 0, friction_impulse(3) = 0
     integer(dem_index) :: n_contacts = 0
+    real(c_double) :: displacement(3) = 0, angle = 0, power = 0
   end type
 
   type, bind(c) :: dem_boundary_load

@@ -173,3 +173,16 @@ dem_status dem_obstacle_points(const dem_obstacle *obstacle, double t, double *p
         vec2_put(points, k, pose_outside(&at, vec2_at(points, k)));
     return DEM_OK;
 }
+
+/* What is at rest has no pose. */
+dem_status dem_obstacle_velocity(const dem_obstacle *obstacle, double t, const double *x, double *velocity)
+{
+    dem_obstacle own;
+    CHECK(x != NULL && velocity != NULL, DEM_ERROR_ARGUMENT, "dem_obstacle_velocity: %s is NULL",
+          x == NULL ? "x" : "velocity");
+    TRY(obstacle_input_read(&own, obstacle));
+    const motion_law law = motion_law_of(&own);
+    const pose at = motion_law_pose(&law, t);
+    vec2_put(velocity, 0, law.moves ? pose_velocity(&at, vec2_at(x, 0)) : (vec2){0.0, 0.0});
+    return DEM_OK;
+}

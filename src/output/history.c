@@ -62,6 +62,9 @@ static const table_column columns[] = {
     {"/history/obstacle_impulse", HDF5_F64, OBSTACLES, 2},
     {"/history/obstacle_friction_impulse", HDF5_F64, OBSTACLES, 2},
     {"/history/obstacle_contacts", HDF5_I64, OBSTACLES, 1},
+    {"/history/obstacle_displacement", HDF5_F64, OBSTACLES, 2},
+    {"/history/obstacle_angle", HDF5_F64, OBSTACLES, 1},
+    {"/history/obstacle_power", HDF5_F64, OBSTACLES, 1},
     {"/history/boundary_force", HDF5_F64, BOUNDARIES, 2},
     {"/history/boundary_displacement", HDF5_F64, BOUNDARIES, 2},
 };
@@ -103,11 +106,12 @@ static table_cell *put_bodies(table_cell *cell, const dem_simulation *simulation
     return momentum;
 }
 
-/* Reaction and its point, impulses so far, and the number of contacts, obstacle by obstacle. */
+/* Reaction and its point, impulses so far, the number of contacts, place and power, obstacle by obstacle. */
 static table_cell *put_obstacles(table_cell *cell, const dem_simulation *simulation, dem_index n_obstacles)
 {
     table_cell *reaction = cell, *point = reaction + 2 * n_obstacles, *impulse = point + 2 * n_obstacles;
     table_cell *friction = impulse + 2 * n_obstacles, *contacts = friction + 2 * n_obstacles;
+    table_cell *way = contacts + n_obstacles, *angle = way + 2 * n_obstacles, *power = angle + n_obstacles;
     for (dem_index o = 0; o < n_obstacles; o++) {
         dem_obstacle_load load = {.struct_size = sizeof load};
         (void)dem_simulation_obstacle(simulation, o, &load);
@@ -116,8 +120,11 @@ static table_cell *put_obstacles(table_cell *cell, const dem_simulation *simulat
         impulse = table_put_reals(impulse, load.impulse, 2);
         friction = table_put_reals(friction, load.friction_impulse, 2);
         contacts = table_put_wholes(contacts, &load.n_contacts, 1);
+        way = table_put_reals(way, load.displacement, 2);
+        angle = table_put_reals(angle, &load.angle, 1);
+        power = table_put_reals(power, &load.power, 1);
     }
-    return contacts;
+    return power;
 }
 
 /* What each boundary condition does to its nodes. */

@@ -9,6 +9,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "base/struct_size.h"
+#include "contact/obstacle_load.h"
 #include "forces/diagnostics.h"
 
 void query_at(dem_simulation *s, double t, const double *y)
@@ -225,6 +226,7 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
     const double *lasting = state_v(l, seen_of(s), state_impulse(l, obstacle));
     const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
     dem_obstacle_load load = diagnostics_reaction(closed, n_closed, obstacle);
+    obstacle_load_add_motion(&load, &contact_of(s)->set.scene, s->seen_t, obstacle, closed, n_closed);
     for (int k = 0; k < 2; k++) {
         load.impulse[k] = reduce_rounded_sum(ledger->impulse[2 * obstacle + k]) + lasting[k];
         load.friction_impulse[k] = reduce_rounded_sum(ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];

@@ -23,7 +23,7 @@ DEM_BATCH, DEM_EXPORT = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 DECK = """
 &run t_end = 4e-3 /
 &material youngs_modulus = 1e7, density = 1050 /
-&body shape = 'rectangle', size = 0.04, 0.04, spacing = 0.01, position = 0, 1e-3 /
+&body shape = 'rectangle', size = 0.04, 0.04, spacing = 0.01, position = 0, 1e-3{body} /
 &obstacle points = -0.3, -0.1, 0.3, -0.1 /
 &obstacle points = -0.3, 0, 0, -0.005, 0.3, 0, velocity = {velocity} /
 &output name = 'a', frame_interval = 1e-3 /
@@ -32,8 +32,8 @@ GIVEN = np.array([[-0.3, -0.1], [0.3, -0.1], [-0.3, 0], [0, -0.005], [0.3, 0]])
 VELOCITY = np.array([[0, 0], [0, 0], [-2, 5], [-2, 5], [-2, 5]])
 
 
-def run(folder, velocity):
-    pathlib.Path(folder, "a.nml").write_text(DECK.format(velocity=velocity), encoding="utf-8")
+def run(folder, velocity, body=""):
+    pathlib.Path(folder, "a.nml").write_text(DECK.format(velocity=velocity, body=body), encoding="utf-8")
     subprocess.run([DEM_BATCH, "a.nml"], cwd=folder, capture_output=True, check=True)
     with h5py.File(pathlib.Path(folder, "a.vtkhdf")) as file:
         return file["VTKHDF/Steps/Values"][...]
@@ -63,6 +63,39 @@ class MovingOutput(unittest.TestCase):
             for t in times[::-1]:
                 reader.UpdateTimeStep(t)
                 self.check(reader.GetOutputDataObject(0), t)
+
+    def test_history_and_frames_have_what_swings_and_turns(self):
+        """Differences from numpy's sine and cosine are roundings; the power of lasting contacts is in the closure of
+        the ledger by its integral."""
+        keys = """0.2, 0, motion = 'translate', 'oscillate', 'rotate', amplitude = 0, 1e-4, frequency = 400,
+    phase = 90, pivot = 0.1, 0, spin = -8, ramp = 1e-3, friction = 0.5"""
+        with tempfile.TemporaryDirectory() as folder:
+            times = run(folder, keys, ", velocity = 0, -1")
+            with h5py.File(pathlib.Path(folder, "a.vtkhdf")) as file:
+                history = {name: column[...] for name, column in file["history"].items()}
+            with h5py.File(pathlib.Path(folder, "a.obstacle.vtkhdf")) as file:
+                points = file["VTKHDF/Points"][...].reshape(len(times), len(GIVEN), 3)[:, :, :2]
+
+        def ramp(t):
+            s = np.clip(t / 1e-3, 0, 1)
+            return s**3 * (10 - 15 * s + 6 * s**2), np.where(t < 1e-3, 1e-3 * s**4 * (2.5 - 3 * s + s**2), t - 5e-4)
+
+        def place(t):
+            value, area = ramp(t)
+            return np.stack([0.2 * area, 1e-4 * value * np.cos(2 * np.pi * 400 * t)], axis=-1), -8 * area
+
+        way, angle = place(history["t"])
+        self.assertTrue(np.allclose(history["obstacle_displacement"][:, 1], way, rtol=0, atol=1e-16))
+        self.assertTrue(np.allclose(history["obstacle_angle"][:, 1], angle, rtol=0, atol=1e-15))
+        self.assertTrue(np.all(history["obstacle_displacement"][:, 0] == 0))
+        self.assertGreater(np.abs(history["obstacle_power"][:, 1]).max(), 0.1)
+        self.assertLess(np.abs(history["closure"]).max(), 1e-4)
+        for t, found in zip(times, points):
+            (dx, dy), q = place(t)
+            turn = np.array([[np.cos(q), -np.sin(q)], [np.sin(q), np.cos(q)]])
+            expected = (GIVEN[2:] - [0.1, 0]) @ turn.T + [0.1 + dx, dy]
+            self.assertTrue(np.allclose(found[2:], expected, rtol=0, atol=1e-15))
+            self.assertTrue(np.array_equal(found[:2], GIVEN[:2]))
 
     def test_an_export_has_a_file_for_each_frame(self):
         with tempfile.TemporaryDirectory() as folder:

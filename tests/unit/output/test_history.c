@@ -251,6 +251,9 @@ TEST(columns_have_the_shapes_of_what_they_tell)
         {"obstacle_reaction", 0, 3, {1, 1, 2}},
         {"obstacle_point", 0, 3, {1, 1, 2}},
         {"obstacle_contacts", 1, 2, {1, 1, 1}},
+        {"obstacle_displacement", 0, 3, {1, 1, 2}},
+        {"obstacle_angle", 0, 2, {1, 1, 1}},
+        {"obstacle_power", 0, 2, {1, 1, 1}},
     };
     flight *f = new_flight(1);
     record_at(f, 0.0);

@@ -403,7 +403,10 @@ TEST(history_has_a_row_for_every_accepted_step)
                                           "obstacle_point",
                                           "obstacle_impulse",
                                           "obstacle_friction_impulse",
-                                          "obstacle_contacts"};
+                                          "obstacle_contacts",
+                                          "obstacle_displacement",
+                                          "obstacle_angle",
+                                          "obstacle_power"};
     for (size_t c = 0; c < sizeof columns / sizeof columns[0]; c++) {
         char name[64];
         (void)snprintf(name, sizeof name, "/history/%s", columns[c]);
