@@ -143,6 +143,11 @@ static inline lanes lanes_load(const double *p)
     return (lanes){_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)};
 }
 
+static inline lanes lanes_add(lanes a, lanes b)
+{
+    return (lanes){_mm256_add_pd(a.low, b.low), _mm256_add_pd(a.high, b.high)};
+}
+
 static inline lanes lanes_sub(lanes a, lanes b)
 {
     return (lanes){_mm256_sub_pd(a.low, b.low), _mm256_sub_pd(a.high, b.high)};

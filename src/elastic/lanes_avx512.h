@@ -125,6 +125,11 @@ static inline lanes lanes_load(const double *p)
     return _mm512_loadu_pd(p);
 }
 
+static inline lanes lanes_add(lanes a, lanes b)
+{
+    return _mm512_add_pd(a, b);
+}
+
 static inline lanes lanes_sub(lanes a, lanes b)
 {
     return _mm512_sub_pd(a, b);

@@ -156,6 +156,12 @@ static inline lanes lanes_load(const double *p)
     return a;
 }
 
+static inline lanes lanes_add(lanes a, lanes b)
+{
+    HALF a.n[k] += b.n[k];
+    return a;
+}
+
 static inline lanes lanes_sub(lanes a, lanes b)
 {
     HALF a.n[k] -= b.n[k];

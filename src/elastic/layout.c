@@ -5,6 +5,7 @@
  * numbers. In a regular lattice most blocks therefore have equal entries and coefficients, which are stored once
  * (base/intern.h) and stay in the cache. A spring is evaluated once, by its lower node, and its force is left in a ring
  * buffer. Both ends then sum up forces in the order of their own rows, so the sums have the bits of springs_force().
+ * A coupled triangle is evaluated once, too, by its lowest corner, and leaves a force for each of its corners.
  * The arithmetic is not here but in sweep_body.h, and the numbering of distant neighbours is in renumber.c. */
 #include "elastic/layout.h"
 
@@ -17,7 +18,7 @@
 
 enum {
     whole = 0xffff, /* mask of all lanes */
-    most_widths = 3,
+    most_widths = 6,
     usual_span = 1024, /* nodes: the ring for so many fits into the cache, so that no other order is sought */
     most_rounds = 2    /* entries per item of the fullest lane, up to which operands that lie side by side are sought */
 };
@@ -29,7 +30,7 @@ static const dem_index ring_bytes = 1 << 22;
 typedef struct item {
     int32_t at, to;     /* operands of this lane */
     int32_t base, last; /* where they would begin for lane 0 if all lay side by side */
-    dem_index spring;
+    dem_index element;  /* spring, or slot of a coupled triangle */
     bool negative;
     double set[most_widths];
 } item;
@@ -40,10 +41,12 @@ typedef struct builder {
     layout *l;
     const springs *s;
     const triangles *t;
-    int32_t *place; /* [n_nodes] of each node; NULL: its number */
-    int32_t *force; /* [n_springs] place in the ring */
-    dem_index most; /* items of a lane */
-    item *items;    /* [LAYOUT_LANES][most] */
+    const couplings *c;
+    int32_t *place;        /* [n_nodes] of each node; NULL: its number */
+    int32_t *force;        /* [n_springs] place in the ring */
+    int32_t *corner_force; /* [3 n] the same of each corner of coupled triangles */
+    dem_index most;        /* items of a lane */
+    item *items;           /* [LAYOUT_LANES][most] */
     dem_index n[LAYOUT_LANES], next[LAYOUT_LANES];
     bool taken[LAYOUT_LANES]; /* by the group in hand */
     dem_index n_entries, entry_capacity;
@@ -226,6 +229,19 @@ static bool in_range(const builder *b, int32_t first)
     return first >= 0 && (dem_index)first + LAYOUT_LANES <= b->l->n_nodes;
 }
 
+/* An entry for triangles, which read the next and the last corner of each lane's node. */
+static dem_status add_triangles(builder *b, const item *leader, int32_t row, intern *sets)
+{
+    const dem_index width = sets == &b->l->areas ? 3 : 6;
+    const bool gathered = !side_by_side(b, leader) || !in_range(b, leader->base) || !in_range(b, leader->last);
+    layout_entry e = {.at = 2 * (leader->base - row), .to = 2 * (leader->last - row), .mask = mask_of(b)};
+    e.kind = kind_of(b, gathered);
+    if (gathered) TRY(list_operand(b, offsetof(item, at), row, 1, &e.at));
+    if (gathered) TRY(list_operand(b, offsetof(item, to), row, 1, &e.to));
+    TRY(set_of(b, sets, width, leader, &e.set));
+    return add_entry(b, e);
+}
+
 /* ---- springs ---- */
 
 /* The ring consists of streams. A stream has room for one force of each of `ring_rows` nodes, and a block writes into a
@@ -251,6 +267,14 @@ static dem_status find_stream(builder *b, int64_t key, dem_index block, dem_inde
     return DEM_OK;
 }
 
+/* Where a stream begins, in forces. */
+static dem_status start_of(const layout *l, dem_index stream, int32_t *start)
+{
+    CHECK(2 * (stream + 1) * (l->ring_rows + LAYOUT_LANES) < INT32_MAX, DEM_ERROR_MODEL, "too many springs at a node");
+    *start = (int32_t)(stream * (l->ring_rows + LAYOUT_LANES));
+    return DEM_OK;
+}
+
 /* Insertion sort by the upper node's place: a node has a few springs, and the order of evaluation changes no sum. */
 static void sort_by_place(item *list, dem_index n)
 {
@@ -273,7 +297,7 @@ static void list_springs(builder *b, dem_index block)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const int32_t j = place_of(b, s->neighbour[p]);
             if (j < row) continue;
-            list[n++] = (item){.at = j, .base = j - lane, .last = j - lane, .spring = s->spring[p]};
+            list[n++] = (item){.at = j, .base = j - lane, .last = j - lane, .element = s->spring[p]};
             list[n - 1].set[0] = s->stiffness[p];
             list[n - 1].set[1] = s->rest_length[p];
             list[n - 1].set[2] = s->viscosity != NULL ? s->viscosity[p] : 0.0;
@@ -289,23 +313,81 @@ static dem_status lay_springs(builder *b, dem_index block)
     layout *l = b->l;
     const int32_t row = (int32_t)(LAYOUT_LANES * block), at_row = row & (int32_t)(l->ring_rows - 1);
     dem_index stream = 0, slot = 0;
+    int32_t start = 0;
     list_springs(b, block);
     choose_groups(b);
     for (const item *leader = take_group(b); leader != NULL; leader = take_group(b), slot++) {
         const bool gathered = !side_by_side(b, leader) || !in_range(b, leader->base);
         layout_entry e = {.at = 2 * (leader->base - row), .mask = mask_of(b), .kind = kind_of(b, gathered)};
         TRY(find_stream(b, gathered ? -1 - slot : leader->base - row, block, &stream));
-        CHECK(2 * (stream + 1) * (l->ring_rows + LAYOUT_LANES) < INT32_MAX, DEM_ERROR_MODEL,
-              "too many springs at a node");
-        const int32_t start = (int32_t)(stream * (l->ring_rows + LAYOUT_LANES));
+        TRY(start_of(l, stream, &start));
         e.to = 2 * start;
         if (gathered) TRY(list_operand(b, offsetof(item, at), row, 1, &e.at));
         TRY(set_of(b, &l->bonds, l->damped ? 3 : 2, leader, &e.set));
         TRY(add_entry(b, e));
         for (int lane = 0; lane < LAYOUT_LANES; lane++)
-            if (b->taken[lane]) b->force[taken_of(b, lane)->spring] = start + at_row + lane;
+            if (b->taken[lane]) b->force[taken_of(b, lane)->element] = start + at_row + lane;
     }
     return close_block(b, &l->springs, block);
+}
+
+/* ---- coupled triangles ---- */
+
+/* The items of the triangles whose lowest corners are in this block. */
+static void list_couplings(builder *b, dem_index block)
+{
+    const couplings *c = b->c;
+    for (int lane = 0; lane < LAYOUT_LANES; lane++) {
+        const dem_index row = LAYOUT_LANES * block + lane, i = node_at(b->l, row);
+        dem_index n = 0;
+        for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
+            const coupled_triangle *t = &c->list[c->slot[p] / 3];
+            const int q = (int)(c->slot[p] % 3);
+            const int32_t next = place_of(b, t->corner[(q + 1) % 3]), last = place_of(b, t->corner[(q + 2) % 3]);
+            if (next < row || last < row) continue;
+            item *own = &b->items[lane * b->most + n++];
+            *own = (item){.at = next, .to = last, .base = next - lane, .last = last - lane, .element = c->slot[p]};
+            for (int k = 0; k < 3; k++) {
+                own->set[k] = t->rest_length[(q + k) % 3];
+                own->set[3 + k] = t->coupling[(q + k) % 3];
+            }
+        }
+        b->n[lane] = n;
+    }
+}
+
+/* Three streams for the forces of the group in hand, by its number in the block. */
+static dem_status place_forces(builder *b, dem_index block, dem_index group)
+{
+    const layout *l = b->l;
+    const int32_t at_row = (int32_t)(LAYOUT_LANES * block & (l->ring_rows - 1));
+    const int64_t beyond_springs = (int64_t)1 << 40; /* keys of the streams of springs are below */
+    int32_t start[3];
+    for (int c = 0; c < 3; c++) {
+        dem_index stream = 0;
+        TRY(find_stream(b, beyond_springs + 3 * group + c, block, &stream));
+        TRY(start_of(l, stream, &start[c]));
+        for (int lane = 0; lane < LAYOUT_LANES; lane++) {
+            const dem_index slot = b->taken[lane] ? taken_of(b, lane)->element : 0;
+            if (b->taken[lane]) b->corner_force[slot / 3 * 3 + (slot + c) % 3] = start[c] + at_row + lane;
+        }
+    }
+    return add_entry(b, (layout_entry){.at = 2 * start[0], .to = 2 * start[1], .set = 2 * start[2]});
+}
+
+/* Entries that evaluate coupled triangles, each in two parts. */
+static dem_status lay_couplings(builder *b, dem_index block)
+{
+    layout *l = b->l;
+    const int32_t row = (int32_t)(LAYOUT_LANES * block);
+    dem_index group = 0;
+    list_couplings(b, block);
+    choose_groups(b);
+    for (const item *leader = take_group(b); leader != NULL; leader = take_group(b)) {
+        TRY(add_triangles(b, leader, row, &l->couples));
+        TRY(place_forces(b, block, group++));
+    }
+    return close_block(b, &l->couplings, block);
 }
 
 /* ---- terms ---- */
@@ -334,12 +416,25 @@ static void list_terms(builder *b, dem_index block)
     }
 }
 
+/* The same of coupled triangles: a force for each corner, and nothing to subtract. */
+static void list_coupling_terms(builder *b, dem_index block)
+{
+    const couplings *c = b->c;
+    for (int lane = 0; lane < LAYOUT_LANES; lane++) {
+        const dem_index i = node_at(b->l, LAYOUT_LANES * block + lane);
+        b->n[lane] = c->row[i + 1] - c->row[i];
+        for (int32_t k = 0; k < b->n[lane]; k++) {
+            const int32_t force = b->corner_force[c->slot[c->row[i] + k]];
+            b->items[lane * b->most + k] = (item){.at = force, .base = ring_base(b->l, force, lane), .last = k};
+        }
+    }
+}
+
 /* Entries that sum up forces. The forces of the block itself and of lower ones are in the ring by then. */
-static dem_status lay_terms(builder *b, dem_index block)
+static dem_status lay_terms(builder *b, layout_part *part, dem_index block)
 {
     layout *l = b->l;
     const int32_t at_row = (int32_t)(LAYOUT_LANES * block & (l->ring_rows - 1));
-    list_terms(b, block);
     choose_groups(b);
     for (const item *leader = take_group(b); leader != NULL; leader = take_group(b)) {
         const bool gathered = !side_by_side(b, leader);
@@ -349,7 +444,7 @@ static dem_status lay_terms(builder *b, dem_index block)
         if (gathered) TRY(list_operand(b, offsetof(item, at), 0, 0, &e.at));
         TRY(add_entry(b, e));
     }
-    return close_block(b, &l->terms, block);
+    return close_block(b, part, block);
 }
 
 /* ---- corners of triangles ---- */
@@ -394,15 +489,8 @@ static dem_status lay_corners(builder *b, dem_index block)
     list_corners(b, block);
     b->by_slot = true;
     rewind_items(b);
-    for (const item *leader = take_group(b); leader != NULL; leader = take_group(b)) {
-        const bool gathered = !side_by_side(b, leader) || !in_range(b, leader->base) || !in_range(b, leader->last);
-        layout_entry e = {.at = 2 * (leader->base - row), .to = 2 * (leader->last - row), .mask = mask_of(b)};
-        e.kind = kind_of(b, gathered);
-        if (gathered) TRY(list_operand(b, offsetof(item, at), row, 1, &e.at));
-        if (gathered) TRY(list_operand(b, offsetof(item, to), row, 1, &e.to));
-        TRY(set_of(b, &l->areas, 3, leader, &e.set));
-        TRY(add_entry(b, e));
-    }
+    for (const item *leader = take_group(b); leader != NULL; leader = take_group(b))
+        TRY(add_triangles(b, leader, row, &l->areas));
     return close_block(b, &l->corners, block);
 }
 
@@ -423,15 +511,20 @@ static dem_status lay_blocks(builder *b)
     layout *l = b->l;
     for (dem_index block = 0; block < l->n_blocks; block++) {
         TRY(lay_springs(b, block));
+        TRY(lay_couplings(b, block));
         if (!worth_it(b)) {
             l->n_blocks = b->n_streams = 0;
             break;
         }
-        TRY(lay_terms(b, block));
+        list_terms(b, block);
+        TRY(lay_terms(b, &l->terms, block));
+        list_coupling_terms(b, block);
+        TRY(lay_terms(b, &l->coupling_terms, block));
         TRY(lay_corners(b, block));
     }
     l->ring_length = b->n_streams * (l->ring_rows + LAYOUT_LANES);
-    intern *const pools[] = {&l->springs.entries, &l->terms.entries, &l->corners.entries, &l->bonds, &l->areas};
+    intern *const pools[] = {&l->springs.entries,        &l->terms.entries, &l->corners.entries, &l->couplings.entries,
+                             &l->coupling_terms.entries, &l->bonds,         &l->areas,           &l->couples};
     for (size_t k = 0; k < sizeof pools / sizeof *pools; k++) TRY(intern_settle(pools[k]));
     return DEM_OK;
 }
@@ -469,17 +562,20 @@ static dem_status allocate(builder *b)
     layout *l = b->l;
     const size_t n = (size_t)l->n_blocks + 1;
     for (dem_index i = 0; i < l->n_nodes; i++) {
-        const dem_index bonds = b->s->row[i + 1] - b->s->row[i], corners = b->t->row[i + 1] - b->t->row[i];
-        b->most = bonds > b->most ? bonds : b->most;
-        b->most = corners > b->most ? corners : b->most;
+        const dem_index n_items[3] = {b->s->row[i + 1] - b->s->row[i], b->t->row[i + 1] - b->t->row[i],
+                                      b->c->row[i + 1] - b->c->row[i]};
+        for (int k = 0; k < 3; k++) b->most = n_items[k] > b->most ? n_items[k] : b->most;
     }
     b->items = malloc(LAYOUT_LANES * ((size_t)b->most + 1) * sizeof *b->items);
     b->force = malloc(((size_t)b->s->n_springs + 1) * sizeof *b->force);
-    l->springs = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
-    l->terms = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
-    l->corners = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
-    CHECK(b->items && b->force && l->springs.span && l->terms.span && l->corners.span, DEM_ERROR_MEMORY,
-          "out of memory for %lld springs", (long long)b->s->n_springs);
+    b->corner_force = malloc((3 * (size_t)b->c->n + 1) * sizeof *b->corner_force);
+    layout_part *const parts[] = {&l->springs, &l->terms, &l->corners, &l->couplings, &l->coupling_terms};
+    bool complete = b->items != NULL && b->force != NULL && b->corner_force != NULL;
+    for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
+        *parts[k] = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
+        complete = complete && parts[k]->span != NULL;
+    }
+    CHECK(complete, DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)b->s->n_springs);
     return choose_order(b);
 }
 
@@ -487,18 +583,20 @@ static dem_status allocate(builder *b)
 dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c)
 {
     layout l = {.n_nodes = s->n_nodes,
-                .n_blocks = c->n > 0 ? 0 : s->n_nodes / LAYOUT_LANES,
+                .n_blocks = s->n_nodes / LAYOUT_LANES,
                 .damped = s->viscosity != NULL,
-                .stiff = t->area_stiffness != NULL};
-    builder b = {.l = &l, .s = s, .t = t};
+                .stiff = t->area_stiffness != NULL,
+                .coupled = c->n > 0};
+    builder b = {.l = &l, .s = s, .t = t, .c = c};
     CHECK(s->n_nodes < INT32_MAX / 2 && s->n_springs < INT32_MAX / 2, DEM_ERROR_MODEL,
           "%lld nodes and %lld springs are more than the library takes", (long long)s->n_nodes,
           (long long)s->n_springs);
-    l.bonds.unit = l.areas.unit = sizeof(double); /* the unit of the entries is set in allocate() */
+    l.bonds.unit = l.areas.unit = l.couples.unit = sizeof(double); /* the unit of the entries is set in allocate() */
     dem_status status = allocate(&b);
     if (status == DEM_OK) status = lay_blocks(&b);
     free(b.items);
     free(b.force);
+    free(b.corner_force);
     free(b.place);
     free(b.key);
     free(b.used);
@@ -521,8 +619,11 @@ void layout_free(layout *l)
     free_part(&l->springs);
     free_part(&l->terms);
     free_part(&l->corners);
+    free_part(&l->couplings);
+    free_part(&l->coupling_terms);
     intern_free(&l->bonds);
     intern_free(&l->areas);
+    intern_free(&l->couples);
     free(l->order);
     free(l->lists);
     *l = (layout){0};

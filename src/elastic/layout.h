@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Springs and triangles in the order in which a sweep over all nodes takes them: eight nodes at a time, one to a lane.
  * Each spring is evaluated once, by its lower node, and its force is left in a ring buffer, from where both of its ends
- * collect it in the order of their rows: so the sums have the bits of a sum over the row. layout.c says how the entries
+ * collect it in the order of their rows: so the sums have the bits of a sum over the row. Coupled triangles are treated
+ * alike, with a force for each corner. layout.c says how the entries
  * are found, sweep_body.h how they are carried out. */
 #ifndef DEM_ELASTIC_LAYOUT_H
 #define DEM_ELASTIC_LAYOUT_H
@@ -41,6 +42,9 @@ typedef struct layout_entry {
     uint16_t kind;
 } layout_entry;
 
+/* A coupled triangle has two entries: the first one like that of a corner, and in `at`, `to` and `set` of the second
+ * one the places in the ring of the forces on its lowest corner, the next and the last. */
+
 /** Entries by block. */
 typedef struct layout_part {
     intern_span *span; /* [n_blocks] */
@@ -49,24 +53,27 @@ typedef struct layout_part {
 
 typedef struct layout {
     dem_index n_nodes;
-    dem_index n_blocks;  /* of LAYOUT_LANES nodes; up to seven nodes behind them are for the caller */
-    int32_t *order;      /* [n_nodes] the node at each place; NULL: places are node numbers */
-    bool damped, stiff;  /* whether springs are damped, and whether there is an area term */
-    layout_part springs; /* what a block evaluates */
-    layout_part terms;   /* what its nodes sum up, in the order of their rows */
-    layout_part corners; /* its triangles */
+    dem_index n_blocks;                    /* of LAYOUT_LANES nodes; up to seven nodes behind them are for the caller */
+    int32_t *order;                        /* [n_nodes] the node at each place; NULL: places are node numbers */
+    bool damped, stiff;                    /* whether springs are damped, and whether there is an area term */
+    bool coupled;                          /* whether there are couplings */
+    layout_part springs;                   /* what a block evaluates */
+    layout_part terms;                     /* what its nodes sum up, in the order of their rows */
+    layout_part corners;                   /* its triangles */
+    layout_part couplings, coupling_terms; /* the same of coupled triangles as `springs` and `terms` */
     dem_index n_lists, list_capacity;
     int32_t *lists;        /* [n_lists][LAYOUT_LANES] operands */
     intern bonds;          /* [LAYOUT_LANES] of stiffness, rest length; viscosity */
     intern areas;          /* [LAYOUT_LANES] of rest area, area below which the guard acts, area stiffness */
+    intern couples;        /* [LAYOUT_LANES] of three rest lengths and three couplings, from the lowest corner on */
     dem_index reach;       /* blocks: springs go no further up or down */
     dem_index ahead;       /* blocks: positions are read no further away */
     dem_index ring_rows;   /* nodes whose forces the ring holds, a power of 2: of `reach` + 2 blocks or more */
     dem_index ring_length; /* forces in the ring */
 } layout;
 
-/** Compiles. A lattice in which a node has springs to a great part of the others, or springs are coupled, gets no
- *  blocks. Free with layout_free(). */
+/** Compiles. A lattice in which a node has springs to a great part of the others gets no blocks. Free with
+ *  layout_free(). */
 dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c);
 void layout_free(layout *l);
 

@@ -4,14 +4,20 @@
  *   lanes  one number for each of eight nodes, in the order 0 4 1 5 2 6 3 7, which is how pairs interleave without a
  *          permutation across the halves of a vector;
  * and their operations. The sweep_*.c files then define SWEEP and SWEEP_GUARD and include this. Every operation acts on
- * each node alone and rounds as in springs_force(), triangles_force() and forces_acceleration_by(): for each node the
+ * each node alone and rounds as in springs_force(), couplings_add_force(), triangles_force() and
+ * forces_acceleration_by(): for each node the
  * same IEEE operations follow in the same order, which is why the bits are equal. */
 #ifndef DEM_ELASTIC_SWEEP_BODY_H
 #define DEM_ELASTIC_SWEEP_BODY_H
 
 #include "elastic/sweep.h"
 
-#define INLINE static inline __attribute__((always_inline)) /* so that `damped` is known where loops are compiled */
+#define INLINE static inline __attribute__((always_inline)) /* so that laws are known where loops are compiled */
+
+/* What acts beside undamped springs of their own, and whether the pass takes a step. */
+typedef struct laws {
+    bool damped, coupled, fused;
+} laws;
 
 /* The operands of an entry for all lanes. `here` is where those that lie side by side are counted from. */
 INLINE pairs fetch(const layout *l, const double *array, const double *here, int32_t at, bool gathered)
@@ -20,13 +26,15 @@ INLINE pairs fetch(const layout *l, const double *array, const double *here, int
 }
 
 /* The first eight places of a stream are repeated behind its end, so that any eight in a row can be read. */
+INLINE void repeat_first(const layout *l, double *stream)
+{
+    pairs_store(stream + 2 * l->ring_rows, pairs_load(stream));
+}
+
 INLINE void repeat(const layout *l, intern_span span, double *ring)
 {
     const layout_entry *entries = l->springs.entries.items;
-    for (int32_t p = span.first; p < span.end; p++) {
-        double *place = ring + entries[p].to;
-        pairs_store(place + 2 * l->ring_rows, pairs_load(place));
-    }
+    for (int32_t p = span.first; p < span.end; p++) repeat_first(l, ring + entries[p].to);
 }
 
 /* Forces (1) of the springs of which the block has the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), into the ring;
@@ -58,14 +66,56 @@ INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, doubl
     if (damped) repeat(l, span, damping);
 }
 
-/* Each node's sum over its row, in the order of the row: the upper end of a spring subtracts the force on the lower
- * end. */
-INLINE pairs sum_terms(const layout *l, dem_index block, const double *ring)
+/* What couplings add to the tensions of edges, over their lengths, times the edges: `own` and `other` are the couplings
+ * at the ends of an edge, and `before` and `behind` the stretches of the edges there. */
+INLINE pairs pull_edge(pairs edge, lanes length, lanes own, lanes before, lanes other, lanes behind)
 {
-    const intern_span span = l->terms.span[block];
-    const layout_entry *entries = l->terms.entries.items;
+    const lanes tension = lanes_add(lanes_mul(own, before), lanes_mul(other, behind));
+    return pairs_scale(lanes_div(tension, length), edge);
+}
+
+/* Forces of the coupled triangles of which the block has the lowest corners, on each corner, into the ring. */
+INLINE void evaluate_couplings(const sweep *s, dem_index block, double *ring)
+{
+    const layout *l = s->layout;
+    const intern_span span = l->couplings.span[block];
+    const layout_entry *entries = l->couplings.entries.items;
+    const dem_index row = LAYOUT_LANES * block, at_row = row & (l->ring_rows - 1);
+    const double *here = s->x + 2 * row;
+    double *out = ring + 2 * at_row;
+    const pairs x = pairs_load(here);
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e += 2) {
+        const bool gathered = e->kind == LAYOUT_GATHERED;
+        const double *set = (const double *)l->couples.items + e->set;
+        const pairs next = fetch(l, s->x, here, e->at, gathered), last = fetch(l, s->x, here, e->to, gathered);
+        const pairs edge[3] = {pairs_sub(next, x), pairs_sub(last, next), pairs_sub(x, last)};
+        lanes length[3], stretch[3], coupling[3];
+        pairs force[3];
+        for (int c = 0; c < 3; c++) {
+            length[c] = lanes_sqrt(pairs_dot(edge[c], edge[c]));
+            stretch[c] = lanes_sub(length[c], lanes_load(set + c * LAYOUT_LANES));
+            coupling[c] = lanes_load(set + (3 + c) * LAYOUT_LANES);
+        }
+        for (int c = 0; c < 3; c++)
+            force[c] = pull_edge(edge[c], length[c], coupling[c], stretch[(c + 2) % 3], coupling[(c + 1) % 3],
+                                 stretch[(c + 1) % 3]);
+        pairs_store(out + e[1].at, pairs_sub(force[0], force[2]));
+        pairs_store(out + e[1].to, pairs_sub(force[1], force[0]));
+        pairs_store(out + e[1].set, pairs_sub(force[2], force[1]));
+        if (at_row != 0) continue;
+        repeat_first(l, ring + e[1].at);
+        repeat_first(l, ring + e[1].to);
+        repeat_first(l, ring + e[1].set);
+    }
+}
+
+/* Adds to each node's sum the terms of its row, in the order of the row: the upper end of a spring subtracts the force
+ * on the lower end. */
+INLINE pairs sum_terms(const layout *l, const layout_part *part, dem_index block, const double *ring, pairs sum)
+{
+    const intern_span span = part->span[block];
+    const layout_entry *entries = part->entries.items;
     const double *here = ring + 2 * (LAYOUT_LANES * block & (l->ring_rows - 1));
-    pairs sum = pairs_both(0.0, 0.0);
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         if (e->kind == LAYOUT_SUBTRACT) {
             sum = pairs_sub(sum, pairs_load(here + e->at));
@@ -115,12 +165,14 @@ INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
 }
 
 /* a = g + F/m - alpha v; 0 where 1/m = 0, which is a fixed node. */
-INLINE pairs accelerate(const sweep *s, dem_index block, bool damped, const double *ring)
+INLINE pairs accelerate(const sweep *s, dem_index block, laws acting, const double *ring)
 {
     const layout *l = s->layout;
     const dem_index row = LAYOUT_LANES * block;
-    pairs force = sum_terms(l, block, ring);
-    if (damped) force = pairs_add(force, sum_terms(l, block, ring + 2 * l->ring_length));
+    const pairs none = pairs_both(0.0, 0.0);
+    pairs force = sum_terms(l, &l->terms, block, ring, none);
+    if (acting.coupled) force = sum_terms(l, &l->coupling_terms, block, ring, force);
+    if (acting.damped) force = pairs_add(force, sum_terms(l, &l->terms, block, ring + 2 * l->ring_length, none));
     unsigned guarded = 0;
     if (l->corners.span[block].first < l->corners.span[block].end)
         force = pairs_add(force, sum_corners(s, block, &guarded));
@@ -153,19 +205,20 @@ INLINE void kick(const sweep_fused_step *p, dem_index block, pairs a1)
 
 /* Blocks below the first are evaluated only, for the springs that reach into this share from below. Nodes collect their
  * forces a block later than these are computed, when what was stored has reached the cache. */
-INLINE double run(const sweep *s, dem_index first, dem_index last, bool damped, bool fused, double *ring)
+INLINE double run(const sweep *s, dem_index first, dem_index last, laws acting, double *ring)
 {
     const dem_index reach = s->layout->reach, ahead = s->layout->ahead;
     pairs sum = pairs_both(0.0, 0.0);
     for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
-        if (fused && block >= first && block + ahead < last - ahead) drift(s->fused_step, block + ahead);
-        if (block < last) evaluate_springs(s, block, damped, ring);
+        if (acting.fused && block >= first && block + ahead < last - ahead) drift(s->fused_step, block + ahead);
+        if (block < last) evaluate_springs(s, block, acting.damped, ring);
+        if (acting.coupled && block < last) evaluate_couplings(s, block, ring);
         if (block <= first) continue;
         const dem_index at = 2 * LAYOUT_LANES * (block - 1);
-        const pairs a = accelerate(s, block - 1, damped, ring);
+        const pairs a = accelerate(s, block - 1, acting, ring);
         pairs_store(s->a + at, a);
         sum = pairs_add(sum, a);
-        if (fused) kick(s->fused_step, block - 1, a);
+        if (acting.fused) kick(s->fused_step, block - 1, a);
         if (s->u == NULL) continue;
         const pairs v = pairs_load(s->v + at);
         pairs_store(s->u + at, v);
@@ -185,8 +238,10 @@ void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
 
 double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
 {
-    if (s->fused_step != NULL) return run(s, first, last, false, true, ring);
-    return s->layout->damped ? run(s, first, last, true, false, ring) : run(s, first, last, false, false, ring);
+    const layout *l = s->layout;
+    if (l->coupled) return run(s, first, last, (laws){l->damped, true, s->fused_step != NULL}, ring);
+    if (s->fused_step != NULL) return run(s, first, last, (laws){.fused = true}, ring);
+    return l->damped ? run(s, first, last, (laws){.damped = true}, ring) : run(s, first, last, (laws){0}, ring);
 }
 
 #endif
