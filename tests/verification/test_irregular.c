@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lattices that are not regular: nodes moved at random, rings of triangles, triangles with a right angle, springs of
- * one stiffness. Their constants are measured and stay within bands. */
+/* Independent springs in lattices that are not regular: nodes moved at random, rings of triangles, triangles with a
+ * right angle, springs of one stiffness. Their constants are measured and stay within bands. */
 #include <stdbool.h>
 #include <stdlib.h>
 
 #include "support.h"
+
+#include "elastic_bodies.h"
 
 static const double E = 1e7;
 
@@ -67,60 +69,14 @@ TEST(jitter_softens_by_its_square)
 
 /* ---- an unstructured triangulation ---- */
 
-enum { n_rings = 12 };
-
-/* Ring k of a disc has 6 k nodes at the radius k, the next of which begin at any angle. */
-static dem_index first_of(dem_index ring)
-{
-    return ring == 0 ? 0 : 1 + 3 * ring * (ring - 1);
-}
-
-/* Between rings the next triangle stands on the side, of either ring, whose middle comes first. */
-static void fill_ring(dem_lattice *l, dem_index ring, dem_index *t)
-{
-    const dem_index inner = 6 * ring, outer = inner + 6;
-    dem_index i = 0, o = 0;
-    while (i < inner || o < outer) {
-        const dem_index a = first_of(ring) + (inner > 0 ? i % inner : 0), b = first_of(ring + 1) + o % outer;
-        const bool on_outer = o < outer && (inner == 0 || (2 * o + 1) * inner <= (2 * i + 1) * outer || i == inner);
-        dem_index *corner = l->triangles + 3 * (*t)++;
-        corner[0] = a;
-        corner[1] = b;
-        if (on_outer)
-            corner[2] = first_of(ring + 1) + ++o % outer;
-        else
-            corner[2] = first_of(ring) + ++i % inner;
-        if (inner == 0 && o == outer) break;
-    }
-}
-
-static void make_rings(dem_lattice *l)
-{
-    *l = dem_lattice_empty();
-    l->n_nodes = first_of(n_rings + 1);
-    l->n_triangles = 6 * n_rings * n_rings;
-    l->x = calloc((size_t)l->n_nodes, 2 * sizeof *l->x);
-    l->triangles = calloc((size_t)l->n_triangles, 3 * sizeof *l->triangles);
-    assert_true(l->x != NULL && l->triangles != NULL);
-    dem_index t = 0;
-    for (dem_index ring = 1; ring <= n_rings; ring++)
-        for (dem_index j = 0; j < 6 * ring; j++) {
-            const double angle = 2.0 * M_PI * (double)j / (6.0 * (double)ring);
-            l->x[2 * (first_of(ring) + j)] = (double)ring * cos(angle);
-            l->x[2 * (first_of(ring) + j) + 1] = (double)ring * sin(angle);
-        }
-    for (dem_index ring = 0; ring < n_rings; ring++) fill_ring(l, ring, &t);
-    assert_int_equal(t, l->n_triangles);
-}
-
 /* Angles from 45 to 88 degrees: 5 to 10 % softer, nu to 0.02, and isotropic by its sixfold symmetry. */
 TEST(a_disc_of_rings_is_softer_within_a_band)
 {
     static const double ratios[] = {0.1, 1.0 / 3.0, 0.45};
     for (int k = 0; k < 3; k++) {
         const dem_material solid = solid_of(ratios[k]);
-        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
-        make_rings(&lattice);
+        CLEANUP(dem_lattice_free) dem_lattice lattice;
+        elastic_bodies_rings(&lattice, 12);
         assert_ok(dem_lattice_assemble(&lattice, &solid));
         const dem_constants c = measure(&lattice);
         print_message("# rings, nu %.3f: E %.4f, nu %+.4f, anisotropy %.4f\n", ratios[k], c.youngs_modulus / E,
