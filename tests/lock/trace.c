@@ -196,12 +196,19 @@ static void add_frame(trace *t, const dem_reader *reader, dem_index frame)
     }
 }
 
-/* Whether a column came after the stored hashes: entries of the ledger that are 0 in all that is run here. */
+/* Whether a column came after the stored hashes: entries of the ledger that are 0 in all that is run here, and where
+ * obstacles are, which follows from the input. */
 static bool is_new(const dem_reader_column *column)
 {
-    static const char *const names[][2] = {{"history", "contact"},        {"history", "fracture"},
-                                           {"history", "obstacle"},       {"frames", "contact_energy"},
-                                           {"frames", "fracture_energy"}, {"frames", "obstacle_energy"}};
+    static const char *const names[][2] = {{"history", "contact"},
+                                           {"history", "fracture"},
+                                           {"history", "obstacle"},
+                                           {"frames", "contact_energy"},
+                                           {"frames", "fracture_energy"},
+                                           {"frames", "obstacle_energy"},
+                                           {"history", "obstacle_displacement"},
+                                           {"history", "obstacle_angle"},
+                                           {"history", "obstacle_power"}};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
         if (strcmp(column->table, names[k][0]) == 0 && strcmp(column->name, names[k][1]) == 0) return true;
     return false;

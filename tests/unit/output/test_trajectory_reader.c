@@ -390,7 +390,7 @@ TEST(tables_are_what_hdf5_finds)
         }
     }
     assert_int_equal(tables, 7); /* frames, history, events, two probes, two lists */
-    assert_int_equal(n, 14 + 46 + 15 + 5 + 3 + 5 + 5);
+    assert_int_equal(n, 14 + 49 + 15 + 5 + 3 + 5 + 5);
 }
 
 static void expect_column(const dem_reader *reader, const dem_reader_column *expected)
