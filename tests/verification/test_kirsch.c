@@ -8,101 +8,30 @@
  * however fine the lattice: single nodes near the hole do not converge. But this layer gets thinner with a. So what
  * converges in the first order is the mean of the error's size along the ligament from R + 2a on, and the error of
  * every node from 2 R on. */
-#include "harness/cleanup_gsl.h"
+#include "holed_plate.h"
+#include "linear_lattice.h"
 #include "support.h"
 
-#include <complex.h>
 #include <gsl/gsl_integration.h>
-#include <gsl/gsl_multifit.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- the exact solution ---- */
 
-/* Muskhelishvili, with lengths in R, tension 1 and z = x + iy: sxx + syy = 4 Re f, syy - sxx + 2 i sxy = 2 (conj(z)
- * f' + g). The plate is symmetric about both axes, so f = sum a_n z^2n, g = sum b_n z^2n with real a_n, b_n, n =
- * -terms .. terms, and there is no force on |z| = 1 if b_(n-1) = (1 - 2n) a_n + a_(-n). The a_n are those that
- * leave least traction on the outer edges, beside the tension, at points of the quarter x, y > 0. */
-enum { terms = 24, unknowns = 2 * terms + 1, points = 150 };
-
-typedef double _Complex number;
-
-typedef struct plate {
-    double length, height; /* halves of them, in R */
-    double a[unknowns];
-    double error; /* largest traction left on the outer edges */
-} plate;
-
-/* Adds what a_n alone makes at z. */
-static void add_term(double a, int n, number z, double stress[3])
-{
-    const number power = cpow(z, 2 * n), f = a * power, slope = 2.0 * n * f / z;
-    const number g = a * ((1.0 - 2.0 * n) * power + 1.0 / power) / (z * z);
-    const number sum = 4.0 * creal(f), difference = 2.0 * (conj(z) * slope + g);
-    stress[0] += 0.5 * creal(sum - difference);
-    stress[1] += 0.5 * creal(sum + difference);
-    stress[2] += 0.5 * cimag(difference);
-}
-
-/* Makes the terms of order 1 at the corner. */
-static double unit_of(const plate *p, int n)
-{
-    return pow(hypot(p->length, p->height), n < 0 ? 2 * n + 2 : -2 * n);
-}
-
-/* The two tractions at point k: on the end, where one is 1, then on the long edge, which is free. */
-static void set_rows(const plate *p, int k, gsl_matrix *m, gsl_vector *right)
-{
-    const double s = (k % points + 0.5) / points;
-    const bool end = k < points;
-    const number z = end ? p->length + I * s * p->height : s * p->length + I * p->height;
-    for (int n = -terms; n <= terms; n++) {
-        double stress[3] = {0.0, 0.0, 0.0};
-        add_term(unit_of(p, n), n, z, stress);
-        gsl_matrix_set(m, 2 * (size_t)k, (size_t)(n + terms), end ? stress[0] : stress[1]);
-        gsl_matrix_set(m, 2 * (size_t)k + 1, (size_t)(n + terms), stress[2]);
-    }
-    gsl_vector_set(right, 2 * (size_t)k, end ? 1.0 : 0.0);
-    gsl_vector_set(right, 2 * (size_t)k + 1, 0.0);
-}
-
-static plate solve_plate(double length, double height)
-{
-    const size_t n = 4 * points;
-    plate p = {.length = length, .height = height};
-    CLEANUP(free_matrix)
-    gsl_matrix *m = gsl_matrix_alloc(n, unknowns), *covariance = gsl_matrix_alloc(unknowns, unknowns);
-    CLEANUP(free_vector)
-    gsl_vector *right = gsl_vector_alloc(n), *left = gsl_vector_alloc(n), *a = gsl_vector_alloc(unknowns);
-    gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(n, unknowns);
-    double square;
-    for (int k = 0; k < 2 * points; k++) set_rows(&p, k, m, right);
-    assert_int_equal(gsl_multifit_linear(m, right, a, covariance, &square, work), 0);
-    assert_int_equal(gsl_multifit_linear_residuals(m, right, a, left), 0);
-    for (int k = 0; k < unknowns; k++) p.a[k] = gsl_vector_get(a, (size_t)k) * unit_of(&p, k - terms);
-    p.error = fmax(gsl_vector_max(left), -gsl_vector_min(left));
-    gsl_multifit_linear_free(work);
-    return p;
-}
-
-/* Along the load, on the ligament, y in R. */
-static double exact_stress(double y, void *context)
-{
-    const plate *p = context;
-    double stress[3] = {0.0, 0.0, 0.0};
-    for (int n = -terms; n <= terms; n++) add_term(p->a[n + terms], n, I * y, stress);
-    return stress[0];
-}
-
 /* Of a plate of 100 R finite size is left, of the order (1/100)^2. */
 TEST(a_large_plate_is_kirschs)
 {
-    plate p = solve_plate(100.0, 100.0);
+    const holed_plate p = holed_plate_solve(100.0, 100.0);
     for (int k = 0; k <= 40; k++) {
         const double y = 1.0 + 0.1 * k;
-        assert_close(exact_stress(y, &p), 1.0 + 0.5 / (y * y) + 1.5 / (y * y * y * y), 3e-3);
+        assert_close(holed_plate_stress(&p, y), 1.0 + 0.5 / (y * y) + 1.5 / (y * y * y * y), 3e-3);
     }
+}
+
+static double stress_at(double y, void *context)
+{
+    return holed_plate_stress(context, y);
 }
 
 /* What the ligament carries is the load; the series is as good as what it leaves on the edges. */
@@ -110,8 +39,8 @@ TEST(the_ligament_of_the_series_carries_the_load)
 {
     gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(60);
     for (int k = 2; k <= 5; k++) {
-        plate p = solve_plate(k, k);
-        const gsl_function along = {exact_stress, &p};
+        holed_plate p = holed_plate_solve(k, k);
+        const gsl_function along = {stress_at, &p};
         assert_true(p.error < 2e-4);
         assert_close(gsl_integration_glfixed(&along, 1.0, k, gauss), k, 2.0 * k * p.error);
     }
@@ -162,67 +91,13 @@ static double *make_load(const dem_lattice *l, double spacing)
     return load;
 }
 
-/* f = K u of the springs about their rest places. */
-static void multiply(const dem_lattice *l, const double *u, double *f)
-{
-    memset(f, 0, 2 * (size_t)l->n_nodes * sizeof *f);
-    for (dem_index k = 0; k < l->n_springs; k++) {
-        const dem_index i = 2 * l->ends[2 * k], j = 2 * l->ends[2 * k + 1];
-        const double rest = l->rest_length[k], x = l->x[j] - l->x[i], y = l->x[j + 1] - l->x[i + 1];
-        const double pull = l->stiffness[k] / (rest * rest * rest) * (x * (u[i] - u[j]) + y * (u[i + 1] - u[j + 1]));
-        f[i] += pull * x;
-        f[i + 1] += pull * y;
-        f[j] -= pull * x;
-        f[j + 1] -= pull * y;
-    }
-}
-
-static double product(const double *a, const double *b, size_t n)
-{
-    double sum = 0.0;
-    for (size_t k = 0; k < n; k++) sum += a[k] * b[k];
-    return sum;
-}
-
-/* K u = f to a residual of 1e-8; f has no resultant, so that rigid motions do not come in. To be freed. */
-static double *solve(const dem_lattice *l, const double *f)
-{
-    const size_t n = 2 * (size_t)l->n_nodes, size = n * sizeof(double);
-    double *u = calloc(4 * n, sizeof *u), *r = u + n, *p = r + n, *q = p + n;
-    assert_non_null(u);
-    memcpy(r, f, size);
-    memcpy(p, f, size);
-    double rr = product(r, r, n);
-    const double goal = 1e-16 * rr;
-    for (int k = 0; rr > goal; k++) {
-        assert_true(k < 10000);
-        multiply(l, p, q);
-        const double step = rr / product(p, q, n), before = rr;
-        for (size_t c = 0; c < n; c++) {
-            u[c] += step * p[c];
-            r[c] -= step * q[c];
-        }
-        rr = product(r, r, n);
-        for (size_t c = 0; c < n; c++) p[c] = r[c] + rr / before * p[c];
-    }
-    return u;
-}
-
 /* Stresses over the tension, [n_nodes][3], of a plate that is pulled: to be freed. Displacements are scaled down to
  * strains of some 1e-6, where the lattice is linear to that and rounding makes 1e-9. */
 static double *pull(dem_lattice *l, double spacing)
 {
-    const double scale = 1e-3;
-    CLEANUP(support_close) support_run run;
-    const dem_options options = support_options();
-    CLEANUP(free_memory) double *load = make_load(l, spacing), *u = solve(l, load);
-    double *stress = malloc(3 * (size_t)l->n_nodes * sizeof *stress);
-    l->position = malloc(2 * (size_t)l->n_nodes * sizeof *l->position);
-    assert_true(stress != NULL && l->position != NULL);
-    for (dem_index k = 0; k < 2 * l->n_nodes; k++) l->position[k] = l->x[k] + scale * u[k];
-    support_open(&run, l, NULL, 0, &options);
-    dem_simulation_stress(run.simulation, stress);
-    for (dem_index k = 0; k < 3 * l->n_nodes; k++) stress[k] /= scale * tension;
+    CLEANUP(free_memory) double *load = make_load(l, spacing);
+    double *stress = linear_lattice_stress(l, load, 1e-3);
+    for (dem_index k = 0; k < 3 * l->n_nodes; k++) stress[k] /= tension;
     return stress;
 }
 
@@ -250,7 +125,7 @@ typedef struct errors {
 } errors;
 
 /* Errors of the nodes above the hole and below. */
-static errors compare(const dem_lattice *l, const double *stress, const hole *h, double spacing, plate *p)
+static errors compare(const dem_lattice *l, const double *stress, const hole *h, double spacing, const holed_plate *p)
 {
     errors e = {0};
     double n = 0.0;
@@ -258,7 +133,7 @@ static errors compare(const dem_lattice *l, const double *stress, const hole *h,
         const double y = fabs(l->x[2 * i + 1] - h->y);
         e.peak = fmax(e.peak, stress[3 * i]);
         if (fabs(l->x[2 * i]) > 1e-6 || y < h->radius + 2.0 * spacing) continue;
-        const double error = fabs(stress[3 * i] - exact_stress(y / h->radius, p));
+        const double error = fabs(stress[3 * i] - holed_plate_stress(p, y / h->radius));
         e.mean += error;
         e.nearest = fmax(e.nearest, error);
         if (y > 2.0) e.far = fmax(e.far, error);
@@ -277,8 +152,9 @@ static errors measure(double spacing)
     hole h = {.y = 0.5 * height, .radius = 1.0};
     assert_ok(dem_lattice_cut(&l, is_outside, &h));
     assert_ok(dem_lattice_assemble(&l, &sheet));
-    h.radius = spacing * sqrt((double)(whole - l.n_triangles) * sqrt(0.1875) / M_PI);     /* of the same area */
-    plate p = solve_plate((length - 0.25 * spacing) / h.radius, 0.5 * height / h.radius); /* mean of the toothed ends */
+    h.radius = spacing * sqrt((double)(whole - l.n_triangles) * sqrt(0.1875) / M_PI); /* of the same area */
+    const holed_plate p =
+        holed_plate_solve((length - 0.25 * spacing) / h.radius, 0.5 * height / h.radius); /* mean of the toothed ends */
     CLEANUP(free_memory) double *stress = pull(&l, spacing);
     const errors e = compare(&l, stress, &h, spacing, &p);
     return e;
