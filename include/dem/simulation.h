@@ -75,6 +75,13 @@ typedef enum dem_contact_method {
     DEM_CONTACT_EXACT  /**< the step of the whole body ends at each, located by root functions */
 } dem_contact_method;
 
+/** Which surfaces of bodies push each other off. */
+typedef enum dem_bodies {
+    DEM_BODIES_NONE = 0, /**< none: bodies pass through each other */
+    DEM_BODIES_OTHERS,   /**< those of different bodies */
+    DEM_BODIES_ALL       /**< all: a body touches itself, too */
+} dem_bodies;
+
 /** \return DEM_ERROR_ARGUMENT if this machine, or this build of the library, does not have the kernel */
 DEM_API dem_status dem_kernel_check(dem_kernel kind);
 
@@ -110,6 +117,10 @@ typedef struct dem_options {
     const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
     dem_force force;                /**< default NULL: no external force */
     void *force_context;            /**< handed to it */
+    dem_bodies bodies;              /**< default DEM_BODIES_NONE. Others need bodies with triangles */
+    double contact_thickness; /**< m, default 0: of each body a fifth of its mean boundary edge. The distance at which
+                                   surfaces begin to push: less than half of the shortest boundary edge */
+    double contact_stiffness; /**< default 0: 1. Factor of the modulus with which they push, 0.01 to 100 */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
@@ -138,7 +149,7 @@ typedef struct dem_energy {
     double elastic;  /**< of the springs and their couplings                                           (1) */
     double area;     /**< of the area term; < 0 where nu < 1/3 in plane stress */
     double guard;    /**< of the folding guard */
-    double contact;  /**< of surfaces that press on each other: 0, as bodies do not touch each other yet */
+    double contact;  /**< of surfaces of bodies that push each other off */
     double gravity;  /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
     double impact;   /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
     double friction; /**< taken by lasting contacts that slide so far, >= 0 */
@@ -267,7 +278,7 @@ typedef struct dem_strain {
     dem_index inverted;               /**< triangles of area <= 0 */
 } dem_strain;
 
-/** Bodies that run into each other, or into themselves: nothing prevents it, contact is with obstacles only. Nodes on
+/** Bodies that run into each other, or into themselves, which only the option `bodies` prevents. Nodes on
  *  the boundary of the triangulation inside triangles of which they are no corners; looked for at the start and after
  *  every 16th accepted step. */
 typedef struct dem_overlap {

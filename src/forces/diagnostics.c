@@ -54,6 +54,7 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
     }
     energy.kinetic = reduce_sum(&kinetic);
     energy.gravity = reduce_sum(&weight);
+    energy.contact = f->surfaces != NULL ? surface_contact_energy(f->surfaces, x) : 0.0;
     energy.motion = energy.kinetic + energy.elastic + energy.area + energy.guard + energy.contact;
     return energy;
 }
@@ -257,7 +258,7 @@ static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i
 static vec2 free_acceleration(const forces *f, dem_index i, const double *external, const double *x, const double *v)
 {
     const vec2 own = forces_own_acceleration(f, i, x, v);
-    return external != NULL ? forces_with_external(f, i, own, vec2_at(external, i)) : own;
+    return external != NULL ? forces_with(f, i, own, vec2_at(external, i)) : own;
 }
 
 /* The sum of the forces of the condition on its nodes, and the mean of their displacements from the places where the

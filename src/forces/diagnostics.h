@@ -6,7 +6,8 @@
 
 #include "forces/forces.h"
 
-/** Kinetic, elastic, area, guard and gravity energy of positions x and velocities v [n][2]; the other entries are 0. */
+/** Kinetic, elastic, area, guard, contact and gravity energy of positions x and velocities v [n][2]; the other entries
+ *  are 0. */
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v);
 
 dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v);

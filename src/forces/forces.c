@@ -34,7 +34,7 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
     /* Most nodes end here. The free acceleration of the others is computed anew, with the external force in it. */
     const unsigned held = forces_held(f, i);
     if (held == 0) return power;
-    const vec2 a = forces_with_external(f, i, forces_own_acceleration(f, i, x, v), external);
+    const vec2 a = forces_with(f, i, forces_own_acceleration(f, i, x, v), external);
     if (held & DEM_COMPONENT_X) power.work -= mass * a.x * vi.x;
     if (held & DEM_COMPONENT_Y) power.work -= mass * a.y * vi.y;
     return power;

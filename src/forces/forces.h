@@ -3,10 +3,11 @@
  * that these depend on, their power, and their energy. Here each node is computed for itself; the sweep over all nodes
  * (kernel.c) and the springs near an event (local_springs.c) evaluate the same terms, the sweep with equal bits.
  *
- * A further law, such as contact between surfaces, gets files of its own and a pointer in `forces`, which is NULL where
- * there is none; boundary conditions are the example (forces_push). The law adds
+ * A further law gets files of its own and a pointer in `forces`, which is NULL where there is none; boundary conditions
+ * (forces_push) and the contact of surfaces are the examples. The law adds
  *   - its force on a node to forces_own_acceleration(), and the nodes on which it acts to the rows that kernel.c
- *     evaluates one by one behind the sweep (accelerate_rest), which gives the sweep the same bits;
+ *     evaluates one by one behind the sweep (accelerate_rest), which gives the sweep the same bits; or it is added to
+ *     what the sweep has left, as that of surfaces (push_surfaces);
  *   - the nodes that this force depends on to forces_next_neighbour(), such that they hold for a whole step;
  *   - its energy to forces_node_energy() and diagnostics_energy(), or else its power to forces_node_power() and the
  *     sums over all nodes below it;
@@ -19,6 +20,7 @@
 #include "forces/boundary_conditions.h"
 #include "forces/external_force.h"
 #include "model/model.h"
+#include "surface_contact/surface_contact.h"
 
 /** The laws of one simulation. Springs and triangles belong to the model, which many simulations may share. */
 typedef struct forces {
@@ -27,6 +29,7 @@ typedef struct forces {
     double gravity[2];                     /* m/s^2 */
     double mass_damping;                   /* 1/s */
     const boundary_conditions *boundaries; /* NULL: none */
+    surface_contact *surfaces;             /* NULL: bodies do not touch each other */
     external_force *external;              /* NULL: none from outside */
     dem_index clock;                       /* index of the time among the velocities */
 } forces;
@@ -57,7 +60,8 @@ static inline bool forces_are_damped(const forces *f)
     return forces_couple_velocities(f) || f->mass_damping > 0.0;
 }
 
-/** Whether undamped springs are all that acts between nodes, and forces_own_acceleration() does not depend on time. */
+/** Whether undamped springs are all that acts between nodes, contact of surfaces apart, and forces_own_acceleration()
+ *  does not depend on time. */
 static inline bool forces_are_plain(const forces *f)
 {
     const triangles *t = &f->model->triangles;
@@ -77,13 +81,14 @@ static inline unsigned forces_held(const forces *f, dem_index i)
 }
 
 /** Goes through the nodes on which the force on one node depends: the other ends of its springs, then the other corners
- *  of its triangles, of elements that are whole. Couplings add none, as every edge of a coupled triangle is a spring.
- *  Some nodes come more than once. */
+ *  of its triangles, of elements that are whole, then the nodes of its contact pairs, itself included. Couplings add
+ *  none, as every edge of a coupled triangle is a spring. Some nodes come more than once. */
 typedef struct forces_neighbours {
     const forces *f;
     const element_state *state;      /* NULL: the elements of the node are whole */
     const dem_index *other, *others; /* ends of springs that are to come, and where they end */
     dem_index corner, corners;       /* the same of corners, two to each slot of a triangle */
+    surface_neighbours surface;      /* the same of contact pairs */
     dem_index node;                  /* the present one */
 } forces_neighbours;
 
@@ -97,7 +102,8 @@ static inline forces_neighbours forces_neighbours_of(const forces *f, dem_index 
                                .other = s->neighbour + s->row[i],
                                .others = s->neighbour + s->row[i + 1],
                                .corner = 2 * t[0],
-                               .corners = 2 * t[1]};
+                               .corners = 2 * t[1],
+                               .surface = surface_contact_neighbours(f->surfaces, i)};
 }
 
 /** Goes to the next one.  \return whether there is one */
@@ -114,7 +120,7 @@ static inline bool forces_next_neighbour(forces_neighbours *n)
         n->node = (n->corner++ & 1 ? t->last : t->next)[p];
         if (n->state == NULL || !n->state->triangle[t->triangle[p]]) return true;
     }
-    return false;
+    return surface_contact_next_neighbour(&n->surface, &n->node);
 }
 
 /* ---- accelerations ---- */
@@ -153,28 +159,38 @@ static inline vec2 forces_acceleration_by(const forces *f, dem_index i, vec2 for
     return vec2_along(a, -f->mass_damping, v);
 }
 
-/** Acceleration of node i, m/s^2, free of contact and of the external force: (4). A fixed node has none. */
-static inline vec2 forces_own_acceleration(const forces *f, dem_index i, const double *x, const double *v)
+/** Acceleration of node i, m/s^2, by its body alone: its elements, its weight, its drag, and what boundary conditions
+ *  give. A fixed node has none. */
+static inline vec2 forces_body_acceleration(const forces *f, dem_index i, const double *x, const double *v)
 {
     vec2 force = forces_of_elements(f, i, x, v);
     if (forces_push(f)) force = vec2_add(force, boundary_conditions_force(f->boundaries, i, v[f->clock]));
     return forces_acceleration_by(f, i, force, vec2_at(v, i));
 }
 
-/** An acceleration with an external force, N, added: a + f/m. */
-static inline vec2 forces_with_external(const forces *f, dem_index i, vec2 own, vec2 external)
+/** An acceleration with a further force, N, added: a + f/m. */
+static inline vec2 forces_with(const forces *f, dem_index i, vec2 own, vec2 further)
 {
-    return vec2_along(own, f->model->inverse_mass[i], external);
+    return vec2_along(own, f->model->inverse_mass[i], further);
 }
 
-/** Acceleration of node i, m/s^2, free of contact, with the external force. */
+/** Acceleration of node i, m/s^2, free of contact with obstacles and of the external force: (4). */
+static inline vec2 forces_own_acceleration(const forces *f, dem_index i, const double *x, const double *v)
+{
+    const vec2 a = forces_body_acceleration(f, i, x, v);
+    vec2 push;
+    if (!surface_contact_has(f->surfaces, i) || !surface_contact_force(f->surfaces, i, x, &push)) return a;
+    return forces_with(f, i, a, push);
+}
+
+/** Acceleration of node i, m/s^2, free of contact with obstacles, with the external force. */
 static inline vec2 forces_acceleration(const forces *f, dem_index i, const double *x, const double *v)
 {
     const vec2 a = forces_own_acceleration(f, i, x, v);
     if (f->external == NULL) return a;
     double force[2];
     external_force_of_node(f->external, v[f->clock], i, x + 2 * i, v + 2 * i, force);
-    return forces_with_external(f, i, a, vec2_at(force, 0));
+    return forces_with(f, i, a, vec2_at(force, 0));
 }
 
 /** Puts the prescribed components at t into velocities u and accelerations a [n_nodes][2]; v has the velocities. The
@@ -198,16 +214,17 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
 /** Power that damping takes, of all springs and masses, W, >= 0. */
 double forces_damping_power(const forces *f, const double *x, const double *v);
 
-/** Energy that depends on the position of node i, J: that of its springs and their couplings, its triangles and its
- *  weight. */
+/** Energy that depends on the position of node i, J: that of its springs and their couplings, its triangles, its contact
+ *  pairs and its weight. */
 static inline double forces_node_energy(const forces *f, dem_index i, const double *x)
 {
     const dem_model *model = f->model;
     const double weight = model->lattice.mass[i] * vec2_dot(vec2_at(f->gravity, 0), vec2_at(x, i));
     const element_state *state = element_state_at(f->elements, i);
-    return springs_node_energy(&model->springs, element_state_springs(state), i, x) +
-           couplings_node_energy(&model->couplings, element_state_triangles(state), i, x) +
-           triangles_node_energy(&model->triangles, element_state_triangles(state), i, x) - weight;
+    const double own = springs_node_energy(&model->springs, element_state_springs(state), i, x) +
+                       couplings_node_energy(&model->couplings, element_state_triangles(state), i, x) +
+                       triangles_node_energy(&model->triangles, element_state_triangles(state), i, x) - weight;
+    return surface_contact_has(f->surfaces, i) ? own + surface_contact_node_energy(f->surfaces, i, x) : own;
 }
 
 #endif

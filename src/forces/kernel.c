@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Accelerations of all nodes, equations (3) and (4), by a sweep over the blocks of the layout, shared among threads
  * (docs/algorithms.md, How forces are evaluated). What is not in blocks, and what is rare, is evaluated row by row
- * behind the sweep: nodes on which the guard acts, nodes beside broken elements, nodes with given forces. Each node's
- * sum is that of forces_own_acceleration() in the same order, so the bits depend neither on the instruction set nor on
- * the number of threads. The choice of the instruction set is here, too. The arithmetic of a block is in
- * elastic/sweep_body.h, that of a row in forces.h; contact forces are added elsewhere (contact/contact_forces.c). */
+ * behind the sweep: nodes on which the guard acts, nodes beside broken elements, nodes with given forces. The contact
+ * of surfaces is added to what is there then, and last the external force. Each node's sum is that of
+ * forces_own_acceleration() in the same order, so the bits depend neither on the instruction set nor on the number of
+ * threads. The choice of the instruction set is here, too. The arithmetic of a block is in elastic/sweep_body.h, that
+ * of a row in forces.h; contact forces are added elsewhere (contact/contact_forces.c). */
 #include "forces/kernel.h"
 
 #include <stdlib.h>
@@ -201,18 +202,27 @@ static void drift_ends(const kernel *k, int t, const sweep_fused_step *p)
     drift(k, p, LAYOUT_LANES * high, t + 1 < k->n_threads ? LAYOUT_LANES * b.last : l->n_nodes);
 }
 
-/* Acceleration of one node, in place of what the sweep has left there. In a fused step the node is drifted again, since
- * the sweep has already added its kick to the velocity.
+/* Drifts a node again in a fused step, since the sweep has already added its kick to the velocity. */
+static void drift_again(const kernel *k, const kernel_state *y, dem_index i)
+{
+    if (y->fused_step != NULL) drift(k, y->fused_step, i, i + 1);
+}
+
+/* Puts an acceleration in place of what the sweep has left there. In a fused step the node, drifted again, is kicked.
  * \return what it adds to the sum of the sweep */
-static double accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
+static double put_row(const kernel *k, const kernel_state *y, dem_index i, vec2 a)
 {
     const sweep_fused_step *p = y->fused_step;
-    if (p != NULL) drift(k, p, i, i + 1);
-    const vec2 a = forces_own_acceleration(f, i, y->x, y->v);
     vec2_put(y->a, i, a);
     const dem_index at = vec2_row(i);
     if (p != NULL) k->ops->kick(p->v1 + at, p->a0 + at, y->a + at, p->h, vec2_row(1));
     return a.x + a.y;
+}
+
+static double accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
+{
+    drift_again(k, y, i);
+    return put_row(k, y, i, forces_body_acceleration(f, i, y->x, y->v));
 }
 
 /* u = v, for the nodes for which the sweep does not do it. */
@@ -263,6 +273,21 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
     return sum;
 }
 
+/* a += f/m with the forces f of other surfaces, on the nodes that feel any. Positions in a fused step are known by now,
+ * and a drift leaves them as they are. */
+static double push_surfaces(const kernel *k, const forces *f, const kernel_state *y)
+{
+    surface_contact *c = f->surfaces;
+    double sum = 0.0;
+    if (!surface_contact_evaluate(c, y->x)) return (double)NAN;
+    for (dem_index j = 0; j < c->n_pushed; j++) {
+        const dem_index i = c->pushed[j];
+        drift_again(k, y, i);
+        sum += put_row(k, y, i, forces_with(f, i, vec2_at(y->a, i), vec2_at(c->force, i)));
+    }
+    return sum;
+}
+
 /* a += f/m with the external force f, evaluated for all nodes in one call. */
 static double push(const forces *f, const kernel_state *y)
 {
@@ -270,7 +295,7 @@ static double push(const forces *f, const kernel_state *y)
     double sum = 0.0;
     external_force_evaluate(c, &(dem_force_query){y->v[f->clock], c->n_nodes, c->all, y->x, y->v});
     for (dem_index i = 0; i < c->n_nodes; i++) {
-        const vec2 a = forces_with_external(f, i, vec2_at(y->a, i), vec2_at(c->value, i));
+        const vec2 a = forces_with(f, i, vec2_at(y->a, i), vec2_at(c->value, i));
         vec2_put(y->a, i, a);
         sum += a.x + a.y;
     }
@@ -317,6 +342,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     sum += accelerate_rest(k, f, y);
     if (f->elements != NULL && !isfinite(sum)) sum = sum_up(y, n);
+    if (f->surfaces != NULL) sum += push_surfaces(k, f, y);
     return f->external != NULL ? sum + push(f, y) : sum;
 }
 

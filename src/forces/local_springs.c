@@ -2,8 +2,8 @@
 /* Accelerations of the nodes near an event, as the functions of local_forces.h. Where undamped springs are all that
  * acts between nodes (`plain`) they are listed by local numbers, once for an event, and each is evaluated once for both
  * ends. Otherwise every node is evaluated by forces.h in a state of all nodes. The two differ in the order of sums,
- * hence by rounding. Contacts near the event are not here but in contact/contact_constraints.c; the step over the
- * neighbourhood is in events/local_correction.c. */
+ * hence by rounding. Contacts with obstacles near the event are not here but in contact/contact_constraints.c; the step
+ * over the neighbourhood is in events/local_correction.c. */
 #include "forces/local_springs.h"
 
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 
 void local_springs_create(local_springs *out, const forces *f, const state_layout *l)
 {
-    *out = (local_springs){.forces = f, .velocities = state_velocities(l), .plain = forces_are_plain(f)};
+    *out = (local_springs){.forces = f, .velocities = state_velocities(l)};
 }
 
 void local_springs_destroy(local_springs *b)
@@ -76,12 +76,21 @@ static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
     }
 }
 
+/* Whether springs are all that acts between the nodes: what acts at all, and no node is near another surface. */
+static bool are_plain(const forces *f, const local_nodes *nodes)
+{
+    for (dem_index j = 0; f->surfaces != NULL && j < nodes->n; j++)
+        if (surface_contact_has(f->surfaces, nodes->list[j])) return false;
+    return forces_are_plain(f);
+}
+
 /* Springs are listed ring by ring, so that those which act on ring r or nearer are the first bonds_end[r]. */
 static dem_status local_springs_gather(void *self, const local_nodes *nodes)
 {
     local_springs *b = self;
     const springs *s = &b->forces->model->springs;
     dem_index most = 0;
+    b->plain = are_plain(b->forces, nodes);
     if (!b->plain) return DEM_OK;
     for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++)
         most += s->row[nodes->list[j] + 1] - s->row[nodes->list[j]];
@@ -153,7 +162,7 @@ static void local_springs_accelerate(void *self, const local_nodes *nodes, int r
         vec2_put(a, j, forces_own_acceleration(f, nodes->list[j], s->y, v));
     local_springs_evaluate_external(self, nodes, ring, s);
     for (dem_index j = 0; j < nodes->end[ring] && f->external != NULL; j++)
-        vec2_put(a, j, forces_with_external(f, nodes->list[j], vec2_at(a, j), vec2_at(f->external->value, j)));
+        vec2_put(a, j, forces_with(f, nodes->list[j], vec2_at(a, j), vec2_at(f->external->value, j)));
 }
 
 /* A single node, with the bits of the sweep over all nodes. */
@@ -183,7 +192,7 @@ local_forces local_springs_forces(local_springs *b)
     return (local_forces){.self = b,
                           .couple_velocities = forces_couple_velocities(f),
                           .are_driven = forces_are_driven(f),
-                          .read_state = !b->plain,
+                          .read_state = !forces_are_plain(f) || f->surfaces != NULL,
                           .have_power = forces_have_power(f),
                           .held = f->boundaries != NULL ? f->boundaries->held : NULL,
                           .add_neighbours = local_springs_add_neighbours,

@@ -15,7 +15,7 @@ typedef struct local_bond {
 typedef struct local_springs {
     const forces *forces;
     dem_index velocities;                   /* where they begin in a state */
-    bool plain;                             /* springs are listed */
+    bool plain;                             /* springs are listed: of the nodes gathered last */
     dem_index bonds_end[LOCAL_NODES_RINGS]; /* those that act on the nodes of ring r or nearer */
     dem_index n_bonds, capacity;
     local_bond *bonds;               /* [n_bonds] */

@@ -488,6 +488,11 @@ module dem_c
     enumerator :: DEM_CONTACT_LOCAL = 0, DEM_CONTACT_EXACT = 1
   end enum
 
+  integer, parameter :: dem_bodies = c_int
+  enum, bind(c)
+    enumerator :: DEM_BODIES_NONE = 0, DEM_BODIES_OTHERS = 1, DEM_BODIES_ALL = 2
+  end enum
+
   integer, parameter :: dem_contact_state = c_int
   enum, bind(c)
     enumerator :: DEM_CONTACT_FREE = 0, DEM_CONTACT_SLIP = 1, DEM_CONTACT_STICK = 2
@@ -515,7 +520,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_options
-    integer(c_size_t) :: struct_size = 176
+    integer(c_size_t) :: struct_size = 200
     integer(dem_method) :: method = 0
     real(c_double) :: gravity(3) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
     real(c_double) :: penetration_tolerance = 0, rest_speed = 0
@@ -529,6 +534,8 @@ module dem_c
     type(c_ptr) :: boundaries = c_null_ptr
     type(c_funptr) :: force = c_null_funptr
     type(c_ptr) :: force_context = c_null_ptr
+    integer(dem_bodies) :: bodies = 0
+    real(c_double) :: contact_thickness = 0, contact_stiffness = 0
   end type
 
   type, bind(c) :: dem_energy

@@ -5,6 +5,7 @@
  * Checkpoints). Entries are structs of numbers of 8 bytes, without gaps, so that all their bytes are defined. Event
  * sources add their own (src/contact/contact_entry.c). Files, and their checksums, are written and read in
  * src/base/checkpoint_entries.c; nothing that comes from one is trusted here. */
+#include "simulation/body_contact.h"
 #include "simulation/checkpoint.h"
 
 #include <math.h>
@@ -185,6 +186,7 @@ static dem_status get(dem_simulation *s, const dem_checkpoint *checkpoint, numbe
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
     TRY(check_numbers(n));
     TRY(find_state(s, checkpoint, y));
+    TRY(body_contact_follow(s, *y));
     return source_list_restore(&s->sources, checkpoint, n->t, *y);
 }
 

@@ -25,15 +25,15 @@ dem_status options_read(dem_options *ours, const dem_options *theirs)
 
 dem_status options_check(const dem_options *o)
 {
-    const double lengths[] = {o->spacing,   o->v_scale, o->max_step, o->fixed_step, o->penetration_tolerance,
-                              o->rest_speed};
-    static const char *const names[] = {"spacing",   "v_scale", "max_step", "fixed_step", "penetration_tolerance",
-                                        "rest_speed"};
+    const double lengths[] = {o->spacing,    o->v_scale,          o->max_step, o->fixed_step, o->penetration_tolerance,
+                              o->rest_speed, o->contact_thickness};
+    static const char *const names[] = {
+        "spacing", "v_scale", "max_step", "fixed_step", "penetration_tolerance", "rest_speed", "contact_thickness"};
     CHECK(isfinite(o->gravity[0]) && isfinite(o->gravity[1]), DEM_ERROR_ARGUMENT, "gravity (%g, %g) is not finite",
           o->gravity[0], o->gravity[1]);
     CHECK(o->gravity[2] == 0.0, DEM_ERROR_ARGUMENT, "gravity has a third component in the plane: %g", o->gravity[2]);
     CHECK(o->rtol >= 1e-13 && o->rtol <= 0.1, DEM_ERROR_ARGUMENT, "rtol must be in [1e-13, 0.1], got %g", o->rtol);
-    for (int k = 0; k < 6; k++)
+    for (int k = 0; k < 7; k++)
         CHECK(isfinite(lengths[k]) && lengths[k] >= 0.0, DEM_ERROR_ARGUMENT, "%s must be >= 0, got %g", names[k],
               lengths[k]);
     CHECK(isfinite(o->mass_damping) && o->mass_damping >= 0.0, DEM_ERROR_ARGUMENT, "mass_damping must be >= 0, got %g",
@@ -44,6 +44,10 @@ dem_status options_check(const dem_options *o)
     CHECK(o->contact == DEM_CONTACT_LOCAL || o->contact == DEM_CONTACT_EXACT, DEM_ERROR_ARGUMENT,
           "unknown contact method %d", (int)o->contact);
     CHECK(o->max_impacts >= 1, DEM_ERROR_ARGUMENT, "max_impacts must be >= 1, got %lld", (long long)o->max_impacts);
+    CHECK(o->bodies >= DEM_BODIES_NONE && o->bodies <= DEM_BODIES_ALL, DEM_ERROR_ARGUMENT,
+          "unknown contact of bodies %d", (int)o->bodies);
+    CHECK(o->contact_stiffness == 0.0 || (o->contact_stiffness >= 0.01 && o->contact_stiffness <= 100.0),
+          DEM_ERROR_ARGUMENT, "contact_stiffness must be in [0.01, 100], got %g", o->contact_stiffness);
     CHECK(o->checkpoint_steps >= 0, DEM_ERROR_ARGUMENT, "checkpoint_steps must be >= 0, got %lld",
           (long long)o->checkpoint_steps);
     return DEM_OK;
@@ -95,6 +99,7 @@ dem_status options_fill(dem_options *o, const dem_model *model, const boundary_c
     if (o->window < 0.0 && o->contact == DEM_CONTACT_EXACT && model->omega_max > 0.0)
         o->window = window_share * fmin(1.0 / model->omega_max, 2.0 * o->max_step);
     o->window = fmax(o->window, 0.0);
+    if (o->contact_stiffness == 0.0) o->contact_stiffness = 1.0;
     if (o->v_scale == 0.0) o->v_scale = default_v_scale(o, model, b);
     CHECK(o->v_scale > 0.0, DEM_ERROR_ARGUMENT, "nothing sets a scale of speed: the option v_scale is needed, in m/s");
     return DEM_OK;

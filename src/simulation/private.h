@@ -37,9 +37,11 @@ struct dem_simulation {
     dem_options options; /* every default replaced */
     state_layout layout; /* of y */
     boundary_conditions boundaries;
-    external_force *external; /* NULL: none */
-    held_forces held_forces;  /* external ones, in the state as seen, if `measures` has them */
-    forces forces;            /* on nodes, without those of contacts */
+    external_force *external;  /* NULL: none */
+    surface_contact *surfaces; /* contact of bodies with each other; NULL: none */
+    bool outgrown;             /* events in the step in hand have brought surfaces nearer than the step knew */
+    held_forces held_forces;   /* external ones, in the state as seen, if `measures` has them */
+    forces forces;             /* on nodes, without those of contacts */
     kernel kernel;
     overlap overlap;
     automaton automaton;

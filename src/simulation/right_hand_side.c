@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The right-hand side of y = (x, v), (3) and (4) of docs/method.md:
- *   x' = v,   m v' = m g + springs, triangles, damping and forces from outside + forces of closed contacts,
+ *   x' = v,   m v' = m g + springs, triangles, damping, other surfaces and forces from outside + closed contacts,
  * with prescribed components given, and behind the nodes the rates of the quadratures, which are integrated along. Here
  * the parts are put together in their order; the forces of nodes are in src/forces, those of contacts in src/contact.
  * The integrator (src/time) sees only the table ode_problem that is filled in at the end. */
@@ -9,6 +9,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
+#include "simulation/body_contact.h"
 
 /* The message for a derivative that is not finite: the first node whose velocity or acceleration is not, and where it
  * is. */
@@ -91,11 +92,12 @@ static double root_function(const dense_output *step, void *context)
     return reduce_min(automaton_root_function(&s->automaton, step, s->frame));
 }
 
-/* Where the folding guard acts, triangles are stiffer than at rest: by how much, for fixed steps. */
+/* Where the folding guard acts, triangles are stiffer than at rest, and surfaces in contact are: by how much, for fixed
+ * steps. */
 static double stiffening(const double *y, void *context)
 {
     dem_simulation *s = context;
-    return reduce_max(kernel_stiffening(&s->kernel, &s->forces, y));
+    return reduce_max(body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y));
 }
 
 /* Root functions are watched with `exact` only, and where there is something to touch. What counts as an error of 1 is

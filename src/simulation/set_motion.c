@@ -8,6 +8,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "forces/diagnostics.h"
+#include "simulation/body_contact.h"
 #include "simulation/query.h"
 
 /* Which components of a node may not be changed: all of a fixed one, those that are prescribed. */
@@ -33,14 +34,15 @@ static dem_status check(const dem_simulation *s, const char *what, const double 
 }
 
 /* Energy of motion and deformation, and of weight, J: what the new state may have more or less of. */
-static double mechanical_energy(const dem_simulation *s, const double *y)
+static double mechanical_energy(dem_simulation *s, const double *y)
 {
+    (void)body_contact_follow(s, y); /* cannot fail: positions have been checked */
     const dem_energy e = diagnostics_energy(&s->forces, y, y + state_velocities(&s->layout));
     return e.motion + e.gravity;
 }
 
 /* Puts x and v into a state, and the energy that this takes into its work: the difference of mechanical energies, J. */
-static void put(const dem_simulation *s, const double *x, const double *v, double *y)
+static void put(dem_simulation *s, const double *x, const double *v, double *y)
 {
     const state_layout *l = &s->layout;
     const size_t size = (size_t)state_row(l, l->n_nodes) * sizeof *y;
@@ -49,6 +51,13 @@ static void put(const dem_simulation *s, const double *x, const double *v, doubl
     if (x != NULL) memmove(y, x, size); /* x may be the array that is seen */
     if (v != NULL) memmove(own_v, v, size);
     *work += mechanical_energy(s, y) - before;
+}
+
+/* Refused positions leave the lists of surfaces as they were before. */
+static dem_status check_surfaces(dem_simulation *s, const double *x)
+{
+    const dem_status status = reduce_status(body_contact_check_start(s, x), 0.0);
+    return status == DEM_OK ? DEM_OK : status_first(status, body_contact_follow(s, s->seen));
 }
 
 /* The state as seen, with contacts and ledger of that time, is asked for first: it takes the queue back to that time.
@@ -62,6 +71,7 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     TRY(reduce_status(check(s, "place", x, seen.x), 0.0));
     TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
     if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
+    if (x != NULL) TRY(check_surfaces(s, x));
     if (s->seen != s->frame) memcpy(s->frame, s->seen, (size_t)state_size(&s->layout) * sizeof *s->frame);
     put(s, x, v, s->frame);
     s->events += s->in_hand ? reduce_count(s->queue.n_stops) : 0;

@@ -12,6 +12,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/contact_constraints.h"
+#include "simulation/body_contact.h"
 #include "simulation/checkpoint.h"
 #include "simulation/options.h"
 #include "simulation/query.h"
@@ -53,6 +54,7 @@ static forces forces_of(const dem_simulation *s)
                     .gravity = {o->gravity[0], o->gravity[1]},
                     .mass_damping = o->mass_damping,
                     .boundaries = s->boundaries.n > 0 ? &s->boundaries : NULL,
+                    .surfaces = s->surfaces,
                     .external = s->external,
                     .clock = state_total_index(&s->layout, STATE_TIME)};
 }
@@ -94,6 +96,7 @@ static dem_status set_up(dem_simulation *s)
     TRY(external_force_create(&s->external, o, s->layout.dim, model->lattice.n_nodes));
     TRY(held_forces_create(&s->held_forces, &s->boundaries, s->external, &s->layout));
     TRY(options_fill(&s->options, model, &s->boundaries));
+    TRY(body_contact_create(s));
     s->forces = forces_of(s);
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
@@ -176,6 +179,7 @@ void dem_simulation_destroy(dem_simulation *s)
     local_springs_destroy(&s->local_springs);
     automaton_destroy(&s->automaton);
     boundary_conditions_free(&s->boundaries);
+    surface_contact_destroy(s->surfaces);
     external_force_destroy(s->external);
     held_forces_destroy(&s->held_forces);
     overlap_destroy(&s->overlap);

@@ -10,6 +10,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
+#include "simulation/body_contact.h"
 #include "simulation/checkpoint.h"
 #include "simulation/query.h"
 
@@ -111,6 +112,7 @@ static dem_status roll_back(dem_simulation *s)
     else
         status = integrator_restart(&s->integrator, s->t, s->y);
     s->has_rollback = false;
+    status = status_first(status, body_contact_follow(s, s->y));
     query_at(s, s->t, s->y);
     return status_first(status, reduce_status(external_force_failure(s->external), 0.0));
 }
@@ -132,22 +134,25 @@ static dem_status give_up(dem_simulation *s, dem_status status)
         status = status_fail(DEM_ERROR_INTEGRATOR,
                              "contact events in the step from t = %.9g s fail its error test: rtol may be out of reach",
                              s->t);
+    status = status_first(status, body_contact_follow(s, s->y));
     return status_first(status, integrator_restart(&s->integrator, s->t, s->y));
 }
 
 /* Finds the contact events in the step just taken. With `local` they are resolved and corrected inside it, to its end.
  * With `exact` it ends at the first: at a root of the integrator (`rooted`), or where the check finds an event before
- * it. */
+ * it. Then surfaces of bodies must not have crossed. */
 static dem_status find_events(dem_simulation *s, bool rooted)
 {
     double *y1, *f1;
+    TRY(body_contact_begin_step(s));
     if (!run_is_local(s)) {
         s->at_event = automaton_check_step(&s->automaton, &s->path, rooted, s->frame) || rooted;
-        return DEM_OK;
+        return body_contact_check_step(s);
     }
     integrator_end(&s->integrator, &y1, &f1);
     event_queue_start(&s->queue, &s->path, y1, f1, s->frame);
-    return event_queue_show(&s->queue, s->path.t1);
+    TRY(event_queue_show(&s->queue, s->path.t1));
+    return body_contact_check_step(s);
 }
 
 /* A step with its contact events, which may reject it after the integrator has accepted it: an error of theirs is
@@ -215,9 +220,9 @@ static dem_status resolve_event(dem_simulation *s)
     return go_on(s, reduce_status(automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
 }
 
-/* Lets the integrator go on from the end of the step. If contacts were put back (`moved`), the derivative there is
- * unknown: it starts anew. If events have changed the end and its derivative, it resumes from both without an
- * evaluation, with a step bounded for what their error would be in it. Otherwise nothing has changed. */
+/* Lets the integrator go on from the end of the step. If contacts were put back, or surfaces have met (`moved`), the
+ * derivative there is unknown: it starts anew. If events have changed the end and its derivative, it resumes from both
+ * without an evaluation, with a step bounded for what their error would be in it. Otherwise nothing has changed. */
 static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
@@ -236,7 +241,7 @@ static dem_status commit_step(dem_simulation *s)
     const bool moved = settle_step(s);
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_stops);
-    TRY(go_on_changed(s, moved));
+    TRY(go_on_changed(s, moved || s->outgrown));
     return report_step(s);
 }
 

@@ -105,7 +105,7 @@ static dem_status choose_law(contact_surface *c, dem_index body, const body_sums
     CHECK(sum->n_edges > 0, DEM_ERROR_MODEL, "body %lld has no triangles, and so no surface that could touch bodies",
           (long long)body);
     const double usual = fmin(usual_thickness * sum->length / (double)sum->n_edges, largest_thickness * sum->shortest);
-    const contact_law law = {thickness > 0.0 ? thickness : usual, stiffness * sum->springs / (3.0 * sum->area)};
+    const surface_law law = {thickness > 0.0 ? thickness : usual, stiffness * sum->springs / (3.0 * sum->area)};
     CHECK(law.thickness < 0.5 * sum->shortest, DEM_ERROR_MODEL,
           "the contact thickness of %g m is not below half of the shortest boundary edge of body %lld, %g m",
           law.thickness, (long long)body, sum->shortest);

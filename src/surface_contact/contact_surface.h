@@ -8,10 +8,10 @@
 #include "model/surface.h"
 
 /** What a body's surface pushes with. */
-typedef struct contact_law {
+typedef struct surface_law {
     double thickness; /* m, distance at which it begins to push */
     double modulus;   /* N/m, scale of the pressure */
-} contact_law;
+} surface_law;
 
 typedef struct contact_surface {
     const dem_lattice *lattice;
@@ -21,7 +21,7 @@ typedef struct contact_surface {
     double *half_length;   /* [n_nodes] m, half of what a node has of the surface at rest */
     dem_index *corner;     /* [n_edges] the third corner of the triangle of each edge */
     double *length;        /* [n_edges] m, at rest */
-    contact_law *laws;     /* [n_bodies] */
+    surface_law *laws;     /* [n_bodies] */
     double mean_length;    /* m, of the edges at rest */
     double most_thickness; /* m, of all bodies */
 } contact_surface;
@@ -53,10 +53,10 @@ static inline dem_index contact_surface_body(const contact_surface *c, dem_index
 
 /** The law between two bodies, or of a body with itself: the smaller thickness, and the smaller modulus. It is the same
  *  for all edges of two bodies, since terms of different edges cancel each other. */
-static inline contact_law contact_surface_law(const contact_surface *c, dem_index body, dem_index other)
+static inline surface_law contact_surface_law(const contact_surface *c, dem_index body, dem_index other)
 {
-    const contact_law a = c->laws[body], b = c->laws[other];
-    return (contact_law){fmin(a.thickness, b.thickness), fmin(a.modulus, b.modulus)};
+    const surface_law a = c->laws[body], b = c->laws[other];
+    return (surface_law){fmin(a.thickness, b.thickness), fmin(a.modulus, b.modulus)};
 }
 
 #endif

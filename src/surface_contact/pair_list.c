@@ -47,7 +47,7 @@ static bool is_fixed(const contact_surface *c, dem_index node)
 }
 
 /* Whether a node and an edge may ever touch. */
-static bool may_touch(const pair_list *l, dem_index node, dem_index edge, const contact_law *law)
+static bool may_touch(const pair_list *l, dem_index node, dem_index edge, const surface_law *law)
 {
     const contact_surface *c = l->surface;
     const dem_index a = contact_surface_first(c, edge), b = contact_surface_second(c, edge);
@@ -66,7 +66,7 @@ static dem_status take_found(pair_list *l, dem_index edge, const double *x)
     const vec2 a = vec2_at(x, first), b = vec2_at(x, contact_surface_second(c, edge));
     for (dem_index k = 0; k < l->cells.n_found; k++) {
         const dem_index number = l->cells.found[k], node = c->nodes[number];
-        const contact_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, first));
+        const surface_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, first));
         if (contact_pair_distance(vec2_at(x, node), a, b) > law.thickness + l->margin) continue;
         if (!may_touch(l, node, edge, &law)) continue;
         CHECK(grow_array((void **)&l->found, &l->found_capacity, l->n_found + 1, sizeof *l->found), DEM_ERROR_MEMORY,
@@ -117,7 +117,7 @@ static contact_pair make_pair(const contact_surface *c, found_pair found)
 {
     const surface *s = &c->surface;
     const dem_index node = c->nodes[found.node], first = contact_surface_first(c, found.edge);
-    const contact_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, first));
+    const surface_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, first));
     return (contact_pair){.nodes = {node, first, contact_surface_second(c, found.edge),
                                     contact_surface_first(c, s->previous[found.edge])},
                           .edge = found.edge,

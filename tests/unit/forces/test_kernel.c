@@ -241,6 +241,22 @@ TEST(squeezed_triangles_agree)
 }
 
 /* Every seventh spring and every fifth triangle; what is left of the guard stiffens less. */
+/* Two blocks side by side, a fifth of a spacing apart, whose nodes are shifted by up to a tenth. */
+TEST(surfaces_in_contact_agree)
+{
+    const dem_material law = law_of(3);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.11, 0.07, &law), other = make_solid(0.11, 0.09, &law);
+    dem_lattice_move(&other, 0.0, (const double[2]){0.112, 0.0});
+    assert_ok(dem_lattice_append(&lattice, &other));
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
+    forces load = {.gravity = {0.5, -9.81}};
+    assert_ok(surface_contact_create(&load.surfaces, &s.model->lattice,
+                                     &(const surface_contact_rule){.within_bodies = true, .stiffness = 1.0}));
+    check_load(&s, &load);
+    assert_true(load.surfaces->n_pushed > 4);
+    surface_contact_destroy(load.surfaces);
+}
+
 TEST(broken_elements_agree)
 {
     for (int laws = 0; laws < 16; laws++) {

@@ -35,7 +35,8 @@ TEST(options_of_a_size_that_no_version_has_are_refused)
     char message[128];
     dem_options own, options = point_options();
     options.struct_size = 3;
-    (void)snprintf(message, sizeof message, "dem_options: struct_size is 3, at least %zu expected", sizeof options);
+    (void)snprintf(message, sizeof message, "dem_options: struct_size is 3, at least %zu expected",
+                   offsetof(dem_options, bodies));
     assert_int_equal(options_read(&own, &options), DEM_ERROR_ARGUMENT);
     assert_message_parts(message);
     options.struct_size = sizeof options;
@@ -46,17 +47,18 @@ TEST(options_of_a_size_that_no_version_has_are_refused)
 
 TEST(lengths_times_and_speeds_are_finite_and_not_negative)
 {
-    static const char *const names[6] = {"spacing",   "v_scale", "max_step", "fixed_step", "penetration_tolerance",
-                                         "rest_speed"};
+    static const char *const names[7] = {
+        "spacing", "v_scale", "max_step", "fixed_step", "penetration_tolerance", "rest_speed", "contact_thickness"};
     char message[128];
-    for (int k = 0; k < 6; k++) {
+    for (int k = 0; k < 7; k++) {
         dem_options options = point_options();
-        double *const lengths[6] = {&options.spacing,
+        double *const lengths[7] = {&options.spacing,
                                     &options.v_scale,
                                     &options.max_step,
                                     &options.fixed_step,
                                     &options.penetration_tolerance,
-                                    &options.rest_speed};
+                                    &options.rest_speed,
+                                    &options.contact_thickness};
         *lengths[k] = -1.0;
         (void)snprintf(message, sizeof message, "%s must be >= 0, got -1", names[k]);
         refuse(&options, message);
@@ -147,6 +149,7 @@ TEST(what_is_given_counts)
     options.penetration_tolerance = 1e-3;
     options.rest_speed = 0.1;
     options.window = 2e-6;
+    options.contact_stiffness = 3.0;
     const dem_options asked = options;
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_memory_equal(&options, &asked, sizeof options);

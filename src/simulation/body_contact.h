@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Contact of bodies with each other in the time loop: what steps have to do about it beside its force. Without it, all
+ * functions do nothing. */
+#ifndef DEM_SIMULATION_BODY_CONTACT_H
+#define DEM_SIMULATION_BODY_CONTACT_H
+
+#include "simulation/private.h"
+
+/** Creates s->surfaces if the options ask for it, for the forces to have.
+ *  \return DEM_ERROR_MODEL for bodies without surfaces, a thickness that is too large, and surfaces that cross */
+dem_status body_contact_create(dem_simulation *s);
+
+/** Refuses positions x in which surfaces cross or nearly touch; the lists fit x afterwards. \return DEM_ERROR_MODEL */
+dem_status body_contact_check_start(dem_simulation *s, const double *x);
+
+/** Makes the lists fit the state y. */
+dem_status body_contact_follow(dem_simulation *s, const double *y);
+
+/** Called with the step in hand, before its events are found. */
+dem_status body_contact_begin_step(dem_simulation *s);
+
+/** Called when its events have been resolved.
+ *  \return DEM_ERROR_CONTACT if the step cannot be taken as it is */
+dem_status body_contact_check_step(dem_simulation *s);
+
+/** Bound of the highest frequency in the state y, in units of that about the rest shape: the larger of `guard`, that of
+ *  springs and triangles, and what contact needs for a fixed step to stay stable. */
+double body_contact_stiffening(dem_simulation *s, double guard, const double *y);
+
+#endif

@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* surface_contact.c: forces of all nodes against the gradient of the energy and against those of single nodes, pairs
+ * near in a step, and what a step must not do. */
+#include "surface_contact/surface_contact.h"
+
+#include "curves.h"
+#include "harness/cleanup_gsl.h"
+#include "verification/support.h"
+
+typedef struct scene {
+    dem_lattice lattice;
+    surface_contact *contact;
+    double *x, *inverse_mass;
+} scene;
+
+/* Stars side by side with a random shift of all nodes, so that many surfaces are near each other and some cross. */
+static void open_scene(scene *s, gsl_rng *rng, double margin)
+{
+    const surface_contact_rule rule = {.within_bodies = true, .stiffness = 1.0, .margin = margin};
+    *s = (scene){.lattice = curves_make(rng, 9, 24, 2.1)};
+    const size_t n = (size_t)s->lattice.n_nodes;
+    assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
+    s->x = malloc(2 * n * sizeof *s->x);
+    s->inverse_mass = malloc(n * sizeof *s->inverse_mass);
+    for (size_t k = 0; k < 2 * n; k++) s->x[k] = s->lattice.x[k] + 0.2 * (gsl_rng_uniform(rng) - 0.5);
+    for (size_t k = 0; k < n; k++) s->inverse_mass[k] = 1.0 + 0.5 * sin((double)k);
+}
+
+static void close_scene(scene *s)
+{
+    surface_contact_destroy(s->contact);
+    dem_lattice_free(&s->lattice);
+    free(s->x);
+    free(s->inverse_mass);
+}
+
+/* By differences of fourth order, which leave out the fifth derivatives of the energy: relative to the force. */
+TEST(forces_are_minus_the_gradient_of_the_energy)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    open_scene(&s, rng, 0.0);
+    assert_true(surface_contact_evaluate(s.contact, s.x));
+    assert_true(s.contact->n_pushed > 20);
+    for (dem_index c = 0; c < 2 * s.lattice.n_nodes; c++) {
+        const double h = 1e-7, here = s.x[c], steps[4] = {h, -h, 2.0 * h, -2.0 * h};
+        double energy[4];
+        for (int k = 0; k < 4; k++) {
+            s.x[c] = here + steps[k];
+            energy[k] = surface_contact_energy(s.contact, s.x);
+        }
+        s.x[c] = here;
+        const double expected = -(8.0 * (energy[0] - energy[1]) - (energy[2] - energy[3])) / (12.0 * h);
+        const double actual = s.contact->force[c];
+        assert_close(actual, expected, 1e-6 * (1.0 + fabs(actual)));
+    }
+}
+
+/* With all candidates, and with the pairs that are near in a step: nodes have the same bits, and those on which nothing
+ * acts are left alone. */
+static void check_single_nodes(const scene *s)
+{
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++) {
+        vec2 force;
+        const bool is_pushed = surface_contact_force(s->contact, i, s->x, &force);
+        assert_int_equal(is_pushed, s->contact->is_pushed[i]);
+        assert_true(force.x == s->contact->force[2 * i] && force.y == s->contact->force[2 * i + 1]);
+    }
+}
+
+TEST(single_nodes_have_the_bits_of_all)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    for (int turn = 0; turn < 10; turn++) {
+        CLEANUP(close_scene) scene s;
+        open_scene(&s, rng, 0.0);
+        assert_true(surface_contact_evaluate(s.contact, s.x));
+        assert_true(surface_contact_evaluate(s.contact, s.x)); /* what the first one left does not matter */
+        check_single_nodes(&s);
+        assert_ok(surface_contact_begin_step(s.contact, s.x, s.x));
+        assert_true(s.contact->rows == &s.contact->near && s.contact->near.n < s.contact->candidates.pairs.n);
+        check_single_nodes(&s);
+    }
+}
+
+/* Which pairs are near depends on the motion alone, so that local corrections have the same nodes with any list. */
+TEST(pairs_near_in_a_step_do_not_depend_on_the_margin)
+{
+    const double margins[3] = {0.06, 0.25, 1.5};
+    dem_index n_near[3];
+    for (int k = 0; k < 3; k++) {
+        CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+        CLEANUP(close_scene) scene s;
+        open_scene(&s, rng, margins[k]);
+        assert_ok(surface_contact_follow(s.contact, s.x));
+        CLEANUP(free_memory) double *x1 = malloc(2 * (size_t)s.lattice.n_nodes * sizeof *x1);
+        for (dem_index c = 0; c < 2 * s.lattice.n_nodes; c++) x1[c] = s.x[c] + 0.004 * sin((double)c);
+        assert_ok(surface_contact_begin_step(s.contact, s.x, x1));
+        n_near[k] = s.contact->near.n;
+    }
+    assert_true(n_near[0] > 20);
+    assert_int_equal(n_near[1], n_near[0]);
+    assert_int_equal(n_near[2], n_near[0]);
+}
+
+/* The diagonal of the stiffness by differences of the forces is never above the bound, which is about twice the largest
+ * one. */
+TEST(the_bound_of_the_stiffness_holds)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    double largest = 0.0;
+    open_scene(&s, rng, 0.0);
+    const double bound = surface_contact_stiffening(s.contact, s.inverse_mass, s.x);
+    for (dem_index c = 0; c < 2 * s.lattice.n_nodes; c++) {
+        const double h = 1e-8, here = s.x[c];
+        double force[2];
+        for (int k = 0; k < 2; k++) {
+            s.x[c] = here + (k == 0 ? -h : h);
+            assert_true(surface_contact_evaluate(s.contact, s.x));
+            force[k] = s.contact->force[c];
+        }
+        s.x[c] = here;
+        largest = fmax(largest, (force[0] - force[1]) / (2.0 * h) * s.inverse_mass[c / 2]);
+    }
+    assert_true(largest < bound);
+    assert_true(largest > 0.2 * bound);
+}
+
+/* ---- steps ---- */
+
+/* Two triangles, one over the other: nodes 0 1 2 and 3 4 5, the tip 3 is above the edge from 1 to 2. */
+static scene open_triangles(double gap)
+{
+    scene s = {.lattice = dem_lattice_empty()};
+    const double x[12] = {0.0, -1.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.15, 1.0, 1.15, -1.0, 1.15};
+    const dem_index corners[6] = {0, 1, 2, 3, 4, 5};
+    const surface_contact_rule rule = {.within_bodies = true, .thickness = 0.2, .stiffness = 1.0};
+    s.lattice.n_nodes = s.lattice.n_springs = 6;
+    s.lattice.n_triangles = 2;
+    s.lattice.x = calloc(12, sizeof *s.lattice.x);
+    s.lattice.flags = calloc(6, sizeof *s.lattice.flags);
+    s.lattice.body = calloc(6, sizeof *s.lattice.body);
+    s.lattice.triangles = calloc(6, sizeof *s.lattice.triangles);
+    s.lattice.ends = calloc(12, sizeof *s.lattice.ends);
+    s.lattice.stiffness = calloc(6, sizeof *s.lattice.stiffness);
+    s.lattice.rest_length = calloc(6, sizeof *s.lattice.rest_length);
+    s.x = calloc(12, sizeof *s.x);
+    memcpy(s.lattice.x, x, sizeof x);
+    memcpy(s.lattice.triangles, corners, sizeof corners);
+    for (dem_index i = 0; i < 6; i++) {
+        s.lattice.body[i] = i < 3 ? 0 : 1;
+        s.lattice.ends[2 * i] = i;
+        s.lattice.ends[2 * i + 1] = i % 3 < 2 ? i + 1 : i - 2;
+        s.lattice.stiffness[i] = s.lattice.rest_length[i] = 1.0;
+    }
+    memcpy(s.x, x, sizeof x);
+    s.x[7] = gap;
+    assert_ok(surface_contact_create(&s.contact, &s.lattice, &rule));
+    assert_ok(surface_contact_follow(s.contact, s.x));
+    return s;
+}
+
+TEST(a_crossing_is_found_with_its_node_its_edge_and_its_time)
+{
+    CLEANUP(close_scene) scene s = open_triangles(0.15);
+    surface_crossing crossing;
+    double x1[12];
+    memcpy(x1, s.x, sizeof x1);
+    x1[7] = -0.05;
+    assert_ok(surface_contact_begin_step(s.contact, s.x, x1));
+    assert_int_equal(surface_contact_check_step(s.contact, s.x, x1, &crossing), SURFACE_CONTACT_CROSSED);
+    assert_int_equal(crossing.pair.nodes[CONTACT_PAIR_NODE], 3);
+    assert_int_equal(crossing.pair.nodes[CONTACT_PAIR_FIRST], 1);
+    assert_int_equal(crossing.pair.nodes[CONTACT_PAIR_SECOND], 2);
+    assert_close(crossing.part, 0.75, 1e-15);
+    x1[7] = 0.05;
+    assert_ok(surface_contact_begin_step(s.contact, s.x, x1));
+    assert_int_equal(surface_contact_check_step(s.contact, s.x, x1, &crossing), SURFACE_CONTACT_SOUND);
+}
+
+/* The step itself keeps the tip beyond the thickness and the margin of near pairs; events move it on to the shell. */
+TEST(what_events_bring_near_beyond_the_step_is_found)
+{
+    CLEANUP(close_scene) scene s = open_triangles(0.4);
+    surface_crossing crossing;
+    double x1[12];
+    memcpy(x1, s.x, sizeof x1);
+    assert_ok(surface_contact_begin_step(s.contact, s.x, x1));
+    assert_int_equal(s.contact->near.n, 0);
+    assert_int_equal(surface_contact_check_step(s.contact, s.x, x1, &crossing), SURFACE_CONTACT_SOUND);
+    x1[7] = 0.19;
+    assert_int_equal(surface_contact_check_step(s.contact, s.x, x1, &crossing), SURFACE_CONTACT_OUTGROWN);
+}

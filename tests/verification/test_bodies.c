@@ -1,0 +1,351 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bodies that touch each other and themselves: rebound against that from a rigid wall by events, mirror symmetry,
+ * momentum and ledger at any speed, slots that close, local corrections beside a contact, what no bit depends on. */
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "ask.h"
+#include "simulation/private.h"
+#include "base/checkpoint_entries.h"
+#include "harness/cleanup.h"
+#include "harness/message.h"
+
+static const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
+                                         .density = 1050.0, .thickness = 1.0, .guard = 0.02);
+static const double side = 0.08; /* m, of a block */
+
+/* Two blocks, the upper one the lower one turned by 180 degrees, so that they are mirror images of each other; then it
+ * is shifted sideways. They approach each other with the relative speed. */
+static dem_lattice make_blocks(double spacing, double shift, double speed)
+{
+    dem_lattice lower = support_rectangle(side, side, spacing, &rubber),
+                upper = support_rectangle(side, side, spacing, &rubber);
+    double top = 0.0;
+    for (dem_index i = 0; i < lower.n_nodes; i++) top = fmax(top, lower.x[2 * i + 1]);
+    for (dem_index i = 0; i < lower.n_nodes; i++) {
+        lower.x[2 * i + 1] -= top + 0.5 * spacing;
+        upper.x[2 * i] = -lower.x[2 * i] + shift;
+        upper.x[2 * i + 1] = -lower.x[2 * i + 1];
+    }
+    assert_ok(dem_lattice_launch(&lower, (const double[2]){0.0, 0.5 * speed}));
+    assert_ok(dem_lattice_launch(&upper, (const double[2]){0.0, -0.5 * speed}));
+    assert_ok(dem_lattice_append(&lower, &upper));
+    dem_lattice_free(&upper);
+    return lower;
+}
+
+static dem_options free_options(void)
+{
+    dem_options options = support_options();
+    options.gravity[1] = 0.0;
+    options.bodies = DEM_BODIES_ALL;
+    return options;
+}
+
+/* Largest distance of a node from the mirror image of its partner, the node turned by 180 degrees and back in x. */
+static double asymmetry(const dem_lattice *l, const double *x)
+{
+    const dem_index n = l->n_nodes / 2;
+    double most = 0.0;
+    for (dem_index i = 0; i < n; i++) {
+        dem_index j = n;
+        while (fabs(l->x[2 * j] - l->x[2 * i]) + fabs(l->x[2 * j + 1] + l->x[2 * i + 1]) > 1e-9) j++;
+        most = fmax(most, hypot(x[2 * j] - x[2 * i], x[2 * j + 1] + x[2 * i + 1]));
+    }
+    return most;
+}
+
+/* Speed with which one block comes back from a rigid wall, where each node bounces without loss: by events, with no
+ * contact of surfaces. */
+static double rebound_from_wall(double spacing, double speed)
+{
+    CLEANUP(support_close) support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice l = make_blocks(spacing, 0.0, 0.0);
+    bool *keep = calloc((size_t)l.n_nodes, sizeof *keep);
+    const double points[4] = {1.0, 0.25 * spacing, -1.0, 0.25 * spacing}; /* bodies live below it */
+    const dem_obstacle wall = SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 1.0);
+    dem_options o = free_options();
+    o.bodies = DEM_BODIES_NONE;
+    for (dem_index i = 0; i < l.n_nodes / 2; i++) keep[i] = true;
+    assert_ok(dem_lattice_select(&l, keep));
+    free(keep);
+    assert_ok(dem_lattice_launch(&l, (const double[2]){0.0, speed}));
+    support_open(&run, &l, &wall, 1, &o);
+    (void)support_at(&run, 3e-3);
+    return -ask_body(run.simulation, 0).velocity[1];
+}
+
+/* What is compared. */
+typedef struct outcome {
+    double rebound, closure, momentum, spin, asymmetry;
+    dem_index overlaps;
+} outcome;
+
+static outcome collide(double spacing, double shift, double speed)
+{
+    CLEANUP(support_close) support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice l = make_blocks(spacing, shift, speed);
+    const dem_options o = free_options();
+    support_open(&run, &l, NULL, 0, &o);
+    const dem_energy start = ask_energy(run.simulation);
+    const motion end = support_at(&run, 3e-3);
+    const dem_body_motion lower = ask_body(run.simulation, 0), upper = ask_body(run.simulation, 1);
+    double moments[2] = {0.0, 0.0}; /* about the origin, kg m^2/s */
+    for (dem_index i = 0; i < l.n_nodes; i++) {
+        moments[0] += l.mass[i] * (l.x[2 * i] * l.velocity[2 * i + 1] - l.x[2 * i + 1] * l.velocity[2 * i]);
+        moments[1] += l.mass[i] * (end.x[2 * i] * end.v[2 * i + 1] - end.x[2 * i + 1] * end.v[2 * i]);
+    }
+    assert_close(end.energy.contact, 0.0, 0.0); /* they are apart again */
+    return (outcome){.rebound = upper.velocity[1],
+                     .closure = fabs(end.energy.ledger - start.ledger) / start.kinetic,
+                     .momentum =
+                         hypot(lower.velocity[0] + upper.velocity[0], lower.velocity[1] + upper.velocity[1]) / speed,
+                     .spin = fabs(moments[1] - moments[0]) / (2.0 * lower.mass * side * speed),
+                     .asymmetry = asymmetry(&l, end.x) / spacing,
+                     .overlaps = ask_overlap(run.simulation).most};
+}
+
+/* The surfaces are a fifth of a spacing thick and soft, and lose nothing; at the wall, every node bounces for itself.
+ * Measured are 3.8, 1.0 and 0.5 percent between the rebounds at 5, 2.5 and 1.25 mm, as much as half the spacing changes
+ * that from the wall by. Rounding grows from 1e-16 while waves run to and fro: measured 1e-13. */
+TEST(mirrored_blocks_rebound_as_from_a_wall_and_stay_mirrored)
+{
+    const double spacings[2] = {2.5e-3, 1.25e-3}, most[2] = {0.0105, 0.006};
+    double off[2];
+    for (int k = 0; k < 2; k++) {
+        const outcome o = collide(spacings[k], 0.0, 5.0);
+        const double wall = rebound_from_wall(spacings[k], 2.5);
+        print_message("# %g m: rebound %.5f m/s, from a wall %.5f, asymmetry %.1e, closure %.1e\n", spacings[k],
+                      o.rebound, wall, o.asymmetry, o.closure);
+        off[k] = fabs(o.rebound / wall - 1.0);
+        assert_true(off[k] < most[k]);
+        assert_true(o.asymmetry < 1e-10);
+        assert_true(o.closure < 3e-4);
+        assert_int_equal(o.overlaps, 0);
+    }
+    assert_true(off[1] < 0.7 * off[0]);
+    assert_true(collide(5e-3, 0.0, 5.0).asymmetry < 1e-10);
+}
+
+/* At 80 m/s each block runs at 0.41 of the speed of sound into the other: 0.82 of it together. Momentum is kept pair by
+ * pair to rounding, and angular momentum to the integrator's: it is not linear in the unknowns. */
+TEST(blocks_keep_momentum_and_energy_at_any_speed_and_do_not_overlap)
+{
+    const double speeds[3] = {20.0, 40.0, 80.0};
+    for (int k = 0; k < 3; k++) {
+        const outcome o = collide(2.5e-3, 0.37 * 2.5e-3, speeds[k]);
+        print_message("# %g m/s: momentum %.1e, angular %.1e, closure %.1e\n", speeds[k], o.momentum, o.spin,
+                      o.closure);
+        assert_true(o.momentum < 1e-14);
+        assert_true(o.spin < 1e-8);
+        assert_true(o.closure < 3e-4);
+        assert_int_equal(o.overlaps, 0);
+    }
+}
+
+/* ---- a body and itself ---- */
+
+static bool is_solid(void *context, const double *x)
+{
+    const double spacing = *(double *)context;
+    return fabs(x[1] - 0.5 * side) > 0.6 * spacing || x[0] > 0.25 * side;
+}
+
+/* A block with a slot of one row, open on the left, whose halves run into each other. */
+TEST(a_slot_closes_without_crossing)
+{
+    double spacing = 2.5e-3;
+    const double speeds[3] = {10.0, 20.0, 40.0};
+    for (int k = 0; k < 3; k++) {
+        CLEANUP(support_close) support_run run;
+        CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+        assert_ok(dem_lattice_rectangle(&l, side, side, spacing));
+        assert_ok(dem_lattice_cut(&l, is_solid, &spacing));
+        assert_ok(dem_lattice_assemble(&l, &rubber));
+        l.velocity = calloc(2 * (size_t)l.n_nodes, sizeof *l.velocity);
+        for (dem_index i = 0; i < l.n_nodes; i++)
+            if (l.x[2 * i] < 0.2 * side) l.velocity[2 * i + 1] = (l.x[2 * i + 1] < 0.5 * side ? 0.5 : -0.5) * speeds[k];
+        const dem_options o = free_options();
+        support_open(&run, &l, NULL, 0, &o);
+        const dem_energy start = ask_energy(run.simulation);
+        double contact = 0.0;
+        for (int frame = 1; frame <= 60; frame++)
+            contact = fmax(contact, support_at(&run, 5e-5 * frame).energy.contact);
+        const dem_energy end = ask_energy(run.simulation);
+        const double closure = fabs(end.ledger - start.ledger) / start.kinetic;
+        print_message("# slot at %g m/s: contact %.1e of the energy, closure %.1e\n", speeds[k],
+                      contact / start.kinetic, closure);
+        assert_true(contact > 1e-5 * start.kinetic);
+        assert_true(closure < 3e-4);
+        assert_int_equal(ask_overlap(run.simulation).most, 0);
+    }
+}
+
+/* ---- contact with an obstacle beside contact of bodies ---- */
+
+/* Two small blocks side by side, the left one 0.4 mm higher, whose lower corners push each other. They fall with 5 m/s
+ * on a floor, which stops each node. */
+static void open_on_floor(support_run *run, const dem_options *options)
+{
+    const double points[4] = {-1.0, 0.0, 1.0, 0.0};
+    const dem_obstacle ground = SIZED(dem_obstacle, .n_points = 2, .points = points, .friction = 0.3);
+    CLEANUP(dem_lattice_free) dem_lattice left = support_rectangle(0.03, 0.03, 5e-3, &rubber);
+    CLEANUP(dem_lattice_free) dem_lattice right = support_rectangle(0.03, 0.03, 5e-3, &rubber);
+    dem_lattice_move(&left, 0.0, (const double[2]){-0.0153, 4.1e-4});
+    dem_lattice_move(&right, 0.0, (const double[2]){0.0153, 1e-5});
+    assert_ok(dem_lattice_append(&left, &right));
+    assert_ok(dem_lattice_launch(&left, (const double[2]){0.5, -5.0}));
+    support_open(run, &left, &ground, 1, options);
+}
+
+static double largest_difference(const double *a, const double *b, dem_index n)
+{
+    double most = 0.0;
+    for (dem_index k = 0; k < n; k++) most = fmax(most, fabs(a[k] - b[k]));
+    return most;
+}
+
+/* Contact pairs count as neighbours: a local correction beside them is as good as a step that ends at the event. What
+ * is left is the error of both methods at this rtol, in units of the spacing. Without pairs among the neighbours the
+ * corner that hits the floor does not know of the other body, and never comes to rest. */
+TEST(events_beside_a_contact_of_bodies_are_corrected_locally)
+{
+    support_run runs[2];
+    motion at[2];
+    dem_options o = free_options();
+    o.rtol = 1e-10;
+    o.window = 0.0;
+    for (int m = 0; m < 2; m++) {
+        o.contact = m == 0 ? DEM_CONTACT_LOCAL : DEM_CONTACT_EXACT;
+        open_on_floor(&runs[m], &o);
+        assert_true(ask_energy(runs[m].simulation).contact > 0.0);
+        at[m] = support_at(&runs[m], 3e-5);
+        assert_true(runs[m].n_impacts >= 7);
+    }
+    const double off = largest_difference(at[0].x, at[1].x, 2 * runs[0].simulation->model->lattice.n_nodes) / 5e-3;
+    print_message("# local against exact: off by %.1e spacings\n", off);
+    for (int m = 0; m < 2; m++) support_close(&runs[m]);
+    assert_true(off < 1e-9);
+}
+
+/* ---- what no bit depends on ---- */
+
+enum { MOST_NODES = 128 };
+
+/* The state of a run on the floor at 0.3 ms, when both blocks have hit it and each other. */
+typedef struct bits {
+    double x[2 * MOST_NODES], v[2 * MOST_NODES];
+    dem_energy energy;
+    dem_index n_made; /* how often the pair list was made */
+} bits;
+
+static bits run_on_floor(const dem_options *options, double margin)
+{
+    CLEANUP(support_close) support_run run;
+    bits out = {.n_made = 0};
+    open_on_floor(&run, options);
+    pair_list *list = &run.simulation->surfaces->candidates;
+    list->margin = margin * run.simulation->surfaces->surface.mean_length;
+    list->reference[0] = (double)NAN;
+    assert_ok(surface_contact_follow(run.simulation->surfaces, run.simulation->y));
+    const motion end = support_at(&run, 3e-4);
+    const size_t n = (size_t)run.simulation->model->lattice.n_nodes;
+    assert_true(n <= MOST_NODES && run.n_impacts > 14);
+    memcpy(out.x, end.x, 2 * n * sizeof *out.x);
+    memcpy(out.v, end.v, 2 * n * sizeof *out.v);
+    out.energy = end.energy;
+    out.n_made = list->n_made;
+    return out;
+}
+
+static void check_bits(const dem_options *changed, double margin, const bits *expected)
+{
+    const bits found = run_on_floor(changed, margin);
+    assert_memory_equal(found.x, expected->x, sizeof found.x);
+    assert_memory_equal(found.v, expected->v, sizeof found.v);
+    assert_memory_equal(&found.energy, &expected->energy, sizeof found.energy);
+}
+
+static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET, DEM_METHOD_HEUN12};
+
+/* Margins of 0.05 to 1 spacing; with the least one the list is made anew whenever something has moved. */
+TEST(no_bit_depends_on_the_pair_list)
+{
+    const double margins[4] = {0.05, 0.1, 0.5, 1.0};
+    for (int m = 0; m < 3; m++) {
+        dem_options o = free_options();
+        o.method = methods[m];
+        const bits expected = run_on_floor(&o, 0.25);
+        assert_true(run_on_floor(&o, 0.05).n_made > 4 * expected.n_made);
+        for (int k = 0; k < 4; k++) check_bits(&o, margins[k], &expected);
+    }
+}
+
+TEST(no_bit_depends_on_threads_or_instructions)
+{
+    for (int m = 0; m < 3; m++) {
+        dem_options o = free_options();
+        o.method = methods[m];
+        const bits expected = run_on_floor(&o, 0.25);
+        o.kernel = DEM_KERNEL_PORTABLE;
+        for (o.threads = 1; o.threads <= 3; o.threads++) check_bits(&o, 0.25, &expected);
+    }
+}
+
+/* A run that goes on from a checkpoint, which knows nothing of pair lists. */
+TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
+{
+    const dem_index every[3] = {1, 7, 256};
+    for (int k = 0; k < 3; k++) {
+        CLEANUP(support_close) support_run run;
+        CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
+        CLEANUP(free_simulation) dem_simulation *resumed;
+        dem_options o = free_options();
+        o.checkpoint_steps = every[k];
+        o.max_step = 1e-6; /* so that there are more than 256 steps */
+        const bits expected = run_on_floor(&o, 0.25);
+        open_on_floor(&run, &o);
+        (void)support_at(&run, 2.8e-4);
+        assert_ok(dem_checkpoint_create(&checkpoint));
+        assert_ok(checkpoint_entries_copy(checkpoint, dem_simulation_checkpoint(run.simulation)));
+        assert_ok(dem_simulation_resume(&resumed, run.model, &o, checkpoint));
+        assert_ok(dem_simulation_advance(resumed, 3e-4));
+        const dem_state end = ask_state(resumed);
+        const size_t size = 2 * (size_t)run.simulation->model->lattice.n_nodes * sizeof *end.x;
+        assert_memory_equal(end.x, expected.x, size);
+        assert_memory_equal(end.v, expected.v, size);
+    }
+}
+
+/* ---- fixed steps ---- */
+
+/* By default steps are an eighth of what is stable. */
+TEST(verlet_keeps_the_energy_of_colliding_blocks)
+{
+    const double speeds[2] = {5.0, 20.0};
+    for (int k = 0; k < 2; k++) {
+        CLEANUP(support_close) support_run run;
+        CLEANUP(dem_lattice_free) dem_lattice l = make_blocks(5e-3, 0.37 * 5e-3, speeds[k]);
+        dem_options o = free_options();
+        o.method = DEM_METHOD_VERLET;
+        support_open(&run, &l, NULL, 0, &o);
+        const dem_energy start = ask_energy(run.simulation), end = support_at(&run, 3e-3).energy;
+        print_message("# Verlet at %g m/s: closure %.1e\n", speeds[k], fabs(end.ledger - start.ledger) / start.kinetic);
+        assert_close(end.ledger, start.ledger, 1e-4 * start.kinetic);
+        assert_int_equal(ask_overlap(run.simulation).most, 0);
+    }
+}
+
+/* A step that is stable but takes surfaces through each other at 2000 m/s: 1.6 spacings. */
+TEST(a_fixed_step_in_which_surfaces_cross_is_an_error_with_both_nodes)
+{
+    CLEANUP(support_close) support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice l = make_blocks(5e-3, 0.37 * 5e-3, 2000.0);
+    dem_options o = free_options();
+    o.method = DEM_METHOD_VERLET;
+    support_open(&run, &l, NULL, 0, &o);
+    assert_int_equal(dem_simulation_advance(run.simulation, 1e-4), DEM_ERROR_CONTACT);
+    assert_message_parts("node * of body * crosses the edge between nodes * of body * m, t = * s: shorten fixed_step");
+}
