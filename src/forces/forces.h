@@ -214,8 +214,8 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
 /** Power that damping takes, of all springs and masses, W, >= 0. */
 double forces_damping_power(const forces *f, const double *x, const double *v);
 
-/** Energy that depends on the position of node i, J: that of its springs and their couplings, its triangles, its contact
- *  pairs and its weight. */
+/** Energy that depends on the position of node i, J: that of its springs and their couplings, its triangles, its
+ *  contact pairs and its weight. */
 static inline double forces_node_energy(const forces *f, dem_index i, const double *x)
 {
     const dem_model *model = f->model;
