@@ -91,7 +91,8 @@ static void warn_overlap(report *r, const dem_simulation *simulation)
 {
     const dem_overlap o = ask_overlap(simulation);
     run_log_warn(r->log,
-                 "bodies overlap, which nothing prevents: node %lld is inside triangle %lld at (%g, %g) m, %.4e s",
+                 "bodies overlap, which bodies = 'all' in &contact prevents: node %lld is inside triangle %lld at (%g, "
+                 "%g) m, %.4e s",
                  (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
 }
 

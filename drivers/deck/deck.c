@@ -31,6 +31,10 @@ static const conditional_key profile_keys[] = {
     {"correlation", "rough", true},
     {"seed", "rough", false},
 };
+static const conditional_key surface_keys[] = {{"thickness", "others, all", false},
+                                               {"stiffness", "others, all", false}};
+static const conditional_keys surface_uses = {"contact", "bodies", sizeof surface_keys / sizeof *surface_keys,
+                                              surface_keys};
 static const conditional_keys profile_uses = {"obstacle", "profile", sizeof profile_keys / sizeof *profile_keys,
                                               profile_keys};
 
@@ -263,6 +267,7 @@ static void check(const schema_deck *groups, namelist_errors *errors)
     for (size_t k = 0; k < schema_count(groups, "obstacle"); k++)
         check_obstacle(schema_get(groups, "obstacle", k), k + 1, errors);
     loading_check_all(groups, errors);
+    conditional_keys_check(schema_get(groups, "contact", 0), &surface_uses, errors);
     check_solver(schema_get(groups, "solver", 0), errors);
     probes_check(groups, errors);
     check_name(schema_get(groups, "output", 0), errors);
@@ -270,6 +275,12 @@ static void check(const schema_deck *groups, namelist_errors *errors)
 }
 
 /* ---- scalars ---- */
+
+static dem_bodies bodies_of(const schema_instance *contact)
+{
+    if (schema_is(contact, "bodies", "none")) return DEM_BODIES_NONE;
+    return schema_is(contact, "bodies", "all") ? DEM_BODIES_ALL : DEM_BODIES_OTHERS;
+}
 
 static void set_options(dem_options *options, const schema_deck *groups)
 {
@@ -292,6 +303,9 @@ static void set_options(dem_options *options, const schema_deck *groups)
     options->vertices = schema_real(contact, "vertices") != 0.0;
     options->mass_damping = schema_real(solver, "mass_damping");
     options->contact = schema_is(contact, "method", "local") ? DEM_CONTACT_LOCAL : DEM_CONTACT_EXACT;
+    options->bodies = bodies_of(contact);
+    options->contact_thickness = schema_real(contact, "thickness");
+    options->contact_stiffness = schema_real(contact, "stiffness");
     if (schema_value_of(contact, "window")->given) options->window = schema_real(contact, "window");
 }
 
@@ -519,6 +533,7 @@ static bool interpret(deck *d)
     loading_drop_unused(&d->groups);
     probes_drop_unused(&d->groups);
     conditional_keys_drop(&d->groups, &profile_uses);
+    conditional_keys_drop(&d->groups, &surface_uses);
     motion_drop_unused(&d->groups);
     return set_scalars(d, &d->groups);
 }

@@ -94,11 +94,12 @@ contains
   end subroutine
 
   subroutine read_contact()
-    character(4096) :: method, overlap
-    real(dp) :: window, penetration_tolerance, rest_speed
+    character(4096) :: method, bodies, overlap
+    real(dp) :: window, thickness, stiffness, penetration_tolerance, rest_speed
     logical :: vertices
     integer :: max_impacts
-    namelist /contact/ method, window, vertices, overlap, penetration_tolerance, rest_speed, max_impacts
+    namelist /contact/ method, window, vertices, bodies, thickness, stiffness, overlap, penetration_tolerance, &
+      rest_speed, max_impacts
     read (unit, nml=contact, iostat=status, iomsg=message)
   end subroutine
 

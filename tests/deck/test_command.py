@@ -553,7 +553,7 @@ class Run(Case):
     def test_overlap_is_warned_of_or_stops_the_run(self):
         self.put(FOLD)
         log = self.call(0, "deck.nml")
-        node, triangle, x, y, when = numbers("warning    bodies overlap, which nothing prevents: node # is inside "
+        node, triangle, x, y, when = numbers("warning    bodies overlap, which bodies = 'all' in &contact prevents: node # is inside "
                                              "triangle # at (#, #) m, # s", log)
         first, again, inside, most, now = numbers("overlap    first at # s, node # in triangle #; # at most, # now", log)
         self.assertEqual((first, again, inside), (when, node, triangle))
