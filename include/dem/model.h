@@ -15,6 +15,23 @@ typedef enum dem_friction_law {
     DEM_FRICTION_PAPER /**< at an impact v_t' = mu v_t, a lasting contact slides freely: docs/method.md    (10) */
 } dem_friction_law;
 
+/** Where an obstacle is and how it moves there: the point that is given at X is at place + R(angle) X, with R the turn
+ *  by the angle, counterclockwise. All vectors have a third component of 0. */
+typedef struct dem_pose {
+    size_t struct_size;            /**< set by the library */
+    double place[3];               /**< m */
+    double velocity[3];            /**< m/s, the derivative of the place */
+    double acceleration[3];        /**< m/s^2, that of the velocity */
+    double angle, spin, spin_rate; /**< rad, rad/s, rad/s^2: an angle and its derivatives */
+} dem_pose;
+
+/** A motion that a program gives, twice continuously differentiable. It depends on t alone: the same t has the same
+ *  pose whenever it is asked for, which is not in the order of time, and may be beyond the time of the run.
+ *  Called by whatever computes with the obstacle, in the thread of the call and never from several at once.
+ *  \param[out] pose  all 0 at entry
+ *  \return other than DEM_OK to end an advance, which returns it and goes back to the last good state */
+typedef dem_status (*dem_motion)(void *context, double t, dem_pose *pose);
+
 /** A rigid polyline, at rest or moving; bodies live on the left of each segment, the solid is on its right. Closed if
  *  the last point is the first. The ends of an open one are free: what has passed round an end may come back from
  *  behind, unhindered. Restitution and friction are those of velocities relative to it. Its motions add up; nothing
@@ -26,13 +43,18 @@ typedef struct dem_obstacle {
     double restitution;   /**< eta in [0, 1], of a single node: a body rebounds by its waves even with 0   (9) */
     double friction;      /**< mu >= 0; 0: none in Coulomb's law. In (10) at most 1, which is none there */
     dem_friction_law friction_law;
-    double velocity[3];  /**< m/s, of a translation. All vectors have a third component of 0 */
-    double amplitude[3]; /**< m, of an oscillation amplitude sin(2 pi frequency t + phase) about the points given */
-    double frequency;    /**< Hz, of it; > 0 */
-    double phase;        /**< degrees, of it */
-    double pivot[3];     /**< m, about which it turns, as the points are given; goes with the other motions */
-    double spin;         /**< rad/s, of a rotation, counterclockwise */
-    double ramp;         /**< s, >= 0: velocity, amplitude and spin grow from 0 in this time, as a boundary's value */
+    double velocity[3];   /**< m/s, of a translation. All vectors have a third component of 0 */
+    double amplitude[3];  /**< m, of an oscillation amplitude sin(2 pi frequency t + phase) about the points given */
+    double frequency;     /**< Hz, of it; > 0 */
+    double phase;         /**< degrees, of it */
+    double pivot[3];      /**< m, about which it turns, as the points are given; goes with the other motions */
+    double spin;          /**< rad/s, of a rotation, counterclockwise */
+    double ramp;          /**< s, >= 0: velocity, amplitude and spin grow from 0 in this time, as a boundary's value */
+    dem_motion motion;    /**< NULL: it moves as said above; else as this says, and in no other way */
+    void *motion_context; /**< handed to it */
+    double most_speed;    /**< m/s, > 0 with `motion`: what no point of the obstacle exceeds at any time, */
+    double most_acceleration; /**< m/s^2, and this; a motion that does is a failure */
+    double longest_step;      /**< s, a step that still follows it; 0: any */
 } dem_obstacle;
 
 /** A field of dem_obstacle that says how it moves: of this name in decks and files too. */

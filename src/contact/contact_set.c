@@ -290,10 +290,11 @@ void contact_set_solve_all(contact_set *c, scene_state state)
     for (dem_index g = 0; g < c->forces.n_groups; g++) contact_forces_solve(&c->forces, c->forces.groups[g], state);
 }
 
-/* After a failure of the external force the contact forces would be wrong: the last ones are kept. */
+/* After a failure of the external force, or of the motion of an obstacle, the contact forces would be wrong: the last
+ * ones are kept. */
 void contact_set_store_all(contact_set *c)
 {
-    if (external_force_failed(c->scene.forces->external)) return;
+    if (external_force_failed(c->scene.forces->external) || surface_failed(&c->scene)) return;
     const contact_forces *r = &c->forces;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])

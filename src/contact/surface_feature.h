@@ -6,6 +6,7 @@
 #define DEM_CONTACT_SURFACE_FEATURE_H
 
 #include "contact/scene.h"
+#include "obstacle/given_motion.h"
 #include "obstacle/point_gap.h"
 #include "obstacle/vertex_gap.h"
 
@@ -124,6 +125,12 @@ static inline double surface_speed(const contact_scene *scene)
 static inline double surface_acceleration(const contact_scene *scene)
 {
     return scene->model->obstacles.bounds.acceleration;
+}
+
+/** Whether the place of a surface could not be found since the failure was last asked for. */
+static inline bool surface_failed(const contact_scene *scene)
+{
+    return scene->model->obstacles.is_asked && given_motion_failed();
 }
 
 /** Whether the surface of a segment moves, and the motion of its point at a place. */

@@ -322,13 +322,21 @@ module dem_c
     enumerator :: DEM_FRICTION_COULOMB = 0, DEM_FRICTION_PAPER = 1
   end enum
 
+  type, bind(c) :: dem_pose
+    integer(c_size_t) :: struct_size = 104
+    real(c_double) :: place(3) = 0, velocity(3) = 0, acceleration(3) = 0, angle = 0, spin = 0, spin_rate = 0
+  end type
+
   type, bind(c) :: dem_obstacle
-    integer(c_size_t) :: struct_size = 152
+    integer(c_size_t) :: struct_size = 192
     integer(dem_index) :: n_points = 0
     type(c_ptr) :: points = c_null_ptr
     real(c_double) :: restitution = 0, friction = 0
     integer(dem_friction_law) :: friction_law = 0
     real(c_double) :: velocity(3) = 0, amplitude(3) = 0, frequency = 0, phase = 0, pivot(3) = 0, spin = 0, ramp = 0
+    type(c_funptr) :: motion = c_null_funptr
+    type(c_ptr) :: motion_context = c_null_ptr
+    real(c_double) :: most_speed = 0, most_acceleration = 0, longest_step = 0
   end type
 
   type, bind(c) :: dem_motion_field
@@ -355,6 +363,17 @@ module dem_c
     real(c_double) :: stiffness(3, 3) = 0, youngs_modulus = 0, poissons_ratio = 0, anisotropy = 0
     real(c_double) :: longitudinal_speed = 0, transverse_speed = 0, volume = 0
   end type
+
+  abstract interface
+
+    integer(dem_status) function dem_motion(context, t, pose) bind(c)
+      import
+      type(c_ptr), value :: context
+      real(c_double), value :: t
+      type(dem_pose), intent(inout) :: pose
+    end function
+
+  end interface
 
   interface
 

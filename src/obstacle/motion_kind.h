@@ -15,12 +15,20 @@ typedef struct motion_bounds {
     double step_rate;           /* 1/s: the motion wants that many steps in a second at least */
 } motion_bounds;
 
+/** The motion of one obstacle. */
+typedef struct motion_law {
+    bool moves;             /* else the pose is that of the points as given, at all times */
+    unsigned kinds;         /* bit k is set: it moves by kind k */
+    const dem_obstacle *of; /* which has to stay */
+    double reach;           /* m, of a motion by a function: of the point furthest from the origin; else 0 */
+} motion_law;
+
 typedef struct motion_kind {
     const dem_motion_field *fields; /* [n_fields] by which it is given */
     dem_index n_fields;
     const char *(*fault)(const dem_obstacle *obstacle);    /* what is wrong with its fields, NULL: nothing; or NULL */
     motion_bounds (*bounds)(const dem_obstacle *obstacle); /* speed 0: the obstacle does not move in this way */
-    void (*add)(const dem_obstacle *obstacle, double t, pose *to);
+    void (*add)(const motion_law *law, double t, pose *to);
 } motion_kind;
 
 #endif

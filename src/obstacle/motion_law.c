@@ -5,15 +5,17 @@
  * follow from the pose (pose.h); what contact makes of them is in contact/. */
 #include "obstacle/motion_law.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "base/status.h"
+#include "obstacle/given_motion.h"
 #include "obstacle/obstacle_input.h"
 #include "obstacle/oscillation.h"
 #include "obstacle/rotation.h"
 #include "obstacle/uniform_motion.h"
 
-static const motion_kind *const kinds[] = {&uniform_motion, &oscillation, &rotation};
+static const motion_kind *const kinds[] = {&uniform_motion, &oscillation, &rotation, &given_motion};
 enum { N_KINDS = sizeof kinds / sizeof kinds[0] };
 
 /* The field that all kinds share. */
@@ -28,7 +30,7 @@ static bool moves_by(const motion_law *law, int kind)
 /* A kind of motion whose bound of the speed is 0 does nothing, and is left out. */
 motion_law motion_law_of(const dem_obstacle *obstacle)
 {
-    motion_law law = {.of = obstacle};
+    motion_law law = {.of = obstacle, .reach = given_motion_reach(obstacle)};
     for (int k = 0; k < N_KINDS; k++)
         if (kinds[k]->bounds(obstacle).speed != 0.0) law.kinds |= 1u << k;
     law.moves = law.kinds != 0;
@@ -42,7 +44,7 @@ pose motion_law_pose(const motion_law *law, double t)
     const vec2 none = {-0.0, -0.0};
     pose sum = {.centre = none, .velocity = none, .acceleration = {0.0, 0.0}, .axis = {1.0, 0.0}};
     for (int k = 0; k < N_KINDS; k++)
-        if (moves_by(law, k)) kinds[k]->add(law->of, t, &sum);
+        if (moves_by(law, k)) kinds[k]->add(law, t, &sum);
     return sum;
 }
 
@@ -97,7 +99,7 @@ static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstac
     const motion_bounds b = kind->bounds(obstacle);
     CHECK(isfinite(b.speed) && isfinite(b.acceleration) && isfinite(b.step_rate), DEM_ERROR_MODEL,
           "obstacle %lld: %s makes it move by up to %g m/s and %g m/s^2, which cannot be computed with", (long long)o,
-          kind->fields[0].name, b.speed, b.acceleration);
+          kind->n_fields > 0 ? kind->fields[0].name : "its motion", b.speed, b.acceleration);
     return DEM_OK;
 }
 
@@ -108,6 +110,17 @@ dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o)
           obstacle->ramp);
     for (int k = 0; k < N_KINDS; k++) TRY(check_kind(kinds[k], obstacle, o));
     return DEM_OK;
+}
+
+/* A motion by a function must be known at t = 0: a fault of the model, not of a step. */
+dem_status motion_law_check_start(const motion_law *law, dem_index o)
+{
+    char why[160];
+    if (law->of->motion == NULL) return DEM_OK;
+    (void)motion_law_pose(law, 0.0);
+    if (given_motion_failure() == DEM_OK) return DEM_OK;
+    (void)snprintf(why, sizeof why, "%s", dem_status_message());
+    return status_fail(DEM_ERROR_MODEL, "obstacle %lld: %s", (long long)o, why);
 }
 
 /* Whether two obstacles have equal numbers in all fields of a kind. */
@@ -122,9 +135,10 @@ static bool is_same_kind(const motion_kind *kind, const dem_obstacle *a, const d
     return true;
 }
 
-/* Equal numbers mean equal poses at all times: neither moves as seen from the other. */
+/* Equal numbers and functions mean equal poses at all times: neither moves as seen from the other. */
 bool motion_law_is_same(const motion_law *a, const motion_law *b)
 {
+    if (a->of->motion != b->of->motion || a->of->motion_context != b->of->motion_context) return false;
     if (a->kinds != b->kinds || (a->moves && a->of->ramp != b->of->ramp)) return false;
     for (int k = 0; k < N_KINDS; k++)
         if (moves_by(a, k) && !is_same_kind(kinds[k], a->of, b->of)) return false;
@@ -168,6 +182,7 @@ dem_status dem_obstacle_points(const dem_obstacle *obstacle, double t, double *p
     TRY(obstacle_input_read(&own, obstacle));
     const motion_law law = motion_law_of(&own);
     const pose at = motion_law_pose(&law, t);
+    TRY(given_motion_failure());
     memmove(points, own.points, 2 * (size_t)own.n_points * sizeof *points);
     for (dem_index k = 0; k < own.n_points && law.moves; k++)
         vec2_put(points, k, pose_outside(&at, vec2_at(points, k)));
@@ -183,6 +198,7 @@ dem_status dem_obstacle_velocity(const dem_obstacle *obstacle, double t, const d
     TRY(obstacle_input_read(&own, obstacle));
     const motion_law law = motion_law_of(&own);
     const pose at = motion_law_pose(&law, t);
+    TRY(given_motion_failure());
     vec2_put(velocity, 0, law.moves ? pose_velocity(&at, vec2_at(x, 0)) : (vec2){0.0, 0.0});
     return DEM_OK;
 }

@@ -8,17 +8,14 @@
 
 #include "obstacle/motion_kind.h"
 
-typedef struct motion_law {
-    bool moves;             /* else the pose is that of the points as given, at all times */
-    unsigned kinds;         /* bit k is set: it moves by kind k */
-    const dem_obstacle *of; /* which has to stay */
-} motion_law;
-
 /** DEM_ERROR_MODEL names obstacle o and the field of its motion that is not finite or too large. */
 dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o);
 
-/** The law of an obstacle as it is given, which must stay where it is. */
+/** The law of an obstacle as it is given and checked, which must stay where it is. */
 motion_law motion_law_of(const dem_obstacle *obstacle);
+
+/** DEM_ERROR_MODEL names obstacle o if the caller's function gives no pose at t = 0. */
+dem_status motion_law_check_start(const motion_law *law, dem_index o);
 
 /** The pose at t. The points are given where they are at t = 0; those of an oscillation in its middle. */
 pose motion_law_pose(const motion_law *law, double t);

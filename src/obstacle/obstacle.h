@@ -31,6 +31,7 @@ typedef struct obstacle_set {
     obstacle_vertex *vertices; /* [n_vertices] obstacle by obstacle, in the order of the segments that end there */
     motion_law *laws;          /* [n] how each moves */
     motion_bounds bounds;      /* of all; speed 0: all stand at rest */
+    bool is_asked;             /* whether functions of the caller say how some move */
     box_tree *trees;           /* [n] of the segments of each */
     box_tree vertex_tree;      /* of the vertices of those at rest; others are in none of its boxes */
     dem_index *first_vertex;   /* [n + 1] vertices first_vertex[k] .. first_vertex[k+1]-1 are of obstacle k */

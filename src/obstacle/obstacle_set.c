@@ -154,6 +154,8 @@ static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
     set->laws[o] = motion_law_of(&set->list[o]);
     set->bounds = motion_bounds_of_both(set->bounds, motion_law_bounds(&set->laws[o]));
     set->n++;
+    set->is_asked = set->is_asked || obstacle->motion != NULL;
+    TRY(motion_law_check_start(&set->laws[o], o));
     polyline_compile(set, o);
     return plant_tree(set, o);
 }

@@ -29,8 +29,9 @@ static inline motion_bounds oscillation_bounds(const dem_obstacle *obstacle)
                            .step_rate = 20.0 * obstacle->frequency};
 }
 
-static inline void oscillation_add(const dem_obstacle *obstacle, double t, pose *to)
+static inline void oscillation_add(const motion_law *law, double t, pose *to)
 {
+    const dem_obstacle *obstacle = law->of;
     const vec2 amplitude = vec2_at(obstacle->amplitude, 0);
     const double omega = oscillation_turn * obstacle->frequency,
                  angle = oscillation_turn * (obstacle->frequency * t + obstacle->phase / 360.0);

@@ -26,8 +26,9 @@ static inline motion_bounds rotation_bounds(const dem_obstacle *obstacle)
         .speed = spin * radius, .acceleration = (spin * spin + rate) * radius, .step_rate = 20.0 * spin};
 }
 
-static inline void rotation_add(const dem_obstacle *obstacle, double t, pose *to)
+static inline void rotation_add(const motion_law *law, double t, pose *to)
 {
+    const dem_obstacle *obstacle = law->of;
     to->origin = vec2_at(obstacle->pivot, 0);
     to->centre = vec2_add(to->centre, to->origin);
     to->angle = obstacle->spin * ramp_area(obstacle->ramp, t);

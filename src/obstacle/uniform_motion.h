@@ -13,8 +13,9 @@ static inline motion_bounds uniform_motion_bounds(const dem_obstacle *obstacle)
                            .acceleration = obstacle->ramp > 0.0 ? RAMP_STEEPEST * speed / obstacle->ramp : 0.0};
 }
 
-static inline void uniform_motion_add(const dem_obstacle *obstacle, double t, pose *to)
+static inline void uniform_motion_add(const motion_law *law, double t, pose *to)
 {
+    const dem_obstacle *obstacle = law->of;
     const vec2 velocity = vec2_at(obstacle->velocity, 0);
     to->centre = vec2_along(to->centre, ramp_area(obstacle->ramp, t), velocity);
     to->velocity = vec2_along(to->velocity, ramp_value(obstacle->ramp, t), velocity);

@@ -77,9 +77,17 @@ struct dem_simulation {
     observers observers;
 };
 
+/* Whether a function of the caller has failed: the external force, or the motion of an obstacle. */
 static inline bool run_force_failed(const dem_simulation *s)
 {
-    return reduce_any(external_force_failed(s->external));
+    return reduce_any(external_force_failed(s->external) || surface_failed(&s->automaton.set.scene));
+}
+
+/* The status and message of that failure, which is over then. */
+static inline dem_status run_force_failure(const dem_simulation *s)
+{
+    const dem_status of_motion = surface_failed(&s->automaton.set.scene) ? given_motion_failure() : DEM_OK;
+    return external_force_failed(s->external) ? external_force_failure(s->external) : of_motion;
 }
 
 static inline bool run_is_local(const dem_simulation *s)

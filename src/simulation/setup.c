@@ -44,7 +44,7 @@ static contact_rule rule_of(const dem_simulation *s)
                           .max_impacts = o->max_impacts,
                           .vertices = o->vertices != 0,
                           .layout = s->layout,
-                          .n_threads = o->threads};
+                          .n_threads = model->obstacles.is_asked ? 1 : o->threads};
 }
 
 static forces forces_of(const dem_simulation *s)
@@ -128,7 +128,7 @@ static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
     TRY(checkpoint_restore(s, checkpoint));
     query_at(s, s->t, s->y);
     const dem_status status = query_ask_force(s);
-    if (run_force_failed(s)) return reduce_status(external_force_failure(s->external), 0.0);
+    if (run_force_failed(s)) return reduce_status(run_force_failure(s), 0.0);
     TRY(status);
     s->started = s->has_checkpoint = true;
     return checkpoint_entries_copy(s->checkpoint, checkpoint);

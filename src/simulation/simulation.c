@@ -93,7 +93,7 @@ static dem_status stop_if_force_failed(const dem_simulation *s, dem_status statu
  * undone otherwise, whereas a step is given up by starting it again. */
 static dem_status take_rollback(dem_simulation *s)
 {
-    if (s->external == NULL) return DEM_OK;
+    if (s->external == NULL && !s->model->obstacles.is_asked) return DEM_OK;
     if (s->rollback == NULL) TRY(dem_checkpoint_create(&s->rollback));
     TRY(checkpoint_take(s, s->rollback));
     s->has_rollback = true;
@@ -114,7 +114,7 @@ static dem_status roll_back(dem_simulation *s)
     s->has_rollback = false;
     status = status_first(status, body_contact_follow(s, s->y));
     query_at(s, s->t, s->y);
-    return status_first(status, reduce_status(external_force_failure(s->external), 0.0));
+    return status_first(status, reduce_status(run_force_failure(s), 0.0));
 }
 
 /* Factor by which the next attempt at a step is shorter, 1 if the step is good or shortening does not help. The error
@@ -298,6 +298,7 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
     CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
           t_end, s->seen_t);
     s->advanced = s->advancing = true;
+    if (surface_failed(&s->automaton.set.scene)) (void)given_motion_failure(); /* left by a look at the simulation */
     const dem_status status = advance(s, t_end);
     s->advancing = false;
     return run_force_failed(s) ? roll_back(s) : status;
