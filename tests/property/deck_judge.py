@@ -6,8 +6,10 @@ import math
 import h5py
 import numpy as np
 
+import deck_motions
+
 LEDGER = {"kinetic": 1, "elastic": 1, "area": 1, "guard": 1, "gravity": 1, "impact": 1, "friction": 1, "damping": 1,
-          "projection": -1, "boundary": -1}
+          "projection": -1, "boundary": -1, "obstacle": -1}
 
 
 class Run:
@@ -116,13 +118,14 @@ def solid_of(deck, k, points):
 
 def node_depth(run, deck):
     """How deep a boundary node is in an obstacle in any frame, m."""
-    nodes = np.unique(rim_of(run.lattice))
-    places, deepest = run.x[:, nodes].reshape(-1, 2), 0.0
+    nodes, deepest = np.unique(rim_of(run.lattice)), 0.0
     for k, points in enumerate(run.obstacles):
-        corners = solid_of(deck, k, points)
-        inside = places[is_inside(places, corners) != deck.grounds[k].is_room]
-        if len(inside):
-            deepest = max(deepest, distance(inside, corners, np.roll(corners, -1, axis=0)).max())
+        solid = solid_of(deck, k, points)
+        for t, x in zip(run.times, run.x):
+            corners = deck_motions.place(deck.motions[k], solid, t)
+            inside = x[nodes][is_inside(x[nodes], corners) != deck.grounds[k].is_room]
+            if len(inside):
+                deepest = max(deepest, distance(inside, corners, np.roll(corners, -1, axis=0)).max())
     return deepest
 
 
@@ -145,10 +148,11 @@ def covered(points, corners):
     return found.any(axis=1)
 
 
-def vertex_depth(run):
+def vertex_depth(run, deck):
     """How deep a convex vertex of an obstacle is in a body in any frame, m."""
-    vertices, rim, deepest = np.concatenate([convex(points) for points in run.obstacles]), rim_of(run.lattice), 0.0
-    for x in run.x:
+    given, rim, deepest = [convex(points) for points in run.obstacles], rim_of(run.lattice), 0.0
+    for t, x in zip(run.times, run.x):
+        vertices = np.concatenate([deck_motions.place(keys, points, t) for keys, points in zip(deck.motions, given)])
         inside = vertices[covered(vertices, x[run.lattice["triangles"]])]
         if len(inside):
             deepest = max(deepest, distance(inside, x[rim[:, 0]], x[rim[:, 1]]).max())
@@ -213,7 +217,7 @@ def depth_of_nodes(run, deck):
 def depth_of_vertices(run, deck):
     if is_prescribed(deck) or run.history["behind"].any() or not deck.contact.get("vertices", True):
         return None
-    return vertex_depth(run) / penetration_tolerance_of(run, deck), 5.0
+    return vertex_depth(run, deck) / penetration_tolerance_of(run, deck), 5.0
 
 
 def events_per_node(run, deck):

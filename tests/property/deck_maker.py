@@ -7,6 +7,7 @@ import random
 
 import deck_bodies
 import deck_grounds
+import deck_motions
 
 METHODS = ["dopri45", "cashkarp45", "zonneveld34", "bs23", "heun12", "sayfyaburub34", "ark23", "ark34", "ark34b",
            "ark45", "ark45b", "verner56", "fehlberg78"]
@@ -51,6 +52,7 @@ class Deck:
     contact: dict = dataclasses.field(default_factory=dict)
     gravity: list = dataclasses.field(default_factory=list)  # m/s^2
     boundary: dict = dataclasses.field(default_factory=dict)
+    motions: list = dataclasses.field(default_factory=list)  # keys of each obstacle
 
 
 def spell(value):
@@ -211,7 +213,16 @@ def throw(dice, deck, body, speed, t_end):
         body.keys["clearance"] = (speed - 0.5 * deck.gravity[1] * flight) * flight / deck.spacing
 
 
-def random_deck(seed):
+def motions(deck, width):
+    """Of all obstacles, half of the time the same one. Dice of their own: the rest of the deck is as without."""
+    dice = Dice(deck.seed + 0.5)
+    together = dice.chance(0.5)
+    found = [deck_motions.motion(dice, deck.spacing, deck.sound, width) for _ in deck.grounds]
+    return [found[0] if together else keys for keys in found]
+
+
+def random_deck(seed, is_moving=False):
+    """`is_moving`: the obstacles are."""
     dice = Dice(seed)
     harsh = dice.chance(0.08)  # Verlet's steps, and bodies that lie on ground of strong friction
     modulus, density, a = dice.log(1e5, 1e11), dice.between(300.0, 8000.0), dice.log(1e-3, 0.03)
@@ -238,9 +249,11 @@ def random_deck(seed):
         parts.append(("material", material(dice, a, "soft", modulus * dice.between(0.3, 1.0), density)))
     for body in bodies:
         parts += [("body", scaled(body.keys, a))] + [(group, scaled(keys, a)) for group, keys in body.parts]
-    for ground in deck.grounds:
+    deck.motions = motions(deck, width) if is_moving else [{} for _ in deck.grounds]
+    for ground, moving in zip(deck.grounds, deck.motions):
         ground.keys.update(laws(dice, harsh))
-        parts.append(("obstacle", scaled({"points": [x for point in ground.points for x in point], **ground.keys}, a)))
+        keys = scaled({"points": [x for point in ground.points for x in point], **ground.keys}, a)
+        parts.append(("obstacle", {**keys, **moving}))
     if dice.chance(0.25):
         deck.boundary = boundary(dice, deck, 1, bodies[0], modulus)
         parts.append(("boundary", deck.boundary))

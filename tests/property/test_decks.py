@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random decks through the program, judged from outside: `test_decks.py DEM_BATCH [NUMBER] [--seed FIRST]`.
+"""Random decks through the program, judged from outside: `test_decks.py DEM_BATCH [NUMBER] [--seed FIRST] [--moving]`.
 
 A deck is refused with a line, or runs to its end: no storm, no crash, nothing that is not finite, energy and momentum
 in balance, nobody inside of anything. A deck that fails is printed whole, and `test_decks.py DEM_BATCH 1 --seed SEED`
@@ -108,9 +108,9 @@ def judge(program, deck, folder, census):
     return [f"exit code {code}", stderr]
 
 
-def try_seed(program, seed, census):
+def try_seed(program, seed, census, is_moving):
     """Whether the deck is right; else it is printed."""
-    deck = deck_maker.random_deck(seed)
+    deck = deck_maker.random_deck(seed, is_moving)
     with tempfile.TemporaryDirectory(dir=MEMORY) as name:
         faults = judge(program, deck, pathlib.Path(name), census)
     if not faults:
@@ -138,9 +138,11 @@ def main():
     parser.add_argument("program")
     parser.add_argument("number", type=int, nargs="?", default=100)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--moving", action="store_true", help="obstacles that move")
     options = parser.parse_args()
     program, census = os.path.abspath(options.program), Census()
-    n_faulty = sum(not try_seed(program, seed, census) for seed in range(options.seed, options.seed + options.number))
+    seeds = range(options.seed, options.seed + options.number)
+    n_faulty = sum(not try_seed(program, seed, census, options.moving) for seed in seeds)
     census.print(options.number, n_faulty)
     missing = shortfalls(census, options.number)
     for line in missing:
