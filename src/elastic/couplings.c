@@ -109,23 +109,6 @@ void couplings_add_tensions(const couplings *c, const unsigned char *broken, con
     }
 }
 
-/* Since 2 k_kl s_k s_l <= |k_kl| (s_k^2 + s_l^2), the couplings of an edge act at most like a spring of the sum of
- * their absolute values. */
-sym2 couplings_block(const couplings *c, dem_index i, const double *x)
-{
-    sym2 block = {0.0, 0.0, 0.0};
-    for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
-        const coupled_triangle *t = &c->list[c->slot[p] / 3];
-        const coupled_edges e = couplings_edges(t, x);
-        for (int end = 0; end < 2; end++) {
-            const int k = (int)(c->slot[p] + 2 * end) % 3;
-            const double bound = fabs(t->coupling[k]) + fabs(t->coupling[(k + 1) % 3]);
-            block = sym2_along(block, bound / (e.length[k] * e.length[k]), e.edge[k]);
-        }
-    }
-    return block;
-}
-
 /* ---- compilation ---- */
 
 static bool is_coupled(const dem_lattice *lattice, dem_index k)
@@ -143,19 +126,17 @@ static dem_status allocate(couplings *c)
     return DEM_OK;
 }
 
-/* Finds the spring of each edge in the row of the corner where the edge begins. */
 static dem_status fill(coupled_triangle *t, const dem_lattice *lattice, const springs *s, dem_index k)
 {
     t->triangle = k;
     for (int c = 0; c < 3; c++) {
         const dem_index i = lattice->triangles[3 * k + c], j = lattice->triangles[3 * k + (c + 1) % 3];
-        dem_index p = s->row[i];
-        while (p < s->row[i + 1] && s->neighbour[p] != j) p++;
-        CHECK(p < s->row[i + 1], DEM_ERROR_MODEL, "triangle %lld has a coupling, but its nodes %lld and %lld no spring",
+        const dem_index spring = springs_between(s, i, j);
+        CHECK(spring >= 0, DEM_ERROR_MODEL, "triangle %lld has a coupling, but its nodes %lld and %lld no spring",
               (long long)k, (long long)i, (long long)j);
         t->corner[c] = i;
-        t->spring[c] = s->spring[p];
-        t->rest_length[c] = s->rest_length[p];
+        t->spring[c] = spring;
+        t->rest_length[c] = lattice->rest_length[spring];
         t->coupling[c] = lattice->coupling[3 * k + c];
     }
     return DEM_OK;

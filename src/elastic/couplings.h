@@ -80,8 +80,4 @@ double couplings_energy(const couplings *c, const unsigned char *broken, const d
 /** Adds to the tension of every spring of the lattice what the couplings do.  \param[in,out] force  [n_springs] N */
 void couplings_add_tensions(const couplings *c, const unsigned char *broken, const double *x, double *force);
 
-/** C_i = sum of the |couplings| of each edge at node i times n n^T, with n its direction at x. It bounds the matrix A
- *  of the couplings as springs_block() does that of springs: u.A u <= 2 sum of u_i.C_i u_i. */
-sym2 couplings_block(const couplings *c, dem_index i, const double *x);
-
 #endif

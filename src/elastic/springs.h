@@ -35,6 +35,20 @@ static inline bool springs_is_broken(const unsigned char *broken, dem_index k)
     return broken != NULL && broken[k];
 }
 
+/** The spring between two nodes, as a number of the lattice; -1: none. */
+static inline dem_index springs_between(const springs *s, dem_index i, dem_index j)
+{
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+        if (s->neighbour[p] == j) return s->spring[p];
+    return -1;
+}
+
+/** E_ij/d0 of spring k of a lattice, N/m: tension per change of length. */
+static inline double springs_rate(const dem_lattice *lattice, dem_index k)
+{
+    return lattice->stiffness[k] / lattice->rest_length[k];
+}
+
 /** Tension over length of a spring, E_ij (d - d0)/(d0 d), N/m: times the vector between its ends it is the force
  *  (1). */
 static inline double springs_pull(double stiffness, double rest_length, double length)

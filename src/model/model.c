@@ -13,6 +13,7 @@
 #include "base/struct_size.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
+#include "model/coupled_bound.h"
 #include "obstacle/obstacle_input.h"
 #include "obstacle/obstacle_set.h"
 #include "obstacle/point_gap.h"
@@ -157,24 +158,37 @@ static dem_status compile_nodes(dem_model *m)
     return DEM_OK;
 }
 
-/* omega_max, rad/s: omega^2 <= max |2 S_i + 2 C_i + 3 T_i|/m_i over the nodes (docs/method.md, Integration in time).
- * S_i is the sum of k n n^T over the springs of node i, since (n.(u_j - u_i))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2; C_i that
- * of the absolute values of their couplings; T_i that of max(kappa, 0)/A0 g g^T over its triangles with g = dA/dx_i,
- * since (sum of three)^2 <= 3 (sum of squares). */
-static double frequency_bound(const dem_model *m)
+/* omega_max, rad/s: omega^2 <= max |2 S_i + 3 T_i + C_i|/m_i over the nodes (docs/method.md, Integration in time). S_i
+ * is the sum of k n n^T over the springs of node i, since (n.(u_j - u_i))^2 <= 2 (n.u_i)^2 + 2 (n.u_j)^2; T_i that of
+ * max(kappa, 0)/A0 g g^T over its triangles with g = dA/dx_i, since (sum of three)^2 <= 3 (sum of squares); and C_i, in
+ * `coupled`, what coupled triangles have beside that; NULL: nothing. */
+static double frequency_bound(const dem_model *m, const sym2 *coupled)
 {
     const double *x = m->lattice.x;
     double squared = 0.0;
     for (dem_index i = 0; i < m->lattice.n_nodes; i++) {
-        const sym2 bonds =
-            sym2_add(springs_block(&m->springs, m->springs.stiffness, i, x), couplings_block(&m->couplings, i, x));
+        const sym2 bonds = springs_block(&m->springs, m->springs.stiffness, i, x);
         const sym2 areas = triangles_block(&m->triangles, i, x);
-        const sym2 sum = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
+        const sym2 own = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
                           2.0 * bonds.yy + 3.0 * areas.yy};
-        const double bound = sym2_largest(sum) * m->inverse_mass[i];
+        const double bound = sym2_largest(coupled != NULL ? sym2_add(own, coupled[i]) : own) * m->inverse_mass[i];
         squared = isfinite(bound) ? fmax(squared, bound) : (double)INFINITY; /* fmax() would drop a NAN */
     }
-    return sqrt(reduce_max(squared));
+    return sqrt(squared);
+}
+
+static dem_status compile_omega(dem_model *m)
+{
+    sym2 *coupled = NULL;
+    dem_status status = DEM_OK;
+    if (m->couplings.n > 0) {
+        coupled = lattice_zeros(m->lattice.n_nodes, sizeof *coupled);
+        CHECK_MEMORY(coupled);
+        status = coupled_bound_add(&m->lattice, &m->springs, &m->couplings, coupled);
+    }
+    if (status == DEM_OK) m->omega_max = frequency_bound(m, coupled);
+    free(coupled);
+    return status;
 }
 
 /* The spacing is the shortest rest length. The mass is an exact sum. */
@@ -186,7 +200,7 @@ static void compile_scales(dem_model *m)
     /* A lattice without springs has the spacing 0. */
     shortest = reduce_min(shortest);
     m->spacing = isfinite(shortest) ? shortest : 0.0;
-    m->omega_max = frequency_bound(m);
+    m->omega_max = reduce_max(m->omega_max);
     m->n_bodies = (dem_index)reduce_max((double)m->n_bodies);
     exact_sum mass = {0};
     exact_sum_add_array(&mass, l->mass, l->n_nodes);
@@ -207,7 +221,8 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     TRY(surface_compile(&m->surface, &m->lattice, SURFACE_TOUCHING));
     TRY(stress_compile(&m->stress, &m->lattice, &m->springs, &m->couplings));
     TRY(obstacles_compile(&m->obstacles, list, n));
-    return compile_nodes(m);
+    TRY(compile_nodes(m));
+    return compile_omega(m);
 }
 
 /* A failure of one part is reduced before the sums, at which all processes would meet (base/reduce.h). */

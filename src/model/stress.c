@@ -15,7 +15,7 @@
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
-#include "lattice/triangle_share.h"
+#include "model/spring_share.h"
 
 /* ---- compilation ---- */
 
@@ -30,53 +30,11 @@ typedef struct draft {
     stress_map *map;
 } draft;
 
-/* An array that is missing stands for 1. */
-static double one_or(const double *array, dem_index k)
-{
-    return array != NULL ? array[k] : 1.0;
-}
-
-/* Thickness times area at rest, m^3. */
-static double volume_of(const dem_lattice *l, dem_index triangle)
-{
-    const dem_index *c = &l->triangles[3 * triangle];
-    const double area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
-    return one_or(l->thickness, triangle) * area;
-}
-
 /* The corner of a triangle that is neither i nor j. */
 static dem_index opposite(const dem_lattice *l, dem_index triangle, dem_index i, dem_index j)
 {
     const dem_index *c = &l->triangles[3 * triangle];
     return c[0] != i && c[0] != j ? c[0] : (c[1] != i && c[1] != j ? c[1] : c[2]);
-}
-
-/* The weight that a triangle has given a spring by, if its springs are coupled as dem_lattice_assemble() does it. A
- * spring that is no edge of the triangle is a diagonal of cells, which have no couplings. */
-static double weight_of(const dem_lattice *l, dem_index triangle, dem_index spring)
-{
-    const dem_index *c = &l->triangles[3 * triangle], *ends = &l->ends[2 * spring];
-    const double *coupling = l->coupling != NULL ? &l->coupling[3 * triangle] : NULL;
-    if (coupling == NULL || (coupling[0] == 0.0 && coupling[1] == 0.0 && coupling[2] == 0.0)) return 1.0;
-    const triangle_share share =
-        triangle_share_coupled((const vec2[]){vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2])});
-    for (int q = 0; q < 3; q++)
-        if (c[(q + 2) % 3] != ends[0] && c[(q + 2) % 3] != ends[1]) return share.weight[q];
-    return 1.0;
-}
-
-/* What a triangle has given to a spring, in units that all triangles of the spring share. */
-static double given_by(const dem_lattice *l, dem_index triangle, dem_index spring)
-{
-    return one_or(l->modulus, triangle) * volume_of(l, triangle) * weight_of(l, triangle, spring);
-}
-
-/* The spring between two nodes, or -1. */
-static dem_index find_spring(const springs *s, dem_index i, dem_index j)
-{
-    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-        if (s->neighbour[p] == j) return s->spring[p];
-    return -1;
 }
 
 /* Gives a share of a spring to a node. The first pass only counts; the second one writes. */
@@ -94,10 +52,10 @@ static void give_triangles(draft *d, dem_index spring, dem_index p, dem_index en
 {
     const dem_lattice *l = d->lattice;
     double sum = 0.0;
-    for (dem_index q = p; q < end; q++) sum += given_by(l, d->sides.list[q].triangle, spring);
+    for (dem_index q = p; q < end; q++) sum += spring_share_given(l, d->sides.list[q].triangle, spring);
     for (dem_index q = p; q < end; q++) {
         const dem_index t = d->sides.list[q].triangle;
-        const double share = given_by(l, t, spring) / sum;
+        const double share = spring_share_given(l, t, spring) / sum;
         for (int c = 0; c < 3; c++) give(d, l->triangles[3 * t + c], spring, share / 3.0);
     }
     d->placed[spring] = true;
@@ -109,10 +67,10 @@ static dem_index spring_of(const draft *d, bool along, dem_index i, dem_index p,
 {
     const mesh_edge_slot *list = d->sides.list;
     const dem_index j = list[p].upper;
-    if (along) return find_spring(d->springs, i, j);
+    if (along) return springs_between(d->springs, i, j);
     if (end - p != 2) return -1;
-    return find_spring(d->springs, opposite(d->lattice, list[p].triangle, i, j),
-                       opposite(d->lattice, list[p + 1].triangle, i, j));
+    return springs_between(d->springs, opposite(d->lattice, list[p].triangle, i, j),
+                           opposite(d->lattice, list[p + 1].triangle, i, j));
 }
 
 /* Goes through all edges, and shares their springs if no triangle has them yet. */
@@ -170,7 +128,8 @@ static void merge(stress_map *map, dem_index n_nodes)
  * stress. */
 static void divide_by_volumes(stress_map *map, const dem_lattice *l)
 {
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++) map->volume[l->triangles[k]] += volume_of(l, k / 3) / 3.0;
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+        map->volume[l->triangles[k]] += spring_share_volume(l, k / 3) / 3.0;
     for (dem_index i = 0; i < l->n_nodes; i++)
         for (dem_index p = map->row[i]; p < map->row[i + 1]; p++)
             map->share[p] = map->volume[i] > 0.0 ? map->share[p] / map->volume[i] : 0.0;

@@ -124,8 +124,8 @@ TEST(any_triangles_have_exactly_the_constants_asked_for)
 
 /* ---- frequencies ---- */
 
-/* The bound is above the highest frequency, which Lanczos' iteration finds to 1e-6, and not to be of no use: the
- * flatter triangles are, the more their couplings compensate each other, which the bound does not know. */
+/* The bound is above the highest frequency, which Lanczos' iteration finds to 1e-6, and not to be of no use: found 1.29
+ * (rings) to 1.66 times it (Delaunay). */
 TEST(the_bound_is_above_the_highest_frequency)
 {
     for (int shape = 0; shape < N_SHAPES; shape++)
@@ -136,7 +136,7 @@ TEST(the_bound_is_above_the_highest_frequency)
             print_message("# shape %d, nu %.3f: bound %.3f times omega\n", shape, ratios[n],
                           dem_model_omega_max(model) / omega);
             assert_true(dem_model_omega_max(model) >= omega * (1.0 - 1e-6));
-            assert_true(dem_model_omega_max(model) <= 5.0 * omega);
+            assert_true(dem_model_omega_max(model) <= 1.75 * omega);
         }
 }
 

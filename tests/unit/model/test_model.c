@@ -444,18 +444,6 @@ TEST(area_stiffness_raises_the_frequency_bound)
     assert_close(dem_model_omega_max(model), sqrt(20.0), 1e-15);
 }
 
-/* The legs of the triangle 0 1 2 are coupled by -4 N/m at node 1: at node 0, of 1 kg, the leg along x counts like a
- * spring of (10 + 4) N/m, beside 40 N/m along y and 50/1.5 N/m along the diagonal. */
-TEST(couplings_raise_the_frequency_bound)
-{
-    const double half = 0.5 * 50.0 / 1.5, mean = 0.5 * (14.0 + 40.0) + half, radius = hypot(0.5 * (40.0 - 14.0), half);
-    square s;
-    make_square(&s);
-    s.lattice.coupling = (double[6]){0.0, -4.0, 0.0, 0.0, 0.0, 0.0};
-    CLEANUP(free_model) dem_model *model = compile(&s);
-    assert_close(dem_model_omega_max(model), sqrt(2.0 * (mean + radius)), 1e-14);
-}
-
 TEST(without_springs_spacing_and_frequency_are_zero)
 {
     const double anywhere[2] = {3.0, 4.0};
