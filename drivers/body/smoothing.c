@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "crossings.h"
 #include "shape.h"
 #include "stars.h"
 
@@ -34,6 +35,7 @@ typedef struct draft {
     bool *held;              /* [n_nodes] rim nodes that do not slide */
     dem_index n_cut;         /* corners without a node */
     double *turn;            /* [n_nodes] cosine of the corner that a node is at; 2: none */
+    dem_index n_rim, *rim;   /* the nodes at the rim */
     size_t *edge;            /* [n_nodes] of rim nodes: the edge of the shape that they belong to */
     dem_index *beside;       /* [n_nodes][2] the rim nodes before and behind; -1: none */
     dem_index n_near, *near; /* triangles with a node that may move */
@@ -48,6 +50,7 @@ static void draft_free(draft *d)
     free(d->depth);
     free(d->held);
     free(d->turn);
+    free(d->rim);
     free(d->edge);
     free(d->beside);
     free(d->near);
@@ -64,12 +67,13 @@ static bool draft_create(draft *d, dem_lattice *lattice, const shape *s)
     d->depth = calloc(n + 1, sizeof *d->depth);
     d->held = calloc(n + 1, sizeof *d->held);
     d->turn = calloc(n + 1, sizeof *d->turn);
+    d->rim = calloc(n + 1, sizeof *d->rim);
     d->edge = calloc(n + 1, sizeof *d->edge);
     d->beside = calloc(n + 1, 2 * sizeof *d->beside);
     d->near = calloc(m + 1, sizeof *d->near);
     d->flipped = calloc(m + 1, sizeof *d->flipped);
-    return d->x && d->sum && d->depth && d->held && d->turn && d->edge && d->beside && d->near && d->flipped &&
-           stars_create(&d->stars, lattice);
+    return d->x && d->sum && d->depth && d->held && d->turn && d->rim && d->edge && d->beside && d->near &&
+           d->flipped && stars_create(&d->stars, lattice);
 }
 
 static bool is_rim(const draft *d, dem_index i)
@@ -225,18 +229,41 @@ static void find_rim(draft *d)
     for (dem_index i = 0; i < l->n_nodes; i++) d->turn[i] = 2.0;
     for (dem_index side = 0; side < 3 * l->n_triangles; side++)
         if (stars_across(&d->stars, l, side) < 0) link_rim(d, l->triangles[side], stars_end(l, side));
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (is_rim(d, i)) d->rim[d->n_rim++] = i;
 }
 
-/* On to the nearest point of the nearest edge, if that is near enough. */
+static bool is_on_edge(const shape *s, const double x[2])
+{
+    return fabs(shape_distance(s, x)) <= rounding * s->spacing;
+}
+
+/* The nearest point that is an edge of the material. The nearest edge has it, unless there it is in another void or
+ * beyond the outline. \return the edge */
+static size_t find_place(const shape *s, const double x[2], double near[2])
+{
+    size_t edge = shape_edge(s, x);
+    double least = (double)INFINITY, other[2];
+    outline_nearest(shape_edge_at(s, edge), x, near);
+    if (is_on_edge(s, near)) return edge;
+    for (size_t k = 0; k <= s->n_voids; k++) {
+        outline_nearest(shape_edge_at(s, k), x, other);
+        if (!is_on_edge(s, other) || distance(x, other) >= least) continue;
+        memcpy(near, other, sizeof other);
+        edge = k;
+    }
+    return edge;
+}
+
+/* On to the edge, if that is near enough. */
 static void place_rim(draft *d)
 {
     const dem_lattice *l = d->lattice;
     memcpy(d->x, l->x, 2 * (size_t)l->n_nodes * sizeof *d->x);
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        if (!is_rim(d, i)) continue;
+    for (dem_index k = 0; k < d->n_rim; k++) {
+        const dem_index i = d->rim[k];
         double near[2];
-        d->edge[i] = shape_edge(d->shape, l->x + 2 * i);
-        outline_nearest(shape_edge_at(d->shape, d->edge[i]), l->x + 2 * i, near);
+        d->edge[i] = find_place(d->shape, l->x + 2 * i, near);
         if (distance(near, l->x + 2 * i) <= reach * d->shape->spacing)
             memcpy(d->x + 2 * i, near, sizeof near);
         else
@@ -244,15 +271,24 @@ static void place_rim(draft *d)
     }
 }
 
-/* The rim node of an edge that is nearest to a corner gets it, unless it has a sharper one. */
-static void place_corner(draft *d, size_t edge, const outline_corner *corner)
+/* A corner of an edge, or of two that cross. */
+typedef struct joint {
+    draft *draft;
+    size_t edges[2];
+} joint;
+
+/* The rim node of its edges that is nearest to a corner gets it, unless that has a sharper one. */
+static void place_corner(const joint *j, const outline_corner *corner)
 {
-    const dem_lattice *l = d->lattice;
+    draft *d = j->draft;
     double least = corner_reach * d->shape->spacing;
     dem_index nearest = -1;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        if (!is_rim(d, i) || d->edge[i] != edge || distance(corner->x, l->x + 2 * i) >= least) continue;
-        least = distance(corner->x, l->x + 2 * i);
+    if (!is_on_edge(d->shape, corner->x)) return; /* in a void, or beyond the outline */
+    for (dem_index k = 0; k < d->n_rim; k++) {
+        const dem_index i = d->rim[k];
+        const double away = distance(corner->x, d->lattice->x + 2 * i);
+        if ((d->edge[i] != j->edges[0] && d->edge[i] != j->edges[1]) || away >= least) continue;
+        least = away;
         nearest = i;
     }
     d->n_cut += nearest < 0;
@@ -262,15 +298,22 @@ static void place_corner(draft *d, size_t edge, const outline_corner *corner)
     d->held[nearest] = true;
 }
 
-/* Corners that are no edge of the material, in another void or beyond the outline, get none. */
+/* Taken as sharp as a right angle. */
+static void place_crossing(void *context, const double x[2])
+{
+    place_corner(context, &(outline_corner){{x[0], x[1]}, 0.0});
+}
+
 static void place_corners(draft *d)
 {
     for (size_t e = 0; e <= d->shape->n_voids; e++) {
         const outline *o = shape_edge_at(d->shape, e);
         for (size_t k = 0; k < outline_corners(o); k++) {
             const outline_corner corner = outline_corner_at(o, k);
-            if (fabs(shape_distance(d->shape, corner.x)) <= rounding * d->shape->spacing) place_corner(d, e, &corner);
+            place_corner(&(joint){d, {e, e}}, &corner);
         }
+        for (size_t f = e + 1; f <= d->shape->n_voids; f++)
+            crossings_find(o, shape_edge_at(d->shape, f), place_crossing, &(joint){d, {e, f}});
     }
 }
 
@@ -459,13 +502,12 @@ static void relent(draft *d)
 static void measure(smoothing *out, const draft *d)
 {
     double worst = 0.0;
-    *out = (smoothing){.n_cut = d->n_cut};
+    *out = (smoothing){.n_rim = d->n_rim, .n_cut = d->n_cut};
     for (dem_index t = 0; t < d->lattice->n_triangles; t++) worst = fmax(worst, cotangent_of(d, t));
     out->least_angle = 57.295779513082321 * atan(1.0 / worst);
-    for (dem_index i = 0; i < d->lattice->n_nodes; i++) {
-        if (!is_rim(d, i)) continue;
+    for (dem_index k = 0; k < d->n_rim; k++) {
+        const dem_index i = d->rim[k];
         const double *x = d->x + 2 * i, off = fabs(outline_distance(shape_edge_at(d->shape, d->edge[i]), x[0], x[1]));
-        out->n_rim++;
         if (off <= rounding * d->shape->spacing) continue;
         out->n_off++;
         out->farthest = fmax(out->farthest, off);

@@ -235,6 +235,49 @@ TEST(sharp_tips_are_cut_off_and_counted)
     free(n_edges);
 }
 
+/* Voids that open a side or each other: the corners between them have nodes, and the rim is on the edge between. */
+TEST(edges_that_cross_have_nodes_where_they_do)
+{
+    const outline holes[] = {{.kind = OUTLINE_DISC, .centre = {0.3, 12.0}, .radius = 4.0},
+                             {.kind = OUTLINE_DISC, .centre = {-10.0, 0.4}, .radius = 4.1},
+                             {.centre = {6.0, 2.0}, .size = {3.0, 9.0}},
+                             {.kind = OUTLINE_DISC, .centre = {6.0, 6.0}, .radius = 2.5}};
+    const double corner[][2] = {{4.3, 12.0}, {-3.7, 12.0}, {-10.0, 4.5}, {7.5, 4.0},
+                                {4.5, 4.0},  {4.5, 0.0},   {7.5, 0.0}};
+    CLEANUP(shape_free)
+    shape s = {.outline = {.centre = {0.0, 6.0}, .size = {20.0, 12.0}}, .spacing = 1.0, .smooth = true};
+    smoothing out;
+    for (int k = 0; k < 4; k++) {
+        outline hole = holes[k];
+        assert_true(shape_add_void(&s, &hole));
+    }
+    CLEANUP(dem_lattice_free) dem_lattice l = make(&s, &out);
+    expect_sound(&l, &out);
+    assert_int_equal(out.n_off, 0);
+    for (size_t k = 0; k < 7; k++) assert_close(distance_of_node(&l, corner[k]), 0.0, 1e-14);
+    assert_true(rim_error(&l, &s) <= 1e-12);
+    assert_close(area_of_all(&l) / area_of(&s), 1.0, 0.02);
+}
+
+/* Beside a shallow notch the nearest point of its circle may be beyond the side. */
+TEST(shallow_notches_are_followed)
+{
+    for (int k = 0; k < 40; k++) {
+        const double middle = 0.03 * k, above = 0.08 * k, chord = sqrt(16.0 - above * above);
+        CLEANUP(shape_free)
+        shape s = {.outline = {.centre = {0.0, 6.0}, .size = {20.0, 12.0}}, .spacing = 1.0, .smooth = true};
+        outline hole = {.kind = OUTLINE_DISC, .centre = {middle, 12.0 + above}, .radius = 4.0};
+        smoothing out;
+        assert_true(shape_add_void(&s, &hole));
+        CLEANUP(dem_lattice_free) dem_lattice l = make(&s, &out);
+        expect_sound(&l, &out);
+        assert_int_equal(out.n_off, 0);
+        assert_true(rim_error(&l, &s) <= 1e-12);
+        for (int side = -1; side <= 1; side += 2)
+            assert_close(distance_of_node(&l, (double[2]){middle + side * chord, 12.0}), 0.0, 1e-13);
+    }
+}
+
 /* More than three layers behind the rim all nodes are where the grid has them. */
 TEST(the_inside_stays_as_it_was)
 {
