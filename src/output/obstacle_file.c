@@ -11,6 +11,7 @@
 #include "output/hdf5_untrusted.h"
 #include "output/vtk_grid.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,10 +35,21 @@ static void name_field(char name[NAME], const char *group, const dem_motion_fiel
     (void)snprintf(name, NAME, "%s/%s", group, field->name);
 }
 
+/* What is known of a motion by a function: its bounds. Their presence is its mark. */
+static dem_status write_bounds(const hdf5_file *file, const char *group, const dem_obstacle *o)
+{
+    char name[NAME];
+    const double bounds[3] = {o->most_speed, o->most_acceleration, o->longest_step};
+    (void)snprintf(name, NAME, "%s/bounds", group);
+    if (o->motion == NULL) return DEM_OK;
+    return hdf5_write(file, (hdf5_rows){name, HDF5_F64, 1, {0}, 0, 0}, 3, bounds);
+}
+
 /* The fields of the motions that the obstacle has; one at rest has none of these datasets. */
 static dem_status write_motion(const hdf5_file *file, const char *group, const dem_obstacle *o)
 {
     const dem_motion_field *field;
+    TRY(write_bounds(file, group, o));
     for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++) {
         char name[NAME];
         name_field(name, group, field);
@@ -117,9 +129,30 @@ static dem_status read_field(const hdf5_file *file, const char *group, const dem
     return hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, n, 0}, (char *)o + field->offset);
 }
 
+/* A motion by a function comes back with its bounds alone. */
+static dem_status read_bounds(const hdf5_file *file, const char *group, dem_obstacle *o)
+{
+    char name[NAME];
+    bool present = false;
+    double bounds[3] = {0.0, 0.0, 0.0};
+    hdf5_untrusted_shape shape;
+    (void)snprintf(name, NAME, "%s/bounds", group);
+    TRY(hdf5_untrusted_find(file, name, &present));
+    if (!present) return DEM_OK;
+    TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
+    if (shape.rank != 1 || shape.extent[0] != 3) return hdf5_untrusted_refuse(file, name, "is not of shape [3]");
+    TRY(hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, 3, 0}, bounds));
+    if (!(bounds[0] > 0.0 && isfinite(bounds[0]) && bounds[1] >= 0.0 && isfinite(bounds[1])))
+        return hdf5_untrusted_refuse(file, name, "has a bound that is no speed or acceleration");
+    o->most_speed = bounds[0];
+    o->most_acceleration = bounds[1];
+    return DEM_OK;
+}
+
 static dem_status read_motion(const hdf5_file *file, const char *group, dem_obstacle *o)
 {
     const dem_motion_field *field;
+    TRY(read_bounds(file, group, o));
     for (dem_index k = 0; (field = dem_motion_field_at(k)) != NULL; k++) TRY(read_field(file, group, field, o));
     return DEM_OK;
 }

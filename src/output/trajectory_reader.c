@@ -17,6 +17,7 @@
 #include "base/status.h"
 #include "lattice/lattice.h"
 #include "output/hdf5_untrusted.h"
+#include "output/motion_record.h"
 #include "output/obstacle_file.h"
 #include "output/units.h"
 #include "output/vtk_grid.h"
@@ -47,6 +48,7 @@ struct dem_reader {
     dem_lattice lattice;
     dem_obstacle *obstacles;
     dem_index n_obstacles;
+    motion_record *records; /* [n_obstacles] of those that a program moved; NULL: none yet */
     double *times;
     dem_index n_frames;
     dem_reader_array *arrays;
@@ -331,6 +333,22 @@ static dem_status list_frames(dem_reader *reader, const hdf5_file *file)
     return add_frames_table(reader, file);
 }
 
+/* Obstacles that a program moved get their places from the history. */
+static dem_status read_records(dem_reader *reader, const hdf5_file *file)
+{
+    const dem_index n = reader->n_obstacles;
+    reader->records = calloc((size_t)n + 1, sizeof *reader->records);
+    CHECK_MEMORY(reader->records);
+    for (dem_index k = 0; k < n; k++) {
+        dem_obstacle *o = &reader->obstacles[k];
+        if (o->most_speed == 0.0) continue;
+        TRY(motion_record_read(&reader->records[k], file, k, n));
+        o->motion = motion_record_pose;
+        o->motion_context = &reader->records[k];
+    }
+    return DEM_OK;
+}
+
 /* A group that is missing is no error: which ones there are depends on the options of the run. */
 static dem_status list_all(dem_reader *reader, const hdf5_file *file)
 {
@@ -339,7 +357,8 @@ static dem_status list_all(dem_reader *reader, const hdf5_file *file)
     TRY(add_table(reader, file, "events"));
     TRY(add_tables(reader, file, "probes"));
     TRY(add_tables(reader, file, "most_stressed"));
-    return obstacle_file_read(file, &reader->obstacles, &reader->n_obstacles);
+    TRY(obstacle_file_read(file, &reader->obstacles, &reader->n_obstacles));
+    return read_records(reader, file);
 }
 
 /* Lists what the file holds; the lattice is read whole, since counts of nodes and springs are those of arrays. */
@@ -376,6 +395,9 @@ void dem_reader_close(dem_reader *reader)
     free(reader->columns);
     free(reader->arrays);
     free(reader->times);
+    for (dem_index k = 0; k < reader->n_obstacles && reader->records != NULL; k++)
+        motion_record_free(&reader->records[k]);
+    free(reader->records);
     obstacle_file_free(reader->obstacles, reader->n_obstacles);
     dem_lattice_free(&reader->lattice);
     free(reader->path);
