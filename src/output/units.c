@@ -11,7 +11,11 @@ static const struct unit {
     const char *unit, *names[MOST]; /* NULL behind the last */
 } units[] = {
     {"s", {"t", "h", "peak_von_mises_time", "peak_strain_time"}},
-    {"m", {"x", "displacement", "length", "body_centre", "obstacle_point", "boundary_displacement"}},
+    {"m",
+     {"x", "displacement", "length", "body_centre", "obstacle_point", "obstacle_displacement",
+      "boundary_displacement"}},
+    {"rad", {"obstacle_angle"}},
+    {"W", {"obstacle_power"}},
     {"m/s", {"v", "velocity", "before", "after", "body_velocity"}},
     {"N", {"force", "obstacle_reaction", "boundary_force"}},
     {"N s", {"normal_impulse", "tangential_impulse", "obstacle_impulse", "obstacle_friction_impulse"}},
