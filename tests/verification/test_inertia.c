@@ -175,3 +175,34 @@ TEST(bodies_feel_the_inertia_of_all_at_once)
 {
     for (int k = 0; k < VIEWS - 1; k++) compare(&views[k], &motions[2]);
 }
+
+/* What the body has gained is the work of the obstacle less what impacts and friction have taken: to 1e-10 of the
+ * largest energy of motion at rtol 1e-12, which is what the integrator leaves. */
+TEST(the_ledger_closes_with_the_work_of_the_obstacle)
+{
+    const double friction[2] = {0.0, 0.4};
+    for (size_t m = 0; m < sizeof motions / sizeof *motions; m++)
+        for (int eta = 0; eta < 2; eta++) {
+            const view *v = &views[1];
+            CLEANUP(dem_lattice_free) dem_lattice body = dem_lattice_empty();
+            CLEANUP(support_close) support_run run;
+            dem_options options = view_options(v->gravity, 0.0);
+            dem_obstacle ground[2];
+            double largest = 0.0;
+            set_motion(ground, v, &motions[m]);
+            ground[0].restitution = eta;
+            ground[0].friction = friction[eta];
+            options.rtol = 1e-12;
+            view_make_body(&body, v);
+            const motion_law law = motion_law_of(&ground[0]);
+            take_outside(&body, &law);
+            support_open(&run, &body, ground, v->n, &options);
+            const double start = ask_energy(run.simulation).ledger;
+            for (int k = 1; k <= 4; k++) {
+                const motion s = support_at(&run, v->t_end * k / 4.0);
+                largest = fmax(largest, s.energy.motion);
+                assert_close(s.energy.ledger, start, 1e-10 * largest);
+            }
+            assert_true(fabs(ask_energy(run.simulation).obstacle) > 1e-3 * largest);
+        }
+}
