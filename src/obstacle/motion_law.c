@@ -138,8 +138,10 @@ static bool is_same_kind(const motion_kind *kind, const dem_obstacle *a, const d
 /* Equal numbers and functions mean equal poses at all times: neither moves as seen from the other. */
 bool motion_law_is_same(const motion_law *a, const motion_law *b)
 {
-    if (a->of->motion != b->of->motion || a->of->motion_context != b->of->motion_context) return false;
-    if (a->kinds != b->kinds || (a->moves && a->of->ramp != b->of->ramp)) return false;
+    if (a->kinds != b->kinds) return false;
+    if (!a->moves) return true;
+    if (a->of->ramp != b->of->ramp || a->of->motion != b->of->motion) return false;
+    if (a->of->motion_context != b->of->motion_context) return false;
     for (int k = 0; k < N_KINDS; k++)
         if (moves_by(a, k) && !is_same_kind(kinds[k], a->of, b->of)) return false;
     return true;
