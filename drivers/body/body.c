@@ -66,6 +66,36 @@ static void check_diagonal(const schema_deck *groups, const schema_instance *bod
                             "'diagonal' in &body is not used with the 'bond_stiffness' of its material");
 }
 
+/* Whether a &body or &inclusion is of a material, and its cells are squares (1) or triangles (2). */
+static int cells_of(const schema_deck *groups, const schema_instance *user, const schema_instance *material)
+{
+    const bool inclusion = strcmp(user->group->name, "inclusion") == 0;
+    const size_t k = inclusion ? (size_t)schema_real(user, "body") : 0, n = schema_count(groups, "body");
+    if (!schema_is(user, "material", schema_text(material, "name")) || (inclusion && (k < 1 || k > n))) return 0;
+    return body_geometry_has_squares(inclusion ? schema_get(groups, "body", k - 1) : user) ? 1 : 2;
+}
+
+/* Whether all that is of a material has squares, whose springs are independent. */
+static bool is_of_squares(const schema_deck *groups, const schema_instance *material)
+{
+    int cells = 0;
+    for (size_t k = 0; k < schema_count(groups, "body"); k++)
+        cells |= cells_of(groups, schema_get(groups, "body", k), material);
+    for (size_t k = 0; k < schema_count(groups, "inclusion"); k++)
+        cells |= cells_of(groups, schema_get(groups, "inclusion", k), material);
+    return cells == 1;
+}
+
+static void check_springs(const schema_deck *groups, namelist_errors *errors)
+{
+    for (size_t k = 0; k < schema_count(groups, "material"); k++) {
+        const schema_instance *material = schema_get(groups, "material", k);
+        if (is_given(material, "springs") && is_of_squares(groups, material))
+            namelist_errors_add(errors, place_of(material, "springs"),
+                                "'springs' in &material is not used by bodies of squares");
+    }
+}
+
 static void check_clearance(const schema_deck *groups, const schema_instance *body, namelist_errors *errors)
 {
     const double *gravity = reals_of(schema_get(groups, "run", 0), "gravity");
@@ -355,6 +385,7 @@ void body_drop_unused(schema_deck *groups)
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
         if (strcmp(group->group->name, "body") == 0 && has_equal_springs(groups, group)) schema_drop(group, "diagonal");
+        if (strcmp(group->group->name, "material") == 0 && is_of_squares(groups, group)) schema_drop(group, "springs");
     }
 }
 
@@ -363,6 +394,7 @@ void body_check_all(const schema_deck *groups, namelist_errors *errors)
     body_checks_all(groups, errors);
     material_check_all(groups, errors);
     check_materials(groups, errors);
+    check_springs(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
         const schema_instance *body = schema_get(groups, "body", k);
         check_diagonal(groups, body, errors);

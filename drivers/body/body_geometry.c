@@ -254,6 +254,9 @@ void body_geometry_materials(dem_material *out, const schema_deck *groups, size_
     out[0] = material_of(groups, schema_get(groups, "body", k));
     for (size_t i = 0; i < schema_count(groups, "inclusion"); i++)
         if (own(&f, "inclusion", i) != NULL) out[n++] = material_of(groups, own(&f, "inclusion", i));
+    /* The material may be one of triangles, too. */
+    for (size_t i = 0; i < n && body_geometry_has_squares(schema_get(groups, "body", k)); i++)
+        out[i].springs = DEM_SPRINGS_INDEPENDENT;
 }
 
 /* Gives the triangles in an outline a material, `step` of them at a time.  \return how many */

@@ -18,6 +18,7 @@ const schema_instance *material_find(const schema_deck *groups, const char *name
 dem_material material_of(const schema_deck *groups, const schema_instance *user)
 {
     const schema_instance *m = material_find(groups, schema_text(user, "material"));
+    const bool coupled = schema_is(m, "springs", "coupled") && !schema_given(m, "bond_stiffness");
     return (dem_material){.struct_size = sizeof(dem_material),
                           .youngs_modulus = schema_real(m, "youngs_modulus"),
                           .bond_stiffness = schema_real(m, "bond_stiffness"),
@@ -26,7 +27,8 @@ dem_material material_of(const schema_deck *groups, const schema_instance *user)
                           .density = schema_real(m, "density"),
                           .thickness = schema_real(m, "thickness"),
                           .guard = schema_real(m, "guard"),
-                          .damping_time = schema_real(m, "damping_time")};
+                          .damping_time = schema_real(m, "damping_time"),
+                          .springs = coupled ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT};
 }
 
 /* ---- checks ---- */
@@ -70,7 +72,7 @@ void material_check_user(const schema_deck *groups, const schema_instance *user,
 /* E or E_ij; with that no nu. */
 static void check_stiffness(const schema_instance *material, namelist_errors *errors)
 {
-    static const char *const unused[] = {"youngs_modulus", "poissons_ratio", "plane"};
+    static const char *const unused[] = {"youngs_modulus", "poissons_ratio", "plane", "springs"};
     const schema_value *modulus = schema_value_of(material, "youngs_modulus"),
                        *bond = schema_value_of(material, "bond_stiffness");
     if (!bond->given && !modulus->given && !modulus->faulty && !bond->faulty)
@@ -115,5 +117,6 @@ void material_drop_unused(schema_deck *groups)
         if (strcmp(material->group->name, "material") != 0 || !schema_given(material, "bond_stiffness")) continue;
         schema_drop(material, "poissons_ratio");
         schema_drop(material, "plane");
+        schema_drop(material, "springs");
     }
 }

@@ -38,6 +38,10 @@ static const schema_key material_keys[] = {
      "Strength of the folding guard over E h, which keeps triangles from turning inside out; 0 switches it off.", NULL},
     {"damping_time", SCHEMA_REAL, 1, 1, "s", "0", ">= 0", NULL, PHYSICS,
      "Damping of the springs: a rate of strain acts like a strain of damping_time times it; 0 is none.", NULL},
+    {"springs", SCHEMA_CHOICE, 1, 1, "-", "'coupled'", ANY, "coupled|independent", PHYSICS,
+     "Springs of triangles: coupled are exact in any triangle, independent in equilateral ones, where both are the "
+     "same.",
+     NULL},
 };
 
 static const schema_key body_keys[] = {

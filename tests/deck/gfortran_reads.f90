@@ -21,10 +21,10 @@ contains
   end subroutine
 
   subroutine read_material()
-    character(4096) :: name, plane
+    character(4096) :: name, plane, springs
     real(dp) :: youngs_modulus, bond_stiffness, poissons_ratio, density, thickness, guard, damping_time
     namelist /material/ name, youngs_modulus, bond_stiffness, poissons_ratio, plane, density, thickness, guard, &
-      damping_time
+      damping_time, springs
     read (unit, nml=material, iostat=status, iomsg=message)
   end subroutine
 

@@ -146,6 +146,27 @@ TEST(squares_have_the_springs_of_their_diagonal)
     assert_close(mass_of(&b.lattice), 1000.0 * 0.5 * 8.0, 1e-9);
 }
 
+/* By default where there are couplings; a square's diagonals are springs of their own, whatever its material says. */
+TEST(springs_of_moved_nodes_are_coupled)
+{
+    static const char *const materials[3] = {"", "springs = 'coupled'", "springs = 'independent'"};
+    for (int k = 0; k < 3; k++) {
+        char text[512];
+        (void)snprintf(text, sizeof text,
+                       RUN "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, %s /\n" BLOCK
+                           ", jitter = 0.2 /\n" BLOCK ", jitter = 0.2, lattice = 'square' /",
+                       materials[k]);
+        CLEANUP(drop_built) built triangles, squares, regular;
+        build_good(&triangles, text, NULL, 0);
+        build(&squares, text, 1, NULL, 0);
+        build_good(&regular, RUN RUBBER BLOCK " /", NULL, 0);
+        assert_int_equal(triangles.lattice.coupling != NULL, k < 2);
+        assert_int_equal(squares.errors.n, 0);
+        assert_null(squares.lattice.coupling);
+        assert_null(regular.lattice.coupling);
+    }
+}
+
 TEST(a_bond_stiffness_is_that_of_every_spring)
 {
     CLEANUP(drop_built) built b;
@@ -316,6 +337,25 @@ TEST(sizes_of_the_spacing_and_more_pass)
                    "spacing");
     assert_checked(RUN RUBBER "&body shape = 'rectangle', size = 1, 9,\n spacing = 1.01, material = 'rubber' /", 4,
                    "spacing");
+}
+
+/* Of squares alone the key says nothing, and the resolved deck has it no more; inclusions are of their body's cells. */
+TEST(springs_are_those_of_triangles)
+{
+    const char *square =
+        RUN "&material name = 'rubber', youngs_modulus = 1, density = 1,\n springs = 'coupled' /\n" BLOCK
+            ", lattice = 'square' /\n";
+    const char *plain = RUN RUBBER BLOCK ", lattice = 'square' /";
+    char text[512];
+    assert_checked(square, 3, "springs");
+    (void)snprintf(text, sizeof text, "%s&inclusion material = 'rubber', centre = 0, 1, radius = 0.5 /", square);
+    assert_checked(text, 3, "springs");
+    (void)snprintf(text, sizeof text, "%s" DISC " /", square);
+    assert_checked(text, 0, NULL);
+    assert_checked(plain, 0, NULL);
+    CLEANUP(drop_resolved) resolved r = resolve_clean(plain);
+    body_drop_unused(&r.deck);
+    assert_int_equal(schema_value_of(schema_get(&r.deck, "material", 0), "springs")->count, 0);
 }
 
 TEST(files_need_no_material_and_others_do)

@@ -22,6 +22,7 @@ TEST(a_material_is_read_by_its_name)
     assert_close(m.thickness, 0.5, 0.0);
     assert_close(m.guard, 0.1, 0.0);
     assert_close(m.damping_time, 1e-6, 0.0);
+    assert_int_equal(m.springs, DEM_SPRINGS_COUPLED);
     assert_ptr_equal(material_find(&r.deck, "rubber"), schema_get(&r.deck, "material", 0));
     assert_null(material_find(&r.deck, "rub"));
 }
@@ -39,6 +40,9 @@ TEST(a_bond_stiffness_stands_for_all_of_elasticity)
     assert_close(m.youngs_modulus, 0.0, 0.0);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "material", 0), "poissons_ratio")->count, 0);
     assert_int_equal(schema_value_of(schema_get(&r.deck, "material", 0), "plane")->count, 0);
+    assert_int_equal(schema_value_of(schema_get(&r.deck, "material", 0), "springs")->count, 0);
+    assert_int_equal(m.springs, DEM_SPRINGS_INDEPENDENT);
+    assert_int_equal(material_of(&r.deck, schema_get(&r.deck, "body", 1)).springs, DEM_SPRINGS_COUPLED);
     assert_close(material_of(&r.deck, schema_get(&r.deck, "body", 1)).poissons_ratio, 1.0 / 3.0, 1e-15);
 }
 
