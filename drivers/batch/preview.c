@@ -12,6 +12,7 @@
 #include "memory.h"
 #include "relaxation.h"
 #include "step_report.h"
+#include "surface_report.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16 };            /* obstacles, bodies */
@@ -423,6 +424,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     print_bodies(log->out, d, log->verbose);
     if (log->verbose) print_rules(log->out, simulation);
     print_boundaries(log->out, d, log->verbose);
+    surface_report_print(log->out, simulation);
     print_measured(log, d, model);
     print_time(log->out, d, simulation, fmin(expected, d->t_end), &needed);
     doubts_of_lattices(log, d);

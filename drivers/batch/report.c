@@ -163,6 +163,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     follow_energy(r, simulation, &state);
     follow_strain(r, simulation, state.t);
     step_report_follow(&r->so_far.step_report, simulation, &state);
+    surface_report_follow(&r->so_far.surface_report, simulation, state.t);
     rebound_follow(&r->so_far.rebound, simulation, &state);
     watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
@@ -451,6 +452,7 @@ void report_summary(report *r, const dem_simulation *simulation)
         print_balance(r, e);
     print_obstacles(out, simulation, details);
     print_boundaries(out, simulation, details);
+    surface_report_print_nearest(out, &r->so_far.surface_report);
     if (details) print_counts(r, simulation);
     (void)fflush(out);
 }

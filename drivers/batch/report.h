@@ -10,6 +10,7 @@
 #include "relaxation.h"
 #include "run_log.h"
 #include "step_report.h"
+#include "surface_report.h"
 
 /** What the report of a run needs, and its checkpoints keep. */
 typedef struct report_progress {
@@ -20,6 +21,7 @@ typedef struct report_progress {
     double strain_min_t, strain_max_t, area_min, area_min_t;
     dem_index guarded_max, inverted_max;
     step_report step_report;
+    surface_report surface_report;
     rebound rebound;
     double warned_closure, warned_t; /* of the ledger's warning */
     bool warned, overlapped;

@@ -51,6 +51,11 @@ static inline dem_overlap ask_overlap(const dem_simulation *simulation)
     ASK(dem_overlap, dem_simulation_overlap(simulation, &out));
 }
 
+static inline dem_surfaces ask_surfaces(const dem_simulation *simulation)
+{
+    ASK(dem_surfaces, dem_simulation_surfaces(simulation, &out));
+}
+
 static inline dem_contact ask_contact(const dem_simulation *simulation, dem_index contact)
 {
     ASK(dem_contact, dem_simulation_contact(simulation, contact, &out));

@@ -289,6 +289,17 @@ typedef struct dem_overlap {
     double x[3];              /**< m, where that node was */
 } dem_overlap;
 
+/** Contact of bodies with each other and with themselves now; without the option `bodies` nothing pushes. */
+typedef struct dem_surfaces {
+    size_t struct_size;   /**< to be set to sizeof(dem_surfaces) */
+    double gap_min;       /**< m, smallest distance of a node from an edge that pushes it; infinity: none does */
+    double gap_share;     /**< smallest distance over contact thickness; infinity: as above */
+    double thickness_min; /**< m, smallest and largest contact thickness of the bodies */
+    double thickness_max;
+    dem_index pushing; /**< pairs of a node and an edge that push each other */
+    dem_index n_edges; /**< boundary edges of all bodies */
+} dem_surfaces;
+
 typedef struct dem_simulation dem_simulation;
 
 /** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the penetration
@@ -357,6 +368,8 @@ DEM_API dem_status dem_simulation_stress(const dem_simulation *simulation, doubl
 DEM_API dem_status dem_simulation_stress_at(const dem_simulation *simulation, dem_index node, double *stress);
 
 DEM_API dem_status dem_simulation_overlap(const dem_simulation *simulation, dem_overlap *out);
+
+DEM_API dem_status dem_simulation_surfaces(const dem_simulation *simulation, dem_surfaces *out);
 
 DEM_API dem_status dem_simulation_counts(const dem_simulation *simulation, dem_counts *out);
 

@@ -631,6 +631,12 @@ module dem_c
     real(c_double) :: x(3) = 0
   end type
 
+  type, bind(c) :: dem_surfaces
+    integer(c_size_t) :: struct_size = 56
+    real(c_double) :: gap_min = 0, gap_share = 0, thickness_min = 0, thickness_max = 0
+    integer(dem_index) :: pushing = 0, n_edges = 0
+  end type
+
   abstract interface
 
     integer(dem_status) function dem_force(context, query, force) bind(c)
@@ -751,6 +757,12 @@ module dem_c
       import
       type(c_ptr), value :: simulation
       type(dem_overlap), intent(out) :: out
+    end function
+
+    integer(dem_status) function dem_simulation_surfaces(simulation, out) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      type(dem_surfaces), intent(out) :: out
     end function
 
     integer(dem_status) function dem_simulation_counts(simulation, out) bind(c)

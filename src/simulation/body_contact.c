@@ -71,6 +71,19 @@ dem_status body_contact_check_step(dem_simulation *s)
     return DEM_OK;
 }
 
+dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x)
+{
+    if (s->surfaces == NULL) return (dem_surfaces){.gap_min = INFINITY, .gap_share = INFINITY};
+    const contact_surface *of = &s->surfaces->surface;
+    const surface_gaps gaps = surface_contact_gaps(s->surfaces, x);
+    return (dem_surfaces){.gap_min = reduce_min(gaps.least),
+                          .gap_share = reduce_min(gaps.least_share),
+                          .thickness_min = of->least_thickness,
+                          .thickness_max = of->most_thickness,
+                          .pushing = reduce_count(gaps.pushing),
+                          .n_edges = reduce_count(of->surface.n_edges)};
+}
+
 /* Halving a step that is stable would spoil the energy that fixed steps keep: with the default of 1/4 of the stability
  * bound contact needs no shorter steps until h omega is 1. */
 double body_contact_stiffening(dem_simulation *s, double guard, const double *y)

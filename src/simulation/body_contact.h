@@ -23,6 +23,9 @@ dem_status body_contact_begin_step(dem_simulation *s);
  *  \return DEM_ERROR_CONTACT if the step cannot be taken as it is */
 dem_status body_contact_check_step(dem_simulation *s);
 
+/** What is seen of it in positions x of the step in hand, or of the state. */
+dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x);
+
 /** Bound of the highest frequency in the state y, in units of that about the rest shape: the larger of `guard`, that of
  *  springs and triangles, and what contact needs for a fixed step to stay stable. */
 double body_contact_stiffening(dem_simulation *s, double guard, const double *y);

@@ -11,6 +11,7 @@
 #include "base/struct_size.h"
 #include "contact/obstacle_load.h"
 #include "forces/diagnostics.h"
+#include "simulation/body_contact.h"
 
 void query_at(dem_simulation *s, double t, const double *y)
 {
@@ -179,6 +180,13 @@ dem_status dem_simulation_overlap(const dem_simulation *s, dem_overlap *out)
 {
     TRY(check_given("dem_simulation_overlap", s, out));
     return GIVE(dem_overlap, out, &s->overlap.found);
+}
+
+dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
+{
+    TRY(check_given("dem_simulation_surfaces", s, out));
+    const dem_surfaces seen = body_contact_surfaces(s, seen_of(s));
+    return GIVE(dem_surfaces, out, &seen);
 }
 
 /* Counts of contact events and nodes; `late` counts steps. */

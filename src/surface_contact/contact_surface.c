@@ -111,6 +111,7 @@ static dem_status choose_law(contact_surface *c, dem_index body, const body_sums
           law.thickness, (long long)body, sum->shortest);
     c->laws[body] = law;
     c->most_thickness = fmax(c->most_thickness, law.thickness);
+    c->least_thickness = body > 0 ? fmin(c->least_thickness, law.thickness) : law.thickness;
     return DEM_OK;
 }
 

@@ -15,15 +15,15 @@ typedef struct surface_law {
 
 typedef struct contact_surface {
     const dem_lattice *lattice;
-    surface surface;       /* whole */
-    dem_index n_nodes;     /* on edges */
-    dem_index *nodes;      /* [n_nodes] their numbers in the lattice, ascending */
-    double *half_length;   /* [n_nodes] m, half of what a node has of the surface at rest */
-    dem_index *corner;     /* [n_edges] the third corner of the triangle of each edge */
-    double *length;        /* [n_edges] m, at rest */
-    surface_law *laws;     /* [n_bodies] */
-    double mean_length;    /* m, of the edges at rest */
-    double most_thickness; /* m, of all bodies */
+    surface surface;                        /* whole */
+    dem_index n_nodes;                      /* on edges */
+    dem_index *nodes;                       /* [n_nodes] their numbers in the lattice, ascending */
+    double *half_length;                    /* [n_nodes] m, half of what a node has of the surface at rest */
+    dem_index *corner;                      /* [n_edges] the third corner of the triangle of each edge */
+    double *length;                         /* [n_edges] m, at rest */
+    surface_law *laws;                      /* [n_bodies] */
+    double mean_length;                     /* m, of the edges at rest */
+    double least_thickness, most_thickness; /* m, of all bodies */
 } contact_surface;
 
 /** \param thickness  m, of all bodies; 0: a fifth of the mean edge of each body, and less than half of its shortest

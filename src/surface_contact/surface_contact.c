@@ -129,6 +129,28 @@ double surface_contact_node_energy(const surface_contact *c, dem_index i, const 
     return sum;
 }
 
+static double distance_at(const contact_pair *p, const double *x)
+{
+    return contact_pair_distance(vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]),
+                                 vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]));
+}
+
+/* A vertex that is taken off pushes nothing away, but comes with an edge that does. */
+surface_gaps surface_contact_gaps(const surface_contact *c, const double *x)
+{
+    surface_gaps out = {.least = INFINITY, .least_share = INFINITY};
+    contact_push push;
+    for (dem_index k = 0; k < c->rows->n; k++) {
+        const contact_pair *p = &c->rows->list[k];
+        if (!contact_pair_push(p, x, &push)) continue;
+        const double gap = distance_at(p, x);
+        out.pushing++;
+        out.least = fmin(out.least, gap);
+        out.least_share = fmin(out.least_share, gap / p->thickness);
+    }
+    return out;
+}
+
 /* The sum over the pairs of a node, N/m. */
 static double stiffness_at(const pair_rows *r, dem_index i, const double *x)
 {
@@ -156,12 +178,6 @@ double surface_contact_stiffening(surface_contact *c, const double *inverse_mass
 }
 
 /* ---- steps ---- */
-
-static double distance_at(const contact_pair *p, const double *x)
-{
-    return contact_pair_distance(vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]),
-                                 vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]));
-}
 
 /* The longest way of a node of the surface from x0 to x1, m. */
 static double longest_way(const contact_surface *s, const double *x0, const double *x1)

@@ -63,6 +63,14 @@ bool surface_contact_force(const surface_contact *c, dem_index i, const double *
 double surface_contact_energy(const surface_contact *c, const double *x);
 double surface_contact_node_energy(const surface_contact *c, dem_index i, const double *x);
 
+/** The pairs that push each other at positions x. */
+typedef struct surface_gaps {
+    dem_index pushing;
+    double least, least_share; /* m, and over the thickness; infinite if none pushes */
+} surface_gaps;
+
+surface_gaps surface_contact_gaps(const surface_contact *c, const double *x);
+
 /** What contact adds at most to the square of the highest frequency, rad^2/s^2, by the bound of
  *  contact_pair_stiffness(). */
 double surface_contact_stiffening(surface_contact *c, const double *inverse_mass, const double *x);

@@ -78,10 +78,16 @@ TEST(a_motion_that_is_set_counts_the_energy_of_contact)
     for (dem_index i = n / 2; i < n; i++) x[2 * i] -= 3e-3;
     assert_int_equal(dem_simulation_set_motion(simulation, x, NULL), DEM_ERROR_MODEL);
     assert_close(ask_energy(simulation).contact, 0.0, 0.0);
+    assert_int_equal(ask_surfaces(simulation).pushing, 0);
+    assert_true(isinf(ask_surfaces(simulation).gap_min));
     for (dem_index i = n / 2; i < n; i++) x[2 * i] += 1.5e-3;
     assert_ok(dem_simulation_set_motion(simulation, x, NULL));
     const dem_energy pressed = ask_energy(simulation);
     assert_true(pressed.contact > 1e-3);
+    const dem_surfaces near = ask_surfaces(simulation);
+    assert_close(near.gap_min, 5e-4, 1e-12); /* of the corners; 2 mm at first */
+    assert_close(near.gap_share, 0.5, 1e-9);
+    assert_true(near.pushing >= 2);
     assert_close(pressed.ledger, 0.0, 1e-12);
     assert_ok(dem_simulation_advance(simulation, 2e-3));
     const dem_energy apart_again = ask_energy(simulation);

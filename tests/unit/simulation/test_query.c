@@ -56,6 +56,7 @@ PLAIN(dem_simulation_state, dem_state)
 PLAIN(dem_simulation_energy, dem_energy)
 PLAIN(dem_simulation_strain, dem_strain)
 PLAIN(dem_simulation_overlap, dem_overlap)
+PLAIN(dem_simulation_surfaces, dem_surfaces)
 PLAIN(dem_simulation_counts, dem_counts)
 PLAIN(dem_simulation_options, dem_options)
 NUMBERED(dem_simulation_contact, dem_contact)
@@ -72,7 +73,8 @@ static const getter getters[] = {
     ENTRY(dem_state, false),        ENTRY(dem_energy, false),     ENTRY(dem_strain, false),
     ENTRY(dem_overlap, false),      ENTRY(dem_counts, false),     ENTRY(dem_options, false),
     ENTRY(dem_contact, true),       ENTRY(dem_body_motion, true), ENTRY(dem_obstacle_load, true),
-    ENTRY(dem_boundary_load, true), ENTRY(dem_model_size, false), ENTRY(dem_csr, false)};
+    ENTRY(dem_boundary_load, true), ENTRY(dem_surfaces, false),   ENTRY(dem_model_size, false),
+    ENTRY(dem_csr, false)};
 enum { n_getters = sizeof getters / sizeof getters[0], largest = 4096 };
 
 /* A node that rests on the floor, and a boundary that loads it. */
@@ -292,6 +294,7 @@ static void look_at_all(const dem_simulation *s)
     assert_ok(dem_simulation_stress(s, stress));
     assert_ok(dem_simulation_stress_at(s, 1, stress));
     (void)ask_overlap(s);
+    (void)ask_surfaces(s);
     (void)ask_counts(s);
     (void)ask_body(s, 0);
     (void)ask_obstacle(s, 0);
