@@ -9,29 +9,29 @@
 static const double points[4] = {3.0, 4.0, 0.0, 1.0}; /* the first is 5 m from the origin */
 
 /* A copy of what the context points to. */
-static dem_status give(void *context, double t, dem_pose *pose)
+static dem_status give(void *context, double t, dem_pose *out)
 {
     const dem_pose *given = context;
-    assert_true(pose->struct_size == sizeof *pose && pose->angle == 0.0 && pose->place[1] == 0.0);
+    assert_true(out->struct_size == sizeof *out && out->angle == 0.0 && out->place[1] == 0.0);
     (void)t;
-    *pose = *given;
+    *out = *given;
     return DEM_OK;
 }
 
-static dem_status refuse_it(void *context, double t, dem_pose *pose)
+static dem_status refuse_it(void *context, double t, dem_pose *out)
 {
     (void)context, (void)t;
-    pose->place[0] = 7.0;
+    out->place[0] = 7.0;
     return DEM_STOPPED;
 }
 
-static dem_obstacle moved_by(dem_motion motion, dem_pose *pose)
+static dem_obstacle moved_by(dem_motion function, dem_pose *given)
 {
     return (dem_obstacle){.struct_size = sizeof(dem_obstacle),
                           .n_points = 2,
                           .points = points,
-                          .motion = motion,
-                          .motion_context = pose,
+                          .motion = function,
+                          .motion_context = given,
                           .most_speed = 13.0,
                           .most_acceleration = 130.0,
                           .longest_step = 0.25};
@@ -53,9 +53,9 @@ TEST(the_pose_is_what_the_function_says)
 }
 
 /* A failure stands for rest, is kept until it is asked for, and only the first one is reported. */
-static void expect_failure(const dem_pose *pose, const char *message)
+static void expect_failure(const dem_pose *bad, const char *message)
 {
-    dem_pose given = *pose;
+    dem_pose given = *bad;
     const dem_obstacle obstacle = moved_by(give, &given);
     const motion_law law = motion_law_of(&obstacle);
     const struct pose at = motion_law_pose(&law, 9.0);
