@@ -27,7 +27,6 @@ MAY_BE_NULL = {
     "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of",
     "dem_lattice_edge_shares.direction", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
     "dem_simulation_set_motion.v", "dem_obstacle_moves.by"}
-FILLED = {"out"}  # structs of which nothing is read
 ZERO_AT_ENTRY = {"dem_force.force"}
 
 MAX_LINE = 120
@@ -84,7 +83,7 @@ class Writer:
         if not item.stars and not item.shape:
             return f"{self.kind(item)}, value", item.name
         full = f"{function.name}.{item.name}"
-        read_too = item.type in self.structs and item.name not in FILLED or full in ZERO_AT_ENTRY
+        read_too = item.type in self.structs or full in ZERO_AT_ENTRY  # of a struct at least its size is read
         changed = "inout" if read_too else "out"
         optional = ", optional" if full in MAY_BE_NULL else ""
         return (f"{self.kind(item)}, intent({'in' if item.const else changed}){optional}",

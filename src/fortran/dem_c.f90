@@ -146,19 +146,19 @@ module dem_c
 
     integer(dem_status) function dem_lattice_rectangle(out, width, height, spacing) bind(c)
       import
-      type(dem_lattice), intent(out) :: out
+      type(dem_lattice), intent(inout) :: out
       real(c_double), value :: width, height, spacing
     end function
 
     integer(dem_status) function dem_lattice_squares(out, width, height, spacing) bind(c)
       import
-      type(dem_lattice), intent(out) :: out
+      type(dem_lattice), intent(inout) :: out
       real(c_double), value :: width, height, spacing
     end function
 
     integer(dem_status) function dem_lattice_disc(out, radius, spacing) bind(c)
       import
-      type(dem_lattice), intent(out) :: out
+      type(dem_lattice), intent(inout) :: out
       real(c_double), value :: radius, spacing
     end function
 
@@ -297,7 +297,7 @@ module dem_c
 
     integer(dem_status) function dem_method_describe(out, method) bind(c)
       import
-      type(dem_method_traits), intent(out) :: out
+      type(dem_method_traits), intent(inout) :: out
       integer(dem_method), value :: method
     end function
 
@@ -425,7 +425,7 @@ module dem_c
     integer(dem_status) function dem_model_csr(model, out) bind(c)
       import
       type(c_ptr), value :: model
-      type(dem_csr), intent(out) :: out
+      type(dem_csr), intent(inout) :: out
     end function
 
     type(c_ptr) function dem_model_lattice(model) bind(c)
@@ -442,7 +442,7 @@ module dem_c
     integer(dem_status) function dem_model_sizes(model, out) bind(c)
       import
       type(c_ptr), value :: model
-      type(dem_model_size), intent(out) :: out
+      type(dem_model_size), intent(inout) :: out
     end function
 
     real(c_double) function dem_model_spacing(model) bind(c)
@@ -465,7 +465,7 @@ module dem_c
       import
       type(c_ptr), value :: model
       integer(dem_index), value :: body
-      type(dem_constants), intent(out) :: out
+      type(dem_constants), intent(inout) :: out
     end function
 
     real(c_double) function dem_model_mass(model) bind(c)
@@ -706,26 +706,26 @@ module dem_c
     integer(dem_status) function dem_simulation_state(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_state), intent(out) :: out
+      type(dem_state), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_energy(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_energy), intent(out) :: out
+      type(dem_energy), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_strain(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_strain), intent(out) :: out
+      type(dem_strain), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_contact(simulation, contact, out) bind(c)
       import
       type(c_ptr), value :: simulation
       integer(dem_index), value :: contact
-      type(dem_contact), intent(out) :: out
+      type(dem_contact), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_strains(simulation, strain) bind(c)
@@ -756,40 +756,40 @@ module dem_c
     integer(dem_status) function dem_simulation_overlap(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_overlap), intent(out) :: out
+      type(dem_overlap), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_surfaces(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_surfaces), intent(out) :: out
+      type(dem_surfaces), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_counts(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_counts), intent(out) :: out
+      type(dem_counts), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_body(simulation, body, out) bind(c)
       import
       type(c_ptr), value :: simulation
       integer(dem_index), value :: body
-      type(dem_body_motion), intent(out) :: out
+      type(dem_body_motion), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_obstacle(simulation, obstacle, out) bind(c)
       import
       type(c_ptr), value :: simulation
       integer(dem_index), value :: obstacle
-      type(dem_obstacle_load), intent(out) :: out
+      type(dem_obstacle_load), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_boundary(simulation, boundary, out) bind(c)
       import
       type(c_ptr), value :: simulation
       integer(dem_index), value :: boundary
-      type(dem_boundary_load), intent(out) :: out
+      type(dem_boundary_load), intent(inout) :: out
     end function
 
     real(c_double) function dem_simulation_residual(simulation) bind(c)
@@ -805,7 +805,7 @@ module dem_c
     integer(dem_status) function dem_simulation_options(simulation, out) bind(c)
       import
       type(c_ptr), value :: simulation
-      type(dem_options), intent(out) :: out
+      type(dem_options), intent(inout) :: out
     end function
 
     real(c_double) function dem_stress_von_mises(stress) bind(c)
@@ -894,7 +894,7 @@ module dem_c
     integer(dem_status) function dem_peaks_observer(peaks, out) bind(c)
       import
       type(c_ptr), value :: peaks
-      type(dem_observer), intent(out) :: out
+      type(dem_observer), intent(inout) :: out
     end function
 
     type(c_ptr) function dem_peaks_nodes(peaks) bind(c)
@@ -1090,7 +1090,7 @@ module dem_c
     integer(dem_status) function dem_trajectory_observer(trajectory, out) bind(c)
       import
       type(c_ptr), value :: trajectory
-      type(dem_observer), intent(out) :: out
+      type(dem_observer), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_trajectory_note(trajectory, name, text) bind(c)
@@ -1123,7 +1123,7 @@ module dem_c
 
     integer(dem_status) function dem_lattice_read(out, path) bind(c)
       import
-      type(dem_lattice), intent(out) :: out
+      type(dem_lattice), intent(inout) :: out
       character(kind=c_char), intent(in) :: path(*)
     end function
 
