@@ -59,11 +59,22 @@ def given_back(run, deck):
     return np.max(falls, initial=0.0) / scale_of(run, deck)
 
 
+def energy_of_couplings(run):
+    """In each frame: of each corner of a triangle its coupling times how much longer the two edges there are."""
+    l = run.lattice
+    if "coupling" not in l:
+        return 0.0
+    here, there = l["triangles"], np.roll(l["triangles"], -1, axis=1)
+    rest = np.linalg.norm(l["x"][there] - l["x"][here], axis=2)
+    stretch = np.linalg.norm(run.x[:, there] - run.x[:, here], axis=3) - rest
+    return (l["coupling"] * stretch * np.roll(stretch, 1, axis=2)).sum(axis=(1, 2))
+
+
 def mistold(run, deck):
     """How far kinetic and elastic energy of frames are from what positions and velocities make them."""
     l = run.lattice
     d = np.linalg.norm(run.x[:, l["ends"][:, 0]] - run.x[:, l["ends"][:, 1]], axis=2)
-    elastic = 0.5 * (l["stiffness"] * (d - l["rest_length"]) ** 2 / l["rest_length"]).sum(axis=1)
+    elastic = 0.5 * (l["stiffness"] * (d - l["rest_length"]) ** 2 / l["rest_length"]).sum(axis=1) + energy_of_couplings(run)
     worst = np.max(np.abs(elastic - run.energy["elastic"]))
     if run.v is not None:
         kinetic = 0.5 * (l["mass"] * (run.v ** 2).sum(axis=2)).sum(axis=1)
