@@ -186,6 +186,21 @@ TEST(the_ratio_is_against_a_moving_obstacle)
     assert_true(fabs(r.velocity[1] + eta * r.approach[1]) > 1.0); /* at rest it would be 0 */
 }
 
+/* Of a floor that swings and turns the velocity counts at the place and the time of the impact. */
+TEST(the_ratio_is_against_the_point_that_was_hit)
+{
+    const double x[2] = {0.5, height}, v[2] = {0.0, -2.0};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = flat, .restitution = eta,
+                                     .amplitude = {0.0, 0.05}, .frequency = 1.0, .phase = -40.0, .spin = 0.3);
+    CLEANUP(support_close) support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &floor, 0.3);
+    double w[2];
+    assert_true(rebound_is_over(&r));
+    assert_ok(dem_obstacle_velocity(&floor, r.last, (const double[2]){0.5, 0.0}, w));
+    assert_true(hypot(w[0], w[1]) > 0.1);
+    assert_close(rebound_along(&r, run.simulation).ratio, eta, near);
+}
+
 /* Of two nodes one hits, the other falls on beside the floor: L = -m (1 + eta) v, J = 2 m. */
 TEST(the_spin_is_angular_momentum_over_inertia)
 {
