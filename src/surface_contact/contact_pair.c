@@ -93,17 +93,18 @@ double contact_pair_energy(const contact_pair *p, const double *x)
 }
 
 /* A vertex that is taken off only softens the node, and counts as nothing here. */
-void contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_NODES])
+bool contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_NODES])
 {
     pair_place at;
-    for (int k = 0; k < CONTACT_PAIR_NODES; k++) added[k] = 0.0;
-    if (!find_place(p, x, &at)) return;
+    if (!find_place(p, x, &at)) return false;
     const double twice = 2.0 * p->weight / p->thickness;
     const double edge = at.u_edge > 0.0 ? twice * contact_potential_stiffness(at.u_edge) : 0.0;
     const double vertex = at.count > 0.0 ? twice * contact_potential_stiffness(at.u_vertex) : 0.0;
     added[CONTACT_PAIR_NODE] = edge + vertex;
     added[CONTACT_PAIR_FIRST] = (1.0 - at.share) * edge + vertex;
     added[CONTACT_PAIR_SECOND] = at.share * edge;
+    added[CONTACT_PAIR_BEFORE] = 0.0;
+    return true;
 }
 
 double contact_pair_distance(vec2 point, vec2 a, vec2 b)

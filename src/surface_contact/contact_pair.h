@@ -51,8 +51,9 @@ double contact_pair_energy(const contact_pair *p, const double *x);
 
 /** Bounds of what the pair adds to the stiffness at each of its nodes, N/m: K (n.(u_p - (1-s) u_A - s u_B))^2 is at
  *  most 2 K (u_p^2 + (1-s) u_A^2 + s u_B^2).
- *  \param[out] added  of all nodes of the pair, 0 where there is none */
-void contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_NODES]);
+ *  \param[out] added  of all nodes of the pair, if the node is near enough for any
+ *  \return whether it is */
+bool contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_NODES]);
 
 /** Distance of a point from the segment ab, m. */
 double contact_pair_distance(vec2 point, vec2 a, vec2 b);

@@ -150,20 +150,36 @@ static dem_status find_pairs(pair_list *l, const double *x)
     return fill_rows(l);
 }
 
-/* Whether a node is further than `limit` from where it was when the list was made, or where it was is unknown. */
-static bool has_moved(const pair_list *l, const double *x, double limit)
+static double lower(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static double higher(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+/* How far two nodes of the surface have moved relative to each other since the list was made, at most, m; the diagonal
+ * of the box of all ways. What all have in common, as the flight of a body, brings no surfaces nearer. Not a number if
+ * some way is not finite, which comparisons alone would pass over. */
+static double largest_change(const pair_list *l, const double *x)
 {
     const contact_surface *c = l->surface;
+    vec2 low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+    double finite = 0.0;
     for (dem_index k = 0; k < c->n_nodes; k++) {
         const vec2 way = vec2_sub(vec2_at(x, c->nodes[k]), vec2_at(l->reference, k));
-        if (!(vec2_dot(way, way) <= limit * limit)) return true;
+        low = (vec2){lower(way.x, low.x), lower(way.y, low.y)};
+        high = (vec2){higher(way.x, high.x), higher(way.y, high.y)};
+        finite += 0.0 * (way.x + way.y);
     }
-    return false;
+    return c->n_nodes > 0 ? vec2_norm(vec2_sub(high, low)) + finite : 0.0;
 }
 
 dem_status pair_list_follow(pair_list *l, const double *x, double spare)
 {
-    if (!has_moved(l, x, 0.5 * (1.0 - spare) * l->margin)) return DEM_OK;
+    if (largest_change(l, x) <= (1.0 - spare) * l->margin) return DEM_OK;
     pair_rows_clear(&l->pairs);
     l->n_made++;
     const dem_status status = find_pairs(l, x);

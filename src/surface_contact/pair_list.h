@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The candidates for contact between surfaces: all pairs nearer than the contact thickness and a margin. The list holds
- * as long as no node has moved by more than half of the margin, and is only a filter: a pair beyond the thickness adds
- * nothing, so that no result depends on the margin, or on when and why the list was made. */
+ * as long as no two nodes have moved by more than the margin relative to each other. It is only a filter: a pair beyond
+ * the thickness adds nothing, so that no result depends on the margin, or on when and why the list was made. */
 #ifndef DEM_SURFACE_CONTACT_PAIR_LIST_H
 #define DEM_SURFACE_CONTACT_PAIR_LIST_H
 

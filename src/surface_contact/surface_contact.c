@@ -151,29 +151,20 @@ surface_gaps surface_contact_gaps(const surface_contact *c, const double *x)
     return out;
 }
 
-/* The sum over the pairs of a node, N/m. */
-static double stiffness_at(const pair_rows *r, dem_index i, const double *x)
-{
-    double sum = 0.0, added[CONTACT_PAIR_NODES];
-    for (dem_index slot = r->first[i]; slot >= 0; slot = r->next[slot]) {
-        contact_pair_stiffness(pair_rows_pair(r, slot), x, added);
-        sum += added[pair_rows_which(slot)];
-    }
-    return sum;
-}
-
-/* Nodes of pairs come up more than once, with the same result. */
+/* Sums over the pairs of each node, N/m, are kept where forces are, as their first components. */
 double surface_contact_stiffening(surface_contact *c, const double *inverse_mass, const double *x)
 {
     const pair_rows *r = &c->candidates.pairs;
-    double largest = 0.0;
-    contact_push push;
+    double largest = 0.0, added[CONTACT_PAIR_NODES];
+    forget_forces(c);
     if (surface_contact_follow(c, x) != DEM_OK) return INFINITY;
     for (dem_index k = 0; k < r->n; k++)
-        for (int which = 0; which < CONTACT_PAIR_BEFORE && contact_pair_push(&r->list[k], x, &push); which++) {
-            const dem_index node = r->list[k].nodes[which];
-            largest = fmax(largest, stiffness_at(r, node, x) * inverse_mass[node]);
-        }
+        if (contact_pair_stiffness(&r->list[k], x, added))
+            for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
+                add_force(c, r->list[k].nodes[which], (vec2){added[which], 0.0});
+    for (dem_index j = 0; j < c->n_pushed; j++)
+        largest = fmax(largest, vec2_at(c->force, c->pushed[j]).x * inverse_mass[c->pushed[j]]);
+    forget_forces(c);
     return largest;
 }
 

@@ -104,21 +104,24 @@ TEST(a_long_edge_finds_the_nodes_beside_it)
     check_list(&s, true);
 }
 
-TEST(the_list_holds_until_a_node_has_moved_by_half_the_margin)
+/* That all move alike does not count. */
+TEST(the_list_holds_until_two_nodes_have_moved_by_the_margin)
 {
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     CLEANUP(close_scene) scene s;
     open_scene(&s, rng, 0.1, true);
     assert_ok(pair_list_follow(&s.list, s.x, 0.0));
     s.x[2 * 30] += 0.04;
+    s.x[2 * 31] -= 0.04;
+    for (dem_index k = 0; k < 2 * s.lattice.n_nodes; k++) s.x[k] += 3.0;
     assert_ok(pair_list_follow(&s.list, s.x, 0.0));
     assert_int_equal(s.list.n_made, 1);
-    assert_ok(pair_list_follow(&s.list, s.x, 0.25)); /* only 0.0375 m are free then */
+    assert_ok(pair_list_follow(&s.list, s.x, 0.25)); /* only 0.075 m are free then */
     assert_int_equal(s.list.n_made, 2);
     s.x[2 * 25] += 1.0; /* the middle of a body is on no edge */
     assert_ok(pair_list_follow(&s.list, s.x, 0.0));
     assert_int_equal(s.list.n_made, 2);
-    s.x[2 * 30 + 1] += 0.051;
+    s.x[2 * 30 + 1] += 0.101;
     assert_ok(pair_list_follow(&s.list, s.x, 0.0));
     assert_int_equal(s.list.n_made, 3);
     check_list(&s, true);
