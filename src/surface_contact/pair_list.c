@@ -16,7 +16,7 @@ dem_status pair_list_create(pair_list *out, const contact_surface *of, bool with
 {
     const size_t n = (size_t)of->n_nodes;
     pair_list l = {.surface = of, .within_bodies = within_bodies, .margin = margin};
-    l.reference = malloc((2 * n + 1) * sizeof *l.reference);
+    l.reference = calloc(2 * n + 1, sizeof *l.reference);
     l.rank = malloc((n + 2) * sizeof *l.rank);
     const dem_status status = pair_rows_create(&l.pairs, of->lattice->n_nodes);
     if (status != DEM_OK || l.reference == NULL || l.rank == NULL) {
