@@ -130,40 +130,40 @@ TEST(the_bound_of_the_stiffness_holds)
 /* ---- steps ---- */
 
 /* Two triangles, one over the other: nodes 0 1 2 and 3 4 5, the tip 3 is above the edge from 1 to 2. */
-static scene open_triangles(double gap)
+static void open_triangles(scene *s, double gap)
 {
-    scene s = {.lattice = dem_lattice_empty()};
+    *s = (scene){.lattice = dem_lattice_empty()};
     const double x[12] = {0.0, -1.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.15, 1.0, 1.15, -1.0, 1.15};
     const dem_index corners[6] = {0, 1, 2, 3, 4, 5};
     const surface_contact_rule rule = {.within_bodies = true, .thickness = 0.2, .stiffness = 1.0};
-    s.lattice.n_nodes = s.lattice.n_springs = 6;
-    s.lattice.n_triangles = 2;
-    s.lattice.x = calloc(12, sizeof *s.lattice.x);
-    s.lattice.flags = calloc(6, sizeof *s.lattice.flags);
-    s.lattice.body = calloc(6, sizeof *s.lattice.body);
-    s.lattice.triangles = calloc(6, sizeof *s.lattice.triangles);
-    s.lattice.ends = calloc(12, sizeof *s.lattice.ends);
-    s.lattice.stiffness = calloc(6, sizeof *s.lattice.stiffness);
-    s.lattice.rest_length = calloc(6, sizeof *s.lattice.rest_length);
-    s.x = calloc(12, sizeof *s.x);
-    memcpy(s.lattice.x, x, sizeof x);
-    memcpy(s.lattice.triangles, corners, sizeof corners);
+    s->lattice.n_nodes = s->lattice.n_springs = 6;
+    s->lattice.n_triangles = 2;
+    s->lattice.x = calloc(12, sizeof *s->lattice.x);
+    s->lattice.flags = calloc(6, sizeof *s->lattice.flags);
+    s->lattice.body = calloc(6, sizeof *s->lattice.body);
+    s->lattice.triangles = calloc(6, sizeof *s->lattice.triangles);
+    s->lattice.ends = calloc(12, sizeof *s->lattice.ends);
+    s->lattice.stiffness = calloc(6, sizeof *s->lattice.stiffness);
+    s->lattice.rest_length = calloc(6, sizeof *s->lattice.rest_length);
+    s->x = calloc(12, sizeof *s->x);
+    memcpy(s->lattice.x, x, sizeof x);
+    memcpy(s->lattice.triangles, corners, sizeof corners);
     for (dem_index i = 0; i < 6; i++) {
-        s.lattice.body[i] = i < 3 ? 0 : 1;
-        s.lattice.ends[2 * i] = i;
-        s.lattice.ends[2 * i + 1] = i % 3 < 2 ? i + 1 : i - 2;
-        s.lattice.stiffness[i] = s.lattice.rest_length[i] = 1.0;
+        s->lattice.body[i] = i < 3 ? 0 : 1;
+        s->lattice.ends[2 * i] = i;
+        s->lattice.ends[2 * i + 1] = i % 3 < 2 ? i + 1 : i - 2;
+        s->lattice.stiffness[i] = s->lattice.rest_length[i] = 1.0;
     }
-    memcpy(s.x, x, sizeof x);
-    s.x[7] = gap;
-    assert_ok(surface_contact_create(&s.contact, &s.lattice, &rule));
-    assert_ok(surface_contact_follow(s.contact, s.x));
-    return s;
+    memcpy(s->x, x, sizeof x);
+    s->x[7] = gap;
+    assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
+    assert_ok(surface_contact_follow(s->contact, s->x));
 }
 
 TEST(a_crossing_is_found_with_its_node_its_edge_and_its_time)
 {
-    CLEANUP(close_scene) scene s = open_triangles(0.15);
+    CLEANUP(close_scene) scene s;
+    open_triangles(&s, 0.15);
     surface_crossing crossing;
     double x1[12];
     memcpy(x1, s.x, sizeof x1);
@@ -182,7 +182,8 @@ TEST(a_crossing_is_found_with_its_node_its_edge_and_its_time)
 /* The step itself keeps the tip beyond the thickness and the margin of near pairs; events move it on to the shell. */
 TEST(what_events_bring_near_beyond_the_step_is_found)
 {
-    CLEANUP(close_scene) scene s = open_triangles(0.4);
+    CLEANUP(close_scene) scene s;
+    open_triangles(&s, 0.4);
     surface_crossing crossing;
     double x1[12];
     memcpy(x1, s.x, sizeof x1);
