@@ -52,7 +52,8 @@ class dem_options(Sized):
                 ("penetration_tolerance", c_double), ("rest_speed", c_double), ("max_impacts", c_int64), ("window", c_double),
                 ("mass_damping", c_double), ("vertices", ctypes.c_bool), ("contact", c_int), ("kernel", c_int),
                 ("threads", c_int32), ("checkpoint_steps", c_int64), ("n_boundaries", c_int64), ("boundaries", c_void_p),
-                ("force", dem_force), ("force_context", c_void_p)]
+                ("force", dem_force), ("force_context", c_void_p), ("bodies", c_int),
+                ("contact_thickness", c_double), ("contact_stiffness", c_double)]
 
     def __init__(self, **given):
         """As dem_options_default(), which is inline in the header."""
