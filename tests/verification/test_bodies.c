@@ -98,13 +98,13 @@ static outcome collide(double spacing, double shift, double speed)
         moments[1] += l.mass[i] * (end.x[2 * i] * end.v[2 * i + 1] - end.x[2 * i + 1] * end.v[2 * i]);
     }
     assert_close(end.energy.contact, 0.0, 0.0); /* they are apart again */
-    return (outcome){.rebound = upper.velocity[1],
-                     .closure = fabs(end.energy.ledger - start.ledger) / start.kinetic,
-                     .momentum =
-                         hypot(lower.velocity[0] + upper.velocity[0], lower.velocity[1] + upper.velocity[1]) / speed,
-                     .spin = fabs(moments[1] - moments[0]) / (2.0 * lower.mass * side * speed),
-                     .asymmetry = asymmetry(&l, end.x) / spacing,
-                     .overlaps = ask_overlap(run.simulation).most};
+    return (outcome){
+        .rebound = upper.velocity[1],
+        .closure = fabs(end.energy.ledger - start.ledger) / start.kinetic,
+        .momentum = hypot(lower.velocity[0] + upper.velocity[0], lower.velocity[1] + upper.velocity[1]) / speed,
+        .spin = fabs(moments[1] - moments[0]) / (2.0 * lower.mass * side * speed),
+        .asymmetry = shift == 0.0 ? asymmetry(&l, end.x) / spacing : INFINITY, /* shifted blocks have none */
+        .overlaps = ask_overlap(run.simulation).most};
 }
 
 /* The surfaces are a fifth of a spacing thick and soft, and lose nothing; at the wall, every node bounces for itself.
