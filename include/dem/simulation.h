@@ -238,7 +238,8 @@ typedef struct dem_obstacle_load {
     double impulse[3];          /**< N s, so far: impacts, and the reactions integrated over time */
     double friction_impulse[3]; /**< N s, the tangential part of it */
     dem_index n_contacts;       /**< closed now */
-    double displacement[3];     /**< m, way of its pivot from where its points were given */
+    double displacement[3];     /**< m, way of its pivot from where its points were given; with a motion by a function
+                                     NaN, as angle and power, from set_motion() to the next advance */
     double angle;               /**< rad, by which it has turned about it */
     double power;               /**< W, of its reaction: what it puts into the bodies through lasting contacts */
 } dem_obstacle_load;
@@ -340,8 +341,8 @@ DEM_API const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *si
 
 /* A struct that these functions fill has its size in struct_size, which the caller sets: what lies within it is
  * written, and nothing beyond. All return DEM_ERROR_ARGUMENT for a NULL, a struct_size too small for the first member,
- * and a number that is out of range; then nothing has been written. None of them changes the motion, or calls the
- * external force. */
+ * and a number that is out of range; then nothing has been written. None of them changes the motion, or calls a
+ * function of the program: neither its external force nor its motions of obstacles. */
 
 /** What is seen of the motion now. */
 DEM_API dem_status dem_simulation_state(const dem_simulation *simulation, dem_state *out);

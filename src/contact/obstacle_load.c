@@ -11,18 +11,14 @@ static vec2 force_of(const dem_contact *c)
     return vec2_along(vec2_scale(c->force, normal), c->friction[0], tangent);
 }
 
-/* An obstacle at rest keeps the zeros that the load has. */
-void obstacle_load_add_motion(dem_obstacle_load *load, const contact_scene *scene, double t, dem_index obstacle,
-                              const dem_contact *list, dem_index n)
+void obstacle_load_add_motion(dem_obstacle_load *load, const pose *at, dem_index obstacle, const dem_contact *list,
+                              dem_index n)
 {
-    const motion_law *law = &scene->model->obstacles.laws[obstacle];
-    if (!law->moves) return;
-    const pose at = motion_law_pose(law, t);
     double power = 0.0;
     for (dem_index k = 0; k < n; k++)
         if (list[k].obstacle == obstacle)
-            power += vec2_dot(force_of(&list[k]), pose_velocity(&at, vec2_at(list[k].x, 0)));
-    vec2_put(load->displacement, 0, vec2_sub(at.centre, at.origin));
-    load->angle = at.angle;
+            power += vec2_dot(force_of(&list[k]), pose_velocity(at, vec2_at(list[k].x, 0)));
+    vec2_put(load->displacement, 0, vec2_sub(at->centre, at->origin));
+    load->angle = at->angle;
     load->power = reduce_rounded_sum(power);
 }

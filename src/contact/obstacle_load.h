@@ -3,12 +3,13 @@
 #ifndef DEM_CONTACT_OBSTACLE_LOAD_H
 #define DEM_CONTACT_OBSTACLE_LOAD_H
 
-#include "contact/scene.h"
-#include "obstacle/motion_law.h"
+#include <dem/dem.h>
 
-/** Adds place, angle and power of an obstacle at t.
- *  \param list  [n] closed contacts of all obstacles, with their places at t */
-void obstacle_load_add_motion(dem_obstacle_load *load, const contact_scene *scene, double t, dem_index obstacle,
-                              const dem_contact *list, dem_index n);
+#include "obstacle/pose.h"
+
+/** Adds place, angle and power of an obstacle in a pose.
+ *  \param list  [n] closed contacts of all obstacles, with their places at that time */
+void obstacle_load_add_motion(dem_obstacle_load *load, const pose *at, dem_index obstacle, const dem_contact *list,
+                              dem_index n);
 
 #endif

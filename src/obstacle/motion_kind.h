@@ -21,6 +21,8 @@ typedef struct motion_law {
     unsigned kinds;         /* bit k is set: it moves by kind k */
     const dem_obstacle *of; /* which has to stay */
     double reach;           /* m, of a motion by a function: of the point furthest from the origin; else 0 */
+    bool has_start;         /* whether `start` is known: of a motion by a function, so that it is asked only once */
+    pose start;             /* at t = 0 */
 } motion_law;
 
 typedef struct motion_kind {

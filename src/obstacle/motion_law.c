@@ -42,6 +42,7 @@ motion_law motion_law_of(const dem_obstacle *obstacle)
 pose motion_law_pose(const motion_law *law, double t)
 {
     const vec2 none = {-0.0, -0.0};
+    if (law->has_start && t == 0.0) return law->start;
     pose sum = {.centre = none, .velocity = none, .acceleration = {0.0, 0.0}, .axis = {1.0, 0.0}};
     for (int k = 0; k < N_KINDS; k++)
         if (moves_by(law, k)) kinds[k]->add(law, t, &sum);
@@ -113,12 +114,13 @@ dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o)
 }
 
 /* A motion by a function must be known at t = 0: a fault of the model, not of a step. */
-dem_status motion_law_check_start(const motion_law *law, dem_index o)
+dem_status motion_law_ask_start(motion_law *law, dem_index o)
 {
     char why[160];
     if (law->of->motion == NULL) return DEM_OK;
-    (void)motion_law_pose(law, 0.0);
-    if (given_motion_failure() == DEM_OK) return DEM_OK;
+    law->start = motion_law_pose(law, 0.0);
+    law->has_start = given_motion_failure() == DEM_OK;
+    if (law->has_start) return DEM_OK;
     (void)snprintf(why, sizeof why, "%s", dem_status_message());
     return status_fail(DEM_ERROR_MODEL, "obstacle %lld: %s", (long long)o, why);
 }

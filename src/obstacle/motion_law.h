@@ -14,8 +14,9 @@ dem_status motion_law_check(const dem_obstacle *obstacle, dem_index o);
 /** The law of an obstacle as it is given and checked, which must stay where it is. */
 motion_law motion_law_of(const dem_obstacle *obstacle);
 
-/** DEM_ERROR_MODEL names obstacle o if the caller's function gives no pose at t = 0. */
-dem_status motion_law_check_start(const motion_law *law, dem_index o);
+/** Asks the caller's function, if there is one, for the pose at t = 0, which the law keeps.
+ *  \return DEM_ERROR_MODEL with obstacle o if it gives none */
+dem_status motion_law_ask_start(motion_law *law, dem_index o);
 
 /** The pose at t. The points are given where they are at t = 0; those of an oscillation in its middle. */
 pose motion_law_pose(const motion_law *law, double t);

@@ -155,7 +155,7 @@ static dem_status append(obstacle_set *set, const dem_obstacle *obstacle)
     set->bounds = motion_bounds_of_both(set->bounds, motion_law_bounds(&set->laws[o]));
     set->n++;
     set->is_asked = set->is_asked || obstacle->motion != NULL;
-    TRY(motion_law_check_start(&set->laws[o], o));
+    TRY(motion_law_ask_start(&set->laws[o], o));
     polyline_compile(set, o);
     return plant_tree(set, o);
 }

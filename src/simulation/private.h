@@ -17,7 +17,7 @@
 
 /* Results from the state as seen; each is computed once, when it is first asked for. */
 typedef struct run_measures {
-    bool has_events, has_state, has_contacts, has_held_forces, has_energy, has_strain, has_body;
+    bool has_events, has_state, has_contacts, has_held_forces, has_poses, has_energy, has_strain, has_body;
     dem_index n_contacts;
     const dem_contact *contacts; /* [n_contacts] closed ones */
     dem_energy energy;
@@ -41,6 +41,7 @@ struct dem_simulation {
     surface_contact *surfaces; /* contact of bodies with each other; NULL: none */
     bool outgrown;             /* events in the step in hand have brought surfaces nearer than the step knew */
     held_forces held_forces;   /* external ones, in the state as seen, if `measures` has them */
+    pose *poses;               /* [obstacles] likewise; NULL: no function of the caller moves any */
     forces forces;             /* on nodes, without those of contacts */
     kernel kernel;
     overlap overlap;

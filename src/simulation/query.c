@@ -2,8 +2,8 @@
 /* What observers and callers see of a run: the state at some time, and all that dem.h can be asked about it. A state
  * within the step in hand is interpolated, and results are computed, only when they are asked for, each once
  * (run_measures). To show contacts and ledger of an earlier time the event queue goes back, and on again when the run
- * goes on, to the same bits. What would call the user's force is not left until then: query_ask_force() does it during
- * the advance, which reports a failure. */
+ * goes on, to the same bits. What would call a function of the caller is not left until then: query_ask() does it
+ * during the advance, which reports a failure. */
 #include "simulation/query.h"
 
 #include "base/reduce.h"
@@ -27,7 +27,7 @@ void query_inside(dem_simulation *s, double t)
 }
 
 /* The contacts and ledger at the time seen: the queue takes back later events, and resolves them again when the run
- * goes on, with the same result. With an external force query_ask_force() has done so already. */
+ * goes on, with the same result. With functions of the caller query_ask() has done so already. */
 static dem_status show_events(dem_simulation *s)
 {
     if (s->measures->has_events) return DEM_OK;
@@ -49,20 +49,45 @@ static const double *seen_of(const dem_simulation *s)
     return s->seen;
 }
 
-dem_status query_ask_force(dem_simulation *s)
+static void list_contacts(const dem_simulation *s)
 {
-    if (s->external == NULL) return DEM_OK;
+    run_measures *m = s->measures;
+    m->contacts = automaton_list(&s->automaton, s->seen_t, seen_of(s), &m->n_contacts);
+    m->has_contacts = true;
+}
+
+/* Contacts depend on where obstacles are. */
+void query_ask_poses(dem_simulation *s)
+{
+    const obstacle_set *o = &s->model->obstacles;
+    if (s->poses == NULL) return;
+    for (dem_index k = 0; k < o->n; k++) s->poses[k] = motion_law_pose(&o->laws[k], s->seen_t);
+    list_contacts(s);
+    s->measures->has_poses = true;
+}
+
+dem_status query_ask(dem_simulation *s)
+{
+    if (s->external == NULL && s->poses == NULL) return DEM_OK;
     TRY(show_events(s));
-    held_forces_ask(&s->held_forces, s->external, &s->layout, seen_of(s));
+    if (s->external != NULL) held_forces_ask(&s->held_forces, s->external, &s->layout, seen_of(s));
     s->measures->has_held_forces = true;
+    query_ask_poses(s);
     return run_force_failed(s) ? DEM_STOPPED : DEM_OK;
 }
 
+/* Whether it is known where obstacles are: functions of the caller that have not been asked are not asked now. Laws
+ * keep the pose at t = 0. */
+static bool poses_are_known(const dem_simulation *s)
+{
+    return s->poses == NULL || s->measures->has_poses || s->seen_t == 0.0;
+}
+
+/* Without the poses none are listed. */
 static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
 {
-    run_measures *m = s->measures;
-    if (!m->has_contacts) m->contacts = automaton_list(&s->automaton, s->seen_t, seen_of(s), &m->n_contacts);
-    m->has_contacts = true;
+    const run_measures *m = s->measures;
+    if (!m->has_contacts && poses_are_known(s)) list_contacts(s);
     *n = m->n_contacts;
     return m->contacts;
 }
@@ -223,6 +248,21 @@ dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body
     return GIVE(dem_body_motion, out, &m->motion);
 }
 
+/* An obstacle at rest keeps the zeros that the load has. */
+static void add_motion(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *load)
+{
+    const motion_law *law = &s->model->obstacles.laws[obstacle];
+    dem_index n;
+    const dem_contact *closed = contacts_of(s, &n);
+    if (!law->moves) return;
+    if (law->of->motion != NULL && !poses_are_known(s)) {
+        load->displacement[0] = load->displacement[1] = load->angle = load->power = (double)NAN;
+        return;
+    }
+    const pose at = s->measures->has_poses ? s->poses[obstacle] : motion_law_pose(law, s->seen_t);
+    obstacle_load_add_motion(load, &at, obstacle, closed, n);
+}
+
 dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *out)
 {
     TRY(check_given("dem_simulation_obstacle", s, out));
@@ -234,7 +274,7 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
     const double *lasting = state_v(l, seen_of(s), state_impulse(l, obstacle));
     const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
     dem_obstacle_load load = diagnostics_reaction(closed, n_closed, obstacle);
-    obstacle_load_add_motion(&load, &contact_of(s)->set.scene, s->seen_t, obstacle, closed, n_closed);
+    add_motion(s, obstacle, &load);
     for (int k = 0; k < 2; k++) {
         load.impulse[k] = reduce_rounded_sum(ledger->impulse[2 * obstacle + k]) + lasting[k];
         load.friction_impulse[k] = reduce_rounded_sum(ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];

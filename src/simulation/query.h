@@ -11,8 +11,12 @@ void query_at(dem_simulation *s, double t, const double *y);
 /** Makes the state at a time within the step in hand the one that is seen. */
 void query_inside(dem_simulation *s, double t);
 
-/** Does all for the state that is seen which asks the external force, so that what looks at it need not: to be called
- *  in an advance before the state is shown.  \return DEM_STOPPED if the force has failed: then it must not be shown */
-dem_status query_ask_force(dem_simulation *s);
+/** Does all for the state that is seen which asks functions of the caller, the external force and motions of obstacles,
+ *  so that what looks at it need not: to be called in an advance before the state is shown.
+ *  \return DEM_STOPPED if one has failed: then it must not be shown */
+dem_status query_ask(dem_simulation *s);
+
+/** The same of the motions of obstacles alone. */
+void query_ask_poses(dem_simulation *s);
 
 #endif

@@ -72,6 +72,7 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
     if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
     if (x != NULL) TRY(check_surfaces(s, x));
+    if (run_force_failed(s)) return reduce_status(run_force_failure(s), 0.0);
     if (s->seen != s->frame) memcpy(s->frame, s->seen, (size_t)state_size(&s->layout) * sizeof *s->frame);
     put(s, x, v, s->frame);
     s->events += s->in_hand ? reduce_count(s->queue.n_stops) : 0;

@@ -20,12 +20,14 @@
 
 static dem_status allocate(dem_simulation *s)
 {
+    const obstacle_set *o = &s->model->obstacles;
     const size_t n = (size_t)state_size(&s->layout);
     s->y = s->initial = aligned_zeros(n);
     s->frame = malloc(n * sizeof *s->frame);
     s->measures = calloc(1, sizeof *s->measures);
-    CHECK(s->y && s->frame && s->measures, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
-          (long long)s->model->lattice.n_nodes);
+    if (o->is_asked) s->poses = calloc((size_t)o->n, sizeof *s->poses);
+    CHECK(s->y && s->frame && s->measures && (s->poses || !o->is_asked), DEM_ERROR_MEMORY,
+          "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
     return DEM_OK;
 }
 
@@ -127,7 +129,7 @@ static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     TRY(checkpoint_restore(s, checkpoint));
     query_at(s, s->t, s->y);
-    const dem_status status = query_ask_force(s);
+    const dem_status status = query_ask(s);
     if (run_force_failed(s)) return reduce_status(run_force_failure(s), 0.0);
     TRY(status);
     s->started = s->has_checkpoint = true;
@@ -186,6 +188,7 @@ void dem_simulation_destroy(dem_simulation *s)
     free(s->initial);
     free(s->frame);
     free(s->measures);
+    free(s->poses);
     dem_checkpoint_destroy(s->checkpoint);
     dem_checkpoint_destroy(s->rollback);
     free(s);

@@ -28,14 +28,14 @@ static const double safety = 0.9, least_factor = 0.1; /* of the next step after 
 static dem_status show_state(dem_simulation *s)
 {
     query_at(s, s->t, s->y);
-    return query_ask_force(s);
+    return query_ask(s);
 }
 
 /* The same of the state at a time within the step in hand. */
 static dem_status show_inside(dem_simulation *s, double t)
 {
     query_inside(s, t);
-    return query_ask_force(s);
+    return query_ask(s);
 }
 
 /* The listener for an event at which the whole body has stopped: the state is that right after this change, and others
@@ -101,7 +101,8 @@ static dem_status take_rollback(dem_simulation *s)
 }
 
 /* Goes back to the last state for which the external force was known: that of the rollback point, if contacts were
- * changing, else the start of the step. The failure itself is returned with its own message. */
+ * changing, else the start of the step. The failure itself is returned with its own message. Motions of obstacles are
+ * asked for again at that state, so that its contacts are known; if that fails, too, none are listed. */
 static dem_status roll_back(dem_simulation *s)
 {
     dem_status status = DEM_OK;
@@ -113,8 +114,14 @@ static dem_status roll_back(dem_simulation *s)
         status = integrator_restart(&s->integrator, s->t, s->y);
     s->has_rollback = false;
     status = status_first(status, body_contact_follow(s, s->y));
+    status = status_first(status, reduce_status(run_force_failure(s), 0.0));
     query_at(s, s->t, s->y);
-    return status_first(status, reduce_status(run_force_failure(s), 0.0));
+    query_ask_poses(s);
+    if (run_force_failed(s)) {
+        (void)run_force_failure(s);
+        query_at(s, s->t, s->y);
+    }
+    return status;
 }
 
 /* Factor by which the next attempt at a step is shorter, 1 if the step is good or shortening does not help. The error
@@ -298,7 +305,6 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
     CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
           t_end, s->seen_t);
     s->advanced = s->advancing = true;
-    if (surface_failed(&s->automaton.set.scene)) (void)given_motion_failure(); /* left by a look at the simulation */
     const dem_status status = advance(s, t_end);
     s->advancing = false;
     return run_force_failed(s) ? roll_back(s) : status;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does the test that no getter asks the external force know all of them? `getters.py SOURCE_ROOT`. A getter takes a
+"""Does the test that no getter calls a function of the program know all of them? `getters.py SOURCE_ROOT`. A getter takes a
 `const dem_simulation *` first; the test calls it by its name, or through drivers/common/ask.h."""
 import pathlib
 import re

@@ -246,6 +246,7 @@ TEST(what_is_seen_within_a_step_is_without_later_events)
 
 typedef struct pusher {
     long calls, fails_at; /* fails_at: the number of the call, from 1; 0: none */
+    long poses;           /* calls of rise() */
 } pusher;
 
 static dem_status push(void *context, const dem_force_query *query, double *force)
@@ -255,12 +256,24 @@ static dem_status push(void *context, const dem_force_query *query, double *forc
     return ++p->calls == p->fails_at ? DEM_ERROR_IO : DEM_OK;
 }
 
-/* Two nodes, one above the other and joined by a spring, fall on a floor; the upper one goes straight down. */
+/* A floor that goes up. */
+static dem_status rise(void *context, double t, dem_pose *pose)
+{
+    pusher *p = context;
+    p->poses++;
+    pose->velocity[1] = 0.05;
+    pose->place[1] = 0.05 * t;
+    return DEM_OK;
+}
+
+/* Two nodes, one above the other and joined by a spring, fall on a floor, on which the lower one stays; the upper one
+ * goes straight down. */
 static dem_simulation *drop_pair(dem_model **model, dem_contact_method contact, const dem_observer *observer, pusher *p)
 {
     const double x[4] = {0.0, 0.1, 0.0, 1.1}, mass[2] = {1.0, 2.0}, v[4] = {0.0, -3.0, 0.0, -3.0};
     const dem_index ends[2] = {0, 1}, upper = 1;
-    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 0.5);
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .motion = rise,
+                                        .motion_context = p, .most_speed = 0.06, .most_acceleration = 1.0);
     const dem_boundary rail = SIZED(dem_boundary, .components = DEM_COMPONENT_X, .n_nodes = 1, .nodes = &upper);
     dem_options options = dem_options_default();
     dem_lattice lattice = support_lattice(2, x, mass, 1, ends, 1.0, 1000.0, NULL);
@@ -301,16 +314,17 @@ static void look_at_all(const dem_simulation *s)
     (void)ask_boundary(s, 0);
     (void)dem_simulation_residual(s);
     (void)dem_simulation_checkpoint(s);
-    (void)dem_simulation_model(s);
+    (void)dem_model_gap(dem_simulation_model(s), now.x);
     (void)ask_options(s);
 }
 
 static dem_status only_look(void *context, const dem_simulation *simulation)
 {
     const pusher *p = context;
-    const long before = p->calls;
+    const long before = p->calls, poses = p->poses;
     look_at_all(simulation);
     assert_int_equal(p->calls, before);
+    assert_int_equal(p->poses, poses);
     assert_true(isfinite(ask_boundary(simulation, 0).force[0]) || before == 0);
     return DEM_OK;
 }
@@ -335,7 +349,7 @@ static dem_observer looker(pusher *p)
 
 enum { n_advances = 12 }; /* of 0.01 s each, with the impact after some 0.03 s */
 
-TEST(no_getter_asks_the_external_force)
+TEST(no_getter_calls_a_function_of_the_program)
 {
     for (int contact = DEM_CONTACT_LOCAL; contact <= DEM_CONTACT_EXACT; contact++) {
         pusher p = {0};
@@ -349,10 +363,14 @@ TEST(no_getter_asks_the_external_force)
             only_look(&p, simulation);
         }
         assert_true(ask_counts(simulation).impacts > 0);
+        assert_int_equal(ask_state(simulation).n_contacts, 1);
+        assert_close(ask_obstacle(simulation, 0).displacement[1], 0.05 * 0.01 * n_advances, 1e-15);
         assert_ok(dem_simulation_set_motion(simulation, NULL, NULL));
-        const long before = p.calls;
+        const long before = p.calls, poses = p.poses;
         look_at_all(simulation);
         assert_int_equal(p.calls, before);
+        assert_int_equal(p.poses, poses);
+        assert_true(isnan(ask_obstacle(simulation, 0).displacement[1]));
         assert_true(isnan(ask_boundary(simulation, 0).force[0]));
     }
 }
