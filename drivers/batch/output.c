@@ -80,14 +80,14 @@ static bool is_missing(const char *path)
 }
 
 /* Rights do not tell it for root, nor where the system has no place for new files, as in /proc: a folder is made, and
- * removed. It has a name of its own, so that no run can take it for its output's folder. Where not, errno says why. */
+ * removed. Where not, errno says why. What a killed run has left the next one removes; of two runs at the same time
+ * either may remove what the other has made. */
 static bool takes_entries(const char *folder)
 {
     char trial[OUTPUT_PATH + 64];
-    (void)snprintf(trial, sizeof trial, "%s/.dem_batch.%ld.trial", folder, (long)getpid());
+    (void)snprintf(trial, sizeof trial, "%s/.dem_batch.trial", folder);
     if (mkdir(trial, 0700) != 0 && errno != EEXIST) return false;
-    (void)rmdir(trial);
-    return true;
+    return rmdir(trial) == 0 || errno == ENOENT;
 }
 
 bool output_check_folder(const char *folder, char path[OUTPUT_PATH], char reason[OUTPUT_REASON])

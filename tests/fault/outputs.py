@@ -14,7 +14,7 @@ import h5py
 HEADER = struct.Struct("<8sIIQQQ")  # of a checkpoint: magic, byte order, format, bytes, entries, checksum
 AT_CHECKSUM = slice(HEADER.size - 8, HEADER.size)
 CHANGING = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ")  # when a run began, in /provenance
-TEMPORARY = (".part", ".new")
+TEMPORARY = (".part", ".new", ".trial")
 LOCK = ".lock"  # a file that stays locks nothing
 
 

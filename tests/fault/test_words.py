@@ -24,7 +24,7 @@ DONE, INVALID, NUMERICS, IO, MEMORY, TAKEN, AGAIN = 0, 3, 4, 5, 6, 7, 75
 # A disc slides over the ground; every step but the first few can end with a contact event.
 BASE = """&run t_end = 6e-4 /
 &material youngs_modulus = 1e7, density = 1050 /
-&body shape = 'disc', radius = 0.03, spacing = 0.01, clearance = 1e-4, velocity = 2, -5 /
+&body shape = 'disc', radius = 0.03, spacing = 0.01, outline = 'lattice', clearance = 1e-4, velocity = 2, -5 /
 &obstacle points = -0.3, -0.02, -0.05, 0.004, 0, -0.01, 0.045, 0.01, 0.3, -0.02, restitution = 0.3, friction = 0.4 /
 &solver checkpoint_steps = 24 /
 &output name = 'disc', frame_interval = 2e-4, events = T /

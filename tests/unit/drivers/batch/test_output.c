@@ -250,6 +250,16 @@ TEST_WITH(a_check_names_a_folder_that_is_read_only, NULL, scratch_sweep)
     assert_int_equal(rmdir(path), 0);
 }
 
+/* A check that is killed leaves the folder by which it has found out: the next one removes it. */
+TEST_WITH(a_check_removes_what_a_killed_one_has_left, NULL, scratch_sweep)
+{
+    char left[SCRATCH_PATH + 32];
+    (void)snprintf(left, sizeof left, "%s/.dem_batch.trial", scratch.path);
+    assert_int_equal(mkdir(left, 0700), 0);
+    expect_checked(scratch.path, "", "");
+    assert_int_equal(access(left, F_OK), -1);
+}
+
 /* In /proc nobody makes a file, though its rights let root. */
 TEST_WITH(a_check_names_a_folder_that_takes_no_files, NULL, scratch_sweep)
 {
