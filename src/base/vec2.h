@@ -6,6 +6,7 @@
 #define DEM_BASE_VEC2_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #include <dem/dem.h>
 
@@ -70,6 +71,13 @@ static inline double vec2_norm(vec2 a)
 static inline double vec2_triangle_area(vec2 a, vec2 b, vec2 c)
 {
     return 0.5 * vec2_cross(vec2_sub(b, a), vec2_sub(c, a));
+}
+
+/** Whether the segments ab and cd cross: each has the ends of the other on both sides. */
+static inline bool vec2_segments_cross(vec2 a, vec2 b, vec2 c, vec2 d)
+{
+    return vec2_triangle_area(a, b, c) * vec2_triangle_area(a, b, d) < 0.0 &&
+           vec2_triangle_area(c, d, a) * vec2_triangle_area(c, d, b) < 0.0;
 }
 
 /** A symmetric matrix. */

@@ -20,18 +20,6 @@ box box_around(vec2 a, vec2 b, double reach)
     return (box){{fmin(a.x, b.x) - r, fmin(a.y, b.y) - r}, {fmax(a.x, b.x) + r, fmax(a.y, b.y) + r}};
 }
 
-/* The smallest box around both. */
-static void widen(box *b, const box *around)
-{
-    b->low = (vec2){fmin(b->low.x, around->low.x), fmin(b->low.y, around->low.y)};
-    b->high = (vec2){fmax(b->high.x, around->high.x), fmax(b->high.y, around->high.y)};
-}
-
-static bool meet(const box *a, const box *b)
-{
-    return a->low.x <= b->high.x && b->low.x <= a->high.x && a->low.y <= b->high.y && b->low.y <= a->high.y;
-}
-
 /* The leaf whose items, box_tree_first(leaf) to box_tree_first(leaf + 1) - 1, include this one: the 2^depth leaves get
  * the items evenly and in order. */
 static dem_index leaf_of(const box_tree *t, dem_index item)
@@ -40,7 +28,6 @@ static dem_index leaf_of(const box_tree *t, dem_index item)
     return leaves + ((item + 1) * leaves - 1) / t->n;
 }
 
-/* Boxes begin empty (from +inf to -inf): they meet no window, and widening makes them what they cover. */
 dem_status box_tree_create(box_tree *out, dem_index n)
 {
     box_tree t = {.n = n};
@@ -48,7 +35,7 @@ dem_status box_tree_create(box_tree *out, dem_index n)
     const size_t n_boxes = (size_t)2 << t.depth;
     t.boxes = malloc(n_boxes * sizeof *t.boxes);
     CHECK_MEMORY(t.boxes);
-    for (size_t k = 0; k < n_boxes; k++) t.boxes[k] = (box){{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (size_t k = 0; k < n_boxes; k++) t.boxes[k] = box_empty();
     *out = t;
     return DEM_OK;
 }
@@ -62,7 +49,7 @@ void box_tree_free(box_tree *t)
 /* Widens the leaf and all its ancestors, the last of which is node 1, the root. */
 void box_tree_cover(box_tree *t, dem_index item, const box *around)
 {
-    for (dem_index node = leaf_of(t, item); node > 0; node /= 2) widen(&t->boxes[node], around);
+    for (dem_index node = leaf_of(t, item); node > 0; node /= 2) t->boxes[node] = box_join(*around, t->boxes[node]);
 }
 
 /* The node behind a subtree, in the order of items; 0 behind the last. A right child (odd) has nothing behind it within
@@ -80,7 +67,7 @@ dem_index box_tree_seek(const box_tree *t, dem_index from, const box *window)
     if (from >= t->n) return t->n;
     dem_index node = leaf_of(t, from);
     while (node > 0) {
-        if (!meet(&t->boxes[node], window)) {
+        if (!box_meets(&t->boxes[node], window)) {
             node = behind(node);
         } else if (box_tree_is_leaf(t, node)) {
             const dem_index first = box_tree_first(t, node);

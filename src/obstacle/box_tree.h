@@ -4,13 +4,7 @@
 #ifndef DEM_OBSTACLE_BOX_TREE_H
 #define DEM_OBSTACLE_BOX_TREE_H
 
-#include <stdbool.h>
-
-#include "base/vec2.h"
-
-typedef struct box {
-    vec2 low, high; /* m */
-} box;
+#include "base/box.h"
 
 typedef struct box_tree {
     dem_index n; /* items */
