@@ -19,6 +19,7 @@ static const double lowest_value = -1e30;
  * at its beginning is that of the last update of the broad phase. */
 static double furthest(const automaton *c, const dense_output *p)
 {
+    if (broad_phase_is_idle(&c->broad_phase, &c->set)) return 0.0;
     return 2.0 * (p->t1 - p->t0) *
            fmax(c->broad_phase.speed, broad_phase_speed(&c->set, automaton_state(c, p->t1, p->y1).v));
 }

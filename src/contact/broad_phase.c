@@ -95,6 +95,7 @@ void broad_phase_list(broad_phase *w, const contact_set *c)
  * checked. */
 void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
 {
+    if (broad_phase_is_idle(w, c)) return;
     w->speed = broad_phase_speed(c, state.v);
     const double reach = 1.25 * c->scene.rule.max_step * w->speed;
     w->n = 0;

@@ -18,6 +18,12 @@ typedef struct broad_phase {
 dem_status broad_phase_reserve(broad_phase *w, dem_index n_candidates);
 void broad_phase_destroy(broad_phase *w);
 
+/** Whether no candidate will ever touch anything, since there is nothing to touch. */
+static inline bool broad_phase_is_idle(const broad_phase *w, const contact_set *c)
+{
+    return w->n == 0 && w->earliest == (double)INFINITY && c->ledger.counts.behind == 0;
+}
+
 /** Largest speed of the nodes that may touch plus that of the obstacles, m/s. */
 double broad_phase_speed(const contact_set *c, const double *v);
 

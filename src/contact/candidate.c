@@ -156,18 +156,12 @@ static double end_guard(const contact_scene *scene, const contact_candidate *can
     return fmin(place, length - place) + scene->rule.penetration_tolerance;
 }
 
-/* Whether a contact sticks by friction: it does not slide, nor is it held in a corner. */
-static bool sticks(const contact_candidate *candidate, int q)
-{
-    return candidate->closed[q].slide == 0 && !candidate->closed[q].held;
-}
-
 /* A contact beyond an end has passed it only if it heads out. Its tangential velocity tells, or for one at rest its
  * acceleration less that of the wall. A vertex moves along the edge opposite to the body. */
 int candidate_end_passed(const contact_scene *scene, const contact_candidate *candidate, int q, scene_state state)
 {
     int end;
-    if (sticks(candidate, q) || end_guard(scene, candidate, q, state, &end) > 0.0) return 0;
+    if (contact_point_sticks(&candidate->closed[q]) || end_guard(scene, candidate, q, state, &end) > 0.0) return 0;
     const contact_frame f = contact_frame_at(scene, candidate, q, state);
     double speed = vec2_dot(f.velocity, f.tangent);
     const bool rests = speed == 0.0;
@@ -175,8 +169,7 @@ int candidate_end_passed(const contact_scene *scene, const contact_candidate *ca
         speed += f.nodes.weight[p] *
                  vec2_dot(forces_acceleration(scene->forces, f.nodes.node[p], state.x, state.v), f.tangent);
     if (rests) speed -= f.carried;
-    const double heading =
-        candidate_is_edge(candidate) ? -speed : speed; /* a vertex moves along the edge opposite to the body */
+    const double heading = candidate_is_edge(candidate) ? -speed : speed;
     return end * heading > 0.0 ? end : 0;
 }
 
@@ -199,16 +192,9 @@ bool candidate_turns(const contact_scene *scene, const contact_candidate *candid
 double candidate_grip(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
                       const contact_force *force, const double *x)
 {
-    if (!sticks(candidate, q)) return INFINITY;
+    if (!contact_point_sticks(&candidate->closed[q])) return INFINITY;
     const double limit = contact_point_friction(scene, candidate, candidate->closed[q].feature) * force->normal;
     return limit + contact_point_slack(scene, f, x) - fabs(force->tangent);
-}
-
-/* Root function of a gap, m: gap + penetration tolerance. It is bounded, for the gap is infinite where there is nothing
- * to touch. */
-static double gap_guard(const contact_scene *scene, contact_gap gap)
-{
-    return fmin(gap.distance, 1.0) + scene->rule.penetration_tolerance;
 }
 
 /* Of two closed contacts the lower value counts. In the order of g: gap; normal force, N; for contacts that slide the
@@ -219,22 +205,23 @@ void candidate_root_functions(const contact_scene *scene, const contact_candidat
 {
     int end;
     const candidate_positions spot = candidate_place(candidate, state.t, state.x);
-    g[0] = gap_guard(scene, candidate_gap(scene, candidate, &spot));
+    const contact_gap gap = candidate_gap(scene, candidate, &spot);
+    g[0] = contact_gap_guard(scene, &gap);
     g[1] = g[2] = g[3] = 1.0;
     if (candidate->n_closed == 0) return;
     g[1] = g[2] = g[3] = INFINITY;
     for (int q = 0; q < candidate->n_closed; q++) {
+        const contact_point *point = &candidate->closed[q];
+        const bool slides = !contact_point_sticks(point);
         g[1] = fmin(g[1], force[q].normal);
-        if (candidate->closed[q].held) continue;
-        if (!sticks(candidate, q) && contact_point_friction(scene, candidate, candidate->closed[q].feature) == 0.0) {
-            g[2] = fmin(g[2], end_guard(scene, candidate, q, state, &end));
-            continue;
-        }
+        if (point->held) continue;
+        if (slides) g[2] = fmin(g[2], end_guard(scene, candidate, q, state, &end));
+        if (slides && contact_point_friction(scene, candidate, point->feature) == 0.0) continue;
         const contact_frame f = contact_frame_at(scene, candidate, q, state);
-        g[2] = fmin(g[2], sticks(candidate, q) ? candidate_grip(scene, candidate, q, &f, &force[q], state.x)
-                                               : end_guard(scene, candidate, q, state, &end));
-        if (sticks(candidate, q)) continue;
-        g[3] = fmin(g[3], candidate->closed[q].slide * vec2_dot(f.velocity, f.tangent));
+        if (slides)
+            g[3] = fmin(g[3], point->slide * vec2_dot(f.velocity, f.tangent));
+        else
+            g[2] = fmin(g[2], candidate_grip(scene, candidate, q, &f, &force[q], state.x));
     }
     for (int k = 1; k < CANDIDATE_ROOTS; k++)
         if (isinf(g[k])) g[k] = 1.0;
@@ -246,7 +233,8 @@ bool candidate_due(const contact_scene *scene, const contact_candidate *candidat
                    scene_state state)
 {
     const candidate_positions spot = candidate_place(candidate, state.t, state.x);
-    if (gap_guard(scene, candidate_gap(scene, candidate, &spot)) <= 0.0) return true;
+    const contact_gap gap = candidate_gap(scene, candidate, &spot);
+    if (contact_gap_guard(scene, &gap) <= 0.0) return true;
     for (int q = 0; q < candidate->n_closed; q++) {
         if (force[q].normal <= 0.0) return true;
         if (candidate->closed[q].held) continue;

@@ -36,6 +36,13 @@ double candidate_moved(const contact_scene *scene, const contact_candidate *cand
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot);
 
+/** Root function of a gap, m: gap + penetration tolerance. It is bounded: where there is nothing to touch the gap is
+ *  infinite. */
+static inline double contact_gap_guard(const contact_scene *scene, const contact_gap *gap)
+{
+    return fmin(gap->distance, 1.0) + scene->rule.penetration_tolerance;
+}
+
 /** contact_gap_velocity() where some surfaces move: a function of its own, so that others do not pay for it. */
 vec2 contact_gap_velocity_moving(const contact_scene *scene, const contact_candidate *candidate, const contact_gap *gap,
                                  const candidate_positions *spot, vec2 v);

@@ -139,8 +139,7 @@ static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, 
     if (next < 0) return release(c, k, q, now);
     const vec2 at = surface_vertex_at(&c->scene, feature, now->t);
     contact_set_move(c, node, vec2_sub(at, vec2_at(now->x, node)), now->x);
-    if (impact_rest_in_notch(c, k, next, now)) return impact_solve(c, next, (impact_target){1, {feature}}, now);
-    TRY(release(c, k, q, now));
+    if (!impact_rest_in_notch(c, k, next, now)) TRY(release(c, k, q, now));
     return impact_solve(c, next, (impact_target){1, {feature}}, now);
 }
 

@@ -17,7 +17,6 @@ typedef struct point_entry {
     double place, force, friction;
 } point_entry;
 
-/* A candidate that differs from one that has never touched anything. */
 typedef struct candidate_entry {
     dem_index k, n_closed, behind[2], storm;
     double storm_start;

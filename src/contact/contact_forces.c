@@ -95,7 +95,7 @@ static dem_status reserve(contact_forces *r, dem_index group)
     const size_t size = (size_t)n * (2 * (size_t)width + 1);
     if (size <= r->capacity) return DEM_OK;
     double *band = realloc(r->band, 2 * size * sizeof *band);
-    CHECK(band != NULL, DEM_ERROR_MEMORY, "out of memory for %zu coupled contact forces", size);
+    CHECK(band != NULL, DEM_ERROR_MEMORY, "out of memory for %lld coupled contact forces", (long long)n);
     r->band = band;
     r->capacity = 2 * size;
     return DEM_OK;
@@ -238,13 +238,6 @@ dem_status contact_forces_regroup(contact_forces *r)
 
 /* ---- one contact by itself ---- */
 
-/* Whether a contact resists sliding with a friction force that is an unknown of its own: it sticks, but not in a
- * corner. */
-static bool resists(const contact_candidate *candidate, int q)
-{
-    return candidate->closed[q].slide == 0 && !candidate->closed[q].held;
-}
-
 /* sign mu, so that T = -sign mu N opposes the sliding; 0 in a corner and under the paper's law. */
 static double sliding_friction(const contact_forces *r, const contact_candidate *candidate, int q)
 {
@@ -348,7 +341,7 @@ static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_stat
             r->rows[n - 1].wanted = to == FORCE ? f.keep[0] : (to == SHIFT ? -f.gap : along(r, f.wall, f.normal));
             if (to == SHIFT) continue;
             if (to == FORCE) r->rows[n - 1].push = vec2_along(f.normal, -sliding_friction(r, candidate, q), f.tangent);
-            if (!resists(candidate, q)) continue;
+            if (!contact_point_sticks(&candidate->closed[q])) continue;
             add_row(r, &n, k, q, &f, true);
             r->rows[n - 1].wanted = to == FORCE ? f.keep[1] : along(r, f.wall, f.tangent);
         }

@@ -29,14 +29,14 @@ typedef struct contact_forces {
     const contact_candidate *candidates; /* [n_candidates] nodes first, then edges */
     dem_index n_candidates;
     dem_index *order, *rank; /* [n_candidates] along the boundaries; where a candidate comes in it */
-    dem_index n_groups,
-        *groups; /* [n_groups] the groups, ascending: the number of one is the rank of its first candidate */
+    dem_index n_groups;
+    dem_index *groups;         /* [n_groups] ascending: the number of a group is the rank of its first candidate */
     dem_index *group, *next;   /* [n_candidates] of a closed candidate, else -1; the next of its group by rank, or -1 */
     dem_index *at_node;        /* [n_nodes] the group that has closed contacts at a node, or -1 */
     dem_index *ranks;          /* [n_candidates] scratch: candidates whose groups are found again */
     contact_force (*force)[2]; /* [n_candidates] of each closed contact, as last solved for */
     dem_index *root, *first;   /* [n_nodes] scratch: union-find; first row that touches the node */
-    double *a;                 /* [2 n_nodes] scratch */
+    double *a;                 /* [n_nodes][2] accelerations of the nodes of the group last solved for, or its shifts */
     contact_equation *rows;    /* [4 n_candidates] scratch */
     double *band;              /* [capacity] scratch */
     size_t capacity;

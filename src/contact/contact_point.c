@@ -140,6 +140,14 @@ contact_frame contact_frame_at(const contact_scene *scene, const contact_candida
     return node_frame(scene, candidate, &line, state);
 }
 
+contact_frame contact_frame_on(const contact_scene *scene, const contact_candidate *candidate, dem_index feature,
+                               scene_state state)
+{
+    contact_candidate alone = *candidate;
+    alone.closed[0] = (contact_point){.feature = feature, .slide = 1};
+    return contact_frame_at(scene, &alone, 0, state);
+}
+
 /* A displacement d changes the force on a node of mass m by at most m omega_max^2 d/2, N. Here d is the rounding of the
  * coordinates of the node and its neighbours, 64 units in the last place of their extent, and m = 1/mobility. */
 double contact_point_slack(const contact_scene *scene, const contact_frame *f, const double *x)
@@ -170,7 +178,7 @@ dem_contact contact_point_describe(const contact_scene *scene, const contact_can
     dem_contact out = {.n_nodes = f.nodes.n,
                        .body = scene->model->lattice.body[candidate->node],
                        .other_body = -1,
-                       .state = point->held || point->slide == 0 ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP,
+                       .state = contact_point_state(point),
                        .obstacle = surface_obstacle(scene, feature),
                        .segment = surface_segment_index(scene, feature),
                        .x = {at.x, at.y},

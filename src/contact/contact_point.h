@@ -89,6 +89,18 @@ static inline int candidate_point_on(const contact_candidate *candidate, dem_ind
     return -1;
 }
 
+/** Whether a contact sticks by friction: it does not slide, nor is it held in a corner. */
+static inline bool contact_point_sticks(const contact_point *point)
+{
+    return point->slide == 0 && !point->held;
+}
+
+/** What reports call its state: one that is held in a corner does not slide either. */
+static inline dem_contact_state contact_point_state(const contact_point *point)
+{
+    return point->slide == 0 || point->held ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
+}
+
 /** The feature with this number: a node touches segments, an edge touches vertices. */
 static inline surface_feature contact_point_feature(const contact_candidate *candidate, dem_index id)
 {
@@ -109,7 +121,11 @@ double contact_point_friction(const contact_scene *scene, const contact_candidat
 contact_frame contact_frame_at(const contact_scene *scene, const contact_candidate *candidate, int q,
                                scene_state state);
 
-/** The same where some obstacles move: a function of its own, so that runs without any do not pay for it. */
+/** Frame that a contact of a candidate on a feature would have, closed or not. */
+contact_frame contact_frame_on(const contact_scene *scene, const contact_candidate *candidate, dem_index feature,
+                               scene_state state);
+
+/** contact_frame_at() where some obstacles move: a function of its own, so that runs without any do not pay for it. */
 contact_frame contact_frame_moving(const contact_scene *scene, const contact_candidate *candidate, int q,
                                    scene_state state);
 

@@ -301,27 +301,28 @@ void contact_set_store_all(contact_set *c)
             contact_set_store_forces(c, k);
 }
 
-/* First pass: the velocities before; then the stop; second pass: the impulses, with the energy -J.(v + v')/2 of each.
- * The frames of both passes differ in velocity only. */
+/* What the stop gave to a contact: its impulse, and the energy -J.(v + v')/2 that this takes, J. */
+static double note_stop(const contact_set *c, dem_index k, int q, scene_state state)
+{
+    contact_impact *impact = &c->impacts[k].of[q];
+    const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, state);
+    const contact_force got = c->forces.force[k][q];
+    impact->stop = vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent);
+    return -0.5 * vec2_dot(impact->stop, vec2_add(impact->unstopped, f.velocity));
+}
+
+/* Frames before and after the stop differ in velocity only. */
 double contact_set_stop(contact_set *c, dem_index group, const contact_instant *now)
 {
     contact_forces *r = &c->forces;
     const scene_state state = instant_state(now);
     double energy = 0.0;
-    for (int after = 0; after < 2; after++) {
-        for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
-            const contact_candidate *candidate = &c->list[k];
-            for (int q = 0; q < candidate->n_closed; q++) {
-                vec2 *stop = &c->impacts[k].of[q].stop;
-                const contact_frame f = contact_frame_at(&c->scene, candidate, q, state);
-                const contact_force got = r->force[k][q];
-                const vec2 impulse = vec2_along(vec2_scale(got.normal, f.normal), got.tangent, f.tangent);
-                if (after) energy -= 0.5 * vec2_dot(impulse, vec2_add(*stop, f.velocity));
-                *stop = after ? impulse : f.velocity;
-            }
-        }
-        if (!after) contact_forces_stop(r, group, state, now->v);
-    }
+    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k])
+        for (int q = 0; q < c->list[k].n_closed; q++)
+            c->impacts[k].of[q].unstopped = contact_frame_at(&c->scene, &c->list[k], q, state).velocity;
+    contact_forces_stop(r, group, state, now->v);
+    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k])
+        for (int q = 0; q < c->list[k].n_closed; q++) energy += note_stop(c, k, q, state);
     return energy;
 }
 
@@ -343,15 +344,13 @@ contact_contribution contact_set_contribution(const contact_set *c, dem_index k,
     return out;
 }
 
-/* The frame is that of a contact of the candidate at this feature, closed or not; velocity before and after is the
- * present one, until an impact puts its own in place. Reports have velocities as they are, not relative to the wall. */
+/* Velocity before and after is the present one, until an impact puts its own in place. Reports have velocities as they
+ * are, not relative to the wall. */
 dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
                             const contact_instant *now)
 {
     const contact_candidate *candidate = &c->list[k];
-    contact_candidate alone = *candidate;
-    alone.closed[0] = (contact_point){.feature = feature, .slide = 1};
-    const contact_frame f = contact_frame_at(&c->scene, &alone, 0, instant_state(now));
+    const contact_frame f = contact_frame_on(&c->scene, candidate, feature, instant_state(now));
     const surface_feature on = contact_point_feature(candidate, feature);
     const vec2 v = contact_frame_velocity(&f, now->v);
     const vec2 at =
@@ -371,9 +370,7 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
                        .before = {v.x, v.y},
                        .after = {v.x, v.y}};
     const int q = candidate_point_on(candidate, feature);
-    if (q >= 0)
-        event.state =
-            candidate->closed[q].slide == 0 || candidate->closed[q].held ? DEM_CONTACT_STICK : DEM_CONTACT_SLIP;
+    if (q >= 0) event.state = contact_point_state(&candidate->closed[q]);
     return event;
 }
 

@@ -17,11 +17,12 @@ typedef struct contact_impact {
     bool plastic;    /* it does not rebound, for it will last */
     vec2 before;     /* m/s, of the point of the body */
     vec2 impulse;    /* N s, given to the body */
-    vec2 stop;       /* N s, what contact_set_stop() gave it last; m/s, its velocity until then */
+    vec2 unstopped;  /* m/s, velocity of its point relative to the obstacle before contact_set_stop() */
+    vec2 stop;       /* N s, what that gave it last */
     double energy;   /* J, taken by it */
 } contact_impact;
 
-/** The same for all contacts of a candidate: zero when no impact is under way, but for `stop`. */
+/** The same for all contacts of a candidate: zero when no impact is under way, but for what contact_set_stop() left. */
 typedef struct candidate_impact {
     int n; /* contacts that take part: the closed ones, then those that have opened */
     contact_impact of[2];

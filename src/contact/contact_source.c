@@ -7,7 +7,6 @@
 #include "contact/contact_source.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/status.h"
 #include "base/threads.h"
@@ -185,16 +184,6 @@ static void each_candidate(contact_source *s, const event_place *at,
     }
 }
 
-/* The two arrays of impulses are one block: copies share no memory. */
-static void copy_ledger(const contact_ledger *from, contact_ledger *to, dem_index n_obstacles)
-{
-    double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
-    memcpy(impulse, from->impulse, 4 * (size_t)n_obstacles * sizeof *impulse);
-    *to = *from;
-    to->impulse = impulse;
-    to->friction_impulse = friction_impulse;
-}
-
 /* Copies a candidate before its first change in the step. */
 static void keep_candidate(contact_source *s, const event_place *at, dem_index k)
 {
@@ -220,7 +209,7 @@ static void contact_source_prepare(void *self, const event_place *at)
 {
     contact_source *s = self;
     automaton *c = s->automaton;
-    if (!s->has_ledger) copy_ledger(&c->set.ledger, &s->ledger, c->set.scene.model->obstacles.n);
+    if (!s->has_ledger) ledger_copy(&s->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
     s->has_ledger = true;
     c->solved = NAN;
     each_candidate(s, at, keep_candidate);
@@ -286,7 +275,7 @@ static void contact_source_undo(void *self)
     c->solved = NAN;
     if (!s->has_ledger) return;
     put_back(s);
-    copy_ledger(&s->ledger, &c->set.ledger, c->set.scene.model->obstacles.n);
+    ledger_copy(&c->set.ledger, &s->ledger, c->set.scene.model->obstacles.n);
     (void)contact_set_regroup_some(&c->set, s->saved, s->n_saved);
     c->idle = s->idle;
     forget_saved(s);

@@ -12,11 +12,8 @@
  * segment. */
 void early_reflection_of(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now)
 {
-    contact_candidate *candidate = &c->list[k];
-    contact_candidate alone = *candidate;
     vec2 kick;
-    alone.closed[0] = (contact_point){.feature = gap->feature, .slide = 1};
-    contact_frame f = contact_frame_at(&c->scene, &alone, 0, instant_state(now));
+    contact_frame f = contact_frame_on(&c->scene, &c->list[k], gap->feature, instant_state(now));
     f.normal = gap->normal;
     const impact_surface wall = impact_rest_surface(c, k, gap->feature, f.normal);
     const vec2 after = impact_law_rebound(&wall, 1, f.velocity, &kick), impulse = vec2_scale(1.0 / f.mobility, kick);

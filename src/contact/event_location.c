@@ -60,12 +60,11 @@ typedef struct sample {
     double guard;
 } sample;
 
-/* The root function of the gap is bounded: where nothing is near, the gap is infinite. */
 static sample sample_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
     sample s = {.spot = candidate_place_at(candidate, p, t)};
     s.gap = candidate_gap(scene, candidate, &s.spot);
-    s.guard = fmin(s.gap.distance, 1.0) + scene->rule.penetration_tolerance;
+    s.guard = contact_gap_guard(scene, &s.gap);
     return s;
 }
 
@@ -213,14 +212,14 @@ static double crossing_within(const contact_scene *scene, const contact_candidat
     return INFINITY;
 }
 
-/* `reach` bounds how far the candidate goes: twice the way of its fastest node at either end of the step. */
+/* `reach` bounds how far the candidate and the obstacles go towards each other: twice the way that its fastest node at
+ * either end of the step makes, and the fastest obstacle. */
 double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                                double from)
 {
     const double h = p->end - from;
-    const double reach = 2.0 * h *
-                         (fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)) +
-                          surface_speed(scene)); /* no candidate goes further */
+    const double reach =
+        2.0 * h * (fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)) + surface_speed(scene));
     if (stays_clear(scene, candidate, p, reach)) return INFINITY;
     contact_candidate near = *candidate;
     near.clearance.distance = 0.0; /* for an exact gap: a lower bound has no slope that shows a dip */

@@ -238,8 +238,7 @@ static void report_candidate(contact_set *c, dem_index k, contact_instant *now)
         const obstacle_motion wall = surface_motion(&c->scene, id, (surface_query){now->t, vec2_at(event.x, 0)});
         contact_set_add_impulse(c, event.obstacle, impact->impulse, vec2_at(event.normal, 0), wall.velocity);
         if (impact->approached) {
-            event.before[0] = impact->before.x;
-            event.before[1] = impact->before.y;
+            vec2_put(event.before, 0, impact->before);
             contact_set_enter_impact(c, &event, impact->energy, impact->impulse, now);
         }
         if (kept == !impact->fresh || (impact->approached && kept)) continue;
@@ -276,7 +275,7 @@ dem_status impact_group_solve(contact_set *c, dem_index k, impact_target hit, co
     stop_around(c, k, now);
     TRY(take_up(c, k, hit));
     const dem_index group = c->forces.group[k];
-    (void)impact_group_project(c, c->forces.group[k], now);
+    (void)impact_group_project(c, group, now);
     const double tolerance = group_noise * prepare(c, group, now);
     bool done = sweep(c, k, tolerance, now);
     judge(c, group, tolerance, now);

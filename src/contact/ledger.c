@@ -6,10 +6,11 @@
 #include "contact/ledger.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/status.h"
 
-/* Both arrays of impulses are one block, which contact_source.c copies as one. */
+/* Both arrays of impulses are one block. */
 dem_status ledger_create(contact_ledger *out, dem_index n_obstacles)
 {
     contact_ledger b = {0};
@@ -25,6 +26,16 @@ void ledger_destroy(contact_ledger *b)
 {
     free(b->impulse);
     *b = (contact_ledger){0};
+}
+
+/* The block is copied, and stays its own. */
+void ledger_copy(contact_ledger *to, const contact_ledger *from, dem_index n_obstacles)
+{
+    double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
+    memcpy(impulse, from->impulse, 4 * (size_t)n_obstacles * sizeof *impulse);
+    *to = *from;
+    to->impulse = impulse;
+    to->friction_impulse = friction_impulse;
 }
 
 void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential)

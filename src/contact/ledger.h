@@ -29,6 +29,9 @@ static inline scene_state instant_state(const contact_instant *now)
 dem_status ledger_create(contact_ledger *out, dem_index n_obstacles);
 void ledger_destroy(contact_ledger *b);
 
+/** Makes `to`, which has been created for as many obstacles, equal to `from`. */
+void ledger_copy(contact_ledger *to, const contact_ledger *from, dem_index n_obstacles);
+
 /** Adds an impulse (N s) to an obstacle's: `tangential` is the part of it along the surface. */
 void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential);
 

@@ -486,7 +486,7 @@ TEST(forces_and_accelerations_agree_with_a_dense_solution)
     int n_solved = 0, n_coupled = 0, kinds[2][4] = {{0}};
     for (int k = 0; k < 4000; k++) {
         double solution[MOST_UNKNOWNS];
-        CLEANUP(contact_forces_destroy) contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r = {0};
         mix_next(&w);
         if (!mix_solve(&w, solution)) continue;
         const dem_index n_a = 2 * w.b.model.lattice.n_nodes;
@@ -510,7 +510,7 @@ TEST(solving_a_group_starts_from_the_accelerations_of_the_model)
     int n_solved = 0;
     for (int k = 0; k < 500; k++) {
         double solution[MOST_UNKNOWNS];
-        CLEANUP(contact_forces_destroy) contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r = {0};
         mix_next(&w);
         w.b.acting = (forces){.model = &w.b.model, .gravity = {3.0, -7.0}, .mass_damping = 0.5};
         for (dem_index i = 0; i < w.b.model.lattice.n_nodes; i++) {
@@ -535,7 +535,7 @@ TEST(what_is_held_has_the_acceleration_asked_for)
     int n_checked = 0;
     for (int k = 0; k < 2000; k++) {
         double solution[MOST_UNKNOWNS];
-        CLEANUP(contact_forces_destroy) contact_forces r;
+        CLEANUP(contact_forces_destroy) contact_forces r = {0};
         mix_next(&w);
         if (!mix_solve(&w, solution)) continue;
         regroup(&w.b, &r);

@@ -51,6 +51,21 @@ TEST(impulses_add_up_for_each_obstacle_by_itself)
     }
 }
 
+TEST(a_copy_keeps_memory_of_its_own)
+{
+    CLEANUP(ledger_destroy) contact_ledger from;
+    CLEANUP(ledger_destroy) contact_ledger to;
+    assert_ok(ledger_create(&from, 2));
+    assert_ok(ledger_create(&to, 2));
+    ledger_add_impulse(&from, 1, (vec2){1.0, -2.0}, (vec2){0.5, 0.25});
+    from.impact = 3.0, from.counts.slips = 7;
+    ledger_copy(&to, &from, 2);
+    ledger_add_impulse(&from, 1, (vec2){1.0, 1.0}, (vec2){1.0, 1.0});
+    assert_true(to.impulse[2] == 1.0 && to.impulse[3] == -2.0 && to.impulse[0] == 0.0);
+    assert_true(to.friction_impulse[2] == 0.5 && to.friction_impulse[3] == 0.25 && to.impact == 3.0);
+    assert_int_equal(to.counts.slips, 7);
+}
+
 static void enter(contact_ledger *b, dem_event_kind kind, dem_index other, int times)
 {
     const event_listener deaf = {0};
