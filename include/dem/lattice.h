@@ -45,9 +45,19 @@ typedef struct dem_material {
 } dem_material;
 
 enum {
-    DEM_NODE_FIXED = 1,  /**< never moves */
-    DEM_NODE_CONTACT = 2 /**< may touch obstacles */
+    DEM_NODE_FIXED = 1,   /**< never moves */
+    DEM_NODE_CONTACT = 2, /**< may touch obstacles */
+    DEM_NODE_RIGID = 4,   /**< of a rigid body: all nodes of a body are, or none */
+    DEM_NODE_GUIDE_X = 8, /**< of a rigid body that only moves along x, or y, and does not turn */
+    DEM_NODE_GUIDE_Y = 16
 };
+
+/** How a rigid body may move. */
+typedef enum dem_guide {
+    DEM_GUIDE_NONE = 0, /**< freely */
+    DEM_GUIDE_X,        /**< along x alone, without turning */
+    DEM_GUIDE_Y
+} dem_guide;
 
 /** Nodes, springs in triplet form (any order, no duplicates) and triangles. Every array is owned by the lattice and
  *  comes from malloc; dem_lattice_free() frees them all. */
@@ -67,15 +77,16 @@ typedef struct dem_lattice {
     double *guard;          /**< [n_triangles]    guard strength >= 0, N/m; NULL: none */
     double *area_stiffness; /**< [n_triangles]   kappa of the area term, of any sign, N/m: the energy
                                 kappa/2 (A - A0)^2/A0 of a triangle of area A; NULL: none */
-    double *thickness;      /**< [n_triangles]    > 0, m, for stresses only; NULL: 1 m */
-    double *modulus;        /**< [n_triangles]    > 0, Pa, for stresses only: triangles share the force of a spring
-                                between them as modulus * thickness * area; NULL: equal */
-    unsigned char *flags;   /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
+    double *thickness;      /**< [n_triangles]    > 0, m, for stresses and pressures; NULL: 1 m */
+    double *modulus; /**< [n_triangles]    > 0, Pa, for stresses: each triangle of a spring has a share of its force
+                                in proportion to modulus * thickness * area, and where springs are coupled to the
+                                weight of docs/algorithms.md, Shares. No force depends on it. NULL: the same in all */
+    unsigned char *flags; /**< [n_nodes] DEM_NODE_...; NULL: none fixed, contact on the boundary of
                                 the triangulation, on every node where there are no triangles */
-    int32_t *body;          /**< [n_nodes]        body number from 0; NULL: one body */
-    double *position;       /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
-    double *velocity;       /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
-    double *coupling;       /**< [n_triangles][3] of any sign, N/m: at each corner the tension of one of its two edges
+    int32_t *body;        /**< [n_nodes]        body number from 0; NULL: one body */
+    double *position;     /**< [n_nodes][2]     where the motion starts, m; NULL: at x */
+    double *velocity;     /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
+    double *coupling;     /**< [n_triangles][3] of any sign, N/m: at each corner the tension of one of its two edges
                                 per change of length of the other. An edge that has one needs a spring; NULL: none */
 } dem_lattice;
 
@@ -181,6 +192,12 @@ DEM_API dem_status dem_lattice_spin(dem_lattice *lattice, double angular_velocit
 
 /** Takes nodes from contact: they may not touch obstacles, nor may the edges between them.  \param nodes [n] */
 DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n);
+
+/** Makes all bodies of the lattice rigid: their springs and triangles carry nothing, and bound no step. Rigid bodies
+ *  need the option `bodies`, by which they touch other bodies; obstacles they meet with their whole surface by the same
+ *  law, without restitution or friction.
+ *  \param guide  how they may move */
+DEM_API dem_status dem_lattice_stiffen(dem_lattice *lattice, dem_guide guide);
 
 /** What each of some nodes has of the boundary edges between them, half of each edge: by its length in the rest shape,
  *  or, along a unit `direction` [2], by the length of its projection on that, times the thickness of its triangle. For

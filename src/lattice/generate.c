@@ -195,7 +195,7 @@ static dem_status check_areas(const dem_lattice *l)
 
 /* Moves the corners of triangles that have kept less than `least_area` of their area half way back, until there are
  * none. It ends, since the shifts of such corners go to 0 and their areas to what they were. */
-static void relent(const dem_lattice *l, double *x)
+static void move_back(const dem_lattice *l, double *x)
 {
     for (bool again = true; again;) {
         again = false;
@@ -305,7 +305,7 @@ dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed
         vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), rim[i] != 0 ? none : shift));
     }
     if (status == DEM_OK) {
-        relent(lattice, x);
+        move_back(lattice, x);
         double *const old = lattice->x;
         lattice->x = x;
         x = old;

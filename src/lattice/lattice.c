@@ -210,18 +210,35 @@ dem_status dem_lattice_edge_shares(const dem_lattice *lattice, const dem_index *
     return status;
 }
 
-/* Flags that are missing are first written out as what they stand for. */
+/* Flags that are missing are written out as what they stand for. */
+static dem_status make_flags(dem_lattice *lattice)
+{
+    if (lattice->flags != NULL) return DEM_OK;
+    unsigned char *flags = lattice_zeros(lattice->n_nodes, sizeof *flags);
+    CHECK_MEMORY(flags);
+    const dem_status status = mesh_edges_contact_flags(flags, lattice);
+    if (status != DEM_OK) free(flags);
+    TRY(status);
+    lattice->flags = flags;
+    return DEM_OK;
+}
+
 dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n)
 {
     TRY(check_list(lattice, nodes, n));
-    if (lattice->flags == NULL) {
-        unsigned char *flags = lattice_zeros(lattice->n_nodes, sizeof *flags);
-        CHECK_MEMORY(flags);
-        const dem_status status = mesh_edges_contact_flags(flags, lattice);
-        if (status != DEM_OK) free(flags);
-        TRY(status);
-        lattice->flags = flags;
-    }
+    TRY(make_flags(lattice));
     for (dem_index k = 0; k < n; k++) lattice->flags[nodes[k]] &= (unsigned char)~DEM_NODE_CONTACT;
+    return DEM_OK;
+}
+
+dem_status dem_lattice_stiffen(dem_lattice *lattice, dem_guide guide)
+{
+    enum { guides = DEM_NODE_GUIDE_X | DEM_NODE_GUIDE_Y };
+    static const int flag[] = {0, DEM_NODE_GUIDE_X, DEM_NODE_GUIDE_Y};
+    TRY(lattice_check(lattice));
+    CHECK(guide >= DEM_GUIDE_NONE && guide <= DEM_GUIDE_Y, DEM_ERROR_ARGUMENT, "unknown guide %d", (int)guide);
+    TRY(make_flags(lattice));
+    for (dem_index i = 0; i < lattice->n_nodes; i++)
+        lattice->flags[i] = (unsigned char)((lattice->flags[i] & ~guides) | DEM_NODE_RIGID | flag[guide]);
     return DEM_OK;
 }

@@ -189,6 +189,9 @@ dem_status dem_model_constants(const dem_model *model, dem_index body, dem_const
 {
     CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_constants: %s is NULL", model ? "out" : "model");
     TRY(status_check_number("body", body, model->n_bodies));
+    for (dem_index k = 0; k < model->rigid.n; k++)
+        CHECK(model->rigid.list[k].number != body, DEM_ERROR_MODEL, "body %lld is rigid: it has no elastic constants",
+              (long long)body);
     const dem_index n = model->lattice.n_nodes;
     loading l = {.model = model, .body = body, .held = lattice_zeros(n, sizeof *l.held)};
     double *vectors = lattice_zeros(2 * N_CASES * n, 2 * sizeof *vectors);

@@ -111,7 +111,8 @@ static dem_status check_bodies(const dem_model *m)
     for (dem_index i = 0; i < l->n_nodes; i++) size[l->body[i]]++;
     for (dem_index b = 0; b < m->n_bodies; b++) size[b] = reduce_count(size[b]);
     for (dem_index i = l->n_nodes - 1; i >= 0; i--)
-        if (m->springs.row[i] == m->springs.row[i + 1] && size[l->body[i]] > 1) loose = i;
+        if (m->springs.row[i] == m->springs.row[i + 1] && size[l->body[i]] > 1 && !rigid_bodies_at(&m->rigid, i))
+            loose = i;
     for (dem_index b = m->n_bodies - 1; b >= 0; b--)
         if (size[b] == 0) empty = b;
     free(size);
@@ -214,6 +215,7 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     m->lattice = dem_lattice_empty();
     TRY(dem_lattice_append(&m->lattice, lattice));
     TRY(fill_defaults(&m->lattice));
+    TRY(rigid_bodies_compile(&m->rigid, &m->lattice));
     TRY(springs_compile(&m->springs, &m->lattice));
     TRY(triangles_compile(&m->triangles, &m->lattice));
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
@@ -225,13 +227,28 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     return compile_omega(m);
 }
 
+/* Nodes usually stand body by body, so that what goes through the nodes of each body goes through all of them once. */
+static dem_status compile_spans(dem_model *m)
+{
+    const dem_lattice *l = &m->lattice;
+    CHECK_MEMORY(m->body_span = lattice_zeros(m->n_bodies, 2 * sizeof *m->body_span));
+    for (dem_index b = 0; b < m->n_bodies; b++) m->body_span[2 * b] = -1;
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        dem_index *span = &m->body_span[2 * l->body[i]];
+        if (span[0] < 0) span[0] = i;
+        span[1] = i;
+    }
+    return DEM_OK;
+}
+
 /* A failure of one part is reduced before the sums, at which all processes would meet (base/reduce.h). */
 static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
     TRY(reduce_status(compile_parts(m, lattice, list, n), 0.0));
     compile_scales(m);
     CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
-    return reduce_status(check_bodies(m), 0.0);
+    TRY(reduce_status(check_bodies(m), 0.0));
+    return reduce_status(compile_spans(m), 0.0);
 }
 
 /* ---- public ---- */
@@ -275,7 +292,9 @@ void dem_model_destroy(dem_model *model)
     surface_free(&model->surface);
     stress_free(&model->stress);
     obstacles_free(&model->obstacles);
+    rigid_bodies_free(&model->rigid);
     free(model->inverse_mass);
+    free(model->body_span);
     free(model);
 }
 

@@ -7,6 +7,7 @@
 #include "elastic/layout.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
+#include "model/rigid_bodies.h"
 #include "model/stress.h"
 #include "model/surface.h"
 #include "obstacle/obstacle.h"
@@ -16,15 +17,17 @@ struct dem_model {
     springs springs;
     triangles triangles;
     couplings couplings;
-    surface surface; /* nodes and edges that may touch, of whole bodies */
+    surface surface;    /* nodes and edges that may touch obstacles at events */
+    rigid_bodies rigid; /* which have neither springs nor triangles nor surface here */
     stress_map stress;
     layout layout; /* of springs and triangles, for sweeps over all nodes */
     obstacle_set obstacles;
     double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
     dem_index n_bodies;
-    double spacing;   /* m */
-    double omega_max; /* rad/s */
-    double mass;      /* kg */
+    dem_index *body_span; /* [n_bodies][2] first and last node of each body; others may stand between them */
+    double spacing;       /* m */
+    double omega_max;     /* rad/s */
+    double mass;          /* kg */
 };
 
 #endif

@@ -51,7 +51,7 @@ void overlap_destroy(overlap *o)
 
 /* ---- cells ---- */
 
-/* The cell of a coordinate among n. What is beyond the grid belongs to the cell at its rim, and so does a NAN. */
+/* The cell of a coordinate among n. What is beyond the grid belongs to its outermost cell, and so does a NAN. */
 static dem_index cell_of(double x, double start, double per_length, dem_index n)
 {
     if (!(x > start)) return 0;

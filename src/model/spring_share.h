@@ -8,8 +8,8 @@
 /** Thickness times area of a triangle at rest, m^3; without a list of thicknesses 1 m. */
 double spring_share_volume(const dem_lattice *lattice, dem_index triangle);
 
-/** modulus * thickness * area of a triangle at a spring, times the spring's weight where the triangle is coupled: what
- *  it has given, in units that all triangles of the spring share. */
+/** modulus * thickness * area of a triangle at a spring, times the spring's weight (triangle_share.h) where the
+ *  triangle is coupled. The share of a triangle is this over the sum of the same of all triangles of the spring. */
 double spring_share_given(const dem_lattice *lattice, dem_index triangle, dem_index spring);
 
 #endif

@@ -10,10 +10,11 @@
 #include "base/vec2.h"
 #include "lattice/mesh_edges.h"
 
-/* A fixed node takes no part: no contact could move it. */
+/* A fixed node takes no part, as no contact could move it, nor does one of a rigid body: these meet obstacles by the
+ * contact of surfaces (src/surface_contact). */
 static bool node_may_touch(const dem_lattice *l, dem_index i)
 {
-    return (l->flags[i] & DEM_NODE_CONTACT) && !(l->flags[i] & DEM_NODE_FIXED);
+    return (l->flags[i] & DEM_NODE_CONTACT) && !(l->flags[i] & (DEM_NODE_FIXED | DEM_NODE_RIGID));
 }
 
 /* In the order of node numbers, which is the order of candidates in contact. */
@@ -31,7 +32,8 @@ static dem_status list_nodes(surface *s, const dem_lattice *l)
 static bool takes_part(const dem_lattice *l, surface_extent extent, dem_index a, dem_index b)
 {
     if (extent == SURFACE_WHOLE) return true;
-    return (l->flags[a] & l->flags[b] & DEM_NODE_CONTACT) && !(l->flags[a] & l->flags[b] & DEM_NODE_FIXED);
+    return (l->flags[a] & l->flags[b] & DEM_NODE_CONTACT) &&
+           !(l->flags[a] & l->flags[b] & (DEM_NODE_FIXED | DEM_NODE_RIGID));
 }
 
 /* Whether side (i, j) of the triangle runs from i to j counter-clockwise. */

@@ -267,6 +267,20 @@ TEST(append_keeps_who_may_touch_and_where_the_motion_starts)
     assert_int_equal(n_contact, 15 - 3); /* inside: one node of row 1, two of row 2 */
 }
 
+TEST(a_lattice_is_stiffened_as_a_whole)
+{
+    CLEANUP(dem_lattice_free) dem_lattice block = make_solid(2.0, 2.0, 1.0);
+    assert_int_equal(dem_lattice_stiffen(&block, DEM_GUIDE_Y), DEM_OK);
+    for (dem_index i = 0; i < block.n_nodes; i++)
+        assert_int_equal(block.flags[i], DEM_NODE_CONTACT | DEM_NODE_RIGID | DEM_NODE_GUIDE_Y);
+    block.flags[1] |= DEM_NODE_FIXED;
+    assert_int_equal(dem_lattice_stiffen(&block, DEM_GUIDE_NONE), DEM_OK);
+    assert_int_equal(block.flags[0], DEM_NODE_CONTACT | DEM_NODE_RIGID);
+    assert_int_equal(block.flags[1], DEM_NODE_CONTACT | DEM_NODE_RIGID | DEM_NODE_FIXED);
+    assert_int_equal(dem_lattice_stiffen(&block, (dem_guide)3), DEM_ERROR_ARGUMENT);
+    assert_message_parts("guide 3");
+}
+
 TEST(append_gives_undamped_springs_no_viscosity_beside_damped_ones)
 {
     dem_lattice all, damped = make_solid(1.0, 1.6, 1.0), plain = make_solid(1.0, 1.0, 1.0);
