@@ -12,6 +12,7 @@
 
 #include "base/reduce.h"
 #include "base/status.h"
+#include "elastic/rigid_nodes.h"
 
 /* ---- forces ---- */
 
@@ -109,12 +110,27 @@ void couplings_add_tensions(const couplings *c, const unsigned char *broken, con
     }
 }
 
+/* The triangles at a node stand in the order of the list, so that the sum has the bits of that over all triangles. */
+double couplings_add_tension(const couplings *c, const unsigned char *broken, dem_index i, dem_index spring,
+                             const double *x, double tension)
+{
+    for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
+        const dem_index k = c->slot[p] / 3;
+        if (couplings_broken(c, broken, k)) continue;
+        const coupled_edges e = couplings_edges(&c->list[k], x);
+        for (int q = 0; q < 3; q++)
+            if (c->list[k].spring[q] == spring) tension += e.tension[q];
+    }
+    return tension;
+}
+
 /* ---- compilation ---- */
 
 static bool is_coupled(const dem_lattice *lattice, dem_index k)
 {
     const double *coupling = lattice->coupling != NULL ? &lattice->coupling[3 * k] : NULL;
-    return coupling != NULL && (coupling[0] != 0.0 || coupling[1] != 0.0 || coupling[2] != 0.0);
+    if (coupling == NULL || rigid_nodes_have(lattice, lattice->triangles[3 * k])) return false;
+    return coupling[0] != 0.0 || coupling[1] != 0.0 || coupling[2] != 0.0;
 }
 
 static dem_status allocate(couplings *c)

@@ -77,6 +77,10 @@ double couplings_node_energy(const couplings *c, const unsigned char *broken, de
 /** Energy of all couplings, J; an exact sum. */
 double couplings_energy(const couplings *c, const unsigned char *broken, const double *x);
 
+/** Adds to the tension of one spring, N, what the couplings do.  \param i  one of its nodes */
+double couplings_add_tension(const couplings *c, const unsigned char *broken, dem_index i, dem_index spring,
+                             const double *x, double tension);
+
 /** Adds to the tension of every spring of the lattice what the couplings do.  \param[in,out] force  [n_springs] N */
 void couplings_add_tensions(const couplings *c, const unsigned char *broken, const double *x, double *force);
 

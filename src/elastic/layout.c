@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compiles springs and triangles for the sweep (docs/algorithms.md, How forces are evaluated). Eight nodes with numbers
  * in sequence are a block, one node to a lane. The file turns what the eight do into entries: one instruction for all
- * lanes, such as "evaluate the spring to the node 1 further on". An entry has offsets relative to its block, not node
- * numbers. In a regular lattice most blocks therefore have equal entries and coefficients, which are stored once
- * (base/intern.h) and stay in the cache. A spring is evaluated once, by its lower node, and its force is left in a ring
- * buffer. Both ends then sum up forces in the order of their own rows, so the sums have the bits of springs_force().
- * A coupled triangle is evaluated once, too, by its lowest corner, and leaves a force for each of its corners.
+ * lanes, such as "evaluate the spring to the node 1 further on". Which lanes take part is found in lane_groups.c.
+ * An entry has offsets relative to its block, not node numbers. In a regular lattice most blocks therefore have equal
+ * entries and coefficients, which are stored once (base/intern.h) and stay in the cache. A spring is evaluated once, by
+ * its lower node, and its force is left in a ring buffer (ring_streams.h). Both ends then sum up forces in the order of
+ * their own rows, so the sums have the bits of springs_force(). A coupled triangle is evaluated once, too, by its
+ * lowest corner, and leaves a force for each of its corners.
  * The arithmetic is not here but in sweep_body.h, and the numbering of distant neighbours is in renumber.c. */
 #include "elastic/layout.h"
 
@@ -14,29 +15,19 @@
 
 #include "base/grow.h"
 #include "base/status.h"
+#include "elastic/lane_groups.h"
 #include "elastic/renumber.h"
+#include "elastic/ring_streams.h"
 
 enum {
-    whole = 0xffff, /* mask of all lanes */
-    most_widths = 6,
-    usual_span = 1024, /* nodes: the ring for so many fits into the cache, so that no other order is sought */
-    most_rounds = 2    /* entries per item of the fullest lane, up to which operands that lie side by side are sought */
+    whole = 0xffff,   /* mask of all lanes */
+    usual_span = 1024 /* nodes: the ring for so many fits into the cache, so that no other order is sought */
 };
 
 /* A ring may take this and 64 bytes for each node: more memory is not worth it. */
 static const dem_index ring_bytes = 1 << 22;
 
-/* What one lane has to do for one spring, term or corner of its node. */
-typedef struct item {
-    int32_t at, to;     /* operands of this lane */
-    int32_t base, last; /* where they would begin for lane 0 if all lay side by side */
-    dem_index element;  /* spring, or slot of a coupled triangle */
-    bool negative;
-    double set[most_widths];
-} item;
-
-/* The work in hand: the items of the eight lanes of a block, the entries made of them so far, and the streams of the
- * ring. */
+/* The work in hand: the items of the eight lanes of a block, the entries made of them so far, and the ring. */
 typedef struct builder {
     layout *l;
     const springs *s;
@@ -45,15 +36,10 @@ typedef struct builder {
     int32_t *place;        /* [n_nodes] of each node; NULL: its number */
     int32_t *force;        /* [n_springs] place in the ring */
     int32_t *corner_force; /* [3 n] the same of each corner of coupled triangles */
-    dem_index most;        /* items of a lane */
-    item *items;           /* [LAYOUT_LANES][most] */
-    dem_index n[LAYOUT_LANES], next[LAYOUT_LANES];
-    bool taken[LAYOUT_LANES]; /* by the group in hand */
+    lane_groups groups;
     dem_index n_entries, entry_capacity;
     layout_entry *entries; /* [n_entries] of the block in hand */
-    bool by_slot;          /* groups are the next items of all lanes, wherever they are */
-    dem_index n_streams, stream_capacity;
-    int64_t *key, *used; /* [n_streams] what a stream of the ring was used for, and the last block that did */
+    ring_streams ring;
 } builder;
 
 /* The node at place q of the layout's order, and the other way round. Entries know places only. */
@@ -98,95 +84,7 @@ static dem_status add_list(layout *l, const int32_t *index, int32_t *number)
     return DEM_OK;
 }
 
-/* ---- groups of items ---- */
-
-/* The next item of a lane; NULL if it has no more. */
-static const item *head(const builder *b, int lane)
-{
-    return b->next[lane] < b->n[lane] ? &b->items[lane * b->most + b->next[lane]] : NULL;
-}
-
-/* Whether an item can be done in one entry with the leader's: with the same sign, and with its operands where the
- * leader's are, shifted by the difference of their lanes. With `by_slot` any item will do, since operands are then
- * listed one by one. */
-static bool fits(const builder *b, const item *a, const item *leader)
-{
-    return b->by_slot || (a->base == leader->base && a->last == leader->last && a->negative == leader->negative);
-}
-
-/* Takes the next items that one entry can do. The leader is the head with the lowest neighbour relative to its lane,
- * and all heads that fit it go along; with `by_slot` all heads go. Only heads are taken, so each lane keeps the order
- * of its own items, on which the bits of its sum depend.
- * \return the leader; NULL if no item is left */
-static const item *take_group(builder *b)
-{
-    const item *leader = NULL;
-    for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const item *a = head(b, lane);
-        if (a != NULL && (leader == NULL || (!b->by_slot && a->last < leader->last))) leader = a;
-    }
-    for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const item *a = leader != NULL ? head(b, lane) : NULL;
-        b->taken[lane] = a != NULL && fits(b, a, leader);
-    }
-    for (int lane = 0; lane < LAYOUT_LANES; lane++) b->next[lane] += b->taken[lane];
-    return leader;
-}
-
-/* All items are to be taken again. */
-static void rewind_items(builder *b)
-{
-    for (int lane = 0; lane < LAYOUT_LANES; lane++) b->next[lane] = 0;
-}
-
-/* Tries the grouping by operands side by side, whose loads are cheaper. If it makes more than `most_rounds` times as
- * many groups as the fullest lane has items, the k-th items of all lanes are grouped instead (`by_slot`). */
-static void choose_groups(builder *b)
-{
-    dem_index fullest = 0, groups = 0;
-    for (int lane = 0; lane < LAYOUT_LANES; lane++) fullest = b->n[lane] > fullest ? b->n[lane] : fullest;
-    b->by_slot = false;
-    rewind_items(b);
-    while (groups <= most_rounds * fullest && take_group(b) != NULL) groups++;
-    b->by_slot = groups > most_rounds * fullest;
-    rewind_items(b);
-}
-
-/* The item of a lane in the group just taken. */
-static const item *taken_of(const builder *b, int lane)
-{
-    return &b->items[lane * b->most + b->next[lane] - 1];
-}
-
-/* Bits 2q and 2q + 1, one for each component, are set for each lane q that takes part in the group. */
-static uint16_t mask_of(const builder *b)
-{
-    unsigned mask = 0;
-    for (int lane = 0; lane < LAYOUT_LANES; lane++)
-        if (b->taken[lane]) mask |= 3u << (2 * lane);
-    return (uint16_t)mask;
-}
-
-/* The same for each lane whose node is the upper end of its spring. The ring has the force on the lower end; the upper
- * end subtracts it. */
-static uint16_t upper_of(const builder *b)
-{
-    unsigned mask = 0;
-    for (int lane = 0; lane < LAYOUT_LANES; lane++)
-        if (b->taken[lane] && taken_of(b, lane)->negative) mask |= 3u << (2 * lane);
-    return (uint16_t)mask;
-}
-
-/* Whether the operands of all lanes that take part can be loaded as one run of memory. */
-static bool side_by_side(const builder *b, const item *leader)
-{
-    bool all = true;
-    for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const item *a = b->taken[lane] ? taken_of(b, lane) : leader;
-        all = all && a->base == leader->base && a->last == leader->last && a->negative == leader->negative;
-    }
-    return all;
-}
+/* ---- entries of a group ---- */
 
 /* Lists one operand of the group, lane by lane. A lane that takes no part reads `idle` + `step` * lane: a valid place,
  * whose result is masked out or never read. Places are doubled, since operands are pairs of numbers. */
@@ -195,7 +93,8 @@ static dem_status list_operand(builder *b, size_t operand, int32_t idle, int32_t
     int32_t index[LAYOUT_LANES];
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
         index[lane] = idle + step * lane;
-        if (b->taken[lane]) memcpy(&index[lane], (const char *)taken_of(b, lane) + operand, sizeof index[lane]);
+        if (b->groups.taken[lane])
+            memcpy(&index[lane], (const char *)lane_groups_item(&b->groups, lane) + operand, sizeof index[lane]);
         index[lane] *= 2;
     }
     return add_list(b->l, index, number);
@@ -205,17 +104,17 @@ static dem_status list_operand(builder *b, size_t operand, int32_t idle, int32_t
 static uint8_t kind_of(const builder *b, bool gathered)
 {
     if (gathered) return LAYOUT_GATHERED;
-    return mask_of(b) == whole ? LAYOUT_ADD : LAYOUT_MASKED;
+    return lane_groups_mask(&b->groups) == whole ? LAYOUT_ADD : LAYOUT_MASKED;
 }
 
 /* Stores the coefficients of the group, in the order in which the vectors hold the lanes (layout_lane). A lane that
  * takes no part has the leader's, so that incomplete groups share their sets with whole ones. */
-static dem_status set_of(builder *b, intern *sets, dem_index width, const item *leader, int32_t *place)
+static dem_status set_of(builder *b, intern *sets, dem_index width, const lane_item *leader, int32_t *place)
 {
-    double values[most_widths * LAYOUT_LANES];
+    double values[LANE_ITEM_WIDTH * LAYOUT_LANES];
     intern_span span;
     for (int q = 0; q < LAYOUT_LANES; q++) {
-        const item *a = b->taken[q] ? taken_of(b, q) : leader;
+        const lane_item *a = b->groups.taken[q] ? lane_groups_item(&b->groups, q) : leader;
         for (dem_index k = 0; k < width; k++) values[k * LAYOUT_LANES + layout_lane(q)] = a->set[k];
     }
     TRY(intern_find(sets, values, width * LAYOUT_LANES, &span));
@@ -230,57 +129,28 @@ static bool in_range(const builder *b, int32_t first)
 }
 
 /* An entry for triangles, which read the next and the last corner of each lane's node. */
-static dem_status add_triangles(builder *b, const item *leader, int32_t row, intern *sets)
+static dem_status add_triangles(builder *b, const lane_item *leader, int32_t row, intern *sets)
 {
     const dem_index width = sets == &b->l->areas ? 3 : 6;
-    const bool gathered = !side_by_side(b, leader) || !in_range(b, leader->base) || !in_range(b, leader->last);
-    layout_entry e = {.at = 2 * (leader->base - row), .to = 2 * (leader->last - row), .mask = mask_of(b)};
+    const bool gathered =
+        !lane_groups_side_by_side(&b->groups, leader) || !in_range(b, leader->base) || !in_range(b, leader->last);
+    layout_entry e = {
+        .at = 2 * (leader->base - row), .to = 2 * (leader->last - row), .mask = lane_groups_mask(&b->groups)};
     e.kind = kind_of(b, gathered);
-    if (gathered) TRY(list_operand(b, offsetof(item, at), row, 1, &e.at));
-    if (gathered) TRY(list_operand(b, offsetof(item, to), row, 1, &e.to));
+    if (gathered) TRY(list_operand(b, offsetof(lane_item, at), row, 1, &e.at));
+    if (gathered) TRY(list_operand(b, offsetof(lane_item, to), row, 1, &e.to));
     TRY(set_of(b, sets, width, leader, &e.set));
     return add_entry(b, e);
 }
 
 /* ---- springs ---- */
 
-/* The ring consists of streams. A stream has room for one force of each of `ring_rows` nodes, and a block writes into a
- * stream at most once. `key` is what an entry does relative to its block: blocks that do the same use the same stream,
- * so that their entries are equal. Otherwise the stream that has not been used for longest is taken, or a new one if
- * this block uses all of them already. */
-static dem_status find_stream(builder *b, int64_t key, dem_index block, dem_index *stream)
-{
-    dem_index found = -1;
-    for (dem_index k = 0; k < b->n_streams && (found < 0 || b->key[found] != key); k++)
-        if (b->used[k] != block && (found < 0 || b->key[k] == key || b->used[k] < b->used[found])) found = k;
-    if (found < 0) {
-        dem_index capacity = b->stream_capacity;
-        CHECK(grow_array((void **)&b->key, &capacity, b->n_streams + 1, sizeof *b->key), DEM_ERROR_MEMORY,
-              "out of memory for the layout of springs");
-        CHECK(grow_array((void **)&b->used, &b->stream_capacity, b->n_streams + 1, sizeof *b->used), DEM_ERROR_MEMORY,
-              "out of memory for the layout of springs");
-        found = b->n_streams++;
-    }
-    b->key[found] = key;
-    b->used[found] = block;
-    *stream = found;
-    return DEM_OK;
-}
-
-/* Where a stream begins, in forces. */
-static dem_status start_of(const layout *l, dem_index stream, int32_t *start)
-{
-    CHECK(2 * (stream + 1) * (l->ring_rows + LAYOUT_LANES) < INT32_MAX, DEM_ERROR_MODEL, "too many springs at a node");
-    *start = (int32_t)(stream * (l->ring_rows + LAYOUT_LANES));
-    return DEM_OK;
-}
-
 /* Insertion sort by the upper node's place: a node has a few springs, and the order of evaluation changes no sum. */
-static void sort_by_place(item *list, dem_index n)
+static void sort_by_place(lane_item *list, dem_index n)
 {
     for (dem_index k = 1; k < n; k++)
         for (dem_index p = k; p > 0 && list[p].at < list[p - 1].at; p--) {
-            const item kept = list[p];
+            const lane_item kept = list[p];
             list[p] = list[p - 1];
             list[p - 1] = kept;
         }
@@ -292,18 +162,18 @@ static void list_springs(builder *b, dem_index block)
     const springs *s = b->s;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
         const dem_index row = LAYOUT_LANES * block + lane, i = node_at(b->l, row);
-        item *list = &b->items[lane * b->most];
+        lane_item *list = &b->groups.items[lane * b->groups.most];
         dem_index n = 0;
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const int32_t j = place_of(b, s->neighbour[p]);
             if (j < row) continue;
-            list[n++] = (item){.at = j, .base = j - lane, .last = j - lane, .element = s->spring[p]};
+            list[n++] = (lane_item){.at = j, .base = j - lane, .last = j - lane, .element = s->spring[p]};
             list[n - 1].set[0] = s->stiffness[p];
             list[n - 1].set[1] = s->rest_length[p];
             list[n - 1].set[2] = s->viscosity != NULL ? s->viscosity[p] : 0.0;
         }
         sort_by_place(list, n);
-        b->n[lane] = n;
+        b->groups.n[lane] = n;
     }
 }
 
@@ -312,21 +182,22 @@ static dem_status lay_springs(builder *b, dem_index block)
 {
     layout *l = b->l;
     const int32_t row = (int32_t)(LAYOUT_LANES * block), at_row = row & (int32_t)(l->ring_rows - 1);
-    dem_index stream = 0, slot = 0;
+    dem_index slot = 0;
     int32_t start = 0;
     list_springs(b, block);
-    choose_groups(b);
-    for (const item *leader = take_group(b); leader != NULL; leader = take_group(b), slot++) {
-        const bool gathered = !side_by_side(b, leader) || !in_range(b, leader->base);
-        layout_entry e = {.at = 2 * (leader->base - row), .mask = mask_of(b), .kind = kind_of(b, gathered)};
-        TRY(find_stream(b, gathered ? -1 - slot : leader->base - row, block, &stream));
-        TRY(start_of(l, stream, &start));
+    lane_groups_choose(&b->groups);
+    for (const lane_item *leader = lane_groups_take(&b->groups); leader != NULL;
+         leader = lane_groups_take(&b->groups), slot++) {
+        const bool gathered = !lane_groups_side_by_side(&b->groups, leader) || !in_range(b, leader->base);
+        layout_entry e = {
+            .at = 2 * (leader->base - row), .mask = lane_groups_mask(&b->groups), .kind = kind_of(b, gathered)};
+        TRY(ring_streams_find(&b->ring, gathered ? -1 - slot : leader->base - row, block, &start));
         e.to = 2 * start;
-        if (gathered) TRY(list_operand(b, offsetof(item, at), row, 1, &e.at));
+        if (gathered) TRY(list_operand(b, offsetof(lane_item, at), row, 1, &e.at));
         TRY(set_of(b, &l->bonds, l->damped ? 3 : 2, leader, &e.set));
         TRY(add_entry(b, e));
         for (int lane = 0; lane < LAYOUT_LANES; lane++)
-            if (b->taken[lane]) b->force[taken_of(b, lane)->element] = start + at_row + lane;
+            if (b->groups.taken[lane]) b->force[lane_groups_item(&b->groups, lane)->element] = start + at_row + lane;
     }
     return close_block(b, &l->springs, block);
 }
@@ -345,14 +216,14 @@ static void list_couplings(builder *b, dem_index block)
             const int q = (int)(c->slot[p] % 3);
             const int32_t next = place_of(b, t->corner[(q + 1) % 3]), last = place_of(b, t->corner[(q + 2) % 3]);
             if (next < row || last < row) continue;
-            item *own = &b->items[lane * b->most + n++];
-            *own = (item){.at = next, .to = last, .base = next - lane, .last = last - lane, .element = c->slot[p]};
+            lane_item *own = &b->groups.items[lane * b->groups.most + n++];
+            *own = (lane_item){.at = next, .to = last, .base = next - lane, .last = last - lane, .element = c->slot[p]};
             for (int k = 0; k < 3; k++) {
                 own->set[k] = t->rest_length[(q + k) % 3];
                 own->set[3 + k] = t->coupling[(q + k) % 3];
             }
         }
-        b->n[lane] = n;
+        b->groups.n[lane] = n;
     }
 }
 
@@ -364,12 +235,10 @@ static dem_status place_forces(builder *b, dem_index block, dem_index group)
     const int64_t beyond_springs = (int64_t)1 << 40; /* keys of the streams of springs are below */
     int32_t start[3];
     for (int c = 0; c < 3; c++) {
-        dem_index stream = 0;
-        TRY(find_stream(b, beyond_springs + 3 * group + c, block, &stream));
-        TRY(start_of(l, stream, &start[c]));
+        TRY(ring_streams_find(&b->ring, beyond_springs + 3 * group + c, block, &start[c]));
         for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-            const dem_index slot = b->taken[lane] ? taken_of(b, lane)->element : 0;
-            if (b->taken[lane]) b->corner_force[slot / 3 * 3 + (slot + c) % 3] = start[c] + at_row + lane;
+            const dem_index slot = b->groups.taken[lane] ? lane_groups_item(&b->groups, lane)->element : 0;
+            if (b->groups.taken[lane]) b->corner_force[slot / 3 * 3 + (slot + c) % 3] = start[c] + at_row + lane;
         }
     }
     return add_entry(b, (layout_entry){.at = 2 * start[0], .to = 2 * start[1], .set = 2 * start[2]});
@@ -382,8 +251,9 @@ static dem_status lay_couplings(builder *b, dem_index block)
     const int32_t row = (int32_t)(LAYOUT_LANES * block);
     dem_index group = 0;
     list_couplings(b, block);
-    choose_groups(b);
-    for (const item *leader = take_group(b); leader != NULL; leader = take_group(b)) {
+    lane_groups_choose(&b->groups);
+    for (const lane_item *leader = lane_groups_take(&b->groups); leader != NULL;
+         leader = lane_groups_take(&b->groups)) {
         TRY(add_triangles(b, leader, row, &l->couples));
         TRY(place_forces(b, block, group++));
     }
@@ -392,14 +262,6 @@ static dem_status lay_couplings(builder *b, dem_index block)
 
 /* ---- terms ---- */
 
-/* Where in its stream the force for lane 0 would be if this group's forces lay side by side, counted round the ring.
- * Behind its end a stream repeats its first eight places, so that a run of eight never has to be cut. */
-static int32_t ring_base(const layout *l, int32_t force, int lane)
-{
-    const int32_t stride = (int32_t)(l->ring_rows + LAYOUT_LANES), stream = force / stride;
-    return stream * stride + ((force - stream * stride - lane) & (int32_t)(l->ring_rows - 1));
-}
-
 /* The items of the sum over a node's row, in the order of the row. `negative` marks springs that the other end
  * evaluates. */
 static void list_terms(builder *b, dem_index block)
@@ -407,11 +269,11 @@ static void list_terms(builder *b, dem_index block)
     const springs *s = b->s;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
         const dem_index row = LAYOUT_LANES * block + lane, i = node_at(b->l, row);
-        b->n[lane] = s->row[i + 1] - s->row[i];
+        b->groups.n[lane] = s->row[i + 1] - s->row[i];
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const int32_t j = place_of(b, s->neighbour[p]), force = b->force[s->spring[p]];
-            b->items[lane * b->most + p - s->row[i]] =
-                (item){.at = force, .base = ring_base(b->l, force, lane), .last = j - lane, .negative = j < row};
+            b->groups.items[lane * b->groups.most + p - s->row[i]] = (lane_item){
+                .at = force, .base = ring_streams_base(&b->ring, force, lane), .last = j - lane, .negative = j < row};
         }
     }
 }
@@ -422,10 +284,11 @@ static void list_coupling_terms(builder *b, dem_index block)
     const couplings *c = b->c;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
         const dem_index i = node_at(b->l, LAYOUT_LANES * block + lane);
-        b->n[lane] = c->row[i + 1] - c->row[i];
-        for (int32_t k = 0; k < b->n[lane]; k++) {
+        b->groups.n[lane] = c->row[i + 1] - c->row[i];
+        for (int32_t k = 0; k < b->groups.n[lane]; k++) {
             const int32_t force = b->corner_force[c->slot[c->row[i] + k]];
-            b->items[lane * b->most + k] = (item){.at = force, .base = ring_base(b->l, force, lane), .last = k};
+            b->groups.items[lane * b->groups.most + k] =
+                (lane_item){.at = force, .base = ring_streams_base(&b->ring, force, lane), .last = k};
         }
     }
 }
@@ -435,13 +298,15 @@ static dem_status lay_terms(builder *b, layout_part *part, dem_index block)
 {
     layout *l = b->l;
     const int32_t at_row = (int32_t)(LAYOUT_LANES * block & (l->ring_rows - 1));
-    choose_groups(b);
-    for (const item *leader = take_group(b); leader != NULL; leader = take_group(b)) {
-        const bool gathered = !side_by_side(b, leader);
-        layout_entry e = {.at = 2 * (leader->base - at_row), .mask = mask_of(b), .kind = kind_of(b, gathered)};
-        e.to = upper_of(b);
+    lane_groups_choose(&b->groups);
+    for (const lane_item *leader = lane_groups_take(&b->groups); leader != NULL;
+         leader = lane_groups_take(&b->groups)) {
+        const bool gathered = !lane_groups_side_by_side(&b->groups, leader);
+        layout_entry e = {
+            .at = 2 * (leader->base - at_row), .mask = lane_groups_mask(&b->groups), .kind = kind_of(b, gathered)};
+        e.to = lane_groups_upper(&b->groups);
         if (e.kind == LAYOUT_ADD && leader->negative) e.kind = LAYOUT_SUBTRACT;
-        if (gathered) TRY(list_operand(b, offsetof(item, at), 0, 0, &e.at));
+        if (gathered) TRY(list_operand(b, offsetof(lane_item, at), 0, 0, &e.at));
         TRY(add_entry(b, e));
     }
     return close_block(b, part, block);
@@ -464,18 +329,18 @@ static void list_corners(builder *b, dem_index block)
     const triangles *t = b->t;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
         const dem_index i = node_at(b->l, LAYOUT_LANES * block + lane);
-        b->n[lane] = t->row[i + 1] - t->row[i];
+        b->groups.n[lane] = t->row[i + 1] - t->row[i];
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
             const int32_t next = place_of(b, t->next[p]), last = place_of(b, t->last[p]);
             look_ahead(b->l, block, next);
             look_ahead(b->l, block, last);
             const double onset = t->guard[p] > 0.0 ? TRIANGLES_GUARD_ONSET * t->rest_area[p] : -INFINITY;
-            b->items[lane * b->most + p - t->row[i]] =
-                (item){.at = next,
-                       .to = last,
-                       .base = next - lane,
-                       .last = last - lane,
-                       .set = {t->rest_area[p], onset, t->area_stiffness != NULL ? t->area_stiffness[p] : 0.0}};
+            b->groups.items[lane * b->groups.most + p - t->row[i]] =
+                (lane_item){.at = next,
+                            .to = last,
+                            .base = next - lane,
+                            .last = last - lane,
+                            .set = {t->rest_area[p], onset, t->area_stiffness != NULL ? t->area_stiffness[p] : 0.0}};
         }
     }
 }
@@ -487,9 +352,8 @@ static dem_status lay_corners(builder *b, dem_index block)
     layout *l = b->l;
     const int32_t row = (int32_t)(LAYOUT_LANES * block);
     list_corners(b, block);
-    b->by_slot = true;
-    rewind_items(b);
-    for (const item *leader = take_group(b); leader != NULL; leader = take_group(b))
+    lane_groups_by_slot(&b->groups);
+    for (const lane_item *leader = lane_groups_take(&b->groups); leader != NULL; leader = lane_groups_take(&b->groups))
         TRY(add_triangles(b, leader, row, &l->areas));
     return close_block(b, &l->corners, block);
 }
@@ -500,8 +364,7 @@ static dem_status lay_corners(builder *b, dem_index block)
  * given up, and every node is evaluated row by row. */
 static bool worth_it(const builder *b)
 {
-    const layout *l = b->l;
-    return b->n_streams * (l->ring_rows + LAYOUT_LANES) * 16 <= ring_bytes + 64 * l->n_nodes;
+    return ring_streams_length(&b->ring) * 16 <= ring_bytes + 64 * b->l->n_nodes;
 }
 
 /* Springs come before terms, since terms need to know where in the ring the forces are. The terms of a block refer to
@@ -513,7 +376,7 @@ static dem_status lay_blocks(builder *b)
         TRY(lay_springs(b, block));
         TRY(lay_couplings(b, block));
         if (!worth_it(b)) {
-            l->n_blocks = b->n_streams = 0;
+            l->n_blocks = b->ring.n = 0;
             break;
         }
         list_terms(b, block);
@@ -522,7 +385,7 @@ static dem_status lay_blocks(builder *b)
         TRY(lay_terms(b, &l->coupling_terms, block));
         TRY(lay_corners(b, block));
     }
-    l->ring_length = b->n_streams * (l->ring_rows + LAYOUT_LANES);
+    l->ring_length = ring_streams_length(&b->ring);
     intern *const pools[] = {&l->springs.entries,        &l->terms.entries, &l->corners.entries, &l->couplings.entries,
                              &l->coupling_terms.entries, &l->bonds,         &l->areas,           &l->couples};
     for (size_t k = 0; k < sizeof pools / sizeof *pools; k++) TRY(intern_settle(pools[k]));
@@ -553,24 +416,24 @@ static dem_status choose_order(builder *b)
     l->reach = (span + LAYOUT_LANES - 1) / LAYOUT_LANES;
     l->ahead = l->reach + 1; /* other lanes of an entry read up to seven nodes further */
     for (l->ring_rows = LAYOUT_LANES; l->ring_rows < LAYOUT_LANES * (l->reach + 2);) l->ring_rows *= 2;
+    b->ring.rows = l->ring_rows;
     return DEM_OK;
 }
 
-/* `most` is the largest number of items that a lane can have. */
 static dem_status allocate(builder *b)
 {
+    dem_index most = 0; /* items that a lane can have */
     layout *l = b->l;
     const size_t n = (size_t)l->n_blocks + 1;
     for (dem_index i = 0; i < l->n_nodes; i++) {
         const dem_index n_items[3] = {b->s->row[i + 1] - b->s->row[i], b->t->row[i + 1] - b->t->row[i],
                                       b->c->row[i + 1] - b->c->row[i]};
-        for (int k = 0; k < 3; k++) b->most = n_items[k] > b->most ? n_items[k] : b->most;
+        for (int k = 0; k < 3; k++) most = n_items[k] > most ? n_items[k] : most;
     }
-    b->items = malloc(LAYOUT_LANES * ((size_t)b->most + 1) * sizeof *b->items);
     b->force = malloc(((size_t)b->s->n_springs + 1) * sizeof *b->force);
     b->corner_force = malloc((3 * (size_t)b->c->n + 1) * sizeof *b->corner_force);
     layout_part *const parts[] = {&l->springs, &l->terms, &l->corners, &l->couplings, &l->coupling_terms};
-    bool complete = b->items != NULL && b->force != NULL && b->corner_force != NULL;
+    bool complete = lane_groups_create(&b->groups, most) && b->force != NULL && b->corner_force != NULL;
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
         *parts[k] = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
         complete = complete && parts[k]->span != NULL;
@@ -594,12 +457,11 @@ dem_status layout_compile(layout *out, const springs *s, const triangles *t, con
     l.bonds.unit = l.areas.unit = l.couples.unit = sizeof(double); /* the unit of the entries is set in allocate() */
     dem_status status = allocate(&b);
     if (status == DEM_OK) status = lay_blocks(&b);
-    free(b.items);
+    lane_groups_free(&b.groups);
     free(b.force);
     free(b.corner_force);
     free(b.place);
-    free(b.key);
-    free(b.used);
+    ring_streams_free(&b.ring);
     free(b.entries);
     if (status == DEM_OK)
         *out = l;

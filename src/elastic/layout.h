@@ -2,8 +2,8 @@
 /* Springs and triangles in the order in which a sweep over all nodes takes them: eight nodes at a time, one to a lane.
  * Each spring is evaluated once, by its lower node, and its force is left in a ring buffer, from where both of its ends
  * collect it in the order of their rows: so the sums have the bits of a sum over the row. Coupled triangles are treated
- * alike, with a force for each corner. layout.c says how the entries
- * are found, sweep_body.h how they are carried out. */
+ * alike, with a force for each corner.
+ * layout.c says how the entries are found, sweep_body.h how they are carried out. */
 #ifndef DEM_ELASTIC_LAYOUT_H
 #define DEM_ELASTIC_LAYOUT_H
 
@@ -12,10 +12,9 @@
 
 #include "base/intern.h"
 #include "elastic/couplings.h"
+#include "elastic/layout_lanes.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
-
-enum { LAYOUT_LANES = 8 };
 
 /** Where the coefficients of node q of a block stand among eight: vectors that are interleaved from x0 y0 .. x3 y3 and
  *  x4 y4 .. x7 y7 hold the nodes in the order 0 4 1 5 2 6 3 7. */

@@ -11,11 +11,13 @@
 #include "base/array_ops.h"
 #include "base/reduce.h"
 #include "base/status.h"
+#include "elastic/rigid_nodes.h"
 
 /* row[i + 1] first counts the springs of node i and then, summed up, says where the next row begins. */
 static void count_rows(springs *s, const dem_lattice *lattice)
 {
-    for (dem_index k = 0; k < 2 * lattice->n_springs; k++) s->row[lattice->ends[k] + 1]++;
+    for (dem_index k = 0; k < 2 * lattice->n_springs; k++)
+        if (!rigid_nodes_have(lattice, lattice->ends[k])) s->row[lattice->ends[k] + 1]++;
     for (dem_index i = 0; i < s->n_nodes; i++) s->row[i + 1] += s->row[i];
 }
 
@@ -23,7 +25,7 @@ static void count_rows(springs *s, const dem_lattice *lattice)
  * j is appended to the row of its partner i. */
 static void fill_rows(springs *s, const dem_lattice *lattice, const dem_index *by_node, dem_index *next)
 {
-    for (dem_index q = 0; q < 2 * lattice->n_springs; q++) {
+    for (dem_index q = 0; q < s->row[s->n_nodes]; q++) {
         const dem_index k = by_node[q] / 2, end = by_node[q] % 2;
         const dem_index j = lattice->ends[2 * k + end], i = lattice->ends[2 * k + 1 - end], p = next[i]++;
         s->neighbour[p] = j;
@@ -39,7 +41,8 @@ static void fill_rows(springs *s, const dem_lattice *lattice, const dem_index *b
 static void sort_ends(const springs *s, const dem_lattice *lattice, dem_index *by_node, dem_index *next)
 {
     for (dem_index i = 0; i < s->n_nodes; i++) next[i] = s->row[i];
-    for (dem_index e = 0; e < 2 * lattice->n_springs; e++) by_node[next[lattice->ends[e]]++] = e;
+    for (dem_index e = 0; e < 2 * lattice->n_springs; e++)
+        if (!rigid_nodes_have(lattice, lattice->ends[e])) by_node[next[lattice->ends[e]]++] = e;
     for (dem_index i = 0; i < s->n_nodes; i++) next[i] = s->row[i];
 }
 

@@ -18,8 +18,8 @@ typedef struct springs {
     double *viscosity;    /* [2 n_springs] N s; NULL: undamped */
 } springs;
 
-/** Compiles the springs of a lattice whose node numbers are known to be valid. A pair of nodes joined twice is an error
- *  that names both springs. Free with springs_free(). */
+/** Compiles the springs of a lattice whose node numbers are known to be valid; those of rigid bodies are left out. A
+ *  pair of nodes joined twice is an error that names both springs. Free with springs_free(). */
 dem_status springs_compile(springs *out, const dem_lattice *lattice);
 void springs_free(springs *s);
 

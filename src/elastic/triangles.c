@@ -12,6 +12,7 @@
 #include "base/natural_log.h"
 #include "base/reduce.h"
 #include "base/status.h"
+#include "elastic/rigid_nodes.h"
 
 /* Below this J the guard's energy goes on as its Taylor polynomial of second degree. */
 static const double taylor_below = 0.05;
@@ -168,9 +169,10 @@ double triangles_guard_bound(const triangles *t, const unsigned char *broken, de
 
 /* ---- compilation ---- */
 
-/* Triangles without area term and guard are left out of the rows. */
+/* Triangles without area term and guard, and those of rigid bodies, are left out of the rows. */
 static bool acts(const dem_lattice *lattice, dem_index k)
 {
+    if (rigid_nodes_have(lattice, lattice->triangles[3 * k])) return false;
     return (lattice->guard != NULL && lattice->guard[k] > 0.0) ||
            (lattice->area_stiffness != NULL && lattice->area_stiffness[k] != 0.0);
 }
