@@ -20,7 +20,12 @@ void cell_search_free(cell_search *c)
 /* The cell of a coordinate. Whatever the coordinate is, not finite included, the number fits into an integer. */
 static int64_t cell_at(const cell_search *c, double coordinate)
 {
-    return (int64_t)fmin(fmax(floor(coordinate / c->side), -1e15), 1e15);
+    static const double most = 1e15;
+    const double cell = coordinate * c->per_side;
+    if (!(cell > -most)) return -(int64_t)most;
+    if (cell > most) return (int64_t)most;
+    const int64_t towards_zero = (int64_t)cell;
+    return towards_zero - ((double)towards_zero > cell);
 }
 
 static dem_index bucket_of(const cell_search *c, int64_t column, int64_t row)
@@ -44,6 +49,7 @@ static dem_status reserve(cell_search *c, dem_index n)
 dem_status cell_search_fill(cell_search *c, const double *x, dem_index n, double side)
 {
     c->side = side;
+    c->per_side = 1.0 / side;
     c->n = n;
     TRY(reserve(c, n));
     for (dem_index b = 0; b < c->n_buckets + 2; b++) c->first[b] = 0;
@@ -61,24 +67,28 @@ static bool is_inside(vec2 x, vec2 low, vec2 high)
     return x.x >= low.x && x.x <= high.x && x.y >= low.y && x.y <= high.y;
 }
 
-static dem_status look_into(cell_search *c, dem_index bucket, vec2 low, vec2 high)
+/* Looks at the points of buckets `begin` to `end` - 1. */
+static dem_status look_into(cell_search *c, dem_index begin, dem_index end, const vec2 box[2])
 {
-    for (dem_index k = c->first[bucket]; k < c->first[bucket + 1]; k++) {
-        if (!is_inside(c->points[k].x, low, high)) continue;
-        CHECK(grow_array((void **)&c->found, &c->found_capacity, c->n_found + 1, sizeof *c->found), DEM_ERROR_MEMORY,
-              "out of memory for the points of a box");
-        c->found[c->n_found++] = c->points[k].number;
-    }
+    const dem_index first = c->first[begin], last = c->first[end];
+    CHECK(grow_array((void **)&c->found, &c->found_capacity, c->n_found + last - first, sizeof *c->found),
+          DEM_ERROR_MEMORY, "out of memory for the points of a box");
+    for (dem_index k = first; k < last; k++)
+        if (is_inside(c->points[k].x, box[0], box[1])) c->found[c->n_found++] = c->points[k].number;
     return DEM_OK;
 }
 
+/* The cells of a row are buckets one after the other, which begin again at the first one behind the last. */
 dem_status cell_search_find(cell_search *c, vec2 low, vec2 high)
 {
-    const int64_t columns[2] = {cell_at(c, low.x), cell_at(c, high.x)};
-    const int64_t rows[2] = {cell_at(c, low.y), cell_at(c, high.y)};
+    const vec2 box[2] = {low, high};
+    const int64_t column = cell_at(c, low.x), last_row = cell_at(c, high.y);
+    const int64_t n_columns = cell_at(c, high.x) - column + 1, n = n_columns < c->n_buckets ? n_columns : c->n_buckets;
     c->n_found = 0;
-    for (int64_t row = rows[0]; row <= rows[1]; row++)
-        for (int64_t column = columns[0]; column <= columns[1]; column++)
-            TRY(look_into(c, bucket_of(c, column, row), low, high));
+    for (int64_t row = cell_at(c, low.y); row <= last_row; row++) {
+        const dem_index begin = bucket_of(c, column, row), beyond = begin + n - c->n_buckets;
+        TRY(look_into(c, begin, beyond > 0 ? c->n_buckets : begin + n, box));
+        if (beyond > 0) TRY(look_into(c, 0, beyond, box));
+    }
     return DEM_OK;
 }

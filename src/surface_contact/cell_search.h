@@ -14,6 +14,7 @@ typedef struct cell_point {
 
 typedef struct cell_search {
     double side;         /* m, of a cell */
+    double per_side;     /* its inverse */
     dem_index n;         /* points */
     dem_index n_buckets; /* a power of two */
     dem_index *first;    /* [n_buckets + 1] the points of each bucket */

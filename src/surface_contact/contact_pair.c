@@ -4,83 +4,119 @@
  *   edge:    0 <= s < 1 and 0 < g < delta: the potential at g, along the edge's normal (t_y, -t_x)/|t|;
  *   vertex:  |r| < delta: the potential at |r|, along r,
  *              once between two edges, r.z >= 0 and r.t < 0, outside a convex vertex, z x t > 0;
- *              taken off once beside both edges, r.z < 0 and r.t >= 0, in front of both, r x t > 0 and r x z > 0.
+ *              taken off once beside both edges, r.z < 0 and r.t >= 0, in front of both, r x t > 0 and r x z > 0,
+ *              or of one inside a concave vertex, z x t < 0, where a node of the same body may come if it is crushed;
+ *              at the free end of a wall, z = -t, once beyond it, r.t < 0;
+ *   an end beyond which the surface does not touch the node: taken off beside and in front of the edge alone.
  * s < 1 is computed as (p - B).t < 0, so that two edges and their vertex compare the same numbers: no node falls
  * between them by rounding. For the same reason a vertex that is straight but for rounding counts as convex for a node
  * in front of both edges. What is behind an edge is not pushed, so a body that is squeezed does not push itself from
  * inside. Which pairs there are is the business of pair_list.c. */
 #include "surface_contact/contact_pair.h"
 
-#include "surface_contact/contact_potential.h"
-
 /* The vectors of a pair. */
 typedef struct pair_vectors {
     vec2 r, t, z;
-    vec2 end; /* p - B */
 } pair_vectors;
 
 static pair_vectors vectors_of(const contact_pair *p, const double *x)
 {
     const vec2 node = vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), a = vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]);
     const vec2 b = vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]), before = vec2_at(x, p->nodes[CONTACT_PAIR_BEFORE]);
-    return (pair_vectors){vec2_sub(node, a), vec2_sub(b, a), vec2_sub(a, before), vec2_sub(node, b)};
+    return (pair_vectors){vec2_sub(node, a), vec2_sub(b, a), vec2_sub(a, before)};
 }
 
-/* How often the vertex counts: 1, -1 or 0. The node before it is its neighbour, and no partner of it. */
-static double vertex_count(const contact_pair *p, const pair_vectors *v)
+/* A free end, where the edge before is the other side of the edge: z = -t. Just beside it the edge pushes in front. */
+static double free_end_count(const pair_vectors *v)
 {
-    const bool beside = vec2_dot(v->r, v->t) >= 0.0, beside_last = vec2_dot(v->r, v->z) < 0.0;
-    if (p->nodes[CONTACT_PAIR_NODE] == p->nodes[CONTACT_PAIR_BEFORE] || beside != beside_last) return 0.0;
-    const bool in_front = vec2_cross(v->r, v->t) > 0.0 && vec2_cross(v->r, v->z) > 0.0;
-    if (beside) return in_front ? -1.0 : 0.0;
-    return in_front || vec2_cross(v->z, v->t) > 0.0 ? 1.0 : 0.0;
+    const double along = vec2_dot(v->r, v->t);
+    return along < 0.0 || (along == 0.0 && vec2_cross(v->r, v->t) <= 0.0) ? 1.0 : 0.0;
+}
+
+/* How often the first end counts for a node near it: 1, -1 or 0. */
+static double vertex_count(const contact_pair *p, const double *x)
+{
+    const pair_vectors v = vectors_of(p, x);
+    if (p->nodes[CONTACT_PAIR_BEFORE] == p->nodes[CONTACT_PAIR_SECOND]) return free_end_count(&v);
+    const bool beside = vec2_dot(v.r, v.t) >= 0.0, beside_last = vec2_dot(v.r, v.z) < 0.0;
+    if (p->ends_at_first) return beside && vec2_cross(v.r, v.t) > 0.0 ? -1.0 : 0.0;
+    if (beside != beside_last) return 0.0;
+    const int n_in_front = (vec2_cross(v.r, v.t) > 0.0) + (vec2_cross(v.r, v.z) > 0.0);
+    const double turn = vec2_cross(v.z, v.t);
+    if (beside) return n_in_front == 2 || (n_in_front == 1 && turn < 0.0) ? -1.0 : 0.0;
+    return n_in_front == 2 || turn > 0.0 ? 1.0 : 0.0;
+}
+
+/* From an end of the edge to the node. */
+static vec2 from_end(const contact_pair *p, int end, const double *x)
+{
+    return vec2_sub(vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), vec2_at(x, p->nodes[end]));
+}
+
+/* Whether the second end is taken off: then the edge or its first end is near the node, too. */
+static bool takes_off(const contact_pair *p, const double *x)
+{
+    if (!p->ends_at_second) return false;
+    const vec2 r = from_end(p, CONTACT_PAIR_FIRST, x), end = from_end(p, CONTACT_PAIR_SECOND, x);
+    const vec2 t = vec2_sub(vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]), vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]));
+    return vec2_dot(end, t) < 0.0 && vec2_cross(r, t) > 0.0 && vec2_dot(end, end) < p->thickness * p->thickness;
 }
 
 /* Where the node is with respect to edge and vertex. */
 typedef struct pair_place {
     double u_edge;   /* distance over thickness; 0: the edge does not push */
     double share;    /* s */
-    vec2 normal;     /* of the edge */
     double u_vertex; /* distance over thickness; 0: the vertex does not push */
     double count;    /* 1 or -1 */
-    vec2 direction;  /* from the vertex to the node */
+    double u_second; /* distance over thickness; 0: the second end is not taken off */
 } pair_place;
 
-/* Most pairs end without a root or a division. */
 static bool find_place(const contact_pair *p, const double *x, pair_place *out)
 {
-    const pair_vectors v = vectors_of(p, x);
-    const double along = vec2_dot(v.r, v.t), front = vec2_cross(v.r, v.t), square = vec2_dot(v.t, v.t);
-    const double limit = p->thickness * p->thickness, radius = vec2_dot(v.r, v.r);
-    const bool beside = along >= 0.0 && vec2_dot(v.end, v.t) < 0.0;
-    const bool by_edge = beside && front > 0.0 && front * front < limit * square;
-    const double count = radius < limit ? vertex_count(p, &v) : 0.0;
-    *out = (pair_place){.count = count};
-    if (by_edge) {
-        const double length = sqrt(square);
-        out->u_edge = front / length / p->thickness;
-        out->share = along / square;
-        out->normal = (vec2){v.t.y / length, -v.t.x / length};
+    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    *out = (pair_place){.count = e.near_first ? vertex_count(p, x) : 0.0};
+    if (e.by_edge) {
+        out->u_edge = e.front / sqrt(e.square) / p->thickness;
+        out->share = e.along / e.square;
     }
-    if (count != 0.0) {
-        const double distance = sqrt(radius);
-        out->u_vertex = distance / p->thickness;
-        out->direction = vec2_scale(1.0 / distance, v.r);
-    }
-    return by_edge || count != 0.0;
+    if (out->count != 0.0) out->u_vertex = sqrt(e.radius) / p->thickness;
+    if (takes_off(p, x)) out->u_second = vec2_norm(from_end(p, CONTACT_PAIR_SECOND, x)) / p->thickness;
+    return e.by_edge || out->count != 0.0 || out->u_second > 0.0;
+}
+
+/* ---- forces ---- */
+
+/* The force on the node by an end that counts so often, N. */
+static vec2 push_by_end(const contact_pair *p, int end, double count, const double *x)
+{
+    const vec2 r = from_end(p, end, x);
+    const double distance = vec2_norm(r);
+    return vec2_scale(count * p->weight * contact_potential_pressure(distance / p->thickness),
+                      vec2_scale(1.0 / distance, r));
+}
+
+bool contact_pair_push_ends(const contact_pair *p, bool near_first, const double *x, contact_push *out)
+{
+    const double count = near_first ? vertex_count(p, x) : 0.0;
+    const bool taken_off = takes_off(p, x);
+    if (count != 0.0) out->by_vertex = push_by_end(p, CONTACT_PAIR_FIRST, count, x);
+    if (taken_off) out->by_second = push_by_end(p, CONTACT_PAIR_SECOND, -1.0, x);
+    return count != 0.0 || taken_off;
 }
 
 bool contact_pair_push(const contact_pair *p, const double *x, contact_push *out)
 {
-    pair_place at;
-    *out = (contact_push){0};
-    if (!find_place(p, x, &at)) return false;
-    out->share = at.share;
-    if (at.u_edge > 0.0) out->by_edge = vec2_scale(p->weight * contact_potential_pressure(at.u_edge), at.normal);
-    if (at.count != 0.0)
-        out->by_vertex = vec2_scale(at.count * p->weight * contact_potential_pressure(at.u_vertex), at.direction);
-    return true;
+    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    *out = (contact_push){.pair = p};
+    if (e.by_edge) {
+        const edge_push push = contact_pair_edge(e, p->thickness);
+        out->share = push.share;
+        out->by_edge = vec2_scale(p->weight * push.pressure, push.normal);
+    }
+    return contact_pair_push_ends(p, e.near_first, x, out) || e.by_edge;
 }
+
+/* ---- energy and stiffness ---- */
 
 double contact_pair_energy(const contact_pair *p, const double *x)
 {
@@ -89,6 +125,7 @@ double contact_pair_energy(const contact_pair *p, const double *x)
     if (!find_place(p, x, &at)) return 0.0;
     if (at.u_edge > 0.0) sum += contact_potential_energy(at.u_edge);
     if (at.count != 0.0) sum += at.count * contact_potential_energy(at.u_vertex);
+    if (at.u_second > 0.0) sum -= contact_potential_energy(at.u_second);
     return p->weight * p->thickness * sum;
 }
 
@@ -110,8 +147,8 @@ bool contact_pair_stiffness(const contact_pair *p, const double *x, double added
 double contact_pair_distance(vec2 point, vec2 a, vec2 b)
 {
     const vec2 r = vec2_sub(point, a), t = vec2_sub(b, a);
-    const double s = vec2_dot(r, t) / vec2_dot(t, t);
-    return vec2_norm(vec2_along(r, -fmin(fmax(s, 0.0), 1.0), t));
+    const double s = vec2_dot(r, t) / vec2_dot(t, t), beside = s < 1.0 ? s : 1.0;
+    return vec2_norm(vec2_along(r, s > 0.0 ? -beside : -0.0, t));
 }
 
 /* Whether the node is between the ends of the edge at a part of the way. */

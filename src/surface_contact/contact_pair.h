@@ -2,20 +2,23 @@
 /* A contact pair: a node of a surface, and an edge of a surface that may push it. The potential of a node against a
  * surface is the sum over the edges less the sum over the vertices that two of them count, so that it has no closest
  * feature that could change: where the surface is smooth it is that of the distance, and elsewhere it is continuously
- * differentiable. Each edge brings the vertex at its first end. */
+ * differentiable. Each edge brings the vertex at its first end. Where the next edge never touches the node, the edge
+ * takes the vertex between off, so that its potential begins with 0 there. */
 #ifndef DEM_SURFACE_CONTACT_CONTACT_PAIR_H
 #define DEM_SURFACE_CONTACT_CONTACT_PAIR_H
 
 #include <stdbool.h>
 
 #include "base/vec2.h"
+#include "surface_contact/contact_potential.h"
 
 /** What the nodes of a pair are. */
 enum {
     CONTACT_PAIR_NODE,   /**< the node that is pushed */
     CONTACT_PAIR_FIRST,  /**< first end of the edge, which runs with its body on the left */
     CONTACT_PAIR_SECOND, /**< its second end */
-    CONTACT_PAIR_BEFORE, /**< the node before the first end on the same surface, on which nothing acts */
+    CONTACT_PAIR_BEFORE, /**< the node before the first end on the same surface, on which nothing acts; at the free end
+                            of an obstacle the second end */
     CONTACT_PAIR_NODES
 };
 
@@ -24,25 +27,72 @@ typedef struct contact_pair {
     dem_index edge;   /* number on the surface */
     double thickness; /* m, contact thickness of the two bodies */
     double weight;    /* N, half the node's length of surface times the contact modulus of the two bodies */
+    bool ends_at_first, ends_at_second; /* whether the edge beyond that end never touches the node */
 } contact_pair;
 
 /** The forces of a pair, N. */
 typedef struct contact_push {
+    const contact_pair *pair;
     vec2 by_edge;   /* on the node, by the inside of the edge */
     double share;   /* of it the second end takes this part, and the first end the rest */
     vec2 by_vertex; /* on the node, by the first end */
+    vec2 by_second; /* likewise by the second end */
 } contact_push;
 
 /** Forces of a pair at positions x [n][2].  \return whether the node is near enough for any */
 bool contact_pair_push(const contact_pair *p, const double *x, contact_push *out);
 
+/** Adds the forces of the two ends to those of the inside of the edge.
+ *  \param near_first  whether the node is so near to the first end that it might push
+ *  \return whether there are any */
+bool contact_pair_push_ends(const contact_pair *p, bool near_first, const double *x, contact_push *out);
+
+/** How the node of a pair AB lies to its edge; with r = p - A, t = B - A. */
+typedef struct edge_terms {
+    vec2 t;
+    double along, front, square, radius; /* r.t, r x t, t.t, r.r */
+    bool by_edge;                        /* the inside of the edge pushes */
+    bool near_first;                     /* the node is so near to the first end that it might */
+} edge_terms;
+
+/** Without a root or a division, for a part of the contact thickness, up to 1. */
+static inline edge_terms contact_pair_terms(const contact_pair *p, double part, const double *x)
+{
+    const vec2 node = vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), a = vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]);
+    const vec2 b = vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]), r = vec2_sub(node, a), t = vec2_sub(b, a);
+    const double along = vec2_dot(r, t), front = vec2_cross(r, t), square = vec2_dot(t, t), radius = vec2_dot(r, r);
+    const double limit = part * part * p->thickness * p->thickness;
+    const bool beside = along >= 0.0 && vec2_dot(vec2_sub(node, b), t) < 0.0;
+    return (edge_terms){.t = t,
+                        .along = along,
+                        .front = front,
+                        .square = square,
+                        .radius = radius,
+                        .by_edge = beside && front > 0.0 && front * front < limit * square,
+                        .near_first = radius < limit};
+}
+
+/** What an edge that pushes does. */
+typedef struct edge_push {
+    double share, pressure; /* of the second end; contact_potential_pressure() */
+    vec2 normal;
+} edge_push;
+
+static inline edge_push contact_pair_edge(edge_terms e, double thickness)
+{
+    const double length = sqrt(e.square);
+    return (edge_push){.share = e.along / e.square,
+                       .pressure = contact_potential_pressure(e.front / length / thickness),
+                       .normal = {e.t.y / length, -e.t.x / length}};
+}
+
 /** Force on one of the nodes, N. Over all of them the forces sum up to 0, and so do their moments. */
 static inline vec2 contact_push_on(const contact_push *push, int which)
 {
-    if (which == CONTACT_PAIR_NODE) return vec2_add(push->by_edge, push->by_vertex);
+    if (which == CONTACT_PAIR_NODE) return vec2_add(vec2_add(push->by_edge, push->by_vertex), push->by_second);
     if (which == CONTACT_PAIR_FIRST)
         return vec2_along(vec2_scale(-1.0, push->by_vertex), push->share - 1.0, push->by_edge);
-    if (which == CONTACT_PAIR_SECOND) return vec2_scale(-push->share, push->by_edge);
+    if (which == CONTACT_PAIR_SECOND) return vec2_along(vec2_scale(-1.0, push->by_second), -push->share, push->by_edge);
     return (vec2){0.0, 0.0};
 }
 
@@ -57,6 +107,13 @@ bool contact_pair_stiffness(const contact_pair *p, const double *x, double added
 
 /** Distance of a point from the segment ab, m. */
 double contact_pair_distance(vec2 point, vec2 a, vec2 b);
+
+/** Distance of the node of a pair from its edge, m. */
+static inline double contact_pair_gap(const contact_pair *p, const double *x)
+{
+    return contact_pair_distance(vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]),
+                                 vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]));
+}
 
 /** Whether the node crosses the edge when all move along straight lines from x0 to x1.
  *  \param[out] when  the part of the way at which it does */

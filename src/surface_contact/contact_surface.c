@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Compiles the surface of the bodies for contact with each other. The modulus of a body is
  *   M = (sum over its springs of E_ij d0_ij)/(3 A),
- * with A the area of its triangles: E h of a regular lattice, so that its surface is about as stiff as what is behind
- * it. Thickness and modulus are those of the rest shape and never change. Which nodes are near which edges is found in
- * pair_list.c. */
+ * with A the area of its triangles: (8/3) G h of a regular lattice, so that its surface is about as stiff as what is
+ * behind it. Thickness and modulus are those of the rest shape and never change. Which nodes are near which edges is
+ * found in pair_list.c. */
 #include "surface_contact/contact_surface.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/status.h"
 
@@ -27,22 +28,25 @@ static dem_index body_count(const dem_lattice *l)
     return n;
 }
 
-/* The triangle's corner opposite to its side from i to j, if that side is an edge of the surface. */
-static void note_corner(contact_surface *c, dem_index i, dem_index j, dem_index opposite)
+/* Notes the triangle as that of its side behind a corner, if that side is an edge of the surface. */
+static void note_triangle(contact_surface *c, dem_index triangle, int side)
 {
     const surface *s = &c->surface;
-    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-        if (s->ends[2 * s->at[p]] == i && s->ends[2 * s->at[p] + 1] == j) c->corner[s->at[p]] = opposite;
+    const dem_lattice *l = c->lattice;
+    const dem_index *corner = &l->triangles[3 * triangle], i = corner[side], j = corner[(side + 1) % 3];
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const dem_index edge = s->at[p];
+        if (s->ends[2 * edge] != i || s->ends[2 * edge + 1] != j) continue;
+        c->corner[edge] = corner[(side + 2) % 3];
+        c->plate[edge] = l->thickness != NULL ? l->thickness[triangle] : 1.0;
+    }
 }
 
-static void find_corners(contact_surface *c)
+/* A side that runs along an edge of the surface is that of a whole triangle: no other triangle has it in this sense. */
+static void find_triangles(contact_surface *c)
 {
-    const dem_lattice *l = c->lattice;
-    for (dem_index k = 0; k < l->n_triangles; k++) {
-        const dem_index *corner = &l->triangles[3 * k];
-        for (int side = 0; side < 3; side++)
-            note_corner(c, corner[side], corner[(side + 1) % 3], corner[(side + 2) % 3]);
-    }
+    for (dem_index k = 0; k < c->lattice->n_triangles; k++)
+        for (int side = 0; side < 3; side++) note_triangle(c, k, side);
 }
 
 static double rest_length(const contact_surface *c, dem_index edge)
@@ -66,17 +70,69 @@ static void list_nodes(contact_surface *c)
     }
 }
 
-static dem_status allocate(contact_surface *c, dem_index n_bodies)
+static dem_status allocate_outline(contact_surface *c)
 {
     const size_t n = (size_t)c->surface.n_edges + 1; /* no more nodes than edges, where no two outlines meet */
     c->nodes = malloc(n * sizeof *c->nodes);
     c->half_length = malloc(n * sizeof *c->half_length);
     c->corner = malloc(n * sizeof *c->corner);
     c->length = malloc(n * sizeof *c->length);
-    c->laws = malloc((size_t)n_bodies * sizeof *c->laws);
-    CHECK(c->nodes && c->half_length && c->corner && c->length && c->laws, DEM_ERROR_MEMORY,
-          "out of memory for the surface of %lld bodies", (long long)n_bodies);
+    c->plate = malloc(n * sizeof *c->plate);
+    CHECK(c->nodes && c->half_length && c->corner && c->length && c->plate, DEM_ERROR_MEMORY,
+          "out of memory for a surface of %lld edges", (long long)c->surface.n_edges);
     return DEM_OK;
+}
+
+static void free_outline(contact_surface *c)
+{
+    surface_free(&c->surface);
+    free(c->nodes);
+    free(c->half_length);
+    free(c->corner);
+    free(c->length);
+    free(c->plate);
+}
+
+/* Compiles the boundary of the triangles that are whole. They are listed for that as all that the lattice has. */
+static dem_status compile_boundary(surface *out, const dem_lattice *lattice, const unsigned char *broken)
+{
+    dem_lattice whole = *lattice;
+    whole.n_triangles = 0;
+    whole.triangles = malloc((3 * (size_t)lattice->n_triangles + 1) * sizeof *whole.triangles);
+    CHECK(whole.triangles != NULL, DEM_ERROR_MEMORY, "out of memory for a surface of %lld triangles",
+          (long long)lattice->n_triangles);
+    for (dem_index k = 0; k < lattice->n_triangles; k++) {
+        if (broken != NULL && broken[k]) continue;
+        memcpy(whole.triangles + 3 * whole.n_triangles, lattice->triangles + 3 * k, 3 * sizeof *whole.triangles);
+        whole.n_triangles++;
+    }
+    const dem_status status = surface_compile(out, &whole, SURFACE_WHOLE);
+    free(whole.triangles);
+    return status;
+}
+
+/* Fills in edges and nodes; `out` has a lattice, and no edges as yet. */
+static dem_status find_outline(contact_surface *out, const unsigned char *broken)
+{
+    TRY(compile_boundary(&out->surface, out->lattice, broken));
+    TRY(allocate_outline(out));
+    list_nodes(out);
+    find_triangles(out);
+    return DEM_OK;
+}
+
+dem_status contact_surface_break(contact_surface *c, const unsigned char *broken)
+{
+    contact_surface next = {.lattice = c->lattice,
+                            .n_bodies = c->n_bodies,
+                            .laws = c->laws,
+                            .least = c->least,
+                            .most = c->most,
+                            .mean_length = c->mean_length};
+    const dem_status status = find_outline(&next, broken);
+    free_outline(status == DEM_OK ? c : &next);
+    if (status == DEM_OK) *c = next;
+    return status;
 }
 
 static void sum_up(contact_surface *c, body_sums *sums, dem_index n_bodies)
@@ -105,14 +161,23 @@ static dem_status choose_law(contact_surface *c, dem_index body, const body_sums
     CHECK(sum->n_edges > 0, DEM_ERROR_MODEL, "body %lld has no triangles, and so no surface that could touch bodies",
           (long long)body);
     const double usual = fmin(usual_thickness * sum->length / (double)sum->n_edges, largest_thickness * sum->shortest);
-    const surface_law law = {thickness > 0.0 ? thickness : usual, stiffness * sum->springs / (3.0 * sum->area)};
+    const surface_law law = {thickness > 0.0 ? thickness : usual, stiffness * sum->springs / (3.0 * sum->area), 0.0};
     CHECK(law.thickness < 0.5 * sum->shortest, DEM_ERROR_MODEL,
           "the contact thickness of %g m is not below half of the shortest boundary edge of body %lld, %g m",
           law.thickness, (long long)body, sum->shortest);
     c->laws[body] = law;
-    c->most_thickness = fmax(c->most_thickness, law.thickness);
-    c->least_thickness = body > 0 ? fmin(c->least_thickness, law.thickness) : law.thickness;
     return DEM_OK;
+}
+
+static void compare_laws(contact_surface *c)
+{
+    c->least = c->most = c->laws[0];
+    for (dem_index b = 1; b < c->n_bodies; b++) {
+        const surface_law law = c->laws[b];
+        c->least = surface_law_smaller(c->least, law);
+        c->most = (surface_law){fmax(c->most.thickness, law.thickness), fmax(c->most.modulus, law.modulus),
+                                fmax(c->most.friction, law.friction)};
+    }
 }
 
 static dem_status choose_laws(contact_surface *c, dem_index n_bodies, double thickness, double stiffness)
@@ -124,20 +189,17 @@ static dem_status choose_laws(contact_surface *c, dem_index n_bodies, double thi
     for (dem_index b = 0; b < n_bodies && status == DEM_OK; b++)
         status = choose_law(c, b, &sums[b], thickness, stiffness);
     free(sums);
+    compare_laws(c);
     return status;
 }
 
 dem_status contact_surface_compile(contact_surface *out, const dem_lattice *lattice, double thickness, double stiffness)
 {
-    contact_surface c = {.lattice = lattice};
-    const dem_index n_bodies = body_count(lattice);
-    TRY(surface_compile(&c.surface, lattice, SURFACE_WHOLE));
-    dem_status status = allocate(&c, n_bodies);
-    if (status == DEM_OK) {
-        list_nodes(&c);
-        find_corners(&c);
-        status = choose_laws(&c, n_bodies, thickness, stiffness);
-    }
+    contact_surface c = {.lattice = lattice, .n_bodies = body_count(lattice)};
+    c.laws = calloc((size_t)c.n_bodies + 1, sizeof *c.laws);
+    CHECK_MEMORY(c.laws);
+    dem_status status = find_outline(&c, NULL);
+    if (status == DEM_OK) status = choose_laws(&c, c.n_bodies, thickness, stiffness);
     if (status == DEM_OK)
         *out = c;
     else
@@ -147,11 +209,13 @@ dem_status contact_surface_compile(contact_surface *out, const dem_lattice *latt
 
 void contact_surface_free(contact_surface *c)
 {
-    surface_free(&c->surface);
-    free(c->nodes);
-    free(c->half_length);
-    free(c->corner);
-    free(c->length);
+    free_outline(c);
     free(c->laws);
     *c = (contact_surface){0};
+}
+
+void contact_surface_set_friction(contact_surface *c, double of_all, const double *of_bodies)
+{
+    for (dem_index b = 0; b < c->n_bodies; b++) c->laws[b].friction = of_bodies != NULL ? of_bodies[b] : of_all;
+    compare_laws(c);
 }

@@ -4,6 +4,8 @@
 #ifndef DEM_SURFACE_CONTACT_CONTACT_SURFACE_H
 #define DEM_SURFACE_CONTACT_CONTACT_SURFACE_H
 
+#include <stdbool.h>
+
 #include "base/vec2.h"
 #include "model/surface.h"
 
@@ -11,19 +13,30 @@
 typedef struct surface_law {
     double thickness; /* m, distance at which it begins to push */
     double modulus;   /* N/m, scale of the pressure */
+    double friction;  /* coefficient */
 } surface_law;
+
+/** The smaller thickness, modulus and friction. */
+static inline surface_law surface_law_smaller(surface_law a, surface_law b)
+{
+    return (surface_law){a.thickness < b.thickness ? a.thickness : b.thickness,
+                         a.modulus < b.modulus ? a.modulus : b.modulus,
+                         a.friction < b.friction ? a.friction : b.friction};
+}
 
 typedef struct contact_surface {
     const dem_lattice *lattice;
-    surface surface;                        /* whole */
-    dem_index n_nodes;                      /* on edges */
-    dem_index *nodes;                       /* [n_nodes] their numbers in the lattice, ascending */
-    double *half_length;                    /* [n_nodes] m, half of what a node has of the surface at rest */
-    dem_index *corner;                      /* [n_edges] the third corner of the triangle of each edge */
-    double *length;                         /* [n_edges] m, at rest */
-    surface_law *laws;                      /* [n_bodies] */
-    double mean_length;                     /* m, of the edges at rest */
-    double least_thickness, most_thickness; /* m, of all bodies */
+    surface surface;     /* whole */
+    dem_index n_nodes;   /* on edges */
+    dem_index *nodes;    /* [n_nodes] their numbers in the lattice, ascending */
+    double *half_length; /* [n_nodes] m, half of what a node has of the surface at rest */
+    dem_index *corner;   /* [n_edges] the third corner of the triangle of each edge */
+    double *length;      /* [n_edges] m, at rest */
+    double *plate;       /* [n_edges] m, thickness of the triangle of each edge */
+    dem_index n_bodies;
+    surface_law *laws;       /* [n_bodies] */
+    surface_law least, most; /* of all bodies, component by component */
+    double mean_length;      /* m, of the edges at rest */
 } contact_surface;
 
 /** \param thickness  m, of all bodies; 0: a fifth of the mean edge of each body, and less than half of its shortest
@@ -33,6 +46,32 @@ typedef struct contact_surface {
 dem_status contact_surface_compile(contact_surface *out, const dem_lattice *lattice, double thickness,
                                    double stiffness);
 void contact_surface_free(contact_surface *c);
+
+/** Makes edges and nodes anew for the triangles that are whole: those that contact_surface_compile() finds in a lattice
+ *  without the others, in the same order. Thickness, modulus and friction stay what they are. A node that is left
+ *  without a triangle is on no surface.
+ *  \param broken  [n_triangles] 1: broken; NULL: all are whole
+ *  \return DEM_ERROR_MEMORY; the surface is as it was then */
+dem_status contact_surface_break(contact_surface *c, const unsigned char *broken);
+
+/** The edge from one node to another; -1 if there is none. */
+static inline dem_index contact_surface_edge(const contact_surface *c, dem_index first, dem_index second)
+{
+    for (dem_index p = c->surface.row[first]; p < c->surface.row[first + 1]; p++) {
+        const dem_index *ends = &c->surface.ends[2 * c->surface.at[p]];
+        if (ends[0] == first && ends[1] == second) return c->surface.at[p];
+    }
+    return -1;
+}
+
+/** Gives the bodies their friction: `of_bodies` [n_bodies], or `of_all` where that is NULL. At first they have none. */
+void contact_surface_set_friction(contact_surface *c, double of_all, const double *of_bodies);
+
+/** Whether any body has friction. */
+static inline bool contact_surface_has_friction(const contact_surface *c)
+{
+    return c->most.friction > 0.0;
+}
 
 /** First and second end of an edge. */
 static inline dem_index contact_surface_first(const contact_surface *c, dem_index edge)
@@ -51,12 +90,11 @@ static inline dem_index contact_surface_body(const contact_surface *c, dem_index
     return c->lattice->body[node];
 }
 
-/** The law between two bodies, or of a body with itself: the smaller thickness, and the smaller modulus. It is the same
- *  for all edges of two bodies, since terms of different edges cancel each other. */
+/** The law between two bodies, or of a body with itself. It is the same for all edges of two bodies, since terms of
+ *  different edges cancel each other. */
 static inline surface_law contact_surface_law(const contact_surface *c, dem_index body, dem_index other)
 {
-    const surface_law a = c->laws[body], b = c->laws[other];
-    return (surface_law){fmin(a.thickness, b.thickness), fmin(a.modulus, b.modulus)};
+    return surface_law_smaller(c->laws[body], c->laws[other]);
 }
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Forces, energy and stiffness of all contact pairs, and what a step has to fulfil. Each pair is evaluated by itself
- * (contact_pair.c), and each node sums its pairs in the order of (node, edge), beginning with 0: so neither threads nor
- * lists have a part in the bits. A node on which no pair acts is left alone. */
+ * (contact_pair.c), and each node sums its pairs in the order of (node, edge), beginning with 0, and then its anchors:
+ * so neither threads nor lists have a part in the bits. A node on which nothing acts is left alone. */
 #include "surface_contact/surface_contact.h"
 
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 #include "base/reduce.h"
 #include "base/status.h"
 
-/* Over the mean edge: of the list of candidates, and of the pairs that are near in a step. */
-static const double usual_margin = 0.25, near_margin = 0.05;
+/* Over the mean edge: of the list of candidates, of close pairs, and of the pairs that are near in a step. */
+static const double usual_margin = 0.5, usual_close_margin = 0.15, near_margin = 0.05;
 
 static dem_status allocate(surface_contact *c, dem_index n)
 {
@@ -31,7 +31,10 @@ static dem_status set_up(surface_contact *c, const dem_lattice *lattice, const s
     c->near_margin = near_margin * c->surface.mean_length;
     TRY(pair_list_create(&c->candidates, &c->surface, rule->within_bodies, margin * c->surface.mean_length));
     c->rows = &c->candidates.pairs;
-    return DEM_OK;
+    c->close = (close_pairs){.ways.surface = &c->surface};
+    contact_surface_set_friction(&c->surface, rule->friction, rule->body_friction);
+    TRY(anchor_set_create(&c->anchors, &c->surface));
+    return pair_list_count_left_out(&c->candidates, &c->n_left_out);
 }
 
 dem_status surface_contact_create(surface_contact **out, const dem_lattice *lattice, const surface_contact_rule *rule)
@@ -50,22 +53,56 @@ void surface_contact_destroy(surface_contact *c)
 {
     if (c == NULL) return;
     pair_list_destroy(&c->candidates);
+    anchor_set_destroy(&c->anchors);
+    close_pairs_destroy(&c->close);
     pair_rows_destroy(&c->near);
     contact_surface_free(&c->surface);
     free(c->is_near);
     free(c->pushed);
     free(c->force);
     free(c->is_pushed);
+    free(c->held);
     free(c);
 }
 
-/* ---- forces ---- */
+/* ---- lists ---- */
+
+void surface_contact_forget(surface_contact *c)
+{
+    c->close.chosen = c->is_evaluated = false;
+    c->candidates.made = false;
+}
+
+dem_status surface_contact_break(surface_contact *c, const unsigned char *broken)
+{
+    TRY(contact_surface_break(&c->surface, broken));
+    pair_list_clear(&c->candidates);
+    close_pairs_clear(&c->close);
+    pair_rows_clear(&c->near);
+    c->rows = &c->candidates.pairs;
+    c->is_evaluated = false;
+    return anchor_set_follow_surface(&c->anchors);
+}
+
+/* As long as the close pairs hold, the candidates hold for what is near in a step, too: they are made anew while they
+ * still have the margins of both to spare. */
+static dem_status renew_lists(surface_contact *c, const double *x)
+{
+    const double margin = c->candidates.margin, most = fmax(0.5 * (margin - c->near_margin), 0.0);
+    const double close = fmin(usual_close_margin * c->surface.mean_length, most);
+    c->close.chosen = false;
+    TRY(pair_list_follow(&c->candidates, x, fmin((close + c->near_margin) / margin, 1.0)));
+    return close_pairs_choose(&c->close, &c->candidates.pairs, close, x);
+}
 
 dem_status surface_contact_follow(surface_contact *c, const double *x)
 {
     c->rows = &c->candidates.pairs;
-    return c->status = pair_list_follow(&c->candidates, x, 0.0);
+    c->is_evaluated = false;
+    return c->status = close_pairs_hold(&c->close, x) ? DEM_OK : renew_lists(c, x);
 }
+
+/* ---- forces ---- */
 
 static void forget_forces(surface_contact *c)
 {
@@ -78,21 +115,75 @@ static void forget_forces(surface_contact *c)
 
 static void add_force(surface_contact *c, dem_index node, vec2 force)
 {
-    if (!c->is_pushed[node]) c->pushed[c->n_pushed++] = node;
-    c->is_pushed[node] = 1;
+    if (!c->is_pushed[node]) {
+        c->pushed[c->n_pushed++] = node;
+        c->is_pushed[node] = 1;
+    }
     vec2_put(c->force, node, vec2_add(vec2_at(c->force, node), force));
+}
+
+static void add_pushes(surface_contact *c, const contact_batch *b, const double *x)
+{
+    contact_push push;
+    for (int k = 0; k < b->n; k++) {
+        if (!contact_batch_push(b, k, x, &push)) continue;
+        const double pressure = contact_batch_pressure(b, k);
+        if (pressure > c->pressure) c->pressure = pressure;
+        const dem_index *nodes = push.pair->nodes;
+        add_force(c, nodes[CONTACT_PAIR_NODE], contact_push_on(&push, CONTACT_PAIR_NODE));
+        add_force(c, nodes[CONTACT_PAIR_FIRST], contact_push_on(&push, CONTACT_PAIR_FIRST));
+        add_force(c, nodes[CONTACT_PAIR_SECOND], contact_push_on(&push, CONTACT_PAIR_SECOND));
+        if (c->anchors.n > 0 && anchor_set_of_pair(&c->anchors, push.pair) != NULL) c->held[c->n_held++].push = push;
+    }
+}
+
+/* The friction of one node, which has these pushes. */
+static void add_friction_of(surface_contact *c, held_push *held, dem_index n, const double *x)
+{
+    vec2 normal = {0.0, 0.0};
+    for (dem_index k = 0; k < n; k++) normal = vec2_add(normal, contact_push_on(&held[k].push, CONTACT_PAIR_NODE));
+    const anchor *a = anchor_set_of_pair(&c->anchors, held->push.pair);
+    const double ratio = vec2_norm(normal) > 0.0 ? anchor_ratio(a, normal, x) : 0.0;
+    for (dem_index k = 0; k < n; k++) {
+        anchor_turn_push(&held[k].push, ratio, x, held[k].friction);
+        for (int which = 0; which < ANCHOR_NODES; which++)
+            add_force(c, held[k].push.pair->nodes[which], held[k].friction[which]);
+    }
+}
+
+/* Friction comes behind the pairs. */
+static void add_friction(surface_contact *c, const double *x)
+{
+    for (dem_index first = 0, last = 0; first < c->n_held; first = last) {
+        const dem_index node = c->held[first].push.pair->nodes[CONTACT_PAIR_NODE];
+        while (last < c->n_held && c->held[last].push.pair->nodes[CONTACT_PAIR_NODE] == node) last++;
+        add_friction_of(c, c->held + first, last - first, x);
+    }
+}
+
+static dem_status make_room(surface_contact *c)
+{
+    c->n_held = 0;
+    CHECK(c->anchors.n == 0 || grow_array((void **)&c->held, &c->held_capacity, c->close.n, sizeof *c->held),
+          DEM_ERROR_MEMORY, "out of memory for the friction of %lld contact pairs", (long long)c->close.n);
+    return DEM_OK;
 }
 
 bool surface_contact_evaluate(surface_contact *c, const double *x)
 {
-    const pair_rows *r = &c->candidates.pairs;
-    contact_push push;
     forget_forces(c);
     if (surface_contact_follow(c, x) != DEM_OK) return false;
-    for (dem_index k = 0; k < r->n; k++)
-        if (contact_pair_push(&r->list[k], x, &push))
-            for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
-                add_force(c, r->list[k].nodes[which], contact_push_on(&push, which));
+    c->status = make_room(c);
+    if (c->status != DEM_OK) return false;
+    contact_batch batch;
+    c->pressure = 0.0;
+    contact_batch_begin(&batch, c->close.list, c->close.n, 1.0);
+    while (contact_batch_next(&batch, x)) {
+        contact_batch_evaluate(&batch);
+        add_pushes(c, &batch, x);
+    }
+    add_friction(c, x);
+    c->is_evaluated = true;
     return true;
 }
 
@@ -108,7 +199,60 @@ bool surface_contact_force(const surface_contact *c, dem_index i, const double *
         *force = vec2_add(*force, contact_push_on(&push, which));
         is_pushed = true;
     }
-    return is_pushed;
+    return anchor_set_add_force(&c->anchors, r, i, x, force) || is_pushed;
+}
+
+/* ---- friction ---- */
+
+vec2 surface_contact_friction(const surface_contact *c, dem_index i, const double *x)
+{
+    vec2 force = {0.0, 0.0};
+    (void)anchor_set_add_force(&c->anchors, c->rows, i, x, &force);
+    return force;
+}
+
+double surface_contact_stored(const surface_contact *c, const double *x)
+{
+    return anchor_set_energy(&c->anchors, c->rows, x);
+}
+
+double surface_contact_friction_power(const surface_contact *c, const double *x, const double *v)
+{
+    return anchor_set_power(&c->anchors, c->rows, x, v);
+}
+
+double surface_contact_evaluated_power(const surface_contact *c, const double *v)
+{
+    double sum = 0.0;
+    for (dem_index k = 0; k < c->n_held; k++)
+        for (int which = 0; which < ANCHOR_NODES; which++)
+            sum -= vec2_dot(c->held[k].friction[which], vec2_at(v, c->held[k].push.pair->nodes[which]));
+    return sum;
+}
+
+dem_status surface_contact_settle(surface_contact *c, const double *x)
+{
+    TRY(surface_contact_follow(c, x));
+    return anchor_set_settle(&c->anchors, c->close.list, c->close.n, x);
+}
+
+/* Behind the nodes of a pair whose node is anchored come those of the anchor, then those of all pairs of that node. */
+bool surface_contact_next_anchored(surface_neighbours *n, dem_index *node)
+{
+    if (n->slot < 0) return false;
+    const contact_pair *p = pair_rows_pair(n->rows, n->held >= 0 ? n->held : n->slot);
+    const dem_index of = p->nodes[CONTACT_PAIR_NODE], k = n->anchors->of[of];
+    const int all = n->held < 0 && k >= 0 ? CONTACT_PAIR_NODES + ANCHOR_NODES : CONTACT_PAIR_NODES;
+    *node =
+        n->which < CONTACT_PAIR_NODES ? p->nodes[n->which] : n->anchors->list[k].nodes[n->which - CONTACT_PAIR_NODES];
+    if (++n->which < all) return true;
+    n->which = 0;
+    if (n->held >= 0)
+        n->held = n->rows->next[n->held];
+    else if (k >= 0)
+        n->held = n->rows->first[of];
+    if (n->held < 0) n->slot = n->rows->next[n->slot];
+    return true;
 }
 
 /* ---- energy and stiffness ---- */
@@ -129,12 +273,6 @@ double surface_contact_node_energy(const surface_contact *c, dem_index i, const 
     return sum;
 }
 
-static double distance_at(const contact_pair *p, const double *x)
-{
-    return contact_pair_distance(vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]),
-                                 vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]));
-}
-
 /* A vertex that is taken off pushes nothing away, but comes with an edge that does. */
 surface_gaps surface_contact_gaps(const surface_contact *c, const double *x)
 {
@@ -143,7 +281,7 @@ surface_gaps surface_contact_gaps(const surface_contact *c, const double *x)
     for (dem_index k = 0; k < c->rows->n; k++) {
         const contact_pair *p = &c->rows->list[k];
         if (!contact_pair_push(p, x, &push)) continue;
-        const double gap = distance_at(p, x);
+        const double gap = contact_pair_gap(p, x);
         out.pushing++;
         out.least = fmin(out.least, gap);
         out.least_share = fmin(out.least_share, gap / p->thickness);
@@ -151,21 +289,82 @@ surface_gaps surface_contact_gaps(const surface_contact *c, const double *x)
     return out;
 }
 
-/* Sums over the pairs of each node, N/m, are kept where forces are, as their first components. */
-double surface_contact_stiffening(surface_contact *c, const double *inverse_mass, const double *x)
+/* Sums over the pairs of each node, N/m, are kept where forces are, as their first components.
+ * \return the largest of them over the mass, rad^2/s^2 */
+static double largest_over_mass(surface_contact *c, const double *inverse_mass)
 {
-    const pair_rows *r = &c->candidates.pairs;
-    double largest = 0.0, added[CONTACT_PAIR_NODES];
-    forget_forces(c);
-    if (surface_contact_follow(c, x) != DEM_OK) return INFINITY;
-    for (dem_index k = 0; k < r->n; k++)
-        if (contact_pair_stiffness(&r->list[k], x, added))
-            for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
-                add_force(c, r->list[k].nodes[which], (vec2){added[which], 0.0});
+    double largest = 0.0;
     for (dem_index j = 0; j < c->n_pushed; j++)
         largest = fmax(largest, vec2_at(c->force, c->pushed[j]).x * inverse_mass[c->pushed[j]]);
     forget_forces(c);
     return largest;
+}
+
+/* What all close pairs would add with contact_potential_stiffness() = 1, by their edges and their vertices. */
+static double unit_stiffening(surface_contact *c, const double *inverse_mass)
+{
+    static const double terms[CONTACT_PAIR_BEFORE] = {2.0, 2.0, 1.0};
+    for (dem_index k = 0; k < c->close.n; k++) {
+        const contact_pair *p = &c->close.list[k];
+        for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
+            add_force(c, p->nodes[which], (vec2){terms[which] * 2.0 * p->weight / p->thickness, 0.0});
+    }
+    return largest_over_mass(c, inverse_mass);
+}
+
+static void add_stiffness(surface_contact *c, const contact_pair *p, const double *x)
+{
+    double added[CONTACT_PAIR_NODES];
+    if (!contact_pair_stiffness(p, x, added)) return;
+    for (int which = 0; which < CONTACT_PAIR_BEFORE; which++) add_force(c, p->nodes[which], (vec2){added[which], 0.0});
+}
+
+/* Adds what anchors do. */
+static void add_anchors(surface_contact *c, const double *x)
+{
+    double added[ANCHOR_NODES];
+    for (dem_index k = 0; k < c->anchors.n; k++) {
+        anchor_stiffness(&c->anchors.list[k], x, added);
+        for (int which = 0; which < ANCHOR_NODES; which++)
+            add_force(c, c->anchors.list[k].nodes[which], (vec2){added[which], 0.0});
+    }
+}
+
+/* What the pairs in reach add, and the anchors. */
+static double stiffening_within_reach(surface_contact *c, const double *inverse_mass, const double *x)
+{
+    contact_batch batch;
+    contact_batch_begin(&batch, c->close.list, c->close.n, 1.0);
+    while (contact_batch_next(&batch, x))
+        for (int k = 0; k < batch.n; k++) add_stiffness(c, &c->close.list[batch.which[k]], x);
+    add_anchors(c, x);
+    return largest_over_mass(c, inverse_mass);
+}
+
+/* Whether the node of any pair is within a part of the contact thickness. */
+static bool any_within(const surface_contact *c, double part, const double *x)
+{
+    contact_batch batch;
+    contact_batch_begin(&batch, c->close.list, c->close.n, part);
+    return contact_batch_next(&batch, x);
+}
+
+/* If no pair is nearer than u, all of them add no more than 1/u^2 - 1 times their unit. */
+double surface_contact_stiffening(surface_contact *c, const double *inverse_mass, double harmless, const double *x,
+                                  bool is_known)
+{
+    const bool is_evaluated = is_known && c->is_evaluated;
+    forget_forces(c);
+    if (!is_evaluated && surface_contact_follow(c, x) != DEM_OK) return INFINITY;
+    c->rows = &c->candidates.pairs;
+    if (c->n_chosen != c->close.n_chosen) c->unit = unit_stiffening(c, inverse_mass);
+    c->n_chosen = c->close.n_chosen;
+    add_anchors(c, x);
+    const double left = harmless - largest_over_mass(c, inverse_mass);
+    const double part = sqrt(c->unit / (c->unit + fmax(left, 0.0)));
+    const bool is_below = is_evaluated && c->pressure < contact_potential_pressure(part);
+    const bool is_harmless = c->close.n == 0 || (part < 1.0 && (is_below || !any_within(c, part, x)));
+    return is_harmless ? 0.0 : stiffening_within_reach(c, inverse_mass, x);
 }
 
 /* ---- steps ---- */
@@ -191,16 +390,15 @@ static dem_status find_near(surface_contact *c, const double *x0, const double *
     for (dem_index k = 0; k < r->n; k++) {
         const contact_pair *p = &r->list[k];
         const double reach = fmax(p->thickness + c->near_margin, fast);
-        c->is_near[k] = distance_at(p, x0) < reach || distance_at(p, x1) < reach;
+        c->is_near[k] = contact_pair_gap(p, x0) < reach || contact_pair_gap(p, x1) < reach;
         if (c->is_near[k]) TRY(pair_rows_add(&c->near, p));
     }
     return pair_rows_link(&c->near);
 }
 
-/* The list must hold at the end of the step with what makes a pair near to spare. */
 dem_status surface_contact_begin_step(surface_contact *c, const double *x0, const double *x1)
 {
-    TRY(pair_list_follow(&c->candidates, x1, fmin(c->near_margin / c->candidates.margin, 1.0)));
+    TRY(surface_contact_follow(c, x1));
     pair_rows_clear(&c->near);
     TRY(find_near(c, x0, x1));
     c->rows = &c->near;
@@ -223,8 +421,9 @@ surface_contact_fault surface_contact_check_step(const surface_contact *c, const
 {
     const pair_rows *all = &c->candidates.pairs;
     contact_push push;
-    if (find_crossing(&c->near, x0, x1, crossing)) return SURFACE_CONTACT_CROSSED;
-    for (dem_index k = 0; k < all->n; k++)
+    if (all->n > 0 && !close_pairs_stay_apart(&c->close, x0, x1) && find_crossing(all, x0, x1, crossing))
+        return SURFACE_CONTACT_CROSSED;
+    for (dem_index k = 0; k < all->n && c->rows == &c->near; k++)
         if (!c->is_near[k] && contact_pair_push(&all->list[k], x1, &push)) return SURFACE_CONTACT_OUTGROWN;
     return SURFACE_CONTACT_SOUND;
 }

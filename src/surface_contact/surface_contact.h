@@ -1,33 +1,54 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Contact of bodies with each other and with themselves, as a force that depends on positions alone, like that of a
- * spring: the negative gradient of the contact potential over all contact pairs. It has no state but its lists, which
- * change no result. Whole states are evaluated with all candidates, and those of the nodes near an event with the pairs
- * that are near in its step: which these are depends on the motion in the step and not on the list of candidates. */
+ * spring: the negative gradient of the contact potential over all contact pairs, and the springs of anchors where
+ * bodies have friction. It has no state but the anchors, which move between steps only, and its lists, which change no
+ * result. Whole states are evaluated with the close ones of all candidates, and those of the nodes near an event with
+ * the pairs that are near in its step: which these are depends on the motion in the step and not on the list. */
 #ifndef DEM_SURFACE_CONTACT_SURFACE_CONTACT_H
 #define DEM_SURFACE_CONTACT_SURFACE_CONTACT_H
 
+#include "surface_contact/anchor_set.h"
+#include "surface_contact/close_pairs.h"
+#include "surface_contact/contact_batch.h"
 #include "surface_contact/pair_list.h"
 
 typedef struct surface_contact_rule {
-    bool within_bodies; /* whether a body touches itself */
-    double thickness;   /* m; 0: that of contact_surface_compile() */
-    double stiffness;   /* factor of the contact modulus */
-    double margin;      /* of the list over the mean edge; 0: the usual one */
+    bool within_bodies;          /* whether a body touches itself */
+    double thickness;            /* m; 0: that of contact_surface_compile() */
+    double stiffness;            /* factor of the contact modulus */
+    double margin;               /* of the list over the mean edge; 0: the usual one */
+    double friction;             /* coefficient of all bodies, */
+    const double *body_friction; /* or [n_bodies] of each; NULL: that of all */
 } surface_contact_rule;
+
+/** A push of a node that has an anchor there. */
+typedef struct held_push {
+    contact_push push;
+    vec2 friction[ANCHOR_NODES]; /* N, on the nodes of its pair */
+} held_push;
 
 typedef struct surface_contact {
     contact_surface surface;
     pair_list candidates;
+    anchor_set anchors;     /* of friction */
+    close_pairs close;      /* those that whole states are evaluated with */
     pair_rows near;         /* pairs that are near in the step in hand */
     unsigned char *is_near; /* [candidates] */
     dem_index near_capacity;
     const pair_rows *rows;    /* what single nodes are evaluated with: those of the candidates, or `near` */
     double near_margin;       /* m */
+    dem_index n_left_out;     /* pairs that never touch: pair_list_count_left_out() */
+    dem_index n_chosen;       /* close.n_chosen for which `unit` is */
+    double unit;              /* rad^2/s^2, what close pairs add with contact_potential_stiffness() = 1, at most */
     dem_status status;        /* DEM_OK; else the last evaluation failed with this */
+    bool is_evaluated;        /* the lists fit the state of the last evaluation */
+    double pressure;          /* over the contact modulus, in that evaluation no more than this */
     dem_index n_pushed;       /* nodes on which something acted in the last evaluation */
     dem_index *pushed;        /* [n_pushed] in the order in which pairs come to them */
     double *force;            /* [n_nodes][2] N, on these */
     unsigned char *is_pushed; /* [n_nodes] */
+    dem_index n_held, held_capacity;
+    held_push *held; /* [n_held] the pushes of it that limit friction */
 } surface_contact;
 
 /** What a step has done that it must not. */
@@ -48,6 +69,13 @@ typedef struct surface_crossing {
 dem_status surface_contact_create(surface_contact **out, const dem_lattice *lattice, const surface_contact_rule *rule);
 void surface_contact_destroy(surface_contact *c);
 
+/** Forgets the lists: the next call that needs them makes them anew. */
+void surface_contact_forget(surface_contact *c);
+
+/** Goes on with the surface of the triangles that are whole, as contact_surface_break() makes it, and without the
+ *  anchors on edges that are no more. The lists are empty until surface_contact_follow(). */
+dem_status surface_contact_break(surface_contact *c, const unsigned char *broken);
+
 /** Makes the lists fit the positions x [n][2] of a state; all candidates count from now on.
  *  \return what pair_list_follow() returns */
 dem_status surface_contact_follow(surface_contact *c, const double *x);
@@ -59,7 +87,27 @@ bool surface_contact_evaluate(surface_contact *c, const double *x);
 /** Force on node i, N, with the bits of surface_contact_evaluate().  \return whether anything acts */
 bool surface_contact_force(const surface_contact *c, dem_index i, const double *x, vec2 *force);
 
-/** Energy of all pairs, J, and of those of a node. */
+/** Whether any bodies have friction. */
+static inline bool surface_contact_has_friction(const surface_contact *c)
+{
+    return c != NULL && c->anchors.surface != NULL;
+}
+
+/** The part of friction in the force on node i, N. */
+vec2 surface_contact_friction(const surface_contact *c, dem_index i, const double *x);
+
+/** What friction has stored in springs, J, and the power that it takes from the motion, W, stored and lost. */
+double surface_contact_stored(const surface_contact *c, const double *x);
+double surface_contact_friction_power(const surface_contact *c, const double *x, const double *v);
+
+/** That power at the positions of surface_contact_evaluate(), which has found the forces. */
+double surface_contact_evaluated_power(const surface_contact *c, const double *v);
+
+/** Moves the anchors for the state x that a step has reached.
+ *  \return what pair_list_follow() returns */
+dem_status surface_contact_settle(surface_contact *c, const double *x);
+
+/** Energy of all pairs, J, and of those of a node, without what friction has stored. */
 double surface_contact_energy(const surface_contact *c, const double *x);
 double surface_contact_node_energy(const surface_contact *c, dem_index i, const double *x);
 
@@ -72,8 +120,11 @@ typedef struct surface_gaps {
 surface_gaps surface_contact_gaps(const surface_contact *c, const double *x);
 
 /** What contact adds at most to the square of the highest frequency, rad^2/s^2, by the bound of
- *  contact_pair_stiffness(). */
-double surface_contact_stiffening(surface_contact *c, const double *inverse_mass, const double *x);
+ *  contact_pair_stiffness().
+ *  \param is_known  x are the positions of the last evaluation
+ *  \param harmless  rad^2/s^2; if it is no more than this the result may be 0 */
+double surface_contact_stiffening(surface_contact *c, const double *inverse_mass, double harmless, const double *x,
+                                  bool is_known);
 
 /** Prepares for events in a step from x0 to x1: from now on the pairs count that are near in it. */
 dem_status surface_contact_begin_step(surface_contact *c, const double *x0, const double *x1);
@@ -82,21 +133,31 @@ dem_status surface_contact_begin_step(surface_contact *c, const double *x0, cons
 surface_contact_fault surface_contact_check_step(const surface_contact *c, const double *x0, const double *x1,
                                                  surface_crossing *crossing);
 
-/** Goes through the nodes of the pairs of a node, itself included. */
+/** Goes through the nodes of the pairs of a node, itself included. With friction come the ends of the edge to which the
+ *  node of a pair is anchored, and the nodes of all pairs of that node, whose forces limit friction. */
 typedef struct surface_neighbours {
-    const pair_rows *rows; /* NULL: none */
-    dem_index slot;        /* of the node; -1: no more */
-    int which;             /* node of its pair that comes next */
+    const pair_rows *rows;     /* NULL: none */
+    dem_index slot;            /* of the node; -1: no more */
+    int which;                 /* node of its pair that comes next */
+    const anchor_set *anchors; /* NULL: none */
+    dem_index held;            /* slot of the node of that pair; -1: no more */
 } surface_neighbours;
 
 static inline surface_neighbours surface_contact_neighbours(const surface_contact *c, dem_index i)
 {
-    return (surface_neighbours){.rows = c != NULL ? c->rows : NULL, .slot = c != NULL ? c->rows->first[i] : -1};
+    return (surface_neighbours){.rows = c != NULL ? c->rows : NULL,
+                                .slot = c != NULL ? c->rows->first[i] : -1,
+                                .anchors = c != NULL && c->anchors.n > 0 ? &c->anchors : NULL,
+                                .held = -1};
 }
+
+/* The next one where there are anchors. */
+bool surface_contact_next_anchored(surface_neighbours *n, dem_index *node);
 
 /** The next one, into `node`.  \return whether there is one */
 static inline bool surface_contact_next_neighbour(surface_neighbours *n, dem_index *node)
 {
+    if (n->anchors != NULL) return surface_contact_next_anchored(n, node);
     if (n->slot < 0) return false;
     *node = pair_rows_pair(n->rows, n->slot)->nodes[n->which++];
     if (n->which < CONTACT_PAIR_NODES) return true;

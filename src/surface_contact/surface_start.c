@@ -26,11 +26,9 @@ static double side_of(const double *x, dem_index a, dem_index b, dem_index node)
     return vec2_triangle_area(vec2_at(x, a), vec2_at(x, b), vec2_at(x, node));
 }
 
-/* Whether each segment has the ends of the other on both sides. */
 static bool cross(const double *x, const two_edges *e)
 {
-    return side_of(x, e->a, e->b, e->c) * side_of(x, e->a, e->b, e->d) < 0.0 &&
-           side_of(x, e->c, e->d, e->a) * side_of(x, e->c, e->d, e->b) < 0.0;
+    return vec2_segments_cross(vec2_at(x, e->a), vec2_at(x, e->b), vec2_at(x, e->c), vec2_at(x, e->d));
 }
 
 /* How far a node is behind an edge, m; infinite if it is in front of it. */

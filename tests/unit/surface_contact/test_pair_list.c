@@ -51,6 +51,15 @@ static bool is_candidate(const scene *s, dem_index i, dem_index edge, bool withi
     return within_bodies && distance(s->lattice.x, i, ends) >= thickness;
 }
 
+/* Whether an edge of a node's own body is one that the node never touches: its own, or one near it at rest. */
+static bool is_never_touched(const scene *s, dem_index i, dem_index edge)
+{
+    const dem_index *ends = &s->surface.surface.ends[2 * edge];
+    return s->lattice.body[i] == s->lattice.body[ends[0]] &&
+           (i == ends[0] || i == ends[1] ||
+            distance(s->lattice.x, i, ends) < s->surface.laws[s->lattice.body[i]].thickness);
+}
+
 static void check_list(const scene *s, bool within_bodies)
 {
     const pair_rows *r = &s->list.pairs;
@@ -63,6 +72,8 @@ static void check_list(const scene *s, bool within_bodies)
             assert_int_equal(r->list[k].edge, edge);
             assert_int_equal(r->list[k].nodes[CONTACT_PAIR_FIRST], s->surface.surface.ends[2 * edge]);
             assert_int_equal(r->list[k].nodes[CONTACT_PAIR_SECOND], s->surface.surface.ends[2 * edge + 1]);
+            assert_int_equal(r->list[k].ends_at_first, is_never_touched(s, i, s->surface.surface.previous[edge]));
+            assert_int_equal(r->list[k].ends_at_second, is_never_touched(s, i, s->surface.surface.next[edge]));
             k++;
         }
     assert_int_equal(k, r->n);
@@ -143,4 +154,30 @@ TEST(positions_that_blow_up_are_refused_and_forgotten)
     s.x[2 * 30] = kept;
     assert_ok(pair_list_follow(&s.list, s.x, 0.0));
     check_list(&s, true);
+}
+
+/* Stars that are squeezed, so that their surfaces are near each other at rest. */
+TEST(pairs_near_at_rest_are_counted_and_left_out)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = curves_make(rng, 9, 24, 2.5);
+    for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.x[2 * i] *= 0.005;
+    for (int within = 0; within < 2; within++) {
+        contact_surface of;
+        pair_list list;
+        dem_index n = 0, counted;
+        assert_ok(contact_surface_compile(&of, &lattice, 0.0, 1.0));
+        assert_ok(pair_list_create(&list, &of, within, 0.01));
+        for (dem_index k = 0; k < of.n_nodes; k++)
+            for (dem_index e = 0; e < of.surface.n_edges; e++) {
+                const dem_index *ends = &of.surface.ends[2 * e], i = of.nodes[k];
+                const bool own = lattice.body[i] == lattice.body[ends[0]] && i != ends[0] && i != ends[1];
+                n += own && distance(lattice.x, i, ends) < of.laws[lattice.body[i]].thickness;
+            }
+        assert_ok(pair_list_count_left_out(&list, &counted));
+        assert_true(n > 10);
+        assert_int_equal(counted, within ? n : 0);
+        pair_list_destroy(&list);
+        contact_surface_free(&of);
+    }
 }

@@ -16,14 +16,9 @@ typedef struct squares {
 
 static dem_status open_squares(squares *s, const double place[2], bool within_bodies)
 {
-    CLEANUP(dem_lattice_free) dem_lattice other = support_rectangle(0.05, 0.05, 0.01, &rubber);
     const surface_contact_rule rule = {.within_bodies = within_bodies, .stiffness = 1.0};
-    *s = (squares){.lattice = support_rectangle(0.05, 0.05, 0.01, &rubber)};
-    s->lattice.flags = calloc(2 * (size_t)other.n_nodes, 1);
-    other.flags = calloc((size_t)other.n_nodes, 1);
-    s->lattice.body = calloc((size_t)other.n_nodes, sizeof *s->lattice.body);
-    dem_lattice_move(&other, 0.0, place);
-    assert_ok(dem_lattice_append(&s->lattice, &other));
+    *s = (squares){.lattice = support_squares(0.05, 0.01, &rubber, place)};
+    s->lattice.flags = calloc((size_t)s->lattice.n_nodes, 1);
     assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
     assert_ok(surface_contact_follow(s->contact, s->lattice.x));
     return surface_start_check(s->contact, s->lattice.x);

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Chooses the close pairs, and says how long they hold. The distance of two points changes by no more than they move
+ * relative to each other, and along straight lines they move by no more than at one of the ends. */
+#include "surface_contact/close_pairs.h"
+
+#include <stdlib.h>
+
+#include "base/grow.h"
+#include "base/status.h"
+
+void close_pairs_destroy(close_pairs *c)
+{
+    surface_ways_destroy(&c->ways);
+    free(c->list);
+    *c = (close_pairs){0};
+}
+
+void close_pairs_clear(close_pairs *c)
+{
+    c->chosen = false;
+    c->n = 0;
+    surface_ways_clear(&c->ways);
+}
+
+/* What is no candidate is beyond the thickness. */
+dem_status close_pairs_choose(close_pairs *c, const pair_rows *candidates, double margin, const double *x)
+{
+    const contact_surface *of = c->ways.surface;
+    c->chosen = false;
+    c->n = 0;
+    c->margin = margin;
+    c->least = of->least.thickness;
+    TRY(surface_ways_note(&c->ways, of->most.thickness + margin, x));
+    CHECK(grow_array((void **)&c->list, &c->capacity, candidates->n, sizeof *c->list), DEM_ERROR_MEMORY,
+          "out of memory for %lld contact pairs", (long long)candidates->n);
+    for (dem_index k = 0; k < candidates->n; k++) {
+        const contact_pair *p = &candidates->list[k];
+        const double gap = contact_pair_gap(p, x);
+        c->least = fmin(c->least, gap);
+        if (gap <= p->thickness + margin) c->list[c->n++] = *p;
+    }
+    c->chosen = true;
+    c->n_chosen++;
+    return DEM_OK;
+}
+
+bool close_pairs_hold(const close_pairs *c, const double *x)
+{
+    return c->chosen && surface_ways_within(&c->ways, c->margin, x);
+}
+
+bool close_pairs_stay_apart(const close_pairs *c, const double *x0, const double *x1)
+{
+    const double most = 0.99 * c->least; /* a bit less, for rounding */
+    return c->chosen && surface_ways_within(&c->ways, most, x1) && surface_ways_within(&c->ways, most, x0);
+}

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Goes through the rigid bodies. What an obstacle does is what its vertices do: the forces on them, as on the ends of
+ * edges that push, turned round, and the power of these at the velocities of the vertices. */
+#include "surface_contact/rigid_contact.h"
+
+#include <stdlib.h>
+
+#include "base/reduce.h"
+#include "base/status.h"
+
+static dem_status set_up(rigid_contact *c, const contact_surface *of)
+{
+    const rigid_bodies *bodies = &c->model->rigid;
+    TRY(obstacle_surface_compile(&c->obstacles, &c->model->obstacles));
+    c->list = calloc((size_t)bodies->n, sizeof *c->list);
+    CHECK_MEMORY(c->list);
+    for (; c->n < bodies->n; c->n++)
+        TRY(rigid_pairs_create(&c->list[c->n], of, bodies->list[c->n].number, &c->obstacles));
+    return DEM_OK;
+}
+
+dem_status rigid_contact_create(rigid_contact **out, const dem_model *model, const contact_surface *of)
+{
+    *out = NULL;
+    if (model->rigid.n == 0 || model->obstacles.n == 0) return DEM_OK;
+    rigid_contact *c = calloc(1, sizeof *c);
+    CHECK_MEMORY(c);
+    c->model = model;
+    const dem_status status = set_up(c, of);
+    if (status == DEM_OK)
+        *out = c;
+    else
+        rigid_contact_destroy(c);
+    return status;
+}
+
+void rigid_contact_destroy(rigid_contact *c)
+{
+    if (c == NULL) return;
+    for (dem_index k = 0; k < c->n; k++) rigid_pairs_free(&c->list[k]);
+    free(c->list);
+    obstacle_surface_free(&c->obstacles);
+    free(c);
+}
+
+/* ---- forces ---- */
+
+static dem_status follow(rigid_contact *c, double t, const double *x)
+{
+    obstacle_surface_follow(&c->obstacles, t);
+    for (dem_index k = 0; k < c->n; k++) TRY(rigid_pairs_follow(&c->list[k], x));
+    return DEM_OK;
+}
+
+bool rigid_contact_evaluate(rigid_contact *c, double t, const double *x)
+{
+    c->status = follow(c, t, x);
+    if (c->status != DEM_OK) return false;
+    for (dem_index k = 0; k < c->n; k++) rigid_pairs_push(&c->list[k]);
+    return true;
+}
+
+bool rigid_contact_evaluate_body(rigid_contact *c, dem_index k, double t, const double *x)
+{
+    obstacle_surface_follow(&c->obstacles, t);
+    c->status = rigid_pairs_follow(&c->list[k], x);
+    if (c->status == DEM_OK) rigid_pairs_push(&c->list[k]);
+    return c->status == DEM_OK;
+}
+
+double rigid_contact_accelerate(const rigid_contact *c, dem_index k, double *a)
+{
+    const rigid_pairs *p = &c->list[k];
+    double sum = 0.0;
+    for (dem_index j = 0; j < p->n_nodes; j++) {
+        const dem_index i = p->nodes[j];
+        vec2_put(a, i, vec2_along(vec2_at(a, i), c->model->inverse_mass[i], vec2_at(p->force, j)));
+        sum += a[vec2_row(i)] + a[vec2_row(i) + 1];
+    }
+    return sum;
+}
+
+double rigid_contact_power(const rigid_contact *c, dem_index obstacle)
+{
+    const obstacle_surface *o = &c->obstacles;
+    double sum = 0.0;
+    for (dem_index b = 0; b < c->n; b++)
+        for (dem_index q = 0; q < c->list[b].n_near; q++) {
+            const dem_index v = c->list[b].near[q];
+            if (o->obstacle[v] == obstacle)
+                sum += vec2_dot(rigid_contact_force(&c->list[b], q), obstacle_surface_velocity(o, v));
+        }
+    return reduce_rounded_sum(sum);
+}
+
+void rigid_contact_add_rates(const rigid_contact *c, const state_layout *l, double *a)
+{
+    const obstacle_surface *o = &c->obstacles;
+    const bool moves = state_has_total(l, STATE_OBSTACLE);
+    for (dem_index b = 0; b < c->n; b++)
+        for (dem_index q = 0; q < c->list[b].n_near; q++) {
+            const dem_index v = c->list[b].near[q], impulse = state_impulse(l, o->obstacle[v]);
+            const vec2 force = rigid_contact_force(&c->list[b], q);
+            vec2_put(a, impulse, vec2_add(vec2_at(a, impulse), force));
+            if (moves) a[state_total_index(l, STATE_OBSTACLE)] += vec2_dot(force, obstacle_surface_velocity(o, v));
+        }
+}
+
+/* ---- energy and stiffness ---- */
+
+double rigid_contact_energy(rigid_contact *c, double t, const double *x)
+{
+    exact_sum sum = {0};
+    if (follow(c, t, x) != DEM_OK) return (double)NAN;
+    for (dem_index k = 0; k < c->n; k++) rigid_pairs_add_energy(&c->list[k], &sum);
+    return reduce_sum(&sum);
+}
+
+double rigid_contact_stiffening(rigid_contact *c, double t, const double *x)
+{
+    double largest = 0.0;
+    if (follow(c, t, x) != DEM_OK) return INFINITY;
+    for (dem_index k = 0; k < c->n; k++)
+        largest = fmax(largest, rigid_pairs_stiffening(&c->list[k], c->model->inverse_mass));
+    return largest;
+}
+
+/* ---- steps ---- */
+
+/* Whether a pair of body k crosses in the step, at whose start the obstacles are. */
+static bool find_crossing(rigid_contact *c, dem_index k, rigid_crossing *out)
+{
+    rigid_pairs *p = &c->list[k];
+    rigid_pairs_look_back(p);
+    const contact_pair *pair = rigid_pairs_crossing(p, &out->part);
+    if (pair == NULL) return false;
+    out->body = p->body;
+    out->obstacle = rigid_pairs_obstacle(p, pair);
+    out->place = vec2_at(p->places, pair->nodes[CONTACT_PAIR_NODE]);
+    return true;
+}
+
+dem_status rigid_contact_check_step(rigid_contact *c, const double *x0, double t0, const double *x1, double t1,
+                                    rigid_crossing *crossing)
+{
+    obstacle_surface_follow(&c->obstacles, t0);
+    for (dem_index k = 0; k < c->n; k++) rigid_pairs_begin_step(&c->list[k], x0);
+    obstacle_surface_follow(&c->obstacles, t1);
+    for (dem_index k = 0; k < c->n; k++) TRY(rigid_pairs_end_step(&c->list[k], x1));
+    obstacle_surface_follow(&c->obstacles, t0);
+    for (dem_index k = 0; k < c->n; k++)
+        if (find_crossing(c, k, crossing)) return DEM_ERROR_CONTACT;
+    return DEM_OK;
+}
+
+dem_status rigid_contact_check_start(rigid_contact *c, double t, const double *x)
+{
+    TRY(follow(c, t, x));
+    for (dem_index k = 0; k < c->n; k++) TRY(rigid_pairs_check_start(&c->list[k]));
+    return DEM_OK;
+}

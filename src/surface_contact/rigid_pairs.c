@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Finds and evaluates the pairs of one rigid body with obstacles, by the law of contact_pair.c with the thickness and
+ * modulus of the body. A node weighs as in contact with bodies. A vertex would have the length of its long segments: it
+ * weighs as a node of the body does on average, or less if its segments are shorter. What is far from the body's box is
+ * passed over; the rest is compared one by one. The list is only a filter, and changes no result. */
+#include "surface_contact/rigid_pairs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/grow.h"
+#include "base/sorted.h"
+#include "base/status.h"
+
+static const double usual_margin = 0.5;    /* over the mean edge */
+static const double least_distance = 0.05; /* over the contact thickness, at the start */
+
+/* ---- the body's surface ---- */
+
+/* Room for all places there are; what is there stays. */
+static dem_status reserve_places(rigid_pairs *p)
+{
+    const dem_index n = 2 * p->n_places;
+    CHECK(grow_array((void **)&p->places, &p->places_capacity, n, sizeof *p->places) &&
+              grow_array((void **)&p->before, &p->before_capacity, n, sizeof *p->before) &&
+              grow_array((void **)&p->force, &p->force_capacity, n, sizeof *p->force),
+          DEM_ERROR_MEMORY, "out of memory for the contact of rigid body %lld", (long long)p->body);
+    return DEM_OK;
+}
+
+static dem_status allocate(rigid_pairs *p)
+{
+    const size_t n = (size_t)p->n_nodes;
+    p->nodes = malloc((n + 1) * sizeof *p->nodes);
+    p->half_length = malloc((n + 1) * sizeof *p->half_length);
+    p->edges = malloc(((size_t)p->n_edges + 1) * sizeof *p->edges);
+    p->reference = calloc(2 * (size_t)p->n_tracked, sizeof *p->reference);
+    CHECK(p->nodes && p->half_length && p->edges && p->reference, DEM_ERROR_MEMORY,
+          "out of memory for the surface of rigid body %lld", (long long)p->body);
+    return reserve_places(p);
+}
+
+static void count(rigid_pairs *p, const contact_surface *of)
+{
+    for (dem_index k = 0; k < of->n_nodes; k++) p->n_nodes += contact_surface_body(of, of->nodes[k]) == p->body;
+    for (dem_index e = 0; e < of->surface.n_edges; e++)
+        p->n_edges += contact_surface_body(of, contact_surface_first(of, e)) == p->body;
+    p->n_tracked = p->n_places = p->n_nodes + OBSTACLE_SURFACE_CORNERS * p->obstacles->of->n;
+}
+
+static dem_index place_of(const rigid_pairs *p, dem_index node)
+{
+    return sorted_find(p->nodes, p->n_nodes, node);
+}
+
+static void list_surface(rigid_pairs *p, const contact_surface *of)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < of->n_nodes; k++) {
+        if (contact_surface_body(of, of->nodes[k]) != p->body) continue;
+        p->nodes[n] = of->nodes[k];
+        p->half_length[n++] = of->half_length[k];
+        p->mean += of->half_length[k] / (double)p->n_nodes;
+    }
+    n = 0;
+    for (dem_index e = 0; e < of->surface.n_edges; e++) {
+        const dem_index first = contact_surface_first(of, e), before = of->surface.previous[e];
+        if (contact_surface_body(of, first) == p->body)
+            p->edges[n++] = (surface_edge){place_of(p, first), place_of(p, contact_surface_second(of, e)),
+                                           place_of(p, contact_surface_first(of, before))};
+    }
+}
+
+dem_status rigid_pairs_create(rigid_pairs *out, const contact_surface *of, dem_index body,
+                              const obstacle_surface *obstacles)
+{
+    rigid_pairs p = {.obstacles = obstacles, .body = body, .law = of->laws[body]};
+    p.margin = usual_margin * of->mean_length;
+    count(&p, of);
+    const dem_status status = allocate(&p);
+    if (status == DEM_OK) {
+        list_surface(&p, of);
+        *out = p;
+    } else {
+        rigid_pairs_free(&p);
+    }
+    return status;
+}
+
+void rigid_pairs_free(rigid_pairs *p)
+{
+    free(p->nodes);
+    free(p->half_length);
+    free(p->edges);
+    free(p->places);
+    free(p->before);
+    free(p->reference);
+    free(p->force);
+    free(p->near);
+    free(p->list);
+    *p = (rigid_pairs){0};
+}
+
+/* ---- the list ---- */
+
+static vec2 at(const rigid_pairs *p, dem_index place)
+{
+    return vec2_at(p->places, place);
+}
+
+static box box_of_body(const rigid_pairs *p, double margin)
+{
+    box around = box_empty();
+    for (dem_index k = 0; k < p->n_nodes; k++) around = box_with(around, at(p, k));
+    return box_around(around.low, around.high, margin);
+}
+
+/* Whether a segment may meet a box: whether their boxes do. */
+static bool may_meet(vec2 a, vec2 b, const box *around)
+{
+    const box own = box_join((box){a, a}, (box){b, b});
+    return box_meets(&own, around);
+}
+
+/* Marks the vertices near the body: the ends of edges that may meet its box, and the first ends of those before. */
+static void mark_near(const rigid_pairs *p)
+{
+    const obstacle_surface *o = p->obstacles;
+    const box around = box_of_body(p, p->law.thickness + p->margin);
+    for (dem_index e = 0; e < o->n_edges; e++) {
+        const surface_edge *edge = &o->edges[e];
+        const vec2 a = obstacle_surface_place(o, edge->first), b = obstacle_surface_place(o, edge->second);
+        if (may_meet(a, b, &around)) o->mark[edge->first] = o->mark[edge->second] = o->mark[edge->before] = 0;
+    }
+}
+
+/* Lists the vertices near the body, whose marks become their places. */
+static dem_status list_near(rigid_pairs *p)
+{
+    const obstacle_surface *o = p->obstacles;
+    p->n_near = 0;
+    mark_near(p);
+    for (dem_index v = 0; v < o->n_vertices; v++) {
+        if (o->mark[v] < 0) continue;
+        CHECK(grow_array((void **)&p->near, &p->near_capacity, p->n_near + 1, sizeof *p->near), DEM_ERROR_MEMORY,
+              "out of memory for the contact of rigid body %lld", (long long)p->body);
+        o->mark[v] = p->n_tracked + p->n_near;
+        p->near[p->n_near++] = v;
+    }
+    p->n_places = p->n_tracked + p->n_near;
+    return reserve_places(p);
+}
+
+/* Puts the vertices near the body where they are. */
+static void place_near(const rigid_pairs *p, double *places)
+{
+    for (dem_index q = 0; q < p->n_near; q++)
+        vec2_put(places, p->n_tracked + q, obstacle_surface_place(p->obstacles, p->near[q]));
+}
+
+/* Likewise what is tracked. */
+static void place_tracked(const rigid_pairs *p, const double *x, double *places)
+{
+    dem_index n = p->n_nodes;
+    for (dem_index k = 0; k < p->n_nodes; k++) vec2_put(places, k, vec2_at(x, p->nodes[k]));
+    for (dem_index k = 0; k < p->obstacles->of->n; k++)
+        for (int corner = 0; corner < OBSTACLE_SURFACE_CORNERS; corner++)
+            vec2_put(places, n++, obstacle_surface_corner(p->obstacles, k, corner));
+}
+
+/* Half of the length that a node, or a vertex, has of its surface, m. */
+static double half_length_at(const rigid_pairs *p, dem_index place)
+{
+    return place < p->n_nodes ? p->half_length[place]
+                              : fmin(p->obstacles->half_length[rigid_pairs_vertex(p, place)], p->mean);
+}
+
+/* Adds the pair of a place and an edge if they are near. */
+static dem_status consider(rigid_pairs *p, dem_index place, const surface_edge *edge, dem_index number)
+{
+    const double reach = p->law.thickness + p->margin;
+    if (contact_pair_distance(at(p, place), at(p, edge->first), at(p, edge->second)) > reach) return DEM_OK;
+    CHECK(grow_array((void **)&p->list, &p->capacity, p->n + 1, sizeof *p->list), DEM_ERROR_MEMORY,
+          "out of memory for %lld contact pairs", (long long)p->n + 1);
+    p->list[p->n++] = (contact_pair){.nodes = {place, edge->first, edge->second, edge->before},
+                                     .edge = number,
+                                     .thickness = p->law.thickness,
+                                     .weight = half_length_at(p, place) * p->law.modulus};
+    return DEM_OK;
+}
+
+/* An edge of an obstacle by places, while vertices are marked.  \return whether it is near the box */
+static bool find_edge(const rigid_pairs *p, dem_index e, const box *around, surface_edge *out)
+{
+    const dem_index *mark = p->obstacles->mark;
+    const surface_edge edge = p->obstacles->edges[e];
+    *out = (surface_edge){mark[edge.first], mark[edge.second], mark[edge.before]};
+    return out->first >= 0 && out->second >= 0 && out->before >= 0 &&
+           may_meet(at(p, out->first), at(p, out->second), around);
+}
+
+static dem_status list_pairs(rigid_pairs *p)
+{
+    const box around = box_of_body(p, p->law.thickness + p->margin);
+    surface_edge edge;
+    p->n = 0;
+    for (dem_index e = 0; e < p->obstacles->n_edges; e++) {
+        const bool near = find_edge(p, e, &around, &edge);
+        for (dem_index k = 0; k < p->n_nodes && near; k++) TRY(consider(p, k, &edge, e));
+    }
+    for (dem_index k = p->n_tracked; k < p->n_places; k++) {
+        const bool near = may_meet(at(p, k), at(p, k), &around);
+        for (dem_index e = 0; e < p->n_edges && near; e++) TRY(consider(p, k, &p->edges[e], e));
+    }
+    return DEM_OK;
+}
+
+static dem_status make_list(rigid_pairs *p)
+{
+    dem_status status = list_near(p);
+    if (status == DEM_OK) place_near(p, p->places);
+    if (status == DEM_OK) status = list_pairs(p);
+    for (dem_index q = 0; q < p->n_near; q++) p->obstacles->mark[p->near[q]] = -1;
+    return status;
+}
+
+/* How far two places have moved relative to each other from where they were, at most, m. */
+static double change(const rigid_pairs *p, const double *from)
+{
+    box ways = box_empty();
+    for (dem_index k = 0; k < p->n_tracked; k++) ways = box_with(ways, vec2_sub(at(p, k), vec2_at(from, k)));
+    return box_diagonal(ways);
+}
+
+/* Makes the list anew unless it holds. */
+static dem_status renew_list(rigid_pairs *p)
+{
+    if (p->made && change(p, p->reference) <= p->margin) return DEM_OK;
+    memcpy(p->reference, p->places, 2 * (size_t)p->n_tracked * sizeof *p->places);
+    const dem_status status = make_list(p);
+    p->made = status == DEM_OK;
+    return status;
+}
+
+dem_status rigid_pairs_follow(rigid_pairs *p, const double *x)
+{
+    place_tracked(p, x, p->places);
+    place_near(p, p->places);
+    return renew_list(p);
+}
+
+/* ---- forces, energy, stiffness ---- */
+
+static void add(double *to, dem_index place, vec2 force)
+{
+    vec2_put(to, place, vec2_add(vec2_at(to, place), force));
+}
+
+void rigid_pairs_push(rigid_pairs *p)
+{
+    contact_push push;
+    memset(p->force, 0, 2 * (size_t)p->n_places * sizeof *p->force);
+    for (dem_index k = 0; k < p->n; k++) {
+        if (!contact_pair_push(&p->list[k], p->places, &push)) continue;
+        for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
+            add(p->force, p->list[k].nodes[which], contact_push_on(&push, which));
+    }
+}
+
+void rigid_pairs_add_energy(const rigid_pairs *p, exact_sum *sum)
+{
+    for (dem_index k = 0; k < p->n; k++) exact_sum_add(sum, contact_pair_energy(&p->list[k], p->places));
+}
+
+/* Sums at the nodes, N/m, are kept where forces are, as their first components. */
+double rigid_pairs_stiffening(rigid_pairs *p, const double *inverse_mass)
+{
+    double added[CONTACT_PAIR_NODES], largest = 0.0;
+    memset(p->force, 0, 2 * (size_t)p->n_places * sizeof *p->force);
+    for (dem_index k = 0; k < p->n; k++) {
+        if (!contact_pair_stiffness(&p->list[k], p->places, added)) continue;
+        for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
+            add(p->force, p->list[k].nodes[which], (vec2){added[which], 0.0});
+    }
+    for (dem_index k = 0; k < p->n_nodes; k++)
+        largest = fmax(largest, vec2_at(p->force, k).x * inverse_mass[p->nodes[k]]);
+    return largest;
+}
+
+/* ---- steps ---- */
+
+void rigid_pairs_begin_step(rigid_pairs *p, const double *x)
+{
+    place_tracked(p, x, p->before);
+}
+
+/* What has crossed is no further apart than it has come in the step: from then on the list reaches as far. */
+dem_status rigid_pairs_end_step(rigid_pairs *p, const double *x)
+{
+    TRY(rigid_pairs_follow(p, x));
+    const double way = change(p, p->before);
+    if (!(way > p->margin)) return DEM_OK;
+    p->margin = way;
+    p->made = false;
+    return renew_list(p);
+}
+
+void rigid_pairs_look_back(rigid_pairs *p)
+{
+    place_near(p, p->before);
+}
+
+const contact_pair *rigid_pairs_crossing(const rigid_pairs *p, double *part)
+{
+    for (dem_index k = 0; k < p->n; k++)
+        if (contact_pair_crosses(&p->list[k], p->before, p->places, part)) return &p->list[k];
+    return NULL;
+}
+
+dem_index rigid_pairs_obstacle(const rigid_pairs *p, const contact_pair *pair)
+{
+    const dem_index node = pair->nodes[CONTACT_PAIR_NODE];
+    return p->obstacles->obstacle[rigid_pairs_vertex(p, node < p->n_nodes ? pair->nodes[CONTACT_PAIR_FIRST] : node)];
+}
+
+/* ---- the start ---- */
+
+static dem_status check_edge(const rigid_pairs *p, const surface_edge *of_obstacle)
+{
+    const obstacle_surface *o = p->obstacles;
+    const vec2 c = obstacle_surface_place(o, of_obstacle->first), d = obstacle_surface_place(o, of_obstacle->second);
+    for (dem_index e = 0; e < p->n_edges; e++) {
+        const surface_edge *edge = &p->edges[e];
+        const vec2 a = at(p, edge->first);
+        CHECK(!vec2_segments_cross(a, at(p, edge->second), c, d), DEM_ERROR_MODEL,
+              "body %lld, which is rigid, crosses obstacle %lld at the start: by its edge between nodes %lld and %lld, "
+              "at (%g, %g) m",
+              (long long)p->body, (long long)o->obstacle[of_obstacle->first], (long long)p->nodes[edge->first],
+              (long long)p->nodes[edge->second], a.x, a.y);
+    }
+    return DEM_OK;
+}
+
+dem_status rigid_pairs_check_start(const rigid_pairs *p)
+{
+    const obstacle_surface *o = p->obstacles;
+    const box around = box_of_body(p, 0.0);
+    for (dem_index e = 0; e < o->n_edges; e++)
+        if (may_meet(obstacle_surface_place(o, o->edges[e].first), obstacle_surface_place(o, o->edges[e].second),
+                     &around))
+            TRY(check_edge(p, &o->edges[e]));
+    for (dem_index k = 0; k < p->n; k++) {
+        const double gap = contact_pair_gap(&p->list[k], p->places), least = least_distance * p->law.thickness;
+        const vec2 place = at(p, p->list[k].nodes[CONTACT_PAIR_NODE]);
+        CHECK(gap >= least, DEM_ERROR_MODEL,
+              "body %lld, which is rigid, is %g m from obstacle %lld at (%g, %g) m: they must be %g m apart at the "
+              "start, a twentieth of the contact thickness",
+              (long long)p->body, gap, (long long)rigid_pairs_obstacle(p, &p->list[k]), place.x, place.y, least);
+    }
+    return DEM_OK;
+}

@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* anchor_set.c, and what surface_contact.c makes of it: forces of all nodes against the gradient of the energy and
+ * against those of single nodes, who is a neighbour, where anchors go, what a record may have. */
+#include "surface_contact/surface_load.h"
+
+#include <string.h>
+
+#include "curves.h"
+#include "harness/cleanup_gsl.h"
+#include "harness/message.h"
+#include "verification/support.h"
+
+typedef struct scene {
+    dem_lattice lattice;
+    surface_contact *contact;
+    double *x;
+} scene;
+
+/* Stars side by side with a random shift of all nodes, whose anchors are where they are put first; then the nodes are
+ * moved a little, so that the springs pull. */
+static void open_scene(scene *s, gsl_rng *rng, double friction)
+{
+    const surface_contact_rule rule = {.within_bodies = true, .stiffness = 1.0, .friction = friction};
+    *s = (scene){.lattice = curves_make(rng, 9, 24, 2.1)};
+    const size_t n = (size_t)s->lattice.n_nodes;
+    assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
+    s->x = malloc(2 * n * sizeof *s->x);
+    for (size_t k = 0; k < 2 * n; k++) s->x[k] = s->lattice.x[k] + 0.2 * (gsl_rng_uniform(rng) - 0.5);
+    assert_ok(surface_contact_settle(s->contact, s->x));
+    for (size_t k = 0; k < 2 * n; k++) s->x[k] += 0.001 * (gsl_rng_uniform(rng) - 0.5);
+}
+
+static void close_scene(scene *s)
+{
+    surface_contact_destroy(s->contact);
+    dem_lattice_free(&s->lattice);
+    free(s->x);
+}
+
+/* Some springs hold and some slide. The power is that of the forces. */
+TEST(single_nodes_have_the_bits_of_all_and_no_force_or_moment_is_left)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    open_scene(&s, rng, 0.05);
+    CLEANUP(free_memory) double *v = malloc(2 * (size_t)s.lattice.n_nodes * sizeof *v);
+    vec2 sum = {0.0, 0.0};
+    double moment = 0.0, power = 0.0, size = 0.0;
+    assert_true(surface_contact_evaluate(s.contact, s.x));
+    for (dem_index i = 0; i < s.lattice.n_nodes; i++) {
+        vec2 force;
+        vec2_put(v, i, (vec2){gsl_rng_uniform(rng), gsl_rng_uniform(rng)});
+        const bool pushed = surface_contact_has(s.contact, i) && surface_contact_force(s.contact, i, s.x, &force);
+        assert_int_equal(pushed, s.contact->is_pushed[i] != 0);
+        if (!pushed) continue;
+        assert_memory_equal(&force, &s.contact->force[2 * i], sizeof force);
+        const vec2 friction = surface_contact_friction(s.contact, i, s.x);
+        power -= vec2_dot(friction, vec2_at(v, i));
+        sum = vec2_add(sum, friction);
+        moment += vec2_cross(vec2_at(s.x, i), friction);
+        size += vec2_norm(friction);
+    }
+    assert_true(size > 0.0);
+    assert_close(vec2_norm(sum), 0.0, 1e-14 * size);
+    assert_close(moment, 0.0, 1e-13 * size); /* at places of up to 5 m */
+    assert_close(surface_contact_friction_power(s.contact, s.x, v), power, 1e-14 * size);
+    assert_close(surface_contact_evaluated_power(s.contact, v), power, 1e-14 * size);
+}
+
+static bool is_neighbour(const surface_contact *c, dem_index i, dem_index j)
+{
+    dem_index node;
+    for (surface_neighbours n = surface_contact_neighbours(c, i); surface_contact_next_neighbour(&n, &node);)
+        if (node == j) return true;
+    return false;
+}
+
+/* A local correction relies on both directions. */
+TEST(the_force_on_a_node_depends_on_its_neighbours_alone)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    open_scene(&s, rng, 0.05);
+    assert_true(surface_contact_evaluate(s.contact, s.x));
+    const dem_index n = s.lattice.n_nodes;
+    int n_changed = 0;
+    for (dem_index j = 0; j < n; j++) {
+        const vec2 here = vec2_at(s.x, j);
+        for (dem_index i = 0; i < n; i++) {
+            vec2 before = {0.0, 0.0}, after = {0.0, 0.0};
+            if (!surface_contact_has(s.contact, i)) continue;
+            (void)surface_contact_force(s.contact, i, s.x, &before);
+            vec2_put(s.x, j, vec2_add(here, (vec2){1e-4, -2e-4}));
+            (void)surface_contact_force(s.contact, i, s.x, &after);
+            vec2_put(s.x, j, here);
+            if (before.x == after.x && before.y == after.y) continue;
+            n_changed++;
+            assert_true(is_neighbour(s.contact, i, j) && is_neighbour(s.contact, j, i));
+        }
+    }
+    assert_true(n_changed > 60);
+}
+
+/* ---- where anchors go ---- */
+
+/* Two squares of 30 mm with nodes 5 mm apart, the upper one 0.9 mm above the lower one: 0.9 of the thickness. */
+static void open_squares(scene *s, double friction)
+{
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
+    const surface_contact_rule rule = {.stiffness = 1.0, .friction = friction};
+    *s = (scene){.lattice = support_rectangle(0.03, 0.03, 5e-3, &rubber)};
+    CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.03, 0.03, 5e-3, &rubber);
+    double low = INFINITY, high = -INFINITY;
+    for (dem_index i = 0; i < upper.n_nodes; i++) {
+        low = fmin(low, upper.x[2 * i + 1]);
+        high = fmax(high, upper.x[2 * i + 1]);
+    }
+    dem_lattice_move(&upper, 0.0, (const double[2]){1e-3, high - low + 9e-4});
+    assert_ok(dem_lattice_append(&s->lattice, &upper));
+    s->lattice.flags = calloc((size_t)s->lattice.n_nodes, 1);
+    assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
+    s->x = malloc(2 * (size_t)s->lattice.n_nodes * sizeof *s->x);
+    memcpy(s->x, s->lattice.x, 2 * (size_t)s->lattice.n_nodes * sizeof *s->x);
+}
+
+static void shift_upper(scene *s, double dx, double dy)
+{
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++)
+        if (s->lattice.body[i] == 1) vec2_put(s->x, i, vec2_add(vec2_at(s->x, i), (vec2){dx, dy}));
+}
+
+/* The force of friction on the upper square along x, N. */
+static double pull_on_upper(const scene *s)
+{
+    double sum = 0.0;
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++)
+        if (s->lattice.body[i] == 1) sum += surface_contact_friction(s->contact, i, s->x).x;
+    return sum;
+}
+
+static void settle(scene *s)
+{
+    assert_ok(surface_contact_settle(s->contact, s->x));
+}
+
+TEST(anchors_hold_where_they_are_and_slide_at_the_limit)
+{
+    CLEANUP(close_scene) scene s;
+    open_squares(&s, 0.5);
+    settle(&s);
+    assert_true(s.contact->anchors.n >= 6);
+    assert_close(pull_on_upper(&s), 0.0, 1e-9); /* the rounding of places, of forces of some hundred N */
+    shift_upper(&s, 1e-6, 0.0);
+    const double held = pull_on_upper(&s);
+    assert_true(held < 0.0);
+    for (int k = 0; k < 1000; k++) settle(&s);
+    assert_close(pull_on_upper(&s), held, 1e-12 * fabs(held)); /* no creep */
+    shift_upper(&s, 4e-4, 0.0);
+    const double most = pull_on_upper(&s), stored = surface_contact_stored(s.contact, s.x);
+    settle(&s);
+    assert_close(pull_on_upper(&s), most, 1e-12 * fabs(most));                    /* sliding changes neither force */
+    assert_close(surface_contact_stored(s.contact, s.x), stored, 1e-12 * stored); /* nor energy */
+    shift_upper(&s, -1e-6, 0.0);
+    assert_true(fabs(pull_on_upper(&s)) < fabs(most)); /* it begins to come back at once */
+}
+
+/* Nodes pass the ends of edges, come to other edges and turn round corners: their forces and what they store stay. */
+TEST(what_a_step_has_reached_changes_no_force)
+{
+    CLEANUP(close_scene) scene s;
+    open_squares(&s, 0.5);
+    settle(&s);
+    dem_index n_moved = 0;
+    for (int k = 0; k < 40; k++) {
+        const anchor_set *now = &s.contact->anchors;
+        const anchor before = now->list[now->n / 2];
+        shift_upper(&s, 2e-4, 0.0);
+        const double stored = surface_contact_stored(s.contact, s.x), pull = pull_on_upper(&s);
+        settle(&s);
+        assert_close(surface_contact_stored(s.contact, s.x), stored, 1e-12 * stored);
+        assert_close(pull_on_upper(&s), pull, 1e-12 * fabs(pull));
+        n_moved += now->list[now->of[before.nodes[CONTACT_PAIR_NODE]]].edge != before.edge;
+    }
+    assert_true(n_moved > 0);
+}
+
+TEST(anchors_go_when_nothing_pushes)
+{
+    CLEANUP(close_scene) scene s;
+    open_squares(&s, 0.5);
+    settle(&s);
+    shift_upper(&s, 0.0, 2e-3);
+    assert_close(pull_on_upper(&s), 0.0, 0.0);
+    settle(&s);
+    assert_int_equal(s.contact->anchors.n, 0);
+}
+
+/* The friction of all pairs of the upper square with the lower one, and of the opposite of the others, pulls it. */
+TEST(pairs_say_how_much_friction_they_have_and_whether_they_slide)
+{
+    CLEANUP(close_scene) scene s;
+    open_squares(&s, 0.5);
+    settle(&s);
+    for (int k = 0; k < 2; k++) {
+        CLEANUP(surface_load_free) surface_load load = {0};
+        double sum = 0.0;
+        shift_upper(&s, k == 0 ? 1e-6 : 4e-4, 0.0);
+        assert_ok(surface_load_list(&load, s.contact, s.x));
+        assert_true(load.n > 6);
+        for (dem_index j = 0; j < load.n; j++) {
+            const dem_pair p = surface_load_pair(&load, j, &s.contact->surface, s.x);
+            const double most = 0.5 * hypot(p.force[0], p.force[1]), size = hypot(p.friction[0], p.friction[1]);
+            sum += p.body == 1 ? p.friction[0] : -p.friction[0];
+            assert_int_equal(p.slides, k);
+            assert_true(k == 0 ? size < 0.5 * most : fabs(size - most) <= 1e-14 * most);
+            assert_close(p.friction[0] * p.force[0] + p.friction[1] * p.force[1], 0.0, 1e-14 * most * most);
+        }
+        assert_close(sum, pull_on_upper(&s), 1e-12 * fabs(sum));
+    }
+}
+
+TEST(two_bodies_have_the_smaller_friction)
+{
+    CLEANUP(close_scene) scene s;
+    open_squares(&s, 0.5);
+    contact_surface_set_friction(&s.contact->surface, 0.5, (const double[2]){0.5, 0.25});
+    settle(&s);
+    assert_true(s.contact->anchors.n > 0);
+    assert_close(s.contact->anchors.list[0].friction, 0.25, 0.0);
+    contact_surface_set_friction(&s.contact->surface, 0.5, (const double[2]){0.0, 0.25});
+    anchor_set_clear(&s.contact->anchors);
+    settle(&s);
+    assert_int_equal(s.contact->anchors.n, 0);
+}
+
+/* ---- records ---- */
+
+/* Refuses two anchors of which something is changed. */
+static void refuse(anchor_set *s, const anchor_record list[2])
+{
+    assert_int_equal(anchor_set_restore(s, list, 2), DEM_ERROR_IO);
+    assert_message_parts("anchor * of the checkpoint is impossible: node * on edge ");
+}
+
+#define REFUSE(k, member, value)                                                                                       \
+    do {                                                                                                               \
+        anchor_record changed[2] = {list[0], list[1]};                                                                 \
+        changed[k].member = (value);                                                                                   \
+        refuse(anchors, changed);                                                                                      \
+    } while (0)
+
+TEST(records_are_checked)
+{
+    CLEANUP(close_scene) scene s;
+    open_squares(&s, 0.5);
+    settle(&s);
+    anchor_set *anchors = &s.contact->anchors;
+    const anchor first = anchors->list[0];
+    const anchor_record list[2] = {anchor_set_record(anchors, 0), anchor_set_record(anchors, 1)};
+    const dem_index inside = 8; /* inside the lower square */
+    REFUSE(0, node, list[1].node + 1);
+    REFUSE(1, node, list[0].node);
+    REFUSE(0, node, -1);
+    REFUSE(1, node, s.lattice.n_nodes);
+    REFUSE(0, node, inside);
+    REFUSE(1, edge, -1);
+    REFUSE(1, edge, s.contact->surface.surface.n_edges);
+    REFUSE(0, weight, 1.1);
+    REFUSE(0, weight, (double)NAN);
+    REFUSE(0, direction[0], 1.1);
+    REFUSE(0, place[1], (double)NAN);
+    REFUSE(0, shift, (double)INFINITY);
+    anchor_record changed[2] = {list[0], list[1]};
+    changed[0].edge = s.contact->surface.surface.at[s.contact->surface.surface.row[list[0].node]];
+    refuse(anchors, changed); /* it ends at the node */
+    assert_ok(anchor_set_restore(anchors, list, 2));
+    assert_int_equal(anchors->n, 2);
+    assert_memory_equal(&anchors->list[0], &first, sizeof first);
+}

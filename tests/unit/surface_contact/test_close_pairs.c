@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* close_pairs.c: which candidates are close, until when they hold, and that no step said to be without a crossing has
+ * one. */
+#include "surface_contact/close_pairs.h"
+
+#include "curves.h"
+#include "harness/cleanup_gsl.h"
+#include "surface_contact/pair_list.h"
+#include "verification/support.h"
+
+static const double margin = 0.05; /* m */
+
+/* Stars side by side with a random shift of all nodes, all their candidates, and those which are close. */
+typedef struct scene {
+    dem_lattice lattice;
+    contact_surface surface;
+    pair_list list;
+    close_pairs close;
+    double *x, *x1;
+} scene;
+
+static void open_scene(scene *s, gsl_rng *rng)
+{
+    *s = (scene){.lattice = curves_make(rng, 9, 24, 2.1)};
+    const size_t size = 2 * (size_t)s->lattice.n_nodes * sizeof *s->x;
+    assert_ok(contact_surface_compile(&s->surface, &s->lattice, 0.0, 1.0));
+    assert_ok(pair_list_create(&s->list, &s->surface, true, 0.5));
+    s->close = (close_pairs){.ways.surface = &s->surface};
+    s->x = malloc(size);
+    s->x1 = malloc(size);
+    for (dem_index k = 0; k < 2 * s->lattice.n_nodes; k++)
+        s->x[k] = s->lattice.x[k] + 0.2 * (gsl_rng_uniform(rng) - 0.5);
+    assert_false(close_pairs_hold(&s->close, s->x));
+    assert_ok(pair_list_follow(&s->list, s->x, 0.0));
+    assert_ok(close_pairs_choose(&s->close, &s->list.pairs, margin, s->x));
+}
+
+static void close_scene(scene *s)
+{
+    close_pairs_destroy(&s->close);
+    pair_list_destroy(&s->list);
+    contact_surface_free(&s->surface);
+    dem_lattice_free(&s->lattice);
+    free(s->x);
+    free(s->x1);
+}
+
+TEST(close_pairs_are_the_candidates_within_the_margin_in_their_order)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    dem_index n = 0;
+    open_scene(&s, rng);
+    double least = s.surface.least.thickness;
+    for (dem_index k = 0; k < s.list.pairs.n; k++) {
+        const contact_pair *p = &s.list.pairs.list[k];
+        const double gap = contact_pair_gap(p, s.x);
+        least = fmin(least, gap);
+        if (gap > p->thickness + margin) continue;
+        assert_true(n < s.close.n && s.close.list[n].edge == p->edge);
+        assert_int_equal(s.close.list[n++].nodes[CONTACT_PAIR_NODE], p->nodes[CONTACT_PAIR_NODE]);
+    }
+    assert_int_equal(s.close.n, n);
+    assert_true(n > 20 && n < s.list.pairs.n);
+    assert_true(s.close.least == least);
+}
+
+/* That all move alike does not count. */
+TEST(they_hold_until_two_nodes_have_moved_by_the_margin)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    open_scene(&s, rng);
+    for (dem_index k = 0; k < 2 * s.lattice.n_nodes; k++) s.x[k] += 3.0;
+    s.x[2 * 30] += 0.024;
+    s.x[2 * 31] -= 0.024;
+    assert_true(close_pairs_hold(&s.close, s.x));
+    s.x[2 * 31] -= 0.003;
+    assert_false(close_pairs_hold(&s.close, s.x));
+}
+
+/* Steps of all sizes, so that each answer comes often. */
+TEST(no_node_crosses_an_edge_where_surfaces_are_said_to_stay_apart)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    int n_apart = 0, n_crossed = 0;
+    for (int turn = 0; turn < 400; turn++) {
+        CLEANUP(close_scene) scene s;
+        open_scene(&s, rng);
+        const double size = 0.1 * pow(10.0, -4.0 * gsl_rng_uniform(rng));
+        bool crosses = false;
+        for (dem_index k = 0; k < 2 * s.lattice.n_nodes; k++) s.x1[k] = s.x[k] + size * (gsl_rng_uniform(rng) - 0.5);
+        for (dem_index k = 0; k < s.list.pairs.n; k++) {
+            double when;
+            crosses = crosses || contact_pair_crosses(&s.list.pairs.list[k], s.x, s.x1, &when);
+        }
+        const bool apart = close_pairs_stay_apart(&s.close, s.x, s.x1);
+        assert_false(apart && crosses);
+        assert_true(apart == close_pairs_stay_apart(&s.close, s.x1, s.x)); /* the way back is the same */
+        n_apart += apart;
+        n_crossed += crosses;
+    }
+    assert_true(n_apart > 20 && n_crossed > 20);
+}
