@@ -15,8 +15,9 @@ typedef enum dem_friction_law {
     DEM_FRICTION_PAPER /**< at an impact v_t' = mu v_t, a lasting contact slides freely: docs/method.md    (10) */
 } dem_friction_law;
 
-/** Where an obstacle is and how it moves there: the point that is given at X is at place + R(angle) X, with R the turn
- *  by the angle, counterclockwise. All vectors have a third component of 0. */
+/** Place and angle of an obstacle at one time, and their derivatives. A point of it that is given at X (dem_obstacle's
+ *  points) is at place + R(angle) X, where R turns counter-clockwise about the origin. The third component of every
+ *  vector is 0. */
 typedef struct dem_pose {
     size_t struct_size;            /**< set by the library */
     double place[3];               /**< m */
@@ -49,7 +50,7 @@ typedef struct dem_obstacle {
     double frequency;     /**< Hz, of it; > 0 */
     double phase;         /**< degrees, of it */
     double pivot[3];      /**< m, about which it turns, as the points are given; goes with the other motions */
-    double spin;          /**< rad/s, of a rotation, counterclockwise */
+    double spin;          /**< rad/s, of a rotation, counter-clockwise */
     double ramp;          /**< s, >= 0: velocity, amplitude and spin grow from 0 in this time, as a boundary's value */
     dem_motion motion;    /**< NULL: it moves as said above; else as this says, and in no other way */
     void *motion_context; /**< handed to it */
@@ -83,7 +84,8 @@ DEM_API dem_status dem_obstacle_velocity(const dem_obstacle *obstacle, double t,
  *  \param[out] segments  two of it that meet, the second following the first if it goes back over it; else -1 */
 DEM_API dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2]);
 
-/** Springs in CSR: row i holds the neighbours of node i in ascending order. Views into the model. */
+/** Springs in CSR: row i holds the neighbours of node i in ascending order. Those of rigid bodies carry nothing and are
+ *  left out: row[n_nodes] is twice the number of the others. Views into the model. */
 typedef struct dem_csr {
     size_t struct_size; /**< to be set to sizeof(dem_csr) */
     dem_index n_nodes;
@@ -130,7 +132,8 @@ DEM_API double dem_model_spacing(const dem_model *model);
 
 /** Rigorous upper bound of the highest angular frequency about the rest shape, rad/s; 0 without springs:
  *  omega^2 <= max over nodes of |B_i| / m_i, B_i = 2 sum over springs of (E_ij/d0_ij) n n^T
- *  + 3 sum over triangles of max(kappa, 0)/A0 g g^T, g = dA/dx_i, |.| the largest eigenvalue. */
+ *  + 3 sum over triangles of max(kappa, 0)/A0 g g^T + C_i, g = dA/dx_i, |.| the largest eigenvalue. C_i is what
+ *  coupled triangles add: docs/algorithms.md (The lattice). */
 DEM_API double dem_model_omega_max(const dem_model *model);
 
 /** The highest angular frequency about the rest shape itself, rad/s, found by iteration from below, to 1e-6 of it or

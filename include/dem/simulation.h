@@ -117,10 +117,14 @@ typedef struct dem_options {
     const dem_boundary *boundaries; /**< [n_boundaries] copied by dem_simulation_create() */
     dem_force force;                /**< default NULL: no external force */
     void *force_context;            /**< handed to it */
-    dem_bodies bodies;              /**< default DEM_BODIES_NONE. Others need bodies with triangles */
-    double contact_thickness; /**< m, default 0: of each body a fifth of its mean boundary edge. The distance at which
+    dem_bodies bodies;              /**< default DEM_BODIES_NONE. The other two need triangles in every body */
+    double contact_thickness;   /**< m, default 0: of each body a fifth of its mean boundary edge. The distance at which
                                    surfaces begin to push: less than half of the shortest boundary edge */
-    double contact_stiffness; /**< default 0: 1. Factor of the modulus with which they push, 0.01 to 100 */
+    double contact_stiffness;   /**< default 0: 1. Factor of the modulus with which they push, 0.01 to 100 */
+    double contact_friction;    /**< default 0: none. Coefficient of friction of bodies with each other and with
+                                   themselves, >= 0; not without `bodies` */
+    dem_index n_body_frictions; /**< default 0; else the number of bodies */
+    const double *body_friction; /**< [n_body_frictions] of each body instead, copied; of two bodies the smaller */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
@@ -149,10 +153,10 @@ typedef struct dem_energy {
     double elastic;  /**< of the springs and their couplings                                           (1) */
     double area;     /**< of the area term; < 0 where nu < 1/3 in plane stress */
     double guard;    /**< of the folding guard */
-    double contact;  /**< of surfaces of bodies that push each other off */
+    double contact;  /**< of surfaces that push each other off, and of what holds bodies by friction */
     double gravity;  /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
     double impact;   /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
-    double friction; /**< taken by lasting contacts that slide so far, >= 0 */
+    double friction; /**< taken by lasting contacts and bodies that slide so far, >= 0 to the integrator's error */
     double damping;  /**< taken by the damping of springs and masses so far, >= 0 */
     double fracture; /**< taken by breaking so far: 0, as nothing breaks yet */
     double projection; /**< put in by returning nodes from the penetration tolerance to the surface so far */
@@ -232,7 +236,7 @@ typedef struct dem_body_motion {
 /** What an obstacle gives to the bodies, and where it is. */
 typedef struct dem_obstacle_load {
     size_t struct_size;         /**< to be set to sizeof(dem_obstacle_load) */
-    double reaction[3];         /**< N, instantaneous sum over its lasting contacts */
+    double reaction[3];         /**< N, instantaneous sum over lasting contacts, with rigid bodies too */
     double point[3];            /**< m, where that resultant acts: on its line of action, nearest to the mean place of
                                      the contacts weighted by their forces; 0 without contacts */
     double impulse[3];          /**< N s, so far: impacts, and the reactions integrated over time */
@@ -264,9 +268,10 @@ typedef struct dem_counts {
     dem_index closings, releases; /**< contacts that began and ceased to last */
     dem_index slips, sticks;      /**< lasting contacts that began to slide, that stopped or turned back */
     dem_index passings;           /**< of a segment's or an edge's end by a lasting contact */
-    dem_index late;    /**< events that the root finder of DEM_CONTACT_EXACT had not seen, but the check of a step */
-    dem_index retries; /**< attempts repeated with a smaller step after a non-finite force */
-    dem_index behind;  /**< nodes that have passed round the end of an open obstacle, now */
+    dem_index late;      /**< events that the root finder of DEM_CONTACT_EXACT had not seen, but the check of a step */
+    dem_index retries;   /**< attempts repeated with a smaller step after a non-finite force */
+    dem_index behind;    /**< nodes that have passed round the end of an open obstacle, now */
+    dem_index crossings; /**< steps rejected because surfaces of bodies crossed in them */
 } dem_counts;
 
 /** Extremes over the springs and triangles, at one instant. */
@@ -281,7 +286,7 @@ typedef struct dem_strain {
 
 /** Bodies that run into each other, or into themselves, which only the option `bodies` prevents. Nodes on
  *  the boundary of the triangulation inside triangles of which they are no corners; looked for at the start and after
- *  every 16th accepted step. */
+ *  every 16th accepted step, every 256th where bodies touch each other and themselves. */
 typedef struct dem_overlap {
     size_t struct_size;       /**< to be set to sizeof(dem_overlap) */
     dem_index now, most;      /**< pairs of node and triangle when last looked at, and the most of a look */
@@ -297,15 +302,43 @@ typedef struct dem_surfaces {
     double gap_share;     /**< smallest distance over contact thickness; infinity: as above */
     double thickness_min; /**< m, smallest and largest contact thickness of the bodies */
     double thickness_max;
-    dem_index pushing; /**< pairs of a node and an edge that push each other */
-    dem_index n_edges; /**< boundary edges of all bodies */
+    dem_index pushing;  /**< pairs of a node and an edge that push each other */
+    dem_index n_edges;  /**< boundary edges of all bodies */
+    dem_index left_out; /**< pairs of a node and an edge of one body that never push each other, as they are nearer than
+                             the contact thickness at rest: in notches narrower than that */
+    double modulus_min; /**< N/m, smallest and largest contact modulus of the bodies; two bodies push each other with
+                             the smaller one of theirs */
+    double modulus_max;
+    double pressure_share; /**< largest pressure between surfaces over their contact modulus, (1 - u)^2/u for u =
+                                gap_share: 0.05 at u = 0.8, 0.5 at u = 0.5; 0: nothing pushes */
+    double friction_min; /**< coefficient of friction of the bodies with each other, of two the smaller: the smallest */
+    double friction_max; /**< and the largest one */
 } dem_surfaces;
+
+/** A node and a boundary edge that push each other. Where a surface is concave two edges push a node, and the vertex
+ *  between them takes back what would count twice: the forces of the two together have a meaning. */
+typedef struct dem_pair {
+    size_t struct_size;   /**< to be set to sizeof(dem_pair) */
+    dem_index node;       /**< that is pushed */
+    dem_index edge[2];    /**< ends of the edge, which runs with its body on the left */
+    dem_index body;       /**< of the node */
+    dem_index other_body; /**< of the edge; the same where a body touches itself */
+    double x[3];          /**< m, place of the edge nearest to the node */
+    double normal[3];     /**< unit, from there to the node */
+    double gap;           /**< m, distance of the node from there */
+    double thickness;     /**< m, contact thickness of the two bodies, below which they push */
+    double force[3];      /**< N, on the node, without friction; the edge feels the opposite */
+    double friction[3];   /**< N, on the node; the edge feels the opposite */
+    int32_t slides;       /**< 1: the node slides along the surfaces of the other body, friction is all that its
+                               coefficient allows; 0: it holds, or there is none */
+} dem_pair;
 
 typedef struct dem_simulation dem_simulation;
 
 /** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the penetration
- *  tolerance is not: DEM_ERROR_MODEL names the node or the vertex. The model is borrowed and must outlive the
- *  simulation. */
+ *  tolerance is not: DEM_ERROR_MODEL names the node or the vertex. With contact of `bodies` so are surfaces that
+ *  cross or are nearer than a twentieth of the contact thickness, and bodies without triangles. The model is borrowed
+ *  and must outlive the simulation. */
 DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options);
 
 /** Goes on from a checkpoint of a simulation of the same model and options, whose further motion is repeated to the
@@ -330,7 +363,8 @@ DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_e
  *  counts as put in from outside (`boundary`). Copies both.
  *  \param x  [n_nodes][2] m, no deeper in obstacles than the penetration tolerance; NULL: as it is
  *  \param v  [n_nodes][2] m/s; NULL: as it is. Fixed nodes keep both, as do prescribed components.
- *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL inside an obstacle; then nothing has changed */
+ *  \return DEM_ERROR_ARGUMENT, DEM_ERROR_MODEL inside an obstacle or where surfaces of bodies cross; then nothing has
+ *          changed */
 DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const double *x, const double *v);
 
 /** The last checkpoint, valid and unchanged until the next advance; NULL before the first, and after
@@ -359,6 +393,9 @@ DEM_API dem_status dem_simulation_strains(const dem_simulation *simulation, doub
  *  \param[out] force  [n_springs] N, in the order of the lattice */
 DEM_API dem_status dem_simulation_forces(const dem_simulation *simulation, double *force);
 
+/** The same of one spring.  \param spring  0 <= spring < n_springs */
+DEM_API dem_status dem_simulation_force_at(const dem_simulation *simulation, dem_index spring, double *out);
+
 /** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
  *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
  *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
@@ -371,6 +408,19 @@ DEM_API dem_status dem_simulation_stress_at(const dem_simulation *simulation, de
 DEM_API dem_status dem_simulation_overlap(const dem_simulation *simulation, dem_overlap *out);
 
 DEM_API dem_status dem_simulation_surfaces(const dem_simulation *simulation, dem_surfaces *out);
+
+/** A pair of surfaces that push each other.  \param pair  0 <= pair < `pushing` of the dem_surfaces of the same
+ *  instant  \return also DEM_ERROR_MEMORY */
+DEM_API dem_status dem_simulation_pair(const dem_simulation *simulation, dem_index pair, dem_pair *out);
+
+/** Force on every node by contact of bodies with each other and with themselves; obstacles have no part in it. The sum
+ *  over all nodes is 0.  \param[out] force  [n_nodes][dim] N */
+DEM_API dem_status dem_simulation_contact_forces(const dem_simulation *simulation, double *force);
+
+/** The pressure that this force means: the part of it along the normals of surfaces, over the node's share of the
+ *  surface of the plate at rest; 0 at nodes that are on none.
+ *  \param[out] pressure  [n_nodes] Pa, >= 0  \return also DEM_ERROR_MEMORY */
+DEM_API dem_status dem_simulation_contact_pressures(const dem_simulation *simulation, double *pressure);
 
 DEM_API dem_status dem_simulation_counts(const dem_simulation *simulation, dem_counts *out);
 

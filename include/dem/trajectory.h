@@ -27,7 +27,8 @@ enum {
     DEM_FIELD_PRINCIPAL = 16, /**< both principal stresses */
     DEM_FIELD_STRAIN = 32,    /**< of the springs */
     DEM_FIELD_FORCE = 64,
-    DEM_FIELD_ALL = 127
+    DEM_FIELD_CONTACT = 128, /**< dem_simulation_contact_forces() and _pressures() */
+    DEM_FIELD_ALL = 255
 };
 
 typedef enum dem_probe_kind {
@@ -50,7 +51,7 @@ typedef struct dem_trajectory_options {
     bool double_precision;  /**< false: displacement, velocity, strain, force in single precision; true: in double */
     int deflate;            /**< compression 0 (none) to 9; default 1 */
     bool events;            /**< true: the table /events of all contact events; default false */
-    uint32_t fields;        /**< DEM_FIELD_... ORed; default all but DEM_FIELD_PRINCIPAL */
+    uint32_t fields;        /**< DEM_FIELD_... ORed; default all but DEM_FIELD_PRINCIPAL and _CONTACT */
     const dem_peaks *peaks; /**< written by dem_trajectory_finish(), until when they are borrowed; default NULL: none */
     dem_index most_stressed; /**< nodes and springs of the peaks that are listed; default 5 */
     dem_index n_probes;      /**< default 0 */
@@ -64,7 +65,7 @@ static inline dem_trajectory_options dem_trajectory_options_default(void)
     options.struct_size = sizeof options;
     options.deflate = 1;
     options.most_stressed = 5;
-    options.fields = DEM_FIELD_ALL & ~DEM_FIELD_PRINCIPAL;
+    options.fields = DEM_FIELD_ALL & ~(DEM_FIELD_PRINCIPAL | DEM_FIELD_CONTACT);
     return options;
 }
 

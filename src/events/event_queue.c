@@ -140,6 +140,7 @@ static dem_status resolve(event_queue *q, const due_event *due, const event_plac
 }
 
 /* Resolves an event and corrects the rest of the step for it:
+ * - let the forces prepare for the step, if it is the first event in it;
  * - open the correction, before anything changes: it needs the motion and the forces without the event;
  * - let the sources prepare, and the one whose event it is resolve it in the state at that time;
  * - close the correction: integrate the change to the end of the step, and add it to the dense output;
@@ -149,6 +150,7 @@ static dem_status take(event_queue *q, const due_event *due)
     const event_place at = {q->step, due->t, &q->correction.near, q->state};
     dem_index n_seeds;
     double error;
+    if (q->n_stops == 0) TRY(q->forces->begin_step(q->forces->self, q->step->y0, q->changed.y1));
     q->n_stops += q->n_stops == 0 || due->t > q->now;
     q->now = due->t;
     TRY(find_seeds(q, due, &n_seeds));
@@ -182,10 +184,12 @@ static void renew(event_queue *q, dem_index i)
 }
 
 /* Computes the rates of the quadratures again that closed contacts contribute to: impulses, friction, obstacles. They
- * are zeroed and summed up over all contacts, as the right-hand side does. The rows are kept first, for undo. */
+ * are zeroed and summed up over all contacts, and friction between nodes, as the right-hand side does. The rows are
+ * kept first, for undo. */
 static dem_status renew_rates(event_queue *q)
 {
     const state_layout *l = &q->layout;
+    const local_forces *f = q->forces;
     const constraints *c = q->constraints;
     const dem_index first = state_impulse(l, 0), last = state_total_rows(l);
     const dem_index work = state_total_index(l, STATE_OBSTACLE);
@@ -197,6 +201,8 @@ static dem_status renew_rates(event_queue *q)
         a[work] = 0.0;
     }
     if (c != NULL) c->add_all_rates(c->self, (constraint_state){q->step->t1, q->changed.y1}, a);
+    if (f->friction_power != NULL)
+        a[state_total_index(l, STATE_FRICTION)] += reduce_rounded_sum(f->friction_power(f->self, q->changed.y1));
     return DEM_OK;
 }
 

@@ -176,6 +176,8 @@ static dem_status check_node(const dem_boundary *b, dem_index k, dem_index p, co
     if (b->kind == DEM_BOUNDARY_FORCE) return DEM_OK;
     CHECK(!(l->flags[node] & DEM_NODE_FIXED), DEM_ERROR_MODEL, "boundary %lld: node %lld is fixed already", number,
           node);
+    CHECK(!(l->flags[node] & DEM_NODE_RIGID), DEM_ERROR_MODEL,
+          "boundary %lld: node %lld is of a rigid body, whose motion cannot be prescribed; a guide can", number, node);
     CHECK(!(held[node] & b->components), DEM_ERROR_MODEL,
           "boundary %lld: the motion of node %lld is prescribed by another one already", number, node);
     CHECK(!touches || !(l->flags[node] & DEM_NODE_CONTACT), DEM_ERROR_MODEL,

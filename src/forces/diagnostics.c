@@ -55,6 +55,12 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
     energy.kinetic = reduce_sum(&kinetic);
     energy.gravity = reduce_sum(&weight);
     energy.contact = f->surfaces != NULL ? surface_contact_energy(f->surfaces, x) : 0.0;
+    if (f->rigid != NULL) energy.contact += rigid_contact_energy(f->rigid, v[f->clock], x);
+    if (forces_have_friction(f)) {
+        const double stored = surface_contact_stored(f->surfaces, x);
+        energy.contact += stored;
+        energy.friction = -stored; /* of all that friction has taken this can be given back */
+    }
     energy.motion = energy.kinetic + energy.elastic + energy.area + energy.guard + energy.contact;
     return energy;
 }
@@ -67,12 +73,14 @@ static void take_moments(exact_sum sum[n_moments], double terms[n_moments][EXACT
 }
 
 /* Adds m, m x and m v of the nodes of a body. */
-static void add_moments(const dem_lattice *l, dem_index body, const double *x, const double *v,
+static void add_moments(const dem_model *model, dem_index body, const double *x, const double *v,
                         exact_sum sum[n_moments])
 {
+    const dem_lattice *l = &model->lattice;
+    const dem_index *span = &model->body_span[2 * body];
     double terms[n_moments][EXACT_SUM_BLOCK];
     int n = 0;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
+    for (dem_index i = span[0]; i <= span[1]; i++) {
         if (l->body[i] != body) continue;
         const double m = l->mass[i];
         const vec2 place = vec2_scale(m, vec2_at(x, i)), momentum = vec2_scale(m, vec2_at(v, i));
@@ -90,12 +98,14 @@ static void add_moments(const dem_lattice *l, dem_index body, const double *x, c
 
 /* Angular momentum of a body about its centre of mass, sum of m (x - x_c) x (v - v_c), kg m^2/s. mean[0] is x_c,
  * mean[1] is v_c. */
-static double spin_of(const dem_lattice *l, dem_index body, const double *x, const double *v, const vec2 mean[2])
+static double spin_of(const dem_model *model, dem_index body, const double *x, const double *v, const vec2 mean[2])
 {
+    const dem_lattice *l = &model->lattice;
+    const dem_index *span = &model->body_span[2 * body];
     exact_sum sum = {0};
     double terms[EXACT_SUM_BLOCK];
     int n = 0;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
+    for (dem_index i = span[0]; i <= span[1]; i++) {
         if (l->body[i] != body) continue;
         const vec2 r = vec2_sub(vec2_at(x, i), mean[0]), u = vec2_sub(vec2_at(v, i), mean[1]);
         terms[n++] = l->mass[i] * vec2_cross(r, u);
@@ -112,10 +122,10 @@ dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const d
 {
     exact_sum sum[n_moments] = {0};
     /* All sums of the body at once, in one pass over the nodes. */
-    add_moments(&model->lattice, body, x, v, sum);
+    add_moments(model, body, x, v, sum);
     const double mass = reduce_sum(&sum[0]);
     const vec2 centre = vec2_scale(1.0 / mass, sum_of(&sum[1])), velocity = vec2_scale(1.0 / mass, sum_of(&sum[3]));
-    const double spin = spin_of(&model->lattice, body, x, v, (const vec2[]){centre, velocity});
+    const double spin = spin_of(model, body, x, v, (const vec2[]){centre, velocity});
     return (dem_body_motion){.mass = mass,
                              .centre = {centre.x, centre.y},
                              .velocity = {velocity.x, velocity.y},
@@ -216,30 +226,59 @@ static vec2 contact_force(const dem_contact *c)
     return vec2_along(vec2_scale(c->force, n), c->friction[0], t);
 }
 
+/* Forces at places, as a resultant and its line of action are found from them. */
+typedef struct reaction_sums {
+    exact_sum resultant[2], places[2], weights, moments; /* the moments about a place */
+    vec2 about;
+} reaction_sums;
+
+static void add_reaction(reaction_sums *s, vec2 force, vec2 place)
+{
+    add(s->resultant, force);
+    add(s->places, vec2_scale(vec2_norm(force), place));
+    exact_sum_add(&s->weights, vec2_norm(force));
+    exact_sum_add(&s->moments, vec2_cross(vec2_sub(place, s->about), force));
+}
+
+/* What acts between an obstacle and the bodies: its lasting contacts, and rigid bodies near it. */
+typedef struct reaction_parts {
+    const dem_contact *list;
+    dem_index n, obstacle;
+    const rigid_contact *rigid; /* NULL: none */
+} reaction_parts;
+
+static reaction_sums sum_reaction(const reaction_parts *p, vec2 about)
+{
+    reaction_sums s = {.about = about};
+    for (dem_index k = 0; k < p->n; k++)
+        if (p->list[k].obstacle == p->obstacle) add_reaction(&s, contact_force(&p->list[k]), vec2_at(p->list[k].x, 0));
+    for (dem_index b = 0; p->rigid != NULL && b < p->rigid->n; b++) {
+        const rigid_pairs *pairs = &p->rigid->list[b];
+        for (dem_index q = 0; q < pairs->n_near; q++)
+            if (p->rigid->obstacles.obstacle[pairs->near[q]] == p->obstacle)
+                add_reaction(&s, rigid_contact_force(pairs, q), vec2_at(pairs->places, pairs->n_tracked + q));
+    }
+    return s;
+}
+
 /* The resultant F of an obstacle's contacts, and the point where it acts. With P the mean of the places, weighted by
  * the size of their forces, and M the moment about P, the line of F goes through P + (M/F^2) (F_y, -F_x): there F alone
  * has the moment of all contacts. Taking M about P rather than the origin avoids a loss of digits far from the
  * origin. */
-dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle)
+dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle,
+                                       const rigid_contact *rigid)
 {
+    const reaction_parts parts = {list, n, obstacle, rigid};
+    const reaction_sums first = sum_reaction(&parts, (vec2){0.0, 0.0});
     dem_obstacle_load load = {0};
-    exact_sum resultant[2] = {0}, places[2] = {0}, weights = {0}, moments = {0}; /* about the mean place */
-    for (dem_index k = 0; k < n; k++) {
-        if (list[k].obstacle != obstacle) continue;
-        const vec2 force = contact_force(&list[k]);
-        load.n_contacts++;
-        add(resultant, force);
-        add(places, vec2_scale(vec2_norm(force), vec2_at(list[k].x, 0)));
-        exact_sum_add(&weights, vec2_norm(force));
-    }
+    for (dem_index k = 0; k < n; k++) load.n_contacts += list[k].obstacle == obstacle;
     load.n_contacts = reduce_count(load.n_contacts);
-    const double weight = reduce_sum(&weights);
-    const vec2 sum = sum_of(resultant), mean = weight > 0.0 ? vec2_scale(1.0 / weight, sum_of(places)) : sum_of(places);
-    for (dem_index k = 0; k < n; k++)
-        if (list[k].obstacle == obstacle)
-            exact_sum_add(&moments, vec2_cross(vec2_sub(vec2_at(list[k].x, 0), mean), contact_force(&list[k])));
+    const double weight = reduce_sum(&first.weights);
+    const vec2 sum = sum_of(first.resultant), places = sum_of(first.places);
+    const vec2 mean = weight > 0.0 ? vec2_scale(1.0 / weight, places) : places;
+    const reaction_sums about_mean = sum_reaction(&parts, mean);
     /* Without a resultant there is no line of action, and the mean place is given. */
-    const double square = vec2_dot(sum, sum), moment = reduce_sum(&moments);
+    const double square = vec2_dot(sum, sum), moment = reduce_sum(&about_mean.moments);
     const vec2 arm = square > 0.0 ? vec2_scale(moment / square, (vec2){sum.y, -sum.x}) : (vec2){0.0, 0.0};
     vec2_put(load.reaction, 0, sum);
     vec2_put(load.point, 0, vec2_add(mean, arm));

@@ -15,7 +15,8 @@ dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const d
 dem_strain diagnostics_strain(const forces *f, const double *x);
 
 /** Resultant of the contacts that are on an obstacle, where it acts, and their number; no impulses. */
-dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle);
+dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle,
+                                       const rigid_contact *rigid);
 
 /** What a boundary does to its nodes in a state.
  *  \param external  [n_nodes][2] N, of which those on its nodes are read if it prescribes a motion; NULL: none */

@@ -20,6 +20,7 @@
 #include "forces/boundary_conditions.h"
 #include "forces/external_force.h"
 #include "model/model.h"
+#include "surface_contact/rigid_contact.h"
 #include "surface_contact/surface_contact.h"
 
 /** The laws of one simulation. Springs and triangles belong to the model, which many simulations may share. */
@@ -30,6 +31,7 @@ typedef struct forces {
     double mass_damping;                   /* 1/s */
     const boundary_conditions *boundaries; /* NULL: none */
     surface_contact *surfaces;             /* NULL: bodies do not touch each other */
+    rigid_contact *rigid;                  /* NULL: no rigid bodies, or nothing for them to meet */
     external_force *external;              /* NULL: none from outside */
     dem_index clock;                       /* index of the time among the velocities */
 } forces;
@@ -45,13 +47,19 @@ static inline bool forces_push(const forces *f)
 /** Whether any force depends on time. */
 static inline bool forces_are_driven(const forces *f)
 {
-    return forces_push(f) || f->external != NULL;
+    return forces_push(f) || f->external != NULL || rigid_contact_is_driven(f->rigid);
 }
 
 /** Whether the force on a node depends on the velocities of its neighbours. */
 static inline bool forces_couple_velocities(const forces *f)
 {
     return f->model->springs.viscosity != NULL;
+}
+
+/** Whether bodies have friction with each other. */
+static inline bool forces_have_friction(const forces *f)
+{
+    return surface_contact_has_friction(f->surfaces);
 }
 
 /** Whether springs or masses are damped. */
@@ -71,7 +79,7 @@ static inline bool forces_are_plain(const forces *f)
 /** Whether forces_node_power() may be other than 0. */
 static inline bool forces_have_power(const forces *f)
 {
-    return forces_are_damped(f) || f->boundaries != NULL || f->external != NULL;
+    return forces_are_damped(f) || f->boundaries != NULL || f->external != NULL || forces_have_friction(f);
 }
 
 /** Components of the motion of node i that are prescribed. */
@@ -202,20 +210,30 @@ double forces_prescribe(const forces *f, double t, const double *v, double *u, d
 
 /** Powers, W. */
 typedef struct forces_power {
-    double damping; /* taken by springs and masses */
-    double work;    /* put in by boundary conditions and from outside */
+    double damping;  /* taken by springs and masses */
+    double work;     /* put in by boundary conditions and from outside */
+    double friction; /* taken by that of bodies with each other, stored and lost */
 } forces_power;
 
 /** Power of the forces on node i, of which `external` N is the external one. The reaction of a prescribed component
  *  counts without the part m a.v of its own acceleration a. With that, the sums over all nodes are
- *  forces_damping_power() and what forces_prescribe() returns, to rounding. */
+ *  forces_damping_power(), what forces_prescribe() returns and forces_friction_power(), to rounding. */
 forces_power forces_node_power(const forces *f, dem_index i, vec2 external, const double *x, const double *v);
 
 /** Power that damping takes, of all springs and masses, W, >= 0. */
 double forces_damping_power(const forces *f, const double *x, const double *v);
 
+/** Power that friction of bodies with each other takes, W. */
+double forces_friction_power(const forces *f, const double *x, const double *v);
+
+/** The same in the state of which all accelerations were computed last. */
+static inline double forces_evaluated_friction_power(const forces *f, const double *v)
+{
+    return forces_have_friction(f) ? surface_contact_evaluated_power(f->surfaces, v) : 0.0;
+}
+
 /** Energy that depends on the position of node i, J: that of its springs and their couplings, its triangles, its
- *  contact pairs and its weight. */
+ *  contact pairs and its weight. What springs of friction store is not in it: it counts as taken by friction. */
 static inline double forces_node_energy(const forces *f, dem_index i, const double *x)
 {
     const dem_model *model = f->model;

@@ -288,6 +288,16 @@ static double push_surfaces(const kernel *k, const forces *f, const kernel_state
     return sum;
 }
 
+/* a += f/m with the forces f of obstacles on the surfaces of rigid bodies. */
+static double push_rigid(const forces *f, const kernel_state *y)
+{
+    rigid_contact *c = f->rigid;
+    double sum = 0.0;
+    if (!rigid_contact_evaluate(c, y->v[f->clock], y->x)) return (double)NAN;
+    for (dem_index k = 0; k < c->n; k++) sum += rigid_contact_accelerate(c, k, y->a);
+    return sum;
+}
+
 /* a += f/m with the external force f, evaluated for all nodes in one call. */
 static double push(const forces *f, const kernel_state *y)
 {
@@ -303,10 +313,12 @@ static double push(const forces *f, const kernel_state *y)
 }
 
 /* A fused step evaluates a block before all positions and velocities of the new state exist, so forces must not depend
- * on velocities or time; and packed copies have no drift of their own. */
+ * on velocities or time, no power of friction is known, and a rigid body must not have to be put together; packed
+ * copies have no drift of their own. */
 bool kernel_can_fuse(const kernel *k, const forces *f)
 {
-    return k->packed == NULL && !forces_are_damped(f) && !forces_are_driven(f);
+    return k->packed == NULL && !forces_are_damped(f) && !forces_are_driven(f) && !forces_have_friction(f) &&
+           f->model->rigid.n == 0;
 }
 
 /* Drift the ends (fused step), pack if nodes are renumbered, sweep, unpack, then the rows and the external force.
@@ -343,6 +355,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     sum += accelerate_rest(k, f, y);
     if (f->elements != NULL && !isfinite(sum)) sum = sum_up(y, n);
     if (f->surfaces != NULL) sum += push_surfaces(k, f, y);
+    if (f->rigid != NULL) sum += push_rigid(f, y);
     return f->external != NULL ? sum + push(f, y) : sum;
 }
 

@@ -21,6 +21,8 @@ typedef struct local_forces {
     bool read_state;           /* they read positions and velocities from the state of all nodes, too */
     bool have_power;           /* add_power() may add something */
     const unsigned char *held; /* [n_nodes] components of the motion that are prescribed; NULL: none are */
+    /** Called before the first event of a step changes its motion from state y0 to state y1. */
+    dem_status (*begin_step)(const void *self, const double *y0, const double *y1);
     /** Adds to the nodes those that the forces on some of them depend on: of places `first` to `last` - 1. */
     dem_status (*add_neighbours)(const void *self, local_nodes *nodes, dem_index first, dem_index last);
     /** Computes the acceleration a [dim] of one node in a whole state y. */
@@ -35,6 +37,8 @@ typedef struct local_forces {
     void (*evaluate_external)(void *self, const local_nodes *nodes, int ring, const local_state *s);
     /** Adds the power of the forces on these nodes to the totals [STATE_TOTALS]. */
     void (*add_power)(const void *self, const local_nodes *nodes, int ring, const double *y, double *totals);
+    /** Power that friction between nodes takes in a whole state y, W; NULL: there is none. */
+    double (*friction_power)(const void *self, const double *y);
 } local_forces;
 
 /** Components of the motion of a node that are prescribed. */

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "forces/rigid_motion.h"
 
 void local_springs_create(local_springs *out, const forces *f, const state_layout *l)
 {
@@ -20,7 +21,24 @@ void local_springs_destroy(local_springs *b)
 {
     free(b->bonds);
     free(b->stiffness);
+    free(b->rigid);
     *b = (local_springs){0};
+}
+
+/* Which surfaces are near each other depends on the motion in the step. */
+static dem_status local_springs_begin_step(const void *self, const double *y0, const double *y1)
+{
+    const forces *f = ((const local_springs *)self)->forces;
+    return f->surfaces != NULL ? surface_contact_begin_step(f->surfaces, y0, y1) : DEM_OK;
+}
+
+/* A rigid body moves as a whole: all its nodes are in the ring in which one of them is found. */
+static dem_status add_node(const forces *f, local_nodes *nodes, dem_index node)
+{
+    const rigid_body *body = rigid_bodies_at(&f->model->rigid, node);
+    if (body == NULL || nodes->number[node] >= 0) return local_nodes_add(nodes, node);
+    for (dem_index k = 0; k < body->n_nodes; k++) TRY(local_nodes_add(nodes, body->nodes[k]));
+    return DEM_OK;
 }
 
 /* Adds every node on which the force on one of the nodes `first` to `last` - 1 depends: one ring. */
@@ -29,7 +47,7 @@ static dem_status local_springs_add_neighbours(const void *self, local_nodes *no
     const forces *f = ((const local_springs *)self)->forces;
     for (dem_index p = first; p < last; p++)
         for (forces_neighbours j = forces_neighbours_of(f, nodes->list[p]); forces_next_neighbour(&j);)
-            TRY(local_nodes_add(nodes, j.node));
+            TRY(add_node(f, nodes, j.node));
     return DEM_OK;
 }
 
@@ -84,12 +102,23 @@ static bool are_plain(const forces *f, const local_nodes *nodes)
     return forces_are_plain(f);
 }
 
+/* Makes room for the accelerations of all nodes, if there are rigid bodies. */
+static dem_status reserve_rigid(local_springs *b)
+{
+    const dem_index n = b->forces->model->rigid.n > 0 ? b->forces->model->lattice.n_nodes : 0;
+    if (n == 0 || b->rigid != NULL) return DEM_OK;
+    b->rigid = calloc(2 * (size_t)n, sizeof *b->rigid);
+    CHECK(b->rigid != NULL, DEM_ERROR_MEMORY, "out of memory for the accelerations of rigid bodies");
+    return DEM_OK;
+}
+
 /* Springs are listed ring by ring, so that those which act on ring r or nearer are the first bonds_end[r]. */
 static dem_status local_springs_gather(void *self, const local_nodes *nodes)
 {
     local_springs *b = self;
     const springs *s = &b->forces->model->springs;
     dem_index most = 0;
+    TRY(reserve_rigid(b));
     b->plain = are_plain(b->forces, nodes);
     if (!b->plain) return DEM_OK;
     for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++)
@@ -149,6 +178,28 @@ static void local_springs_evaluate_external(void *self, const local_nodes *nodes
     external_force_evaluate(c, &(dem_force_query){t, nodes->end[ring], nodes->list, s->x, s->v});
 }
 
+/* A rigid body with obstacles, and with its accelerations projected, as the right-hand side does it. */
+static void move_body(const local_springs *b, const local_nodes *nodes, dem_index k, const double *y, double *a)
+{
+    const forces *f = b->forces;
+    const rigid_body *body = &f->model->rigid.list[k];
+    const double *v = y + b->velocities;
+    for (dem_index j = 0; j < body->n_nodes; j++)
+        vec2_put(b->rigid, body->nodes[j], vec2_at(a, nodes->number[body->nodes[j]]));
+    if (f->rigid != NULL && rigid_contact_evaluate_body(f->rigid, k, v[f->clock], y))
+        (void)rigid_contact_accelerate(f->rigid, k, b->rigid);
+    rigid_motion_accelerate_body(body, y, v, b->rigid);
+    for (dem_index j = 0; j < body->n_nodes; j++)
+        vec2_put(a, nodes->number[body->nodes[j]], vec2_at(b->rigid, body->nodes[j]));
+}
+
+static void move_rigid_bodies(const local_springs *b, const local_nodes *nodes, int ring, const double *y, double *a)
+{
+    const rigid_bodies *r = &b->forces->model->rigid;
+    for (dem_index k = 0; k < r->n; k++)
+        if (local_nodes_have(nodes, r->list[k].nodes[0], ring)) move_body(b, nodes, k, y, a);
+}
+
 /* The external force is evaluated for all these nodes in one call, and added last, as in forces_acceleration(). */
 static void local_springs_accelerate(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a)
 {
@@ -163,6 +214,7 @@ static void local_springs_accelerate(void *self, const local_nodes *nodes, int r
     local_springs_evaluate_external(self, nodes, ring, s);
     for (dem_index j = 0; j < nodes->end[ring] && f->external != NULL; j++)
         vec2_put(a, j, forces_with(f, nodes->list[j], vec2_at(a, j), vec2_at(f->external->value, j)));
+    move_rigid_bodies(b, nodes, ring, s->y, a);
 }
 
 /* A single node, with the bits of the sweep over all nodes. */
@@ -183,7 +235,14 @@ static void local_springs_add_power(const void *self, const local_nodes *nodes, 
         const forces_power power = forces_node_power(b->forces, nodes->list[j], external, y, y + b->velocities);
         totals[STATE_DAMPING] += power.damping;
         totals[STATE_WORK] += power.work;
+        totals[STATE_FRICTION] += power.friction;
     }
+}
+
+static double local_springs_friction_power(const void *self, const double *y)
+{
+    const local_springs *b = self;
+    return forces_friction_power(b->forces, y, y + b->velocities);
 }
 
 local_forces local_springs_forces(local_springs *b)
@@ -195,10 +254,12 @@ local_forces local_springs_forces(local_springs *b)
                           .read_state = !forces_are_plain(f) || f->surfaces != NULL,
                           .have_power = forces_have_power(f),
                           .held = f->boundaries != NULL ? f->boundaries->held : NULL,
+                          .begin_step = local_springs_begin_step,
                           .add_neighbours = local_springs_add_neighbours,
                           .accelerate_one = local_springs_accelerate_one,
                           .gather = local_springs_gather,
                           .accelerate = local_springs_accelerate,
                           .evaluate_external = local_springs_evaluate_external,
-                          .add_power = local_springs_add_power};
+                          .add_power = local_springs_add_power,
+                          .friction_power = forces_have_friction(f) ? local_springs_friction_power : NULL};
 }

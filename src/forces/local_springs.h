@@ -21,6 +21,7 @@ typedef struct local_springs {
     local_bond *bonds;               /* [n_bonds] */
     double *stiffness, *rest_length; /* [n_bonds] */
     double *dx, *dy, *pull;          /* [n_bonds] scratch */
+    double *rigid;                   /* [n_nodes][2] m/s^2, scratch; NULL until rigid bodies need it */
 } local_springs;
 
 /** Borrows the forces, to which nothing may be added afterwards. Free with local_springs_destroy(). */

@@ -22,7 +22,7 @@ MANY = {
     "obstacles": "*", "materials": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "n_edges": "*",
     "nodes": "*", "springs": "*", "area": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
     "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_model_gap.x": "*", "dem_obstacle_velocity.x": "*", "velocity": "*",
-    "dem_force.force": "2, *", "direction": "2", "points": "2, *"}
+    "dem_force.force": "2, *", "dem_simulation_contact_forces.force": "2, *", "pressure": "*", "direction": "2", "points": "2, *"}
 MAY_BE_NULL = {
     "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of",
     "dem_lattice_edge_shares.direction", "dem_model_create.obstacles", "dem_simulation_set_motion.x",

@@ -106,7 +106,13 @@ module dem_c
   end enum
 
   enum, bind(c)
-    enumerator :: DEM_NODE_FIXED = 1, DEM_NODE_CONTACT = 2
+    enumerator :: DEM_NODE_FIXED = 1, DEM_NODE_CONTACT = 2, DEM_NODE_RIGID = 4, DEM_NODE_GUIDE_X = 8
+    enumerator :: DEM_NODE_GUIDE_Y = 16
+  end enum
+
+  integer, parameter :: dem_guide = c_int
+  enum, bind(c)
+    enumerator :: DEM_GUIDE_NONE = 0, DEM_GUIDE_X = 1, DEM_GUIDE_Y = 2
   end enum
 
   type, bind(c) :: dem_material
@@ -254,6 +260,12 @@ module dem_c
       type(dem_lattice), intent(inout) :: lattice
       integer(dem_index), intent(in) :: nodes(*)
       integer(dem_index), value :: n
+    end function
+
+    integer(dem_status) function dem_lattice_stiffen(lattice, guide) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      integer(dem_guide), value :: guide
     end function
 
     integer(dem_status) function dem_lattice_edge_shares(lattice, nodes, n, direction, area) bind(c)
@@ -539,7 +551,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_options
-    integer(c_size_t) :: struct_size = 200
+    integer(c_size_t) :: struct_size = 224
     integer(dem_method) :: method = 0
     real(c_double) :: gravity(3) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
     real(c_double) :: penetration_tolerance = 0, rest_speed = 0
@@ -554,7 +566,9 @@ module dem_c
     type(c_funptr) :: force = c_null_funptr
     type(c_ptr) :: force_context = c_null_ptr
     integer(dem_bodies) :: bodies = 0
-    real(c_double) :: contact_thickness = 0, contact_stiffness = 0
+    real(c_double) :: contact_thickness = 0, contact_stiffness = 0, contact_friction = 0
+    integer(dem_index) :: n_body_frictions = 0
+    type(c_ptr) :: body_friction = c_null_ptr
   end type
 
   type, bind(c) :: dem_energy
@@ -609,10 +623,10 @@ module dem_c
   end type
 
   type, bind(c) :: dem_counts
-    integer(c_size_t) :: struct_size = 128
+    integer(c_size_t) :: struct_size = 136
     integer(dem_index) :: steps = 0, rejected = 0, evaluations = 0, events = 0, impacts = 0, vertex_impacts = 0
     integer(dem_index) :: early = 0, closings = 0, releases = 0, slips = 0, sticks = 0, passings = 0, late = 0
-    integer(dem_index) :: retries = 0, behind = 0
+    integer(dem_index) :: retries = 0, behind = 0, crossings = 0
   end type
 
   type, bind(c) :: dem_strain
@@ -632,9 +646,17 @@ module dem_c
   end type
 
   type, bind(c) :: dem_surfaces
-    integer(c_size_t) :: struct_size = 56
+    integer(c_size_t) :: struct_size = 104
     real(c_double) :: gap_min = 0, gap_share = 0, thickness_min = 0, thickness_max = 0
-    integer(dem_index) :: pushing = 0, n_edges = 0
+    integer(dem_index) :: pushing = 0, n_edges = 0, left_out = 0
+    real(c_double) :: modulus_min = 0, modulus_max = 0, pressure_share = 0, friction_min = 0, friction_max = 0
+  end type
+
+  type, bind(c) :: dem_pair
+    integer(c_size_t) :: struct_size = 168
+    integer(dem_index) :: node = 0, edge(2) = 0, body = 0, other_body = 0
+    real(c_double) :: x(3) = 0, normal(3) = 0, gap = 0, thickness = 0, force(3) = 0, friction(3) = 0
+    integer(c_int32_t) :: slides = 0
   end type
 
   abstract interface
@@ -740,6 +762,13 @@ module dem_c
       real(c_double), intent(out) :: force(*)
     end function
 
+    integer(dem_status) function dem_simulation_force_at(simulation, spring, out) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), value :: spring
+      real(c_double), intent(out) :: out
+    end function
+
     integer(dem_status) function dem_simulation_stress(simulation, stress) bind(c)
       import
       type(c_ptr), value :: simulation
@@ -763,6 +792,25 @@ module dem_c
       import
       type(c_ptr), value :: simulation
       type(dem_surfaces), intent(inout) :: out
+    end function
+
+    integer(dem_status) function dem_simulation_pair(simulation, pair, out) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), value :: pair
+      type(dem_pair), intent(inout) :: out
+    end function
+
+    integer(dem_status) function dem_simulation_contact_forces(simulation, force) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(out) :: force(2, *)
+    end function
+
+    integer(dem_status) function dem_simulation_contact_pressures(simulation, pressure) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(out) :: pressure(*)
     end function
 
     integer(dem_status) function dem_simulation_counts(simulation, out) bind(c)
@@ -1042,7 +1090,8 @@ module dem_c
 
   enum, bind(c)
     enumerator :: DEM_FIELD_DISPLACEMENT = 1, DEM_FIELD_VELOCITY = 2, DEM_FIELD_STRESS = 4, DEM_FIELD_VON_MISES = 8
-    enumerator :: DEM_FIELD_PRINCIPAL = 16, DEM_FIELD_STRAIN = 32, DEM_FIELD_FORCE = 64, DEM_FIELD_ALL = 127
+    enumerator :: DEM_FIELD_PRINCIPAL = 16, DEM_FIELD_STRAIN = 32, DEM_FIELD_FORCE = 64, DEM_FIELD_CONTACT = 128
+    enumerator :: DEM_FIELD_ALL = 255
   end enum
 
   integer, parameter :: dem_probe_kind = c_int

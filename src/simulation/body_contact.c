@@ -4,8 +4,11 @@
  * right-hand side (forces/forces.h); the pairs and their potential are in src/surface_contact. */
 #include "simulation/body_contact.h"
 
+#include <stdlib.h>
+
 #include "base/reduce.h"
 #include "base/status.h"
+#include "surface_contact/contact_potential.h"
 #include "surface_contact/surface_start.h"
 
 dem_status body_contact_create(dem_simulation *s)
@@ -13,15 +16,26 @@ dem_status body_contact_create(dem_simulation *s)
     const dem_options *o = &s->options;
     const surface_contact_rule rule = {.within_bodies = o->bodies == DEM_BODIES_ALL,
                                        .thickness = o->contact_thickness,
-                                       .stiffness = o->contact_stiffness};
+                                       .stiffness = o->contact_stiffness,
+                                       .friction = o->contact_friction,
+                                       .body_friction = o->body_friction};
+    CHECK(o->n_body_frictions == 0 || o->n_body_frictions == s->model->n_bodies, DEM_ERROR_ARGUMENT,
+          "body_friction is of %lld bodies, but there are %lld", (long long)o->n_body_frictions,
+          (long long)s->model->n_bodies);
+    s->options.body_friction = NULL;
+    const rigid_bodies *rigid = &s->model->rigid;
+    CHECK(rigid->n == 0 || o->bodies != DEM_BODIES_NONE, DEM_ERROR_MODEL,
+          "body %lld is rigid, and touches nothing without the option bodies", (long long)rigid->list[0].number);
     if (o->bodies == DEM_BODIES_NONE) return DEM_OK;
     TRY(surface_contact_create(&s->surfaces, &s->model->lattice, &rule));
+    TRY(rigid_contact_create(&s->rigid, s->model, &s->surfaces->surface));
     return body_contact_check_start(s, s->model->lattice.position);
 }
 
 dem_status body_contact_check_start(dem_simulation *s, const double *x)
 {
     if (s->surfaces == NULL) return DEM_OK;
+    if (s->rigid != NULL) TRY(rigid_contact_check_start(s->rigid, s->seen_t, x));
     TRY(surface_contact_follow(s->surfaces, x));
     return surface_start_check(s->surfaces, x);
 }
@@ -31,12 +45,18 @@ dem_status body_contact_follow(dem_simulation *s, const double *y)
     return s->surfaces != NULL ? surface_contact_follow(s->surfaces, y) : DEM_OK;
 }
 
-dem_status body_contact_begin_step(dem_simulation *s)
+/* Steps of a fixed length cannot be shortened by the loop. */
+static const char *remedy(const dem_simulation *s)
 {
-    return s->surfaces != NULL ? surface_contact_begin_step(s->surfaces, s->path.y0, s->path.y1) : DEM_OK;
+    return s->options.fixed_step > 0.0 ? ": shorten fixed_step" : "";
 }
 
-/* Steps of a fixed length cannot be shortened by the loop. */
+/* The time of a part of the step, s. */
+static double time_of(const dem_simulation *s, double part)
+{
+    return s->t + part * (s->path.end - s->t);
+}
+
 static dem_status refuse_crossing(const dem_simulation *s, const surface_crossing *crossing)
 {
     const dem_index *nodes = crossing->pair.nodes, node = nodes[CONTACT_PAIR_NODE];
@@ -47,8 +67,20 @@ static dem_status refuse_crossing(const dem_simulation *s, const surface_crossin
                        "t = %.9g s%s",
                        (long long)node, body[node], (long long)nodes[CONTACT_PAIR_FIRST],
                        (long long)nodes[CONTACT_PAIR_SECOND], body[nodes[CONTACT_PAIR_FIRST]], x[0], x[1],
-                       s->t + crossing->part * (s->path.end - s->t),
-                       s->options.fixed_step > 0.0 ? ": shorten fixed_step" : "");
+                       time_of(s, crossing->part), remedy(s));
+}
+
+/* Whether rigid bodies have crossed obstacles in the step. */
+static dem_status check_rigid(dem_simulation *s, const double *end)
+{
+    rigid_crossing at;
+    if (s->rigid == NULL) return DEM_OK;
+    const dem_status status = rigid_contact_check_step(s->rigid, s->path.y0, s->t, end, s->path.end, &at);
+    if (status != DEM_ERROR_CONTACT) return status;
+    s->crossings++;
+    return status_fail(
+        DEM_ERROR_CONTACT, "body %lld, which is rigid, crosses obstacle %lld near (%g, %g) m, t = %.9g s%s",
+        (long long)at.body, (long long)at.obstacle, at.place.x, at.place.y, time_of(s, at.part), remedy(s));
 }
 
 /* Events may bring nodes into contact that were not near in the step: an adaptive step is then taken again, shorter; a
@@ -64,11 +96,50 @@ dem_status body_contact_check_step(dem_simulation *s)
         end = s->frame;
     }
     const surface_contact_fault fault = surface_contact_check_step(s->surfaces, s->path.y0, end, &crossing);
+    s->crossings += fault == SURFACE_CONTACT_CROSSED;
     if (fault == SURFACE_CONTACT_CROSSED) return refuse_crossing(s, &crossing);
+    TRY(check_rigid(s, end));
     s->outgrown = fault == SURFACE_CONTACT_OUTGROWN;
     CHECK(!s->outgrown || s->options.fixed_step > 0.0, DEM_ERROR_CONTACT,
           "events in the step from t = %.9g s move surfaces of bodies too far", s->t);
     return DEM_OK;
+}
+
+/* ---- friction ---- */
+
+dem_status body_contact_settle(dem_simulation *s, const double *y)
+{
+    if (!surface_contact_has_friction(s->surfaces)) return DEM_OK;
+    return reduce_status(surface_contact_settle(s->surfaces, y), 0.0);
+}
+
+void body_contact_forget(dem_simulation *s)
+{
+    if (s->surfaces != NULL) anchor_set_clear(&s->surfaces->anchors);
+}
+
+dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    if (!surface_contact_has_friction(s->surfaces)) return DEM_OK;
+    const anchor_set *anchors = &s->surfaces->anchors;
+    anchor_record *list = malloc((size_t)(anchors->n + 1) * sizeof *list);
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for %lld anchors", (long long)anchors->n);
+    for (dem_index k = 0; k < anchors->n; k++) list[k] = anchor_set_record(anchors, k);
+    const dem_status status = dem_checkpoint_put(checkpoint, "anchors", list, (size_t)anchors->n * sizeof *list);
+    free(list);
+    return status;
+}
+
+/* A checkpoint of a run without friction has none. */
+dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
+{
+    size_t size = 0;
+    if (!surface_contact_has_friction(s->surfaces)) return DEM_OK;
+    const anchor_record *list = dem_checkpoint_find(checkpoint, "anchors", &size);
+    const dem_index n = list != NULL ? (dem_index)(size / sizeof *list) : 0;
+    CHECK(list == NULL || (size_t)n * sizeof *list == size, DEM_ERROR_IO,
+          "the checkpoint has %zu bytes of anchors, which have %zu bytes each", size, sizeof *list);
+    return anchor_set_restore(&s->surfaces->anchors, list, n);
 }
 
 dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x)
@@ -76,21 +147,36 @@ dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x)
     if (s->surfaces == NULL) return (dem_surfaces){.gap_min = INFINITY, .gap_share = INFINITY};
     const contact_surface *of = &s->surfaces->surface;
     const surface_gaps gaps = surface_contact_gaps(s->surfaces, x);
+    const double nearest = reduce_min(gaps.least_share);
     return (dem_surfaces){.gap_min = reduce_min(gaps.least),
-                          .gap_share = reduce_min(gaps.least_share),
-                          .thickness_min = of->least_thickness,
-                          .thickness_max = of->most_thickness,
+                          .gap_share = nearest,
+                          .thickness_min = of->least.thickness,
+                          .thickness_max = of->most.thickness,
                           .pushing = reduce_count(gaps.pushing),
-                          .n_edges = reduce_count(of->surface.n_edges)};
+                          .n_edges = reduce_count(of->surface.n_edges),
+                          .left_out = reduce_count(s->surfaces->n_left_out),
+                          .modulus_min = of->least.modulus,
+                          .modulus_max = of->most.modulus,
+                          .pressure_share = nearest < 1.0 ? contact_potential_pressure(nearest) : 0.0,
+                          .friction_min = of->least.friction,
+                          .friction_max = of->most.friction};
+}
+
+dem_status body_contact_list(dem_simulation *s, const double *x)
+{
+    return s->surfaces != NULL ? surface_load_list(&s->pushing, s->surfaces, x) : DEM_OK;
 }
 
 /* Halving a step that is stable would spoil the energy that fixed steps keep: with the default of 1/4 of the stability
- * bound contact needs no shorter steps until h omega is 1. */
-double body_contact_stiffening(dem_simulation *s, double guard, const double *y)
+ * bound contact needs no shorter steps until h omega is 1. A fixed step that is longer than that about the rest shape
+ * was chosen so, and is shortened by what contact adds only. */
+double body_contact_stiffening(dem_simulation *s, double guard, const double *y, bool is_known)
 {
-    if (s->surfaces == NULL || !(s->options.fixed_step > 0.0)) return guard;
-    const double omega = s->model->omega_max * guard;
-    const double added = surface_contact_stiffening(s->surfaces, s->model->inverse_mass, y);
-    const double product = s->options.fixed_step * sqrt(omega * omega + added);
-    return product > 1.0 ? fmax(guard, product) : guard;
+    const double h = s->options.fixed_step, rest = s->model->omega_max, omega = rest * guard;
+    if (s->surfaces == NULL || !(h > 0.0)) return guard;
+    const double most = fmax(1.0, h * rest), harmless = most * most / (h * h) - omega * omega;
+    double added = surface_contact_stiffening(s->surfaces, s->model->inverse_mass, harmless, y, is_known);
+    if (s->rigid != NULL)
+        added += rigid_contact_stiffening(s->rigid, y[state_velocities(&s->layout) + s->forces.clock], y);
+    return fmax(guard, h * sqrt(omega * omega + added) / most);
 }

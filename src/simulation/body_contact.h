@@ -16,18 +16,29 @@ dem_status body_contact_check_start(dem_simulation *s, const double *x);
 /** Makes the lists fit the state y. */
 dem_status body_contact_follow(dem_simulation *s, const double *y);
 
-/** Called with the step in hand, before its events are found. */
-dem_status body_contact_begin_step(dem_simulation *s);
-
 /** Called when its events have been resolved.
  *  \return DEM_ERROR_CONTACT if the step cannot be taken as it is */
 dem_status body_contact_check_step(dem_simulation *s);
 
+/** Makes the state y what friction between bodies goes on from.  \return what pair_list_follow() returns */
+dem_status body_contact_settle(dem_simulation *s, const double *y);
+
+/** Forgets what friction between bodies remembers. */
+void body_contact_forget(dem_simulation *s);
+
+/** Puts that into a checkpoint, and gets it from one.  \return DEM_ERROR_IO if it is impossible, DEM_ERROR_MEMORY */
+dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint);
+dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint);
+
 /** What is seen of it in positions x of the step in hand, or of the state. */
 dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x);
 
+/** Lists the pairs that push each other in positions x into s->pushing.  \return DEM_ERROR_MEMORY */
+dem_status body_contact_list(dem_simulation *s, const double *x);
+
 /** Bound of the highest frequency in the state y, in units of that about the rest shape: the larger of `guard`, that of
- *  springs and triangles, and what contact needs for a fixed step to stay stable. */
-double body_contact_stiffening(dem_simulation *s, double guard, const double *y);
+ *  springs and triangles, and what contact needs for a fixed step to stay stable.
+ *  \param is_known  the last evaluation of all forces was for just this state */
+double body_contact_stiffening(dem_simulation *s, double guard, const double *y, bool is_known);
 
 #endif

@@ -104,9 +104,11 @@ dem_status checkpoint_take(dem_simulation *s, dem_checkpoint *checkpoint)
     counts.rejected = of_integrator.rejected;
     counts.evaluations = of_integrator.evaluations;
     counts.retries = of_integrator.retries;
+    counts.crossings = s->crossings;
     TRY(checkpoint_entries_pass(&way, "sizes", &size, sizeof size));
     TRY(put_motion(s->model, checkpoint));
     TRY(pass(s, &way, &n, &counts));
+    TRY(body_contact_save(s, checkpoint));
     TRY(source_list_save(&s->sources, checkpoint));
     return checkpoint_entries_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
 }
@@ -186,6 +188,7 @@ static dem_status get(dem_simulation *s, const dem_checkpoint *checkpoint, numbe
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
     TRY(check_numbers(n));
     TRY(find_state(s, checkpoint, y));
+    TRY(body_contact_restore(s, checkpoint));
     TRY(body_contact_follow(s, *y));
     return source_list_restore(&s->sources, checkpoint, n->t, *y);
 }
@@ -206,6 +209,7 @@ dem_status checkpoint_restore(dem_simulation *s, const dem_checkpoint *checkpoin
     s->t = n.t;
     s->step = n.step;
     s->events = n.events;
+    s->crossings = c->ledger.counts.crossings;
     s->unlooked = (int)n.unlooked;
     s->since_checkpoint = 0;
     s->in_hand = s->at_event = false;

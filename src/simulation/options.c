@@ -23,17 +23,35 @@ dem_status options_read(dem_options *ours, const dem_options *theirs)
     return options_check(ours);
 }
 
+static dem_status check_friction(const dem_options *o)
+{
+    bool any = o->contact_friction > 0.0;
+    CHECK(o->n_body_frictions >= 0 && (o->n_body_frictions == 0 || o->body_friction != NULL), DEM_ERROR_ARGUMENT,
+          "n_body_frictions is %lld, body_friction is %s", (long long)o->n_body_frictions,
+          o->body_friction != NULL ? "given" : "NULL");
+    for (dem_index b = 0; b < o->n_body_frictions; b++) {
+        CHECK(isfinite(o->body_friction[b]) && o->body_friction[b] >= 0.0, DEM_ERROR_ARGUMENT,
+              "body_friction of body %lld must be >= 0, got %g", (long long)b, o->body_friction[b]);
+        any = any || o->body_friction[b] > 0.0;
+    }
+    CHECK(!any || o->bodies != DEM_BODIES_NONE, DEM_ERROR_ARGUMENT,
+          "contact_friction and body_friction are of bodies that touch, but the option bodies is none");
+    return DEM_OK;
+}
+
 dem_status options_check(const dem_options *o)
 {
-    const double lengths[] = {o->spacing,    o->v_scale,          o->max_step, o->fixed_step, o->penetration_tolerance,
-                              o->rest_speed, o->contact_thickness};
+    const double lengths[] = {
+        o->spacing,    o->v_scale,           o->max_step,        o->fixed_step, o->penetration_tolerance,
+        o->rest_speed, o->contact_thickness, o->contact_friction};
     static const char *const names[] = {
-        "spacing", "v_scale", "max_step", "fixed_step", "penetration_tolerance", "rest_speed", "contact_thickness"};
+        "spacing",    "v_scale",           "max_step",        "fixed_step", "penetration_tolerance",
+        "rest_speed", "contact_thickness", "contact_friction"};
     CHECK(isfinite(o->gravity[0]) && isfinite(o->gravity[1]), DEM_ERROR_ARGUMENT, "gravity (%g, %g) is not finite",
           o->gravity[0], o->gravity[1]);
     CHECK(o->gravity[2] == 0.0, DEM_ERROR_ARGUMENT, "gravity has a third component in the plane: %g", o->gravity[2]);
     CHECK(o->rtol >= 1e-13 && o->rtol <= 0.1, DEM_ERROR_ARGUMENT, "rtol must be in [1e-13, 0.1], got %g", o->rtol);
-    for (int k = 0; k < 7; k++)
+    for (int k = 0; k < 8; k++)
         CHECK(isfinite(lengths[k]) && lengths[k] >= 0.0, DEM_ERROR_ARGUMENT, "%s must be >= 0, got %g", names[k],
               lengths[k]);
     CHECK(isfinite(o->mass_damping) && o->mass_damping >= 0.0, DEM_ERROR_ARGUMENT, "mass_damping must be >= 0, got %g",
@@ -48,13 +66,15 @@ dem_status options_check(const dem_options *o)
           "unknown contact of bodies %d", (int)o->bodies);
     CHECK(o->contact_stiffness == 0.0 || (o->contact_stiffness >= 0.01 && o->contact_stiffness <= 100.0),
           DEM_ERROR_ARGUMENT, "contact_stiffness must be in [0.01, 100], got %g", o->contact_stiffness);
+    TRY(check_friction(o));
     CHECK(o->checkpoint_steps >= 0, DEM_ERROR_ARGUMENT, "checkpoint_steps must be >= 0, got %lld",
           (long long)o->checkpoint_steps);
     return DEM_OK;
 }
 
-/* Largest of the initial speed, that of boundaries and obstacles, the speed after the drop to the nearest obstacle,
- * and 1e-3 of the speed of sound, which is omega_max a/2 in a chain of spacing a. */
+/* Largest of the initial speed, that of boundaries and obstacles, the speed after the drop to the nearest obstacle, and
+ * 1e-3 of the speed of sound, which is omega_max a/2 in a chain of spacing a. A rigid body drops by a spacing at
+ * least. */
 static double default_v_scale(const dem_options *o, const dem_model *model, const boundary_conditions *b)
 {
     const dem_lattice *l = &model->lattice;
@@ -63,6 +83,8 @@ static double default_v_scale(const dem_options *o, const dem_model *model, cons
     for (dem_index i = 0; i < l->n_nodes; i++) speed = fmax(speed, vec2_norm(vec2_at(l->velocity, i)));
     for (dem_index k = 0; k < model->surface.n_nodes; k++)
         drop = fmin(drop, dem_model_gap(model, &l->position[vec2_row(model->surface.nodes[k])]));
+    for (dem_index k = 0; k < model->rigid.n_nodes; k++)
+        drop = fmin(drop, fmax(o->spacing, dem_model_gap(model, &l->position[vec2_row(model->rigid.nodes[k])])));
     speed = reduce_max(speed);
     drop = reduce_min(drop);
     const double g = hypot(o->gravity[0], o->gravity[1]);
@@ -89,7 +111,8 @@ dem_status options_fill(dem_options *o, const dem_model *model, const boundary_c
         o->max_step =
             fmin((method.adaptive ? adaptive_share : fixed_share * method.stable) / fmax(model->omega_max, rate),
                  1.0 / needed);
-    CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model without springs needs the option max_step, in s");
+    CHECK(o->max_step > 0.0, DEM_ERROR_ARGUMENT, "a model %s needs the option max_step, in s",
+          model->rigid.n > 0 ? "of rigid bodies alone" : "without springs");
     CHECK(needed * o->max_step <= 1.0 + 1e-9, DEM_ERROR_ARGUMENT,
           "obstacles that oscillate or turn need steps of at most %g s (1/20 of a period, 0.05 rad): max_step and "
           "fixed_step must not be longer, got %g s",

@@ -11,19 +11,21 @@
 #include "forces/held_forces.h"
 #include "forces/kernel.h"
 #include "forces/local_springs.h"
+#include "forces/rigid_motion.h"
 #include "model/overlap.h"
 #include "simulation/observers.h"
+#include "surface_contact/surface_load.h"
 #include "time/integrator.h"
 
 /* Results from the state as seen; each is computed once, when it is first asked for. */
 typedef struct run_measures {
-    bool has_events, has_state, has_contacts, has_held_forces, has_poses, has_energy, has_strain, has_body;
+    bool has_events, has_state, has_contacts, has_held_forces, has_poses, has_energy, has_strain, has_bodies,
+        has_surfaces, has_pairs, has_rigid;
     dem_index n_contacts;
     const dem_contact *contacts; /* [n_contacts] closed ones */
     dem_energy energy;
     dem_strain strain;
-    dem_index body; /* the last one asked about */
-    dem_body_motion motion;
+    dem_surfaces surfaces;
 } run_measures;
 
 /** Flags say where a run is:
@@ -39,6 +41,9 @@ struct dem_simulation {
     boundary_conditions boundaries;
     external_force *external;  /* NULL: none */
     surface_contact *surfaces; /* contact of bodies with each other; NULL: none */
+    rigid_contact *rigid;      /* of rigid bodies with obstacles; NULL: none */
+    surface_load pushing;      /* pairs of them in the state as seen, if `measures` has them */
+    dem_index crossings;       /* steps rejected because of them */
     bool outgrown;             /* events in the step in hand have brought surfaces nearer than the step knew */
     held_forces held_forces;   /* external ones, in the state as seen, if `measures` has them */
     pose *poses;               /* [obstacles] likewise; NULL: no function of the caller moves any */
@@ -67,7 +72,8 @@ struct dem_simulation {
     double seen_t;      /* s, of what observers and callers see: */
     const double *seen; /* y or frame */
     run_measures *measures;
-    int unlooked; /* steps since overlaps were looked for */
+    dem_body_motion *bodies; /* [bodies] in the state as seen, if `measures` has them */
+    int unlooked;            /* steps since overlaps were looked for */
     dem_index events;
     dem_index since_checkpoint;     /* steps since the last checkpoint */
     dem_checkpoint *checkpoint;     /* the last one, */
@@ -89,6 +95,12 @@ static inline dem_status run_force_failure(const dem_simulation *s)
 {
     const dem_status of_motion = surface_failed(&s->automaton.set.scene) ? given_motion_failure() : DEM_OK;
     return external_force_failed(s->external) ? external_force_failure(s->external) : of_motion;
+}
+
+/* What rigid bodies keep when their shapes are put back. */
+static inline rigid_invariant run_keeps(const dem_simulation *s)
+{
+    return s->options.method == DEM_METHOD_VERLET ? RIGID_MOTION_MOMENTUM : RIGID_MOTION_SPIN;
 }
 
 static inline bool run_is_local(const dem_simulation *s)

@@ -6,6 +6,8 @@
  * during the advance, which reports a failure. */
 #include "simulation/query.h"
 
+#include <string.h>
+
 #include "base/reduce.h"
 #include "base/status.h"
 #include "base/struct_size.h"
@@ -44,9 +46,19 @@ static const automaton *contact_of(const dem_simulation *s)
 static const double *seen_of(const dem_simulation *s)
 {
     (void)contact_of(s);
-    if (!s->measures->has_state) dense_output_state(&s->path, s->seen_t, s->frame);
+    if (s->measures->has_state) return s->seen;
+    dense_output_state(&s->path, s->seen_t, s->frame);
+    rigid_motion_put_back(&s->model->rigid, run_keeps(s), s->frame, s->frame + state_velocities(&s->layout));
     s->measures->has_state = true;
     return s->seen;
+}
+
+static void measure_energy(const dem_simulation *s)
+{
+    run_measures *m = s->measures;
+    const double *y = seen_of(s);
+    if (!m->has_energy) m->energy = diagnostics_energy(&s->forces, y, y + state_velocities(&s->layout));
+    m->has_energy = true;
 }
 
 static void list_contacts(const dem_simulation *s)
@@ -56,6 +68,15 @@ static void list_contacts(const dem_simulation *s)
     m->has_contacts = true;
 }
 
+/* What obstacles do to rigid bodies. */
+static dem_status measure_rigid(const dem_simulation *s)
+{
+    const double *y = seen_of(s);
+    if (s->rigid == NULL || s->measures->has_rigid) return DEM_OK;
+    s->measures->has_rigid = rigid_contact_evaluate(s->rigid, y[state_velocities(&s->layout) + s->forces.clock], y);
+    return s->rigid->status;
+}
+
 /* Contacts depend on where obstacles are. */
 void query_ask_poses(dem_simulation *s)
 {
@@ -63,6 +84,8 @@ void query_ask_poses(dem_simulation *s)
     if (s->poses == NULL) return;
     for (dem_index k = 0; k < o->n; k++) s->poses[k] = motion_law_pose(&o->laws[k], s->seen_t);
     list_contacts(s);
+    (void)measure_rigid(s); /* what fails is evaluated again, and refused, when it is asked for */
+    if (s->rigid != NULL) measure_energy(s);
     s->measures->has_poses = true;
 }
 
@@ -121,15 +144,14 @@ dem_status dem_simulation_state(const dem_simulation *s, dem_state *out)
 /* Mechanical energies are computed once; the others are sums that are there. */
 static dem_energy energy_of(const dem_simulation *s)
 {
-    run_measures *m = s->measures;
+    const run_measures *m = s->measures;
     const double *y = seen_of(s);
     const contact_ledger *ledger = &contact_of(s)->set.ledger;
     const state_layout *l = &s->layout;
-    if (!m->has_energy) m->energy = diagnostics_energy(&s->forces, y, y + state_velocities(l));
-    m->has_energy = true;
+    measure_energy(s);
     dem_energy e = m->energy;
     e.impact = reduce_rounded_sum(ledger->impact);
-    e.friction = state_total_of(l, y, STATE_FRICTION);
+    e.friction += state_total_of(l, y, STATE_FRICTION);
     e.damping = state_total_of(l, y, STATE_DAMPING);
     e.projection = reduce_rounded_sum(ledger->projection);
     e.boundary = state_total_of(l, y, STATE_WORK);
@@ -180,6 +202,19 @@ dem_status dem_simulation_forces(const dem_simulation *s, double *force)
     return DEM_OK;
 }
 
+dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, double *out)
+{
+    TRY(check_given("dem_simulation_force_at", s, out));
+    const dem_lattice *l = &s->model->lattice;
+    TRY(status_check_number("spring", spring, l->n_springs));
+    const unsigned char *broken = element_state_springs(s->forces.elements);
+    const double *x = seen_of(s);
+    const double own = broken != NULL && broken[spring] ? 0.0 : l->stiffness[spring] * springs_strain_of(l, spring, x);
+    *out = couplings_add_tension(&s->model->couplings, element_state_triangles(s->forces.elements), l->ends[2 * spring],
+                                 spring, x, own);
+    return DEM_OK;
+}
+
 static void stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
     const dem_model *m = s->model;
@@ -210,8 +245,37 @@ dem_status dem_simulation_overlap(const dem_simulation *s, dem_overlap *out)
 dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 {
     TRY(check_given("dem_simulation_surfaces", s, out));
-    const dem_surfaces seen = body_contact_surfaces(s, seen_of(s));
-    return GIVE(dem_surfaces, out, &seen);
+    run_measures *m = s->measures;
+    if (!m->has_surfaces) m->surfaces = body_contact_surfaces(s, seen_of(s));
+    m->has_surfaces = true;
+    return GIVE(dem_surfaces, out, &m->surfaces);
+}
+
+/* They are listed when the first of them is asked for. */
+dem_status dem_simulation_pair(const dem_simulation *s, dem_index pair, dem_pair *out)
+{
+    TRY(check_given("dem_simulation_pair", s, out));
+    const double *x = seen_of(s);
+    if (!s->measures->has_pairs) TRY(body_contact_list((dem_simulation *)s, x));
+    s->measures->has_pairs = true;
+    TRY(status_check_number("pair", pair, s->pushing.n));
+    const dem_pair seen = surface_load_pair(&s->pushing, pair, &s->surfaces->surface, x);
+    return GIVE(dem_pair, out, &seen);
+}
+
+dem_status dem_simulation_contact_forces(const dem_simulation *s, double *force)
+{
+    TRY(check_given("dem_simulation_contact_forces", s, force));
+    memset(force, 0, (size_t)(s->layout.dim * s->model->lattice.n_nodes) * sizeof *force);
+    if (s->surfaces != NULL) surface_load_forces(s->surfaces, seen_of(s), force);
+    return DEM_OK;
+}
+
+dem_status dem_simulation_contact_pressures(const dem_simulation *s, double *pressure)
+{
+    TRY(check_given("dem_simulation_contact_pressures", s, pressure));
+    memset(pressure, 0, (size_t)s->model->lattice.n_nodes * sizeof *pressure);
+    return s->surfaces != NULL ? surface_load_pressures(s->surfaces, seen_of(s), pressure) : DEM_OK;
 }
 
 /* Counts of contact events and nodes; `late` counts steps. */
@@ -232,20 +296,25 @@ dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
     counts.rejected = of_integrator.rejected;
     counts.evaluations = of_integrator.evaluations;
     counts.retries = of_integrator.retries;
+    counts.crossings = s->crossings;
     counts.events = s->events + (s->in_hand ? reduce_count(s->queue.n_stops) : 0);
     return GIVE(dem_counts, out, &counts);
+}
+
+/* Who asks about one body usually asks about all. */
+static void measure_bodies(const dem_simulation *s)
+{
+    const double *x = seen_of(s), *v = x + state_velocities(&s->layout);
+    for (dem_index b = 0; b < s->model->n_bodies; b++) s->bodies[b] = diagnostics_body(s->model, b, x, v);
+    s->measures->has_bodies = true;
 }
 
 dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body_motion *out)
 {
     TRY(check_given("dem_simulation_body", s, out));
     TRY(status_check_number("body", body, s->model->n_bodies));
-    run_measures *m = s->measures;
-    if (!m->has_body || m->body != body)
-        m->motion = diagnostics_body(s->model, body, seen_of(s), s->seen + state_velocities(&s->layout));
-    m->has_body = true;
-    m->body = body;
-    return GIVE(dem_body_motion, out, &m->motion);
+    if (!s->measures->has_bodies) measure_bodies(s);
+    return GIVE(dem_body_motion, out, &s->bodies[body]);
 }
 
 /* An obstacle at rest keeps the zeros that the load has. */
@@ -261,6 +330,7 @@ static void add_motion(const dem_simulation *s, dem_index obstacle, dem_obstacle
     }
     const pose at = s->measures->has_poses ? s->poses[obstacle] : motion_law_pose(law, s->seen_t);
     obstacle_load_add_motion(load, &at, obstacle, closed, n);
+    if (s->rigid != NULL) load->power += rigid_contact_power(s->rigid, obstacle);
 }
 
 dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *out)
@@ -273,7 +343,8 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
     const dem_contact *closed = contacts_of(s, &n_closed);
     const double *lasting = state_v(l, seen_of(s), state_impulse(l, obstacle));
     const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
-    dem_obstacle_load load = diagnostics_reaction(closed, n_closed, obstacle);
+    TRY(measure_rigid(s));
+    dem_obstacle_load load = diagnostics_reaction(closed, n_closed, obstacle, s->rigid);
     add_motion(s, obstacle, &load);
     for (int k = 0; k < 2; k++) {
         load.impulse[k] = reduce_rounded_sum(ledger->impulse[2 * obstacle + k]) + lasting[k];

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The right-hand side of y = (x, v), (3) and (4) of docs/method.md:
  *   x' = v,   m v' = m g + springs, triangles, damping, other surfaces and forces from outside + closed contacts,
- * with prescribed components given, and behind the nodes the rates of the quadratures, which are integrated along. Here
- * the parts are put together in their order; the forces of nodes are in src/forces, those of contacts in src/contact.
- * The integrator (src/time) sees only the table ode_problem that is filled in at the end. */
+ * with the motion of rigid bodies projected on rigid motions, prescribed components given, and behind the nodes the
+ * rates of the quadratures, which are integrated along. Here the parts are put together in their order; the forces of
+ * nodes are in src/forces, those of contacts in src/contact. The integrator (src/time) sees only the table ode_problem
+ * that is filled in at the end. */
 #include "simulation/right_hand_side.h"
 
 #include "base/reduce.h"
@@ -35,6 +36,9 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     const double *v = y + state_velocities(l);
     for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
     automaton_add_rates(&s->automaton, t, y, a);
+    if (s->rigid != NULL) rigid_contact_add_rates(s->rigid, l, a);
+    if (forces_have_friction(&s->forces))
+        a[state_total_index(l, STATE_FRICTION)] += reduce_rounded_sum(forces_evaluated_friction_power(&s->forces, v));
     a[state_total_index(l, STATE_DAMPING)] = reduce_rounded_sum(forces_damping_power(&s->forces, y, v));
     a[state_total_index(l, STATE_WORK)] = reduce_rounded_sum(work);
     a[state_total_index(l, STATE_TIME)] = 1.0;
@@ -53,6 +57,7 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &nodes);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     automaton_constrain(&s->automaton, t, y, a);
+    if (isfinite(sum)) rigid_motion_accelerate(&s->model->rigid, y, v, a);
     fill_rates(s, t, y, a, forces_prescribe(&s->forces, t, v, u, a));
     if (run_force_failed(s)) return 2;
     if (!reduce_any(!isfinite(sum))) return 0;
@@ -94,10 +99,10 @@ static double root_function(const dense_output *step, void *context)
 
 /* Where the folding guard acts, triangles are stiffer than at rest, and surfaces in contact are: by how much, for fixed
  * steps. */
-static double stiffening(const double *y, void *context)
+static double stiffening(const double *y, bool is_known, void *context)
 {
     dem_simulation *s = context;
-    return reduce_max(body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y));
+    return reduce_max(body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y, is_known));
 }
 
 /* Root functions are watched with `exact` only, and where there is something to touch. What counts as an error of 1 is

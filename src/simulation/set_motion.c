@@ -33,6 +33,24 @@ static dem_status check(const dem_simulation *s, const char *what, const double 
     return DEM_OK;
 }
 
+/* The motion that is about to be set must be rigid where bodies are; an array that is NULL stays as it is. */
+static dem_status check_rigid(const dem_simulation *s, const double *x, const double *v)
+{
+    const rigid_bodies *r = &s->model->rigid;
+    for (dem_index k = 0; k < r->n; k++) {
+        const dem_index misplaced = rigid_body_misplaced(&r->list[k], x);
+        const dem_index deviating = rigid_body_deviating(&r->list[k], x, v);
+        CHECK(misplaced < 0, DEM_ERROR_ARGUMENT,
+              "the place (%g, %g) of node %lld deforms its body %lld, which is rigid", x[2 * misplaced],
+              x[2 * misplaced + 1], (long long)misplaced, (long long)r->list[k].number);
+        CHECK(deviating < 0, DEM_ERROR_ARGUMENT,
+              "the velocity (%g, %g) of node %lld is not that of a rigid motion of its body %lld%s", v[2 * deviating],
+              v[2 * deviating + 1], (long long)deviating, (long long)r->list[k].number,
+              r->list[k].guide != DEM_GUIDE_NONE ? " along its guide" : "");
+    }
+    return DEM_OK;
+}
+
 /* Energy of motion and deformation, and of weight, J: what the new state may have more or less of. */
 static double mechanical_energy(dem_simulation *s, const double *y)
 {
@@ -70,10 +88,12 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     TRY(dem_simulation_state(s, &seen)); /* with contacts and ledger of that time */
     TRY(reduce_status(check(s, "place", x, seen.x), 0.0));
     TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
+    TRY(reduce_status(check_rigid(s, x != NULL ? x : seen.x, v != NULL ? v : seen.v), 0.0));
     if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
     if (x != NULL) TRY(check_surfaces(s, x));
     if (run_force_failed(s)) return reduce_status(run_force_failure(s), 0.0);
     if (s->seen != s->frame) memcpy(s->frame, s->seen, (size_t)state_size(&s->layout) * sizeof *s->frame);
+    body_contact_forget(s); /* what it has stored is lost to friction, and not part of the change */
     put(s, x, v, s->frame);
     s->events += s->in_hand ? reduce_count(s->queue.n_stops) : 0;
     s->t = s->seen_t;

@@ -25,8 +25,9 @@ static dem_status allocate(dem_simulation *s)
     s->y = s->initial = aligned_zeros(n);
     s->frame = malloc(n * sizeof *s->frame);
     s->measures = calloc(1, sizeof *s->measures);
+    s->bodies = calloc((size_t)s->model->n_bodies, sizeof *s->bodies);
     if (o->is_asked) s->poses = calloc((size_t)o->n, sizeof *s->poses);
-    CHECK(s->y && s->frame && s->measures && (s->poses || !o->is_asked), DEM_ERROR_MEMORY,
+    CHECK(s->y && s->frame && s->measures && s->bodies && (s->poses || !o->is_asked), DEM_ERROR_MEMORY,
           "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
     return DEM_OK;
 }
@@ -57,6 +58,7 @@ static forces forces_of(const dem_simulation *s)
                     .mass_damping = o->mass_damping,
                     .boundaries = s->boundaries.n > 0 ? &s->boundaries : NULL,
                     .surfaces = s->surfaces,
+                    .rigid = s->rigid,
                     .external = s->external,
                     .clock = state_total_index(&s->layout, STATE_TIME)};
 }
@@ -181,13 +183,16 @@ void dem_simulation_destroy(dem_simulation *s)
     local_springs_destroy(&s->local_springs);
     automaton_destroy(&s->automaton);
     boundary_conditions_free(&s->boundaries);
+    rigid_contact_destroy(s->rigid);
     surface_contact_destroy(s->surfaces);
+    surface_load_free(&s->pushing);
     external_force_destroy(s->external);
     held_forces_destroy(&s->held_forces);
     overlap_destroy(&s->overlap);
     free(s->initial);
     free(s->frame);
     free(s->measures);
+    free(s->bodies);
     free(s->poses);
     dem_checkpoint_destroy(s->checkpoint);
     dem_checkpoint_destroy(s->rollback);

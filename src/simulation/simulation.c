@@ -15,8 +15,9 @@
 #include "simulation/query.h"
 
 enum {
-    between_looks = 16, /* accepted steps, for overlaps */
-    most_attempts = 30  /* at a step whose contacts reject it */
+    between_looks = 16,       /* accepted steps, for overlaps */
+    between_rare_looks = 256, /* the same where bodies touch each other and themselves, so that there should be none */
+    most_attempts = 30        /* at a step whose contacts reject it */
 };
 
 /* Of the length of the next attempt at a step that contacts have rejected: never less than a tenth. */
@@ -151,7 +152,6 @@ static dem_status give_up(dem_simulation *s, dem_status status)
 static dem_status find_events(dem_simulation *s, bool rooted)
 {
     double *y1, *f1;
-    TRY(body_contact_begin_step(s));
     if (!run_is_local(s)) {
         s->at_event = automaton_check_step(&s->automaton, &s->path, rooted, s->frame) || rooted;
         return body_contact_check_step(s);
@@ -201,20 +201,42 @@ static void look_for_overlaps(dem_simulation *s)
     s->unlooked = 0;
 }
 
+static bool is_look_due(const dem_simulation *s)
+{
+    return s->unlooked >= (s->options.bodies == DEM_BODIES_ALL ? between_rare_looks : between_looks);
+}
+
+/* Makes the end of the step the state of the integrator, in which rigid bodies have their shapes. After a whole step
+ * the derivative is that of this state; one that was cut short is followed by a restart. */
+static void accept_end(dem_simulation *s)
+{
+    const dense_output *p = &s->path;
+    const rigid_bodies *rigid = &s->model->rigid;
+    const dem_index v = state_velocities(&s->layout);
+    double *y1, *f1;
+    if (p->end == p->t1 && rigid->n > 0) {
+        integrator_end(&s->integrator, &y1, &f1);
+        rigid_motion_put_back_end(rigid, run_keeps(s), (double *[]){y1, y1 + v}, (double *[]){f1, f1 + v});
+    }
+    integrator_settle(&s->integrator, p);
+    s->y = integrator_state(&s->integrator);
+    if (p->end < p->t1) rigid_motion_put_back(rigid, run_keeps(s), s->y, s->y + v);
+}
+
 /* Makes the end of the step in hand the state: the integrator accepts it, closed contacts that have opened are put
  * back, and forces and clearances are those of the new state.  \return whether vertex contacts were put back */
 static bool settle_step(dem_simulation *s)
 {
     const dense_output *p = &s->path;
-    integrator_settle(&s->integrator, p);
-    s->y = integrator_state(&s->integrator);
+    accept_end(s);
     const bool moved = automaton_project(&s->automaton, p->end, s->y);
     automaton_end_step(&s->automaton, p, s->y);
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;
     s->since_checkpoint++;
-    if (++s->unlooked >= between_looks) look_for_overlaps(s);
+    s->unlooked++;
+    if (is_look_due(s)) look_for_overlaps(s);
     return moved;
 }
 
@@ -227,14 +249,22 @@ static dem_status resolve_event(dem_simulation *s)
     return go_on(s, reduce_status(automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
 }
 
-/* Lets the integrator go on from the end of the step. If contacts were put back, or surfaces have met (`moved`), the
+/* Lets the integrator go on from the end of the step. If contacts were put back or surfaces have met (`moved`), the
  * derivative there is unknown: it starts anew. If events have changed the end and its derivative, it resumes from both
- * without an evaluation, with a step bounded for what their error would be in it. Otherwise nothing has changed. */
+ * without an evaluation, with a step bounded for what their error would be in it; likewise if rigid bodies have got
+ * their shapes back. Otherwise nothing has changed. */
 static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
     if (moved) return integrator_restart(&s->integrator, s->t, s->y);
-    return reduce_any(s->queue.n_stops > 0) ? integrator_resume(&s->integrator) : DEM_OK;
+    const bool changed = s->queue.n_stops > 0 || s->model->rigid.n > 0;
+    return reduce_any(changed) ? integrator_resume(&s->integrator) : DEM_OK;
+}
+
+/* Events compute the derivative at the end again node by node, and not that of a rigid body. */
+static bool events_moved_rigid(const dem_simulation *s)
+{
+    return reduce_any(s->model->rigid.n > 0 && s->queue.n_stops > 0);
 }
 
 /* Reports the events left in the step, takes the queue to its end, as observers may have left it at an earlier time,
@@ -246,17 +276,19 @@ static dem_status commit_step(dem_simulation *s)
     if (s->at_event) TRY(take_rollback(s));
     /* From here on the end of the step is the state: y and t. */
     const bool moved = settle_step(s);
+    TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_stops);
-    TRY(go_on_changed(s, moved || s->outgrown));
+    TRY(go_on_changed(s, moved || s->outgrown || events_moved_rigid(s)));
     return report_step(s);
 }
 
-/* Closes the contacts of the initial state before the first step, when the observers are there to be called. If the
- * external force fails here, the next advance starts again. */
+/* Closes the contacts of the initial state before the first step, and gives bodies that touch their friction, when the
+ * observers are there to be called. If the external force fails here, the next advance starts again. */
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
+    TRY(body_contact_settle(s, s->y));
     TRY(take_rollback(s));
     const dem_status status = go_on(s, reduce_status(automaton_start(&s->automaton, s->t, s->y, &listener), 0.0));
     s->started = !run_force_failed(s);

@@ -403,7 +403,7 @@ static dem_status arkode_integrator_step(void *self, dense_output *step, bool *r
     for (int attempt = 0; attempt <= max_retries; attempt++) {
         I->holds_step = false;
         if (I->problem.fixed_step > 0.0)
-            (void)ARKodeSetFixedStep(I->arkode, ode_problem_fixed_step(&I->problem, nvector_values(I->y0)));
+            (void)ARKodeSetFixedStep(I->arkode, ode_problem_fixed_step(&I->problem, nvector_values(I->y0), false));
         flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
         if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
         if (I->problem.fixed_step > 0.0 || attempt == max_retries || I->refused)

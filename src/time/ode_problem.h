@@ -32,8 +32,9 @@ typedef struct ode_problem {
     /** Value at `end` of a step: 1 at its start, and 0 or less after the first event in it. NULL, with begin_roots():
      *  no events end a step. */
     double (*root_function)(const dense_output *step, void *context);
-    /** Bound of the highest frequency in units of that about the rest shape, >= 1. NULL: it is 1. */
-    double (*stiffening)(const double *y, void *context);
+    /** Bound of the highest frequency in units of that about the rest shape, >= 1. NULL: it is 1.
+     *  \param is_known  the last call of derivative() was for just this state */
+    double (*stiffening)(const double *y, bool is_known, void *context);
     void *context;
     dem_method method;
     double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
@@ -51,12 +52,13 @@ typedef struct integrator_start {
 } integrator_start;
 
 /** Length of a fixed step from y, s: halved until its product with the highest frequency is no larger than about the
- *  rest shape. */
-static inline double ode_problem_fixed_step(const ode_problem *p, const double *y)
+ *  rest shape.
+ *  \param is_known  as for `stiffening` */
+static inline double ode_problem_fixed_step(const ode_problem *p, const double *y, bool is_known)
 {
     enum { most_halvings = 30 }; /* positions that blow up have no bound; time must go on until they are reported */
     double h = p->fixed_step;
-    const double stiffening = p->stiffening != NULL ? p->stiffening(y, p->context) : 1.0;
+    const double stiffening = p->stiffening != NULL ? p->stiffening(y, is_known, p->context) : 1.0;
     for (int k = 0; k < most_halvings && h * stiffening > p->fixed_step; k++) h *= 0.5;
     return h;
 }

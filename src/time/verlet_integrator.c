@@ -26,6 +26,7 @@ typedef struct verlet_integrator {
     double t, t1;                      /* s, of y0, y1 */
     bool has_f0;                       /* f0 is that of y0 */
     bool at_end;                       /* the dense output was handed out: y1 is the start of the next step */
+    bool resumed;                      /* the caller has changed that with its derivative */
     dem_counts counts;
 } verlet_integrator;
 
@@ -255,7 +256,8 @@ static dem_status verlet_integrator_step(void *self, dense_output *step, bool *r
     if (V->problem.begin_roots != NULL) V->problem.begin_roots(V->t, V->y0, V->problem.context);
     if (!V->has_f0 && evaluate(V, V->t, V->y0, V->f0) != 0) return DEM_ERROR_INTEGRATOR; /* message: derivative's */
     V->has_f0 = true;
-    if (kick_drift_kick(V, ode_problem_fixed_step(&V->problem, V->y0)) != 0) return DEM_ERROR_INTEGRATOR;
+    if (kick_drift_kick(V, ode_problem_fixed_step(&V->problem, V->y0, !V->resumed)) != 0) return DEM_ERROR_INTEGRATOR;
+    V->resumed = false;
     *step = (dense_output){.layout = V->problem.layout,
                            .parabolic = true,
                            .t0 = V->t,
@@ -288,7 +290,8 @@ static dem_status verlet_integrator_bound(void *self, double longest)
 /* The end of the step, as the caller has changed it, is what the next step starts from; there is nothing to renew. */
 static dem_status verlet_integrator_resume(void *self)
 {
-    (void)self;
+    verlet_integrator *V = self;
+    V->resumed = true;
     return DEM_OK;
 }
 

@@ -10,11 +10,12 @@ ROOT = pathlib.Path(sys.argv[1])
 ROOMS = [  # pattern, files that may have it
     (r'#include [<"](arkode|nvector|sundials)/', {"src/time/arkode_compat.h", "src/time/arkode_integrator.c", "src/time/butcher.c", "src/time/nvector.c",
                                                  "src/time/nvector.h"}),
-    (r"#include <immintrin", {"src/elastic/lanes_avx2.h", "src/elastic/lanes_avx512.h"}),
+    (r"#include <immintrin", {"src/elastic/lanes_avx2.h", "src/elastic/lanes_avx512.h", "src/surface_contact/contact_batch.c",
+                             "src/surface_contact/way_box.c"}),
     (r"_Pragma|#pragma|_OPENMP", {"src/base/threads.h"}),
     (r'#include [<"]hdf5\.h', {"src/output/hdf5_file.c", "src/output/hdf5_file.h"}),
-    (r'#include [<"]gsl/', {"drivers/body/area.c", "drivers/body/pores.c", "drivers/deck/profile.c",
-                          "drivers/batch/report.c", "drivers/batch/preview.c"}),
+    (r'#include [<"]gsl/', {"drivers/body/area.c", "drivers/body/copies.c", "drivers/body/pores.c", "drivers/deck/profile.c",
+                          "drivers/batch/preview.c"}),
     (r"#include [<\"]zlib", {"src/base/checkpoint_entries.c"}),
     (r"#include [<\"]cairo", {"drivers/body/png.c", "drivers/plot/paint.c"}),
     (r"\b(f?printf|puts|fputs|putchar|perror|exit|abort|signal|sigaction|getenv)\s*\(", "drivers"),
@@ -25,8 +26,8 @@ ROOMS = [  # pattern, files that may have it
 # Rooms that know no number of dimensions, so no vectors of two components; and their files that still do. Of forces the
 # tables of functions are free, and what they are filled with is not.
 DIMENSION_FREE = {"base", "time", "forces", "events", "simulation", "output"}
-TWO_DIMENSIONAL = {"src/base/vec2.h", "src/forces/boundary_conditions.c", "src/forces/boundary_conditions.h", "src/forces/diagnostics.c",
-                   "src/forces/forces.c", "src/forces/forces.h", "src/forces/kernel.c", "src/forces/local_springs.c", "src/simulation/options.c",
+TWO_DIMENSIONAL = {"src/base/box.h", "src/base/vec2.h", "src/forces/boundary_conditions.c", "src/forces/boundary_conditions.h", "src/forces/diagnostics.c",
+                   "src/forces/forces.c", "src/forces/forces.h", "src/forces/kernel.c", "src/forces/local_springs.c", "src/forces/rigid_motion.c", "src/simulation/options.c",
                    "src/output/event_table.c", "src/output/probe.c"}
 MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS, MAX_LINE = 600, 60, 6, 120
 

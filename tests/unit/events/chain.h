@@ -31,6 +31,12 @@ static inline double chain_pull(const double *before, const double *x, const dou
     return chain_stiffness * ((before != NULL ? before[c] - x[c] : 0.0) + (after != NULL ? after[c] - x[c] : 0.0));
 }
 
+static inline dem_status chain_begin_step(const void *self, const double *y0, const double *y1)
+{
+    (void)self, (void)y0, (void)y1;
+    return DEM_OK;
+}
+
 static inline dem_status chain_add_neighbours(const void *self, local_nodes *nodes, dem_index first, dem_index last)
 {
     (void)self;
@@ -124,6 +130,7 @@ static inline void chain_open(chain *s, int dim, const int *axes, dem_index held
     }
     s->forces = (local_forces){.self = s,
                                .held = held >= 0 ? s->held : NULL,
+                               .begin_step = chain_begin_step,
                                .add_neighbours = chain_add_neighbours,
                                .accelerate_one = chain_accelerate_one,
                                .gather = chain_gather,

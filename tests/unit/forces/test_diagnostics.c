@@ -343,3 +343,26 @@ TEST(mass_damping_takes_twice_alpha_times_the_kinetic_energy_of_what_moves)
     const double fixed = 0.5 * m.model->lattice.mass[0] * 100.0 * 100.0;
     assert_close(forces_damping_power(&load, m.x, m.v), 6.0 * (kinetic - fixed), 1e-12 * 6.0 * kinetic);
 }
+
+/* Two bodies of two nodes each, whose nodes take turns in the list: masses 1 and 3 kg at x = 0 and 2 m, 2 and 6 kg at
+ * 1 and 3 m. All numbers are small integers or halves, and so exact. */
+TEST(bodies_may_take_turns_in_the_list_of_nodes)
+{
+    const double x[8] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 3.0, 0.0}, mass[4] = {1.0, 2.0, 3.0, 6.0};
+    const double v[8] = {0.0, 4.0, 2.0, 0.0, 0.0, 0.0, -2.0, 0.0};
+    const dem_index ends[4] = {0, 2, 1, 3};
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(4, x, mass, 2, ends, 2.0, 1.0, NULL);
+    lattice.body = calloc(4, sizeof *lattice.body);
+    assert_non_null(lattice.body);
+    lattice.body[1] = lattice.body[3] = 1;
+    CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
+    const dem_body_motion first = diagnostics_body(model, 0, x, v), second = diagnostics_body(model, 1, x, v);
+    assert_close(first.mass, 4.0, 0.0);
+    assert_close(first.centre[0], 1.5, 0.0);
+    assert_close(first.velocity[1], 1.0, 0.0);
+    assert_close(first.angular_momentum[2], 1.0 * -1.5 * 3.0 + 3.0 * 0.5 * -1.0, 0.0);
+    assert_close(second.mass, 8.0, 0.0);
+    assert_close(second.centre[0], 2.5, 0.0);
+    assert_close(second.velocity[0], -1.0, 0.0);
+    assert_close(second.angular_momentum[2], 0.0, 0.0);
+}

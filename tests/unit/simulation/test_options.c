@@ -139,6 +139,29 @@ TEST(defaults_come_from_the_model)
     assert_int_equal(options.max_impacts, 10000);
 }
 
+TEST(friction_of_bodies_is_checked)
+{
+    const double frictions[2] = {0.5, -0.1};
+    dem_options options = dem_options_default();
+    options.contact_friction = 0.1;
+    refuse(&options, "contact_friction and body_friction are of bodies that touch, but the option bodies is none");
+    options.bodies = DEM_BODIES_ALL;
+    assert_ok(options_check(&options));
+    options.contact_friction = -0.1;
+    refuse(&options, "contact_friction must be >= 0, got -0.1");
+    options.contact_friction = (double)INFINITY;
+    refuse(&options, "contact_friction must be >= 0, got inf");
+    options.contact_friction = 0.0;
+    options.n_body_frictions = 2;
+    refuse(&options, "n_body_frictions is 2, body_friction is NULL");
+    options.body_friction = frictions;
+    refuse(&options, "body_friction of body 1 must be >= 0, got -0.1");
+    options.n_body_frictions = 1;
+    assert_ok(options_check(&options));
+    options.bodies = DEM_BODIES_NONE;
+    refuse(&options, "the option bodies is none");
+}
+
 TEST(what_is_given_counts)
 {
     CLEANUP(free_model) dem_model *model = make_rubber(0.0, 4.0);

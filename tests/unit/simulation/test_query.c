@@ -170,9 +170,16 @@ TEST(arrays_that_are_null_and_a_node_that_is_not_there_are_refused)
     assert_int_equal(dem_simulation_strains(simulation, NULL), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_simulation_forces(simulation, NULL), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_simulation_stress(simulation, NULL), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_force_at(simulation, 0, NULL), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_force_at(simulation, 0, stress), DEM_ERROR_ARGUMENT); /* it has no springs */
     assert_int_equal(dem_simulation_stress_at(simulation, 0, NULL), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_simulation_stress_at(simulation, 1, stress), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_simulation_stress_at(NULL, 0, stress), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_contact_forces(simulation, NULL), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_contact_forces(NULL, stress), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_contact_pressures(simulation, NULL), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_contact_pressures(NULL, stress), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_pair(simulation, 0, NULL), DEM_ERROR_ARGUMENT);
     assert_close(stress[0], 7.0, 0.0);
     assert_true(isnan(dem_simulation_residual(NULL)));
     assert_null(dem_simulation_model(NULL));
@@ -297,17 +304,21 @@ static dem_simulation *drop_pair(dem_model **model, dem_contact_method contact, 
 static void look_at_all(const dem_simulation *s)
 {
     dem_state now = {.struct_size = sizeof now};
-    double strain, force, stress[6];
+    double strain, force, stress[6], of_contact[4], pressure[2];
     assert_ok(dem_simulation_state(s, &now));
     for (dem_index k = 0; k < now.n_contacts; k++) (void)ask_contact(s, k);
     (void)ask_energy(s);
     (void)ask_strain(s);
     assert_ok(dem_simulation_strains(s, &strain));
     assert_ok(dem_simulation_forces(s, &force));
+    assert_ok(dem_simulation_force_at(s, 0, &force));
     assert_ok(dem_simulation_stress(s, stress));
     assert_ok(dem_simulation_stress_at(s, 1, stress));
     (void)ask_overlap(s);
     (void)ask_surfaces(s);
+    assert_int_equal(ask_pair(s, 0).node, 0);
+    assert_ok(dem_simulation_contact_forces(s, of_contact));
+    assert_ok(dem_simulation_contact_pressures(s, pressure));
     (void)ask_counts(s);
     (void)ask_body(s, 0);
     (void)ask_obstacle(s, 0);

@@ -18,6 +18,7 @@ typedef struct world {
     floor_and_ceiling walls;
     double fails_after; /* s */
     double pulled;      /* m/s: velocity of x as prescribed, or NAN */
+    int n_known;        /* calls of stiffening() for the state of the last derivative */
     double stiff_below; /* m: the stiffening is 3 where x is below */
     int calls;          /* of derivative */
 } world;
@@ -53,9 +54,10 @@ static double root_function(const dense_output *step, void *context)
     return floor_and_ceiling_root(&w->walls, step);
 }
 
-static double stiffening(const double *y, void *context)
+static double stiffening(const double *y, bool is_known, void *context)
 {
-    const world *w = context;
+    world *w = context;
+    w->n_known += is_known;
     return y[0] < w->stiff_below ? 3.0 : 1.0;
 }
 
@@ -247,8 +249,24 @@ TEST(stiffening_halves_the_step)
     assert_true(n_short > 10 && n_long > 10);
 }
 
-static double endless(const double *y, void *context)
+/* Unless the caller has changed it. */
+TEST(stiffening_knows_the_state_of_the_last_derivative)
 {
+    const double y0[4] = {0.9, 0.0, -1.0, 0.0};
+    world w = plain;
+    dense_output p = {0};
+    bool rooted;
+    CLEANUP(integrator_destroy) integrator V = make(&w, 0.1, false, y0);
+    for (int k = 0; k < 6; k++) {
+        if (k == 3) assert_ok(integrator_resume(&V));
+        assert_ok(integrator_step(&V, &p, &rooted));
+        assert_int_equal(w.n_known, k < 3 ? k + 1 : k);
+    }
+}
+
+static double endless(const double *y, bool is_known, void *context)
+{
+    (void)is_known;
     (void)y;
     (void)context;
     return (double)INFINITY;
@@ -257,7 +275,7 @@ static double endless(const double *y, void *context)
 TEST(no_stiffening_stops_the_time)
 {
     const ode_problem problem = {.fixed_step = 0.1, .stiffening = endless};
-    assert_true(ode_problem_fixed_step(&problem, NULL) > 1e-12);
+    assert_true(ode_problem_fixed_step(&problem, NULL, false) > 1e-12);
 }
 
 /* What the derivative gives in place of a velocity is taken over, at rest or not. */
