@@ -21,9 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* STEPS is the group of the times and offsets. IN gives the dataset of an array, and that of its offsets. */
-#define STEPS         GRID "Steps/"
-#define IN(set, name) GRID set "/" name, STEPS set "Offsets/" name
+/* The dataset of an array, and that of its offsets. */
+#define IN(set, name) GRID set "/" name, STEPS "/" set "Offsets/" name
 #define ENERGY(name)                                                                                                   \
     {                                                                                                                  \
         IN("FieldData", name "_energy")                                                                                \
@@ -89,6 +88,21 @@ static void fill_principal(const frames *f, const view *v)
     for (dem_index i = 0; i < f->n_nodes; i++) dem_stress_principal(f->stress + 3 * i, f->scratch + 2 * i, direction);
 }
 
+/* Two components of each node behind the room of three. */
+static void fill_contact_force(const frames *f, const view *v)
+{
+    double *plane = f->scratch + 3 * f->n_nodes;
+    (void)dem_simulation_contact_forces(v->simulation, plane);
+    spread(f->scratch, f->n_nodes, plane, NULL);
+}
+
+/* They have been computed before, as stresses. */
+static void fill_contact_pressure(const frames *f, const view *v)
+{
+    (void)v;
+    memcpy(f->scratch, f->pressure, (size_t)f->n_nodes * sizeof *f->scratch);
+}
+
 /* The simulation computes strains and forces of all springs, straight into the scratch. */
 static void fill_strain(const frames *f, const view *v)
 {
@@ -115,13 +129,15 @@ static const struct array {
     int components;
     void (*fill)(const frames *f, const view *v);
 } arrays[] = {
-    {GRID "Points", STEPS "PointOffsets", 0, HDF5_F64, NODES, 3, fill_points},
+    {GRID "Points", STEPS "/PointOffsets", 0, HDF5_F64, NODES, 3, fill_points},
     /* Nodes: what the options choose, in single precision unless they say otherwise. */
     {IN("PointData", "displacement"), DEM_FIELD_DISPLACEMENT, HDF5_F32, NODES, 3, fill_displacement},
     {IN("PointData", "velocity"), DEM_FIELD_VELOCITY, HDF5_F32, NODES, 3, fill_velocity},
     {IN("PointData", "stress"), DEM_FIELD_STRESS, HDF5_F32, NODES, 6, fill_stress},
     {IN("PointData", "von_mises"), DEM_FIELD_VON_MISES, HDF5_F32, NODES, 1, fill_von_mises},
     {IN("PointData", "principal_stress"), DEM_FIELD_PRINCIPAL, HDF5_F32, NODES, 2, fill_principal},
+    {IN("PointData", "contact_force"), DEM_FIELD_CONTACT, HDF5_F32, NODES, 3, fill_contact_force},
+    {IN("PointData", "contact_pressure"), DEM_FIELD_CONTACT, HDF5_F32, NODES, 1, fill_contact_pressure},
     /* Springs. */
     {IN("CellData", "strain"), DEM_FIELD_STRAIN, HDF5_F32, SPRINGS, 1, fill_strain},
     {IN("CellData", "force"), DEM_FIELD_FORCE, HDF5_F32, SPRINGS, 1, fill_force},
@@ -151,9 +167,9 @@ static const struct offset {
     int rank;
     enum of of;
 } offsets[] = {
-    {STEPS "PartOffsets", 1, NONE},   {STEPS "FieldDataOffsets/contacts", 1, ONE},
-    {STEPS "PointOffsets", 1, NODES}, {STEPS "CellDataOffsets/broken", 1, SPRINGS},
-    {STEPS "CellOffsets", 2, NONE},
+    {STEPS "/PartOffsets", 1, NONE},   {STEPS "/FieldDataOffsets/contacts", 1, ONE},
+    {STEPS "/PointOffsets", 1, NODES}, {STEPS "/CellDataOffsets/broken", 1, SPRINGS},
+    {STEPS "/CellOffsets", 2, NONE},
 };
 enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
 
@@ -204,9 +220,9 @@ static dem_status share_offset(const hdf5_file *file, const char *name, enum of 
 static dem_status create_offsets(const hdf5_file *file)
 {
     for (int o = 0; o < N_OFFSETS; o++) TRY(create_row(file, offsets[o].name, HDF5_I64, offsets[o].rank));
-    TRY(share_offset(file, STEPS "PointDataOffsets/id", NONE));
-    TRY(share_offset(file, STEPS "PointDataOffsets/body", NONE));
-    return hdf5_link(file, STEPS "ConnectivityIdOffsets", STEPS "CellOffsets");
+    TRY(share_offset(file, STEPS "/PointDataOffsets/id", NONE));
+    TRY(share_offset(file, STEPS "/PointDataOffsets/body", NONE));
+    return hdf5_link(file, STEPS "/ConnectivityIdOffsets", STEPS "/CellOffsets");
 }
 
 /* An array that is not wanted has no dataset, and no offsets. */
@@ -228,9 +244,9 @@ static dem_status create_rows(const hdf5_file *file)
         TRY(create_row(file, energies[e].name, HDF5_F64, 1));
         TRY(share_offset(file, energies[e].offset, ONE));
     }
-    TRY(create_row(file, STEPS "Values", HDF5_F64, 1));
-    TRY(create_row(file, STEPS "NumberOfParts", HDF5_I64, 1));
-    return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &(dem_index){0});
+    TRY(create_row(file, STEPS "/Values", HDF5_F64, 1));
+    TRY(create_row(file, STEPS "/NumberOfParts", HDF5_I64, 1));
+    return hdf5_write_attribute(file, STEPS, "NSteps", HDF5_I64, 1, &(dem_index){0});
 }
 
 /* The number and the body of each node, for readers that select or reorder points. */
@@ -272,7 +288,8 @@ dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory
     const size_t n = (size_t)size.n_nodes, m = (size_t)size.n_springs;
     f.scratch = calloc(6 * n > m ? 6 * n : m, sizeof *f.scratch);
     f.stress = calloc(n, 3 * sizeof *f.stress);
-    if (f.scratch == NULL || f.stress == NULL) {
+    if (f.fields & DEM_FIELD_CONTACT) f.pressure = calloc(n, sizeof *f.pressure);
+    if (f.scratch == NULL || f.stress == NULL || (f.pressure == NULL && (f.fields & DEM_FIELD_CONTACT))) {
         frames_free(&f);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for the frames of %lld nodes", (long long)size.n_nodes);
     }
@@ -284,6 +301,7 @@ void frames_free(frames *f)
 {
     free(f->scratch);
     free(f->stress);
+    free(f->pressure);
     *f = (frames){0};
 }
 
@@ -300,6 +318,7 @@ static dem_status append_arrays(const frames *f, const hdf5_file *file, const vi
 {
     /* Stresses are computed once for all arrays made of them. */
     if (f->fields & ANY_STRESS) (void)dem_simulation_stress(v->simulation, f->stress);
+    if (f->fields & DEM_FIELD_CONTACT) TRY(dem_simulation_contact_pressures(v->simulation, f->pressure));
     for (int k = 0; k < N_ARRAYS; k++) {
         const struct array *a = &arrays[k];
         const hdf5_rows rows = array_rows(f, a);
@@ -339,19 +358,19 @@ static dem_status append_offsets(const frames *f, const hdf5_file *file, hsize_t
 static dem_status append_steps(const frames *f, const hdf5_file *file, double t)
 {
     TRY(append_offsets(f, file, (hsize_t)f->n));
-    TRY(append_row(f, file, frame_rows(STEPS "NumberOfParts", HDF5_I64, 1), &(dem_index){1}));
-    return append_row(f, file, frame_rows(STEPS "Values", HDF5_F64, 1), &t);
+    TRY(append_row(f, file, frame_rows(STEPS "/NumberOfParts", HDF5_I64, 1), &(dem_index){1}));
+    return append_row(f, file, frame_rows(STEPS "/Values", HDF5_F64, 1), &t);
 }
 
 /* NSteps is written last: readers believe it, so a frame that is not whole is not seen. */
 static dem_status write_count(const hdf5_file *file, dem_index n)
 {
-    return hdf5_write_attribute(file, "/VTKHDF/Steps", "NSteps", HDF5_I64, 1, &n);
+    return hdf5_write_attribute(file, STEPS, "NSteps", HDF5_I64, 1, &n);
 }
 
 hsize_t frames_bytes(const frames *f)
 {
-    return 168 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs; /* all arrays in double */
+    return 200 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs; /* all arrays in double */
 }
 
 /* Positions are always written; the other arrays as the options say. The frame does not count itself: the caller raises
@@ -385,7 +404,7 @@ dem_status frames_write_constant(const frames *f, const hdf5_file *file, const f
     const hsize_t width = (hsize_t)constant->components;
     const dem_index count = strcmp(constant->set, "PointData") == 0 ? f->n_nodes : f->n_springs;
     (void)snprintf(name, sizeof name, GRID "%s/%s", constant->set, constant->name);
-    (void)snprintf(offset, sizeof offset, STEPS "%sOffsets/%s", constant->set, constant->name);
+    (void)snprintf(offset, sizeof offset, STEPS "/%sOffsets/%s", constant->set, constant->name);
     const hdf5_rows rows = {name, constant->kind, width > 1 ? 2 : 1, {width}, 0, f->deflate};
     TRY(hdf5_write(file, rows, (hsize_t)count, values));
     return share_offset(file, offset, NONE);
@@ -397,8 +416,8 @@ dem_status frames_write_constant(const frames *f, const hdf5_file *file, const f
 static hdf5_rows row_of(int k)
 {
     if (k < N_ENERGIES) return frame_rows(energies[k].name, HDF5_F64, 1);
-    if (k == N_ENERGIES) return frame_rows(STEPS "NumberOfParts", HDF5_I64, 1);
-    return frame_rows(STEPS "Values", HDF5_F64, 1);
+    if (k == N_ENERGIES) return frame_rows(STEPS "/NumberOfParts", HDF5_I64, 1);
+    return frame_rows(STEPS "/Values", HDF5_F64, 1);
 }
 enum { N_ROWS = N_ENERGIES + 2 };
 
@@ -424,7 +443,7 @@ dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *
 /* Values has the number of frames; every other dataset must agree. */
 dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n)
 {
-    TRY(hdf5_count_rows(file, STEPS "Values", n));
+    TRY(hdf5_count_rows(file, STEPS "/Values", n));
     return frames_verify(f, file, *n);
 }
 
@@ -443,5 +462,5 @@ dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n)
         const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
         TRY(hdf5_expect_rows(file, &rows, n));
     }
-    return hdf5_expect_attribute(file, "/VTKHDF/Steps", "NSteps", (dem_index)n);
+    return hdf5_expect_attribute(file, STEPS, "NSteps", (dem_index)n);
 }

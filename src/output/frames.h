@@ -17,6 +17,7 @@ typedef struct frames {
     double last;      /* time of the last frame, s */
     double *scratch;  /* the array that is being written: [6 n_nodes] or [n_springs] */
     double *stress;   /* [n_nodes][3] */
+    double *pressure; /* [n_nodes] of contact; NULL: not wanted */
 } frames;
 
 /** An array that is the same in all frames. */

@@ -32,11 +32,14 @@ static const table_column columns[] = {
     {"/history/strain_min", HDF5_F64, RUN, 1},
     {"/history/strain_max", HDF5_F64, RUN, 1},
     {"/history/area_min", HDF5_F64, RUN, 1},
+    /* Contact of bodies with each other. */
+    {"/history/gap_min", HDF5_F64, RUN, 1},
     /* What there is at the instant of the row. */
     {"/history/guarded", HDF5_I64, RUN, 1},
     {"/history/inverted", HDF5_I64, RUN, 1},
     {"/history/overlaps", HDF5_I64, RUN, 1},
     {"/history/contacts", HDF5_I64, RUN, 1},
+    {"/history/pairs", HDF5_I64, RUN, 1},
     /* Counts since the start of the run, but for `behind`, which is that of the instant. */
     {"/history/impacts", HDF5_I64, RUN, 1},
     {"/history/vertex_impacts", HDF5_I64, RUN, 1},
@@ -52,6 +55,7 @@ static const table_column columns[] = {
     {"/history/steps", HDF5_I64, RUN, 1},
     {"/history/rejected", HDF5_I64, RUN, 1},
     {"/history/retries", HDF5_I64, RUN, 1},
+    {"/history/crossings", HDF5_I64, RUN, 1},
     {"/history/evaluations", HDF5_I64, RUN, 1},
     /* An item for each body, obstacle or boundary condition in every row. */
     {"/history/body_centre", HDF5_F64, BODIES, 2},
@@ -77,16 +81,19 @@ static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, c
     dem_strain s = {.struct_size = sizeof s};
     dem_counts n = {.struct_size = sizeof n};
     dem_overlap overlap = {.struct_size = sizeof overlap};
+    dem_surfaces surfaces = {.struct_size = sizeof surfaces};
     (void)dem_simulation_strain(simulation, &s);
     (void)dem_simulation_counts(simulation, &n);
     (void)dem_simulation_overlap(simulation, &overlap);
-    const double reals[] = {state->t,    state->step, e->kinetic,  e->elastic, e->area,     e->guard,      e->contact,
-                            e->gravity,  e->impact,   e->friction, e->damping, e->fracture, e->projection, e->boundary,
-                            e->obstacle, closure,     s.min,       s.max,      s.area_min};
-    const dem_index counts[] = {s.guarded,        s.inverted, overlap.now, state->n_contacts, n.impacts,
-                                n.vertex_impacts, n.early,    n.closings,  n.releases,        n.slips,
-                                n.sticks,         n.passings, n.late,      n.behind,          n.events,
-                                n.steps,          n.rejected, n.retries,   n.evaluations};
+    (void)dem_simulation_surfaces(simulation, &surfaces);
+    const double reals[] = {state->t,   state->step, e->kinetic,    e->elastic,  e->area,
+                            e->guard,   e->contact,  e->gravity,    e->impact,   e->friction,
+                            e->damping, e->fracture, e->projection, e->boundary, e->obstacle,
+                            closure,    s.min,       s.max,         s.area_min,  surfaces.gap_min};
+    const dem_index counts[] = {
+        s.guarded, s.inverted, overlap.now, state->n_contacts, surfaces.pushing, n.impacts,   n.vertex_impacts,
+        n.early,   n.closings, n.releases,  n.slips,           n.sticks,         n.passings,  n.late,
+        n.behind,  n.events,   n.steps,     n.rejected,        n.retries,        n.crossings, n.evaluations};
     cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
     return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
 }

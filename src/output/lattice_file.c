@@ -39,6 +39,7 @@ enum array {
     POSITION,
     VELOCITY,
     FIXED,
+    RIGID,
     CONTACT_NODES,
     N_ARRAYS
 };
@@ -68,6 +69,7 @@ static const struct dataset {
     [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
     [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
     [FIXED] = {"/lattice/fixed", HDF5_U8, NODES, 1, 0},
+    [RIGID] = {"/lattice/rigid", HDF5_U8, NODES, 1, 0},
     [CONTACT_NODES] = {"/lattice/contact_nodes", HDF5_I64, ANY, 1, 0},
 };
 
@@ -192,17 +194,33 @@ static dem_status mark_contacts(const reader *r, dem_lattice *lattice)
     return DEM_OK;
 }
 
-/* Without both datasets the lattice has no flags, which stand for the boundary and nothing fixed. */
+/* What the numbers of the dataset of rigid bodies stand for. */
+static const unsigned char rigid_flags[] = {0, DEM_NODE_RIGID, DEM_NODE_RIGID | DEM_NODE_GUIDE_X,
+                                            DEM_NODE_RIGID | DEM_NODE_GUIDE_Y};
+enum { N_RIGID = sizeof rigid_flags };
+
+static dem_status mark_rigid(const reader *r, dem_lattice *lattice)
+{
+    const unsigned char *rigid = r->data[RIGID];
+    for (dem_index i = 0; rigid != NULL && i < lattice->n_nodes; i++) {
+        CHECK(rigid[i] < N_RIGID, DEM_ERROR_MODEL, "%s: %s: entry %lld is %d, which is not in 0 to %d", r->file.path,
+              datasets[RIGID].name, (long long)i, rigid[i], N_RIGID - 1);
+        lattice->flags[i] |= rigid_flags[rigid[i]];
+    }
+    return DEM_OK;
+}
+
+/* Without these datasets the lattice has no flags, which stand for the boundary and nothing fixed or rigid. */
 static dem_status make_flags(const reader *r, dem_lattice *lattice)
 {
     const unsigned char *fixed = r->data[FIXED];
-    if (fixed == NULL && r->data[CONTACT_NODES] == NULL) return DEM_OK;
+    if (fixed == NULL && r->data[RIGID] == NULL && r->data[CONTACT_NODES] == NULL) return DEM_OK;
     lattice->flags = lattice_zeros(lattice->n_nodes, 1);
     CHECK_MEMORY(lattice->flags);
     TRY(mark_contacts(r, lattice));
     for (dem_index i = 0; fixed != NULL && i < lattice->n_nodes; i++)
         if (fixed[i] != 0) lattice->flags[i] |= DEM_NODE_FIXED;
-    return DEM_OK;
+    return mark_rigid(r, lattice);
 }
 
 /* Moves the arrays: the lattice owns them from here on, and the reader forgets those up to FIXED. */
@@ -226,7 +244,7 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->body = r->data[BODY];
     lattice->position = r->data[POSITION];
     lattice->velocity = r->data[VELOCITY];
-    /* FIXED and CONTACT_NODES are made into flags and stay with the reader. */
+    /* FIXED and what follows it are made into flags and stay with the reader. */
     for (int a = 0; a < FIXED; a++) r->data[a] = NULL;
 }
 
@@ -291,7 +309,21 @@ static dem_status write_array(const hdf5_file *file, enum array a, int deflate, 
     return data != NULL || d->required ? hdf5_write(file, rows, (hsize_t)count, data) : DEM_OK;
 }
 
-/* Flags are stored as a byte for each node that is fixed or not, and the list of nodes that may touch. */
+/* A byte for each node, if one is of a rigid body. */
+static dem_status write_rigid(const hdf5_file *file, const dem_lattice *lattice, int deflate, unsigned char *rigid)
+{
+    bool some = false;
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        rigid[i] = 0;
+        for (int k = 1; k < N_RIGID; k++)
+            if ((lattice->flags[i] & rigid_flags[k]) == rigid_flags[k]) rigid[i] = (unsigned char)k;
+        some = some || rigid[i] != 0;
+    }
+    return some ? write_array(file, RIGID, deflate, lattice->n_nodes, rigid) : DEM_OK;
+}
+
+/* Flags are stored as a byte for each node that is fixed or not, another for rigid bodies, and the list of nodes that
+ * may touch. */
 static dem_status write_flags(const hdf5_file *file, const dem_lattice *lattice, int deflate)
 {
     dem_status status = DEM_ERROR_MEMORY;
@@ -307,6 +339,7 @@ static dem_status write_flags(const hdf5_file *file, const dem_lattice *lattice,
         if (lattice->flags[i] & DEM_NODE_CONTACT) contacts[n_contacts++] = i;
     }
     status = write_array(file, FIXED, deflate, lattice->n_nodes, fixed);
+    if (status == DEM_OK) status = write_rigid(file, lattice, deflate, fixed);
     if (status == DEM_OK) status = write_array(file, CONTACT_NODES, deflate, n_contacts, contacts);
 out:
     free(contacts);
@@ -314,7 +347,7 @@ out:
     return status;
 }
 
-/* The arrays in the order of the table; flags last, since they become two datasets. */
+/* The arrays in the order of the table; flags last, since they become several datasets. */
 dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice, int deflate)
 {
     const dem_index n = lattice->n_nodes, m = lattice->n_springs, t = lattice->n_triangles;

@@ -4,6 +4,7 @@
  * to draw it: between rows they are off by the acceleration times an eighth of the square of a step. */
 #include "output/motion_record.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/status.h"
@@ -89,11 +90,9 @@ dem_status motion_record_pose(void *context, double t, dem_pose *pose)
     if (r->n == 0) return DEM_OK;
     const dem_index k = row_before(r, t), next = k + 1 < r->n ? k + 1 : k;
     const double span = r->t[next] - r->t[k];
-    const double share = span > 0.0 ? (t - r->t[k]) / span : 0.0, within = share < 0.0   ? 0.0
-                                                                           : share > 1.0 ? 1.0
-                                                                                         : share;
+    const double share = span > 0.0 ? fmin(fmax((t - r->t[k]) / span, 0.0), 1.0) : 0.0;
     for (int d = 0; d < 2; d++)
-        pose->place[d] = r->place[2 * k + d] + within * (r->place[2 * next + d] - r->place[2 * k + d]);
-    pose->angle = r->angle[k] + within * (r->angle[next] - r->angle[k]);
+        pose->place[d] = r->place[2 * k + d] + share * (r->place[2 * next + d] - r->place[2 * k + d]);
+    pose->angle = r->angle[k] + share * (r->angle[next] - r->angle[k]);
     return DEM_OK;
 }

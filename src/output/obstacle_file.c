@@ -224,8 +224,6 @@ void obstacle_file_free(dem_obstacle *obstacles, dem_index n)
 
 /* ---- writing for ParaView ---- */
 
-#define STEPS GRID "Steps/"
-
 bool obstacle_file_moves(const dem_model *model)
 {
     bool any = false;
@@ -287,13 +285,14 @@ static dem_status make_outline(outline *out, const dem_model *model)
 }
 
 /* Points of all obstacles at time t, with z = 0. */
-static void place_points(const outline *o, double t)
+static dem_status place_points(const outline *o, double t)
 {
     const dem_index n = count(o->model);
     dem_index first = 0;
     for (dem_index k = 0; k < n; first += dem_model_obstacle(o->model, k++)->n_points)
-        (void)dem_obstacle_points(dem_model_obstacle(o->model, k), t, o->flat + 2 * first);
+        TRY(dem_obstacle_points(dem_model_obstacle(o->model, k), t, o->flat + 2 * first));
     for (dem_index i = 0; i < o->grid.n_points; i++) memcpy(o->points + 3 * i, o->flat + 2 * i, 2 * sizeof *o->flat);
+    return DEM_OK;
 }
 
 /* With times, the points of all steps stand one behind the other, a step in each chunk. Without, there is one set. */
@@ -304,11 +303,11 @@ static dem_status write_points(const hdf5_file *file, const outline *o, obstacle
     /* A dataset that grows by a step at a time. */
     if (at.n > 0) TRY(hdf5_create(file, &rows));
     for (dem_index k = 0; k < at.n; k++) {
-        place_points(o, at.t[k]);
+        TRY(place_points(o, at.t[k]));
         TRY(hdf5_append(file, &rows, (hsize_t)k * n, n, o->points));
     }
     if (at.n > 0) return DEM_OK;
-    place_points(o, 0.0);
+    TRY(place_points(o, 0.0));
     return hdf5_write(file, (hdf5_rows){GRID "Points", HDF5_F64, 2, {3}, 0, deflate}, n, o->points);
 }
 
@@ -326,14 +325,14 @@ static dem_status write_row(const hdf5_file *file, hdf5_rows rows, dem_index n, 
 /* The steps of the grid: each has points of its own, and the cells of all. Datasets of equal content are links. */
 static dem_status write_steps(const hdf5_file *file, const outline *o, obstacle_file_times at)
 {
-    TRY(hdf5_write_attribute(file, GRID "Steps", "NSteps", HDF5_I64, 1, &at.n));
-    TRY(hdf5_write(file, (hdf5_rows){STEPS "Values", HDF5_F64, 1, {0}, 0, 0}, (hsize_t)at.n, at.t));
-    TRY(write_row(file, (hdf5_rows){STEPS "NumberOfParts", HDF5_I64, 1, {0}, 0, 0}, at.n, 1, 0));
-    TRY(write_row(file, (hdf5_rows){STEPS "PartOffsets", HDF5_I64, 1, {0}, 0, 0}, at.n, 0, 0));
-    TRY(write_row(file, (hdf5_rows){STEPS "PointOffsets", HDF5_I64, 1, {0}, 0, 0}, at.n, 0, o->grid.n_points));
-    TRY(write_row(file, (hdf5_rows){STEPS "CellOffsets", HDF5_I64, 2, {1}, 0, 0}, at.n, 0, 0));
-    TRY(hdf5_link(file, STEPS "ConnectivityIdOffsets", STEPS "CellOffsets"));
-    return hdf5_link(file, STEPS "CellDataOffsets/obstacle", STEPS "PartOffsets");
+    TRY(hdf5_write_attribute(file, STEPS, "NSteps", HDF5_I64, 1, &at.n));
+    TRY(hdf5_write(file, (hdf5_rows){STEPS "/Values", HDF5_F64, 1, {0}, 0, 0}, (hsize_t)at.n, at.t));
+    TRY(write_row(file, (hdf5_rows){STEPS "/NumberOfParts", HDF5_I64, 1, {0}, 0, 0}, at.n, 1, 0));
+    TRY(write_row(file, (hdf5_rows){STEPS "/PartOffsets", HDF5_I64, 1, {0}, 0, 0}, at.n, 0, 0));
+    TRY(write_row(file, (hdf5_rows){STEPS "/PointOffsets", HDF5_I64, 1, {0}, 0, 0}, at.n, 0, o->grid.n_points));
+    TRY(write_row(file, (hdf5_rows){STEPS "/CellOffsets", HDF5_I64, 2, {1}, 0, 0}, at.n, 0, 0));
+    TRY(hdf5_link(file, STEPS "/ConnectivityIdOffsets", STEPS "/CellOffsets"));
+    return hdf5_link(file, STEPS "/CellDataOffsets/obstacle", STEPS "/PartOffsets");
 }
 
 static dem_status write_outline(const hdf5_file *file, const outline *o, obstacle_file_times at, int deflate)

@@ -159,12 +159,13 @@ static void record_node(probe *p, const dem_simulation *simulation, const dem_st
     (void)table_put_reals(cell, &von_mises, 1);
 }
 
-/* The force is E_ij times the strain, without damping. */
+/* In the order of the columns: t, strain, force. */
 static void record_spring(probe *p, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
     const dem_index k = p->what.number[0];
-    const double strain = springs_strain_of(l, k, state->x), row[3] = {state->t, strain, l->stiffness[k] * strain};
+    double row[3] = {state->t, springs_strain_of(l, k, state->x), 0.0};
+    (void)dem_simulation_force_at(simulation, k, &row[2]);
     (void)table_put_reals(table_add(&p->table), row, 3);
 }
 

@@ -82,7 +82,7 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
     dem_trajectory *t = context;
     trajectory_rows *r = &t->rows;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", path_of(t));
-    if (r->history.table.buffered == TABLE_ROWS) TRY(flush(t)); /* no probe has more rows */
+    if (r->history.table.buffered == TABLE_ROWS) TRY(flush(t));
     history_record(&r->history, simulation);
     for (dem_index k = 0; k < r->options.n_probes; k++) probe_record(&r->probes[k], simulation);
     return DEM_OK;
@@ -354,7 +354,7 @@ dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_checkpoi
 static dem_status read_times(const dem_trajectory *t, double **out, dem_index *n)
 {
     hdf5_file file;
-    const hdf5_rows rows = {GRID "Steps/Values", HDF5_F64, 1, {0}, 0, 0};
+    const hdf5_rows rows = {STEPS "/Values", HDF5_F64, 1, {0}, 0, 0};
     /* After joining the whole has all frames of the run. */
     *n = (dem_index)trajectory_rows_total(&t->rows, ROWS_FRAMES);
     *out = malloc(((size_t)*n + 1) * sizeof **out);

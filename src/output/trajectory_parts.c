@@ -45,7 +45,7 @@ static int stem_of(const char *path)
 /* All names are one allocation, each with room for the longest ending and any number. */
 dem_status trajectory_parts_init(segments *out, const char *path, const trajectory_rows *r)
 {
-    const size_t size = strlen(path) + 32; /* the longest ending and every number */
+    const size_t size = strlen(path) + 32;
     char *text = malloc((PARTS_NAMES + 1) * size);
     out->names[0] = text;
     out->size = size;
@@ -141,7 +141,7 @@ static dem_status make(const segments *s, const trajectory_rows *r, extract e)
 /* The temporary files of a killed run hold nothing that is needed. */
 dem_status trajectory_parts_open(const segments *s, const trajectory_rows *r)
 {
-    (void)unlink(s->names[PARTS_HEAD]); /* a killed run may have left them */
+    (void)unlink(s->names[PARTS_HEAD]);
     (void)unlink(s->names[PARTS_REST]);
     return make(s, r, (extract){NULL, s->names[PARTS_PART], 0});
 }

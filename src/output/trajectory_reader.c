@@ -27,8 +27,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEPS "/VTKHDF/Steps"
-
 enum { NAME = 64, TABLE = sizeof "probes/" + NAME, PATH = TABLE + NAME + 32, MOST_COMPONENTS = 9 };
 
 /* Numbers of a row of a table: no run has more bodies or obstacles. */
@@ -187,7 +185,7 @@ static dem_status add_array(dem_reader *reader, const hdf5_file *file, int of_sp
     (void)snprintf(path, sizeof path, GRID "%s/%s", set_of(of_springs), name);
     TRY(hdf5_untrusted_measure(file, path, HDF5_F64, &shape));
     const hsize_t rows = shape.extent[0];
-    dem_reader_array a = {.unit = units_of(name),
+    dem_reader_array a = {.unit = units_of(NULL, name),
                           .type = type_of(shape.stored),
                           .of_springs = of_springs,
                           .components = (int)shape.extent[1],
@@ -242,7 +240,7 @@ static dem_status add_column(dem_reader *reader, const hdf5_file *file, const ch
 {
     char path[PATH];
     hdf5_untrusted_shape shape;
-    dem_reader_column c = {.table = table, .unit = units_of(name)};
+    dem_reader_column c = {.table = table, .unit = units_of(table, name)};
     TRY(keep(reader, name, &c.name));
     name_column(path, &c);
     TRY(hdf5_untrusted_measure(file, path, HDF5_F64, &shape));

@@ -5,7 +5,8 @@
 
 #include "output/hdf5_file.h"
 
-#define GRID "/VTKHDF/" /* the group; names within it follow */
+#define GRID  "/VTKHDF/"   /* the group; names within it follow */
+#define STEPS GRID "Steps" /* the group of times, and of where the data of each begin */
 
 typedef struct grid {
     dem_index n_points, n_cells;

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "ask.h"
 #include "output/frames.h"
 #include "unit/solids.h"
 
@@ -26,15 +27,27 @@ typedef struct reader {
     frames frames;
 } reader;
 
+/* Two blocks near each other, of which one flies to the other. */
+static void open_blocks(support_run *run)
+{
+    dem_options options = dem_options_default();
+    CLEANUP(dem_lattice_free) dem_lattice left = make_solid(0.03, 0.04, 0.01), right = make_solid(0.03, 0.04, 0.01);
+    options.bodies = DEM_BODIES_OTHERS;
+    dem_lattice_move(&right, 0.0, (const double[2]){0.0335, 0.001});
+    assert_ok(dem_lattice_launch(&left, (const double[2]){20.0, 0.0}));
+    assert_ok(dem_lattice_append(&left, &right));
+    support_open(run, &left, NULL, 0, &options);
+}
+
 /* Two frames, at 0 and 1e-4 s. */
-static reader *shoot(uint32_t fields, int is_double)
+static reader *shoot_run(void (*open)(support_run *), uint32_t fields, int is_double)
 {
     reader *f = calloc(1, sizeof *f);
     assert_non_null(f);
     dem_trajectory_options options = dem_trajectory_options_default();
     options.fields = fields;
     options.double_precision = is_double;
-    open_block(&f->run);
+    open(&f->run);
     stored_open(&f->stored);
     assert_ok(frames_init(&f->frames, f->run.model, &options));
     assert_ok(frames_create(&f->frames, &f->stored.file, dem_model_lattice(f->run.model)));
@@ -44,6 +57,11 @@ static reader *shoot(uint32_t fields, int is_double)
     }
     assert_ok(frames_verify(&f->frames, &f->stored.file, 2));
     return f;
+}
+
+static reader *shoot(uint32_t fields, int is_double)
+{
+    return shoot_run(open_block, fields, is_double);
 }
 
 static void put_away(reader *f)
@@ -62,6 +80,8 @@ static const struct {
               {"PointData/stress", DEM_FIELD_STRESS},
               {"PointData/von_mises", DEM_FIELD_VON_MISES},
               {"PointData/principal_stress", DEM_FIELD_PRINCIPAL},
+              {"PointData/contact_force", DEM_FIELD_CONTACT},
+              {"PointData/contact_pressure", DEM_FIELD_CONTACT},
               {"CellData/strain", DEM_FIELD_STRAIN},
               {"CellData/force", DEM_FIELD_FORCE},
               {"Points", 0},
@@ -71,8 +91,9 @@ enum { n_arrays = sizeof arrays / sizeof arrays[0] };
 
 TEST(a_file_has_the_arrays_that_are_wanted_and_their_offsets)
 {
-    static const uint32_t wishes[4] = {0, DEM_FIELD_PRINCIPAL | DEM_FIELD_STRAIN, DEM_FIELD_ALL, DEM_FIELD_STRESS};
-    for (int w = 0; w < 4; w++) {
+    static const uint32_t wishes[5] = {0, DEM_FIELD_PRINCIPAL | DEM_FIELD_STRAIN, DEM_FIELD_ALL, DEM_FIELD_STRESS,
+                                       DEM_FIELD_CONTACT};
+    for (int w = 0; w < 5; w++) {
         reader *f = shoot(wishes[w], 0);
         for (int k = 0; k < n_arrays; k++) {
             char name[64], offset[64];
@@ -123,6 +144,27 @@ TEST(stresses_are_those_of_the_simulation)
         free(stress);
         put_away(f);
     }
+}
+
+/* In the last frame the blocks push each other; the third component is that out of the plane. */
+TEST(forces_and_pressures_of_contact_are_those_of_the_simulation)
+{
+    reader *f = shoot_run(open_blocks, DEM_FIELD_CONTACT, 1);
+    const hsize_t n = (hsize_t)f->frames.n_nodes;
+    double force[256], pressure[128];
+    assert_true(n <= 128);
+    assert_true(ask_surfaces(f->run.simulation).pushing > 0);
+    assert_ok(dem_simulation_contact_forces(f->run.simulation, force));
+    assert_ok(dem_simulation_contact_pressures(f->run.simulation, pressure));
+    const double *three = stored_values(&f->stored, "/VTKHDF/PointData/contact_force", 2 * n, 3, 8);
+    for (hsize_t k = 0; k < 3 * n; k++) assert_close(three[k], 0.0, 0.0); /* at the start nothing touches */
+    for (hsize_t i = 0; i < n; i++) {
+        for (hsize_t c = 0; c < 2; c++) assert_close(three[3 * (n + i) + c], force[2 * i + c], 0.0);
+        assert_close(three[3 * (n + i) + 2], 0.0, 0.0);
+    }
+    const double *shown = stored_values(&f->stored, "/VTKHDF/PointData/contact_pressure", 2 * n, 1, 8) + n;
+    for (hsize_t i = 0; i < n; i++) assert_close(shown[i], pressure[i], 0.0);
+    put_away(f);
 }
 
 TEST(forces_are_stiffness_times_strain)

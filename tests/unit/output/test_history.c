@@ -3,6 +3,7 @@
  * tolerances of 1e-13 are the rounding of its steps. */
 #include "verification/support.h"
 
+#include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -207,14 +208,45 @@ TEST(every_count_has_its_column)
     const struct {
         const char *column;
         dem_index value;
-    } columns[] = {{"steps", n->steps},   {"rejected", n->rejected}, {"evaluations", n->evaluations},
-                   {"events", n->events}, {"impacts", n->impacts},   {"vertex_impacts", n->vertex_impacts},
-                   {"early", n->early},   {"closings", n->closings}, {"releases", n->releases},
-                   {"slips", n->slips},   {"sticks", n->sticks},     {"passings", n->passings},
-                   {"late", n->late},     {"retries", n->retries},   {"behind", n->behind}};
+    } columns[] = {{"steps", n->steps},        {"rejected", n->rejected}, {"evaluations", n->evaluations},
+                   {"events", n->events},      {"impacts", n->impacts},   {"vertex_impacts", n->vertex_impacts},
+                   {"early", n->early},        {"closings", n->closings}, {"releases", n->releases},
+                   {"slips", n->slips},        {"sticks", n->sticks},     {"passings", n->passings},
+                   {"late", n->late},          {"retries", n->retries},   {"behind", n->behind},
+                   {"crossings", n->crossings}};
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
         expect_number(f, columns[k].column, f->history.table.written - 1, (double)columns[k].value);
     drop(f);
+}
+
+/* Two blocks with flat sides, the upper one shifted: nearer than a fifth of the spacing they push from the start. */
+TEST(contact_of_bodies_has_its_columns)
+{
+    const dem_material rubber =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
+    const double gaps[2] = {0.3e-3, 3e-3};
+    for (int k = 0; k < 2; k++) {
+        flight *f = calloc(1, sizeof *f);
+        CLEANUP(dem_lattice_free) dem_lattice lower = support_rectangle(0.03, 0.026, 5e-3, &rubber);
+        CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.03, 0.026, 5e-3, &rubber);
+        double top = 0.0;
+        for (dem_index i = 0; i < lower.n_nodes; i++) top = fmax(top, lower.x[2 * i + 1]);
+        dem_lattice_move(&upper, 0.0, (const double[2]){0.37 * 5e-3, top + gaps[k]});
+        assert_ok(dem_lattice_append(&lower, &upper));
+        dem_options options = dem_options_default();
+        options.bodies = DEM_BODIES_ALL;
+        support_open(&f->run, &lower, NULL, 0, &options);
+        assert_ok(history_init(&f->history, f->run.simulation));
+        assert_ok(hdf5_open_new(&f->file, path, table_bytes(&f->history.table)));
+        assert_ok(table_create(&f->history.table, &f->file));
+        history_record(&f->history, f->run.simulation);
+        assert_ok(table_flush(&f->history.table, &f->file));
+        if (k == 0) expect_number(f, "gap_min", 0, gaps[0]);
+        if (k == 1) assert_true(look(f, "gap_min")->value[0] > DBL_MAX);
+        expect_number(f, "pairs", 0, k == 0 ? 12.0 : 0.0); /* 6 of the 7 nodes of each flat side are above the other */
+        expect_number(f, "crossings", 0, 0.0);
+        drop(f);
+    }
 }
 
 TEST(every_part_of_a_load_has_its_column)

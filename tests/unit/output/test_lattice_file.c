@@ -214,6 +214,21 @@ TEST_WITH(fixed_nodes_leave_the_rule_of_contact_as_it_is, write_lattice, remove_
     assert_flags((unsigned char[5]){0});
 }
 
+TEST_WITH(rigid_nodes_come_back_as_they_were_written, write_lattice, remove_lattice)
+{
+    enum { C = DEM_NODE_CONTACT, R = DEM_NODE_RIGID, X = DEM_NODE_GUIDE_X, Y = DEM_NODE_GUIDE_Y };
+    const unsigned char expected[5] = {C | R, C, C | R | Y, C | R | X, C};
+    put_whole("rigid", 5, 0, (int64_t[5]){1, 0, 3, 2, 0});
+    assert_flags(expected);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = read_lattice();
+    hdf5_file file;
+    assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
+    assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, 0)), DEM_OK);
+    assert_flags(expected);
+    put_whole("rigid", 5, 0, (int64_t[5]){1, 0, 4, 2, 0});
+    INCONSISTENT("/rigid: entry 2 is 4, which is not in 0 to 3");
+}
+
 TEST_WITH(a_body_of_one_node_needs_no_springs, write_lattice, remove_lattice)
 {
     put_real("x", 1, 2, x);
@@ -270,7 +285,7 @@ TEST_WITH(unknown_names_are_refused, write_lattice, remove_lattice)
         (void)snprintf(message, sizeof message,
                        "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
                        "viscosity, triangles, guard, area_stiffness, "
-                       "thickness, modulus, coupling, body, position, velocity, fixed, contact_nodes",
+                       "thickness, modulus, coupling, body, position, velocity, fixed, rigid, contact_nodes",
                        path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);

@@ -16,23 +16,25 @@ static const dem_probe probes[n_kinds] = {{"a_node", DEM_PROBE_NODE, {5, 0}, 1},
                                           {"a-spring", DEM_PROBE_SPRING, {7, 0}, 3},
                                           {"G", DEM_PROBE_GAUGE, {1, 12}, 2}};
 
-/* What is seen at every step, beside the probes: t; x, v, stress of the node; strain of the spring; gauge's length. */
+/* What is seen at every step, beside the probes: t; x, v, stress of the node; strain and force of the
+ * spring; gauge's length. */
 typedef struct journal {
     support_run run;
     stored stored;
     probe probes[n_kinds];
     hsize_t n;
-    double t[most_steps], node[most_steps][7], strain[most_steps], length[most_steps];
+    double t[most_steps], node[most_steps][7], strain[most_steps], force[most_steps], length[most_steps];
 } journal;
 
 static dem_status note(void *context, const dem_simulation *simulation)
 {
     journal *j = context;
     motion state;
-    double strains[64], stress[3 * 64];
+    double strains[64], forces[64], stress[3 * 64];
     assert_true(j->n < most_steps);
     motion_see(simulation, &state);
     dem_simulation_strains(simulation, strains);
+    dem_simulation_forces(simulation, forces);
     dem_simulation_stress(simulation, stress);
     for (int k = 0; k < 2; k++) /* an instant counts once */
         for (int p = 0; p < n_kinds; p++) probe_record(&j->probes[p], simulation);
@@ -41,17 +43,17 @@ static dem_status note(void *context, const dem_simulation *simulation)
     memcpy(j->node[j->n] + 2, state.v + 10, 2 * sizeof(double));
     memcpy(j->node[j->n] + 4, stress + 15, 3 * sizeof(double));
     j->strain[j->n] = strains[7];
+    j->force[j->n] = forces[7];
     j->length[j->n] = hypot(state.x[24] - state.x[2], state.x[25] - state.x[3]);
     j->n++;
     return DEM_OK;
 }
 
-static journal *keep(void)
+static journal *keep_of(dem_lattice lattice)
 {
     const dem_options options = dem_options_default();
     journal *j = calloc(1, sizeof *j);
     assert_non_null(j);
-    dem_lattice lattice = make_solid(0.03, 0.04, 0.01);
     const double velocity[2] = {1.0, 2.0};
     assert_ok(dem_lattice_launch(&lattice, velocity));
     for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.velocity[2 * i] += 300.0 * lattice.x[2 * i + 1];
@@ -79,6 +81,11 @@ static void drop(journal *j)
     stored_close(&j->stored);
     support_close(&j->run);
     free(j);
+}
+
+static journal *keep(void)
+{
+    return keep_of(make_solid(0.03, 0.04, 0.01));
 }
 
 TEST(a_node_tells_its_motion_and_stress)
@@ -165,4 +172,25 @@ TEST(what_cannot_be_probed_is_refused)
     assert_ok(probe_init(&p, &longest, &lattice));
     assert_string_equal(p.what.name, name);
     assert_ptr_not_equal(p.what.name, name);
+}
+
+/* Of triangles that are not equilateral, whose springs are coupled, the force is not E_ij times the strain. */
+TEST(the_force_of_a_spring_has_what_couplings_add)
+{
+    dem_material coupled = rubber;
+    dem_lattice lattice = make_rectangle(0.03, 0.04, 0.01);
+    coupled.springs = DEM_SPRINGS_COUPLED;
+    for (dem_index i = 0; i < lattice.n_nodes; i++) lattice.x[2 * i] *= 1.2;
+    assert_int_equal(dem_lattice_assemble(&lattice, &coupled), DEM_OK);
+    const double stiffness = lattice.stiffness[7];
+    double coupling = 0.0;
+    journal *j = keep_of(lattice);
+    const hsize_t n = (j->n + 2) / 3;
+    const double *force = stored_values(&j->stored, "/probes/a-spring/force", n, 1, 8);
+    for (hsize_t k = 0; k < n; k++) {
+        assert_close(force[k], j->force[3 * k], 0.0);
+        coupling = fmax(coupling, fabs(force[k] - stiffness * j->strain[3 * k]));
+    }
+    assert_true(coupling > 1.0);
+    drop(j);
 }

@@ -271,6 +271,8 @@ TEST(arrays_are_listed_with_what_they_are)
 {
     const dem_reader_array expected[] = {
         {"body", "", DEM_READER_I32, 0, 1, 1},
+        {"contact_force", "N", DEM_READER_F64, 0, 3, 0},
+        {"contact_pressure", "Pa", DEM_READER_F64, 0, 1, 0},
         {"displacement", "m", DEM_READER_F64, 0, 3, 0},
         {"id", "", DEM_READER_I64, 0, 1, 1},
         {"peak_stress", "Pa", DEM_READER_F64, 0, 6, 1},
@@ -390,7 +392,7 @@ TEST(tables_are_what_hdf5_finds)
         }
     }
     assert_int_equal(tables, 7); /* frames, history, events, two probes, two lists */
-    assert_int_equal(n, 14 + 49 + 15 + 5 + 3 + 5 + 5);
+    assert_int_equal(n, 14 + 52 + 15 + 5 + 3 + 5 + 5);
 }
 
 static void expect_column(const dem_reader *reader, const dem_reader_column *expected)
@@ -410,6 +412,8 @@ TEST(columns_have_items_and_components)
         {"frames", "kinetic_energy", "J", DEM_READER_F64, 0, 1, 1, 0},
         {"history", "t", "s", DEM_READER_F64, 0, 1, 1, 0},
         {"history", "steps", "", DEM_READER_I64, 0, 1, 1, 0},
+        {"history", "gap_min", "m", DEM_READER_F64, 0, 1, 1, 0},
+        {"history", "pairs", "", DEM_READER_I64, 0, 1, 1, 0},
         {"history", "body_centre", "m", DEM_READER_F64, 0, 2, 2, 0},
         {"history", "body_angular_momentum", "kg m^2/s", DEM_READER_F64, 0, 2, 1, 0},
         {"history", "obstacle_reaction", "N", DEM_READER_F64, 0, 2, 2, 0},

@@ -6,17 +6,25 @@
 
 TEST(a_name_has_its_unit)
 {
-    assert_string_equal(units_of("t"), "s");
-    assert_string_equal(units_of("boundary_energy"), "J");
-    assert_string_equal(units_of("body_angular_momentum"), "kg m^2/s");
-    assert_string_equal(units_of("peak_stress"), "Pa");
-    assert_string_equal(units_of("strain"), "1");
-    assert_string_equal(units_of("friction"), "J");
+    assert_string_equal(units_of("history", "t"), "s");
+    assert_string_equal(units_of("history", "boundary_energy"), "J");
+    assert_string_equal(units_of("history", "body_angular_momentum"), "kg m^2/s");
+    assert_string_equal(units_of("history", "peak_stress"), "Pa");
+    assert_string_equal(units_of("history", "strain"), "1");
+    assert_string_equal(units_of("history", "friction"), "J");
+    assert_string_equal(units_of(NULL, "contact_pressure"), "Pa");
+}
+
+TEST(a_work_in_the_history_is_a_number_elsewhere)
+{
+    assert_string_equal(units_of("history", "obstacle"), "J");
+    assert_string_equal(units_of("events", "obstacle"), "");
+    assert_string_equal(units_of(NULL, "obstacle"), "");
 }
 
 TEST(what_counts_or_is_unknown_has_none)
 {
-    assert_string_equal(units_of("steps"), "");
-    assert_string_equal(units_of("stres"), "");
-    assert_string_equal(units_of(""), "");
+    assert_string_equal(units_of("history", "steps"), "");
+    assert_string_equal(units_of("history", "stres"), "");
+    assert_string_equal(units_of("history", ""), "");
 }
