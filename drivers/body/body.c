@@ -10,10 +10,13 @@
 
 #include <dem/trajectory.h>
 
+#include "angle.h"
 #include "body_checks.h"
+#include "copies.h"
+#include "least_angle.h"
 #include "material.h"
+#include "rigid_keys.h"
 
-static const double degree = 0.017453292519943295769; /* pi/180 */
 static const double lost = 1e-6; /* of the spacing: the default penetration tolerance, which rounding must not hide */
 
 static namelist_place place_of(const schema_instance *group, const char *key)
@@ -244,6 +247,7 @@ static dem_status make_mesh(builder *b)
     if (status == DEM_OK) status = settle_parts(b);
     if (status == DEM_OK) status = assemble(b);
     b->facts.true_mass = b->facts.geometry.mass;
+    b->facts.least_angle = least_angle_of(&b->lattice);
     return status;
 }
 
@@ -288,6 +292,7 @@ static void measure_start(builder *b, const dem_model *model)
 {
     const dem_lattice *lattice = dem_model_lattice(model);
     const double *places = b->lattice.position != NULL ? b->lattice.position : b->lattice.x;
+    b->start.depth = -(double)INFINITY;
     b->start.rest_length = lattice->n_springs > 0 ? dem_model_spacing(model) : (double)INFINITY;
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         if ((lattice->flags[i] & (DEM_NODE_CONTACT | DEM_NODE_FIXED)) != DEM_NODE_CONTACT) continue;
@@ -311,28 +316,46 @@ static dem_status check_place(const builder *b, const char *key)
     return DEM_ERROR_MODEL;
 }
 
+/* Meets the obstacles where the body is: its clearance, and how deep it starts. */
+static dem_status face(builder *b)
+{
+    const bool file = has_shape(b->body, "file"), cleared = is_given(b->body, "clearance");
+    const body_scene *scene = b->scene;
+    dem_model *model = NULL;
+    dem_status status =
+        report(b, dem_model_create(&model, &b->lattice, scene->obstacles, scene->n_obstacles), file ? "file" : "shape");
+    if (status == DEM_OK && cleared) status = clear(b, model);
+    if (status == DEM_OK && cleared) status = check_place(b, "clearance");
+    if (status == DEM_OK) measure_start(b, model);
+    dem_model_destroy(model);
+    if (status == DEM_OK && !clearance_find_spike(&b->start.spike, &b->lattice, scene->obstacles, scene->n_obstacles))
+        status = DEM_ERROR_MEMORY;
+    return status;
+}
+
 static dem_status put(builder *b)
 {
     const double *position = reals_of(b->body, "position"), *velocity = reals_of(b->body, "velocity");
-    const bool file = has_shape(b->body, "file"), cleared = is_given(b->body, "clearance");
-    dem_model *model = NULL;
-    b->start.angle = degree * schema_real(b->body, "angle");
+    b->start.angle = angle_degree * schema_real(b->body, "angle");
     for (int c = 0; c < 2; c++) b->start.offset[c] = position[c];
     dem_lattice_move(&b->lattice, b->start.angle, position);
     dem_status status = report(b, dem_lattice_launch(&b->lattice, velocity), "velocity");
     if (status == DEM_OK) status = report(b, dem_lattice_spin(&b->lattice, schema_real(b->body, "spin")), "spin");
     if (status == DEM_OK) status = check_place(b, "position");
-    if (status == DEM_OK)
-        status = report(b, dem_model_create(&model, &b->lattice, b->scene->obstacles, b->scene->n_obstacles),
-                        file ? "file" : "shape");
-    if (status == DEM_OK && cleared) status = clear(b, model);
-    if (status == DEM_OK && cleared) status = check_place(b, "clearance");
-    if (status == DEM_OK) measure_start(b, model);
-    dem_model_destroy(model);
-    const body_scene *scene = b->scene;
-    if (status == DEM_OK && !clearance_find_spike(&b->start.spike, &b->lattice, scene->obstacles, scene->n_obstacles))
-        status = DEM_ERROR_MEMORY;
-    return status;
+    return status == DEM_OK ? face(b) : status;
+}
+
+/* From where the last copy is to where the next one is to be. */
+static dem_status put_copy(builder *b, size_t k)
+{
+    const double *position = reals_of(b->body, "position");
+    double shift[2], way[2];
+    if (!copies_shift(shift, b->body, k)) return DEM_ERROR_MEMORY;
+    for (int c = 0; c < 2; c++) way[c] = position[c] + shift[c] - b->start.offset[c];
+    for (int c = 0; c < 2; c++) b->start.offset[c] += way[c];
+    dem_lattice_move(&b->lattice, 0.0, way);
+    const dem_status status = check_place(b, "pitch");
+    return status == DEM_OK ? face(b) : status;
 }
 
 /* The obstacle, from 1, that has x deepest inside; 0 when memory runs out. */
@@ -357,24 +380,28 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
                       namelist_errors *errors)
 {
     const clearance_spike *spike = &start->spike;
-    const namelist_place place = schema_get(scene->groups, "body", k)->place;
+    const schema_instance *body = schema_get(scene->groups, "body", k);
+    const namelist_place place = body->place;
+    char copy[48] = "";
+    if (copies_count(body) > 1) (void)snprintf(copy, sizeof copy, " (copy %zu)", start->copy + 1);
     if (start->depth > penetration_tolerance) {
         const dem_index obstacle = find_obstacle(scene, start->x);
-        namelist_errors_add(
-            errors, place,
-            "body %zu starts %g m inside obstacle %lld, at (%g, %g) m, deeper than the penetration tolerance of %g m; "
-            "'position' or 'clearance' can put it in front, %s",
-            k + 1, start->depth, (long long)obstacle, start->x[0], start->x[1], penetration_tolerance, reversed);
+        namelist_errors_add(errors, place,
+                            "body %zu%s starts %g m inside obstacle %lld, at (%g, %g) m, deeper than the penetration "
+                            "tolerance of %g m; "
+                            "'position' or 'clearance' can put it in front, %s",
+                            k + 1, copy, start->depth, (long long)obstacle, start->x[0], start->x[1],
+                            penetration_tolerance, reversed);
         return obstacle > 0;
     }
     if (spike->depth > penetration_tolerance)
         namelist_errors_add(
             errors, place,
-            "body %zu starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
+            "body %zu%s starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
             "its nodes, deeper than the penetration tolerance of %g m; 'position' or 'clearance' can put it "
             "in front",
-            k + 1, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0], spike->x[1], spike->depth,
-            penetration_tolerance);
+            k + 1, copy, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0], spike->x[1],
+            spike->depth, penetration_tolerance);
     return true;
 }
 
@@ -382,6 +409,7 @@ void body_drop_unused(schema_deck *groups)
 {
     body_checks_drop_unused(groups);
     material_drop_unused(groups);
+    rigid_keys_drop_unused(groups);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
         if (strcmp(group->group->name, "body") == 0 && has_equal_springs(groups, group)) schema_drop(group, "diagonal");
@@ -389,10 +417,25 @@ void body_drop_unused(schema_deck *groups)
     }
 }
 
+bool body_settle_outlines(schema_deck *groups)
+{
+    for (size_t i = 0; i < groups->n_instances; i++) {
+        schema_instance *body = &groups->instances[i];
+        const bool by_default = strcmp(body->group->name, "body") == 0 && !is_given(body, "outline") &&
+                                schema_text(body, "outline")[0] != '\0';
+        if (!by_default) continue;
+        const schema_instance *material = material_find(groups, schema_text(body, "material"));
+        const bool coupled = material != NULL && schema_is(material, "springs", "coupled");
+        if (!coupled && !schema_set_text(body, "outline", "lattice")) return false;
+    }
+    return true;
+}
+
 void body_check_all(const schema_deck *groups, namelist_errors *errors)
 {
     body_checks_all(groups, errors);
     material_check_all(groups, errors);
+    rigid_keys_check(groups, errors);
     check_materials(groups, errors);
     check_springs(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
@@ -402,8 +445,7 @@ void body_check_all(const schema_deck *groups, namelist_errors *errors)
     }
 }
 
-bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const body_scene *scene, size_t k,
-                namelist_errors *errors)
+static builder begin(const body_scene *scene, size_t k, namelist_errors *errors)
 {
     const double none = (double)INFINITY;
     builder b = {.scene = scene,
@@ -412,12 +454,35 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
                  .errors = errors,
                  .start = {.depth = -none, .rest_length = none}};
     b.lattice = dem_lattice_empty();
+    return b;
+}
+
+bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const body_scene *scene, size_t k,
+                namelist_errors *errors)
+{
+    builder b = begin(scene, k, errors);
     dem_status status = has_shape(b.body, "file") ? read_file(&b) : make_mesh(&b);
+    if (status == DEM_OK) status = report(&b, rigid_keys_apply(&b.lattice, b.body), "rigid");
     if (status == DEM_OK) status = put(&b);
+    if (status == DEM_OK && copies_count(b.body) > 1) status = put_copy(&b, 0);
     for (dem_index i = 0; status == DEM_OK && i < b.lattice.n_nodes; i++) b.facts.mass += b.lattice.mass[i];
     if (status != DEM_OK) dem_lattice_free(&b.lattice);
+    b.facts.further = copies_count(b.body) - 1;
     *out = b.lattice;
     *facts = b.facts;
+    *start = b.start;
+    return status != DEM_ERROR_MEMORY;
+}
+
+bool body_copy(dem_lattice *lattice, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors)
+{
+    builder b = begin(scene, k, errors);
+    b.lattice = *lattice;
+    b.start.copy = start->copy + 1;
+    b.start.angle = start->angle;
+    for (int c = 0; c < 2; c++) b.start.offset[c] = start->offset[c];
+    const dem_status status = put_copy(&b, b.start.copy);
+    *lattice = b.lattice;
     *start = b.start;
     return status != DEM_ERROR_MEMORY;
 }

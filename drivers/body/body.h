@@ -25,8 +25,13 @@ void body_check_all(const schema_deck *groups, namelist_errors *errors);
 /* Takes the defaults of keys away that a choice does not use: they mean nothing, and stated they are faults. */
 void body_drop_unused(schema_deck *groups);
 
+/* Puts 'lattice' for a default `outline` of bodies with independent springs: their stresses would be wrong at a smooth
+ * one. To be called after body_drop_unused(). Returns false only when memory runs out. */
+bool body_settle_outlines(schema_deck *groups);
+
 /* How a body starts: its node that may touch and lies deepest in the obstacles; their point deepest in its triangles */
 typedef struct body_start {
+    size_t copy;        /* from 0 */
     double depth;       /* m; < 0 in front of all obstacles, -infinity where nothing can touch */
     double x[2];        /* of the node, m */
     double rest_length; /* m, of its shortest spring; infinity without springs */
@@ -36,9 +41,11 @@ typedef struct body_start {
 
 /* What the log says of a body. */
 typedef struct body_facts {
-    double mass, true_mass; /* kg; that of its true shape, 0 where none is known: of a lattice file */
+    size_t further;         /* copies beside it, of each of which the same holds */
+    double mass, true_mass; /* kg; of one; that of its true shape, 0 where none is known: of a lattice file */
     dem_plane plane;        /* of its material; stress where it has none */
     body_geometry geometry;
+    double least_angle;   /* degrees, of all triangles in the end; 0 of a lattice file */
     dem_index n_included; /* triangles of its inclusions */
     parts_loose loose;    /* apart from its largest part */
     bool removed;         /* they have been */
@@ -49,6 +56,10 @@ typedef struct body_facts {
  * Returns false only when memory runs out (*out is then empty). Caller owns *out. */
 bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const body_scene *scene, size_t k,
                 namelist_errors *errors);
+
+/* Moves the body that was built, or copied, last to where its next copy is to be. A fault is appended to `errors`.
+ * Returns false only when memory runs out. */
+bool body_copy(dem_lattice *lattice, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors);
 
 /* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `penetration_tolerance`, m. Returns
  * false only when memory runs out. */

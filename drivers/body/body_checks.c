@@ -4,7 +4,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "body_outline.h"
 #include "conditional_keys.h"
+#include "copies.h"
 #include "pores.h"
 
 static bool has_shape(const schema_instance *group, const char *name)
@@ -26,7 +28,6 @@ static const conditional_key body_keys[] = {
     {"diagonal", OURS, false},
     {"outline", "rectangle, disc, ring, polygon", false},
     {"jitter", OURS, false},
-    {"seed", OURS, false},
     {"material", OURS ", mesh", false},
     {"file", "file, mask, mesh", true},
     {"scale", "mask, mesh", true},
@@ -49,6 +50,12 @@ static const conditional_keys void_uses = {"void", "shape", COUNT(void_keys), vo
 static const conditional_keys inclusion_uses = {"inclusion", "shape", COUNT(void_keys), void_keys};
 static const conditional_keys pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
 
+/* Whether anything of a body is random. */
+static bool draws(const schema_instance *body)
+{
+    return schema_real(body, "jitter") > 0.0 || schema_real(body, "scatter") > 0.0;
+}
+
 void body_checks_drop_unused(schema_deck *groups)
 {
     conditional_keys_drop(groups, &body_uses);
@@ -58,7 +65,7 @@ void body_checks_drop_unused(schema_deck *groups)
     conditional_keys_drop(groups, &pores_uses);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
-        if (strcmp(group->group->name, "body") == 0 && schema_real(group, "jitter") == 0.0) schema_drop(group, "seed");
+        if (strcmp(group->group->name, "body") == 0 && !draws(group)) schema_drop(group, "seed");
     }
 }
 
@@ -97,19 +104,11 @@ static bool check_points(const schema_instance *group, namelist_errors *errors)
     return true;
 }
 
-outline body_checks_polygon(const schema_instance *group)
-{
-    const schema_value *points = schema_value_of(group, "points");
-    const size_t n = (size_t)points->count / 2;
-    const bool closed = n > 1 && memcmp(points->reals, points->reals + 2 * n - 2, 2 * sizeof(double)) == 0;
-    return (outline){.kind = OUTLINE_POLYGON, .n_points = closed ? n - 1 : n, .points = points->reals};
-}
-
 static bool check_polygon(const schema_instance *group, namelist_errors *errors)
 {
     size_t edge[2];
     if (!has_shape(group, "polygon") || !schema_given(group, "points") || !check_points(group, errors)) return false;
-    const outline o = body_checks_polygon(group);
+    const outline o = body_outline(group);
     const namelist_place place = schema_place(group, "points");
     const char *name = group->group->name;
     if (o.n_points < 3) {
@@ -160,7 +159,7 @@ static void check_spacing(const schema_instance *body, bool sound_polygon, namel
                             "'spacing' in &body must not exceed the ring's width, %g m, got %g m", width, spacing);
     if (sound_polygon) {
         double box[4];
-        const outline o = body_checks_polygon(body);
+        const outline o = body_outline(body);
         outline_box(&o, box);
         const double extent[2] = {box[2] - box[0], box[3] - box[1]};
         if (spacing > extent[0] || spacing > extent[1])
@@ -219,14 +218,21 @@ static void check_lattice(const schema_instance *body, namelist_errors *errors)
 {
     if (strstr(OURS, schema_text(body, "shape")) == NULL) return;
     conditional_keys_check(body, &lattice_uses, errors);
-    if (schema_given(body, "seed") && !schema_value_of(body, "jitter")->faulty && schema_real(body, "jitter") == 0.0)
-        namelist_errors_add(errors, schema_place(body, "seed"), "'seed' in &body is not used without 'jitter'");
+}
+
+static void check_seed(const schema_instance *body, namelist_errors *errors)
+{
+    const bool faulty = schema_value_of(body, "jitter")->faulty || schema_value_of(body, "scatter")->faulty;
+    if (schema_given(body, "seed") && !faulty && !draws(body))
+        namelist_errors_add(errors, schema_place(body, "seed"),
+                            "'seed' in &body is not used without 'jitter' or 'scatter'");
 }
 
 static void check_body(const schema_instance *body, namelist_errors *errors)
 {
     conditional_keys_check(body, &body_uses, errors);
     check_lattice(body, errors);
+    check_seed(body, errors);
     check_ring(body, errors);
     check_spacing(body, check_polygon(body, errors), errors);
     check_file(body, errors);
@@ -246,6 +252,7 @@ static void check_holes(const schema_deck *groups, const conditional_keys *table
 
 void body_checks_all(const schema_deck *groups, namelist_errors *errors)
 {
+    copies_check(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) check_body(schema_get(groups, "body", k), errors);
     check_holes(groups, &void_uses, errors);
     check_holes(groups, &inclusion_uses, errors);

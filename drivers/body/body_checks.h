@@ -4,7 +4,6 @@
 #ifndef DEM_BODY_CHECKS_H
 #define DEM_BODY_CHECKS_H
 
-#include "outline.h"
 #include "schema.h"
 
 /* Keys that a shape lacks or does not use, numbers that do not go together, groups for bodies that there are not. */
@@ -12,9 +11,6 @@ void body_checks_all(const schema_deck *groups, namelist_errors *errors);
 
 /* Takes the defaults of keys away that a choice does not use: they mean nothing, and stated they are faults. */
 void body_checks_drop_unused(schema_deck *groups);
-
-/* The points of a polygon as the deck has them; the last one may be the first once more. Borrowed from the deck. */
-outline body_checks_polygon(const schema_instance *group);
 
 /* Reports a spacing that exceeds a size, m; `what` it is the size of. */
 void body_checks_refuse_spacing(const schema_instance *body, const char *what, const double size[2],

@@ -6,14 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "angle.h"
 #include "area.h"
 #include "body_checks.h"
+#include "body_outline.h"
 #include "crack.h"
 #include "material.h"
 #include "msh.h"
 #include "shape.h"
 
-static const double pi = 3.14159265358979323846, degree = 0.017453292519943295769; /* pi/180 */
+static const double pi = 3.14159265358979323846;
 static const double aside = 1e-6; /* of the spacing: how far cracks run beside their points */
 
 static bool has_shape(const schema_instance *group, const char *name)
@@ -40,17 +42,14 @@ static const schema_instance *own(const former *f, const char *name, size_t k)
     return (size_t)schema_real(group, "body") == f->number ? group : NULL;
 }
 
-/* Of a body, a void or an inclusion, about its own origin. False when memory runs out. */
-static bool read_outline(outline *out, const schema_instance *group)
+/* With points of its own. False when memory runs out. */
+static bool copy_outline(outline *out, const schema_instance *group)
 {
-    const double *size = schema_reals(group, "size");
-    *out = (outline){.radius = schema_real(group, "radius"), .inner = schema_real(group, "inner_radius")};
-    for (int c = 0; c < 2 && size != NULL; c++) out->size[c] = size[c];
-    out->kind = has_shape(group, "disc") ? OUTLINE_DISC : (has_shape(group, "ring") ? OUTLINE_RING : OUTLINE_RECTANGLE);
-    if (!has_shape(group, "polygon")) return true;
-    *out = body_checks_polygon(group);
-    double *points = malloc(out->n_points * 2 * sizeof *points);
-    if (points != NULL) memcpy(points, out->points, out->n_points * 2 * sizeof *points);
+    *out = body_outline(group);
+    if (out->kind != OUTLINE_POLYGON) return true;
+    const size_t size = out->n_points * 2 * sizeof *out->points;
+    double *points = malloc(size);
+    if (points != NULL) memcpy(points, out->points, size);
     out->points = points;
     return points != NULL;
 }
@@ -58,9 +57,9 @@ static bool read_outline(outline *out, const schema_instance *group)
 /* Of a void or an inclusion, in its place. False when memory runs out. */
 static bool read_hole(outline *hole, const schema_instance *group)
 {
-    const double *centre = schema_reals(group, "centre"), angle = degree * schema_real(group, "angle");
+    const double *centre = schema_reals(group, "centre"), angle = angle_degree * schema_real(group, "angle");
     const double turn[2] = {cos(angle), sin(angle)};
-    bool good = read_outline(hole, group);
+    bool good = copy_outline(hole, group);
     if (hole->kind == OUTLINE_POLYGON || angle != 0.0) {
         good = good && outline_place(hole, turn, centre);
     } else {
@@ -144,6 +143,7 @@ static dem_status read_mask(const former *f, shape *s)
     if (status != IMAGE_READ) return status == IMAGE_MEMORY ? DEM_ERROR_MEMORY : DEM_ERROR_MODEL;
     s->outline.size[0] = (double)s->mask.width * s->mask.scale;
     s->outline.size[1] = (double)s->mask.height * s->mask.scale;
+    s->outline.centre[1] = 0.5 * s->outline.size[1];
     if (s->spacing <= s->outline.size[0] && s->spacing <= s->outline.size[1]) return DEM_OK;
     body_checks_refuse_spacing(f->body, "image", s->outline.size, f->errors);
     return DEM_ERROR_MODEL;
@@ -152,12 +152,12 @@ static dem_status read_mask(const former *f, shape *s)
 /* Outline or mask, voids, pores; the true area. */
 static dem_status make_shape(former *f, shape *s)
 {
-    dem_status status = read_outline(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
+    dem_status status = copy_outline(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
     s->spacing = f->geometry.spacing = schema_real(f->body, "spacing");
     s->squares = body_geometry_has_squares(f->body);
-    s->smooth = schema_is(f->body, "outline", "smooth");
+    /* Where areas underflow the lattice is left as it is, to be refused for that. */
+    s->smooth = schema_is(f->body, "outline", "smooth") && isnormal(s->spacing * s->spacing);
     if (status == DEM_OK && has_shape(f->body, "mask")) status = read_mask(f, s);
-    if (s->outline.kind == OUTLINE_RECTANGLE) s->outline.centre[1] = 0.5 * s->outline.size[1];
     for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "void"); k++)
         if (own(f, "void", k) != NULL) status = add_void(s, own(f, "void", k));
     if (status != DEM_OK) return status;

@@ -3,11 +3,11 @@
 
 #include <math.h>
 
-/* Of an edge: a circle, or a side from a to b. */
+/* Of an edge: a circle, or a side. */
 typedef struct piece {
     bool round;
     double centre[2], radius;
-    double a[2], b[2];
+    outline_side side;
 } piece;
 
 static size_t count_pieces(const outline *o)
@@ -19,8 +19,7 @@ static piece piece_at(const outline *o, size_t k)
 {
     if (o->kind == OUTLINE_DISC || o->kind == OUTLINE_RING)
         return (piece){.round = true, .centre = {o->centre[0], o->centre[1]}, .radius = k == 0 ? o->radius : o->inner};
-    const outline_corner from = outline_corner_at(o, k), to = outline_corner_at(o, (k + 1) % outline_corners(o));
-    return (piece){.a = {from.x[0], from.x[1]}, .b = {to.x[0], to.x[1]}};
+    return (piece){.side = outline_side_at(o, k)};
 }
 
 /* ---- pairs ---- */
@@ -42,7 +41,7 @@ static size_t cross_circles(const piece *p, const piece *q, double at[2][2])
 }
 
 /* At the foot of the centre on the line, and half a chord to both sides of it. */
-static size_t cross_side(const piece *circle, const piece *side, double at[2][2])
+static size_t cross_side(const piece *circle, const outline_side *side, double at[2][2])
 {
     const double tx = side->b[0] - side->a[0], ty = side->b[1] - side->a[1], length = sqrt(tx * tx + ty * ty);
     const double cx = circle->centre[0] - side->a[0], cy = circle->centre[1] - side->a[1];
@@ -59,7 +58,7 @@ static size_t cross_side(const piece *circle, const piece *side, double at[2][2]
     return n;
 }
 
-static size_t cross_sides(const piece *p, const piece *q, double at[2][2])
+static size_t cross_sides(const outline_side *p, const outline_side *q, double at[2][2])
 {
     const double ux = p->b[0] - p->a[0], uy = p->b[1] - p->a[1], vx = q->b[0] - q->a[0], vy = q->b[1] - q->a[1];
     const double wx = q->a[0] - p->a[0], wy = q->a[1] - p->a[1], turn = ux * vy - uy * vx;
@@ -78,9 +77,9 @@ void crossings_find(const outline *a, const outline *b, crossings_take take, voi
             const piece q = piece_at(b, j);
             double at[2][2];
             const size_t n = p.round && q.round ? cross_circles(&p, &q, at)
-                             : p.round          ? cross_side(&p, &q, at)
-                             : q.round          ? cross_side(&q, &p, at)
-                                                : cross_sides(&p, &q, at);
+                             : p.round          ? cross_side(&p, &q.side, at)
+                             : q.round          ? cross_side(&q, &p.side, at)
+                                                : cross_sides(&p.side, &q.side, at);
             for (size_t k = 0; k < n; k++) take(context, at[k]);
         }
     }

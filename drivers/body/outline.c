@@ -6,14 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct edge {
-    const double *a, *b;
-} edge;
-
-/* Edge k of a polygon goes from point k to the next. */
-static edge edge_of(const outline *o, size_t k)
+static outline_side side_of_polygon(const outline *o, size_t k)
 {
-    return (edge){o->points + 2 * k, o->points + 2 * (k + 1 < o->n_points ? k + 1 : 0)};
+    const double *a = o->points + 2 * k, *b = o->points + 2 * (k + 1 < o->n_points ? k + 1 : 0);
+    return (outline_side){{a[0], a[1]}, {b[0], b[1]}};
 }
 
 /* ---- distance ---- */
@@ -25,24 +21,24 @@ static double rectangle_distance(const outline *o, double x, double y)
     return sqrt(ox * ox + oy * oy) + fmin(fmax(dx, dy), 0.0);
 }
 
-/* Where on an edge its nearest point is: 0 at its first end, 1 at its second. */
-static double edge_share(edge e, double x, double y)
+/* Where on a side its nearest point is: 0 at its first end, 1 at its second. */
+static double side_share(outline_side e, double x, double y)
 {
     const double tx = e.b[0] - e.a[0], ty = e.b[1] - e.a[1], dx = x - e.a[0], dy = y - e.a[1];
     return fmin(fmax((dx * tx + dy * ty) / (tx * tx + ty * ty), 0.0), 1.0);
 }
 
-static double edge_distance(edge e, double x, double y)
+static double side_distance(outline_side e, double x, double y)
 {
     const double tx = e.b[0] - e.a[0], ty = e.b[1] - e.a[1], dx = x - e.a[0], dy = y - e.a[1];
-    const double s = edge_share(e, x, y);
+    const double s = side_share(e, x, y);
     const double rx = dx - s * tx, ry = dy - s * ty;
     return sqrt(rx * rx + ry * ry);
 }
 
-/* Whether the line of height y crosses an edge, and where. Of the ends the upper one counts as beyond: so a corner is
+/* Whether the line of height y crosses a side, and where. Of the ends the upper one counts as beyond: so a corner is
  * crossed once or twice, never in between. */
-static bool crosses(edge e, double y, double *x)
+static bool crosses(outline_side e, double y, double *x)
 {
     if ((e.a[1] > y) == (e.b[1] > y)) return false;
     *x = e.a[0] + (e.b[0] - e.a[0]) * ((y - e.a[1]) / (e.b[1] - e.a[1]));
@@ -54,8 +50,8 @@ static double polygon_distance(const outline *o, double x, double y)
     double least = (double)INFINITY, at = 0.0;
     bool inside = false;
     for (size_t k = 0; k < o->n_points; k++) {
-        const edge e = edge_of(o, k);
-        least = fmin(least, edge_distance(e, x, y));
+        const outline_side e = side_of_polygon(o, k);
+        least = fmin(least, side_distance(e, x, y));
         if (crosses(e, y, &at) && at > x) inside = !inside;
     }
     return inside ? -least : least;
@@ -106,8 +102,8 @@ static void nearest_of_polygon(const outline *o, const double x[2], double near[
 {
     double least = (double)INFINITY;
     for (size_t k = 0; k < o->n_points; k++) {
-        const edge e = edge_of(o, k);
-        const double distance = edge_distance(e, x[0], x[1]), s = edge_share(e, x[0], x[1]);
+        const outline_side e = side_of_polygon(o, k);
+        const double distance = side_distance(e, x[0], x[1]), s = side_share(e, x[0], x[1]);
         if (distance >= least) continue;
         least = distance;
         for (int c = 0; c < 2; c++) near[c] = s < 1.0 ? e.a[c] + s * (e.b[c] - e.a[c]) : e.b[c];
@@ -150,10 +146,17 @@ static outline_corner corner_of_rectangle(const outline *o, size_t k)
 outline_corner outline_corner_at(const outline *o, size_t k)
 {
     if (o->kind == OUTLINE_RECTANGLE) return corner_of_rectangle(o, k);
-    const edge before = edge_of(o, k > 0 ? k - 1 : o->n_points - 1), e = edge_of(o, k);
+    const outline_side before = side_of_polygon(o, k > 0 ? k - 1 : o->n_points - 1), e = side_of_polygon(o, k);
     const double ux = before.b[0] - before.a[0], uy = before.b[1] - before.a[1];
     const double vx = e.b[0] - e.a[0], vy = e.b[1] - e.a[1];
     return (outline_corner){{e.a[0], e.a[1]}, (ux * vx + uy * vy) / sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy))};
+}
+
+outline_side outline_side_at(const outline *o, size_t k)
+{
+    if (o->kind == OUTLINE_POLYGON) return side_of_polygon(o, k);
+    const outline_corner a = corner_of_rectangle(o, k), b = corner_of_rectangle(o, (k + 1) % 4);
+    return (outline_side){{a.x[0], a.x[1]}, {b.x[0], b.x[1]}};
 }
 
 /* ---- box ---- */
@@ -185,7 +188,7 @@ static int by_size(const void *a, const void *b)
 static size_t slice_polygon(const outline *o, double y, double *x)
 {
     size_t n = 0;
-    for (size_t k = 0; k < o->n_points; k++) n += crosses(edge_of(o, k), y, x + n);
+    for (size_t k = 0; k < o->n_points; k++) n += crosses(side_of_polygon(o, k), y, x + n);
     qsort(x, n, sizeof *x, by_size);
     return n;
 }
@@ -236,8 +239,8 @@ size_t outline_levels(const outline *o, double *y)
 
 /* ---- polygons ---- */
 
-/* Twice the area of the triangle to a point: > 0 on the left of the edge. */
-static double side_of(edge e, const double *p)
+/* Twice the area of the triangle to a point: > 0 on the left of the side. */
+static double area_to(outline_side e, const double *p)
 {
     return (e.b[0] - e.a[0]) * (p[1] - e.a[1]) - (e.b[1] - e.a[1]) * (p[0] - e.a[0]);
 }
@@ -247,28 +250,28 @@ static bool is_between(double a, double x, double b)
     return (a <= x && x <= b) || (b <= x && x <= a);
 }
 
-/* A point on the edge's line. */
-static bool is_on(edge e, const double *p)
+/* A point on the side's line. */
+static bool is_on(outline_side e, const double *p)
 {
     return is_between(e.a[0], p[0], e.b[0]) && is_between(e.a[1], p[1], e.b[1]);
 }
 
-/* Whether two edges share a point. */
-static bool meet(edge e, edge f)
+/* Whether two sides share a point. */
+static bool meet(outline_side e, outline_side f)
 {
-    const double fa = side_of(e, f.a), fb = side_of(e, f.b), ea = side_of(f, e.a), eb = side_of(f, e.b);
+    const double fa = area_to(e, f.a), fb = area_to(e, f.b), ea = area_to(f, e.a), eb = area_to(f, e.b);
     const bool apart =
         (fa > 0.0 && fb > 0.0) || (fa < 0.0 && fb < 0.0) || (ea > 0.0 && eb > 0.0) || (ea < 0.0 && eb < 0.0);
     if (fa != 0.0 || fb != 0.0) return !apart;
     return is_on(e, f.a) || is_on(e, f.b) || is_on(f, e.a); /* all on one line */
 }
 
-/* Whether an edge runs back on the one before. */
-static bool folds(edge before, edge e)
+/* Whether a side runs back on the one before. */
+static bool folds(outline_side before, outline_side e)
 {
     const double along =
         (before.b[0] - before.a[0]) * (e.b[0] - e.a[0]) + (before.b[1] - before.a[1]) * (e.b[1] - e.a[1]);
-    return side_of(before, e.b) == 0.0 && along < 0.0;
+    return area_to(before, e.b) == 0.0 && along < 0.0;
 }
 
 bool outline_crossing(const outline *o, size_t edges[2])
@@ -276,7 +279,7 @@ bool outline_crossing(const outline *o, size_t edges[2])
     const size_t n = o->n_points;
     for (size_t i = 0; i < n; i++)
         for (size_t j = i + 1; j < n; j++) {
-            const edge e = edge_of(o, i), f = edge_of(o, j);
+            const outline_side e = side_of_polygon(o, i), f = side_of_polygon(o, j);
             const bool follows = j == i + 1, closes = i == 0 && j == n - 1;
             if (follows ? !folds(e, f) : (closes ? !folds(f, e) : !meet(e, f))) continue;
             edges[0] = i;

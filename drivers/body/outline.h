@@ -40,6 +40,13 @@ typedef struct outline_corner {
 size_t outline_corners(const outline *o);
 outline_corner outline_corner_at(const outline *o, size_t k);
 
+/* A straight side, from corner k to the next: there are as many as corners. */
+typedef struct outline_side {
+    double a[2], b[2]; /* m */
+} outline_side;
+
+outline_side outline_side_at(const outline *o, size_t k);
+
 /* left, bottom, right, top, m */
 void outline_box(const outline *o, double box[4]);
 

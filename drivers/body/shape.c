@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double rounding = 1e-9; /* of the spacing: a node on an edge stays, whatever its rounding */
+static const double rounding = 1e-9; /* of the spacing */
 
 static const double sqrt3_2 = 0.86602540378443864676; /* height of a row of triangles, in spacings */
 
@@ -35,7 +35,7 @@ static bool is_fitted(const shape *s)
 static bool is_kept(void *context, const double *x)
 {
     const shape *s = context;
-    return (is_fitted(s) || shape_outline_has(s, x)) && void_distance(s, x) > -rounding * s->spacing;
+    return (is_fitted(s) || shape_outline_has(s, x)) && void_distance(s, x) > -shape_slack(s);
 }
 
 void shape_free(shape *s)
@@ -59,9 +59,14 @@ bool shape_add_void(shape *s, outline *hole)
     return true;
 }
 
+double shape_slack(const shape *s)
+{
+    return rounding * s->spacing;
+}
+
 bool shape_outline_has(const shape *s, const double x[2])
 {
-    const double slack = rounding * s->spacing;
+    const double slack = shape_slack(s);
     return is_mask(s) ? mask_has(&s->mask, x, slack) : outline_distance(&s->outline, x[0], x[1]) <= slack;
 }
 
@@ -98,7 +103,7 @@ bool shape_fits(const shape *s, const double x[2], double radius)
 bool shape_takes(const shape *s, const outline *hole, const dem_lattice *lattice)
 {
     for (dem_index i = 0; i < lattice->n_nodes; i++)
-        if (outline_distance(hole, lattice->x[2 * i], lattice->x[2 * i + 1]) <= -rounding * s->spacing) return true;
+        if (outline_distance(hole, lattice->x[2 * i], lattice->x[2 * i + 1]) <= -shape_slack(s)) return true;
     return false;
 }
 

@@ -26,6 +26,9 @@ void shape_free(shape *s);
 /* Takes the void over, also where memory runs out: then it returns false. */
 bool shape_add_void(shape *s, outline *hole);
 
+/* m: what is nearer to an edge is on it, and stays where the shape is cut out, whatever its rounding. */
+double shape_slack(const shape *s);
+
 /* Whether x lies in the material, voids apart; on the edge it does. */
 bool shape_outline_has(const shape *s, const double x[2]);
 

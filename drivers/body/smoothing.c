@@ -2,9 +2,7 @@
 /* The nodes of the rim go to the nearest point of their edge, and one node to each corner. Then rim nodes slide along
  * their edges to the middle between their neighbours, and nodes in a few layers behind them go to the mean of theirs.
  * Pairs of triangles that are still poor get their other diagonal. In the end nodes of triangles that are too flat go
- * back towards their places in the grid, where all triangles are sound. Triangles are kept by their centres,
- * so that the rim is about the edge. If they were kept by their nodes, the rim would be half a spacing inside, and a
- * quarter of its nodes too far off: areas were found 5 % (discs) and 12 % (rings) too small at R/10. */
+ * back towards their places in the grid, where all triangles are sound. */
 #include "smoothing.h"
 
 #include <math.h>
@@ -12,18 +10,27 @@
 #include <string.h>
 
 #include "crossings.h"
+#include "least_angle.h"
 #include "shape.h"
+#include "shape_trim.h"
 #include "stars.h"
 
-enum { layers = 3, sweeps = 8, last_sweeps = 2, crumb = 4 /* triangles */ };
+enum { layers = 3, sweeps = 8, last_sweeps = 2 };
 
-static const double rounding = 1e-9;                 /* of the spacing */
 static const double reach = 1.0, corner_reach = 1.5; /* of the spacing: farther no node is moved */
 /* Cotangents of the least angle of a triangle. */
-static const double flat = 2.4750868534162958;    /* 22 degrees: a tooth of the rim with a smaller angle goes */
+static const double flat = 2.4750868534162958;    /* 22 degrees: an ear of the rim with a smaller angle goes */
 static const double poor = 1.7320508075688773;    /* 30 degrees: a pair with a smaller one may get its other diagonal */
 static const double unsound = 2.7474774194546221; /* 20 degrees: no triangle keeps a smaller one */
 static const double better = 0.95;                /* of the cotangent: what another diagonal must gain */
+
+/* What a node of the rim has beside its place. */
+typedef struct rim_node {
+    dem_index before, behind; /* the rim nodes next to it; -1: none */
+    size_t edge;              /* of the shape: the one that it belongs to */
+    double turn;              /* cosine of the corner that it is at; 2: none */
+    bool held;                /* does not slide */
+} rim_node;
 
 typedef struct draft {
     const shape *shape;
@@ -32,12 +39,9 @@ typedef struct draft {
     double *x;               /* [n_nodes][2] m, where nodes are moved to */
     double *sum;             /* [n_nodes][3] of the places of neighbours, m, and their number */
     unsigned char *depth;    /* [n_nodes] sides away from the rim, 0 to layers; layers + 1: farther */
-    bool *held;              /* [n_nodes] rim nodes that do not slide */
-    dem_index n_cut;         /* corners without a node */
-    double *turn;            /* [n_nodes] cosine of the corner that a node is at; 2: none */
+    rim_node *at;            /* [n_nodes] for those of the rim */
     dem_index n_rim, *rim;   /* the nodes at the rim */
-    size_t *edge;            /* [n_nodes] of rim nodes: the edge of the shape that they belong to */
-    dem_index *beside;       /* [n_nodes][2] the rim nodes before and behind; -1: none */
+    dem_index n_cut;         /* corners without a node */
     dem_index n_near, *near; /* triangles with a node that may move */
     bool *flipped;           /* [n_triangles] */
 } draft;
@@ -48,11 +52,8 @@ static void draft_free(draft *d)
     free(d->x);
     free(d->sum);
     free(d->depth);
-    free(d->held);
-    free(d->turn);
+    free(d->at);
     free(d->rim);
-    free(d->edge);
-    free(d->beside);
     free(d->near);
     free(d->flipped);
     *d = (draft){0};
@@ -65,15 +66,11 @@ static bool draft_create(draft *d, dem_lattice *lattice, const shape *s)
     d->x = calloc(n + 1, 2 * sizeof *d->x);
     d->sum = calloc(n + 1, 3 * sizeof *d->sum);
     d->depth = calloc(n + 1, sizeof *d->depth);
-    d->held = calloc(n + 1, sizeof *d->held);
-    d->turn = calloc(n + 1, sizeof *d->turn);
+    d->at = calloc(n + 1, sizeof *d->at);
     d->rim = calloc(n + 1, sizeof *d->rim);
-    d->edge = calloc(n + 1, sizeof *d->edge);
-    d->beside = calloc(n + 1, 2 * sizeof *d->beside);
     d->near = calloc(m + 1, sizeof *d->near);
     d->flipped = calloc(m + 1, sizeof *d->flipped);
-    return d->x && d->sum && d->depth && d->held && d->turn && d->rim && d->edge && d->beside && d->near &&
-           d->flipped && stars_create(&d->stars, lattice);
+    return d->x && d->sum && d->depth && d->at && d->rim && d->near && d->flipped && stars_create(&d->stars, lattice);
 }
 
 static bool is_rim(const draft *d, dem_index i)
@@ -87,146 +84,29 @@ static double distance(const double *a, const double *b)
     return sqrt(dx * dx + dy * dy);
 }
 
-/* The cotangent of the least angle of a triangle at the places x; infinite if it is turned over. */
-static double cotangent(const double *x, dem_index i, dem_index j, dem_index k)
-{
-    const double *corner[3] = {x + 2 * i, x + 2 * j, x + 2 * k};
-    double largest = -(double)INFINITY;
-    for (int c = 0; c < 3; c++) {
-        const double *a = corner[c], *b = corner[(c + 1) % 3], *e = corner[(c + 2) % 3];
-        const double ux = b[0] - a[0], uy = b[1] - a[1], vx = e[0] - a[0], vy = e[1] - a[1];
-        const double cross = ux * vy - uy * vx;
-        if (!(cross > 0.0)) return (double)INFINITY;
-        largest = fmax(largest, (ux * vx + uy * vy) / cross);
-    }
-    return largest;
-}
-
 static double cotangent_of(const draft *d, dem_index t)
 {
-    const dem_index *corner = d->lattice->triangles + 3 * t;
-    return cotangent(d->x, corner[0], corner[1], corner[2]);
-}
-
-/* ---- what is kept ---- */
-
-static dem_index count(const bool *flag, dem_index n)
-{
-    dem_index sum = 0;
-    for (dem_index t = 0; t < n; t++) sum += flag[t];
-    return sum;
-}
-
-/* Work on the triangles on one side of the cut. */
-typedef struct half {
-    dem_lattice lattice; /* the nodes of all, but its own triangles */
-    dem_index *number;   /* [n_triangles] of each of its triangles among all */
-    dem_index *piece;    /* [n_triangles] */
-    dem_index *size;     /* [n_pieces] triangles */
-    dem_index *at;       /* [n_nodes] a piece that has the node, or -1 */
-    bool *touches;       /* [n_pieces] another piece in a node */
-    dem_index largest;   /* triangles */
-} half;
-
-static void half_free(half *s)
-{
-    free(s->lattice.triangles);
-    free(s->number);
-    free(s->piece);
-    free(s->size);
-    free(s->at);
-    free(s->touches);
-}
-
-/* Pieces share no edge. */
-static dem_status find_pieces(half *s)
-{
-    dem_index n_pieces;
-    const dem_status status = dem_lattice_pieces(&s->lattice, &n_pieces, s->piece);
-    for (dem_index i = 0; i < s->lattice.n_nodes; i++) s->at[i] = -1;
-    for (dem_index t = 0; status == DEM_OK && t < s->lattice.n_triangles; t++) {
-        const dem_index piece = s->piece[t], now = ++s->size[piece];
-        if (now > s->largest) s->largest = now;
-        for (int c = 0; c < 3; c++) {
-            dem_index *at = &s->at[s->lattice.triangles[3 * t + c]];
-            if (*at >= 0 && *at != piece) s->touches[*at] = s->touches[piece] = true;
-            *at = piece;
-        }
-    }
-    return status;
-}
-
-/* The triangles for which keep[t] is `kept`. */
-static dem_status half_create(half *s, const dem_lattice *l, const bool *keep, bool kept)
-{
-    const dem_index n_kept = count(keep, l->n_triangles), n = kept ? n_kept : l->n_triangles - n_kept;
-    *s = (half){.lattice = *l};
-    s->lattice.n_triangles = 0;
-    s->lattice.triangles = calloc((size_t)n + 1, 3 * sizeof *s->lattice.triangles);
-    s->number = calloc((size_t)n + 1, sizeof *s->number);
-    s->piece = calloc((size_t)n + 1, sizeof *s->piece);
-    s->size = calloc((size_t)n + 1, sizeof *s->size);
-    s->at = calloc((size_t)l->n_nodes + 1, sizeof *s->at);
-    s->touches = calloc((size_t)n + 1, sizeof *s->touches);
-    if (!s->lattice.triangles || !s->number || !s->piece || !s->size || !s->at || !s->touches) return DEM_ERROR_MEMORY;
-    for (dem_index t = 0; t < l->n_triangles; t++) {
-        if (keep[t] != kept) continue;
-        const dem_index to = s->lattice.n_triangles++;
-        memcpy(s->lattice.triangles + 3 * to, l->triangles + 3 * t, 3 * sizeof *l->triangles);
-        s->number[to] = t;
-    }
-    return find_pieces(s);
-}
-
-/* Cutting leaves pieces of a few triangles in sharp corners: of the material those that share no edge with others go,
- * of a void those that meet others in a node are filled, since its rim would run through that node twice. */
-static dem_status mend_crumbs(bool *keep, const dem_lattice *l, bool kept)
-{
-    half s;
-    const dem_status status = half_create(&s, l, keep, kept);
-    for (dem_index t = 0; status == DEM_OK && t < s.lattice.n_triangles; t++) {
-        const dem_index size = s.size[s.piece[t]];
-        if (size <= crumb && size < s.largest && (kept || s.touches[s.piece[t]])) keep[s.number[t]] = !kept;
-    }
-    half_free(&s);
-    return status;
-}
-
-static dem_status cut(dem_lattice *l, const shape *s)
-{
-    bool *keep = calloc((size_t)l->n_triangles + 1, sizeof *keep);
-    if (keep == NULL) return DEM_ERROR_MEMORY;
-    for (dem_index t = 0; t < l->n_triangles; t++) {
-        double centre[2] = {0.0, 0.0};
-        for (int k = 0; k < 6; k++) centre[k % 2] += l->x[2 * l->triangles[3 * t + k / 2] + k % 2] / 3.0;
-        keep[t] = shape_distance(s, centre) < -rounding * s->spacing;
-    }
-    dem_status status = mend_crumbs(keep, l, true);
-    if (status == DEM_OK) status = mend_crumbs(keep, l, false);
-    if (status == DEM_OK) status = dem_lattice_trim(l, keep);
-    free(keep);
-    return status;
+    return least_angle_cotangent(d->x, d->lattice->triangles + 3 * t);
 }
 
 /* ---- rim ---- */
 
-/* A node that several stretches of the rim run through is a hinge and does not slide. */
+/* A node that the rim passes more than once is a hinge and does not slide. */
 static void link_rim(draft *d, dem_index from, dem_index to)
 {
-    dem_index *behind = &d->beside[2 * from + 1], *before = &d->beside[2 * to];
+    rim_node *a = &d->at[from], *b = &d->at[to];
     d->depth[from] = d->depth[to] = 0;
-    if (*behind >= 0) d->held[from] = true;
-    if (*before >= 0) d->held[to] = true;
-    *behind = to;
-    *before = from;
+    a->held = a->held || a->behind >= 0;
+    b->held = b->held || b->before >= 0;
+    a->behind = to;
+    b->before = from;
 }
 
 static void find_rim(draft *d)
 {
     const dem_lattice *l = d->lattice;
     memset(d->depth, layers + 1, (size_t)l->n_nodes);
-    for (dem_index k = 0; k < 2 * l->n_nodes; k++) d->beside[k] = -1;
-    for (dem_index i = 0; i < l->n_nodes; i++) d->turn[i] = 2.0;
+    for (dem_index i = 0; i < l->n_nodes; i++) d->at[i] = (rim_node){.before = -1, .behind = -1, .turn = 2.0};
     for (dem_index side = 0; side < 3 * l->n_triangles; side++)
         if (stars_across(&d->stars, l, side) < 0) link_rim(d, l->triangles[side], stars_end(l, side));
     for (dem_index i = 0; i < l->n_nodes; i++)
@@ -235,7 +115,7 @@ static void find_rim(draft *d)
 
 static bool is_on_edge(const shape *s, const double x[2])
 {
-    return fabs(shape_distance(s, x)) <= rounding * s->spacing;
+    return fabs(shape_distance(s, x)) <= shape_slack(s);
 }
 
 /* The nearest point that is an edge of the material. The nearest edge has it, unless there it is in another void or
@@ -263,11 +143,11 @@ static void place_rim(draft *d)
     for (dem_index k = 0; k < d->n_rim; k++) {
         const dem_index i = d->rim[k];
         double near[2];
-        d->edge[i] = find_place(d->shape, l->x + 2 * i, near);
+        d->at[i].edge = find_place(d->shape, l->x + 2 * i, near);
         if (distance(near, l->x + 2 * i) <= reach * d->shape->spacing)
             memcpy(d->x + 2 * i, near, sizeof near);
         else
-            d->held[i] = true;
+            d->at[i].held = true;
     }
 }
 
@@ -287,15 +167,15 @@ static void place_corner(const joint *j, const outline_corner *corner)
     for (dem_index k = 0; k < d->n_rim; k++) {
         const dem_index i = d->rim[k];
         const double away = distance(corner->x, d->lattice->x + 2 * i);
-        if ((d->edge[i] != j->edges[0] && d->edge[i] != j->edges[1]) || away >= least) continue;
+        if ((d->at[i].edge != j->edges[0] && d->at[i].edge != j->edges[1]) || away >= least) continue;
         least = away;
         nearest = i;
     }
     d->n_cut += nearest < 0;
-    if (nearest < 0 || d->turn[nearest] <= corner->cosine) return;
+    if (nearest < 0 || d->at[nearest].turn <= corner->cosine) return;
     memcpy(d->x + 2 * nearest, corner->x, sizeof corner->x);
-    d->turn[nearest] = corner->cosine;
-    d->held[nearest] = true;
+    d->at[nearest].turn = corner->cosine;
+    d->at[nearest].held = true;
 }
 
 /* Taken as sharp as a right angle. */
@@ -317,25 +197,25 @@ static void place_corners(draft *d)
     }
 }
 
-/* ---- teeth ---- */
+/* ---- ears ---- */
 
-/* Whether a triangle has two sides on the rim and is flat there. Without it its neighbour is on the rim. */
-static bool is_flat_tooth(const draft *d, dem_index t)
+/* Whether a triangle has two sides on the rim, an ear, and is flat. Without it its neighbour is on the rim. */
+static bool is_flat_ear(const draft *d, dem_index t)
 {
     int n = 0;
     for (dem_index side = 3 * t; side < 3 * t + 3; side++) n += stars_across(&d->stars, d->lattice, side) < 0;
     return n == 2 && cotangent_of(d, t) > flat;
 }
 
-/* \param[out] n  of teeth taken away */
-static dem_status drop_teeth(draft *d, dem_index *n)
+/* \param[out] n  of ears taken away */
+static dem_status drop_flat_ears(draft *d, dem_index *n)
 {
     const dem_index n_triangles = d->lattice->n_triangles;
     bool *keep = calloc((size_t)n_triangles + 1, sizeof *keep);
     if (keep == NULL) return DEM_ERROR_MEMORY;
     *n = 0;
     for (dem_index t = 0; t < n_triangles; t++) {
-        keep[t] = !is_flat_tooth(d, t);
+        keep[t] = !is_flat_ear(d, t);
         *n += !keep[t];
     }
     const dem_status status = *n > 0 ? dem_lattice_trim(d->lattice, keep) : DEM_OK;
@@ -343,17 +223,17 @@ static dem_status drop_teeth(draft *d, dem_index *n)
     return status;
 }
 
-/* The rim in its place, and no flat teeth at it any more. */
+/* The rim in its place, and no flat ears at it any more. */
 static dem_status settle_rim(draft *d, dem_lattice *lattice, const shape *s)
 {
     dem_status status = DEM_OK;
-    for (dem_index n_teeth = 1; status == DEM_OK && n_teeth > 0;) {
+    for (dem_index n_ears = 1; status == DEM_OK && n_ears > 0;) {
         draft_free(d);
         if (!draft_create(d, lattice, s)) return DEM_ERROR_MEMORY;
         find_rim(d);
         place_rim(d);
         place_corners(d);
-        status = drop_teeth(d, &n_teeth);
+        status = drop_flat_ears(d, &n_ears);
     }
     return status;
 }
@@ -399,10 +279,11 @@ static void add_neighbours(draft *d)
 /* To the middle of its neighbours on the rim, half of the way, and back on to its edge. */
 static void slide(const draft *d, dem_index i, double to[2])
 {
-    const double *x = d->x + 2 * i, *before = d->x + 2 * d->beside[2 * i], *behind = d->x + 2 * d->beside[2 * i + 1];
+    const rim_node *node = &d->at[i];
+    const double *x = d->x + 2 * i, *before = d->x + 2 * node->before, *behind = d->x + 2 * node->behind;
     double middle[2];
     for (int c = 0; c < 2; c++) middle[c] = 0.5 * x[c] + 0.25 * (before[c] + behind[c]);
-    outline_nearest(shape_edge_at(d->shape, d->edge[i]), middle, to);
+    outline_nearest(shape_edge_at(d->shape, node->edge), middle, to);
 }
 
 /* All nodes move at once: where one goes depends on where its neighbours were. */
@@ -411,7 +292,7 @@ static void relax(draft *d)
     add_neighbours(d);
     for (dem_index i = 0; i < d->lattice->n_nodes; i++) {
         double *sum = d->sum + 3 * i;
-        if (is_rim(d, i) && !d->held[i])
+        if (is_rim(d, i) && !d->at[i].held)
             slide(d, i, sum);
         else if (!is_rim(d, i) && d->depth[i] <= layers)
             for (int c = 0; c < 2; c++) sum[c] /= sum[2];
@@ -445,8 +326,9 @@ static bool find_pair(const draft *d, pair *p, dem_index side)
     p->c = stars_end(l, 3 * p->t + (side + 1) % 3);
     p->e = stars_end(l, 3 * p->u + (other + 1) % 3);
     if (is_deep(d, p)) return false;
-    const double now = fmax(cotangent(d->x, p->a, p->b, p->c), cotangent(d->x, p->b, p->a, p->e));
-    const double then = fmax(cotangent(d->x, p->a, p->e, p->c), cotangent(d->x, p->e, p->b, p->c));
+    const double now = fmax(cotangent_of(d, p->t), cotangent_of(d, p->u));
+    const double then = fmax(least_angle_cotangent(d->x, (dem_index[]){p->a, p->e, p->c}),
+                             least_angle_cotangent(d->x, (dem_index[]){p->e, p->b, p->c}));
     p->gain = then / now;
     return isfinite(then);
 }
@@ -482,7 +364,7 @@ static void flip(draft *d)
 
 /* Corners of unsound triangles go half way back to the grid, until there are none. It ends, since there all triangles
  * are sound. */
-static void relent(draft *d)
+static void move_unsound_back(draft *d)
 {
     for (bool again = true; again;) {
         again = false;
@@ -501,14 +383,12 @@ static void relent(draft *d)
 
 static void measure(smoothing *out, const draft *d)
 {
-    double worst = 0.0;
     *out = (smoothing){.n_rim = d->n_rim, .n_cut = d->n_cut};
-    for (dem_index t = 0; t < d->lattice->n_triangles; t++) worst = fmax(worst, cotangent_of(d, t));
-    out->least_angle = 57.295779513082321 * atan(1.0 / worst);
     for (dem_index k = 0; k < d->n_rim; k++) {
         const dem_index i = d->rim[k];
-        const double *x = d->x + 2 * i, off = fabs(outline_distance(shape_edge_at(d->shape, d->edge[i]), x[0], x[1]));
-        if (off <= rounding * d->shape->spacing) continue;
+        const double *x = d->x + 2 * i,
+                     off = fabs(outline_distance(shape_edge_at(d->shape, d->at[i].edge), x[0], x[1]));
+        if (off <= shape_slack(d->shape)) continue;
         out->n_off++;
         out->farthest = fmax(out->farthest, off);
     }
@@ -517,14 +397,14 @@ static void measure(smoothing *out, const draft *d)
 dem_status smoothing_apply(smoothing *out, dem_lattice *lattice, const struct shape *s)
 {
     draft d = {0};
-    dem_status status = cut(lattice, s);
+    dem_status status = shape_trim(lattice, s);
     if (status == DEM_OK) status = settle_rim(&d, lattice, s);
     if (status == DEM_OK) {
         find_layers(&d);
         for (int k = 0; k < sweeps; k++) relax(&d);
         flip(&d);
         for (int k = 0; k < last_sweeps; k++) relax(&d);
-        relent(&d);
+        move_unsound_back(&d);
         measure(out, &d);
         memcpy(lattice->x, d.x, 2 * (size_t)lattice->n_nodes * sizeof *d.x);
     }

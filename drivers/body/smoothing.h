@@ -10,11 +10,10 @@ struct shape;
 
 /* What came out. */
 typedef struct smoothing {
-    double least_angle; /* degrees, of all triangles */
-    dem_index n_rim;    /* nodes at the rim */
-    dem_index n_off;    /* of them those that could not be moved on to an edge */
-    dem_index n_cut;    /* corners that no node is near, so that they are cut off */
-    double farthest;    /* m, of these from their edges */
+    dem_index n_rim; /* nodes at the rim */
+    dem_index n_off; /* of them those that could not be moved on to an edge */
+    dem_index n_cut; /* corners that no node is near, so that they are cut off */
+    double farthest; /* m, that the worst of these n_off nodes is off its edge */
 } smoothing;
 
 /* Cuts a smooth shape out of its shape_mesh(), and moves the nodes at the rim. A few pairs of triangles get their other

@@ -56,6 +56,11 @@ static inline dem_surfaces ask_surfaces(const dem_simulation *simulation)
     ASK(dem_surfaces, dem_simulation_surfaces(simulation, &out));
 }
 
+static inline dem_pair ask_pair(const dem_simulation *simulation, dem_index pair)
+{
+    ASK(dem_pair, dem_simulation_pair(simulation, pair, &out));
+}
+
 static inline dem_contact ask_contact(const dem_simulation *simulation, dem_index contact)
 {
     ASK(dem_contact, dem_simulation_contact(simulation, contact, &out));
@@ -69,6 +74,13 @@ static inline dem_body_motion ask_body(const dem_simulation *simulation, dem_ind
 static inline dem_obstacle_load ask_obstacle(const dem_simulation *simulation, dem_index obstacle)
 {
     ASK(dem_obstacle_load, dem_simulation_obstacle(simulation, obstacle, &out));
+}
+
+/* Refused only where a function gives the motion, which no deck has. */
+static inline void ask_obstacle_velocity(const dem_obstacle *obstacle, double t, const double *x, double velocity[2])
+{
+    velocity[0] = velocity[1] = 0.0;
+    (void)dem_obstacle_velocity(obstacle, t, x, velocity);
 }
 
 static inline dem_boundary_load ask_boundary(const dem_simulation *simulation, dem_index boundary)

@@ -11,6 +11,7 @@
 #define RUN    "&run t_end = 1 /\n"
 #define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, thickness = 0.5 /\n"
 #define BLOCK  "&body shape = 'rectangle', size = 4, 2, spacing = 0.5, material = 'rubber'"
+#define JAGGED BLOCK ", outline = 'lattice'"
 #define FLOOR  "&obstacle points = -9, 0, 9, 0 /\n"
 #define DISC   "&body shape = 'disc', radius = 1, spacing = 0.25, material = 'rubber'"
 
@@ -92,10 +93,10 @@ static const double height = 5.0 * 0.5 * 0.86602540378443865;
 TEST(a_rectangle_stands_on_its_origin_and_turns_about_it)
 {
     CLEANUP(drop_built) built b;
-    build_good(&b, RUN RUBBER BLOCK ", position = 10, 20 /", NULL, 0);
+    build_good(&b, RUN RUBBER JAGGED ", position = 10, 20 /", NULL, 0);
     expect_box(&b.lattice, 8.0, 20.0, 12.0, 20.0 + height);
     drop_built(&b);
-    build_good(&b, RUN RUBBER BLOCK ", position = 10, 20, angle = 90 /", NULL, 0);
+    build_good(&b, RUN RUBBER JAGGED ", position = 10, 20, angle = 90 /", NULL, 0);
     expect_box(&b.lattice, 10.0 - height, 18.0, 10.0, 22.0);
 }
 
@@ -113,7 +114,7 @@ TEST(mass_is_density_times_thickness_times_area)
 {
     CLEANUP(drop_built) built b;
     const double triangle = 0.25 * 0.43301270189221932; /* spacing^2 sqrt(3)/4, m^2 */
-    build_good(&b, RUN RUBBER BLOCK " /", NULL, 0);
+    build_good(&b, RUN RUBBER JAGGED " /", NULL, 0);
     assert_int_equal(b.lattice.n_triangles, 5 * 15);
     assert_close(mass_of(&b.lattice), 1000.0 * 0.5 * 75.0 * triangle, 1e-9); /* rounding of 1e4 kg */
     assert_close(b.start.rest_length, 0.5, tiny);
@@ -159,7 +160,7 @@ TEST(springs_of_moved_nodes_are_coupled)
         CLEANUP(drop_built) built triangles, squares, regular;
         build_good(&triangles, text, NULL, 0);
         build(&squares, text, 1, NULL, 0);
-        build_good(&regular, RUN RUBBER BLOCK " /", NULL, 0);
+        build_good(&regular, RUN RUBBER JAGGED " /", NULL, 0);
         assert_int_equal(triangles.lattice.coupling != NULL, k < 2);
         assert_int_equal(squares.errors.n, 0);
         assert_null(squares.lattice.coupling);
@@ -176,12 +177,45 @@ TEST(a_bond_stiffness_is_that_of_every_spring)
 }
 
 /* By the centres of triangles: 1500 kg/m^2 for 500 in as many of them as the report says. */
+/* By the law of cosines, degrees. */
+static double least_angle(const dem_lattice *l)
+{
+    double least = 180.0;
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) {
+        const dem_index t = 3 * (k / 3);
+        const double *p = l->x + 2 * l->triangles[k], *q = l->x + 2 * l->triangles[t + (k + 1) % 3];
+        const double *r = l->x + 2 * l->triangles[t + (k + 2) % 3];
+        const double a = hypot(r[0] - q[0], r[1] - q[1]), b = hypot(r[0] - p[0], r[1] - p[1]);
+        const double c = hypot(q[0] - p[0], q[1] - p[1]);
+        least = fmin(least, acos((b * b + c * c - a * a) / (2.0 * b * c)) / quarter * 90.0);
+    }
+    return least;
+}
+
+/* Jitter comes after the rim, and cracks take triangles away: the log has the angle of what is left. */
+TEST(the_least_angle_is_that_of_the_lattice_in_the_end)
+{
+    const char *jitter[] = {"", ", jitter = 0.2"};
+    double least[2];
+    for (int k = 0; k < 2; k++) {
+        char text[400];
+        (void)snprintf(text, sizeof text, "%s", RUN RUBBER DISC ", outline = 'smooth'");
+        (void)snprintf(text + strlen(text), sizeof text - strlen(text), "%s /\n&crack points = 0,0, 0.6,0.1 /\n",
+                       jitter[k]);
+        CLEANUP(drop_built) built b;
+        build_good(&b, text, NULL, 0);
+        least[k] = b.facts.least_angle;
+        assert_close(least[k], least_angle(&b.lattice), 1e-10); /* of acos near its ends */
+    }
+    assert_true(least[1] < least[0] - 1.0);
+}
+
 TEST(an_inclusion_has_its_own_material)
 {
     CLEANUP(drop_built) built b;
     const double triangle = 0.25 * 0.43301270189221932;
     build_good(&b,
-               RUN "&material name = 'heavy', youngs_modulus = 1e9, density = 3000, thickness = 0.5 /\n" RUBBER BLOCK
+               RUN "&material name = 'heavy', youngs_modulus = 1e9, density = 3000, thickness = 0.5 /\n" RUBBER JAGGED
                    " /\n&inclusion material = 'heavy', centre = 0, 1, radius = 0.7 /",
                NULL, 0);
     assert_true(b.facts.n_included > 8);
@@ -203,7 +237,7 @@ TEST(all_nodes_have_the_velocity)
 TEST(a_void_turns_with_its_body)
 {
     CLEANUP(drop_built) built b;
-    build_good(&b, RUN RUBBER BLOCK ", position = 10, 20, angle = 90 /\n&void centre = 1, 1, radius = 0.6 /", NULL, 0);
+    build_good(&b, RUN RUBBER JAGGED ", position = 10, 20, angle = 90 /\n&void centre = 1, 1, radius = 0.6 /", NULL, 0);
     const double hole = distance_to(&b.lattice, 10.0 - 1.0, 20.0 + 1.0); /* (1, 1) turned by a quarter */
     assert_true(hole >= 0.6 - tiny);
     assert_true(distance_to(&b.lattice, 10.0 - 1.0, 20.0 - 1.0) < 0.3); /* (-1, 1) is full of nodes */
@@ -281,6 +315,30 @@ TEST(a_start_is_refused_if_deeper_than_the_penetration_tolerance)
     assert_int_equal(b.errors.list[0].place.line, 3);
     assert_non_null(strstr(b.errors.list[0].text, "body 1"));
     assert_non_null(strstr(b.errors.list[0].text, "obstacle 2")); /* it is in front of the first */
+}
+
+/* The second of two columns is 5 m to the right, where the floor still is, the second row in the air. */
+TEST(a_copy_is_the_body_moved_and_looked_at_where_it_is)
+{
+    CLEANUP(drop_built) built b;
+    build_good(&b, RUN RUBBER BLOCK ", position = -6, -0.25, angle = 90, copies = 2, 2, pitch = 5, 3 /", flat_floors,
+               2);
+    CLEANUP(dem_lattice_free) dem_lattice first = dem_lattice_empty();
+    assert_int_equal(dem_lattice_append(&first, &b.lattice), DEM_OK);
+    assert_int_equal(b.facts.further, 3);
+    for (size_t k = 1; k < 4; k++) {
+        const double way[2] = {k % 2 == 1 ? 5.0 : 0.0, k > 1 ? 3.0 : 0.0};
+        assert_true(body_copy(&b.lattice, &b.start, &b.scene, 0, &b.errors));
+        assert_int_equal(b.start.copy, k);
+        for (dem_index i = 0; i < 2 * first.n_nodes; i++) assert_close(b.lattice.x[i], first.x[i] + way[i % 2], tiny);
+        /* two metres of it are below its origin; rows are 3 m apart */
+        assert_close(b.start.depth, 2.25 - way[1], tiny);
+    }
+    assert_true(body_check_start(&b.scene, 0, &b.start, 0.1, &b.errors));
+    assert_int_equal(b.errors.n, 0);
+    b.start.depth = 0.5;
+    assert_true(body_check_start(&b.scene, 0, &b.start, 0.1, &b.errors));
+    assert_non_null(strstr(b.errors.list[0].text, "body 1 (copy 4) starts 0.5 m inside"));
 }
 
 /* ---- what cannot be built ---- */
