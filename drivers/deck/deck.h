@@ -28,7 +28,7 @@ typedef struct deck {
     double residual; /* > 0: a quasi-static run ends there */
     int stop_at_overlap;
     double closure;        /* share of the energy from which on the log warns */
-    dem_options options;   /* 0, of the window < 0, where the library is to choose; with `boundaries` once built */
+    dem_options options;   /* 0, of the window < 0, where the library is to choose; with its arrays once built */
     double frame_interval; /* s */
     int double_precision, deflate, events;
     uint32_t fields;         /* DEM_FIELD_... */
@@ -46,7 +46,8 @@ typedef struct deck {
     dem_index n_obstacles;
     dem_boundary *boundaries; /* [n_boundaries] */
     dem_index n_boundaries;
-    dem_probe *probes; /* [n_probes] */
+    double *body_friction; /* of each body; NULL: the options' */
+    dem_probe *probes;     /* [n_probes] */
     dem_index n_probes;
 } deck;
 

@@ -6,9 +6,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "body_checks.h"
+#include "angle.h"
+#include "body_outline.h"
+#include "copies.h"
 
-static const double degree = 3.14159265358979323846 / 180.0;
 static const double blur = 1e-6; /* of the spacing: turned coordinates are rounded */
 
 enum { most_ends = 32 }; /* a node of a lattice of triangles has 6 of them, one of squares at most 8 */
@@ -42,42 +43,33 @@ static bool is_outermost(const place *p, const double outwards[2], double slack)
     return true;
 }
 
-/* Twice, m^2; > 0 where the points run counter-clockwise. */
-static double polygon_area(const outline *o)
+/* Twice, m^2; > 0 where the sides run counter-clockwise. */
+static double area_of_sides(const outline *o)
 {
     double sum = 0.0;
-    for (size_t k = 0; k < o->n_points; k++) {
-        const double *a = o->points + 2 * k, *b = o->points + 2 * ((k + 1) % o->n_points);
-        sum += a[0] * b[1] - a[1] * b[0];
+    for (size_t k = 0; k < outline_corners(o); k++) {
+        const outline_side side = outline_side_at(o, k);
+        sum += side.a[0] * side.b[1] - side.a[1] * side.b[0];
     }
     return sum;
 }
 
-/* Whether an edge from the place runs along a side of a polygon, and no node of its body lies farther out. */
-static bool follows_side(const place *p, dem_index end, const outline *o)
+/* Whether an edge from the place runs along a straight side of the outline, and no node of its body lies farther out.
+ * Discs, rings and images have no such side. */
+static bool is_straight(const place *p, dem_index end)
 {
-    const double angle = degree * schema_real(p->body, "angle"), slack = blur * schema_real(p->body, "spacing");
-    const double c = cos(angle), s = sin(angle), sense = polygon_area(o) > 0.0 ? 1.0 : -1.0;
-    for (size_t k = 0; k < o->n_points; k++) {
-        const double *a = o->points + 2 * k, *b = o->points + 2 * ((k + 1) % o->n_points);
-        const double length = sense * hypot(b[0] - a[0], b[1] - a[1]);
-        const double normal[2] = {(b[1] - a[1]) / length, (a[0] - b[0]) / length};
+    if (!schema_is(p->body, "shape", "polygon") && !schema_is(p->body, "shape", "rectangle")) return false;
+    const double angle = angle_degree * schema_real(p->body, "angle"), slack = blur * schema_real(p->body, "spacing");
+    const outline o = body_outline(p->body);
+    const double c = cos(angle), s = sin(angle), sense = area_of_sides(&o) > 0.0 ? 1.0 : -1.0;
+    for (size_t k = 0; k < outline_corners(&o); k++) {
+        const outline_side side = outline_side_at(&o, k);
+        const double x = side.b[0] - side.a[0], y = side.b[1] - side.a[1], length = sense * hypot(x, y);
+        const double normal[2] = {y / length, -x / length};
         const double outwards[2] = {c * normal[0] - s * normal[1], s * normal[0] + c * normal[1]};
         if (fabs(ahead(p, end, outwards)) <= slack && is_outermost(p, outwards, slack)) return true;
     }
     return false;
-}
-
-/* Of an edge from the place. Discs, rings and images have no straight side. */
-static bool is_straight(const place *p, dem_index end)
-{
-    if (schema_is(p->body, "shape", "polygon")) {
-        const outline o = body_checks_polygon(p->body);
-        return follows_side(p, end, &o);
-    }
-    if (!schema_is(p->body, "shape", "rectangle")) return false;
-    double corners[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0}; /* only directions count */
-    return follows_side(p, end, &(outline){.kind = OUTLINE_POLYGON, .n_points = 4, .points = corners});
 }
 
 /* ---- edges of the lattice ---- */
@@ -122,8 +114,9 @@ static bool is_smooth(const schema_deck *groups, const schema_instance *body)
 
 bool edges_stepped(const schema_deck *groups, const dem_lattice *lattice, dem_index n_bodies, dem_index node)
 {
-    if ((dem_index)schema_count(groups, "body") != n_bodies) return false;
-    const place p = {lattice, schema_get(groups, "body", (size_t)body_of(lattice, node)), node};
+    if ((dem_index)copies_total(groups) != n_bodies) return false;
+    const size_t group = copies_group(groups, (size_t)body_of(lattice, node));
+    const place p = {lattice, schema_get(groups, "body", group), node};
     if (schema_is(p.body, "shape", "mesh") || schema_is(p.body, "shape", "file")) return false;
     if (is_smooth(groups, p.body)) return false;
     return has_stepped_edge(&p);

@@ -16,9 +16,4 @@ void motion_drop_unused(schema_deck *groups);
 /* Sets the fields by which the obstacle moves. */
 void motion_set(dem_obstacle *made, const schema_instance *obstacle);
 
-/* Obstacles as they stand at t = 0, at rest: an oscillation may begin off its middle. NULL when memory runs out. Free
- * with motion_free_still(). */
-dem_obstacle *motion_still(const dem_obstacle *list, dem_index n);
-void motion_free_still(dem_obstacle *still, dem_index n);
-
 #endif

@@ -2,22 +2,22 @@
 #include "walls.h"
 
 #include <math.h>
+#include <string.h>
 
-#include "outline.h"
+#include "body_outline.h"
 
-/* False for shapes whose outline the deck does not give. */
-static bool read_outline(outline *o, const schema_instance *body)
+/* Of a mask, a mesh or a lattice file the deck does not give the outline. */
+static bool has_outline(const schema_instance *body)
 {
-    const schema_value *points = schema_value_of(body, "points");
-    const double *size = schema_reals(body, "size"), radius = schema_real(body, "radius");
-    *o = (outline){.kind = OUTLINE_DISC, .radius = radius};
-    if (schema_is(body, "shape", "rectangle"))
-        *o = (outline){.kind = OUTLINE_RECTANGLE, .centre = {0.0, 0.5 * size[1]}, .size = {size[0], size[1]}};
-    else if (schema_is(body, "shape", "polygon"))
-        *o = (outline){.kind = OUTLINE_POLYGON, .n_points = (size_t)points->count / 2, .points = points->reals};
-    else
-        return schema_is(body, "shape", "disc") || schema_is(body, "shape", "ring");
-    return true;
+    return strstr("rectangle, disc, ring, polygon", schema_text(body, "shape")) != NULL;
+}
+
+/* Without the hole of a ring: how far a void is from that is asked for apart. */
+static outline outer_edge(const schema_instance *body)
+{
+    outline o = body_outline(body);
+    if (o.kind == OUTLINE_RING) o.kind = OUTLINE_DISC;
+    return o;
 }
 
 /* Where two of them meet there is no wall. */
@@ -49,10 +49,10 @@ static double thinnest_between(const schema_deck *groups, size_t k, size_t i, do
 double walls_thinnest(const schema_deck *groups, size_t k)
 {
     double least = (double)INFINITY;
-    outline o;
     if (k >= schema_count(groups, "body")) return least;
     const schema_instance *body = schema_get(groups, "body", k);
-    if (!read_outline(&o, body)) return least;
+    if (!has_outline(body)) return least;
+    const outline o = outer_edge(body);
     const double hole_radius = schema_real(body, "inner_radius");
     if (schema_is(body, "shape", "ring")) least = o.radius - hole_radius;
     for (size_t i = 0; i < schema_count(groups, "void"); i++) {

@@ -31,6 +31,19 @@ TEST(the_first_line_is_named_with_its_group)
 TEST(what_is_in_one_only_differs)
 {
     expect("&run\n    t_end = 1\n/\n", deck, "nothing in &run, this one has &body");
-    expect("&run\n    t_end = 1\n    more = 1\n", "&run\n    t_end = 1", "more = 1 in &run, this one has nothing");
+    expect("&run\n    t_end = 1\n    residual = 1\n", "&run\n    t_end = 1",
+           "residual = 1 in &run, this one has no residual");
     expect("", "&run", "nothing in &run, this one has &run");
+}
+
+/* The lines of a key that one text lacks are not compared with those of the next key. */
+TEST(a_key_in_one_only_is_named)
+{
+    static const char without[] = "&contact\n    bodies = 'all'\n    overlap = 'warn'\n/\n";
+    static const char with[] = "&contact\n    bodies = 'all'\n    thickness = 0.0004\n    overlap = 'warn'\n/\n";
+    static const char short_one[] = "&contact\n    bodies = 'all'\n/\n";
+    expect(without, with, "no thickness in &contact, this one has thickness = 0.0004");
+    expect(with, without, "thickness = 0.0004 in &contact, this one has no thickness");
+    expect(short_one, without, "no overlap in &contact, this one has overlap = 'warn'");
+    expect(without, short_one, "overlap = 'warn' in &contact, this one has no overlap");
 }

@@ -64,22 +64,3 @@ TEST(numbers_arrive_under_their_names)
     assert_int_equal(schema_value_of(schema_get(&r.deck, "obstacle", 0), "velocity")->count, 0);
     drop_resolved(&r);
 }
-
-TEST(a_still_obstacle_is_where_the_moving_one_begins)
-{
-    const double points[4] = {0.0, 1.0, 2.0, 1.0};
-    const dem_obstacle table = {.struct_size = sizeof table,
-                                .n_points = 2,
-                                .points = points,
-                                .friction = 0.5,
-                                .velocity = {9.0, 9.0},
-                                .amplitude = {0.0, 0.25},
-                                .frequency = 3.0,
-                                .phase = 90.0};
-    dem_obstacle *still = motion_still(&table, 1);
-    assert_non_null(still);
-    assert_false(dem_obstacle_moves(still, NULL));
-    assert_true(still->points[0] == 0.0 && still->points[1] == 1.25 && still->points[3] == 1.25);
-    assert_close(still->friction, 0.5, 0.0);
-    motion_free_still(still, 1);
-}
