@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "ask.h"
 #include "difference.h"
 #include "preview.h"
 #include "signals.h"
@@ -163,8 +164,7 @@ static bool is_ending(checkpoint_file *c, const char **why)
 
 static dem_status put_entries(const checkpoint_file *c, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
-    dem_state state = {.struct_size = sizeof state};
-    (void)dem_simulation_state(simulation, &state);
+    const dem_state state = ask_state(simulation);
     const char *lineage = c->source->lineage != NULL ? c->source->lineage : c->versions;
     dem_status status = dem_checkpoint_put(checkpoint, time_entry, &state.t, sizeof state.t);
     if (status == DEM_OK)

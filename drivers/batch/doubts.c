@@ -6,6 +6,7 @@
 
 #include "ask.h"
 #include "initial_motion.h"
+#include "rigid_keys.h"
 #include "step_report.h"
 #include "walls.h"
 
@@ -14,6 +15,12 @@ enum { most_listed = 16 }; /* bodies */
 static const double light = 0.97;       /* mass over that of the true shape */
 static const double least_across = 8.0; /* spacings of a wall */
 static const double fast = 0.1;         /* of the wave speed */
+
+/* Facts that were made without a deck belong to no group. */
+static bool is_rigid(const deck *d, size_t k)
+{
+    return k < schema_count(&d->groups, "body") && rigid_keys_ask(schema_get(&d->groups, "body", k));
+}
 
 /* The key has a meaning, and a value, only where it can be chosen. */
 static bool is_jagged(const deck *d, size_t k)
@@ -42,7 +49,28 @@ static void warn_lattice(run_log *log, const deck *d, size_t k)
 
 void doubts_of_lattices(run_log *log, const deck *d)
 {
-    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) warn_lattice(log, d, k);
+    for (size_t k = 0; k < d->n_bodies && k < most_listed; k++)
+        if (!is_rigid(d, k)) warn_lattice(log, d, k);
+}
+
+void doubts_of_rigid(run_log *log, const deck *d)
+{
+    for (size_t k = 0; k < schema_count(&d->groups, "obstacle") && rigid_keys_first(&d->groups) != NULL; k++) {
+        if (!(schema_real(schema_get(&d->groups, "obstacle", k), "friction") > 0.0)) continue;
+        run_log_warn(log, "the friction of obstacle %zu does not act on rigid bodies", k + 1);
+        return;
+    }
+}
+
+/* The default of `bodies` has become 'none' (deck/surfaces.h). */
+void doubts_of_surfaces(run_log *log, const deck *d, const dem_simulation *simulation)
+{
+    const schema_instance *contact = schema_get(&d->groups, "contact", 0);
+    const bool settled = contact != NULL && !schema_value_of(contact, "bodies")->given &&
+                         ask_options(simulation).bodies == DEM_BODIES_NONE;
+    if (settled && dem_model_lattice(dem_simulation_model(simulation))->n_triangles > 0)
+        run_log_warn(log, "bodies do not touch each other, since one of them has no triangles; say bodies = 'none' in "
+                          "&contact if that is meant");
 }
 
 void doubts_of_step(run_log *log, const dem_simulation *simulation)
@@ -69,7 +97,7 @@ void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double w
     for (dem_index o = 0; o < n; o++) {
         const dem_obstacle *obstacle = dem_model_obstacle(model, o);
         double w[2];
-        (void)dem_obstacle_velocity(obstacle, 0.0, obstacle->points, w);
+        ask_obstacle_velocity(obstacle, 0.0, obstacle->points, w);
         least = fmin(least, hypot(v[0] - w[0], v[1] - w[1]));
     }
     if (n == 0 || !(least > fast * wave_speed)) return;

@@ -9,6 +9,12 @@
 /** Warns of bodies that are too light, or whose walls are too thin, for their lattice. */
 void doubts_of_lattices(run_log *log, const deck *d);
 
+/** Warns of friction that does not act on rigid bodies. */
+void doubts_of_rigid(run_log *log, const deck *d);
+
+/** Warns where bodies with triangles do not touch each other because of bodies without. */
+void doubts_of_surfaces(run_log *log, const deck *d, const dem_simulation *simulation);
+
 /** Warns of a fixed step with which the run may overflow. */
 void doubts_of_step(run_log *log, const dem_simulation *simulation);
 

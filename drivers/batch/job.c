@@ -13,6 +13,7 @@
 #include "checkpoint_file.h"
 #include "decimal.h"
 #include "deck.h"
+#include "deck_numbers.h"
 #include "estimate.h"
 #include "lock.h"
 #include "output.h"
@@ -20,6 +21,7 @@
 #include "relaxation.h"
 #include "report.h"
 #include "result.h"
+#include "rigid_keys.h"
 #include "signals.h"
 #include "step_report.h"
 #include "wall_clock.h"
@@ -145,12 +147,19 @@ static dem_status observe(job *j)
     return status;
 }
 
-/* A fixed step that is too long is the likely cause, whether the motion overflows or passes through an obstacle. */
+/* A fixed step that is too long is the likely cause, whether the motion overflows or passes through an obstacle. Where
+ * bodies touch, it may be a body that was turned inside out: its surface then has its front inside. */
 static void report_failure(job *j, dem_status status)
 {
     char why[STEP_REPORT_WHY];
+    const dem_index inverted = j->options.bodies != DEM_BODIES_NONE ? ask_strain(j->simulation).inverted : 0;
     if (step_report_is_long(j->simulation, why))
         outcome_fail(&j->outcome, EXIT_NUMERICS, j->deck.path, "%s; %s", dem_status_message(), why);
+    else if (status == DEM_ERROR_INTEGRATOR && inverted > 0)
+        outcome_fail(&j->outcome, EXIT_NUMERICS, j->deck.path,
+                     "%s; %lld triangles are turned inside out, whose surfaces cannot push: 'guard' in &material "
+                     "prevents that",
+                     dem_status_message(), (long long)inverted);
     else
         (void)passes(j, status, j->deck.path);
 }
@@ -199,9 +208,8 @@ static void finish(job *j)
 
 static void stop(job *j)
 {
-    dem_state state = {.struct_size = sizeof state};
     const checkpoint_file *c = &j->checkpoint;
-    (void)dem_simulation_state(j->simulation, &state);
+    const dem_state state = ask_state(j->simulation);
     run_log_tell(&j->log, "stopped    at %.6g s by %s; the same command goes on from %s\n", state.t, c->ended,
                  c->t_written >= 0.0 ? c->path : "the beginning");
     outcome_set(&j->outcome, EXIT_STOPPED, "%s: stopped by %s", j->deck.path, c->ended);
@@ -364,6 +372,28 @@ static dem_status build(job *j)
     return dem_simulation_create(&j->simulation, j->model, &j->options);
 }
 
+/* What the library refuses of a model is the contact of bodies, which rigid ones cannot do without. It counts from 0;
+ * where each body of the deck is one of the model, they get the numbers of the deck. */
+static bool builds(job *j)
+{
+    static const char *const hints[2][2] = {
+        {" (bodies are counted from 0 here; with bodies = 'none' in &contact they may overlap)",
+         " (with bodies = 'none' in &contact they may overlap)"},
+        {" (bodies are counted from 0 here)", ""}};
+    char message[OUTCOME_MESSAGE];
+    namelist_errors errors = {0};
+    const dem_status status = build(j);
+    if (status != DEM_ERROR_MODEL || j->model == NULL || j->options.bodies == DEM_BODIES_NONE)
+        return passes(j, status, j->deck.path);
+    const bool known = ask_sizes(j->model).n_bodies == (dem_index)j->deck.n_bodies;
+    deck_numbers_translate(message, sizeof message, dem_status_message());
+    namelist_errors_add(&errors, schema_place(schema_get(&j->deck.groups, "contact", 0), "bodies"), "%s%s",
+                        known ? message : dem_status_message(),
+                        hints[rigid_keys_first(&j->deck.groups) != NULL][known]);
+    report_errors(j, EXIT_INVALID, &errors);
+    return false;
+}
+
 /* Only now: what is refused leaves no folder behind. */
 static bool make_folder(job *j)
 {
@@ -483,15 +513,14 @@ static void claim_and_run(job *j)
         outcome_fail(&j->outcome, EXIT_TAKEN, j->path, "%s", reason);
         return;
     }
-    if (!passes(j, build(j), j->deck.path) || !ends(j) || !make_folder(j) || !check_folder(j) || !take_lock(j)) return;
+    if (!builds(j) || !ends(j) || !make_folder(j) || !check_folder(j) || !take_lock(j)) return;
     j->claimed = claim(j);
     if (j->claimed && begin_or_resume(j)) run(j);
 }
 
 static void check(job *j)
 {
-    if (passes(j, build(j), j->deck.path) && ends(j) && check_folder(j))
-        preview_print(&j->log, &j->deck, j->simulation, NULL);
+    if (builds(j) && ends(j) && check_folder(j)) preview_print(&j->log, &j->deck, j->simulation, NULL);
 }
 
 static bool succeeded(job *j, deck_status status, namelist_errors *errors)

@@ -138,8 +138,8 @@ static double mass_ratio(const deck *d)
     double mass = 0.0, true_mass = 0.0;
     for (size_t k = 0; k < d->n_bodies; k++) {
         if (!(d->bodies[k].true_mass > 0.0)) return 0.0;
-        mass += d->bodies[k].mass;
-        true_mass += d->bodies[k].true_mass;
+        mass += (double)(1 + d->bodies[k].further) * d->bodies[k].mass;
+        true_mass += (double)(1 + d->bodies[k].further) * d->bodies[k].true_mass;
     }
     return true_mass > 0.0 ? mass / true_mass : 0.0;
 }
@@ -173,10 +173,17 @@ static void print_probes(FILE *out, const deck *d, const dem_lattice *l)
     }
 }
 
-/* Whether body b of the model is that of one group and of a slice of a long body. */
+/* Whether body b of the model is a slice of a long body; not where a lattice file is of several bodies. */
 static bool is_slice(const deck *d, dem_index n_bodies, dem_index b)
 {
-    return (dem_index)d->n_bodies == n_bodies && d->bodies[b].plane == DEM_PLANE_STRAIN;
+    size_t n = 0;
+    bool slice = false;
+    for (size_t k = 0; k < d->n_bodies; k++) {
+        const size_t first = n;
+        n += 1 + d->bodies[k].further;
+        if (first <= (size_t)b && (size_t)b < n) slice = d->bodies[k].plane == DEM_PLANE_STRAIN;
+    }
+    return slice && n == (size_t)n_bodies;
 }
 
 /* The library has those of the plate in plane stress that moves alike: E/(1 - nu^2) and nu/(1 - nu) of a slice. */
@@ -188,11 +195,33 @@ static void print_modulus(FILE *out, const dem_constants *c, bool slice)
                   slice ? " in plane strain" : "", c->anisotropy, c->longitudinal_speed, c->transverse_speed);
 }
 
+/* Flags of a body's nodes, as far as they say that it is rigid. */
+static unsigned flags_of(const dem_model *model, dem_index b)
+{
+    const dem_lattice *l = dem_model_lattice(model);
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (l->body[i] == b) return l->flags[i] & (DEM_NODE_RIGID | DEM_NODE_GUIDE_X | DEM_NODE_GUIDE_Y);
+    return 0;
+}
+
+/* A rigid body has none. */
+static void print_rigid(FILE *out, unsigned flags)
+{
+    const bool x = (flags & DEM_NODE_GUIDE_X) != 0, y = (flags & DEM_NODE_GUIDE_Y) != 0;
+    (void)fprintf(out, "none, it is rigid%s\n", x ? " and moves along x" : (y ? " and moves along y" : ""));
+}
+
 /* As the library measures them, by loading the model. A body that is not listed may still be too fast. */
 static void print_body_constants(run_log *log, const deck *d, const dem_model *model, dem_index b)
 {
     const bool listed = log->verbose || b < most_in_short;
+    const unsigned flags = flags_of(model, b);
     dem_constants c = {.struct_size = sizeof c};
+    if (listed && flags != 0) {
+        (void)fprintf(log->out, "constants  body %lld: ", (long long)b + 1);
+        print_rigid(log->out, flags);
+    }
+    if (flags != 0) return;
     const dem_status status = dem_model_constants(model, b, &c);
     if (listed) (void)fprintf(log->out, "constants  body %lld: ", (long long)b + 1);
     if (listed && status != DEM_OK) (void)fprintf(log->out, "not measured: %s\n", dem_status_message());
@@ -236,11 +265,12 @@ static void print_measured(run_log *log, const deck *d, const dem_model *model)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
 }
 
-static void print_outline(FILE *out, size_t number, const smoothing *s)
+static void print_outline(FILE *out, size_t number, const body_facts *b)
 {
+    const smoothing *s = &b->geometry.smoothing;
     if (s->n_rim == 0) return;
     (void)fprintf(out, "outline    body %zu: smooth, %lld nodes on it, least angle of a triangle %.1f degrees", number,
-                  (long long)(s->n_rim - s->n_off), s->least_angle);
+                  (long long)(s->n_rim - s->n_off), b->least_angle);
     if (s->n_off > 0)
         (void)fprintf(out, "; %lld node%s off it by up to %.3g m, so that triangles stay sound", (long long)s->n_off,
                       s->n_off == 1 ? "" : "s", s->farthest);
@@ -253,10 +283,12 @@ static void print_outline(FILE *out, size_t number, const smoothing *s)
 /* Numbered from 1, as decks are. */
 static void print_body(FILE *out, size_t number, const body_facts *b)
 {
+    if (b->further > 0)
+        (void)fprintf(out, "copies     body %zu: %zu; of each holds what follows\n", number, 1 + b->further);
     if (b->true_mass > 0.0)
         (void)fprintf(out, "mass       body %zu: %.6g kg, of the true shape %.6g kg (ratio %.4f)\n", number, b->mass,
                       b->true_mass, b->mass / b->true_mass);
-    print_outline(out, number, &b->geometry.smoothing);
+    print_outline(out, number, b);
     if (b->geometry.n_pores > 0)
         (void)fprintf(out, "pores      body %zu: %zu, of porosity %.4f\n", number, b->geometry.n_pores,
                       b->geometry.pore_area / (b->geometry.area + b->geometry.pore_area));
@@ -424,10 +456,12 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     print_bodies(log->out, d, log->verbose);
     if (log->verbose) print_rules(log->out, simulation);
     print_boundaries(log->out, d, log->verbose);
-    surface_report_print(log->out, simulation);
+    if (log->verbose) surface_report_print(log->out, simulation);
     print_measured(log, d, model);
     print_time(log->out, d, simulation, fmin(expected, d->t_end), &needed);
     doubts_of_lattices(log, d);
+    doubts_of_rigid(log, d);
+    doubts_of_surfaces(log, d, simulation);
     warn_rest_speed(log, &o);
     doubts_of_step(log, simulation);
     doubts_of_overlap(log, simulation);

@@ -5,16 +5,17 @@
 #include <string.h>
 
 #include "ask.h"
+#include "extent.h"
 #include "initial_motion.h"
 
 /* ---- motion of all bodies ---- */
 
-typedef struct motion {
+typedef struct mean_motion {
     double velocity[2]; /* m/s */
     double rising;      /* m/s, the part of it against gravity; where there is none, along y */
-} motion;
+} mean_motion;
 
-static motion measure(const dem_simulation *simulation)
+static mean_motion measure(const dem_simulation *simulation)
 {
     const dem_options options = ask_options(simulation);
     const double g = hypot(options.gravity[0], options.gravity[1]);
@@ -28,7 +29,7 @@ static motion measure(const dem_simulation *simulation)
         y += body.mass * body.velocity[1];
         rising += body.mass * (body.velocity[0] * up[0] + body.velocity[1] * up[1]);
     }
-    return (motion){{x / mass, y / mass}, rising / mass};
+    return (mean_motion){{x / mass, y / mass}, rising / mass};
 }
 
 double rebound_rising_speed(const dem_simulation *simulation)
@@ -58,23 +59,29 @@ static double spin_of(const dem_lattice *l, const dem_state *state, const double
 typedef struct touch {
     dem_index obstacle;
     double t;
-    const double *place, *normal;
+    const double *place;
 } touch;
 
-/* Velocity along the normal, against that of the obstacle's point. */
-static double along(const double v[2], const dem_simulation *simulation, touch at)
+/* Velocity of the obstacle's point. */
+static void move_ground(double ground[2], const dem_simulation *simulation, touch at)
 {
-    double u[2] = {0.0, 0.0};
-    (void)dem_obstacle_velocity(dem_model_obstacle(dem_simulation_model(simulation), at.obstacle), at.t, at.place, u);
-    return (v[0] - u[0]) * at.normal[0] + (v[1] - u[1]) * at.normal[1];
+    ask_obstacle_velocity(dem_model_obstacle(dem_simulation_model(simulation), at.obstacle), at.t, at.place, ground);
+}
+
+/* Velocity along a normal, against that of the ground. */
+static double along(const double v[2], const double ground[2], const double normal[2])
+{
+    return (v[0] - ground[0]) * normal[0] + (v[1] - ground[1]) * normal[1];
 }
 
 /* Nodes part and touch again within a bounce: its centre of mass tells whether a body had left and comes back. */
 static bool comes_back(const rebound *r, const dem_simulation *simulation, const dem_event *event, const double v[2])
 {
-    const bool apart = r->n_contacts == 0 && r->last <= r->t && event->t > r->last;
-    return apart && along(r->velocity, simulation, (touch){r->obstacle, r->last, r->place, r->normal}) > 0.0 &&
-           along(v, simulation, (touch){event->obstacle, event->t, event->x, event->normal}) < 0.0;
+    double left[2], met[2];
+    if (r->n_contacts > 0 || r->last > r->t || event->t <= r->last) return false;
+    move_ground(left, simulation, (touch){r->obstacle, r->last, r->place});
+    move_ground(met, simulation, (touch){event->obstacle, event->t, event->x});
+    return along(r->velocity, left, r->normal) > 0.0 && along(v, met, event->normal) < 0.0;
 }
 
 /* Where a bounce begins the bodies have been in free flight since the last step; bodies that touch from the beginning
@@ -93,6 +100,7 @@ static void meet(rebound *r, const dem_simulation *simulation, const dem_event *
     r->begin = event->t;
     r->obstacle = event->obstacle;
     memcpy(r->approach, v, sizeof v);
+    move_ground(r->ground, simulation, (touch){event->obstacle, event->t, event->x});
     memcpy(r->given_before, r->given, sizeof r->given);
 }
 
@@ -145,7 +153,8 @@ static void follow_normal(rebound *r, const dem_simulation *simulation, const de
     r->obstacle = most.obstacle;
 }
 
-static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_state *state, const motion *now)
+static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_state *state,
+                            const mean_motion *now)
 {
     const dem_options options = ask_options(simulation);
     const double since = state->t - r->last; /* for which the bodies have been in free flight again */
@@ -170,7 +179,7 @@ void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_stat
 {
     const dem_index impacts = ask_counts(simulation).impacts;
     const bool contact = state->n_contacts > 0 || r->n_contacts > 0 || impacts > r->n_impacts;
-    const motion now = measure(simulation);
+    const mean_motion now = measure(simulation);
     if (state->n_contacts > 0) r->last = state->t;
     if (state->n_contacts > 0) follow_normal(r, simulation, state);
     r->touching += touching_in(r, state);
@@ -196,10 +205,10 @@ bool rebound_is_over(const rebound *r)
 static bool is_straight(const dem_obstacle *o)
 {
     const double *p = o->points, *last = p + 2 * (o->n_points - 1);
-    const double x = last[0] - p[0], y = last[1] - p[1], length = x * x + y * y;
+    const double x = last[0] - p[0], y = last[1] - p[1], square = x * x + y * y;
     for (dem_index k = 1; k < o->n_points - 1; k++) {
         const double dx = p[2 * k] - p[0], dy = p[2 * k + 1] - p[1], share = x * dx + y * dy;
-        if (!(fabs(x * dy - y * dx) <= 1e-12 * length && share >= 0.0 && share <= length)) return false;
+        if (!(square > 0.0 && fabs(x * dy - y * dx) <= 1e-12 * square && share >= 0.0 && share <= square)) return false;
     }
     return true;
 }
@@ -214,8 +223,10 @@ rebound_normal rebound_along(const rebound *r, const dem_simulation *simulation)
     const dem_obstacle *obstacle = dem_model_obstacle(dem_simulation_model(simulation), r->obstacle);
     n.along_impulse = size > 0.0 && (r->several || !is_straight(obstacle));
     for (int c = 0; c < 2; c++) n.normal[c] = n.along_impulse ? given[c] / size : r->normal[c];
-    n.in = along(r->approach, simulation, (touch){r->obstacle, r->begin, r->place, n.normal});
-    n.out = along(r->velocity, simulation, (touch){r->obstacle, r->last, r->place, n.normal});
+    double left[2];
+    move_ground(left, simulation, (touch){r->obstacle, r->last, r->place});
+    n.in = along(r->approach, r->ground, n.normal);
+    n.out = along(r->velocity, left, n.normal);
     if (n.in < 0.0) n.ratio = -n.out / n.in;
     return n;
 }
@@ -237,12 +248,7 @@ static double speed_scale(const rebound *r)
 /* At which the ends of the bodies, at rest this far apart, would move as fast as their centre of mass. */
 static double spin_scale(const rebound *r, const dem_lattice *l)
 {
-    double low[2] = {l->x[0], l->x[1]}, high[2] = {l->x[0], l->x[1]};
-    for (dem_index k = 2; k < 2 * l->n_nodes; k++) {
-        low[k % 2] = fmin(low[k % 2], l->x[k]);
-        high[k % 2] = fmax(high[k % 2], l->x[k]);
-    }
-    const double extent = hypot(high[0] - low[0], high[1] - low[1]);
+    const double extent = extent_diagonal(l);
     return extent > 0.0 ? speed_scale(r) / extent : 0.0;
 }
 

@@ -16,7 +16,8 @@ typedef struct rebound {
     dem_index n_bounces; /* the last one may not be over; another begins when the centre of mass has left the obstacle
                             and comes back, not where nodes part for a moment */
     double begin;        /* s, of the last bounce */
-    double approach[2];  /* m/s, just before the last bounce */
+    double approach[2];  /* m/s, just before the last bounce, */
+    double ground[2];    /* m/s, and that of the obstacle where it began */
     double velocity[2];  /* m/s, at the last instant of contact */
     double spin;         /* rad/s, the same, known when that contact is over: angular momentum over moment of inertia,
                             both about that centre */

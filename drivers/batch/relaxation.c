@@ -5,22 +5,12 @@
 #include <math.h>
 
 #include "ask.h"
+#include "extent.h"
 
 enum { between_looks = 16 }; /* steps: a look costs as much as half an evaluation */
 
 static const char entry[] = "relaxation"; /* of a checkpoint */
 static const double pi = 3.14159265358979323846;
-
-/* The diagonal of all nodes' box, m: no body is longer. */
-static double extent_of(const dem_lattice *l)
-{
-    double low[2] = {(double)INFINITY, (double)INFINITY}, high[2] = {-(double)INFINITY, -(double)INFINITY};
-    for (dem_index k = 0; k < 2 * l->n_nodes; k++) {
-        low[k % 2] = fmin(low[k % 2], l->x[k]);
-        high[k % 2] = fmax(high[k % 2], l->x[k]);
-    }
-    return hypot(high[0] - low[0], high[1] - low[1]);
-}
 
 /* How long waves take along the fastest spring over how long along the mean one, for the same way: sqrt(m/(E_ij d)). */
 static double share_of_fastest(const dem_lattice *l)
@@ -38,7 +28,7 @@ static double share_of_fastest(const dem_lattice *l)
 double relaxation_damping(const dem_model *model)
 {
     const dem_lattice *l = dem_model_lattice(model);
-    const double fastest = 0.5 * dem_model_omega_max(model) * dem_model_spacing(model), extent = extent_of(l);
+    const double fastest = 0.5 * dem_model_omega_max(model) * dem_model_spacing(model), extent = extent_diagonal(l);
     return extent > 0.0 ? pi * fastest * share_of_fastest(l) / extent : 0.0;
 }
 
@@ -65,9 +55,8 @@ relaxation relaxation_start(double residual, const dem_options *options)
 static dem_status look(void *context, const dem_simulation *simulation)
 {
     relaxation *r = context;
-    dem_state state = {.struct_size = sizeof state};
     if (++r->steps < between_looks) return DEM_OK;
-    (void)dem_simulation_state(simulation, &state);
+    const dem_state state = ask_state(simulation);
     if (state.t < r->settled) return DEM_OK;
     const double residual = dem_simulation_residual(simulation);
     if (isinf(residual)) return DEM_OK;

@@ -2,13 +2,14 @@
 /* Plain text for people and for grep: one topic a line, its name in the first column. */
 #include "report.h"
 
-#include <gsl/gsl_math.h> /* M_PI */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <dem/trajectory.h>
 
+#include "angle.h"
 #include "ask.h"
 #include "edges.h"
 #include "wall_clock.h"
@@ -90,18 +91,30 @@ static void warn_ledger(report *r, const dem_simulation *simulation)
 static void warn_overlap(report *r, const dem_simulation *simulation)
 {
     const dem_overlap o = ask_overlap(simulation);
-    run_log_warn(r->log,
-                 "bodies overlap, which bodies = 'all' in &contact prevents: node %lld is inside triangle %lld at (%g, "
-                 "%g) m, %.4e s",
+    const bool touches = ask_options(simulation).bodies == DEM_BODIES_ALL;
+    run_log_warn(r->log, "bodies overlap, %s: node %lld is inside triangle %lld at (%g, %g) m, %.4e s",
+                 touches ? "as when a triangle is turned inside out" : "which bodies = 'all' in &contact prevents",
                  (long long)o.node, (long long)o.triangle, o.x[0], o.x[1], o.t);
+}
+
+/* What rounding may have added to the ledger or taken from it, J. Gravity counts from the origin: the weight of a body
+ * at rest makes an entry that is far larger than the energy of its first motion. */
+static double ledger_rounding(dem_energy e)
+{
+    const double entries[] = {e.motion, e.gravity, e.impact, e.friction, e.damping, e.boundary, e.obstacle};
+    double largest = 0.0;
+    for (size_t k = 0; k < sizeof entries / sizeof *entries; k++) largest = fmax(largest, fabs(entries[k]));
+    return 64.0 * DBL_EPSILON * largest;
 }
 
 /* While a load grows from nothing the largest energy so far is no measure yet: the first steps of a ramp may be off by
  * all of the 1e-20 J that there are. */
 static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
 {
-    const double closure = report_closure(r, ask_energy(simulation));
+    const dem_energy e = ask_energy(simulation);
+    const double closure = report_closure(r, e);
     if (r->so_far.warned || state->t < r->settled || !(fabs(closure) > r->closure)) return;
+    if (fabs(e.ledger - r->so_far.energy_start) <= ledger_rounding(e)) return;
     r->so_far.warned = true;
     r->so_far.warned_closure = closure;
     r->so_far.warned_t = state->t;
@@ -158,12 +171,12 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
     report *r = context;
-    dem_state state = {.struct_size = sizeof state};
-    (void)dem_simulation_state(simulation, &state);
+    const dem_state state = ask_state(simulation);
     follow_energy(r, simulation, &state);
     follow_strain(r, simulation, state.t);
     step_report_follow(&r->so_far.step_report, simulation, &state);
-    surface_report_follow(&r->so_far.surface_report, simulation, state.t);
+    if (surface_report_follow(&r->so_far.surface_report, simulation, state.t))
+        surface_report_warn(&r->so_far.surface_report, r->log);
     rebound_follow(&r->so_far.rebound, simulation, &state);
     watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
@@ -211,8 +224,7 @@ static dem_status resume_touched(report *r, const dem_checkpoint *checkpoint, de
 
 dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation)
 {
-    dem_state state = {.struct_size = sizeof state};
-    (void)dem_simulation_state(simulation, &state);
+    const dem_state state = ask_state(simulation);
     r->t_start = r->t_shown = state.t;
     r->steps_start = ask_counts(simulation).steps;
     dem_status status = dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
@@ -220,13 +232,31 @@ dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_
     return status;
 }
 
+static void warn_surfaces(report *r, const dem_simulation *simulation)
+{
+    (void)simulation;
+    surface_report_warn(&r->so_far.surface_report, r->log);
+}
+
 void report_warn_again(report *r, const dem_simulation *simulation)
 {
-    const bool first = r->so_far.overlapped && ask_overlap(simulation).t < r->so_far.warned_t;
+    const report_progress *p = &r->so_far;
+    const double never = (double)INFINITY;
+    struct {
+        double t; /* s */
+        void (*warn)(report *r, const dem_simulation *simulation);
+    } all[] = {{p->warned ? p->warned_t : never, warn_ledger},
+               {p->overlapped ? ask_overlap(simulation).t : never, warn_overlap},
+               {p->surface_report.warning.given ? p->surface_report.warning.t : never, warn_surfaces}};
+    enum { n = sizeof all / sizeof all[0] };
     r->log->quiet = true;
-    if (first) warn_overlap(r, simulation);
-    if (r->so_far.warned) warn_ledger(r, simulation);
-    if (r->so_far.overlapped && !first) warn_overlap(r, simulation);
+    for (int k = 0; k < n; k++) {
+        int first = 0;
+        for (int i = 1; i < n; i++)
+            if (all[i].t < all[first].t) first = i;
+        if (all[first].t < never) all[first].warn(r, simulation);
+        all[first].t = never;
+    }
     r->log->quiet = false;
 }
 
@@ -281,7 +311,7 @@ static void print_node_peak(const report *r, const dem_model *model, dem_index n
                   "stressed   node %lld at (%.6g, %.6g) m: von Mises %.4g Pa at %.4e s, principal %+.4g Pa at %.0f "
                   "degrees, %+.4g Pa",
                   (long long)node, x[0], x[1], peak->von_mises, peak->t, value[0],
-                  180.0 / M_PI * atan2(direction[1], direction[0]), value[1]);
+                  atan2(direction[1], direction[0]) / angle_degree, value[1]);
     print_marks(r, model, node);
     (void)fprintf(r->log->out, "\n");
 }
@@ -349,8 +379,9 @@ static void print_balance(const report *r, dem_energy e)
 
 static void print_energies(const report *r, dem_energy e)
 {
-    (void)fprintf(r->log->out, "energy     kinetic %.6g, elastic %.4g, area %.4g, guard %.4g, gravity %.4g J\n",
-                  e.kinetic, e.elastic, e.area, e.guard, e.gravity);
+    (void)fprintf(r->log->out,
+                  "energy     kinetic %.6g, elastic %.4g, area %.4g, guard %.4g, contact %.4g, gravity %.4g J\n",
+                  e.kinetic, e.elastic, e.area, e.guard, e.contact, e.gravity);
     (void)fprintf(r->log->out,
                   "elastic    largest share %.4f of the largest kinetic and elastic energy so far, at %.4e s\n",
                   r->so_far.elastic_share_max, r->so_far.elastic_share_t);

@@ -15,7 +15,7 @@
 /** What the report of a run needs, and its checkpoints keep. */
 typedef struct report_progress {
     double energy_start; /* J, total at t = 0 */
-    double energy_max;   /* J, largest kinetic + elastic + area + guard so far: what is compared */
+    double energy_max;   /* J, largest kinetic + elastic + area + guard + contact so far: what is compared */
     double elastic_share_max, elastic_share_t; /* of energy_max as it was then */
     dem_strain strain_min, strain_max;         /* the states with the extreme strains */
     double strain_min_t, strain_max_t, area_min, area_min_t;

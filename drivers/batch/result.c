@@ -68,7 +68,7 @@ static void write_counts(json *j, const dem_counts *c)
                {"late", c->late},         {"behind", c->behind},
                {"closings", c->closings}, {"releases", c->releases},
                {"slips", c->slips},       {"sticks", c->sticks},
-               {"passings", c->passings}};
+               {"passings", c->passings}, {"crossings", c->crossings}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) json_integer(j, all[k].key, all[k].n);
 }
 
@@ -183,9 +183,30 @@ static void write_spring_peak(json *j, const report *r)
     write_extreme(j, "most_strained", peak->strain, spring, peak->t);
 }
 
+/* Of contact of bodies with each other and with themselves. */
+static void write_surfaces(json *j, const surface_report *p, const dem_simulation *simulation)
+{
+    const double never = (double)NAN;
+    json_integer(j, "pairs", ask_surfaces(simulation).pushing);
+    json_integer(j, "pairs_most", p->most);
+    json_real(j, "gap_min", p->most > 0 ? p->gap : never);
+    json_real(j, "gap_min_t", p->most > 0 ? p->gap_t : never);
+    json_real(j, "gap_share", p->most > 0 ? p->nearest : never);
+    json_real(j, "pressure_share", p->most > 0 ? p->pressure : never);
+}
+
+/* Where an obstacle that moves is, and what it does. */
+static void write_place(json *j, const dem_obstacle_load *load)
+{
+    json_reals(j, "displacement", load->displacement, 2);
+    json_real(j, "angle", load->angle);
+    json_real(j, "power", load->power);
+}
+
 static void write_loads(json *j, const dem_simulation *simulation)
 {
-    const dem_index n_obstacles = ask_sizes(dem_simulation_model(simulation)).n_obstacles;
+    const dem_model *model = dem_simulation_model(simulation);
+    const dem_index n_obstacles = ask_sizes(model).n_obstacles;
     const dem_index n_boundaries = ask_options(simulation).n_boundaries;
     json_open(j, "obstacles", '[');
     for (dem_index o = 0; o < n_obstacles; o++) {
@@ -195,6 +216,7 @@ static void write_loads(json *j, const dem_simulation *simulation)
         json_reals(j, "friction_impulse", load.friction_impulse, 2);
         json_reals(j, "reaction", load.reaction, 2);
         json_integer(j, "contacts", load.n_contacts);
+        if (dem_obstacle_moves(dem_model_obstacle(model, o), NULL)) write_place(j, &load);
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -205,6 +227,19 @@ static void write_loads(json *j, const dem_simulation *simulation)
         json_reals(j, "force", load.force, 2);
         json_reals(j, "displacement", load.displacement, 2);
         json_close(j, '}');
+    }
+    json_close(j, ']');
+}
+
+/* Numbers of the rigid bodies, from 0; the nodes of a body follow each other. */
+static void write_rigid(json *j, const dem_lattice *lattice)
+{
+    dem_index last = -1;
+    json_open(j, "rigid", '[');
+    for (dem_index i = 0; i < lattice->n_nodes; i++) {
+        if (!(lattice->flags[i] & DEM_NODE_RIGID) || lattice->body[i] == last) continue;
+        last = lattice->body[i];
+        json_integer(j, NULL, last);
     }
     json_close(j, ']');
 }
@@ -231,8 +266,7 @@ static void write_warnings(json *j, const run_log *log)
 static void write_run(json *j, const result *r)
 {
     const dem_counts counts = ask_counts(r->simulation);
-    dem_state state = {.struct_size = sizeof state};
-    (void)dem_simulation_state(r->simulation, &state);
+    const dem_state state = ask_state(r->simulation);
     write_warnings(j, r->report->log);
     json_real(j, "t", state.t);
     write_counts(j, &counts);
@@ -244,7 +278,9 @@ static void write_run(json *j, const result *r)
     write_strain(j, r->report);
     if (r->report->peaks != NULL) write_node_peak(j, r->report, dem_simulation_model(r->simulation));
     if (r->report->peaks != NULL) write_spring_peak(j, r->report);
+    write_surfaces(j, &r->report->so_far.surface_report, r->simulation);
     write_loads(j, r->simulation);
+    write_rigid(j, dem_model_lattice(dem_simulation_model(r->simulation)));
     write_overlap(j, r->simulation);
     json_real(j, "formula_6", r->report->so_far.step_report.largest);
     json_real(j, "formula_6_t", r->report->so_far.step_report.t);

@@ -219,12 +219,12 @@ static bool make_outlines(outlines *o, const task *t)
     return true;
 }
 
-/* Where they are at a time. */
+/* Where they are at a time: the record of one that a program moved may be damaged. */
 static bool write_outlines(const outlines *o, const char *ending, double time)
 {
     piece_array arrays[5], *at = put_lines(arrays, &o->segments);
     for (dem_index k = 0, first = 0; k < o->n; first += outline_of(o, k++)->n_points)
-        (void)dem_obstacle_points(outline_of(o, k), time, o->flat + 2 * first);
+        if (!task_holds(o->task, dem_obstacle_points(outline_of(o, k), time, o->flat + 2 * first))) return false;
     for (dem_index i = 0; i < o->n_points; i++) memcpy(o->points + 3 * i, o->flat + 2 * i, 2 * sizeof *o->flat);
     *at++ = (piece_array){PIECE_POINTS, "Points", DEM_READER_F64, 3, o->n_points, o->points, NULL};
     *at++ = (piece_array){PIECE_CELL_DATA, "obstacle", DEM_READER_I32, 1, o->segments.n, o->owner, NULL};

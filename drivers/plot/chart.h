@@ -12,7 +12,7 @@ typedef struct chart_line {
     const double *y; /* [n][stride] */
 } chart_line;
 
-enum { CHART_LINES = 10 };
+enum { CHART_LINES = 12 };
 
 typedef struct chart {
     const char *label, *unit; /* of the numbers; unit "" of counts */

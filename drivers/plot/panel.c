@@ -131,15 +131,16 @@ static bool draw_pixels(const panel *p, const snapshot *s, const panel_look *loo
 
 /* ---- all of it ---- */
 
-/* The outline of an obstacle where it is at t. */
+/* The outline of an obstacle where it is at t; none of one that a program moved, if the run has no place of it then. */
 static bool fill_moved(const dem_obstacle *obstacle, double t, box view, obstacle_fill *out)
 {
     double *points = malloc(2 * (size_t)obstacle->n_points * sizeof *points);
     dem_obstacle moved = *obstacle;
     if (points == NULL) return false;
-    dem_obstacle_points(obstacle, t, points);
+    *out = (obstacle_fill){0};
     moved.points = points;
-    const bool good = obstacle_fill_outline(&moved, view, out);
+    const bool known = dem_obstacle_points(obstacle, t, points) == DEM_OK;
+    const bool good = !known || obstacle_fill_outline(&moved, view, out);
     free(points);
     return good;
 }
@@ -151,7 +152,7 @@ static bool draw_ground(const panel *p, const snapshot *s, canvas *c)
         obstacle_fill solid;
         if (!fill_moved(dem_reader_obstacle(s->reader, k), s->t, p->view, &solid)) return false;
         for (size_t i = 0; i < solid.n; i++) place(p, solid.xy + 2 * i, solid.xy + 2 * i);
-        c->fills(c, canvas_dark, solid.n, 1, solid.xy);
+        if (solid.n > 0) c->fills(c, canvas_dark, solid.n, 1, solid.xy);
         free(solid.xy);
     }
     return true;

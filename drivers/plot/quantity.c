@@ -25,6 +25,8 @@ static const struct {
     {"stress_xy", "stress", 3, PALETTE_DIVERGING, "stress xy"},
     {"principal_1", "principal_stress", 0, PALETTE_DIVERGING, "larger principal stress"},
     {"principal_2", "principal_stress", 1, PALETTE_DIVERGING, "smaller principal stress"},
+    {"contact_pressure", "contact_pressure", 0, PALETTE_SEQUENTIAL, "contact pressure"},
+    {"contact_force", "contact_force", LENGTH, PALETTE_SEQUENTIAL, "contact force"},
     {"peak_strain", "peak_strain", 0, PALETTE_DIVERGING, "peak strain of springs"},
     {"peak_von_mises", "peak_von_mises", 0, PALETTE_SEQUENTIAL, "peak von Mises stress"},
 };

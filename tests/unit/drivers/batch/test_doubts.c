@@ -4,6 +4,9 @@
 
 #include <string.h>
 
+#include "harness/message.h"
+#include "unit/scratch.h"
+#include "unit/whole_deck.h"
 #include "verification/support.h"
 
 static char text[4096];
@@ -31,6 +34,34 @@ TEST(a_light_body_is_doubted)
                         "warning    body 2 has 10.0 % less mass than its true shape: its stiffness is off, and "
                         "stresses at its edges do not converge; take a finer 'spacing' in &body, or a mesh (shape "
                         "= 'mesh')\n");
+}
+
+#define RING(outline, y)                                                                                               \
+    "&body shape = 'ring', radius = 0.02, inner_radius = 0.01, spacing = 2e-3, outline = '" outline                    \
+    "', position = 0, " y " /\n"
+
+/* Rings with walls of five spacings, of which those with stepped edges are too light, too. */
+TEST(a_smooth_outline_is_proposed_to_those_bodies_that_have_none)
+{
+    static const char rings[] = "&run t_end = 1 /\n&obstacle points = -9, -9, 9, -9 /\n"
+                                "&material youngs_modulus = 1e7, density = 1000 /\n" RING("smooth", "0")
+                                    RING("lattice", "0.1") RING("smooth", "0.2");
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
+    CLEANUP(deck_free) deck d;
+    run_log log = {.out = tmpfile()};
+    assert_non_null(log.out);
+    file_put(folder_at(&scratch, "rings.nml"), rings, strlen(rings));
+    assert_int_equal(whole_deck_read(&d, folder_at(&scratch, "rings.nml"), &errors), DECK_OK);
+    doubts_of_lattices(&log, &d);
+    read_log(&log);
+    assert_int_equal(log.n_warnings, 3);
+    assert_line_parts(text,
+                      "warning * body 1 has a wall of 0.01 m, only 5 spacings: * take a finer 'spacing' in &body, or a "
+                      "mesh\n"
+                      "warning * body 2 has * less mass than its true shape and has a wall of 0.01 m, only 5 spacings: "
+                      "* take a finer 'spacing' in &body, outline = 'smooth', or a mesh\n"
+                      "warning * body 3 has a wall of 0.01 m, only 5 spacings: * take a finer 'spacing' in &body, or a "
+                      "mesh\n");
 }
 
 /* A body of one node at 2 m/s along x, on floors at rest and moving. */

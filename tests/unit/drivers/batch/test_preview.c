@@ -136,7 +136,8 @@ TEST(the_preview_tells_how_bodies_came_out)
          .removed = true,
          .hinges = {.n = 1, .x = {6.0, 7.0}}},
         {.mass = 1.0,
-         .geometry = {.smoothing = {.least_angle = 26.54, .n_rim = 90, .n_off = 2, .n_cut = 1, .farthest = 0.125}},
+         .least_angle = 26.54,
+         .geometry = {.smoothing = {.n_rim = 90, .n_off = 2, .n_cut = 1, .farthest = 0.125}},
          .loose = {.n = 1, .size = {3}}},
     };
     const deck d = {

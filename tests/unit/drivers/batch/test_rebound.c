@@ -25,8 +25,8 @@ static dem_status event(void *context, const dem_simulation *simulation, const d
 }
 
 /* Runs nodes of 2 kg without springs. */
-static rebound run_nodes(support_run *run, dem_index n, const double *x, const double *v, const dem_obstacle *floor,
-                         double t_end)
+static rebound run_over(support_run *run, dem_index n, const double *x, const double *v, const dem_obstacle *floors,
+                        dem_index n_floors, double t_end)
 {
     const double mass[2] = {2.0, 2.0};
     dem_options options = dem_options_default();
@@ -39,11 +39,17 @@ static rebound run_nodes(support_run *run, dem_index n, const double *x, const d
     lattice.body = calloc((size_t)n, sizeof *lattice.body);
     assert_non_null(lattice.body);
     for (dem_index i = 0; i < n; i++) lattice.body[i] = (int32_t)i; /* without springs each is a body of its own */
-    support_open(run, &lattice, floor, 1, &options);
+    support_open(run, &lattice, floors, n_floors, &options);
     dem_lattice_free(&lattice);
     assert_ok(dem_simulation_observe(run->simulation, &observer));
     assert_ok(dem_simulation_advance(run->simulation, t_end));
     return r;
+}
+
+static rebound run_nodes(support_run *run, dem_index n, const double *x, const double *v, const dem_obstacle *floor,
+                         double t_end)
+{
+    return run_over(run, n, x, v, floor, 1, t_end);
 }
 
 static void print_run(const rebound *r, const dem_simulation *simulation, bool rests)
@@ -156,6 +162,17 @@ TEST(a_straight_line_of_several_points_keeps_its_normal)
     assert_false(rebound_along(&r, run.simulation).along_impulse);
 }
 
+/* Its last point is its first, so that no line joins the two. */
+TEST(a_closed_obstacle_is_not_straight)
+{
+    static const double box[10] = {-9.0, 0.0, 9.0, 0.0, 9.0, -5.0, -9.0, -5.0, -9.0, 0.0};
+    const double x[2] = {0.0, height}, v[2] = {0.0, 0.0}, t = sqrt(2.0 * height / g);
+    const dem_obstacle block = SIZED(dem_obstacle, .n_points = 5, .points = box, .restitution = eta);
+    CLEANUP(support_close) support_run run;
+    const rebound r = run_nodes(&run, 1, x, v, &block, 1.5 * t);
+    assert_true(rebound_along(&r, run.simulation).along_impulse);
+}
+
 /* A slope of 45 degrees turns the fall into a flight along x; of that the normal has 1/sqrt(2). */
 TEST(the_normal_is_that_of_the_slope)
 {
@@ -199,6 +216,24 @@ TEST(the_ratio_is_against_the_point_that_was_hit)
     assert_ok(dem_obstacle_velocity(&floor, r.last, (const double[2]){0.5, 0.0}, w));
     assert_true(hypot(w[0], w[1]) > 0.1);
     assert_close(rebound_along(&r, run.simulation).ratio, eta, near);
+}
+
+/* Of two nodes the left one meets a floor that rises at 1 m/s, at h - 2 t - g t^2/2 = t, the right one a moment later a
+ * floor at rest: the velocity before the bounce is against where it began. */
+TEST(the_velocity_before_is_against_the_ground_that_was_met_first)
+{
+    const double x[4] = {-1.0, height, 1.0, height + 0.1}, v[4] = {0.0, -2.0, 0.0, -2.0};
+    const double left[4] = {-2.0, 0.0, -0.5, 0.0}, right[4] = {0.5, 0.0, 2.0, 0.0};
+    const dem_obstacle floors[2] = {
+        SIZED(dem_obstacle, .n_points = 2, .points = left, .restitution = eta, .velocity = {0.0, 1.0}),
+        SIZED(dem_obstacle, .n_points = 2, .points = right, .restitution = eta)};
+    const double t = (sqrt(9.0 + 2.0 * g * height) - 3.0) / g;
+    CLEANUP(support_close) support_run run;
+    const rebound r = run_over(&run, 2, x, v, floors, 2, 0.3);
+    assert_true(rebound_is_over(&r) && r.several);
+    assert_int_equal(r.n_bounces, 1);
+    assert_int_equal(r.obstacle, 1);
+    assert_close(rebound_along(&r, run.simulation).in, -2.0 - g * t - 1.0, near);
 }
 
 /* Of two nodes one hits, the other falls on beside the floor: L = -m (1 + eta) v, J = 2 m. */

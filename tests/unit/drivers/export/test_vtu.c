@@ -30,6 +30,24 @@ TEST(without_obstacles_there_is_no_file_of_them)
     assert_false(exported_has(&e, "run.obstacle.vtu"));
 }
 
+static dem_status lost(void *context, double t, dem_pose *pose)
+{
+    (void)context, (void)t;
+    pose->angle = (double)NAN;
+    return DEM_OK;
+}
+
+/* As of a run whose record of a motion is damaged. */
+TEST(an_obstacle_without_a_place_is_an_error)
+{
+    CLEANUP(exported_close) exported e;
+    exported_open(&e, exported_usual());
+    dem_obstacle *moved = (dem_obstacle *)(uintptr_t)dem_reader_obstacle(e.task.reader, 0);
+    moved->motion = lost, moved->most_speed = moved->most_acceleration = 1.0;
+    assert_false(vtu_export(&e.task));
+    assert_non_null(strstr(e.outcome.message, "is not finite"));
+}
+
 TEST(files_in_the_way_stop_it_before_it_begins)
 {
     CLEANUP(exported_close) exported e;

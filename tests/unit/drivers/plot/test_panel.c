@@ -48,6 +48,28 @@ TEST(springs_points_and_ground_are_drawn)
     snapshot_free(&v.s);
 }
 
+static dem_status lost(void *context, double t, dem_pose *pose)
+{
+    (void)context, (void)t;
+    pose->angle = (double)NAN;
+    return DEM_OK;
+}
+
+/* As of a run whose record of a motion is damaged. */
+TEST(an_obstacle_without_a_place_is_not_drawn)
+{
+    trajectory_fixture *f = *test_state;
+    view v;
+    dem_obstacle *slope = (dem_obstacle *)(uintptr_t)dem_reader_obstacle(f->reader, 0);
+    const dem_obstacle was = *slope;
+    slope->motion = lost, slope->most_speed = slope->most_acceleration = 1.0;
+    draw(&v, f, "strain", false);
+    assert_int_equal(v.paper.fills, 0);
+    assert_int_equal(v.paper.strokes, v.s.lattice->n_springs + 2);
+    *slope = was;
+    snapshot_free(&v.s);
+}
+
 TEST(numbers_of_nodes_fill_triangles)
 {
     trajectory_fixture *f = *test_state;

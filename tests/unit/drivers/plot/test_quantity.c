@@ -85,6 +85,8 @@ TEST(what_the_file_lacks_is_refused)
     assert_int_equal(o.code, EXIT_INVALID);
     assert_non_null(strstr(o.message, "principal_stress"));
     assert_false(quantity_is_known("colour"));
+    assert_true(quantity_is_known("contact_pressure"));
+    assert_false(quantity_find(&q, f->reader, "contact_pressure", &o));
 }
 
 TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "deck_numbers.h"
+
+#include <ctype.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The word with which "body N" or "obstacle N" begins here, as words of their own; NULL if none does. */
+static const char *word_at(const char *message, const char *here)
+{
+    static const char *const words[] = {"body ", "obstacle "};
+    const bool begins = here == message || !isalnum((unsigned char)here[-1]);
+    for (size_t k = 0; k < sizeof words / sizeof *words && begins; k++)
+        if (strncmp(here, words[k], strlen(words[k])) == 0 && isdigit((unsigned char)here[strlen(words[k])]))
+            return words[k];
+    return NULL;
+}
+
+void deck_numbers_translate(char *out, size_t size, const char *message)
+{
+    size_t used = 0;
+    for (const char *p = message; *p != '\0' && used + 1 < size;) {
+        char *end = NULL;
+        const char *word = word_at(message, p);
+        if (word == NULL) {
+            out[used++] = *p++;
+            continue;
+        }
+        const long long number = strtoll(p + strlen(word), &end, 10);
+        const int n = snprintf(out + used, size - used, "%s%lld", word, number + 1);
+        used = n > 0 && (size_t)n < size - used ? used + (size_t)n : size - 1;
+        p = end;
+    }
+    out[used] = '\0';
+}
