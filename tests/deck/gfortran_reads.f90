@@ -22,21 +22,22 @@ contains
 
   subroutine read_material()
     character(4096) :: name, plane, springs
-    real(dp) :: youngs_modulus, bond_stiffness, poissons_ratio, density, thickness, guard, damping_time
+    real(dp) :: youngs_modulus, bond_stiffness, poissons_ratio, density, thickness, guard, damping_time, friction
     namelist /material/ name, youngs_modulus, bond_stiffness, poissons_ratio, plane, density, thickness, guard, &
-      damping_time, springs
+      damping_time, springs, friction
     read (unit, nml=material, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_body()
-    character(4096) :: shape, lattice, outline, material, disconnected, file
+    character(4096) :: shape, lattice, outline, material, disconnected, file, guide
     real(dp), save :: points(20000)
     real(dp) :: size(2), radius, inner_radius, spacing, position(2), angle, clearance, velocity(2), spin, scale, threshold
-    real(dp) :: diagonal, jitter
-    integer(selected_int_kind(18)) :: seed
-    logical :: invert
+    real(dp) :: diagonal, jitter, pitch(2), scatter
+    integer(selected_int_kind(18)) :: seed, copies(2)
+    logical :: invert, rigid
     namelist /body/ shape, size, radius, inner_radius, points, lattice, diagonal, spacing, outline, jitter, seed, &
-      material, position, angle, clearance, velocity, spin, disconnected, file, scale, threshold, invert
+      material, position, angle, clearance, velocity, spin, rigid, guide, copies, pitch, scatter, disconnected, &
+      file, scale, threshold, invert
     read (unit, nml=body, iostat=status, iomsg=message)
   end subroutine
 
@@ -86,20 +87,21 @@ contains
   subroutine read_obstacle()
     real(dp), save :: points(100000)
     real(dp) :: resolution, roughness, correlation, restitution, friction, velocity(2)
+    real(dp) :: amplitude(2), frequency, phase, pivot(2), spin, ramp
     integer(selected_int_kind(18)) :: seed
-    character(4096) :: profile, friction_law
+    character(4096) :: profile, friction_law, motion(3)
     namelist /obstacle/ points, profile, resolution, roughness, correlation, seed, restitution, friction, friction_law, &
-      velocity
+      motion, velocity, amplitude, frequency, phase, pivot, spin, ramp
     read (unit, nml=obstacle, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_contact()
     character(4096) :: method, bodies, overlap
-    real(dp) :: window, thickness, stiffness, penetration_tolerance, rest_speed
+    real(dp) :: window, thickness, stiffness, friction, penetration_tolerance, rest_speed
     logical :: vertices
     integer :: max_impacts
-    namelist /contact/ method, window, vertices, bodies, thickness, stiffness, overlap, penetration_tolerance, &
-      rest_speed, max_impacts
+    namelist /contact/ method, window, vertices, bodies, thickness, stiffness, friction, overlap, &
+      penetration_tolerance, rest_speed, max_impacts
     read (unit, nml=contact, iostat=status, iomsg=message)
   end subroutine
 

@@ -133,11 +133,30 @@ def check_physics(here, lattice, points, vtk_group, frame, n_frames):
         close(here + "force", found["force"], stiffness * strain + couplings_of(lattice, points[:, :2])[0],
               (2e-7 * largest + 1e-13) * np.max(stiffness, initial=0.0))
     check_stresses(here, lattice, points[:, :2], found)
+    if "contact_force" in found:
+        check_contact(here, lattice, found)
 
 
 def von_mises_of(stress):
     xx, yy, xy = stress[:, 0], stress[:, 1], stress[:, -1 if stress.shape[1] == 3 else 3]
     return np.sqrt(xx * xx - xx * yy + yy * yy + 3.0 * xy * xy)
+
+
+def check_contact(here, lattice, found):
+    """Bodies push each other with the same force; on a node it is the pressure times its share of the surface."""
+    force, pressure = found["contact_force"], found["contact_pressure"]
+    size = np.linalg.norm(force, axis=1)
+    close(here + "sum of the forces of contact", force.sum(axis=0), np.zeros(3), 1e-6 * np.sum(size))
+    same(here + "force of contact across the plane", force[:, 2], np.zeros(len(force)))
+    corners = lattice["triangles"][...]
+    sides = np.concatenate([corners[:, [k, (k + 1) % 3]] for k in range(3)])
+    thick = np.tile(lattice["thickness"][...], 3)
+    _, which, count = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
+    outer, x = which[count == 1], lattice["x"][...]
+    half = 0.5 * thick[outer] * np.linalg.norm(np.diff(x[sides[outer]], axis=1)[:, 0], axis=1)
+    area = np.zeros(len(force))
+    np.add.at(area, sides[outer], half[:, None])
+    close(here + "pressure of contact", pressure * area, size, 1e-6 * np.max(size, initial=0.0))
 
 
 def check_stresses(here, lattice, points, found):
@@ -285,7 +304,10 @@ def check_probe(probe, file):
     if kind == "gauge":
         close("length of a gauge", probe["length"][...], rest * (1.0 + probe["strain"][...]), 1e-13 * rest)
     else:
-        close("force of a probe", probe["force"][...], lattice["stiffness"][number[0]] * probe["strain"][...], 1e-9)
+        own = lattice["stiffness"][number[0]] * probe["strain"][...]
+        close("force of a probe", probe["force"][0], own[0] + couplings_of(lattice, points)[0][number[0]], 1e-9)
+        if "coupling" not in lattice:
+            close("forces of a probe", probe["force"][...], own, 1e-9)
 
 
 def check_history(history):
@@ -296,21 +318,23 @@ def check_history(history):
     if len(t) > 1 and not np.all(np.diff(t) > 0):
         sys.exit("history: t does not increase")
     for name in ("impacts", "vertex_impacts", "early", "closings", "releases", "slips", "sticks", "passings", "late",
-                 "events", "steps", "rejected", "retries", "evaluations"):
+                 "events", "steps", "rejected", "retries", "crossings", "evaluations"):
         if np.any(np.diff(history[name][...], prepend=0) < 0):
             sys.exit(f"history: {name} decreases")
+    same("history: gap_min without pairs", np.isinf(history["gap_min"][...]), history["pairs"][...] == 0)
     check_ledger(history)
     return len(t)
 
 
 def check_ledger(history):
     """Start and end, to the 2e-3 of the largest energy of motion that docs/verification.md asks for."""
-    energy = {name: history[name][...] for name in ("kinetic", "elastic", "area", "guard", "gravity", "impact", "friction",
-                                                    "damping", "projection", "boundary")}
-    largest = np.max(energy["kinetic"] + energy["elastic"] + energy["area"] + energy["guard"])
+    energy = {name: history[name][...] for name in ("kinetic", "elastic", "area", "guard", "contact", "gravity", "impact",
+                                                    "friction", "damping", "projection", "boundary")}
+    motion = energy["kinetic"] + energy["elastic"] + energy["area"] + energy["guard"] + energy["contact"]
+    largest = np.max(motion)
     ledger = sum(energy.values()) - 2.0 * energy["projection"] - 2.0 * energy["boundary"]
     close("history: ledger", ledger, ledger[0], 2e-3 * largest)
-    moving = np.maximum.accumulate(energy["kinetic"] + energy["elastic"] + energy["area"] + energy["guard"])
+    moving = np.maximum.accumulate(motion)
     close("history: closure", history["closure"][...] * moving, ledger - ledger[0], 1e-12 * largest)
 
 

@@ -28,10 +28,12 @@ OTHER_PROBLEM = f"the file exists, and its run has another problem; {WAY_OUT}"
 FOLD = """
 &run t_end = 4e-3 /
 &material guard = 0, youngs_modulus = 1e7, density = 1050 /
-&body shape = 'rectangle', size = 0.08, 0.13, spacing = 1e-2, velocity = 0, -25, clearance = 1e-4 /
+&body shape = 'rectangle', size = 0.08, 0.13, spacing = 1e-2, velocity = 0, -25, clearance = 1e-4, outline = 'lattice' /
 &obstacle points = -0.3, -0.02, 0, 0.02, 0.3, -0.02, restitution = 0 /
 &output name = 'fold', frame_interval = 1e-3 /
 """
+
+APART = "&contact bodies = 'none' /\n"
 
 # Hangs from its upper edge.
 HANG = """
@@ -174,7 +176,7 @@ class Check(Case):
         self.assertEqual(self.files(), set())
         lines = out.splitlines()
         self.assertEqual([line.split()[0] for line in lines],
-                         ["dem", "deck", "lattice", "mass", "contact", "constants", "frequency", "time", "warning",
+                         ["dem", "deck", "lattice", "mass", "contact", "surfaces", "constants", "frequency", "time", "warning",
                           "impacts", "scales", "method", "stability", "kernel", "formula"] + ["memory"] * TELLS_MEMORY +
                          ["output"])
         self.assertEqual(lines[0] + "\n", self.call(0, "--version"))
@@ -437,7 +439,7 @@ class Run(Case):
             "triangles  smallest area # of its rest area at # s, guard on # at most, # inverted", log)
         self.assertTrue(0 < area < 1 and guarded >= 0 and inverted == 0)
         self.assertTrue(all(first <= t <= 8e-3 for t in (when_smallest, when_largest, when_area)))
-        energies = numbers("energy     kinetic #, elastic #, area #, guard #, gravity # J", log)
+        energies = numbers("energy     kinetic #, elastic #, area #, guard #, contact #, gravity # J", log)
         start, now, taken, projection, closure = numbers(
             "ledger     start # J = now # + taken by impacts # - projection #; closure #", log)
         self.assertAlmostEqual(sum(energies), now, delta=1e-3 * now)
@@ -528,7 +530,7 @@ class Run(Case):
         self.assertEqual(re.findall(r"(?m)^boundary   \d: \d+ nodes, (.*)$", log), ["held in x and y", "held in x"])
 
     def test_a_load_that_is_not_what_was_asked_for_is_reported(self):
-        self.put(HANG.replace("t_end = 1, residual = 1e-3", "t_end = 1e-3") +
+        self.put(HANG.replace("t_end = 1, residual = 1e-3", "t_end = 1e-3").replace("1e-2 /", "1e-2, outline = 'lattice' /") +
                  "&boundary where = 'side', side = 'right', kind = 'traction', traction = 1e3, 0 /\n")
         _, _, x, y, asked, _, longer = numbers("boundary   #: # nodes, force (#, #) N, of (#, #) N asked for: the side of the "
                                                "lattice is # % longer than that of the shape", self.call(0, "--check", "deck.nml"))
@@ -543,7 +545,7 @@ class Run(Case):
 
     def test_what_folds_is_counted(self):
         counts = "triangles  smallest area # of its rest area at # s, guard on # at most, # inverted"
-        self.put(FOLD)
+        self.put(FOLD + APART)
         area, _, guarded, inverted = numbers(counts, self.call(0, "deck.nml"))
         self.assertTrue(area < 0 and guarded == 0 and inverted > 0)
         self.put(FOLD.replace("guard = 0,", "").replace("'fold'", "'guarded'"))
@@ -551,7 +553,7 @@ class Run(Case):
         self.assertTrue(0 < area < 0.4 and guarded > 0 and inverted == 0)
 
     def test_overlap_is_warned_of_or_stops_the_run(self):
-        self.put(FOLD)
+        self.put(FOLD + APART)
         log = self.call(0, "deck.nml")
         node, triangle, x, y, when = numbers("warning    bodies overlap, which bodies = 'all' in &contact prevents: node # is inside "
                                              "triangle # at (#, #) m, # s", log)
@@ -563,7 +565,7 @@ class Run(Case):
         self.assertEqual(result["warnings"], re.findall(r"(?m)^warning    (.*)$", log))
         self.assertEqual(len([text for text in result["warnings"] if text.startswith("bodies overlap, ")]), 1)
         self.assertIn("done already", self.call(0, "deck.nml"))
-        self.put(FOLD.replace("'fold'", "'stopped'") + "&contact overlap = 'stop' /\n")
+        self.put(FOLD.replace("'fold'", "'stopped'") + "&contact bodies = 'none', overlap = 'stop' /\n")
         done = run("deck.nml", cwd=self.folder)
         self.assertEqual(done.returncode, 4)
         found = numbers("deck.nml: error: node # is inside triangle # of a body at (#, #) m, t = # s", done.stderr)
@@ -572,10 +574,23 @@ class Run(Case):
         self.assertIn("stopped.part.vtkhdf", self.files())
         self.assertNotIn("stopped.vtkhdf", self.files())
 
+    def test_a_body_that_touches_itself_inside_out_has_its_cause_named(self):
+        self.put(FOLD)
+        done = run("deck.nml", cwd=self.folder)
+        self.assertEqual(done.returncode, 4)
+        self.assertRegex(done.stderr, r"^deck\.nml: error: the step from t = .* fails: .*; \d+ triangles are turned inside out, "
+                                      r"whose surfaces cannot push: 'guard' in &material prevents that\n$")
+
     def test_bodies_that_overlap_at_the_start_are_warned_of_once(self):
         block = "&body shape = 'rectangle', size = 0.1, 0.1, spacing = 1e-2, position = {} /\n"
         self.put("&run t_end = 1e-3 /\n&material youngs_modulus = 1e7, density = 1000 /\n" + 
                  block.format("0, 0") + block.format("0.052, 0.053"))  # nodes on nodes would be inside of nothing
+        for options in ("--check",), ():
+            done = run(*options, "deck.nml", cwd=self.folder)
+            self.assertEqual(done.returncode, 3)
+            self.assertRegex(done.stderr, r"^deck\.nml:1:1: error: node \d+ of body \d at .* m is \S+ m inside body \d, .*: surfaces "
+                                          r"must not cross at the start \(with bodies = 'none' in &contact they may overlap\)\n$")
+        self.put(pathlib.Path(self.folder, "deck.nml").read_text(encoding="utf-8") + APART)
         for log in self.call(0, "--check", "deck.nml"), self.call(0, "deck.nml"):
             found = re.findall(r"(?m)^warning    (.*)$", log)
             self.assertEqual(len(found), 1)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs decks and reads their files back with VTK and h5py: `test_frames.py DEM_BATCH INPUTS READ_VTKHDF [OPTIONS]`;
 the options are handed on to the reader."""
+import json
 import pathlib
 import subprocess
 import sys
@@ -44,6 +45,18 @@ BOUNCE = """
 """
 
 
+# Two blocks of different plates run into each other; the job is stopped on its way, and goes on.
+TOUCH = """
+&run t_end = 1.5e-3, gravity = 0, 0 /
+&material name = 'thick', youngs_modulus = 1e7, density = 1050, thickness = 0.2 /
+&material name = 'thin', youngs_modulus = 1e7, density = 1050, thickness = 0.1 /
+&body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2, material = 'thick', velocity = 0, 5 /
+&body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2, material = 'thin', position = 3e-3, 0.045 /
+&contact bodies = 'all' /
+&output name = 'touch', frame_interval = 2.5e-4, fields = 'contact', 'strain' /
+"""
+
+
 def check(name, text, folder, *options):
     pathlib.Path(folder, "deck.nml").write_text(text, encoding="utf-8")
     subprocess.run([DEM_BATCH, "deck.nml"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
@@ -68,6 +81,28 @@ def check_bounce():
         return check("bounce", BOUNCE, folder, "--bounces", 3)
 
 
-for code in [*(check_input(*deck) for deck in DECKS), check_bounce()]:
+def check_touch():
+    with tempfile.TemporaryDirectory() as folder:
+        pathlib.Path(folder, "deck.nml").write_text(TOUCH, encoding="utf-8")
+        assert subprocess.run([DEM_BATCH, "deck.nml", "--max-wall", "1e-9"], cwd=folder, check=False,
+                              stdout=subprocess.DEVNULL).returncode == 75, "the job is not stopped"
+        code = check("touch", TOUCH, folder, "--expect-frames", 7, "--interval", 2.5e-4, "--fields",
+                     "contact_force,contact_pressure,strain")
+        with h5py.File(pathlib.Path(folder, "touch.vtkhdf")) as file:
+            assert max(file["VTKHDF/PointData/contact_pressure"]) > 1e4, "nothing touches"
+            assert max(file["history/pairs"]) > 4, "no pairs"
+            pairs, gap, t = (file[f"history/{name}"][...] for name in ("pairs", "gap_min", "t"))
+            contact = file["VTKHDF/FieldData/contact_energy"][-1]
+        result = json.loads(pathlib.Path(folder, "touch.json").read_text(encoding="utf-8"))
+        found = [result[key] for key in ("pairs", "pairs_most", "gap_min", "gap_min_t", "crossings")]
+        expected = [pairs[-1], max(pairs), min(gap), t[gap.argmin()], 0]
+        assert found == expected and result["energy"]["contact"] == contact, f"{found}, {expected}"
+        share = result["gap_share"]
+        assert abs(result["pressure_share"] * share / (1 - share) ** 2 - 1) < 1e-12, "not the law's pressure"
+        assert 0 < share < 1 and result["gap_min"] < 2e-3, "nearer than a fifth of the spacing"
+        return code
+
+
+for code in [*(check_input(*deck) for deck in DECKS), check_bounce(), check_touch()]:
     if code != 0:
         sys.exit(code)

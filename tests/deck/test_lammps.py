@@ -32,7 +32,7 @@ ORDER = 5e-3
 BODY = f"""
 &run t_end = 1e-9, gravity = 0, 0 /
 &material youngs_modulus = 1e7, density = 1050, guard = 0 /
-&body shape = 'rectangle', size = 0.1, 0.06, spacing = {SPACING} /
+&body shape = 'rectangle', size = 0.1, 0.06, spacing = {SPACING}, outline = 'lattice' /
 &void centre = 0.01, 0.03, radius = 0.012 /
 &output name = 'body' /
 """

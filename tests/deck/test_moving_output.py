@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Obstacles that move are drawn where they are at each frame: `test_moving_output.py DEM_BATCH DEM_EXPORT`. VTK's readers
 and h5py find the same; without one that moves the file has no steps."""
+import json
 import pathlib
 import subprocess
 import sys
@@ -73,6 +74,7 @@ class MovingOutput(unittest.TestCase):
             times = run(folder, keys, ", velocity = 0, -1")
             with h5py.File(pathlib.Path(folder, "a.vtkhdf")) as file:
                 history = {name: column[...] for name, column in file["history"].items()}
+            result = json.loads(pathlib.Path(folder, "a.json").read_text(encoding="utf-8"))
             with h5py.File(pathlib.Path(folder, "a.obstacle.vtkhdf")) as file:
                 points = file["VTKHDF/Points"][...].reshape(len(times), len(GIVEN), 3)[:, :, :2]
 
@@ -90,6 +92,11 @@ class MovingOutput(unittest.TestCase):
         self.assertTrue(np.all(history["obstacle_displacement"][:, 0] == 0))
         self.assertGreater(np.abs(history["obstacle_power"][:, 1]).max(), 0.1)
         self.assertLess(np.abs(history["closure"]).max(), 1e-4)
+        (dx, dy), q = place(result["t"])
+        moved = result["obstacles"][1]
+        self.assertTrue(np.allclose([*moved["displacement"], moved["angle"]], [dx, dy, q], rtol=0, atol=1e-15))
+        self.assertIsInstance(moved["power"], (int, float))
+        self.assertNotIn("displacement", result["obstacles"][0])
         for t, found in zip(times, points):
             (dx, dy), q = place(t)
             turn = np.array([[np.cos(q), -np.sin(q)], [np.sin(q), np.cos(q)]])

@@ -76,9 +76,9 @@ class Strip:
         assert len(shapes) == int(group.get("data-count"))
         return np.array(shapes)
 
-    def inks(self, frame):
-        group = next(g for g in self.frames[frame].iter(f"{SVG}g") if g.get("class") == "springs")
-        return {path.get("stroke") for path in group.iter(f"{SVG}path")}
+    def inks(self, frame, what="springs", ink="stroke"):
+        group = next(g for g in self.frames[frame].iter(f"{SVG}g") if g.get("class") == what)
+        return {path.get(ink) for path in group.iter(f"{SVG}path")}
 
 
 def to_picture(group, xy):
@@ -272,6 +272,20 @@ class Decks(unittest.TestCase):
             np.testing.assert_allclose(np.array(dots).reshape(-1, 2), np.repeat(to_picture(group, frames.x[frame]), 2, axis=0), atol=0.006)
         speed = self.strip("point", "--color", "speed")
         self.assertIn("speed, m/s", speed.texts)
+
+    def test_contact_is_drawn_where_bodies_touch(self):
+        """Two blocks one above the other: triangles of one colour before they touch, of several when they do."""
+        (self.folder / "touch.nml").write_text(
+            "&run t_end = 1e-3, gravity = 0, 0 /\n&material youngs_modulus = 1e7, density = 1050 /\n"
+            "&body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2, velocity = 0, 8 /\n"
+            "&body shape = 'rectangle', size = 0.04, 0.04, spacing = 1e-2, position = 0, 0.043 /\n"
+            "&contact bodies = 'others' /\n"
+            "&output name = 'touch', frame_interval = 5e-4, fields = 'contact' /\n", encoding="utf-8")
+        self.batch("touch.nml")
+        strip = self.strip("touch", "--color", "contact_pressure", "--frames", "0,1")
+        self.assertTrue(any(text.startswith("contact pressure, ") and text.endswith("Pa") for text in strip.texts))
+        self.assertEqual(len(strip.inks(0, "triangles", "fill")), 1)
+        self.assertGreater(len(strip.inks(1, "triangles", "fill")), 1)
 
     def test_an_animation_has_one_size_and_even_sides(self):
         folder, frames = self.folder / "animation", Frames(self.at("disc"))

@@ -4,7 +4,7 @@
 import os
 
 import refusal
-from refusal import (BASE, DISC, FILE, MESH, OBSTACLE, ROUGH, edit, stderr_of, without)
+from refusal import (BASE, DISC, FILE, MESH, OBSTACLE, ROUGH, edit, jagged, stderr_of, without)
 
 # name, text, messages
 DECKS = [
@@ -174,8 +174,40 @@ DECKS = [
      ["27:19 'window' in &contact must be >= 0, got -1"]),
     ("number for a logical", BASE + "&contact vertices = 1 /\n",
      ["27:21 'vertices' in &contact expects a logical, got '1'"]),
-    ("thickness without contact of bodies", BASE + "&contact thickness = 1e-4, stiffness = 2 /\n",
-     ["27:10 'thickness' in &contact is not used by bodies 'none'", "27:28 'stiffness' in &contact is not used by bodies 'none'"]),
+    ("thickness without contact of bodies", BASE + "&contact bodies = 'none', thickness = 1e-4, stiffness = 2 /\n",
+     ["27:27 'thickness' in &contact is not used by bodies 'none'", "27:45 'stiffness' in &contact is not used by bodies 'none'"]),
+    ("friction without contact of bodies", edit(BASE, "thickness = 1 -> friction = 0.3") + "&contact bodies = 'none', friction = 0.2 /\n",
+     ["9:5 'friction' in &material is not used by bodies 'none' in &contact",
+      "27:27 'friction' in &contact is not used by bodies 'none'"]),
+    ("friction of bodies negative", edit(BASE, "thickness = 1 -> friction = -0.3") + "&contact bodies = 'all', friction = -0.1 /\n",
+     ["9:16 'friction' in &material must be >= 0, got -0.3", "27:37 'friction' in &contact must be >= 0, got -0.1"]),
+    ("bodies that cross", edit(BASE, "&output -> &body shape = 'rectangle', size = 0.04, 0.05, spacing = 0.01, position = 0.003, "
+                               "0.04, material = 'rubber' /\n&contact bodies = 'others' /\n&output"),
+     ["24:10 node 26 of body 1 at (0.02, 0.0429996) m is 0.00299956 m inside body 2, behind its edge between nodes 35 and 36: surfaces "
+      "must not cross at the start (with bodies = 'none' in &contact they may overlap)"]),
+    ("guide of a body that is not rigid", edit(BASE, "velocity = 0, -1 -> guide = 'x'"),
+     ["17:5 'guide' in &body is not used without 'rigid'"]),
+    ("guide unknown", edit(BASE, "velocity = 0, -1 -> rigid = .true., guide = 'z'") + "&solver max_step = 1e-4 /\n",
+     ["17:29 'guide' in &body must be 'none', 'x' or 'y', got 'z' (did you mean 'x'?)"]),
+    ("motion off the guide", edit(BASE, "velocity = 0, -1 -> rigid = .true., guide = 'x', velocity = 0, -1, spin = 2")
+     + "&solver max_step = 1e-4 /\n",
+     ["17:34 'velocity' in &body must be along its guide, 'x', got 0, -1", "17:52 'spin' in &body does not go with 'guide', got 2"]),
+    ("rigid without contact of bodies", edit(BASE, "velocity = 0, -1 -> rigid = .true.")
+     + "&solver max_step = 1e-4 /\n&contact bodies = 'none' /\n",
+     ["17:5 'rigid' in &body needs contact of bodies, but 'bodies' in &contact is 'none'"]),
+    ("rigid and held", edit(BASE, "velocity = 0, -1 -> rigid = .true.")
+     + "&solver max_step = 1e-4 /\n&boundary where = 'side', side = 'top' /\n",
+     ["28:1 &boundary of kind 'fix' is for body 1, which is rigid; 'guide' in &body says how it may move"]),
+    ("rigid bodies alone", edit(BASE, "velocity = 0, -1 -> rigid = .true."),
+     ["17:5 'rigid' in &body: all bodies are rigid, so that 'max_step' or 'fixed_step' in &solver must be given"]),
+    ("rigid body inside an obstacle", edit(BASE, "velocity = 0, -1 -> rigid = .true.", "0, 0.001 -> 0, -0.01")
+     + "&solver max_step = 1e-4 /\n",
+     ["11:1 body 1 starts 0.01 m inside obstacle 1, at (-0.02, -0.01) m, deeper than the penetration tolerance of 7.94878e-09 m; "
+      "'position' or 'clearance' can put it in front, or reverse the obstacle's points: bodies live on the left of each segment"]),
+    ("rigid body too near to an obstacle", edit(BASE, "velocity = 0, -1 -> rigid = .true.", "0, 0.001 -> 0, 1e-9")
+     + "&solver max_step = 1e-4 /\n",
+     ["1:1 body 1, which is rigid, is 1e-09 m from obstacle 1 at (-0.02, 1e-09) m: they must be 9e-05 m apart at the start, a "
+      "twentieth of the contact thickness"]),
     ("stiffness of surfaces too large", BASE + "&contact bodies = 'all', stiffness = 101 /\n",
      ["27:38 'stiffness' in &contact must be in [0.01, 100], got 101"]),
     ("contact of bodies unknown", BASE + "&contact bodies = 'some' /\n",
@@ -218,10 +250,10 @@ DECKS = [
     ("too many frames of the default interval",
      without(edit(BASE, "t_end = 1e-3 -> t_end = 1e9"), "    frame_interval = 1e-4\n"),
      ["23:1 'frame_interval' in &output, 0.001 s, makes 1e+12 frames until 't_end'; the limit is 10000000"]),
-    ("penetration tolerance that rounding hides", BASE + "&contact penetration_tolerance = 1e-300 /\n",
+    ("penetration tolerance that rounding hides", jagged(BASE + "&contact penetration_tolerance = 1e-300 /\n"),
      ["27:10 'penetration_tolerance' in &contact must be >= 1.2e-15 m, or rounding of coordinates of up to 0.0529615 m hides it, got "
       "1e-300 m"]),
-    ("spacing for the error that rounding hides", BASE + "&solver spacing = 1e-20 /\n",
+    ("spacing for the error that rounding hides", jagged(BASE + "&solver spacing = 1e-20 /\n"),
      ["27:9 'rtol' in &solver, 1e-06 of a spacing of 1e-20 m, asks for less than rounding makes of coordinates of up to "
       "0.0529615 m"]),
     ("scale of speed that rounding hides", BASE + "&solver v_scale = 1e-15 /\n",
@@ -404,7 +436,7 @@ DECKS = [
     ("jitter", edit(BASE, "= 0.01 -> = 0.01, jitter = 0.31"),
      ["14:30 'jitter' in &body must be in [0, 0.3], got 0.31"]),
     ("seed without jitter", edit(BASE, "= 0.01 -> = 0.01, seed = 3"),
-     ["14:21 'seed' in &body is not used without 'jitter'"]),
+     ["14:21 'seed' in &body is not used without 'jitter' or 'scatter'"]),
     ("jitter of a mesh", edit(MESH, "scale = 0.01 -> scale = 0.01, jitter = 0.1"),
      ["13:38 'jitter' in &body is not used by shape 'mesh'"]),
     ("keys not used by a lattice file", edit(BASE, "'rectangle' -> 'file'"),

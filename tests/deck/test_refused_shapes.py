@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Decks whose shapes, images, meshes, voids and places are refused, with 3: `test_refused_shapes.py DEM_BATCH`."""
 import refusal
-from refusal import (BASE, DISC, FILE, MASK, MESH, POLYGON, REVERSED, RING, TALL, edit, without)
+from refusal import (BASE, DISC, FILE, MASK, MESH, POLYGON, REVERSED, RING, TALL, edit, jagged, without)
 
 # name, text, messages
 DECKS = [
@@ -28,7 +28,7 @@ DECKS = [
     ("spacing larger than the polygon", edit(POLYGON, "    spacing = 0.01 ->     spacing = 0.041"),
      ["14:5 'spacing' in &body must not exceed the polygon's extent, 0.04 m x 0.05 m, got 0.041 m"]),
     ("polygon between nodes",
-     edit(POLYGON, "points = 0,0, 0.04,0, 0.04,0.05, 0,0.05 -> points = 0,0.001, 0.04,0.05, 0.0401,0.05"),
+     jagged(edit(POLYGON, "points = 0,0, 0.04,0, 0.04,0.05, 0,0.05 -> points = 0,0.001, 0.04,0.05, 0.0401,0.05")),
      ["11:1 body 1: its outline, voids and pores leave none of 52 nodes"]),
     ("void of a polygon that meets itself",
      BASE + "&void shape = 'polygon', centre = 0, 0.02, points = 0,0, 1,1, 1,0, 0,1 /\n",
@@ -42,8 +42,8 @@ DECKS = [
      ["26:1 &void is for body 1, which is of shape 'mesh'"]),
     ("pores of a mesh", MESH + "&pores number = 1, radius = 5e-3, 6e-3 /\n",
      ["26:1 &pores is for body 1, which is of shape 'mesh'"]),
-    ("part on a node only", BASE + "&void shape = 'rectangle', centre = -0.0125, 0.017320508, size = 0.0235, 1e-3 /\n"
-     "&void shape = 'rectangle', centre = 0.0125, 0.017320508, size = 0.0235, 1e-3 /\n",
+    ("part on a node only", jagged(BASE + "&void shape = 'rectangle', centre = -0.0125, 0.017320508, size = 0.0235, 1e-3 /\n"
+     "&void shape = 'rectangle', centre = 0.0125, 0.017320508, size = 0.0235, 1e-3 /\n"),
      ["11:1 body 1 has 1 part that shares no edge with its largest, of 8 triangles at (-0.02, 0) m in its own "
       "coordinates; 'disconnected' can remove or keep such parts"]),
     # pores
@@ -127,12 +127,12 @@ DECKS = [
     ("mesh scaled to nothing", edit(MESH, "scale = 0.01 -> scale = 1e-200"),
      ["13:24 body 1: the area of a triangle, 0 m^2, is too small; its sides are 0 m"]),
     # geometry
-    ("void that takes everything", BASE + "&void centre = 0, 0.02, radius = 1 /\n",
+    ("void that takes everything", jagged(BASE + "&void centre = 0, 0.02, radius = 1 /\n"),
      ["11:1 body 1: its outline, voids and pores leave none of 32 nodes"]),
-    ("a loose part", BASE + "&void shape = 'rectangle', centre = 0, 0.025, size = 0.06, 0.02 /\n",
+    ("a loose part", jagged(BASE + "&void shape = 'rectangle', centre = 0, 0.025, size = 0.06, 0.02 /\n"),
      ["11:1 body 1 has 1 part that shares no edge with its largest, of 7 triangles at (-0.015, 0.0433013) m in "
       "its own coordinates; 'disconnected' can remove or keep such parts"]),
-    ("three loose parts", TALL,
+    ("three loose parts", jagged(TALL),
      ["11:1 body 1 has 3 parts that share no edge with its largest, of 35 triangles at (-0.015, 0.112583), 14 at "
       "(-0.02, 0), 14 at (-0.015, 0.181865) m in its own coordinates; 'disconnected' can remove or keep such parts"]),
     ("pores that find no place", BASE + "&pores number = 20, radius = 5e-3, 6e-3, wall = 1e-3 /\n",
@@ -150,12 +150,12 @@ DECKS = [
      ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-300 m"]),
     ("spacing far too small", edit(BASE, "0.01\n -> 1e-300\n"),
      ["14:5 body 1 would have more nodes than 2^40 with the spacing 1e-300 m"]),
-    ("position far away", edit(BASE, "0, 0.001 -> 0, 1e300"),
+    ("position far away", jagged(edit(BASE, "0, 0.001 -> 0, 1e300")),
      ["16:5 body 1 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 0.01 m"]),
     ("masses that underflow", edit(BASE, "1050 -> 1e-308", "thickness = 1 -> thickness = 1e-308"),
      ["15:5 body 1: the mass of a node, 0 kg, is too small; density 1e-308 kg/m^3, thickness 1e-308 m, spacing "
       "0.01 m"]),
-    ("areas that underflow", edit(BASE, "0.04, 0.05 -> 2*1e-200", "0.01\n -> 1e-200\n"),
+    ("areas that underflow", jagged(edit(BASE, "0.04, 0.05 -> 2*1e-200", "0.01\n -> 1e-200\n")),
      ["14:5 body 1: the area of a triangle, 0 m^2, is too small; its sides are 1e-200 m"]),
     ("masses that overflow", edit(BASE, "1050 -> 1e308", "thickness = 1 -> thickness = 1e308"),
      ["15:5 body 1: the mass of a node, inf kg, is too large; density 1e+308 kg/m^3, thickness 1e+308 m, spacing "
@@ -167,22 +167,22 @@ DECKS = [
      ["12:5 body 1: stiffness over mass is too large to compute with"]),
     ("damping that overflows", edit(BASE, "thickness = 1 -> damping_time = 1e200"),
      ["15:5 body 1: the damping of a spring, 6.59829e+208 1/s, is too large; damping_time 1e+200 s"]),
-    ("clearance far away", edit(BASE, "position = 0, 0.001 -> clearance = 1e300"),
+    ("clearance far away", jagged(edit(BASE, "position = 0, 0.001 -> clearance = 1e300")),
      ["16:5 body 1 has coordinates of up to 1e+300 m, so large that rounding blurs its spacing of 0.01 m"]),
     ("obstacle that overflows", edit(BASE, "-0.1, 0, 0.1, 0 -> -1e300, 0, 1e300, 0"),
      ["20:5 'points' in &obstacle: segment 1 of obstacle 1, from (-1e+300, 0) to (1e+300, 0) m, is too long"]),
-    ("body deeper in the obstacle than the penetration tolerance", edit(BASE, "0, 0.001 -> 0, -0.001"),
+    ("body deeper in the obstacle than the penetration tolerance", jagged(edit(BASE, "0, 0.001 -> 0, -0.001")),
      ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("body just deeper than the penetration tolerance", edit(BASE, "0, 0.001 -> 0, -1.1e-8"),
+    ("body just deeper than the penetration tolerance", jagged(edit(BASE, "0, 0.001 -> 0, -1.1e-8")),
      ["11:1 body 1 starts 1.1e-08 m inside obstacle 1, at (-0.02, -1.1e-08) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
     ("second body in the obstacle",
-     BASE + "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.06, 0 /\n",
+     jagged(BASE + "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.06, 0 /\n"),
      ["27:1 body 2 starts 0.0173205 m inside obstacle 1, at (0.05, -0.0173205) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("two bodies in two obstacles", edit(BASE, "0, 0.001 -> 0, -0.001") + "&obstacle points = 0.2, 0, 0.1, 0 /\n"
-     "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.15, 0.01 /\n",
+    ("two bodies in two obstacles", jagged(edit(BASE, "0, 0.001 -> 0, -0.001") + "&obstacle points = 0.2, 0, 0.1, 0 /\n"
+     "&body shape = 'disc', radius = 0.02, spacing = 0.01, material = 'rubber', position = 0.15, 0.01 /\n"),
      ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED,
       "28:1 body 2 starts 0.0273205 m inside obstacle 2, at (0.14, 0.0273205) m, deeper than the penetration tolerance of 1e-08 m; "
@@ -190,15 +190,15 @@ DECKS = [
     ("body deeper than the penetration tolerance given", edit(BASE, "0, 0.001 -> 0, -0.001") + "&contact penetration_tolerance = 1e-4 /\n",
      ["11:1 body 1 starts 0.001 m inside obstacle 1, at (-0.02, -0.001) m, deeper than the penetration tolerance of 0.0001 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("point of an obstacle between nodes", edit(BASE, "position = 0, 0.001 -> position = 0, 1e-4") +
-     "&obstacle points = 0.001, -0.02, 0.002, 0.004, 0.003, -0.02 /\n",
+    ("point of an obstacle between nodes", jagged(edit(BASE, "position = 0, 0.001 -> position = 0, 1e-4") +
+     "&obstacle points = 0.001, -0.02, 0.002, 0.004, 0.003, -0.02 /\n"),
      ["11:1 body 1 starts with point 2 of obstacle 2, at (0.002, 0.004) m, 0.0039 m inside it between its nodes, "
       "deeper than the penetration tolerance of 1e-08 m; 'position' or 'clearance' can put it in front"]),
-    ("obstacle the wrong way round", edit(BASE, "-0.1, 0, 0.1, 0 -> 0.1, 0, -0.1, 0"),
+    ("obstacle the wrong way round", jagged(edit(BASE, "-0.1, 0, 0.1, 0 -> 0.1, 0, -0.1, 0")),
      ["11:1 body 1 starts 0.0529615 m inside obstacle 1, at (-0.02, 0.0529615) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
-    ("obstacle the wrong way round under a clearance", edit(BASE, "position = 0, 0.001 -> position = 0, 0.2\n    clearance = 1e-3",
-                                                            "-0.1, 0, 0.1, 0 -> 0.1, 0, 0, 0, -0.2, 0.1"),
+    ("obstacle the wrong way round under a clearance", jagged(edit(BASE, "position = 0, 0.001 -> position = 0, 0.2\n    clearance = 1e-3",
+                                                            "-0.1, 0, 0.1, 0 -> 0.1, 0, 0, 0, -0.2, 0.1")),
      ["11:1 body 1 starts 0.0630796 m inside obstacle 1, at (0.02, 0.0630796) m, deeper than the penetration tolerance of 1e-08 m; "
       "'position' or 'clearance' can put it in front" + REVERSED]),
     ("clearance with nothing below", edit(BASE, "position = 0, 0.001 -> position = 1, 0.1\n    clearance = 1e-3"),

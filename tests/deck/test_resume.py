@@ -29,7 +29,8 @@ SECONDS = 120  # more than any of these runs takes, under a sanitizer too
 DECK = """
 &run t_end = 4e-3, title = 'slide' /
 &material youngs_modulus = 1e6, density = 1000, damping_time = 1e-6 /
-&body shape = 'rectangle', size = 0.04, 0.02, spacing = 5e-3, velocity = 3, -2, clearance = 1e-5, position = -0.02, 0 /
+&body shape = 'rectangle', size = 0.04, 0.02, spacing = 5e-3, velocity = 3, -2, clearance = 1e-5, position = -0.02, 0,
+  outline = 'lattice' /
 &obstacle points = -0.3, 0.03, 0.3, -0.03, profile = 'rough', roughness = 1e-4, correlation = 2e-2, resolution = 2e-3,
           restitution = 0.6, friction = 0.4, velocity = 0.5, 0.1 /
 &solver checkpoint_steps = 7 /

@@ -166,8 +166,9 @@ class Shapes(unittest.TestCase):
     def test_hinges_are_reported(self):
         row = 8 * 5e-3 * math.sqrt(0.75)
         voids = [f"&void shape = 'rectangle', centre = {x}, {row}, size = 0.0235, 1e-3 /\n" for x in (-0.0125, 0.0125)]
-        self.assertNotIn("hinge", self.call(HEAD + FLOOR + SHAPES[0][1] + voids[0], "--check"))
-        log = self.call(HEAD + FLOOR + SHAPES[0][1] + voids[0] + voids[1], "--check")
+        lattice = HEAD + FLOOR + SHAPES[0][1].replace(" /\n", ", outline = 'lattice' /\n")
+        self.assertNotIn("hinge", self.call(lattice + voids[0], "--check"))
+        log = self.call(lattice + voids[0] + voids[1], "--check")
         self.assertEqual(self.numbers("hinges ", log)[:4], [1, 1, 0, float(f"{row:.6g}")])
 
     def test_pores_come_near_to_their_porosity(self):

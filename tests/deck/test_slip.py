@@ -25,7 +25,8 @@ EDGE_ON_A_VERTEX = """&run t_end=0.002 /
 # A block let go a micrometre above the floor, whose middle node begins to slide as its weight is taken off it.
 BLOCK_LET_GO = """&run t_end=0.0105074 /
 &material name='m', youngs_modulus=4.21379e+07, density=2345.02, thickness=0.01, poissons_ratio=0.3 /
-&body shape='rectangle', spacing=0.00293437, material='m', clearance=1e-06, velocity=0,0, size=0.0586875,0.0338504 /
+&body shape='rectangle', spacing=0.00293437, material='m', clearance=1e-06, velocity=0,0, size=0.0586875,0.0338504,
+  outline='lattice' /
 &obstacle points=-0.176062423,0, 0.176062423,0, restitution=1, friction=1.5 /
 &contact vertices=.false. /
 &solver method='verlet', rtol=1e-05 /

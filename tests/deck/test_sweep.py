@@ -19,7 +19,7 @@ SECONDS = 120  # more than any of these runs takes, under a sanitizer too
 DECK = """
 &run t_end = 2e-4, title = 'bounce' /
 &material youngs_modulus = 1e7, density = 1050 /
-&body shape = 'rectangle', size = 0.02, 0.02, spacing = 1e-2, velocity = 0, -10, clearance = 1e-4 /
+&body shape = 'rectangle', size = 0.02, 0.02, spacing = 1e-2, velocity = 0, -10, clearance = 1e-4, outline = 'lattice' /
 &obstacle points = -0.3, -0.02, 0, 0.02, restitution = 0.5 /
 &obstacle points = 0, 0.02, 0.3, -0.02, restitution = 0.25 /
 &output name = 'a', frame_interval = 1e-4 /

@@ -30,7 +30,7 @@ DROP = """&run t_end = 1e-4 /
 &output name = '{}' /
 """
 # What a page needs beside inputs/ and the decks: runs whose files it reads.
-RUNS = {"pictures.md": ("disc", "porous"), "dem_plot.1": ("rectangle",), "dem_export.1": ("rectangle",)}
+RUNS = {"pictures.md": ("disc", "porous"), "dem_plot.1": ("rectangle", "two_discs"), "dem_export.1": ("rectangle",)}
 
 
 def make_decks(folder):
@@ -47,7 +47,7 @@ def make_decks(folder):
 def make_folder(folder):
     make_decks(folder)
     shutil.copytree(ROOT / "inputs", folder / "inputs")
-    for name in ("rectangle", "disc", "porous"):
+    for name in ("rectangle", "disc", "porous", "two_discs"):
         shutil.copy(folder / f"inputs/{name}.nml", folder)
     for name, spacing in COARSE.items():
         deck = (folder / f"inputs/{name}.nml").read_text(encoding="utf-8")

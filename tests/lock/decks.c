@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The decks in inputs/, coarser and shorter, so that the suite takes seconds: the paper's bodies at 6 or 7 mm instead
- * of 2.5 or 5 mm, until 6 ms, when they have rebounded, instead of 20 ms; every_key as it is. */
+ * of 2.5 or 5 mm, until 6 ms, when they have rebounded, instead of 20 ms; every_key as it is. These have stepped edges
+ * here and do not touch each other, as all had before there was anything else. The discs and the mill have what came
+ * then, smooth outlines, coupled springs, contact of bodies and an obstacle that turns; they run until they have parted
+ * again. */
 #include <stdio.h>
 
 #include <dem/trajectory.h>
@@ -15,16 +18,24 @@
 
 enum { NAME = 64, PATH = 4096 };
 
-/* A deck, the setting of its spacing, and the share of its time that is run. */
+enum { SETTINGS = 3 };
+
+/* A deck, the share of its time that is run, and what is set otherwise. */
 typedef struct source {
-    const char *name, *spacing;
+    const char *name;
     double share;
+    const char *settings[SETTINGS]; /* the last ones may be NULL */
 } source;
 
+#define AS_BEFORE "contact.bodies=none", "body.outline=lattice"
 static const source sources[] = {
-    {"rectangle", "body.spacing=7e-3", 0.3},     {"disc", "body.spacing=7e-3", 0.3},
-    {"disc_friction", "body.spacing=7e-3", 0.3}, {"porous", "body.spacing=6e-3", 0.3},
-    {"every_key", "body.spacing=1e-2", 1.0},
+    {"rectangle", 0.3, {"body.spacing=7e-3", AS_BEFORE}},
+    {"disc", 0.3, {"body.spacing=7e-3", AS_BEFORE}},
+    {"disc_friction", 0.3, {"body.spacing=7e-3", AS_BEFORE}},
+    {"porous", 0.3, {"body.spacing=6e-3", AS_BEFORE}},
+    {"every_key", 1.0, {"body.spacing=1e-2", AS_BEFORE}},
+    {"two_discs", 0.3, {"body(1).spacing=4e-3", "body(2).spacing=4e-3"}},
+    {"mill", 0.25, {"body.spacing=3e-3"}},
 };
 enum { N_SOURCES = sizeof sources / sizeof *sources };
 
@@ -41,11 +52,12 @@ static const struct {
 static void read_deck(deck *d, const char *folder, const source *from)
 {
     char path[PATH];
-    setting spacing;
+    setting settings[SETTINGS];
+    size_t n = 0;
     CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     (void)snprintf(path, sizeof path, "%s/%s.nml", folder, from->name);
-    assert_true(setting_parse(&spacing, from->spacing));
-    if (deck_parse(d, path, &spacing, 1, &errors) != DECK_OK || deck_build(d, &errors) != DECK_OK)
+    for (; n < SETTINGS && from->settings[n] != NULL; n++) assert_true(setting_parse(&settings[n], from->settings[n]));
+    if (deck_parse(d, path, settings, n, &errors) != DECK_OK || deck_build(d, &errors) != DECK_OK)
         fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
     d->t_end *= from->share;
 }
@@ -64,7 +76,7 @@ static uint64_t run_deck(const void *what, dem_kernel kernel)
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     assert_ok(dem_simulation_advance(run.simulation, d->t_end));
     trace_add_all(&t, run.simulation);
-    assert_true(t.n_events > 0);
+    assert_true(t.n_events > 0 || d->n_obstacles == 0);
     return t.hash;
 }
 
@@ -92,7 +104,7 @@ static dem_trajectory_options all_of(const deck *d, const dem_peaks *peaks)
     options.frame_interval = d->t_end / 4.0;
     options.double_precision = 1;
     options.events = 1;
-    options.fields = DEM_FIELD_ALL;
+    options.fields = DEM_FIELD_ALL & ~DEM_FIELD_CONTACT; /* that came after the stored hashes */
     options.peaks = peaks;
     options.n_probes = d->n_probes;
     options.probes = d->probes;

@@ -3,8 +3,9 @@
  * have members of 8 bytes only. */
 #include "trace.h"
 
-#include <stdlib.h>
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <dem/reader.h>
@@ -117,7 +118,7 @@ void trace_add_all(trace *t, const dem_simulation *simulation)
     add_motion(t, simulation);
     add_loads(t, simulation);
     add_strains(t, simulation);
-    add(t, &counts.steps, sizeof counts - sizeof counts.struct_size);
+    add(t, &counts.steps, offsetof(dem_counts, crossings) - offsetof(dem_counts, steps)); /* later ones are new */
     add(t, &overlap.now, 2 * sizeof overlap.now);
     add_reals(t, &overlap.t, 1);
     add_integer(t, overlap.node);
@@ -196,8 +197,8 @@ static void add_frame(trace *t, const dem_reader *reader, dem_index frame)
     }
 }
 
-/* Whether a column came after the stored hashes: entries of the ledger that are 0 in all that is run here, and where
- * obstacles are, which follows from the input. */
+/* Whether a column came after the stored hashes: entries of the ledger that are 0 in all that is run here, where
+ * obstacles are, which follows from the input, and contact of bodies, of which there is none. */
 static bool is_new(const dem_reader_column *column)
 {
     static const char *const names[][2] = {{"history", "contact"},
@@ -208,7 +209,10 @@ static bool is_new(const dem_reader_column *column)
                                            {"frames", "obstacle_energy"},
                                            {"history", "obstacle_displacement"},
                                            {"history", "obstacle_angle"},
-                                           {"history", "obstacle_power"}};
+                                           {"history", "obstacle_power"},
+                                           {"history", "gap_min"},
+                                           {"history", "pairs"},
+                                           {"history", "crossings"}};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
         if (strcmp(column->table, names[k][0]) == 0 && strcmp(column->name, names[k][1]) == 0) return true;
     return false;
