@@ -11,7 +11,8 @@
 
 void coarse_read(deck *d, const char *folder, const char *name, double spacing)
 {
-    char path[4096], *at, text[8192];
+    static const char body[] = "&body", written[] = "2.5e-3";
+    char path[4096], text[8192];
     CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     (void)snprintf(path, sizeof path, "%s/%s.nml", folder, name);
     FILE *file = fopen(path, "r");
@@ -19,14 +20,16 @@ void coarse_read(deck *d, const char *folder, const char *name, double spacing)
     const size_t n = fread(text, 1, sizeof text - 1, file);
     text[n] = '\0';
     (void)fclose(file);
-    at = strstr(text, "2.5e-3");
-    assert_non_null(at);
-    char number[7];
-    (void)snprintf(number, sizeof number, "%6.4f", spacing);
-    memcpy(at, number, 6);
+    const char *group = strstr(text, body), *number = strstr(text, written);
+    assert_true(group != NULL && number > group);
+    group += strlen(body);
     (void)snprintf(path, sizeof path, "coarse_%s_%ld.nml", name, (long)getpid());
     file = fopen(path, "w");
-    assert_true(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
+    assert_non_null(file);
+    (void)fprintf(file, "%.*s%s%.*s%g%s", (int)(group - text), text,
+                  strstr(text, "outline") == NULL ? " outline = 'lattice'," : "", (int)(number - group), group, spacing,
+                  number + strlen(written));
+    assert_int_equal(fclose(file), 0);
     if (whole_deck_read(d, path, &errors) != DECK_OK)
         fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
     (void)remove(path);

@@ -46,6 +46,15 @@ dem_lattice support_rectangle(double width, double height, double spacing, const
     return l;
 }
 
+dem_lattice support_squares(double side, double spacing, const dem_material *material, const double way[2])
+{
+    dem_lattice first = support_rectangle(side, side, spacing, material);
+    CLEANUP(dem_lattice_free) dem_lattice second = support_rectangle(side, side, spacing, material);
+    dem_lattice_move(&second, 0.0, way);
+    assert_ok(dem_lattice_append(&first, &second));
+    return first;
+}
+
 dem_model *support_model(const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles)
 {
     dem_model *model;

@@ -24,6 +24,10 @@ dem_lattice support_lattice(dem_index n, const double *x, const double *mass, de
 /** A rectangle of triangles with the springs and masses of a material; free with dem_lattice_free. */
 dem_lattice support_rectangle(double width, double height, double spacing, const dem_material *material);
 
+/** Two squares with the side and the spacing, the second one moved by `way`: bodies 0 and 1, with as many nodes each.
+ *  Free with dem_lattice_free. */
+dem_lattice support_squares(double side, double spacing, const dem_material *material, const double way[2]);
+
 /** What dem_model_create() and dem_simulation_create() make, which must succeed. */
 dem_model *support_model(const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles);
 dem_simulation *support_simulation(const dem_model *model, const dem_options *options);
