@@ -11,6 +11,7 @@ class Body:
     reach: float  # from the origin
     middle: tuple = (0.0, 0.0)
     room: float = 0.0  # radius of what fits in about the middle
+    span: float = 0.0  # radius of what holds it about the middle
     parts: list = dataclasses.field(default_factory=list)  # (group, keys)
     files: dict = dataclasses.field(default_factory=dict)
 
@@ -18,17 +19,18 @@ class Body:
 def rectangle(dice):
     width, height = dice.between(3.0, 14.0), dice.between(3.0, 14.0)
     return Body({"shape": "rectangle", "size": [width, height]}, math.hypot(width / 2, height), (0.0, height / 2),
-                min(width, height) / 2)
+                min(width, height) / 2, math.hypot(width, height) / 2)
 
 
 def disc(dice):
     radius = dice.between(2.5, 7.0)
-    return Body({"shape": "disc", "radius": radius}, radius, room=radius)
+    return Body({"shape": "disc", "radius": radius}, radius, room=radius, span=radius)
 
 
 def ring(dice):
     radius = dice.between(5.0, 8.0)
-    return Body({"shape": "ring", "radius": radius, "inner_radius": radius - dice.between(2.2, 3.5)}, radius)
+    return Body({"shape": "ring", "radius": radius, "inner_radius": radius - dice.between(2.2, 3.5)}, radius,
+                span=radius)
 
 
 def polygon(dice):
@@ -37,7 +39,7 @@ def polygon(dice):
     for k in range(number):
         radius, angle = dice.between(4.0, 8.0), turn + sense * 2.0 * math.pi * k / number
         points += [radius * math.cos(angle), radius * math.sin(angle)]
-    return Body({"shape": "polygon", "points": points}, 8.0)
+    return Body({"shape": "polygon", "points": points}, 8.0, span=8.0)
 
 
 def mask(dice):
@@ -45,7 +47,7 @@ def mask(dice):
     rows = [[0 if dice.chance(0.03) else dice.whole(128, 255) for _ in range(width)] for _ in range(height)]
     text = f"P2\n{width} {height}\n255\n" + "\n".join(" ".join(map(str, row)) for row in rows) + "\n"
     return Body({"shape": "mask", "file": "mask.pgm", "scale": 1.0}, math.hypot(width / 2, height), (0.0, height / 2),
-                files={"mask.pgm": text})
+                span=math.hypot(width, height) / 2, files={"mask.pgm": text})
 
 
 def mesh(dice):
@@ -66,7 +68,7 @@ def mesh(dice):
     middle = (columns + shear * rows) / 2, 0.45 * rows
     reach = math.hypot(2 * middle[0], 2 * middle[1]) + 1.0
     return Body({"shape": "mesh", "file": "mesh.msh", "scale": 1.0}, reach, middle, min(columns, rows) / 2.5,
-                files={"mesh.msh": "\n".join(lines) + "\n"})
+                reach / 2 + 0.5, files={"mesh.msh": "\n".join(lines) + "\n"})
 
 
 def form(dice, radius):

@@ -53,6 +53,8 @@ class Deck:
     gravity: list = dataclasses.field(default_factory=list)  # m/s^2
     boundary: dict = dataclasses.field(default_factory=dict)
     motions: list = dataclasses.field(default_factory=list)  # keys of each obstacle
+    is_crowd: bool = False  # of several bodies that touch each other
+    rubs: bool = False  # with friction between bodies
 
 
 def spell(value):

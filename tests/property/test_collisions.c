@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random scenes of 2 to 12 bodies that run into each other, in a box or in free space: no surface crosses another, no
- * body overlaps one, the ledger closes, and without a box momentum stays. `test_collisions [N [SEED]]`: N scenes from a
- * seed on, 40 from 1 by default. */
+/* Random scenes of 2 to 12 bodies that run into each other, in free space or in a box, which may move: no node is ever
+ * inside another body or a wall, the ledger closes, and momentum is what weight and walls have given.
+ * `test_collisions [N [SEED]]`: N scenes from a seed on, 200 from 1 by default. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "ask.h"
 #include "base/random.h"
+#include "base/vec2.h"
 #include "verification/support.h"
 
-static int n_scenes = 40;
+static int n_scenes = 200;
 static uint64_t first_seed = 1;
 
 /* A scene, all of which follows from its seed. */
@@ -17,8 +19,12 @@ typedef struct scene {
     dem_lattice lattice;
     dem_options options;
     bool boxed;
-    bool folded; /* a triangle has been inside out */
-    double friction, restitution, speed;
+    bool folded;    /* a triangle has been inside out */
+    bool touched;   /* bodies have pushed each other */
+    bool *is_inner; /* [n_nodes] whether triangles surround the node */
+    double corners[10];
+    dem_obstacle walls;
+    double speed;
 } scene;
 
 static double draw(scene *s, double from, double to)
@@ -49,6 +55,52 @@ static dem_lattice draw_body(scene *s, int column, int row)
     return body;
 }
 
+/* The box goes by up to 3 m/s, swings by up to 6, turns by up to 4 at its corners, or all of it. With fixed steps,
+ * which do not adapt to violent impacts, less: by the same share as the bodies. */
+static void draw_motion(scene *s)
+{
+    const double share = s->speed / 20.0;
+    dem_obstacle *w = &s->walls;
+    for (int c = 0; c < 2 && draw(s, 0.0, 1.0) < 0.7; c++) w->velocity[c] = share * draw(s, -3.0, 3.0);
+    if (draw(s, 0.0, 1.0) < 0.5) {
+        w->frequency = draw(s, 50.0, 300.0);
+        for (int c = 0; c < 2; c++) w->amplitude[c] = share * draw(s, -1.0, 1.0) / w->frequency;
+    }
+    if (draw(s, 0.0, 1.0) < 0.5) {
+        w->spin = share * draw(s, -20.0, 20.0);
+        for (int c = 0; c < 2; c++) w->pivot[c] = draw(s, 0.0, 3.0 * step);
+    }
+    if (draw(s, 0.0, 1.0) < 0.3) w->ramp = draw(s, 0.0, 3e-3);
+}
+
+static void draw_walls(scene *s)
+{
+    const double low = -0.6 * step, high = 4.0 * step;
+    const double corners[10] = {low, low, high, low, high, high, low, high, low, low};
+    const dem_obstacle walls = SIZED(dem_obstacle, .n_points = 5, .points = s->corners);
+    memcpy(s->corners, corners, sizeof corners);
+    s->walls = walls;
+    s->walls.friction = draw(s, 0.0, 1.0) < 0.5 ? 0.0 : draw(s, 0.0, 0.8);
+    s->walls.restitution = draw(s, 0.0, 1.0) < 0.5 ? 0.0 : draw(s, 0.0, 0.9);
+}
+
+/* At an inner node the angles of the triangles sum up to a full turn. */
+static bool *find_inner(const dem_lattice *l)
+{
+    bool *is_inner = calloc((size_t)l->n_nodes, sizeof *is_inner);
+    double *sum = calloc((size_t)l->n_nodes, sizeof *sum);
+    assert_true(is_inner != NULL && sum != NULL);
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) {
+        const dem_index *corners = &l->triangles[k - k % 3], here = corners[k % 3];
+        const vec2 at = vec2_at(l->x, here), a = vec2_sub(vec2_at(l->x, corners[(k + 1) % 3]), at);
+        const vec2 b = vec2_sub(vec2_at(l->x, corners[(k + 2) % 3]), at);
+        sum[here] += atan2(fabs(vec2_cross(a, b)), vec2_dot(a, b));
+    }
+    for (dem_index i = 0; i < l->n_nodes; i++) is_inner[i] = sum[i] > 2.0 * M_PI - 1e-6;
+    free(sum);
+    return is_inner;
+}
+
 static void draw_scene(scene *s, uint64_t seed)
 {
     static const dem_method methods[4] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_FEHLBERG45, DEM_METHOD_DOPRI45,
@@ -63,11 +115,13 @@ static void draw_scene(scene *s, uint64_t seed)
         assert_ok(dem_lattice_append(&s->lattice, &next));
     }
     s->boxed = draw(s, 0.0, 1.0) < 0.6;
-    s->friction = draw(s, 0.0, 1.0) < 0.5 ? 0.0 : draw(s, 0.0, 0.8);
-    s->restitution = draw(s, 0.0, 1.0) < 0.5 ? 0.0 : draw(s, 0.0, 0.9);
+    draw_walls(s);
     s->options.contact = draw(s, 0.0, 1.0) < 0.8 ? DEM_CONTACT_LOCAL : DEM_CONTACT_EXACT;
     s->options.bodies = draw(s, 0.0, 1.0) < 0.8 ? DEM_BODIES_ALL : DEM_BODIES_OTHERS;
     if (!s->boxed) s->options.gravity[1] = 0.0;
+    if (draw(s, 0.0, 1.0) < 0.6) draw_motion(s);
+    if (draw(s, 0.0, 1.0) < 0.5) s->options.contact_friction = draw(s, 0.05, 1.0);
+    s->is_inner = find_inner(&s->lattice);
 }
 
 static double momentum(const dem_lattice *l, const double *v, int c, double *scale)
@@ -80,59 +134,153 @@ static double momentum(const dem_lattice *l, const double *v, int c, double *sca
     return sum;
 }
 
-/* A body may overlap itself if it does not touch itself, or if an impact has turned a triangle inside out: that is a
- * matter of the lattice, and no surface has crossed another. */
-static bool overlaps(const scene *s, const dem_overlap *found)
+/* ---- what must not be inside what ---- */
+
+typedef struct box {
+    double low[2], high[2];
+} box;
+
+static bool is_in_box(const box *b, const double *p)
 {
-    if (found->most == 0) return false;
-    const bool within = s->lattice.body[found->node] == s->lattice.body[s->lattice.triangles[3 * found->triangle]];
-    return !within || (s->options.bodies == DEM_BODIES_ALL && !s->folded);
+    return p[0] > b->low[0] && p[0] < b->high[0] && p[1] > b->low[1] && p[1] < b->high[1];
 }
 
-static dem_status note_folding(void *context, const dem_simulation *simulation)
+static box box_of_body(const dem_lattice *l, const double *x, int32_t body)
+{
+    box b = {.low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
+    for (dem_index k = 0; k < 2 * l->n_nodes; k++) {
+        if (l->body[k / 2] != body) continue;
+        b.low[k % 2] = fmin(b.low[k % 2], x[k]);
+        b.high[k % 2] = fmax(b.high[k % 2], x[k]);
+    }
+    return b;
+}
+
+static bool is_in_triangle(const double *x, const dem_index *corners, const double *p)
+{
+    int n_left = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *a = &x[2 * corners[k]], *b = &x[2 * corners[(k + 1) % 3]];
+        n_left += (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0.0;
+    }
+    return n_left == 3;
+}
+
+/* No node is in a triangle of another body, by a look at all of them. */
+static void check_between(const scene *s, double t, const double *x)
+{
+    const dem_lattice *l = &s->lattice;
+    for (int32_t body = 0; body <= l->body[l->n_nodes - 1]; body++) {
+        const box around = box_of_body(l, x, body);
+        for (dem_index i = 0; i < l->n_nodes; i++) {
+            if (l->body[i] == body || !is_in_box(&around, &x[2 * i])) continue;
+            for (dem_index k = 0; k < l->n_triangles; k++)
+                if (l->body[l->triangles[3 * k]] == body && is_in_triangle(x, &l->triangles[3 * k], &x[2 * i]))
+                    fail_msg("seed %llu: node %lld in triangle %lld of body %d at %g s", (unsigned long long)s->seed,
+                             (long long)i, (long long)k, (int)body, t);
+        }
+    }
+}
+
+/* No node is in the wall. A tolerance is where an impact is taken; five: test_random.c. An inner node, which nothing
+ * touches, may come out of its body and into the wall once a triangle has been inside out (docs/limits.md). */
+static void check_walls(const scene *s, const dem_simulation *simulation, const dem_state *state)
+{
+    const double most = 5e-6 * dem_model_spacing(dem_simulation_model(simulation));
+    double p[10];
+    assert_ok(dem_obstacle_points(&s->walls, state->t, p));
+    for (int k = 0; k < 4; k++) {
+        const double along[2] = {p[2 * k + 2] - p[2 * k], p[2 * k + 3] - p[2 * k + 1]};
+        for (dem_index i = 0; i < s->lattice.n_nodes; i++) {
+            const double r[2] = {state->x[2 * i] - p[2 * k], state->x[2 * i + 1] - p[2 * k + 1]};
+            const double depth = (along[1] * r[0] - along[0] * r[1]) / hypot(along[0], along[1]);
+            if (depth > most && !(s->folded && s->is_inner[i]))
+                fail_msg("seed %llu: node %lld is %g m in wall %d at %g s", (unsigned long long)s->seed, (long long)i,
+                         depth, k, state->t);
+        }
+    }
+}
+
+/* A body may overlap itself if it does not touch itself, or once an impact has turned a triangle inside out: that is a
+ * matter of the lattice, and no surface has crossed another. */
+static dem_status look(void *context, const dem_simulation *simulation)
 {
     scene *s = context;
+    const dem_state state = ask_state(simulation);
     s->folded = s->folded || ask_strain(simulation).inverted > 0;
+    s->touched = s->touched || ask_energy(simulation).contact > 0.0;
+    check_between(s, state.t, state.x);
+    if (s->boxed) check_walls(s, simulation, &state);
+    if (s->options.bodies == DEM_BODIES_ALL && !s->folded && ask_overlap(simulation).now > 0)
+        fail_msg("seed %llu: a body overlaps itself at %g s", (unsigned long long)s->seed, state.t);
     return DEM_OK;
 }
 
-/* The ledger by the integrator's error at rtol 1e-6, or with Verlet by its swing; momentum by rounding. */
-static void check_scene(uint64_t seed)
+/* By rounding: 7e-14 was the most in free space. In a box 3.3e-12 where steps end at events, for constraints hold to
+ * some roundings (by Verlet's steps 4e-15); and with local corrections 1.7e-10, by Verlet's steps 2.8e-8: these leave
+ * out what their changes do to the nodes around them. Found in 800 scenes. deck_judge.py has the bounds of single
+ * bodies. */
+static double momentum_tolerance(const scene *s)
+{
+    if (!s->boxed) return 1e-12;
+    if (s->options.contact == DEM_CONTACT_EXACT) return 1e-11;
+    return s->options.method == DEM_METHOD_VERLET ? 1e-7 : 1e-9;
+}
+
+static void check_momentum(const scene *s, const dem_simulation *simulation)
+{
+    const dem_state state = ask_state(simulation);
+    const double tolerance = momentum_tolerance(s);
+    const double mass = dem_model_mass(dem_simulation_model(simulation));
+    const dem_obstacle_load load = s->boxed ? ask_obstacle(simulation, 0) : (dem_obstacle_load){0};
+    for (int c = 0; c < 2; c++) {
+        double scale = 0.0;
+        const double before = momentum(&s->lattice, s->lattice.velocity, c, &scale);
+        const double after = momentum(&s->lattice, state.v, c, &scale);
+        const double given = load.impulse[c] + mass * s->options.gravity[c] * state.t;
+        if (!(fabs(after - before - given) < tolerance * scale))
+            fail_msg("seed %llu: momentum off by %g of %g", (unsigned long long)s->seed, after - before - given, scale);
+    }
+}
+
+/* The ledger by the integrator's error at rtol 1e-6, or with Verlet by its swing.
+ * Returns whether bodies have touched. */
+static bool check_scene(uint64_t seed)
 {
     scene s;
     CLEANUP(support_close) support_run run;
     draw_scene(&s, seed);
-    const double low = -0.6 * step, high = 4.0 * step;
-    const double box[10] = {low, low, high, low, high, high, low, high, low, low};
-    const dem_obstacle walls =
-        SIZED(dem_obstacle, .n_points = 5, .points = box, .restitution = s.restitution, .friction = s.friction);
-    support_open(&run, &s.lattice, s.boxed ? &walls : NULL, s.boxed ? 1 : 0, &s.options);
-    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = note_folding, .context = &s};
+    support_open(&run, &s.lattice, s.boxed ? &s.walls : NULL, s.boxed ? 1 : 0, &s.options);
+    const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = look, .context = &s};
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     const dem_energy start = ask_energy(run.simulation);
     const dem_status status = dem_simulation_advance(run.simulation, 6e-3);
     const dem_energy end = ask_energy(run.simulation);
-    const dem_state state = ask_state(run.simulation);
-    const dem_overlap overlap = ask_overlap(run.simulation);
-    const double closure = fabs(end.ledger - start.ledger) / start.kinetic;
-    double scale = 0.0;
+    const double closure = fabs(end.ledger - start.ledger) / fmax(start.kinetic, end.motion);
     if (status != DEM_OK) fail_msg("seed %llu: %s", (unsigned long long)seed, dem_status_message());
-    if (overlaps(&s, &overlap))
-        fail_msg("seed %llu: node %lld in triangle %lld at %g s", (unsigned long long)seed, (long long)overlap.node,
-                 (long long)overlap.triangle, overlap.t);
     if (!(closure < 1e-3)) fail_msg("seed %llu: closure %g", (unsigned long long)seed, closure);
-    for (int c = 0; c < 2 && !s.boxed; c++) {
-        const double before = momentum(&s.lattice, s.lattice.velocity, c, &scale);
-        const double after = momentum(&s.lattice, state.v, c, &scale);
-        if (!(fabs(after - before) < 1e-12 * scale))
-            fail_msg("seed %llu: momentum off by %g of %g", (unsigned long long)seed, after - before, scale);
-    }
+    check_momentum(&s, run.simulation);
     dem_lattice_free(&s.lattice);
+    free(s.is_inner);
+    return s.touched;
 }
 
+/* A body that starts 60 mm from the next one, with up to 20 m/s in any direction, meets one within 6 ms more often than
+ * not. */
 TEST(random_bodies_keep_apart_and_keep_their_ledger)
 {
-    for (int k = 0; k < n_scenes; k++) check_scene(first_seed + (uint64_t)k);
+    int n_touched = 0;
+    for (int k = 0; k < n_scenes; k++) n_touched += check_scene(first_seed + (uint64_t)k);
+    print_message("# bodies touched in %d of %d scenes\n", n_touched, n_scenes);
+    if (n_scenes >= 10) assert_true(2 * n_touched > n_scenes);
+}
+
+/* 1126, 1638: W jumped where an edge was crushed to less than the thickness, and the node at its end came beside the
+ * next edge. 1206: where a node came beside an edge of a notch from behind the other one. */
+TEST(what_once_failed_stays_mended)
+{
+    const uint64_t seeds[3] = {1126, 1206, 1638};
+    for (int k = 0; k < 3; k++) (void)check_scene(seeds[k]);
 }
 
 int main(int argc, char **argv)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random decks through the program, judged from outside: `test_decks.py DEM_BATCH [NUMBER] [--seed FIRST] [--moving]`.
+"""Random decks through the program, judged from outside: `test_decks.py DEM_BATCH [NUMBER] [--seed FIRST]
+[--moving|--crowds]`.
 
 A deck is refused with a line, or runs to its end: no storm, no crash, nothing that is not finite, energy and momentum
 in balance, nobody inside of anything. A deck that fails is printed whole, and `test_decks.py DEM_BATCH 1 --seed SEED`
@@ -16,6 +17,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 try:
+    import deck_crowd
     import deck_judge
     import deck_maker
 except ImportError as lack:
@@ -76,7 +78,8 @@ def judge_run(deck, result, folder, census):
     faults = [] if result["t"] == result["t_end"] else [f"ended at {result['t']} s of {result['t_end']} s"]
     if not deck_judge.is_finite(run):
         return faults + ["something is not finite"]
-    for name, measure in deck_judge.MEASURES:
+    census.sums["contacts of bodies"] = census.sums.get("contacts of bodies", 0) + (run.history["contact"].max() > 0.0)
+    for name, measure in deck_judge.OF_CROWDS if deck.is_crowd else deck_judge.MEASURES:
         found = measure(run, deck)
         if found is None:
             continue
@@ -108,25 +111,28 @@ def judge(program, deck, folder, census):
     return [f"exit code {code}", stderr]
 
 
-def try_seed(program, seed, census, is_moving):
+def make(seed, options):
+    return deck_crowd.random_crowd(seed) if options.crowds else deck_maker.random_deck(seed, options.moving)
+
+
+def try_seed(program, deck, census):
     """Whether the deck is right; else it is printed."""
-    deck = deck_maker.random_deck(seed, is_moving)
     with tempfile.TemporaryDirectory(dir=MEMORY) as name:
         faults = judge(program, deck, pathlib.Path(name), census)
     if not faults:
         return True
-    print(f"seed {seed} is wrong: " + "; ".join(faults) + f"\n---- deck.nml\n{deck.text}")
+    print(f"seed {deck.seed} is wrong: " + "; ".join(faults) + f"\n---- deck.nml\n{deck.text}")
     for name, text in deck.files.items():
         print(f"---- {name}\n{text}")
     print("----", flush=True)
     return False
 
 
-def shortfalls(census, number):
+def shortfalls(census, number, is_crowd):
     """What the decks were to cover and did not, of a number that is not small."""
     if number < 100:
         return []
-    least = {"touching": 0.4, "impacts": 5.0, "vertex_impacts": 0.3, "early": 0.05, "closings": 0.3, "releases": 0.1,
+    least = {"contacts of bodies": 0.5, "impacts": 1.0} if is_crowd else {"touching": 0.4, "impacts": 5.0, "vertex_impacts": 0.3, "early": 0.05, "closings": 0.3, "releases": 0.1,
              "slips": 0.03, "sticks": 0.1, "passings": 0.01}  # a deck: a third to a half of what was found
     found = [f"{name}: {census.sums.get(name, 0)}, {share * number:g} were to be" for name, share in least.items()
              if census.sums.get(name, 0) < share * number]
@@ -139,12 +145,13 @@ def main():
     parser.add_argument("number", type=int, nargs="?", default=100)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--moving", action="store_true", help="obstacles that move")
+    parser.add_argument("--crowds", action="store_true", help="2 to 12 bodies that touch each other")
     options = parser.parse_args()
     program, census = os.path.abspath(options.program), Census()
     seeds = range(options.seed, options.seed + options.number)
-    n_faulty = sum(not try_seed(program, seed, census, options.moving) for seed in seeds)
+    n_faulty = sum(not try_seed(program, make(seed, options), census) for seed in seeds)
     census.print(options.number, n_faulty)
-    missing = shortfalls(census, options.number)
+    missing = shortfalls(census, options.number, options.crowds)
     for line in missing:
         print(line)
     sys.exit(1 if n_faulty or missing else 0)
