@@ -20,7 +20,7 @@ int main(int argc, char **argv)
     double spent[3] = {0.0};
     for (int turn = 0; turn < turns; turn++) {
         double at[4];
-        c->candidates.reference[0] = (double)NAN;
+        surface_contact_forget(c);
         at[0] = seconds(CLOCK_PROCESS_CPUTIME_ID);
         ask(surface_contact_follow(c, l.x));
         at[1] = seconds(CLOCK_PROCESS_CPUTIME_ID);
@@ -31,11 +31,12 @@ int main(int argc, char **argv)
         for (int k = 0; k < 3; k++)
             if (turn == 0 || at[k + 1] - at[k] < spent[k]) spent[k] = at[k + 1] - at[k];
     }
-    const double n = (double)c->surface.surface.n_edges, n_pairs = (double)c->candidates.pairs.n;
-    printf("%.0f edges, %.0f pairs, %.0f nodes pushed: list %.1f ms, %.0f ns an edge; moved check %.2f ns a node; "
-           "evaluation %.1f ns a pair\n",
-           n, n_pairs, (double)c->n_pushed, 1e3 * spent[0], 1e9 * spent[0] / n, 1e9 * spent[1] / n,
-           1e9 * (spent[2] - spent[1]) / n_pairs);
+    const double n = (double)c->surface.surface.n_edges;
+    (void)printf(
+        "%.0f edges, %lld candidates, %lld close pairs, %lld nodes pushed: lists %.1f ms, %.0f ns an edge; moved "
+        "check %.2f ns a node; evaluation with it %.2f ns a node\n",
+        n, (long long)c->candidates.pairs.n, (long long)c->close.n, (long long)c->n_pushed, 1e3 * spent[0],
+        1e9 * spent[0] / n, 1e9 * spent[1] / n, 1e9 * spent[2] / n);
     surface_contact_destroy(c);
     dem_lattice_free(&l);
     gsl_rng_free(rng);

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the works of bench_plate and bench_impact here and in LAMMPS, in turns, and prints the tables of docs/performance.md.
+"""Runs the works of bench_plate, bench_impact and bench_collision here and in LAMMPS, in turns, and prints the tables of docs/performance.md.
 
-    lammps.py --bench build/tests/bench --work DIR [--plate 2e3 2e4 2e5 1e6] [--impact coarse fine] [--cores 1] [--turns 3]
+    lammps.py --bench build/tests/bench --work DIR [--plate 2e3 2e4 2e5 1e6] [--impact coarse fine]
+              [--collision 2500 2e4] [--cores 1] [--turns 3]
 
 LAMMPS is that of .ci/packages, beside the Python that runs this: build/python/bin/python3 after `.ci/install build test`.
 `-sf omp -pk omp 1`, bond harmonic, velocity Verlet, no neighbour list. Times are of the loop alone: CPU time on one
@@ -10,6 +11,7 @@ core, wall time on more (there ranks for LAMMPS, threads here), the least of the
 
 W1, a vibrating plate: both take the same steps from the same state, which has to end the same; what a spring costs.
 W2, an impact: what either takes to come as near to the motion as stated, each at its best step.
+W3, a collision of two blocks: what a step takes while they push each other off, there with `pair_style harmonic/cut`.
 """
 import argparse
 import itertools
@@ -26,14 +28,13 @@ boundary f f p
 atom_style bond
 newton on on
 atom_modify map array sort 0 0
-pair_style none
-special_bonds lj 0 1 1
+{pair}
 comm_modify cutoff {cutoff}
 read_data body.data
 bond_style harmonic
 bond_coeff 1 {constant} {length}
 neighbor {skin} bin
-neigh_modify every 1000000000 delay 0 check no
+{neighbours}
 fix 1 all nve
 {fixes}
 thermo 0
@@ -41,7 +42,11 @@ timestep {step:.17g}
 run {steps}
 write_dump all custom body.dump id x y vx vy modify sort id format float %.17g
 """
+NO_PAIRS = "pair_style none\nspecial_bonds lj 0 1 1", "neigh_modify every 1000000000 delay 0 check no"
+PAIRS = "pair_style harmonic/cut\nspecial_bonds lj 0 1 1", "pair_coeff * * {constant} {length}\nneigh_modify every 1 delay 0 check yes"
+BODIES = {"others": " exclude molecule/intra all", "all": ""}    # W3: whether nodes of one block are pairs, too
 STEPS_ALIKE = 200    # W1: after which both must agree
+STEPS_TOUCHING = 1000
 ALIKE = 1e-9         # spacings: rounding, in 200 steps of a tenth of sqrt(m/k)
 LEAST_TIME = 0.5     # s
 
@@ -83,11 +88,12 @@ class Body:
         self.values = {key: value[0] for key, value in numbers(call([bench, *arguments, "lammps", "body.data"], work)).items()}
         self.springs, self.spacing, self.period = (self.values[key] for key in ("springs", "length", "period"))
 
-    def lammps(self, step, steps, cores=1, fixes=""):
+    def lammps(self, step, steps, cores=1, fixes="", pairs=NO_PAIRS):
         """Seconds of the loop: of CPU on one core, of wall on more."""
         length = self.spacing
         (self.work / "in.body").write_text(INPUT.format(step=step, steps=steps, fixes=fixes, cutoff=2.5 * length,
-                                                        skin=0.3 * length, **self.values))
+                                                        skin=0.3 * length, pair=pairs[0],
+                                                        neighbours=pairs[1].format(**self.values), **self.values))
         ranks = [PROGRAMS / "mpiexec", "-n", cores] if cores > 1 else []
         out = call(["env", "OMP_NUM_THREADS=1", *ranks, PROGRAMS / "lmp", "-sf", "omp", "-pk", "omp", "1", "-log", "none",
                     "-in", "in.body"], self.work)
@@ -223,12 +229,53 @@ def print_impacts(a):
                   " | ".join(f"{t:.2g} | {times[0] / t:.3g}" for t in times[1:]) + " |", flush=True)
 
 
+class Collision(Body):
+    """Theirs push each other off when nodes come nearer than a spacing, ours when surfaces come nearer than a fifth of
+    one: gaps are such that both touch at once."""
+    THEIR_GAP, OUR_GAP = 0.94, 0.2
+
+    def __init__(self, bench, work, nodes):
+        super().__init__(bench, work, nodes, self.THEIR_GAP)
+        self.arguments = nodes, self.OUR_GAP
+
+    def measure(self, steps, turns):
+        """us a step: LAMMPS with each kind of pairs, Verlet's method, Fehlberg's pair for each of its evaluations; how
+        fast the upper block is in the end, m/s, there and here."""
+        least, velocity = [math.inf] * 4, [0.0] * 2
+        for _ in range(turns):
+            times = []
+            for kind in BODIES.values():
+                times.append(self.lammps(0.1 * self.period, steps, pairs=(PAIRS[0], PAIRS[1] + kind)) / steps)
+            upper = self.theirs_upper()
+            verlet, fehlberg = self.here("verlet", steps), self.here("fehlberg45", steps // 5)
+            times += [out["cpu"][0] / out["evaluations"][0] for out in (verlet, fehlberg)]
+            velocity = [upper, verlet["velocity"][0]]
+            least = [min(old, 1e6 * time) for old, time in zip(least, times)]
+        return least, velocity
+
+    def theirs_upper(self):
+        lines = (self.work / "body.dump").read_text().splitlines()[9:]
+        upper = [float(line.split()[4]) for line in lines[len(lines) // 2:]]
+        return math.fsum(upper) / len(upper)
+
+
+def print_collisions(a):
+    print("| nodes | LAMMPS, us a step, pairs of others | of all | Verlet | ratio to others | to all | Fehlberg, us an "
+          f"evaluation | upper block after {STEPS_TOUCHING} steps, m/s, there and here |\n|---|---|---|---|---|---|---|---|")
+    for nodes in a.collision:
+        (others, every, verlet, fehlberg), (there, here) = Collision(a.bench / "bench_collision", a.work, nodes).measure(
+            STEPS_TOUCHING, a.turns)
+        print(f"| 2 x {nodes} | {others:.0f} | {every:.0f} | {verlet:.1f} | {others / verlet:.1f} | {every / verlet:.1f} | "
+              f"{fehlberg:.1f} | {there:.3f}, {here:.3f} |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bench", type=lambda path: pathlib.Path(path).resolve(), required=True)
     parser.add_argument("--work", type=lambda path: pathlib.Path(path).resolve(), required=True)
     parser.add_argument("--plate", nargs="*", default=["2e3", "2e4", "2e5", "1e6"])
     parser.add_argument("--impact", nargs="*", choices=IMPACTS, default=list(IMPACTS))
+    parser.add_argument("--collision", nargs="*", default=["2500", "2e4"])
     parser.add_argument("--cores", nargs="+", type=int, default=[1])
     parser.add_argument("--turns", type=int, default=3)
     a = parser.parse_args()
@@ -238,6 +285,8 @@ def main():
         print_plates(a)
     if a.impact:
         print_impacts(a)
+    if a.collision:
+        print_collisions(a)
 
 
 if __name__ == "__main__":

@@ -100,6 +100,21 @@ void plate_damp(dem_lattice *l, double time)
     for (dem_index k = 0; k < l->n_springs; k++) l->viscosity[k] = time * l->stiffness[k];
 }
 
+dem_lattice plate_make_two(dem_index nodes, double gap, double spacing, double speed)
+{
+    const dem_index columns = llround(sqrt((double)nodes)), rows = columns;
+    const double height = ((double)(rows - 1) * sqrt(3.0) / 2.0 + gap) * spacing;
+    dem_lattice both = dem_lattice_empty(), block = plate_make(columns, rows, spacing);
+    plate_triangulate(&block, columns);
+    ask(dem_lattice_launch(&block, (const double[2]){0.0, speed}));
+    ask(dem_lattice_append(&both, &block));
+    dem_lattice_move(&block, 0.0, (const double[2]){0.37 * spacing, height});
+    ask(dem_lattice_launch(&block, (const double[2]){0.0, -2.0 * speed}));
+    ask(dem_lattice_append(&both, &block));
+    dem_lattice_free(&block);
+    return both;
+}
+
 void plate_write_lammps(const dem_lattice *l, double spacing, double pad, const char *path)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
@@ -115,7 +130,8 @@ void plate_write_lammps(const dem_lattice *l, double spacing, double pad, const 
                   high[1], -0.5 * spacing, 0.5 * spacing);
     (void)fprintf(file, "Masses\n\n1 %.17g\n\nAtoms # bond\n\n", plate_mass(spacing));
     for (dem_index i = 0; i < l->n_nodes; i++)
-        (void)fprintf(file, "%lld 1 1 %.17g %.17g 0\n", (long long)i + 1, l->x[2 * i], l->x[2 * i + 1]);
+        (void)fprintf(file, "%lld %d 1 %.17g %.17g 0\n", (long long)i + 1, l->body != NULL ? l->body[i] + 1 : 1,
+                      l->x[2 * i], l->x[2 * i + 1]);
     (void)fprintf(file, "\nVelocities\n\n");
     for (dem_index i = 0; i < l->n_nodes; i++)
         (void)fprintf(file, "%lld %.17g %.17g 0\n", (long long)i + 1, l->velocity[2 * i], l->velocity[2 * i + 1]);
