@@ -85,8 +85,10 @@ def form(dice, radius):
 
 
 def part(dice, body, number, soft):
-    """One void, crack, inclusion or set of pores."""
+    """One void, crack, inclusion or set of pores, or of a mesh what may be in one."""
     kind = dice.one_of(["void", "crack", "pores"] + (["inclusion"] if soft else []))
+    if body.keys["shape"] == "mesh" and kind != "inclusion":
+        kind = "crack"  # a mesh has its voids from the mesher
     turn, way = dice.between(0.0, 6.28), 0.4 * body.room * dice.between(0.0, 1.0)
     at = [body.middle[0] + way * math.cos(turn), body.middle[1] + way * math.sin(turn)]
     if kind == "crack":
