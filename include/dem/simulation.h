@@ -156,7 +156,7 @@ typedef struct dem_energy {
     double contact;  /**< of surfaces that push each other off, and of what holds bodies by friction */
     double gravity;  /**< -sum m_i g.x_i, zero of height at the origin                                 (2) */
     double impact;   /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
-    double friction; /**< taken by lasting contacts and bodies that slide so far, >= 0 to the integrator's error */
+    double friction; /**< taken by lasting contacts and bodies that slide so far, >= 0; for bodies it may fall a bit */
     double damping;  /**< taken by the damping of springs and masses so far, >= 0 */
     double fracture; /**< taken by breaking so far: 0, as nothing breaks yet */
     double projection; /**< put in by returning nodes from the penetration tolerance to the surface so far */
