@@ -52,6 +52,7 @@ static inline char *folder_at(const scratch_folder *f, const char *name)
 {
     static char paths[4][SCRATCH_PATH];
     static int next;
+    assert(f->path[0] != '\0'); /* without it, names would be those of files in / */
     char *path = paths[next++ % 4];
     (void)snprintf(path, SCRATCH_PATH, "%s/%s", f->path, name);
     return path;

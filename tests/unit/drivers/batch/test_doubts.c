@@ -5,8 +5,7 @@
 #include <string.h>
 
 #include "harness/message.h"
-#include "unit/scratch.h"
-#include "unit/whole_deck.h"
+#include "unit/deck_text.h"
 #include "verification/support.h"
 
 static char text[4096];
@@ -18,6 +17,17 @@ static void read_log(run_log *log)
     assert_int_equal(fclose(log->out), 0);
 }
 
+/* What is doubted of the lattices of a deck stands in `text` then.
+ * \return how many warnings there are */
+static size_t doubt_lattices(const deck *d)
+{
+    run_log log = {.out = tmpfile()};
+    assert_non_null(log.out);
+    doubts_of_lattices(&log, d);
+    read_log(&log);
+    return log.n_warnings;
+}
+
 TEST(a_light_body_is_doubted)
 {
     body_facts bodies[4] = {{.mass = 0.971, .true_mass = 1.0},
@@ -25,11 +35,7 @@ TEST(a_light_body_is_doubted)
                             {.mass = 0.1}, /* of a lattice file: nothing is known */
                             {.mass = 1.1, .true_mass = 1.0}};
     const deck d = {.bodies = bodies, .n_bodies = 4};
-    run_log log = {.out = tmpfile()};
-    assert_non_null(log.out);
-    doubts_of_lattices(&log, &d);
-    read_log(&log);
-    assert_int_equal(log.n_warnings, 1);
+    assert_int_equal(doubt_lattices(&d), 1);
     assert_string_equal(text,
                         "warning    body 2 has 10.0 % less mass than its true shape: its stiffness is off, and "
                         "stresses at its edges do not converge; take a finer 'spacing' in &body, or a mesh (shape "
@@ -46,15 +52,8 @@ TEST(a_smooth_outline_is_proposed_to_those_bodies_that_have_none)
     static const char rings[] = "&run t_end = 1 /\n&obstacle points = -9, -9, 9, -9 /\n"
                                 "&material youngs_modulus = 1e7, density = 1000 /\n" RING("smooth", "0")
                                     RING("lattice", "0.1") RING("smooth", "0.2");
-    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
-    CLEANUP(deck_free) deck d;
-    run_log log = {.out = tmpfile()};
-    assert_non_null(log.out);
-    file_put(folder_at(&scratch, "rings.nml"), rings, strlen(rings));
-    assert_int_equal(whole_deck_read(&d, folder_at(&scratch, "rings.nml"), &errors), DECK_OK);
-    doubts_of_lattices(&log, &d);
-    read_log(&log);
-    assert_int_equal(log.n_warnings, 3);
+    CLEANUP(deck_free) deck d = deck_text_good(rings);
+    assert_int_equal(doubt_lattices(&d), 3);
     assert_line_parts(text,
                       "warning * body 1 has a wall of 0.01 m, only 5 spacings: * take a finer 'spacing' in &body, or a "
                       "mesh\n"
@@ -130,3 +129,5 @@ TEST(bodies_that_overlap_at_the_start_are_doubted)
     assert_non_null(strstr(text, "warning    bodies overlap at t = 0, which nothing undoes: node "));
     assert_non_null(strstr(text, " m; move a body by 'position' in &body\n"));
 }
+
+TEST_GROUP(scratch_make, scratch_remove);

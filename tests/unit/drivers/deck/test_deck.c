@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* deck.c and body.c: what decks mean, and where and why some mean nothing. */
 #include "unit/reading.h"
-#include "unit/whole_deck.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -12,8 +11,7 @@
 
 #include <hdf5.h>
 
-#include "deck.h"
-#include "unit/scratch.h"
+#include "unit/deck_text.h"
 
 #define RUN    "&run t_end = 1 /\n"
 #define RUBBER "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, guard = 0.5 /\n"
@@ -29,24 +27,6 @@ static void write_file(const char *name, const char *bytes, size_t n)
     file_put(path_of(name), bytes, n);
 }
 
-static deck_status read_deck(deck *d, const char *text, namelist_errors *errors)
-{
-    write_file("a.nml", text, strlen(text));
-    const deck_status status = whole_deck_read(d, path_of("a.nml"), errors);
-    assert_int_equal(unlink(path_of("a.nml")), 0);
-    return status;
-}
-
-static deck good_deck(const char *text)
-{
-    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
-    deck d;
-    const deck_status status = read_deck(&d, text, &errors);
-    if (errors.n > 0) fail_msg("%s", errors.list[0].text);
-    assert_int_equal(status, DECK_OK);
-    return d;
-}
-
 static void expect_text(const namelist_errors *errors, const char *expected)
 {
     char all[4096];
@@ -58,7 +38,7 @@ static void expect_errors(const char *text, const char *expected)
 {
     CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     deck d;
-    assert_int_equal(read_deck(&d, text, &errors), DECK_INVALID);
+    assert_int_equal(deck_text_read(&d, text, &errors), DECK_INVALID);
     expect_text(&errors, expected);
     assert_null(d.source);
     assert_int_equal(d.lattice.n_nodes, 0);
@@ -69,7 +49,8 @@ static void expect_errors(const char *text, const char *expected)
 TEST(every_key_finds_its_place)
 {
     CLEANUP(deck_free)
-    deck d = good_deck("&run title = 'A title', t_end = 2.5, gravity = 1, -2 /\n" RUBBER
+    deck d =
+        deck_text_good("&run title = 'A title', t_end = 2.5, gravity = 1, -2 /\n" RUBBER
                        "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber', velocity = 4, -5 /\n"
                        "&obstacle points = 0, -1, 1, -2, 2, -1, restitution = 0.25 /\n" FLOOR
                        "&contact penetration_tolerance = 1e-7, rest_speed = 1e-4, max_impacts = 77 /\n"
@@ -115,11 +96,11 @@ TEST(every_key_finds_its_place)
 TEST(friction_window_vertices_and_damping_find_their_places)
 {
     CLEANUP(deck_free)
-    deck d =
-        good_deck(RUN RUBBER BODY "&obstacle points = -9, 0, 9, 0, friction = 1.5 /\n"
-                                  "&obstacle points = -9, -1, 9, -1, friction = 0.25, friction_law = 'paper' /\n" FLOOR
-                                  "&contact method = 'exact', window = 2e-6, vertices = .false. /\n"
-                                  "&solver mass_damping = 12.5 /\n");
+    deck d = deck_text_good(RUN RUBBER BODY
+                            "&obstacle points = -9, 0, 9, 0, friction = 1.5 /\n"
+                            "&obstacle points = -9, -1, 9, -1, friction = 0.25, friction_law = 'paper' /\n" FLOOR
+                            "&contact method = 'exact', window = 2e-6, vertices = .false. /\n"
+                            "&solver mass_damping = 12.5 /\n");
     assert_close(d.obstacles[0].friction, 1.5, 0.0);
     assert_int_equal(d.obstacles[0].friction_law, DEM_FRICTION_COULOMB);
     assert_close(d.obstacles[1].friction, 0.25, 0.0);
@@ -144,7 +125,7 @@ TEST(poissons_ratio_and_plane_make_the_area_term)
                        RUN "&material name = 'rubber', youngs_modulus = 1e7, density = 1000 %s/\n"
                            "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n",
                        keys[k]);
-        CLEANUP(deck_free) deck d = good_deck(text);
+        CLEANUP(deck_free) deck d = deck_text_good(text);
         if (k == 0) assert_null(d.lattice.area_stiffness);
         if (k > 0) assert_close(d.lattice.area_stiffness[0], kappa[k], 1e-8);
     }
@@ -153,13 +134,13 @@ TEST(poissons_ratio_and_plane_make_the_area_term)
 TEST(what_the_output_shows_finds_its_place)
 {
     CLEANUP(deck_free)
-    deck d =
-        good_deck(RUN RUBBER
-                  "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber' /\n"
-                  "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', position = 20, 5, angle = 90 /\n"
-                  "&output fields = 'strain', 'principal', 'contact', 'strain', peak_every = 9, most_stressed = 3 /\n"
-                  "&probe name = 'one', number = 2 /\n"
-                  "&probe name = 'two', kind = 'gauge', place = -2, 0, 2, 0, body = 2, every = 5 /\n");
+    deck d = deck_text_good(
+        RUN RUBBER
+        "&body shape = 'rectangle', size = 2, 3, spacing = 1, material = 'rubber' /\n"
+        "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', position = 20, 5, angle = 90 /\n"
+        "&output fields = 'strain', 'principal', 'contact', 'strain', peak_every = 9, most_stressed = 3 /\n"
+        "&probe name = 'one', number = 2 /\n"
+        "&probe name = 'two', kind = 'gauge', place = -2, 0, 2, 0, body = 2, every = 5 /\n");
     assert_int_equal(d.fields, DEM_FIELD_STRAIN | DEM_FIELD_PRINCIPAL | DEM_FIELD_CONTACT);
     assert_int_equal(d.peak_every, 9);
     assert_int_equal(d.most_stressed, 3);
@@ -179,7 +160,8 @@ TEST(what_the_output_shows_finds_its_place)
 TEST(a_probe_s_place_moves_with_the_clearance)
 {
     CLEANUP(deck_free)
-    deck d = good_deck(RUN RUBBER FLOOR "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', "
+    deck d =
+        deck_text_good(RUN RUBBER FLOOR "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber', "
                                         "position = 3, 50, clearance = 1 /\n&probe name = 'top', place = 0, 2 /\n");
     const dem_index top = d.probes[0].number[0];
     for (dem_index i = 0; i < d.lattice.n_nodes; i++)
@@ -202,9 +184,9 @@ TEST(faults_of_probes_come_with_the_others)
 TEST(the_echo_of_a_probe_by_number_is_a_deck)
 {
     CLEANUP(deck_free)
-    deck d = good_deck(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
-                                  "&probe name = 'a', number = 1 /\n");
-    CLEANUP(deck_free) deck again = good_deck(d.echo);
+    deck d = deck_text_good(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n"
+                                       "&probe name = 'a', number = 1 /\n");
+    CLEANUP(deck_free) deck again = deck_text_good(d.echo);
     assert_non_null(strstr(d.echo, "    ! body = (not given)\n    number = 1\n"));
     assert_int_equal(again.run_hash, d.run_hash);
 }
@@ -212,7 +194,8 @@ TEST(the_echo_of_a_probe_by_number_is_a_deck)
 TEST(a_window_of_zero_is_not_the_default)
 {
     CLEANUP(deck_free)
-    deck chosen = good_deck(RUN RUBBER BODY FLOOR), single = good_deck(RUN RUBBER BODY FLOOR "&contact window = 0 /\n");
+    deck chosen = deck_text_good(RUN RUBBER BODY FLOOR),
+         single = deck_text_good(RUN RUBBER BODY FLOOR "&contact window = 0 /\n");
     assert_close(chosen.options.window, dem_options_default().window, 0.0);
     assert_true(chosen.options.window < 0.0);
     assert_close(single.options.window, 0.0, 0.0);
@@ -240,7 +223,7 @@ TEST(friction_goes_with_its_law)
 TEST(keys_not_given_are_left_to_the_library)
 {
     CLEANUP(deck_free)
-    deck d = good_deck(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n");
+    deck d = deck_text_good(RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n");
     const dem_options expected = dem_options_default();
     assert_int_equal(d.options.method, expected.method);
     assert_close(d.options.rtol, expected.rtol, 0.0);
@@ -266,10 +249,10 @@ TEST(keys_not_given_are_left_to_the_library)
 TEST(bodies_come_in_their_order_turned_and_placed)
 {
     CLEANUP(deck_free)
-    deck d = good_deck(RUN RUBBER
-                       "&body shape = 'rectangle', size = 4, 3, spacing = 1, material = 'rubber', position = 10, 20,\n"
-                       "      angle = 90 /\n"
-                       "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber', position = -5, 6 /\n");
+    deck d = deck_text_good(
+        RUN RUBBER "&body shape = 'rectangle', size = 4, 3, spacing = 1, material = 'rubber', position = 10, 20,\n"
+                   "      angle = 90 /\n"
+                   "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber', position = -5, 6 /\n");
     const dem_index first = 5 + 4 + 5 + 4;
     assert_int_equal(d.lattice.n_nodes, first + 7);
     assert_int_equal(d.lattice.body[first - 1], 0);
@@ -292,10 +275,10 @@ static double least_gap(const deck *d)
 TEST(clearance_is_the_smallest_gap_and_leaves_x_alone)
 {
     CLEANUP(deck_free)
-    deck d = good_deck(RUN RUBBER
-                       "&body shape = 'disc', radius = 2, spacing = 0.25, material = 'rubber', position = 0.3, 0,\n"
-                       "      clearance = 1e-3, angle = 17, outline = 'lattice' /\n"
-                       "&obstacle points = -9, 0, 0, 2, 1, -1, 9, 0.5 /\n");
+    deck d = deck_text_good(
+        RUN RUBBER "&body shape = 'disc', radius = 2, spacing = 0.25, material = 'rubber', position = 0.3, 0,\n"
+                   "      clearance = 1e-3, angle = 17, outline = 'lattice' /\n"
+                   "&obstacle points = -9, 0, 0, 2, 1, -1, 9, 0.5 /\n");
     double centre = 0.0;
     for (dem_index i = 0; i < d.lattice.n_nodes; i++) centre += d.lattice.x[2 * i];
     assert_close(centre / (double)d.lattice.n_nodes, 0.3, 1e-12);
@@ -311,7 +294,7 @@ TEST(voids_and_pores_leave_holes_in_their_body_only)
                    "&void body = 2, shape = 'rectangle', centre = -1, 3, size = 0.5, 1 /\n";
     char text[2048];
     (void)snprintf(text, sizeof text, "%s%s", bodies, "&pores body = 1, number = 3, radius = 0.2, 0.3, seed = 4 /\n");
-    CLEANUP(deck_free) deck without = good_deck(bodies), with = good_deck(text);
+    CLEANUP(deck_free) deck without = deck_text_good(bodies), with = deck_text_good(text);
     dem_index n[2][2] = {{0}};
     for (dem_index i = 0; i < without.lattice.n_nodes; i++) n[0][without.lattice.body[i]]++;
     for (dem_index i = 0; i < with.lattice.n_nodes; i++) n[1][with.lattice.body[i]]++;
@@ -335,7 +318,7 @@ TEST(the_hash_is_of_the_physics_alone)
     for (int k = 0; k < 4; k++) {
         char text[512];
         (void)snprintf(text, sizeof text, "%s%s", heads[k], rest);
-        CLEANUP(deck_free) deck d = good_deck(text);
+        CLEANUP(deck_free) deck d = deck_text_good(text);
         uint64_t expected = UINT64_C(0xcbf29ce484222325);
         for (const char *c = d.physics; *c != '\0'; c++) expected = (expected ^ (unsigned char)*c) * 1099511628211u;
         assert_true(d.hash == expected);
@@ -350,10 +333,10 @@ TEST(the_hash_is_of_the_physics_alone)
 TEST(the_echo_is_a_deck_of_the_same_problem)
 {
     CLEANUP(deck_free)
-    deck d = good_deck(RUN RUBBER
-                       "&body shape = 'disc', radius = 2, spacing = 0.3, material = 'rubber', clearance = 1e-3 /\n"
-                       "&void centre = 0, 0.1, radius = 0.7 /\n" FLOOR);
-    CLEANUP(deck_free) deck again = good_deck(d.echo);
+    deck d = deck_text_good(RUN RUBBER
+                            "&body shape = 'disc', radius = 2, spacing = 0.3, material = 'rubber', clearance = 1e-3 /\n"
+                            "&void centre = 0, 0.1, radius = 0.7 /\n" FLOOR);
+    CLEANUP(deck_free) deck again = deck_text_good(d.echo);
     assert_true(again.hash == d.hash && again.run_hash == d.run_hash);
     assert_string_equal(again.physics, d.physics);
     assert_int_equal(again.lattice.n_nodes, d.lattice.n_nodes);
@@ -373,7 +356,8 @@ TEST(disconnected_parts_are_refused_removed_or_kept)
     expect_errors(BAR(""),
                   "3:1 * body 1 * 1 * shares * edge * largest * 4 * triangles * (2, 0) * coordinates * 'disconnected'");
     CLEANUP(deck_free)
-    deck kept = good_deck(BAR(", disconnected = 'keep'")), removed = good_deck(BAR(", disconnected = 'remove'"));
+    deck kept = deck_text_good(BAR(", disconnected = 'keep'")),
+         removed = deck_text_good(BAR(", disconnected = 'remove'"));
     assert_int_equal(kept.lattice.n_nodes, removed.lattice.n_nodes + 6);
     for (dem_index i = 0; i < removed.lattice.n_nodes; i++) assert_true(removed.lattice.x[2 * i] < 1.0);
 }
@@ -459,7 +443,7 @@ TEST(obstacles_must_be_polylines)
 TEST(a_polyline_is_taken_as_it_is)
 {
     CLEANUP(deck_free)
-    deck d = good_deck(RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 0, 9, -1, 8, -1, profile = 'polyline' /\n");
+    deck d = deck_text_good(RUN RUBBER LIFTED "&obstacle points = -9, 0, 9, 0, 9, -1, 8, -1, profile = 'polyline' /\n");
     const double expected[8] = {-9, 0, 9, 0, 9, -1, 8, -1};
     assert_int_equal(d.obstacles[0].n_points, 4);
     assert_memory_equal(d.obstacles[0].points, expected, sizeof expected);
@@ -474,14 +458,14 @@ TEST(a_smooth_profile_is_compiled_to_segments)
     const char *points = "&obstacle points = -1, 0, 0, 1, 1, 0, restitution = 0.25, profile = 'smooth'";
     char text[600];
     (void)snprintf(text, sizeof text, "%s%s /\n", RUN RUBBER LIFTED, points);
-    CLEANUP(deck_free) deck d = good_deck(text);
+    CLEANUP(deck_free) deck d = deck_text_good(text);
     assert_int_equal(d.obstacles[0].n_points, 201);
     assert_close(d.obstacles[0].restitution, 0.25, 0.0);
     assert_close(d.obstacles[0].points[2 * 50], -0.5, 1e-15);
     assert_close(d.obstacles[0].points[2 * 50 + 1], 0.625, 1e-15);
     deck_free(&d);
     (void)snprintf(text, sizeof text, "%s%s, resolution = 0.3 /\n", RUN RUBBER LIFTED, points);
-    d = good_deck(text);
+    d = deck_text_good(text);
     assert_int_equal(d.obstacles[0].n_points, 8); /* 2/0.3 are 6.7 */
     assert_close(d.obstacles[0].points[14], 1.0, 0.0);
 }
@@ -497,7 +481,7 @@ TEST(a_rough_profile_is_compiled_to_segments)
         char text[600];
         double squares = 0.0;
         (void)snprintf(text, sizeof text, "%s, seed = %d /\n", deck_text, k + 1);
-        CLEANUP(deck_free) deck d = good_deck(text), again = good_deck(d.echo);
+        CLEANUP(deck_free) deck d = deck_text_good(text), again = deck_text_good(d.echo);
         const double *points = d.obstacles[0].points;
         assert_int_equal(d.obstacles[0].n_points, 1001);
         for (int i = 0; i <= 1000; i++) squares += pow(points[2 * i + 1] - 0.9 - 0.1 * points[2 * i], 2.0) / 1001.0;
@@ -621,12 +605,12 @@ TEST(bodies_that_start_in_an_obstacle_are_named)
                           "5:1 * body 3 * 0.366025 m * inside * obstacle 1 * (-0.5, 9.36603) * penetration * tolerance "
                           "* 0.25 m * 'position' * 'clearance' * reverse");
     const char *cleared = RUN RUBBER DISC(", clearance = 1e-3") FLOOR;
-    CLEANUP(deck_free) deck d = good_deck(cleared);
+    CLEANUP(deck_free) deck d = deck_text_good(cleared);
     deck_free(&d);
     expect_errors(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR,
                   "3:1 * body 1 * 2.54038e-05 m * inside * obstacle 1 * (-0.5, -2.54038e-05) * penetration * tolerance "
                   "* 1e-06 m * 'position' * 'clearance' * reverse");
-    d = good_deck(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR "&solver spacing = 30 /\n");
+    d = deck_text_good(RUN RUBBER DISC(", position = 0, 0.8660") FLOOR "&solver spacing = 30 /\n");
 }
 
 TEST(sizes_that_cannot_be_computed_with_are_named)
@@ -671,9 +655,9 @@ TEST(names_and_numbers_of_the_output_are_checked)
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.00001' /\n", expected);
     expect_errors("&run t_end = 1e9 /\n" RUBBER DISC("") "&output frame_interval = 1e-3 /\n",
                   "4:9 * 'frame_interval' * &output * 0.001 s * 1e+12 * frames * 't_end' * limit * 10000000");
-    CLEANUP(deck_free) deck d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.parts' /\n");
+    CLEANUP(deck_free) deck d = deck_text_good("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.parts' /\n");
     deck_free(&d);
-    d = good_deck("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.0001' /\n");
+    d = deck_text_good("&run t_end = 1e4 /\n" RUBBER DISC("") "&output name = 'a.0001' /\n");
 }
 
 /* ---- lattice files ---- */
@@ -712,10 +696,10 @@ TEST(a_lattice_file_is_turned_placed_cleared_and_launched)
     const int32_t bodies[5] = {0, 0, 0, 1, 1};
     write_lattice("a.h5", 1.0, bodies);
     CLEANUP(deck_free)
-    deck d =
-        good_deck(RUN RUBBER "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber', position = 0, 8 /\n"
-                             "&body shape = 'file', file = 'a.h5', position = 2, 3, angle = 90, velocity = 10, 20,\n"
-                             "      clearance = 0.5 /\n" FLOOR);
+    deck d = deck_text_good(RUN RUBBER
+                            "&body shape = 'disc', radius = 1, spacing = 1, material = 'rubber', position = 0, 8 /\n"
+                            "&body shape = 'file', file = 'a.h5', position = 2, 3, angle = 90, velocity = 10, 20,\n"
+                            "      clearance = 0.5 /\n" FLOOR);
     assert_int_equal(d.lattice.n_nodes, 12);
     assert_int_equal(d.lattice.body[7], 1);
     assert_int_equal(d.lattice.body[11], 2);
@@ -730,7 +714,7 @@ TEST(a_material_is_needed_by_meshes_only)
 {
     expect_errors(RUN DISC(""), "1:1 * &material * given");
     write_lattice("a.h5", 1.0, NULL);
-    CLEANUP(deck_free) deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n");
+    CLEANUP(deck_free) deck d = deck_text_good(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n");
     assert_int_equal(unlink(path_of("a.h5")), 0);
 }
 
@@ -740,7 +724,7 @@ TEST(the_hash_is_of_the_lattice_file_too)
     uint64_t hash[3], run_hash[3];
     for (int k = 0; k < 3; k++) {
         if (k != 1) write_lattice("a.h5", 1.0 + k, NULL);
-        CLEANUP(deck_free) deck d = good_deck(text);
+        CLEANUP(deck_free) deck d = deck_text_good(text);
         assert_int_equal(d.lattice.n_nodes, 3);
         hash[k] = d.hash;
         run_hash[k] = d.run_hash;
@@ -755,7 +739,7 @@ TEST(the_echo_names_a_lattice_file_by_its_whole_path)
     CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     write_lattice("a.h5", 1.0, NULL);
     CLEANUP(deck_free)
-    deck d = good_deck(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n"), again;
+    deck d = deck_text_good(RUN "&body shape = 'file', file = 'a.h5', disconnected = 'remove' /\n"), again;
     assert_non_null(strstr(d.echo, path_of("a.h5")));
     assert_non_null(strstr(d.echo, "    ! material = (not given)\n"));
     assert_non_null(strstr(d.physics, "    file = 'fnv1a:"));
@@ -775,11 +759,11 @@ TEST(what_is_wrong_with_a_lattice_file_is_reported_at_its_key)
     CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     deck d;
     write_lattice("a.h5", -1.0, NULL);
-    assert_int_equal(read_deck(&d,
-                               RUN RUBBER "&body shape = 'file', file = 'none.h5' /\n"
-                                          "&body shape = 'file', file = 'a.h5' /\n"
-                                          "&body shape = 'file', file = 'a.h5', disconnected = 'keep' /\n",
-                               &errors),
+    assert_int_equal(deck_text_read(&d,
+                                    RUN RUBBER "&body shape = 'file', file = 'none.h5' /\n"
+                                               "&body shape = 'file', file = 'a.h5' /\n"
+                                               "&body shape = 'file', file = 'a.h5', disconnected = 'keep' /\n",
+                                    &errors),
                      DECK_INVALID);
     assert_int_equal(errors.n, 3);
     assert_int_equal(errors.list[0].place.column, 23);
