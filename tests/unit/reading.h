@@ -78,6 +78,18 @@ static inline void list_faults(const namelist_errors *errors, char *out, size_t 
     }
 }
 
+/* A text has one fault, in this line and with this word; or none, where the word is NULL. */
+static inline void assert_one_fault(const namelist_errors *errors, const char *text, int line, const char *word)
+{
+    if (word == NULL) {
+        if (errors->n > 0) fail_msg("'%s' gives '%s'", text, errors->list[0].text);
+        return;
+    }
+    if (errors->n != 1) fail_msg("'%s' gives %zu faults", text, errors->n);
+    assert_int_equal(errors->list[0].place.line, line);
+    if (strstr(errors->list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors->list[0].text);
+}
+
 static inline void assert_faults_of(const char *text, size_t size, const char *expected)
 {
     char got[4096];

@@ -20,13 +20,7 @@ static void assert_checked(const char *text, int line, const char *word)
     (void)snprintf(all, sizeof all, RUN RUBBER "%s", text);
     CLEANUP(drop_resolved) resolved r = resolve_clean(all);
     body_checks_all(&r.deck, &errors);
-    if (word == NULL) {
-        if (errors.n > 0) fail_msg("'%s' gives '%s'", text, errors.list[0].text);
-    } else {
-        if (errors.n != 1) fail_msg("'%s' gives %zu faults", text, errors.n);
-        assert_int_equal(errors.list[0].place.line, line + 2);
-        if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
-    }
+    assert_one_fault(&errors, text, line + 2, word);
 }
 
 TEST(sizes_at_the_limit_pass)

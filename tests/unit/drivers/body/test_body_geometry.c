@@ -57,9 +57,7 @@ static void expect_fault(const char *text, size_t k, int line, const char *word)
     formed f;
     CLEANUP(namelist_errors_free) namelist_errors errors = {0};
     assert_int_equal(build(&f, text, k, &errors), DEM_ERROR_MODEL);
-    assert_int_equal(errors.n, 1);
-    assert_int_equal(errors.list[0].place.line, line + 2);
-    if (strstr(errors.list[0].text, word) == NULL) fail_msg("no '%s' in '%s'", word, errors.list[0].text);
+    assert_one_fault(&errors, text, line + 2, word);
     assert_null(f.lattice.x);
 }
 
