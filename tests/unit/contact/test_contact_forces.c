@@ -601,34 +601,70 @@ TEST(the_order_in_which_candidates_are_listed_does_not_matter)
 
 /* ---- impulses ---- */
 
-/* Velocities up to 1.4 m/s: rounding, over the square root of what is taken as redundant. */
-static const double stop_tolerance = 1e-9;
-
 static void stop_all(mix *w, contact_forces *r, double *v)
 {
     memcpy(v, w->b.v, sizeof w->b.v);
     for (dem_index g = 0; g < r->n_groups; g++) contact_forces_stop(r, r->groups[g], (scene_state){0.0, w->b.x, v}, v);
 }
 
-/* Also where contacts are redundant: rest is always allowed. */
+/* At least 1 N s. */
+static double largest_impulse(const mix *w, const contact_forces *r)
+{
+    double largest = 1.0;
+    for (int c = 0; c < w->n_links; c++) {
+        const contact_force f = r->force[w->list[c].candidate][w->list[c].q];
+        largest = fmax(largest, hypot(f.normal, f.tangent));
+    }
+    return largest;
+}
+
+static double kinetic_energy(const bench *b, const double *v)
+{
+    double sum = 0.0;
+    for (dem_index i = 0; i < b->model.lattice.n_nodes; i++)
+        sum += 0.5 * b->mass[i] * vec2_dot(vec2_at(v, i), vec2_at(v, i));
+    return sum;
+}
+
+/* The fastest that the point of a contact goes with a kinetic energy. */
+static double fastest(const mix *w, const link *l, double energy)
+{
+    double mobility = 0.0;
+    for (int p = 0; p < l->n; p++) mobility += l->weight[p] * l->weight[p] * w->b.inverse_mass[l->node[p]];
+    return sqrt(2.0 * energy * mobility);
+}
+
+/* The speed that a stop has left at a contact. */
+static double speed_left(const link *l, const double *v)
+{
+    const double along = part_of(l, v, l->normal), across = l->slide == 0 ? part_of(l, v, l->tangent) : 0.0;
+    return fmax(fabs(along), fabs(across));
+}
+
+/* Also where contacts are redundant: rest is always allowed. To rounding of impulses, which nearly redundant contacts
+ * make large: found is 2.5e-13 of the largest one in 1e6 scenes. A contact is taken as redundant where the others leave
+ * it less than 1e-10 of its mobility: then the root of that may be left of the speed that all energy would give it.
+ * Found are 4 such scenes in 1e5. */
 TEST(after_a_stop_nothing_moves_along_closed_normals_and_where_it_sticks)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
-    int n_checked = 0;
+    int n_checked = 0, n_left = 0;
     for (int k = 0; k < 4000; k++) {
         double v[2 * BENCH_NODES];
+        bool is_left = false;
         CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
         stop_all(&w, &r, v);
-        for (int c = 0; c < w.n_links; c++) {
-            const link *l = &w.list[c];
-            assert_close(part_of(l, v, l->normal), 0.0, stop_tolerance);
-            if (l->slide == 0) assert_close(part_of(l, v, l->tangent), 0.0, stop_tolerance);
-            n_checked++;
+        const double rounding = 1e-12 * largest_impulse(&w, &r), energy = kinetic_energy(&w.b, w.b.v);
+        for (int c = 0; c < w.n_links; c++, n_checked++) {
+            const double speed = speed_left(&w.list[c], v);
+            is_left = is_left || speed > rounding;
+            assert_true(speed <= rounding + 1e-5 * fastest(&w, &w.list[c], energy));
         }
+        n_left += is_left;
     }
-    assert_true(n_checked > 10000);
+    assert_true(n_checked > 10000 && n_left <= 4);
     gsl_rng_free(w.rng);
 }
 
@@ -638,23 +674,16 @@ TEST(a_stop_takes_the_energy_of_the_change_and_gives_none)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     for (int k = 0; k < 4000; k++) {
-        double v[2 * BENCH_NODES], before = 0.0, after = 0.0, change = 0.0, largest = 1.0;
+        double v[2 * BENCH_NODES], dv[2 * BENCH_NODES];
         CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
         stop_all(&w, &r, v);
-        for (dem_index i = 0; i < w.b.model.lattice.n_nodes; i++) {
-            const vec2 v0 = vec2_at(w.b.v, i), v1 = vec2_at(v, i), dv = vec2_sub(v1, v0);
-            before += 0.5 * w.b.mass[i] * vec2_dot(v0, v0);
-            after += 0.5 * w.b.mass[i] * vec2_dot(v1, v1);
-            change += 0.5 * w.b.mass[i] * vec2_dot(dv, dv);
-        }
-        for (int c = 0; c < w.n_links; c++) {
-            const contact_force f = r.force[w.list[c].candidate][w.list[c].q];
-            largest = fmax(largest, fmax(fabs(f.normal), fabs(f.tangent)));
-        }
+        for (dem_index i = 0; i < 2 * w.b.model.lattice.n_nodes; i++) dv[i] = v[i] - w.b.v[i];
+        const double before = kinetic_energy(&w.b, w.b.v), after = kinetic_energy(&w.b, v);
+        const double largest = largest_impulse(&w, &r);
         /* rounding of impulses, which nearly redundant contacts make large, times what that leaves of velocities */
-        assert_close(after + change, before, 1e-13 * largest * largest);
+        assert_close(after + kinetic_energy(&w.b, dv), before, 1e-13 * largest * largest);
         assert_true(after <= before * (1.0 + 1e-14)); /* rounding of sums */
     }
     gsl_rng_free(w.rng);
@@ -666,7 +695,7 @@ TEST(impulses_account_for_the_momentum_of_every_node)
 {
     mix w = {.rng = gsl_rng_alloc(gsl_rng_mt19937)};
     for (int k = 0; k < 4000; k++) {
-        double v[2 * BENCH_NODES], given[2 * BENCH_NODES] = {0.0}, largest = 1.0;
+        double v[2 * BENCH_NODES], given[2 * BENCH_NODES] = {0.0};
         CLEANUP(contact_forces_destroy) contact_forces r;
         mix_next(&w);
         regroup(&w.b, &r);
@@ -677,7 +706,6 @@ TEST(impulses_account_for_the_momentum_of_every_node)
             const contact_force f = r.force[l->candidate][l->q];
             const vec2 impulse = vec2_along(vec2_scale(f.normal, l->normal), f.tangent, l->tangent);
             if (l->slide != 0 && !l->held) assert_close(f.tangent, 0.0, 1e-15); /* rounding of impulses of order 1 */
-            largest = fmax(largest, vec2_norm(impulse));
             for (int p = 0; p < l->n; p++)
                 vec2_put(given, l->node[p], vec2_along(vec2_at(given, l->node[p]), l->weight[p], impulse));
         }
@@ -687,7 +715,7 @@ TEST(impulses_account_for_the_momentum_of_every_node)
             if (m == 0.0) assert_close(v[2 * i], 0.0, 0.0);
             if (m == 0.0) continue; /* a fixed node takes what it is given */
             /* rounding of some impulses, which nearly redundant contacts make large */
-            check_vector(vec2_at(given, i), change.x, change.y, 1e-14 * largest);
+            check_vector(vec2_at(given, i), change.x, change.y, 1e-14 * largest_impulse(&w, &r));
         }
     }
     gsl_rng_free(w.rng);
