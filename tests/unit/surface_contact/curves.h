@@ -44,4 +44,12 @@ static inline dem_lattice curves_make(gsl_rng *rng, dem_index n_bodies, dem_inde
     return l;
 }
 
+/** The nodes' places, each coordinate shifted by up to `most` m at random: [2 n_nodes], m. Free with free(). */
+static inline double *curves_shift(gsl_rng *rng, const dem_lattice *l, double most)
+{
+    double *x = malloc(2 * (size_t)l->n_nodes * sizeof *x);
+    for (dem_index k = 0; k < 2 * l->n_nodes; k++) x[k] = l->x[k] + 2.0 * most * (gsl_rng_uniform(rng) - 0.5);
+    return x;
+}
+
 #endif

@@ -22,14 +22,11 @@ typedef struct scene {
 static void open_scene(scene *s, gsl_rng *rng)
 {
     *s = (scene){.lattice = curves_make(rng, 9, 24, 2.1)};
-    const size_t size = 2 * (size_t)s->lattice.n_nodes * sizeof *s->x;
     assert_ok(contact_surface_compile(&s->surface, &s->lattice, 0.0, 1.0));
     assert_ok(pair_list_create(&s->list, &s->surface, true, 0.5));
     s->close = (close_pairs){.ways.surface = &s->surface};
-    s->x = malloc(size);
-    s->x1 = malloc(size);
-    for (dem_index k = 0; k < 2 * s->lattice.n_nodes; k++)
-        s->x[k] = s->lattice.x[k] + 0.2 * (gsl_rng_uniform(rng) - 0.5);
+    s->x = curves_shift(rng, &s->lattice, 0.1);
+    s->x1 = malloc(2 * (size_t)s->lattice.n_nodes * sizeof *s->x1);
     assert_false(close_pairs_hold(&s->close, s->x));
     assert_ok(pair_list_follow(&s->list, s->x, 0.0));
     assert_ok(close_pairs_choose(&s->close, &s->list.pairs, margin, s->x));

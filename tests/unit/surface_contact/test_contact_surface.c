@@ -24,9 +24,7 @@ static void open_scene(scene *s, gsl_rng *rng, double friction)
     const surface_contact_rule rule = {.within_bodies = true, .stiffness = 1.0, .friction = friction};
     *s = (scene){.lattice = curves_make(rng, STARS, CORNERS, 2.1)};
     assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
-    s->x = malloc(2 * (size_t)s->lattice.n_nodes * sizeof *s->x);
-    for (dem_index k = 0; k < 2 * s->lattice.n_nodes; k++)
-        s->x[k] = s->lattice.x[k] + 0.2 * (gsl_rng_uniform(rng) - 0.5);
+    s->x = curves_shift(rng, &s->lattice, 0.1);
     for (int b = 0; b < STARS; b++) s->whole[b] = CORNERS;
 }
 

@@ -21,9 +21,7 @@ static void open_scene(scene *s, gsl_rng *rng, double margin, bool within_bodies
     *s = (scene){.lattice = curves_make(rng, 9, 24, 2.1)};
     assert_ok(contact_surface_compile(&s->surface, &s->lattice, 0.0, 1.0));
     assert_ok(pair_list_create(&s->list, &s->surface, within_bodies, margin));
-    s->x = malloc(2 * (size_t)s->lattice.n_nodes * sizeof *s->x);
-    for (dem_index k = 0; k < 2 * s->lattice.n_nodes; k++)
-        s->x[k] = s->lattice.x[k] + 0.2 * (gsl_rng_uniform(rng) - 0.5);
+    s->x = curves_shift(rng, &s->lattice, 0.1);
 }
 
 static void close_scene(scene *s)

@@ -20,9 +20,8 @@ static void open_scene(scene *s, gsl_rng *rng, double margin)
     *s = (scene){.lattice = curves_make(rng, 9, 24, 2.1)};
     const size_t n = (size_t)s->lattice.n_nodes;
     assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
-    s->x = malloc(2 * n * sizeof *s->x);
+    s->x = curves_shift(rng, &s->lattice, 0.1);
     s->inverse_mass = malloc(n * sizeof *s->inverse_mass);
-    for (size_t k = 0; k < 2 * n; k++) s->x[k] = s->lattice.x[k] + 0.2 * (gsl_rng_uniform(rng) - 0.5);
     for (size_t k = 0; k < n; k++) s->inverse_mass[k] = 1.0 + 0.5 * sin((double)k);
 }
 
