@@ -55,6 +55,20 @@ dem_lattice support_squares(double side, double spacing, const dem_material *mat
     return first;
 }
 
+double support_top(const dem_lattice *l)
+{
+    double top = -INFINITY;
+    for (dem_index i = 0; i < l->n_nodes; i++) top = fmax(top, l->x[2 * i + 1]);
+    return top;
+}
+
+double support_bottom(const dem_lattice *l)
+{
+    double bottom = INFINITY;
+    for (dem_index i = 0; i < l->n_nodes; i++) bottom = fmin(bottom, l->x[2 * i + 1]);
+    return bottom;
+}
+
 dem_model *support_model(const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles)
 {
     dem_model *model;

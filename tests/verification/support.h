@@ -28,6 +28,10 @@ dem_lattice support_rectangle(double width, double height, double spacing, const
  *  Free with dem_lattice_free. */
 dem_lattice support_squares(double side, double spacing, const dem_material *material, const double way[2]);
 
+/** Heights of the highest and of the lowest node, m. */
+double support_top(const dem_lattice *l);
+double support_bottom(const dem_lattice *l);
+
 /** What dem_model_create() and dem_simulation_create() make, which must succeed. */
 dem_model *support_model(const dem_lattice *lattice, const dem_obstacle *obstacles, dem_index n_obstacles);
 dem_simulation *support_simulation(const dem_model *model, const dem_options *options);

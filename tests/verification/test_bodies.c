@@ -24,8 +24,7 @@ static dem_lattice make_blocks(double spacing, double shift, double speed)
 {
     dem_lattice lower = support_rectangle(side, side, spacing, &rubber),
                 upper = support_rectangle(side, side, spacing, &rubber);
-    double top = 0.0;
-    for (dem_index i = 0; i < lower.n_nodes; i++) top = fmax(top, lower.x[2 * i + 1]);
+    const double top = support_top(&lower);
     for (dem_index i = 0; i < lower.n_nodes; i++) {
         lower.x[2 * i + 1] -= top + 0.5 * spacing;
         upper.x[2 * i] = -lower.x[2 * i] + shift;

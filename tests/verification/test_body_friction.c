@@ -25,9 +25,7 @@ static const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET, 
 static dem_lattice make_block(double width, double height, double middle, double bottom)
 {
     dem_lattice l = support_rectangle(width, height, spacing, &rubber);
-    double low = INFINITY;
-    for (dem_index i = 0; i < l.n_nodes; i++) low = fmin(low, l.x[2 * i + 1]);
-    dem_lattice_move(&l, 0.0, (const double[2]){middle, bottom - low});
+    dem_lattice_move(&l, 0.0, (const double[2]){middle, bottom - support_bottom(&l)});
     return l;
 }
 
@@ -37,20 +35,14 @@ static void add(dem_lattice *to, dem_lattice body)
     dem_lattice_free(&body);
 }
 
-static double top_of(const dem_lattice *l)
-{
-    double top = -INFINITY;
-    for (dem_index i = 0; i < l->n_nodes; i++) top = fmax(top, l->x[2 * i + 1]);
-    return top;
-}
-
 /* A fixed plate, and blocks on it, 40 mm wide and 20 mm high, which just touch. */
 static dem_lattice make_stack(int n_blocks)
 {
     dem_lattice l = make_block(0.14, 2.0 * spacing, 0.0, 0.0);
     l.flags = malloc((size_t)l.n_nodes);
     memset(l.flags, DEM_NODE_FIXED | DEM_NODE_CONTACT, (size_t)l.n_nodes);
-    for (int k = 0; k < n_blocks; k++) add(&l, make_block(0.04, 0.02, -0.02 + 1e-3 * k, top_of(&l) + 0.99 * thickness));
+    for (int k = 0; k < n_blocks; k++)
+        add(&l, make_block(0.04, 0.02, -0.02 + 1e-3 * k, support_top(&l) + 0.99 * thickness));
     return l;
 }
 
@@ -281,7 +273,7 @@ TEST(a_driven_plate_drags_a_block_by_friction_alone)
 static dem_lattice make_collision(double along, double down)
 {
     dem_lattice l = make_block(0.06, 0.03, 0.0, 0.0);
-    add(&l, make_block(0.06, 0.03, 0.37 * spacing, top_of(&l) + 1.1 * thickness));
+    add(&l, make_block(0.06, 0.03, 0.37 * spacing, support_top(&l) + 1.1 * thickness));
     launch(&l, 1, along, -down);
     return l;
 }
@@ -373,7 +365,7 @@ static void open_on_floor(support_run *run, const dem_options *options)
     const double points[4] = {-1.0, 0.0, 1.0, 0.0};
     const dem_obstacle ground = SIZED(dem_obstacle, .n_points = 2, .points = points, .friction = 0.3);
     CLEANUP(dem_lattice_free) dem_lattice l = make_block(0.06, spacing, 0.0, 1e-5);
-    add(&l, make_block(0.03, 0.02, 0.2 * spacing, top_of(&l) + 0.6 * thickness));
+    add(&l, make_block(0.03, 0.02, 0.2 * spacing, support_top(&l) + 0.6 * thickness));
     launch(&l, 0, 0.5, -2.0);
     launch(&l, 1, 2.5, -2.0);
     support_open(run, &l, &ground, 1, options);

@@ -10,21 +10,6 @@ static dem_material rubber_of(double poissons_ratio)
                                .thickness = 1.0, .guard = 0.02);
 }
 
-/* Lowest and highest node, m. */
-typedef struct extent {
-    double low, high;
-} extent;
-
-static extent extent_of(const dem_lattice *l)
-{
-    extent e = {INFINITY, -INFINITY};
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        e.low = fmin(e.low, l->x[2 * i + 1]);
-        e.high = fmax(e.high, l->x[2 * i + 1]);
-    }
-    return e;
-}
-
 static dem_options free_options(void)
 {
     dem_options o = support_options();
@@ -63,7 +48,7 @@ static dem_lattice make_halves(double spacing, double *middle)
     const double height = 0.07794 - 0.5 * sqrt(3.0) * spacing; /* one row less than half of the whole block has */
     dem_lattice lower = support_rectangle(0.04, height, spacing, &rubber);
     CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.04, height, spacing, &rubber);
-    *middle = extent_of(&lower).high + 0.1 * spacing;
+    *middle = support_top(&lower) + 0.1 * spacing;
     dem_lattice_move(&upper, M_PI, (const double[2]){0.0, 2.0 * *middle});
     assert_ok(dem_lattice_append(&lower, &upper));
     return lower;
@@ -74,7 +59,7 @@ static dem_lattice make_whole(double spacing, double *middle)
 {
     const dem_material rubber = rubber_of(1.0 / 3.0);
     dem_lattice l = support_rectangle(0.04, 2.0 * 0.07794 - 0.5 * sqrt(3.0) * spacing, spacing, &rubber);
-    *middle = 0.5 * (extent_of(&l).low + extent_of(&l).high);
+    *middle = 0.5 * (support_bottom(&l) + support_top(&l));
     return l;
 }
 
@@ -127,10 +112,10 @@ static void hit_row(double spacing, double speed, double poissons_ratio, double 
     CLEANUP(dem_lattice_free) dem_lattice bars = support_rectangle(0.02, 0.08, spacing, &rubber);
     for (int k = 1; k < BARS; k++) {
         CLEANUP(dem_lattice_free) dem_lattice next = support_rectangle(0.02, 0.08, spacing, &rubber);
-        dem_lattice_move(&next, 0.0, (const double[2]){0.0, extent_of(&bars).high + row - extent_of(&next).low});
+        dem_lattice_move(&next, 0.0, (const double[2]){0.0, support_top(&bars) + row - support_bottom(&next)});
         assert_ok(dem_lattice_append(&bars, &next));
     }
-    launch_below(&bars, extent_of(&bars).low + 0.08 + 0.5 * row, speed);
+    launch_below(&bars, support_bottom(&bars) + 0.08 + 0.5 * row, speed);
     support_open(&run, &bars, NULL, 0, &o);
     assert_close(support_at(&run, (BARS - 1) * row / speed + 9e-3).energy.contact, 0.0, 0.0);
     for (int k = 0; k < BARS; k++) sum += share[k] = ask_body(run.simulation, k).velocity[1] / speed;

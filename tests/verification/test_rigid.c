@@ -28,13 +28,6 @@ static void append(dem_lattice *to, dem_lattice *body)
     dem_lattice_free(body);
 }
 
-static double top_of(const dem_lattice *l)
-{
-    double top = -INFINITY;
-    for (dem_index i = 0; i < l->n_nodes; i++) top = fmax(top, l->x[2 * i + 1]);
-    return top;
-}
-
 static dem_options free_options(void)
 {
     dem_options options = dem_options_default();
@@ -250,7 +243,7 @@ static double hammer_error(double spacing, dem_method method, double *closure)
     straight.density = 2.0 * rubber.density;
     dem_lattice hammer = support_rectangle(width, 0.2 * length, spacing, &straight);
     assert_ok(dem_lattice_stiffen(&hammer, DEM_GUIDE_Y));
-    dem_lattice_move(&hammer, 0.0, (const double[2]){0.0, top_of(&l) + 0.2 * spacing});
+    dem_lattice_move(&hammer, 0.0, (const double[2]){0.0, support_top(&l) + 0.2 * spacing});
     assert_ok(dem_lattice_launch(&hammer, (const double[2]){0.0, -speed}));
     append(&l, &hammer);
     dem_options o = free_options();
@@ -289,7 +282,7 @@ static dem_lattice make_dropped(dem_guide guide)
 {
     dem_lattice l = support_rectangle(0.05, 0.05, 5e-3, &rubber);
     dem_lattice upper = make_rigid(0.05, 0.03, 5e-3, guide);
-    dem_lattice_move(&upper, 0.0, (const double[2]){0.021, top_of(&l) + 1.2e-3});
+    dem_lattice_move(&upper, 0.0, (const double[2]){0.021, support_top(&l) + 1.2e-3});
     assert_ok(dem_lattice_launch(&upper, (const double[2]){0.0, -5.0}));
     append(&l, &upper);
     return l;
@@ -591,7 +584,7 @@ static dem_index squeeze(dem_contact_method contact, dem_method method, double *
     CLEANUP(dem_lattice_free) dem_lattice l = support_rectangle(0.05, 5e-3, 5e-3, &rubber);
     dem_lattice upper = make_rigid(0.05, 0.02, 5e-3, DEM_GUIDE_NONE);
     const dem_obstacle ground = make_floor();
-    dem_lattice_move(&upper, 0.0, (const double[2]){0.011, top_of(&l) + 1.2e-3});
+    dem_lattice_move(&upper, 0.0, (const double[2]){0.011, support_top(&l) + 1.2e-3});
     assert_ok(dem_lattice_launch(&upper, (const double[2]){0.0, -2.0}));
     append(&l, &upper);
     dem_lattice_move(&l, 0.0, (const double[2]){0.0, 1e-4});
@@ -629,7 +622,7 @@ TEST(a_guided_block_presses_an_elastic_one_with_its_weight)
     dem_lattice upper = make_rigid(0.05, 0.02, 5e-3, DEM_GUIDE_Y);
     dem_obstacle ground = make_floor();
     ground.restitution = 0.0;
-    dem_lattice_move(&upper, 0.0, (const double[2]){0.002, top_of(&l) + 8e-4});
+    dem_lattice_move(&upper, 0.0, (const double[2]){0.002, support_top(&l) + 8e-4});
     append(&l, &upper);
     dem_options o = weighed_options(0.0);
     o.gravity[1] = -981.0;

@@ -19,9 +19,7 @@ static dem_lattice make_blocks(double width, double tall, double spacing, double
     const dem_material below = material_of(1e7), above = material_of(modulus);
     dem_lattice l = support_rectangle(width, tall, fine, &below);
     CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(width, tall, spacing, &above);
-    double top = 0.0;
-    for (dem_index i = 0; i < l.n_nodes; i++) top = fmax(top, l.x[2 * i + 1]);
-    dem_lattice_move(&upper, 0.0, (const double[2]){0.0, top + gap});
+    dem_lattice_move(&upper, 0.0, (const double[2]){0.0, support_top(&l) + gap});
     assert_ok(dem_lattice_append(&l, &upper));
     return l;
 }

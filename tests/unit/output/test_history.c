@@ -229,9 +229,7 @@ TEST(contact_of_bodies_has_its_columns)
         flight *f = calloc(1, sizeof *f);
         CLEANUP(dem_lattice_free) dem_lattice lower = support_rectangle(0.03, 0.026, 5e-3, &rubber);
         CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.03, 0.026, 5e-3, &rubber);
-        double top = 0.0;
-        for (dem_index i = 0; i < lower.n_nodes; i++) top = fmax(top, lower.x[2 * i + 1]);
-        dem_lattice_move(&upper, 0.0, (const double[2]){0.37 * 5e-3, top + gaps[k]});
+        dem_lattice_move(&upper, 0.0, (const double[2]){0.37 * 5e-3, support_top(&lower) + gaps[k]});
         assert_ok(dem_lattice_append(&lower, &upper));
         dem_options options = dem_options_default();
         options.bodies = DEM_BODIES_ALL;

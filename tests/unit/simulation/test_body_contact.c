@@ -203,9 +203,8 @@ TEST(pressure_times_area_carries_a_block_at_rest)
     CLEANUP(dem_lattice_free) dem_lattice blocks = support_rectangle(0.03, 0.026, 5e-3, &thin);
     CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.03, 0.026, 5e-3, &thin);
     const dem_index half = upper.n_nodes, n = 2 * half;
-    double top = 0.0, sum = 0.0, lift = 0.0;
-    for (dem_index i = 0; i < half; i++) top = fmax(top, blocks.x[2 * i + 1]);
-    dem_lattice_move(&upper, 0.0, (const double[2]){0.37 * 5e-3, top + 0.995e-3});
+    double sum = 0.0, lift = 0.0;
+    dem_lattice_move(&upper, 0.0, (const double[2]){0.37 * 5e-3, support_top(&blocks) + 0.995e-3});
     assert_ok(dem_lattice_append(&blocks, &upper));
     if (blocks.flags == NULL) blocks.flags = calloc((size_t)n, sizeof *blocks.flags);
     for (dem_index i = 0; i < half; i++) blocks.flags[i] |= DEM_NODE_FIXED;

@@ -109,12 +109,8 @@ static void open_squares(scene *s, double friction)
     const surface_contact_rule rule = {.stiffness = 1.0, .friction = friction};
     *s = (scene){.lattice = support_rectangle(0.03, 0.03, 5e-3, &rubber)};
     CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.03, 0.03, 5e-3, &rubber);
-    double low = INFINITY, high = -INFINITY;
-    for (dem_index i = 0; i < upper.n_nodes; i++) {
-        low = fmin(low, upper.x[2 * i + 1]);
-        high = fmax(high, upper.x[2 * i + 1]);
-    }
-    dem_lattice_move(&upper, 0.0, (const double[2]){1e-3, high - low + 9e-4});
+    const double height = support_top(&upper) - support_bottom(&upper);
+    dem_lattice_move(&upper, 0.0, (const double[2]){1e-3, height + 9e-4});
     assert_ok(dem_lattice_append(&s->lattice, &upper));
     s->lattice.flags = calloc((size_t)s->lattice.n_nodes, 1);
     assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));

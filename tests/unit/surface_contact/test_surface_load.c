@@ -23,9 +23,7 @@ static void open_scene(scene *s, double gap, double shift)
     const surface_contact_rule rule = {.thickness = thickness, .stiffness = 1.0};
     CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.03, 0.026, spacing, &rubber);
     *s = (scene){.lattice = support_rectangle(0.03, 0.026, spacing, &rubber)};
-    double top = 0.0;
-    for (dem_index i = 0; i < upper.n_nodes; i++) top = fmax(top, upper.x[2 * i + 1]);
-    dem_lattice_move(&upper, 0.0, (const double[2]){shift, top + gap});
+    dem_lattice_move(&upper, 0.0, (const double[2]){shift, support_top(&upper) + gap});
     assert_ok(dem_lattice_append(&s->lattice, &upper));
     s->lattice.flags = calloc((size_t)s->lattice.n_nodes, sizeof *s->lattice.flags);
     assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
