@@ -9,9 +9,9 @@
 
 #include "ask.h"
 #include "simulation/private.h"
-#include "base/checkpoint_entries.h"
 #include "harness/cleanup.h"
 #include "harness/message.h"
+#include "last_record.h"
 
 static const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
                                          .density = 1050.0, .thickness = 1.0, .guard = 0.02);
@@ -326,7 +326,6 @@ TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
     const dem_index every[3] = {1, 7, 256};
     for (int k = 0; k < 3; k++) {
         CLEANUP(support_close) support_run run;
-        CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
         CLEANUP(free_simulation) dem_simulation *resumed;
         dem_options o = free_options();
         o.checkpoint_steps = every[k];
@@ -334,8 +333,7 @@ TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
         const bits expected = run_on_floor(&o, 0.25);
         open_on_floor(&run, &o);
         (void)support_at(&run, 2.8e-4);
-        assert_ok(dem_checkpoint_create(&checkpoint));
-        assert_ok(checkpoint_entries_copy(checkpoint, dem_simulation_checkpoint(run.simulation)));
+        CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = last_record(run.simulation);
         assert_ok(dem_simulation_resume(&resumed, run.model, &o, checkpoint));
         assert_ok(dem_simulation_advance(resumed, 3e-4));
         const dem_state end = ask_state(resumed);

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "ask.h"
-#include "base/checkpoint_entries.h"
 #include "harness/cleanup.h"
 #include "harness/message.h"
+#include "last_record.h"
 #include "simulation/private.h"
 
 static const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
@@ -63,16 +63,13 @@ static const double settled = 0.1; /* s, when bodies are at rest with damping */
 static dem_checkpoint *settle(const dem_lattice *l, const dem_options *options)
 {
     CLEANUP(support_close) support_run run;
-    dem_checkpoint *checkpoint;
     dem_options o = *options;
     o.mass_damping = 500.0;
     o.checkpoint_steps = 1;
     support_open(&run, l, NULL, 0, &o);
     const motion end = support_at(&run, settled);
     assert_true(end.energy.kinetic < 1e-15 * end.energy.contact);
-    assert_ok(dem_checkpoint_create(&checkpoint));
-    assert_ok(checkpoint_entries_copy(checkpoint, dem_simulation_checkpoint(run.simulation)));
-    return checkpoint;
+    return last_record(run.simulation);
 }
 
 /* A run that goes on from there. */
@@ -472,7 +469,6 @@ TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
     const dem_index every[3] = {1, 7, 256};
     for (int k = 0; k < 6; k++) {
         CLEANUP(support_close) support_run run;
-        CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
         CLEANUP(free_simulation) dem_simulation *resumed;
         dem_options o = with_friction(0.0, g);
         size_t size = 0;
@@ -485,8 +481,7 @@ TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
         const bits expected = run_on_floor(&o, 0.25);
         open_on_floor(&run, &o);
         (void)support_at(&run, 0.9 * late);
-        assert_ok(dem_checkpoint_create(&checkpoint));
-        assert_ok(checkpoint_entries_copy(checkpoint, dem_simulation_checkpoint(run.simulation)));
+        CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = last_record(run.simulation);
         assert_non_null(dem_checkpoint_find(checkpoint, "anchors", &size));
         assert_true(size > 0);
         assert_ok(dem_simulation_resume(&resumed, run.model, &o, checkpoint));

@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "ask.h"
-#include "base/checkpoint_entries.h"
 #include "harness/cleanup.h"
 #include "harness/message.h"
+#include "last_record.h"
 
 static const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
                                          .density = 1050.0, .thickness = 1.0, .guard = 0.02);
@@ -701,7 +701,6 @@ TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
 {
     const dem_index every[3] = {1, 7, 64};
     for (int k = 0; k < 9; k++) {
-        CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
         CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
         CLEANUP(free_model) dem_model *model = make_scene(&l);
         dem_options o = free_options();
@@ -710,8 +709,7 @@ TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
         const bits expected = drop(&o);
         CLEANUP(free_simulation) dem_simulation *simulation = support_simulation(model, &o), *resumed;
         assert_ok(dem_simulation_advance(simulation, 2e-4));
-        assert_ok(dem_checkpoint_create(&checkpoint));
-        assert_ok(checkpoint_entries_copy(checkpoint, dem_simulation_checkpoint(simulation)));
+        CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = last_record(simulation);
         assert_ok(dem_simulation_resume(&resumed, model, &o, checkpoint));
         assert_ok(dem_simulation_advance(resumed, 2.5e-4));
         const bits found = see(resumed, l.n_nodes);

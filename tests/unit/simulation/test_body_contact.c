@@ -4,8 +4,8 @@
 #include "simulation/body_contact.h"
 
 #include "ask.h"
-#include "base/checkpoint_entries.h"
 #include "harness/message.h"
+#include "verification/last_record.h"
 #include "verification/support.h"
 
 static const dem_material rubber =
@@ -279,10 +279,8 @@ TEST(friction_of_a_damaged_checkpoint_is_refused)
     CLEANUP(free_model) dem_model *model = support_model(&apart, NULL, 0);
     const dem_options o = rubbing();
     CLEANUP(free_simulation) dem_simulation *simulation = slide(model, &o);
-    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint;
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = last_record(simulation);
     dem_simulation *resumed = NULL;
-    assert_ok(dem_checkpoint_create(&checkpoint));
-    assert_ok(checkpoint_entries_copy(checkpoint, dem_simulation_checkpoint(simulation)));
     assert_ok(dem_checkpoint_put(checkpoint, "anchors", "12345678", 8));
     assert_int_equal(dem_simulation_resume(&resumed, model, &o, checkpoint), DEM_ERROR_IO);
     assert_message_parts("the checkpoint has 8 bytes of anchors, which have 64 bytes each");
