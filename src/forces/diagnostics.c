@@ -305,7 +305,7 @@ static vec2 free_acceleration(const forces *f, dem_index i, const double *extern
 dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *external,
                                        const double *x, const double *v)
 {
-    dem_boundary_load out;
+    dem_boundary_load out = {0}; /* no third components */
     exact_sum resultant[2] = {0}, ways[2] = {0};
     for (dem_index k = 0; k < b->n_nodes; k++) {
         const dem_index i = b->nodes[k];
