@@ -457,12 +457,23 @@ static builder begin(const body_scene *scene, size_t k, namelist_errors *errors)
     return b;
 }
 
+/* Makes it rigid if it is to be: without a surface it would touch nothing. */
+static dem_status stiffen(builder *b)
+{
+    if (!rigid_keys_ask(b->body) || b->lattice.n_triangles > 0)
+        return report(b, rigid_keys_apply(&b->lattice, b->body), "rigid");
+    namelist_errors_add(b->errors, place_of(b->body, "rigid"),
+                        "'rigid' in &body: body %zu has no triangles, and so no surface that could touch anything",
+                        b->number);
+    return DEM_ERROR_MODEL;
+}
+
 bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const body_scene *scene, size_t k,
                 namelist_errors *errors)
 {
     builder b = begin(scene, k, errors);
     dem_status status = has_shape(b.body, "file") ? read_file(&b) : make_mesh(&b);
-    if (status == DEM_OK) status = report(&b, rigid_keys_apply(&b.lattice, b.body), "rigid");
+    if (status == DEM_OK) status = stiffen(&b);
     if (status == DEM_OK) status = put(&b);
     if (status == DEM_OK && copies_count(b.body) > 1) status = put_copy(&b, 0);
     for (dem_index i = 0; status == DEM_OK && i < b.lattice.n_nodes; i++) b.facts.mass += b.lattice.mass[i];

@@ -6,13 +6,29 @@
 
 #include "rigid_keys.h"
 
-/* The key by which a deck asks for contact of bodies; NULL if it leaves that to the defaults. */
-static const char *asking_key(const schema_instance *contact)
+/* A key that is in vain where bodies do not touch. */
+typedef struct asking_key {
+    const schema_instance *group; /* NULL: there is none */
+    const char *key;
+} asking_key;
+
+static bool asks(asking_key *out, const schema_instance *group, const char *key)
+{
+    if (schema_given(group, key)) *out = (asking_key){group, key};
+    return schema_given(group, key);
+}
+
+/* The first key by which a deck asks for contact of bodies, if it does not leave that to the defaults. */
+static asking_key find_asking_key(const schema_deck *groups)
 {
     static const char *const keys[] = {"bodies", "thickness", "stiffness", "friction"};
-    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++)
-        if (schema_value_of(contact, keys[k])->given) return keys[k];
-    return NULL;
+    asking_key found = {rigid_keys_first(groups), "rigid"};
+    bool any = found.group != NULL;
+    for (size_t k = 0; k < sizeof keys / sizeof *keys && !any; k++)
+        any = asks(&found, schema_get(groups, "contact", 0), keys[k]);
+    for (size_t k = 0; k < schema_count(groups, "material") && !any; k++)
+        any = asks(&found, schema_get(groups, "material", k), "friction");
+    return found;
 }
 
 static int32_t body_of(const dem_lattice *l, dem_index node)
@@ -54,24 +70,15 @@ static bool give_up(schema_deck *groups)
 bool surfaces_settle(dem_options *options, schema_deck *groups, const dem_lattice *lattice, const placement *bodies,
                      namelist_errors *errors)
 {
-    const schema_instance *contact = schema_get(groups, "contact", 0);
-    const char *asking = asking_key(contact);
+    const asking_key asking = find_asking_key(groups);
     if (options->bodies == DEM_BODIES_NONE) return true;
     const dem_index bare = find_bare(lattice);
     if (bare == -1) return true;
     if (bare < 0) return false;
-    if (asking != NULL) {
-        namelist_errors_add(errors, schema_place(contact, asking),
-                            "'%s' in &contact: body %zu has no triangles, and so no surface that could touch bodies; "
-                            "bodies = 'none' lets it run",
-                            asking, number_of(bodies, schema_count(groups, "body"), bare));
-        return true;
-    }
-    const schema_instance *rigid = rigid_keys_first(groups);
-    if (rigid != NULL) {
-        namelist_errors_add(errors, schema_place(rigid, "rigid"),
-                            "'rigid' in &body needs contact of bodies, but body %zu has no triangles, and so no "
-                            "surface that could touch bodies",
+    if (asking.group != NULL) {
+        namelist_errors_add(errors, schema_place(asking.group, asking.key),
+                            "'%s' in &%s is for bodies that touch, but body %zu has no triangles, and so no surface",
+                            asking.key, asking.group->group->name,
                             number_of(bodies, schema_count(groups, "body"), bare));
         return true;
     }

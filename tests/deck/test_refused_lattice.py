@@ -246,6 +246,14 @@ class Lattice(refusal.Refusal):
                 self.make(maker)
                 self.refuse(3, stderr_of([message]), "--check", "deck.nml")
 
+    def test_rigid_bodies_need_triangles(self):
+        rigid = edit(FILE, "velocity = 0, -1 -> rigid = .true.")
+        self.make(changed(triangles=None))
+        for contact in ("", "&contact bodies = 'all', thickness = 1e-4 /\n"):
+            self.put(rigid + contact + "&solver max_step = 1e-4 /\n")
+            self.refuse(3, stderr_of(["15:5 'rigid' in &body: body 1 has no triangles, and so no surface that could touch anything"]),
+                        "--check", "deck.nml")
+
     def test_a_large_lattice_is_refused_by_its_extents(self):
         """4e5 nodes in a file of a few kilobytes: nothing of them is read."""
         def large(file):

@@ -55,4 +55,5 @@ TEST(what_is_asked_for_is_refused_for_a_body_without_triangles)
     settle("&contact bodies = 'all' /\n", N_NODES, 1, "1:10 'bodies' * body 2 has no triangles");
     settle("&contact thickness = 1e-3 /\n", N_NODES, 1, "1:10 'thickness' * body 2 has no triangles");
     settle("&contact stiffness = 2 /\n", TRIANGLE, 0, "1:10 'stiffness' * body 1 has no triangles");
+    settle("&material friction = 0.3 /\n", N_NODES, 1, "1:11 'friction' in &material * body 2 has no triangles");
 }
