@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "copies.h"
+
 /* The word with which "body N" or "obstacle N" begins here, as words of their own; NULL if none does. */
 static const char *word_at(const char *message, const char *here)
 {
@@ -18,7 +20,17 @@ static const char *word_at(const char *message, const char *here)
     return NULL;
 }
 
-void deck_numbers_translate(char *out, size_t size, const char *message)
+/* As snprintf(). */
+static int put(char *out, size_t size, const char *word, size_t number, const schema_deck *groups)
+{
+    if (word[0] == 'o') return snprintf(out, size, "%s%zu", word, number + 1);
+    const copies_origin at = copies_find(groups, number);
+    if (copies_count(schema_get(groups, "body", at.group)) == 1)
+        return snprintf(out, size, "%s%zu", word, at.group + 1);
+    return snprintf(out, size, "%s%zu (copy %zu)", word, at.group + 1, at.copy + 1);
+}
+
+void deck_numbers_translate(char *out, size_t size, const char *message, const schema_deck *groups)
 {
     size_t used = 0;
     for (const char *p = message; *p != '\0' && used + 1 < size;) {
@@ -28,8 +40,8 @@ void deck_numbers_translate(char *out, size_t size, const char *message)
             out[used++] = *p++;
             continue;
         }
-        const long long number = strtoll(p + strlen(word), &end, 10);
-        const int n = snprintf(out + used, size - used, "%s%lld", word, number + 1);
+        const size_t number = (size_t)strtoull(p + strlen(word), &end, 10);
+        const int n = put(out + used, size - used, word, number, groups);
         used = n > 0 && (size_t)n < size - used ? used + (size_t)n : size - 1;
         p = end;
     }

@@ -11,6 +11,7 @@
 
 #include "ask.h"
 #include "checkpoint_file.h"
+#include "copies.h"
 #include "decimal.h"
 #include "deck.h"
 #include "deck_numbers.h"
@@ -373,23 +374,20 @@ static dem_status build(job *j)
 }
 
 /* What the library refuses of a model is the contact of bodies, which rigid ones cannot do without. It counts from 0;
- * where each body of the deck is one of the model, they get the numbers of the deck. */
+ * where the bodies of the deck are those of the model, they get the numbers of the deck. */
 static bool builds(job *j)
 {
-    static const char *const hints[2][2] = {
-        {" (bodies are counted from 0 here; with bodies = 'none' in &contact they may overlap)",
-         " (with bodies = 'none' in &contact they may overlap)"},
-        {" (bodies are counted from 0 here)", ""}};
+    const schema_deck *groups = &j->deck.groups;
     char message[OUTCOME_MESSAGE];
     namelist_errors errors = {0};
     const dem_status status = build(j);
     if (status != DEM_ERROR_MODEL || j->model == NULL || j->options.bodies == DEM_BODIES_NONE)
         return passes(j, status, j->deck.path);
-    const bool known = ask_sizes(j->model).n_bodies == (dem_index)j->deck.n_bodies;
-    deck_numbers_translate(message, sizeof message, dem_status_message());
-    namelist_errors_add(&errors, schema_place(schema_get(&j->deck.groups, "contact", 0), "bodies"), "%s%s",
-                        known ? message : dem_status_message(),
-                        hints[rigid_keys_first(&j->deck.groups) != NULL][known]);
+    const bool known = ask_sizes(j->model).n_bodies == (dem_index)copies_total(groups);
+    if (known) deck_numbers_translate(message, sizeof message, dem_status_message(), groups);
+    namelist_errors_add(&errors, schema_place(schema_get(groups, "contact", 0), "bodies"), "%s%s%s",
+                        known ? message : dem_status_message(), known ? "" : " (bodies are counted from 0 here)",
+                        rigid_keys_first(groups) != NULL ? "" : "; bodies = 'none' in &contact lets bodies overlap");
     report_errors(j, EXIT_INVALID, &errors);
     return false;
 }

@@ -21,11 +21,11 @@ size_t copies_total(const schema_deck *groups)
     return n;
 }
 
-size_t copies_group(const schema_deck *groups, size_t number)
+copies_origin copies_find(const schema_deck *groups, size_t number)
 {
-    size_t k = 0, n = copies_count(schema_get(groups, "body", 0));
-    while (number >= n) n += copies_count(schema_get(groups, "body", ++k));
-    return k;
+    copies_origin at = {0, number};
+    for (size_t n; at.copy >= (n = copies_count(schema_get(groups, "body", at.group))); at.group++) at.copy -= n;
+    return at;
 }
 
 /* ---- checks ---- */

@@ -17,8 +17,13 @@ size_t copies_count(const schema_instance *body);
 /* Of all bodies of the deck. */
 size_t copies_total(const schema_deck *groups);
 
-/* The &body group, from 0, of the body with this number, from 0, when copies are counted as bodies, too. */
-size_t copies_group(const schema_deck *groups, size_t number);
+/* A body, when copies are counted as bodies, too. */
+typedef struct copies_origin {
+    size_t group, copy; /* from 0: its &body, and which of its copies it is */
+} copies_origin;
+
+/* Of the body with this number, from 0, which must be less than copies_total(). */
+copies_origin copies_find(const schema_deck *groups, size_t number);
 
 /* How far copy k, from 0, is moved from the place of the body without copies, m. False when memory runs out. */
 bool copies_shift(double shift[2], const schema_instance *body, size_t k);

@@ -249,7 +249,7 @@ static bool check_starts(const deck *d, const body_start *starts, const body_sce
     const double penetration_tolerance =
         d->options.penetration_tolerance > 0.0 ? d->options.penetration_tolerance : 1e-6 * spacing;
     for (size_t k = 0; k < n; k++)
-        if (!body_check_start(scene, copies_group(scene->groups, k), &starts[k], penetration_tolerance, errors))
+        if (!body_check_start(scene, copies_find(scene->groups, k).group, &starts[k], penetration_tolerance, errors))
             return false;
     return true;
 }

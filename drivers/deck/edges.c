@@ -115,7 +115,7 @@ static bool is_smooth(const schema_deck *groups, const schema_instance *body)
 bool edges_stepped(const schema_deck *groups, const dem_lattice *lattice, dem_index n_bodies, dem_index node)
 {
     if ((dem_index)copies_total(groups) != n_bodies) return false;
-    const size_t group = copies_group(groups, (size_t)body_of(lattice, node));
+    const size_t group = copies_find(groups, (size_t)body_of(lattice, node)).group;
     const place p = {lattice, schema_get(groups, "body", group), node};
     if (schema_is(p.body, "shape", "mesh") || schema_is(p.body, "shape", "file")) return false;
     if (is_smooth(groups, p.body)) return false;

@@ -589,7 +589,7 @@ class Run(Case):
             done = run(*options, "deck.nml", cwd=self.folder)
             self.assertEqual(done.returncode, 3)
             self.assertRegex(done.stderr, r"^deck\.nml:1:1: error: node \d+ of body \d at .* m is \S+ m inside body \d, .*: surfaces "
-                                          r"must not cross at the start \(with bodies = 'none' in &contact they may overlap\)\n$")
+                                          r"must not cross at the start; bodies = 'none' in &contact lets bodies overlap\n$")
         self.put(pathlib.Path(self.folder, "deck.nml").read_text(encoding="utf-8") + APART)
         for log in self.call(0, "--check", "deck.nml"), self.call(0, "deck.nml"):
             found = re.findall(r"(?m)^warning    (.*)$", log)

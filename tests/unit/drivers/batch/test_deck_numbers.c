@@ -1,30 +1,36 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* deck_numbers.c: messages with bodies counted from 1. */
+/* deck_numbers.c: messages with bodies counted from 1, and copies by their group. */
+#include "unit/reading.h"
+
 #include "deck_numbers.h"
 
-#include "unit/close.h"
+#define BODY "&body shape = 'disc', radius = 1, spacing = 0.25"
 
-static void expect(const char *message, const char *expected)
+static void expect(const char *message, const char *expected, size_t size)
 {
+    CLEANUP(drop_resolved)
+    resolved r = resolve_clean("&run t_end = 1 /\n" BODY " /\n" BODY ", copies = 4, 2, pitch = 3, 3 /\n" BODY " /");
     char out[128];
-    deck_numbers_translate(out, sizeof out, message);
+    deck_numbers_translate(out, size, message, &r.deck);
     assert_string_equal(out, expected);
 }
 
 TEST(bodies_are_counted_from_one_and_nothing_else_is)
 {
-    expect("node 26 of body 0 at (1, 2) m is inside body 9", "node 26 of body 1 at (1, 2) m is inside body 10");
-    expect("body 0", "body 1");
-    expect("body 0 crosses obstacle 1 of obstacles 2", "body 1 crosses obstacle 2 of obstacles 2");
-    expect("the body, nobody 0, a body part 3", "the body, nobody 0, a body part 3");
-    expect("", "");
+    expect("node 26 of body 0 at (1, 2) m is inside body 9", "node 26 of body 1 at (1, 2) m is inside body 3", 128);
+    expect("body 0", "body 1", 128);
+    expect("body 0 crosses obstacle 1 of obstacles 2", "body 1 crosses obstacle 2 of obstacles 2", 128);
+    expect("the body, nobody 0, a body part 3", "the body, nobody 0, a body part 3", 128);
+    expect("", "", 128);
+}
+
+TEST(copies_have_the_number_of_their_group)
+{
+    expect("body 1 meets body 8", "body 2 (copy 1) meets body 2 (copy 8)", 128);
 }
 
 TEST(what_is_too_long_is_cut)
 {
-    char out[8];
-    deck_numbers_translate(out, sizeof out, "of body 99 and more");
-    assert_string_equal(out, "of body");
-    deck_numbers_translate(out, sizeof out, "body 99 and more");
-    assert_string_equal(out, "body 10");
+    expect("of obstacle 99 and more", "of obst", 8);
+    expect("body 8 and more", "body 2 ", 8);
 }

@@ -22,9 +22,12 @@ TEST(copies_stand_in_columns_and_rows)
     assert_true(copies_shift(shift, first_body(&r), 5));
     assert_true(shift[0] == 1.0 && shift[1] == 0.75);
     assert_int_equal(copies_total(&r.deck), 7);
-    assert_int_equal(copies_group(&r.deck, 0), 0);
-    assert_int_equal(copies_group(&r.deck, 5), 0);
-    assert_int_equal(copies_group(&r.deck, 6), 1);
+    const copies_origin expected[3] = {{0, 0}, {0, 5}, {1, 0}};
+    for (size_t k = 0; k < 3; k++) {
+        const copies_origin found = copies_find(&r.deck, (const size_t[]){0, 5, 6}[k]);
+        assert_int_equal(found.group, expected[k].group);
+        assert_int_equal(found.copy, expected[k].copy);
+    }
 }
 
 /* MT19937 with seed 5489, as in the C++ standard's mt19937, begins 3499211612, 581869302, 3890346734, 3586334585. */
