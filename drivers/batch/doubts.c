@@ -55,11 +55,13 @@ void doubts_of_lattices(run_log *log, const deck *d)
 
 void doubts_of_rigid(run_log *log, const deck *d)
 {
-    for (size_t k = 0; k < schema_count(&d->groups, "obstacle") && rigid_keys_first(&d->groups) != NULL; k++) {
-        if (!(schema_real(schema_get(&d->groups, "obstacle", k), "friction") > 0.0)) continue;
-        run_log_warn(log, "the friction of obstacle %zu does not act on rigid bodies", k + 1);
-        return;
-    }
+    static const char *const keys[] = {"restitution", "friction"};
+    for (size_t k = 0; k < schema_count(&d->groups, "obstacle") && rigid_keys_first(&d->groups) != NULL; k++)
+        for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+            if (!(schema_real(schema_get(&d->groups, "obstacle", k), keys[i]) > 0.0)) continue;
+            run_log_warn(log, "the %s of obstacle %zu does not act on rigid bodies", keys[i], k + 1);
+            return;
+        }
 }
 
 /* The default of `bodies` has become 'none' (deck/surfaces.h). */
@@ -89,7 +91,7 @@ void doubts_of_overlap(run_log *log, const dem_simulation *simulation)
                  (long long)o.node, (long long)o.triangle, o.x[0], o.x[1]);
 }
 
-void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double wave_speed)
+void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, dem_index number, double wave_speed)
 {
     const dem_index n = ask_sizes(model).n_obstacles;
     double v[2], least = (double)INFINITY;
@@ -104,5 +106,5 @@ void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double w
     run_log_warn(log,
                  "body %lld moves at %.3g m/s, %.3g %s its wave speed of %.4g m/s (strains of that size): is E in Pa "
                  "(210e9, not 210e3)?",
-                 (long long)b + 1, least, least / wave_speed, least < wave_speed ? "of" : "times", wave_speed);
+                 (long long)number + 1, least, least / wave_speed, least < wave_speed ? "of" : "times", wave_speed);
 }

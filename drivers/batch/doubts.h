@@ -9,7 +9,7 @@
 /** Warns of bodies that are too light, or whose walls are too thin, for their lattice. */
 void doubts_of_lattices(run_log *log, const deck *d);
 
-/** Warns of friction that does not act on rigid bodies. */
+/** Warns of restitution and friction that do not act on rigid bodies. */
 void doubts_of_rigid(run_log *log, const deck *d);
 
 /** Warns where bodies with triangles do not touch each other because of bodies without. */
@@ -21,7 +21,9 @@ void doubts_of_step(run_log *log, const dem_simulation *simulation);
 /** Warns of bodies that overlap at t = 0. */
 void doubts_of_overlap(run_log *log, const dem_simulation *simulation);
 
-/** Warns if body b, from 0, comes to the obstacles fast for the waves in it.  \param wave_speed  m/s, of long waves */
-void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, double wave_speed);
+/** Warns if body b, from 0, comes to the obstacles fast for the waves in it.
+ *  \param number  of its group in the deck, from 0
+ *  \param wave_speed  m/s, of long waves */
+void doubts_of_speed(run_log *log, const dem_model *model, dem_index b, dem_index number, double wave_speed);
 
 #endif

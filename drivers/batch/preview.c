@@ -173,17 +173,31 @@ static void print_probes(FILE *out, const deck *d, const dem_lattice *l)
     }
 }
 
-/* Whether body b of the model is a slice of a long body; not where a lattice file is of several bodies. */
-static bool is_slice(const deck *d, dem_index n_bodies, dem_index b)
+/* A body as the log numbers it: by its group in the deck, as copies are alike. */
+typedef struct listed_body {
+    dem_index number; /* from 0 */
+    dem_index first;  /* of the bodies of the model that it stands for */
+    bool slice;       /* of a long body */
+} listed_body;
+
+/* The first body of the model that is of group k. */
+static dem_index first_of(const deck *d, dem_index k)
 {
-    size_t n = 0;
-    bool slice = false;
-    for (size_t k = 0; k < d->n_bodies; k++) {
-        const size_t first = n;
-        n += 1 + d->bodies[k].further;
-        if (first <= (size_t)b && (size_t)b < n) slice = d->bodies[k].plane == DEM_PLANE_STRAIN;
-    }
-    return slice && n == (size_t)n_bodies;
+    dem_index n = 0;
+    for (dem_index i = 0; i < k; i++) n += 1 + (dem_index)d->bodies[i].further;
+    return n;
+}
+
+/* Where a lattice file has several bodies, those of the model have numbers of their own. */
+static bool has_bodies_of_groups(const deck *d, dem_index n_bodies)
+{
+    return first_of(d, (dem_index)d->n_bodies) == n_bodies;
+}
+
+static listed_body list_body(const deck *d, dem_index n_bodies, dem_index number)
+{
+    if (!has_bodies_of_groups(d, n_bodies)) return (listed_body){number, number, false};
+    return (listed_body){number, first_of(d, number), d->bodies[number].plane == DEM_PLANE_STRAIN};
 }
 
 /* The library has those of the plate in plane stress that moves alike: E/(1 - nu^2) and nu/(1 - nu) of a slice. */
@@ -212,32 +226,30 @@ static void print_rigid(FILE *out, unsigned flags)
 }
 
 /* As the library measures them, by loading the model. A body that is not listed may still be too fast. */
-static void print_body_constants(run_log *log, const deck *d, const dem_model *model, dem_index b)
+static void print_body_constants(run_log *log, const dem_model *model, listed_body body)
 {
-    const bool listed = log->verbose || b < most_in_short;
-    const unsigned flags = flags_of(model, b);
+    const bool listed = log->verbose || body.number < most_in_short;
+    const unsigned flags = flags_of(model, body.first);
     dem_constants c = {.struct_size = sizeof c};
-    if (listed && flags != 0) {
-        (void)fprintf(log->out, "constants  body %lld: ", (long long)b + 1);
-        print_rigid(log->out, flags);
-    }
+    if (listed) (void)fprintf(log->out, "constants  body %lld: ", (long long)body.number + 1);
+    if (listed && flags != 0) print_rigid(log->out, flags);
     if (flags != 0) return;
-    const dem_status status = dem_model_constants(model, b, &c);
-    if (listed) (void)fprintf(log->out, "constants  body %lld: ", (long long)b + 1);
+    const dem_status status = dem_model_constants(model, body.first, &c);
     if (listed && status != DEM_OK) (void)fprintf(log->out, "not measured: %s\n", dem_status_message());
-    if (listed && status == DEM_OK) print_modulus(log->out, &c, is_slice(d, ask_sizes(model).n_bodies, b));
-    if (status == DEM_OK) doubts_of_speed(log, model, b, c.longitudinal_speed);
+    if (listed && status == DEM_OK) print_modulus(log->out, &c, body.slice);
+    if (status == DEM_OK) doubts_of_speed(log, model, body.first, body.number, c.longitudinal_speed);
 }
 
 static void print_constants(run_log *log, const deck *d, const dem_model *model)
 {
     FILE *out = log->out;
     const dem_index n_bodies = ask_sizes(model).n_bodies;
-    for (dem_index b = 0; b < n_bodies && b < most_listed; b++) print_body_constants(log, d, model, b);
-    if (!log->verbose && n_bodies > most_in_short)
-        (void)fprintf(out, "constants  of %lld more bodies: see --verbose\n", (long long)n_bodies - most_in_short);
-    else if (n_bodies > most_listed)
-        (void)fprintf(out, "constants  bodies %d to %lld: not measured\n", (int)most_listed + 1, (long long)n_bodies);
+    const dem_index n = has_bodies_of_groups(d, n_bodies) ? (dem_index)d->n_bodies : n_bodies;
+    for (dem_index k = 0; k < n && k < most_listed; k++) print_body_constants(log, model, list_body(d, n_bodies, k));
+    if (!log->verbose && n > most_in_short)
+        (void)fprintf(out, "constants  of %lld more bodies: see --verbose\n", (long long)n - most_in_short);
+    else if (n > most_listed)
+        (void)fprintf(out, "constants  bodies %d to %lld: not measured\n", (int)most_listed + 1, (long long)n);
 }
 
 static void print_frequency(FILE *out, const dem_model *model)

@@ -63,6 +63,36 @@ TEST(a_smooth_outline_is_proposed_to_those_bodies_that_have_none)
                       "mesh\n");
 }
 
+/* A deck of a disc with these keys, on two floors, of which the second one has these. */
+static size_t count_rigid_doubts(const char *body, const char *floor)
+{
+    char deck_text[512];
+    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
+    CLEANUP(deck_free) deck d;
+    run_log log = {.out = tmpfile()};
+    assert_non_null(log.out);
+    (void)snprintf(deck_text, sizeof deck_text,
+                   "&run t_end = 1 /\n&material youngs_modulus = 1e7, density = 1000 /\n&solver max_step = 1e-3 /\n"
+                   "&obstacle points = -9, -9, 9, -9 /\n&obstacle points = -9, -8, 9, -8%s /\n"
+                   "&body shape = 'disc', radius = 0.02, spacing = 4e-3, position = 0, 0%s /\n",
+                   floor, body);
+    file_put(folder_at(&scratch, "rigid.nml"), deck_text, strlen(deck_text));
+    assert_int_equal(whole_deck_read(&d, folder_at(&scratch, "rigid.nml"), &errors), DECK_OK);
+    doubts_of_rigid(&log, &d);
+    read_log(&log);
+    return log.n_warnings;
+}
+
+TEST(laws_of_obstacles_that_do_not_act_on_rigid_bodies_are_doubted)
+{
+    assert_int_equal(count_rigid_doubts(", rigid = .true.", ""), 0);
+    assert_int_equal(count_rigid_doubts("", ", friction = 0.3, restitution = 0.5"), 0);
+    assert_int_equal(count_rigid_doubts(", rigid = .true.", ", friction = 0.3"), 1);
+    assert_string_equal(text, "warning    the friction of obstacle 2 does not act on rigid bodies\n");
+    assert_int_equal(count_rigid_doubts(", rigid = .true.", ", friction = 0.3, restitution = 0.5"), 1);
+    assert_string_equal(text, "warning    the restitution of obstacle 2 does not act on rigid bodies\n");
+}
+
 /* A body of one node at 2 m/s along x, on floors at rest and moving. */
 static size_t count_doubts(double wave_speed, double floor_speed, dem_index n_floors)
 {
@@ -75,7 +105,7 @@ static size_t count_doubts(double wave_speed, double floor_speed, dem_index n_fl
     support_start(&lattice, NULL, v);
     dem_model *model = support_model(&lattice, &floor, n_floors);
     dem_lattice_free(&lattice);
-    doubts_of_speed(&log, model, 0, wave_speed);
+    doubts_of_speed(&log, model, 0, 0, wave_speed);
     dem_model_destroy(model);
     read_log(&log);
     return log.n_warnings;

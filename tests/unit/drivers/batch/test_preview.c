@@ -124,6 +124,35 @@ TEST(the_preview_tells_the_constants_of_a_slice)
     assert_non_null(strstr(l->text, "\nconstants  body 1: E 1e+07 Pa, nu 0.45 in plane strain, anisotropy 1.0000, "));
 }
 
+/* Copies are alike: of them the first one is measured, and has the number of its group. */
+TEST(the_preview_tells_the_constants_of_copies_once)
+{
+    const dem_material solid =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.1, .density = 1000.0, .thickness = 1.0);
+    dem_material soft = solid;
+    char name[] = "a.nml", title[] = "";
+    body_facts bodies[2] = {{.further = 1}, {.further = 0}};
+    const deck d = {
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .bodies = bodies, .n_bodies = 2};
+    dem_options options = dem_options_default();
+    CLEANUP(free_logged) logged *l = make_logged();
+    options.v_scale = 1.0;
+    soft.youngs_modulus = 2e6;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = support_rectangle(4.0, 4.0, 1.0, &solid);
+    CLEANUP(dem_lattice_free) dem_lattice copy = support_rectangle(4.0, 4.0, 1.0, &solid);
+    CLEANUP(dem_lattice_free) dem_lattice other = support_rectangle(4.0, 4.0, 1.0, &soft);
+    assert_ok(dem_lattice_append(&lattice, &copy));
+    assert_ok(dem_lattice_append(&lattice, &other));
+    support_open(&l->run, &lattice, NULL, 0, &options);
+    follow(l, false, d.t_end);
+    preview_print(&l->log, &d, l->run.simulation, NULL);
+    read_log(l);
+    assert_non_null(strstr(l->text, "\nconstants  body 1: E 1e+07 Pa"));
+    assert_non_null(strstr(l->text, "\nconstants  body 2: E 2e+06 Pa"));
+    assert_null(strstr(l->text, "\nconstants  body 3"));
+    assert_null(strstr(l->text, "\nconstants  of "));
+}
+
 /* A body with everything that there may be to tell, and one from a file. */
 TEST(the_preview_tells_how_bodies_came_out)
 {
