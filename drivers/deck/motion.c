@@ -18,9 +18,10 @@ static const motion_key keys[] = {{"velocity", "translate", true},
                                   {"spin", "rotate", true},
                                   {"ramp", "", false}};
 
-static bool has_kind(const schema_value *motion, const char *kind)
+/* Whether a kind is one of the first n. */
+static bool has_kind(const schema_value *motion, int n, const char *kind)
 {
-    for (int k = 0; k < motion->count; k++)
+    for (int k = 0; k < n; k++)
         if (strcmp(motion->texts[k], kind) == 0) return true;
     return false;
 }
@@ -31,7 +32,7 @@ static bool moves_by(const schema_instance *obstacle, const char *kind)
     const schema_value *motion = schema_value_of(obstacle, "motion");
     const bool any = kind[0] == '\0';
     if (!motion->given) return (any || strcmp(kind, "translate") == 0) && schema_value_of(obstacle, "velocity")->given;
-    return any ? motion->count > 1 || !has_kind(motion, "fixed") : has_kind(motion, kind);
+    return any ? motion->count > 1 || !has_kind(motion, motion->count, "fixed") : has_kind(motion, motion->count, kind);
 }
 
 static void check_key(const schema_instance *obstacle, const motion_key *row, namelist_errors *errors)
@@ -52,8 +53,11 @@ void motion_check(const schema_instance *obstacle, namelist_errors *errors)
 {
     const schema_value *motion = schema_value_of(obstacle, "motion");
     if (motion->faulty) return;
-    if (motion->count > 1 && has_kind(motion, "fixed"))
+    if (motion->count > 1 && has_kind(motion, motion->count, "fixed"))
         namelist_errors_add(errors, motion->place, "'motion' in &obstacle has 'fixed' together with another kind");
+    for (int k = 1; k < motion->count; k++)
+        if (has_kind(motion, k, motion->texts[k]))
+            namelist_errors_add(errors, motion->place, "'motion' in &obstacle has '%s' twice", motion->texts[k]);
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) check_key(obstacle, &keys[k], errors);
 }
 

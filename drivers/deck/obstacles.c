@@ -58,12 +58,15 @@ static bool check_segments(const double *points, size_t n_points, size_t number,
     return false;
 }
 
-/* Reports two segments of an obstacle that have more than a point in common that joins them. False when memory runs
- * out. */
-static bool check_crossings(const dem_obstacle *obstacle, size_t number, namelist_place place, namelist_errors *errors)
+/* Reports two segments of an obstacle that have more than a point in common that joins them, and a motion that cannot
+ * be computed with. False when memory runs out. */
+static bool check_made(const dem_obstacle *obstacle, size_t number, namelist_place place, namelist_errors *errors)
 {
     dem_index pair[2];
-    if (dem_obstacle_check(obstacle, pair) == DEM_ERROR_MEMORY) return false;
+    const dem_status status = dem_obstacle_check(obstacle, pair);
+    if (status == DEM_ERROR_MEMORY) return false;
+    if (status != DEM_OK && pair[0] < 0) /* behind the library's number */
+        namelist_errors_add(errors, place, "obstacle %zu%s", number, strchr(dem_status_message(), ':'));
     if (pair[0] < 0) return true;
     const bool follows = pair[1] == (pair[0] + 1) % (obstacle->n_points - 1);
     namelist_errors_add(errors, place,
@@ -222,7 +225,7 @@ static bool make(dem_obstacle *made, const schema_instance *group, size_t number
                            .friction = schema_real(group, "friction"),
                            .friction_law = has_paper_law(group) ? DEM_FRICTION_PAPER : DEM_FRICTION_COULOMB};
     motion_set(made, group);
-    return !check_segments(points, n_points, number, place, errors) || check_crossings(made, number, place, errors);
+    return !check_segments(points, n_points, number, place, errors) || check_made(made, number, place, errors);
 }
 
 dem_obstacle *obstacles_make(const schema_deck *groups, namelist_errors *errors)

@@ -91,6 +91,21 @@ static dem_status check_field(const dem_motion_field *field, const dem_obstacle 
     return DEM_OK;
 }
 
+/* The field with the largest number, which is the likely cause where products overflow. */
+static const char *largest_field(const motion_kind *kind, const dem_obstacle *obstacle)
+{
+    const char *name = "its motion";
+    double most = 0.0;
+    for (dem_index f = 0; f < kind->n_fields; f++) {
+        double value[2] = {0.0, 0.0};
+        read_field(obstacle, &kind->fields[f], value);
+        const double size = fmax(fabs(value[0]), fabs(value[1]));
+        if (size > most) name = kind->fields[f].name;
+        most = fmax(most, size);
+    }
+    return name;
+}
+
 /* The bounds that follow from the fields must be finite, too: products may overflow. */
 static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstacle, dem_index o)
 {
@@ -100,7 +115,7 @@ static dem_status check_kind(const motion_kind *kind, const dem_obstacle *obstac
     const motion_bounds b = kind->bounds(obstacle);
     CHECK(isfinite(b.speed) && isfinite(b.acceleration) && isfinite(b.step_rate), DEM_ERROR_MODEL,
           "obstacle %lld: %s makes it move by up to %g m/s and %g m/s^2, which cannot be computed with", (long long)o,
-          kind->n_fields > 0 ? kind->fields[0].name : "its motion", b.speed, b.acceleration);
+          largest_field(kind, obstacle), b.speed, b.acceleration);
     return DEM_OK;
 }
 

@@ -48,6 +48,8 @@ TEST(motions_need_their_keys)
     check(", motion = 'oscillate', frequency = 2", "'amplitude' in &obstacle must be given for motion 'oscillate'");
     check(", motion = 'rotate', pivot = 0, 1", "'spin' in &obstacle must be given for motion 'rotate'");
     check(", motion = 'fixed', 'rotate', spin = 1", "'motion' in &obstacle has 'fixed' together with another kind");
+    check(", motion = 'rotate', 'translate', 'rotate', velocity = 1, 0, spin = 1",
+          "'motion' in &obstacle has 'rotate' twice");
 }
 
 TEST(numbers_arrive_under_their_names)

@@ -62,6 +62,22 @@ TEST(a_polyline_that_meets_itself_is_reported)
     obstacles_free(made, 2);
 }
 
+TEST(a_motion_that_cannot_be_computed_with_is_reported)
+{
+    CLEANUP(drop_resolved)
+    resolved r = resolve_obstacles("&obstacle restitution = 0, points = 0,0, 1,0 /\n"
+                                   "&obstacle restitution = 0, points = 0,0, 1,0, motion = 'rotate', spin = 1e200 /\n");
+    obstacles_check(&r.deck, &r.errors);
+    assert_int_equal(r.errors.n, 0);
+    dem_obstacle *made = obstacles_make(&r.deck, &r.errors);
+    assert_non_null(made);
+    assert_int_equal(r.errors.n, 1);
+    assert_string_equal(r.errors.list[0].text,
+                        "obstacle 2: spin makes it move by up to 1e+200 m/s and inf m/s^2, which "
+                        "cannot be computed with");
+    obstacles_free(made, 2);
+}
+
 TEST(a_still_obstacle_is_where_the_moving_one_begins)
 {
     const double points[4] = {0.0, 1.0, 2.0, 1.0};
