@@ -144,8 +144,11 @@ static dem_status read_bounds(const hdf5_file *file, const char *group, dem_obst
     TRY(hdf5_untrusted_read(file, name, HDF5_F64, (hdf5_untrusted_rows){0, 3, 0}, bounds));
     if (!(bounds[0] > 0.0 && isfinite(bounds[0]) && bounds[1] >= 0.0 && isfinite(bounds[1])))
         return hdf5_untrusted_refuse(file, name, "has a bound that is no speed or acceleration");
+    if (!(bounds[2] >= 0.0 && isfinite(bounds[2])))
+        return hdf5_untrusted_refuse(file, name, "has a longest step that is no time");
     o->most_speed = bounds[0];
     o->most_acceleration = bounds[1];
+    o->longest_step = bounds[2];
     return DEM_OK;
 }
 

@@ -30,7 +30,8 @@ static void write_run(const char *path, double *amplitude)
     const double x[2] = {5.0, 5.0}, mass = 1.0;
     const dem_obstacle obstacles[2] = {SIZED(dem_obstacle, .n_points = 2, .points = other),
                                        SIZED(dem_obstacle, .n_points = 2, .points = points, .motion = swing,
-                                             .motion_context = amplitude, .most_speed = 1.0, .most_acceleration = 1.0)};
+                                             .motion_context = amplitude, .most_speed = 1.0, .most_acceleration = 1.5,
+                                             .longest_step = 0.5)};
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(1, x, &mass, 0, NULL, 0.0, 0.0, NULL);
     CLEANUP(support_close) support_run run;
     dem_options options = support_options();
@@ -62,6 +63,7 @@ TEST(a_motion_by_a_function_is_drawn_from_the_history)
     assert_ok(dem_reader_open(&reader, path));
     const dem_obstacle *rest = dem_reader_obstacle(reader, 0), *moved = dem_reader_obstacle(reader, 1);
     assert_true(!dem_obstacle_moves(rest, NULL) && dem_obstacle_moves(moved, NULL));
+    assert_true(moved->most_speed == 1.0 && moved->most_acceleration == 1.5 && moved->longest_step == 0.5);
     for (double t = 0.0; t < 1.0; t += 0.0437) {
         double found[4];
         assert_ok(dem_obstacle_points(moved, t, found));
