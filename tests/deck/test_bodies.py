@@ -97,6 +97,28 @@ class Bodies(unittest.TestCase):
         own = np.stack([c * x[:, 0] - s * x[:, 1], s * x[:, 0] + c * x[:, 1]])
         return np.minimum(0.1 - np.abs(own[0] - 0.1), 0.01 - np.abs(own[1])).max()
 
+    def test_a_rigid_hammer_squeezes_a_ring(self):
+        run = Written("hammer")
+        h, masses = run.h, run.masses()
+        self.assertEqual(run.crossings(), 0)
+        self.assertIn('"warnings":[]', run.log)
+        v, t = h["body_velocity"], h["t"]
+        # the guide and the mirror leave the vertical alone; what acts along it is the anvil and the weight, 39 N s at first
+        rising = (masses * v[:, :, 1]).sum(axis=1)
+        lost = rising - rising[0] - h["obstacle_impulse"][:, 0, 1] + 9.81 * masses.sum() * t
+        self.assertLess(np.abs(lost).max(), 1e-12 * 39.0)
+        self.assertTrue((v[:, 1, 0] == 0.0).all())
+        self.assertLess(np.abs(h["body_angular_momentum"][:, 1]).max(), 1e-15)  # rounding of its sum
+        hammer = run.x[:, run.lattice["body"] == 1]
+        self.assertLess(np.abs(hammer - hammer[:, :1] - (hammer[0] - hammer[0, :1])).max(), 1e-15)  # of 0.1 m: rounding
+        # the deck's header: its digits
+        self.assertAlmostEqual(t[h["body_centre"][:, 1, 1].argmin()], 5.1e-3, delta=5e-5)
+        self.assertAlmostEqual(hammer[:, :, 1].min(), 0.067, delta=5e-4)
+        self.assertAlmostEqual(t[h["pairs"] > 0].max(), 1.03e-2, delta=5e-5)
+        self.assertAlmostEqual(v[h["pairs"] > 0][-1, 1, 1], 4.43, delta=0.01)
+        self.assertAlmostEqual(v[-1, 0, 1], 2.0, delta=0.05)
+        self.assertLess(np.abs(h["closure"]).max(), 1e-5)
+
     def test_discs_poured_into_a_hopper_come_to_rest(self):
         run = Written("granular", *([] if IS_WHOLE else ["body.copies=6,4", "body.position=-0.115,0.42"]))
         self.assertEqual(run.crossings(), 0)
