@@ -35,6 +35,12 @@ static void look_at_one(contact_batch *b, const double *x)
     b->n += e.by_edge || e.near_first;
 }
 
+/* As long as there is any before `end`, and room for it. */
+static void look_at_ones(contact_batch *b, dem_index end, const double *x)
+{
+    while (b->next < end && b->n < CONTACT_BATCH_MOST) look_at_one(b, x);
+}
+
 #ifdef DEM_X86_KERNELS
 #define WITH_AVX2 __attribute__((target("avx2"))) static inline
 
@@ -96,7 +102,7 @@ static const int orders[16][8] = {
     {AT(0), AT(1), AT(2), AT(3)}};
 static const int counts[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 
-__attribute__((target("avx2"))) static void look_at_four(contact_batch *b, const double *x)
+WITH_AVX2 void look_at_four(contact_batch *b, const double *x)
 {
     const contact_pair *p = &b->list[b->next];
     const four_vectors node = nodes_at(p, CONTACT_PAIR_NODE, x), a = nodes_at(p, CONTACT_PAIR_FIRST, x);
@@ -124,19 +130,22 @@ __attribute__((target("avx2"))) static void look_at_four(contact_batch *b, const
     append_places(b->which + k, b->next - 4, order);
     b->n += counts[reach];
 }
-#else
-static void look_at_four(contact_batch *b, const double *x)
+
+/* The same of fours. */
+__attribute__((target("avx2"))) static void look_at_fours(contact_batch *b, dem_index end, const double *x)
 {
-    for (int k = 0; k < 4; k++) look_at_one(b, x);
+    while (b->next + 4 <= end && b->n + 4 <= CONTACT_BATCH_MOST) look_at_four(b, x);
 }
+#else
+#define look_at_fours look_at_ones
 #endif
 
 bool contact_batch_next(contact_batch *b, const double *x)
 {
     const dem_index fours = instruction_set_avx2() ? b->n_pairs - b->n_pairs % 4 : 0;
     b->n = 0;
-    while (b->next < fours && b->n + 4 <= CONTACT_BATCH_MOST) look_at_four(b, x);
-    while (b->next >= fours && b->next < b->n_pairs && b->n < CONTACT_BATCH_MOST) look_at_one(b, x);
+    if (b->next < fours) look_at_fours(b, fours, x);
+    if (b->next >= fours) look_at_ones(b, b->n_pairs, x);
     return b->n > 0;
 }
 
@@ -150,6 +159,7 @@ static inline __attribute__((always_inline)) void evaluate(contact_batch *b)
             .t = {b->t_x[k], b->t_y[k]}, .along = b->along[k], .front = b->front[k], .square = b->square[k]};
         const edge_push push = contact_pair_edge(e, b->thickness[k]);
         b->share[k] = push.share;
+        b->u[k] = push.u;
         b->pressure[k] = push.pressure;
         b->n_x[k] = push.normal.x;
         b->n_y[k] = push.normal.y;
@@ -171,4 +181,17 @@ void contact_batch_evaluate(contact_batch *b)
         evaluate_avx2(b);
     else
         evaluate(b);
+}
+
+bool contact_batch_push(const contact_batch *b, int k, const double *x, contact_push *out)
+{
+    const bool by_edge = b->by_edge[k] != 0.0;
+    *out = by_edge ? contact_batch_edge_push(b, k) : (contact_push){.pair = &b->list[b->which[k]]};
+    return contact_pair_push_ends(out->pair, contact_batch_is_near_first(b, k), x, out) || by_edge;
+}
+
+double contact_batch_nearness(const contact_batch *b, int k)
+{
+    const double edge = b->by_edge[k] != 0.0 ? b->u[k] : 1.0, first = sqrt(b->radius[k]) / b->thickness[k];
+    return edge < first ? edge : first;
 }

@@ -19,8 +19,8 @@ typedef struct contact_batch {
     double along[CONTACT_BATCH_MOST], front[CONTACT_BATCH_MOST], square[CONTACT_BATCH_MOST]; /* edge_terms */
     double t_x[CONTACT_BATCH_MOST], t_y[CONTACT_BATCH_MOST], radius[CONTACT_BATCH_MOST];
     double thickness[CONTACT_BATCH_MOST];
-    double share[CONTACT_BATCH_MOST], pressure[CONTACT_BATCH_MOST]; /* results, of the edges that push */
-    double n_x[CONTACT_BATCH_MOST], n_y[CONTACT_BATCH_MOST];
+    double share[CONTACT_BATCH_MOST], u[CONTACT_BATCH_MOST]; /* results, of the edges that push: edge_push */
+    double pressure[CONTACT_BATCH_MOST], n_x[CONTACT_BATCH_MOST], n_y[CONTACT_BATCH_MOST];
 } contact_batch;
 
 /** Begins with a list of pairs; no batch as yet. Borrows the list.
@@ -35,28 +35,31 @@ bool contact_batch_next(contact_batch *b, const double *x);
 /** Evaluates what the edges of the batch push with, which has been found with the part 1. */
 void contact_batch_evaluate(contact_batch *b);
 
-/** The largest pressure of edge or first end of pair k of the batch, once it has been evaluated, over the contact
- *  modulus. */
-static inline double contact_batch_pressure(const contact_batch *b, int k)
+/** Whether pair k of the batch is nearer to the first end of its edge than the thickness. */
+static inline bool contact_batch_is_near_first(const contact_batch *b, int k)
 {
-    const double edge = b->by_edge[k] != 0.0 ? b->pressure[k] : 0.0;
-    const double u = b->radius[k] < b->thickness[k] * b->thickness[k] ? sqrt(b->radius[k]) / b->thickness[k] : 1.0;
-    const double first = u < 1.0 ? contact_potential_pressure(u) : 0.0;
-    return edge > first ? edge : first;
+    return b->radius[k] < b->thickness[k] * b->thickness[k];
 }
 
-/** The forces of pair k of the batch, once it has been evaluated.  \return whether there are any */
-static inline bool contact_batch_push(const contact_batch *b, int k, const double *x, contact_push *out)
+/** Whether an end of the edge might push, too. Otherwise, found with the part 1, the edge does. */
+static inline bool contact_batch_is_near_end(const contact_batch *b, int k)
+{
+    return contact_batch_is_near_first(b, k) || b->list[b->which[k]].ends_at_second;
+}
+
+/** The forces of the edge of pair k of the batch, once it has been evaluated and if its edge pushes. */
+static inline contact_push contact_batch_edge_push(const contact_batch *b, int k)
 {
     const contact_pair *p = &b->list[b->which[k]];
-    const bool by_edge = b->by_edge[k] != 0.0, near_first = b->radius[k] < b->thickness[k] * b->thickness[k];
-    *out = (contact_push){.pair = p};
-    if (by_edge) {
-        out->share = b->share[k];
-        out->by_edge = vec2_scale(p->weight * b->pressure[k], (vec2){b->n_x[k], b->n_y[k]});
-    }
-    if (!near_first && !p->ends_at_second) return by_edge;
-    return contact_pair_push_ends(p, near_first, x, out) || by_edge;
+    return (contact_push){.pair = p,
+                          .share = b->share[k],
+                          .by_edge = vec2_scale(p->weight * b->pressure[k], (vec2){b->n_x[k], b->n_y[k]})};
 }
+
+/** The forces of its edge and of its ends.  \return whether there are any */
+bool contact_batch_push(const contact_batch *b, int k, const double *x, contact_push *out);
+
+/** Its distance over the thickness, from the edge if that pushes, or from the first end if that is as near. */
+double contact_batch_nearness(const contact_batch *b, int k);
 
 #endif

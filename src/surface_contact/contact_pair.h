@@ -74,15 +74,17 @@ static inline edge_terms contact_pair_terms(const contact_pair *p, double part, 
 
 /** What an edge that pushes does. */
 typedef struct edge_push {
-    double share, pressure; /* of the second end; contact_potential_pressure() */
+    double share;       /* of the second end */
+    double u, pressure; /* distance over thickness; contact_potential_pressure() */
     vec2 normal;
 } edge_push;
 
 static inline edge_push contact_pair_edge(edge_terms e, double thickness)
 {
-    const double length = sqrt(e.square);
+    const double length = sqrt(e.square), u = e.front / length / thickness;
     return (edge_push){.share = e.along / e.square,
-                       .pressure = contact_potential_pressure(e.front / length / thickness),
+                       .u = u,
+                       .pressure = contact_potential_pressure(u),
                        .normal = {e.t.y / length, -e.t.x / length}};
 }
 

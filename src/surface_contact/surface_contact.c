@@ -122,19 +122,46 @@ static void add_force(surface_contact *c, dem_index node, vec2 force)
     vec2_put(c->force, node, vec2_add(vec2_at(c->force, node), force));
 }
 
-static void add_pushes(surface_contact *c, const contact_batch *b, const double *x)
+/* Keeps a push if it limits friction. */
+static void hold_push(surface_contact *c, const contact_push *push)
+{
+    if (anchor_set_of_pair(&c->anchors, push->pair) != NULL) c->held[c->n_held++].push = *push;
+}
+
+static inline void add_push(surface_contact *c, const contact_push *push)
+{
+    const dem_index *nodes = push->pair->nodes;
+    add_force(c, nodes[CONTACT_PAIR_NODE], contact_push_on(push, CONTACT_PAIR_NODE));
+    add_force(c, nodes[CONTACT_PAIR_FIRST], contact_push_on(push, CONTACT_PAIR_FIRST));
+    add_force(c, nodes[CONTACT_PAIR_SECOND], contact_push_on(push, CONTACT_PAIR_SECOND));
+    if (c->anchors.n > 0) hold_push(c, push);
+}
+
+/* Each of these returns how near the pair is, over the thickness. */
+static double add_push_near_end(surface_contact *c, const contact_batch *b, int k, const double *x)
 {
     contact_push push;
+    if (contact_batch_push(b, k, x, &push)) add_push(c, &push);
+    return contact_batch_nearness(b, k);
+}
+
+static double add_edge_push(surface_contact *c, const contact_batch *b, int k)
+{
+    const contact_push push = contact_batch_edge_push(b, k);
+    add_push(c, &push);
+    return b->u[k];
+}
+
+/* The pairs of a batch, most of which are far from the ends of their edge. */
+static void add_pushes(surface_contact *c, const contact_batch *b, const double *x)
+{
+    double nearest = c->nearest;
     for (int k = 0; k < b->n; k++) {
-        if (!contact_batch_push(b, k, x, &push)) continue;
-        const double pressure = contact_batch_pressure(b, k);
-        if (pressure > c->pressure) c->pressure = pressure;
-        const dem_index *nodes = push.pair->nodes;
-        add_force(c, nodes[CONTACT_PAIR_NODE], contact_push_on(&push, CONTACT_PAIR_NODE));
-        add_force(c, nodes[CONTACT_PAIR_FIRST], contact_push_on(&push, CONTACT_PAIR_FIRST));
-        add_force(c, nodes[CONTACT_PAIR_SECOND], contact_push_on(&push, CONTACT_PAIR_SECOND));
-        if (c->anchors.n > 0 && anchor_set_of_pair(&c->anchors, push.pair) != NULL) c->held[c->n_held++].push = push;
+        const bool is_near_end = contact_batch_is_near_end(b, k);
+        const double u = is_near_end ? add_push_near_end(c, b, k, x) : add_edge_push(c, b, k);
+        if (u < nearest) nearest = u;
     }
+    c->nearest = nearest;
 }
 
 /* The friction of one node, which has these pushes. */
@@ -176,7 +203,7 @@ bool surface_contact_evaluate(surface_contact *c, const double *x)
     c->status = make_room(c);
     if (c->status != DEM_OK) return false;
     contact_batch batch;
-    c->pressure = 0.0;
+    c->nearest = 1.0;
     contact_batch_begin(&batch, c->close.list, c->close.n, 1.0);
     while (contact_batch_next(&batch, x)) {
         contact_batch_evaluate(&batch);
@@ -362,7 +389,7 @@ double surface_contact_stiffening(surface_contact *c, const double *inverse_mass
     add_anchors(c, x);
     const double left = harmless - largest_over_mass(c, inverse_mass);
     const double part = sqrt(c->unit / (c->unit + fmax(left, 0.0)));
-    const bool is_below = is_evaluated && c->pressure < contact_potential_pressure(part);
+    const bool is_below = is_evaluated && c->nearest > part;
     const bool is_harmless = c->close.n == 0 || (part < 1.0 && (is_below || !any_within(c, part, x)));
     return is_harmless ? 0.0 : stiffening_within_reach(c, inverse_mass, x);
 }

@@ -42,7 +42,7 @@ typedef struct surface_contact {
     double unit;              /* rad^2/s^2, what close pairs add with contact_potential_stiffness() = 1, at most */
     dem_status status;        /* DEM_OK; else the last evaluation failed with this */
     bool is_evaluated;        /* the lists fit the state of the last evaluation */
-    double pressure;          /* over the contact modulus, in that evaluation no more than this */
+    double nearest;           /* distance over thickness, in that evaluation no pair was nearer than this */
     dem_index n_pushed;       /* nodes on which something acted in the last evaluation */
     dem_index *pushed;        /* [n_pushed] in the order in which pairs come to them */
     double *force;            /* [n_nodes][2] N, on these */

@@ -43,6 +43,20 @@ static void check_push(const contact_batch *b, int k, const double *x)
     assert_true(are_equal(push.by_edge, expected.by_edge) && are_equal(push.by_vertex, expected.by_vertex));
 }
 
+/* Far from the ends the edge does all. An edge that pushes is as near as its gap, but for rounding. */
+static void check_edge(const contact_batch *b, int k, const double *x)
+{
+    const contact_pair *p = &b->list[b->which[k]];
+    const double u = contact_batch_nearness(b, k);
+    if (b->by_edge[k] != 0.0) assert_true(fabs(u - contact_pair_gap(p, x) / p->thickness) < 1e-13);
+    if (contact_batch_is_near_end(b, k)) return;
+    const contact_push push = contact_batch_edge_push(b, k);
+    contact_push expected;
+    assert_true(contact_pair_push(p, x, &expected) && b->u[k] == u);
+    assert_true(push.pair == p && push.share == expected.share && are_equal(push.by_edge, expected.by_edge));
+    assert_true(are_equal(expected.by_vertex, (vec2){0.0, 0.0}));
+}
+
 /* By its vertex a pair may be found and push nothing, but not beyond the thickness. */
 static void check_found(const contact_pair *p, bool is_found, double part, const double *x)
 {
@@ -63,6 +77,7 @@ static dem_index check(const contact_pair *list, dem_index n, double part, const
             for (; next < b.which[k]; next++) check_found(&list[next], false, part, x);
             check_found(&list[next++], true, part, x);
             if (part == 1.0) check_push(&b, k, x);
+            if (part == 1.0) check_edge(&b, k, x);
         }
         n_found += b.n;
     }
