@@ -8,9 +8,15 @@
 #include "base/grow.h"
 #include "base/status.h"
 
+void close_pairs_create(close_pairs *out, const contact_surface *of, const pair_rows *candidates)
+{
+    *out = (close_pairs){.ways.surface = of, .apart = {.surface = of, .of = candidates}};
+}
+
 void close_pairs_destroy(close_pairs *c)
 {
     surface_ways_destroy(&c->ways);
+    surface_ways_destroy(&c->apart);
     free(c->list);
     *c = (close_pairs){0};
 }
@@ -20,17 +26,21 @@ void close_pairs_clear(close_pairs *c)
     c->chosen = false;
     c->n = 0;
     surface_ways_clear(&c->ways);
+    surface_ways_clear(&c->apart);
 }
 
 /* What is no candidate is beyond the thickness. */
-dem_status close_pairs_choose(close_pairs *c, const pair_rows *candidates, double margin, const double *x)
+dem_status close_pairs_choose(close_pairs *c, double margin, const double *x)
 {
     const contact_surface *of = c->ways.surface;
+    const pair_rows *candidates = c->apart.of;
     c->chosen = false;
     c->n = 0;
     c->margin = margin;
     c->least = of->least.thickness;
     TRY(surface_ways_note(&c->ways, of->most.thickness + margin, x));
+    surface_ways_clear(&c->apart);
+    TRY(surface_ways_note(&c->apart, of->most.thickness + margin, x));
     CHECK(grow_array((void **)&c->list, &c->capacity, candidates->n, sizeof *c->list), DEM_ERROR_MEMORY,
           "out of memory for %lld contact pairs", (long long)candidates->n);
     for (dem_index k = 0; k < candidates->n; k++) {
@@ -52,5 +62,5 @@ bool close_pairs_hold(const close_pairs *c, const double *x)
 bool close_pairs_stay_apart(const close_pairs *c, const double *x0, const double *x1)
 {
     const double most = 0.99 * c->least; /* a bit less, for rounding */
-    return c->chosen && surface_ways_within(&c->ways, most, x1) && surface_ways_within(&c->ways, most, x0);
+    return c->chosen && surface_ways_within(&c->apart, most, x1) && surface_ways_within(&c->apart, most, x0);
 }

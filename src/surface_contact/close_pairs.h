@@ -13,12 +13,14 @@ typedef struct close_pairs {
     dem_index n_chosen; /* how often they have been */
     double margin;      /* m */
     surface_ways ways;  /* from the state for which they were chosen */
+    surface_ways apart; /* likewise of the nodes of the candidates, which alone may cross an edge */
     double least;       /* m, there no node was nearer than this to an edge that may touch it */
     dem_index n, capacity;
     contact_pair *list; /* [n] in the order of (node, edge) */
 } close_pairs;
 
-/** Those of a surface, none yet, are {.ways.surface = it}. Free with close_pairs_destroy(). */
+/** None. Borrows the surface, and the candidates among which they will be chosen. Free with close_pairs_destroy(). */
+void close_pairs_create(close_pairs *out, const contact_surface *of, const pair_rows *candidates);
 void close_pairs_destroy(close_pairs *c);
 
 /** Removes all, for another surface in the same place. */
@@ -26,7 +28,7 @@ void close_pairs_clear(close_pairs *c);
 
 /** Chooses those of the candidates that are nearer than the thickness and a margin, m, at positions x [n][2]. All pairs
  *  so near must be among them.  \return DEM_ERROR_MEMORY; there are none then */
-dem_status close_pairs_choose(close_pairs *c, const pair_rows *candidates, double margin, const double *x);
+dem_status close_pairs_choose(close_pairs *c, double margin, const double *x);
 
 /** Whether all pairs nearer than the thickness at positions x are among them. */
 bool close_pairs_hold(const close_pairs *c, const double *x);

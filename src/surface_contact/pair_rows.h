@@ -27,6 +27,12 @@ dem_status pair_rows_add(pair_rows *r, const contact_pair *pair);
 /** Lists the pairs by nodes. */
 dem_status pair_rows_link(pair_rows *r);
 
+/** Whether a node is in a pair. */
+static inline bool pair_rows_has(const pair_rows *r, dem_index node)
+{
+    return r->first[node] >= 0;
+}
+
 /** The pair of a slot, and what the node of the slot is in it. */
 static inline const contact_pair *pair_rows_pair(const pair_rows *r, dem_index slot)
 {

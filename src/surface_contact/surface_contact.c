@@ -31,7 +31,7 @@ static dem_status set_up(surface_contact *c, const dem_lattice *lattice, const s
     c->near_margin = near_margin * c->surface.mean_length;
     TRY(pair_list_create(&c->candidates, &c->surface, rule->within_bodies, margin * c->surface.mean_length));
     c->rows = &c->candidates.pairs;
-    c->close = (close_pairs){.ways.surface = &c->surface};
+    close_pairs_create(&c->close, &c->surface, &c->candidates.pairs);
     contact_surface_set_friction(&c->surface, rule->friction, rule->body_friction);
     TRY(anchor_set_create(&c->anchors, &c->surface));
     return pair_list_count_left_out(&c->candidates, &c->n_left_out);
@@ -92,7 +92,7 @@ static dem_status renew_lists(surface_contact *c, const double *x)
     const double close = fmin(usual_close_margin * c->surface.mean_length, most);
     c->close.chosen = false;
     TRY(pair_list_follow(&c->candidates, x, fmin((close + c->near_margin) / margin, 1.0)));
-    return close_pairs_choose(&c->close, &c->candidates.pairs, close, x);
+    return close_pairs_choose(&c->close, close, x);
 }
 
 dem_status surface_contact_follow(surface_contact *c, const double *x)

@@ -169,7 +169,7 @@ static inline bool surface_contact_next_neighbour(surface_neighbours *n, dem_ind
 /** Whether a node is in a pair. */
 static inline bool surface_contact_has(const surface_contact *c, dem_index i)
 {
-    return c != NULL && c->rows->first[i] >= 0;
+    return c != NULL && pair_rows_has(c->rows, i);
 }
 
 #endif

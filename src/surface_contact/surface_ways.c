@@ -26,9 +26,9 @@ void surface_ways_destroy(surface_ways *w)
 
 void surface_ways_clear(surface_ways *w)
 {
-    const contact_surface *of = w->surface;
+    const surface_ways none = {.surface = w->surface, .of = w->of};
     surface_ways_destroy(w);
-    w->surface = of;
+    *w = none;
 }
 
 /* ---- twos ---- */
@@ -53,7 +53,7 @@ static void go_through(surface_ways *w, dem_index *list)
     dem_index beyond[MOST_GROUPS] = {0}; /* the nodes of a group before this have been looked at */
     for (dem_index k = 0; k < c->n_nodes; k++) {
         const dem_index node = c->nodes[k], group = group_of(w, node);
-        if (node < beyond[group]) continue;
+        if (node < beyond[group] || (w->of != NULL && !pair_rows_has(w->of, node))) continue;
         const dem_index first = first_of_two(c->lattice, node);
         beyond[group] = first + 2;
         if (list == NULL)

@@ -6,10 +6,12 @@
 #define DEM_SURFACE_CONTACT_SURFACE_WAYS_H
 
 #include "surface_contact/contact_surface.h"
+#include "surface_contact/pair_rows.h"
 #include "surface_contact/way_box.h"
 
 typedef struct surface_ways {
     const contact_surface *surface;
+    const pair_rows *of; /* only the nodes of these pairs; NULL: all */
     int n_groups;        /* one of each body, or of all where they are many; 0: none listed */
     dem_index *begin;    /* [n_groups + 2] the twos of each group */
     box *boxes;          /* [n_groups] of positions or of ways, as they were last looked at */
@@ -20,10 +22,11 @@ typedef struct surface_ways {
     double between;      /* m, other pairs of groups are apart by the reach and this at least */
 } surface_ways;
 
-/** Those of a surface, no state noted, are {.surface = it}. Free with surface_ways_destroy(). */
+/** Those of a surface, or of its nodes in some pairs, no state noted, are {.surface = it, .of = them}. Free with
+ *  surface_ways_destroy(). */
 void surface_ways_destroy(surface_ways *w);
 
-/** Notes no state, for another surface in the same place. */
+/** Notes no state, for another surface or other pairs in the same place. */
 void surface_ways_clear(surface_ways *w);
 
 /** Notes the positions x [n][2].

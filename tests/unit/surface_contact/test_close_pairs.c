@@ -8,9 +8,10 @@
 #include "surface_contact/pair_list.h"
 #include "verification/support.h"
 
-static const double margin = 0.05; /* m */
+static const double margin = 0.05, wide = 0.5; /* m */
 
-/* Stars side by side with a random shift of all nodes, all their candidates, and those which are close. */
+/* Stars side by side with a random shift of all nodes, all their candidates, and those which are close. Candidates are
+ * nearer than the thickness and `around`, m. */
 typedef struct scene {
     dem_lattice lattice;
     contact_surface surface;
@@ -19,17 +20,17 @@ typedef struct scene {
     double *x, *x1;
 } scene;
 
-static void open_scene(scene *s, gsl_rng *rng)
+static void open_scene(scene *s, gsl_rng *rng, double around)
 {
     *s = (scene){.lattice = curves_make(rng, 9, 24, 2.1)};
     assert_ok(contact_surface_compile(&s->surface, &s->lattice, 0.0, 1.0));
-    assert_ok(pair_list_create(&s->list, &s->surface, true, 0.5));
-    s->close = (close_pairs){.ways.surface = &s->surface};
+    assert_ok(pair_list_create(&s->list, &s->surface, true, around));
+    close_pairs_create(&s->close, &s->surface, &s->list.pairs);
     s->x = curves_shift(rng, &s->lattice, 0.1);
     s->x1 = malloc(2 * (size_t)s->lattice.n_nodes * sizeof *s->x1);
     assert_false(close_pairs_hold(&s->close, s->x));
     assert_ok(pair_list_follow(&s->list, s->x, 0.0));
-    assert_ok(close_pairs_choose(&s->close, &s->list.pairs, margin, s->x));
+    assert_ok(close_pairs_choose(&s->close, margin, s->x));
 }
 
 static void close_scene(scene *s)
@@ -47,7 +48,7 @@ TEST(close_pairs_are_the_candidates_within_the_margin_in_their_order)
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     CLEANUP(close_scene) scene s;
     dem_index n = 0;
-    open_scene(&s, rng);
+    open_scene(&s, rng, wide);
     double least = s.surface.least.thickness;
     for (dem_index k = 0; k < s.list.pairs.n; k++) {
         const contact_pair *p = &s.list.pairs.list[k];
@@ -67,7 +68,7 @@ TEST(they_hold_until_two_nodes_have_moved_by_the_margin)
 {
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     CLEANUP(close_scene) scene s;
-    open_scene(&s, rng);
+    open_scene(&s, rng, wide);
     for (dem_index k = 0; k < 2 * s.lattice.n_nodes; k++) s.x[k] += 3.0;
     s.x[2 * 30] += 0.024;
     s.x[2 * 31] -= 0.024;
@@ -83,7 +84,7 @@ TEST(no_node_crosses_an_edge_where_surfaces_are_said_to_stay_apart)
     int n_apart = 0, n_crossed = 0;
     for (int turn = 0; turn < 400; turn++) {
         CLEANUP(close_scene) scene s;
-        open_scene(&s, rng);
+        open_scene(&s, rng, wide);
         const double size = 0.1 * pow(10.0, -4.0 * gsl_rng_uniform(rng));
         bool crosses = false;
         for (dem_index k = 0; k < 2 * s.lattice.n_nodes; k++) s.x1[k] = s.x[k] + size * (gsl_rng_uniform(rng) - 0.5);
@@ -98,4 +99,25 @@ TEST(no_node_crosses_an_edge_where_surfaces_are_said_to_stay_apart)
         n_crossed += crosses;
     }
     assert_true(n_apart > 20 && n_crossed > 20);
+}
+
+/* Nodes are looked at in twos, so that a neighbour of what is in a pair counts, too. */
+TEST(what_is_in_no_candidate_crosses_nothing)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    dem_index n = 0;
+    open_scene(&s, rng, margin);
+    const pair_rows *pairs = &s.list.pairs;
+    memcpy(s.x1, s.x, 2 * (size_t)s.lattice.n_nodes * sizeof *s.x);
+    for (dem_index k = 1; k + 1 < s.lattice.n_nodes; k++) {
+        if (pair_rows_has(pairs, k - 1) || pair_rows_has(pairs, k) || pair_rows_has(pairs, k + 1)) continue;
+        s.x1[2 * k] += 0.5;
+        n++;
+    }
+    assert_true(n > 2);
+    assert_true(close_pairs_stay_apart(&s.close, s.x, s.x1));
+    assert_false(close_pairs_hold(&s.close, s.x1));
+    s.x1[2 * pairs->list[0].nodes[CONTACT_PAIR_NODE]] += 0.5;
+    assert_false(close_pairs_stay_apart(&s.close, s.x, s.x1));
 }
