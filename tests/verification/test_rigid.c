@@ -106,16 +106,19 @@ TEST(a_spinning_rigid_body_keeps_its_shape_and_momenta_for_ten_thousand_steps)
 }
 
 /* A third of a radian in each step: what the method does to the shape, about 1e-6 of it, is taken back at every end,
- * and takes neither spin nor energy with it. */
+ * and takes neither spin nor energy with it. Coordinates of 4 m are rounded to strains of 3.5e-13, and a thousand steps
+ * round velocities by 1.1e-13: found are 1e-13 each. */
 TEST(a_fast_spin_is_kept_by_long_steps)
 {
     const dem_method methods[3] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET, DEM_METHOD_RK4};
     for (int m = 0; m < 3; m++) {
         const extremes e = fly(methods[m], 3e-3, 3.0);
-        assert_true(e.shape < 1e-12);
-        assert_true(e.momentum < 1e-12);
-        assert_true(e.spin < 1e-12);
-        assert_true(e.closure < 2e-12);
+        print_message("# long steps, method %d: shape %.1e, momentum %.1e, spin %.1e, energy %.1e\n", (int)methods[m],
+                      e.shape, e.momentum, e.spin, e.closure);
+        assert_true(e.shape < 4e-13);
+        assert_true(e.momentum < 2e-13);
+        assert_true(e.spin < 2e-13);
+        assert_true(e.closure < 4e-13);
     }
 }
 
@@ -183,7 +186,8 @@ static outcome collide(const dem_lattice *l, dem_method method, double step)
 }
 
 /* Head-on, bodies exchange momentum as two masses do that collide elastically; 1e-4 is what is lost or gained of the
- * energy at the default rtol. Adaptive steps are bounded by nothing but the contact: a few dozen are enough. */
+ * energy at the default rtol. Adaptive steps are bounded by nothing but the contact: a few dozen are enough. Found are
+ * 4e-5 of the energy and 1e-4 m/s, with Verlet's steps 7e-8 and 1e-6. */
 TEST(rigid_bodies_exchange_momentum_as_elastic_masses_do)
 {
     const double widths[2] = {0.05, 0.1}, steps[2] = {1e-3, 2e-6};
@@ -194,8 +198,8 @@ TEST(rigid_bodies_exchange_momentum_as_elastic_masses_do)
         const double m[2] = {o.before[0].mass, o.before[1].mass}, v = -4.0, sum = m[0] + m[1];
         print_message("# masses %.3f, %.3f kg: %.6f, %.6f m/s, closure %.1e\n", m[0], m[1], o.after[0].velocity[0],
                       o.after[1].velocity[0], o.closure);
-        assert_close(o.after[0].velocity[0], 2.0 * m[1] / sum * v, 1e-3);
-        assert_close(o.after[1].velocity[0], (m[1] - m[0]) / sum * v, 1e-3);
+        assert_close(o.after[0].velocity[0], 2.0 * m[1] / sum * v, 3e-4);
+        assert_close(o.after[1].velocity[0], (m[1] - m[0]) / sum * v, 3e-4);
         assert_close(m[0] * o.after[0].velocity[0] + m[1] * o.after[1].velocity[0], m[1] * v, 1e-13 * m[1] * 4.0);
         assert_true(o.closure < 1e-4);
     }
@@ -211,10 +215,10 @@ static double angular_momentum(const dem_body_motion b[2])
 }
 
 /* Off the middle both turn. Verlet's steps keep angular momentum to rounding, even though shapes are put back in each;
- * Runge-Kutta methods to their error, as in elastic bodies. */
+ * Runge-Kutta methods to their error, as in elastic bodies: found are 6e-9 and 2e-13, and closures of 3e-6. */
 TEST(rigid_bodies_keep_angular_momentum_in_contact)
 {
-    const double steps[2] = {1e-3, 2e-6}, tolerance[2] = {1e-8, 1e-12};
+    const double steps[2] = {1e-3, 2e-6}, tolerance[2] = {2e-8, 1e-12};
     const dem_method methods[2] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
     for (int k = 0; k < 2; k++) {
         CLEANUP(dem_lattice_free) dem_lattice l = make_colliding(0.08, 0.021);
@@ -224,7 +228,7 @@ TEST(rigid_bodies_keep_angular_momentum_in_contact)
         print_message("# angular momentum %.1e, closure %.1e\n", off, o.closure);
         assert_true(fabs(o.after[0].angular_momentum[2]) > 0.02 * scale);
         assert_true(off < tolerance[k]);
-        assert_true(o.closure < 3e-4);
+        assert_true(o.closure < 1e-5);
     }
 }
 
@@ -305,7 +309,7 @@ TEST(a_guided_block_goes_along_its_guide_and_gives_its_momentum_to_an_elastic_on
     print_message("# guided: momentum %.1e kg m/s of %.1f, closure %.1e\n", momentum, 5.0 * mass, closure);
     assert_true(ask_body(simulation, 0).angular_momentum[2] < -1e-3); /* the elastic one turns */
     assert_close(momentum, 0.0, 1e-12 * 5.0 * mass);
-    assert_true(closure < 3e-4);
+    assert_true(closure < 1e-4); /* at rtol 1e-6, found 3e-5 */
     for (dem_index i = 0; i < l.n_nodes; i++) {
         if (l.body[i] == 0) continue;
         assert_close(end.x[2 * i], l.x[2 * i], 1e-15);
@@ -359,7 +363,8 @@ static dem_options weighed_options(double max_step)
 }
 
 /* The shell takes no energy: after a fall of 20 mm from outside of it a block rises to the same height, which is the
- * highest of the second flight. Between two equal heights the ledger closes to what rtol lets. */
+ * highest of the second flight. Between two equal heights the ledger closes to what rtol lets: found is 2e-6, and
+ * three times as much of the height. */
 static double bounce(dem_contact_method contact, dem_method method, double step, double *closure)
 {
     const double height = 0.02;
@@ -391,8 +396,8 @@ TEST(a_rigid_block_bounces_as_high_as_it_has_fallen)
         double closure;
         const double off = bounce(contacts[k % 2], methods[k / 2], steps[k / 2], &closure);
         print_message("# bounce: height off by %.1e, closure %.1e\n", off, closure);
-        assert_true(off < 2e-4);
-        assert_true(closure < 2e-4);
+        assert_true(off < 2e-5);
+        assert_true(closure < 1e-5);
     }
 }
 
@@ -415,10 +420,11 @@ TEST(a_rigid_block_comes_to_rest_on_a_floor_that_carries_its_weight)
     assert_close(load.reaction[1], weight, 1e-6 * weight);
     assert_close(load.reaction[0], 0.0, 1e-6 * weight);
     assert_close(load.point[0], body.centre[0], 1e-6);
-    assert_close(body.velocity[1], 0.0, 1e-7);
+    assert_close(body.velocity[1], 0.0, 1e-12); /* e^-40 of some cm/s, found 1e-15 */
 }
 
-/* A block on a table that oscillates: the table's work is in the ledger, and its impulse is that of the block. */
+/* A block on a table that oscillates: the table's work is in the ledger, and its impulse is that of the block, to the
+ * rounding of 2e4 steps. */
 static void ride(dem_method method, double step, double tolerance)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = make_falling(2e-3, DEM_GUIDE_NONE);
@@ -439,13 +445,13 @@ static void ride(dem_method method, double step, double tolerance)
                   fabs(impulse - body.mass * (body.velocity[1] + 9.81 * 0.1)) / impulse);
     assert_true(scale > 1e-2);
     assert_true(closure < tolerance);
-    assert_close(impulse, body.mass * (body.velocity[1] + 9.81 * 0.1), 1e-11 * impulse);
+    assert_close(impulse, body.mass * (body.velocity[1] + 9.81 * 0.1), 1e-12 * impulse);
 }
 
 TEST(the_work_of_an_oscillating_table_on_a_rigid_block_is_in_the_ledger)
 {
-    ride(DEM_METHOD_FEHLBERG45, 1e-3, 1e-3);
-    ride(DEM_METHOD_VERLET, 5e-6, 1e-3);
+    ride(DEM_METHOD_FEHLBERG45, 1e-3, 1e-4); /* found 2e-5 at rtol 1e-6 */
+    ride(DEM_METHOD_VERLET, 5e-6, 1e-6);     /* found 6e-8 */
 }
 
 static dem_status swing(void *calls, double t, dem_pose *pose)
@@ -522,7 +528,8 @@ TEST(a_table_at_constant_speed_is_one_at_rest_seen_in_motion)
 
 /* A block that turns hits walls, corners, the point of a wedge in the middle of its sides, and the free end of a wall
  * without thickness, some dozens of times: the ledger closes, and the impulses of the obstacles are its momentum. A
- * corner of it, or of them, that the potential forgot would be a jump of energy. */
+ * corner of it, or of them, that the potential forgot would be a jump of energy. Found are closures of 6e-5 and less,
+ * and momenta off by the rounding of a thousand steps, 3e-13 kg m/s. */
 typedef struct scene {
     const char *name;
     dem_index n_points;
@@ -563,8 +570,8 @@ static void tumble(const scene *of, double g, double t)
     print_message("# %s: %d looks in contact, %d steps, %d rejected, closure %.1e, momentum off by %.1e\n", of->name,
                   (int)hits, (int)ask_counts(simulation).steps, (int)ask_counts(simulation).rejected, closure, off);
     assert_true(hits > 3);
-    assert_true(closure < 1e-3);
-    assert_true(off < 1e-11);
+    assert_true(closure < 2e-4);
+    assert_true(off < 2e-12);
 }
 
 TEST(a_tumbling_block_keeps_its_energy_at_walls_corners_and_ends)
@@ -610,8 +617,8 @@ TEST(local_and_exact_contact_agree_beside_a_rigid_body)
     assert_int_equal(squeeze(DEM_CONTACT_EXACT, DEM_METHOD_FEHLBERG45, x[1], &closure[1]), n);
     for (dem_index i = 0; i < 2 * n; i++) off = fmax(off, fabs(x[0][i] - x[1][i]));
     print_message("# squeezed: off by %.1e spacings, closure %.1e, %.1e\n", off / 5e-3, closure[0], closure[1]);
-    assert_true(off < 1e-8 * 5e-3); /* found 2.4e-9; 2.4e-8 if the block were not moved as a whole */
-    assert_true(fmax(closure[0], closure[1]) < 1e-6);
+    assert_true(off < 1e-8 * 5e-3);                   /* found 2.4e-9; 2.4e-8 if the block were not moved as a whole */
+    assert_true(fmax(closure[0], closure[1]) < 2e-7); /* found 5e-8 */
 }
 
 /* A guided block presses an elastic one on to the floor until all is at rest: the floor carries both weights, and the
