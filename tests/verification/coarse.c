@@ -30,7 +30,7 @@ void coarse_read(deck *d, const char *folder, const char *name, double spacing)
                   strstr(text, "outline") == NULL ? " outline = 'lattice'," : "", (int)(number - group), group, spacing,
                   number + strlen(written));
     assert_int_equal(fclose(file), 0);
-    if (whole_deck_read(d, path, &errors) != DECK_OK)
-        fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
+    const deck_status status = whole_deck_read(d, path, &errors);
     (void)remove(path);
+    if (status != DECK_OK) fail_msg("%s: %s", path, errors.n > 0 ? errors.list[0].text : "?");
 }
