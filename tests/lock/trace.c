@@ -197,8 +197,8 @@ static void add_frame(trace *t, const dem_reader *reader, dem_index frame)
     }
 }
 
-/* Whether a column came after the stored hashes: entries of the ledger that are 0 in all that is run here, where
- * obstacles are, which follows from the input, and contact of bodies, of which there is none. */
+/* Whether a column came after the first hashes: entries of the ledger that are 0 in the decks of those, where obstacles
+ * are, which follows from the input, and what contact of bodies shows. */
 static bool is_new(const dem_reader_column *column)
 {
     static const char *const names[][2] = {{"history", "contact"},
