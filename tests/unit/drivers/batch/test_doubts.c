@@ -66,18 +66,15 @@ TEST(a_smooth_outline_is_proposed_to_those_bodies_that_have_none)
 /* A deck of a disc with these keys, on two floors, of which the second one has these. */
 static size_t count_rigid_doubts(const char *body, const char *floor)
 {
-    char deck_text[512];
-    CLEANUP(namelist_errors_free) namelist_errors errors = {0};
-    CLEANUP(deck_free) deck d;
+    char keys[512];
     run_log log = {.out = tmpfile()};
     assert_non_null(log.out);
-    (void)snprintf(deck_text, sizeof deck_text,
+    (void)snprintf(keys, sizeof keys,
                    "&run t_end = 1 /\n&material youngs_modulus = 1e7, density = 1000 /\n&solver max_step = 1e-3 /\n"
                    "&obstacle points = -9, -9, 9, -9 /\n&obstacle points = -9, -8, 9, -8%s /\n"
                    "&body shape = 'disc', radius = 0.02, spacing = 4e-3, position = 0, 0%s /\n",
                    floor, body);
-    file_put(folder_at(&scratch, "rigid.nml"), deck_text, strlen(deck_text));
-    assert_int_equal(whole_deck_read(&d, folder_at(&scratch, "rigid.nml"), &errors), DECK_OK);
+    CLEANUP(deck_free) deck d = deck_text_good(keys);
     doubts_of_rigid(&log, &d);
     read_log(&log);
     return log.n_warnings;
