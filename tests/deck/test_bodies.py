@@ -67,9 +67,9 @@ class Bodies(unittest.TestCase):
         self.assertLess(np.abs(whole - whole[0]).max(), 1e-8 * abs(whole[0]))
         # the deck's header: its digits; frictionless, so that only the mesh makes them spin
         self.assertAlmostEqual(np.linalg.norm(v[-1, 0]), 4.90, delta=0.01)
-        self.assertAlmostEqual(np.degrees(np.arctan2(v[-1, 1, 1], v[-1, 1, 0])), 34.3, delta=0.5)
+        self.assertAlmostEqual(np.degrees(np.arctan2(v[-1, 1, 1], v[-1, 1, 0])), 34.3, delta=0.1)
         self.assertLess(np.abs(spins[-1] / [run.inertia(0), run.inertia(1)]).max(), 1.0)
-        self.assertLess(np.abs(run.h["closure"]).max(), 3e-5)
+        self.assertLess(np.abs(run.h["closure"]).max(), 3e-5)  # found 1.1e-5 at rtol 1e-6
 
     def test_the_bar_of_a_mill_works_by_its_moment(self):
         run = Written("mill")
@@ -81,14 +81,15 @@ class Bodies(unittest.TestCase):
         weight = (0.5 * np.diff(h["t"]) * (moment[1:] + moment[:-1])).sum()
         # a bar of constant spin works by spin times the moment about its axis, which the particle has taken up
         work = h["obstacle"][-1]
-        self.assertAlmostEqual(work / (spin * (turning[-1] - turning[0] - weight)), 1.0, delta=1e-7)
+        self.assertAlmostEqual(work / (spin * (turning[-1] - turning[0] - weight)), 1.0, delta=1e-9)  # found 6e-13
         self.assertGreater(work, 3.0)
-        # elastic, but for waves: it leaves the bar nearly as fast as it came, by the log 0.94
+        # thrown off elastically it would have twice the bar's speed there less its own 1 m/s; waves keep a little of it
         place = centre[0, 0]
-        self.assertAlmostEqual(np.linalg.norm(v[-1]) / (2.0 * 100.0 * place - 1.0), 1.0, delta=0.05)
-        self.assertLess(np.abs(h["closure"][-1]), 1e-6)
+        ratio = np.linalg.norm(v[-1]) / (2.0 * 100.0 * place - 1.0)
+        self.assertTrue(0.95 < ratio < 1.0, ratio)  # found 0.984
+        self.assertLess(np.abs(h["closure"][-1]), 3e-8)  # found 3e-9
         inside = [self.is_in_bar(x, t) for x, t in zip(run.x, np.linspace(0.0, 6e-4, len(run.x)))]
-        self.assertLess(max(inside), 1e-7)
+        self.assertLess(max(inside), 1e-8)  # some penetration tolerances of 1.5e-9 m; found none
 
     @staticmethod
     def is_in_bar(x, t):
