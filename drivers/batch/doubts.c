@@ -53,10 +53,10 @@ void doubts_of_lattices(run_log *log, const deck *d)
         if (!is_rigid(d, k)) warn_lattice(log, d, k);
 }
 
-void doubts_of_rigid(run_log *log, const deck *d)
+void doubts_of_rigid(run_log *log, const deck *d, const dem_lattice *lattice)
 {
     static const char *const keys[] = {"restitution", "friction"};
-    for (size_t k = 0; k < schema_count(&d->groups, "obstacle") && rigid_keys_first(&d->groups) != NULL; k++)
+    for (size_t k = 0; k < schema_count(&d->groups, "obstacle") && rigid_keys_node(lattice) >= 0; k++)
         for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
             if (!(schema_real(schema_get(&d->groups, "obstacle", k), keys[i]) > 0.0)) continue;
             run_log_warn(log, "the %s of obstacle %zu does not act on rigid bodies", keys[i], k + 1);

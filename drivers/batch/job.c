@@ -381,13 +381,14 @@ static bool builds(job *j)
     char message[OUTCOME_MESSAGE];
     namelist_errors errors = {0};
     const dem_status status = build(j);
-    if (status != DEM_ERROR_MODEL || j->model == NULL || j->options.bodies == DEM_BODIES_NONE)
-        return passes(j, status, j->deck.path);
+    if (status != DEM_ERROR_MODEL || j->model == NULL) return passes(j, status, j->deck.path);
+    const bool rigid = rigid_keys_node(dem_model_lattice(j->model)) >= 0;
+    if (j->options.bodies == DEM_BODIES_NONE && !rigid) return passes(j, status, j->deck.path);
     const bool known = ask_sizes(j->model).n_bodies == (dem_index)copies_total(groups);
     if (known) deck_numbers_translate(message, sizeof message, dem_status_message(), groups);
     namelist_errors_add(&errors, schema_place(schema_get(groups, "contact", 0), "bodies"), "%s%s%s",
                         known ? message : dem_status_message(), known ? "" : " (bodies are counted from 0 here)",
-                        rigid_keys_first(groups) != NULL ? "" : "; bodies = 'none' in &contact lets bodies overlap");
+                        rigid ? "" : "; bodies = 'none' in &contact lets bodies overlap");
     report_errors(j, EXIT_INVALID, &errors);
     return false;
 }

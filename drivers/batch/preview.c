@@ -472,7 +472,7 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     print_measured(log, d, model);
     print_time(log->out, d, simulation, fmin(expected, d->t_end), &needed);
     doubts_of_lattices(log, d);
-    doubts_of_rigid(log, d);
+    doubts_of_rigid(log, d, dem_model_lattice(model));
     doubts_of_surfaces(log, d, simulation);
     warn_rest_speed(log, &o);
     doubts_of_step(log, simulation);

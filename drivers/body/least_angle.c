@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-static const double degrees = 57.295779513082321; /* 180/pi */
+#include "angle.h"
 
 double least_angle_cotangent(const double *x, const dem_index *corner)
 {
@@ -23,5 +23,5 @@ double least_angle_of(const dem_lattice *lattice)
     double worst = 0.0;
     for (dem_index t = 0; t < lattice->n_triangles; t++)
         worst = fmax(worst, least_angle_cotangent(lattice->x, lattice->triangles + 3 * t));
-    return degrees * atan(1.0 / worst);
+    return atan(1.0 / worst) / angle_degree;
 }

@@ -8,11 +8,11 @@ bool rigid_keys_ask(const schema_instance *body)
     return schema_real(body, "rigid") != 0.0;
 }
 
-const schema_instance *rigid_keys_first(const schema_deck *groups)
+dem_index rigid_keys_node(const dem_lattice *lattice)
 {
-    for (size_t k = 0; k < schema_count(groups, "body"); k++)
-        if (rigid_keys_ask(schema_get(groups, "body", k))) return schema_get(groups, "body", k);
-    return NULL;
+    for (dem_index i = 0; i < lattice->n_nodes && lattice->flags != NULL; i++)
+        if (lattice->flags[i] & DEM_NODE_RIGID) return i;
+    return -1;
 }
 
 /* The component of a velocity that a guide takes away, 0 or 1; -1 without a guide. */

@@ -10,8 +10,8 @@
 /* Whether a &body asks for a rigid body. */
 bool rigid_keys_ask(const schema_instance *body);
 
-/* The first &body that does; NULL if there is none. */
-const schema_instance *rigid_keys_first(const schema_deck *groups);
+/* The first node of the bodies that are rigid, by this key or by their lattice file; -1 if there is none. */
+dem_index rigid_keys_node(const dem_lattice *lattice);
 
 /* Reports what does not go together in all &body groups, and boundaries that would move rigid bodies. */
 void rigid_keys_check(const schema_deck *groups, namelist_errors *errors);

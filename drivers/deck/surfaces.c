@@ -18,19 +18,6 @@ static bool asks(asking_key *out, const schema_instance *group, const char *key)
     return schema_given(group, key);
 }
 
-/* The first key by which a deck asks for contact of bodies, if it does not leave that to the defaults. */
-static asking_key find_asking_key(const schema_deck *groups)
-{
-    static const char *const keys[] = {"bodies", "thickness", "stiffness", "friction"};
-    asking_key found = {rigid_keys_first(groups), "rigid"};
-    bool any = found.group != NULL;
-    for (size_t k = 0; k < sizeof keys / sizeof *keys && !any; k++)
-        any = asks(&found, schema_get(groups, "contact", 0), keys[k]);
-    for (size_t k = 0; k < schema_count(groups, "material") && !any; k++)
-        any = asks(&found, schema_get(groups, "material", k), "friction");
-    return found;
-}
-
 static int32_t body_of(const dem_lattice *l, dem_index node)
 {
     return l->body != NULL ? l->body[node] : 0;
@@ -58,6 +45,22 @@ static size_t number_of(const placement *bodies, size_t n, dem_index node)
     return number;
 }
 
+/* The first key by which a deck asks for contact of bodies, if it does not leave that to the defaults. */
+static asking_key find_asking_key(const schema_deck *groups, const dem_lattice *lattice, const placement *bodies)
+{
+    static const char *const keys[] = {"bodies", "thickness", "stiffness", "friction"};
+    const dem_index rigid = rigid_keys_node(lattice);
+    asking_key found = {NULL, "rigid"};
+    if (rigid >= 0)
+        found.group = schema_get(groups, "body", number_of(bodies, schema_count(groups, "body"), rigid) - 1);
+    bool any = found.group != NULL;
+    for (size_t k = 0; k < sizeof keys / sizeof *keys && !any; k++)
+        any = asks(&found, schema_get(groups, "contact", 0), keys[k]);
+    for (size_t k = 0; k < schema_count(groups, "material") && !any; k++)
+        any = asks(&found, schema_get(groups, "material", k), "friction");
+    return found;
+}
+
 static bool give_up(schema_deck *groups)
 {
     for (size_t k = 0; k < groups->n_instances; k++)
@@ -70,7 +73,7 @@ static bool give_up(schema_deck *groups)
 bool surfaces_settle(dem_options *options, schema_deck *groups, const dem_lattice *lattice, const placement *bodies,
                      namelist_errors *errors)
 {
-    const asking_key asking = find_asking_key(groups);
+    const asking_key asking = find_asking_key(groups, lattice, bodies);
     if (options->bodies == DEM_BODIES_NONE) return true;
     const dem_index bare = find_bare(lattice);
     if (bare == -1) return true;

@@ -57,3 +57,18 @@ TEST(what_is_asked_for_is_refused_for_a_body_without_triangles)
     settle("&contact stiffness = 2 /\n", TRIANGLE, 0, "1:10 'stiffness' * body 1 has no triangles");
     settle("&material friction = 0.3 /\n", N_NODES, 1, "1:11 'friction' in &material * body 2 has no triangles");
 }
+
+/* Rigid bodies of a lattice file have no key in the deck. */
+TEST(a_rigid_body_needs_triangles_of_all_bodies)
+{
+    static unsigned char rigid[N_NODES] = {DEM_NODE_RIGID, DEM_NODE_RIGID, DEM_NODE_RIGID, 0, 0};
+    CLEANUP(drop_resolved) resolved r = resolve_clean("&run t_end = 1 /\n" BODY BODY);
+    dem_options options = {.bodies = DEM_BODIES_ALL};
+    const dem_lattice lattice = {
+        .n_nodes = N_NODES, .n_triangles = 1, .x = positions, .body = numbers, .flags = rigid, .triangles = corners};
+    assert_true(surfaces_settle(&options, &r.deck, &lattice, places, &r.errors));
+    assert_int_equal(r.errors.n, 1);
+    assert_string_equal(r.errors.list[0].text,
+                        "'rigid' in &body is for bodies that touch, but body 2 has no triangles, "
+                        "and so no surface");
+}
