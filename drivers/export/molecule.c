@@ -120,6 +120,13 @@ static dem_index count(const double *values, dem_index n)
     return found;
 }
 
+static dem_index count_rigid(const dem_lattice *l)
+{
+    dem_index found = 0;
+    for (dem_index i = 0; l->flags != NULL && i < l->n_nodes; i++) found += (l->flags[i] & DEM_NODE_RIGID) != 0;
+    return found;
+}
+
 __attribute__((format(printf, 3, 4))) static void omit(molecule *m, bool is_there, const char *format, ...)
 {
     const size_t used = strlen(m->omissions);
@@ -145,12 +152,13 @@ static void find_omissions(molecule *m)
     const dem_index area = count(l->area_stiffness, l->n_triangles), guard = count(l->guard, l->n_triangles);
     const dem_index coupled = count(l->coupling, 3 * l->n_triangles);
     const dem_index held = boundaries != NULL ? boundaries->items : 0;
-    const dem_index damped = count(l->viscosity, l->n_springs);
+    const dem_index damped = count(l->viscosity, l->n_springs), rigid = count_rigid(l);
     omit(m, area > 0, "the area term of %lld triangle%s", (long long)area, plural(area));
     omit(m, coupled > 0, "%lld coupling%s of springs", (long long)coupled, plural(coupled));
     omit(m, guard > 0, "the folding guard of %lld triangle%s", (long long)guard, plural(guard));
     omit(m, damped > 0, "the damping of %lld spring%s", (long long)damped, plural(damped));
     omit(m, m->loads.mass_damping > 0.0, "the damping of masses, %.17g 1/s", m->loads.mass_damping);
+    omit(m, rigid > 0, "the rigidity of %lld node%s", (long long)rigid, plural(rigid));
     omit(m, obstacles > 0, "%lld obstacle%s", (long long)obstacles, plural(obstacles));
     omit(m, held > 0, "%lld boundary condition%s", (long long)held, plural(held));
     omit(m, !m->loads.known, "gravity, which a run without a deck does not state");
