@@ -45,6 +45,23 @@ dem_status body_contact_follow(dem_simulation *s, const double *y)
     return s->surfaces != NULL ? surface_contact_follow(s->surfaces, y) : DEM_OK;
 }
 
+/* ---- evaluations ---- */
+
+void body_contact_begin_step(dem_simulation *s)
+{
+    if (s->surfaces != NULL) s->surfaces->status = DEM_OK;
+    if (s->rigid != NULL) s->rigid->status = DEM_OK;
+}
+
+dem_status body_contact_failure(const dem_simulation *s)
+{
+    const dem_status of_bodies = s->surfaces != NULL ? s->surfaces->status : DEM_OK;
+    const dem_status of_rigid = s->rigid != NULL ? s->rigid->status : DEM_OK;
+    return of_rigid == DEM_ERROR_MEMORY ? of_rigid : status_first(of_bodies, of_rigid);
+}
+
+/* ---- steps ---- */
+
 /* Steps of a fixed length cannot be shortened by the loop. */
 static const char *remedy(const dem_simulation *s)
 {

@@ -16,6 +16,13 @@ dem_status body_contact_check_start(dem_simulation *s, const double *x);
 /** Makes the lists fit the state y. */
 dem_status body_contact_follow(dem_simulation *s, const double *y);
 
+/** Sets the status of evaluations back before a step is taken. */
+void body_contact_begin_step(dem_simulation *s);
+
+/** Why the forces could not be evaluated: DEM_ERROR_MEMORY if they once could not since, else the status of the last
+ *  evaluation. */
+dem_status body_contact_failure(const dem_simulation *s);
+
 /** Called when its events have been resolved.
  *  \return DEM_ERROR_CONTACT if the step cannot be taken as it is */
 dem_status body_contact_check_step(dem_simulation *s);

@@ -74,7 +74,7 @@ static dem_status measure_rigid(const dem_simulation *s)
     const double *y = seen_of(s);
     if (s->rigid == NULL || s->measures->has_rigid) return DEM_OK;
     s->measures->has_rigid = rigid_contact_evaluate(s->rigid, y[state_velocities(&s->layout) + s->forces.clock], y);
-    return s->rigid->status;
+    return s->measures->has_rigid ? DEM_OK : s->rigid->status;
 }
 
 /* Contacts depend on where obstacles are. */

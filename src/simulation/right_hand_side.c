@@ -44,10 +44,22 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     a[state_total_index(l, STATE_TIME)] = 1.0;
 }
 
+/* Judges accelerations by their sum. Where the contact of bodies has failed, that has its own message.
+ *   \return 0; 1 if something is not finite; 2 if what no shorter step mends: the external force has failed, or there
+ *   was no memory for the contact of bodies */
+static int judge(const dem_simulation *s, double t, const double *y, const double *a, double sum)
+{
+    const dem_status of_contact = body_contact_failure(s);
+    if (run_force_failed(s) || of_contact == DEM_ERROR_MEMORY) return 2;
+    if (!reduce_any(!isfinite(sum))) return 0;
+    if (of_contact == DEM_OK) (void)name_culprit(s, t, y, a);
+    return 1;
+}
+
 /* f = (u, a) of y = (x, v): u = v, m a = F(x, v) + m g + what closed contacts hold, (3) and (4); prescribed components
  * are given. Constraints follow the free accelerations, which they change. `sum` is finite only if all accelerations
  * are.
- *   \return 0; 1 if something is not finite; 2 if the external force has failed, which no shorter step mends */
+ *   \return as judge() */
 static int derivative(double t, const double *y, double *u, double *a, void *context)
 {
     dem_simulation *s = context;
@@ -59,10 +71,7 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     automaton_constrain(&s->automaton, t, y, a);
     if (isfinite(sum)) rigid_motion_accelerate(&s->model->rigid, y, v, a);
     fill_rates(s, t, y, a, forces_prescribe(&s->forces, t, v, u, a));
-    if (run_force_failed(s)) return 2;
-    if (!reduce_any(!isfinite(sum))) return 0;
-    (void)name_culprit(s, t, y, a);
-    return 1;
+    return judge(s, t, y, a, sum);
 }
 
 /* A whole step of Verlet's method as one sweep, where nothing but springs, triangles and weight acts and no contact is
@@ -79,9 +88,7 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &y);
     automaton_constrain(&s->automaton, step->t1, y.x, y.a);
     fill_rates(s, step->t1, y.x, y.a, 0.0);
-    if (!reduce_any(!isfinite(sum))) return 0;
-    (void)name_culprit(s, step->t1, y.x, y.a);
-    return 1;
+    return judge(s, step->t1, y.x, y.a, sum);
 }
 
 /* The three functions that follow are callbacks of the integrator; `exact` contacts need the first two. */

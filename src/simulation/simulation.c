@@ -162,6 +162,14 @@ static dem_status find_events(dem_simulation *s, bool rooted)
     return body_contact_check_step(s);
 }
 
+/* The status of a step, unless there was no memory for the contact of bodies in it. */
+static dem_status unless_memory_lacked(const dem_simulation *s, dem_status status)
+{
+    CHECK(body_contact_failure(s) != DEM_ERROR_MEMORY, DEM_ERROR_MEMORY,
+          "out of memory for the contact of bodies in the step from t = %.9g s", s->t);
+    return status;
+}
+
 /* A step with its contact events, which may reject it after the integrator has accepted it: an error of theirs is
  * unknown to the integrator. The queue then takes them back, and the integrator tries again from the same start with a
  * shorter step. Fixed steps cannot be shortened. */
@@ -169,8 +177,12 @@ static dem_status take_step(dem_simulation *s)
 {
     for (int attempt = 1;; attempt++) {
         bool rooted;
-        TRY(integrator_step(&s->integrator, &s->path, &rooted));
-        const dem_status status = stop_if_force_failed(s, find_events(s, rooted));
+        body_contact_begin_step(s);
+        const dem_status taken = unless_memory_lacked(s, integrator_step(&s->integrator, &s->path, &rooted));
+        if (taken == DEM_ERROR_MEMORY) return give_up(s, taken);
+        TRY(taken);
+        const dem_status found = stop_if_force_failed(s, find_events(s, rooted));
+        const dem_status status = unless_memory_lacked(s, found);
         const double factor = shortening(s, status);
         if (status == DEM_OK && factor == 1.0) break;
         event_queue_undo(&s->queue);

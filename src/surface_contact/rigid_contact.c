@@ -45,17 +45,23 @@ void rigid_contact_destroy(rigid_contact *c)
 
 /* ---- forces ---- */
 
+static dem_status follow_body(rigid_contact *c, dem_index k, const double *x)
+{
+    const dem_status status = rigid_pairs_follow(&c->list[k], x);
+    if (c->status != DEM_ERROR_MEMORY) c->status = status;
+    return status;
+}
+
 static dem_status follow(rigid_contact *c, double t, const double *x)
 {
     obstacle_surface_follow(&c->obstacles, t);
-    for (dem_index k = 0; k < c->n; k++) TRY(rigid_pairs_follow(&c->list[k], x));
+    for (dem_index k = 0; k < c->n; k++) TRY(follow_body(c, k, x));
     return DEM_OK;
 }
 
 bool rigid_contact_evaluate(rigid_contact *c, double t, const double *x)
 {
-    c->status = follow(c, t, x);
-    if (c->status != DEM_OK) return false;
+    if (follow(c, t, x) != DEM_OK) return false;
     for (dem_index k = 0; k < c->n; k++) rigid_pairs_push(&c->list[k]);
     return true;
 }
@@ -63,9 +69,9 @@ bool rigid_contact_evaluate(rigid_contact *c, double t, const double *x)
 bool rigid_contact_evaluate_body(rigid_contact *c, dem_index k, double t, const double *x)
 {
     obstacle_surface_follow(&c->obstacles, t);
-    c->status = rigid_pairs_follow(&c->list[k], x);
-    if (c->status == DEM_OK) rigid_pairs_push(&c->list[k]);
-    return c->status == DEM_OK;
+    if (follow_body(c, k, x) != DEM_OK) return false;
+    rigid_pairs_push(&c->list[k]);
+    return true;
 }
 
 double rigid_contact_accelerate(const rigid_contact *c, dem_index k, double *a)

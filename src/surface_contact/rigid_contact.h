@@ -13,7 +13,7 @@ typedef struct rigid_contact {
     obstacle_surface obstacles;
     dem_index n;       /* rigid bodies of the model */
     rigid_pairs *list; /* [n] in the same order */
-    dem_status status; /* DEM_OK; else the last evaluation failed with this */
+    dem_status status; /* of the last evaluation; DEM_ERROR_MEMORY stays until it is set back */
 } rigid_contact;
 
 /** *out is NULL if the model has no rigid bodies, or no obstacles. Borrows the model. Free with

@@ -95,11 +95,18 @@ static dem_status renew_lists(surface_contact *c, const double *x)
     return close_pairs_choose(&c->close, close, x);
 }
 
+/* One list that has found no memory must not be forgotten when the next one finds some. */
+static dem_status note_status(surface_contact *c, dem_status status)
+{
+    if (c->status != DEM_ERROR_MEMORY) c->status = status;
+    return status;
+}
+
 dem_status surface_contact_follow(surface_contact *c, const double *x)
 {
     c->rows = &c->candidates.pairs;
     c->is_evaluated = false;
-    return c->status = close_pairs_hold(&c->close, x) ? DEM_OK : renew_lists(c, x);
+    return note_status(c, close_pairs_hold(&c->close, x) ? DEM_OK : renew_lists(c, x));
 }
 
 /* ---- forces ---- */
@@ -199,9 +206,7 @@ static dem_status make_room(surface_contact *c)
 bool surface_contact_evaluate(surface_contact *c, const double *x)
 {
     forget_forces(c);
-    if (surface_contact_follow(c, x) != DEM_OK) return false;
-    c->status = make_room(c);
-    if (c->status != DEM_OK) return false;
+    if (surface_contact_follow(c, x) != DEM_OK || note_status(c, make_room(c)) != DEM_OK) return false;
     contact_batch batch;
     c->nearest = 1.0;
     contact_batch_begin(&batch, c->close.list, c->close.n, 1.0);

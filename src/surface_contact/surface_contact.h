@@ -40,7 +40,7 @@ typedef struct surface_contact {
     dem_index n_left_out;     /* pairs that never touch: pair_list_count_left_out() */
     dem_index n_chosen;       /* close.n_chosen for which `unit` is */
     double unit;              /* rad^2/s^2, what close pairs add with contact_potential_stiffness() = 1, at most */
-    dem_status status;        /* DEM_OK; else the last evaluation failed with this */
+    dem_status status;        /* of the last evaluation; DEM_ERROR_MEMORY stays until it is set back */
     bool is_evaluated;        /* the lists fit the state of the last evaluation */
     double nearest;           /* distance over thickness, in that evaluation no pair was nearer than this */
     dem_index n_pushed;       /* nodes on which something acted in the last evaluation */
