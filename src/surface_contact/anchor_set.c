@@ -10,10 +10,7 @@
 
 #include <stdlib.h>
 
-#include "base/exact_sum.h"
 #include "base/grow.h"
-#include "base/reduce.h"
-#include "base/sorted.h"
 #include "base/status.h"
 
 static const double spring_share = 0.1; /* of the weight of a node over the thickness: stiffness of its spring */
@@ -27,12 +24,10 @@ static dem_status allocate(anchor_set *s, dem_index n)
     return DEM_OK;
 }
 
-dem_status anchor_set_create(anchor_set *out, const contact_surface *of)
+dem_status anchor_set_create(anchor_set *out, const anchor_surfaces *surfaces)
 {
-    *out = (anchor_set){0};
-    if (!contact_surface_has_friction(of)) return DEM_OK;
-    out->surface = of;
-    return allocate(out, of->lattice->n_nodes);
+    *out = (anchor_set){.surfaces = *surfaces};
+    return anchor_set_has_friction(out) ? allocate(out, surfaces->n_nodes) : DEM_OK;
 }
 
 void anchor_set_destroy(anchor_set *s)
@@ -60,20 +55,26 @@ static dem_status append(anchor_set *s, const anchor *a)
     return DEM_OK;
 }
 
-/* The number of a node among those of the surface, or -1. */
-static dem_index number_of(const contact_surface *c, dem_index node)
+static dem_index body_of(const anchor_set *s, dem_index node)
 {
-    return sorted_find(c->nodes, c->n_nodes, node);
+    return s->surfaces.body(s->surfaces.of, node);
 }
 
-/* An anchor of the node with this number among those of the surface, at no place as yet. */
-static anchor make_anchor(const contact_surface *c, dem_index number, dem_index edge)
+static surface_law law_between(const anchor_set *s, dem_index body, dem_index other)
 {
-    const dem_index node = c->nodes[number], first = contact_surface_first(c, edge);
-    const surface_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, first));
-    return (anchor){.nodes = {node, first, contact_surface_second(c, edge)},
+    return s->surfaces.law(s->surfaces.of, body, other);
+}
+
+/* An anchor of a node on an edge that may push it, at no place as yet. */
+static anchor make_anchor(const anchor_set *s, dem_index node, dem_index edge)
+{
+    dem_index ends[2];
+    (void)s->surfaces.ends(s->surfaces.of, node, edge, ends);
+    const surface_law law = law_between(s, body_of(s, node), body_of(s, ends[0]));
+    const double half_length = s->surfaces.half_length(s->surfaces.of, node);
+    return (anchor){.nodes = {node, ends[0], ends[1]},
                     .edge = edge,
-                    .stiffness = spring_share * c->half_length[number] * law.modulus / law.thickness,
+                    .stiffness = spring_share * half_length * law.modulus / law.thickness,
                     .friction = law.friction};
 }
 
@@ -83,10 +84,10 @@ static anchor_record record_of(const anchor *a)
                            {a->direction.x, a->direction.y}, a->shift};
 }
 
-/* Its stiffness comes from the surface. */
+/* Its stiffness comes from the surfaces. */
 static dem_status append_recorded(anchor_set *s, const anchor_record *record)
 {
-    anchor a = make_anchor(s->surface, number_of(s->surface, record->node), record->edge);
+    anchor a = make_anchor(s, record->node, record->edge);
     a.weight = record->weight;
     a.place = (vec2){record->place[0], record->place[1]};
     a.direction = (vec2){record->direction[0], record->direction[1]};
@@ -95,11 +96,6 @@ static dem_status append_recorded(anchor_set *s, const anchor_record *record)
 }
 
 /* ---- forces ---- */
-
-static dem_index body_of(const anchor_set *s, dem_index node)
-{
-    return contact_surface_body(s->surface, node);
-}
 
 const anchor *anchor_set_of_pair(const anchor_set *s, const contact_pair *p)
 {
@@ -159,14 +155,32 @@ bool anchor_set_add_force(const anchor_set *s, const pair_rows *r, dem_index i, 
     return pulls;
 }
 
-double anchor_set_energy(const anchor_set *s, const pair_rows *r, const double *x)
+/* Adds the friction of one anchor. */
+static void add_friction(const anchor_set *s, const pair_rows *r, const anchor *a, const double *x, double *forces)
 {
-    exact_sum sum = {0};
+    const double ratio = anchor_set_ratio(s, r, a, x);
+    contact_push push;
+    vec2 friction[ANCHOR_NODES];
+    for (dem_index slot = r->first[a->nodes[CONTACT_PAIR_NODE]]; next_push(s, r, &slot, x, &push);) {
+        anchor_turn_push(&push, ratio, x, friction);
+        for (int which = 0; which < ANCHOR_NODES; which++) {
+            const dem_index node = push.pair->nodes[which];
+            vec2_put(forces, node, vec2_add(vec2_at(forces, node), friction[which]));
+        }
+    }
+}
+
+void anchor_set_add_forces(const anchor_set *s, const pair_rows *r, const double *x, double *forces)
+{
+    for (dem_index k = 0; k < s->n; k++) add_friction(s, r, &s->list[k], x, forces);
+}
+
+void anchor_set_add_energy(const anchor_set *s, const pair_rows *r, const double *x, exact_sum *sum)
+{
     for (dem_index k = 0; k < s->n; k++) {
         const vec2 normal = normal_of(s, r, &s->list[k], x);
-        if (is_force(normal)) exact_sum_add(&sum, anchor_energy(&s->list[k], normal, x));
+        if (is_force(normal)) exact_sum_add(sum, anchor_energy(&s->list[k], normal, x));
     }
-    return reduce_sum(&sum);
 }
 
 /* Friction is proportional to T/N, which is known when all pushes are. */
@@ -204,7 +218,7 @@ static void note_push(const anchor_set *s, const contact_pair *p, dem_index body
 {
     const dem_index theirs = body_of(s, p->nodes[CONTACT_PAIR_FIRST]);
     const double size = vec2_norm(force);
-    if (contact_surface_law(s->surface, body_of(s, p->nodes[CONTACT_PAIR_NODE]), theirs).friction <= 0.0) return;
+    if (law_between(s, body_of(s, p->nodes[CONTACT_PAIR_NODE]), theirs).friction <= 0.0) return;
     if (size > out->size) {
         out->size = size;
         out->most = p;
@@ -238,13 +252,11 @@ static bool has_left(const anchor *a, const double *x)
 /* The anchor of a node from its old one, or NULL, and what pushes the node. */
 static anchor renew(const anchor_set *s, const anchor *old, const node_pushes *pushes, const double *x)
 {
-    const contact_surface *c = s->surface;
     const contact_pair *most = pushes->most_there;
     const vec2 normal = pushes->there;
     const bool leaves = old != NULL && has_left(old, x) && most->edge != old->edge;
     const double ratio = old != NULL ? anchor_ratio(old, normal, x) : 0.0;
-    anchor now =
-        old == NULL || leaves ? make_anchor(c, number_of(c, most->nodes[CONTACT_PAIR_NODE]), most->edge) : *old;
+    anchor now = old == NULL || leaves ? make_anchor(s, most->nodes[CONTACT_PAIR_NODE], most->edge) : *old;
     anchor_put(&now, normal, ratio * vec2_norm(normal) / now.stiffness, x);
     return now;
 }
@@ -296,22 +308,23 @@ dem_status anchor_set_settle(anchor_set *s, const contact_pair *list, dem_index 
     return DEM_OK;
 }
 
-/* ---- another surface ---- */
+/* ---- other edges ---- */
 
-/* The record of an anchor on the surface as it is now.  \return whether its node and its edge are still there */
-static bool find_again(const contact_surface *c, const anchor *a, anchor_record *out)
+static bool is_on_surfaces(const anchor_set *s, const anchor_record *record)
 {
-    *out = record_of(a);
-    out->edge = contact_surface_edge(c, a->nodes[CONTACT_PAIR_FIRST], a->nodes[CONTACT_PAIR_SECOND]);
-    return out->edge >= 0 && number_of(c, out->node) >= 0;
+    dem_index ends[2];
+    return s->surfaces.ends(s->surfaces.of, record->node, record->edge, ends);
 }
 
-dem_status anchor_set_follow_surface(anchor_set *s)
+dem_status anchor_set_follow_edges(anchor_set *s, dem_index (*edge)(const void *of, dem_index first, dem_index second))
 {
-    anchor_record record;
     set_old_aside(s);
-    for (dem_index k = 0; k < s->n_old; k++)
-        if (find_again(s->surface, &s->old[k], &record)) TRY(append_recorded(s, &record));
+    for (dem_index k = 0; k < s->n_old; k++) {
+        const dem_index *nodes = s->old[k].nodes;
+        anchor_record record = record_of(&s->old[k]);
+        record.edge = edge(s->surfaces.of, nodes[CONTACT_PAIR_FIRST], nodes[CONTACT_PAIR_SECOND]);
+        if (is_on_surfaces(s, &record)) TRY(append_recorded(s, &record));
+    }
     return DEM_OK;
 }
 
@@ -322,21 +335,19 @@ anchor_record anchor_set_record(const anchor_set *s, dem_index k)
     return record_of(&s->list[k]);
 }
 
-static bool is_possible(const contact_surface *c, const anchor_record *a)
+static bool is_possible(const anchor_set *s, const anchor_record *a)
 {
     const double size = hypot(a->direction[0], a->direction[1]);
     const bool in_place = a->weight >= 0.0 && a->weight <= 1.0 && fabs(size - 1.0) < 1e-9;
     const bool is_finite = isfinite(a->place[0]) && isfinite(a->place[1]) && isfinite(a->shift);
-    return in_place && is_finite && number_of(c, a->node) >= 0 && a->edge >= 0 && a->edge < c->surface.n_edges &&
-           a->node != contact_surface_first(c, a->edge) && a->node != contact_surface_second(c, a->edge);
+    return in_place && is_finite && is_on_surfaces(s, a);
 }
 
 /* Nothing that comes from a file is trusted. */
 dem_status anchor_set_restore(anchor_set *s, const anchor_record *list, dem_index n)
 {
-    const contact_surface *c = s->surface;
     for (dem_index k = 0; k < n; k++)
-        CHECK(is_possible(c, &list[k]) && (k == 0 || list[k - 1].node < list[k].node), DEM_ERROR_IO,
+        CHECK(is_possible(s, &list[k]) && (k == 0 || list[k - 1].node < list[k].node), DEM_ERROR_IO,
               "anchor %lld of the checkpoint is impossible: node %lld on edge %lld", (long long)k,
               (long long)list[k].node, (long long)list[k].edge);
     anchor_set_clear(s);

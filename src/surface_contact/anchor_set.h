@@ -1,13 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The anchors of all surface nodes: the memory of friction between bodies. A node that another surface pushes has one
- * anchor there. Anchors move between steps only (anchor_set_settle), and depend on positions and on where they were:
- * no list of candidates has a part in them. Without friction there are none, and nothing is done. */
+/* The anchors of all surface nodes: the memory of friction. A node that another surface pushes has one anchor there.
+ * Anchors move between steps only (anchor_set_settle), and depend on positions and on where they were: no list of
+ * candidates has a part in them. Without friction there are none, and nothing is done. */
 #ifndef DEM_SURFACE_CONTACT_ANCHOR_SET_H
 #define DEM_SURFACE_CONTACT_ANCHOR_SET_H
 
+#include "base/exact_sum.h"
 #include "surface_contact/anchor.h"
 #include "surface_contact/contact_surface.h"
 #include "surface_contact/pair_rows.h"
+
+/** The surfaces of a set of anchors: what it asks about them. Nodes, edges and bodies are known by numbers. */
+typedef struct anchor_surfaces {
+    const void *of;    /* handed to the functions; NULL: nothing has friction */
+    dem_index n_nodes; /* numbers of nodes are smaller */
+    dem_index (*body)(const void *of, dem_index node);
+    surface_law (*law)(const void *of, dem_index body, dem_index other);
+    double (*half_length)(const void *of, dem_index node); /* m, half of what a node has of its surface */
+    /* Ends of an edge.  \return false if there is no such node, or no such edge that may push it */
+    bool (*ends)(const void *of, dem_index node, dem_index edge, dem_index ends[2]);
+} anchor_surfaces;
 
 /** What is remembered of an anchor, as checkpoints have it. */
 typedef struct anchor_record {
@@ -16,7 +28,7 @@ typedef struct anchor_record {
 } anchor_record;
 
 typedef struct anchor_set {
-    const contact_surface *surface; /* NULL: no bodies have friction */
+    anchor_surfaces surfaces;
     dem_index n, capacity;
     anchor *list; /* [n] ascending by node */
     dem_index n_old, old_capacity;
@@ -24,16 +36,24 @@ typedef struct anchor_set {
     dem_index *of; /* [n_nodes] the anchor of each node, -1: none */
 } anchor_set;
 
-/** None as yet. Borrows the surface. Free with anchor_set_destroy(). */
-dem_status anchor_set_create(anchor_set *out, const contact_surface *of);
+/** None as yet. Borrows the surfaces. Free with anchor_set_destroy().  \return DEM_ERROR_MEMORY */
+dem_status anchor_set_create(anchor_set *out, const anchor_surfaces *surfaces);
 void anchor_set_destroy(anchor_set *s);
+
+/** Whether anything has friction. */
+static inline bool anchor_set_has_friction(const anchor_set *s)
+{
+    return s->surfaces.of != NULL;
+}
 
 /** Removes all anchors. */
 void anchor_set_clear(anchor_set *s);
 
-/** Finds the anchors again after the surface has become another one in the same place: an edge is known by its ends.
- *  Those whose node or edge is no more are removed.  \return DEM_ERROR_MEMORY */
-dem_status anchor_set_follow_surface(anchor_set *s);
+/** Finds the anchors again after edges have got other numbers: an edge is known by its ends. Those whose node or edge
+ *  is no more are removed.
+ *  \param edge  the number of an edge, -1 if there is none
+ *  \return DEM_ERROR_MEMORY */
+dem_status anchor_set_follow_edges(anchor_set *s, dem_index (*edge)(const void *of, dem_index first, dem_index second));
 
 /** Moves the anchors for the state x that a step has reached, with a list of pairs in the order of (node, edge), among
  *  them all that push in it. Nodes that are pushed get anchors, others lose theirs, and where the spring would pull
@@ -50,8 +70,11 @@ double anchor_set_ratio(const anchor_set *s, const pair_rows *r, const anchor *a
 /** Adds the friction of all pairs r in which node i is, at positions x, N.  \return whether there is any */
 bool anchor_set_add_force(const anchor_set *s, const pair_rows *r, dem_index i, const double *x, vec2 *force);
 
-/** Energy that the springs give back when they are relieved, J. */
-double anchor_set_energy(const anchor_set *s, const pair_rows *r, const double *x);
+/** Adds that of all anchors to the forces [n_nodes][2], N, with other bits. */
+void anchor_set_add_forces(const anchor_set *s, const pair_rows *r, const double *x, double *forces);
+
+/** Adds the energy that the springs give back when they are relieved, J. */
+void anchor_set_add_energy(const anchor_set *s, const pair_rows *r, const double *x, exact_sum *sum);
 
 /** Power that the springs take at velocities v [n][2], W: stored and lost. */
 double anchor_set_power(const anchor_set *s, const pair_rows *r, const double *x, const double *v);
@@ -60,7 +83,7 @@ double anchor_set_power(const anchor_set *s, const pair_rows *r, const double *x
 anchor_record anchor_set_record(const anchor_set *s, dem_index k);
 
 /** Puts anchors as they were remembered in the place of all.
- *  \return DEM_ERROR_IO if they are none of this surface, DEM_ERROR_MEMORY */
+ *  \return DEM_ERROR_IO if they are none of these surfaces, DEM_ERROR_MEMORY */
 dem_status anchor_set_restore(anchor_set *s, const anchor_record *list, dem_index n);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include "base/grow.h"
 #include "base/reduce.h"
+#include "base/sorted.h"
 #include "base/status.h"
 
 /* Over the mean edge: of the list of candidates, of close pairs, and of the pairs that are near in a step. */
@@ -23,6 +24,56 @@ static dem_status allocate(surface_contact *c, dem_index n)
     return pair_rows_create(&c->near, n);
 }
 
+/* ---- what anchors ask of the surface ---- */
+
+static dem_index body_of(const void *of, dem_index node)
+{
+    return contact_surface_body(of, node);
+}
+
+static surface_law law_between(const void *of, dem_index body, dem_index other)
+{
+    return contact_surface_law(of, body, other);
+}
+
+/* The number of a node among those of the surface, or -1. */
+static dem_index number_of(const contact_surface *s, dem_index node)
+{
+    return sorted_find(s->nodes, s->n_nodes, node);
+}
+
+static double half_length_of(const void *of, dem_index node)
+{
+    const contact_surface *s = of;
+    return s->half_length[number_of(s, node)];
+}
+
+static bool find_ends(const void *of, dem_index node, dem_index edge, dem_index ends[2])
+{
+    const contact_surface *s = of;
+    if (number_of(s, node) < 0 || edge < 0 || edge >= s->surface.n_edges) return false;
+    ends[0] = contact_surface_first(s, edge);
+    ends[1] = contact_surface_second(s, edge);
+    return node != ends[0] && node != ends[1];
+}
+
+static dem_index edge_between(const void *of, dem_index first, dem_index second)
+{
+    return contact_surface_edge(of, first, second);
+}
+
+static anchor_surfaces surfaces_of(const contact_surface *s)
+{
+    return (anchor_surfaces){.of = contact_surface_has_friction(s) ? s : NULL,
+                             .n_nodes = s->lattice->n_nodes,
+                             .body = body_of,
+                             .law = law_between,
+                             .half_length = half_length_of,
+                             .ends = find_ends};
+}
+
+/* ---- creation ---- */
+
 static dem_status set_up(surface_contact *c, const dem_lattice *lattice, const surface_contact_rule *rule)
 {
     const double margin = rule->margin > 0.0 ? rule->margin : usual_margin;
@@ -33,7 +84,8 @@ static dem_status set_up(surface_contact *c, const dem_lattice *lattice, const s
     c->rows = &c->candidates.pairs;
     close_pairs_create(&c->close, &c->surface, &c->candidates.pairs);
     contact_surface_set_friction(&c->surface, rule->friction, rule->body_friction);
-    TRY(anchor_set_create(&c->anchors, &c->surface));
+    const anchor_surfaces surfaces = surfaces_of(&c->surface);
+    TRY(anchor_set_create(&c->anchors, &surfaces));
     return pair_list_count_left_out(&c->candidates, &c->n_left_out);
 }
 
@@ -81,7 +133,7 @@ dem_status surface_contact_break(surface_contact *c, const unsigned char *broken
     pair_rows_clear(&c->near);
     c->rows = &c->candidates.pairs;
     c->is_evaluated = false;
-    return anchor_set_follow_surface(&c->anchors);
+    return anchor_set_follow_edges(&c->anchors, edge_between);
 }
 
 /* As long as the close pairs hold, the candidates hold for what is near in a step, too: they are made anew while they
@@ -245,7 +297,9 @@ vec2 surface_contact_friction(const surface_contact *c, dem_index i, const doubl
 
 double surface_contact_stored(const surface_contact *c, const double *x)
 {
-    return anchor_set_energy(&c->anchors, c->rows, x);
+    exact_sum sum = {0};
+    anchor_set_add_energy(&c->anchors, c->rows, x, &sum);
+    return reduce_sum(&sum);
 }
 
 double surface_contact_friction_power(const surface_contact *c, const double *x, const double *v)

@@ -90,7 +90,7 @@ bool surface_contact_force(const surface_contact *c, dem_index i, const double *
 /** Whether any bodies have friction. */
 static inline bool surface_contact_has_friction(const surface_contact *c)
 {
-    return c != NULL && c->anchors.surface != NULL;
+    return c != NULL && anchor_set_has_friction(&c->anchors);
 }
 
 /** The part of friction in the force on node i, N. */

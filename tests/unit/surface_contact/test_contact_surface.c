@@ -183,7 +183,7 @@ TEST(anchors_keep_their_edges_as_long_as_these_are_there)
                 !has_node(&s, nodes[CONTACT_PAIR_NODE]))
                 continue;
             assert_true(k < now->n && memcmp(now->list[k].nodes, nodes, sizeof before[m].nodes) == 0);
-            assert_int_equal(now->list[k].edge, contact_surface_edge(now->surface, nodes[1], nodes[2]));
+            assert_int_equal(now->list[k].edge, contact_surface_edge(now->surfaces.of, nodes[1], nodes[2]));
             assert_true(now->list[k].weight == before[m].weight && now->list[k].shift == before[m].shift);
             k++;
         }
