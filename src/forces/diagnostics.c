@@ -256,7 +256,8 @@ static reaction_sums sum_reaction(const reaction_parts *p, vec2 about)
         const rigid_pairs *pairs = &p->rigid->list[b];
         for (dem_index q = 0; q < pairs->n_near; q++)
             if (p->rigid->obstacles.obstacle[pairs->near[q]] == p->obstacle)
-                add_reaction(&s, rigid_contact_force(pairs, q), vec2_at(pairs->places, pairs->n_tracked + q));
+                add_reaction(&s, rigid_contact_force(pairs, q),
+                             vec2_at(pairs->places, rigid_pairs_place(pairs, pairs->near[q])));
     }
     return s;
 }

@@ -30,10 +30,9 @@ static dem_status allocate(obstacle_surface *s)
     s->edges = malloc((n + 1) * sizeof *s->edges);
     s->frames = calloc((size_t)s->of->n + 1, sizeof *s->frames);
     s->poses = calloc((size_t)s->of->n + 1, sizeof *s->poses);
-    s->mark = malloc((n + 1) * sizeof *s->mark);
-    CHECK(s->first_vertex && s->obstacle && s->half_length && s->edges && s->frames && s->poses && s->mark,
+    s->is_marked = calloc(n + 1, 1);
+    CHECK(s->first_vertex && s->obstacle && s->half_length && s->edges && s->frames && s->poses && s->is_marked,
           DEM_ERROR_MEMORY, "out of memory for %lld segments of obstacles", (long long)s->of->n_segments);
-    for (size_t v = 0; v < n; v++) s->mark[v] = -1;
     return DEM_OK;
 }
 
@@ -100,7 +99,7 @@ void obstacle_surface_free(obstacle_surface *s)
     free(s->edges);
     free(s->frames);
     free(s->poses);
-    free(s->mark);
+    free(s->is_marked);
     *s = (obstacle_surface){0};
 }
 

@@ -16,13 +16,13 @@ typedef struct surface_edge {
 typedef struct obstacle_surface {
     const obstacle_set *of;
     dem_index n_vertices, n_edges;
-    dem_index *first_vertex; /* [obstacles + 1] vertices first_vertex[k] .. first_vertex[k+1]-1 are of obstacle k */
-    dem_index *obstacle;     /* [n_vertices] */
-    double *half_length;     /* [n_vertices] m, half of what a vertex has of its obstacle's length */
-    surface_edge *edges;     /* [n_edges] by numbers of vertices */
-    box *frames;             /* [obstacles] of the points as they are given */
-    pose *poses;             /* [obstacles] at the time asked for last, of those that move */
-    dem_index *mark;         /* [n_vertices] scratch of those who list some of them, -1 */
+    dem_index *first_vertex;  /* [obstacles + 1] vertices first_vertex[k] .. first_vertex[k+1]-1 are of obstacle k */
+    dem_index *obstacle;      /* [n_vertices] */
+    double *half_length;      /* [n_vertices] m, half of what a vertex has of its obstacle's length */
+    surface_edge *edges;      /* [n_edges] by numbers of vertices */
+    box *frames;              /* [obstacles] of the points as they are given */
+    pose *poses;              /* [obstacles] at the time asked for last, of those that move */
+    unsigned char *is_marked; /* [n_vertices] scratch of those who list some of them, 0 */
 } obstacle_surface;
 
 enum { OBSTACLE_SURFACE_CORNERS = 4 };

@@ -43,7 +43,7 @@ double rigid_contact_accelerate(const rigid_contact *c, dem_index k, double *a);
 /** What a vertex of an obstacle, the q-th near a body, does to that in the state evaluated last: force, N. */
 static inline vec2 rigid_contact_force(const rigid_pairs *p, dem_index q)
 {
-    const vec2 on_vertex = vec2_at(p->force, p->n_tracked + q);
+    const vec2 on_vertex = vec2_at(p->force, rigid_pairs_place(p, p->near[q]));
     return (vec2){0.0 - on_vertex.x, 0.0 - on_vertex.y};
 }
 

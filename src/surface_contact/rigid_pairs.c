@@ -17,27 +17,19 @@ static const double least_distance = 0.05; /* over the contact thickness, at the
 
 /* ---- the body's surface ---- */
 
-/* Room for all places there are; what is there stays. */
-static dem_status reserve_places(rigid_pairs *p)
-{
-    const dem_index n = 2 * p->n_places;
-    CHECK(grow_array((void **)&p->places, &p->places_capacity, n, sizeof *p->places) &&
-              grow_array((void **)&p->before, &p->before_capacity, n, sizeof *p->before) &&
-              grow_array((void **)&p->force, &p->force_capacity, n, sizeof *p->force),
-          DEM_ERROR_MEMORY, "out of memory for the contact of rigid body %lld", (long long)p->body);
-    return DEM_OK;
-}
-
 static dem_status allocate(rigid_pairs *p)
 {
-    const size_t n = (size_t)p->n_nodes;
+    const size_t n = (size_t)p->n_nodes, n_places = (size_t)p->n_places;
     p->nodes = malloc((n + 1) * sizeof *p->nodes);
     p->half_length = malloc((n + 1) * sizeof *p->half_length);
     p->edges = malloc(((size_t)p->n_edges + 1) * sizeof *p->edges);
     p->reference = calloc(2 * (size_t)p->n_tracked, sizeof *p->reference);
-    CHECK(p->nodes && p->half_length && p->edges && p->reference, DEM_ERROR_MEMORY,
-          "out of memory for the surface of rigid body %lld", (long long)p->body);
-    return reserve_places(p);
+    p->places = calloc(2 * n_places, sizeof *p->places);
+    p->before = calloc(2 * n_places, sizeof *p->before);
+    p->force = calloc(2 * n_places, sizeof *p->force);
+    CHECK(p->nodes && p->half_length && p->edges && p->reference && p->places && p->before && p->force,
+          DEM_ERROR_MEMORY, "out of memory for the surface of rigid body %lld", (long long)p->body);
+    return pair_rows_create(&p->pairs, p->n_places);
 }
 
 static void count(rigid_pairs *p, const contact_surface *of)
@@ -45,10 +37,11 @@ static void count(rigid_pairs *p, const contact_surface *of)
     for (dem_index k = 0; k < of->n_nodes; k++) p->n_nodes += contact_surface_body(of, of->nodes[k]) == p->body;
     for (dem_index e = 0; e < of->surface.n_edges; e++)
         p->n_edges += contact_surface_body(of, contact_surface_first(of, e)) == p->body;
-    p->n_tracked = p->n_places = p->n_nodes + OBSTACLE_SURFACE_CORNERS * p->obstacles->of->n;
+    p->n_tracked = p->n_nodes + OBSTACLE_SURFACE_CORNERS * p->obstacles->of->n;
+    p->n_places = p->n_tracked + p->obstacles->n_vertices;
 }
 
-static dem_index place_of(const rigid_pairs *p, dem_index node)
+static dem_index place_of_node(const rigid_pairs *p, dem_index node)
 {
     return sorted_find(p->nodes, p->n_nodes, node);
 }
@@ -66,8 +59,8 @@ static void list_surface(rigid_pairs *p, const contact_surface *of)
     for (dem_index e = 0; e < of->surface.n_edges; e++) {
         const dem_index first = contact_surface_first(of, e), before = of->surface.previous[e];
         if (contact_surface_body(of, first) == p->body)
-            p->edges[n++] = (surface_edge){place_of(p, first), place_of(p, contact_surface_second(of, e)),
-                                           place_of(p, contact_surface_first(of, before))};
+            p->edges[n++] = (surface_edge){place_of_node(p, first), place_of_node(p, contact_surface_second(of, e)),
+                                           place_of_node(p, contact_surface_first(of, before))};
     }
 }
 
@@ -97,7 +90,8 @@ void rigid_pairs_free(rigid_pairs *p)
     free(p->reference);
     free(p->force);
     free(p->near);
-    free(p->list);
+    free(p->facing);
+    pair_rows_destroy(&p->pairs);
     *p = (rigid_pairs){0};
 }
 
@@ -122,40 +116,48 @@ static bool may_meet(vec2 a, vec2 b, const box *around)
     return box_meets(&own, around);
 }
 
-/* Marks the vertices near the body: the ends of edges that may meet its box, and the first ends of those before. */
-static void mark_near(const rigid_pairs *p)
+static bool is_near(const obstacle_surface *o, const surface_edge *edge, const box *around)
 {
-    const obstacle_surface *o = p->obstacles;
-    const box around = box_of_body(p, p->law.thickness + p->margin);
-    for (dem_index e = 0; e < o->n_edges; e++) {
-        const surface_edge *edge = &o->edges[e];
-        const vec2 a = obstacle_surface_place(o, edge->first), b = obstacle_surface_place(o, edge->second);
-        if (may_meet(a, b, &around)) o->mark[edge->first] = o->mark[edge->second] = o->mark[edge->before] = 0;
-    }
+    return may_meet(obstacle_surface_place(o, edge->first), obstacle_surface_place(o, edge->second), around);
 }
 
-/* Lists the vertices near the body, whose marks become their places. */
+/* Lists the edges of obstacles that may meet the body's box, and marks their vertices: the ends, and the first ends of
+ * the edges before them. */
+static dem_status list_facing(rigid_pairs *p, const box *around)
+{
+    const obstacle_surface *o = p->obstacles;
+    p->n_facing = 0;
+    for (dem_index e = 0; e < o->n_edges; e++) {
+        const surface_edge *edge = &o->edges[e];
+        if (!is_near(o, edge, around)) continue;
+        CHECK(grow_array((void **)&p->facing, &p->facing_capacity, p->n_facing + 1, sizeof *p->facing),
+              DEM_ERROR_MEMORY, "out of memory for the contact of rigid body %lld", (long long)p->body);
+        p->facing[p->n_facing++] = e;
+        o->is_marked[edge->first] = o->is_marked[edge->second] = o->is_marked[edge->before] = 1;
+    }
+    return DEM_OK;
+}
+
+/* Lists the vertices that are marked, and takes their marks away. */
 static dem_status list_near(rigid_pairs *p)
 {
     const obstacle_surface *o = p->obstacles;
     p->n_near = 0;
-    mark_near(p);
     for (dem_index v = 0; v < o->n_vertices; v++) {
-        if (o->mark[v] < 0) continue;
+        if (!o->is_marked[v]) continue;
+        o->is_marked[v] = 0;
         CHECK(grow_array((void **)&p->near, &p->near_capacity, p->n_near + 1, sizeof *p->near), DEM_ERROR_MEMORY,
               "out of memory for the contact of rigid body %lld", (long long)p->body);
-        o->mark[v] = p->n_tracked + p->n_near;
         p->near[p->n_near++] = v;
     }
-    p->n_places = p->n_tracked + p->n_near;
-    return reserve_places(p);
+    return DEM_OK;
 }
 
 /* Puts the vertices near the body where they are. */
 static void place_near(const rigid_pairs *p, double *places)
 {
     for (dem_index q = 0; q < p->n_near; q++)
-        vec2_put(places, p->n_tracked + q, obstacle_surface_place(p->obstacles, p->near[q]));
+        vec2_put(places, rigid_pairs_place(p, p->near[q]), obstacle_surface_place(p->obstacles, p->near[q]));
 }
 
 /* Likewise what is tracked. */
@@ -171,57 +173,51 @@ static void place_tracked(const rigid_pairs *p, const double *x, double *places)
 /* Half of the length that a node, or a vertex, has of its surface, m. */
 static double half_length_at(const rigid_pairs *p, dem_index place)
 {
-    return place < p->n_nodes ? p->half_length[place]
-                              : fmin(p->obstacles->half_length[rigid_pairs_vertex(p, place)], p->mean);
+    return place < p->n_nodes ? p->half_length[place] : fmin(p->obstacles->half_length[place - p->n_tracked], p->mean);
+}
+
+/* An edge by places. */
+static surface_edge edge_at(const rigid_pairs *p, dem_index edge)
+{
+    if (edge < p->n_edges) return p->edges[edge];
+    const surface_edge *of = &p->obstacles->edges[edge - p->n_edges];
+    return (surface_edge){rigid_pairs_place(p, of->first), rigid_pairs_place(p, of->second),
+                          rigid_pairs_place(p, of->before)};
 }
 
 /* Adds the pair of a place and an edge if they are near. */
-static dem_status consider(rigid_pairs *p, dem_index place, const surface_edge *edge, dem_index number)
+static dem_status consider(rigid_pairs *p, dem_index place, dem_index number)
 {
     const double reach = p->law.thickness + p->margin;
-    if (contact_pair_distance(at(p, place), at(p, edge->first), at(p, edge->second)) > reach) return DEM_OK;
-    CHECK(grow_array((void **)&p->list, &p->capacity, p->n + 1, sizeof *p->list), DEM_ERROR_MEMORY,
-          "out of memory for %lld contact pairs", (long long)p->n + 1);
-    p->list[p->n++] = (contact_pair){.nodes = {place, edge->first, edge->second, edge->before},
-                                     .edge = number,
-                                     .thickness = p->law.thickness,
-                                     .weight = half_length_at(p, place) * p->law.modulus};
-    return DEM_OK;
+    const surface_edge edge = edge_at(p, number);
+    if (contact_pair_distance(at(p, place), at(p, edge.first), at(p, edge.second)) > reach) return DEM_OK;
+    const contact_pair pair = {.nodes = {place, edge.first, edge.second, edge.before},
+                               .edge = number,
+                               .thickness = p->law.thickness,
+                               .weight = half_length_at(p, place) * p->law.modulus};
+    return pair_rows_add(&p->pairs, &pair);
 }
 
-/* An edge of an obstacle by places, while vertices are marked.  \return whether it is near the box */
-static bool find_edge(const rigid_pairs *p, dem_index e, const box *around, surface_edge *out)
+static dem_status list_pairs(rigid_pairs *p, const box *around)
 {
-    const dem_index *mark = p->obstacles->mark;
-    const surface_edge edge = p->obstacles->edges[e];
-    *out = (surface_edge){mark[edge.first], mark[edge.second], mark[edge.before]};
-    return out->first >= 0 && out->second >= 0 && out->before >= 0 &&
-           may_meet(at(p, out->first), at(p, out->second), around);
-}
-
-static dem_status list_pairs(rigid_pairs *p)
-{
-    const box around = box_of_body(p, p->law.thickness + p->margin);
-    surface_edge edge;
-    p->n = 0;
-    for (dem_index e = 0; e < p->obstacles->n_edges; e++) {
-        const bool near = find_edge(p, e, &around, &edge);
-        for (dem_index k = 0; k < p->n_nodes && near; k++) TRY(consider(p, k, &edge, e));
+    pair_rows_clear(&p->pairs);
+    for (dem_index k = 0; k < p->n_nodes; k++)
+        for (dem_index q = 0; q < p->n_facing; q++) TRY(consider(p, k, p->n_edges + p->facing[q]));
+    for (dem_index q = 0; q < p->n_near; q++) {
+        const dem_index place = rigid_pairs_place(p, p->near[q]);
+        const bool near = may_meet(at(p, place), at(p, place), around);
+        for (dem_index e = 0; e < p->n_edges && near; e++) TRY(consider(p, place, e));
     }
-    for (dem_index k = p->n_tracked; k < p->n_places; k++) {
-        const bool near = may_meet(at(p, k), at(p, k), &around);
-        for (dem_index e = 0; e < p->n_edges && near; e++) TRY(consider(p, k, &p->edges[e], e));
-    }
-    return DEM_OK;
+    return pair_rows_link(&p->pairs);
 }
 
 static dem_status make_list(rigid_pairs *p)
 {
-    dem_status status = list_near(p);
-    if (status == DEM_OK) place_near(p, p->places);
-    if (status == DEM_OK) status = list_pairs(p);
-    for (dem_index q = 0; q < p->n_near; q++) p->obstacles->mark[p->near[q]] = -1;
-    return status;
+    const box around = box_of_body(p, p->law.thickness + p->margin);
+    const dem_status listed = list_facing(p, &around);
+    TRY(status_first(listed, list_near(p)));
+    place_near(p, p->places);
+    return list_pairs(p, &around);
 }
 
 /* How far two places have moved relative to each other from where they were, at most, m. */
@@ -256,31 +252,38 @@ static void add(double *to, dem_index place, vec2 force)
     vec2_put(to, place, vec2_add(vec2_at(to, place), force));
 }
 
+static void clear(const rigid_pairs *p, double *vectors)
+{
+    memset(vectors, 0, 2 * (size_t)p->n_nodes * sizeof *vectors);
+    for (dem_index q = 0; q < p->n_near; q++) vec2_put(vectors, rigid_pairs_place(p, p->near[q]), (vec2){0.0, 0.0});
+}
+
 void rigid_pairs_push(rigid_pairs *p)
 {
     contact_push push;
-    memset(p->force, 0, 2 * (size_t)p->n_places * sizeof *p->force);
-    for (dem_index k = 0; k < p->n; k++) {
-        if (!contact_pair_push(&p->list[k], p->places, &push)) continue;
+    clear(p, p->force);
+    for (dem_index k = 0; k < p->pairs.n; k++) {
+        if (!contact_pair_push(&p->pairs.list[k], p->places, &push)) continue;
         for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
-            add(p->force, p->list[k].nodes[which], contact_push_on(&push, which));
+            add(p->force, push.pair->nodes[which], contact_push_on(&push, which));
     }
 }
 
 void rigid_pairs_add_energy(const rigid_pairs *p, exact_sum *sum)
 {
-    for (dem_index k = 0; k < p->n; k++) exact_sum_add(sum, contact_pair_energy(&p->list[k], p->places));
+    for (dem_index k = 0; k < p->pairs.n; k++) exact_sum_add(sum, contact_pair_energy(&p->pairs.list[k], p->places));
 }
 
 /* Sums at the nodes, N/m, are kept where forces are, as their first components. */
 double rigid_pairs_stiffening(rigid_pairs *p, const double *inverse_mass)
 {
     double added[CONTACT_PAIR_NODES], largest = 0.0;
-    memset(p->force, 0, 2 * (size_t)p->n_places * sizeof *p->force);
-    for (dem_index k = 0; k < p->n; k++) {
-        if (!contact_pair_stiffness(&p->list[k], p->places, added)) continue;
+    clear(p, p->force);
+    for (dem_index k = 0; k < p->pairs.n; k++) {
+        const contact_pair *pair = &p->pairs.list[k];
+        if (!contact_pair_stiffness(pair, p->places, added)) continue;
         for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
-            add(p->force, p->list[k].nodes[which], (vec2){added[which], 0.0});
+            add(p->force, pair->nodes[which], (vec2){added[which], 0.0});
     }
     for (dem_index k = 0; k < p->n_nodes; k++)
         largest = fmax(largest, vec2_at(p->force, k).x * inverse_mass[p->nodes[k]]);
@@ -312,15 +315,16 @@ void rigid_pairs_look_back(rigid_pairs *p)
 
 const contact_pair *rigid_pairs_crossing(const rigid_pairs *p, double *part)
 {
-    for (dem_index k = 0; k < p->n; k++)
-        if (contact_pair_crosses(&p->list[k], p->before, p->places, part)) return &p->list[k];
+    for (dem_index k = 0; k < p->pairs.n; k++)
+        if (contact_pair_crosses(&p->pairs.list[k], p->before, p->places, part)) return &p->pairs.list[k];
     return NULL;
 }
 
 dem_index rigid_pairs_obstacle(const rigid_pairs *p, const contact_pair *pair)
 {
     const dem_index node = pair->nodes[CONTACT_PAIR_NODE];
-    return p->obstacles->obstacle[rigid_pairs_vertex(p, node < p->n_nodes ? pair->nodes[CONTACT_PAIR_FIRST] : node)];
+    const dem_index vertex = node < p->n_nodes ? pair->nodes[CONTACT_PAIR_FIRST] : node;
+    return p->obstacles->obstacle[vertex - p->n_tracked];
 }
 
 /* ---- the start ---- */
@@ -346,16 +350,15 @@ dem_status rigid_pairs_check_start(const rigid_pairs *p)
     const obstacle_surface *o = p->obstacles;
     const box around = box_of_body(p, 0.0);
     for (dem_index e = 0; e < o->n_edges; e++)
-        if (may_meet(obstacle_surface_place(o, o->edges[e].first), obstacle_surface_place(o, o->edges[e].second),
-                     &around))
-            TRY(check_edge(p, &o->edges[e]));
-    for (dem_index k = 0; k < p->n; k++) {
-        const double gap = contact_pair_gap(&p->list[k], p->places), least = least_distance * p->law.thickness;
-        const vec2 place = at(p, p->list[k].nodes[CONTACT_PAIR_NODE]);
+        if (is_near(o, &o->edges[e], &around)) TRY(check_edge(p, &o->edges[e]));
+    for (dem_index k = 0; k < p->pairs.n; k++) {
+        const contact_pair *pair = &p->pairs.list[k];
+        const double gap = contact_pair_gap(pair, p->places), least = least_distance * p->law.thickness;
+        const vec2 place = at(p, pair->nodes[CONTACT_PAIR_NODE]);
         CHECK(gap >= least, DEM_ERROR_MODEL,
               "body %lld, which is rigid, is %g m from obstacle %lld at (%g, %g) m: they must be %g m apart at the "
               "start, a twentieth of the contact thickness",
-              (long long)p->body, gap, (long long)rigid_pairs_obstacle(p, &p->list[k]), place.x, place.y, least);
+              (long long)p->body, gap, (long long)rigid_pairs_obstacle(p, pair), place.x, place.y, least);
     }
     return DEM_OK;
 }

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The contact pairs of one rigid body with obstacles: nodes of the body near edges of obstacles, and vertices of
- * obstacles near edges of the body. They count by places in a list of their own: nodes of the body's surface
- * first, then the corners of boxes round obstacles, by which their motion is known, and the vertices that are near. */
+ * obstacles near edges of the body. They count by places in a list of their own: nodes of the body's surface first, then
+ * the corners of boxes round obstacles, by which their motion is known, then the vertices of obstacles. Of these the
+ * list has what is near only. Edges count likewise: those of the body first, then those of obstacles. */
 #ifndef DEM_SURFACE_CONTACT_RIGID_PAIRS_H
 #define DEM_SURFACE_CONTACT_RIGID_PAIRS_H
 
 #include "base/exact_sum.h"
-#include "surface_contact/contact_pair.h"
 #include "surface_contact/contact_surface.h"
 #include "surface_contact/obstacle_surface.h"
+#include "surface_contact/pair_rows.h"
 
 typedef struct rigid_pairs {
     const obstacle_surface *obstacles;
@@ -23,14 +24,15 @@ typedef struct rigid_pairs {
     dem_index n_tracked; /* nodes and corners of boxes */
     double *reference;   /* [n_tracked][2] m, for which the list was made */
     dem_index n_near, near_capacity;
-    dem_index *near; /* [n_near] vertices that are in pairs, ascending */
-    dem_index n_places, places_capacity, before_capacity, force_capacity;
-    double *places;        /* [n_places][2] m, of the last evaluation: what is tracked, and the vertices behind that */
-    double *before;        /* [n_places][2] m, at the start of a step */
-    double *force;         /* [n_places][2] N, of the last evaluation */
-    bool made;             /* else there is no list */
-    dem_index n, capacity; /* pairs nearer than the thickness and the margin, */
-    contact_pair *list;    /* [n] first those of nodes, then those of vertices; `edge` counts theirs or the body's */
+    dem_index *near;    /* [n_near] vertices that are in pairs, ascending */
+    dem_index n_places; /* what is tracked, and all vertices */
+    double *places;     /* [n_places][2] m, of the last evaluation, */
+    double *before;     /* [n_places][2] m, at the start of a step, */
+    double *force;      /* [n_places][2] N, of the last evaluation: of vertices those that are near */
+    bool made;          /* else there is no list */
+    pair_rows pairs;    /* nearer than the thickness and the margin, in the order of (node, edge) */
+    dem_index n_facing, facing_capacity;
+    dem_index *facing; /* [n_facing] edges of obstacles near the body, while the list is made */
 } rigid_pairs;
 
 /** Borrows the obstacles.  \return DEM_ERROR_MEMORY. Free with rigid_pairs_free(). */
@@ -65,10 +67,10 @@ const contact_pair *rigid_pairs_crossing(const rigid_pairs *p, double *part);
  *  thickness.  \return DEM_ERROR_MODEL */
 dem_status rigid_pairs_check_start(const rigid_pairs *p);
 
-/** The vertex at a place behind those that are tracked. */
-static inline dem_index rigid_pairs_vertex(const rigid_pairs *p, dem_index place)
+/** The place of a vertex. */
+static inline dem_index rigid_pairs_place(const rigid_pairs *p, dem_index vertex)
 {
-    return p->near[place - p->n_tracked];
+    return p->n_tracked + vertex;
 }
 
 /** The obstacle of a pair. */
