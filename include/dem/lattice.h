@@ -195,7 +195,7 @@ DEM_API dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *no
 
 /** Makes all bodies of the lattice rigid: their springs and triangles carry nothing, and bound no step. Rigid bodies
  *  need the option `bodies`, by which they touch other bodies; obstacles they meet with their whole surface by the same
- *  law, without restitution or friction.
+ *  law, with the obstacles' friction (Coulomb's) and without restitution.
  *  \param guide  how they may move */
 DEM_API dem_status dem_lattice_stiffen(dem_lattice *lattice, dem_guide guide);
 

@@ -35,6 +35,13 @@ static void fill_weight(const forces *f, const double *x, dem_index first, int n
         out[i - first] = -f->model->lattice.mass[i] * vec2_dot(g, vec2_at(x, i));
 }
 
+/* In springs of friction of bodies with each other and of rigid bodies with obstacles, J. */
+static double stored_by_friction(const forces *f, const double *x, double t)
+{
+    const double between = forces_have_friction(f) ? surface_contact_stored(f->surfaces, x) : 0.0;
+    return rigid_contact_has_friction(f->rigid) ? between + rigid_contact_stored(f->rigid, t, x) : between;
+}
+
 /* Terms are computed in blocks, which exact sums take faster than single terms. */
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
@@ -56,11 +63,9 @@ dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
     energy.gravity = reduce_sum(&weight);
     energy.contact = f->surfaces != NULL ? surface_contact_energy(f->surfaces, x) : 0.0;
     if (f->rigid != NULL) energy.contact += rigid_contact_energy(f->rigid, v[f->clock], x);
-    if (forces_have_friction(f)) {
-        const double stored = surface_contact_stored(f->surfaces, x);
-        energy.contact += stored;
-        energy.friction = -stored; /* of all that friction has taken this can be given back */
-    }
+    const double stored = stored_by_friction(f, x, v[f->clock]);
+    energy.contact += stored;
+    energy.friction = 0.0 - stored; /* of all that friction has taken this can be given back */
     energy.motion = energy.kinetic + energy.elastic + energy.area + energy.guard + energy.contact;
     return energy;
 }

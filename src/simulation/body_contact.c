@@ -4,6 +4,7 @@
  * right-hand side (forces/forces.h); the pairs and their potential are in src/surface_contact. */
 #include "simulation/body_contact.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/reduce.h"
@@ -124,39 +125,78 @@ dem_status body_contact_check_step(dem_simulation *s)
 
 /* ---- friction ---- */
 
+/* The time of a state as integrated along, s. */
+static double clock_of(const dem_simulation *s, const double *y)
+{
+    return y[state_velocities(&s->layout) + s->forces.clock];
+}
+
+/* Between all bodies, then of rigid bodies with obstacles. */
+static dem_status settle(dem_simulation *s, const double *y)
+{
+    if (surface_contact_has_friction(s->surfaces)) TRY(surface_contact_settle(s->surfaces, y));
+    if (rigid_contact_has_friction(s->rigid)) TRY(rigid_contact_settle(s->rigid, clock_of(s, y), y));
+    return DEM_OK;
+}
+
 dem_status body_contact_settle(dem_simulation *s, const double *y)
 {
-    if (!surface_contact_has_friction(s->surfaces)) return DEM_OK;
-    return reduce_status(surface_contact_settle(s->surfaces, y), 0.0);
+    const bool has_friction = surface_contact_has_friction(s->surfaces) || rigid_contact_has_friction(s->rigid);
+    return has_friction ? reduce_status(settle(s, y), 0.0) : DEM_OK;
 }
 
 void body_contact_forget(dem_simulation *s)
 {
     if (s->surfaces != NULL) anchor_set_clear(&s->surfaces->anchors);
+    for (dem_index k = 0; s->rigid != NULL && k < s->rigid->n; k++) anchor_set_clear(&s->rigid->list[k].anchors);
 }
 
-dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint)
+static dem_status save_anchors(const anchor_set *anchors, const char *name, dem_checkpoint *checkpoint)
 {
-    if (!surface_contact_has_friction(s->surfaces)) return DEM_OK;
-    const anchor_set *anchors = &s->surfaces->anchors;
     anchor_record *list = malloc((size_t)(anchors->n + 1) * sizeof *list);
     CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for %lld anchors", (long long)anchors->n);
     for (dem_index k = 0; k < anchors->n; k++) list[k] = anchor_set_record(anchors, k);
-    const dem_status status = dem_checkpoint_put(checkpoint, "anchors", list, (size_t)anchors->n * sizeof *list);
+    const dem_status status = dem_checkpoint_put(checkpoint, name, list, (size_t)anchors->n * sizeof *list);
     free(list);
     return status;
 }
 
 /* A checkpoint of a run without friction has none. */
-dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
+static dem_status restore_anchors(anchor_set *anchors, const char *name, const dem_checkpoint *checkpoint)
 {
     size_t size = 0;
-    if (!surface_contact_has_friction(s->surfaces)) return DEM_OK;
-    const anchor_record *list = dem_checkpoint_find(checkpoint, "anchors", &size);
+    const anchor_record *list = dem_checkpoint_find(checkpoint, name, &size);
     const dem_index n = list != NULL ? (dem_index)(size / sizeof *list) : 0;
     CHECK(list == NULL || (size_t)n * sizeof *list == size, DEM_ERROR_IO,
-          "the checkpoint has %zu bytes of anchors, which have %zu bytes each", size, sizeof *list);
-    return anchor_set_restore(&s->surfaces->anchors, list, n);
+          "the checkpoint has %zu bytes of %s, which have %zu bytes each", size, name, sizeof *list);
+    return anchor_set_restore(anchors, list, n);
+}
+
+enum { NAME_LENGTH = 32 };
+
+/* The entry with the anchors of a rigid body. */
+static const char *name_entry(dem_index k, char name[NAME_LENGTH])
+{
+    (void)snprintf(name, NAME_LENGTH, "anchors %lld", (long long)k);
+    return name;
+}
+
+dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    char name[NAME_LENGTH];
+    if (surface_contact_has_friction(s->surfaces)) TRY(save_anchors(&s->surfaces->anchors, "anchors", checkpoint));
+    for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
+        TRY(save_anchors(&s->rigid->list[k].anchors, name_entry(k, name), checkpoint));
+    return DEM_OK;
+}
+
+dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
+{
+    char name[NAME_LENGTH];
+    if (surface_contact_has_friction(s->surfaces)) TRY(restore_anchors(&s->surfaces->anchors, "anchors", checkpoint));
+    for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
+        TRY(restore_anchors(&s->rigid->list[k].anchors, name_entry(k, name), checkpoint));
+    return DEM_OK;
 }
 
 dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x)
@@ -193,7 +233,6 @@ double body_contact_stiffening(dem_simulation *s, double guard, const double *y,
     if (s->surfaces == NULL || !(h > 0.0)) return guard;
     const double most = fmax(1.0, h * rest), harmless = most * most / (h * h) - omega * omega;
     double added = surface_contact_stiffening(s->surfaces, s->model->inverse_mass, harmless, y, is_known);
-    if (s->rigid != NULL)
-        added += rigid_contact_stiffening(s->rigid, y[state_velocities(&s->layout) + s->forces.clock], y);
+    if (s->rigid != NULL) added += rigid_contact_stiffening(s->rigid, clock_of(s, y), y);
     return fmax(guard, h * sqrt(omega * omega + added) / most);
 }

@@ -27,10 +27,11 @@ dem_status body_contact_failure(const dem_simulation *s);
  *  \return DEM_ERROR_CONTACT if the step cannot be taken as it is */
 dem_status body_contact_check_step(dem_simulation *s);
 
-/** Makes the state y what friction between bodies goes on from.  \return what pair_list_follow() returns */
+/** Makes the state y what friction of surfaces goes on from: of bodies with each other, and of rigid bodies with
+ *  obstacles.  \return what pair_list_follow() returns */
 dem_status body_contact_settle(dem_simulation *s, const double *y);
 
-/** Forgets what friction between bodies remembers. */
+/** Forgets what this friction remembers. */
 void body_contact_forget(dem_simulation *s);
 
 /** Puts that into a checkpoint, and gets it from one.  \return DEM_ERROR_IO if it is impossible, DEM_ERROR_MEMORY */

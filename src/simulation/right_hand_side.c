@@ -36,7 +36,7 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     const double *v = y + state_velocities(l);
     for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
     automaton_add_rates(&s->automaton, t, y, a);
-    if (s->rigid != NULL) rigid_contact_add_rates(s->rigid, l, a);
+    if (s->rigid != NULL) rigid_contact_add_rates(s->rigid, l, v, a);
     if (forces_have_friction(&s->forces))
         a[state_total_index(l, STATE_FRICTION)] += reduce_rounded_sum(forces_evaluated_friction_power(&s->forces, v));
     a[state_total_index(l, STATE_DAMPING)] = reduce_rounded_sum(forces_damping_power(&s->forces, y, v));

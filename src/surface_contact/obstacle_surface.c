@@ -131,3 +131,10 @@ vec2 obstacle_surface_velocity(const obstacle_surface *s, dem_index vertex)
     const dem_index k = s->obstacle[vertex];
     return s->of->laws[k].moves ? pose_velocity(&s->poses[k], obstacle_surface_place(s, vertex)) : (vec2){0.0, 0.0};
 }
+
+bool obstacle_surface_has_friction(const obstacle_surface *s)
+{
+    for (dem_index k = 0; k < s->of->n; k++)
+        if (obstacle_surface_friction(s, k) > 0.0) return true;
+    return false;
+}

@@ -40,6 +40,16 @@ vec2 obstacle_surface_place(const obstacle_surface *s, dem_index vertex);
 /** Where a corner of the box round an obstacle's points is: no vertex has gone further than one of them. */
 vec2 obstacle_surface_corner(const obstacle_surface *s, dem_index obstacle, int corner);
 
+/** Coefficient of friction of an obstacle: that of Coulomb's law. The paper's law is one of impacts, and has none. */
+static inline double obstacle_surface_friction(const obstacle_surface *s, dem_index obstacle)
+{
+    const dem_obstacle *o = &s->of->list[obstacle];
+    return o->friction_law == DEM_FRICTION_COULOMB ? o->friction : 0.0;
+}
+
+/** Whether any has. */
+bool obstacle_surface_has_friction(const obstacle_surface *s);
+
 /** Velocity of a vertex at the time asked for last, m/s. */
 vec2 obstacle_surface_velocity(const obstacle_surface *s, dem_index vertex);
 

@@ -14,8 +14,10 @@ static dem_status set_up(rigid_contact *c, const contact_surface *of)
     TRY(obstacle_surface_compile(&c->obstacles, &c->model->obstacles));
     c->list = calloc((size_t)bodies->n, sizeof *c->list);
     CHECK_MEMORY(c->list);
-    for (; c->n < bodies->n; c->n++)
-        TRY(rigid_pairs_create(&c->list[c->n], of, bodies->list[c->n].number, &c->obstacles));
+    while (c->n < bodies->n) {
+        const dem_index k = c->n++; /* it is freed even if it fails */
+        TRY(rigid_pairs_create(&c->list[k], of, bodies->list[k].number, &c->obstacles));
+    }
     return DEM_OK;
 }
 
@@ -99,17 +101,55 @@ double rigid_contact_power(const rigid_contact *c, dem_index obstacle)
     return reduce_rounded_sum(sum);
 }
 
-void rigid_contact_add_rates(const rigid_contact *c, const state_layout *l, double *a)
+/* What obstacles do to one body. */
+static void add_rates_of(const rigid_contact *c, const rigid_pairs *p, const state_layout *l, double *a)
 {
     const obstacle_surface *o = &c->obstacles;
     const bool moves = state_has_total(l, STATE_OBSTACLE);
-    for (dem_index b = 0; b < c->n; b++)
-        for (dem_index q = 0; q < c->list[b].n_near; q++) {
-            const dem_index v = c->list[b].near[q], impulse = state_impulse(l, o->obstacle[v]);
-            const vec2 force = rigid_contact_force(&c->list[b], q);
-            vec2_put(a, impulse, vec2_add(vec2_at(a, impulse), force));
-            if (moves) a[state_total_index(l, STATE_OBSTACLE)] += vec2_dot(force, obstacle_surface_velocity(o, v));
-        }
+    for (dem_index q = 0; q < p->n_near; q++) {
+        const dem_index v = p->near[q], impulse = state_impulse(l, o->obstacle[v]);
+        const vec2 force = rigid_contact_force(p, q);
+        vec2_put(a, impulse, vec2_add(vec2_at(a, impulse), force));
+        if (moves) a[state_total_index(l, STATE_OBSTACLE)] += vec2_dot(force, obstacle_surface_velocity(o, v));
+    }
+}
+
+/* What friction does to one body, as a part of that, and what it takes. */
+static void add_friction_of(const rigid_contact *c, const rigid_pairs *p, const state_layout *l, const double *v,
+                            double *a)
+{
+    for (dem_index q = 0; q < p->n_near; q++) {
+        const dem_index impulse = state_friction_impulse(l, c->obstacles.obstacle[p->near[q]]);
+        const vec2 on_vertex = vec2_at(p->friction, rigid_pairs_place(p, p->near[q]));
+        vec2_put(a, impulse, vec2_sub(vec2_at(a, impulse), on_vertex));
+    }
+    a[state_total_index(l, STATE_FRICTION)] += rigid_pairs_friction_power(p, v);
+}
+
+void rigid_contact_add_rates(const rigid_contact *c, const state_layout *l, const double *v, double *a)
+{
+    for (dem_index b = 0; b < c->n; b++) {
+        add_rates_of(c, &c->list[b], l, a);
+        if (rigid_contact_has_friction(c)) add_friction_of(c, &c->list[b], l, v, a);
+    }
+}
+
+/* ---- friction ---- */
+
+dem_status rigid_contact_settle(rigid_contact *c, double t, const double *x)
+{
+    obstacle_surface_follow(&c->obstacles, t);
+    for (dem_index k = 0; k < c->n; k++) TRY(rigid_pairs_settle(&c->list[k], x));
+    return DEM_OK;
+}
+
+double rigid_contact_stored(rigid_contact *c, double t, const double *x)
+{
+    exact_sum sum = {0};
+    if (follow(c, t, x) != DEM_OK) return (double)NAN;
+    for (dem_index k = 0; k < c->n; k++)
+        anchor_set_add_energy(&c->list[k].anchors, &c->list[k].pairs, c->list[k].places, &sum);
+    return reduce_sum(&sum);
 }
 
 /* ---- energy and stiffness ---- */

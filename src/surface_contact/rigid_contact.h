@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Contact of rigid bodies with obstacles: a force that depends on positions and time, by the contact potential of
- * bodies. An impact on a rigid body would move all of it at once, and with it all that it touches: such bodies have no
- * events, and neither restitution nor rest. */
+ * bodies, with the friction of bodies. An impact on a rigid body would move all of it at once, and with it all that it
+ * touches: such bodies have no events, and neither restitution nor rest. */
 #ifndef DEM_SURFACE_CONTACT_RIGID_CONTACT_H
 #define DEM_SURFACE_CONTACT_RIGID_CONTACT_H
 
@@ -50,10 +50,23 @@ static inline vec2 rigid_contact_force(const rigid_pairs *p, dem_index q)
 /** Power that an obstacle puts into them there, W. */
 double rigid_contact_power(const rigid_contact *c, dem_index obstacle);
 
-/** Adds the rates of impulses and work of all obstacles to a derivative, in the state evaluated last. */
-void rigid_contact_add_rates(const rigid_contact *c, const state_layout *l, double *a);
+/** Adds the rates of impulses and work of all obstacles, and of what friction takes, to a derivative, in the state
+ *  evaluated last, with the velocities v. */
+void rigid_contact_add_rates(const rigid_contact *c, const state_layout *l, const double *v, double *a);
 
-/** Energy, J. */
+/** Whether any rigid body has friction with an obstacle. NULL: there are none. */
+static inline bool rigid_contact_has_friction(const rigid_contact *c)
+{
+    return c != NULL && rigid_pairs_have_friction(&c->list[0]);
+}
+
+/** Moves the anchors of friction for positions x [n][2] that a step has reached at t.  \return DEM_ERROR_MEMORY */
+dem_status rigid_contact_settle(rigid_contact *c, double t, const double *x);
+
+/** What friction has stored in springs, J. */
+double rigid_contact_stored(rigid_contact *c, double t, const double *x);
+
+/** Energy without what friction has stored, J. */
 double rigid_contact_energy(rigid_contact *c, double t, const double *x);
 
 /** What contact adds at most to the square of the highest frequency, rad^2/s^2. */

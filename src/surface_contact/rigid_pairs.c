@@ -64,20 +64,80 @@ static void list_surface(rigid_pairs *p, const contact_surface *of)
     }
 }
 
+/* An edge by places. */
+static surface_edge edge_at(const rigid_pairs *p, dem_index edge)
+{
+    if (edge < p->n_edges) return p->edges[edge];
+    const surface_edge *of = &p->obstacles->edges[edge - p->n_edges];
+    return (surface_edge){rigid_pairs_place(p, of->first), rigid_pairs_place(p, of->second),
+                          rigid_pairs_place(p, of->before)};
+}
+
+/* Half of the length that a node, or a vertex, has of its surface, m. */
+static double half_length_at(const rigid_pairs *p, dem_index place)
+{
+    return place < p->n_nodes ? p->half_length[place] : fmin(p->obstacles->half_length[place - p->n_tracked], p->mean);
+}
+
+/* ---- what anchors ask ---- */
+
+/* The body is number 0, and obstacles follow. */
+static dem_index number_of_body(const void *of, dem_index place)
+{
+    const rigid_pairs *p = of;
+    return place < p->n_nodes ? 0 : 1 + p->obstacles->obstacle[place - p->n_tracked];
+}
+
+static surface_law law_between(const void *of, dem_index body, dem_index other)
+{
+    const rigid_pairs *p = of;
+    const dem_index obstacle = (body > other ? body : other) - 1;
+    return (surface_law){p->law.thickness, p->law.modulus, obstacle_surface_friction(p->obstacles, obstacle)};
+}
+
+static double half_length_of(const void *of, dem_index place)
+{
+    return half_length_at(of, place);
+}
+
+/* Edges of obstacles push nodes, and those of the body push vertices. */
+static bool find_ends(const void *of, dem_index place, dem_index edge, dem_index ends[2])
+{
+    const rigid_pairs *p = of;
+    const bool is_node = place >= 0 && place < p->n_nodes, is_vertex = place >= p->n_tracked && place < p->n_places;
+    const bool is_theirs = edge >= p->n_edges && edge < p->n_edges + p->obstacles->n_edges;
+    const bool is_own = edge >= 0 && edge < p->n_edges;
+    if (!(is_node && is_theirs) && !(is_vertex && is_own)) return false;
+    const surface_edge found = edge_at(p, edge);
+    ends[0] = found.first;
+    ends[1] = found.second;
+    return true;
+}
+
+static dem_status create_friction(rigid_pairs *p)
+{
+    const anchor_surfaces surfaces = {.of = p,
+                                      .n_nodes = p->n_places,
+                                      .body = number_of_body,
+                                      .law = law_between,
+                                      .half_length = half_length_of,
+                                      .ends = find_ends};
+    if (!obstacle_surface_has_friction(p->obstacles)) return DEM_OK;
+    p->friction = calloc(2 * (size_t)p->n_places, sizeof *p->friction);
+    CHECK(p->friction != NULL, DEM_ERROR_MEMORY, "out of memory for the friction of rigid body %lld",
+          (long long)p->body);
+    return anchor_set_create(&p->anchors, &surfaces);
+}
+
 dem_status rigid_pairs_create(rigid_pairs *out, const contact_surface *of, dem_index body,
                               const obstacle_surface *obstacles)
 {
-    rigid_pairs p = {.obstacles = obstacles, .body = body, .law = of->laws[body]};
-    p.margin = usual_margin * of->mean_length;
-    count(&p, of);
-    const dem_status status = allocate(&p);
-    if (status == DEM_OK) {
-        list_surface(&p, of);
-        *out = p;
-    } else {
-        rigid_pairs_free(&p);
-    }
-    return status;
+    *out = (rigid_pairs){.obstacles = obstacles, .body = body, .law = of->laws[body]};
+    out->margin = usual_margin * of->mean_length;
+    count(out, of);
+    TRY(allocate(out));
+    list_surface(out, of);
+    return create_friction(out);
 }
 
 void rigid_pairs_free(rigid_pairs *p)
@@ -89,9 +149,11 @@ void rigid_pairs_free(rigid_pairs *p)
     free(p->before);
     free(p->reference);
     free(p->force);
+    free(p->friction);
     free(p->near);
     free(p->facing);
     pair_rows_destroy(&p->pairs);
+    anchor_set_destroy(&p->anchors);
     *p = (rigid_pairs){0};
 }
 
@@ -170,21 +232,6 @@ static void place_tracked(const rigid_pairs *p, const double *x, double *places)
             vec2_put(places, n++, obstacle_surface_corner(p->obstacles, k, corner));
 }
 
-/* Half of the length that a node, or a vertex, has of its surface, m. */
-static double half_length_at(const rigid_pairs *p, dem_index place)
-{
-    return place < p->n_nodes ? p->half_length[place] : fmin(p->obstacles->half_length[place - p->n_tracked], p->mean);
-}
-
-/* An edge by places. */
-static surface_edge edge_at(const rigid_pairs *p, dem_index edge)
-{
-    if (edge < p->n_edges) return p->edges[edge];
-    const surface_edge *of = &p->obstacles->edges[edge - p->n_edges];
-    return (surface_edge){rigid_pairs_place(p, of->first), rigid_pairs_place(p, of->second),
-                          rigid_pairs_place(p, of->before)};
-}
-
 /* Adds the pair of a place and an edge if they are near. */
 static dem_status consider(rigid_pairs *p, dem_index place, dem_index number)
 {
@@ -238,10 +285,22 @@ static dem_status renew_list(rigid_pairs *p)
     return status;
 }
 
+/* The ends of an anchor's edge are needed even if that is not near: another edge of its obstacle pushes then. */
+static void place_anchors(rigid_pairs *p)
+{
+    for (dem_index k = 0; k < p->anchors.n; k++)
+        for (int which = 0; which < ANCHOR_NODES; which++) {
+            const dem_index place = p->anchors.list[k].nodes[which];
+            if (place >= p->n_tracked)
+                vec2_put(p->places, place, obstacle_surface_place(p->obstacles, place - p->n_tracked));
+        }
+}
+
 dem_status rigid_pairs_follow(rigid_pairs *p, const double *x)
 {
     place_tracked(p, x, p->places);
     place_near(p, p->places);
+    place_anchors(p);
     return renew_list(p);
 }
 
@@ -258,6 +317,18 @@ static void clear(const rigid_pairs *p, double *vectors)
     for (dem_index q = 0; q < p->n_near; q++) vec2_put(vectors, rigid_pairs_place(p, p->near[q]), (vec2){0.0, 0.0});
 }
 
+/* Friction comes behind the pairs. */
+static void add_friction(rigid_pairs *p)
+{
+    clear(p, p->friction);
+    anchor_set_add_forces(&p->anchors, &p->pairs, p->places, p->friction);
+    for (dem_index k = 0; k < p->n_nodes; k++) add(p->force, k, vec2_at(p->friction, k));
+    for (dem_index q = 0; q < p->n_near; q++) {
+        const dem_index place = rigid_pairs_place(p, p->near[q]);
+        add(p->force, place, vec2_at(p->friction, place));
+    }
+}
+
 void rigid_pairs_push(rigid_pairs *p)
 {
     contact_push push;
@@ -267,11 +338,34 @@ void rigid_pairs_push(rigid_pairs *p)
         for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
             add(p->force, push.pair->nodes[which], contact_push_on(&push, which));
     }
+    if (rigid_pairs_have_friction(p)) add_friction(p);
+}
+
+double rigid_pairs_friction_power(const rigid_pairs *p, const double *v)
+{
+    double sum = 0.0;
+    for (dem_index k = 0; k < p->n_nodes; k++) sum -= vec2_dot(vec2_at(p->friction, k), vec2_at(v, p->nodes[k]));
+    for (dem_index q = 0; q < p->n_near; q++)
+        sum -= vec2_dot(vec2_at(p->friction, rigid_pairs_place(p, p->near[q])),
+                        obstacle_surface_velocity(p->obstacles, p->near[q]));
+    return sum;
 }
 
 void rigid_pairs_add_energy(const rigid_pairs *p, exact_sum *sum)
 {
     for (dem_index k = 0; k < p->pairs.n; k++) exact_sum_add(sum, contact_pair_energy(&p->pairs.list[k], p->places));
+}
+
+/* What anchors add at the nodes of the body. */
+static void add_anchors(rigid_pairs *p)
+{
+    double added[ANCHOR_NODES];
+    for (dem_index k = 0; k < p->anchors.n; k++) {
+        const anchor *a = &p->anchors.list[k];
+        anchor_stiffness(a, p->places, added);
+        for (int which = 0; which < ANCHOR_NODES; which++)
+            if (a->nodes[which] < p->n_nodes) add(p->force, a->nodes[which], (vec2){added[which], 0.0});
+    }
 }
 
 /* Sums at the nodes, N/m, are kept where forces are, as their first components. */
@@ -285,6 +379,7 @@ double rigid_pairs_stiffening(rigid_pairs *p, const double *inverse_mass)
         for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
             add(p->force, pair->nodes[which], (vec2){added[which], 0.0});
     }
+    add_anchors(p);
     for (dem_index k = 0; k < p->n_nodes; k++)
         largest = fmax(largest, vec2_at(p->force, k).x * inverse_mass[p->nodes[k]]);
     return largest;
@@ -325,6 +420,12 @@ dem_index rigid_pairs_obstacle(const rigid_pairs *p, const contact_pair *pair)
     const dem_index node = pair->nodes[CONTACT_PAIR_NODE];
     const dem_index vertex = node < p->n_nodes ? pair->nodes[CONTACT_PAIR_FIRST] : node;
     return p->obstacles->obstacle[vertex - p->n_tracked];
+}
+
+dem_status rigid_pairs_settle(rigid_pairs *p, const double *x)
+{
+    TRY(rigid_pairs_follow(p, x));
+    return anchor_set_settle(&p->anchors, p->pairs.list, p->pairs.n, p->places);
 }
 
 /* ---- the start ---- */

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The contact pairs of one rigid body with obstacles: nodes of the body near edges of obstacles, and vertices of
- * obstacles near edges of the body. They count by places in a list of their own: nodes of the body's surface first, then
- * the corners of boxes round obstacles, by which their motion is known, then the vertices of obstacles. Of these the
- * list has what is near only. Edges count likewise: those of the body first, then those of obstacles. */
+ * obstacles near edges of the body. They count by places in a list of their own: nodes of the body's surface first,
+ * then the corners of boxes round obstacles, by which their motion is known, then the vertices of obstacles. Of these
+ * the list has what is near only. Edges count likewise: those of the body first, then those of obstacles. */
 #ifndef DEM_SURFACE_CONTACT_RIGID_PAIRS_H
 #define DEM_SURFACE_CONTACT_RIGID_PAIRS_H
 
-#include "base/exact_sum.h"
-#include "surface_contact/contact_surface.h"
+#include "surface_contact/anchor_set.h"
 #include "surface_contact/obstacle_surface.h"
-#include "surface_contact/pair_rows.h"
 
 typedef struct rigid_pairs {
     const obstacle_surface *obstacles;
@@ -29,13 +27,16 @@ typedef struct rigid_pairs {
     double *places;     /* [n_places][2] m, of the last evaluation, */
     double *before;     /* [n_places][2] m, at the start of a step, */
     double *force;      /* [n_places][2] N, of the last evaluation: of vertices those that are near */
+    double *friction;   /* [n_places][2] N, the part of friction in it; NULL: no obstacle has any */
     bool made;          /* else there is no list */
     pair_rows pairs;    /* nearer than the thickness and the margin, in the order of (node, edge) */
     dem_index n_facing, facing_capacity;
-    dem_index *facing; /* [n_facing] edges of obstacles near the body, while the list is made */
+    dem_index *facing;  /* [n_facing] edges of obstacles near the body, while the list is made */
+    anchor_set anchors; /* of friction: of nodes on edges of obstacles, and of vertices on edges of the body */
 } rigid_pairs;
 
-/** Borrows the obstacles.  \return DEM_ERROR_MEMORY. Free with rigid_pairs_free(). */
+/** Borrows the obstacles. It must stay where it is.  \return DEM_ERROR_MEMORY. Free with rigid_pairs_free(), also after
+ *  an error. */
 dem_status rigid_pairs_create(rigid_pairs *out, const contact_surface *of, dem_index body,
                               const obstacle_surface *obstacles);
 void rigid_pairs_free(rigid_pairs *p);
@@ -49,6 +50,19 @@ void rigid_pairs_push(rigid_pairs *p);
 
 /** Adds the energy of the pairs at these places, J. */
 void rigid_pairs_add_energy(const rigid_pairs *p, exact_sum *sum);
+
+/** Whether any obstacle has friction. */
+static inline bool rigid_pairs_have_friction(const rigid_pairs *p)
+{
+    return anchor_set_has_friction(&p->anchors);
+}
+
+/** Power that friction takes at velocities v [n][2] of the lattice's nodes, W, stored and lost, with the forces of
+ *  rigid_pairs_push(). */
+double rigid_pairs_friction_power(const rigid_pairs *p, const double *v);
+
+/** Moves the anchors for positions x [n][2] that a step has reached.  \return DEM_ERROR_MEMORY */
+dem_status rigid_pairs_settle(rigid_pairs *p, const double *x);
 
 /** The largest bound of what they add to the stiffness at a node over its mass, rad^2/s^2. */
 double rigid_pairs_stiffening(rigid_pairs *p, const double *inverse_mass);

@@ -106,7 +106,7 @@ TEST(obstacles_give_what_bodies_get)
     assert_true(on_body.y > 1.0 && fabs(on_body.x) > 1.0);
     assert_close(given.x, on_body.x, 1e-12 * vec2_norm(on_body));
     assert_close(given.y, on_body.y, 1e-12 * vec2_norm(on_body));
-    rigid_contact_add_rates(s.contact, &l, a);
+    rigid_contact_add_rates(s.contact, &l, s.x, a);
     const vec2 of_wall = vec2_at(a, state_impulse(&l, 1)), of_wedge = vec2_at(a, state_impulse(&l, 0));
     assert_close(of_wall.x + of_wedge.x, on_body.x, 1e-12 * vec2_norm(on_body));
     assert_true(of_wall.x < 0.0);
@@ -175,4 +175,157 @@ TEST(the_bound_of_the_stiffness_holds)
     CLEANUP(close_scene) scene far;
     open_scene(&far, 0.0, (const double[2]){0.0, 0.1});
     assert_close(rigid_contact_stiffening(far.contact, 0.0, far.x), 0.0, 0.0);
+}
+
+/* ---- friction ---- */
+
+/* The scene again, with friction, a little way after its anchors have been put where they are. */
+static void open_rubbing(scene *s, vec2 way)
+{
+    dem_obstacle obstacles[2] = {SIZED(dem_obstacle, .n_points = 4, .points = wedge, .friction = 0.3),
+                                 SIZED(dem_obstacle, .n_points = 2, .points = wall, .friction = 0.3)};
+    obstacles[1].velocity[0] = -0.5;
+    open_scene(s, 0.0, (const double[2]){-0.0031, 0.0046});
+    rigid_contact_destroy(s->contact);
+    dem_model_destroy(s->model);
+    s->model = support_model(&s->lattice, obstacles, 2);
+    assert_ok(rigid_contact_create(&s->contact, s->model, &s->surface));
+    assert_true(rigid_contact_has_friction(s->contact));
+    assert_ok(rigid_contact_settle(s->contact, 0.0, s->x));
+    assert_close(rigid_contact_stored(s->contact, 0.0, s->x), 0.0, 0.0);
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++) vec2_put(s->x, i, vec2_add(vec2_at(s->x, i), way));
+}
+
+/* The wedge's tip rubs on an edge of the block, and the block's corner at the end of the wall: what friction does to
+ * them adds up to nothing, and its power is that of its forces. */
+TEST(friction_has_no_resultant_and_the_power_of_its_forces)
+{
+    CLEANUP(close_scene) scene s;
+    open_rubbing(&s, (vec2){1e-6, 2e-6});
+    const rigid_pairs *p = &s.contact->list[0];
+    state_layout l = state_layout_of(2, s.lattice.n_nodes, 2, true);
+    double *a = calloc((size_t)state_velocities(&l), sizeof *a), *v = malloc(2 * (size_t)s.lattice.n_nodes * sizeof *v);
+    vec2 sum = {0.0, 0.0}, on_body = {0.0, 0.0};
+    double moment = 0.0, size = 0.0, power = 0.0;
+    for (dem_index i = 0; i < 2 * s.lattice.n_nodes; i++) v[i] = 0.1 * (double)i;
+    assert_true(rigid_contact_evaluate(s.contact, 0.0, s.x));
+    for (dem_index k = 0; k < p->n_places; k++) {
+        const vec2 force = vec2_at(p->friction, k);
+        sum = vec2_add(sum, force);
+        moment += vec2_cross(vec2_at(p->places, k), force);
+        size += vec2_norm(force);
+        if (k < p->n_nodes) on_body = vec2_add(on_body, force);
+        power -= vec2_dot(
+            force, k < p->n_nodes ? vec2_at(v, p->nodes[k])
+                                  : (vec2){k < rigid_pairs_place(p, p->obstacles->first_vertex[1]) ? 0.0 : -0.5, 0.0});
+    }
+    assert_true(p->anchors.n >= 2 && size > 1e-3);
+    assert_close(vec2_norm(sum), 0.0, 1e-13 * size);
+    assert_close(moment, 0.0, 1e-14 * size);
+    rigid_contact_add_rates(s.contact, &l, v, a);
+    const vec2 given = vec2_add(vec2_at(a, state_friction_impulse(&l, 0)), vec2_at(a, state_friction_impulse(&l, 1)));
+    assert_close(vec2_norm(vec2_sub(given, on_body)), 0.0, 1e-13 * size);
+    assert_close(a[state_total_index(&l, STATE_FRICTION)], power, 1e-12 * fabs(power));
+    free(a);
+    free(v);
+}
+
+/* What a step has reached changes no force and no energy, and lists made anew change no bit. */
+TEST(neither_settling_nor_lists_change_friction)
+{
+    CLEANUP(close_scene) scene s;
+    open_rubbing(&s, (vec2){3e-5, 2e-6});
+    rigid_pairs *p = &s.contact->list[0];
+    const size_t n = 2 * (size_t)p->n_nodes;
+    double *before = malloc(n * sizeof *before);
+    assert_true(rigid_contact_evaluate(s.contact, 0.0, s.x));
+    memcpy(before, p->force, n * sizeof *before);
+    const double stored = rigid_contact_stored(s.contact, 0.0, s.x);
+    assert_true(stored > 0.0);
+    for (int k = 0; k < 3; k++) {
+        p->made = false;
+        p->margin *= 0.1;
+        assert_true(rigid_contact_evaluate(s.contact, 0.0, s.x));
+        assert_memory_equal(p->force, before, n * sizeof *before);
+    }
+    assert_ok(rigid_contact_settle(s.contact, 0.0, s.x));
+    assert_true(rigid_contact_evaluate(s.contact, 0.0, s.x));
+    for (size_t c = 0; c < n; c++) assert_close(p->force[c], before[c], 1e-10 * (1.0 + fabs(before[c])));
+    assert_close(rigid_contact_stored(s.contact, 0.0, s.x), stored, 1e-10 * stored);
+    free(before);
+}
+
+/* The spring adds to what the pairs do. */
+TEST(stiffening_knows_the_springs_of_friction)
+{
+    CLEANUP(close_scene) scene s;
+    open_rubbing(&s, (vec2){0.0, 0.0});
+    const double with = rigid_contact_stiffening(s.contact, 0.0, s.x);
+    anchor_set_clear(&s.contact->list[0].anchors);
+    assert_true(with > 1.001 * rigid_contact_stiffening(s.contact, 0.0, s.x));
+}
+
+/* Numbers from a file are not trusted: nodes are held by edges of obstacles, and vertices by edges of the body. */
+TEST(an_anchor_of_a_record_is_between_the_body_and_an_obstacle)
+{
+    CLEANUP(close_scene) scene s;
+    open_rubbing(&s, (vec2){0.0, 0.0});
+    rigid_pairs *p = &s.contact->list[0];
+    const anchor_record good = anchor_set_record(&p->anchors, 0);
+    const dem_index nodes[4] = {-1, p->n_nodes, p->n_places, 0}, edges[4] = {good.edge, good.edge, good.edge, 0};
+    for (int k = 0; k < 4; k++) {
+        anchor_record bad = good;
+        bad.node = nodes[k];
+        bad.edge = edges[k];
+        assert_int_equal(anchor_set_restore(&p->anchors, &bad, 1), DEM_ERROR_IO);
+    }
+    anchor_record bad = good;
+    bad.edge = p->n_edges + p->obstacles->n_edges;
+    assert_int_equal(anchor_set_restore(&p->anchors, &bad, 1), DEM_ERROR_IO);
+    assert_ok(anchor_set_restore(&p->anchors, &good, 1));
+}
+
+static void shift(scene *s, double dx, double dy)
+{
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++) vec2_put(s->x, i, vec2_add(vec2_at(s->x, i), (vec2){dx, dy}));
+}
+
+/* A block in a corner, whose node there is anchored on the wall, slides along the floor away from it, until the wall is
+ * in no pair any more. The anchor stays on the wall, since the node's foot does. Then corner and block go on together,
+ * which changes no force. */
+TEST(an_anchor_stays_on_an_edge_that_is_no_longer_near)
+{
+    static const double corner[8] = {-0.0159, 0.1, -0.0159, -0.0085, -0.0139, -0.0085, 0.1, -0.0085};
+    dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 4, .points = corner, .friction = 0.3);
+    obstacle.velocity[0] = 1.0;
+    obstacle.velocity[1] = 0.3;
+    CLEANUP(close_scene) scene s;
+    open_scene(&s, 0.0, (const double[2]){0.0, 0.0});
+    rigid_contact_destroy(s.contact);
+    dem_model_destroy(s.model);
+    s.model = support_model(&s.lattice, &obstacle, 1);
+    assert_ok(rigid_contact_create(&s.contact, s.model, &s.surface));
+    vec2 low = {INFINITY, INFINITY};
+    for (dem_index i = 0; i < s.lattice.n_nodes; i++) {
+        low.x = fmin(low.x, s.x[2 * i]);
+        low.y = fmin(low.y, s.x[2 * i + 1]);
+    }
+    shift(&s, corner[2] + 8e-4 - low.x, corner[3] + 9e-4 - low.y);
+    const rigid_pairs *p = &s.contact->list[0];
+    assert_ok(rigid_contact_settle(s.contact, 0.0, s.x));
+    assert_int_equal(p->anchors.list[0].edge, p->n_edges);
+    for (int k = 0; k < 10; k++) {
+        shift(&s, 1e-3, 0.0);
+        assert_ok(rigid_contact_settle(s.contact, 0.0, s.x));
+    }
+    assert_int_equal(p->anchors.list[0].edge, p->n_edges);
+    for (dem_index k = 0; k < p->pairs.n; k++) assert_true(p->pairs.list[k].edge != p->n_edges);
+    shift(&s, -1e-5, 0.0);
+    assert_true(rigid_contact_evaluate(s.contact, 0.0, s.x));
+    const vec2 before = vec2_at(p->friction, p->anchors.list[0].nodes[0]);
+    shift(&s, 0.01, 0.003);
+    assert_true(rigid_contact_evaluate(s.contact, 0.01, s.x));
+    const vec2 after = vec2_at(p->friction, p->anchors.list[0].nodes[0]);
+    assert_true(vec2_norm(before) > 0.0);
+    assert_close(vec2_norm(vec2_sub(after, before)), 0.0, 1e-9 * vec2_norm(before));
 }
