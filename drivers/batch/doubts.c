@@ -53,15 +53,22 @@ void doubts_of_lattices(run_log *log, const deck *d)
         if (!is_rigid(d, k)) warn_lattice(log, d, k);
 }
 
+/* What an obstacle has that is nothing for rigid bodies, or NULL. */
+static const char *law_without_effect(const schema_instance *obstacle)
+{
+    if (schema_real(obstacle, "restitution") > 0.0) return "restitution";
+    return schema_is(obstacle, "friction_law", "paper") && schema_real(obstacle, "friction") < 1.0 ? "friction_law"
+                                                                                                   : NULL;
+}
+
 void doubts_of_rigid(run_log *log, const deck *d, const dem_lattice *lattice)
 {
-    static const char *const keys[] = {"restitution", "friction"};
-    for (size_t k = 0; k < schema_count(&d->groups, "obstacle") && rigid_keys_node(lattice) >= 0; k++)
-        for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-            if (!(schema_real(schema_get(&d->groups, "obstacle", k), keys[i]) > 0.0)) continue;
-            run_log_warn(log, "the %s of obstacle %zu does not act on rigid bodies", keys[i], k + 1);
-            return;
-        }
+    for (size_t k = 0; k < schema_count(&d->groups, "obstacle") && rigid_keys_node(lattice) >= 0; k++) {
+        const char *what = law_without_effect(schema_get(&d->groups, "obstacle", k));
+        if (what == NULL) continue;
+        run_log_warn(log, "the %s of obstacle %zu does not act on rigid bodies", what, k + 1);
+        return;
+    }
 }
 
 /* The default of `bodies` has become 'none' (deck/surfaces.h). */

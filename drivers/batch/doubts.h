@@ -9,7 +9,7 @@
 /** Warns of bodies that are too light, or whose walls are too thin, for their lattice. */
 void doubts_of_lattices(run_log *log, const deck *d);
 
-/** Warns of restitution and friction that do not act on rigid bodies. */
+/** Warns of restitution and of a law of friction that do not act on rigid bodies. */
 void doubts_of_rigid(run_log *log, const deck *d, const dem_lattice *lattice);
 
 /** Warns where bodies with triangles do not touch each other because of bodies without. */

@@ -82,12 +82,13 @@ static size_t count_rigid_doubts(const char *body, const char *floor)
 
 TEST(laws_of_obstacles_that_do_not_act_on_rigid_bodies_are_doubted)
 {
-    assert_int_equal(count_rigid_doubts(", rigid = .true.", ""), 0);
-    assert_int_equal(count_rigid_doubts("", ", friction = 0.3, restitution = 0.5"), 0);
-    assert_int_equal(count_rigid_doubts(", rigid = .true.", ", friction = 0.3"), 1);
-    assert_string_equal(text, "warning    the friction of obstacle 2 does not act on rigid bodies\n");
-    assert_int_equal(count_rigid_doubts(", rigid = .true.", ", friction = 0.3, restitution = 0.5"), 1);
+    const char *rigid = ", rigid = .true.";
+    assert_int_equal(count_rigid_doubts(rigid, ", friction = 0.3"), 0);
+    assert_int_equal(count_rigid_doubts("", ", friction = 0.3, restitution = 0.5, friction_law = 'paper'"), 0);
+    assert_int_equal(count_rigid_doubts(rigid, ", friction = 0.3, restitution = 0.5"), 1);
     assert_string_equal(text, "warning    the restitution of obstacle 2 does not act on rigid bodies\n");
+    assert_int_equal(count_rigid_doubts(rigid, ", friction = 0.3, friction_law = 'paper'"), 1);
+    assert_string_equal(text, "warning    the friction_law of obstacle 2 does not act on rigid bodies\n");
 }
 
 /* A body of one node at 2 m/s along x, on floors at rest and moving. */
