@@ -128,12 +128,17 @@ def try_seed(program, deck, census):
     return False
 
 
+# What a deck is to have at least, on the average: a third to a half of what was found.
+LEAST = {"touching": 0.4, "impacts": 5.0, "vertex_impacts": 0.3, "early": 0.05, "closings": 0.3, "releases": 0.1,
+         "slips": 0.03, "sticks": 0.1, "passings": 0.01}
+LEAST_OF_CROWDS = {"contacts of bodies": 0.5, "impacts": 1.0}
+
+
 def shortfalls(census, number, is_crowd):
     """What the decks were to cover and did not, of a number that is not small."""
     if number < 100:
         return []
-    least = {"contacts of bodies": 0.5, "impacts": 1.0} if is_crowd else {"touching": 0.4, "impacts": 5.0, "vertex_impacts": 0.3, "early": 0.05, "closings": 0.3, "releases": 0.1,
-             "slips": 0.03, "sticks": 0.1, "passings": 0.01}  # a deck: a third to a half of what was found
+    least = LEAST_OF_CROWDS if is_crowd else LEAST
     found = [f"{name}: {census.sums.get(name, 0)}, {share * number:g} were to be" for name, share in least.items()
              if census.sums.get(name, 0) < share * number]
     return found + (["too many are refused"] if census.ends["refused"] > 0.05 * number else [])
