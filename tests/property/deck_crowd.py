@@ -162,6 +162,7 @@ def random_crowd(seed):
     lift = surroundings(dice, deck, radius, speed, t_end)
     parts = [("run", {"title": f"crowd {seed}", "t_end": t_end, "gravity": deck.gravity})]
     materials = [material(dice, deck, f"matter{k + 1}", members, modulus, density) for k in range(n_materials)]
+    deck.damping_time = max(keys.get("damping_time", 0.0) for keys in materials)
     rub(deck, materials)
     stiffen(deck, members)
     parts += [("material", keys) for keys in materials]

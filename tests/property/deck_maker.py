@@ -55,6 +55,7 @@ class Deck:
     motions: list = dataclasses.field(default_factory=list)  # keys of each obstacle
     is_crowd: bool = False  # of several bodies that touch each other
     rubs: bool = False  # with friction between bodies
+    damping_time: float = 0.0  # s, the longest of the materials of a crowd
 
 
 def spell(value):
