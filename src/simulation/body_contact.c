@@ -66,7 +66,8 @@ dem_status body_contact_failure(const dem_simulation *s)
 /* Steps of a fixed length cannot be shortened by the loop. */
 static const char *remedy(const dem_simulation *s)
 {
-    return s->options.fixed_step > 0.0 ? ": shorten fixed_step" : "";
+    if (s->options.fixed_step > 0.0) return ": shorten fixed_step";
+    return s->options.contact_thickness > 0.0 ? ": enlarge contact_thickness" : "";
 }
 
 /* The time of a part of the step, s. */

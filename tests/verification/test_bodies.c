@@ -384,6 +384,19 @@ TEST(a_fixed_step_in_which_surfaces_cross_is_an_error_with_both_nodes)
     assert_message_parts("node * of body * crosses the edge between nodes * of body * m, t = * s: shorten fixed_step");
 }
 
+/* Steps are rejected, and shortened, as often as the integrator does that. */
+TEST(a_contact_thickness_in_which_no_step_ends_is_an_error_with_a_remedy)
+{
+    CLEANUP(support_close) support_run run;
+    CLEANUP(dem_lattice_free) dem_lattice l = make_blocks(5e-3, 0.37 * 5e-3, 20.0);
+    dem_options o = free_options();
+    o.contact_thickness = 1e-9;
+    support_open(&run, &l, NULL, 0, &o);
+    assert_int_equal(dem_simulation_advance(run.simulation, 1e-3), DEM_ERROR_CONTACT);
+    assert_message_parts("node * of body * crosses the edge between nodes * of body * m, t = * s: enlarge "
+                         "contact_thickness");
+}
+
 int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "long") == 0) n_spacings = 3;
