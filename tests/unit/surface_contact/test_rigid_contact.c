@@ -187,8 +187,10 @@ static void open_rubbing(scene *s, vec2 way)
     obstacles[1].velocity[0] = -0.5;
     open_scene(s, 0.0, (const double[2]){-0.0031, 0.0046});
     rigid_contact_destroy(s->contact);
+    contact_surface_free(&s->surface);
     dem_model_destroy(s->model);
     s->model = support_model(&s->lattice, obstacles, 2);
+    assert_ok(contact_surface_compile(&s->surface, dem_model_lattice(s->model), 0.0, 1.0));
     assert_ok(rigid_contact_create(&s->contact, s->model, &s->surface));
     assert_true(rigid_contact_has_friction(s->contact));
     assert_ok(rigid_contact_settle(s->contact, 0.0, s->x));
@@ -302,8 +304,10 @@ TEST(an_anchor_stays_on_an_edge_that_is_no_longer_near)
     CLEANUP(close_scene) scene s;
     open_scene(&s, 0.0, (const double[2]){0.0, 0.0});
     rigid_contact_destroy(s.contact);
+    contact_surface_free(&s.surface);
     dem_model_destroy(s.model);
     s.model = support_model(&s.lattice, &obstacle, 1);
+    assert_ok(contact_surface_compile(&s.surface, dem_model_lattice(s.model), 0.0, 1.0));
     assert_ok(rigid_contact_create(&s.contact, s.model, &s.surface));
     vec2 low = {INFINITY, INFINITY};
     for (dem_index i = 0; i < s.lattice.n_nodes; i++) {
