@@ -154,50 +154,73 @@ void body_contact_forget(dem_simulation *s)
 
 static dem_status save_anchors(const anchor_set *anchors, const char *name, dem_checkpoint *checkpoint)
 {
-    anchor_record *list = malloc((size_t)(anchors->n + 1) * sizeof *list);
-    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for %lld anchors", (long long)anchors->n);
-    for (dem_index k = 0; k < anchors->n; k++) list[k] = anchor_set_record(anchors, k);
-    const dem_status status = dem_checkpoint_put(checkpoint, name, list, (size_t)anchors->n * sizeof *list);
+    anchor_record *list = malloc((size_t)(anchors->now.n + 1) * sizeof *list);
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for %lld anchors", (long long)anchors->now.n);
+    for (dem_index k = 0; k < anchors->now.n; k++) list[k] = anchor_set_record(anchors, k);
+    const dem_status status = dem_checkpoint_put(checkpoint, name, list, (size_t)anchors->now.n * sizeof *list);
     free(list);
     return status;
 }
 
-/* A checkpoint of a run without friction has none. */
-static dem_status restore_anchors(anchor_set *anchors, const char *name, const dem_checkpoint *checkpoint)
+/* Anchors of a checkpoint; NULL: that of a run without friction. */
+typedef struct saved_anchors {
+    const anchor_record *list;
+    dem_index n;
+} saved_anchors;
+
+static dem_status find_anchors(const dem_checkpoint *checkpoint, const char *name, saved_anchors *out)
 {
     size_t size = 0;
-    const anchor_record *list = dem_checkpoint_find(checkpoint, name, &size);
-    const dem_index n = list != NULL ? (dem_index)(size / sizeof *list) : 0;
-    CHECK(list == NULL || (size_t)n * sizeof *list == size, DEM_ERROR_IO,
-          "the checkpoint has %zu bytes of %s, which have %zu bytes each", size, name, sizeof *list);
-    return anchor_set_restore(anchors, list, n);
+    out->list = dem_checkpoint_find(checkpoint, name, &size);
+    out->n = (dem_index)(size / sizeof *out->list);
+    CHECK((size_t)out->n * sizeof *out->list == size, DEM_ERROR_IO,
+          "the checkpoint has %zu bytes of %s, which has %zu bytes for each node", size, name, sizeof *out->list);
+    return DEM_OK;
 }
 
-enum { NAME_LENGTH = 32 };
+enum { NAME_LENGTH = 48 };
+
+static const char of_bodies[] = "friction";
 
 /* The entry with the anchors of a rigid body. */
 static const char *name_entry(dem_index k, char name[NAME_LENGTH])
 {
-    (void)snprintf(name, NAME_LENGTH, "anchors %lld", (long long)k);
+    (void)snprintf(name, NAME_LENGTH, "friction of rigid body %lld", (long long)k);
     return name;
 }
 
 dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     char name[NAME_LENGTH];
-    if (surface_contact_has_friction(s->surfaces)) TRY(save_anchors(&s->surfaces->anchors, "anchors", checkpoint));
+    if (surface_contact_has_friction(s->surfaces)) TRY(save_anchors(&s->surfaces->anchors, of_bodies, checkpoint));
     for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
         TRY(save_anchors(&s->rigid->list[k].anchors, name_entry(k, name), checkpoint));
     return DEM_OK;
 }
 
-dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
+static dem_status restore_bodies(dem_simulation *s, const dem_checkpoint *checkpoint, const double *y)
+{
+    saved_anchors saved;
+    TRY(find_anchors(checkpoint, of_bodies, &saved));
+    return saved.list != NULL ? surface_contact_restore(s->surfaces, saved.list, saved.n, y) : DEM_OK;
+}
+
+static dem_status restore_rigid(dem_simulation *s, dem_index k, const dem_checkpoint *checkpoint, const double *y)
 {
     char name[NAME_LENGTH];
-    if (surface_contact_has_friction(s->surfaces)) TRY(restore_anchors(&s->surfaces->anchors, "anchors", checkpoint));
+    saved_anchors saved;
+    TRY(find_anchors(checkpoint, name_entry(k, name), &saved));
+    if (saved.list == NULL) return DEM_OK;
+    return rigid_contact_restore(s->rigid, k, saved.list, saved.n, clock_of(s, y), y);
+}
+
+dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint, const double *y)
+{
+    body_contact_forget(s);
+    if (surface_contact_has_friction(s->surfaces)) TRY(restore_bodies(s, checkpoint, y));
     for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
-        TRY(restore_anchors(&s->rigid->list[k].anchors, name_entry(k, name), checkpoint));
-    return DEM_OK;
+        TRY(restore_rigid(s, k, checkpoint, y));
+    return body_contact_follow(s, y);
 }
 
 dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x)

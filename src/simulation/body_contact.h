@@ -34,9 +34,10 @@ dem_status body_contact_settle(dem_simulation *s, const double *y);
 /** Forgets what this friction remembers. */
 void body_contact_forget(dem_simulation *s);
 
-/** Puts that into a checkpoint, and gets it from one.  \return DEM_ERROR_IO if it is impossible, DEM_ERROR_MEMORY */
+/** Puts that into a checkpoint, and gets it from one with the state y; the lists fit that afterwards.
+ *  \return DEM_ERROR_IO if it is impossible, DEM_ERROR_MEMORY */
 dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint);
-dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint);
+dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint, const double *y);
 
 /** What is seen of it in positions x of the step in hand, or of the state. */
 dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x);

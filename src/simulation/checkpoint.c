@@ -188,8 +188,7 @@ static dem_status get(dem_simulation *s, const dem_checkpoint *checkpoint, numbe
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
     TRY(check_numbers(n));
     TRY(find_state(s, checkpoint, y));
-    TRY(body_contact_restore(s, checkpoint));
-    TRY(body_contact_follow(s, *y));
+    TRY(body_contact_restore(s, checkpoint, *y));
     return source_list_restore(&s->sources, checkpoint, n->t, *y);
 }
 

@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where anchors are. Of the pairs of a node those count that push it, in their order; the force N that limits friction
- * is the sum over the pairs with the surface of the body on which the anchor is. After a step an anchor
- * - goes when nothing of that body pushes its node any more;
- * - comes to the edge that pushes most when the node's foot has left its edge;
- * - has its shift shortened to k tau = mu N where k tau is more;
- * - takes down where its node is. None of this changes a force.
- * A node without an anchor gets one on the edge that pushes most. The law of one anchor is in anchor.c. */
+/* Which anchors there are. Of the pairs of a node those count that push it, in their order; the force N that limits
+ * friction is the sum over the pairs with the surface of the body on which the anchor is. After a step
+ * - an anchor goes when nothing of that body pushes its node any more;
+ * - a node without one gets one on the body whose edge pushes it most, with T_0 = 0;
+ * - T_0 is the friction of the state, and g_0 and x_0 are those of the state.
+ * None of this changes a force. The law of one anchor is in anchor.c. */
 #include "surface_contact/anchor_set.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/grow.h"
 #include "base/status.h"
 
 static const double spring_share = 0.1; /* of the weight of a node over the thickness: stiffness of its spring */
-static const double end_margin = 0.02;  /* of an edge, by which the foot may be beyond its ends */
 
 static dem_status allocate(anchor_set *s, dem_index n)
 {
     s->of = malloc((size_t)n * sizeof *s->of);
-    CHECK(s->of != NULL, DEM_ERROR_MEMORY, "out of memory for the friction of %lld nodes", (long long)n);
+    s->x0 = calloc(2 * (size_t)n, sizeof *s->x0);
+    CHECK(s->of && s->x0, DEM_ERROR_MEMORY, "out of memory for the friction of %lld nodes", (long long)n);
     for (dem_index i = 0; i < n; i++) s->of[i] = -1;
     return DEM_OK;
 }
@@ -30,28 +30,59 @@ dem_status anchor_set_create(anchor_set *out, const anchor_surfaces *surfaces)
     return anchor_set_has_friction(out) ? allocate(out, surfaces->n_nodes) : DEM_OK;
 }
 
+static void free_list(anchor_list *l)
+{
+    free(l->at);
+    free(l->patterns);
+}
+
 void anchor_set_destroy(anchor_set *s)
 {
-    free(s->list);
-    free(s->old);
+    free_list(&s->now);
+    free_list(&s->before);
     free(s->of);
+    free(s->x0);
+    free(s->held);
     *s = (anchor_set){0};
 }
 
-/* ---- the list ---- */
+/* ---- lists ---- */
+
+static void clear_list(anchor_list *l)
+{
+    l->n = l->n_patterns = 0;
+}
 
 void anchor_set_clear(anchor_set *s)
 {
-    for (dem_index k = 0; k < s->n; k++) s->of[s->list[k].nodes[CONTACT_PAIR_NODE]] = -1;
-    s->n = 0;
+    for (dem_index k = 0; k < s->now.n; k++) s->of[s->now.at[k].node] = -1;
+    clear_list(&s->now);
+}
+
+static void set_aside(anchor_set *s)
+{
+    const anchor_list now = s->now;
+    anchor_set_clear(s);
+    s->now = s->before;
+    s->before = now;
+    clear_list(&s->now);
 }
 
 static dem_status append(anchor_set *s, const anchor *a)
 {
-    CHECK(grow_array((void **)&s->list, &s->capacity, s->n + 1, sizeof *s->list), DEM_ERROR_MEMORY,
-          "out of memory for %lld anchors", (long long)s->n + 1);
-    s->of[a->nodes[CONTACT_PAIR_NODE]] = s->n;
-    s->list[s->n++] = *a;
+    anchor_list *l = &s->now;
+    CHECK(grow_array((void **)&l->at, &l->capacity, l->n + 1, sizeof *l->at), DEM_ERROR_MEMORY,
+          "out of memory for %lld anchors", (long long)l->n + 1);
+    s->of[a->node] = l->n;
+    l->at[l->n++] = *a;
+    return DEM_OK;
+}
+
+static dem_status append_pattern(anchor_list *l, const friction_pattern *pattern)
+{
+    CHECK(grow_array((void **)&l->patterns, &l->pattern_capacity, l->n_patterns + 1, sizeof *l->patterns),
+          DEM_ERROR_MEMORY, "out of memory for the friction of %lld contact pairs", (long long)l->n_patterns + 1);
+    l->patterns[l->n_patterns++] = *pattern;
     return DEM_OK;
 }
 
@@ -60,50 +91,124 @@ static dem_index body_of(const anchor_set *s, dem_index node)
     return s->surfaces.body(s->surfaces.of, node);
 }
 
-static surface_law law_between(const anchor_set *s, dem_index body, dem_index other)
+/* The body of the edge of a pair. */
+static dem_index body_of_edge(const anchor_set *s, const contact_pair *p)
 {
-    return s->surfaces.law(s->surfaces.of, body, other);
+    return body_of(s, p->nodes[CONTACT_PAIR_FIRST]);
 }
 
-/* An anchor of a node on an edge that may push it, at no place as yet. */
-static anchor make_anchor(const anchor_set *s, dem_index node, dem_index edge)
+static surface_law law_of_node(const anchor_set *s, dem_index node, dem_index body)
 {
-    dem_index ends[2];
-    (void)s->surfaces.ends(s->surfaces.of, node, edge, ends);
-    const surface_law law = law_between(s, body_of(s, node), body_of(s, ends[0]));
-    const double half_length = s->surfaces.half_length(s->surfaces.of, node);
-    return (anchor){.nodes = {node, ends[0], ends[1]},
-                    .edge = edge,
-                    .stiffness = spring_share * half_length * law.modulus / law.thickness,
-                    .friction = law.friction};
+    return s->surfaces.law(s->surfaces.of, body_of(s, node), body);
 }
 
-static anchor_record record_of(const anchor *a)
-{
-    return (anchor_record){a->nodes[CONTACT_PAIR_NODE],      a->edge, a->weight, {a->place.x, a->place.y},
-                           {a->direction.x, a->direction.y}, a->shift};
-}
-
-/* Its stiffness comes from the surfaces. */
-static dem_status append_recorded(anchor_set *s, const anchor_record *record)
-{
-    anchor a = make_anchor(s, record->node, record->edge);
-    a.weight = record->weight;
-    a.place = (vec2){record->place[0], record->place[1]};
-    a.direction = (vec2){record->direction[0], record->direction[1]};
-    a.shift = record->shift;
-    return append(s, &a);
-}
-
-/* ---- forces ---- */
+/* ---- one anchor ---- */
 
 const anchor *anchor_set_of_pair(const anchor_set *s, const contact_pair *p)
 {
-    const dem_index k = s->n > 0 ? s->of[p->nodes[CONTACT_PAIR_NODE]] : -1;
-    if (k < 0) return NULL;
-    const anchor *a = &s->list[k];
-    return body_of(s, p->nodes[CONTACT_PAIR_FIRST]) == body_of(s, a->nodes[CONTACT_PAIR_FIRST]) ? a : NULL;
+    const dem_index k = s->now.n > 0 ? s->of[p->nodes[CONTACT_PAIR_NODE]] : -1;
+    return k >= 0 && body_of_edge(s, p) == s->now.at[k].body ? &s->now.at[k] : NULL;
 }
+
+/* g_0.(x - x_0), m, of an anchor of a list. */
+static double way_before(const anchor_set *s, const anchor_list *l, const anchor *a, const double *x)
+{
+    double sum = 0.0;
+    for (dem_index k = a->first; k < a->last; k++) sum += friction_pattern_way(&l->patterns[k], s->x0, x);
+    return sum;
+}
+
+/* What is known of a load when all pushes are: N, and P.(x - x_0), J. */
+typedef struct load_sums {
+    vec2 normal;
+    double work;
+} load_sums;
+
+static void add_push(load_sums *sums, vec2 normal, double work)
+{
+    sums->normal = vec2_add(sums->normal, normal);
+    sums->work += work;
+}
+
+static bool is_force(vec2 a)
+{
+    return vec2_norm(a) > 0.0;
+}
+
+/* With (g_0 + g).(x - x_0)/2, g = P/|N|. */
+static anchor_load load_of(const load_sums *sums, double before)
+{
+    const double now = is_force(sums->normal) ? sums->work / vec2_norm(sums->normal) : 0.0;
+    return (anchor_load){.normal = sums->normal, .way = 0.5 * (before + now)};
+}
+
+/* ---- all of them ---- */
+
+dem_status anchor_set_begin(anchor_set *s, dem_index n)
+{
+    s->n_held = 0;
+    CHECK(s->now.n == 0 || grow_array((void **)&s->held, &s->held_capacity, n, sizeof *s->held), DEM_ERROR_MEMORY,
+          "out of memory for the friction of %lld contact pairs", (long long)n);
+    return DEM_OK;
+}
+
+void anchor_set_hold(anchor_set *s, const contact_push *push, const double *x)
+{
+    const anchor *a = anchor_set_of_pair(s, push->pair);
+    if (a != NULL)
+        s->held[s->n_held++] = (held_push){.anchor = a - s->now.at,
+                                           .normal = contact_push_on(push, CONTACT_PAIR_NODE),
+                                           .friction = friction_pattern_make(push, x)};
+}
+
+/* The patterns of the pushes of one node become friction. */
+static void turn(const anchor_set *s, held_push *held, dem_index n, const double *x)
+{
+    const anchor *a = &s->now.at[held->anchor];
+    load_sums sums = {.work = 0.0};
+    for (dem_index k = 0; k < n; k++)
+        add_push(&sums, held[k].normal, friction_pattern_way(&held[k].friction, s->x0, x));
+    const anchor_load load = load_of(&sums, way_before(s, &s->now, a, x));
+    const double ratio = anchor_ratio(a, &load);
+    for (dem_index k = 0; k < n; k++) held[k].friction = friction_pattern_scale(-ratio, &held[k].friction);
+}
+
+void anchor_set_end(anchor_set *s, const double *x)
+{
+    for (dem_index first = 0, last = 0; first < s->n_held; first = last) {
+        while (last < s->n_held && s->held[last].anchor == s->held[first].anchor) last++;
+        turn(s, s->held + first, last - first, x);
+    }
+}
+
+double anchor_set_held_power(const anchor_set *s, const double *v)
+{
+    double sum = 0.0;
+    for (dem_index k = 0; k < s->n_held; k++) sum -= friction_pattern_dot(&s->held[k].friction, v);
+    return sum;
+}
+
+static double size_of(const friction_pattern *p)
+{
+    double sum = 0.0;
+    for (int which = 0; which < CONTACT_PAIR_NODES; which++) sum += vec2_norm(p->at[which]);
+    return sum;
+}
+
+void anchor_set_add_stiffness(const anchor_set *s, void (*add)(void *to, dem_index node, double stiffness), void *to)
+{
+    for (dem_index j = 0; j < s->now.n; j++) {
+        const anchor *a = &s->now.at[j];
+        const friction_pattern *patterns = s->now.patterns;
+        double size = 0.0;
+        for (dem_index k = a->first; k < a->last; k++) size += size_of(&patterns[k]);
+        for (dem_index k = a->first; k < a->last; k++)
+            for (int which = 0; which < CONTACT_PAIR_NODES; which++)
+                add(to, patterns[k].nodes[which], a->stiffness * size * vec2_norm(patterns[k].at[which]));
+    }
+}
+
+/* ---- some of them ---- */
 
 /* The next push of an anchor's node by its body, from `*slot` on.  \return whether there is one */
 static bool next_push(const anchor_set *s, const pair_rows *r, dem_index *slot, const double *x, contact_push *out)
@@ -117,214 +222,165 @@ static bool next_push(const anchor_set *s, const pair_rows *r, dem_index *slot, 
     return found;
 }
 
-/* The force with which the anchor's body pushes its node, N. */
-static vec2 normal_of(const anchor_set *s, const pair_rows *r, const anchor *a, const double *x)
+static anchor_load load_at(const anchor_set *s, const pair_rows *r, const anchor *a, const double *x)
 {
-    vec2 sum = {0.0, 0.0};
+    load_sums sums = {.work = 0.0};
     contact_push push;
-    for (dem_index slot = r->first[a->nodes[CONTACT_PAIR_NODE]]; next_push(s, r, &slot, x, &push);)
-        sum = vec2_add(sum, contact_push_on(&push, CONTACT_PAIR_NODE));
-    return sum;
-}
-
-static bool is_force(vec2 a)
-{
-    return vec2_norm(a) > 0.0;
+    for (dem_index slot = r->first[a->node]; next_push(s, r, &slot, x, &push);) {
+        const friction_pattern pattern = friction_pattern_make(&push, x);
+        add_push(&sums, contact_push_on(&push, CONTACT_PAIR_NODE), friction_pattern_way(&pattern, s->x0, x));
+    }
+    return load_of(&sums, way_before(s, &s->now, a, x));
 }
 
 double anchor_set_ratio(const anchor_set *s, const pair_rows *r, const anchor *a, const double *x)
 {
-    const vec2 normal = normal_of(s, r, a, x);
-    return is_force(normal) ? anchor_ratio(a, normal, x) : 0.0;
+    const anchor_load load = load_at(s, r, a, x);
+    return anchor_ratio(a, &load);
 }
 
 bool anchor_set_add_force(const anchor_set *s, const pair_rows *r, dem_index i, const double *x, vec2 *force)
 {
     bool pulls = false;
     contact_push push;
-    vec2 friction[ANCHOR_NODES];
-    for (dem_index slot = s->n > 0 ? r->first[i] : -1; slot >= 0; slot = r->next[slot]) {
-        const int which = pair_rows_which(slot);
+    for (dem_index slot = s->now.n > 0 ? r->first[i] : -1; slot >= 0; slot = r->next[slot]) {
         const contact_pair *p = pair_rows_pair(r, slot);
-        const anchor *a = which < ANCHOR_NODES ? anchor_set_of_pair(s, p) : NULL;
+        const anchor *a = anchor_set_of_pair(s, p);
         if (a == NULL || !contact_pair_push(p, x, &push)) continue;
-        anchor_turn_push(&push, anchor_set_ratio(s, r, a, x), x, friction);
-        *force = vec2_add(*force, friction[which]);
+        const friction_pattern pattern = friction_pattern_make(&push, x);
+        *force = vec2_add(*force, vec2_scale(-anchor_set_ratio(s, r, a, x), pattern.at[pair_rows_which(slot)]));
         pulls = true;
     }
     return pulls;
 }
 
-/* Adds the friction of one anchor. */
-static void add_friction(const anchor_set *s, const pair_rows *r, const anchor *a, const double *x, double *forces)
-{
-    const double ratio = anchor_set_ratio(s, r, a, x);
-    contact_push push;
-    vec2 friction[ANCHOR_NODES];
-    for (dem_index slot = r->first[a->nodes[CONTACT_PAIR_NODE]]; next_push(s, r, &slot, x, &push);) {
-        anchor_turn_push(&push, ratio, x, friction);
-        for (int which = 0; which < ANCHOR_NODES; which++) {
-            const dem_index node = push.pair->nodes[which];
-            vec2_put(forces, node, vec2_add(vec2_at(forces, node), friction[which]));
-        }
-    }
-}
-
-void anchor_set_add_forces(const anchor_set *s, const pair_rows *r, const double *x, double *forces)
-{
-    for (dem_index k = 0; k < s->n; k++) add_friction(s, r, &s->list[k], x, forces);
-}
-
 void anchor_set_add_energy(const anchor_set *s, const pair_rows *r, const double *x, exact_sum *sum)
 {
-    for (dem_index k = 0; k < s->n; k++) {
-        const vec2 normal = normal_of(s, r, &s->list[k], x);
-        if (is_force(normal)) exact_sum_add(sum, anchor_energy(&s->list[k], normal, x));
+    for (dem_index k = 0; k < s->now.n; k++) {
+        const anchor_load load = load_at(s, r, &s->now.at[k], x);
+        exact_sum_add(sum, anchor_energy(&s->now.at[k], &load));
     }
 }
 
-/* Friction is proportional to T/N, which is known when all pushes are. */
-static double power_of(const anchor_set *s, const pair_rows *r, const anchor *a, const double *x, const double *v)
+/* ---- after a step ---- */
+
+/* The pairs of one node. */
+typedef struct node_pairs {
+    const contact_pair *list;
+    dem_index n;
+} node_pairs;
+
+/* Whether a body pushes the node of the pairs. */
+static bool is_pushed_by(const anchor_set *s, const node_pairs *of, dem_index body, const double *x)
 {
-    vec2 normal = {0.0, 0.0}, friction[ANCHOR_NODES];
-    double sum = 0.0;
+    vec2 normal = {0.0, 0.0};
     contact_push push;
-    for (dem_index slot = r->first[a->nodes[CONTACT_PAIR_NODE]]; next_push(s, r, &slot, x, &push);) {
-        normal = vec2_add(normal, contact_push_on(&push, CONTACT_PAIR_NODE));
-        anchor_turn_push(&push, 1.0, x, friction);
-        for (int which = 0; which < ANCHOR_NODES; which++)
-            sum -= vec2_dot(friction[which], vec2_at(v, push.pair->nodes[which]));
-    }
-    return is_force(normal) ? anchor_ratio(a, normal, x) * sum : 0.0;
+    for (dem_index k = 0; k < of->n; k++)
+        if (body_of_edge(s, &of->list[k]) == body && contact_pair_push(&of->list[k], x, &push))
+            normal = vec2_add(normal, contact_push_on(&push, CONTACT_PAIR_NODE));
+    return is_force(normal);
 }
 
-double anchor_set_power(const anchor_set *s, const pair_rows *r, const double *x, const double *v)
+/* The body whose edge pushes the node most, of those with friction; -1: none. */
+static dem_index find_body(const anchor_set *s, const node_pairs *of, const double *x)
 {
-    double sum = 0.0;
-    for (dem_index k = 0; k < s->n; k++) sum += power_of(s, r, &s->list[k], x, v);
-    return sum;
-}
-
-/* ---- moving ---- */
-
-/* What pushes a node: by all edges, and by those of the body on which its anchor is. */
-typedef struct node_pushes {
-    const contact_pair *most, *most_there; /* the pair that pushes most, of those with friction; NULL: none */
-    double size, size_there;               /* N, by it */
-    vec2 there;                            /* N, the sum */
-} node_pushes;
-
-static void note_push(const anchor_set *s, const contact_pair *p, dem_index body, vec2 force, node_pushes *out)
-{
-    const dem_index theirs = body_of(s, p->nodes[CONTACT_PAIR_FIRST]);
-    const double size = vec2_norm(force);
-    if (law_between(s, body_of(s, p->nodes[CONTACT_PAIR_NODE]), theirs).friction <= 0.0) return;
-    if (size > out->size) {
-        out->size = size;
-        out->most = p;
-    }
-    if (theirs != body) return;
-    out->there = vec2_add(out->there, force);
-    if (size > out->size_there) {
-        out->size_there = size;
-        out->most_there = p;
-    }
-}
-
-/* Of the pairs `first` to `last` - 1, which are those of one node, whose anchor is on the body. */
-static node_pushes pushes_of(const anchor_set *s, const contact_pair *list, const dem_index range[2], dem_index body,
-                             const double *x)
-{
-    node_pushes out = {.most = NULL};
+    dem_index out = -1;
+    double most = 0.0;
     contact_push push;
-    for (dem_index k = range[0]; k < range[1]; k++)
-        if (contact_pair_push(&list[k], x, &push))
-            note_push(s, &list[k], body, contact_push_on(&push, CONTACT_PAIR_NODE), &out);
+    for (dem_index k = 0; k < of->n; k++) {
+        const contact_pair *p = &of->list[k];
+        const dem_index body = body_of_edge(s, p);
+        if (law_of_node(s, p->nodes[CONTACT_PAIR_NODE], body).friction <= 0.0) continue;
+        const double size = contact_pair_push(p, x, &push) ? vec2_norm(contact_push_on(&push, CONTACT_PAIR_NODE)) : 0.0;
+        if (size > most) {
+            most = size;
+            out = body;
+        }
+    }
     return out;
 }
 
-static bool has_left(const anchor *a, const double *x)
+/* An anchor of a node on a body as it is before anything pulls. */
+static anchor make_anchor(const anchor_set *s, dem_index node, dem_index body)
 {
-    const double foot = anchor_foot(a, x);
-    return foot < -end_margin || foot > 1.0 + end_margin;
+    const surface_law law = law_of_node(s, node, body);
+    const double half_length = s->surfaces.half_length(s->surfaces.of, node);
+    return (anchor){.node = node,
+                    .body = body,
+                    .stiffness = spring_share * half_length * law.modulus / law.thickness,
+                    .friction = law.friction,
+                    .first = s->now.n_patterns};
 }
 
-/* The anchor of a node from its old one, or NULL, and what pushes the node. */
-static anchor renew(const anchor_set *s, const anchor *old, const node_pushes *pushes, const double *x)
+/* Takes down the patterns of the pairs by which the body of an anchor pushes its node.
+ * \param[out] sums  of the load */
+static dem_status take_patterns(anchor_set *s, anchor *a, const node_pairs *of, const double *x, load_sums *sums)
 {
-    const contact_pair *most = pushes->most_there;
-    const vec2 normal = pushes->there;
-    const bool leaves = old != NULL && has_left(old, x) && most->edge != old->edge;
-    const double ratio = old != NULL ? anchor_ratio(old, normal, x) : 0.0;
-    anchor now = old == NULL || leaves ? make_anchor(s, most->nodes[CONTACT_PAIR_NODE], most->edge) : *old;
-    anchor_put(&now, normal, ratio * vec2_norm(normal) / now.stiffness, x);
-    return now;
+    contact_push push;
+    for (dem_index k = 0; k < of->n; k++) {
+        if (body_of_edge(s, &of->list[k]) != a->body || !contact_pair_push(&of->list[k], x, &push)) continue;
+        const friction_pattern pattern = friction_pattern_make(&push, x);
+        add_push(sums, contact_push_on(&push, CONTACT_PAIR_NODE), friction_pattern_way(&pattern, s->x0, x));
+        TRY(append_pattern(&s->now, &pattern));
+    }
+    a->last = s->now.n_patterns;
+    return DEM_OK;
 }
 
-/* The old anchor of a node, from `*k` on in the old list, which is ascending by node as nodes come here. */
+/* Friction of an anchor after the step, N. `old` is what it was before. */
+static double force_after(const anchor_set *s, const anchor *now, const anchor *old, const load_sums *sums,
+                          const double *x)
+{
+    const anchor_load load = load_of(sums, way_before(s, &s->before, old, x));
+    anchor a = *now;
+    a.force = old->force;
+    a.normal = old->normal;
+    return anchor_force(&a, &load);
+}
+
+/* Appends the anchor of a node on a body that pushes it. `old` is the one that it had there; NULL: none. */
+static dem_status renew(anchor_set *s, const anchor *old, dem_index body, const node_pairs *of, const double *x)
+{
+    anchor now = make_anchor(s, of->list->nodes[CONTACT_PAIR_NODE], body);
+    load_sums sums = {.work = 0.0};
+    TRY(take_patterns(s, &now, of, x, &sums));
+    if (old != NULL) now.force = force_after(s, &now, old, &sums, x);
+    now.normal = sums.normal;
+    friction_pattern *patterns = s->now.patterns;
+    for (dem_index k = now.first; k < now.last; k++)
+        patterns[k] = friction_pattern_scale(1.0 / vec2_norm(now.normal), &patterns[k]);
+    return append(s, &now);
+}
+
+/* The anchor that a node had, from `*k` on in that list, which is ascending by node as nodes come here; or NULL. */
 static const anchor *old_of(const anchor_set *s, dem_index node, dem_index *k)
 {
-    while (*k < s->n_old && s->old[*k].nodes[CONTACT_PAIR_NODE] < node) ++*k;
-    return *k < s->n_old && s->old[*k].nodes[CONTACT_PAIR_NODE] == node ? &s->old[*k] : NULL;
+    const anchor_list *l = &s->before;
+    while (*k < l->n && l->at[*k].node < node) ++*k;
+    return *k < l->n && l->at[*k].node == node ? &l->at[*k] : NULL;
 }
 
-static void set_old_aside(anchor_set *s)
+/* The pairs of the node of pair k of a list. */
+static node_pairs pairs_from(const contact_pair *list, dem_index n, dem_index k)
 {
-    anchor *const list = s->list;
-    const dem_index n = s->n, capacity = s->capacity;
-    anchor_set_clear(s);
-    s->list = s->old;
-    s->capacity = s->old_capacity;
-    s->old = list;
-    s->n_old = n;
-    s->old_capacity = capacity;
-}
-
-/* What pushes the node of the pairs of a range, on the body of its anchor, or where that pushes no more, on the one
- * that pushes most: then *old becomes NULL. */
-static node_pushes find_pushes(const anchor_set *s, const contact_pair *list, const dem_index range[2],
-                               const anchor **old, const double *x)
-{
-    const dem_index body = *old != NULL ? body_of(s, (*old)->nodes[CONTACT_PAIR_FIRST]) : -1;
-    const node_pushes pushes = pushes_of(s, list, range, body, x);
-    if (is_force(pushes.there) || pushes.most == NULL) return pushes;
-    *old = NULL;
-    return pushes_of(s, list, range, body_of(s, pushes.most->nodes[CONTACT_PAIR_FIRST]), x);
+    dem_index last = k;
+    while (last < n && list[last].nodes[CONTACT_PAIR_NODE] == list[k].nodes[CONTACT_PAIR_NODE]) last++;
+    return (node_pairs){list + k, last - k};
 }
 
 dem_status anchor_set_settle(anchor_set *s, const contact_pair *list, dem_index n, const double *x)
 {
-    dem_index range[2] = {0, 0}, k = 0;
-    set_old_aside(s);
-    for (; range[0] < n; range[0] = range[1]) {
-        const dem_index node = list[range[0]].nodes[CONTACT_PAIR_NODE];
-        while (range[1] < n && list[range[1]].nodes[CONTACT_PAIR_NODE] == node) range[1]++;
-        const anchor *old = old_of(s, node, &k);
-        const node_pushes pushes = find_pushes(s, list, range, &old, x);
-        if (!is_force(pushes.there)) continue;
-        const anchor now = renew(s, old, &pushes, x);
-        TRY(append(s, &now));
+    dem_index at_old = 0;
+    set_aside(s);
+    for (dem_index k = 0; k < n;) {
+        const node_pairs of = pairs_from(list, n, k);
+        const anchor *old = old_of(s, of.list->nodes[CONTACT_PAIR_NODE], &at_old);
+        if (old != NULL && !is_pushed_by(s, &of, old->body, x)) old = NULL;
+        const dem_index body = old != NULL ? old->body : find_body(s, &of, x);
+        if (old != NULL || is_pushed_by(s, &of, body, x)) TRY(renew(s, old, body, &of, x));
+        k += of.n;
     }
-    return DEM_OK;
-}
-
-/* ---- other edges ---- */
-
-static bool is_on_surfaces(const anchor_set *s, const anchor_record *record)
-{
-    dem_index ends[2];
-    return s->surfaces.ends(s->surfaces.of, record->node, record->edge, ends);
-}
-
-dem_status anchor_set_follow_edges(anchor_set *s, dem_index (*edge)(const void *of, dem_index first, dem_index second))
-{
-    set_old_aside(s);
-    for (dem_index k = 0; k < s->n_old; k++) {
-        const dem_index *nodes = s->old[k].nodes;
-        anchor_record record = record_of(&s->old[k]);
-        record.edge = edge(s->surfaces.of, nodes[CONTACT_PAIR_FIRST], nodes[CONTACT_PAIR_SECOND]);
-        if (is_on_surfaces(s, &record)) TRY(append_recorded(s, &record));
-    }
+    if (s->now.n > 0) s->surfaces.copy(s->surfaces.of, x, s->x0);
     return DEM_OK;
 }
 
@@ -332,25 +388,41 @@ dem_status anchor_set_follow_edges(anchor_set *s, dem_index (*edge)(const void *
 
 anchor_record anchor_set_record(const anchor_set *s, dem_index k)
 {
-    return record_of(&s->list[k]);
+    const anchor *a = &s->now.at[k];
+    return (anchor_record){a->node, a->body, a->force};
 }
 
-static bool is_possible(const anchor_set *s, const anchor_record *a)
+static dem_status refuse(const anchor_record *record)
 {
-    const double size = hypot(a->direction[0], a->direction[1]);
-    const bool in_place = a->weight >= 0.0 && a->weight <= 1.0 && fabs(size - 1.0) < 1e-9;
-    const bool is_finite = isfinite(a->place[0]) && isfinite(a->place[1]) && isfinite(a->shift);
-    return in_place && is_finite && is_on_surfaces(s, a);
+    return status_fail(DEM_ERROR_IO, "the checkpoint has an impossible friction: %g N at node %lld by body %lld",
+                       record->force, (long long)record->node, (long long)record->body);
 }
 
-/* Nothing that comes from a file is trusted. */
-dem_status anchor_set_restore(anchor_set *s, const anchor_record *list, dem_index n)
+/* Whether anchors are those that have been found for the state. Nothing that comes from a file is trusted. */
+static dem_status compare(const anchor_set *s, const anchor_record *records, dem_index n)
 {
+    CHECK(s->now.n == n, DEM_ERROR_IO, "the checkpoint has friction at %lld nodes, but %lld are pushed", (long long)n,
+          (long long)s->now.n);
     for (dem_index k = 0; k < n; k++)
-        CHECK(is_possible(s, &list[k]) && (k == 0 || list[k - 1].node < list[k].node), DEM_ERROR_IO,
-              "anchor %lld of the checkpoint is impossible: node %lld on edge %lld", (long long)k,
-              (long long)list[k].node, (long long)list[k].edge);
-    anchor_set_clear(s);
-    for (dem_index k = 0; k < n; k++) TRY(append_recorded(s, &list[k]));
+        if (records[k].node != s->now.at[k].node || records[k].body != s->now.at[k].body) return refuse(&records[k]);
     return DEM_OK;
+}
+
+static dem_status append_recorded(anchor_set *s, const anchor_record *records, dem_index k)
+{
+    const dem_index node = records[k].node, least = k > 0 ? records[k - 1].node + 1 : 0;
+    const anchor a = {.node = node, .body = records[k].body, .force = records[k].force};
+    if (node < least || node >= s->surfaces.n_nodes || !isfinite(a.force)) return refuse(&records[k]);
+    return append(s, &a);
+}
+
+/* As those of a step in which nothing has moved, so that T_0 stays what it was. */
+dem_status anchor_set_restore(anchor_set *s, const anchor_record *records, dem_index n, const contact_pair *list,
+                              dem_index n_pairs, const double *x)
+{
+    anchor_set_clear(s);
+    for (dem_index k = 0; k < n; k++) TRY(append_recorded(s, records, k));
+    s->surfaces.copy(s->surfaces.of, x, s->x0);
+    TRY(anchor_set_settle(s, list, n_pairs, x));
+    return compare(s, records, n);
 }

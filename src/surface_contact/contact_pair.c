@@ -130,7 +130,7 @@ double contact_pair_energy(const contact_pair *p, const double *x)
 }
 
 /* A vertex that is taken off only softens the node, and counts as nothing here. */
-bool contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_NODES])
+bool contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_PUSHED])
 {
     pair_place at;
     if (!find_place(p, x, &at)) return false;
@@ -140,7 +140,6 @@ bool contact_pair_stiffness(const contact_pair *p, const double *x, double added
     added[CONTACT_PAIR_NODE] = edge + vertex;
     added[CONTACT_PAIR_FIRST] = (1.0 - at.share) * edge + vertex;
     added[CONTACT_PAIR_SECOND] = at.share * edge;
-    added[CONTACT_PAIR_BEFORE] = 0.0;
     return true;
 }
 

@@ -17,14 +17,17 @@ enum {
     CONTACT_PAIR_NODE,   /**< the node that is pushed */
     CONTACT_PAIR_FIRST,  /**< first end of the edge, which runs with its body on the left */
     CONTACT_PAIR_SECOND, /**< its second end */
-    CONTACT_PAIR_BEFORE, /**< the node before the first end on the same surface, on which nothing acts; at the free end
-                            of an obstacle the second end */
+    CONTACT_PAIR_BEFORE, /**< the node before the first end on the same surface, and */
+    CONTACT_PAIR_AFTER,  /**< the one after the second, which friction alone acts on; at the free end of an obstacle the
+                            other end of the edge */
     CONTACT_PAIR_NODES
 };
 
+/** Of the nodes of a pair those on which the potential acts. */
+enum { CONTACT_PAIR_PUSHED = CONTACT_PAIR_BEFORE };
+
 typedef struct contact_pair {
     dem_index nodes[CONTACT_PAIR_NODES];
-    dem_index edge;   /* number on the surface */
     double thickness; /* m, contact thickness of the two bodies */
     double weight;    /* N, half the node's length of surface times the contact modulus of the two bodies */
     bool ends_at_first, ends_at_second; /* whether the edge beyond that end never touches the node */
@@ -103,9 +106,9 @@ double contact_pair_energy(const contact_pair *p, const double *x);
 
 /** Bounds of what the pair adds to the stiffness at each of its nodes, N/m: K (n.(u_p - (1-s) u_A - s u_B))^2 is at
  *  most 2 K (u_p^2 + (1-s) u_A^2 + s u_B^2).
- *  \param[out] added  of all nodes of the pair, if the node is near enough for any
+ *  \param[out] added  of the nodes that are pushed, if the node is near enough for any
  *  \return whether it is */
-bool contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_NODES]);
+bool contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_PUSHED]);
 
 /** Distance of a point from the segment ab, m. */
 double contact_pair_distance(vec2 point, vec2 a, vec2 b);

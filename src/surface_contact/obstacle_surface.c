@@ -53,20 +53,24 @@ static void add_frame(obstacle_surface *s, dem_index k)
     for (dem_index i = 0; i < o->n_points; i++) s->frames[k] = box_with(s->frames[k], vec2_at(o->points, i));
 }
 
-static void add_edge(obstacle_surface *s, dem_index first, dem_index second, dem_index before)
+/* The edge from one vertex of an obstacle to the next (step = 1) or to the one before (step = -1); its vertices are
+ * numbered from `at` on. At a free end the edge beyond is its own other side. */
+static void add_edge(obstacle_surface *s, dem_index at, const polyline_part *part, dem_index first, dem_index step)
 {
-    s->edges[s->n_edges++] = (surface_edge){first, second, before};
+    const dem_index n = part->n_vertices, second = (first + step + n) % n;
+    const dem_index before = first - step, after = second + step;
+    const bool starts = !part->closed && (before < 0 || before >= n), ends = !part->closed && (after < 0 || after >= n);
+    s->edges[s->n_edges++] = (surface_edge){.first = at + first,
+                                            .second = at + second,
+                                            .before = at + (starts ? second : (before + n) % n),
+                                            .after = at + (ends ? first : (after + n) % n)};
 }
 
-/* Vertices of the obstacle are numbered from `at` on. */
 static void add_edges(obstacle_surface *s, dem_index at, const polyline_part *part)
 {
-    const dem_index n = part->n_vertices, last = part->n_segments - 1;
-    for (dem_index i = 0; i <= last; i++) {
-        const dem_index beyond = part->closed || i < last ? (i + 2) % n : i;
-        add_edge(s, at + (i + 1) % n, at + i, at + beyond);
-    }
-    for (dem_index i = 0; i <= last && !part->closed; i++) add_edge(s, at + i, at + i + 1, at + (i > 0 ? i - 1 : 1));
+    const dem_index n = part->n_vertices;
+    for (dem_index i = 0; i < part->n_segments; i++) add_edge(s, at, part, (i + 1) % n, -1);
+    for (dem_index i = 0; i < part->n_segments && !part->closed; i++) add_edge(s, at, part, i, 1);
 }
 
 dem_status obstacle_surface_compile(obstacle_surface *out, const obstacle_set *of)

@@ -10,7 +10,7 @@
 /** An edge with its body, or the solid of its obstacle, on the left; by the places of its ends in some list. */
 typedef struct surface_edge {
     dem_index first, second;
-    dem_index before; /* first end of the edge before it */
+    dem_index before, after; /* first end of the edge before it, second end of the one behind it */
 } surface_edge;
 
 typedef struct obstacle_surface {

@@ -157,8 +157,8 @@ static contact_pair make_pair(const contact_surface *c, found_pair found)
     const surface_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, first));
     const possible_pair here = {node, found.edge, law};
     return (contact_pair){.nodes = {node, first, contact_surface_second(c, found.edge),
-                                    contact_surface_first(c, s->previous[found.edge])},
-                          .edge = found.edge,
+                                    contact_surface_first(c, s->previous[found.edge]),
+                                    contact_surface_second(c, s->next[found.edge])},
                           .thickness = law.thickness,
                           .weight = c->half_length[found.node] * law.modulus,
                           .ends_at_first = is_never_touched(c, here, s->previous[found.edge]),

@@ -47,11 +47,15 @@ void rigid_contact_destroy(rigid_contact *c)
 
 /* ---- forces ---- */
 
-static dem_status follow_body(rigid_contact *c, dem_index k, const double *x)
+static dem_status note_status(rigid_contact *c, dem_status status)
 {
-    const dem_status status = rigid_pairs_follow(&c->list[k], x);
     if (c->status != DEM_ERROR_MEMORY) c->status = status;
     return status;
+}
+
+static dem_status follow_body(rigid_contact *c, dem_index k, const double *x)
+{
+    return note_status(c, rigid_pairs_follow(&c->list[k], x));
 }
 
 static dem_status follow(rigid_contact *c, double t, const double *x)
@@ -61,19 +65,24 @@ static dem_status follow(rigid_contact *c, double t, const double *x)
     return DEM_OK;
 }
 
+static dem_status evaluate_body(rigid_contact *c, dem_index k, const double *x)
+{
+    TRY(follow_body(c, k, x));
+    return note_status(c, rigid_pairs_push(&c->list[k]));
+}
+
 bool rigid_contact_evaluate(rigid_contact *c, double t, const double *x)
 {
-    if (follow(c, t, x) != DEM_OK) return false;
-    for (dem_index k = 0; k < c->n; k++) rigid_pairs_push(&c->list[k]);
+    obstacle_surface_follow(&c->obstacles, t);
+    for (dem_index k = 0; k < c->n; k++)
+        if (evaluate_body(c, k, x) != DEM_OK) return false;
     return true;
 }
 
 bool rigid_contact_evaluate_body(rigid_contact *c, dem_index k, double t, const double *x)
 {
     obstacle_surface_follow(&c->obstacles, t);
-    if (follow_body(c, k, x) != DEM_OK) return false;
-    rigid_pairs_push(&c->list[k]);
-    return true;
+    return evaluate_body(c, k, x) == DEM_OK;
 }
 
 double rigid_contact_accelerate(const rigid_contact *c, dem_index k, double *a)
@@ -141,6 +150,13 @@ dem_status rigid_contact_settle(rigid_contact *c, double t, const double *x)
     obstacle_surface_follow(&c->obstacles, t);
     for (dem_index k = 0; k < c->n; k++) TRY(rigid_pairs_settle(&c->list[k], x));
     return DEM_OK;
+}
+
+dem_status rigid_contact_restore(rigid_contact *c, dem_index k, const anchor_record *records, dem_index n, double t,
+                                 const double *x)
+{
+    obstacle_surface_follow(&c->obstacles, t);
+    return rigid_pairs_restore(&c->list[k], records, n, x);
 }
 
 double rigid_contact_stored(rigid_contact *c, double t, const double *x)

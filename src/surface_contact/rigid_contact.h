@@ -63,6 +63,11 @@ static inline bool rigid_contact_has_friction(const rigid_contact *c)
 /** Moves the anchors of friction for positions x [n][2] that a step has reached at t.  \return DEM_ERROR_MEMORY */
 dem_status rigid_contact_settle(rigid_contact *c, double t, const double *x);
 
+/** Puts n anchors of body k as they were remembered in the place of all, for positions x and the time t in which they
+ *  were.  \return what anchor_set_restore() returns */
+dem_status rigid_contact_restore(rigid_contact *c, dem_index k, const anchor_record *records, dem_index n, double t,
+                                 const double *x);
+
 /** What friction has stored in springs, J. */
 double rigid_contact_stored(rigid_contact *c, double t, const double *x);
 

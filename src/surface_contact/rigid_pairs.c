@@ -57,10 +57,13 @@ static void list_surface(rigid_pairs *p, const contact_surface *of)
     }
     n = 0;
     for (dem_index e = 0; e < of->surface.n_edges; e++) {
-        const dem_index first = contact_surface_first(of, e), before = of->surface.previous[e];
+        const dem_index first = contact_surface_first(of, e);
+        const dem_index before = of->surface.previous[e], after = of->surface.next[e];
         if (contact_surface_body(of, first) == p->body)
-            p->edges[n++] = (surface_edge){place_of_node(p, first), place_of_node(p, contact_surface_second(of, e)),
-                                           place_of_node(p, contact_surface_first(of, before))};
+            p->edges[n++] = (surface_edge){.first = place_of_node(p, first),
+                                           .second = place_of_node(p, contact_surface_second(of, e)),
+                                           .before = place_of_node(p, contact_surface_first(of, before)),
+                                           .after = place_of_node(p, contact_surface_second(of, after))};
     }
 }
 
@@ -70,7 +73,7 @@ static surface_edge edge_at(const rigid_pairs *p, dem_index edge)
     if (edge < p->n_edges) return p->edges[edge];
     const surface_edge *of = &p->obstacles->edges[edge - p->n_edges];
     return (surface_edge){rigid_pairs_place(p, of->first), rigid_pairs_place(p, of->second),
-                          rigid_pairs_place(p, of->before)};
+                          rigid_pairs_place(p, of->before), rigid_pairs_place(p, of->after)};
 }
 
 /* Half of the length that a node, or a vertex, has of its surface, m. */
@@ -100,18 +103,13 @@ static double half_length_of(const void *of, dem_index place)
     return half_length_at(of, place);
 }
 
-/* Edges of obstacles push nodes, and those of the body push vertices. */
-static bool find_ends(const void *of, dem_index place, dem_index edge, dem_index ends[2])
+/* Nodes are where they are tracked, and vertices anywhere. */
+static void copy_places(const void *of, const double *x, double *to)
 {
     const rigid_pairs *p = of;
-    const bool is_node = place >= 0 && place < p->n_nodes, is_vertex = place >= p->n_tracked && place < p->n_places;
-    const bool is_theirs = edge >= p->n_edges && edge < p->n_edges + p->obstacles->n_edges;
-    const bool is_own = edge >= 0 && edge < p->n_edges;
-    if (!(is_node && is_theirs) && !(is_vertex && is_own)) return false;
-    const surface_edge found = edge_at(p, edge);
-    ends[0] = found.first;
-    ends[1] = found.second;
-    return true;
+    memcpy(to, x, 2 * (size_t)p->n_tracked * sizeof *to);
+    for (dem_index v = 0; v < p->obstacles->n_vertices; v++)
+        vec2_put(to, rigid_pairs_place(p, v), obstacle_surface_place(p->obstacles, v));
 }
 
 static dem_status create_friction(rigid_pairs *p)
@@ -121,7 +119,7 @@ static dem_status create_friction(rigid_pairs *p)
                                       .body = number_of_body,
                                       .law = law_between,
                                       .half_length = half_length_of,
-                                      .ends = find_ends};
+                                      .copy = copy_places};
     if (!obstacle_surface_has_friction(p->obstacles)) return DEM_OK;
     p->friction = calloc(2 * (size_t)p->n_places, sizeof *p->friction);
     CHECK(p->friction != NULL, DEM_ERROR_MEMORY, "out of memory for the friction of rigid body %lld",
@@ -183,8 +181,7 @@ static bool is_near(const obstacle_surface *o, const surface_edge *edge, const b
     return may_meet(obstacle_surface_place(o, edge->first), obstacle_surface_place(o, edge->second), around);
 }
 
-/* Lists the edges of obstacles that may meet the body's box, and marks their vertices: the ends, and the first ends of
- * the edges before them. */
+/* Lists the edges of obstacles that may meet the body's box, and marks their vertices and those next to them. */
 static dem_status list_facing(rigid_pairs *p, const box *around)
 {
     const obstacle_surface *o = p->obstacles;
@@ -195,7 +192,8 @@ static dem_status list_facing(rigid_pairs *p, const box *around)
         CHECK(grow_array((void **)&p->facing, &p->facing_capacity, p->n_facing + 1, sizeof *p->facing),
               DEM_ERROR_MEMORY, "out of memory for the contact of rigid body %lld", (long long)p->body);
         p->facing[p->n_facing++] = e;
-        o->is_marked[edge->first] = o->is_marked[edge->second] = o->is_marked[edge->before] = 1;
+        o->is_marked[edge->first] = o->is_marked[edge->second] = 1;
+        o->is_marked[edge->before] = o->is_marked[edge->after] = 1;
     }
     return DEM_OK;
 }
@@ -238,8 +236,7 @@ static dem_status consider(rigid_pairs *p, dem_index place, dem_index number)
     const double reach = p->law.thickness + p->margin;
     const surface_edge edge = edge_at(p, number);
     if (contact_pair_distance(at(p, place), at(p, edge.first), at(p, edge.second)) > reach) return DEM_OK;
-    const contact_pair pair = {.nodes = {place, edge.first, edge.second, edge.before},
-                               .edge = number,
+    const contact_pair pair = {.nodes = {place, edge.first, edge.second, edge.before, edge.after},
                                .thickness = p->law.thickness,
                                .weight = half_length_at(p, place) * p->law.modulus};
     return pair_rows_add(&p->pairs, &pair);
@@ -285,12 +282,13 @@ static dem_status renew_list(rigid_pairs *p)
     return status;
 }
 
-/* The ends of an anchor's edge are needed even if that is not near: another edge of its obstacle pushes then. */
+/* Places of what had friction after the last step are needed, even if it is not near any more. */
 static void place_anchors(rigid_pairs *p)
 {
-    for (dem_index k = 0; k < p->anchors.n; k++)
-        for (int which = 0; which < ANCHOR_NODES; which++) {
-            const dem_index place = p->anchors.list[k].nodes[which];
+    const anchor_list *l = &p->anchors.now;
+    for (dem_index k = 0; k < l->n_patterns; k++)
+        for (int which = 0; which < CONTACT_PAIR_NODES; which++) {
+            const dem_index place = l->patterns[k].nodes[which];
             if (place >= p->n_tracked)
                 vec2_put(p->places, place, obstacle_surface_place(p->obstacles, place - p->n_tracked));
         }
@@ -320,25 +318,31 @@ static void clear(const rigid_pairs *p, double *vectors)
 /* Friction comes behind the pairs. */
 static void add_friction(rigid_pairs *p)
 {
+    const anchor_set *anchors = &p->anchors;
     clear(p, p->friction);
-    anchor_set_add_forces(&p->anchors, &p->pairs, p->places, p->friction);
-    for (dem_index k = 0; k < p->n_nodes; k++) add(p->force, k, vec2_at(p->friction, k));
-    for (dem_index q = 0; q < p->n_near; q++) {
-        const dem_index place = rigid_pairs_place(p, p->near[q]);
-        add(p->force, place, vec2_at(p->friction, place));
+    anchor_set_end(&p->anchors, p->places);
+    for (dem_index k = 0; k < anchors->n_held; k++) {
+        const friction_pattern *friction = &anchors->held[k].friction;
+        for (int which = 0; which < CONTACT_PAIR_NODES; which++) {
+            add(p->friction, friction->nodes[which], friction->at[which]);
+            add(p->force, friction->nodes[which], friction->at[which]);
+        }
     }
 }
 
-void rigid_pairs_push(rigid_pairs *p)
+dem_status rigid_pairs_push(rigid_pairs *p)
 {
     contact_push push;
     clear(p, p->force);
+    TRY(anchor_set_begin(&p->anchors, p->pairs.n));
     for (dem_index k = 0; k < p->pairs.n; k++) {
         if (!contact_pair_push(&p->pairs.list[k], p->places, &push)) continue;
-        for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
+        for (int which = 0; which < CONTACT_PAIR_PUSHED; which++)
             add(p->force, push.pair->nodes[which], contact_push_on(&push, which));
+        anchor_set_hold(&p->anchors, &push, p->places);
     }
     if (rigid_pairs_have_friction(p)) add_friction(p);
+    return DEM_OK;
 }
 
 double rigid_pairs_friction_power(const rigid_pairs *p, const double *v)
@@ -357,29 +361,24 @@ void rigid_pairs_add_energy(const rigid_pairs *p, exact_sum *sum)
 }
 
 /* What anchors add at the nodes of the body. */
-static void add_anchors(rigid_pairs *p)
+static void add_anchor(void *to, dem_index place, double stiffness)
 {
-    double added[ANCHOR_NODES];
-    for (dem_index k = 0; k < p->anchors.n; k++) {
-        const anchor *a = &p->anchors.list[k];
-        anchor_stiffness(a, p->places, added);
-        for (int which = 0; which < ANCHOR_NODES; which++)
-            if (a->nodes[which] < p->n_nodes) add(p->force, a->nodes[which], (vec2){added[which], 0.0});
-    }
+    rigid_pairs *p = to;
+    if (place < p->n_nodes) add(p->force, place, (vec2){stiffness, 0.0});
 }
 
 /* Sums at the nodes, N/m, are kept where forces are, as their first components. */
 double rigid_pairs_stiffening(rigid_pairs *p, const double *inverse_mass)
 {
-    double added[CONTACT_PAIR_NODES], largest = 0.0;
+    double added[CONTACT_PAIR_PUSHED], largest = 0.0;
     clear(p, p->force);
     for (dem_index k = 0; k < p->pairs.n; k++) {
         const contact_pair *pair = &p->pairs.list[k];
         if (!contact_pair_stiffness(pair, p->places, added)) continue;
-        for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
+        for (int which = 0; which < CONTACT_PAIR_PUSHED; which++)
             add(p->force, pair->nodes[which], (vec2){added[which], 0.0});
     }
-    add_anchors(p);
+    anchor_set_add_stiffness(&p->anchors, add_anchor, p);
     for (dem_index k = 0; k < p->n_nodes; k++)
         largest = fmax(largest, vec2_at(p->force, k).x * inverse_mass[p->nodes[k]]);
     return largest;
@@ -426,6 +425,12 @@ dem_status rigid_pairs_settle(rigid_pairs *p, const double *x)
 {
     TRY(rigid_pairs_follow(p, x));
     return anchor_set_settle(&p->anchors, p->pairs.list, p->pairs.n, p->places);
+}
+
+dem_status rigid_pairs_restore(rigid_pairs *p, const anchor_record *records, dem_index n, const double *x)
+{
+    TRY(rigid_pairs_follow(p, x));
+    return anchor_set_restore(&p->anchors, records, n, p->pairs.list, p->pairs.n, p->places);
 }
 
 /* ---- the start ---- */

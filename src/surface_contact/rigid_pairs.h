@@ -45,8 +45,8 @@ void rigid_pairs_free(rigid_pairs *p);
  *  \return DEM_ERROR_MEMORY */
 dem_status rigid_pairs_follow(rigid_pairs *p, const double *x);
 
-/** Computes the forces at these places. */
-void rigid_pairs_push(rigid_pairs *p);
+/** Computes the forces at these places.  \return DEM_ERROR_MEMORY */
+dem_status rigid_pairs_push(rigid_pairs *p);
 
 /** Adds the energy of the pairs at these places, J. */
 void rigid_pairs_add_energy(const rigid_pairs *p, exact_sum *sum);
@@ -63,6 +63,10 @@ double rigid_pairs_friction_power(const rigid_pairs *p, const double *v);
 
 /** Moves the anchors for positions x [n][2] that a step has reached.  \return DEM_ERROR_MEMORY */
 dem_status rigid_pairs_settle(rigid_pairs *p, const double *x);
+
+/** Puts n anchors as they were remembered in the place of all, for the positions x in which they were.
+ *  \return what anchor_set_restore() returns */
+dem_status rigid_pairs_restore(rigid_pairs *p, const anchor_record *records, dem_index n, const double *x);
 
 /** The largest bound of what they add to the stiffness at a node over its mass, rad^2/s^2. */
 double rigid_pairs_stiffening(rigid_pairs *p, const double *inverse_mass);

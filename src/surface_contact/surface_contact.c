@@ -36,30 +36,16 @@ static surface_law law_between(const void *of, dem_index body, dem_index other)
     return contact_surface_law(of, body, other);
 }
 
-/* The number of a node among those of the surface, or -1. */
-static dem_index number_of(const contact_surface *s, dem_index node)
-{
-    return sorted_find(s->nodes, s->n_nodes, node);
-}
-
 static double half_length_of(const void *of, dem_index node)
 {
     const contact_surface *s = of;
-    return s->half_length[number_of(s, node)];
+    return s->half_length[sorted_find(s->nodes, s->n_nodes, node)];
 }
 
-static bool find_ends(const void *of, dem_index node, dem_index edge, dem_index ends[2])
+static void copy_places(const void *of, const double *x, double *to)
 {
     const contact_surface *s = of;
-    if (number_of(s, node) < 0 || edge < 0 || edge >= s->surface.n_edges) return false;
-    ends[0] = contact_surface_first(s, edge);
-    ends[1] = contact_surface_second(s, edge);
-    return node != ends[0] && node != ends[1];
-}
-
-static dem_index edge_between(const void *of, dem_index first, dem_index second)
-{
-    return contact_surface_edge(of, first, second);
+    for (dem_index k = 0; k < s->n_nodes; k++) vec2_put(to, s->nodes[k], vec2_at(x, s->nodes[k]));
 }
 
 static anchor_surfaces surfaces_of(const contact_surface *s)
@@ -69,7 +55,7 @@ static anchor_surfaces surfaces_of(const contact_surface *s)
                              .body = body_of,
                              .law = law_between,
                              .half_length = half_length_of,
-                             .ends = find_ends};
+                             .copy = copy_places};
 }
 
 /* ---- creation ---- */
@@ -113,7 +99,6 @@ void surface_contact_destroy(surface_contact *c)
     free(c->pushed);
     free(c->force);
     free(c->is_pushed);
-    free(c->held);
     free(c);
 }
 
@@ -133,7 +118,7 @@ dem_status surface_contact_break(surface_contact *c, const unsigned char *broken
     pair_rows_clear(&c->near);
     c->rows = &c->candidates.pairs;
     c->is_evaluated = false;
-    return anchor_set_follow_edges(&c->anchors, edge_between);
+    return DEM_OK;
 }
 
 /* As long as the close pairs hold, the candidates hold for what is near in a step, too: they are made anew while they
@@ -181,33 +166,27 @@ static void add_force(surface_contact *c, dem_index node, vec2 force)
     vec2_put(c->force, node, vec2_add(vec2_at(c->force, node), force));
 }
 
-/* Keeps a push if it limits friction. */
-static void hold_push(surface_contact *c, const contact_push *push)
-{
-    if (anchor_set_of_pair(&c->anchors, push->pair) != NULL) c->held[c->n_held++].push = *push;
-}
-
-static inline void add_push(surface_contact *c, const contact_push *push)
+static inline void add_push(surface_contact *c, const contact_push *push, const double *x)
 {
     const dem_index *nodes = push->pair->nodes;
     add_force(c, nodes[CONTACT_PAIR_NODE], contact_push_on(push, CONTACT_PAIR_NODE));
     add_force(c, nodes[CONTACT_PAIR_FIRST], contact_push_on(push, CONTACT_PAIR_FIRST));
     add_force(c, nodes[CONTACT_PAIR_SECOND], contact_push_on(push, CONTACT_PAIR_SECOND));
-    if (c->anchors.n > 0) hold_push(c, push);
+    if (c->anchors.now.n > 0) anchor_set_hold(&c->anchors, push, x);
 }
 
 /* Each of these returns how near the pair is, over the thickness. */
 static double add_push_near_end(surface_contact *c, const contact_batch *b, int k, const double *x)
 {
     contact_push push;
-    if (contact_batch_push(b, k, x, &push)) add_push(c, &push);
+    if (contact_batch_push(b, k, x, &push)) add_push(c, &push, x);
     return contact_batch_nearness(b, k);
 }
 
-static double add_edge_push(surface_contact *c, const contact_batch *b, int k)
+static double add_edge_push(surface_contact *c, const contact_batch *b, int k, const double *x)
 {
     const contact_push push = contact_batch_edge_push(b, k);
-    add_push(c, &push);
+    add_push(c, &push, x);
     return b->u[k];
 }
 
@@ -217,48 +196,29 @@ static void add_pushes(surface_contact *c, const contact_batch *b, const double 
     double nearest = c->nearest;
     for (int k = 0; k < b->n; k++) {
         const bool is_near_end = contact_batch_is_near_end(b, k);
-        const double u = is_near_end ? add_push_near_end(c, b, k, x) : add_edge_push(c, b, k);
+        const double u = is_near_end ? add_push_near_end(c, b, k, x) : add_edge_push(c, b, k, x);
         if (u < nearest) nearest = u;
     }
     c->nearest = nearest;
 }
 
-/* The friction of one node, which has these pushes. */
-static void add_friction_of(surface_contact *c, held_push *held, dem_index n, const double *x)
-{
-    vec2 normal = {0.0, 0.0};
-    for (dem_index k = 0; k < n; k++) normal = vec2_add(normal, contact_push_on(&held[k].push, CONTACT_PAIR_NODE));
-    const anchor *a = anchor_set_of_pair(&c->anchors, held->push.pair);
-    const double ratio = vec2_norm(normal) > 0.0 ? anchor_ratio(a, normal, x) : 0.0;
-    for (dem_index k = 0; k < n; k++) {
-        anchor_turn_push(&held[k].push, ratio, x, held[k].friction);
-        for (int which = 0; which < ANCHOR_NODES; which++)
-            add_force(c, held[k].push.pair->nodes[which], held[k].friction[which]);
-    }
-}
-
 /* Friction comes behind the pairs. */
 static void add_friction(surface_contact *c, const double *x)
 {
-    for (dem_index first = 0, last = 0; first < c->n_held; first = last) {
-        const dem_index node = c->held[first].push.pair->nodes[CONTACT_PAIR_NODE];
-        while (last < c->n_held && c->held[last].push.pair->nodes[CONTACT_PAIR_NODE] == node) last++;
-        add_friction_of(c, c->held + first, last - first, x);
+    const anchor_set *anchors = &c->anchors;
+    anchor_set_end(&c->anchors, x);
+    for (dem_index k = 0; k < anchors->n_held; k++) {
+        const friction_pattern *friction = &anchors->held[k].friction;
+        for (int which = 0; which < CONTACT_PAIR_NODES; which++)
+            add_force(c, friction->nodes[which], friction->at[which]);
     }
-}
-
-static dem_status make_room(surface_contact *c)
-{
-    c->n_held = 0;
-    CHECK(c->anchors.n == 0 || grow_array((void **)&c->held, &c->held_capacity, c->close.n, sizeof *c->held),
-          DEM_ERROR_MEMORY, "out of memory for the friction of %lld contact pairs", (long long)c->close.n);
-    return DEM_OK;
 }
 
 bool surface_contact_evaluate(surface_contact *c, const double *x)
 {
     forget_forces(c);
-    if (surface_contact_follow(c, x) != DEM_OK || note_status(c, make_room(c)) != DEM_OK) return false;
+    if (surface_contact_follow(c, x) != DEM_OK) return false;
+    if (note_status(c, anchor_set_begin(&c->anchors, c->close.n)) != DEM_OK) return false;
     contact_batch batch;
     c->nearest = 1.0;
     contact_batch_begin(&batch, c->close.list, c->close.n, 1.0);
@@ -279,7 +239,7 @@ bool surface_contact_force(const surface_contact *c, dem_index i, const double *
     *force = (vec2){0.0, 0.0};
     for (dem_index slot = r->first[i]; slot >= 0; slot = r->next[slot]) {
         const int which = pair_rows_which(slot);
-        if (which == CONTACT_PAIR_BEFORE || !contact_pair_push(pair_rows_pair(r, slot), x, &push)) continue;
+        if (which >= CONTACT_PAIR_PUSHED || !contact_pair_push(pair_rows_pair(r, slot), x, &push)) continue;
         *force = vec2_add(*force, contact_push_on(&push, which));
         is_pushed = true;
     }
@@ -304,16 +264,16 @@ double surface_contact_stored(const surface_contact *c, const double *x)
 
 double surface_contact_friction_power(const surface_contact *c, const double *x, const double *v)
 {
-    return anchor_set_power(&c->anchors, c->rows, x, v);
+    const contact_surface *s = &c->surface;
+    double sum = 0.0;
+    for (dem_index k = 0; k < s->n_nodes; k++)
+        sum -= vec2_dot(surface_contact_friction(c, s->nodes[k], x), vec2_at(v, s->nodes[k]));
+    return sum;
 }
 
 double surface_contact_evaluated_power(const surface_contact *c, const double *v)
 {
-    double sum = 0.0;
-    for (dem_index k = 0; k < c->n_held; k++)
-        for (int which = 0; which < ANCHOR_NODES; which++)
-            sum -= vec2_dot(c->held[k].friction[which], vec2_at(v, c->held[k].push.pair->nodes[which]));
-    return sum;
+    return anchor_set_held_power(&c->anchors, v);
 }
 
 dem_status surface_contact_settle(surface_contact *c, const double *x)
@@ -322,23 +282,10 @@ dem_status surface_contact_settle(surface_contact *c, const double *x)
     return anchor_set_settle(&c->anchors, c->close.list, c->close.n, x);
 }
 
-/* Behind the nodes of a pair whose node is anchored come those of the anchor, then those of all pairs of that node. */
-bool surface_contact_next_anchored(surface_neighbours *n, dem_index *node)
+dem_status surface_contact_restore(surface_contact *c, const anchor_record *records, dem_index n, const double *x)
 {
-    if (n->slot < 0) return false;
-    const contact_pair *p = pair_rows_pair(n->rows, n->held >= 0 ? n->held : n->slot);
-    const dem_index of = p->nodes[CONTACT_PAIR_NODE], k = n->anchors->of[of];
-    const int all = n->held < 0 && k >= 0 ? CONTACT_PAIR_NODES + ANCHOR_NODES : CONTACT_PAIR_NODES;
-    *node =
-        n->which < CONTACT_PAIR_NODES ? p->nodes[n->which] : n->anchors->list[k].nodes[n->which - CONTACT_PAIR_NODES];
-    if (++n->which < all) return true;
-    n->which = 0;
-    if (n->held >= 0)
-        n->held = n->rows->next[n->held];
-    else if (k >= 0)
-        n->held = n->rows->first[of];
-    if (n->held < 0) n->slot = n->rows->next[n->slot];
-    return true;
+    TRY(surface_contact_follow(c, x));
+    return anchor_set_restore(&c->anchors, records, n, c->close.list, c->close.n, x);
 }
 
 /* ---- energy and stiffness ---- */
@@ -389,10 +336,10 @@ static double largest_over_mass(surface_contact *c, const double *inverse_mass)
 /* What all close pairs would add with contact_potential_stiffness() = 1, by their edges and their vertices. */
 static double unit_stiffening(surface_contact *c, const double *inverse_mass)
 {
-    static const double terms[CONTACT_PAIR_BEFORE] = {2.0, 2.0, 1.0};
+    static const double terms[CONTACT_PAIR_PUSHED] = {2.0, 2.0, 1.0};
     for (dem_index k = 0; k < c->close.n; k++) {
         const contact_pair *p = &c->close.list[k];
-        for (int which = 0; which < CONTACT_PAIR_BEFORE; which++)
+        for (int which = 0; which < CONTACT_PAIR_PUSHED; which++)
             add_force(c, p->nodes[which], (vec2){terms[which] * 2.0 * p->weight / p->thickness, 0.0});
     }
     return largest_over_mass(c, inverse_mass);
@@ -400,20 +347,15 @@ static double unit_stiffening(surface_contact *c, const double *inverse_mass)
 
 static void add_stiffness(surface_contact *c, const contact_pair *p, const double *x)
 {
-    double added[CONTACT_PAIR_NODES];
+    double added[CONTACT_PAIR_PUSHED];
     if (!contact_pair_stiffness(p, x, added)) return;
-    for (int which = 0; which < CONTACT_PAIR_BEFORE; which++) add_force(c, p->nodes[which], (vec2){added[which], 0.0});
+    for (int which = 0; which < CONTACT_PAIR_PUSHED; which++) add_force(c, p->nodes[which], (vec2){added[which], 0.0});
 }
 
-/* Adds what anchors do. */
-static void add_anchors(surface_contact *c, const double *x)
+/* What anchors add at a node. */
+static void add_anchor(void *to, dem_index node, double stiffness)
 {
-    double added[ANCHOR_NODES];
-    for (dem_index k = 0; k < c->anchors.n; k++) {
-        anchor_stiffness(&c->anchors.list[k], x, added);
-        for (int which = 0; which < ANCHOR_NODES; which++)
-            add_force(c, c->anchors.list[k].nodes[which], (vec2){added[which], 0.0});
-    }
+    add_force(to, node, (vec2){stiffness, 0.0});
 }
 
 /* What the pairs in reach add, and the anchors. */
@@ -423,7 +365,7 @@ static double stiffening_within_reach(surface_contact *c, const double *inverse_
     contact_batch_begin(&batch, c->close.list, c->close.n, 1.0);
     while (contact_batch_next(&batch, x))
         for (int k = 0; k < batch.n; k++) add_stiffness(c, &c->close.list[batch.which[k]], x);
-    add_anchors(c, x);
+    anchor_set_add_stiffness(&c->anchors, add_anchor, c);
     return largest_over_mass(c, inverse_mass);
 }
 
@@ -445,7 +387,7 @@ double surface_contact_stiffening(surface_contact *c, const double *inverse_mass
     c->rows = &c->candidates.pairs;
     if (c->n_chosen != c->close.n_chosen) c->unit = unit_stiffening(c, inverse_mass);
     c->n_chosen = c->close.n_chosen;
-    add_anchors(c, x);
+    anchor_set_add_stiffness(&c->anchors, add_anchor, c);
     const double left = harmless - largest_over_mass(c, inverse_mass);
     const double part = sqrt(c->unit / (c->unit + fmax(left, 0.0)));
     const bool is_below = is_evaluated && c->nearest > part;

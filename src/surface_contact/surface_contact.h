@@ -21,12 +21,6 @@ typedef struct surface_contact_rule {
     const double *body_friction; /* or [n_bodies] of each; NULL: that of all */
 } surface_contact_rule;
 
-/** A push of a node that has an anchor there. */
-typedef struct held_push {
-    contact_push push;
-    vec2 friction[ANCHOR_NODES]; /* N, on the nodes of its pair */
-} held_push;
-
 typedef struct surface_contact {
     contact_surface surface;
     pair_list candidates;
@@ -47,8 +41,6 @@ typedef struct surface_contact {
     dem_index *pushed;        /* [n_pushed] in the order in which pairs come to them */
     double *force;            /* [n_nodes][2] N, on these */
     unsigned char *is_pushed; /* [n_nodes] */
-    dem_index n_held, held_capacity;
-    held_push *held; /* [n_held] the pushes of it that limit friction */
 } surface_contact;
 
 /** What a step has done that it must not. */
@@ -72,8 +64,8 @@ void surface_contact_destroy(surface_contact *c);
 /** Forgets the lists: the next call that needs them makes them anew. */
 void surface_contact_forget(surface_contact *c);
 
-/** Goes on with the surface of the triangles that are whole, as contact_surface_break() makes it, and without the
- *  anchors on edges that are no more. The lists are empty until surface_contact_follow(). */
+/** Goes on with the surface of the triangles that are whole, as contact_surface_break() makes it. The lists are empty
+ *  until surface_contact_follow(), and anchors of what has no surface any more go with surface_contact_settle(). */
 dem_status surface_contact_break(surface_contact *c, const unsigned char *broken);
 
 /** Makes the lists fit the positions x [n][2] of a state; all candidates count from now on.
@@ -107,6 +99,10 @@ double surface_contact_evaluated_power(const surface_contact *c, const double *v
  *  \return what pair_list_follow() returns */
 dem_status surface_contact_settle(surface_contact *c, const double *x);
 
+/** Puts n anchors as they were remembered in the place of all, for the state x in which they were.
+ *  \return what anchor_set_restore() and pair_list_follow() return */
+dem_status surface_contact_restore(surface_contact *c, const anchor_record *records, dem_index n, const double *x);
+
 /** Energy of all pairs, J, and of those of a node, without what friction has stored. */
 double surface_contact_energy(const surface_contact *c, const double *x);
 double surface_contact_node_energy(const surface_contact *c, dem_index i, const double *x);
@@ -133,36 +129,38 @@ dem_status surface_contact_begin_step(surface_contact *c, const double *x0, cons
 surface_contact_fault surface_contact_check_step(const surface_contact *c, const double *x0, const double *x1,
                                                  surface_crossing *crossing);
 
-/** Goes through the nodes of the pairs of a node, itself included. With friction come the ends of the edge to which the
- *  node of a pair is anchored, and the nodes of all pairs of that node, whose forces limit friction. */
+/** Goes through the nodes of the pairs of a node, itself included. Where the node of a pair has an anchor come the
+ *  nodes of all pairs of that node, whose forces limit friction. */
 typedef struct surface_neighbours {
-    const pair_rows *rows;     /* NULL: none */
-    dem_index slot;            /* of the node; -1: no more */
-    int which;                 /* node of its pair that comes next */
-    const anchor_set *anchors; /* NULL: none */
-    dem_index held;            /* slot of the node of that pair; -1: no more */
+    const pair_rows *rows; /* NULL: none */
+    dem_index slot;        /* of the node; -1: no more */
+    int which;             /* node of its pair that comes next */
+    const dem_index *of;   /* [nodes] anchors; NULL: there are none */
+    dem_index held;        /* slot of the node of that pair; -1: no more */
 } surface_neighbours;
 
 static inline surface_neighbours surface_contact_neighbours(const surface_contact *c, dem_index i)
 {
     return (surface_neighbours){.rows = c != NULL ? c->rows : NULL,
                                 .slot = c != NULL ? c->rows->first[i] : -1,
-                                .anchors = c != NULL && c->anchors.n > 0 ? &c->anchors : NULL,
+                                .of = c != NULL && c->anchors.now.n > 0 ? c->anchors.of : NULL,
                                 .held = -1};
 }
-
-/* The next one where there are anchors. */
-bool surface_contact_next_anchored(surface_neighbours *n, dem_index *node);
 
 /** The next one, into `node`.  \return whether there is one */
 static inline bool surface_contact_next_neighbour(surface_neighbours *n, dem_index *node)
 {
-    if (n->anchors != NULL) return surface_contact_next_anchored(n, node);
     if (n->slot < 0) return false;
-    *node = pair_rows_pair(n->rows, n->slot)->nodes[n->which++];
+    const contact_pair *p = pair_rows_pair(n->rows, n->held >= 0 ? n->held : n->slot);
+    const dem_index of = p->nodes[CONTACT_PAIR_NODE];
+    *node = p->nodes[n->which++];
     if (n->which < CONTACT_PAIR_NODES) return true;
     n->which = 0;
-    n->slot = n->rows->next[n->slot];
+    if (n->held >= 0)
+        n->held = n->rows->next[n->held];
+    else if (n->of != NULL && n->of[of] >= 0)
+        n->held = n->rows->first[of];
+    if (n->held < 0) n->slot = n->rows->next[n->slot];
     return true;
 }
 

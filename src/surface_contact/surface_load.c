@@ -41,7 +41,7 @@ static void add_pushes(const surface_contact *c, const double *x, double *force)
     for (dem_index k = 0; k < c->rows->n; k++) {
         const contact_pair *p = &c->rows->list[k];
         if (!contact_pair_push(p, x, &push)) continue;
-        for (int which = 0; which < CONTACT_PAIR_BEFORE; which++) {
+        for (int which = 0; which < CONTACT_PAIR_PUSHED; which++) {
             const dem_index node = p->nodes[which];
             vec2_put(force, node, vec2_add(vec2_at(force, node), contact_push_on(&push, which)));
         }
@@ -98,10 +98,10 @@ dem_pair surface_load_pair(const surface_load *l, dem_index k, const contact_sur
     const vec2 foot = foot_of(p, x), way = vec2_sub(vec2_at(x, node), foot);
     const double gap = vec2_norm(way);
     contact_push push;
-    vec2 friction[ANCHOR_NODES];
     (void)contact_pair_push(p, x, &push);
-    anchor_turn_push(&push, entry->ratio, x, friction);
+    const friction_pattern pattern = friction_pattern_make(&push, x);
     const vec2 force = contact_push_on(&push, CONTACT_PAIR_NODE);
+    const vec2 friction = vec2_scale(-entry->ratio, pattern.at[CONTACT_PAIR_NODE]);
     return (dem_pair){.node = node,
                       .edge = {first, p->nodes[CONTACT_PAIR_SECOND]},
                       .body = contact_surface_body(of, node),
@@ -111,6 +111,6 @@ dem_pair surface_load_pair(const surface_load *l, dem_index k, const contact_sur
                       .gap = gap,
                       .thickness = p->thickness,
                       .force = {force.x, force.y},
-                      .friction = {friction[CONTACT_PAIR_NODE].x, friction[CONTACT_PAIR_NODE].y},
+                      .friction = {friction.x, friction.y},
                       .slides = entry->slides};
 }

@@ -300,7 +300,7 @@ static bits bits_of(const dem_simulation *simulation)
     const dem_obstacle_load load = ask_obstacle(simulation, 0);
     bits out = {.energy = ask_energy(simulation)};
     assert_true(n <= MOST_NODES);
-    assert_true(simulation->rigid->list[0].anchors.n > 0 && out.energy.friction > 1e-4);
+    assert_true(simulation->rigid->list[0].anchors.now.n > 0 && out.energy.friction > 1e-4);
     memcpy(out.x, end.x, 2 * n * sizeof *out.x);
     memcpy(out.v, end.v, 2 * n * sizeof *out.v);
     memcpy(out.impulse, load.impulse, sizeof out.impulse);
@@ -351,7 +351,7 @@ TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
             (void)support_at(&run, 0.95 * late[what]);
             assert_ok(dem_checkpoint_create(&checkpoint));
             assert_ok(checkpoint_entries_copy(checkpoint, dem_simulation_checkpoint(run.simulation)));
-            assert_non_null(dem_checkpoint_find(checkpoint, "anchors 0", &size));
+            assert_non_null(dem_checkpoint_find(checkpoint, "friction of rigid body 0", &size));
             assert_true(size > 0 || k == 2); /* long before it may have been apart */
             assert_ok(dem_simulation_resume(&resumed, run.model, &o, checkpoint));
             assert_ok(dem_simulation_advance(resumed, late[what]));
@@ -453,9 +453,9 @@ TEST(a_motion_that_is_set_forgets_anchors)
     const dem_options o = options_of(0, 0.0);
     open_on(FLOOR, &run, &o);
     const motion before = support_at(&run, late[FLOOR]);
-    assert_true(run.simulation->rigid->list[0].anchors.n > 0);
+    assert_true(run.simulation->rigid->list[0].anchors.now.n > 0);
     assert_ok(dem_simulation_set_motion(run.simulation, NULL, NULL));
-    assert_int_equal(run.simulation->rigid->list[0].anchors.n, 0);
+    assert_int_equal(run.simulation->rigid->list[0].anchors.now.n, 0);
     const dem_energy after = ask_energy(run.simulation);
     assert_true(after.friction > before.energy.friction && after.contact < before.energy.contact);
     assert_close(after.ledger, before.energy.ledger, 1e-12);

@@ -281,9 +281,9 @@ TEST(friction_of_a_damaged_checkpoint_is_refused)
     CLEANUP(free_simulation) dem_simulation *simulation = slide(model, &o);
     CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = last_record(simulation);
     dem_simulation *resumed = NULL;
-    assert_ok(dem_checkpoint_put(checkpoint, "anchors", "12345678", 8));
+    assert_ok(dem_checkpoint_put(checkpoint, "friction", "12345678", 8));
     assert_int_equal(dem_simulation_resume(&resumed, model, &o, checkpoint), DEM_ERROR_IO);
-    assert_message_parts("the checkpoint has 8 bytes of anchors, which have 64 bytes each");
+    assert_message_parts("the checkpoint has 8 bytes of friction, which has 24 bytes for each node");
     assert_null(resumed);
 }
 

@@ -99,6 +99,98 @@ TEST(the_force_on_a_node_depends_on_its_neighbours_alone)
     assert_true(n_changed > 60);
 }
 
+/* ---- the spring ---- */
+
+/* Stars whose springs pull in the state that a step has reached; friction has no limit. */
+static void open_stretched(scene *s, gsl_rng *rng)
+{
+    open_scene(s, rng, 1e9);
+    assert_ok(surface_contact_settle(s->contact, s->x));
+    assert_true(surface_contact_stored(s->contact, s->x) > 0.0);
+}
+
+/* After the last step. Differences of fourth order leave out h^4 times fifth derivatives, and have the rounding of the
+ * energy over h. */
+TEST(friction_that_holds_is_minus_the_gradient_of_its_energy)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    open_stretched(&s, rng);
+    double size = 0.0, off = 0.0;
+    for (dem_index c = 0; c < 2 * s.lattice.n_nodes; c++) {
+        const double h = 2e-6, here = s.x[c], steps[4] = {h, -h, 2.0 * h, -2.0 * h};
+        const vec2 force = surface_contact_friction(s.contact, c / 2, s.x);
+        const double found = c % 2 == 0 ? force.x : force.y;
+        double energy[4];
+        if (!surface_contact_has(s.contact, c / 2)) continue;
+        for (int k = 0; k < 4; k++) {
+            s.x[c] = here + steps[k];
+            energy[k] = surface_contact_stored(s.contact, s.x);
+        }
+        s.x[c] = here;
+        size = fmax(size, fabs(found));
+        off = fmax(off, fabs(found + (8.0 * (energy[0] - energy[1]) - (energy[2] - energy[3])) / (12.0 * h)));
+    }
+    assert_true(size > 0.0 && off < 1e-7 * size);
+}
+
+/* Far from where the step began. The forces turn with it, to the rounding of places of up to 5 m and ways of 1 mm. */
+TEST(a_rotation_of_everything_stretches_nothing)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    open_stretched(&s, rng);
+    const double stored = surface_contact_stored(s.contact, s.x), angle = 0.7, cosine = cos(angle), sine = sin(angle);
+    const dem_index n = s.lattice.n_nodes;
+    CLEANUP(free_memory) double *before = malloc(2 * (size_t)n * sizeof *before);
+    double size = 0.0;
+    for (dem_index i = 0; i < n; i++) vec2_put(before, i, surface_contact_friction(s.contact, i, s.x));
+    for (dem_index i = 0; i < n; i++) {
+        const vec2 x = vec2_at(s.x, i);
+        size = fmax(size, vec2_norm(vec2_at(before, i)));
+        vec2_put(s.x, i, (vec2){3.0 + cosine * x.x - sine * x.y, sine * x.x + cosine * x.y});
+    }
+    assert_ok(surface_contact_follow(s.contact, s.x));
+    assert_close(surface_contact_stored(s.contact, s.x), stored, 1e-9 * stored);
+    for (dem_index i = 0; i < n; i++) {
+        const vec2 f = vec2_at(before, i), expected = {cosine * f.x - sine * f.y, sine * f.x + cosine * f.y};
+        const vec2 found = surface_contact_friction(s.contact, i, s.x);
+        assert_close(vec2_norm(vec2_sub(found, expected)), 0.0, 1e-9 * size);
+    }
+}
+
+/* The bound is of the curvature along any motion u: the energy at x + h u, at x and at x - h u. */
+static void add_bound(void *to, dem_index node, double stiffness)
+{
+    double *bound = to;
+    bound[node] += stiffness;
+}
+
+TEST(the_stiffness_is_bounded)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    open_scene(&s, rng, 1e9);
+    anchor_set_clear(&s.contact->anchors);
+    assert_ok(surface_contact_settle(s.contact, s.x)); /* T_0 = 0: the energy is k (g.u)^2/2 */
+    const dem_index n = s.lattice.n_nodes;
+    CLEANUP(free_memory) double *bound = calloc((size_t)n, sizeof *bound);
+    CLEANUP(free_memory) double *x = malloc(2 * (size_t)n * sizeof *x);
+    anchor_set_add_stiffness(&s.contact->anchors, add_bound, bound);
+    double most = 0.0;
+    for (int k = 0; k < 200; k++) {
+        const double h = 1e-6;
+        double sum = 0.0;
+        for (dem_index i = 0; i < n; i++) {
+            const vec2 u = {gsl_rng_uniform(rng) - 0.5, gsl_rng_uniform(rng) - 0.5};
+            vec2_put(x, i, vec2_along(vec2_at(s.x, i), h, u));
+            sum += bound[i] * vec2_dot(u, u);
+        }
+        most = fmax(most, 2.0 * surface_contact_stored(s.contact, x) / (h * h) / sum);
+    }
+    assert_true(most > 0.05 && most < 1.0);
+}
+
 /* ---- where anchors go ---- */
 
 /* Two squares of 30 mm with nodes 5 mm apart, the upper one 0.9 mm above the lower one: 0.9 of the thickness. */
@@ -143,7 +235,7 @@ TEST(anchors_hold_where_they_are_and_slide_at_the_limit)
     CLEANUP(close_scene) scene s;
     open_squares(&s, 0.5);
     settle(&s);
-    assert_true(s.contact->anchors.n >= 6);
+    assert_true(s.contact->anchors.now.n >= 6);
     assert_close(pull_on_upper(&s), 0.0, 1e-9); /* the rounding of places, of forces of some hundred N */
     shift_upper(&s, 1e-6, 0.0);
     const double held = pull_on_upper(&s);
@@ -159,24 +251,72 @@ TEST(anchors_hold_where_they_are_and_slide_at_the_limit)
     assert_true(fabs(pull_on_upper(&s)) < fabs(most)); /* it begins to come back at once */
 }
 
-/* Nodes pass the ends of edges, come to other edges and turn round corners: their forces and what they store stay. */
+/* Nodes pass the ends of edges and turn round corners: their forces and what they store stay. */
 TEST(what_a_step_has_reached_changes_no_force)
 {
     CLEANUP(close_scene) scene s;
     open_squares(&s, 0.5);
     settle(&s);
-    dem_index n_moved = 0;
     for (int k = 0; k < 40; k++) {
-        const anchor_set *now = &s.contact->anchors;
-        const anchor before = now->list[now->n / 2];
         shift_upper(&s, 2e-4, 0.0);
         const double stored = surface_contact_stored(s.contact, s.x), pull = pull_on_upper(&s);
         settle(&s);
         assert_close(surface_contact_stored(s.contact, s.x), stored, 1e-12 * stored);
         assert_close(pull_on_upper(&s), pull, 1e-12 * fabs(pull));
-        n_moved += now->list[now->of[before.nodes[CONTACT_PAIR_NODE]]].edge != before.edge;
     }
-    assert_true(n_moved > 0);
+}
+
+/* Work of friction on nodes that go from x0 to x1 along straight lines, by Simpson's rule: minus what it takes, J. */
+static double work_between(const scene *s, const double *x0, const double *x1, double *x)
+{
+    static const double weights[5] = {1.0 / 12.0, 1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0, 1.0 / 12.0};
+    double sum = 0.0;
+    for (int q = 0; q < 5; q++) {
+        for (dem_index c = 0; c < 2 * s->lattice.n_nodes; c++) x[c] = x0[c] + 0.25 * q * (x1[c] - x0[c]);
+        for (dem_index i = 0; i < s->lattice.n_nodes; i++)
+            sum += weights[q] *
+                   vec2_dot(surface_contact_friction(s->contact, i, x), vec2_sub(vec2_at(x1, i), vec2_at(x0, i)));
+    }
+    return sum;
+}
+
+/* What friction takes in n steps, less what it has stored, over that. The nodes of the upper square pass ends of edges
+ * of the lower one, all go round an arc and turn, and nothing slides or opens. */
+static double left_over(int n)
+{
+    CLEANUP(close_scene) scene s;
+    open_squares(&s, 1e9);
+    const size_t size = 2 * (size_t)s.lattice.n_nodes * sizeof *s.x;
+    CLEANUP(free_memory) double *start = malloc(size);
+    CLEANUP(free_memory) double *next = malloc(size);
+    CLEANUP(free_memory) double *x = malloc(size);
+    double work = 0.0;
+    shift_upper(&s, -5e-4, -3e-4);
+    memcpy(start, s.x, size);
+    memcpy(next, s.x, size);
+    settle(&s);
+    for (int k = 1; k <= n; k++) {
+        const double part = (double)k / n, angle = 2e-3 * sin(6.0 * part);
+        for (dem_index i = 0; i < s.lattice.n_nodes; i++) {
+            const vec2 from = vec2_at(start, i);
+            if (s.lattice.body[i] == 1)
+                vec2_put(next, i,
+                         (vec2){from.x - 1e-3 * part - angle * from.y,
+                                from.y + angle * (from.x - 0.015) - 2e-4 * sin(3.0 * part)});
+        }
+        work -= work_between(&s, s.x, next, x);
+        memcpy(s.x, next, size);
+        settle(&s);
+    }
+    const double stored = surface_contact_stored(s.contact, s.x);
+    return (work - stored) / stored;
+}
+
+/* The trapezoidal rule of the way is of second order. */
+TEST(what_friction_takes_without_sliding_it_stores)
+{
+    const double coarse = left_over(200), fine = left_over(400);
+    assert_true(fabs(coarse) < 1e-9 && fabs(fine) < 0.3 * fabs(coarse));
 }
 
 TEST(anchors_go_when_nothing_pushes)
@@ -187,7 +327,7 @@ TEST(anchors_go_when_nothing_pushes)
     shift_upper(&s, 0.0, 2e-3);
     assert_close(pull_on_upper(&s), 0.0, 0.0);
     settle(&s);
-    assert_int_equal(s.contact->anchors.n, 0);
+    assert_int_equal(s.contact->anchors.now.n, 0);
 }
 
 /* The friction of all pairs of the upper square with the lower one, and of the opposite of the others, pulls it. */
@@ -220,55 +360,85 @@ TEST(two_bodies_have_the_smaller_friction)
     open_squares(&s, 0.5);
     contact_surface_set_friction(&s.contact->surface, 0.5, (const double[2]){0.5, 0.25});
     settle(&s);
-    assert_true(s.contact->anchors.n > 0);
-    assert_close(s.contact->anchors.list[0].friction, 0.25, 0.0);
+    assert_true(s.contact->anchors.now.n > 0);
+    assert_close(s.contact->anchors.now.at[0].friction, 0.25, 0.0);
     contact_surface_set_friction(&s.contact->surface, 0.5, (const double[2]){0.0, 0.25});
     anchor_set_clear(&s.contact->anchors);
     settle(&s);
-    assert_int_equal(s.contact->anchors.n, 0);
+    assert_int_equal(s.contact->anchors.now.n, 0);
 }
 
 /* ---- records ---- */
 
-/* Refuses two anchors of which something is changed. */
-static void refuse(anchor_set *s, const anchor_record list[2])
+typedef struct records {
+    anchor_record *list;
+    dem_index n;
+} records;
+
+static records take_records(const anchor_set *s)
 {
-    assert_int_equal(anchor_set_restore(s, list, 2), DEM_ERROR_IO);
-    assert_message_parts("anchor * of the checkpoint is impossible: node * on edge ");
+    const records out = {malloc((size_t)s->now.n * sizeof *out.list), s->now.n};
+    for (dem_index k = 0; k < out.n; k++) out.list[k] = anchor_set_record(s, k);
+    return out;
 }
 
+static void free_records(records *r)
+{
+    free(r->list);
+}
+
+/* Pulls the upper square aside, so that something is remembered. */
+static void open_pulled(scene *s)
+{
+    open_squares(s, 0.5);
+    settle(s);
+    shift_upper(s, 3e-5, 0.0);
+    settle(s);
+}
+
+TEST(records_bring_back_every_bit)
+{
+    CLEANUP(close_scene) scene s;
+    open_pulled(&s);
+    anchor_set *anchors = &s.contact->anchors;
+    CLEANUP(free_records) records saved = take_records(anchors);
+    CLEANUP(free_memory) anchor *before = malloc((size_t)saved.n * sizeof *before);
+    memcpy(before, anchors->now.at, (size_t)saved.n * sizeof *before);
+    anchor_set_clear(anchors);
+    assert_ok(surface_contact_restore(s.contact, saved.list, saved.n, s.x));
+    assert_int_equal(anchors->now.n, saved.n);
+    assert_true(fabs(before[0].force) > 1.0);
+    assert_memory_equal(anchors->now.at, before, (size_t)saved.n * sizeof *before);
+    const double pull = pull_on_upper(&s);
+    shift_upper(&s, 1e-6, 0.0);
+    assert_true(fabs(pull_on_upper(&s)) > fabs(pull));
+}
+
+/* Changes one record, and has it refused. */
 #define REFUSE(k, member, value)                                                                                       \
     do {                                                                                                               \
-        anchor_record changed[2] = {list[0], list[1]};                                                                 \
-        changed[k].member = (value);                                                                                   \
-        refuse(anchors, changed);                                                                                      \
+        CLEANUP(free_records) records changed = take_records(anchors);                                                 \
+        changed.list[k].member = (value);                                                                              \
+        assert_int_equal(surface_contact_restore(s.contact, changed.list, changed.n, s.x), DEM_ERROR_IO);              \
+        assert_message_parts("the checkpoint has an impossible friction: * N at node * by body ");                     \
+        assert_ok(surface_contact_restore(s.contact, saved.list, saved.n, s.x));                                       \
     } while (0)
 
 TEST(records_are_checked)
 {
     CLEANUP(close_scene) scene s;
-    open_squares(&s, 0.5);
-    settle(&s);
+    open_pulled(&s);
     anchor_set *anchors = &s.contact->anchors;
-    const anchor first = anchors->list[0];
-    const anchor_record list[2] = {anchor_set_record(anchors, 0), anchor_set_record(anchors, 1)};
-    const dem_index inside = 8; /* inside the lower square */
-    REFUSE(0, node, list[1].node + 1);
-    REFUSE(1, node, list[0].node);
+    CLEANUP(free_records) records saved = take_records(anchors);
+    REFUSE(0, node, saved.list[1].node + 1);
+    REFUSE(1, node, saved.list[0].node);
     REFUSE(0, node, -1);
     REFUSE(1, node, s.lattice.n_nodes);
-    REFUSE(0, node, inside);
-    REFUSE(1, edge, -1);
-    REFUSE(1, edge, s.contact->surface.surface.n_edges);
-    REFUSE(0, weight, 1.1);
-    REFUSE(0, weight, (double)NAN);
-    REFUSE(0, direction[0], 1.1);
-    REFUSE(0, place[1], (double)NAN);
-    REFUSE(0, shift, (double)INFINITY);
-    anchor_record changed[2] = {list[0], list[1]};
-    changed[0].edge = s.contact->surface.surface.at[s.contact->surface.surface.row[list[0].node]];
-    refuse(anchors, changed); /* it ends at the node */
-    assert_ok(anchor_set_restore(anchors, list, 2));
-    assert_int_equal(anchors->n, 2);
-    assert_memory_equal(&anchors->list[0], &first, sizeof first);
+    REFUSE(0, node, saved.list[0].node - 1); /* nothing pushes this one */
+    REFUSE(1, body, -1);
+    REFUSE(1, body, saved.list[1].body ^ 1); /* the body of the node */
+    REFUSE(0, force, (double)NAN);
+    REFUSE(0, force, (double)INFINITY);
+    assert_int_equal(surface_contact_restore(s.contact, saved.list, saved.n - 1, s.x), DEM_ERROR_IO);
+    assert_message_parts("the checkpoint has friction at * nodes, but * are pushed");
 }

@@ -8,14 +8,15 @@
 #include "harness/cleanup_gsl.h"
 #include "harness/test.h"
 
-enum { MOST = 3 * CONTACT_BATCH_MOST + 9, NODES = 4 * MOST };
+enum { MOST = 3 * CONTACT_BATCH_MOST + 9, NODES = CONTACT_PAIR_NODES * MOST };
 
 /* Pairs of nodes of their own, of thicknesses and sizes of about 1 m, at places at random. */
 static void make(gsl_rng *rng, contact_pair *list, double *x)
 {
     for (dem_index k = 0; k < MOST; k++) {
-        list[k] = (contact_pair){.edge = k, .thickness = 0.5 + gsl_rng_uniform(rng), .weight = 1.0};
-        for (dem_index which = 0; which < CONTACT_PAIR_NODES; which++) list[k].nodes[which] = 4 * k + which;
+        list[k] = (contact_pair){.thickness = 0.5 + gsl_rng_uniform(rng), .weight = 1.0};
+        for (dem_index which = 0; which < CONTACT_PAIR_NODES; which++)
+            list[k].nodes[which] = CONTACT_PAIR_NODES * k + which;
     }
     for (int c = 0; c < 2 * NODES; c++) x[c] = 3.0 * gsl_rng_uniform(rng);
 }

@@ -12,8 +12,8 @@
 #include "harness/cleanup_gsl.h"
 #include "surface_contact/contact_potential.h"
 
-/* The node, A, B, Z: numbered as in a pair. The thickness is 1 m and the weight 1 N. */
-static const contact_pair pair = {.nodes = {0, 1, 2, 3}, .thickness = 1.0, .weight = 1.0};
+/* The node, A, B, Z and the node after B: numbered as in a pair. The thickness is 1 m and the weight 1 N. */
+static const contact_pair pair = {.nodes = {0, 1, 2, 3, 4}, .thickness = 1.0, .weight = 1.0};
 
 enum { N = 2 * CONTACT_PAIR_NODES };
 
@@ -34,6 +34,7 @@ static void draw_nodes(gsl_rng *rng, double *x)
     const vec2 a = {draw(rng, -1.0, 1.0), draw(rng, -1.0, 1.0)};
     vec2_put(x, CONTACT_PAIR_FIRST, a);
     vec2_put(x, CONTACT_PAIR_SECOND, vec2_along(a, draw(rng, 2.0, 4.0), unit_at(way + turn)));
+    vec2_put(x, CONTACT_PAIR_AFTER, vec2_along(vec2_at(x, CONTACT_PAIR_SECOND), 2.0, unit_at(way)));
     vec2_put(x, CONTACT_PAIR_BEFORE, vec2_along(a, -draw(rng, 2.0, 4.0), unit_at(way)));
     vec2_put(x, CONTACT_PAIR_NODE, vec2_along(a, 1.3 * sqrt(gsl_rng_uniform(rng)), unit_at(draw(rng, -M_PI, M_PI))));
 }

@@ -29,10 +29,11 @@ static void expect_edges(const obstacle_surface *s, dem_index first, dem_index n
         assert_int_equal(s->edges[first + e].first, expected[e].first);
         assert_int_equal(s->edges[first + e].second, expected[e].second);
         assert_int_equal(s->edges[first + e].before, expected[e].before);
+        assert_int_equal(s->edges[first + e].after, expected[e].after);
     }
 }
 
-/* Backwards along its segments, and of an open polyline forwards, too; before an edge at a free end is its other
+/* Backwards along its segments, and of an open polyline forwards, too; beyond an edge at a free end is its other
  * side. */
 TEST(edges_go_round_a_wall_and_along_a_closed_outline)
 {
@@ -44,8 +45,8 @@ TEST(edges_go_round_a_wall_and_along_a_closed_outline)
     assert_int_equal(s.n_edges, 7);
     assert_int_equal(s.first_vertex[1], 3);
     assert_int_equal(s.first_vertex[2], 6);
-    expect_edges(&s, 0, 4, (surface_edge[4]){{1, 0, 2}, {2, 1, 1}, {0, 1, 1}, {1, 2, 0}});
-    expect_edges(&s, 4, 3, (surface_edge[3]){{4, 3, 5}, {5, 4, 3}, {3, 5, 4}});
+    expect_edges(&s, 0, 4, (surface_edge[4]){{1, 0, 2, 1}, {2, 1, 1, 0}, {0, 1, 1, 2}, {1, 2, 0, 1}});
+    expect_edges(&s, 4, 3, (surface_edge[3]){{4, 3, 5, 5}, {5, 4, 3, 3}, {3, 5, 4, 4}});
     const double half[6] = {0.25, 0.75, 0.5, 0.5, 0.25 * (1.0 + sqrt(2.0)), 0.25 * (1.0 + sqrt(2.0))};
     for (int v = 0; v < 6; v++) {
         assert_int_equal(s.obstacle[v], v / 3);

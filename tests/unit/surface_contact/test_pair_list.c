@@ -67,9 +67,12 @@ static void check_list(const scene *s, bool within_bodies)
             if (!is_candidate(s, i, edge, within_bodies)) continue;
             assert_true(k < r->n);
             assert_int_equal(r->list[k].nodes[CONTACT_PAIR_NODE], i);
-            assert_int_equal(r->list[k].edge, edge);
             assert_int_equal(r->list[k].nodes[CONTACT_PAIR_FIRST], s->surface.surface.ends[2 * edge]);
             assert_int_equal(r->list[k].nodes[CONTACT_PAIR_SECOND], s->surface.surface.ends[2 * edge + 1]);
+            assert_int_equal(r->list[k].nodes[CONTACT_PAIR_BEFORE],
+                             s->surface.surface.ends[2 * s->surface.surface.previous[edge]]);
+            assert_int_equal(r->list[k].nodes[CONTACT_PAIR_AFTER],
+                             s->surface.surface.ends[2 * s->surface.surface.next[edge] + 1]);
             assert_int_equal(r->list[k].ends_at_first, is_never_touched(s, i, s->surface.surface.previous[edge]));
             assert_int_equal(r->list[k].ends_at_second, is_never_touched(s, i, s->surface.surface.next[edge]));
             k++;
