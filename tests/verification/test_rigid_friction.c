@@ -320,14 +320,19 @@ static bits meet(met what, const dem_options *options, double margin)
 }
 
 /* The usual margin is half a spacing. */
-TEST(no_bit_depends_on_the_list_of_pairs)
+TEST(no_bit_depends_on_the_list_of_pairs_threads_or_instructions)
 {
     const double margins[3] = {1e-3, 0.1, 10.0};
     for (int m = 0; m < 2 * N_MET; m++) {
-        const dem_options o = options_of(m / N_MET, 0.0);
+        dem_options o = options_of(m / N_MET, 0.0);
         const bits expected = meet((met)(m % N_MET), &o, 1.0);
         for (int k = 0; k < 3; k++) {
             const bits found = meet((met)(m % N_MET), &o, margins[k]);
+            assert_memory_equal(&found, &expected, sizeof found);
+        }
+        o.kernel = DEM_KERNEL_PORTABLE;
+        for (o.threads = 2; o.threads <= 3; o.threads++) {
+            const bits found = meet((met)(m % N_MET), &o, 1.0);
             assert_memory_equal(&found, &expected, sizeof found);
         }
     }
