@@ -43,7 +43,7 @@ typedef struct held_push {
 
 typedef struct anchor_set {
     anchor_surfaces surfaces;
-    anchor_list now, before; /* before: as they were at the step before last */
+    anchor_list now, before; /* `before`: as they were until the last step */
     dem_index *of;           /* [n_nodes] the anchor of each node, -1: none */
     double *x0;              /* [n_nodes][2] m, after the last step, of the surfaces' nodes; only where there are any */
     dem_index n_held, held_capacity;

@@ -159,20 +159,20 @@ TEST(a_rotation_of_everything_stretches_nothing)
     }
 }
 
-/* The bound is of the curvature along any motion u: the energy at x + h u, at x and at x - h u. */
 static void add_bound(void *to, dem_index node, double stiffness)
 {
     double *bound = to;
     bound[node] += stiffness;
 }
 
+/* The energy of a motion h u is h^2 k (g.u)^2/2 where nothing has been stretched; the bound is that of k (g.u)^2. */
 TEST(the_stiffness_is_bounded)
 {
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     CLEANUP(close_scene) scene s;
     open_scene(&s, rng, 1e9);
     anchor_set_clear(&s.contact->anchors);
-    assert_ok(surface_contact_settle(s.contact, s.x)); /* T_0 = 0: the energy is k (g.u)^2/2 */
+    assert_ok(surface_contact_settle(s.contact, s.x));
     const dem_index n = s.lattice.n_nodes;
     CLEANUP(free_memory) double *bound = calloc((size_t)n, sizeof *bound);
     CLEANUP(free_memory) double *x = malloc(2 * (size_t)n * sizeof *x);
