@@ -274,9 +274,10 @@ TEST(records_are_those_of_what_pushes)
     open_rubbing(&s, (vec2){0.0, 0.0});
     rigid_pairs *p = &s.contact->list[0];
     anchor_record good[16], bad[16];
-    const dem_index n = p->anchors.now.n, nodes[4] = {-1, p->n_nodes, p->n_places, good[0].node + 1};
+    const dem_index n = p->anchors.now.n;
     assert_true(n >= 2 && n <= 16);
     for (dem_index k = 0; k < n; k++) good[k] = anchor_set_record(&p->anchors, k);
+    const dem_index nodes[4] = {-1, p->n_nodes, p->n_places, good[0].node + 1};
     for (int k = 0; k < 4; k++) {
         memcpy(bad, good, sizeof bad);
         bad[0].node = nodes[k];
