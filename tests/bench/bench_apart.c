@@ -4,10 +4,8 @@
  *
  *      bench_apart NODES GAP STEPS METHOD TURNS
  *
- * Prints the median CPU time of a step without contact, us, and the medians over the turns of the ratio to that with
- * contact of others, and with contact of all. With 'all' overlaps are looked for less often. */
-#include <stdlib.h>
-
+ * Prints the median CPU time of a step without contact, us, and the medians over the turns of what a step takes with
+ * contact of others, and of all, as parts of that. With 'all' overlaps are looked for less often. */
 #include "ask.h"
 #include "plate.h"
 
@@ -30,24 +28,13 @@ static double time_step(const dem_model *model, const dem_options *options, int 
     return spent / steps;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, int n)
-{
-    qsort(values, (size_t)n, sizeof *values, compare);
-    return values[n / 2];
-}
-
 int main(int argc, char **argv)
 {
     static const dem_bodies bodies[KINDS] = {DEM_BODIES_NONE, DEM_BODIES_OTHERS, DEM_BODIES_ALL};
     static double times[KINDS][MOST];
     must(argc == 6 && atoi(argv[5]) > 0 && atoi(argv[5]) <= MOST, "NODES GAP STEPS METHOD TURNS");
     const int n = atoi(argv[5]);
+    const size_t n_turns = (size_t)n;
     dem_lattice both = plate_make_two((dem_index)atof(argv[1]), atof(argv[2]), spacing, speed);
     dem_model *model;
     ask(dem_model_create(&model, &both, NULL, 0));
@@ -66,7 +53,7 @@ int main(int argc, char **argv)
         times[ALL][turn] /= times[NONE][turn];
     }
     (void)printf("%s: %.2f us a step, %.4f with contact of others, %.4f of all\n", argv[4],
-                 1e6 * median(times[NONE], n), median(times[OTHERS], n), median(times[ALL], n));
+                 1e6 * median(times[NONE], n_turns), median(times[OTHERS], n_turns), median(times[ALL], n_turns));
     dem_model_destroy(model);
     return 0;
 }

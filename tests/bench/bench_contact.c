@@ -15,18 +15,6 @@ enum { most = 100000 };
 
 static const double spacing = 1e-3;
 
-static int by_size(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *times, size_t n)
-{
-    qsort(times, n, sizeof *times, by_size);
-    return n > 0 ? times[n / 2] : NAN;
-}
-
 /* Bumps of `roughness` times the spacing, by a fixed generator. */
 static double *make_ground(long segments, double width, double roughness)
 {
