@@ -5,9 +5,10 @@
  *   friction is T = T_0 + k tau, but not more than mu |N| in size, and acts on the nodes by -T g.
  * So the power that it takes, T g.v, is that of the spring, T d(tau)/dt, but for terms of second order in the way of a
  * step: what the spring stores it gives back, and no more. As g has neither resultant nor moment, nothing is stretched
- * where all moves as one rigid body: (g_0 + R g_0).(R x_0 - x_0) = 0 for every rotation R. All of it is a continuous
- * function of positions, since P is. After the last step the gradient of tau is g_0, and these forces are the negative
- * gradient of (T_0 + k tau)^2/(2 k). */
+ * where all moves as one rigid body: (g_0 + R g_0).(R x_0 - x_0) = 0 for every rotation R. After the last step the
+ * gradient of tau is g_0, and these forces are the negative gradient of (T_0 + k tau)^2/(2 k). They are continuous in
+ * positions, since P is, but for a node that edges of one body push from opposite sides: where their sum N goes through
+ * 0, T g jumps. */
 #include "surface_contact/anchor.h"
 
 #include <math.h>

@@ -17,9 +17,9 @@ enum {
     CONTACT_PAIR_NODE,   /**< the node that is pushed */
     CONTACT_PAIR_FIRST,  /**< first end of the edge, which runs with its body on the left */
     CONTACT_PAIR_SECOND, /**< its second end */
-    CONTACT_PAIR_BEFORE, /**< the node before the first end on the same surface, and */
-    CONTACT_PAIR_AFTER,  /**< the one after the second, which friction alone acts on; at the free end of an obstacle the
-                            other end of the edge */
+    CONTACT_PAIR_BEFORE, /**< the node before the first end on the same surface, */
+    CONTACT_PAIR_AFTER,  /**< and the one after the second: friction alone acts on these two; at the free end of an
+                            obstacle the other end of the edge */
     CONTACT_PAIR_NODES
 };
 

@@ -60,7 +60,7 @@ static inline bool rigid_contact_has_friction(const rigid_contact *c)
     return c != NULL && rigid_pairs_have_friction(&c->list[0]);
 }
 
-/** Moves the anchors of friction for positions x [n][2] that a step has reached at t.  \return DEM_ERROR_MEMORY */
+/** Renews the anchors of friction for positions x [n][2] that a step has reached at t.  \return DEM_ERROR_MEMORY */
 dem_status rigid_contact_settle(rigid_contact *c, double t, const double *x);
 
 /** Puts n anchors of body k as they were remembered in the place of all, for positions x and the time t in which they

@@ -61,7 +61,7 @@ static inline bool rigid_pairs_have_friction(const rigid_pairs *p)
  *  rigid_pairs_push(). */
 double rigid_pairs_friction_power(const rigid_pairs *p, const double *v);
 
-/** Moves the anchors for positions x [n][2] that a step has reached.  \return DEM_ERROR_MEMORY */
+/** Renews the anchors for positions x [n][2] that a step has reached.  \return DEM_ERROR_MEMORY */
 dem_status rigid_pairs_settle(rigid_pairs *p, const double *x);
 
 /** Puts n anchors as they were remembered in the place of all, for the positions x in which they were.

@@ -95,7 +95,7 @@ double surface_contact_friction_power(const surface_contact *c, const double *x,
 /** That power at the positions of surface_contact_evaluate(), which has found the forces. */
 double surface_contact_evaluated_power(const surface_contact *c, const double *v);
 
-/** Moves the anchors for the state x that a step has reached.
+/** Renews the anchors for the state x that a step has reached.
  *  \return what pair_list_follow() returns */
 dem_status surface_contact_settle(surface_contact *c, const double *x);
 
