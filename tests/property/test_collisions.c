@@ -276,11 +276,12 @@ TEST(random_bodies_keep_apart_and_keep_their_ledger)
 }
 
 /* 1126, 1638: W jumped where an edge was crushed to less than the thickness, and the node at its end came beside the
- * next edge. 1206: where a node came beside an edge of a notch from behind the other one. */
+ * next edge. 1206: where a node came beside an edge of a notch from behind the other one. 910, 1009: where triangles of
+ * a soft body were turned inside out, and its outline with them. */
 TEST(what_once_failed_stays_mended)
 {
-    const uint64_t seeds[3] = {1126, 1206, 1638};
-    for (int k = 0; k < 3; k++) (void)check_scene(seeds[k]);
+    const uint64_t seeds[5] = {910, 1009, 1126, 1206, 1638};
+    for (int k = 0; k < 5; k++) (void)check_scene(seeds[k]);
 }
 
 int main(int argc, char **argv)

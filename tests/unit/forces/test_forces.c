@@ -56,7 +56,7 @@ static void uncouple_broken_springs(dem_lattice *l)
     }
 }
 
-/* nu = 0.2 brings the area term, jitter the couplings; nodes are moved by up to half a spacing, so that the guard
+/* nu = 0.2 brings the area term, jitter the couplings; nodes are moved by up to 0.4 of a spacing, so that the guard
  * acts. */
 static void make_lattice(dem_lattice *out, double damping_time)
 {
@@ -78,7 +78,7 @@ static void compile(body *b)
     assert_ok(element_state_create(&b->state, &b->lattice));
     b->f = (forces){.model = b->model, .elements = &b->state, .gravity = {0.5, -9.81}, .clock = 2 * b->n};
     for (dem_index c = 0; c < 2 * b->n; c++) {
-        b->x[c] = b->lattice.x[c] + 0.45 * spacing * sin(7.0 * (double)(c * c));
+        b->x[c] = b->lattice.x[c] + 0.4 * spacing * sin(7.0 * (double)(c * c));
         b->v[c] = 3.0 * cos(5.0 * (double)(c * c));
     }
     b->v[2 * b->n] = 0.7;
