@@ -11,21 +11,19 @@ typedef struct anchor {
     double stiffness;      /* N/m, of the spring */
     double friction;       /* coefficient of friction of the two bodies */
     double force;          /* N, T after the last step */
-    vec2 normal;           /* N, with which the body pushed the node then; 0: unknown */
     dem_index first, last; /* its patterns, g_0 in parts, are number `first` to `last` - 1 of its set */
 } anchor;
 
 /** What the body of an anchor does to its node. */
 typedef struct anchor_load {
-    vec2 normal; /* N, the force with which it pushes: N */
-    double way;  /* m, by which the node has come along the body since the last step */
+    double press; /* N, S: the force that presses them together */
+    double way;   /* m, by which the node has come along the body since the last step */
 } anchor_load;
 
-/** Friction, N: at most the coefficient of friction times the normal force. Where the body pushes the other way than
- *  after the last step, or does not push, there is none. */
+/** Friction, N: at most the coefficient of friction times S. */
 double anchor_force(const anchor *a, const anchor_load *load);
 
-/** Friction over the normal force. */
+/** Friction over S; 0 where nothing presses. */
 double anchor_ratio(const anchor *a, const anchor_load *load);
 
 /** Energy that the spring gives back when it is relieved, J. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which anchors there are. Of the pairs of a node those count that push it, in their order; the force N that limits
- * friction is the sum over the pairs with the surface of the body on which the anchor is. After a step
+/* Which anchors there are. Of the pairs of a node those count that push it, in their order, and that are with the
+ * surface of the body on which the anchor is. After a step
  * - an anchor goes when nothing of that body pushes its node any more;
  * - a node without one gets one on the body whose edge pushes it most, with T_0 = 0;
  * - T_0 is the friction of the state, and g_0 and x_0 are those of the state.
@@ -118,28 +118,39 @@ static double way_before(const anchor_set *s, const anchor_list *l, const anchor
     return sum;
 }
 
-/* What is known of a load when all pushes are: N, and P.(x - x_0), J. */
+/* What is known of a load when all pushes are: these, and P.(x - x_0), J. */
 typedef struct load_sums {
-    vec2 normal;
+    node_push push;
     double work;
 } load_sums;
 
-static void add_push(load_sums *sums, vec2 normal, double work)
+static node_push push_on_node(const contact_push *push, const double *x)
 {
-    sums->normal = vec2_add(sums->normal, normal);
+    return (node_push){contact_push_on(push, CONTACT_PAIR_NODE), contact_push_size(push, x)};
+}
+
+static node_push add_pushes(node_push a, node_push b)
+{
+    return (node_push){vec2_add(a.force, b.force), a.size + b.size};
+}
+
+static void add_load(load_sums *sums, node_push push, double work)
+{
+    sums->push = add_pushes(sums->push, push);
     sums->work += work;
 }
 
-static bool is_force(vec2 a)
+/* S */
+static double press_of(node_push push)
 {
-    return vec2_norm(a) > 0.0;
+    return fmax(vec2_norm(push.force), push.size);
 }
 
-/* With (g_0 + g).(x - x_0)/2, g = P/|N|. */
+/* With (g_0 + g).(x - x_0)/2, g = P/S. */
 static anchor_load load_of(const load_sums *sums, double before)
 {
-    const double now = is_force(sums->normal) ? sums->work / vec2_norm(sums->normal) : 0.0;
-    return (anchor_load){.normal = sums->normal, .way = 0.5 * (before + now)};
+    const double press = press_of(sums->push), now = press > 0.0 ? sums->work / press : 0.0;
+    return (anchor_load){.press = press, .way = 0.5 * (before + now)};
 }
 
 /* ---- all of them ---- */
@@ -156,9 +167,8 @@ void anchor_set_hold(anchor_set *s, const contact_push *push, const double *x)
 {
     const anchor *a = anchor_set_of_pair(s, push->pair);
     if (a != NULL)
-        s->held[s->n_held++] = (held_push){.anchor = a - s->now.at,
-                                           .normal = contact_push_on(push, CONTACT_PAIR_NODE),
-                                           .friction = friction_pattern_make(push, x)};
+        s->held[s->n_held++] = (held_push){
+            .anchor = a - s->now.at, .on_node = push_on_node(push, x), .friction = friction_pattern_make(push, x)};
 }
 
 /* The patterns of the pushes of one node become friction. */
@@ -167,7 +177,7 @@ static void turn(const anchor_set *s, held_push *held, dem_index n, const double
     const anchor *a = &s->now.at[held->anchor];
     load_sums sums = {.work = 0.0};
     for (dem_index k = 0; k < n; k++)
-        add_push(&sums, held[k].normal, friction_pattern_way(&held[k].friction, s->x0, x));
+        add_load(&sums, held[k].on_node, friction_pattern_way(&held[k].friction, s->x0, x));
     const anchor_load load = load_of(&sums, way_before(s, &s->now, a, x));
     const double ratio = anchor_ratio(a, &load);
     for (dem_index k = 0; k < n; k++) held[k].friction = friction_pattern_scale(-ratio, &held[k].friction);
@@ -228,7 +238,7 @@ static anchor_load load_at(const anchor_set *s, const pair_rows *r, const anchor
     contact_push push;
     for (dem_index slot = r->first[a->node]; next_push(s, r, &slot, x, &push);) {
         const friction_pattern pattern = friction_pattern_make(&push, x);
-        add_push(&sums, contact_push_on(&push, CONTACT_PAIR_NODE), friction_pattern_way(&pattern, s->x0, x));
+        add_load(&sums, push_on_node(&push, x), friction_pattern_way(&pattern, s->x0, x));
     }
     return load_of(&sums, way_before(s, &s->now, a, x));
 }
@@ -273,12 +283,12 @@ typedef struct node_pairs {
 /* Whether a body pushes the node of the pairs. */
 static bool is_pushed_by(const anchor_set *s, const node_pairs *of, dem_index body, const double *x)
 {
-    vec2 normal = {0.0, 0.0};
+    node_push sum = {.size = 0.0};
     contact_push push;
     for (dem_index k = 0; k < of->n; k++)
         if (body_of_edge(s, &of->list[k]) == body && contact_pair_push(&of->list[k], x, &push))
-            normal = vec2_add(normal, contact_push_on(&push, CONTACT_PAIR_NODE));
-    return is_force(normal);
+            sum = add_pushes(sum, push_on_node(&push, x));
+    return press_of(sum) > 0.0;
 }
 
 /* The body whose edge pushes the node most, of those with friction; -1: none. */
@@ -320,7 +330,7 @@ static dem_status take_patterns(anchor_set *s, anchor *a, const node_pairs *of, 
     for (dem_index k = 0; k < of->n; k++) {
         if (body_of_edge(s, &of->list[k]) != a->body || !contact_pair_push(&of->list[k], x, &push)) continue;
         const friction_pattern pattern = friction_pattern_make(&push, x);
-        add_push(sums, contact_push_on(&push, CONTACT_PAIR_NODE), friction_pattern_way(&pattern, s->x0, x));
+        add_load(sums, push_on_node(&push, x), friction_pattern_way(&pattern, s->x0, x));
         TRY(append_pattern(&s->now, &pattern));
     }
     a->last = s->now.n_patterns;
@@ -334,7 +344,6 @@ static double force_after(const anchor_set *s, const anchor *now, const anchor *
     const anchor_load load = load_of(sums, way_before(s, &s->before, old, x));
     anchor a = *now;
     a.force = old->force;
-    a.normal = old->normal;
     return anchor_force(&a, &load);
 }
 
@@ -345,10 +354,9 @@ static dem_status renew(anchor_set *s, const anchor *old, dem_index body, const 
     load_sums sums = {.work = 0.0};
     TRY(take_patterns(s, &now, of, x, &sums));
     if (old != NULL) now.force = force_after(s, &now, old, &sums, x);
-    now.normal = sums.normal;
+    const double press = press_of(sums.push);
     friction_pattern *patterns = s->now.patterns;
-    for (dem_index k = now.first; k < now.last; k++)
-        patterns[k] = friction_pattern_scale(1.0 / vec2_norm(now.normal), &patterns[k]);
+    for (dem_index k = now.first; k < now.last; k++) patterns[k] = friction_pattern_scale(1.0 / press, &patterns[k]);
     return append(s, &now);
 }
 

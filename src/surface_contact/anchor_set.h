@@ -31,13 +31,19 @@ typedef struct anchor_list {
     dem_index n, capacity;
     anchor *at; /* [n] ascending by node */
     dem_index n_patterns, pattern_capacity;
-    friction_pattern *patterns; /* [n_patterns] over |N|: of all pairs that pushed after the last step */
+    friction_pattern *patterns; /* [n_patterns] over S: of all pairs that pushed after the last step */
 } anchor_list;
+
+/** What pairs do to their node. */
+typedef struct node_push {
+    vec2 force;  /* N */
+    double size; /* N, the sum of the sizes of all parts, less those that are taken off */
+} node_push;
 
 /** The friction of a pair in the state evaluated last. */
 typedef struct held_push {
     dem_index anchor;
-    vec2 normal;               /* N, with which the pair pushes its node */
+    node_push on_node;
     friction_pattern friction; /* N, on the nodes of the pair */
 } held_push;
 

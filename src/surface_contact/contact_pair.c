@@ -116,6 +116,14 @@ bool contact_pair_push(const contact_pair *p, const double *x, contact_push *out
     return contact_pair_push_ends(p, e.near_first, x, out) || e.by_edge;
 }
 
+/* The first end, where it is taken off, pulls the node; the second is never anything else. */
+double contact_push_size(const contact_push *push, const double *x)
+{
+    const vec2 r = from_end(push->pair, CONTACT_PAIR_FIRST, x);
+    const double by_first = copysign(vec2_norm(push->by_vertex), vec2_dot(push->by_vertex, r));
+    return vec2_norm(push->by_edge) + by_first - vec2_norm(push->by_second);
+}
+
 /* ---- energy and stiffness ---- */
 
 double contact_pair_energy(const contact_pair *p, const double *x)

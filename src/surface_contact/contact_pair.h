@@ -101,6 +101,9 @@ static inline vec2 contact_push_on(const contact_push *push, int which)
     return (vec2){0.0, 0.0};
 }
 
+/** The sizes of the forces on the node, with a minus where an end is taken off, N. */
+double contact_push_size(const contact_push *push, const double *x);
+
 /** Energy at positions x, J; < 0 where it takes back what another pair has too much. */
 double contact_pair_energy(const contact_pair *p, const double *x);
 

@@ -193,21 +193,28 @@ TEST(the_stiffness_is_bounded)
 
 /* ---- where anchors go ---- */
 
+static const dem_material rubber =
+    SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
+
+/* A scene of a lattice, in its places. */
+static void open_lattice(scene *s, double friction)
+{
+    const surface_contact_rule rule = {.stiffness = 1.0, .friction = friction};
+    s->lattice.flags = calloc((size_t)s->lattice.n_nodes, 1);
+    assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
+    s->x = malloc(2 * (size_t)s->lattice.n_nodes * sizeof *s->x);
+    memcpy(s->x, s->lattice.x, 2 * (size_t)s->lattice.n_nodes * sizeof *s->x);
+}
+
 /* Two squares of 30 mm with nodes 5 mm apart, the upper one 0.9 mm above the lower one: 0.9 of the thickness. */
 static void open_squares(scene *s, double friction)
 {
-    const dem_material rubber =
-        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0, .thickness = 1.0);
-    const surface_contact_rule rule = {.stiffness = 1.0, .friction = friction};
     *s = (scene){.lattice = support_rectangle(0.03, 0.03, 5e-3, &rubber)};
     CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.03, 0.03, 5e-3, &rubber);
     const double height = support_top(&upper) - support_bottom(&upper);
     dem_lattice_move(&upper, 0.0, (const double[2]){1e-3, height + 9e-4});
     assert_ok(dem_lattice_append(&s->lattice, &upper));
-    s->lattice.flags = calloc((size_t)s->lattice.n_nodes, 1);
-    assert_ok(surface_contact_create(&s->contact, &s->lattice, &rule));
-    s->x = malloc(2 * (size_t)s->lattice.n_nodes * sizeof *s->x);
-    memcpy(s->x, s->lattice.x, 2 * (size_t)s->lattice.n_nodes * sizeof *s->x);
+    open_lattice(s, friction);
 }
 
 static void shift_upper(scene *s, double dx, double dy)
@@ -317,6 +324,61 @@ TEST(what_friction_takes_without_sliding_it_stores)
 {
     const double coarse = left_over(200), fine = left_over(400);
     assert_true(fabs(coarse) < 1e-9 && fabs(fine) < 0.3 * fabs(coarse));
+}
+
+/* The node that is farthest along x, by a direction of 1 or -1. */
+static vec2 farthest(const dem_lattice *l, double direction)
+{
+    dem_index out = 0;
+    for (dem_index i = 1; i < l->n_nodes; i++)
+        if (direction * l->x[2 * i] > direction * l->x[2 * out]) out = i;
+    return vec2_at(l->x, out);
+}
+
+/* Two rectangles as one body, 1.2 mm apart, and in the middle of the slot the corner of a square, 1 mm deep. */
+static void open_slot(scene *s)
+{
+    *s = (scene){.lattice = support_rectangle(0.03, 0.026, 5e-3, &rubber)};
+    CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.03, 0.026, 5e-3, &rubber);
+    CLEANUP(dem_lattice_free) dem_lattice square = support_rectangle(0.03, 0.03, 5e-3, &rubber);
+    dem_lattice_move(&upper, 0.0, (const double[2]){0.0, support_top(&upper) - support_bottom(&upper) + 1.2e-3});
+    dem_lattice_move(&square, 45.0, (const double[2]){0.0, 0.0});
+    const vec2 corner = farthest(&square, 1.0);
+    const vec2 to = {farthest(&upper, -1.0).x + 1e-3, 0.5 * (support_top(&s->lattice) + support_bottom(&upper))};
+    dem_lattice_move(&square, 0.0, (const double[2]){to.x - corner.x, to.y - corner.y});
+    assert_ok(dem_lattice_append(&s->lattice, &upper));
+    for (dem_index i = 0; i < s->lattice.n_nodes; i++) s->lattice.body[i] = 0;
+    assert_ok(dem_lattice_append(&s->lattice, &square));
+    open_lattice(s, 0.5);
+}
+
+/* The largest change of friction of a node, N, while the corner goes in n steps from below the middle of the slot to
+ * above, with a spring that has been stretched along it. */
+static double largest_change(int n)
+{
+    CLEANUP(close_scene) scene s;
+    open_slot(&s);
+    CLEANUP(free_memory) double *before = calloc(2 * (size_t)s.lattice.n_nodes, sizeof *before);
+    double most = 0.0;
+    shift_upper(&s, 0.0, -1e-4);
+    settle(&s);
+    shift_upper(&s, 5e-5, 0.0);
+    for (int k = 0; k <= n; k++) {
+        for (dem_index i = 0; i < s.lattice.n_nodes; i++) {
+            const vec2 friction = surface_contact_friction(s.contact, i, s.x);
+            if (k > 0) most = fmax(most, vec2_norm(vec2_sub(friction, vec2_at(before, i))));
+            vec2_put(before, i, friction);
+        }
+        shift_upper(&s, 0.0, 2e-4 / n);
+    }
+    return most;
+}
+
+/* There what pushes the corner from below cancels what pushes it from above. */
+TEST(friction_does_not_jump_where_pushes_cancel)
+{
+    const double coarse = largest_change(100), fine = largest_change(400);
+    assert_true(coarse > 0.0 && fine < 0.3 * coarse);
 }
 
 TEST(anchors_go_when_nothing_pushes)
