@@ -27,6 +27,13 @@ static dem_status contact_each_node(const void *self, dem_index group, dem_statu
     return DEM_OK;
 }
 
+static dem_status contact_each_held(const void *self, dem_status (*add)(void *context, dem_index node), void *context)
+{
+    const contact_forces *r = &((const automaton *)self)->set.forces;
+    for (dem_index g = 0; g < r->n_groups; g++) TRY(contact_each_node(self, r->groups[g], add, context));
+    return DEM_OK;
+}
+
 static void contact_solve(void *self, dem_index group, constraint_state at)
 {
     contact_set *c = &((automaton *)self)->set;
@@ -98,6 +105,7 @@ constraints contact_constraints_of(automaton *c)
                          .group_at = &c->set.forces.at_node,
                          .a = &c->set.forces.a,
                          .each_node = contact_each_node,
+                         .each_held = contact_each_held,
                          .solve = contact_solve,
                          .add_rates = contact_add_rates,
                          .settle = contact_settle,

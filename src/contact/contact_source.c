@@ -194,13 +194,15 @@ static void keep_candidate(contact_source *s, const event_place *at, dem_index k
     s->before[s->n_saved++] = s->automaton->set.list[k];
 }
 
-/* Takes away velocities that errors have left in closed contacts near the event, and that these do not allow: they
- * would be taken for sliding or for an approach. */
+/* Takes away velocities that errors have left in closed contacts at the event, and that these do not allow: they would
+ * be taken for sliding or for an approach. Groups that begin farther out stay as they are: the correction has rings for
+ * a jump in ring 0, and would lose momentum of one farther out. */
 static void stop_groups(contact_source *s, const event_place *at)
 {
     contact_set *c = &s->automaton->set;
     contact_instant now = {at->t, at->state, at->state + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
-    for (dem_index g = 0; g < at->near->n_groups; g++) impact_group_stop(c, at->near->groups[g].group, &now);
+    for (dem_index g = 0; g < at->near->n_groups; g++)
+        if (at->near->groups[g].ring == 0) impact_group_stop(c, at->near->groups[g].group, &now);
 }
 
 /* Called before an event of any source, as its local correction changes contact forces too. `solved` NAN: the forces

@@ -28,6 +28,8 @@ typedef struct constraints {
     /** Calls `add` for the nodes of a group, for some more than once.  \return what it returns, if not DEM_OK */
     dem_status (*each_node)(const void *self, dem_index group, dem_status (*add)(void *context, dem_index node),
                             void *context);
+    /** The same for the nodes of all groups. */
+    dem_status (*each_held)(const void *self, dem_status (*add)(void *context, dem_index node), void *context);
     /** Solves for the accelerations of a group; of the state its nodes and their neighbours are read. */
     void (*solve)(void *self, dem_index group, constraint_state at);
     /** What a group adds to the rates of quadratures, in a state that it was solved in last. */

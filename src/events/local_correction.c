@@ -216,7 +216,9 @@ static dem_status open_stage(local_correction *p, const dense_output *step, int 
 }
 
 /* The end of the step, whose state and derivative are known: nothing is evaluated but the external force, whose power
- * the rates need. Its rates count for the end and for the stage `last`, which is at the same time. */
+ * the rates need. Verlet's method is the exception: its forces at the end are those at the velocities v_0 + h a_0, not
+ * those of the state, so that they would not cancel against those with the event. The rates count for the end and for
+ * the stage `last`, which is at the same time. */
 static dem_status open_end(local_correction *p, const dense_output *step)
 {
     const state_layout *l = &step->layout;
@@ -229,7 +231,10 @@ static dem_status open_end(local_correction *p, const dense_output *step)
         state_copy_row(l, p->v[p->last] + to, state_v(l, step->y1, nodes->list[j]));
         state_copy_row(l, p->a[p->last] + to, state_v(l, step->f1, nodes->list[j]));
     }
-    f->evaluate_external(f->self, nodes, reach(p, END), &s);
+    if (p->parabolic)
+        neighbourhood_accelerate(&p->near, reach(p, END), &s, p->a[p->last]);
+    else
+        f->evaluate_external(f->self, nodes, reach(p, END), &s);
     const constraint_state state = {step->t1, step->y1};
     TRY(add_rates(p, END, -1.0, state));
     return add_rates(p, p->last, -1.0, state);
