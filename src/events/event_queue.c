@@ -206,11 +206,6 @@ static dem_status renew_rates(event_queue *q)
     return DEM_OK;
 }
 
-static dem_status add_renewed(void *context, dem_index node)
-{
-    return local_nodes_add(context, node);
-}
-
 /* Computes the derivative at the end of the step again where nodes have changed, at the neighbours of these nodes,
  * whose accelerations depend on them, and at all that constraints hold, since the rates of the quadratures have their
  * forces: it is that of the state to the bit, but for the power of damping and boundaries. The next step can therefore
@@ -224,7 +219,7 @@ static dem_status renew_end(event_queue *q)
         if (q->changed.list[e].node < q->layout.n_nodes) TRY(local_nodes_add(nodes, q->changed.list[e].node));
     const dem_index n_changed = nodes->n;
     TRY(f->add_neighbours(f->self, nodes, 0, n_changed));
-    if (q->constraints != NULL) TRY(q->constraints->each_held(q->constraints->self, add_renewed, nodes));
+    if (q->constraints != NULL) TRY(q->constraints->each_held(q->constraints->self, local_nodes_add_to, nodes));
     for (dem_index j = n_changed; j < nodes->n; j++) TRY(changed_motion_keep(&q->changed, nodes->list[j]));
     for (dem_index j = 0; j < nodes->n; j++) renew(q, nodes->list[j]);
     return renew_rates(q);

@@ -42,11 +42,6 @@ static dem_status note_group(neighbourhood *b, dem_index group, int ring, bool *
     return DEM_OK;
 }
 
-static dem_status add_node(void *context, dem_index node)
-{
-    return local_nodes_add(context, node);
-}
-
 /* Adds the group of constraints at a node, with all its nodes. */
 static dem_status add_group(neighbourhood *b, dem_index node, int ring)
 {
@@ -55,7 +50,7 @@ static dem_status add_group(neighbourhood *b, dem_index node, int ring)
     bool is_new;
     if (group < 0) return DEM_OK;
     TRY(note_group(b, group, ring, &is_new));
-    return is_new ? c->each_node(c->self, group, add_node, &b->nodes) : DEM_OK;
+    return is_new ? c->each_node(c->self, group, local_nodes_add_to, &b->nodes) : DEM_OK;
 }
 
 /* Ends a ring: the groups of its nodes join it with all their nodes, which may bring further groups. `nodes->n` grows

@@ -33,6 +33,12 @@ static inline dem_status local_nodes_add(local_nodes *b, dem_index node)
     return b->number[node] >= 0 ? DEM_OK : local_nodes_append(b, node);
 }
 
+/** The same as a callback, with the nodes as its context. */
+static inline dem_status local_nodes_add_to(void *context, dem_index node)
+{
+    return local_nodes_add(context, node);
+}
+
 /** Whether a node is in the ring or nearer. */
 static inline bool local_nodes_have(const local_nodes *b, dem_index node, int ring)
 {

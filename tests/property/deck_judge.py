@@ -233,7 +233,7 @@ def dissipation_given_back(run, deck):
 
 def momentum(run, deck):
     """To rounding, 1.8e-13 at most, but for two cases. Steps that end at events have velocities of the dense output there,
-    in which the rounding of positions counts up to 30/h times: 5e-10. Verlet's forces of damped springs at the end of a
+    in which the rounding of positions counts up to 1.9/h times: 5e-10. Verlet's forces of damped springs at the end of a
     step are those at other velocities than the state's, and near events those of the state: 1.1e-8."""
     if deck.boundary or "mass_damping" in deck.solver:
         return None
