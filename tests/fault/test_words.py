@@ -77,7 +77,7 @@ class Words(unittest.TestCase):
             "no step short enough": ("&run ", "&run gravity = 0, -1e300, ",
                                      r"the step from t = \S+ s fails: no step is short enough for rtol"),
             "not finite": ("2, -5", "0, -1e308", r"forces overflow at t = 0 s"),
-            "a step too long": ("checkpoint_steps = 24", "fixed_step = 1e-3", r"is \S+ m inside the body"),
+            "a step too long": ("checkpoint_steps = 24", "fixed_step = 1e-3", r"the fixed step of 0.001 s is \S+ times the \S+ s up to which"),
         }
         for name, (old, new, cause) in edits.items():
             with self.subTest(name):
