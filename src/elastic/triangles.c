@@ -16,7 +16,7 @@
 
 /* Below this J the guard's energy goes on as its Taylor polynomial of second degree. To turn a triangle inside out
  * takes w(0) = 184: with the default guard 3.7 E h A0, more than the kinetic energy of an impact at twice the speed of
- * sound. With a limit of 0.05 it took 35, and soft bodies that met at high speed folded, as did their surfaces. */
+ * sound. */
 static const double taylor_below = 0.005;
 
 /* With L = -ln(J/Jc) > 0:  w = L^3,  w' = -3 L^2/J,  w'' = (6 L + 3 L^2)/J^2, all 0 at the onset L = 0. `beyond` is how

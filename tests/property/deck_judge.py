@@ -234,12 +234,12 @@ def dissipation_given_back(run, deck):
 def momentum(run, deck):
     """To rounding, 1.8e-13 at most, but for two cases. Steps that end at events have velocities of the dense output there,
     in which the rounding of positions counts up to 1.9/h times: 5e-10. Verlet's forces of damped springs at the end of a
-    step are those at other velocities than the state's, and near events those of the state: 1.1e-8."""
+    step are those at other velocities than the state's, and near events those of the state: 8.5e-7."""
     if deck.boundary or "mass_damping" in deck.solver:
         return None
     is_verlet = deck.solver["method"] == "verlet"
     if is_verlet and "damping_time" in deck.text:
-        return unbalanced(run, deck), 1e-6
+        return unbalanced(run, deck), 5e-6
     return unbalanced(run, deck), 1e-8 if deck.contact.get("method") == "exact" and not is_verlet else 2e-12
 
 

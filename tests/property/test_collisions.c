@@ -201,7 +201,7 @@ static void check_walls(const scene *s, const dem_simulation *simulation, const 
     }
 }
 
-/* What weight and walls have given is what the bodies have got, by rounding: 9e-14 was the most in 400 scenes. Steps
+/* What weight and walls have given is what the bodies have got, by rounding: 5e-15 was the most in 400 scenes. Steps
  * that end at events have velocities of the dense output there, in which the rounding of positions counts up to 1.9/h
  * times: 3.5e-12 was the most. deck_judge.py has the bounds of single bodies. */
 static void check_momentum(const scene *s, const dem_simulation *simulation, const dem_state *state)
