@@ -72,6 +72,7 @@ static inline void arkode_free_controller(arkode_controller c)
 #define ARKodeGetCurrentStep        ERKStepGetCurrentStep
 #define ARKodeGetCurrentTime        ERKStepGetCurrentTime
 #define ARKodeGetDky                ERKStepGetDky
+#define ARKodeGetEstLocalErrors     ERKStepGetEstLocalErrors
 #define ARKodeGetNumErrTestFails    ERKStepGetNumErrTestFails
 #define ARKodeReset                 ERKStepReset
 #define ARKodeRootInit              ERKStepRootInit

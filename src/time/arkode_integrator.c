@@ -320,6 +320,36 @@ static dem_status retry(arkode_integrator *I, double *h)
     return arkode_integrator_restart(I, I->t, nvector_values(I->y0));
 }
 
+/* The node with the largest error in the last attempt, of its position and velocity in units of the tolerances. One that
+ * is not finite counts as the largest. */
+static dem_index worst_node(const arkode_integrator *I)
+{
+    const state_layout *l = &I->problem.layout;
+    const double *error = nvector_values(I->y), *weight = nvector_values(I->weights);
+    dem_index worst = 0;
+    double most = -1.0;
+    for (dem_index k = 0; k < state_row(l, l->n_nodes) && most < INFINITY; k++) {
+        const dem_index v = k + state_velocities(l);
+        const double here = fabs(error[k] * weight[k]) + fabs(error[v] * weight[v]);
+        if (here <= most) continue;
+        most = isfinite(here) ? here : (double)INFINITY;
+        worst = k / l->dim;
+    }
+    return worst;
+}
+
+/* The error test has failed for every length of the step. Names where; what ARKODE would have returned is scratch. */
+static dem_status fail_error_test(arkode_integrator *I)
+{
+    CHECK(ARKodeGetEstLocalErrors(I->arkode, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    const dem_index node = worst_node(I);
+    const double *x = nvector_values(I->y0) + state_row(&I->problem.layout, node);
+    return status_fail(DEM_ERROR_INTEGRATOR,
+                       "the step from t = %.9g s fails: no step is short enough for rtol; the error is largest at node "
+                       "%lld, at (%g, %g) m",
+                       I->t, (long long)node, x[0], x[1]);
+}
+
 /* What to tell the user for a flag of ARKODE's; without a sentence of our own, its message. */
 static const char *cause(const arkode_integrator *I, int flag)
 {
@@ -327,7 +357,7 @@ static const char *cause(const arkode_integrator *I, int flag)
     case ARK_TOO_MUCH_ACC:
         return "rounding alone is more than rtol allows";
     case ARK_ERR_FAILURE:
-        return I->problem.fixed_step > 0.0 ? "it may be too long" : "no step is short enough for rtol";
+        return "it may be too long";
     case ARK_RTFUNC_FAIL:
         return "the root function is not finite";
     default:
@@ -338,6 +368,7 @@ static const char *cause(const arkode_integrator *I, int flag)
 /* The last accepted state stays in force; the message has the time from which the step failed. */
 static dem_status fail_step(arkode_integrator *I, int flag)
 {
+    if (flag == ARK_ERR_FAILURE && !(I->problem.fixed_step > 0.0)) return fail_error_test(I);
     return status_fail(DEM_ERROR_INTEGRATOR, "the step from t = %.9g s fails: %s", I->t, cause(I, flag));
 }
 

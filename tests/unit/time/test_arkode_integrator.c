@@ -60,6 +60,18 @@ static int rattle(double t, const double *y, double *u, double *a, void *context
     return fail_if_due(context, t);
 }
 
+/* Three nodes at rest, of which the one in the middle rattles along y. */
+static int rattle_middle(double t, const double *y, double *u, double *a, void *context)
+{
+    const world *w = context;
+    for (int k = 0; k < 6; k++) {
+        u[k] = y[6 + k];
+        a[k] = 0.0;
+    }
+    a[3] = w->calls % 2 == 0 ? 1e6 : -1e6;
+    return fail_if_due(context, t);
+}
+
 static void begin_roots(double t, const double *y, void *context)
 {
     world *w = context;
@@ -436,6 +448,27 @@ TEST(a_tolerance_out_of_reach_is_reported)
     assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
     assert_message_parts("t = 0 s * short * rtol");
     assert_true(integrator_counts(&i).rejected > 0);
+}
+
+TEST(the_node_whose_error_no_step_mends_is_named)
+{
+    const double y[12] = {0.1, 0.2, 0.3, -0.4, 0.5, 0.6};
+    world w = {.fails_after = 1e9};
+    const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 3, .n_rows = 3},
+                                 .ops = &array_ops_portable,
+                                 .n_threads = 1,
+                                 .derivative = rattle_middle,
+                                 .context = &w,
+                                 .method = DEM_METHOD_FEHLBERG45,
+                                 .position_error = 1e-12,
+                                 .velocity_error = 1e-12,
+                                 .max_step = 0.1};
+    dense_output p;
+    bool rooted;
+    CLEANUP(integrator_destroy) integrator i;
+    assert_ok(integrator_create(&i, &problem, 0.0, y));
+    assert_int_equal(integrator_step(&i, &p, &rooted), DEM_ERROR_INTEGRATOR);
+    assert_message_parts("t = 0 s * short * rtol * node 1, at (0.3, -0.4) m");
 }
 
 TEST(a_tolerance_below_rounding_is_reported)
