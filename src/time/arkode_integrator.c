@@ -320,8 +320,8 @@ static dem_status retry(arkode_integrator *I, double *h)
     return arkode_integrator_restart(I, I->t, nvector_values(I->y0));
 }
 
-/* The node with the largest error in the last attempt, of its position and velocity in units of the tolerances. One that
- * is not finite counts as the largest. */
+/* The node with the largest error in the last attempt, of its position and velocity in units of the tolerances. An
+ * error that is not finite counts as the largest. */
 static dem_index worst_node(const arkode_integrator *I)
 {
     const state_layout *l = &I->problem.layout;
