@@ -325,7 +325,7 @@ static dem_status retry(arkode_integrator *I, double *h)
 static dem_index worst_node(const arkode_integrator *I)
 {
     const state_layout *l = &I->problem.layout;
-    const double *error = nvector_values(I->y), *weight = nvector_values(I->weights);
+    const double *error = nvector_values(I->y1), *weight = nvector_values(I->weights);
     dem_index worst = 0;
     double most = -1.0;
     for (dem_index k = 0; k < state_row(l, l->n_nodes) && most < INFINITY; k++) {
@@ -338,10 +338,11 @@ static dem_index worst_node(const arkode_integrator *I)
     return worst;
 }
 
-/* The error test has failed for every length of the step. Names where; what ARKODE would have returned is scratch. */
+/* The error test has failed for every length of the step. Names where. The step has no end, so that the errors can
+ * stand in the place of its state. */
 static dem_status fail_error_test(arkode_integrator *I)
 {
-    CHECK(ARKodeGetEstLocalErrors(I->arkode, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
+    CHECK(ARKodeGetEstLocalErrors(I->arkode, I->y1) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR, "ARKODE: %s", I->message);
     const dem_index node = worst_node(I);
     const double *x = nvector_values(I->y0) + state_row(&I->problem.layout, node);
     return status_fail(DEM_ERROR_INTEGRATOR,
