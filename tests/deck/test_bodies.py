@@ -125,6 +125,7 @@ class Bodies(unittest.TestCase):
         self.assertEqual(run.crossings(), 0)
         self.assertEqual(len(run.masses()), 200 if IS_WHOLE else 12)
         h, weight = run.h, 9.81 * run.masses().sum()
+        self.assertGreater(h["pairs"][-1], 0)  # the flat bottom has no room for all: some lie on others
         fallen = -(h["gravity"][-1] - h["gravity"][0])
         self.assertLess(h["kinetic"][-1], 1e-5 * fallen)  # drag ends what is left; found 1.8e-6 of 12 discs
         self.assertAlmostEqual(h["obstacle_reaction"][-1, 0, 1] / weight, 1.0, delta=0.01)
