@@ -20,7 +20,7 @@ typedef struct world {
     double fails_after; /* s: derivatives later than this fail ... */
     int failures_left;  /* ... as often as this */
     int calls;
-    bool is_calm; /* rattle_middle() does no more */
+    bool is_calm; /* rattle_middle() accelerates no node any more */
     floor_and_ceiling walls;
 } world;
 
