@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Springs in CSR and the bond force (1). The only place that divides by a rest length. A list of flags `broken`
- * [n_springs], by the lattice's numbers, leaves springs out; NULL: all are whole. */
+/* Springs in CSR and the bond force (1). The only place that divides by a rest length. `integrity` [n_springs], by the
+ * lattice's numbers, is the share that is left of the stiffness and the viscosity of each spring: 1 of one that is
+ * whole, 0 of one that is broken, whose ends may be anywhere; NULL: all are whole. */
 #ifndef DEM_ELASTIC_SPRINGS_H
 #define DEM_ELASTIC_SPRINGS_H
 
@@ -23,16 +24,16 @@ typedef struct springs {
 dem_status springs_compile(springs *out, const dem_lattice *lattice);
 void springs_free(springs *s);
 
-/** Whether the spring in slot p is broken. */
-static inline bool springs_broken(const springs *s, const unsigned char *broken, dem_index p)
+/** What is left of the spring in slot p. */
+static inline double springs_left(const springs *s, const double *integrity, dem_index p)
 {
-    return broken != NULL && broken[s->spring[p]];
+    return integrity != NULL ? integrity[s->spring[p]] : 1.0;
 }
 
-/** The same of spring k of a lattice. */
-static inline bool springs_is_broken(const unsigned char *broken, dem_index k)
+/** Whether spring k of a lattice is broken. */
+static inline bool springs_is_broken(const double *integrity, dem_index k)
 {
-    return broken != NULL && broken[k];
+    return integrity != NULL && integrity[k] == 0.0;
 }
 
 /** The spring between two nodes, as a number of the lattice; -1: none. */
@@ -57,28 +58,30 @@ static inline double springs_pull(double stiffness, double rest_length, double l
 }
 
 /** Force on node i, N: the sum of (1) over its row. Not finite where two neighbours coincide. */
-static inline vec2 springs_force(const springs *s, const unsigned char *broken, dem_index i, const double *x)
+static inline vec2 springs_force(const springs *s, const double *integrity, dem_index i, const double *x)
 {
     const vec2 xi = vec2_at(x, i);
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-        if (springs_broken(s, broken, p)) continue;
+        const double left = springs_left(s, integrity, p);
+        if (left == 0.0) continue;
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi);
-        force = vec2_along(force, springs_pull(s->stiffness[p], s->rest_length[p], vec2_norm(d)), d);
+        force = vec2_along(force, springs_pull(left * s->stiffness[p], s->rest_length[p], vec2_norm(d)), d);
     }
     return force;
 }
 
 /** Kelvin-Voigt damping of node i, N: in every spring of its row c e' n, with e' = d.v/(d0 |d|) the strain rate. */
-static inline vec2 springs_damping(const springs *s, const unsigned char *broken, dem_index i, const double *x,
+static inline vec2 springs_damping(const springs *s, const double *integrity, dem_index i, const double *x,
                                    const double *v)
 {
     const vec2 xi = vec2_at(x, i), vi = vec2_at(v, i);
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-        if (springs_broken(s, broken, p)) continue;
+        const double left = springs_left(s, integrity, p);
+        if (left == 0.0) continue;
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi), dv = vec2_sub(vec2_at(v, s->neighbour[p]), vi);
-        force = vec2_along(force, s->viscosity[p] * vec2_dot(d, dv) / (s->rest_length[p] * vec2_dot(d, d)), d);
+        force = vec2_along(force, left * s->viscosity[p] * vec2_dot(d, dv) / (s->rest_length[p] * vec2_dot(d, d)), d);
     }
     return force;
 }
@@ -117,19 +120,19 @@ static inline void springs_virial(const dem_lattice *lattice, dem_index k, const
 vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
 
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
-double springs_node_energy(const springs *s, const unsigned char *broken, dem_index i, const double *x);
+double springs_node_energy(const springs *s, const double *integrity, dem_index i, const double *x);
 
 /** Energy of all springs of a lattice, J. An exact sum: it does not depend on the numbering of springs and nodes. */
-double springs_energy(const dem_lattice *lattice, const unsigned char *broken, const double *x);
+double springs_energy(const dem_lattice *lattice, const double *integrity, const double *x);
 
 /** Strain of every spring of a lattice; 0 of one that is broken.  \param[out] strain  [n_springs] */
-void springs_strains(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *strain);
+void springs_strains(const dem_lattice *lattice, const double *integrity, const double *x, double *strain);
 
 /** Force (1) along every spring, > 0 in tension; 0 of one that is broken.  \param[out] force  [n_springs] N */
-void springs_forces(const dem_lattice *lattice, const unsigned char *broken, const double *x, double *force);
+void springs_forces(const dem_lattice *lattice, const double *integrity, const double *x, double *force);
 
 /** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
-double springs_damping_power(const springs *s, const unsigned char *broken, const double *x, const double *v);
+double springs_damping_power(const springs *s, const double *integrity, const double *x, const double *v);
 
 /** S_i = sum of c/d0 n n^T over the springs of node i, with n their directions at x and c their `strength`, stiffness
  *  or viscosity. It bounds the matrix A of the springs: u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i

@@ -194,18 +194,18 @@ static void measure_spring(const dem_lattice *l, dem_index k, double strain, ext
     }
 }
 
-/* Extremes over springs that are whole; strains come in blocks with vector instructions. */
+/* Extremes over springs that are not broken; strains come in blocks with vector instructions. */
 static void measure_springs(const forces *f, const double *x, dem_strain *strain)
 {
     const dem_lattice *l = &f->model->lattice;
-    const unsigned char *broken = element_state_springs(f->elements);
+    const double *integrity = element_state_springs(f->elements);
     extreme_strains e = {.least = -1, .largest = -1};
     double block[EXACT_SUM_BLOCK];
     for (dem_index first = 0; first < l->n_springs; first += EXACT_SUM_BLOCK) {
         const int n = exact_sum_block(first, l->n_springs);
         springs_strain_block(l, first, n, x, block);
         for (int q = 0; q < n; q++)
-            if (!springs_is_broken(broken, first + q)) measure_spring(l, first + q, block[q], &e);
+            if (!springs_is_broken(integrity, first + q)) measure_spring(l, first + q, block[q], &e);
     }
     /* The key tells which of equal values counts if several processes have one. */
     reduce_least(&e.min, &e.least, e.least < 0 ? -1 : ends_of(l, e.least).low);
@@ -325,14 +325,16 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
     return out;
 }
 
-/* The largest |E e| of the springs that are whole, N: the scale of the residual. */
+/* The largest force of a spring, N: the scale of the residual. */
 static double largest_force(const forces *f, const double *x)
 {
     const dem_lattice *l = &f->model->lattice;
-    const unsigned char *broken = element_state_springs(f->elements);
+    const double *integrity = element_state_springs(f->elements);
     double largest = 0.0;
-    for (dem_index k = 0; k < l->n_springs; k++)
-        if (!springs_is_broken(broken, k)) largest = fmax(largest, l->stiffness[k] * fabs(springs_strain_of(l, k, x)));
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const double left = integrity != NULL ? integrity[k] : 1.0;
+        if (left > 0.0) largest = fmax(largest, left * l->stiffness[k] * fabs(springs_strain_of(l, k, x)));
+    }
     return largest;
 }
 

@@ -26,10 +26,11 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
     const dem_model *model = f->model;
     const double mass = model->lattice.mass[i];
     const vec2 vi = vec2_at(v, i);
-    const unsigned char *broken = element_state_springs(element_state_at(f->elements, i));
+    const double *integrity = element_state_springs(element_state_at(f->elements, i));
     forces_power power = {.damping = model->inverse_mass[i] > 0.0 ? f->mass_damping * mass * vec2_dot(vi, vi) : 0.0};
     if (forces_have_friction(f)) power.friction = -vec2_dot(surface_contact_friction(f->surfaces, i, x), vi);
-    if (forces_couple_velocities(f)) power.damping -= vec2_dot(springs_damping(&model->springs, broken, i, x, v), vi);
+    if (forces_couple_velocities(f))
+        power.damping -= vec2_dot(springs_damping(&model->springs, integrity, i, x, v), vi);
     if (forces_push(f)) power.work += vec2_dot(boundary_conditions_force(f->boundaries, i, v[f->clock]), vi);
     if (f->external != NULL) power.work += vec2_dot(external, vi);
     /* Most nodes end here. The free acceleration of the others is computed anew, with the external force in it. */

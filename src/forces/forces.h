@@ -16,9 +16,9 @@
 #ifndef DEM_FORCES_FORCES_H
 #define DEM_FORCES_FORCES_H
 
-#include "elastic/element_state.h"
 #include "forces/boundary_conditions.h"
 #include "forces/external_force.h"
+#include "model/element_state.h"
 #include "model/model.h"
 #include "surface_contact/rigid_contact.h"
 #include "surface_contact/surface_contact.h"
@@ -121,7 +121,7 @@ static inline bool forces_next_neighbour(forces_neighbours *n)
     const triangles *t = &n->f->model->triangles;
     while (n->other < n->others) {
         n->node = *n->other++;
-        if (n->state == NULL || !n->state->spring[s->spring[n->other - 1 - s->neighbour]]) return true;
+        if (!springs_is_broken(element_state_springs(n->state), s->spring[n->other - 1 - s->neighbour])) return true;
     }
     while (n->corner < n->corners) {
         const dem_index p = n->corner / 2;

@@ -83,13 +83,14 @@ static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
 {
     const springs *s = &b->forces->model->springs;
     const dem_index i = nodes->list[j];
-    const unsigned char *broken = element_state_springs(element_state_at(b->forces->elements, i));
+    const double *integrity = element_state_springs(element_state_at(b->forces->elements, i));
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const int32_t other = nodes->number[s->neighbour[p]];
         /* A node that is not local has the number -1. */
-        if (other < j || springs_broken(s, broken, p)) continue;
+        const double left = springs_left(s, integrity, p);
+        if (other < j || left == 0.0) continue;
         b->bonds[b->n_bonds] = (local_bond){(int32_t)j, other};
-        b->stiffness[b->n_bonds] = s->stiffness[p];
+        b->stiffness[b->n_bonds] = left * s->stiffness[p];
         b->rest_length[b->n_bonds++] = s->rest_length[p];
     }
 }

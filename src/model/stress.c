@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stress of nodes (docs/method.md, Stress). The stress of a triangle is
  *     S = (1/V) (sum over its springs of w r x f + sum of r x f of its couplings + A dW/dA I),
- * and that of a node the mean of its triangles' by volume. A spring's r x f goes to the triangles that have it for a
- * side, or between whose outer corners it is (the second diagonal of a square), with shares w in proportion to modulus
- * * thickness * area * weight (lattice/triangle_share.h): what they gave to its stiffness. A spring outside of all
- * triangles gives half to each of its ends. The file compiles the shares into rows by node, once; the stress itself is
- * then a sum over a row. Largest stresses over time are in simulation/peaks.c; forces are not computed from stresses
- * anywhere. */
+ * and that of a node the mean of its triangles' by volume. A spring's r x f goes to the triangles that hold it, with
+ * the shares w of model/spring_holders.c. A spring outside of all triangles gives half to each of its ends. The file
+ * compiles the shares into rows by node, once; the stress itself is then a sum over a row. Largest stresses over time
+ * are in simulation/peaks.c; forces are not computed from stresses anywhere. */
 #include "model/stress.h"
 
 #include <stdbool.h>
@@ -14,7 +12,7 @@
 
 #include "base/status.h"
 #include "lattice/lattice.h"
-#include "lattice/mesh_edges.h"
+#include "model/spring_holders.h"
 #include "model/spring_share.h"
 
 /* ---- compilation ---- */
@@ -22,20 +20,12 @@
 /* Goes through the same shares twice: first it counts, then it writes. */
 typedef struct draft {
     const dem_lattice *lattice;
-    const springs *springs;
-    mesh_edges sides;
-    bool *placed;    /* [n_springs] in a triangle */
+    spring_holders holders;
     dem_index *next; /* [n_nodes] slot to be written; while counting, number of slots */
+    dem_index loose; /* ends of springs in no triangle that have been visited */
     bool writes;
     stress_map *map;
 } draft;
-
-/* The corner of a triangle that is neither i nor j. */
-static dem_index opposite(const dem_lattice *l, dem_index triangle, dem_index i, dem_index j)
-{
-    const dem_index *c = &l->triangles[3 * triangle];
-    return c[0] != i && c[0] != j ? c[0] : (c[1] != i && c[1] != j ? c[1] : c[2]);
-}
 
 /* Gives a share of a spring to a node. The first pass only counts; the second one writes. */
 static void give(draft *d, dem_index node, dem_index spring, double share)
@@ -46,53 +36,13 @@ static void give(draft *d, dem_index node, dem_index spring, double share)
     d->map->share[p] = share;
 }
 
-/* Shares a spring between the triangles of the edge in slots p to end - 1 of the sides: to each in proportion to
- * what it has given to the spring, and from each a third to every corner. */
-static void give_triangles(draft *d, dem_index spring, dem_index p, dem_index end)
+/* From each triangle a third of its share goes to every corner; of a spring in no triangle half goes to each end. */
+static void give_share(void *context, dem_index spring, dem_index triangle, double share)
 {
+    draft *d = context;
     const dem_lattice *l = d->lattice;
-    double sum = 0.0;
-    for (dem_index q = p; q < end; q++) sum += spring_share_given(l, d->sides.list[q].triangle, spring);
-    for (dem_index q = p; q < end; q++) {
-        const dem_index t = d->sides.list[q].triangle;
-        const double share = spring_share_given(l, t, spring) / sum;
-        for (int c = 0; c < 3; c++) give(d, l->triangles[3 * t + c], spring, share / 3.0);
-    }
-    d->placed[spring] = true;
-}
-
-/* The spring along the edge of node i in slots p to end - 1 of the sides; or else (`along` false), where two triangles
- * meet there, the one between their outer corners. -1: there is none. */
-static dem_index spring_of(const draft *d, bool along, dem_index i, dem_index p, dem_index end)
-{
-    const mesh_edge_slot *list = d->sides.list;
-    const dem_index j = list[p].upper;
-    if (along) return springs_between(d->springs, i, j);
-    if (end - p != 2) return -1;
-    return springs_between(d->springs, opposite(d->lattice, list[p].triangle, i, j),
-                           opposite(d->lattice, list[p + 1].triangle, i, j));
-}
-
-/* Goes through all edges, and shares their springs if no triangle has them yet. */
-static void give_edges(draft *d, bool along)
-{
-    for (dem_index i = 0; i < d->lattice->n_nodes; i++)
-        for (dem_index p = d->sides.row[i], end; p < d->sides.row[i + 1]; p = end) {
-            for (end = p + 1; end < d->sides.row[i + 1] && !mesh_edges_is_first(&d->sides, i, end);) end++;
-            const dem_index spring = spring_of(d, along, i, p, end);
-            if (spring >= 0 && !d->placed[spring]) give_triangles(d, spring, p, end);
-        }
-}
-
-/* Springs along edges come first: a spring that is an edge of some triangle must not be taken for a diagonal between
- * the outer corners of two others. */
-static void give_all(draft *d)
-{
-    for (dem_index k = 0; k < d->lattice->n_springs; k++) d->placed[k] = false;
-    give_edges(d, true);
-    give_edges(d, false);
-    for (dem_index k = 0; k < 2 * d->lattice->n_springs; k++)
-        if (!d->placed[k / 2]) give(d, d->lattice->ends[k], k / 2, 0.5);
+    if (triangle < 0) give(d, l->ends[2 * spring + (d->loose++ & 1)], spring, share);
+    for (int c = 0; c < 3 && triangle >= 0; c++) give(d, l->triangles[3 * triangle + c], spring, share / 3.0);
 }
 
 /* From counts to rows, and to the slots that are written first. */
@@ -106,7 +56,7 @@ static void lay_rows(draft *d)
 }
 
 /* Adds up what a node has of one spring from two triangles. Such shares are next to each other in its row, since
- * give_triangles() gives them in one go. */
+ * all triangles of a spring are visited in one go. */
 static void merge(stress_map *map, dem_index n_nodes)
 {
     dem_index kept = 0;
@@ -136,37 +86,35 @@ static void divide_by_volumes(stress_map *map, const dem_lattice *l)
 }
 
 /* Count, lay out the rows, write, merge. All sums that follow are in the order of these rows. */
-static dem_status compile(draft *d)
+static dem_status compile(draft *d, const springs *s)
 {
     const dem_lattice *l = d->lattice;
     stress_map *map = d->map;
-    TRY(mesh_edges_create(&d->sides, l));
-    d->placed = lattice_zeros(l->n_springs, sizeof *d->placed);
+    TRY(spring_holders_create(&d->holders, l, s));
     d->next = lattice_zeros(l->n_nodes, sizeof *d->next);
     map->row = lattice_zeros(l->n_nodes + 1, sizeof *map->row);
     map->volume = lattice_zeros(l->n_nodes, sizeof *map->volume);
-    CHECK(d->placed && d->next && map->row && map->volume, DEM_ERROR_MEMORY, "out of memory");
-    give_all(d);
+    CHECK(d->next && map->row && map->volume, DEM_ERROR_MEMORY, "out of memory");
+    spring_holders_visit(&d->holders, give_share, d);
     lay_rows(d);
     map->spring = lattice_zeros(map->row[l->n_nodes], sizeof *map->spring);
     map->share = lattice_zeros(map->row[l->n_nodes], sizeof *map->share);
     CHECK(map->spring && map->share, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes",
           (long long)l->n_nodes);
     d->writes = true;
-    give_all(d);
+    spring_holders_visit(&d->holders, give_share, d);
     merge(map, l->n_nodes);
     divide_by_volumes(map, l);
     return DEM_OK;
 }
 
-/* The sides and counters are needed only while the shares are found. */
+/* Holders and counters are needed only while the shares are found. */
 dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s, const couplings *c)
 {
     stress_map map = {.couplings = c};
-    draft d = {.lattice = lattice, .springs = s, .map = &map};
-    const dem_status status = compile(&d);
-    mesh_edges_free(&d.sides);
-    free(d.placed);
+    draft d = {.lattice = lattice, .map = &map};
+    const dem_status status = compile(&d, s);
+    spring_holders_free(&d.holders);
     free(d.next);
     if (status == DEM_OK)
         *out = map;

@@ -207,9 +207,9 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
     TRY(check_given("dem_simulation_force_at", s, out));
     const dem_lattice *l = &s->model->lattice;
     TRY(status_check_number("spring", spring, l->n_springs));
-    const unsigned char *broken = element_state_springs(s->forces.elements);
-    const double *x = seen_of(s);
-    const double own = broken != NULL && broken[spring] ? 0.0 : l->stiffness[spring] * springs_strain_of(l, spring, x);
+    const double *integrity = element_state_springs(s->forces.elements), *x = seen_of(s);
+    const double left = integrity != NULL ? integrity[spring] : 1.0;
+    const double own = left > 0.0 ? springs_strain_of(l, spring, x) * (left * l->stiffness[spring]) : 0.0;
     *out = couplings_add_tension(&s->model->couplings, element_state_triangles(s->forces.elements), l->ends[2 * spring],
                                  spring, x, own);
     return DEM_OK;

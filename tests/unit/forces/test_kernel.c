@@ -262,10 +262,12 @@ TEST(broken_elements_agree)
     for (int laws = 0; laws < 16; laws++) {
         const dem_material material = law_of(laws);
         CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+        CLEANUP(springs_free) springs all;
         CLEANUP(element_state_destroy) element_state broken;
-        assert_ok(element_state_create(&broken, &lattice));
-        for (dem_index k = 0; k < lattice.n_springs; k += 7) element_state_break_spring(&broken, &lattice, k);
-        for (dem_index k = 0; k < lattice.n_triangles; k += 5) element_state_break_triangle(&broken, &lattice, k);
+        assert_ok(springs_compile(&all, &lattice));
+        assert_ok(element_state_create(&broken, &lattice, &all));
+        for (dem_index k = 0; k < lattice.n_springs; k += 7) element_state_break_spring(&broken, k);
+        for (dem_index k = 0; k < lattice.n_triangles; k += 5) element_state_break_triangle(&broken, k);
         const forces plain = {.gravity = {0.5, -9.81}, .elements = &broken};
         const forces drag = {.gravity = {0.5, -9.81}, .mass_damping = 3.0, .elements = &broken};
         CLEANUP(free_scene) scene s = make_scene(&lattice, laws & 1 ? 0.1 : 0.6);
@@ -278,8 +280,10 @@ TEST(broken_elements_agree)
 TEST(the_ends_of_a_broken_spring_may_meet)
 {
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
+    CLEANUP(springs_free) springs all;
     CLEANUP(element_state_destroy) element_state broken;
-    assert_ok(element_state_create(&broken, &lattice));
+    assert_ok(springs_compile(&all, &lattice));
+    assert_ok(element_state_create(&broken, &lattice, &all));
     for (dem_index k = 0; k < lattice.n_springs; k++) {
         CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
         CLEANUP(kernel_destroy) kernel sweeps;
@@ -288,7 +292,7 @@ TEST(the_ends_of_a_broken_spring_may_meet)
         vec2_put(s.x, lattice.ends[2 * k], vec2_at(s.x, lattice.ends[2 * k + 1]));
         assert_ok(kernel_create(&sweeps, s.model, DEM_KERNEL_AUTO, 1));
         assert_true(!isfinite(kernel_accelerate(&sweeps, &f, &y)));
-        element_state_break_spring(&broken, &lattice, k);
+        element_state_break_spring(&broken, k);
         assert_true(isfinite(kernel_accelerate(&sweeps, &f, &y)));
     }
 }

@@ -107,11 +107,24 @@ TEST(broken_springs_do_not_pull)
     CLEANUP(close_rig) rig r;
     CLEANUP(element_state_destroy) element_state broken;
     open_rig(&r, 1.0 / 3.0);
-    assert_ok(element_state_create(&broken, &r.model->lattice));
-    for (dem_index k = 1; k < r.model->lattice.n_springs; k += 2)
-        element_state_break_spring(&broken, &r.model->lattice, k);
+    assert_ok(element_state_create(&broken, &r.model->lattice, &r.model->springs));
+    for (dem_index k = 1; k < r.model->lattice.n_springs; k += 2) element_state_break_spring(&broken, k);
     r.acting.elements = &broken;
     check_accelerations(&r);
+}
+
+/* Every third triangle is broken, so that some springs have half of their stiffness, and some none. */
+TEST(springs_of_broken_triangles_pull_less)
+{
+    for (int area = 0; area < 2; area++) {
+        CLEANUP(close_rig) rig r;
+        CLEANUP(element_state_destroy) element_state broken;
+        open_rig(&r, area ? 0.2 : 1.0 / 3.0);
+        assert_ok(element_state_create(&broken, &r.model->lattice, &r.model->springs));
+        for (dem_index k = 0; k < r.model->lattice.n_triangles; k += 3) element_state_break_triangle(&broken, k);
+        r.acting.elements = &broken;
+        check_accelerations(&r);
+    }
 }
 
 /* Every node has its number, in the nearest ring; those gathered before are forgotten. */

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is broken in a simulation: a flag for each triangle, the integrity of each spring, a flag for each node beside
+ * an element that is not whole, and the list of these nodes. The model stays as it is, so several simulations of one
+ * model may have different states. The flags of nodes let the force on an intact node skip the state of its elements,
+ * and the list tells the sweep over all nodes which of them to evaluate once more, one by one (accelerate_rest() in
+ * forces/kernel.c). When an element breaks is decided elsewhere: nothing does so yet.
+ *
+ * A triangle that breaks takes what it gave to its springs. What is left is what the lattice would have had without the
+ * triangle from the start, so that a crack that opens in a run is as stiff as one that is cut before. */
+#include "model/element_state.h"
+
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "model/spring_holders.h"
+
+/* Shares are multiples of 2^-52, so that differences of them are exact and do not depend on the order in which
+ * triangles break. By this rounding the shares of a spring may miss 1 by a few units: so little is nothing. */
+static const double unit = 0x1p-52, nothing = 0x1p-48;
+
+/* One more item than needed in each array, so that no allocation is of no bytes. */
+static dem_status allocate(element_state *s)
+{
+    const dem_lattice *l = s->lattice;
+    const size_t n = (size_t)l->n_nodes, n_springs = (size_t)l->n_springs, n_triangles = (size_t)l->n_triangles;
+    s->integrity = malloc((n_springs + 1) * sizeof *s->integrity);
+    s->triangle = calloc(n_triangles + 1, sizeof *s->triangle);
+    s->node = calloc(n + 1, sizeof *s->node);
+    s->damaged = malloc((n + 1) * sizeof *s->damaged);
+    s->row = calloc(n_triangles + 2, sizeof *s->row);
+    CHECK(s->integrity && s->triangle && s->node && s->damaged && s->row, DEM_ERROR_MEMORY,
+          "out of memory for the state of %lld springs", (long long)l->n_springs);
+    for (dem_index k = 0; k < l->n_springs; k++) s->integrity[k] = 1.0;
+    return DEM_OK;
+}
+
+/* row[t + 2] counts the springs of triangle t first; summed up, row[t + 1] is where the next one goes, and in the end
+ * where the row ends. */
+static void count(void *context, dem_index spring, dem_index triangle, double share)
+{
+    element_state *s = context;
+    (void)spring;
+    (void)share;
+    if (triangle >= 0) s->row[triangle + 2]++;
+}
+
+static void enter(void *context, dem_index spring, dem_index triangle, double share)
+{
+    element_state *s = context;
+    if (triangle < 0) return;
+    const dem_index p = s->row[triangle + 1]++;
+    s->spring[p] = spring;
+    s->share[p] = nearbyint(share / unit) * unit;
+}
+
+static dem_status list_springs(element_state *s, spring_holders *holders)
+{
+    const dem_index n = s->lattice->n_triangles;
+    spring_holders_visit(holders, count, s);
+    for (dem_index t = 0; t < n; t++) s->row[t + 2] += s->row[t + 1];
+    const size_t slots = (size_t)s->row[n + 1] + 1;
+    s->spring = malloc(slots * sizeof *s->spring);
+    s->share = malloc(slots * sizeof *s->share);
+    CHECK(s->spring && s->share, DEM_ERROR_MEMORY, "out of memory for what %lld triangles hold", (long long)n);
+    spring_holders_visit(holders, enter, s);
+    return DEM_OK;
+}
+
+dem_status element_state_create(element_state *out, const dem_lattice *lattice, const springs *s)
+{
+    element_state state = {.lattice = lattice};
+    spring_holders holders = {0};
+    dem_status status = allocate(&state);
+    if (status == DEM_OK) status = spring_holders_create(&holders, lattice, s);
+    if (status == DEM_OK) status = list_springs(&state, &holders);
+    spring_holders_free(&holders);
+    if (status == DEM_OK)
+        *out = state;
+    else
+        element_state_destroy(&state);
+    return status;
+}
+
+void element_state_destroy(element_state *s)
+{
+    free(s->integrity);
+    free(s->triangle);
+    free(s->node);
+    free(s->damaged);
+    free(s->row);
+    free(s->spring);
+    free(s->share);
+    *s = (element_state){0};
+}
+
+/* Notes a node beside an element that is not whole, once. The list cannot overflow, since each node enters it at most
+ * once. */
+static void damage(element_state *s, dem_index node)
+{
+    if (s->node[node]) return;
+    s->node[node] = 1;
+    s->damaged[s->n_damaged++] = node;
+}
+
+/* The ends of a spring need not be corners of the triangle that breaks: the second diagonal of a cell. */
+static void weaken(element_state *s, dem_index spring, double left)
+{
+    s->integrity[spring] = left > nothing ? left : 0.0;
+    for (int end = 0; end < 2; end++) damage(s, s->lattice->ends[2 * spring + end]);
+}
+
+/* The element keeps its place in all arrays; those who read its numbers ask for its state. */
+void element_state_break_spring(element_state *s, dem_index spring)
+{
+    weaken(s, spring, 0.0);
+}
+
+void element_state_break_triangle(element_state *s, dem_index triangle)
+{
+    if (s->triangle[triangle]) return;
+    s->triangle[triangle] = 1;
+    for (int corner = 0; corner < 3; corner++) damage(s, s->lattice->triangles[3 * triangle + corner]);
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
+        weaken(s, s->spring[p], s->integrity[s->spring[p]] - s->share[p]);
+}

@@ -1,0 +1,237 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* element_state.c: what is left when triangles break is what would have been there without them from the start. */
+#include "verification/support.h"
+
+#include <stdlib.h>
+
+#include "model/element_state.h"
+#include "unit/solids.h"
+
+/* A lattice with its state. Stays where it is: it points to itself. */
+typedef struct subject {
+    dem_lattice lattice;
+    springs springs;
+    element_state state;
+} subject;
+
+static void open_subject(subject *s, dem_lattice lattice)
+{
+    *s = (subject){.lattice = lattice};
+    assert_ok(springs_compile(&s->springs, &s->lattice));
+    assert_ok(element_state_create(&s->state, &s->lattice, &s->springs));
+}
+
+static void close_subject(subject *s)
+{
+    element_state_destroy(&s->state);
+    springs_free(&s->springs);
+    dem_lattice_free(&s->lattice);
+}
+
+/* Triangles of all shapes, of two materials side by side; or square cells. */
+enum { COUPLED, CELLS, N_KINDS };
+
+static dem_lattice mesh_of(int kind)
+{
+    dem_lattice lattice = dem_lattice_empty();
+    if (kind == CELLS) {
+        assert_ok(dem_lattice_squares(&lattice, 0.1, 0.08, 0.01));
+    } else {
+        assert_ok(dem_lattice_rectangle(&lattice, 0.1, 0.08, 0.01));
+        assert_ok(dem_lattice_jitter(&lattice, 0.25 * 0.01, 3));
+    }
+    return lattice;
+}
+
+/* The material of a triangle is that of its place. */
+static void assemble(dem_lattice *lattice, int kind)
+{
+    dem_material materials[2] = {rubber, rubber};
+    CLEANUP(free_memory) dem_index *of = calloc((size_t)lattice->n_triangles, sizeof *of);
+    assert_non_null(of);
+    for (dem_index k = 0; k < lattice->n_triangles; k++)
+        of[k] = lattice->x[2 * lattice->triangles[3 * (kind == CELLS ? k / 2 * 2 : k)]] > 0.0;
+    materials[1].youngs_modulus = 3e7;
+    for (int k = 0; k < 2; k++) materials[k].springs = kind == CELLS ? DEM_SPRINGS_INDEPENDENT : DEM_SPRINGS_COUPLED;
+    assert_ok(dem_lattice_assemble_mixed(lattice, materials, 2, of, kind == CELLS ? 0.5 : 0.0));
+}
+
+/* The material has to be the same with and without the triangles that break, so it must not hang on node numbers. */
+static dem_lattice solid_of(int kind)
+{
+    dem_lattice lattice = mesh_of(kind);
+    assemble(&lattice, kind);
+    return lattice;
+}
+
+/* Two thirds of the triangles, or of the cells, break. */
+static bool breaks(int kind, dem_index triangle)
+{
+    const dem_index unit = kind == CELLS ? triangle / 2 : triangle;
+    return (unit * unit * 7 + unit) % 11 < 7;
+}
+
+/* The same solid, cut before it is assembled. */
+static dem_lattice cut_solid(int kind)
+{
+    dem_lattice lattice = mesh_of(kind);
+    CLEANUP(free_memory) bool *keep = calloc((size_t)lattice.n_triangles, sizeof *keep);
+    assert_non_null(keep);
+    for (dem_index k = 0; k < lattice.n_triangles; k++) keep[k] = !breaks(kind, k);
+    assert_ok(dem_lattice_trim(&lattice, keep));
+    assemble(&lattice, kind);
+    return lattice;
+}
+
+/* The node at the same place. */
+static dem_index same_node(const dem_lattice *l, const double *x)
+{
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (l->x[2 * i] == x[0] && l->x[2 * i + 1] == x[1]) return i;
+    return -1;
+}
+
+/* Stiffness of the spring between the same two nodes; 0: there is none. */
+static double same_spring(const dem_lattice *l, const double *a, const double *b)
+{
+    const dem_index i = same_node(l, a), j = same_node(l, b);
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const dem_index *e = &l->ends[2 * k];
+        if ((e[0] == i && e[1] == j) || (e[0] == j && e[1] == i)) return l->stiffness[k];
+    }
+    return 0.0;
+}
+
+/* Sums of two numbers that are rounded once each, and a share that is rounded to 2^-52. */
+TEST(what_is_left_is_the_solid_without_the_broken_triangles)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(close_subject) subject s;
+        CLEANUP(dem_lattice_free) dem_lattice cut = cut_solid(kind);
+        dem_index n_broken = 0, n_weaker = 0;
+        open_subject(&s, solid_of(kind));
+        for (dem_index t = 0; t < s.lattice.n_triangles; t++)
+            if (breaks(kind, t)) element_state_break_triangle(&s.state, t);
+        for (dem_index k = 0; k < s.lattice.n_springs; k++) {
+            const dem_index *e = &s.lattice.ends[2 * k];
+            const double left = s.state.integrity[k], own = s.lattice.stiffness[k];
+            const double expected = same_spring(&cut, &s.lattice.x[2 * e[0]], &s.lattice.x[2 * e[1]]);
+            assert_close(left * own, expected, 1e-15 * own);
+            assert_int_equal(left == 0.0, expected == 0.0);
+            n_broken += left == 0.0;
+            n_weaker += left > 0.0 && left < 1.0;
+        }
+        assert_true(n_broken > 20 && n_weaker > 20);
+    }
+}
+
+/* To the bit, and the list of nodes has the same ones. */
+TEST(the_order_of_breaking_does_not_matter)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(close_subject) subject s, other;
+        open_subject(&s, solid_of(kind));
+        open_subject(&other, solid_of(kind));
+        const dem_index n = s.lattice.n_triangles;
+        for (dem_index t = 0; t < n; t++) {
+            if (breaks(kind, t)) element_state_break_triangle(&s.state, t);
+            if (breaks(kind, n - 1 - t)) element_state_break_triangle(&other.state, n - 1 - t);
+        }
+        const size_t n_springs = (size_t)s.lattice.n_springs;
+        assert_memory_equal(s.state.integrity, other.state.integrity, n_springs * sizeof(double));
+        assert_memory_equal(s.state.node, other.state.node, (size_t)s.lattice.n_nodes);
+        assert_int_equal(s.state.n_damaged, other.state.n_damaged);
+    }
+}
+
+/* With the triangles all of their springs go, of any shape and material. */
+TEST(nothing_is_left_without_triangles)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(close_subject) subject s;
+        open_subject(&s, solid_of(kind));
+        for (dem_index t = 0; t < s.lattice.n_triangles; t++) {
+            element_state_break_triangle(&s.state, t);
+            element_state_break_triangle(&s.state, t); /* once more changes nothing */
+        }
+        for (dem_index k = 0; k < s.lattice.n_springs; k++) assert_close(s.state.integrity[k], 0.0, 0.0);
+        assert_int_equal(s.state.n_damaged, s.lattice.n_nodes);
+    }
+}
+
+/* ---- nodes ---- */
+
+/* Two triangles, 0 1 2 and 1 3 2, and their springs. */
+static dem_lattice two_triangles(void)
+{
+    dem_lattice lattice = dem_lattice_empty();
+    assert_ok(dem_lattice_squares(&lattice, 1.0, 1.0, 1.0));
+    assert_int_equal(lattice.n_triangles, 2);
+    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    assert_int_equal(lattice.n_springs, 5);
+    return lattice;
+}
+
+TEST(all_are_whole_at_first)
+{
+    CLEANUP(close_subject) subject s;
+    open_subject(&s, two_triangles());
+    assert_int_equal(s.state.n_damaged, 0);
+    for (dem_index k = 0; k < 5; k++) assert_close(s.state.integrity[k], 1.0, 0.0);
+    for (dem_index k = 0; k < 2; k++) assert_int_equal(s.state.triangle[k], 0);
+    for (dem_index i = 0; i < 4; i++) assert_null(element_state_at(&s.state, i));
+    element_state_destroy(&s.state);
+    assert_null(s.state.integrity);
+}
+
+TEST(no_state_is_one_of_whole_elements)
+{
+    assert_null(element_state_at(NULL, 3));
+    assert_null(element_state_springs(NULL));
+    assert_null(element_state_triangles(NULL));
+}
+
+/* The triangle that is left is beside all nodes of its own; the fourth one has lost all it had. */
+TEST(a_node_beside_what_is_broken_is_listed_once)
+{
+    CLEANUP(close_subject) subject s;
+    open_subject(&s, two_triangles());
+    const dem_index *corner = s.lattice.triangles;
+    element_state_break_triangle(&s.state, 0);
+    assert_int_equal(s.state.n_damaged, 3);
+    for (int c = 0; c < 3; c++) assert_ptr_equal(element_state_at(&s.state, corner[c]), &s.state);
+    dem_index n_half = 0, n_gone = 0;
+    for (dem_index k = 0; k < 5; k++) {
+        n_half += s.state.integrity[k] == 0.5; /* the side between the two */
+        n_gone += s.state.integrity[k] == 0.0;
+    }
+    assert_int_equal(n_half, 1);
+    assert_int_equal(n_gone, 2);
+    assert_ptr_equal(element_state_springs(&s.state), s.state.integrity);
+    assert_ptr_equal(element_state_triangles(&s.state), s.state.triangle);
+}
+
+/* A chain: no triangle holds its springs. */
+TEST(a_spring_outside_of_triangles_breaks_alone)
+{
+    dem_index ends[4] = {0, 1, 1, 2};
+    double x[6] = {0.0, 0.0, 1.0, 0.0, 2.0, 0.0}, ones[3] = {1.0, 1.0, 1.0};
+    const dem_lattice chain = {.dim = 2,
+                               .n_nodes = 3,
+                               .n_springs = 2,
+                               .x = x,
+                               .ends = ends,
+                               .rest_length = ones,
+                               .stiffness = ones,
+                               .mass = ones};
+    CLEANUP(springs_free) springs list;
+    CLEANUP(element_state_destroy) element_state s;
+    assert_ok(springs_compile(&list, &chain));
+    assert_ok(element_state_create(&s, &chain, &list));
+    element_state_break_spring(&s, 1);
+    element_state_break_spring(&s, 1);
+    assert_close(s.integrity[0], 1.0, 0.0);
+    assert_close(s.integrity[1], 0.0, 0.0);
+    assert_int_equal(s.n_damaged, 2);
+    assert_null(element_state_at(&s, 0));
+}
