@@ -28,14 +28,26 @@ static dem_status allocate(element_state *s)
     s->node = calloc(n + 1, sizeof *s->node);
     s->damaged = malloc((n + 1) * sizeof *s->damaged);
     s->row = calloc(n_triangles + 2, sizeof *s->row);
-    CHECK(s->integrity && s->triangle && s->node && s->damaged && s->row, DEM_ERROR_MEMORY,
-          "out of memory for the state of %lld springs", (long long)l->n_springs);
+    s->held = calloc(n_springs + 1, sizeof *s->held);
+    s->at_row = calloc(n + 2, sizeof *s->at_row);
+    s->at = malloc((3 * n_triangles + 1) * sizeof *s->at);
+    CHECK(s->integrity && s->triangle && s->node && s->damaged && s->row && s->held && s->at_row && s->at,
+          DEM_ERROR_MEMORY, "out of memory for the state of %lld springs", (long long)l->n_springs);
     for (dem_index k = 0; k < l->n_springs; k++) s->integrity[k] = 1.0;
     return DEM_OK;
 }
 
-/* row[t + 2] counts the springs of triangle t first; summed up, row[t + 1] is where the next one goes, and in the end
- * where the row ends. */
+/* at_row[i + 2] counts the triangles at node i first; summed up, at_row[i + 1] is where the next one goes, and in the
+ * end where the row ends. */
+static void list_triangles(element_state *s)
+{
+    const dem_lattice *l = s->lattice;
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) s->at_row[l->triangles[k] + 2]++;
+    for (dem_index i = 0; i < l->n_nodes; i++) s->at_row[i + 2] += s->at_row[i + 1];
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) s->at[s->at_row[l->triangles[k] + 1]++] = k / 3;
+}
+
+/* The same of the springs that a triangle holds. */
 static void count(void *context, dem_index spring, dem_index triangle, double share)
 {
     element_state *s = context;
@@ -50,6 +62,7 @@ static void enter(void *context, dem_index spring, dem_index triangle, double sh
     if (triangle < 0) return;
     const dem_index p = s->row[triangle + 1]++;
     s->spring[p] = spring;
+    s->held[spring] = 1;
     s->share[p] = nearbyint(share / unit) * unit;
 }
 
@@ -73,6 +86,7 @@ dem_status element_state_create(element_state *out, const dem_lattice *lattice, 
     dem_status status = allocate(&state);
     if (status == DEM_OK) status = spring_holders_create(&holders, lattice, s);
     if (status == DEM_OK) status = list_springs(&state, &holders);
+    if (status == DEM_OK) list_triangles(&state);
     spring_holders_free(&holders);
     if (status == DEM_OK)
         *out = state;
@@ -90,6 +104,9 @@ void element_state_destroy(element_state *s)
     free(s->row);
     free(s->spring);
     free(s->share);
+    free(s->held);
+    free(s->at_row);
+    free(s->at);
     *s = (element_state){0};
 }
 

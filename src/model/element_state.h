@@ -14,10 +14,13 @@ typedef struct element_state {
     unsigned char *triangle; /* [n_triangles] 1: broken */
     unsigned char *node;     /* [n_nodes] 1: an element at the node is not whole */
     dem_index n_damaged;
-    dem_index *damaged; /* [n_damaged] these nodes, in the order in which elements broke */
-    dem_index *row;     /* [n_triangles + 1] slots row[t] .. row[t + 1] - 1 of a triangle: */
-    dem_index *spring;  /* a spring that it holds, */
-    double *share;      /* and what part of that spring's stiffness is the triangle's */
+    dem_index *damaged;  /* [n_damaged] these nodes, in the order in which elements broke */
+    dem_index *row;      /* [n_triangles + 1] slots row[t] .. row[t + 1] - 1 of a triangle: */
+    dem_index *spring;   /* a spring that it holds, */
+    double *share;       /* and what part of that spring's stiffness is the triangle's */
+    unsigned char *held; /* [n_springs] 1: a triangle holds it, or has held it */
+    dem_index *at_row;   /* [n_nodes + 1] slots at_row[i] .. at_row[i + 1] - 1 of a node: */
+    dem_index *at;       /* triangles at it, ascending */
 } element_state;
 
 /** Makes a state in which all elements are whole. Borrows the lattice.  \param s  its springs

@@ -13,6 +13,7 @@
 #include "base/struct_size.h"
 #include "contact/obstacle_load.h"
 #include "forces/diagnostics.h"
+#include "model/node_stress.h"
 #include "simulation/body_contact.h"
 
 void query_at(dem_simulation *s, double t, const double *y)
@@ -217,8 +218,7 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
 
 static void stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
-    const dem_model *m = s->model;
-    stress_of_node(&m->stress, &m->lattice, &m->triangles, node, seen_of(s), stress);
+    node_stress(s->model, s->forces.elements, node, seen_of(s), stress);
 }
 
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)

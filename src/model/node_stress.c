@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Beside what is broken the stress of a node is the mean of its triangles that are whole,
+ *     S = (1/V) sum over these of (1/3) (sum over springs of w r x f + sum of r x f of its couplings + A dW/dA I),
+ * with V a third of their volumes, w the triangle's share of each spring, and f the force of the whole spring: w of it
+ * is what the triangle carries. To count broken triangles with a stress of 0 would make the node look unloaded where it
+ * carries most, at the tip of a crack. Where all elements are whole model/stress.c has the same sum by rows. */
+#include "model/node_stress.h"
+
+#include "model/spring_share.h"
+
+/* Adds w r x f of the springs that a triangle holds. */
+static void add_triangle(const dem_model *m, const element_state *s, dem_index triangle, const double *x, double sum[3])
+{
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
+        double virial[3];
+        springs_virial(&m->lattice, s->spring[p], x, virial);
+        for (int k = 0; k < 3; k++) sum[k] += s->share[p] * virial[k];
+    }
+}
+
+/* Half of r x f of the springs at the node that no triangle holds, as three halves of what is divided by 3. */
+static void add_loose(const dem_model *m, const element_state *s, dem_index i, const double *x, double sum[3])
+{
+    const springs *all = &m->springs;
+    for (dem_index p = all->row[i]; p < all->row[i + 1]; p++) {
+        const dem_index k = all->spring[p];
+        double virial[3];
+        if (s->held[k] || s->integrity[k] == 0.0) continue;
+        springs_virial(&m->lattice, k, x, virial);
+        for (int c = 0; c < 3; c++) sum[c] += 1.5 * virial[c];
+    }
+}
+
+static void add_couplings(const couplings *c, const element_state *s, dem_index i, const double *x, double sum[3])
+{
+    for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
+        double virial[3];
+        if (couplings_broken(c, s->triangle, c->slot[p] / 3)) continue;
+        couplings_virial(c, p, x, virial);
+        for (int k = 0; k < 3; k++) sum[k] += virial[k];
+    }
+}
+
+static void add_areas(const triangles *t, const element_state *s, dem_index i, const double *x, double sum[3])
+{
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const double spread = triangles_broken(t, s->triangle, p) ? 0.0 : triangles_virial(t, i, p, x);
+        sum[0] += spread;
+        sum[1] += spread;
+    }
+}
+
+/* A third of everything falls to this corner; the thirds of r x f and of V cancel. */
+static void of_whole_triangles(const dem_model *m, const element_state *s, dem_index i, const double *x,
+                               double stress[3])
+{
+    double volume = 0.0;
+    stress[0] = stress[1] = stress[2] = 0.0;
+    for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++) {
+        if (s->triangle[s->at[p]]) continue;
+        add_triangle(m, s, s->at[p], x, stress);
+        volume += spring_share_volume(&m->lattice, s->at[p]);
+    }
+    if (volume == 0.0) return;
+    add_loose(m, s, i, x, stress);
+    add_couplings(&m->couplings, s, i, x, stress);
+    add_areas(&m->triangles, s, i, x, stress);
+    for (int k = 0; k < 3; k++) stress[k] /= volume;
+}
+
+void node_stress(const dem_model *model, const element_state *state, dem_index i, const double *x, double stress[3])
+{
+    if (element_state_at(state, i) != NULL)
+        of_whole_triangles(model, state, i, x, stress);
+    else
+        stress_of_node(&model->stress, &model->lattice, &model->triangles, i, x, stress);
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Stress of nodes of a body in which something may be broken: that of the triangles that are whole. */
+#ifndef DEM_MODEL_NODE_STRESS_H
+#define DEM_MODEL_NODE_STRESS_H
+
+#include "model/element_state.h"
+#include "model/model.h"
+
+/** Stress of node i at positions x [n][2], Pa: xx, yy, xy; 0 where no triangle is whole.
+ *  \param state  NULL: all elements are whole */
+void node_stress(const dem_model *model, const element_state *state, dem_index i, const double *x, double stress[3]);
+
+#endif
