@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "elastic/triangles.h"
 #include "lattice/mesh_edges.h"
+#include "model/whole_triangles.h"
 
 /* In units of a triangle's area: a node that only touches an edge is not inside. */
 static const double touching = 1e-9;
@@ -147,13 +148,30 @@ static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double 
                 if (is_inside(corner, o->nodes[p], x)) note(o, o->nodes[p], k, t, x);
 }
 
+/* A node that has lost all of its triangles is on no boundary any more. */
+dem_status overlap_break(overlap *o, const dem_lattice *lattice, const unsigned char *broken)
+{
+    dem_lattice whole;
+    overlap next;
+    TRY(whole_triangles_of(&whole, lattice, broken));
+    const dem_status status = overlap_create(&next, &whole);
+    whole_triangles_free(&whole);
+    if (status != DEM_OK) return status;
+    next.found = o->found;
+    next.broken = broken;
+    overlap_destroy(o);
+    *o = next;
+    return DEM_OK;
+}
+
 /* The grid is filled anew, since nodes move; `most` keeps the largest number found so far. */
 void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x)
 {
     o->found.now = 0;
     if (o->n == 0) return;
     fill_cells(o, x);
-    for (dem_index k = 0; k < lattice->n_triangles; k++) look_in(o, lattice, k, t, x);
+    for (dem_index k = 0; k < lattice->n_triangles; k++)
+        if (o->broken == NULL || !o->broken[k]) look_in(o, lattice, k, t, x);
     o->found.now = reduce_count(o->found.now);
     if (o->found.now > o->found.most) o->found.most = o->found.now;
 }

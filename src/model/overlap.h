@@ -7,7 +7,8 @@
 #include <dem/dem.h>
 
 typedef struct overlap {
-    dem_index n, *nodes; /* [n] on the boundary of the triangulation */
+    dem_index n, *nodes;         /* [n] on the boundary of the triangulation */
+    const unsigned char *broken; /* [n_triangles] 1: broken; NULL: all are whole */
     dem_index n_cells, columns, rows;
     int32_t *first, *next; /* [n_cells], [n] nodes in the cells of a grid over them all, as lists; -1: none */
     double left, low, cells_per_length; /* m, where the grid begins; 1/m */
@@ -17,6 +18,11 @@ typedef struct overlap {
 /** Free with overlap_destroy. */
 dem_status overlap_create(overlap *out, const dem_lattice *lattice);
 void overlap_destroy(overlap *o);
+
+/** Goes on with the triangles that are whole, and with their boundary; what has been found so far stays.
+ *  \param broken  [n_triangles] 1: broken; borrowed
+ *  \return DEM_ERROR_MEMORY, with all as it was */
+dem_status overlap_break(overlap *o, const dem_lattice *lattice, const unsigned char *broken);
 
 /** Searches at positions x [n_nodes][2] at t. Costs a few comparisons for each triangle. */
 void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x);

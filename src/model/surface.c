@@ -4,11 +4,13 @@
  * triangle has (lattice/mesh_edges.c). Which obstacle feature touches which edge is the business of contact/. */
 #include "model/surface.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include "base/status.h"
 #include "base/vec2.h"
 #include "lattice/mesh_edges.h"
+#include "model/whole_triangles.h"
 
 /* A fixed node takes no part, as no contact could move it, nor does one of a rigid body: these meet obstacles by the
  * contact of surfaces (src/surface_contact). */
@@ -180,6 +182,59 @@ dem_status surface_compile(surface *out, const dem_lattice *lattice, surface_ext
         *out = s;
     else
         surface_free(&s);
+    return status;
+}
+
+/* ---- where triangles are broken ---- */
+
+/* What says whether a node has come to the boundary: on it before and now, and in a triangle before and now. */
+enum { WAS_BOUNDARY = 1, IS_BOUNDARY = 2, HAD_TRIANGLES = 4, HAS_TRIANGLES = 8 };
+
+static dem_status mark_nodes(unsigned char *marks, const dem_lattice *l, unsigned char boundary, unsigned char inside)
+{
+    unsigned char *flags = malloc((size_t)l->n_nodes);
+    CHECK(flags != NULL, DEM_ERROR_MEMORY, "out of memory for the boundary of %lld nodes", (long long)l->n_nodes);
+    const dem_status status = mesh_edges_contact_flags(flags, l);
+    for (dem_index i = 0; i < l->n_nodes && status == DEM_OK; i++) marks[i] |= flags[i] ? boundary : 0;
+    for (dem_index k = 0; k < 3 * l->n_triangles && status == DEM_OK; k++) marks[l->triangles[k]] |= inside;
+    free(flags);
+    return status;
+}
+
+/* A node that has lost all of its triangles has come to the boundary, too. */
+static bool is_exposed(unsigned char marks)
+{
+    const bool was_inside = (marks & HAD_TRIANGLES) && !(marks & WAS_BOUNDARY);
+    return was_inside && ((marks & IS_BOUNDARY) || !(marks & HAS_TRIANGLES));
+}
+
+/* Flags of the nodes as they are now. */
+static dem_status fill_flags(unsigned char *flags, const dem_lattice *lattice, const dem_lattice *whole,
+                             const unsigned char *excluded)
+{
+    unsigned char *marks = calloc((size_t)lattice->n_nodes, 1);
+    CHECK(marks != NULL, DEM_ERROR_MEMORY, "out of memory for the boundary of %lld nodes", (long long)lattice->n_nodes);
+    dem_status status = mark_nodes(marks, lattice, WAS_BOUNDARY, HAD_TRIANGLES);
+    if (status == DEM_OK) status = mark_nodes(marks, whole, IS_BOUNDARY, HAS_TRIANGLES);
+    for (dem_index i = 0; i < lattice->n_nodes && status == DEM_OK; i++) {
+        const bool may_touch = is_exposed(marks[i]) && (excluded == NULL || !excluded[i]);
+        flags[i] = may_touch ? lattice->flags[i] | DEM_NODE_CONTACT : lattice->flags[i];
+    }
+    free(marks);
+    return status;
+}
+
+dem_status surface_compile_broken(surface *out, const dem_lattice *lattice, const unsigned char *broken,
+                                  const unsigned char *excluded)
+{
+    dem_lattice whole;
+    TRY(whole_triangles_of(&whole, lattice, broken));
+    whole.flags = malloc((size_t)lattice->n_nodes);
+    dem_status status = whole.flags != NULL ? fill_flags(whole.flags, lattice, &whole, excluded)
+                                            : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    if (status == DEM_OK) status = surface_compile(out, &whole, SURFACE_TOUCHING);
+    free(whole.flags);
+    whole_triangles_free(&whole);
     return status;
 }
 

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "model/whole_triangles.h"
 
 static const double usual_thickness = 0.2;    /* of the mean edge of a body */
 static const double largest_thickness = 0.45; /* of its shortest edge, if nothing is asked for */
@@ -93,21 +94,13 @@ static void free_outline(contact_surface *c)
     free(c->plate);
 }
 
-/* Compiles the boundary of the triangles that are whole. They are listed for that as all that the lattice has. */
+/* Compiles the boundary of the triangles that are whole. */
 static dem_status compile_boundary(surface *out, const dem_lattice *lattice, const unsigned char *broken)
 {
-    dem_lattice whole = *lattice;
-    whole.n_triangles = 0;
-    whole.triangles = malloc((3 * (size_t)lattice->n_triangles + 1) * sizeof *whole.triangles);
-    CHECK(whole.triangles != NULL, DEM_ERROR_MEMORY, "out of memory for a surface of %lld triangles",
-          (long long)lattice->n_triangles);
-    for (dem_index k = 0; k < lattice->n_triangles; k++) {
-        if (broken != NULL && broken[k]) continue;
-        memcpy(whole.triangles + 3 * whole.n_triangles, lattice->triangles + 3 * k, 3 * sizeof *whole.triangles);
-        whole.n_triangles++;
-    }
+    dem_lattice whole;
+    TRY(whole_triangles_of(&whole, lattice, broken));
     const dem_status status = surface_compile(out, &whole, SURFACE_WHOLE);
-    free(whole.triangles);
+    whole_triangles_free(&whole);
     return status;
 }
 

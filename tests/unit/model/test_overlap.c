@@ -6,7 +6,9 @@
 
 #include "elastic/triangles.h"
 #include "harness/cleanup_gsl.h"
+#include "lattice/mesh_edges.h"
 #include "model/overlap.h"
+#include "model/whole_triangles.h"
 #include "verification/support.h"
 
 /* Two discs of unit spacing, beside each other. */
@@ -34,30 +36,55 @@ static dem_index count_pairs(const dem_lattice *l, const unsigned char *flags, c
     return n;
 }
 
-TEST(every_pair_is_counted)
+/* Looks at 40 random places of the discs, one of them anywhere near the other.
+ * \param whole  the triangles that count, with their flags */
+static void check_counts(overlap *o, const dem_lattice *l, const dem_lattice *whole)
 {
-    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
-    CLEANUP(overlap_destroy) overlap o;
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    make_discs(&l);
     assert_non_null(rng);
-    assert_ok(dem_lattice_exclude(&l, NULL, 0)); /* fills the flags */
-    assert_ok(overlap_create(&o, &l));
-    CLEANUP(free_memory) double *x = malloc(2 * (size_t)l.n_nodes * sizeof *x);
+    CLEANUP(free_memory) double *x = malloc(2 * (size_t)l->n_nodes * sizeof *x);
     assert_non_null(x);
     dem_index most = 0;
     for (int k = 0; k < 40; k++) {
         const double shift[2] = {8.0 * gsl_rng_uniform(rng) - 4.0, 4.0 * gsl_rng_uniform(rng) - 2.0};
-        for (dem_index i = 0; i < l.n_nodes; i++)
+        for (dem_index i = 0; i < l->n_nodes; i++)
             for (int c = 0; c < 2; c++)
-                x[2 * i + c] = l.x[2 * i + c] + (i < l.n_nodes / 2 ? shift[c] : 0.0) + 0.4 * gsl_rng_uniform(rng);
-        const dem_index n = count_pairs(&l, l.flags, x);
-        overlap_look(&o, &l, (double)k, x);
-        assert_int_equal(o.found.now, n);
+                x[2 * i + c] = l->x[2 * i + c] + (i < l->n_nodes / 2 ? shift[c] : 0.0) + 0.4 * gsl_rng_uniform(rng);
+        const dem_index n = count_pairs(whole, whole->flags, x);
+        overlap_look(o, l, (double)k, x);
+        assert_int_equal(o->found.now, n);
         most = n > most ? n : most;
-        assert_int_equal(o.found.most, most);
+        assert_int_equal(o->found.most, most);
     }
     assert_true(most > 10);
+}
+
+TEST(every_pair_is_counted)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    CLEANUP(overlap_destroy) overlap o;
+    make_discs(&l);
+    assert_ok(dem_lattice_exclude(&l, NULL, 0)); /* fills the flags */
+    assert_ok(overlap_create(&o, &l));
+    check_counts(&o, &l, &l);
+}
+
+/* A third of the triangles: nothing is inside them, and the boundary runs round what is left. */
+TEST(broken_triangles_do_not_count)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    CLEANUP(overlap_destroy) overlap o;
+    CLEANUP(whole_triangles_free) dem_lattice whole;
+    make_discs(&l);
+    assert_ok(dem_lattice_exclude(&l, NULL, 0));
+    assert_ok(overlap_create(&o, &l));
+    CLEANUP(free_memory) unsigned char *broken = calloc((size_t)l.n_triangles, 1);
+    assert_non_null(broken);
+    for (dem_index k = 0; k < l.n_triangles; k++) broken[k] = k * k % 7 < 3 && k % 2 == 0;
+    assert_ok(whole_triangles_of(&whole, &l, broken));
+    assert_ok(overlap_break(&o, &l, broken));
+    assert_ok(mesh_edges_contact_flags(l.flags, &whole));
+    check_counts(&o, &l, &whole);
 }
 
 TEST(the_first_is_kept)

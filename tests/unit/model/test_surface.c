@@ -2,6 +2,7 @@
 /* surface.c: boundary edges that may touch, which way they run, in which order, and where they are listed. */
 #include "verification/support.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/vec2.h"
@@ -260,4 +261,123 @@ TEST(the_whole_surface_has_all_boundary_edges)
     b.flags[3] = 0;
     assert_ok(surface_compile(&s, &b.lattice, SURFACE_WHOLE));
     check_ends(&s, 4, ends);
+}
+
+/* ---- where triangles are broken ---- */
+
+/* Somewhere in the plate. */
+static dem_index inner_node(const dem_lattice *l)
+{
+    return l->n_nodes / 2 + 5;
+}
+
+/* Many triangles here and there, and all those at one node inside. */
+static bool is_broken(const dem_lattice *l, dem_index triangle)
+{
+    const dem_index *corner = &l->triangles[3 * triangle], inner = inner_node(l);
+    return triangle * triangle % 11 < 4 || corner[0] == inner || corner[1] == inner || corner[2] == inner;
+}
+
+/* A plate and the same one cut, with what may touch: their boundaries. Nodes keep their order. */
+typedef struct broken_plate {
+    dem_lattice plate, cut;
+    unsigned char *broken;
+    dem_index *number; /* [n_nodes] in the cut one; -1: it is not there */
+} broken_plate;
+
+static void open_plate(broken_plate *b)
+{
+    *b = (broken_plate){.plate = dem_lattice_empty(), .cut = dem_lattice_empty()};
+    assert_ok(dem_lattice_rectangle(&b->plate, 10.0, 8.0, 1.0));
+    assert_ok(dem_lattice_rectangle(&b->cut, 10.0, 8.0, 1.0));
+    b->broken = calloc((size_t)b->plate.n_triangles, 1);
+    b->number = calloc((size_t)b->plate.n_nodes, sizeof *b->number);
+    CLEANUP(free_memory) bool *keep = calloc((size_t)b->plate.n_triangles, sizeof *keep);
+    assert_true(b->broken && b->number && keep);
+    for (dem_index k = 0; k < b->plate.n_triangles; k++) keep[k] = !(b->broken[k] = is_broken(&b->plate, k));
+    assert_ok(dem_lattice_trim(&b->cut, keep));
+    for (dem_index i = 0, at = 0; i < b->plate.n_nodes; i++) {
+        const bool is_there = at < b->cut.n_nodes && memcmp(b->plate.x + 2 * i, b->cut.x + 2 * at, 16) == 0;
+        b->number[i] = is_there ? at++ : -1;
+    }
+    assert_ok(dem_lattice_exclude(&b->plate, NULL, 0)); /* fills the flags */
+    assert_ok(dem_lattice_exclude(&b->cut, NULL, 0));
+}
+
+static void close_plate(broken_plate *b)
+{
+    dem_lattice_free(&b->plate);
+    dem_lattice_free(&b->cut);
+    free(b->broken);
+    free(b->number);
+}
+
+static bool has_node(const surface *s, dem_index i)
+{
+    for (dem_index k = 0; k < s->n_nodes; k++)
+        if (s->nodes[k] == i) return true;
+    return false;
+}
+
+TEST(what_breaks_open_may_touch_like_what_was_cut_before)
+{
+    CLEANUP(close_plate) broken_plate b;
+    CLEANUP(surface_free) surface s, of_cut;
+    dem_index n_lone = 0, n_new = 0;
+    open_plate(&b);
+    assert_ok(surface_compile_broken(&s, &b.plate, b.broken, NULL));
+    assert_ok(surface_compile(&of_cut, &b.cut, SURFACE_TOUCHING));
+    assert_int_equal(s.n_edges, of_cut.n_edges);
+    for (dem_index k = 0; k < 2 * s.n_edges; k++) assert_int_equal(b.number[s.ends[k]], of_cut.ends[k]);
+    for (dem_index k = 0; k < s.n_edges; k++) assert_int_equal(s.next[k], of_cut.next[k]);
+    for (dem_index i = 0; i < b.plate.n_nodes; i++) {
+        /* A node that has lost all of its triangles is a point that may touch. */
+        assert_int_equal(has_node(&s, i), b.number[i] < 0 || has_node(&of_cut, b.number[i]));
+        n_lone += b.number[i] < 0;
+        n_new += has_node(&s, i) && !(b.plate.flags[i] & DEM_NODE_CONTACT);
+    }
+    assert_true(n_lone > 0 && n_new > 20);
+    assert_false(b.plate.flags[inner_node(&b.plate)] & DEM_NODE_CONTACT);
+    assert_int_equal(b.number[inner_node(&b.plate)], -1);
+}
+
+/* Fixed nodes, those that are excluded by the caller, and those on the old boundary that were without a flag. */
+TEST(some_nodes_never_touch)
+{
+    CLEANUP(close_plate) broken_plate b;
+    CLEANUP(surface_free) surface s, all;
+    dem_index kept_out[3] = {-1, -1, -1};
+    open_plate(&b);
+    assert_ok(surface_compile_broken(&all, &b.plate, b.broken, NULL));
+    CLEANUP(free_memory) unsigned char *excluded = calloc((size_t)b.plate.n_nodes, 1);
+    assert_non_null(excluded);
+    for (dem_index k = 0; k < all.n_nodes; k++) {
+        const dem_index i = all.nodes[k];
+        if (b.plate.flags[i] & DEM_NODE_CONTACT)
+            kept_out[0] = i;
+        else
+            kept_out[k % 2 + 1] = i;
+    }
+    assert_true(kept_out[0] >= 0 && kept_out[1] >= 0 && kept_out[2] >= 0);
+    b.plate.flags[kept_out[0]] = 0;
+    b.plate.flags[kept_out[1]] = DEM_NODE_FIXED;
+    excluded[kept_out[2]] = 1;
+    assert_ok(surface_compile_broken(&s, &b.plate, b.broken, excluded));
+    for (int k = 0; k < 3; k++) assert_false(has_node(&s, kept_out[k]));
+    assert_int_equal(s.n_nodes, all.n_nodes - 3);
+}
+
+/* Nothing is broken: the surface is that of the model. */
+TEST(a_whole_body_keeps_its_surface)
+{
+    CLEANUP(close_plate) broken_plate b;
+    CLEANUP(surface_free) surface s, before;
+    open_plate(&b);
+    memset(b.broken, 0, (size_t)b.plate.n_triangles);
+    assert_ok(surface_compile_broken(&s, &b.plate, b.broken, NULL));
+    assert_ok(surface_compile(&before, &b.plate, SURFACE_TOUCHING));
+    assert_int_equal(s.n_nodes, before.n_nodes);
+    assert_int_equal(s.n_edges, before.n_edges);
+    assert_memory_equal(s.nodes, before.nodes, (size_t)s.n_nodes * sizeof *s.nodes);
+    assert_memory_equal(s.ends, before.ends, 2 * (size_t)s.n_edges * sizeof *s.ends);
 }
