@@ -158,7 +158,7 @@ typedef struct dem_energy {
     double impact;   /**< taken by impacts so far, restitution and friction, >= 0                (9), (10) */
     double friction; /**< taken by lasting contacts and bodies that slide so far, >= 0; for bodies it may fall a bit */
     double damping;  /**< taken by the damping of springs and masses so far, >= 0 */
-    double fracture; /**< taken by breaking so far: 0, as nothing breaks yet */
+    double fracture; /**< taken by breaking so far: what the broken elements had */
     double projection; /**< put in by returning nodes from the penetration tolerance to the surface so far */
     double boundary;   /**< put in from outside so far: work of what prescribes motions, and of forces */
     double obstacle;   /**< put in by moving obstacles so far, by impacts and in lasting contacts */
@@ -367,6 +367,18 @@ DEM_API dem_status dem_simulation_advance(dem_simulation *simulation, double t_e
  *          changed */
 DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const double *x, const double *v);
 
+/** Breaks elements, for good, where the last advance has ended: not from an observer. A triangle takes along what it
+ *  gave to its springs, so that what is left is the body without it; a spring is broken when all of its triangles are.
+ *  Masses stay. Nodes and edges that come to the surface touch obstacles from then on, and bodies with the option
+ *  `bodies`. The energy of what breaks counts as taken by `fracture`. Otherwise the run goes on as after
+ *  dem_simulation_set_motion(). What is broken already stays so.
+ *  \param triangle  [n_triangles] numbers in the lattice; of cells both triangles should break
+ *  \param spring    [n_springs] numbers of springs that no triangle holds
+ *  \return DEM_ERROR_ARGUMENT for a number that is out of range, an element of a rigid body, or a spring that triangles
+ *          hold, DEM_ERROR_MEMORY; then nothing has changed */
+DEM_API dem_status dem_simulation_break(dem_simulation *simulation, const dem_index *triangle, dem_index n_triangles,
+                                        const dem_index *spring, dem_index n_springs);
+
 /** The last checkpoint, valid and unchanged until the next advance; NULL before the first, and after
  *  dem_simulation_set_motion(). */
 DEM_API const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *simulation);
@@ -395,6 +407,12 @@ DEM_API dem_status dem_simulation_forces(const dem_simulation *simulation, doubl
 
 /** The same of one spring.  \param spring  0 <= spring < n_springs */
 DEM_API dem_status dem_simulation_force_at(const dem_simulation *simulation, dem_index spring, double *out);
+
+/** What is broken; either may be NULL.
+ *  \param[out] triangle  [n_triangles] 1: broken, else 0
+ *  \param[out] spring    [n_springs] 1: none of the triangles that held it is whole, else 0 */
+DEM_API dem_status dem_simulation_broken(const dem_simulation *simulation, unsigned char *triangle,
+                                         unsigned char *spring);
 
 /** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
  *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither

@@ -720,6 +720,15 @@ module dem_c
       real(c_double), intent(in), optional :: x(2, *), v(2, *)
     end function
 
+    integer(dem_status) function dem_simulation_break(simulation, triangle, n_triangles, spring, n_springs) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), intent(in), optional :: triangle(*)
+      integer(dem_index), value :: n_triangles
+      integer(dem_index), intent(in), optional :: spring(*)
+      integer(dem_index), value :: n_springs
+    end function
+
     type(c_ptr) function dem_simulation_checkpoint(simulation) bind(c)
       import
       type(c_ptr), value :: simulation
@@ -767,6 +776,12 @@ module dem_c
       type(c_ptr), value :: simulation
       integer(dem_index), value :: spring
       real(c_double), intent(out) :: out
+    end function
+
+    integer(dem_status) function dem_simulation_broken(simulation, triangle, spring) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(c_signed_char), intent(out), optional :: triangle(*), spring(*)
     end function
 
     integer(dem_status) function dem_simulation_stress(simulation, stress) bind(c)

@@ -3,7 +3,7 @@
  * an element that is not whole, and the list of these nodes. The model stays as it is, so several simulations of one
  * model may have different states. The flags of nodes let the force on an intact node skip the state of its elements,
  * and the list tells the sweep over all nodes which of them to evaluate once more, one by one (accelerate_rest() in
- * forces/kernel.c). When an element breaks is decided elsewhere: nothing does so yet.
+ * forces/kernel.c). When an element breaks is decided elsewhere.
  *
  * A triangle that breaks takes what it gave to its springs. What is left is what the lattice would have had without the
  * triangle from the start, so that a crack that opens in a run is as stiff as one that is cut before. */

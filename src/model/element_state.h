@@ -2,7 +2,7 @@
 /* Which triangles and springs have broken in one simulation. A triangle is whole or broken. A spring keeps the shares
  * of those of its triangles that are whole; one that no triangle holds is whole or broken, too. The model, which has
  * their numbers, never changes and may belong to many simulations. A simulation without such a state has whole elements
- * only. Nothing breaks them yet: a law of fracture will, at events, and checkpoints will then have the flags. */
+ * only. What breaks them is src/simulation/breaking.c. */
 #ifndef DEM_MODEL_ELEMENT_STATE_H
 #define DEM_MODEL_ELEMENT_STATE_H
 

@@ -116,8 +116,7 @@ static void fill_force(const frames *f, const view *v)
 
 static void fill_broken(const frames *f, const view *v)
 {
-    (void)v;
-    memset(f->scratch, 0, (size_t)f->n_springs); /* springs do not break yet */
+    (void)dem_simulation_broken(v->simulation, NULL, (unsigned char *)f->scratch);
 }
 
 /* All arrays that change from frame to frame. `field` is the option that asks for one. */

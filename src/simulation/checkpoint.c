@@ -6,6 +6,7 @@
  * sources add their own (src/contact/contact_entry.c). Files, and their checksums, are written and read in
  * src/base/checkpoint_entries.c; nothing that comes from one is trusted here. */
 #include "simulation/body_contact.h"
+#include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
 
 #include <math.h>
@@ -108,6 +109,7 @@ dem_status checkpoint_take(dem_simulation *s, dem_checkpoint *checkpoint)
     TRY(checkpoint_entries_pass(&way, "sizes", &size, sizeof size));
     TRY(put_motion(s->model, checkpoint));
     TRY(pass(s, &way, &n, &counts));
+    TRY(breaking_save(s, checkpoint));
     TRY(body_contact_save(s, checkpoint));
     TRY(source_list_save(&s->sources, checkpoint));
     return checkpoint_entries_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
@@ -178,11 +180,12 @@ static dem_status check_numbers(const numbers *n)
     return DEM_OK;
 }
 
-/* Gets everything from a checkpoint, with all checks, the model's sizes first: they decide how long the entries must
- * be. After a failure the simulation is partly that of the checkpoint, and must not go on. */
+/* Gets everything from a checkpoint, with all checks, the model's sizes before what depends on them: they decide how
+ * long the entries must be. After a failure the simulation is partly that of the checkpoint, and must not go on. */
 static dem_status get(dem_simulation *s, const dem_checkpoint *checkpoint, numbers *n, const double **y)
 {
     const checkpoint_entries_way way = {.from = checkpoint};
+    TRY(breaking_restore(s, checkpoint)); /* decides how many candidates there are */
     TRY(check_sizes(s, checkpoint));
     TRY(check_motion(s, checkpoint));
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));

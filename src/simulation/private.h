@@ -52,6 +52,9 @@ struct dem_simulation {
     overlap overlap;
     automaton automaton;
     contact_source contact_events; /* those inside steps */
+    element_state elements;        /* empty as long as all are whole */
+    surface *outline;              /* of those that are whole; NULL: the model's */
+    double fracture;               /* J, taken by breaking */
     local_springs local_springs;
     local_forces local_forces;   /* those of local_springs, as events see them */
     constraints closed_contacts; /* as events see them */

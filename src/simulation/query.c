@@ -152,6 +152,7 @@ static dem_energy energy_of(const dem_simulation *s)
     measure_energy(s);
     dem_energy e = m->energy;
     e.impact = reduce_rounded_sum(ledger->impact);
+    e.fracture = s->fracture;
     e.friction += state_total_of(l, y, STATE_FRICTION);
     e.damping = state_total_of(l, y, STATE_DAMPING);
     e.projection = reduce_rounded_sum(ledger->projection);
@@ -213,6 +214,18 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
     const double own = left > 0.0 ? springs_strain_of(l, spring, x) * (left * l->stiffness[spring]) : 0.0;
     *out = couplings_add_tension(&s->model->couplings, element_state_triangles(s->forces.elements), l->ends[2 * spring],
                                  spring, x, own);
+    return DEM_OK;
+}
+
+dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangle, unsigned char *spring)
+{
+    TRY(check_given("dem_simulation_broken", s, s));
+    const dem_lattice *l = &s->model->lattice;
+    const element_state *elements = s->forces.elements;
+    for (dem_index k = 0; k < l->n_triangles && triangle != NULL; k++)
+        triangle[k] = elements != NULL && elements->triangle[k];
+    for (dem_index k = 0; k < l->n_springs && spring != NULL; k++)
+        spring[k] = springs_is_broken(element_state_springs(elements), k);
     return DEM_OK;
 }
 

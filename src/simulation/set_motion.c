@@ -3,6 +3,8 @@
  * hand ends at the time that the caller has seen; the rest of it is dropped. A motion is checked before anything is
  * replaced, and a refused one leaves all as it was. The energy that the change takes is entered as work from outside,
  * so that the ledger closes. Contacts open, and the next advance begins as a run does: see start() in simulation.c. */
+#include "simulation/set_motion.h"
+
 #include <string.h>
 
 #include "base/reduce.h"
@@ -51,12 +53,12 @@ static dem_status check_rigid(const dem_simulation *s, const double *x, const do
     return DEM_OK;
 }
 
-/* Energy of motion and deformation, and of weight, J: what the new state may have more or less of. */
-static double mechanical_energy(dem_simulation *s, const double *y)
+/* What the new state may have more or less of. */
+double set_motion_energy(dem_simulation *s, const double *y)
 {
     (void)body_contact_follow(s, y); /* cannot fail: positions have been checked */
     const dem_energy e = diagnostics_energy(&s->forces, y, y + state_velocities(&s->layout));
-    return e.motion + e.gravity;
+    return e.motion + e.friction + e.gravity;
 }
 
 /* Puts x and v into a state, and the energy that this takes into its work: the difference of mechanical energies, J. */
@@ -65,10 +67,10 @@ static void put(dem_simulation *s, const double *x, const double *v, double *y)
     const state_layout *l = &s->layout;
     const size_t size = (size_t)state_row(l, l->n_nodes) * sizeof *y;
     double *own_v = y + state_velocities(l), *work = own_v + state_total_index(l, STATE_WORK);
-    const double before = mechanical_energy(s, y);
+    const double before = set_motion_energy(s, y);
     if (x != NULL) memmove(y, x, size); /* x may be the array that is seen */
     if (v != NULL) memmove(own_v, v, size);
-    *work += mechanical_energy(s, y) - before;
+    *work += set_motion_energy(s, y) - before;
 }
 
 /* Refused positions leave the lists of surfaces as they were before. */
@@ -78,23 +80,16 @@ static dem_status check_surfaces(dem_simulation *s, const double *x)
     return status == DEM_OK ? DEM_OK : status_first(status, body_contact_follow(s, s->seen));
 }
 
-/* The state as seen, with contacts and ledger of that time, is asked for first: it takes the queue back to that time.
- * Events of the dropped step up to then have happened, and are counted. */
-dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const double *v)
+/* It takes the queue back to that time. */
+dem_status set_motion_take_seen(dem_simulation *s, dem_state *seen)
 {
-    dem_state seen = {.struct_size = sizeof seen};
-    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
-    CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: an advance is under way");
-    TRY(dem_simulation_state(s, &seen)); /* with contacts and ledger of that time */
-    TRY(reduce_status(check(s, "place", x, seen.x), 0.0));
-    TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
-    TRY(reduce_status(check_rigid(s, x != NULL ? x : seen.x, v != NULL ? v : seen.v), 0.0));
-    if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
-    if (x != NULL) TRY(check_surfaces(s, x));
-    if (run_force_failed(s)) return reduce_status(run_force_failure(s), 0.0);
+    TRY(dem_simulation_state(s, seen));
     if (s->seen != s->frame) memcpy(s->frame, s->seen, (size_t)state_size(&s->layout) * sizeof *s->frame);
-    body_contact_forget(s); /* what it has stored is lost to friction, and not part of the change */
-    put(s, x, v, s->frame);
+    return DEM_OK;
+}
+
+dem_status set_motion_begin_anew(dem_simulation *s)
+{
     s->events += s->in_hand ? reduce_count(s->queue.n_stops) : 0;
     s->t = s->seen_t;
     s->path = (dense_output){0};
@@ -104,4 +99,21 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     s->y = integrator_state(&s->integrator);
     query_at(s, s->t, s->y);
     return DEM_OK;
+}
+
+dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const double *v)
+{
+    dem_state seen = {.struct_size = sizeof seen};
+    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
+    CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: an advance is under way");
+    TRY(set_motion_take_seen(s, &seen));
+    TRY(reduce_status(check(s, "place", x, seen.x), 0.0));
+    TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
+    TRY(reduce_status(check_rigid(s, x != NULL ? x : seen.x, v != NULL ? v : seen.v), 0.0));
+    if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
+    if (x != NULL) TRY(check_surfaces(s, x));
+    if (run_force_failed(s)) return reduce_status(run_force_failure(s), 0.0);
+    body_contact_forget(s); /* what it has stored is lost to friction, and not part of the change */
+    put(s, x, v, s->frame);
+    return set_motion_begin_anew(s);
 }

@@ -13,6 +13,7 @@
 #include "base/status.h"
 #include "contact/contact_constraints.h"
 #include "simulation/body_contact.h"
+#include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
 #include "simulation/options.h"
 #include "simulation/query.h"
@@ -182,6 +183,7 @@ void dem_simulation_destroy(dem_simulation *s)
     contact_source_destroy(&s->contact_events);
     local_springs_destroy(&s->local_springs);
     automaton_destroy(&s->automaton);
+    breaking_destroy(s);
     boundary_conditions_free(&s->boundaries);
     rigid_contact_destroy(s->rigid);
     surface_contact_destroy(s->surfaces);

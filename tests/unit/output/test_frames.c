@@ -39,9 +39,10 @@ static void open_blocks(support_run *run)
     support_open(run, &left, NULL, 0, &options);
 }
 
-/* Two frames, at 0 and 1e-4 s. */
-static reader *shoot_run(void (*open)(support_run *), uint32_t fields, int is_double)
+/* Two frames, at 0 and 1e-4 s; the triangles 0 to n_broken - 1 break after the first. */
+static reader *shoot_breaking(void (*open)(support_run *), uint32_t fields, int is_double, dem_index n_broken)
 {
+    static const dem_index first[3] = {0, 1, 2};
     reader *f = calloc(1, sizeof *f);
     assert_non_null(f);
     dem_trajectory_options options = dem_trajectory_options_default();
@@ -54,9 +55,16 @@ static reader *shoot_run(void (*open)(support_run *), uint32_t fields, int is_do
     for (f->frames.n = 0; f->frames.n < 2; f->frames.n++) {
         (void)support_at(&f->run, 1e-4 * (double)f->frames.n);
         assert_ok(frames_append(&f->frames, &f->stored.file, f->run.simulation));
+        if (f->frames.n == 0 && n_broken > 0)
+            assert_ok(dem_simulation_break(f->run.simulation, first, n_broken, NULL, 0));
     }
     assert_ok(frames_verify(&f->frames, &f->stored.file, 2));
     return f;
+}
+
+static reader *shoot_run(void (*open)(support_run *), uint32_t fields, int is_double)
+{
+    return shoot_breaking(open, fields, is_double, 0);
 }
 
 static reader *shoot(uint32_t fields, int is_double)
@@ -109,6 +117,29 @@ TEST(a_file_has_the_arrays_that_are_wanted_and_their_offsets)
         }
         put_away(f);
     }
+}
+
+/* Of a spring that is broken neither strain nor force is left; the frame before has nothing of it. */
+TEST(springs_that_are_broken_are_marked)
+{
+    reader *f = shoot_breaking(open_block, DEM_FIELD_STRAIN | DEM_FIELD_FORCE, 1, 3);
+    const hsize_t n = (hsize_t)f->frames.n_springs;
+    hsize_t n_broken = 0;
+    unsigned char *expected = calloc(n, 1);
+    assert_non_null(expected);
+    assert_ok(dem_simulation_broken(f->run.simulation, NULL, expected));
+    const double *broken = stored_values(&f->stored, "/VTKHDF/CellData/broken", 2 * n, 1, 0);
+    for (hsize_t k = 0; k < n; k++) {
+        assert_close(broken[k], 0.0, 0.0);
+        assert_close(broken[n + k], (double)expected[k], 0.0);
+        n_broken += expected[k];
+    }
+    assert_true(n_broken > 0 && n_broken < 9);
+    const double *force = stored_values(&f->stored, "/VTKHDF/CellData/force", 2 * n, 1, 0);
+    for (hsize_t k = 0; k < n; k++)
+        if (expected[k]) assert_close(force[n + k], 0.0, 0.0);
+    free(expected);
+    put_away(f);
 }
 
 /* The last frame is the simulation's state. */

@@ -327,6 +327,7 @@ static void look_at_all(const dem_simulation *s)
     (void)dem_simulation_checkpoint(s);
     (void)dem_model_gap(dem_simulation_model(s), now.x);
     (void)ask_options(s);
+    assert_ok(dem_simulation_broken(s, NULL, NULL));
 }
 
 static dem_status only_look(void *context, const dem_simulation *simulation)

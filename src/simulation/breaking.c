@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Elements of a simulation break: forces, the surfaces that touch, and overlaps go on with those that are whole. The
+ * new state of elements and its surface are made beside the ones in force, which they replace when nothing can fail any
+ * more. The energy that the broken elements had is entered as that of fracture, so that the ledger closes: the change
+ * of the mechanical energy with the motion as it is, that of new surfaces near others with it. Masses stay. All that
+ * follows from what is broken is a function of the flags alone, which are all that a checkpoint has. */
+#include "simulation/breaking.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/reduce.h"
+#include "base/status.h"
+#include "simulation/body_contact.h"
+#include "simulation/set_motion.h"
+
+static const char of_triangles[] = "broken triangles", of_springs[] = "broken springs", of_energy[] = "fracture";
+
+/* Triangles that are broken now; NULL: none. */
+static const unsigned char *broken_now(const dem_simulation *s)
+{
+    return element_state_triangles(s->forces.elements);
+}
+
+/* ---- what depends on it ---- */
+
+static dem_status break_surfaces(dem_simulation *s, const unsigned char *broken)
+{
+    return s->surfaces != NULL ? surface_contact_break(s->surfaces, broken) : DEM_OK;
+}
+
+/* After a failure all is as it was, unless there is no memory to go back either. */
+static dem_status follow(dem_simulation *s, const element_state *next, const surface *outline)
+{
+    dem_status status = break_surfaces(s, next->triangle);
+    if (status == DEM_OK) status = overlap_break(&s->overlap, &s->model->lattice, next->triangle);
+    if (status == DEM_OK) status = contact_source_follow_surface(&s->contact_events, outline);
+    if (status == DEM_OK) return DEM_OK;
+    status = status_first(status, break_surfaces(s, broken_now(s)));
+    return status_first(status, overlap_break(&s->overlap, &s->model->lattice, broken_now(s)));
+}
+
+static void free_outline(surface *outline)
+{
+    if (outline != NULL) surface_free(outline);
+    free(outline);
+}
+
+/* The state of elements becomes `next`, which is taken over or freed. */
+static dem_status renew(dem_simulation *s, element_state *next)
+{
+    const dem_lattice *l = &s->model->lattice;
+    surface *outline = calloc(1, sizeof *outline);
+    dem_status status = outline != NULL ? surface_compile_broken(outline, l, next->triangle, s->boundaries.held)
+                                        : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    if (status == DEM_OK) status = follow(s, next, outline);
+    if (status != DEM_OK) {
+        free_outline(outline);
+        element_state_destroy(next);
+        return status;
+    }
+    breaking_destroy(s);
+    s->elements = *next;
+    s->outline = outline;
+    s->forces.elements = &s->elements;
+    return DEM_OK;
+}
+
+void breaking_destroy(dem_simulation *s)
+{
+    element_state_destroy(&s->elements);
+    free_outline(s->outline);
+}
+
+/* ---- by the program ---- */
+
+/* A new state with what is broken already. */
+static dem_status copy_elements(const dem_simulation *s, element_state *out)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const element_state *now = s->forces.elements;
+    TRY(element_state_create(out, l, &s->model->springs));
+    for (dem_index k = 0; now != NULL && k < l->n_triangles; k++)
+        if (now->triangle[k]) element_state_break_triangle(out, k);
+    for (dem_index k = 0; now != NULL && k < l->n_springs; k++)
+        if (!now->held[k] && now->integrity[k] == 0.0) element_state_break_spring(out, k);
+    return DEM_OK;
+}
+
+static dem_status check_triangle(const dem_simulation *s, dem_index triangle)
+{
+    const dem_lattice *l = &s->model->lattice;
+    TRY(status_check_number("triangle", triangle, l->n_triangles));
+    CHECK(!(l->flags[l->triangles[3 * triangle]] & DEM_NODE_RIGID), DEM_ERROR_ARGUMENT,
+          "triangle %lld is of body %d, which is rigid and does not break", (long long)triangle,
+          l->body[l->triangles[3 * triangle]]);
+    return DEM_OK;
+}
+
+static dem_status check_spring(const dem_simulation *s, const element_state *elements, dem_index spring)
+{
+    const dem_lattice *l = &s->model->lattice;
+    TRY(status_check_number("spring", spring, l->n_springs));
+    const dem_index *ends = &l->ends[2 * spring];
+    CHECK(!(l->flags[ends[0]] & DEM_NODE_RIGID), DEM_ERROR_ARGUMENT,
+          "spring %lld is of body %d, which is rigid and does not break", (long long)spring, l->body[ends[0]]);
+    CHECK(!elements->held[spring], DEM_ERROR_ARGUMENT,
+          "spring %lld between nodes %lld and %lld is held by triangles: it breaks with them", (long long)spring,
+          (long long)ends[0], (long long)ends[1]);
+    return DEM_OK;
+}
+
+static dem_status break_all(const dem_simulation *s, element_state *elements, const dem_index *triangle,
+                            dem_index n_triangles, const dem_index *spring, dem_index n_springs)
+{
+    TRY(copy_elements(s, elements));
+    for (dem_index k = 0; k < n_triangles; k++) {
+        TRY(check_triangle(s, triangle[k]));
+        element_state_break_triangle(elements, triangle[k]);
+    }
+    for (dem_index k = 0; k < n_springs; k++) {
+        TRY(check_spring(s, elements, spring[k]));
+        element_state_break_spring(elements, spring[k]);
+    }
+    return DEM_OK;
+}
+
+static dem_status check_list(const char *what, const dem_index *list, dem_index n)
+{
+    CHECK(n == 0 || (n > 0 && list != NULL), DEM_ERROR_ARGUMENT,
+          "dem_simulation_break: %lld %s, of which there is no list", (long long)n, what);
+    return DEM_OK;
+}
+
+/* All that can be refused is refused before anything is replaced. */
+dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, dem_index n_triangles,
+                                const dem_index *spring, dem_index n_springs)
+{
+    dem_state seen = {.struct_size = sizeof seen};
+    element_state next = {0};
+    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_break: simulation is NULL");
+    CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_break: an advance is under way");
+    TRY(check_list("triangles", triangle, n_triangles));
+    TRY(check_list("springs", spring, n_springs));
+    dem_status status = break_all(s, &next, triangle, n_triangles, spring, n_springs);
+    if (status == DEM_OK) status = set_motion_take_seen(s, &seen);
+    status = reduce_status(status, 0.0);
+    if (status != DEM_OK) {
+        element_state_destroy(&next);
+        return status;
+    }
+    const double before = set_motion_energy(s, s->frame);
+    TRY(reduce_status(renew(s, &next), 0.0));
+    s->fracture += before - set_motion_energy(s, s->frame);
+    return set_motion_begin_anew(s);
+}
+
+/* ---- checkpoints ---- */
+
+/* Springs that no triangle holds and that are broken. */
+static void list_springs(const element_state *elements, unsigned char *flags)
+{
+    for (dem_index k = 0; k < elements->lattice->n_springs; k++)
+        flags[k] = !elements->held[k] && elements->integrity[k] == 0.0;
+}
+
+/* A run in which nothing has broken puts nothing, so that its checkpoint is that of a library which breaks nothing. */
+dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    const element_state *elements = s->forces.elements;
+    const dem_lattice *l = &s->model->lattice;
+    if (elements == NULL) return DEM_OK;
+    unsigned char *flags = malloc((size_t)l->n_springs + 1);
+    CHECK(flags != NULL, DEM_ERROR_MEMORY, "out of memory for what is broken in a checkpoint");
+    list_springs(elements, flags);
+    dem_status status = dem_checkpoint_put(checkpoint, of_springs, flags, (size_t)l->n_springs);
+    free(flags);
+    if (status == DEM_OK)
+        status = dem_checkpoint_put(checkpoint, of_triangles, elements->triangle, (size_t)l->n_triangles);
+    return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &s->fracture, sizeof s->fracture) : status;
+}
+
+/* Flags in a checkpoint, which may be damaged. */
+static dem_status find_flags(const dem_checkpoint *checkpoint, const char *name, dem_index n, const unsigned char **out)
+{
+    size_t size = 0;
+    const unsigned char *flags = dem_checkpoint_find(checkpoint, name, &size);
+    CHECK(flags != NULL && size == (size_t)n, DEM_ERROR_IO, "the checkpoint has %zu bytes of %s, %lld are expected",
+          size, name, (long long)n);
+    for (dem_index k = 0; k < n; k++)
+        CHECK(flags[k] <= 1, DEM_ERROR_IO, "number %lld of the %s in the checkpoint is %d", (long long)k, name,
+              flags[k]);
+    *out = flags;
+    return DEM_OK;
+}
+
+/* The checks of what a program breaks hold for files, too. */
+static dem_status break_flagged(const dem_simulation *s, element_state *elements, const unsigned char *triangle,
+                                const unsigned char *spring)
+{
+    const dem_lattice *l = &s->model->lattice;
+    TRY(element_state_create(elements, l, &s->model->springs));
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        if (!triangle[k]) continue;
+        TRY(check_triangle(s, k));
+        element_state_break_triangle(elements, k);
+    }
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        if (!spring[k]) continue;
+        TRY(check_spring(s, elements, k));
+        element_state_break_spring(elements, k);
+    }
+    return DEM_OK;
+}
+
+/* What is the same already is not made anew: the run that takes a checkpoint goes on from it, too. */
+static bool is_the_same(const dem_simulation *s, const element_state *next)
+{
+    const element_state *now = s->forces.elements;
+    const dem_lattice *l = &s->model->lattice;
+    return now != NULL && memcmp(now->triangle, next->triangle, (size_t)l->n_triangles) == 0 &&
+           memcmp(now->integrity, next->integrity, (size_t)l->n_springs * sizeof *now->integrity) == 0;
+}
+
+dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const unsigned char *triangle = NULL, *spring = NULL;
+    element_state next = {0};
+    size_t size;
+    if (dem_checkpoint_find(checkpoint, of_energy, &size) == NULL) return DEM_OK;
+    TRY(find_flags(checkpoint, of_triangles, l->n_triangles, &triangle));
+    TRY(find_flags(checkpoint, of_springs, l->n_springs, &spring));
+    TRY(dem_checkpoint_get(checkpoint, of_energy, &s->fracture, sizeof s->fracture));
+    CHECK(isfinite(s->fracture), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");
+    const dem_status status = break_flagged(s, &next, triangle, spring);
+    if (status == DEM_OK && !is_the_same(s, &next)) return renew(s, &next);
+    element_state_destroy(&next);
+    return status;
+}

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is broken in a run, and all that depends on it. The public function is dem_simulation_break(). */
+#ifndef DEM_SIMULATION_BREAKING_H
+#define DEM_SIMULATION_BREAKING_H
+
+#include "simulation/private.h"
+
+/** Puts what is broken, and the energy that it took, into a checkpoint. */
+dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint);
+
+/** Breaks what is broken in a checkpoint, which may be of a run in which nothing is. Before all that is listed by
+ *  surfaces; lists of surface contact do not fit a state afterwards.
+ *  \return DEM_ERROR_IO if it is impossible, DEM_ERROR_MEMORY */
+dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint);
+
+void breaking_destroy(dem_simulation *s);
+
+#endif

@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* breaking.c: what a program breaks between two advances, what that does to the motion, to the ledger and to surfaces,
+ * and what is refused. */
+#include "verification/support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "ask.h"
+#include "harness/message.h"
+
+static const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                    .youngs_modulus = 1e7,
+                                    .poissons_ratio = 0.2,
+                                    .density = 1050.0,
+                                    .thickness = 1.0,
+                                    .guard = 0.02};
+
+static dem_options free_fall(double rtol)
+{
+    dem_options options = dem_options_default();
+    options.gravity[1] = 0.0;
+    options.rtol = rtol;
+    return options;
+}
+
+/* A list of numbers. */
+typedef struct numbers {
+    dem_index n, list[512];
+} numbers;
+
+/* The triangles that lie across the height y. */
+static numbers across(const dem_lattice *l, double y)
+{
+    numbers out = {0};
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        int above = 0;
+        for (int c = 0; c < 3; c++) above += l->x[2 * l->triangles[3 * t + c] + 1] > y;
+        if (above == 1 || above == 2) out.list[out.n++] = t;
+    }
+    assert_true(out.n > 0);
+    return out;
+}
+
+static void break_triangles(dem_simulation *s, const numbers *which)
+{
+    assert_ok(dem_simulation_break(s, which->list, which->n, NULL, 0));
+}
+
+/* ---- one spring ---- */
+
+/* Two masses of 1 kg at 1.5 times the rest length, 1 m, of a spring of 8 N: E (d - d0)^2/(2 d0) = 1 J. Broken, they
+ * stay where they are. */
+TEST(a_broken_spring_pulls_no_more)
+{
+    const double x[4] = {0.0, 0.0, 1.5, 0.0}, masses[2] = {1.0, 1.0};
+    const dem_index ends[2] = {0, 1}, which[1] = {0};
+    CLEANUP(dem_lattice_free) dem_lattice pair = support_lattice(2, x, masses, 1, ends, 1.0, 8.0, NULL);
+    const dem_options options = free_fall(1e-10);
+    CLEANUP(support_close) support_run run;
+    unsigned char broken;
+    double force;
+    support_open(&run, &pair, NULL, 0, &options);
+    assert_ok(dem_simulation_broken(run.simulation, NULL, &broken));
+    assert_int_equal(broken, 0);
+    assert_ok(dem_simulation_break(run.simulation, NULL, 0, which, 1));
+    assert_ok(dem_simulation_broken(run.simulation, NULL, &broken));
+    assert_int_equal(broken, 1);
+    assert_ok(dem_simulation_force_at(run.simulation, 0, &force));
+    assert_close(force, 0.0, 0.0);
+    const motion s = support_at(&run, 1.0);
+    assert_memory_equal(s.x, x, sizeof x);
+    assert_close(s.energy.fracture, 1.0, 0.0);
+    assert_close(s.energy.elastic, 0.0, 0.0);
+    assert_close(s.energy.ledger, 1.0, 0.0);
+}
+
+/* ---- a body ---- */
+
+/* A block that is stretched and bent swings; the row of triangles in its middle breaks, at a time within a step. */
+enum { MOST_NODES = 256 };
+static const double t_break = 1.3e-3, t_end = 4e-3, middle = 0.026;
+
+static void moments(const dem_lattice *l, const motion *s, double out[3])
+{
+    out[0] = out[1] = out[2] = 0.0;
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const double *x = &s->x[2 * i], *v = &s->v[2 * i];
+        out[0] += l->mass[i] * v[0];
+        out[1] += l->mass[i] * v[1];
+        out[2] += l->mass[i] * (x[0] * v[1] - x[1] * v[0]);
+    }
+}
+
+/* Energy is taken by the break at its instant, and the ledger closes: 1e-12 of some J in 1e3 springs by rounding there,
+ * the integrator's error at rtol 1e-9 before and after. Nothing pulls from outside: momenta stay 0 but for rounding,
+ * with 1e-3 kg m/s of single nodes. */
+TEST(the_ledger_closes_over_a_break)
+{
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
+    support_block(&block);
+    const dem_options options = free_fall(1e-9);
+    const numbers row = across(&block, middle);
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &block, NULL, 0, &options);
+    double momenta[3];
+    motion s = support_at(&run, t_break);
+    const dem_energy before = s.energy;
+    break_triangles(run.simulation, &row);
+    motion_see(run.simulation, &s);
+    assert_close(s.t, t_break, 0.0);
+    assert_true(s.energy.fracture > 1e-3 * before.motion && s.energy.motion < before.motion);
+    assert_close(s.energy.kinetic, before.kinetic, 0.0);
+    assert_close(s.energy.ledger, before.ledger, 1e-12 * before.motion);
+    const double taken = s.energy.fracture;
+    s = support_at(&run, t_end);
+    assert_close(s.energy.fracture, taken, 0.0);
+    assert_close(s.energy.ledger, before.ledger, 1e-7 * before.motion);
+    moments(&block, &s, momenta);
+    for (int k = 0; k < 3; k++) assert_close(momenta[k], 0.0, 1e-12);
+}
+
+/* The same block cut before it was assembled, with the masses of the whole one, from the state of the break on. Both
+ * are run at rtol 1e-11, where errors of positions of 5 mm spacing are 5e-14 m a step. */
+TEST(what_is_left_moves_like_the_body_cut_there)
+{
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+    CLEANUP(dem_lattice_free) dem_lattice cut = dem_lattice_empty();
+    assert_ok(dem_lattice_rectangle(&cut, 0.05, 0.052, 0.005));
+    const numbers row = across(&block, middle);
+    CLEANUP(free_memory) bool *keep = calloc((size_t)cut.n_triangles, sizeof *keep);
+    assert_non_null(keep);
+    for (dem_index k = 0; k < cut.n_triangles; k++) keep[k] = true;
+    for (dem_index k = 0; k < row.n; k++) keep[row.list[k]] = false;
+    assert_ok(dem_lattice_trim(&cut, keep));
+    assert_ok(dem_lattice_assemble(&cut, &rubber));
+    assert_int_equal(cut.n_nodes, block.n_nodes);
+    memcpy(cut.mass, block.mass, (size_t)cut.n_nodes * sizeof *cut.mass);
+    double v[2 * MOST_NODES];
+    assert_true(block.n_nodes <= MOST_NODES);
+    for (dem_index c = 0; c < 2 * block.n_nodes; c++) v[c] = 0.5 * sin(3.0 * (double)(c * c));
+    support_start(&block, NULL, v);
+    const dem_options options = free_fall(1e-11);
+    CLEANUP(support_close) support_run whole, pieces;
+    support_open(&whole, &block, NULL, 0, &options);
+    motion s = support_at(&whole, t_break);
+    support_start(&cut, s.x, s.v);
+    break_triangles(whole.simulation, &row);
+    support_open(&pieces, &cut, NULL, 0, &options);
+    s = support_at(&whole, t_break + 1e-3);
+    const motion expected = support_at(&pieces, 1e-3);
+    for (dem_index c = 0; c < 2 * block.n_nodes; c++) {
+        assert_close(s.x[c], expected.x[c], 1e-10);
+        assert_close(s.v[c], expected.v[c], 1e-6);
+    }
+}
+
+/* Two runs of the same, one of which is cut after the break and goes on from its checkpoint. */
+TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
+{
+    static const double ground[4] = {-1.0, -1e-4, 1.0, -1e-4};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = ground, .restitution = 0.5);
+    for (int bodies = 0; bodies < 2; bodies++) {
+        CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+        assert_ok(dem_lattice_launch(&block, (const double[2]){0.0, -3.0}));
+        const numbers row = across(&block, middle);
+        dem_options options = free_fall(1e-6);
+        options.bodies = bodies ? DEM_BODIES_ALL : DEM_BODIES_NONE;
+        options.checkpoint_steps = 7;
+        CLEANUP(support_close) support_run run;
+        support_open(&run, &block, &floor, 1, &options);
+        CLEANUP(free_model) dem_model *model = support_model(&block, &floor, 1);
+        (void)support_at(&run, t_break);
+        break_triangles(run.simulation, &row);
+        (void)support_at(&run, t_end);
+        const dem_checkpoint *last = dem_simulation_checkpoint(run.simulation);
+        assert_non_null(last);
+        CLEANUP(free_simulation) dem_simulation *resumed = NULL;
+        assert_ok(dem_simulation_resume(&resumed, model, &options, last));
+        assert_ok(dem_simulation_advance(resumed, 2.0 * t_end));
+        motion s = support_at(&run, 2.0 * t_end), same;
+        motion_see(resumed, &same);
+        assert_true(run.n_impacts > 0);
+        assert_memory_equal(s.x, same.x, 2 * (size_t)block.n_nodes * sizeof *s.x);
+        assert_memory_equal(s.v, same.v, 2 * (size_t)block.n_nodes * sizeof *s.v);
+        assert_memory_equal(&s.energy, &same.energy, sizeof s.energy);
+        CLEANUP(free_memory) unsigned char *broken = calloc((size_t)block.n_triangles, 1);
+        assert_non_null(broken);
+        assert_ok(dem_simulation_broken(resumed, broken, NULL));
+        for (dem_index k = 0; k < row.n; k++) broken[row.list[k]] ^= 1;
+        for (dem_index k = 0; k < block.n_triangles; k++) assert_int_equal(broken[k], 0);
+    }
+}
+
+/* ---- surfaces ---- */
+
+/* The lowest row of triangles breaks off a block: its upper nodes, which were inside, come to lie on the floor. */
+TEST(what_was_inside_touches_the_floor)
+{
+    static const double ground[4] = {-1.0, -1e-3, 1.0, -1e-3};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = ground);
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+    const numbers row = across(&block, 0.002);
+    dem_options options = dem_options_default();
+    options.mass_damping = 200.0;
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &block, &floor, 1, &options);
+    break_triangles(run.simulation, &row);
+    const motion s = support_at(&run, 0.3);
+    dem_index n_inside = 0, n_lying = 0;
+    for (dem_index i = 0; i < block.n_nodes; i++) {
+        const bool second_row = block.x[2 * i + 1] > 0.002 && block.x[2 * i + 1] < 0.006;
+        n_inside += second_row && fabs(block.x[2 * i]) < 0.021;
+        n_lying += second_row && fabs(s.x[2 * i + 1] + 1e-3) < 1e-6;
+        assert_true(s.x[2 * i + 1] > -1e-3 - 1e-7);
+    }
+    assert_true(n_inside > 5 && n_lying > n_inside);
+}
+
+/* The pieces of a block that is broken in two run into each other: faces push, nothing crosses, momentum stays. */
+TEST(new_faces_push_each_other)
+{
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+    double v[2 * MOST_NODES] = {0.0};
+    dem_index low = 0;
+    assert_true(block.n_nodes <= MOST_NODES);
+    for (dem_index i = 0; i < block.n_nodes; i++) {
+        v[2 * i + 1] = block.x[2 * i + 1] > middle ? -2.0 : 0.0;
+        if (block.x[2 * i + 1] == 0.0) low = i;
+    }
+    support_start(&block, NULL, v);
+    const numbers row = across(&block, middle);
+    dem_options options = free_fall(1e-8);
+    options.bodies = DEM_BODIES_ALL;
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &block, NULL, 0, &options);
+    break_triangles(run.simulation, &row);
+    motion s = support_at(&run, 0.0);
+    double start[3], end[3], most = 0.0;
+    const double had = s.energy.ledger;
+    moments(&block, &s, start);
+    for (int k = 1; k <= 40; k++) {
+        s = support_at(&run, 1.5e-4 * k);
+        most = fmax(most, s.energy.contact);
+    }
+    moments(&block, &s, end);
+    assert_true(most > 1e-2);
+    assert_int_equal(ask_overlap(run.simulation).most, 0);
+    assert_true(s.x[2 * low + 1] < -1e-4); /* the lower piece has been pushed down */
+    for (int k = 0; k < 3; k++) assert_close(end[k], start[k], 1e-12);
+    assert_close(s.energy.ledger, had, 1e-5 * had);
+}
+
+/* Without contact of bodies the pieces pass through each other, which is counted: by nodes that were inside before, and
+ * not while these are where broken triangles were. */
+TEST(pieces_that_overlap_are_counted)
+{
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+    double v[2 * MOST_NODES] = {0.0};
+    assert_true(block.n_nodes <= MOST_NODES);
+    for (dem_index i = 0; i < block.n_nodes; i++) v[2 * i + 1] = block.x[2 * i + 1] > middle ? -2.0 : 0.0;
+    const numbers row = across(&block, middle);
+    const dem_options options = free_fall(1e-6);
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &block, NULL, 0, &options);
+    assert_ok(dem_simulation_set_motion(run.simulation, NULL, v));
+    break_triangles(run.simulation, &row);
+    (void)support_at(&run, 1.5e-3); /* 3 mm of 4.3 */
+    assert_int_equal(ask_overlap(run.simulation).most, 0);
+    (void)support_at(&run, 3e-3);
+    assert_true(ask_overlap(run.simulation).most > 5);
+}
+
+/* ---- what is refused ---- */
+
+TEST(what_cannot_break_is_refused_and_nothing_changes)
+{
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+    const dem_options options = free_fall(1e-6);
+    const dem_index beyond[2] = {3, block.n_triangles}, negative[1] = {-1}, held[1] = {4}, none[1] = {block.n_springs};
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &block, NULL, 0, &options);
+    dem_simulation *s = run.simulation;
+    assert_int_equal(dem_simulation_break(NULL, beyond, 1, NULL, 0), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_break(s, NULL, 1, NULL, 0), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_break(s, NULL, 0, held, -1), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_break(s, beyond, 2, NULL, 0), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_break(s, negative, 1, NULL, 0), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_break(s, NULL, 0, none, 1), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_simulation_break(s, NULL, 0, held, 1), DEM_ERROR_ARGUMENT);
+    assert_message_parts("spring 4 between nodes");
+    assert_message_parts("is held by triangles");
+    assert_int_equal(dem_simulation_broken(NULL, NULL, NULL), DEM_ERROR_ARGUMENT);
+    CLEANUP(free_memory) unsigned char *broken = calloc((size_t)block.n_triangles, 1);
+    assert_non_null(broken);
+    assert_ok(dem_simulation_broken(s, broken, NULL));
+    for (dem_index k = 0; k < block.n_triangles; k++) assert_int_equal(broken[k], 0);
+    assert_ok(dem_simulation_break(s, NULL, 0, NULL, 0));
+}
