@@ -149,7 +149,7 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
 {
     contact_set *s = &c->set;
     const double last =
-        rooted ? p->end - 4.0 * event_location_resolution(p) : INFINITY; /* a later root is the one already found */
+        rooted ? p->end - 4.0 * dense_output_resolution(p) : INFINITY; /* a later root is the one already found */
     double first = INFINITY;
     automaton_begin_step(c, p, state);
     for (dem_index a = 0; a < automaton_n_active(c); a++)

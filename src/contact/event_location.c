@@ -9,49 +9,8 @@
 
 #include <float.h>
 
+#include "base/bracket.h"
 #include "contact/node_motion.h"
-
-/* s. Time itself has a rounding of eps t, the interpolant one of eps h. */
-double event_location_resolution(const dense_output *p)
-{
-    return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
-}
-
-/* A root between a time when a function is above 0 and one when it is not. Trials are secants in which the value at an
- * end that stays a second time is halved (Illinois): both ends then move, and convergence is faster than linear. A
- * function that jumps may defeat secants: after most_secants of them the middle is taken. */
-typedef struct bracket {
-    double before, after; /* s */
-    double above, below;  /* the values there, of which one may be halved */
-    int n, side;          /* trials; which end moved last */
-} bracket;
-
-/* A secant is kept half a width off both ends, so that trials near a root close the bracket from both sides. */
-static double bracket_trial(const bracket *b, double width)
-{
-    enum { most_secants = 24 };
-    const double secant = b->before + (b->after - b->before) * b->above / (b->above - b->below);
-    if (b->n >= most_secants || !(secant >= b->before && secant <= b->after)) return 0.5 * (b->before + b->after);
-    return fmin(fmax(secant, b->before + 0.5 * width), b->after - 0.5 * width);
-}
-
-/* Narrows the bracket to the side of t on which the root is; `beyond` says that the event has happened at t. */
-static void bracket_close(bracket *b, double t, double value, bool beyond)
-{
-    const int side = beyond ? 1 : -1;
-    const bool again = side == b->side;
-    b->n++;
-    b->side = side;
-    if (beyond) {
-        b->after = t;
-        b->below = value;
-        if (again) b->above *= 0.5;
-    } else {
-        b->before = t;
-        b->above = value;
-        if (again) b->below *= 0.5;
-    }
-}
 
 /* A free candidate at one time, and its root function there. */
 typedef struct sample {
@@ -127,7 +86,7 @@ static double lowest(const contact_scene *scene, const contact_candidate *candid
 static double crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,
                        const sample *clear, const sample *deep)
 {
-    const double width = event_location_resolution(p);
+    const double width = dense_output_resolution(p);
     bracket b = {clear->spot.t, deep->spot.t, clear->guard, deep->guard, 0, 0};
     while (b.after - b.before > width) {
         const double t = bracket_trial(&b, width), guard = guard_at(scene, candidate, p, t);
@@ -291,7 +250,7 @@ double event_location_change(contact_forces *r, const contact_candidate *candida
                              double *state)
 {
     const dem_index k = candidate - r->candidates, group = r->group[k];
-    const double width = event_location_resolution(p);
+    const double width = dense_output_resolution(p);
     const scene_state first = scene_state_at(r->scene, from, state);
     double scale[CANDIDATE_ROOTS];
     solve_at(r, group, p, from, state);

@@ -5,9 +5,6 @@
 
 #include "contact/candidate.h"
 
-/** Width to which the time of an event is located, s: that of ARKODE's root finder. */
-double event_location_resolution(const dense_output *p);
-
 /** First time in the step, after `from`, at which a free candidate is as deep as the penetration tolerance; infinity if
  *  never. The rest of the step is sampled eight times, and between samples every dip is searched for its minimum. */
 double event_location_crossing(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p,

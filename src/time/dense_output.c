@@ -222,3 +222,9 @@ void dense_output_motion(const dense_output *p, dem_index i, motion_polynomial *
     for (int d = 0; d < 2; d++) write_component(p, k + d, out->c[d]);
     if (out->dim > 2) write_component(p, k + 2, out->c[2]);
 }
+
+/* s. Time itself has a rounding of eps t, the interpolant one of eps h. */
+double dense_output_resolution(const dense_output *p)
+{
+    return 100.0 * DBL_EPSILON * (fabs(p->t1) + p->t1 - p->t0);
+}

@@ -20,6 +20,9 @@ typedef struct dense_output {
     const changed_motion *changed; /* how nodes go on from events inside, up to y1; NULL: there were none */
 } dense_output;
 
+/** Width to which the time of an event in the step is located, s: that of ARKODE's root finder. */
+double dense_output_resolution(const dense_output *p);
+
 /** Position and velocity [dim] of a node, or of any other row of the state, before the end of the step. */
 void dense_output_position_inside(const dense_output *p, double t, dem_index i, double *out);
 void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, double *out);

@@ -40,8 +40,8 @@ static double crossing(const scene *s, dem_index k, const dense_output *p)
 TEST(times_are_located_to_a_hundred_units_of_rounding)
 {
     const dense_output p = {.t0 = -3.0, .t1 = -2.5}, q = {.t0 = 6.0, .t1 = 8.0};
-    assert_close(event_location_resolution(&p), 300.0 * DBL_EPSILON, 1e-28);
-    assert_close(event_location_resolution(&q), 1000.0 * DBL_EPSILON, 1e-28);
+    assert_close(dense_output_resolution(&p), 300.0 * DBL_EPSILON, 1e-28);
+    assert_close(dense_output_resolution(&q), 1000.0 * DBL_EPSILON, 1e-28);
 }
 
 /* ---- a free node ---- */
@@ -236,7 +236,7 @@ static double first_due(scene *s, dem_index k, scene_flight *f)
     assert_ok(contact_set_regroup(&s->c.set));
     const double found = event_location_change(r, &s->c.set.list[k], &f->dense, f->dense.t0, f->scratch);
     for (int after = 0; after < 2; after++) { /* due there, and not a little before */
-        dense_output_state(&f->dense, found - (1 - after) * 4.0 * event_location_resolution(&f->dense), y);
+        dense_output_state(&f->dense, found - (1 - after) * 4.0 * dense_output_resolution(&f->dense), y);
         contact_forces_solve(r, r->group[k], (scene_state){0.0, y, v});
         assert_int_equal(candidate_due(&s->c.set.scene, &s->c.set.list[k], r->force[k], (scene_state){0.0, y, v}),
                          after);
