@@ -15,8 +15,8 @@
 #include "model/spring_holders.h"
 
 /* Shares are multiples of 2^-52, so that differences of them are exact and do not depend on the order in which
- * triangles break. By this rounding the shares of a spring may miss 1 by a few units: so little is nothing. */
-static const double unit = 0x1p-52, nothing = 0x1p-48;
+ * triangles break, and a break can be taken back to the bit. */
+static const double unit = 0x1p-52;
 
 /* One more item than needed in each array, so that no allocation is of no bytes. */
 static dem_status allocate(element_state *s)
@@ -66,6 +66,20 @@ static void enter(void *context, dem_index spring, dem_index triangle, double sh
     s->share[p] = nearbyint(share / unit) * unit;
 }
 
+/* By the rounding the shares of a spring may miss 1 by a few units, which the first of its triangles gets: without any
+ * triangle nothing is left of it. */
+static void complete_shares(element_state *s)
+{
+    const dem_index n_slots = s->row[s->lattice->n_triangles];
+    double *missing = s->integrity; /* 1 as yet */
+    for (dem_index p = 0; p < n_slots; p++) missing[s->spring[p]] -= s->share[p];
+    for (dem_index p = 0; p < n_slots; p++) {
+        s->share[p] += missing[s->spring[p]];
+        missing[s->spring[p]] = 0.0;
+    }
+    for (dem_index k = 0; k < s->lattice->n_springs; k++) s->integrity[k] = 1.0;
+}
+
 static dem_status list_springs(element_state *s, spring_holders *holders)
 {
     const dem_index n = s->lattice->n_triangles;
@@ -76,6 +90,7 @@ static dem_status list_springs(element_state *s, spring_holders *holders)
     s->share = malloc(slots * sizeof *s->share);
     CHECK(s->spring && s->share, DEM_ERROR_MEMORY, "out of memory for what %lld triangles hold", (long long)n);
     spring_holders_visit(holders, enter, s);
+    complete_shares(s);
     return DEM_OK;
 }
 
@@ -122,7 +137,7 @@ static void damage(element_state *s, dem_index node)
 /* The ends of a spring need not be corners of the triangle that breaks: the second diagonal of a cell. */
 static void weaken(element_state *s, dem_index spring, double left)
 {
-    s->integrity[spring] = left > nothing ? left : 0.0;
+    s->integrity[spring] = left > 0.0 ? left : 0.0; /* it may have been broken alone before */
     for (int end = 0; end < 2; end++) damage(s, s->lattice->ends[2 * spring + end]);
 }
 
@@ -139,4 +154,29 @@ void element_state_break_triangle(element_state *s, dem_index triangle)
     for (int corner = 0; corner < 3; corner++) damage(s, s->lattice->triangles[3 * triangle + corner]);
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
         weaken(s, s->spring[p], s->integrity[s->spring[p]] - s->share[p]);
+}
+
+void element_state_break(element_state *s, dem_index element)
+{
+    const dem_index spring = element - s->lattice->n_triangles;
+    if (spring >= 0)
+        element_state_break_spring(s, spring);
+    else
+        element_state_break_triangle(s, element);
+}
+
+void element_state_mend(element_state *s, dem_index element)
+{
+    const dem_index spring = element - s->lattice->n_triangles;
+    if (spring >= 0) {
+        s->integrity[spring] = 1.0;
+        return;
+    }
+    s->triangle[element] = 0;
+    for (dem_index p = s->row[element]; p < s->row[element + 1]; p++) s->integrity[s->spring[p]] += s->share[p];
+}
+
+void element_state_forget_nodes(element_state *s, dem_index n)
+{
+    while (s->n_damaged > n) s->node[s->damaged[--s->n_damaged]] = 0;
 }

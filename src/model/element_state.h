@@ -33,6 +33,13 @@ void element_state_destroy(element_state *s);
 void element_state_break_spring(element_state *s, dem_index spring);
 void element_state_break_triangle(element_state *s, dem_index triangle);
 
+/** The same by the element's number: triangles come first, then springs. */
+void element_state_break(element_state *s, dem_index element);
+
+/** Takes the break of an element back, to the bit; then the nodes that have become damaged since there were n. */
+void element_state_mend(element_state *s, dem_index element);
+void element_state_forget_nodes(element_state *s, dem_index n);
+
 /** Integrities of springs, or flags of triangles, by the lattice's numbers; NULL: all are whole. */
 static inline const double *element_state_springs(const element_state *s)
 {

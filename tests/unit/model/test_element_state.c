@@ -81,6 +81,32 @@ TEST(the_order_of_breaking_does_not_matter)
     }
 }
 
+/* Breaks that are taken back, in any order, leave what was before to the bit. */
+TEST(a_break_is_taken_back_to_the_bit)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(close_subject) subject s, other;
+        open_subject(&s, solid_of(kind));
+        open_subject(&other, solid_of(kind));
+        const dem_index n = s.lattice.n_triangles;
+        const size_t n_springs = (size_t)s.lattice.n_springs;
+        for (dem_index t = 0; t < n; t += 3) {
+            element_state_break(&s.state, t);
+            element_state_break(&other.state, t);
+        }
+        const dem_index n_damaged = s.state.n_damaged;
+        for (dem_index t = 0; t < n; t++)
+            if (t % 3 > 0) element_state_break(&s.state, t);
+        for (dem_index t = 0; t < n; t++)
+            if (t % 3 > 0) element_state_mend(&s.state, t);
+        element_state_forget_nodes(&s.state, n_damaged);
+        assert_memory_equal(s.state.integrity, other.state.integrity, n_springs * sizeof(double));
+        assert_memory_equal(s.state.triangle, other.state.triangle, (size_t)n);
+        assert_memory_equal(s.state.node, other.state.node, (size_t)s.lattice.n_nodes);
+        assert_int_equal(s.state.n_damaged, other.state.n_damaged);
+    }
+}
+
 /* With the triangles all of their springs go, of any shape and material. */
 TEST(nothing_is_left_without_triangles)
 {
