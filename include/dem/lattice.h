@@ -36,12 +36,14 @@ typedef struct dem_material {
     double poissons_ratio; /**< nu, in (-1, 1) in plane stress, in (-1, 0.5) in plane strain. Springs alone have 1/3 in
                                 plane stress, 1/4 in plane strain; any other needs the area term */
     dem_plane plane;
-    double density;      /**< rho, kg/m^3, > 0 */
-    double thickness;    /**< h, m, > 0 */
-    double guard;        /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
-    double damping_time; /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
+    double density;          /**< rho, kg/m^3, > 0 */
+    double thickness;        /**< h, m, > 0 */
+    double guard;            /**< strength of the folding guard over E h, >= 0; 0: none; usual: 0.02 */
+    double damping_time;     /**< of the springs (Kelvin-Voigt), s, >= 0: a strain rate e' acts like a strain
                                 damping_time e'; 0: none */
-    dem_springs springs; /**< of triangles; coupled ones go neither with bond_stiffness nor with cells */
+    dem_springs springs;     /**< of triangles; coupled ones go neither with bond_stiffness nor with cells */
+    double strength;         /**< Pa, >= 0: of its triangles; 0: none breaks by its stress */
+    double critical_stretch; /**< >= 0: strain at which its springs break; 0: none does */
 } dem_material;
 
 enum {
@@ -88,6 +90,10 @@ typedef struct dem_lattice {
     double *velocity;     /**< [n_nodes][2]     with which velocity, m/s; NULL: at rest */
     double *coupling;     /**< [n_triangles][3] of any sign, N/m: at each corner the tension of one of its two edges
                                 per change of length of the other. An edge that has one needs a spring; NULL: none */
+    double *strength; /**< [n_triangles]    > 0, Pa: a triangle breaks when the largest principal value of the mean of
+                                its corners' stresses reaches it; INFINITY: never; NULL: none breaks by its stress */
+    double *critical_stretch; /**< [n_springs] > 0: a spring breaks when its strain reaches it, with the triangles that
+                                hold it; INFINITY: never; NULL: none breaks by its strain */
 } dem_lattice;
 
 /** No nodes, all arrays NULL. Every lattice begins like this: functions that make one write no further than the
@@ -146,7 +152,8 @@ DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edg
  *  plane strain is a plate of E/(1 - nu^2) and nu/(1 - nu). A block of equilateral triangles then has exactly E and nu.
  *  With coupled springs the triangles that are not equilateral get other stiffnesses, and couplings, such that any
  *  block of triangles has exactly E and nu.
- *  With a damping time each spring gets the viscosity damping_time times its stiffness.                         (1) */
+ *  With a damping time each spring gets the viscosity damping_time times its stiffness. A strength and a critical
+ *  stretch are written beside every triangle and spring; without them those that the lattice has stay.          (1) */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
 
 /** The same for cells of two triangles each, 2 k and 2 k + 1, that make a convex quadrilateral; both its diagonals are

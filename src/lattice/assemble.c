@@ -60,6 +60,9 @@ static dem_status check_material(const dem_material *m)
     CHECK(isfinite(m->guard) && m->guard >= 0.0, DEM_ERROR_ARGUMENT, "guard must be >= 0: %g", m->guard);
     CHECK(isfinite(m->damping_time) && m->damping_time >= 0.0, DEM_ERROR_ARGUMENT, "damping_time must be >= 0: %g s",
           m->damping_time);
+    CHECK(isfinite(m->strength) && m->strength >= 0.0, DEM_ERROR_ARGUMENT, "strength must be >= 0: %g Pa", m->strength);
+    CHECK(isfinite(m->critical_stretch) && m->critical_stretch >= 0.0, DEM_ERROR_ARGUMENT,
+          "critical_stretch must be >= 0: %g", m->critical_stretch);
     return DEM_OK;
 }
 
@@ -106,6 +109,7 @@ static dem_status check_diagonal(plate p, double diagonal)
 typedef struct share {
     dem_index lower, upper;
     double stiffness, viscosity; /* N, N s */
+    double critical_stretch;
 } share;
 
 /* The work in hand. The caller's lattice is changed only at the end, when nothing can fail any more. */
@@ -135,11 +139,18 @@ static double distance(const dem_lattice *l, dem_index i, dem_index j)
     return vec2_norm(vec2_sub(vec2_at(l->x, j), vec2_at(l->x, i)));
 }
 
+/* A limit that is not given is never reached. */
+static double limit_or_never(double given)
+{
+    return given > 0.0 ? given : (double)INFINITY;
+}
+
 /* The nodes of a share are in ascending order, so that both triangles at an edge name its spring alike. Kelvin-Voigt: a
  * strain rate e' acts like the strain damping_time e'. */
 static share share_of(dem_index i, dem_index j, double stiffness, const dem_material *m)
 {
-    return (share){i < j ? i : j, i < j ? j : i, stiffness, m->damping_time * stiffness};
+    return (share){i < j ? i : j, i < j ? j : i, stiffness, m->damping_time * stiffness,
+                   limit_or_never(m->critical_stretch)};
 }
 
 /* A third of `weight` times the mass of a triangle to each of its corners, kg. */
@@ -296,7 +307,17 @@ static void drop_zeros(double **array, dem_index n)
     *array = NULL;
 }
 
-/* One spring for each run of equal pairs among the sorted shares; their stiffnesses and viscosities are summed up. */
+/* The same of limits of which none is ever reached. */
+static void drop_infinities(double **array, dem_index n)
+{
+    for (dem_index k = 0; k < n; k++)
+        if (isfinite((*array)[k])) return;
+    free(*array);
+    *array = NULL;
+}
+
+/* One spring for each run of equal pairs among the sorted shares; their stiffnesses and viscosities are summed up, and
+ * it breaks when the first of them does. */
 static dem_status fill_springs(draft *d)
 {
     const dem_index m = 3 * d->lattice->n_triangles;
@@ -307,8 +328,9 @@ static dem_status fill_springs(draft *d)
     s->rest_length = lattice_zeros(s->n_springs, sizeof *s->rest_length);
     s->stiffness = lattice_zeros(s->n_springs, sizeof *s->stiffness);
     s->viscosity = lattice_zeros(s->n_springs, sizeof *s->viscosity);
-    CHECK(s->ends && s->rest_length && s->stiffness && s->viscosity, DEM_ERROR_MEMORY, "out of memory for %lld springs",
-          (long long)s->n_springs);
+    s->critical_stretch = lattice_zeros(s->n_springs, sizeof *s->critical_stretch);
+    CHECK(s->ends && s->rest_length && s->stiffness && s->viscosity && s->critical_stretch, DEM_ERROR_MEMORY,
+          "out of memory for %lld springs", (long long)s->n_springs);
     /* k is the spring of the share at p, which begins where the pair of nodes changes. */
     for (dem_index p = 0, k = -1; p < m; p++) {
         const share *here = &d->shares[p];
@@ -316,12 +338,15 @@ static dem_status fill_springs(draft *d)
             s->ends[2 * ++k] = here->lower;
             s->ends[2 * k + 1] = here->upper;
             s->rest_length[k] = distance(d->lattice, here->lower, here->upper);
+            s->critical_stretch[k] = here->critical_stretch;
         }
         s->stiffness[k] += here->stiffness;
         s->viscosity[k] += here->viscosity;
+        s->critical_stretch[k] = fmin(s->critical_stretch[k], here->critical_stretch);
     }
     make_equal(s, d->materials);
     drop_zeros(&s->viscosity, s->n_springs);
+    drop_infinities(&s->critical_stretch, s->n_springs);
     return DEM_OK;
 }
 
@@ -370,7 +395,8 @@ static dem_status fill_triangles(draft *d)
     s->thickness = lattice_zeros(n, sizeof *s->thickness);
     s->modulus = lattice_zeros(n, sizeof *s->modulus);
     s->coupling = lattice_zeros(3 * n, sizeof *s->coupling);
-    CHECK(s->guard && s->area_stiffness && s->thickness && s->modulus && s->coupling, DEM_ERROR_MEMORY,
+    s->strength = lattice_zeros(n, sizeof *s->strength);
+    CHECK(s->guard && s->area_stiffness && s->thickness && s->modulus && s->coupling && s->strength, DEM_ERROR_MEMORY,
           "out of memory for %lld triangles", (long long)n);
     for (dem_index t = 0; t < n; t++) {
         const dem_material *m = material_of(d, t);
@@ -379,6 +405,7 @@ static dem_status fill_triangles(draft *d)
         s->thickness[t] = m->thickness;
         /* Triangles share the stress of a spring as they have given to its stiffness: by (8/3) G h A. */
         s->modulus[t] = spring_modulus(plate_of(m)) / m->thickness;
+        s->strength[t] = limit_or_never(m->strength);
     }
     fill_couplings(d);
     drop_zeros(&s->coupling, 3 * n);
@@ -387,6 +414,9 @@ static dem_status fill_triangles(draft *d)
     drop_zeros(&s->guard, n);
     drop_zeros(&s->area_stiffness, n);
     drop_zeros(&s->modulus, n);
+    drop_infinities(&s->strength, n);
+    CHECK((s->strength == NULL && s->critical_stretch == NULL) || lattice_has_limits(d->lattice), DEM_ERROR_ARGUMENT,
+          "dem_lattice: struct_size is %zu, without room for strengths", d->lattice->struct_size);
     return DEM_OK;
 }
 
@@ -415,6 +445,8 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     swap(&lattice->thickness, &solid->thickness);
     swap(&lattice->modulus, &solid->modulus);
     if (lattice_has_couplings(lattice)) swap(&lattice->coupling, &solid->coupling);
+    if (solid->strength != NULL) swap(&lattice->strength, &solid->strength);
+    if (solid->critical_stretch != NULL) swap(&lattice->critical_stretch, &solid->critical_stretch);
 }
 
 /* Shares first, then springs made of them, then triangles. */

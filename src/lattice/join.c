@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Appends one lattice to another. The arrays of both are copied one behind the other, and numbers of nodes and bodies
  * in the second one are shifted. An array that only one of them has is completed with what its absence stands for:
- * zeros, ones, rest positions, or contact flags of the boundary. Nodes are not merged, so the two become separate
- * bodies. */
+ * zeros, ones, infinities, rest positions, or contact flags of the boundary. Nodes are not merged, so the two become
+ * separate bodies. */
 #include "lattice/lattice.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
@@ -20,14 +21,14 @@ static void *join(const void *a, dem_index n, const void *b, dem_index m, size_t
     return joined;
 }
 
-/* The same of numbers of triangles whose absence stands for 1 (thickness, modulus); NULL if both are missing. */
-static dem_status join_ones(double **out, const double *a, dem_index n, const double *b, dem_index m)
+/* The same of numbers whose absence stands for `absent`; NULL if both are missing. */
+static dem_status join_numbers(double **out, const double *a, dem_index n, const double *b, dem_index m, double absent)
 {
     if (a == NULL && b == NULL) return DEM_OK;
     *out = join(a, n, b, m, sizeof **out);
     CHECK_MEMORY(*out);
-    for (dem_index k = 0; k < n && a == NULL; k++) (*out)[k] = 1.0;
-    for (dem_index k = n; k < n + m && b == NULL; k++) (*out)[k] = 1.0;
+    for (dem_index k = 0; k < n && a == NULL; k++) (*out)[k] = absent;
+    for (dem_index k = n; k < n + m && b == NULL; k++) (*out)[k] = absent;
     return DEM_OK;
 }
 
@@ -96,7 +97,7 @@ static dem_status join_nodes(dem_lattice *out, const dem_lattice *a, const dem_l
     return DEM_OK;
 }
 
-/* Undamped springs beside damped ones have the viscosity 0. */
+/* Undamped springs beside damped ones have the viscosity 0; those without a critical stretch never break. */
 static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_springs, m = b->n_springs;
@@ -110,13 +111,11 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     CHECK_MEMORY(out->stiffness);
     /* The nodes of the second lattice follow those of the first. */
     for (dem_index k = 2 * n; k < 2 * (n + m); k++) out->ends[k] += a->n_nodes;
-    if (a->viscosity == NULL && b->viscosity == NULL) return DEM_OK;
-    out->viscosity = join(a->viscosity, n, b->viscosity, m, sizeof *out->viscosity);
-    CHECK_MEMORY(out->viscosity);
-    return DEM_OK;
+    TRY(join_numbers(&out->viscosity, a->viscosity, n, b->viscosity, m, 0.0));
+    return join_numbers(&out->critical_stretch, a->critical_stretch, n, b->critical_stretch, m, (double)INFINITY);
 }
 
-/* A guard, an area stiffness and couplings that are missing are 0. */
+/* A guard, an area stiffness and couplings that are missing are 0; without a strength triangles never break. */
 static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_triangles, m = b->n_triangles;
@@ -125,16 +124,11 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     out->triangles = join(a->triangles, n, b->triangles, m, 3 * sizeof *out->triangles);
     CHECK_MEMORY(out->triangles);
     for (dem_index k = 3 * n; k < 3 * (n + m); k++) out->triangles[k] += a->n_nodes;
-    TRY(join_ones(&out->thickness, a->thickness, n, b->thickness, m));
-    TRY(join_ones(&out->modulus, a->modulus, n, b->modulus, m));
-    if (a->guard != NULL || b->guard != NULL) {
-        out->guard = join(a->guard, n, b->guard, m, sizeof *out->guard);
-        CHECK_MEMORY(out->guard);
-    }
-    if (a->area_stiffness != NULL || b->area_stiffness != NULL) {
-        out->area_stiffness = join(a->area_stiffness, n, b->area_stiffness, m, sizeof *out->area_stiffness);
-        CHECK_MEMORY(out->area_stiffness);
-    }
+    TRY(join_numbers(&out->thickness, a->thickness, n, b->thickness, m, 1.0));
+    TRY(join_numbers(&out->modulus, a->modulus, n, b->modulus, m, 1.0));
+    TRY(join_numbers(&out->guard, a->guard, n, b->guard, m, 0.0));
+    TRY(join_numbers(&out->area_stiffness, a->area_stiffness, n, b->area_stiffness, m, 0.0));
+    TRY(join_numbers(&out->strength, a->strength, n, b->strength, m, (double)INFINITY));
     if (a->coupling != NULL || b->coupling != NULL) {
         out->coupling = join(a->coupling, n, b->coupling, m, 3 * sizeof *out->coupling);
         CHECK_MEMORY(out->coupling);

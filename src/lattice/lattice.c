@@ -66,6 +66,11 @@ bool lattice_has_couplings(const dem_lattice *lattice)
     return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, coupling);
 }
 
+bool lattice_has_limits(const dem_lattice *lattice)
+{
+    return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, critical_stretch);
+}
+
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs)
 {
     *ours = dem_lattice_empty();
@@ -103,6 +108,8 @@ void dem_lattice_free(dem_lattice *lattice)
     free(own.thickness);
     free(own.modulus);
     free(own.coupling);
+    free(own.strength);
+    free(own.critical_stretch);
     free(own.flags);
     free(own.body);
     free(own.position);

@@ -53,6 +53,7 @@ static void pack_springs(dem_lattice *lattice, const dem_index *number, bool *wh
     pack(lattice->rest_length, sizeof *lattice->rest_length, n, whole);
     pack(lattice->stiffness, sizeof *lattice->stiffness, n, whole);
     pack(lattice->viscosity, sizeof *lattice->viscosity, n, whole);
+    if (lattice_has_limits(lattice)) pack(lattice->critical_stretch, sizeof *lattice->critical_stretch, n, whole);
 }
 
 /* All arrays that have one entry for each triangle. */
@@ -65,6 +66,7 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, bool *
     pack(lattice->thickness, sizeof *lattice->thickness, n, whole);
     pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
     if (lattice_has_couplings(lattice)) pack(lattice->coupling, 3 * sizeof *lattice->coupling, n, whole);
+    if (lattice_has_limits(lattice)) pack(lattice->strength, sizeof *lattice->strength, n, whole);
 }
 
 /* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. A lattice without nodes is

@@ -61,6 +61,8 @@ static dem_status check_springs(const dem_lattice *l)
               "spring %lld: stiffness must be > 0, got %g N", (long long)k, l->stiffness[k]);
         CHECK(l->viscosity == NULL || (isfinite(l->viscosity[k]) && l->viscosity[k] >= 0.0), DEM_ERROR_MODEL,
               "spring %lld: viscosity must be >= 0, got %g N s", (long long)k, l->viscosity[k]);
+        CHECK(l->critical_stretch == NULL || l->critical_stretch[k] > 0.0, DEM_ERROR_MODEL,
+              "spring %lld: critical stretch must be > 0, got %g", (long long)k, l->critical_stretch[k]);
         CHECK(l->body == NULL || l->body[i] == l->body[j], DEM_ERROR_MODEL, "spring %lld joins bodies %d and %d",
               (long long)k, l->body[i], l->body[j]);
     }
@@ -86,6 +88,8 @@ static dem_status check_triangles(const dem_lattice *l)
               "triangle %lld: thickness must be > 0, got %g m", (long long)k, l->thickness[k]);
         CHECK(l->modulus == NULL || (isfinite(l->modulus[k]) && l->modulus[k] > 0.0), DEM_ERROR_MODEL,
               "triangle %lld: modulus must be > 0, got %g Pa", (long long)k, l->modulus[k]);
+        CHECK(l->strength == NULL || l->strength[k] > 0.0, DEM_ERROR_MODEL,
+              "triangle %lld: strength must be > 0, got %g Pa", (long long)k, l->strength[k]);
     }
     return DEM_OK;
 }

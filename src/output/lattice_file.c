@@ -29,12 +29,14 @@ enum array {
     REST_LENGTH,
     STIFFNESS,
     VISCOSITY,
+    CRITICAL_STRETCH,
     CORNERS,
     GUARD,
     AREA_STIFFNESS,
     THICKNESS,
     MODULUS,
     COUPLING,
+    STRENGTH,
     BODY,
     POSITION,
     VELOCITY,
@@ -59,12 +61,14 @@ static const struct dataset {
     [REST_LENGTH] = {"/lattice/rest_length", HDF5_F64, SPRINGS, 1, 1},
     [STIFFNESS] = {"/lattice/stiffness", HDF5_F64, SPRINGS, 1, 1},
     [VISCOSITY] = {"/lattice/viscosity", HDF5_F64, SPRINGS, 1, 0},
+    [CRITICAL_STRETCH] = {"/lattice/critical_stretch", HDF5_F64, SPRINGS, 1, 0},
     [CORNERS] = {"/lattice/triangles", HDF5_I64, TRIANGLES, 3, 0},
     [GUARD] = {"/lattice/guard", HDF5_F64, TRIANGLES, 1, 0},
     [AREA_STIFFNESS] = {"/lattice/area_stiffness", HDF5_F64, TRIANGLES, 1, 0},
     [THICKNESS] = {"/lattice/thickness", HDF5_F64, TRIANGLES, 1, 0},
     [MODULUS] = {"/lattice/modulus", HDF5_F64, TRIANGLES, 1, 0},
     [COUPLING] = {"/lattice/coupling", HDF5_F64, TRIANGLES, 3, 0},
+    [STRENGTH] = {"/lattice/strength", HDF5_F64, TRIANGLES, 1, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
     [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
     [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
@@ -146,7 +150,7 @@ static dem_status read_array(reader *r, enum array a)
 static dem_status check_name(void *context, const char *name)
 {
     reader *r = context;
-    char known[256] = "", printable[HDF5_UNTRUSTED_PRINTABLE];
+    char known[320] = "", printable[HDF5_UNTRUSTED_PRINTABLE];
     size_t n = 0;
     for (int a = 0; a < N_ARRAYS; a++) {
         const char *own = datasets[a].name + sizeof "/lattice";
@@ -235,6 +239,8 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->rest_length = r->data[REST_LENGTH];
     lattice->stiffness = r->data[STIFFNESS];
     lattice->viscosity = r->data[VISCOSITY];
+    lattice->critical_stretch = r->data[CRITICAL_STRETCH];
+    lattice->strength = r->data[STRENGTH];
     lattice->triangles = r->data[CORNERS];
     lattice->guard = r->data[GUARD];
     lattice->area_stiffness = r->data[AREA_STIFFNESS];
@@ -357,11 +363,13 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, REST_LENGTH, deflate, m, lattice->rest_length));
     TRY(write_array(file, STIFFNESS, deflate, m, lattice->stiffness));
     TRY(write_array(file, VISCOSITY, deflate, m, lattice->viscosity));
+    TRY(write_array(file, CRITICAL_STRETCH, deflate, m, lattice->critical_stretch));
     TRY(write_array(file, CORNERS, deflate, t, lattice->triangles));
     TRY(write_array(file, GUARD, deflate, t, lattice->guard));
     TRY(write_array(file, AREA_STIFFNESS, deflate, t, lattice->area_stiffness));
     TRY(write_array(file, THICKNESS, deflate, t, lattice->thickness));
     TRY(write_array(file, MODULUS, deflate, t, lattice->modulus));
+    TRY(write_array(file, STRENGTH, deflate, t, lattice->strength));
     TRY(write_array(file, COUPLING, deflate, t, lattice->coupling));
     TRY(write_array(file, BODY, deflate, n, lattice->body));
     TRY(write_array(file, POSITION, deflate, n, lattice->position));

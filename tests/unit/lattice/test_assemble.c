@@ -475,3 +475,40 @@ TEST(assembling_refuses_impossible_materials)
     assert_refused(dem_lattice_assemble(&lattice, NULL), DEM_ERROR_ARGUMENT, "material is NULL");
     assert_refused(dem_lattice_assemble(NULL, &rubber), DEM_ERROR_ARGUMENT, "lattice is NULL");
 }
+
+/* Each triangle has the strength of its material, and a spring between two the smaller critical stretch. */
+TEST(limits_are_those_of_the_materials)
+{
+    const dem_material soft = {.struct_size = sizeof(dem_material),
+                               .youngs_modulus = 1e7,
+                               .density = 1e3,
+                               .thickness = 1.0,
+                               .strength = 2e5,
+                               .critical_stretch = 0.3};
+    dem_material of[2] = {soft, soft};
+    of[1].strength = 0.0;
+    of[1].critical_stretch = 0.1;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&lattice, 1.0, 1.6, 1.0), DEM_OK);
+    assert_int_equal(lattice.n_triangles, 2);
+    assert_int_equal(dem_lattice_assemble_mixed(&lattice, of, 2, (const dem_index[]){0, 1}, 0.0), DEM_OK);
+    assert_close(lattice.strength[0], 2e5, 0.0);
+    assert_true(isinf(lattice.strength[1]));
+    const dem_index *first = &lattice.triangles[0], *second = &lattice.triangles[3];
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        int of_second = 0, of_first = 0;
+        for (int c = 0; c < 6; c++) {
+            of_first += lattice.ends[2 * k + c / 3] == first[c % 3];
+            of_second += lattice.ends[2 * k + c / 3] == second[c % 3];
+        }
+        assert_close(lattice.critical_stretch[k], of_second == 2 ? 0.1 : 0.3, 0.0);
+        assert_true(of_first == 2 || of_second == 2);
+    }
+    of[0].strength = -1.0;
+    CLEANUP(dem_lattice_free) dem_lattice other = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&other, 1.0, 1.6, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_assemble(&other, &of[0]), DEM_ERROR_ARGUMENT);
+    of[0].strength = 1.0;
+    of[0].critical_stretch = NAN;
+    assert_int_equal(dem_lattice_assemble(&other, &of[0]), DEM_ERROR_ARGUMENT);
+}

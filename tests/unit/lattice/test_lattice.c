@@ -322,6 +322,34 @@ TEST(append_gives_thickness_and_modulus_1_beside_given_ones)
     dem_lattice_free(&plain);
 }
 
+/* By their numbers, and never reached where they are missing. */
+TEST(limits_stay_with_their_elements)
+{
+    dem_lattice given = make_solid(1.0, 1.6, 1.0), plain = make_solid(1.0, 1.0, 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice all = dem_lattice_empty();
+    given.strength = calloc((size_t)given.n_triangles, sizeof *given.strength);
+    given.critical_stretch = calloc((size_t)given.n_springs, sizeof *given.critical_stretch);
+    assert_true(given.strength != NULL && given.critical_stretch != NULL);
+    for (dem_index t = 0; t < given.n_triangles; t++) given.strength[t] = 1e6 + (double)t;
+    for (dem_index k = 0; k < given.n_springs; k++) given.critical_stretch[k] = 0.1 + (double)k;
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    assert_null(all.strength);
+    assert_null(all.critical_stretch);
+    assert_int_equal(dem_lattice_append(&all, &given), DEM_OK);
+    assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
+    const double strength[4] = {INFINITY, 1e6, 1e6 + 1.0, INFINITY};
+    assert_memory_equal(all.strength, strength, sizeof strength);
+    for (dem_index k = 0; k < 12; k++)
+        assert_true(all.critical_stretch[k] == (k >= 3 && k < 9 ? 0.1 + (double)(k - 3) : (double)INFINITY));
+    bool keep[32];
+    for (dem_index i = 0; i < all.n_nodes; i++) keep[i] = i >= 3; /* without the first body */
+    assert_int_equal(dem_lattice_select(&all, keep), DEM_OK);
+    assert_memory_equal(all.strength, strength + 1, 3 * sizeof *strength);
+    assert_true(all.critical_stretch[0] == 0.1 && all.critical_stretch[5] == 5.1);
+    dem_lattice_free(&given);
+    dem_lattice_free(&plain);
+}
+
 TEST(append_refuses_mixed_and_broken_lattices)
 {
     dem_lattice solid = make_solid(1.0, 1.0, 1.0), bare = make_rectangle(1.0, 1.0, 1.0), broken;

@@ -168,6 +168,9 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
 {
     const double viscosity[6] = {0.5, 0.0, 1e-3, 2.0, 3.0, 4.0}, thickness[2] = {0.1, 3.0}, modulus[2] = {1e7, 2e9};
     const double coupling[6] = {3.0, -1.0, 0.0, 5.0, 1e9, -2.5};
+    const double strength[2] = {1e6, INFINITY}, critical_stretch[6] = {0.1, 0.2, INFINITY, 0.3, 0.4, 0.5};
+    put_real("strength", 2, 0, strength);
+    put_real("critical_stretch", 6, 0, critical_stretch);
     put_real("viscosity", 6, 0, viscosity);
     put_whole("triangles", 2, 3, corners);
     put_real("thickness", 2, 0, thickness);
@@ -180,6 +183,8 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
         assert_memory_equal(lattice.thickness, thickness, sizeof thickness);
         assert_memory_equal(lattice.modulus, modulus, sizeof modulus);
         assert_memory_equal(lattice.coupling, coupling, sizeof coupling);
+        assert_memory_equal(lattice.strength, strength, sizeof strength);
+        assert_memory_equal(lattice.critical_stretch, critical_stretch, sizeof critical_stretch);
         assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
         assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
     }
@@ -188,6 +193,8 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
     assert_memory_equal(back.thickness, thickness, sizeof thickness);
     assert_memory_equal(back.modulus, modulus, sizeof modulus);
     assert_memory_equal(back.coupling, coupling, sizeof coupling);
+    assert_memory_equal(back.strength, strength, sizeof strength);
+    assert_memory_equal(back.critical_stretch, critical_stretch, sizeof critical_stretch);
 }
 
 static void assert_flags(const unsigned char expected[5])
@@ -281,11 +288,11 @@ TEST_WITH(unknown_names_are_refused, write_lattice, remove_lattice)
     static const char *const names[][2] = {
         {"velocities", "velocities"}, {"Fixed", "Fixed"}, {"a\nb \xff", "a?b??"}, {"m", "m"}};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-        char message[256];
+        char message[320];
         (void)snprintf(message, sizeof message,
                        "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
-                       "viscosity, triangles, guard, area_stiffness, "
-                       "thickness, modulus, coupling, body, position, velocity, fixed, rigid, contact_nodes",
+                       "viscosity, critical_stretch, triangles, guard, area_stiffness, "
+                       "thickness, modulus, coupling, strength, body, position, velocity, fixed, rigid, contact_nodes",
                        path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);
