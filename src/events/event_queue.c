@@ -156,6 +156,7 @@ static dem_status take(event_queue *q, const due_event *due)
     TRY(find_seeds(q, due, &n_seeds));
     TRY(local_correction_open(&q->correction, q->step, q->seeds, n_seeds, q->now, q->state));
     TRY(resolve(q, due, &at));
+    if (due->source->changes_forces) TRY(neighbourhood_list_forces(&q->correction.near));
     TRY(local_correction_close(&q->correction, q->step, &q->changed, q->state, &error));
     CHECK(isfinite(error), DEM_ERROR_INTEGRATOR, "the motion near node %lld after a %s event at t = %.9g s overflows",
           (long long)q->correction.near.nodes.list[0], due->source->name, q->now);

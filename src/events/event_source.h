@@ -25,6 +25,7 @@ typedef struct event_place {
 typedef struct event_source {
     const char *name; /* in messages: "after a NAME event" */
     void *self;
+    bool changes_forces; /* its events change the forces between nodes, not their velocities alone */
     /** Finds the events of a step, from its start.
      *  \param state  [2 dim n_rows] scratch */
     void (*begin)(void *self, const dense_output *step, double *state);

@@ -64,6 +64,11 @@ static dem_status close_ring(neighbourhood *b, int ring)
     return DEM_OK;
 }
 
+dem_status neighbourhood_list_forces(neighbourhood *b)
+{
+    return b->forces->gather(b->forces->self, &b->nodes);
+}
+
 /* Rings 0 to n_rings; then the forces list what acts between the nodes found. */
 dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_index n_seeds)
 {
@@ -77,7 +82,7 @@ dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_in
         TRY(f->add_neighbours(f->self, nodes, local_nodes_begin(nodes, ring - 1), nodes->end[ring - 1]));
         TRY(close_ring(b, ring));
     }
-    return f->gather(f->self, nodes);
+    return neighbourhood_list_forces(b);
 }
 
 /* An event opens and closes contacts only of nodes that are in the neighbourhood already, so nodes and rings stay; only

@@ -47,30 +47,86 @@ static void free_outline(surface *outline)
     free(outline);
 }
 
+/* Makes the outline that of the elements of a state. */
+static dem_status renew_outline(dem_simulation *s, const element_state *next)
+{
+    surface *outline = calloc(1, sizeof *outline);
+    dem_status status = outline != NULL
+                            ? surface_compile_broken(outline, &s->model->lattice, next->triangle, s->boundaries.held)
+                            : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    if (status == DEM_OK) status = follow(s, next, outline);
+    free_outline(status == DEM_OK ? s->outline : outline);
+    if (status == DEM_OK) s->outline = outline;
+    return status;
+}
+
 /* The state of elements becomes `next`, which is taken over or freed. */
 static dem_status renew(dem_simulation *s, element_state *next)
 {
-    const dem_lattice *l = &s->model->lattice;
-    surface *outline = calloc(1, sizeof *outline);
-    dem_status status = outline != NULL ? surface_compile_broken(outline, l, next->triangle, s->boundaries.held)
-                                        : status_fail(DEM_ERROR_MEMORY, "out of memory");
-    if (status == DEM_OK) status = follow(s, next, outline);
-    if (status != DEM_OK) {
-        free_outline(outline);
-        element_state_destroy(next);
-        return status;
-    }
-    breaking_destroy(s);
+    const dem_status status = renew_outline(s, next);
+    element_state_destroy(status == DEM_OK ? &s->elements : next);
+    if (status != DEM_OK) return status;
     s->elements = *next;
-    s->outline = outline;
     s->forces.elements = &s->elements;
     return DEM_OK;
 }
 
 void breaking_destroy(dem_simulation *s)
 {
+    fracture_source_destroy(&s->breaks);
     element_state_destroy(&s->elements);
     free_outline(s->outline);
+}
+
+/* ---- by stress or strain ---- */
+
+/* Beyond this share of all elements, or this number if it is larger, breaks in one step mean that it is too long. Fixed
+ * steps cannot be shortened. */
+static dem_index most_in_step(const dem_simulation *s)
+{
+    enum { SHARE = 20, FEW = 100 };
+    const dem_index n = s->model->lattice.n_triangles + s->model->lattice.n_springs;
+    return s->options.fixed_step > 0.0 ? -1 : n / SHARE > FEW ? n / SHARE : FEW;
+}
+
+dem_status breaking_create(dem_simulation *s)
+{
+    const dem_lattice *l = &s->model->lattice;
+    if (l->strength == NULL && l->critical_stretch == NULL) return DEM_OK;
+    TRY(element_state_create(&s->elements, l, &s->model->springs));
+    s->forces.elements = &s->elements;
+    TRY(fracture_source_create(&s->breaks, s->model, &s->elements, &s->fracture, most_in_step(s)));
+    TRY(reduce_status(fracture_source_check_start(&s->breaks, s->y), 0.0));
+    return source_list_add(&s->sources, fracture_source_events(&s->breaks));
+}
+
+/* Contact comes first of events at the same time: what breaks then does at the start of the next step. */
+void breaking_check_step(dem_simulation *s)
+{
+    s->at_break = false;
+    if (!run_may_break(s)) return;
+    const double first = reduce_min(fracture_source_first(&s->breaks, &s->path, s->frame));
+    s->at_break = first < s->path.end || (first == s->path.end && !s->at_event);
+    if (!s->at_break) return;
+    s->path.end = first;
+    s->at_event = false;
+}
+
+/* New faces near others change the energy of contact: what it is less goes with that of the broken elements. */
+dem_status breaking_end_step(dem_simulation *s)
+{
+    const double *y = s->path.y1;
+    if (!run_may_break(s)) return DEM_OK;
+    if (s->at_break) {
+        dense_output_state(&s->path, s->path.end, s->frame);
+        y = s->frame;
+        TRY(fracture_source_break(&s->breaks, y));
+    }
+    if (!fracture_source_has_broken(&s->breaks)) return DEM_OK;
+    const double before = s->surfaces != NULL ? set_motion_energy(s, y) : 0.0;
+    TRY(renew_outline(s, &s->elements));
+    if (s->surfaces != NULL) s->fracture += before - set_motion_energy(s, y);
+    return DEM_OK;
 }
 
 /* ---- by the program ---- */

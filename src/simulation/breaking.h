@@ -15,4 +15,15 @@ dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
 
 void breaking_destroy(dem_simulation *s);
 
+/** Lets elements break by themselves, where the lattice has strengths or critical stretches.
+ *  \return DEM_ERROR_MODEL if one is beyond its limit at the start, DEM_ERROR_MEMORY */
+dem_status breaking_create(dem_simulation *s);
+
+/** Where the whole body stops at events: ends the step in hand where something breaks, if that is before its end. */
+void breaking_check_step(dem_simulation *s);
+
+/** Called before the step in hand becomes the state: surfaces are those of what is whole at its end.
+ *  \return DEM_ERROR_MEMORY */
+dem_status breaking_end_step(dem_simulation *s);
+
 #endif

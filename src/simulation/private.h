@@ -12,6 +12,7 @@
 #include "forces/kernel.h"
 #include "forces/local_springs.h"
 #include "forces/rigid_motion.h"
+#include "fracture/fracture_source.h"
 #include "model/overlap.h"
 #include "simulation/observers.h"
 #include "surface_contact/surface_load.h"
@@ -32,7 +33,7 @@ typedef struct run_measures {
  *  - not `started`: the contacts of the initial motion, or of one that was set, have still to be taken up;
  *  - between steps: y is the state at t, which the integrator starts from next;
  *  - `in_hand`: an accepted step from t to path.end whose start is y; with `local` its events are resolved in the
- *    queue, with `exact` it ends with one if `at_event`. An advance may end here.
+ *    queue, with `exact` it ends with one if `at_event` or `at_break`. An advance may end here.
  *  What is seen (seen_t, seen) may be at any time of the step in hand. */
 struct dem_simulation {
     const dem_model *model;
@@ -55,6 +56,7 @@ struct dem_simulation {
     element_state elements;        /* empty as long as all are whole */
     surface *outline;              /* of those that are whole; NULL: the model's */
     double fracture;               /* J, taken by breaking */
+    fracture_source breaks;        /* inside steps; empty: nothing breaks by itself */
     local_springs local_springs;
     local_forces local_forces;   /* those of local_springs, as events see them */
     constraints closed_contacts; /* as events see them */
@@ -68,7 +70,8 @@ struct dem_simulation {
     double *frame;      /* [2 dim n_rows] state interpolated to a frame or to t_end */
     dense_output path;  /* the step in hand */
     bool in_hand;       /* whether there is one */
-    bool at_event;      /* whether it ends with one */
+    bool at_event;      /* whether it ends with one of contact, */
+    bool at_break;      /* or with a break */
     bool started;       /* whether the contacts of the initial state have been taken up */
     bool advanced;      /* whether the run has begun: no more observers */
     bool advancing;     /* whether an advance is under way */
@@ -98,6 +101,12 @@ static inline dem_status run_force_failure(const dem_simulation *s)
 {
     const dem_status of_motion = surface_failed(&s->automaton.set.scene) ? given_motion_failure() : DEM_OK;
     return external_force_failed(s->external) ? external_force_failure(s->external) : of_motion;
+}
+
+/* Whether elements break by themselves. */
+static inline bool run_may_break(const dem_simulation *s)
+{
+    return s->breaks.model != NULL;
 }
 
 /* What rigid bodies keep when their shapes are put back. */

@@ -68,7 +68,8 @@ static forces forces_of(const dem_simulation *s)
 static dem_status set_up_sources(dem_simulation *s)
 {
     TRY(contact_source_create(&s->contact_events, &s->automaton));
-    return source_list_add(&s->sources, contact_source_events(&s->contact_events));
+    TRY(source_list_add(&s->sources, contact_source_events(&s->contact_events)));
+    return breaking_create(s);
 }
 
 /* Local corrections have the tolerances of the integrator, and the order of its method; with fixed steps their errors

@@ -10,6 +10,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
+#include "simulation/breaking.h"
 #include "simulation/body_contact.h"
 #include "simulation/checkpoint.h"
 #include "simulation/query.h"
@@ -154,6 +155,7 @@ static dem_status find_events(dem_simulation *s, bool rooted)
     double *y1, *f1;
     if (!run_is_local(s)) {
         s->at_event = automaton_check_step(&s->automaton, &s->path, rooted, s->frame) || rooted;
+        breaking_check_step(s);
         return body_contact_check_step(s);
     }
     integrator_end(&s->integrator, &y1, &f1);
@@ -286,12 +288,14 @@ static dem_status commit_step(dem_simulation *s)
     TRY(report_events(s, s->path.t1));
     if (run_is_local(s)) TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
     if (s->at_event) TRY(take_rollback(s));
+    TRY(reduce_status(breaking_end_step(s), 0.0));
     /* From here on the end of the step is the state: y and t. */
+    const bool broken = reduce_any(fracture_source_has_broken(&s->breaks));
     const bool moved = settle_step(s);
     TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
-    s->events += reduce_count(s->queue.n_stops);
-    TRY(go_on_changed(s, moved || s->outgrown || events_moved_rigid(s)));
+    s->events += reduce_count(s->queue.n_stops) + s->at_break;
+    TRY(go_on_changed(s, moved || broken || s->outgrown || events_moved_rigid(s)));
     return report_step(s);
 }
 

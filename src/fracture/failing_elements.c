@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The list of elements that break at one instant. Its order is that of their numbers, whatever order they were found
+ * in, so that sums over them have the same bits. */
+#include "fracture/failing_elements.h"
+
+#include <stdlib.h>
+
+#include "base/grow.h"
+#include "base/sorted.h"
+#include "base/status.h"
+
+void failing_elements_destroy(failing_elements *f)
+{
+    free(f->list);
+    free(f->nodes);
+    *f = (failing_elements){0};
+}
+
+void failing_elements_clear(failing_elements *f)
+{
+    f->n = f->n_nodes = 0;
+    f->status = DEM_OK;
+}
+
+/* ---- which elements ---- */
+
+static void append(failing_elements *f, dem_index **list, dem_index *n, dem_index *capacity, dem_index number)
+{
+    if (grow_array((void **)list, capacity, *n + 1, sizeof **list))
+        (*list)[(*n)++] = number;
+    else
+        f->status = status_fail(DEM_ERROR_MEMORY, "out of memory for elements that break");
+}
+
+static bool is_corner(const dem_lattice *l, dem_index triangle, dem_index node)
+{
+    const dem_index *corner = &l->triangles[3 * triangle];
+    return node == corner[0] || node == corner[1] || node == corner[2];
+}
+
+/* Whether a triangle is half of a cell: it holds the second diagonal, which is none of its sides. */
+static bool is_of_cell(const element_state *s, dem_index triangle)
+{
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
+        for (int end = 0; end < 2; end++)
+            if (!is_corner(s->lattice, triangle, s->lattice->ends[2 * s->spring[p] + end])) return true;
+    return false;
+}
+
+/* The triangles of a cell have numbers 2 k and 2 k + 1. */
+static void add_triangle(failing_elements *f, const element_state *s, dem_index triangle)
+{
+    append(f, &f->list, &f->n, &f->capacity, triangle);
+    if (is_of_cell(s, triangle)) append(f, &f->list, &f->n, &f->capacity, triangle ^ 1);
+}
+
+static bool holds(const element_state *s, dem_index triangle, dem_index spring)
+{
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
+        if (s->spring[p] == spring) return !s->triangle[triangle];
+    return false;
+}
+
+/* A triangle that holds a spring has at least one of its ends as a corner. */
+static void add_holders(failing_elements *f, const element_state *s, dem_index spring)
+{
+    for (int end = 0; end < 2; end++) {
+        const dem_index i = s->lattice->ends[2 * spring + end];
+        for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++)
+            if (holds(s, s->at[p], spring)) add_triangle(f, s, s->at[p]);
+    }
+}
+
+void failing_elements_add(failing_elements *f, const element_state *s, dem_index element)
+{
+    const dem_index spring = element - s->lattice->n_triangles;
+    if (spring < 0)
+        add_triangle(f, s, element);
+    else if (s->held[spring])
+        add_holders(f, s, spring);
+    else
+        append(f, &f->list, &f->n, &f->capacity, element);
+}
+
+/* ---- in order ---- */
+
+static int compare(const void *a, const void *b)
+{
+    const dem_index first = *(const dem_index *)a, second = *(const dem_index *)b;
+    return (first > second) - (first < second);
+}
+
+/* Ascending, each number once.  \return how many there are */
+static dem_index sort(dem_index *list, dem_index n)
+{
+    dem_index kept = 0;
+    if (n > 0) qsort(list, (size_t)n, sizeof *list, compare);
+    for (dem_index k = 0; k < n; k++)
+        if (kept == 0 || list[k] != list[kept - 1]) list[kept++] = list[k];
+    return kept;
+}
+
+void failing_elements_complete(failing_elements *f, const dem_lattice *l)
+{
+    f->n = sort(f->list, f->n);
+    for (dem_index k = 0; k < f->n; k++) {
+        const dem_index spring = f->list[k] - l->n_triangles;
+        const dem_index *corner = spring < 0 ? &l->triangles[3 * f->list[k]] : &l->ends[2 * spring];
+        for (int c = 0; c < (spring < 0 ? 3 : 2); c++) append(f, &f->nodes, &f->n_nodes, &f->node_capacity, corner[c]);
+    }
+    f->n_nodes = sort(f->nodes, f->n_nodes);
+}
+
+bool failing_elements_have(const failing_elements *f, dem_index node)
+{
+    return sorted_find(f->nodes, f->n_nodes, node) >= 0;
+}
+
+/* ---- their end ---- */
+
+/* Half of the springs and a third of the triangles at all of the nodes: each element of which all nodes are among them
+ * is in it once, and what it has of others does not change. */
+static double energy(const failing_elements *f, const dem_model *m, const element_state *s, const double *x)
+{
+    double of_springs = 0.0, of_triangles = 0.0;
+    for (dem_index j = 0; j < f->n_nodes; j++) {
+        const dem_index i = f->nodes[j];
+        of_springs += springs_node_energy(&m->springs, s->integrity, i, x);
+        of_triangles += couplings_node_energy(&m->couplings, s->triangle, i, x) +
+                        triangles_node_energy(&m->triangles, s->triangle, i, x);
+    }
+    return of_springs / 2.0 + of_triangles / 3.0;
+}
+
+double failing_elements_break(const failing_elements *f, const dem_model *model, element_state *s, const double *x)
+{
+    const double before = energy(f, model, s, x);
+    for (dem_index k = 0; k < f->n; k++) element_state_break(s, f->list[k]);
+    return before - energy(f, model, s, x);
+}

@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fracture as a source of events (docs/method.md, Fracture). begin() finds the stresses of all nodes at the end of the
+ * step, and searches the step where an element is at its limit there or nearly so; a heap holds the times at which
+ * elements break. What breaks at the same time, to the width of a root, breaks together. After an event the elements
+ * near it are looked at again. A break changes the stresses beside it at once: what is then over its limit breaks at
+ * the same instant. undo() mends what has broken in the step, to the bit. Surfaces follow at the end of the step
+ * (simulation/breaking.c): new ones cannot touch anything within it. */
+#include "fracture/fracture_source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/bracket.h"
+#include "base/grow.h"
+#include "base/status.h"
+#include "fracture/utilisation.h"
+#include "model/node_stress.h"
+
+/* Between the ends of a step of h omega = 0.5 a utilisation may exceed that at its end by (h omega)^2/8, 3 %: an
+ * element that is nearer to its limit, and falls, is searched for a time before. */
+static const double near_limit = 0.97;
+enum { N_SAMPLES = 8 };
+
+/* ---- set-up ---- */
+
+dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements, double *taken,
+                                  dem_index most)
+{
+    const size_t n = (size_t)model->lattice.n_nodes;
+    const dem_index n_elements = utilisation_n_elements(&model->lattice);
+    fracture_source s = {.model = model, .elements = elements, .taken = taken};
+    s.most = most >= 0 ? most : n_elements;
+    s.stress = malloc(3 * n * sizeof *s.stress);
+    s.placed = calloc(n, sizeof *s.placed);
+    s.failing = calloc(1, sizeof *s.failing);
+    dem_status status = event_heap_create(&s.heap, n_elements);
+    if (status == DEM_OK && (s.stress == NULL || s.placed == NULL || s.failing == NULL))
+        status = status_fail(DEM_ERROR_MEMORY, "out of memory for the stresses of %zu nodes", n);
+    if (status == DEM_OK)
+        *out = s;
+    else
+        fracture_source_destroy(&s);
+    return status;
+}
+
+void fracture_source_destroy(fracture_source *s)
+{
+    event_heap_destroy(&s->heap);
+    if (s->failing != NULL) failing_elements_destroy(s->failing);
+    free(s->failing);
+    free(s->stress);
+    free(s->placed);
+    free(s->broken);
+    *s = (fracture_source){0};
+}
+
+static dem_status refuse(const fracture_source *s, dem_index element, double utilisation)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const dem_index spring = element - l->n_triangles;
+    const dem_index node = spring >= 0 ? l->ends[2 * spring] : l->triangles[3 * element];
+    const double limit = spring >= 0 ? l->critical_stretch[spring] : l->strength[element], *x = &l->position[2 * node];
+    if (spring >= 0)
+        return status_fail(DEM_ERROR_MODEL,
+                           "spring %lld at (%g, %g) m has the strain %g at the start, beyond its critical stretch %g",
+                           (long long)spring, x[0], x[1], utilisation * limit, limit);
+    return status_fail(DEM_ERROR_MODEL,
+                       "triangle %lld at (%g, %g) m has the stress %g Pa at the start, beyond its strength %g Pa",
+                       (long long)element, x[0], x[1], utilisation * limit, limit);
+}
+
+/* What is broken already is not asked. */
+static bool is_whole(const fracture_source *s, dem_index element)
+{
+    const dem_index spring = element - s->model->lattice.n_triangles;
+    return spring >= 0 ? s->elements->integrity[spring] > 0.0 : !s->elements->triangle[element];
+}
+
+static bool may_break(const fracture_source *s, dem_index element)
+{
+    return is_whole(s, element) && utilisation_is_limited(&s->model->lattice, element);
+}
+
+dem_status fracture_source_check_start(const fracture_source *s, const double *x)
+{
+    for (dem_index e = 0; e < utilisation_n_elements(&s->model->lattice); e++) {
+        const double utilisation = may_break(s, e) ? utilisation_of(s->model, s->elements, e, x) : 0.0;
+        if (utilisation >= 1.0) return refuse(s, e, utilisation);
+    }
+    return DEM_OK;
+}
+
+/* ---- when an element breaks ---- */
+
+static void place(fracture_source *s, dem_index node, double t)
+{
+    if (s->placed[node] == s->look) return;
+    s->placed[node] = s->look;
+    dense_output_position(s->step, t, node, s->state + state_row(&s->step->layout, node));
+}
+
+/* The nodes on which the stress at node i depends: those of its triangles and of all springs that these hold, and
+ * the other ends of its own springs. */
+static void place_around(fracture_source *s, dem_index i, double t)
+{
+    const element_state *e = s->elements;
+    const springs *own = &s->model->springs;
+    place(s, i, t);
+    for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) place(s, own->neighbour[p], t);
+    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
+        for (dem_index q = e->row[e->at[p]]; q < e->row[e->at[p] + 1]; q++)
+            for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * e->spring[q] + end], t);
+}
+
+/* In the step, by its dense output. */
+static double utilisation_at(fracture_source *s, dem_index element, double t)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const dem_index spring = element - l->n_triangles;
+    s->look++;
+    for (int end = 0; end < 2 && spring >= 0; end++) place(s, l->ends[2 * spring + end], t);
+    for (int c = 0; c < 3 && spring < 0; c++) place_around(s, l->triangles[3 * element + c], t);
+    return utilisation_of(s->model, s->elements, element, s->state);
+}
+
+/* At the end of the step, from the stresses that are known there. */
+static double utilisation_at_end(const fracture_source *s, dem_index element)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const dem_index *corner = &l->triangles[3 * element];
+    if (element >= l->n_triangles) return utilisation_of(s->model, s->elements, element, s->step->y1);
+    return utilisation_of_stress(l->strength[element], &s->stress[3 * corner[0]], &s->stress[3 * corner[1]],
+                                 &s->stress[3 * corner[2]]);
+}
+
+/* The root of 1 - utilisation between two times, above 0 before and not above 0 after. */
+static double root(fracture_source *s, dem_index element, bracket b)
+{
+    const double width = dense_output_resolution(s->step);
+    while (b.after - b.before > width) {
+        const double t = bracket_trial(&b, width), margin = 1.0 - utilisation_at(s, element, t);
+        bracket_close(&b, t, margin, margin <= 0.0);
+    }
+    return b.after;
+}
+
+/* First time from `from` on at which an element is at its limit; infinity if it never is at one of the samples. */
+static double search(fracture_source *s, dem_index element, double from, double end)
+{
+    const double rest = s->step->t1 - from;
+    double before = from, above = 1.0 - utilisation_at(s, element, from);
+    if (above <= 0.0) return from;
+    for (int k = 1; k <= N_SAMPLES; k++) {
+        const bool last = k == N_SAMPLES;
+        const double t = last ? s->step->t1 : from + rest * k / N_SAMPLES;
+        const double margin = 1.0 - (last ? end : utilisation_at(s, element, t));
+        if (margin <= 0.0) return root(s, element, (bracket){before, t, above, margin, 0, 0});
+        before = t;
+        above = margin;
+    }
+    return (double)INFINITY;
+}
+
+static bool falls(fracture_source *s, dem_index element, double from, double end)
+{
+    return utilisation_at(s, element, s->step->t1 - (s->step->t1 - from) / N_SAMPLES) > end;
+}
+
+/* When an element breaks after `from`; infinity: not in this step. */
+static double next_break(fracture_source *s, dem_index element, double from, bool jumped)
+{
+    const double end = utilisation_at_end(s, element);
+    if (jumped && utilisation_at(s, element, from) >= 1.0) return from;
+    if (!(end >= near_limit) || (end < 1.0 && !falls(s, element, from, end))) return (double)INFINITY;
+    return search(s, element, from, end);
+}
+
+static void fracture_source_begin(void *self, const dense_output *step, double *state)
+{
+    fracture_source *s = self;
+    const dem_lattice *l = &s->model->lattice;
+    s->step = step;
+    s->state = state;
+    s->jumped = false;
+    s->n_broken = 0;
+    s->n_damaged = s->elements->n_damaged;
+    s->taken_before = *s->taken;
+    event_heap_clear(&s->heap);
+    for (dem_index i = 0; i < l->n_nodes && l->strength != NULL; i++)
+        node_stress(s->model, s->elements, i, step->y1, &s->stress[3 * i]);
+    for (dem_index e = 0; e < utilisation_n_elements(l); e++) {
+        const double due = may_break(s, e) ? next_break(s, e, step->t0, false) : (double)INFINITY;
+        if (isfinite(due)) event_heap_set(&s->heap, e, due);
+    }
+}
+
+static double fracture_source_next(const void *self, dem_index *key)
+{
+    const fracture_source *s = self;
+    *key = event_heap_first(&s->heap);
+    return *key >= 0 ? s->heap.due[*key] : (double)INFINITY;
+}
+
+/* ---- what breaks ---- */
+
+/* Adds what is due until t of the part of the heap under place p: nothing there is due before it. */
+static void collect(const fracture_source *s, dem_index p, double t)
+{
+    if (p >= s->heap.n || s->heap.due[s->heap.keys[p]] > t) return;
+    failing_elements_add(s->failing, s->elements, s->heap.keys[p]);
+    collect(s, 2 * p + 1, t);
+    collect(s, 2 * p + 2, t);
+}
+
+/* All that is due at the time of the first, to the width of a root. */
+static void find_failing(const fracture_source *s)
+{
+    failing_elements_clear(s->failing);
+    if (s->heap.n > 0) collect(s, 0, s->heap.due[s->heap.keys[0]] + dense_output_resolution(s->step));
+    failing_elements_complete(s->failing, &s->model->lattice);
+}
+
+static dem_index fracture_source_seeds(const void *self, dem_index key, dem_index *nodes, dem_index capacity)
+{
+    const fracture_source *s = self;
+    (void)key;
+    find_failing(s);
+    for (dem_index j = 0; j < s->failing->n_nodes && j < capacity; j++) nodes[j] = s->failing->nodes[j];
+    return s->failing->n_nodes;
+}
+
+/* Too many breaks in a step mean that it is too long for them. */
+static dem_status check_number(const fracture_source *s, double t)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const dem_index n = s->n_broken + s->failing->n, first = s->failing->nodes[0];
+    CHECK(n <= s->most, DEM_ERROR_INTEGRATOR,
+          "%lld triangles and springs break within one step at t = %.9g s, the last of them at (%g, %g) m at rest: "
+          "stress may be uniform there, where brittle bodies break everywhere at once",
+          (long long)n, t, l->x[2 * first], l->x[2 * first + 1]);
+    return DEM_OK;
+}
+
+/* Breaks what fails at positions x, and takes it off the heap. */
+static dem_status break_failing(fracture_source *s, double t, const double *x)
+{
+    const failing_elements *f = s->failing;
+    TRY(f->status);
+    TRY(check_number(s, t));
+    CHECK(grow_array((void **)&s->broken, &s->capacity, s->n_broken + f->n, sizeof *s->broken), DEM_ERROR_MEMORY,
+          "out of memory for what breaks in a step");
+    memcpy(s->broken + s->n_broken, f->list, (size_t)f->n * sizeof *s->broken);
+    s->n_broken += f->n;
+    *s->taken += failing_elements_break(f, s->model, s->elements, x);
+    s->jumped = true;
+    return DEM_OK;
+}
+
+static void fracture_source_prepare(void *self, const event_place *at)
+{
+    (void)self;
+    (void)at;
+}
+
+static dem_status fracture_source_resolve(void *self, dem_index key, const event_place *at,
+                                          const event_listener *listener)
+{
+    (void)key;
+    (void)listener;
+    return break_failing(self, at->t, at->state);
+}
+
+/* ---- what follows ---- */
+
+static void look_again(fracture_source *s, dem_index element, double t, bool jumped)
+{
+    event_heap_set(&s->heap, element, may_break(s, element) ? next_break(s, element, t, jumped) : (double)INFINITY);
+}
+
+static void look_at_triangle(fracture_source *s, const event_place *at, dem_index triangle, dem_index node)
+{
+    const dem_index *corner = &s->model->lattice.triangles[3 * triangle];
+    const int32_t *number = at->near->nodes.number;
+    bool jumped = false;
+    for (int c = 0; c < 3; c++) {
+        if (number[corner[c]] >= 0 && number[corner[c]] < number[node]) return; /* it has been looked at there */
+        jumped = jumped || (s->jumped && failing_elements_have(s->failing, corner[c]));
+    }
+    look_again(s, triangle, at->t, jumped);
+}
+
+/* Strains do not jump. */
+static void look_at_spring(fracture_source *s, const event_place *at, dem_index p)
+{
+    const springs *all = &s->model->springs;
+    look_again(s, s->model->lattice.n_triangles + all->spring[p], at->t, false);
+}
+
+/* The nodes of all rings may have another stress at the end of the step, so triangles at them may break otherwise. */
+static void fracture_source_follow(void *self, const event_place *at)
+{
+    fracture_source *s = self;
+    const dem_lattice *l = &s->model->lattice;
+    const local_nodes *nodes = &at->near->nodes;
+    const element_state *e = s->elements;
+    for (dem_index j = 0; j < nodes->n && l->strength != NULL; j++)
+        node_stress(s->model, e, nodes->list[j], at->step->y1, &s->stress[3 * nodes->list[j]]);
+    for (dem_index j = 0; j < nodes->n; j++) {
+        const dem_index i = nodes->list[j];
+        const springs *all = &s->model->springs;
+        for (dem_index p = e->at_row[i]; p < e->at_row[i + 1] && l->strength != NULL; p++)
+            look_at_triangle(s, at, e->at[p], i);
+        for (dem_index p = all->row[i]; p < all->row[i + 1] && l->critical_stretch != NULL; p++)
+            if (nodes->number[all->neighbour[p]] < nodes->number[i]) look_at_spring(s, at, p);
+    }
+    s->jumped = false;
+}
+
+/* From the last to the first. */
+static void fracture_source_undo(void *self)
+{
+    fracture_source *s = self;
+    while (s->n_broken > 0) element_state_mend(s->elements, s->broken[--s->n_broken]);
+    element_state_forget_nodes(s->elements, s->n_damaged);
+    *s->taken = s->taken_before;
+    s->jumped = false;
+}
+
+/* ---- where the whole body stops ---- */
+
+double fracture_source_first(fracture_source *s, const dense_output *step, double *state)
+{
+    dem_index key;
+    fracture_source_begin(s, step, state);
+    return fracture_source_next(s, &key);
+}
+
+static void find_over_limit(fracture_source *s, const double *y)
+{
+    failing_elements_clear(s->failing);
+    for (dem_index e = 0; e < utilisation_n_elements(&s->model->lattice); e++)
+        if (may_break(s, e) && utilisation_of(s->model, s->elements, e, y) >= 1.0)
+            failing_elements_add(s->failing, s->elements, e);
+    failing_elements_complete(s->failing, &s->model->lattice);
+}
+
+dem_status fracture_source_break(fracture_source *s, const double *y)
+{
+    for (find_failing(s); s->failing->n > 0; find_over_limit(s, y)) TRY(break_failing(s, s->step->end, y));
+    return s->failing->status;
+}
+
+/* ---- checkpoints ---- */
+
+/* What is broken is in simulation/breaking.c's entries; the rest is found anew at every step. */
+static dem_status fracture_source_save(const void *self, dem_checkpoint *checkpoint)
+{
+    (void)self;
+    (void)checkpoint;
+    return DEM_OK;
+}
+
+static dem_status fracture_source_restore(void *self, const dem_checkpoint *checkpoint, double t, const double *y)
+{
+    (void)self;
+    (void)checkpoint;
+    (void)t;
+    (void)y;
+    return DEM_OK;
+}
+
+event_source fracture_source_events(fracture_source *s)
+{
+    return (event_source){.name = "fracture",
+                          .self = s,
+                          .changes_forces = true,
+                          .begin = fracture_source_begin,
+                          .next = fracture_source_next,
+                          .seeds = fracture_source_seeds,
+                          .prepare = fracture_source_prepare,
+                          .resolve = fracture_source_resolve,
+                          .follow = fracture_source_follow,
+                          .undo = fracture_source_undo,
+                          .save = fracture_source_save,
+                          .restore = fracture_source_restore};
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fracture as a source of events: an element breaks at the time in the step at which its utilisation is 1. Its keys are
+ * the numbers of elements (fracture/utilisation.h). */
+#ifndef DEM_FRACTURE_FRACTURE_SOURCE_H
+#define DEM_FRACTURE_FRACTURE_SOURCE_H
+
+#include "events/event_heap.h"
+#include "events/event_source.h"
+#include "fracture/failing_elements.h"
+
+typedef struct fracture_source {
+    const dem_model *model;
+    element_state *elements;
+    double *taken;             /* J, by all that has broken: the ledger's */
+    dem_index most;            /* elements that may break in a step; for more it is rejected */
+    const dense_output *step;  /* the accepted one */
+    double *state;             /* [2 dim n_rows] scratch, the queue's */
+    double *stress;            /* [n_nodes][3] Pa, at the end of the step */
+    uint32_t *placed;          /* [n_nodes] the look at which a node was put into `state` last */
+    uint32_t look;             /* number of the present one */
+    event_heap heap;           /* elements by the time at which they break */
+    failing_elements *failing; /* those that break next, or have broken last */
+    bool jumped;               /* they have, and stresses beside them are others at once */
+    dem_index n_broken, capacity;
+    dem_index *broken;   /* [n_broken] in the step so far, in their order */
+    dem_index n_damaged; /* nodes beside broken elements before the step */
+    double taken_before; /* J */
+} fracture_source;
+
+/** Borrows all three.  \param most  elements that may break in a step, or -1 for any number
+ *  \return DEM_ERROR_MEMORY. Free with fracture_source_destroy() */
+dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements, double *taken,
+                                  dem_index most);
+void fracture_source_destroy(fracture_source *s);
+
+/** \return DEM_ERROR_MODEL if an element is beyond its limit at positions x [n][2] */
+dem_status fracture_source_check_start(const fracture_source *s, const double *x);
+
+/** Whether something has broken in the step. */
+static inline bool fracture_source_has_broken(const fracture_source *s)
+{
+    return s->n_broken > 0;
+}
+
+/** Where the whole body stops at events: when something breaks first in a step, from its start; infinity if nothing
+ *  does before its end.  \param state  [2 dim n_rows] scratch */
+double fracture_source_first(fracture_source *s, const dense_output *step, double *state);
+
+/** Then breaks, in the state y of that time, what breaks first, and all that is over its limit in consequence. */
+dem_status fracture_source_break(fracture_source *s, const double *y);
+
+/** `s` must stay where it is. */
+event_source fracture_source_events(fracture_source *s);
+
+#endif

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How far an element is from breaking: its utilisation is what drives it over what it stands, and it breaks at 1
+ * (docs/method.md, Fracture). Elements are numbered: first the triangles of a lattice, then its springs. */
+#ifndef DEM_FRACTURE_UTILISATION_H
+#define DEM_FRACTURE_UTILISATION_H
+
+#include "model/element_state.h"
+#include "model/model.h"
+
+/** Of a triangle whose corners have these stresses, Pa: the largest principal value of their mean over the strength. */
+double utilisation_of_stress(double strength, const double a[3], const double b[3], const double c[3]);
+
+/** Of an element that is whole, at positions x [n][2]: of a triangle by its corners' stresses, of a spring its strain
+ *  over the critical one. */
+double utilisation_of(const dem_model *model, const element_state *elements, dem_index element, const double *x);
+
+/** Whether an element may break at all: it has a limit, and its body is not rigid. */
+bool utilisation_is_limited(const dem_lattice *lattice, dem_index element);
+
+/** How many elements have numbers: triangles, and springs where some of these have a critical stretch. */
+static inline dem_index utilisation_n_elements(const dem_lattice *l)
+{
+    return l->n_triangles + (l->critical_stretch != NULL ? l->n_springs : 0);
+}
+
+#endif
