@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "material.h"
 
+#include "conditional_keys.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -28,10 +30,16 @@ dem_material material_of(const schema_deck *groups, const schema_instance *user)
                           .thickness = schema_real(m, "thickness"),
                           .guard = schema_real(m, "guard"),
                           .damping_time = schema_real(m, "damping_time"),
-                          .springs = coupled ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT};
+                          .springs = coupled ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT,
+                          .strength = schema_real(m, "strength"),
+                          .critical_stretch = schema_real(m, "critical_stretch")};
 }
 
 /* ---- checks ---- */
+
+static const conditional_key limits[] = {{"strength", "stress", true}, {"critical_stretch", "stretch", true}};
+static const conditional_keys by_fracture = {
+    .group = "material", .by = "fracture", .keys = limits, .n = sizeof limits / sizeof *limits};
 
 static bool has_faulty_name(const schema_deck *groups)
 {
@@ -107,11 +115,13 @@ void material_check_all(const schema_deck *groups, namelist_errors *errors)
         check_name(groups, material, errors);
         check_stiffness(material, errors);
         check_ratio(material, errors);
+        conditional_keys_check(material, &by_fracture, errors);
     }
 }
 
 void material_drop_unused(schema_deck *groups)
 {
+    conditional_keys_drop(groups, &by_fracture);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *material = &groups->instances[i];
         if (strcmp(material->group->name, "material") != 0 || !schema_given(material, "bond_stiffness")) continue;

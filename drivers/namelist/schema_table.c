@@ -42,6 +42,13 @@ static const schema_key material_keys[] = {
      "Springs of triangles: coupled are exact in any triangle, independent in equilateral ones, where both are the "
      "same.",
      NULL},
+    {"fracture", SCHEMA_CHOICE, 1, 1, "-", "'none'", ANY, "none|stress|stretch", PHYSICS,
+     "What breaks: nothing, triangles by their stress, or springs by their strain with the triangles that hold them.",
+     NULL},
+    {"strength", SCHEMA_REAL, 1, 1, "Pa", NONE, "> 0", NULL, PHYSICS,
+     "With fracture 'stress': largest principal stress that a triangle stands, mean of its corners.", NONE},
+    {"critical_stretch", SCHEMA_REAL, 1, 1, "-", NONE, "> 0", NULL, PHYSICS,
+     "With fracture 'stretch': strain at which a spring breaks.", NONE},
     {"friction", SCHEMA_REAL, 1, 1, "-", NONE, ">= 0", NULL, PHYSICS,
      "Of its bodies with bodies, in place of that of &contact; two bodies have the smaller one of theirs.", NONE},
 };

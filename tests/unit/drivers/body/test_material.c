@@ -74,6 +74,22 @@ TEST(either_modulus_or_bond_stiffness_is_given)
                    "3:1 'plane' in &material does not go with 'bond_stiffness'");
 }
 
+TEST(a_limit_goes_with_its_kind_of_fracture)
+{
+#define RAW RUN "&material name = 'rubber', youngs_modulus = 1, density = 1, "
+    assert_checked(RAW "fracture = 'stress', strength = 1e5 /\n" BODY, "");
+    assert_checked(RAW "fracture = 'stretch', critical_stretch = 0.1 /\n" BODY, "");
+    assert_checked(RAW "fracture = 'stress' /\n" BODY,
+                   "2:1 'strength' in &material must be given for fracture 'stress'");
+    assert_checked(RAW "\nstrength = 1e5 /\n" BODY, "3:1 'strength' in &material is not used by fracture 'none'");
+    assert_checked(RAW "fracture = 'stretch', critical_stretch = 0.1,\nstrength = 1e5 /\n" BODY,
+                   "3:1 'strength' in &material is not used by fracture 'stretch'");
+    CLEANUP(drop_resolved) resolved r = resolve_clean(RAW "fracture = 'stress', strength = 1e5 /\n" BODY);
+    material_drop_unused(&r.deck);
+    assert_close(material_of(&r.deck, schema_get(&r.deck, "body", 0)).strength, 1e5, 0.0);
+    assert_close(material_of(&r.deck, schema_get(&r.deck, "body", 0)).critical_stretch, 0.0, 0.0);
+}
+
 TEST(names_are_given_once_and_found)
 {
     assert_checked(RUN RUBBER RUBBER BODY, "3:11 material 'rubber' is given twice, first in line 2");
