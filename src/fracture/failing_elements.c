@@ -54,20 +54,13 @@ static void add_triangle(failing_elements *f, const element_state *s, dem_index 
     if (is_of_cell(s, triangle)) append(f, &f->list, &f->n, &f->capacity, triangle ^ 1);
 }
 
-static bool holds(const element_state *s, dem_index triangle, dem_index spring)
-{
-    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
-        if (s->spring[p] == spring) return !s->triangle[triangle];
-    return false;
-}
-
 /* A triangle that holds a spring has at least one of its ends as a corner. */
 static void add_holders(failing_elements *f, const element_state *s, dem_index spring)
 {
     for (int end = 0; end < 2; end++) {
         const dem_index i = s->lattice->ends[2 * spring + end];
         for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++)
-            if (holds(s, s->at[p], spring)) add_triangle(f, s, s->at[p]);
+            if (element_state_holds(s, s->at[p], spring)) add_triangle(f, s, s->at[p]);
     }
 }
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fracture as a source of events (docs/method.md, Fracture). begin() finds the stresses of all nodes at the end of the
- * step, and searches the step where an element is at its limit there or nearly so; a heap holds the times at which
- * elements break. What breaks at the same time, to the width of a root, breaks together. After an event the elements
- * near it are looked at again. A break changes the stresses beside it at once: what is then over its limit breaks at
- * the same instant. undo() mends what has broken in the step, to the bit. Surfaces follow at the end of the step
- * (simulation/breaking.c): new ones cannot touch anything within it. */
+/* Fracture as a source of events (docs/method.md, Fracture). begin() looks at the end of the step where springs are
+ * strained enough (strain_filter.c), and searches the step for elements that are at their limit there or nearly so; a
+ * heap holds the times at which they break. What breaks at the same time, to the width of a root, breaks together.
+ * After an event the elements near it are looked at again. A break changes the stresses beside it at once: what is then
+ * over its limit breaks at the same instant. undo() mends what has broken in the step, to the bit. Surfaces follow at
+ * the end of the step (simulation/breaking.c): new ones cannot touch anything within it. */
 #include "fracture/fracture_source.h"
 
 #include <stdlib.h>
@@ -32,9 +32,12 @@ dem_status fracture_source_create(fracture_source *out, const dem_model *model, 
     s.most = most >= 0 ? most : n_elements;
     s.stress = malloc(3 * n * sizeof *s.stress);
     s.placed = calloc(n, sizeof *s.placed);
+    s.known = calloc(n, sizeof *s.known);
+    s.seen = calloc((size_t)model->lattice.n_triangles + 1, sizeof *s.seen);
     s.failing = calloc(1, sizeof *s.failing);
     dem_status status = event_heap_create(&s.heap, n_elements);
-    if (status == DEM_OK && (s.stress == NULL || s.placed == NULL || s.failing == NULL))
+    if (status == DEM_OK) status = strain_filter_create(&s.filter, model, elements, near_limit);
+    if (status == DEM_OK && !(s.stress && s.placed && s.known && s.seen && s.failing))
         status = status_fail(DEM_ERROR_MEMORY, "out of memory for the stresses of %zu nodes", n);
     if (status == DEM_OK)
         *out = s;
@@ -49,7 +52,10 @@ void fracture_source_destroy(fracture_source *s)
     if (s->failing != NULL) failing_elements_destroy(s->failing);
     free(s->failing);
     free(s->stress);
+    strain_filter_destroy(&s->filter);
     free(s->placed);
+    free(s->known);
+    free(s->seen);
     free(s->broken);
     *s = (fracture_source){0};
 }
@@ -123,14 +129,21 @@ static double utilisation_at(fracture_source *s, dem_index element, double t)
     return utilisation_of(s->model, s->elements, element, s->state);
 }
 
-/* At the end of the step, from the stresses that are known there. */
-static double utilisation_at_end(const fracture_source *s, dem_index element)
+/* At the end of the step, computed when it is first asked for. */
+static const double *stress_at_end(fracture_source *s, dem_index i)
+{
+    if (s->known[i] != s->number) node_stress(s->model, s->elements, i, s->step->y1, &s->stress[3 * i]);
+    s->known[i] = s->number;
+    return &s->stress[3 * i];
+}
+
+static double utilisation_at_end(fracture_source *s, dem_index element)
 {
     const dem_lattice *l = &s->model->lattice;
     const dem_index *corner = &l->triangles[3 * element];
     if (element >= l->n_triangles) return utilisation_of(s->model, s->elements, element, s->step->y1);
-    return utilisation_of_stress(l->strength[element], &s->stress[3 * corner[0]], &s->stress[3 * corner[1]],
-                                 &s->stress[3 * corner[2]]);
+    return utilisation_of_stress(l->strength[element], stress_at_end(s, corner[0]), stress_at_end(s, corner[1]),
+                                 stress_at_end(s, corner[2]));
 }
 
 /* The root of 1 - utilisation between two times, above 0 before and not above 0 after. */
@@ -175,23 +188,65 @@ static double next_break(fracture_source *s, dem_index element, double from, boo
     return search(s, element, from, end);
 }
 
+/* ---- where to look ---- */
+
+static void look_at(fracture_source *s, dem_index element)
+{
+    const double due = may_break(s, element) ? next_break(s, element, s->step->t0, false) : (double)INFINITY;
+    if (isfinite(due)) event_heap_set(&s->heap, element, due);
+}
+
+static void look_at_triangles_of(fracture_source *s, dem_index i)
+{
+    const element_state *e = s->elements;
+    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
+        const dem_index t = e->at[p];
+        if (s->seen[t] != s->number) look_at(s, t);
+        s->seen[t] = s->number;
+    }
+}
+
+/* All that a spring over its threshold may bring to its limit: itself, and the triangles that share a corner with one
+ * that holds it. Other ends of triangles at its own ends are taken in as well where it is held by none. */
+static void look_near(fracture_source *s, dem_index spring)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const element_state *e = s->elements;
+    if (l->critical_stretch != NULL) look_at(s, l->n_triangles + spring);
+    for (int end = 0; end < 2 && l->strength != NULL; end++) {
+        const dem_index i = l->ends[2 * spring + end];
+        look_at_triangles_of(s, i);
+        for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
+            for (int c = 0; c < 3 && element_state_holds(e, e->at[p], spring); c++)
+                look_at_triangles_of(s, l->triangles[3 * e->at[p] + c]);
+    }
+}
+
+static void look_at_all(fracture_source *s)
+{
+    enum { BLOCK = 256 };
+    const dem_lattice *l = &s->model->lattice;
+    double strain[BLOCK];
+    for (dem_index first = 0; first < l->n_springs; first += BLOCK) {
+        const int n = l->n_springs - first < BLOCK ? (int)(l->n_springs - first) : BLOCK;
+        springs_strain_block(l, first, n, s->step->y1, strain);
+        for (int q = 0; q < n; q++)
+            if (!(fabs(strain[q]) < s->filter.threshold[first + q])) look_near(s, first + q);
+    }
+}
+
 static void fracture_source_begin(void *self, const dense_output *step, double *state)
 {
     fracture_source *s = self;
-    const dem_lattice *l = &s->model->lattice;
     s->step = step;
+    s->number++;
     s->state = state;
     s->jumped = false;
     s->n_broken = 0;
     s->n_damaged = s->elements->n_damaged;
     s->taken_before = *s->taken;
     event_heap_clear(&s->heap);
-    for (dem_index i = 0; i < l->n_nodes && l->strength != NULL; i++)
-        node_stress(s->model, s->elements, i, step->y1, &s->stress[3 * i]);
-    for (dem_index e = 0; e < utilisation_n_elements(l); e++) {
-        const double due = may_break(s, e) ? next_break(s, e, step->t0, false) : (double)INFINITY;
-        if (isfinite(due)) event_heap_set(&s->heap, e, due);
-    }
+    look_at_all(s);
 }
 
 static double fracture_source_next(const void *self, dem_index *key)
@@ -303,8 +358,7 @@ static void fracture_source_follow(void *self, const event_place *at)
     const dem_lattice *l = &s->model->lattice;
     const local_nodes *nodes = &at->near->nodes;
     const element_state *e = s->elements;
-    for (dem_index j = 0; j < nodes->n && l->strength != NULL; j++)
-        node_stress(s->model, e, nodes->list[j], at->step->y1, &s->stress[3 * nodes->list[j]]);
+    for (dem_index j = 0; j < nodes->n; j++) s->known[nodes->list[j]] = s->number - 1;
     for (dem_index j = 0; j < nodes->n; j++) {
         const dem_index i = nodes->list[j];
         const springs *all = &s->model->springs;

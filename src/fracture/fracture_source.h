@@ -7,15 +7,20 @@
 #include "events/event_heap.h"
 #include "events/event_source.h"
 #include "fracture/failing_elements.h"
+#include "fracture/strain_filter.h"
 
 typedef struct fracture_source {
     const dem_model *model;
     element_state *elements;
-    double *taken;             /* J, by all that has broken: the ledger's */
-    dem_index most;            /* elements that may break in a step; for more it is rejected */
-    const dense_output *step;  /* the accepted one */
-    double *state;             /* [2 dim n_rows] scratch, the queue's */
-    double *stress;            /* [n_nodes][3] Pa, at the end of the step */
+    double *taken;            /* J, by all that has broken: the ledger's */
+    dem_index most;           /* elements that may break in a step; for more it is rejected */
+    const dense_output *step; /* the accepted one */
+    double *state;            /* [2 dim n_rows] scratch, the queue's */
+    strain_filter filter;
+    uint32_t number;           /* of the step */
+    double *stress;            /* [n_nodes][3] Pa, at the end of the step, */
+    uint32_t *known;           /* [n_nodes] where this is the number of the step */
+    uint32_t *seen;            /* [n_triangles] the number of the step in which one was looked at last */
     uint32_t *placed;          /* [n_nodes] the look at which a node was put into `state` last */
     uint32_t look;             /* number of the present one */
     event_heap heap;           /* elements by the time at which they break */

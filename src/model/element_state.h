@@ -51,6 +51,14 @@ static inline const unsigned char *element_state_triangles(const element_state *
     return s != NULL ? s->triangle : NULL;
 }
 
+/** Whether a triangle is whole and holds a spring. */
+static inline bool element_state_holds(const element_state *s, dem_index triangle, dem_index spring)
+{
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
+        if (s->spring[p] == spring) return !s->triangle[triangle];
+    return false;
+}
+
 /** The state to look at for the elements of node i: NULL where all of them are whole. */
 static inline const element_state *element_state_at(const element_state *s, dem_index i)
 {

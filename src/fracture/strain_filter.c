@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The largest principal stress of a triangle is at most C m, with m the largest |strain| of its springs:
+ *   C = (1/V) (sum over springs of w E d0 (1 + m) + sum over couplings of 2 |gamma| L1 L2 (1 + m)
+ *              + |kappa| A0 c (1 + c m)^2),   c = sum over edges of |d ln A/d ln L| = L^2 |cot(opposite angle)|/(2 A).
+ * The bound is used for m <= 0.1 and c m <= 0.3 alone. The guard only presses. A node's stress is a mean of those of
+ * its triangles, and a triangle's utilisation the largest principal value of a mean of nodes' stresses, which is at
+ * most the mean of their largest principal values: so if a triangle is near its limit, one of those with which it
+ * shares a corner has a spring strained by near_limit strength/C. A spring that no triangle holds adds to the stress
+ * without a bound; beside it, and where an edge of a triangle has no spring, every step takes a look. */
+#include "fracture/strain_filter.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/status.h"
+#include "base/vec2.h"
+#include "fracture/utilisation.h"
+#include "model/spring_share.h"
+
+static const double most_strain = 0.1, most_growth = 0.3; /* m, c m */
+
+/* A triangle at rest. */
+typedef struct shape {
+    double length[3];   /* m, of the edge from corner c to the next */
+    double sensitivity; /* c above */
+    double area;
+} shape;
+
+static shape shape_of(const dem_lattice *l, dem_index triangle)
+{
+    const dem_index *corner = &l->triangles[3 * triangle];
+    shape s = {.sensitivity = 0.0};
+    vec2 x[3];
+    for (int c = 0; c < 3; c++) x[c] = vec2_at(l->x, corner[c]);
+    s.area = vec2_triangle_area(x[0], x[1], x[2]);
+    for (int c = 0; c < 3; c++) s.length[c] = vec2_norm(vec2_sub(x[(c + 1) % 3], x[c]));
+    for (int c = 0; c < 3; c++) {
+        const double a = s.length[c], b = s.length[(c + 1) % 3], d = s.length[(c + 2) % 3];
+        s.sensitivity += a * a * fabs(b * b + d * d - a * a) / (8.0 * s.area * s.area);
+    }
+    return s;
+}
+
+/* Whether all edges of a triangle have springs: those that it holds between its own corners are three. */
+static bool has_all_edges(const dem_lattice *l, const element_state *s, dem_index triangle)
+{
+    const dem_index *corner = &l->triangles[3 * triangle];
+    int n = 0;
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
+        int inside = 0;
+        for (int k = 0; k < 6; k++) inside += l->ends[2 * s->spring[p] + k / 3] == corner[k % 3];
+        n += inside == 2;
+    }
+    return n == 3;
+}
+
+/* The strain below which the largest principal stress of a triangle is less than `stress`. */
+static double strain_for(const dem_lattice *l, const element_state *s, dem_index triangle, double stress)
+{
+    const shape at_rest = shape_of(l, triangle);
+    const double growth = 1.0 + most_growth;
+    double sum = 0.0;
+    if (!has_all_edges(l, s, triangle)) return 0.0;
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
+        sum += s->share[p] * l->stiffness[s->spring[p]] * l->rest_length[s->spring[p]] * (1.0 + most_strain);
+    for (int c = 0; c < 3 && l->coupling != NULL; c++)
+        sum += 2.0 * fabs(l->coupling[3 * triangle + c]) * at_rest.length[c] * at_rest.length[(c + 2) % 3] *
+               (1.0 + most_strain);
+    if (l->area_stiffness != NULL)
+        sum += fabs(l->area_stiffness[triangle]) * at_rest.area * at_rest.sensitivity * growth * growth;
+    const double strain = stress * spring_share_volume(l, triangle) / sum;
+    return fmin(strain, fmin(most_strain, most_growth / at_rest.sensitivity));
+}
+
+/* The least strength of the triangles at a node; infinity: none breaks. */
+static double weakest_at(const dem_lattice *l, const element_state *s, dem_index i)
+{
+    double least = (double)INFINITY;
+    for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++)
+        if (utilisation_is_limited(l, s->at[p])) least = fmin(least, l->strength[s->at[p]]);
+    return least;
+}
+
+/* Lowers the thresholds of the springs of a triangle to what its neighbours stand. */
+static void enter_triangle(strain_filter *f, const dem_lattice *l, const element_state *s, dem_index triangle,
+                           double near_limit)
+{
+    double least = (double)INFINITY;
+    for (int c = 0; c < 3; c++) least = fmin(least, weakest_at(l, s, l->triangles[3 * triangle + c]));
+    if (isinf(least)) return;
+    const double strain = strain_for(l, s, triangle, near_limit * least);
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
+        f->threshold[s->spring[p]] = fmin(f->threshold[s->spring[p]], strain);
+}
+
+/* Springs at a node beside one that no triangle holds are always over their threshold. */
+static void enter_loose(strain_filter *f, const dem_model *m, const element_state *s, dem_index spring)
+{
+    const springs *all = &m->springs;
+    for (int end = 0; end < 2 && !s->held[spring]; end++) {
+        const dem_index i = m->lattice.ends[2 * spring + end];
+        for (dem_index p = all->row[i]; p < all->row[i + 1]; p++)
+            if (isfinite(weakest_at(&m->lattice, s, i))) f->threshold[all->spring[p]] = 0.0;
+    }
+}
+
+dem_status strain_filter_create(strain_filter *out, const dem_model *model, const element_state *elements,
+                                double near_limit)
+{
+    const dem_lattice *l = &model->lattice;
+    strain_filter f = {.threshold = malloc(((size_t)l->n_springs + 1) * sizeof *f.threshold)};
+    CHECK(f.threshold != NULL, DEM_ERROR_MEMORY, "out of memory for the limits of %lld springs",
+          (long long)l->n_springs);
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const bool limited = l->critical_stretch != NULL && utilisation_is_limited(l, l->n_triangles + k);
+        f.threshold[k] = limited ? near_limit * l->critical_stretch[k] : (double)INFINITY;
+    }
+    for (dem_index t = 0; t < l->n_triangles && l->strength != NULL; t++)
+        enter_triangle(&f, l, elements, t, near_limit);
+    for (dem_index k = 0; k < l->n_springs && l->strength != NULL; k++) enter_loose(&f, model, elements, k);
+    *out = f;
+    return DEM_OK;
+}
+
+void strain_filter_destroy(strain_filter *f)
+{
+    free(f->threshold);
+    *f = (strain_filter){0};
+}

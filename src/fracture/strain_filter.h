@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Strains below which nothing near a spring is near its limit: most elements need no other look at a step. */
+#ifndef DEM_FRACTURE_STRAIN_FILTER_H
+#define DEM_FRACTURE_STRAIN_FILTER_H
+
+#include "model/element_state.h"
+#include "model/model.h"
+
+typedef struct strain_filter {
+    double *threshold; /* [n_springs] of |strain|; infinity: nothing near the spring ever breaks */
+} strain_filter;
+
+/** \param near_limit  the utilisation that is not to be missed
+ *  \return DEM_ERROR_MEMORY. Free with strain_filter_destroy() */
+dem_status strain_filter_create(strain_filter *out, const dem_model *model, const element_state *elements,
+                                double near_limit);
+void strain_filter_destroy(strain_filter *f);
+
+#endif
