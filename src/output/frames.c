@@ -9,6 +9,10 @@
  *   PointData/id              [N]       constant: the offset is 0 in every frame
  *   Connectivity, Types, ...            constant: Steps/CellOffsets is 0 in every frame
  *   Steps/Values, NSteps      [T], T    the times, and how many frames count
+ * The cells are springs, so that flags of the K triangles are outside of what VTK reads, where no offsets are needed:
+ *   /fracture/triangles       [T K]     frame k has the rows k K to (k + 1) K - 1
+ * They are written in every frame, as all arrays are: a segment has those of its own frames, whatever is in others, and
+ * zeros deflate to a 200th.
  * The table `arrays` is the one list of arrays: writing, copying and checking go through it. Cells and their types are
  * in vtk_grid.c; when a frame is written is decided in trajectory.c. */
 #include "output/frames.h"
@@ -31,8 +35,9 @@
 /* Fields for which the stresses of all nodes are needed. */
 enum { ANY_STRESS = DEM_FIELD_STRESS | DEM_FIELD_VON_MISES | DEM_FIELD_PRINCIPAL };
 
-/* What an array has a row of: nothing, each frame, each node, each spring of a frame. Indexes `offsets`. */
-enum of { NONE, ONE, NODES, SPRINGS };
+/* What an array has a row of: nothing, each frame, each node, spring or triangle of a frame. Up to SPRINGS it indexes
+ * `offsets`. */
+enum of { NONE, ONE, NODES, SPRINGS, TRIANGLES };
 
 /* What is looked at while a frame is written. */
 typedef struct view {
@@ -119,11 +124,16 @@ static void fill_broken(const frames *f, const view *v)
     (void)dem_simulation_broken(v->simulation, NULL, (unsigned char *)f->scratch);
 }
 
+static void fill_broken_triangles(const frames *f, const view *v)
+{
+    (void)dem_simulation_broken(v->simulation, (unsigned char *)f->scratch, NULL);
+}
+
 /* All arrays that change from frame to frame. `field` is the option that asks for one. */
 static const struct array {
-    const char *name, *offset;
-    uint32_t field; /* 0: always there */
-    hdf5_kind kind; /* HDF5_F32: as the options say */
+    const char *name, *offset; /* offset NULL: outside of the grid */
+    uint32_t field;            /* 0: always there */
+    hdf5_kind kind;            /* HDF5_F32: as the options say */
     enum of of;
     int components;
     void (*fill)(const frames *f, const view *v);
@@ -141,6 +151,8 @@ static const struct array {
     {IN("CellData", "strain"), DEM_FIELD_STRAIN, HDF5_F32, SPRINGS, 1, fill_strain},
     {IN("CellData", "force"), DEM_FIELD_FORCE, HDF5_F32, SPRINGS, 1, fill_force},
     {IN("CellData", "broken"), 0, HDF5_U8, SPRINGS, 1, fill_broken},
+    /* Triangles. */
+    {FRAMES_BROKEN_TRIANGLES, NULL, 0, HDF5_U8, TRIANGLES, 1, fill_broken_triangles},
 };
 enum { N_ARRAYS = sizeof arrays / sizeof arrays[0] };
 
@@ -172,16 +184,17 @@ static const struct offset {
 };
 enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
 
-/* Whether the options ask for this array. */
+/* Whether the options ask for this array, and the lattice has what it is of: VTK wants cells even if there are none. */
 static bool is_wanted(const frames *f, const struct array *a)
 {
-    return a->field == 0 || (f->fields & a->field) != 0;
+    return (a->field == 0 || (f->fields & a->field) != 0) && (a->of != TRIANGLES || f->n_triangles > 0);
 }
 
 /* Rows of one frame. */
 static dem_index count_of(const frames *f, enum of of)
 {
-    const dem_index count[] = {[NONE] = 0, [ONE] = 1, [NODES] = f->n_nodes, [SPRINGS] = f->n_springs};
+    const dem_index count[] = {
+        [NONE] = 0, [ONE] = 1, [NODES] = f->n_nodes, [SPRINGS] = f->n_springs, [TRIANGLES] = f->n_triangles};
     return count[of];
 }
 
@@ -231,7 +244,7 @@ static dem_status create_arrays(const frames *f, const hdf5_file *file)
         const hdf5_rows rows = array_rows(f, &arrays[a]);
         if (!is_wanted(f, &arrays[a])) continue;
         TRY(hdf5_create(file, &rows));
-        TRY(share_offset(file, arrays[a].offset, arrays[a].of));
+        if (arrays[a].offset != NULL) TRY(share_offset(file, arrays[a].offset, arrays[a].of));
     }
     return DEM_OK;
 }
@@ -274,18 +287,20 @@ dem_status frames_create(const frames *f, const hdf5_file *file, const dem_latti
     return create_rows(file);
 }
 
-/* The scratch holds the largest array: six components of each node, or one number of each spring. */
+/* The scratch holds the largest array: six components of each node, or one number of each spring or triangle. */
 dem_status frames_init(frames *out, const dem_model *model, const dem_trajectory_options *options)
 {
     dem_model_size size = {.struct_size = sizeof size};
     (void)dem_model_sizes(model, &size);
     frames f = {.n_nodes = size.n_nodes,
                 .n_springs = size.n_springs,
+                .n_triangles = size.n_triangles,
                 .fields = options->fields,
                 .real = options->double_precision ? HDF5_F64 : HDF5_F32,
                 .deflate = options->deflate};
-    const size_t n = (size_t)size.n_nodes, m = (size_t)size.n_springs;
-    f.scratch = calloc(6 * n > m ? 6 * n : m, sizeof *f.scratch);
+    const size_t n = (size_t)size.n_nodes, m = (size_t)size.n_springs, k = (size_t)size.n_triangles;
+    const size_t cells = m > k ? m : k;
+    f.scratch = calloc(6 * n > cells ? 6 * n : cells, sizeof *f.scratch);
     f.stress = calloc(n, 3 * sizeof *f.stress);
     if (f.fields & DEM_FIELD_CONTACT) f.pressure = calloc(n, sizeof *f.pressure);
     if (f.scratch == NULL || f.stress == NULL || (f.pressure == NULL && (f.fields & DEM_FIELD_CONTACT))) {
@@ -369,7 +384,8 @@ static dem_status write_count(const hdf5_file *file, dem_index n)
 
 hsize_t frames_bytes(const frames *f)
 {
-    return 200 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs; /* all arrays in double */
+    /* All arrays in double. */
+    return 200 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs + (hsize_t)f->n_triangles;
 }
 
 /* Positions are always written; the other arrays as the options say. The frame does not count itself: the caller raises

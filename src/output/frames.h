@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The group /VTKHDF of a trajectory: the lattice as a grid of lines, and what is shown on it at every frame. */
+/* The group /VTKHDF of a trajectory: the lattice as a grid of lines, and what is shown on it at every frame; and beside
+ * it which triangles are broken then. */
 #ifndef DEM_OUTPUT_FRAMES_H
 #define DEM_OUTPUT_FRAMES_H
 
@@ -7,15 +8,19 @@
 
 #include "output/hdf5_file.h"
 
+/** The dataset of the flags of triangles, 1: broken, frame by frame. Files of older versions, and those of lattices
+ *  without triangles, do not have it. */
+#define FRAMES_BROKEN_TRIANGLES "/fracture/triangles"
+
 typedef struct frames {
-    dem_index n_nodes, n_springs;
+    dem_index n_nodes, n_springs, n_triangles;
     uint32_t fields; /* DEM_FIELD_... */
     hdf5_kind real;  /* of most arrays in the file: HDF5_F32 or HDF5_F64 */
     int deflate;
     dem_index before; /* frames in the files before this one */
     dem_index n;      /* frames in this file */
     double last;      /* time of the last frame, s */
-    double *scratch;  /* the array that is being written: [6 n_nodes] or [n_springs] */
+    double *scratch;  /* the array that is being written: [6 n_nodes], [n_springs] or [n_triangles] */
     double *stress;   /* [n_nodes][3] */
     double *pressure; /* [n_nodes] of contact; NULL: not wanted */
 } frames;

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "ask.h"
+#include "harness/cleanup_hdf5.h"
 #include "output/frames.h"
 #include "unit/solids.h"
 
@@ -139,6 +140,54 @@ TEST(springs_that_are_broken_are_marked)
     for (hsize_t k = 0; k < n; k++)
         if (expected[k]) assert_close(force[n + k], 0.0, 0.0);
     free(expected);
+    put_away(f);
+}
+
+/* Those of the first frame are of whole triangles. */
+TEST(triangles_that_are_broken_are_marked_in_frames_of_their_own)
+{
+    reader *f = shoot_breaking(open_block, 0, 0, 3);
+    const hsize_t n = (hsize_t)f->frames.n_triangles;
+    const double *broken = stored_values(&f->stored, "/fracture/triangles", 2 * n, 1, 1);
+    assert_true(n > 3);
+    for (hsize_t k = 0; k < n; k++) {
+        assert_close(broken[k], 0.0, 0.0);
+        assert_close(broken[n + k], k < 3 ? 1.0 : 0.0, 0.0);
+    }
+    put_away(f);
+}
+
+/* Half a metre of rubber. */
+static void open_plate(support_run *run)
+{
+    const dem_options options = dem_options_default();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.5, 0.5, 0.01);
+    support_open(run, &lattice, NULL, 0, &options);
+}
+
+TEST(flags_of_whole_triangles_take_no_room)
+{
+    reader *f = shoot_run(open_plate, 0, 0);
+    CLEANUP(free_h5) const hid_t flags = H5Dopen2(f->stored.file.id, "/fracture/triangles", H5P_DEFAULT);
+    assert_true(f->frames.n_triangles > 5000);
+    assert_true(H5Dget_storage_size(flags) <= 2 * 60);
+    put_away(f);
+}
+
+/* Two masses and a spring. */
+static void open_pair(support_run *run)
+{
+    const dem_options options = dem_options_default();
+    const double x[4] = {0.0, 0.0, 0.01, 0.0}, mass[2] = {1.0, 1.0};
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = support_lattice(2, x, mass, 1, (const dem_index[2]){0, 1}, 0.01, 100.0, NULL);
+    support_open(run, &lattice, NULL, 0, &options);
+}
+
+TEST(a_body_without_triangles_has_no_flags_of_them)
+{
+    reader *f = shoot_run(open_pair, 0, 0);
+    assert_false(stored_has(&f->stored, "/fracture"));
     put_away(f);
 }
 

@@ -846,8 +846,9 @@ static dem_trajectory *follow(const place *p, dem_simulation *simulation, dem_pe
     return trajectory;
 }
 
-/* Advances to t, where it is either finished or leaves a segment of the last checkpoint, which is returned. */
-static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoint, double t)
+/* Advances to t, where it is either finished or leaves a segment of the last checkpoint, which is returned.
+ * \param breaks  triangles break then; 0: none */
+static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoint, double breaks, double t)
 {
     dem_options options = dem_options_default();
     CLEANUP(free_simulation) dem_simulation *simulation;
@@ -862,6 +863,10 @@ static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoin
         assert_ok(dem_peaks_create(&peaks, p->model, 4));
     }
     CLEANUP(free_trajectory) dem_trajectory *trajectory = follow(p, simulation, peaks, checkpoint);
+    if (breaks > 0.0) {
+        assert_ok(dem_simulation_advance(simulation, breaks));
+        assert_ok(dem_simulation_break(simulation, (const dem_index[]){0, 1, 9}, 3, NULL, 0));
+    }
     assert_ok(dem_simulation_advance(simulation, t));
     if (t < end) {
         assert_ok(dem_trajectory_segment(trajectory, dem_simulation_checkpoint(simulation)));
@@ -875,13 +880,44 @@ static dem_checkpoint *follow_to(const place *p, const dem_checkpoint *checkpoin
 TEST(a_run_goes_on_from_the_checkpoints_of_its_simulation)
 {
     CLEANUP(close_place) place p = open_place();
-    assert_null(follow_to(&p, NULL, end));
+    assert_null(follow_to(&p, NULL, 0.0, end));
     assert_int_equal(rename(name_in(&p, "run.vtkhdf"), name_in(&p, "quiet.vtkhdf")), 0);
     dem_checkpoint *checkpoint = NULL;
     for (int k = 1; k <= 6; k++) {
-        dem_checkpoint *last = follow_to(&p, checkpoint, k * end / 6.0);
+        dem_checkpoint *last = follow_to(&p, checkpoint, 0.0, k * end / 6.0);
         dem_checkpoint_destroy(checkpoint);
         checkpoint = last;
     }
+    assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
+}
+
+/* The sum of the flags of a frame. */
+static int count_broken(const place *p, const char *name, dem_index frame)
+{
+    const hdf5_rows rows = {"/fracture/triangles", HDF5_U8, 1, {0, 0}, 0, 0};
+    const hsize_t n = (hsize_t)ask_sizes(p->model).n_triangles;
+    CLEANUP(free_memory) unsigned char *broken = calloc(n, 1);
+    int sum = 0;
+    hdf5_file file;
+    assert_non_null(broken);
+    assert_ok(hdf5_open_read(&file, name_in(p, name)));
+    assert_ok(hdf5_close(&file, hdf5_read(&file, &rows, (hsize_t)frame * n, n, broken)));
+    for (hsize_t k = 0; k < n; k++) sum += broken[k];
+    return sum;
+}
+
+/* Triangles break in the part that becomes the first segment; what goes on shows them broken as well. */
+TEST(a_run_that_goes_on_has_its_broken_triangles)
+{
+    CLEANUP(close_place) place p = open_place();
+    assert_null(follow_to(&p, NULL, end / 3.0, end));
+    assert_int_equal(rename(name_in(&p, "run.vtkhdf"), name_in(&p, "quiet.vtkhdf")), 0);
+    CLEANUP(free_checkpoint) dem_checkpoint *checkpoint = follow_to(&p, NULL, end / 3.0, 2.0 * end / 3.0);
+    const dem_index n = count_rows(&p, "run.00001.vtkhdf", "/VTKHDF/Steps/Values");
+    assert_int_equal(count_broken(&p, "run.00001.vtkhdf", 0), 0);
+    assert_int_equal(count_broken(&p, "run.00001.vtkhdf", n - 1), 3);
+    assert_null(follow_to(&p, checkpoint, 0.0, end));
+    assert_int_equal(count_broken(&p, "run.vtkhdf", 0), 0);
+    assert_int_equal(count_broken(&p, "run.vtkhdf", count_rows(&p, "run.vtkhdf", "/VTKHDF/Steps/Values") - 1), 3);
     assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
 }
