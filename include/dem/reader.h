@@ -76,6 +76,12 @@ DEM_API dem_status dem_reader_positions(const dem_reader *reader, dem_index fram
 DEM_API dem_status dem_reader_read(const dem_reader *reader, const dem_reader_array *array, dem_index frame,
                                    double *values);
 
+/** Which triangles are broken; springs that are have the array "broken".
+ *  \param frame          0 <= frame < n_frames
+ *  \param[out] triangle  [n_triangles] 1: broken, else 0; all 0 where the file is of a version that did not write them
+ *  \return as dem_reader_positions() */
+DEM_API dem_status dem_reader_broken_triangles(const dem_reader *reader, dem_index frame, unsigned char *triangle);
+
 /* ---- tables ----------------------------------------------------------------------------------------------------- */
 
 /** A column of a table: "history", "events", "probes/NAME", "most_stressed/nodes", "most_stressed/springs", and

@@ -1074,6 +1074,13 @@ module dem_c
       real(c_double), intent(out) :: values(*)
     end function
 
+    integer(dem_status) function dem_reader_broken_triangles(reader, frame, triangle) bind(c)
+      import
+      type(c_ptr), value :: reader
+      integer(dem_index), value :: frame
+      integer(c_signed_char), intent(out) :: triangle(*)
+    end function
+
     type(c_ptr) function dem_reader_columns(reader, n) bind(c)
       import
       type(c_ptr), value :: reader

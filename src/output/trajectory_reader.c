@@ -3,6 +3,7 @@
  *   /VTKHDF/Steps/Values              the times of the frames
  *   /VTKHDF/PointData, CellData       arrays of nodes, of springs
  *   /VTKHDF/FieldData                 the table "frames", a row for each frame
+ *   /fracture/triangles               which triangles are broken in each frame
  *   /history, /events                 tables of these names
  *   /probes/NAME, /most_stressed/...  tables "probes/NAME", ...
  *   /lattice, /obstacles              read by lattice_file.c and obstacle_file.c
@@ -16,6 +17,7 @@
 #include "base/grow.h"
 #include "base/status.h"
 #include "lattice/lattice.h"
+#include "output/frames.h"
 #include "output/hdf5_untrusted.h"
 #include "output/motion_record.h"
 #include "output/obstacle_file.h"
@@ -49,6 +51,7 @@ struct dem_reader {
     motion_record *records; /* [n_obstacles] of those that a program moved; NULL: none yet */
     double *times;
     dem_index n_frames;
+    bool knows_triangles; /* whether the file tells which are broken */
     dem_reader_array *arrays;
     dem_index n_arrays, room_arrays;
     dem_reader_column *columns;
@@ -214,6 +217,21 @@ static dem_status add_arrays(dem_reader *reader, const hdf5_file *file, int of_s
     return status;
 }
 
+/* In a file of an older version no triangle is known to be broken. */
+static dem_status find_broken_triangles(dem_reader *reader, const hdf5_file *file)
+{
+    static const char name[] = FRAMES_BROKEN_TRIANGLES;
+    const dem_index in_frame = reader->lattice.n_triangles;
+    hdf5_untrusted_shape shape;
+    TRY(hdf5_untrusted_find(file, name, &reader->knows_triangles));
+    if (!reader->knows_triangles) return DEM_OK;
+    TRY(hdf5_untrusted_measure(file, name, HDF5_U8, &shape));
+    CHECK(shape.rank == 1 && holds_frames(reader, shape.extent[0], in_frame), DEM_ERROR_IO,
+          "%s: %s: is not of shape [%lld times %lld]", file->path, name, (long long)reader->n_frames,
+          (long long)in_frame);
+    return DEM_OK;
+}
+
 /* ---- tables ---- */
 
 static const char frames_table[] = "frames", history_table[] = "history";
@@ -328,6 +346,7 @@ static dem_status list_frames(dem_reader *reader, const hdf5_file *file)
     TRY(check_positions(reader, file));
     TRY(add_arrays(reader, file, 0));
     TRY(add_arrays(reader, file, 1));
+    TRY(find_broken_triangles(reader, file));
     return add_frames_table(reader, file);
 }
 
@@ -459,18 +478,18 @@ const dem_reader_column *dem_reader_column_find(const dem_reader *reader, const 
 /* ---- reading ---- */
 
 /* Reads rows of a dataset, `width` numbers each, if it still has them. */
-static dem_status read_checked(const hdf5_file *file, const char *name, hdf5_untrusted_rows rows, hsize_t width,
-                               double *values)
+static dem_status read_checked(const hdf5_file *file, const char *name, hdf5_kind kind, hdf5_untrusted_rows rows,
+                               hsize_t width, void *values)
 {
     hdf5_untrusted_shape shape;
     bool present = false;
     TRY(hdf5_untrusted_find(file, name, &present));
     if (!present) return hdf5_untrusted_refuse(file, name, "is missing");
-    TRY(hdf5_untrusted_measure(file, name, HDF5_F64, &shape));
+    TRY(hdf5_untrusted_measure(file, name, kind, &shape));
     /* The caller's buffer has been made for what was there when the reader was opened. */
     if (shape.rank == 0 || shape.extent[1] * shape.extent[2] != width || shape.extent[0] < rows.first + rows.count)
         return hdf5_untrusted_refuse(file, name, "has another shape than when the reader was opened");
-    return hdf5_untrusted_read(file, name, HDF5_F64, rows, values);
+    return hdf5_untrusted_read(file, name, kind, rows, values);
 }
 
 /* Opens the file for this one read. */
@@ -479,7 +498,7 @@ static dem_status read_rows(const dem_reader *reader, const char *name, hdf5_unt
 {
     hdf5_file file;
     TRY(hdf5_untrusted_open(&file, reader->path));
-    return hdf5_close(&file, read_checked(&file, name, rows, (hsize_t)width, values));
+    return hdf5_close(&file, read_checked(&file, name, HDF5_F64, rows, (hsize_t)width, values));
 }
 
 /* Frames are numbered from 0. */
@@ -512,6 +531,22 @@ dem_status dem_reader_read(const dem_reader *reader, const dem_reader_array *arr
     const hsize_t n = (hsize_t)count_of(reader, array->of_springs);
     (void)snprintf(path, sizeof path, GRID "%s/%s", set_of(array->of_springs), array->name);
     return read_rows(reader, path, (hdf5_untrusted_rows){(hsize_t)frame * n, n, 0}, array->components, values);
+}
+
+/* Any number but 0 is a flag. */
+dem_status dem_reader_broken_triangles(const dem_reader *reader, dem_index frame, unsigned char *triangle)
+{
+    CHECK(reader != NULL && triangle != NULL, DEM_ERROR_ARGUMENT, "dem_reader_broken_triangles: an argument is NULL");
+    TRY(check_frame(reader, frame));
+    hdf5_file file;
+    const hsize_t n = (hsize_t)reader->lattice.n_triangles;
+    const hdf5_untrusted_rows rows = {(hsize_t)frame * n, n, 0};
+    memset(triangle, 0, (size_t)n);
+    if (!reader->knows_triangles) return DEM_OK;
+    TRY(hdf5_untrusted_open(&file, reader->path));
+    TRY(hdf5_close(&file, read_checked(&file, FRAMES_BROKEN_TRIANGLES, HDF5_U8, rows, 1, triangle)));
+    for (hsize_t k = 0; k < n; k++) triangle[k] = triangle[k] != 0;
+    return DEM_OK;
 }
 
 dem_status dem_reader_read_column(const dem_reader *reader, const dem_reader_column *column, double *values)

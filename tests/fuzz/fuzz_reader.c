@@ -32,6 +32,9 @@ static void read_frames(const dem_reader *reader, double *values)
     if (n_frames == 0 || 2 * l->n_nodes > MOST_NUMBERS) return;
     const dem_status status = dem_reader_positions(reader, n_frames - 1, values);
     if (status != DEM_OK) require_message(status);
+    if (l->n_triangles > MOST_NUMBERS) return;
+    const dem_status broken = dem_reader_broken_triangles(reader, n_frames - 1, (unsigned char *)values);
+    if (broken != DEM_OK) require_message(broken);
 }
 
 static void read_tables(const dem_reader *reader, double *values)

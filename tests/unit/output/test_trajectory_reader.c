@@ -28,6 +28,7 @@ static const double hill[6] = {-1.0, -0.001, 0.0, 0.0, 1.0, 0.0}, far[4] = {4.0,
 typedef struct shot {
     double t;
     double *x, *v, *stress, *strain, *force;
+    unsigned char *broken; /* [n_triangles] */
 } shot;
 
 typedef struct run {
@@ -49,6 +50,13 @@ static double *copy_of(const double *values, dem_index n)
     return copy;
 }
 
+static unsigned char *flags_of(dem_index n)
+{
+    unsigned char *flags = calloc((size_t)n + 1, sizeof *flags);
+    assert_non_null(flags);
+    return flags;
+}
+
 static dem_status see_frame(void *context, const dem_simulation *simulation)
 {
     run *r = context;
@@ -63,9 +71,11 @@ static dem_status see_frame(void *context, const dem_simulation *simulation)
     s->stress = copy_of(NULL, 3 * size.n_nodes);
     s->strain = copy_of(NULL, size.n_springs);
     s->force = copy_of(NULL, size.n_springs);
+    s->broken = flags_of(size.n_triangles);
     dem_simulation_stress(simulation, s->stress);
     dem_simulation_strains(simulation, s->strain);
     dem_simulation_forces(simulation, s->force);
+    assert_ok(dem_simulation_broken(simulation, s->broken, NULL));
     return DEM_OK;
 }
 
@@ -139,7 +149,7 @@ static void end(run *r)
 {
     for (dem_index k = 0; k < r->n_shots; k++) {
         const shot *s = &r->shots[k];
-        free(s->x), free(s->v), free(s->stress), free(s->strain), free(s->force);
+        free(s->x), free(s->v), free(s->stress), free(s->strain), free(s->force), free(s->broken);
     }
     dem_trajectory_destroy(r->trajectory);
     dem_peaks_destroy(r->peaks);
@@ -196,6 +206,15 @@ static void assert_shown(const dem_reader *reader, const char *name, dem_index f
     for (dem_index k = 0; k < n; k++) assert_close(values[k], expected[k], roundings * rounding(expected[k]));
 }
 
+static void assert_broken(const dem_reader *reader, dem_index frame, const unsigned char *expected)
+{
+    const dem_index n = dem_reader_lattice(reader)->n_triangles;
+    CLEANUP(free_memory) unsigned char *broken = flags_of(n);
+    memset(broken, 2, (size_t)n);
+    assert_ok(dem_reader_broken_triangles(reader, frame, broken));
+    assert_memory_equal(broken, expected, (size_t)n);
+}
+
 static void assert_frame(const dem_reader *reader, const run *r, dem_index frame, double roundings)
 {
     const dem_model_size size = ask_sizes(r->model);
@@ -221,6 +240,7 @@ static void assert_frame(const dem_reader *reader, const run *r, dem_index frame
     assert_shown(reader, "principal_stress", frame, spread, 2 * n, roundings);
     assert_shown(reader, "strain", frame, s->strain, size.n_springs, roundings);
     assert_shown(reader, "force", frame, s->force, size.n_springs, roundings);
+    assert_broken(reader, frame, s->broken);
     free(x);
     free(spread);
 }
@@ -266,6 +286,70 @@ TEST(any_fields_may_be_there)
         assert_null(dem_reader_array_find(reader, "stress"));
     }
 }
+
+/* ---- what is broken ---- */
+
+static void break_triangles(const run *r, dem_index first, dem_index n)
+{
+    const dem_index triangles[] = {first, first + 1, first + 2};
+    assert_ok(dem_simulation_break(r->simulation, triangles, n, NULL, 0));
+}
+
+/* Some break behind frame 3, one more of the other body behind frame 7. */
+static void make_breaking(run *r)
+{
+    const dem_trajectory_options options = everything();
+    begin(r, &options);
+    advance(r, 3.5);
+    break_triangles(r, 4, 3);
+    advance(r, 7.5);
+    break_triangles(r, ask_sizes(r->model).n_triangles - 1, 1);
+    advance(r, 10.0);
+    assert_ok(dem_trajectory_finish(r->trajectory));
+}
+
+TEST(triangles_are_broken_in_the_frames_in_which_they_were)
+{
+    CLEANUP(end) run r;
+    make_breaking(&r);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
+    assert_frames(reader, &r, 0.0);
+    const unsigned char *broken = r.shots[10].broken;
+    assert_true(broken[4] == 1 && broken[6] == 1 && broken[ask_sizes(r.model).n_triangles - 1] == 1);
+    assert_int_equal(r.shots[7].broken[ask_sizes(r.model).n_triangles - 1], 0);
+}
+
+/* As versions before wrote it. */
+TEST(in_a_file_without_flags_all_triangles_are_whole)
+{
+    CLEANUP(end) run r;
+    make_breaking(&r);
+    const hid_t file = H5Fopen(r.path, H5F_ACC_RDWR, H5P_DEFAULT);
+    assert_true(H5Ldelete(file, "/fracture", H5P_DEFAULT) >= 0);
+    (void)H5Fclose(file);
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
+    CLEANUP(free_memory) unsigned char *none = flags_of(ask_sizes(r.model).n_triangles);
+    assert_broken(reader, 10, none);
+}
+
+TEST(any_number_but_0_is_a_flag)
+{
+    CLEANUP(end) run r;
+    make_breaking(&r);
+    const dem_index n = ask_sizes(r.model).n_triangles;
+    CLEANUP(free_memory) unsigned char *flags = flags_of(11 * n);
+    hdf5_file file;
+    for (dem_index k = 0; k < 11 * n; k++) flags[k] = (unsigned char)(k % 5 * 60);
+    assert_ok(hdf5_open_write(&file, r.path, 4096));
+    assert_ok(
+        hdf5_append(&file, &(hdf5_rows){"/fracture/triangles", HDF5_U8, 1, {0}, 0, 0}, 0, (hsize_t)(11 * n), flags));
+    assert_ok(hdf5_close(&file, DEM_OK));
+    CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
+    for (dem_index k = 0; k < 11 * n; k++) flags[k] = flags[k] != 0;
+    for (dem_index frame = 0; frame < 11; frame++) assert_broken(reader, frame, flags + frame * n);
+}
+
+/* ---- arrays ---- */
 
 TEST(arrays_are_listed_with_what_they_are)
 {
@@ -543,12 +627,16 @@ TEST(what_is_not_there_cannot_be_read)
     make_whole(&r);
     dem_reader *reader = open_reader(r.path), *other = NULL;
     double values[1024];
+    unsigned char broken[256];
     const dem_reader_array *v = dem_reader_array_find(reader, "velocity");
     const dem_reader_column *t = dem_reader_column_find(reader, "history", "t");
     assert_int_equal(dem_reader_positions(reader, 11, values), DEM_ERROR_ARGUMENT);
     assert_non_null(strstr(dem_status_message(), "run.vtkhdf: has no frame 11: there are 11"));
     assert_int_equal(dem_reader_positions(reader, -1, values), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_reader_read(reader, v, 11, values), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_broken_triangles(reader, 11, broken), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_broken_triangles(reader, 10, NULL), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_reader_broken_triangles(NULL, 10, broken), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_reader_read(reader, NULL, 0, values), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_reader_read_column(reader, NULL, values), DEM_ERROR_ARGUMENT);
     assert_int_equal(dem_reader_read_rows(reader, t, t->n_rows, 1, values), DEM_ERROR_ARGUMENT);
@@ -581,7 +669,7 @@ static void put(hid_t file, const char *name, hid_t type, int rank, const hsize_
     CLEANUP(free_h5) const hid_t space = H5Screate_simple(rank, extent, NULL);
     CLEANUP(free_h5) const hid_t dataset = H5Dcreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     assert_true(dataset >= 0);
-    if (rank == 1 && type == H5T_NATIVE_DOUBLE && extent[0] <= 11) {
+    if (rank == 1 && (type == H5T_NATIVE_DOUBLE || type == H5T_NATIVE_UINT8) && extent[0] <= 11) {
         const double zero[11] = {0.0};
         assert_true(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, zero) >= 0);
     }
@@ -595,6 +683,11 @@ static void put_flat(hid_t file, const char *name)
 static void put_text(hid_t file, const char *name)
 {
     put(file, name, H5T_C_S1, 1, (const hsize_t[]){11});
+}
+
+static void put_few(hid_t file, const char *name)
+{
+    put(file, name, H5T_NATIVE_UINT8, 1, (const hsize_t[]){11});
 }
 
 static void put_huge(hid_t file, const char *name)
@@ -615,6 +708,11 @@ static void put_none(hid_t file, const char *name)
 static void put_deep(hid_t file, const char *name)
 {
     put(file, name, H5T_NATIVE_DOUBLE, 4, (const hsize_t[]){1, 1, 1, 1});
+}
+
+static void put_deep_flags(hid_t file, const char *name)
+{
+    put(file, name, H5T_NATIVE_UINT8, 4, (const hsize_t[]){1, 1, 1, 1});
 }
 
 static void put_soft(hid_t file, const char *name)
@@ -691,6 +789,11 @@ static const damage damages[] = {
     {"/VTKHDF/PointData/new", "/VTKHDF/PointData/new: is not a readable dataset", put_group},
     {"/VTKHDF/PointData/a b", "/VTKHDF/PointData: a?b is no name of 1 to 63 letters, digits and signs", put_flat},
     {"/VTKHDF/CellData", "/VTKHDF/CellData: is not a readable group", put_flat},
+    {"/fracture/triangles", "/fracture/triangles: is not of shape [11 times 41]", put_few},
+    {"/fracture/triangles", "/fracture/triangles: is not of shape [11 times 41]", put_deep_flags},
+    {"/fracture/triangles", "/fracture/triangles: is neither integer nor boolean", put_flat},
+    {"/fracture/triangles", "/fracture/triangles: is a soft or external link", put_soft},
+    {"/fracture", "/fracture: is a soft or external link", put_soft},
     {"/history/t", "/history/t: is neither floating-point nor integer", put_text},
     {"/history/t", "/history/t: is not of shape [n], [n][..] or [n][..][..]", put_deep},
     {"/history/t", "/history/t: is not of shape [n], [n][..] or [n][..][..]", put_none},
@@ -735,11 +838,13 @@ TEST(what_has_changed_since_is_refused)
     make_whole(&r);
     CLEANUP(free_reader) dem_reader *reader = open_reader(r.path);
     CLEANUP(free_memory) double *values = copy_of(NULL, 4096);
+    CLEANUP(free_memory) unsigned char *broken = flags_of(ask_sizes(r.model).n_triangles);
     const hid_t file = H5Fopen(r.path, H5F_ACC_RDWR, H5P_DEFAULT);
     put_flat(file, "/VTKHDF/PointData/velocity");
     drop(file, "/history/t");
     put_flat(file, "/history/h");
     put_huge(file, "/VTKHDF/Points");
+    drop(file, "/fracture/triangles");
     (void)H5Fclose(file);
     assert_int_equal(dem_reader_read(reader, dem_reader_array_find(reader, "velocity"), 3, values), DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "velocity: has another shape than when the reader was opened"));
@@ -750,6 +855,8 @@ TEST(what_has_changed_since_is_refused)
                      DEM_ERROR_IO);
     assert_non_null(strstr(dem_status_message(), "/history/h: has another shape than when the reader was opened"));
     assert_int_equal(dem_reader_positions(reader, 3, values), DEM_ERROR_IO);
+    assert_int_equal(dem_reader_broken_triangles(reader, 3, broken), DEM_ERROR_IO);
+    assert_non_null(strstr(dem_status_message(), "/fracture/triangles: is missing"));
 }
 
 /* What others have put there is read as well; the rows of a table are those that all columns have. */
