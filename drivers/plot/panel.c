@@ -41,9 +41,14 @@ static unsigned char shade_of(const panel_look *look, double value)
     return (unsigned char)palette_index(value, look->range.lo, look->range.hi);
 }
 
-static bool is_there(const snapshot *s, dem_index spring)
+static bool has_spring(const snapshot *s, dem_index spring)
 {
-    return s->broken[spring] == 0.0;
+    return s->broken_springs[spring] == 0.0;
+}
+
+static bool has_triangle(const snapshot *s, dem_index triangle)
+{
+    return s->broken_triangles[triangle] == 0;
 }
 
 static bool gather_springs(const panel *p, const snapshot *s, const panel_look *look, shape_batch *h)
@@ -51,7 +56,7 @@ static bool gather_springs(const panel *p, const snapshot *s, const panel_look *
     const dem_lattice *l = s->lattice;
     if (!shape_batch_create(h, (size_t)l->n_springs, 2)) return false;
     for (dem_index k = 0; k < l->n_springs; k++) {
-        if (!is_there(s, k) || !place_all(p, s, l->ends + 2 * k, 2, h->xy + 4 * h->n)) continue;
+        if (!has_spring(s, k) || !place_all(p, s, l->ends + 2 * k, 2, h->xy + 4 * h->n)) continue;
         h->shade[h->n++] = shade_of(look, snapshot_spring_value(s, k));
     }
     return true;
@@ -62,7 +67,7 @@ static bool gather_triangles(const panel *p, const snapshot *s, const panel_look
     const dem_lattice *l = s->lattice;
     if (!shape_batch_create(h, (size_t)l->n_triangles, 3)) return false;
     for (dem_index k = 0; k < l->n_triangles; k++) {
-        if (!place_all(p, s, l->triangles + 3 * k, 3, h->xy + 6 * h->n)) continue;
+        if (!has_triangle(s, k) || !place_all(p, s, l->triangles + 3 * k, 3, h->xy + 6 * h->n)) continue;
         h->shade[h->n++] = shade_of(look, snapshot_triangle_value(s, k));
     }
     return true;
@@ -101,12 +106,12 @@ static void bin(const panel *p, const snapshot *s, const panel_look *look, raste
         for (dem_index k = 0; k < l->n_triangles; k++) {
             const dem_index *corner = l->triangles + 3 * k;
             const double value[] = {s->value[corner[0]], s->value[corner[1]], s->value[corner[2]]};
-            if (place_all(&fine, s, corner, 3, xy)) raster_triangle(r, xy, value);
+            if (has_triangle(s, k) && place_all(&fine, s, corner, 3, xy)) raster_triangle(r, xy, value);
         }
         return;
     }
     for (dem_index k = 0; k < l->n_springs; k++)
-        if (is_there(s, k) && place_all(&fine, s, l->ends + 2 * k, 2, xy))
+        if (has_spring(s, k) && place_all(&fine, s, l->ends + 2 * k, 2, xy))
             raster_line(r, xy, thick, snapshot_spring_value(s, k));
 }
 

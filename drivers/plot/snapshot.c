@@ -16,16 +16,19 @@ static void find_bare(snapshot *s)
 bool snapshot_create(snapshot *s, const dem_reader *reader, const quantity *shown, outcome *o)
 {
     const dem_lattice *l = dem_reader_lattice(reader);
-    const size_t nodes = (size_t)l->n_nodes, springs = (size_t)l->n_springs, n = quantity_count(shown, l);
+    const size_t nodes = (size_t)l->n_nodes, springs = (size_t)l->n_springs, triangles = (size_t)l->n_triangles;
+    const size_t n = quantity_count(shown, l);
     const size_t components = shown->source != NULL ? (size_t)shown->source->components : 0;
     *s = (snapshot){.reader = reader, .shown = shown, .lattice = l, .n_values = n, .reach = colour_range_extent_none()};
     s->x = malloc(2 * nodes * sizeof *s->x);
     s->value = malloc((n + 1) * sizeof *s->value);
     s->work = malloc((n * components + 1) * sizeof *s->work);
     s->is_bare = malloc(nodes);
-    s->broken = calloc(springs + 1, sizeof *s->broken);
+    s->broken_springs = calloc(springs + 1, sizeof *s->broken_springs);
+    s->broken_triangles = calloc(triangles + 1, sizeof *s->broken_triangles);
     s->breaks = dem_reader_array_find(reader, "broken");
-    if (s->x != NULL && s->value != NULL && s->work != NULL && s->is_bare != NULL && s->broken != NULL)
+    if (s->x != NULL && s->value != NULL && s->work != NULL && s->is_bare != NULL && s->broken_springs != NULL &&
+        s->broken_triangles != NULL)
         return find_bare(s), true;
     outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory");
     return false;
@@ -36,7 +39,8 @@ void snapshot_free(snapshot *s)
     free(s->x);
     free(s->value);
     free(s->work);
-    free(s->broken);
+    free(s->broken_springs);
+    free(s->broken_triangles);
     free(s->is_bare);
     *s = (snapshot){0};
 }
@@ -54,7 +58,8 @@ bool snapshot_load(snapshot *s, dem_index frame, outcome *o)
     dem_status status = dem_reader_positions(s->reader, frame, s->x);
     if (status == DEM_OK && s->n_values > 0) status = quantity_read(s->shown, s->reader, frame, s->value, s->work);
     if (status == DEM_OK && s->breaks != NULL && s->lattice->n_springs > 0)
-        status = dem_reader_read(s->reader, s->breaks, frame, s->broken);
+        status = dem_reader_read(s->reader, s->breaks, frame, s->broken_springs);
+    if (status == DEM_OK) status = dem_reader_broken_triangles(s->reader, frame, s->broken_triangles);
     if (status != DEM_OK) return outcome_fail_status(o, status, "dem_plot"), false;
     if (!is_finite(2 * (size_t)s->lattice->n_nodes, s->x)) {
         outcome_fail(o, EXIT_INVALID, "dem_plot", "frame %lld has places that are not finite", (long long)frame);
@@ -75,12 +80,23 @@ double snapshot_spacing(const snapshot *s)
     return l->n_springs > 0 ? sum / (double)l->n_springs : 0.0;
 }
 
+/* Numbers of what is broken, so that nothing is added while all is whole. */
+static uint64_t add_broken(const snapshot *s, uint64_t hash)
+{
+    for (dem_index k = 0; k < s->lattice->n_springs; k++)
+        if (s->broken_springs[k] != 0.0) hash = digest_add(hash, &k, sizeof k);
+    for (dem_index k = 0; k < s->lattice->n_triangles; k++)
+        if (s->broken_triangles[k] != 0) hash = digest_add(hash, &k, sizeof k);
+    return hash;
+}
+
 uint64_t snapshot_hash(const snapshot *s, uint64_t hash)
 {
     hash = digest_add(hash, &s->frame, sizeof s->frame);
     hash = digest_add(hash, &s->t, sizeof s->t);
     hash = digest_add(hash, s->x, 2 * (size_t)s->lattice->n_nodes * sizeof *s->x);
-    return digest_add(hash, s->value, s->n_values * sizeof *s->value);
+    hash = digest_add(hash, s->value, s->n_values * sizeof *s->value);
+    return add_broken(s, hash);
 }
 
 static double mean_of_nodes(const snapshot *s, const dem_index *nodes, int n)

@@ -17,12 +17,13 @@ typedef struct snapshot {
     const quantity *shown;
     const dem_lattice *lattice;
     size_t n_values;
-    double *x;                      /* [n_nodes][2] m */
-    double *value;                  /* [n_values] of springs or nodes */
-    double *work;                   /* [n_values][components of the source] */
-    const dem_reader_array *breaks; /* NULL: springs never break */
-    double *broken;                 /* [n_springs] not 0 where a spring is no more */
-    unsigned char *is_bare;         /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
+    double *x;                       /* [n_nodes][2] m */
+    double *value;                   /* [n_values] of springs or nodes */
+    double *work;                    /* [n_values][components of the source] */
+    const dem_reader_array *breaks;  /* NULL: springs never break */
+    double *broken_springs;          /* [n_springs] not 0 where a spring is no more */
+    unsigned char *broken_triangles; /* [n_triangles] 1 where a triangle is no more */
+    unsigned char *is_bare;          /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
     dem_index frame;
     double t;                  /* s */
     box bounds;                /* of the nodes, m */
@@ -40,7 +41,7 @@ bool snapshot_load(snapshot *s, dem_index frame, outcome *o);
 /** The mean length of a spring of the lattice at rest, m; 0 without springs. */
 double snapshot_spacing(const snapshot *s);
 
-/** The hash of its frame, time, places and values, after `hash`. */
+/** The hash of its frame, time, places, values and of what is broken, after `hash`. */
 uint64_t snapshot_hash(const snapshot *s, uint64_t hash);
 
 /** The number that colours a spring, or a triangle: its own, or the mean of its nodes'. 0 without a quantity. */

@@ -97,6 +97,26 @@ TEST(binned_ones_are_an_image)
     snapshot_free(&v.s);
 }
 
+/* Triangles, springs, and triangles binned: with an edge of 4 mm each is of 111 pixels. */
+TEST(what_is_broken_is_left_out)
+{
+    CLEANUP(trajectory_fixture_close) trajectory_fixture f = trajectory_fixture_run(true);
+    view v;
+    draw(&v, &f, "speed", false);
+    assert_int_equal(v.paper.fills, v.s.lattice->n_triangles - TRAJECTORY_FIXTURE_BROKEN + 1);
+    snapshot_free(&v.s);
+    draw(&v, &f, "strain", false);
+    assert_in_range((size_t)v.s.lattice->n_springs + 2 - v.paper.strokes, 1, 3 * TRAJECTORY_FIXTURE_BROKEN);
+    snapshot_free(&v.s);
+    draw(&v, &f, "speed", true);
+    const size_t without = v.paper.opaque;
+    memset(v.s.broken_triangles, 0, (size_t)v.s.lattice->n_triangles);
+    v.paper = canvas_spy_new();
+    assert_true(panel_draw(&v.at, &v.s, &v.look, &v.paper.face));
+    assert_in_range(v.paper.opaque - without, 250, 600);
+    snapshot_free(&v.s);
+}
+
 TEST(what_is_out_of_view_is_left_out)
 {
     trajectory_fixture *f = *test_state;

@@ -56,6 +56,22 @@ TEST(nodes_lend_their_numbers)
     assert_close(snapshot_spring_value(&s, 5), 0.0, 0.0);
 }
 
+/* Back and forth: frames do not remember what was loaded before. */
+TEST(triangles_are_broken_in_the_frames_in_which_they_were)
+{
+    static const dem_index frames[] = {2, 3, 0, TRAJECTORY_FIXTURE_FRAMES - 1};
+    CLEANUP(trajectory_fixture_close) trajectory_fixture f = trajectory_fixture_run(true);
+    const quantity q = find(&f, "speed");
+    CLEANUP(snapshot_free) snapshot s;
+    load(&s, &f, &q, 1);
+    for (size_t k = 0; k < sizeof frames / sizeof frames[0]; k++) {
+        outcome o = {0};
+        assert_true(snapshot_load(&s, frames[k], &o));
+        for (dem_index n = 0; n < s.lattice->n_triangles; n++)
+            assert_int_equal(s.broken_triangles[n], frames[k] > 2 && n < TRAJECTORY_FIXTURE_BROKEN);
+    }
+}
+
 static uint64_t hash_of(const trajectory_fixture *f, const char *name, dem_index frame)
 {
     const quantity q = find(f, name);
@@ -71,6 +87,21 @@ TEST(hashes_tell_frames_and_quantities)
     assert_true(hash_of(f, "strain", 2) == hash_of(f, "strain", 2));
     assert_true(hash_of(f, "strain", 2) != hash_of(f, "strain", 3));
     assert_true(hash_of(f, "strain", 2) != hash_of(f, "force", 2));
+}
+
+TEST(hashes_tell_what_is_broken)
+{
+    trajectory_fixture *f = *test_state;
+    const quantity q = find(f, "speed");
+    CLEANUP(snapshot_free) snapshot s;
+    load(&s, f, &q, 3);
+    const uint64_t whole = snapshot_hash(&s, DIGEST_BEGIN);
+    s.broken_triangles[5] = 1;
+    const uint64_t one = snapshot_hash(&s, DIGEST_BEGIN);
+    s.broken_triangles[5] = 0, s.broken_triangles[6] = 1;
+    assert_true(whole != one && one != snapshot_hash(&s, DIGEST_BEGIN));
+    s.broken_triangles[6] = 0, s.broken_springs[5] = 1.0;
+    assert_true(whole != snapshot_hash(&s, DIGEST_BEGIN));
 }
 
 TEST(a_frame_that_is_not_there_is_refused)

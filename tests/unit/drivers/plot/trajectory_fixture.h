@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A short run written to a file and opened as a trajectory: a block falls on a slope, and a loose node flies by. */
+/* A short run written to a file and opened as a trajectory: a block falls on a slope, and a loose node flies by. Some
+ * of its triangles may break. */
 #ifndef DEM_TEST_TRAJECTORY_FIXTURE_H
 #define DEM_TEST_TRAJECTORY_FIXTURE_H
 
@@ -14,7 +15,7 @@
 #include <dem/reader.h>
 #include <dem/trajectory.h>
 
-enum { TRAJECTORY_FIXTURE_FRAMES = 6 };
+enum { TRAJECTORY_FIXTURE_FRAMES = 6, TRAJECTORY_FIXTURE_BROKEN = 4 };
 
 static const double trajectory_fixture_slope[4] = {-1.0, -0.011, 1.0, 0.009};
 
@@ -48,8 +49,16 @@ static inline dem_lattice trajectory_fixture_lattice(void)
     return block;
 }
 
+/** The first triangles break behind frame 2. */
+static inline void trajectory_fixture_break(dem_simulation *simulation)
+{
+    static const dem_index first[TRAJECTORY_FIXTURE_BROKEN] = {0, 1, 2, 3};
+    trajectory_fixture_ok(dem_simulation_advance(simulation, 2.5 * 2e-4));
+    trajectory_fixture_ok(dem_simulation_break(simulation, first, TRAJECTORY_FIXTURE_BROKEN, NULL, 0));
+}
+
 /** Frames every 2e-4 s. */
-static inline trajectory_fixture trajectory_fixture_open(void)
+static inline trajectory_fixture trajectory_fixture_run(bool breaks)
 {
     const dem_obstacle slope = {
         .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = trajectory_fixture_slope, .restitution = 0.5};
@@ -69,6 +78,7 @@ static inline trajectory_fixture trajectory_fixture_open(void)
     trajectory_fixture_ok(dem_trajectory_create(&file, f.path, simulation, &how));
     const dem_observer observer = ask_trajectory_observer(file);
     trajectory_fixture_ok(dem_simulation_observe(simulation, &observer));
+    if (breaks) trajectory_fixture_break(simulation);
     trajectory_fixture_ok(dem_simulation_advance(simulation, (TRAJECTORY_FIXTURE_FRAMES - 1) * 2e-4));
     trajectory_fixture_ok(dem_trajectory_finish(file));
     dem_trajectory_destroy(file);
@@ -77,6 +87,11 @@ static inline trajectory_fixture trajectory_fixture_open(void)
     dem_lattice_free(&block);
     trajectory_fixture_ok(dem_reader_open(&f.reader, f.path));
     return f;
+}
+
+static inline trajectory_fixture trajectory_fixture_open(void)
+{
+    return trajectory_fixture_run(false);
 }
 
 /** The path of a file beside it. */
