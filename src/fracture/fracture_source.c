@@ -231,7 +231,8 @@ static void look_at_all(fracture_source *s)
         const int n = l->n_springs - first < BLOCK ? (int)(l->n_springs - first) : BLOCK;
         springs_strain_block(l, first, n, s->step->y1, strain);
         for (int q = 0; q < n; q++)
-            if (!(fabs(strain[q]) < s->filter.threshold[first + q])) look_near(s, first + q);
+            if (!(fabs(strain[q]) < s->filter.threshold[first + q]) && s->elements->integrity[first + q] > 0.0)
+                look_near(s, first + q);
     }
 }
 
