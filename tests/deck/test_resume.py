@@ -45,6 +45,14 @@ REST = """
 &solver checkpoint_steps = 50 /
 &output name = 'a', frame_interval = 1 /
 """
+BRITTLE = """
+&run t_end = 6e-4 /
+&material youngs_modulus = 1e9, density = 2500, fracture = 'stress', strength = 4e6 /
+&body shape = 'disc', radius = 0.03, spacing = 3e-3, jitter = 0.2, velocity = 0, -8, clearance = 1e-4 /
+&obstacle points = -0.3, -0.02, 0, 0, 0.3, -0.03, restitution = 0, friction = 0.3 /
+&solver checkpoint_steps = 40 /
+&output name = 'a', frame_interval = 5e-5, precision = 'double', events = .true. /
+"""
 FILES = {"a.vtkhdf", "a.obstacle.vtkhdf", "a.json", "a.checkpoint"}
 WAY_OUT = "move it away, change 'name' in &output, or use --overwrite"
 OFTEN = ("--checkpoint-interval", "1e-9")  # every checkpoint goes to disk
@@ -150,6 +158,17 @@ class Cuts(Case):
         self.call(0, outdir="whole")
         self.assertGreater(self.go_on("cut", *AT_ONCE), 3)
         self.expect_same("cut", FILES - {"a.obstacle.vtkhdf"})
+
+    def test_a_body_that_breaks(self):
+        self.put(BRITTLE)
+        self.call(0, outdir="whole")
+        self.assertGreater(self.result("whole")["energy"]["fracture"], 10.0)
+        self.assertLess(abs(self.result("whole")["closure"]), 1e-6)
+        self.assertGreater(self.go_on("cut", *AT_ONCE), 10)
+        self.expect_same("cut")
+        self.call(0, "--set", "solver.kernel='portable'", "--set", "solver.threads=2", outdir="other")
+        other, whole = lasting(self.result("other")), lasting(self.result("whole"))
+        self.assertEqual({key for key in other if other[key] != whole[key]}, {"run"}, "which has kernel and threads")
 
     def test_a_later_end(self):
         """Three ends, each continued; that of the whole run is one more."""
