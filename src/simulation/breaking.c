@@ -113,20 +113,21 @@ void breaking_check_step(dem_simulation *s)
 }
 
 /* New faces near others change the energy of contact: what it is less goes with that of the broken elements. */
-dem_status breaking_end_step(dem_simulation *s)
+dem_status breaking_follow(dem_simulation *s, const double *y)
 {
-    const double *y = s->path.y1;
-    if (!run_may_break(s)) return DEM_OK;
-    if (s->at_break) {
-        dense_output_state(&s->path, s->path.end, s->frame);
-        y = s->frame;
-        TRY(fracture_source_break(&s->breaks, y));
-    }
     if (!fracture_source_has_broken(&s->breaks)) return DEM_OK;
     const double before = s->surfaces != NULL ? set_motion_energy(s, y) : 0.0;
     TRY(renew_outline(s, &s->elements));
     if (s->surfaces != NULL) s->fracture += before - set_motion_energy(s, y);
     return DEM_OK;
+}
+
+dem_status breaking_end_step(dem_simulation *s)
+{
+    if (!s->at_break) return breaking_follow(s, s->path.y1);
+    dense_output_state(&s->path, s->path.end, s->frame);
+    TRY(fracture_source_break(&s->breaks, s->frame));
+    return breaking_follow(s, s->frame);
 }
 
 /* ---- by the program ---- */

@@ -22,6 +22,10 @@ dem_status breaking_create(dem_simulation *s);
 /** Where the whole body stops at events: ends the step in hand where something breaks, if that is before its end. */
 void breaking_check_step(dem_simulation *s);
 
+/** Makes surfaces those of what is whole, in the state y, if something has broken in the last step: also where the rest
+ *  of that has been dropped.  \return DEM_ERROR_MEMORY */
+dem_status breaking_follow(dem_simulation *s, const double *y);
+
 /** Called before the step in hand becomes the state: surfaces are those of what is whole at its end.
  *  \return DEM_ERROR_MEMORY */
 dem_status breaking_end_step(dem_simulation *s);

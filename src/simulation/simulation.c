@@ -10,8 +10,8 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
-#include "simulation/breaking.h"
 #include "simulation/body_contact.h"
+#include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
 #include "simulation/query.h"
 
@@ -304,6 +304,7 @@ static dem_status commit_step(dem_simulation *s)
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
+    TRY(reduce_status(breaking_follow(s, s->y), 0.0)); /* a motion may have been set inside a step */
     TRY(body_contact_settle(s, s->y));
     TRY(take_rollback(s));
     const dem_status status = go_on(s, reduce_status(automaton_start(&s->automaton, s->t, s->y, &listener), 0.0));

@@ -239,3 +239,54 @@ TEST(a_start_beyond_the_strength_is_refused)
     assert_message_parts("spring 0 at (0, 0) m has the strain 0.2 at the start, beyond its critical stretch 0.1");
     dem_model_destroy(model);
 }
+
+/* ---- a motion that is set ---- */
+
+/* Six triangles about a node, of which only the lowest breaks, as its lower corners fly apart, and the tip of a spike
+ * below, that comes through the notch to the new faces. The motion is set to what it is at some time. */
+static double fall_on_spike(double t_set, unsigned char *broken)
+{
+    static const double spike_points[6] = {-0.3, -4.0, 0.05, -1.2, 0.4, -4.0};
+    const dem_obstacle spike = {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = spike_points};
+    const dem_material soft = {
+        .struct_size = sizeof(dem_material), .youngs_modulus = 1e4, .density = 1.0, .thickness = 1.0, .guard = 0.02};
+    const dem_options options = no_weight(1e-8);
+    dem_index centre = -1;
+    CLEANUP(dem_lattice_free) dem_lattice body = dem_lattice_empty();
+    CLEANUP(support_close) support_run run;
+    assert_ok(dem_lattice_disc(&body, 1.0, 1.0));
+    assert_ok(dem_lattice_assemble(&body, &soft));
+    assert_ok(dem_lattice_launch(&body, (const double[2]){0.0, -5.0}));
+    assert_int_equal(body.n_triangles, 6);
+    body.strength = equal(6, INFINITY);
+    for (dem_index t = 0; t < 6; t++) {
+        double lower = 0.0;
+        for (int c = 0; c < 3; c++) lower += body.x[2 * body.triangles[3 * t + c] + 1];
+        if (lower < -1.5) body.strength[t] = 20.0;
+    }
+    for (dem_index i = 0; i < body.n_nodes; i++) {
+        const double *x = &body.x[2 * i];
+        if (hypot(x[0], x[1]) < 0.1) centre = i;
+        if (x[1] < -0.5) body.velocity[2 * i] = x[0] > 0.0 ? 1.0 : -1.0;
+    }
+    support_open(&run, &body, &spike, 1, &options);
+    const motion before = support_at(&run, t_set);
+    assert_ok(dem_simulation_set_motion(run.simulation, before.x, before.v));
+    (void)count_broken(&run, broken, 6);
+    return support_at(&run, 0.3).x[2 * centre + 1];
+}
+
+/* The tip would hit the old edge of a notch that is not known. 1e-4 m is what another sequence of steps makes of the
+ * fall upon a corner. */
+TEST(a_motion_set_inside_a_step_keeps_the_new_surface)
+{
+    unsigned char broken[6];
+    const double late = fall_on_spike(0.02, broken);
+    double first = -1.0;
+    for (int k = 1; k <= 40; k++) { /* ten times a step: some are inside the step in which the triangle breaks */
+        assert_close(fall_on_spike(1e-4 * k, broken), late, 1e-4);
+        for (int t = 0; t < 6 && first < 0.0; t++)
+            if (broken[t]) first = k;
+    }
+    assert_true(first > 1.0 && first < 40.0);
+}
