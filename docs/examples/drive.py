@@ -27,7 +27,7 @@ class dem_material(Sized):
     _fields_ = [("struct_size", c_size_t), ("youngs_modulus", c_double), ("bond_stiffness", c_double),
                 ("poissons_ratio", c_double), ("plane", c_int), ("density", c_double),
                 ("thickness", c_double), ("guard", c_double), ("damping_time", c_double),
-                ("springs", c_int)]
+                ("springs", c_int), ("strength", c_double), ("critical_stretch", c_double)]
 
 
 class dem_lattice(Sized):
@@ -36,7 +36,8 @@ class dem_lattice(Sized):
                 ("rest_length", doubles), ("stiffness", doubles), ("triangles", indices), ("viscosity", doubles),
                 ("guard", doubles), ("area_stiffness", doubles), ("thickness", doubles), ("modulus", doubles),
                 ("flags", POINTER(ctypes.c_ubyte)), ("body", POINTER(c_int32)), ("position", doubles),
-                ("velocity", doubles), ("coupling", doubles)]
+                ("velocity", doubles), ("coupling", doubles), ("strength", doubles),
+                ("critical_stretch", doubles)]
 
 
 class dem_force_query(ctypes.Structure):

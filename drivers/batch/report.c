@@ -12,6 +12,7 @@
 #include "angle.h"
 #include "ask.h"
 #include "edges.h"
+#include "fracture_report.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16, most_in_short = 4 }; /* obstacles, boundaries */
@@ -359,6 +360,7 @@ static void print_ledger(const report *r, dem_energy e)
                   e.motion + e.gravity, e.impact);
     print_taken(r->log->out, "friction", e.friction);
     print_taken(r->log->out, "damping", e.damping);
+    print_taken(r->log->out, "fracture", e.fracture);
     (void)fprintf(r->log->out, " - projection %.3g", e.projection);
     if (e.boundary != 0.0) (void)fprintf(r->log->out, " - put in by boundaries %.4g", e.boundary);
     if (e.obstacle != 0.0) (void)fprintf(r->log->out, " - put in by obstacles %.4g", e.obstacle);
@@ -372,6 +374,7 @@ static void print_balance(const report *r, dem_energy e)
                   e.motion + e.gravity, e.impact);
     print_taken(r->log->out, "friction", e.friction);
     print_taken(r->log->out, "damping", e.damping);
+    print_taken(r->log->out, "fracture", e.fracture);
     print_taken(r->log->out, "boundaries gave", e.boundary);
     print_taken(r->log->out, "obstacles gave", e.obstacle);
     (void)fprintf(r->log->out, " J; error %+.1e of the largest energy\n", report_closure(r, e));
@@ -481,6 +484,7 @@ void report_summary(report *r, const dem_simulation *simulation)
         print_ledger(r, e);
     else
         print_balance(r, e);
+    fracture_report_print(out, simulation);
     print_obstacles(out, simulation, details);
     print_boundaries(out, simulation, details);
     surface_report_print_nearest(out, &r->so_far.surface_report);

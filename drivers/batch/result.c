@@ -11,6 +11,7 @@
 
 #include "ask.h"
 #include "file.h"
+#include "fracture_report.h"
 #include "json.h"
 #include "output.h"
 #include "preview.h"
@@ -160,6 +161,13 @@ static void write_strain(json *j, const report *r)
     json_integer(j, "inverted", r->so_far.inverted_max);
 }
 
+static void write_broken(json *j, const dem_simulation *simulation)
+{
+    const fracture_report broken = fracture_report_of(simulation);
+    json_integer(j, "broken_triangles", broken.triangles);
+    json_integer(j, "broken_springs", broken.springs);
+}
+
 static void write_node_peak(json *j, const report *r, const dem_model *model)
 {
     dem_index node;
@@ -276,6 +284,7 @@ static void write_run(json *j, const result *r)
     const dem_energy energy = ask_energy(r->simulation);
     write_energy(j, r->report, &energy);
     write_strain(j, r->report);
+    write_broken(j, r->simulation);
     if (r->report->peaks != NULL) write_node_peak(j, r->report, dem_simulation_model(r->simulation));
     if (r->report->peaks != NULL) write_spring_peak(j, r->report);
     write_surfaces(j, &r->report->so_far.surface_report, r->simulation);

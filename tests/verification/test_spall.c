@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spall of a chain: its first nodes, the flyer, move towards the others. Both ends send the compression back as tension,
- * and where the two meet, as far from the other end as the flyer is long, the chain breaks. Stretched in its own line a
- * chain is linear: with masses m, springs k = E/d0 and free ends its modes are cos(p pi (i + 1/2)/n), of the frequencies
- * w_p = 2 sqrt(k/m) sin(p pi/(2 n)). So the spring that breaks, its time, and what the two pieces do then are known. */
+/* Spall of a chain: its first nodes, the flyer, move towards the others. Both ends send the compression back as
+ * tension, and where the two meet, as far from the other end as the flyer is long, the chain breaks. Stretched in its
+ * own line a chain is linear: with masses m, springs k = E/d0 and free ends its modes are cos(p pi (i + 1/2)/n), of the
+ * frequencies w_p = 2 sqrt(k/m) sin(p pi/(2 n)). So the spring that breaks, its time, and what the two pieces do then
+ * are known. */
 #include "verification/support.h"
 
 #include <stdlib.h>

@@ -123,25 +123,26 @@ TEST(the_ledger_closes)
     assert_close(number_in(l->text, "ledger", "closure"), 0.0, 1e-10); /* a hundred steps of rtol 1e-12 */
 }
 
-TEST(what_friction_and_damping_took_is_reported_if_they_did)
+TEST(what_friction_damping_and_fracture_took_is_reported_if_they_did)
 {
-    const dem_energy e = {.ledger = 9.125,
+    const dem_energy e = {.ledger = 9.625,
                           .motion = 5.0,
                           .kinetic = 5.0,
                           .impact = 1.0,
                           .friction = 2.5,
                           .damping = 0.75,
+                          .fracture = 0.5,
                           .projection = 0.125};
     CLEANUP(free_logged) logged *l = drop_node(false, 0.1);
-    l->report.so_far.energy_start = 9.125, l->report.so_far.energy_max = 10.0;
+    l->report.so_far.energy_start = 9.625, l->report.so_far.energy_max = 10.0;
     other_energy = &e;
     report_summary(&l->report, l->run.simulation);
     other_energy = NULL;
     report_summary(&l->report, l->run.simulation);
     read_log(l);
     assert_non_null(strstr(l->text,
-                           "\nledger     start 9.125 J = now 5 + taken by impacts 1, friction 2.5, damping 0.75 "
-                           "- projection 0.125; closure +0.00e+00\n"));
+                           "\nledger     start 9.625 J = now 5 + taken by impacts 1, friction 2.5, damping 0.75, "
+                           "fracture 0.5 - projection 0.125; closure +0.00e+00\n"));
     assert_non_null(strstr(l->text, " + taken by impacts 0 - projection 0; closure "));
 }
 
