@@ -290,3 +290,67 @@ TEST(a_motion_set_inside_a_step_keeps_the_new_surface)
     }
     assert_true(first > 1.0 && first < 40.0);
 }
+
+/* ---- what breaks together ---- */
+
+/* Stretches a body along y; `out` has what is broken at the end, whose ledger is that of the start. */
+static dem_index stretch(dem_lattice *body, unsigned char *triangle, unsigned char *spring)
+{
+    const dem_options options = no_weight(1e-10);
+    CLEANUP(support_close) support_run run;
+    dem_index n = 0;
+    assert_ok(dem_lattice_launch(body, (const double[2]){0.0, 0.0}));
+    for (dem_index i = 0; i < body->n_nodes; i++) body->velocity[2 * i + 1] = 250.0 * body->x[2 * i + 1];
+    support_open(&run, body, NULL, 0, &options);
+    const double before = support_at(&run, 0.0).energy.ledger;
+    const motion s = support_at(&run, 1e-3);
+    assert_ok(dem_simulation_broken(run.simulation, triangle, spring));
+    for (dem_index t = 0; t < body->n_triangles; t++) n += triangle[t];
+    assert_true(n == 0 || s.energy.fracture > 0.0);
+    assert_close(s.energy.ledger, before, 1e-8 * before);
+    return n;
+}
+
+static const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                    .youngs_modulus = 1e7,
+                                    .poissons_ratio = 0.3,
+                                    .density = 1050.0,
+                                    .thickness = 1.0};
+
+TEST(both_triangles_of_a_cell_break)
+{
+    unsigned char triangle[512], spring[1024];
+    CLEANUP(dem_lattice_free) dem_lattice squares = dem_lattice_empty();
+    assert_ok(dem_lattice_squares(&squares, 0.04, 0.06, 0.005));
+    assert_ok(dem_lattice_assemble_squares(&squares, &rubber, 0.5));
+    assert_true(squares.n_triangles <= 512 && squares.n_springs <= 1024);
+    squares.strength = equal(squares.n_triangles, INFINITY);
+    for (dem_index t = 0; t < squares.n_triangles; t += 6)
+        squares.strength[t + t / 6 % 2] = 2e5; /* one of some cells */
+    assert_true(stretch(&squares, triangle, spring) > 10);
+    for (dem_index t = 0; t < squares.n_triangles; t += 2) assert_int_equal(triangle[t], triangle[t + 1]);
+}
+
+TEST(a_spring_takes_its_triangles_along)
+{
+    unsigned char triangle[512], spring[1024];
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
+    assert_ok(dem_lattice_rectangle(&block, 0.04, 0.06, 0.005));
+    assert_ok(dem_lattice_assemble(&block, &rubber));
+    assert_true(block.n_triangles <= 512 && block.n_springs <= 1024);
+    dem_index weak = -1;
+    for (dem_index k = 0; k < block.n_springs && weak < 0; k++) {
+        const double *a = &block.x[2 * block.ends[2 * k]], *b = &block.x[2 * block.ends[2 * k + 1]];
+        if (fabs(a[0]) < 0.01 && fabs(a[1] - 0.03) < 0.01 && fabs(b[1] - a[1]) > 1e-3) weak = k;
+    }
+    assert_true(weak >= 0);
+    block.critical_stretch = equal(block.n_springs, INFINITY);
+    block.critical_stretch[weak] = 0.02;
+    assert_int_equal(stretch(&block, triangle, spring), 2);
+    for (dem_index k = 0; k < block.n_springs; k++) assert_int_equal(spring[k], k == weak);
+    for (dem_index t = 0; t < block.n_triangles; t++) {
+        int ends = 0;
+        for (int c = 0; c < 6; c++) ends += block.triangles[3 * t + c % 3] == block.ends[2 * weak + c / 3];
+        assert_int_equal(triangle[t], ends == 2);
+    }
+}
