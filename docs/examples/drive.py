@@ -55,7 +55,8 @@ class dem_options(Sized):
                 ("threads", c_int32), ("checkpoint_steps", c_int64), ("n_boundaries", c_int64), ("boundaries", c_void_p),
                 ("force", dem_force), ("force_context", c_void_p), ("bodies", c_int),
                 ("contact_thickness", c_double), ("contact_stiffness", c_double),
-                ("contact_friction", c_double), ("n_body_frictions", c_int64), ("body_friction", doubles)]
+                ("contact_friction", c_double), ("n_body_frictions", c_int64), ("body_friction", doubles),
+                ("pause", c_double)]
 
     def __init__(self, **given):
         """As dem_options_default(), which is inline in the header."""

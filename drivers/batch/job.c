@@ -195,6 +195,9 @@ static void check_success(job *j)
                      d->residual);
     else if (d->residual > 0.0)
         (void)printf("rest       residual %.3g at %.6g s\n", rest->reached, rest->t);
+    if (d->options.pause > 0.0)
+        (void)printf("pause      ramps are at %.6g s, they stood still after breaks\n",
+                     dem_simulation_ramp_time(j->simulation));
 }
 
 /* What has no result is kept as it is, for a look and for a later end. */

@@ -56,13 +56,12 @@ static dem_status look(void *context, const dem_simulation *simulation)
 {
     relaxation *r = context;
     if (++r->steps < between_looks) return DEM_OK;
-    const dem_state state = ask_state(simulation);
-    if (state.t < r->settled) return DEM_OK;
+    if (dem_simulation_ramp_time(simulation) < r->settled) return DEM_OK;
     const double residual = dem_simulation_residual(simulation);
     if (isinf(residual)) return DEM_OK;
     r->steps = 0;
     r->reached = residual;
-    r->t = state.t;
+    r->t = ask_state(simulation).t;
     r->done = residual <= r->residual;
     return r->done ? DEM_STOPPED : DEM_OK;
 }

@@ -140,12 +140,15 @@ static bool is_due(const report *r, double now, double t)
 }
 
 /* What there is until its end. */
-static void print_way(const report *r, const dem_state *state)
+static void print_way(const report *r, const dem_simulation *simulation, const dem_state *state)
 {
+    const double ramp = dem_simulation_ramp_time(simulation);
     if (r->rest == NULL)
         (void)fprintf(r->log->out, "%5.1f %%", 100.0 * fmin(1.0, state->t / r->t_end));
     else if (isfinite(r->rest->reached))
         (void)fprintf(r->log->out, "residual %.1e, at rest below %.1e", r->rest->reached, r->rest->residual);
+    else if (ramp < state->t)
+        (void)fprintf(r->log->out, "pauses, loads are at %.2e of %.2e s", ramp, r->settled);
     else
         (void)fprintf(r->log->out, "loads grow until %.2e s", r->settled);
 }
@@ -159,7 +162,7 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
     r->t_shown = state->t;
     r->log->inside = r->log->terminal;
     if (r->log->terminal) (void)fprintf(r->log->out, "\r");
-    print_way(r, state);
+    print_way(r, simulation, state);
     (void)fprintf(r->log->out, "  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s", state->t,
                   (long long)counts.steps, (long long)state->n_contacts, report_closure(r, ask_energy(simulation)),
                   (double)(counts.steps - r->steps_start) / fmax(spent, 1e-9));

@@ -294,6 +294,7 @@ static void write_run(json *j, const result *r)
     json_real(j, "formula_6", r->report->so_far.step_report.largest);
     json_real(j, "formula_6_t", r->report->so_far.step_report.t);
     if (r->read->residual > 0.0) json_real(j, "residual", r->rest->reached);
+    if (r->read->options.pause > 0.0) json_real(j, "ramp_time", dem_simulation_ramp_time(r->simulation));
 }
 
 static void write_wall(json *j, const result *r)

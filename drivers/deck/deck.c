@@ -57,6 +57,14 @@ static void check_frames(const schema_deck *groups, namelist_errors *errors)
                             interval->reals[0], frames, most_frames);
 }
 
+/* A pause ends by the residual. */
+static void check_pause(const schema_instance *run, namelist_errors *errors)
+{
+    const schema_value *pause = schema_value_of(run, "pause"), *residual = schema_value_of(run, "residual");
+    if (schema_real(run, "pause") != 0.0 && !pause->faulty && !residual->given)
+        namelist_errors_add(errors, pause->place, "'pause' in &run needs 'residual', at which a pause ends");
+}
+
 /* SUNDIALS may lack the method, and the machine the kernel. */
 static void check_solver(const schema_instance *solver, namelist_errors *errors)
 {
@@ -113,6 +121,7 @@ static void check(const schema_deck *groups, namelist_errors *errors)
     probes_check(groups, errors);
     check_name(schema_get(groups, "output", 0), errors);
     check_frames(groups, errors);
+    check_pause(schema_get(groups, "run", 0), errors);
 }
 
 /* ---- scalars ---- */
@@ -134,6 +143,7 @@ static void set_options(dem_options *options, const schema_deck *groups)
     options->threads = (int32_t)schema_real(solver, "threads");
     options->checkpoint_steps = (dem_index)schema_real(solver, "checkpoint_steps");
     options->rtol = schema_real(solver, "rtol");
+    options->pause = schema_real(run, "pause") != 0.0 ? schema_real(run, "residual") : 0.0;
     options->spacing = schema_real(solver, "spacing");
     options->v_scale = schema_real(solver, "v_scale");
     options->max_step = schema_real(solver, "max_step");

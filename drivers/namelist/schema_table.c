@@ -17,6 +17,8 @@ static const schema_key run_keys[] = {
      NULL},
     {"residual", SCHEMA_REAL, 1, 1, "-", NONE, "[1e-12, 0.1]", NULL, PHYSICS,
      "Quasi-static: ends when no node feels more than this share of the largest spring force; fails at t_end.", NONE},
+    {"pause", SCHEMA_LOGICAL, 1, 1, "-", ".false.", ANY, NULL, PHYSICS,
+     "With 'residual': from a break on the ramps of &boundary stand still until the residual is reached.", NULL},
 };
 
 static const schema_key material_keys[] = {

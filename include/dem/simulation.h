@@ -125,6 +125,9 @@ typedef struct dem_options {
                                    themselves, >= 0; not without `bodies` */
     dem_index n_body_frictions; /**< default 0; else the number of bodies */
     const double *body_friction; /**< [n_body_frictions] of each body instead, copied; of two bodies the smaller */
+    double pause; /**< default 0: none; else up to 0.1: from a break on the ramps of all boundaries stand still, until
+                     dem_simulation_residual() is at most this. Looked at after every 16th step; needs damping to end.
+                     Obstacles move on */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */
@@ -457,6 +460,10 @@ DEM_API dem_status dem_simulation_boundary(const dem_simulation *simulation, dem
  *  the largest force of a spring; 0 where there is neither. Known after an accepted step without contact event, else
  *  infinity. */
 DEM_API double dem_simulation_residual(const dem_simulation *simulation);
+
+/** Time, s, at which the ramps of boundaries are in the state that is seen: with the option `pause` behind that of the
+ *  state by all pauses so far, else the same. */
+DEM_API double dem_simulation_ramp_time(const dem_simulation *simulation);
 
 DEM_API const dem_model *dem_simulation_model(const dem_simulation *simulation);
 

@@ -45,24 +45,43 @@ vec2 boundary_condition_acceleration(const boundary_condition *b, double t)
 
 /* ---- all of them, in a state ---- */
 
+/* Prescribed motions are functions of the time of the ramps, which runs at the rate 1 or 0: derivatives with respect to
+ * that of the motion have this factor, once or twice. */
+static vec2 velocity_at(const boundary_conditions *all, const boundary_condition *b, double t)
+{
+    return vec2_scale(load_clock_rate(&all->clock), boundary_condition_velocity(b, load_clock_time(&all->clock, t)));
+}
+
+vec2 boundary_conditions_acceleration(const boundary_conditions *all, const boundary_condition *b, double t)
+{
+    return vec2_scale(load_clock_rate(&all->clock),
+                      boundary_condition_acceleration(b, load_clock_time(&all->clock, t)));
+}
+
+vec2 boundary_conditions_push(const boundary_conditions *all, const boundary_condition *b, double t)
+{
+    return vec2_scale(boundary_condition_ramp(b, load_clock_time(&all->clock, t)), b->value);
+}
+
 /* The sum over the list of the node's forces, in one order for each model, so that it has the same bits everywhere. */
 vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double t)
 {
+    const double now = load_clock_time(&b->clock, t);
     vec2 force = {0.0, 0.0};
     for (dem_index p = b->first != NULL ? b->first[i] : -1; p >= 0; p = b->pushes[p].next) {
         const boundary_condition *from = &b->list[b->pushes[p].boundary];
-        force = vec2_along(force, b->pushes[p].share * boundary_condition_ramp(from, t), from->value);
+        force = vec2_along(force, b->pushes[p].share * boundary_condition_ramp(from, now), from->value);
     }
     return force;
 }
 
 /* Power of a force on its nodes, W: r F.(sum of share v), since all nodes have the same direction of force. */
-static double push_power(const boundary_condition *b, double t, const double *v)
+static double push_power(const boundary_conditions *all, const boundary_condition *b, double t, const double *v)
 {
     /* The shares are summed up first, and the direction and size of the force enter once. */
     vec2 sum = {0.0, 0.0};
     for (dem_index k = 0; k < b->n_nodes; k++) sum = vec2_along(sum, b->share[k], vec2_at(v, b->nodes[k]));
-    return boundary_condition_ramp(b, t) * vec2_dot(b->value, sum);
+    return boundary_condition_ramp(b, load_clock_time(&all->clock, t)) * vec2_dot(b->value, sum);
 }
 
 /* The prescribed vector in the components that the condition names, the free one in the others. */
@@ -75,9 +94,10 @@ static vec2 with_components(const boundary_condition *b, vec2 free, vec2 prescri
 /* Puts prescribed components into velocities f and accelerations a. To change the free acceleration to the prescribed
  * one takes the reaction R = m (a - a_free) on each node.
  * \return the power of the reactions, the sum of R.v, W */
-static double prescribe(const boundary_condition *b, const double *mass, double t, double *f, double *a)
+static double prescribe(const boundary_conditions *all, const boundary_condition *b, const double *mass, double t,
+                        double *f, double *a)
 {
-    const vec2 velocity = boundary_condition_velocity(b, t), acceleration = boundary_condition_acceleration(b, t);
+    const vec2 velocity = velocity_at(all, b, t), acceleration = boundary_conditions_acceleration(all, b, t);
     double power = 0.0;
     for (dem_index k = 0; k < b->n_nodes; k++) {
         const dem_index i = b->nodes[k];
@@ -97,23 +117,30 @@ double boundary_conditions_prescribe(const boundary_conditions *b, const double 
 {
     double power = 0.0;
     for (dem_index k = 0; k < b->n; k++)
-        power += b->list[k].kind == DEM_BOUNDARY_FORCE ? push_power(&b->list[k], t, v)
-                                                       : prescribe(&b->list[k], mass, t, f, a);
+        power += b->list[k].kind == DEM_BOUNDARY_FORCE ? push_power(b, &b->list[k], t, v)
+                                                       : prescribe(b, &b->list[k], mass, t, f, a);
     return power;
 }
 
-/* The initial velocities have to agree with the conditions at t = 0; with a ramp that is 0. */
-static void begin(const boundary_condition *b, double *v)
+/* Velocities have to agree with the conditions: at the start, with a ramp, they are 0. */
+static double give(const boundary_conditions *all, const boundary_condition *b, const double *mass, double t, double *v)
 {
-    const vec2 velocity = boundary_condition_velocity(b, 0.0);
-    for (dem_index k = 0; k < b->n_nodes; k++)
-        vec2_put(v, b->nodes[k], with_components(b, vec2_at(v, b->nodes[k]), velocity));
+    const vec2 velocity = velocity_at(all, b, t);
+    double energy = 0.0;
+    for (dem_index k = 0; k < b->n_nodes; k++) {
+        const vec2 before = vec2_at(v, b->nodes[k]), now = with_components(b, before, velocity);
+        energy += 0.5 * mass[b->nodes[k]] * (vec2_dot(now, now) - vec2_dot(before, before));
+        vec2_put(v, b->nodes[k], now);
+    }
+    return energy;
 }
 
-void boundary_conditions_begin(const boundary_conditions *b, double *v)
+double boundary_conditions_give_velocities(const boundary_conditions *b, const double *mass, double t, double *v)
 {
+    double energy = 0.0;
     for (dem_index k = 0; k < b->n; k++)
-        if (b->list[k].kind != DEM_BOUNDARY_FORCE) begin(&b->list[k], v);
+        if (b->list[k].kind != DEM_BOUNDARY_FORCE) energy += give(b, &b->list[k], mass, t, v);
+    return energy;
 }
 
 bool boundary_conditions_move(const boundary_conditions *b)

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 #include "base/vec2.h"
+#include "forces/load_clock.h"
 
 /** A condition as the caller gave it, with arrays of its own. */
 typedef struct boundary_condition {
@@ -31,6 +32,7 @@ typedef struct boundary_conditions {
     dem_index *first;                 /* [n_nodes] the first share on each node, -1: none; NULL: no forces at all */
     boundary_condition_share *pushes; /* one for each node of each force */
     unsigned char *held;              /* [n_nodes] components that are prescribed; NULL: no conditions */
+    load_clock clock;                 /* of the ramps */
 } boundary_conditions;
 
 /** Validates and copies. Free with boundary_conditions_free().
@@ -40,6 +42,8 @@ typedef struct boundary_conditions {
 dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
                                        const dem_lattice *lattice, dem_index n_obstacles);
 void boundary_conditions_free(boundary_conditions *b);
+
+/* Of one condition, t is the time of the ramps; of all conditions, that of the motion. */
 
 /** The factor of the condition at t, from 0 to 1 (base/ramp.h); 1 without a ramp. */
 double boundary_condition_ramp(const boundary_condition *b, double t);
@@ -51,6 +55,11 @@ vec2 boundary_condition_acceleration(const boundary_condition *b, double t);
 /** Displacement of prescribed components by time t, m. */
 vec2 boundary_condition_displacement(const boundary_condition *b, double t);
 
+/** Acceleration, m/s^2, of the components that one of all conditions prescribes, and the whole force that one puts on
+ *  its nodes, N. */
+vec2 boundary_conditions_acceleration(const boundary_conditions *all, const boundary_condition *b, double t);
+vec2 boundary_conditions_push(const boundary_conditions *all, const boundary_condition *b, double t);
+
 /** Force on node i at t, N. */
 vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double t);
 
@@ -59,8 +68,8 @@ vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double
 double boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
                                      double *f, double *a);
 
-/** Puts the prescribed velocities at t = 0 into v [n_nodes][2]. */
-void boundary_conditions_begin(const boundary_conditions *b, double *v);
+/** Puts the prescribed velocities at t into v [n_nodes][2].  \return the kinetic energy that this adds, J */
+double boundary_conditions_give_velocities(const boundary_conditions *b, const double *mass, double t, double *v);
 
 /** Whether one of the conditions prescribes motions. */
 bool boundary_conditions_move(const boundary_conditions *b);

@@ -294,7 +294,7 @@ dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem
 /* The reaction R = m (a - a_free) of the components that the condition prescribes, N. */
 static vec2 held_force(const forces *f, const boundary_condition *b, dem_index i, vec2 free, double t)
 {
-    const vec2 wanted = boundary_condition_acceleration(b, t);
+    const vec2 wanted = boundary_conditions_acceleration(f->boundaries, b, t);
     const vec2 force = vec2_scale(f->model->lattice.mass[i], vec2_sub(wanted, free));
     return (vec2){b->components & DEM_COMPONENT_X ? force.x : 0.0, b->components & DEM_COMPONENT_Y ? force.y : 0.0};
 }
@@ -317,7 +317,7 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
         const dem_index i = b->nodes[k];
         add(ways, vec2_sub(vec2_at(x, i), vec2_at(f->model->lattice.position, i)));
         add(resultant, b->kind == DEM_BOUNDARY_FORCE
-                           ? vec2_scale(b->share[k] * boundary_condition_ramp(b, v[f->clock]), b->value)
+                           ? vec2_scale(b->share[k], boundary_conditions_push(f->boundaries, b, v[f->clock]))
                            : held_force(f, b, i, free_acceleration(f, i, external, x, v), v[f->clock]));
     }
     vec2_put(out.force, 0, sum_of(resultant));

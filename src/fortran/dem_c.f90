@@ -553,7 +553,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_options
-    integer(c_size_t) :: struct_size = 224
+    integer(c_size_t) :: struct_size = 232
     integer(dem_method) :: method = 0
     real(c_double) :: gravity(3) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
     real(c_double) :: penetration_tolerance = 0, rest_speed = 0
@@ -571,6 +571,7 @@ module dem_c
     real(c_double) :: contact_thickness = 0, contact_stiffness = 0, contact_friction = 0
     integer(dem_index) :: n_body_frictions = 0
     type(c_ptr) :: body_friction = c_null_ptr
+    real(c_double) :: pause = 0
   end type
 
   type, bind(c) :: dem_energy
@@ -858,6 +859,11 @@ module dem_c
     end function
 
     real(c_double) function dem_simulation_residual(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
+    end function
+
+    real(c_double) function dem_simulation_ramp_time(simulation) bind(c)
       import
       type(c_ptr), value :: simulation
     end function

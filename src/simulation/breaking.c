@@ -13,6 +13,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "simulation/body_contact.h"
+#include "simulation/pausing.h"
 #include "simulation/set_motion.h"
 
 static const char of_triangles[] = "broken triangles", of_springs[] = "broken springs", of_energy[] = "fracture";
@@ -210,6 +211,7 @@ dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, de
     const double before = set_motion_energy(s, s->frame);
     TRY(reduce_status(renew(s, &next), 0.0));
     s->fracture += before - set_motion_energy(s, s->frame);
+    (void)pausing_begin(s, s->seen_t, s->frame);
     return set_motion_begin_anew(s);
 }
 

@@ -8,6 +8,7 @@
 #include "simulation/body_contact.h"
 #include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
+#include "simulation/pausing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -110,6 +111,7 @@ dem_status checkpoint_take(dem_simulation *s, dem_checkpoint *checkpoint)
     TRY(put_motion(s->model, checkpoint));
     TRY(pass(s, &way, &n, &counts));
     TRY(breaking_save(s, checkpoint));
+    TRY(pausing_save(s, checkpoint));
     TRY(body_contact_save(s, checkpoint));
     TRY(source_list_save(&s->sources, checkpoint));
     return checkpoint_entries_pass(&way, "state", s->y, (size_t)state_size(&s->layout) * sizeof *s->y);
@@ -190,6 +192,7 @@ static dem_status get(dem_simulation *s, const dem_checkpoint *checkpoint, numbe
     TRY(check_motion(s, checkpoint));
     TRY(pass(s, &way, n, &s->automaton.set.ledger.counts));
     TRY(check_numbers(n));
+    TRY(pausing_restore(s, checkpoint));
     TRY(find_state(s, checkpoint, y));
     TRY(body_contact_restore(s, checkpoint, *y));
     return source_list_restore(&s->sources, checkpoint, n->t, *y);

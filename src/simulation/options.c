@@ -66,6 +66,7 @@ dem_status options_check(const dem_options *o)
           "unknown contact of bodies %d", (int)o->bodies);
     CHECK(o->contact_stiffness == 0.0 || (o->contact_stiffness >= 0.01 && o->contact_stiffness <= 100.0),
           DEM_ERROR_ARGUMENT, "contact_stiffness must be in [0.01, 100], got %g", o->contact_stiffness);
+    CHECK(o->pause >= 0.0 && o->pause <= 0.1, DEM_ERROR_ARGUMENT, "pause must be in [0, 0.1], got %g", o->pause);
     TRY(check_friction(o));
     CHECK(o->checkpoint_steps >= 0, DEM_ERROR_ARGUMENT, "checkpoint_steps must be >= 0, got %lld",
           (long long)o->checkpoint_steps);

@@ -80,6 +80,7 @@ struct dem_simulation {
     run_measures *measures;
     dem_body_motion *bodies; /* [bodies] in the state as seen, if `measures` has them */
     int unlooked;            /* steps since overlaps were looked for */
+    int unlooked_pause;      /* in a pause of the ramps: steps since the residual was looked at */
     dem_index events;
     dem_index since_checkpoint;     /* steps since the last checkpoint */
     dem_checkpoint *checkpoint;     /* the last one, */

@@ -378,12 +378,23 @@ dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_bou
     return GIVE(dem_boundary_load, out, &load);
 }
 
+double query_residual(const dem_simulation *s)
+{
+    const bool known = s->path.f1 != NULL && !s->at_event && s->path.end == s->path.t1;
+    const dem_index v = state_velocities(&s->layout);
+    return known ? diagnostics_residual(&s->forces, s->path.y1, s->path.y1 + v, s->path.f1 + v) : (double)INFINITY;
+}
+
 double dem_simulation_residual(const dem_simulation *s)
 {
     if (check_given("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
-    const bool known = s->path.f1 != NULL && s->seen == s->y && !s->at_event && s->path.end == s->path.t1;
-    const dem_index v = state_velocities(&s->layout);
-    return known ? diagnostics_residual(&s->forces, s->path.y1, s->path.y1 + v, s->path.f1 + v) : (double)INFINITY;
+    return s->seen == s->y ? query_residual(s) : (double)INFINITY;
+}
+
+double dem_simulation_ramp_time(const dem_simulation *s)
+{
+    if (check_given("dem_simulation_ramp_time", s, s) != DEM_OK) return (double)NAN;
+    return load_clock_time(&s->boundaries.clock, s->seen_t);
 }
 
 const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *s)

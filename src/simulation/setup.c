@@ -107,7 +107,8 @@ static dem_status set_up(dem_simulation *s)
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
     memcpy(s->y + state_velocities(&s->layout), model->lattice.velocity, block);
-    boundary_conditions_begin(&s->boundaries, s->y + state_velocities(&s->layout));
+    (void)boundary_conditions_give_velocities(&s->boundaries, model->lattice.mass, 0.0,
+                                              s->y + state_velocities(&s->layout));
     TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
     s->options.kernel = s->kernel.kind;
     const contact_rule rule = rule_of(s);

@@ -16,7 +16,8 @@ contains
   subroutine read_run()
     character(4096) :: title
     real(dp) :: t_end, gravity(2), residual
-    namelist /run/ title, t_end, gravity, residual
+    logical :: pause
+    namelist /run/ title, t_end, gravity, residual, pause
     read (unit, nml=run, iostat=status, iomsg=message)
   end subroutine
 

@@ -271,6 +271,8 @@ DECKS = [
      ["27:18 'kernel' in &solver must be 'auto', 'portable', 'avx2' or 'avx512', got 'sse'"]),
     ("residual too large", edit(BASE, "t_end = 1e-3 -> t_end = 1e-3, residual = 1"),
      ["2:30 'residual' in &run must be in [1e-12, 0.1], got 1"]),
+    ("pause without residual", edit(BASE, "t_end = 1e-3 -> t_end = 1e-3, pause = .true."),
+     ["2:19 'pause' in &run needs 'residual', at which a pause ends"]),
     ("probe of nothing", BASE + "&probe name = 'tip' /\n",
      ["27:1 &probe needs 'place' or 'number'"]),
     ("two probes of one name", BASE + 2 * "&probe name = 'tip', number = 1 /\n",

@@ -182,6 +182,7 @@ TEST(arrays_that_are_null_and_a_node_that_is_not_there_are_refused)
     assert_int_equal(dem_simulation_pair(simulation, 0, NULL), DEM_ERROR_ARGUMENT);
     assert_close(stress[0], 7.0, 0.0);
     assert_true(isnan(dem_simulation_residual(NULL)));
+    assert_true(isnan(dem_simulation_ramp_time(NULL)));
     assert_null(dem_simulation_model(NULL));
     assert_null(dem_simulation_checkpoint(NULL));
     dem_simulation_destroy(simulation);
@@ -324,6 +325,7 @@ static void look_at_all(const dem_simulation *s)
     (void)ask_obstacle(s, 0);
     (void)ask_boundary(s, 0);
     (void)dem_simulation_residual(s);
+    (void)dem_simulation_ramp_time(s);
     (void)dem_simulation_checkpoint(s);
     (void)dem_model_gap(dem_simulation_model(s), now.x);
     (void)ask_options(s);

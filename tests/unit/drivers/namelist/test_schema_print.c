@@ -70,7 +70,7 @@ TEST(the_echo_marks_defaults_and_what_is_not_given)
 {
     CLEANUP(free_memory) char *echo = echo_of("&run t_end = 2d-2 /" MATERIAL BODY, SCHEMA_MARKED);
     assert_contains(echo, "&run\n    title = '' ! default\n    t_end = 0.02\n    gravity = 0, -9.81 ! default\n"
-                          "    ! residual = (not given)\n/\n");
+                          "    ! residual = (not given)\n    pause = .false. ! default\n/\n");
     assert_contains(echo, "    ! clearance = (not given)\n");
     assert_contains(echo, "&solver\n    method = 'fehlberg45' ! default\n    rtol = 1e-06 ! default\n");
 }
