@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fracture as a source of events (docs/method.md, Fracture). begin() looks at the end of the step where springs are
- * strained enough (strain_filter.c), and searches the step for elements that are at their limit there or nearly so; a
- * heap holds the times at which they break. What breaks at the same time, to the width of a root, breaks together.
- * After an event the elements near it are looked at again. A break changes the stresses beside it at once: what is then
- * over its limit breaks at the same instant. undo() mends what has broken in the step, to the bit. Surfaces follow at
- * the end of the step (simulation/breaking.c): new ones cannot touch anything within it. */
+ * strained and triangles stressed enough (strain_filter.c), and searches the step for elements that are at their limit
+ * there or nearly so; a heap holds the times at which they break. What breaks at the same time, to the width of a root,
+ * breaks together. After an event the elements near it are looked at again. A break changes the stresses beside it at
+ * once: what is then over its limit breaks at the same instant. undo() mends what has broken in the step, to the bit.
+ * Surfaces follow at the end of the step (simulation/breaking.c): new ones cannot touch anything within it. */
 #include "fracture/fracture_source.h"
 
 #include <stdlib.h>
@@ -34,10 +34,11 @@ dem_status fracture_source_create(fracture_source *out, const dem_model *model, 
     s.placed = calloc(n, sizeof *s.placed);
     s.known = calloc(n, sizeof *s.known);
     s.seen = calloc((size_t)model->lattice.n_triangles + 1, sizeof *s.seen);
+    s.strained = calloc((size_t)model->lattice.n_triangles + 1, sizeof *s.strained);
     s.failing = calloc(1, sizeof *s.failing);
     dem_status status = event_heap_create(&s.heap, n_elements);
     if (status == DEM_OK) status = strain_filter_create(&s.filter, model, elements, near_limit);
-    if (status == DEM_OK && !(s.stress && s.placed && s.known && s.seen && s.failing))
+    if (status == DEM_OK && !(s.stress && s.placed && s.known && s.seen && s.strained && s.failing))
         status = status_fail(DEM_ERROR_MEMORY, "out of memory for the stresses of %zu nodes", n);
     if (status == DEM_OK)
         *out = s;
@@ -56,6 +57,7 @@ void fracture_source_destroy(fracture_source *s)
     free(s->placed);
     free(s->known);
     free(s->seen);
+    free(s->strained);
     free(s->broken);
     *s = (fracture_source){0};
 }
@@ -206,19 +208,56 @@ static void look_at_triangles_of(fracture_source *s, dem_index i)
     }
 }
 
+static void look_around(fracture_source *s, dem_index triangle)
+{
+    for (int c = 0; c < 3; c++) look_at_triangles_of(s, s->model->lattice.triangles[3 * triangle + c]);
+}
+
+/* Whether a triangle may bring one with which it shares a corner near its limit: stresses of nodes are means of those
+ * of triangles, of which the largest principal values are at least as large in the mean. The last digits may differ. */
+static bool may_drive(const fracture_source *s, dem_index triangle)
+{
+    double own[3];
+    node_stress_of_triangle(s->model, s->elements, triangle, s->step->y1, own);
+    return !(utilisation_of_stress((double)s->filter.least[triangle], own, own, own) < 0.999 * near_limit);
+}
+
+static void look_near_triangle(fracture_source *s, dem_index triangle)
+{
+    s->strained[triangle] = s->number;
+    if (may_drive(s, triangle)) look_around(s, triangle);
+}
+
+/* Where a threshold is 0 stresses of nodes are no means of those of triangles: all at its ends, and around those that
+ * hold it, get a look. */
+static void look_everywhere_near(fracture_source *s, dem_index spring)
+{
+    const element_state *e = s->elements;
+    for (int end = 0; end < 2; end++) {
+        const dem_index i = s->model->lattice.ends[2 * spring + end];
+        look_at_triangles_of(s, i);
+        for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
+            if (element_state_holds(e, e->at[p], spring)) look_around(s, e->at[p]);
+    }
+}
+
 /* All that a spring over its threshold may bring to its limit: itself, and the triangles that share a corner with one
- * that holds it. Other ends of triangles at its own ends are taken in as well where it is held by none. */
+ * that holds it, and that is stressed enough. A triangle has an end of each spring that it holds as a corner. */
 static void look_near(fracture_source *s, dem_index spring)
 {
     const dem_lattice *l = &s->model->lattice;
     const element_state *e = s->elements;
     if (l->critical_stretch != NULL) look_at(s, l->n_triangles + spring);
-    for (int end = 0; end < 2 && l->strength != NULL; end++) {
+    if (l->strength == NULL) return;
+    if (s->filter.threshold[spring] == 0.0) {
+        look_everywhere_near(s, spring);
+        return;
+    }
+    for (int end = 0; end < 2; end++) {
         const dem_index i = l->ends[2 * spring + end];
-        look_at_triangles_of(s, i);
         for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
-            for (int c = 0; c < 3 && element_state_holds(e, e->at[p], spring); c++)
-                look_at_triangles_of(s, l->triangles[3 * e->at[p] + c]);
+            if (s->strained[e->at[p]] != s->number && element_state_holds(e, e->at[p], spring))
+                look_near_triangle(s, e->at[p]);
     }
 }
 

@@ -20,7 +20,8 @@ typedef struct fracture_source {
     uint32_t number;           /* of the step */
     double *stress;            /* [n_nodes][3] Pa, at the end of the step, */
     uint32_t *known;           /* [n_nodes] where this is the number of the step */
-    uint32_t *seen;            /* [n_triangles] the number of the step in which one was looked at last */
+    uint32_t *seen;            /* [n_triangles] the number of the step in which one was looked at last, */
+    uint32_t *strained;        /* [n_triangles] and in which one was last asked what it may drive */
     uint32_t *placed;          /* [n_nodes] the look at which a node was put into `state` last */
     uint32_t look;             /* number of the present one */
     event_heap heap;           /* elements by the time at which they break */

@@ -6,7 +6,9 @@
  * its triangles, and a triangle's utilisation the largest principal value of a mean of nodes' stresses, which is at
  * most the mean of their largest principal values: so if a triangle is near its limit, one of those with which it
  * shares a corner has a spring strained by near_limit strength/C. A spring that no triangle holds adds to the stress
- * without a bound; beside it, and where an edge of a triangle has no spring, every step takes a look. */
+ * without a bound; beside it, and where an edge of a triangle has no spring, every step takes a look: the threshold is
+ * 0. By the same means, of triangles with a strained spring only those need a look around them whose own stress is
+ * near_limit strength (may_drive() in fracture_source.c): most are strained by compression. */
 #include "fracture/strain_filter.h"
 
 #include <math.h>
@@ -81,12 +83,19 @@ static double weakest_at(const dem_lattice *l, const element_state *s, dem_index
     return least;
 }
 
+/* The same of the triangles that share a corner with one. */
+static double weakest_around(const dem_lattice *l, const element_state *s, dem_index triangle)
+{
+    double least = (double)INFINITY;
+    for (int c = 0; c < 3; c++) least = fmin(least, weakest_at(l, s, l->triangles[3 * triangle + c]));
+    return least;
+}
+
 /* Lowers the thresholds of the springs of a triangle to what its neighbours stand. */
 static void enter_triangle(strain_filter *f, const dem_lattice *l, const element_state *s, dem_index triangle,
                            double near_limit)
 {
-    double least = (double)INFINITY;
-    for (int c = 0; c < 3; c++) least = fmin(least, weakest_at(l, s, l->triangles[3 * triangle + c]));
+    const double least = (double)f->least[triangle];
     if (isinf(least)) return;
     const double strain = strain_for(l, s, triangle, near_limit * least);
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
@@ -104,20 +113,39 @@ static void enter_loose(strain_filter *f, const dem_model *m, const element_stat
     }
 }
 
+/* Not above the number. */
+static float round_down(double number)
+{
+    const float near = (float)number;
+    return (double)near > number ? nextafterf(near, -INFINITY) : near;
+}
+
+/* Triangles without a strength have no limits, and nothing to be asked. */
+static void enter_triangles(strain_filter *f, const dem_model *m, const element_state *s, double near_limit)
+{
+    const dem_lattice *l = &m->lattice;
+    for (dem_index t = 0; t < l->n_triangles && l->strength != NULL; t++) {
+        f->least[t] = round_down(weakest_around(l, s, t));
+        enter_triangle(f, l, s, t, near_limit);
+    }
+    for (dem_index k = 0; k < l->n_springs && l->strength != NULL; k++) enter_loose(f, m, s, k);
+}
+
 dem_status strain_filter_create(strain_filter *out, const dem_model *model, const element_state *elements,
                                 double near_limit)
 {
     const dem_lattice *l = &model->lattice;
     strain_filter f = {.threshold = malloc(((size_t)l->n_springs + 1) * sizeof *f.threshold)};
-    CHECK(f.threshold != NULL, DEM_ERROR_MEMORY, "out of memory for the limits of %lld springs",
-          (long long)l->n_springs);
+    f.least = malloc(((size_t)l->n_triangles + 1) * sizeof *f.least);
+    if (f.threshold == NULL || f.least == NULL) {
+        strain_filter_destroy(&f);
+        return status_fail(DEM_ERROR_MEMORY, "out of memory for the limits of %lld springs", (long long)l->n_springs);
+    }
     for (dem_index k = 0; k < l->n_springs; k++) {
         const bool limited = l->critical_stretch != NULL && utilisation_is_limited(l, l->n_triangles + k);
         f.threshold[k] = limited ? near_limit * l->critical_stretch[k] : (double)INFINITY;
     }
-    for (dem_index t = 0; t < l->n_triangles && l->strength != NULL; t++)
-        enter_triangle(&f, l, elements, t, near_limit);
-    for (dem_index k = 0; k < l->n_springs && l->strength != NULL; k++) enter_loose(&f, model, elements, k);
+    enter_triangles(&f, model, elements, near_limit);
     *out = f;
     return DEM_OK;
 }
@@ -125,5 +153,6 @@ dem_status strain_filter_create(strain_filter *out, const dem_model *model, cons
 void strain_filter_destroy(strain_filter *f)
 {
     free(f->threshold);
+    free(f->least);
     *f = (strain_filter){0};
 }

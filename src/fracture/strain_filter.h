@@ -8,6 +8,8 @@
 
 typedef struct strain_filter {
     double *threshold; /* [n_springs] of |strain|; infinity: nothing near the spring ever breaks */
+    float *least;      /* [n_triangles] Pa, strength of the weakest triangle that shares a corner, or a rounding less;
+                          infinity: none of them breaks */
 } strain_filter;
 
 /** \param near_limit  the utilisation that is not to be missed

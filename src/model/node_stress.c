@@ -68,6 +68,29 @@ static void of_whole_triangles(const dem_model *m, const element_state *s, dem_i
     for (int k = 0; k < 3; k++) stress[k] /= volume;
 }
 
+/* A triangle has a slot in the rows of each of its corners, from which the first is taken. */
+void node_stress_of_triangle(const dem_model *m, const element_state *s, dem_index triangle, const double *x,
+                             double stress[3])
+{
+    const triangles *t = &m->triangles;
+    const couplings *c = &m->couplings;
+    const dem_index corner = m->lattice.triangles[3 * triangle];
+    const double volume = spring_share_volume(&m->lattice, triangle);
+    double virial[3], spread = 0.0;
+    stress[0] = stress[1] = stress[2] = 0.0;
+    add_triangle(m, s, triangle, x, stress);
+    for (dem_index p = c->n > 0 ? c->row[corner] : 0; c->n > 0 && p < c->row[corner + 1]; p++) {
+        if (c->list[c->slot[p] / 3].triangle != triangle) continue;
+        couplings_virial(c, p, x, virial);
+        for (int k = 0; k < 3; k++) stress[k] += virial[k];
+    }
+    for (dem_index p = t->row[corner]; p < t->row[corner + 1]; p++)
+        if (t->triangle[p] == triangle) spread = triangles_virial(t, corner, p, x);
+    stress[0] += spread;
+    stress[1] += spread;
+    for (int k = 0; k < 3; k++) stress[k] /= volume;
+}
+
 void node_stress(const dem_model *model, const element_state *state, dem_index i, const double *x, double stress[3])
 {
     if (element_state_at(state, i) != NULL)

@@ -10,4 +10,9 @@
  *  \param state  NULL: all elements are whole */
 void node_stress(const dem_model *model, const element_state *state, dem_index i, const double *x, double stress[3]);
 
+/** The own stress of a triangle, Pa: those of nodes are means of such by volume, where all springs are held by
+ *  triangles. */
+void node_stress_of_triangle(const dem_model *model, const element_state *state, dem_index triangle, const double *x,
+                             double stress[3]);
+
 #endif

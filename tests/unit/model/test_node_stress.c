@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model/node_stress.h"
+#include "model/spring_share.h"
 #include "unit/model/cut_solids.h"
 
 static const double strain_size = 0.02;
@@ -49,6 +50,40 @@ TEST(it_is_the_stress_of_the_solid_without_the_broken_triangles)
             n_without += same < 0;
         }
         assert_true(n_without > 0);
+    }
+}
+
+/* The stress of a node is the mean of those of its whole triangles by volume: 1e-15 of stresses up to E times 0.02. */
+TEST(it_is_the_mean_of_its_triangles)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(dem_lattice_free) dem_lattice whole = solid_of(kind);
+        CLEANUP(free_model) dem_model *model = NULL;
+        CLEANUP(element_state_destroy) element_state state;
+        assert_ok(dem_model_create(&model, &whole, NULL, 0));
+        assert_ok(element_state_create(&state, &model->lattice, &model->springs));
+        CLEANUP(free_memory) double *x = calloc(2 * (size_t)whole.n_nodes, sizeof *x);
+        CLEANUP(free_memory) double *sum = calloc(4 * (size_t)whole.n_nodes, sizeof *sum);
+        assert_true(x && sum);
+        deform(&whole, x);
+        for (dem_index t = 0; t < whole.n_triangles; t++)
+            if (breaks(kind, t)) element_state_break_triangle(&state, t);
+        for (dem_index t = 0; t < whole.n_triangles; t++) {
+            double own[3];
+            if (state.triangle[t]) continue;
+            node_stress_of_triangle(model, &state, t, x, own);
+            for (int c = 0; c < 3; c++) {
+                double *at = &sum[4 * whole.triangles[3 * t + c]];
+                for (int k = 0; k < 3; k++) at[k] += spring_share_volume(&whole, t) * own[k];
+                at[3] += spring_share_volume(&whole, t);
+            }
+        }
+        for (dem_index i = 0; i < whole.n_nodes; i++) {
+            double stress[3];
+            node_stress(model, &state, i, x, stress);
+            for (int k = 0; k < 3; k++)
+                assert_close(stress[k], sum[4 * i + 3] > 0.0 ? sum[4 * i + k] / sum[4 * i + 3] : 0.0, 1e-8);
+        }
     }
 }
 
