@@ -417,6 +417,13 @@ DEM_API dem_status dem_simulation_force_at(const dem_simulation *simulation, dem
 DEM_API dem_status dem_simulation_broken(const dem_simulation *simulation, unsigned char *triangle,
                                          unsigned char *spring);
 
+/** Fragments: nodes that springs join which are not broken; a node without such a spring is one of its own. Without
+ *  breaks every connected body is one.
+ *  \param[out] n_fragments  how many there are
+ *  \param[out] fragment     [n_nodes] the lowest node of the fragment of each, whatever broke before */
+DEM_API dem_status dem_simulation_fragments(const dem_simulation *simulation, dem_index *n_fragments,
+                                            dem_index *fragment);
+
 /** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
  *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
  *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.

@@ -16,10 +16,10 @@ NUMBERS = {
 
 # What C leaves open: how many of a thing a pointer is for. Structs are one unless they are here; other names are to be
 # in one of both. "function.argument" goes before "argument".
-ONE = {"out", "omega", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts", "n_obstacles", "n_frames",
+ONE = {"out", "omega", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts", "n_fragments", "n_obstacles", "n_frames",
        "obstacle", "by"}
 MANY = {
-    "obstacles": "*", "materials": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "n_edges": "*",
+    "obstacles": "*", "materials": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "fragment": "*", "n_edges": "*",
     "nodes": "*", "springs": "*", "triangle": "*", "spring": "*", "area": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
     "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_model_gap.x": "*", "dem_obstacle_velocity.x": "*", "velocity": "*",
     "dem_force.force": "2, *", "dem_simulation_contact_forces.force": "2, *", "pressure": "*", "direction": "2", "points": "2, *"}

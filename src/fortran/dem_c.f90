@@ -787,6 +787,12 @@ module dem_c
       integer(c_signed_char), intent(out), optional :: triangle(*), spring(*)
     end function
 
+    integer(dem_status) function dem_simulation_fragments(simulation, n_fragments, fragment) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      integer(dem_index), intent(out) :: n_fragments, fragment(*)
+    end function
+
     integer(dem_status) function dem_simulation_stress(simulation, stress) bind(c)
       import
       type(c_ptr), value :: simulation

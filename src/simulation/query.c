@@ -13,6 +13,7 @@
 #include "base/struct_size.h"
 #include "contact/obstacle_load.h"
 #include "forces/diagnostics.h"
+#include "model/fragments.h"
 #include "model/node_stress.h"
 #include "simulation/body_contact.h"
 
@@ -226,6 +227,14 @@ dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangl
         triangle[k] = elements != NULL && elements->triangle[k];
     for (dem_index k = 0; k < l->n_springs && spring != NULL; k++)
         spring[k] = springs_is_broken(element_state_springs(elements), k);
+    return DEM_OK;
+}
+
+dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragments, dem_index *fragment)
+{
+    TRY(check_given("dem_simulation_fragments", s, n_fragments));
+    TRY(check_given("dem_simulation_fragments", s, fragment));
+    *n_fragments = fragments_find(&s->model->lattice, element_state_springs(s->forces.elements), fragment);
     return DEM_OK;
 }
 

@@ -330,6 +330,10 @@ static void look_at_all(const dem_simulation *s)
     (void)dem_model_gap(dem_simulation_model(s), now.x);
     (void)ask_options(s);
     assert_ok(dem_simulation_broken(s, NULL, NULL));
+    dem_index *fragment = calloc((size_t)dem_model_lattice(dem_simulation_model(s))->n_nodes, sizeof *fragment);
+    dem_index n_fragments;
+    assert_ok(dem_simulation_fragments(s, &n_fragments, fragment));
+    free(fragment);
 }
 
 static dem_status only_look(void *context, const dem_simulation *simulation)
