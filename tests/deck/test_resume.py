@@ -165,6 +165,7 @@ class Cuts(Case):
         self.assertRegex(log, r"\nbalance .* fracture [1-9]\d+\.?\d* J; error")
         self.assertRegex(log, r"\nfracture   [1-9]\d+ of \d+ triangles and [1-9]\d+ of \d+ springs are broken, which")
         self.assertGreater(self.result("whole")["broken_triangles"], 10)
+        self.assertRegex(log, r"\nfragments  [1-9]\d*; the largest has 0?\.?\d+ of the mass, single nodes ")
         self.assertGreater(self.result("whole")["energy"]["fracture"], 10.0)
         self.assertLess(abs(self.result("whole")["closure"]), 1e-6)
         self.assertGreater(self.go_on("cut", *AT_ONCE), 10)
