@@ -1,40 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Which nodes of a lattice springs join (parts), which triangles share edges (pieces), and how many boundary edges meet
- * at a node (rims). Bodies that have fallen apart, and single nodes that act as hinges, are found by them. Union-find:
- * each member points to another one of its set, and the root stands for the set. What to do with loose pieces is
- * decided by the callers (drivers/body). */
+ * at a node (rims). Bodies that have fallen apart, and single nodes that act as hinges, are found by them. What to do
+ * with loose pieces is decided by the callers (drivers/body). */
 #include "lattice/lattice.h"
 
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "base/union_find.h"
 #include "lattice/mesh_edges.h"
-
-/* Halves the path on the way, so that later searches are short. */
-static dem_index root_of(dem_index *parent, dem_index i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-/* The root of a set is its lowest member, which makes the numbers of parts independent of the order of springs. */
-static void unite(dem_index *parent, dem_index i, dem_index j)
-{
-    const dem_index a = root_of(parent, i), b = root_of(parent, j);
-    if (a < b)
-        parent[b] = a;
-    else
-        parent[a] = b;
-}
 
 /* n members that are all apart; NULL if there is no memory. */
 static dem_index *make_parents(dem_index n)
 {
     dem_index *parent = lattice_zeros(n, sizeof *parent);
-    for (dem_index i = 0; parent != NULL && i < n; i++) parent[i] = i;
+    if (parent != NULL) union_find_start(parent, n);
     return parent;
 }
 
@@ -44,7 +24,7 @@ static dem_index number_parts(dem_index *part, dem_index *parent, dem_index n)
 {
     dem_index n_parts = 0;
     for (dem_index i = 0; i < n; i++) {
-        const dem_index root = root_of(parent, i);
+        const dem_index root = union_find_root(parent, i);
         if (part != NULL) part[i] = root == i ? n_parts : part[root];
         n_parts += root == i;
     }
@@ -58,7 +38,8 @@ dem_status dem_lattice_parts(const dem_lattice *lattice, dem_index *n_parts, dem
     CHECK(n_parts != NULL, DEM_ERROR_ARGUMENT, "n_parts is NULL");
     dem_index *parent = make_parents(lattice->n_nodes);
     CHECK_MEMORY(parent);
-    for (dem_index k = 0; k < lattice->n_springs; k++) unite(parent, lattice->ends[2 * k], lattice->ends[2 * k + 1]);
+    for (dem_index k = 0; k < lattice->n_springs; k++)
+        union_find_unite(parent, lattice->ends[2 * k], lattice->ends[2 * k + 1]);
     *n_parts = number_parts(part, parent, lattice->n_nodes);
     free(parent);
     return DEM_OK;
@@ -75,7 +56,7 @@ dem_status dem_lattice_pieces(const dem_lattice *lattice, dem_index *n_pieces, d
     /* Slots p - 1 and p are sides of one edge if p is not the first slot of its edge. */
     for (dem_index i = 0; parent != NULL && i < lattice->n_nodes; i++)
         for (dem_index p = s.row[i]; p < s.row[i + 1]; p++)
-            if (!mesh_edges_is_first(&s, i, p)) unite(parent, s.list[p - 1].triangle, s.list[p].triangle);
+            if (!mesh_edges_is_first(&s, i, p)) union_find_unite(parent, s.list[p - 1].triangle, s.list[p].triangle);
     mesh_edges_free(&s);
     CHECK_MEMORY(parent);
     *n_pieces = number_parts(piece, parent, lattice->n_triangles);
