@@ -37,7 +37,7 @@ class dem_lattice(Sized):
                 ("guard", doubles), ("area_stiffness", doubles), ("thickness", doubles), ("modulus", doubles),
                 ("flags", POINTER(ctypes.c_ubyte)), ("body", POINTER(c_int32)), ("position", doubles),
                 ("velocity", doubles), ("coupling", doubles), ("strength", doubles),
-                ("critical_stretch", doubles)]
+                ("critical_stretch", doubles), ("softening", doubles)]
 
 
 class dem_force_query(ctypes.Structure):

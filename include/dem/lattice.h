@@ -94,6 +94,8 @@ typedef struct dem_lattice {
                                 its corners' stresses reaches it; INFINITY: never; NULL: none breaks by its stress */
     double *critical_stretch; /**< [n_springs] > 0: a spring breaks when its strain reaches it, with the triangles that
                                 hold it; INFINITY: never; NULL: none breaks by its strain */
+    double *softening; /**< [n_triangles]   q >= 1: at its strength a triangle does not break yet, but has less and less
+                            left in tension, nothing at q times the strain; 1: it breaks; NULL: 1 in all */
 } dem_lattice;
 
 /** No nodes, all arrays NULL. Every lattice begins like this: functions that make one write no further than the

@@ -17,14 +17,15 @@
 /* ---- forces ---- */
 
 /* Edge c begins at corner c, and the last edge ends there. */
-vec2 couplings_add_force(const couplings *c, const unsigned char *broken, dem_index i, const double *x, vec2 force)
+vec2 couplings_add_force(const couplings *c, triangles_integrity integrity, dem_index i, const double *x, vec2 force)
 {
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
         const int q = (int)(c->slot[p] % 3), last = (q + 2) % 3;
-        if (couplings_broken(c, broken, c->slot[p] / 3)) continue;
+        if (couplings_broken(c, integrity, c->slot[p] / 3)) continue;
         const coupled_edges e = couplings_edges(&c->list[c->slot[p] / 3], x);
-        const vec2 ahead = vec2_scale(e.tension[q] / e.length[q], e.edge[q]);
-        const vec2 behind = vec2_scale(e.tension[last] / e.length[last], e.edge[last]);
+        const double left = couplings_left(c, integrity, c->slot[p] / 3);
+        const vec2 ahead = vec2_scale(left * e.tension[q] / e.length[q], e.edge[q]);
+        const vec2 behind = vec2_scale(left * e.tension[last] / e.length[last], e.edge[last]);
         force = vec2_add(force, vec2_sub(ahead, behind));
     }
     return force;
@@ -80,46 +81,49 @@ static double energy(const coupled_triangle *t, const double *x)
 }
 
 /* Every triangle at the node counts in full, as in springs_node_energy(). */
-double couplings_node_energy(const couplings *c, const unsigned char *broken, dem_index i, const double *x)
+double couplings_node_energy(const couplings *c, triangles_integrity integrity, dem_index i, const double *x)
 {
     double sum = 0.0;
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++)
-        if (!couplings_broken(c, broken, c->slot[p] / 3)) sum += energy(&c->list[c->slot[p] / 3], x);
+        if (!couplings_broken(c, integrity, c->slot[p] / 3))
+            sum += couplings_left(c, integrity, c->slot[p] / 3) * energy(&c->list[c->slot[p] / 3], x);
     return sum;
 }
 
-double couplings_energy(const couplings *c, const unsigned char *broken, const double *x)
+double couplings_energy(const couplings *c, triangles_integrity integrity, const double *x)
 {
     exact_sum sum = {0};
     double terms[EXACT_SUM_BLOCK];
     for (dem_index first = 0; first < c->n; first += EXACT_SUM_BLOCK) {
         const int n = exact_sum_block(first, c->n);
         for (int q = 0; q < n; q++)
-            terms[q] = couplings_broken(c, broken, first + q) ? 0.0 : energy(&c->list[first + q], x);
+            terms[q] = couplings_broken(c, integrity, first + q)
+                           ? 0.0
+                           : couplings_left(c, integrity, first + q) * energy(&c->list[first + q], x);
         exact_sum_take(&sum, terms, n);
     }
     return reduce_sum(&sum);
 }
 
-void couplings_add_tensions(const couplings *c, const unsigned char *broken, const double *x, double *force)
+void couplings_add_tensions(const couplings *c, triangles_integrity integrity, const double *x, double *force)
 {
     for (dem_index k = 0; k < c->n; k++) {
-        if (couplings_broken(c, broken, k)) continue;
+        if (couplings_broken(c, integrity, k)) continue;
         const coupled_edges e = couplings_edges(&c->list[k], x);
-        for (int q = 0; q < 3; q++) force[c->list[k].spring[q]] += e.tension[q];
+        for (int q = 0; q < 3; q++) force[c->list[k].spring[q]] += couplings_left(c, integrity, k) * e.tension[q];
     }
 }
 
 /* The triangles at a node stand in the order of the list, so that the sum has the bits of that over all triangles. */
-double couplings_add_tension(const couplings *c, const unsigned char *broken, dem_index i, dem_index spring,
+double couplings_add_tension(const couplings *c, triangles_integrity integrity, dem_index i, dem_index spring,
                              const double *x, double tension)
 {
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
         const dem_index k = c->slot[p] / 3;
-        if (couplings_broken(c, broken, k)) continue;
+        if (couplings_broken(c, integrity, k)) continue;
         const coupled_edges e = couplings_edges(&c->list[k], x);
         for (int q = 0; q < 3; q++)
-            if (c->list[k].spring[q] == spring) tension += e.tension[q];
+            if (c->list[k].spring[q] == spring) tension += couplings_left(c, integrity, k) * e.tension[q];
     }
     return tension;
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What couples the three springs of a triangle: the tension of an edge depends on how much the other two are stretched,
- * too, so that a triangle of any shape resists a strain as Hooke's law asks. A list of flags `broken` [n_triangles], by
- * the lattice's numbers, leaves triangles out; NULL: all are whole. */
+ * too, so that a triangle of any shape resists a strain as Hooke's law asks. */
 #ifndef DEM_ELASTIC_COUPLINGS_H
 #define DEM_ELASTIC_COUPLINGS_H
 
 #include <stdbool.h>
 
 #include "elastic/springs.h"
+#include "elastic/triangles.h"
 
 /** A triangle whose springs are coupled. Edge c goes from corner c to the next one, counter-clockwise. */
 typedef struct coupled_triangle {
@@ -32,9 +32,16 @@ dem_status couplings_compile(couplings *out, const dem_lattice *lattice, const s
 void couplings_free(couplings *c);
 
 /** Whether triangle k of the list is broken. */
-static inline bool couplings_broken(const couplings *c, const unsigned char *broken, dem_index k)
+static inline bool couplings_broken(const couplings *c, triangles_integrity integrity, dem_index k)
 {
-    return broken != NULL && broken[c->list[k].triangle];
+    return integrity.broken != NULL && integrity.broken[c->list[k].triangle];
+}
+
+/** What is left of the couplings of triangle k of the list, whether it is pulled or pushed: a couplings' energy has no
+ *  part of each edge that could have its own. */
+static inline double couplings_left(const couplings *c, triangles_integrity integrity, dem_index k)
+{
+    return triangles_left(integrity, c->list[k].triangle);
 }
 
 /** The edges of a triangle, m, their lengths, how much longer than at rest they are, m, and what couplings add to their
@@ -62,7 +69,7 @@ static inline coupled_edges couplings_edges(const coupled_triangle *t, const dou
 
 /** Adds the forces on node i, N, along the edges at it, in the order of its row. Not finite where two corners
  *  coincide. */
-vec2 couplings_add_force(const couplings *c, const unsigned char *broken, dem_index i, const double *x, vec2 force);
+vec2 couplings_add_force(const couplings *c, triangles_integrity integrity, dem_index i, const double *x, vec2 force);
 
 /** r x f of the triangle in slot p, J: xx, yy, xy; symmetric. */
 void couplings_virial(const couplings *c, dem_index p, const double *x, double virial[3]);
@@ -72,16 +79,16 @@ vec2 couplings_tangent(const couplings *c, dem_index i, const double *x, const d
 
 /** Energy of the couplings at node i, J, of any sign: of the triangles there, stretch times coupling times stretch of
  *  every pair of edges. */
-double couplings_node_energy(const couplings *c, const unsigned char *broken, dem_index i, const double *x);
+double couplings_node_energy(const couplings *c, triangles_integrity integrity, dem_index i, const double *x);
 
 /** Energy of all couplings, J; an exact sum. */
-double couplings_energy(const couplings *c, const unsigned char *broken, const double *x);
+double couplings_energy(const couplings *c, triangles_integrity integrity, const double *x);
 
 /** Adds to the tension of one spring, N, what the couplings do.  \param i  one of its nodes */
-double couplings_add_tension(const couplings *c, const unsigned char *broken, dem_index i, dem_index spring,
+double couplings_add_tension(const couplings *c, triangles_integrity integrity, dem_index i, dem_index spring,
                              const double *x, double tension);
 
 /** Adds to the tension of every spring of the lattice what the couplings do.  \param[in,out] force  [n_springs] N */
-void couplings_add_tensions(const couplings *c, const unsigned char *broken, const double *x, double *force);
+void couplings_add_tensions(const couplings *c, triangles_integrity integrity, const double *x, double *force);
 
 #endif

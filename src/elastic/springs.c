@@ -130,12 +130,13 @@ static double energy(double stiffness, double rest_length, double strain)
 }
 
 /* A rounded sum in the order of the row. Each spring counts in full here, as the energy that depends on this node. */
-double springs_node_energy(const springs *s, const double *integrity, dem_index i, const double *x)
+double springs_node_energy(const springs *s, springs_integrity integrity, dem_index i, const double *x)
 {
     double sum = 0.0;
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-        const double left = springs_left(s, integrity, p);
-        if (left > 0.0) sum += energy(left * s->stiffness[p], s->rest_length[p], springs_strain(s, i, p, x));
+        if (springs_is_broken(integrity, s->spring[p])) continue;
+        const double strain = springs_strain(s, i, p, x), left = springs_left(integrity, s->spring[p], strain);
+        sum += energy(left * s->stiffness[p], s->rest_length[p], strain);
     }
     return sum;
 }
@@ -151,37 +152,45 @@ void springs_strain_block(const dem_lattice *lattice, dem_index first, int n, co
     array_ops_fastest()->stretch(strain, lattice->rest_length + first, n);
 }
 
-/* An exact sum: its bits depend neither on the order of springs nor on that of nodes (docs/algorithms.md). What is
- * broken of them is taken off afterwards, which keeps the loop free of branches. */
-double springs_energy(const dem_lattice *lattice, const double *integrity, const double *x)
+/* Energies of n springs from `first` on in place of their strains. */
+static void fill_energies(const dem_lattice *lattice, springs_integrity integrity, dem_index first, int n,
+                          double *terms)
+{
+    const double *stiffness = lattice->stiffness + first, *rest_length = lattice->rest_length + first;
+    for (int q = 0; q < n && integrity.pushed == NULL; q++) terms[q] = energy(stiffness[q], rest_length[q], terms[q]);
+    for (int q = 0; q < n && integrity.pushed != NULL; q++) {
+        const double left = springs_left(integrity, first + q, terms[q]);
+        terms[q] = left > 0.0 ? left * energy(stiffness[q], rest_length[q], terms[q]) : 0.0;
+    }
+}
+
+/* An exact sum: its bits depend neither on the order of springs nor on that of nodes (docs/algorithms.md). */
+double springs_energy(const dem_lattice *lattice, springs_integrity integrity, const double *x)
 {
     exact_sum sum = {0};
     double terms[EXACT_SUM_BLOCK];
-    const double *stiffness = lattice->stiffness, *rest_length = lattice->rest_length;
     for (dem_index first = 0; first < lattice->n_springs; first += EXACT_SUM_BLOCK) {
         const int n = exact_sum_block(first, lattice->n_springs);
         springs_strain_block(lattice, first, n, x, terms);
-        for (int q = 0; q < n; q++) terms[q] = energy(stiffness[first + q], rest_length[first + q], terms[q]);
-        for (int q = 0; q < n && integrity != NULL; q++)
-            terms[q] = integrity[first + q] > 0.0 ? integrity[first + q] * terms[q] : 0.0;
+        fill_energies(lattice, integrity, first, n, terms);
         exact_sum_take(&sum, terms, n);
     }
     return reduce_sum(&sum);
 }
 
-void springs_strains(const dem_lattice *lattice, const double *integrity, const double *x, double *strain)
+void springs_strains(const dem_lattice *lattice, springs_integrity integrity, const double *x, double *strain)
 {
     for (dem_index first = 0; first < lattice->n_springs; first += EXACT_SUM_BLOCK)
         springs_strain_block(lattice, first, exact_sum_block(first, lattice->n_springs), x, strain + first);
-    for (dem_index k = 0; k < lattice->n_springs && integrity != NULL; k++)
-        if (integrity[k] == 0.0) strain[k] = 0.0;
+    for (dem_index k = 0; k < lattice->n_springs && integrity.pushed != NULL; k++)
+        if (springs_is_broken(integrity, k)) strain[k] = 0.0;
 }
 
-void springs_forces(const dem_lattice *lattice, const double *integrity, const double *x, double *force)
+void springs_forces(const dem_lattice *lattice, springs_integrity integrity, const double *x, double *force)
 {
     springs_strains(lattice, integrity, x, force);
     for (dem_index k = 0; k < lattice->n_springs; k++)
-        force[k] *= integrity != NULL ? integrity[k] * lattice->stiffness[k] : lattice->stiffness[k];
+        force[k] *= springs_left(integrity, k, force[k]) * lattice->stiffness[k];
 }
 
 /* d.v/(d0 |d|) of the spring in slot p of row i, with d and v from node i to its neighbour, 1/s. */
@@ -194,13 +203,13 @@ static double strain_rate(const springs *s, dem_index i, dem_index p, const doub
 
 /* Sum of c e'^2 d0 over springs, W: the force c e' times the rate e' d0 at which the length changes. A spring is taken
  * from the row of its lower node. A rounded sum, since this is evaluated as often as the forces are. */
-double springs_damping_power(const springs *s, const double *integrity, const double *x, const double *v)
+double springs_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v)
 {
     double power = 0.0;
     if (s->viscosity == NULL) return power;
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-            const double left = springs_left(s, integrity, p);
+            const double left = springs_left(integrity, s->spring[p], 1.0);
             if (s->neighbour[p] < i || left == 0.0) continue;
             const double rate = strain_rate(s, i, p, x, v);
             power += left * s->viscosity[p] * rate * rate * s->rest_length[p];

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Springs in CSR and the bond force (1). The only place that divides by a rest length. `integrity` [n_springs], by the
- * lattice's numbers, is the share that is left of the stiffness and the viscosity of each spring: 1 of one that is
- * whole, 0 of one that is broken, whose ends may be anywhere; NULL: all are whole. */
+/* Springs in CSR and the bond force (1). The only place that divides by a rest length. */
 #ifndef DEM_ELASTIC_SPRINGS_H
 #define DEM_ELASTIC_SPRINGS_H
 
@@ -24,16 +22,25 @@ typedef struct springs {
 dem_status springs_compile(springs *out, const dem_lattice *lattice);
 void springs_free(springs *s);
 
-/** What is left of the spring in slot p. */
-static inline double springs_left(const springs *s, const double *integrity, dem_index p)
+/** What is left of the stiffness of springs, by the lattice's numbers: 1 of one that is whole, 0 of one that is broken,
+ *  whose ends may be anywhere. A spring that softens has less in tension, its viscosity too. */
+typedef struct springs_integrity {
+    const double *pushed; /* [n_springs] what is left under pressure; NULL: all are whole */
+    const double *pulled; /* [n_springs] and in tension; NULL: the same */
+} springs_integrity;
+#define SPRINGS_WHOLE ((springs_integrity){NULL, NULL})
+
+/** What is left of spring k of a lattice at a stretch, m, or a strain. */
+static inline double springs_left(springs_integrity q, dem_index k, double stretch)
 {
-    return integrity != NULL ? integrity[s->spring[p]] : 1.0;
+    if (q.pushed == NULL) return 1.0;
+    return q.pulled != NULL && stretch > 0.0 ? q.pulled[k] : q.pushed[k];
 }
 
 /** Whether spring k of a lattice is broken. */
-static inline bool springs_is_broken(const double *integrity, dem_index k)
+static inline bool springs_is_broken(springs_integrity q, dem_index k)
 {
-    return integrity != NULL && integrity[k] == 0.0;
+    return q.pushed != NULL && q.pushed[k] == 0.0;
 }
 
 /** The spring between two nodes, as a number of the lattice; -1: none. */
@@ -58,27 +65,27 @@ static inline double springs_pull(double stiffness, double rest_length, double l
 }
 
 /** Force on node i, N: the sum of (1) over its row. Not finite where two neighbours coincide. */
-static inline vec2 springs_force(const springs *s, const double *integrity, dem_index i, const double *x)
+static inline vec2 springs_force(const springs *s, springs_integrity integrity, dem_index i, const double *x)
 {
     const vec2 xi = vec2_at(x, i);
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-        const double left = springs_left(s, integrity, p);
-        if (left == 0.0) continue;
+        if (springs_is_broken(integrity, s->spring[p])) continue;
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi);
-        force = vec2_along(force, springs_pull(left * s->stiffness[p], s->rest_length[p], vec2_norm(d)), d);
+        const double length = vec2_norm(d), left = springs_left(integrity, s->spring[p], length - s->rest_length[p]);
+        force = vec2_along(force, springs_pull(left * s->stiffness[p], s->rest_length[p], length), d);
     }
     return force;
 }
 
 /** Kelvin-Voigt damping of node i, N: in every spring of its row c e' n, with e' = d.v/(d0 |d|) the strain rate. */
-static inline vec2 springs_damping(const springs *s, const double *integrity, dem_index i, const double *x,
+static inline vec2 springs_damping(const springs *s, springs_integrity integrity, dem_index i, const double *x,
                                    const double *v)
 {
     const vec2 xi = vec2_at(x, i), vi = vec2_at(v, i);
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-        const double left = springs_left(s, integrity, p);
+        const double left = springs_left(integrity, s->spring[p], 1.0);
         if (left == 0.0) continue;
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi), dv = vec2_sub(vec2_at(v, s->neighbour[p]), vi);
         force = vec2_along(force, left * s->viscosity[p] * vec2_dot(d, dv) / (s->rest_length[p] * vec2_dot(d, d)), d);
@@ -120,19 +127,19 @@ static inline void springs_virial(const dem_lattice *lattice, dem_index k, const
 vec2 springs_tangent(const springs *s, dem_index i, const double *x, const double *u);
 
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
-double springs_node_energy(const springs *s, const double *integrity, dem_index i, const double *x);
+double springs_node_energy(const springs *s, springs_integrity integrity, dem_index i, const double *x);
 
 /** Energy of all springs of a lattice, J. An exact sum: it does not depend on the numbering of springs and nodes. */
-double springs_energy(const dem_lattice *lattice, const double *integrity, const double *x);
+double springs_energy(const dem_lattice *lattice, springs_integrity integrity, const double *x);
 
 /** Strain of every spring of a lattice; 0 of one that is broken.  \param[out] strain  [n_springs] */
-void springs_strains(const dem_lattice *lattice, const double *integrity, const double *x, double *strain);
+void springs_strains(const dem_lattice *lattice, springs_integrity integrity, const double *x, double *strain);
 
 /** Force (1) along every spring, > 0 in tension; 0 of one that is broken.  \param[out] force  [n_springs] N */
-void springs_forces(const dem_lattice *lattice, const double *integrity, const double *x, double *force);
+void springs_forces(const dem_lattice *lattice, springs_integrity integrity, const double *x, double *force);
 
 /** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
-double springs_damping_power(const springs *s, const double *integrity, const double *x, const double *v);
+double springs_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v);
 
 /** S_i = sum of c/d0 n n^T over the springs of node i, with n their directions at x and c their `strength`, stiffness
  *  or viscosity. It bounds the matrix A of the springs: u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i

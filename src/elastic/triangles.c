@@ -45,11 +45,18 @@ static vec2 gradient(const triangles *t, dem_index p, const double *x)
     return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
-/* dW/dA = kappa (J - 1) + g w'(J), N/m: what area term and guard together resist a change of area with. */
-static double slope_at(const triangles *t, dem_index p, double A)
+/* kappa, N/m, of the triangle in slot p, at an area ratio: one that is larger than at rest has what is left in
+ * tension. */
+static double area_stiffness_at(const triangles *t, double left, dem_index p, double J)
 {
-    const double A0 = t->rest_area[p];
-    double slope = t->area_stiffness != NULL ? t->area_stiffness[p] * (A / A0 - 1.0) : 0.0;
+    return J > 1.0 ? left * t->area_stiffness[p] : t->area_stiffness[p];
+}
+
+/* dW/dA = kappa (J - 1) + g w'(J), N/m: what area term and guard together resist a change of area with. */
+static double slope_at(const triangles *t, double left, dem_index p, double A)
+{
+    const double A0 = t->rest_area[p], J = A / A0;
+    double slope = t->area_stiffness != NULL ? area_stiffness_at(t, left, p, J) * (J - 1.0) : 0.0;
     if (A < TRIANGLES_GUARD_ONSET * A0) slope += t->guard[p] * triangles_guard_law(A / A0).slope;
     return slope;
 }
@@ -62,22 +69,23 @@ static double curvature_at(const triangles *t, dem_index p, double A)
 }
 
 /* -dW/dA dA/dx_i, summed over the row. A triangle at its rest area is skipped. */
-vec2 triangles_force(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
+vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        if (triangles_broken(t, broken, p)) continue;
-        const double slope = slope_at(t, p, area_at(t, i, p, x));
+        if (triangles_broken(t, integrity, p)) continue;
+        const double left = triangles_left(integrity, t->triangle[p]);
+        const double slope = slope_at(t, left, p, area_at(t, i, p, x));
         if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
     }
     return force;
 }
 
 /* For an energy of the area alone r x f is A dW/dA times the unit tensor, since dA = A tr(e) under a strain e. */
-double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x)
+double triangles_virial(const triangles *t, double left, dem_index i, dem_index p, const double *x)
 {
     const double A = area_at(t, i, p, x);
-    return A * slope_at(t, p, A);
+    return A * slope_at(t, left, p, A);
 }
 
 /* d(dW/dA dA/dx_i) = d^2W/dA^2 (dA.u) dA/dx_i + dW/dA d(dA/dx_i). The area is quadratic in the positions: `change` =
@@ -92,16 +100,17 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
                    uc = vec2_sub(vec2_at(u, t->last[p]), vec2_at(u, i));
         const double A = 0.5 * vec2_cross(b, c), change = 0.5 * (vec2_cross(ub, c) + vec2_cross(b, uc));
         out = vec2_along(out, curvature_at(t, p, A) * change / t->rest_area[p], gradient(t, p, x));
-        out = vec2_along(out, slope_at(t, p, A), gradient(t, p, u));
+        out = vec2_along(out, slope_at(t, 1.0, p, A), gradient(t, p, u));
     }
     return out;
 }
 
 /* Energies, J, of the triangle in slot p at the area ratio J. */
-static double area_energy(const triangles *t, dem_index p, double J)
+static double area_energy(const triangles *t, triangles_integrity integrity, dem_index p, double J)
 {
     if (t->area_stiffness == NULL) return 0.0;
-    return 0.5 * t->rest_area[p] * t->area_stiffness[p] * (J - 1.0) * (J - 1.0);
+    const double left = triangles_left(integrity, t->triangle[p]);
+    return 0.5 * t->rest_area[p] * area_stiffness_at(t, left, p, J) * (J - 1.0) * (J - 1.0);
 }
 
 static double guard_energy(const triangles *t, dem_index p, double J)
@@ -111,29 +120,29 @@ static double guard_energy(const triangles *t, dem_index p, double J)
 
 /* Every triangle at the node counts in full: the energy that depends on this node. A rounded sum in the order of the
  * row. */
-double triangles_node_energy(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
+double triangles_node_energy(const triangles *t, triangles_integrity integrity, dem_index i, const double *x)
 {
     double energy = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        if (triangles_broken(t, broken, p)) continue;
+        if (triangles_broken(t, integrity, p)) continue;
         const double J = area_at(t, i, p, x) / t->rest_area[p];
-        energy += area_energy(t, p, J) + guard_energy(t, p, J);
+        energy += area_energy(t, integrity, p, J) + guard_energy(t, p, J);
     }
     return energy;
 }
 
 /* A triangle is taken from the row of its lowest corner. Both sums are exact. Areas are collected in blocks; the guard
  * acts on few triangles, which are added one by one. */
-void triangles_energy(const triangles *t, const unsigned char *broken, const double *x, double *area, double *guard)
+void triangles_energy(const triangles *t, triangles_integrity integrity, const double *x, double *area, double *guard)
 {
     exact_sum areas = {0}, guards = {0};
     double terms[EXACT_SUM_BLOCK];
     int n = 0;
     for (dem_index i = 0; i < t->n_nodes; i++)
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-            if (t->next[p] < i || t->last[p] < i || triangles_broken(t, broken, p)) continue;
+            if (t->next[p] < i || t->last[p] < i || triangles_broken(t, integrity, p)) continue;
             const double J = area_at(t, i, p, x) / t->rest_area[p];
-            if (t->area_stiffness != NULL) terms[n++] = area_energy(t, p, J);
+            if (t->area_stiffness != NULL) terms[n++] = area_energy(t, integrity, p, J);
             if (!(J >= TRIANGLES_GUARD_ONSET)) exact_sum_add(&guards, guard_energy(t, p, J));
             if (n < EXACT_SUM_BLOCK) continue;
             exact_sum_take(&areas, terms, n);
@@ -155,13 +164,13 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x)
 
 /* The second variation of A0 g w(A/A0) is g w'' (dA.u)^2/A0 + g w' u.A'' u. Here (dA.u)^2 <= 3 sum of (dA/dx_i.u_i)^2,
  * and A'' has the eigenvalues 0 and +-sqrt(3)/2. What falls to node i is the coefficient of u_i^2. */
-double triangles_guard_bound(const triangles *t, const unsigned char *broken, dem_index i, const double *x)
+double triangles_guard_bound(const triangles *t, triangles_integrity integrity, dem_index i, const double *x)
 {
     const double turn = 0.8660254037844386;
     double bound = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
-        if (!(A < TRIANGLES_GUARD_ONSET * A0) || triangles_broken(t, broken, p)) continue;
+        if (!(A < TRIANGLES_GUARD_ONSET * A0) || triangles_broken(t, integrity, p)) continue;
         const triangles_law l = triangles_guard_law(A / A0);
         const vec2 dA = gradient(t, p, x);
         bound += t->guard[p] * (3.0 * l.curvature * vec2_dot(dA, dA) / A0 + turn * fabs(l.slope));

@@ -11,7 +11,18 @@
 /** The guard acts where J = area / rest area is below this. */
 #define TRIANGLES_GUARD_ONSET 0.4
 
-/* A list of flags `broken` [n_triangles], by the lattice's numbers, leaves triangles out; NULL: all are whole. */
+/** What is left of triangles, by the lattice's numbers. */
+typedef struct triangles_integrity {
+    const unsigned char *broken; /* [n_triangles] 1: nothing; NULL: all are whole */
+    const double *left;          /* [n_triangles] of others, in tension; NULL: all */
+} triangles_integrity;
+#define TRIANGLES_WHOLE ((triangles_integrity){NULL, NULL})
+
+/** What is left of triangle k of a lattice in tension. */
+static inline double triangles_left(triangles_integrity q, dem_index k)
+{
+    return q.left != NULL ? q.left[k] : 1.0;
+}
 
 /** Triangles by node: slot p of row i is a triangle (i, next[p], last[p]), counter-clockwise. */
 typedef struct triangles {
@@ -30,27 +41,27 @@ dem_status triangles_compile(triangles *out, const dem_lattice *lattice);
 void triangles_free(triangles *t);
 
 /** Whether the triangle in slot p is broken. */
-static inline bool triangles_broken(const triangles *t, const unsigned char *broken, dem_index p)
+static inline bool triangles_broken(const triangles *t, triangles_integrity q, dem_index p)
 {
-    return broken != NULL && broken[t->triangle[p]];
+    return q.broken != NULL && q.broken[t->triangle[p]];
 }
 
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
-vec2 triangles_force(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
+vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 
 /** r x f of the triangle in slot p of row i, J: A dW/dA of its energy W, which depends on its area A alone, times the
- *  unit tensor. */
-double triangles_virial(const triangles *t, dem_index i, dem_index p, const double *x);
+ *  unit tensor.  \param left  what is left of it in tension */
+double triangles_virial(const triangles *t, double left, dem_index i, dem_index p, const double *x);
 
 /** (K u)_i, N: minus the change of the force on node i when the nodes move from x by u; K is the second derivative of
  *  the energy. */
 vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);
 
 /** Energy of the triangles at node i, J. */
-double triangles_node_energy(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
+double triangles_node_energy(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 
 /** Energies of the area term and of the guard, J; exact sums. */
-void triangles_energy(const triangles *t, const unsigned char *broken, const double *x, double *area, double *guard);
+void triangles_energy(const triangles *t, triangles_integrity integrity, const double *x, double *area, double *guard);
 
 /** T_i = sum of max(kappa, 0)/A0 g g^T over the triangles at node i, with g = dA/dx_i at x. The matrix of the area term
  *  is at most three times the sum of these blocks. */
@@ -58,7 +69,7 @@ sym2 triangles_block(const triangles *t, dem_index i, const double *x);
 
 /** A bound of what the guard adds to the stiffness at node i, N/m: the second variation of its energy at x is at most
  *  the sum of this times u_i^2. 0 where it does not act. */
-double triangles_guard_bound(const triangles *t, const unsigned char *broken, dem_index i, const double *x);
+double triangles_guard_bound(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 
 /** A function of J = area / rest area and its derivatives. */
 typedef struct triangles_law {

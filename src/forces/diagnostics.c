@@ -46,10 +46,10 @@ static double stored_by_friction(const forces *f, const double *x, double t)
 dem_energy diagnostics_energy(const forces *f, const double *x, const double *v)
 {
     const dem_model *model = f->model;
-    const unsigned char *broken = element_state_triangles(f->elements);
+    const triangles_integrity integrity = element_state_triangles(f->elements);
     dem_energy energy = {.elastic = springs_energy(&model->lattice, element_state_springs(f->elements), x)};
-    energy.elastic += couplings_energy(&model->couplings, broken, x);
-    triangles_energy(&model->triangles, broken, x, &energy.area, &energy.guard);
+    energy.elastic += couplings_energy(&model->couplings, integrity, x);
+    triangles_energy(&model->triangles, integrity, x, &energy.area, &energy.guard);
     exact_sum kinetic = {0}, weight = {0};
     double terms[EXACT_SUM_BLOCK];
     for (dem_index first = 0; first < model->lattice.n_nodes; first += EXACT_SUM_BLOCK) {
@@ -198,7 +198,7 @@ static void measure_spring(const dem_lattice *l, dem_index k, double strain, ext
 static void measure_springs(const forces *f, const double *x, dem_strain *strain)
 {
     const dem_lattice *l = &f->model->lattice;
-    const double *integrity = element_state_springs(f->elements);
+    const springs_integrity integrity = element_state_springs(f->elements);
     extreme_strains e = {.least = -1, .largest = -1};
     double block[EXACT_SUM_BLOCK];
     for (dem_index first = 0; first < l->n_springs; first += EXACT_SUM_BLOCK) {
@@ -329,11 +329,12 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
 static double largest_force(const forces *f, const double *x)
 {
     const dem_lattice *l = &f->model->lattice;
-    const double *integrity = element_state_springs(f->elements);
+    const springs_integrity integrity = element_state_springs(f->elements);
     double largest = 0.0;
     for (dem_index k = 0; k < l->n_springs; k++) {
-        const double left = integrity != NULL ? integrity[k] : 1.0;
-        if (left > 0.0) largest = fmax(largest, left * l->stiffness[k] * fabs(springs_strain_of(l, k, x)));
+        if (springs_is_broken(integrity, k)) continue;
+        const double strain = springs_strain_of(l, k, x), left = springs_left(integrity, k, strain);
+        largest = fmax(largest, left * l->stiffness[k] * fabs(strain));
     }
     return largest;
 }

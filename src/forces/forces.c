@@ -26,7 +26,7 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
     const dem_model *model = f->model;
     const double mass = model->lattice.mass[i];
     const vec2 vi = vec2_at(v, i);
-    const double *integrity = element_state_springs(element_state_at(f->elements, i));
+    const springs_integrity integrity = element_state_springs(element_state_at(f->elements, i));
     forces_power power = {.damping = model->inverse_mass[i] > 0.0 ? f->mass_damping * mass * vec2_dot(vi, vi) : 0.0};
     if (forces_have_friction(f)) power.friction = -vec2_dot(surface_contact_friction(f->surfaces, i, x), vi);
     if (forces_couple_velocities(f))

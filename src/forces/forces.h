@@ -68,12 +68,13 @@ static inline bool forces_are_damped(const forces *f)
     return forces_couple_velocities(f) || f->mass_damping > 0.0;
 }
 
-/** Whether undamped springs are all that acts between nodes, contact of surfaces apart, and forces_own_acceleration()
- *  does not depend on time. */
+/** Whether undamped springs that do not soften are all that acts between nodes, contact of surfaces apart, and
+ *  forces_own_acceleration() does not depend on time. */
 static inline bool forces_are_plain(const forces *f)
 {
     const triangles *t = &f->model->triangles;
-    return !forces_couple_velocities(f) && t->row[t->n_nodes] == 0 && f->model->couplings.n == 0 && !forces_push(f);
+    return !forces_couple_velocities(f) && t->row[t->n_nodes] == 0 && f->model->couplings.n == 0 &&
+           f->model->lattice.softening == NULL && !forces_push(f);
 }
 
 /** Whether forces_node_power() may be other than 0. */

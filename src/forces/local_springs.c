@@ -83,11 +83,11 @@ static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
 {
     const springs *s = &b->forces->model->springs;
     const dem_index i = nodes->list[j];
-    const double *integrity = element_state_springs(element_state_at(b->forces->elements, i));
+    const springs_integrity integrity = element_state_springs(element_state_at(b->forces->elements, i));
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const int32_t other = nodes->number[s->neighbour[p]];
         /* A node that is not local has the number -1. */
-        const double left = springs_left(s, integrity, p);
+        const double left = springs_left(integrity, s->spring[p], 0.0);
         if (other < j || left == 0.0) continue;
         b->bonds[b->n_bonds] = (local_bond){(int32_t)j, other};
         b->stiffness[b->n_bonds] = left * s->stiffness[p];

@@ -125,14 +125,14 @@ module dem_c
   end type
 
   type, bind(c) :: dem_lattice
-    integer(c_size_t) :: struct_size = 184
+    integer(c_size_t) :: struct_size = 192
     integer(c_int) :: dim = 0
     integer(dem_index) :: n_nodes = 0, n_springs = 0, n_triangles = 0
     type(c_ptr) :: x = c_null_ptr, mass = c_null_ptr, ends = c_null_ptr, rest_length = c_null_ptr
     type(c_ptr) :: stiffness = c_null_ptr, triangles = c_null_ptr, viscosity = c_null_ptr, guard = c_null_ptr
     type(c_ptr) :: area_stiffness = c_null_ptr, thickness = c_null_ptr, modulus = c_null_ptr, flags = c_null_ptr
     type(c_ptr) :: body = c_null_ptr, position = c_null_ptr, velocity = c_null_ptr, coupling = c_null_ptr
-    type(c_ptr) :: strength = c_null_ptr, critical_stretch = c_null_ptr
+    type(c_ptr) :: strength = c_null_ptr, critical_stretch = c_null_ptr, softening = c_null_ptr
   end type
 
   abstract interface

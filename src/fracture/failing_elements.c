@@ -118,16 +118,46 @@ static double energy(const failing_elements *f, const dem_model *m, const elemen
     double of_springs = 0.0, of_triangles = 0.0;
     for (dem_index j = 0; j < f->n_nodes; j++) {
         const dem_index i = f->nodes[j];
-        of_springs += springs_node_energy(&m->springs, s->integrity, i, x);
-        of_triangles += couplings_node_energy(&m->couplings, s->triangle, i, x) +
-                        triangles_node_energy(&m->triangles, s->triangle, i, x);
+        of_springs += springs_node_energy(&m->springs, element_state_springs(s), i, x);
+        of_triangles += couplings_node_energy(&m->couplings, element_state_triangles(s), i, x) +
+                        triangles_node_energy(&m->triangles, element_state_triangles(s), i, x);
     }
     return of_springs / 2.0 + of_triangles / 3.0;
 }
 
-double failing_elements_break(const failing_elements *f, const dem_model *model, element_state *s, const double *x)
+/* A cell breaks if one of its triangles does. */
+static bool breaks(const element_state *s, dem_index element)
+{
+    if (element >= s->lattice->n_triangles || element_state_is_last(s, element)) return true;
+    return is_of_cell(s, element) && element_state_is_last(s, element ^ 1);
+}
+
+dem_index failing_elements_n_breaking(const failing_elements *f, const element_state *s)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < f->n; k++) n += breaks(s, f->list[k]);
+    return n;
+}
+
+/* The triangles of a cell follow each other, and the first one must not decide before the second one has. */
+static void fail(element_state *s, const dem_index *list, dem_index n)
+{
+    bool last[2] = {false, false};
+    for (dem_index k = 0; k < n; k++) last[k] = breaks(s, list[k]);
+    for (dem_index k = 0; k < n; k++) {
+        if (last[k])
+            element_state_break(s, list[k]);
+        else
+            element_state_soften(s, list[k]);
+    }
+}
+
+double failing_elements_fail(const failing_elements *f, const dem_model *model, element_state *s, const double *x)
 {
     const double before = energy(f, model, s, x);
-    for (dem_index k = 0; k < f->n; k++) element_state_break(s, f->list[k]);
+    for (dem_index k = 0, n; k < f->n; k += n) {
+        n = k + 1 < f->n && f->list[k + 1] == (f->list[k] ^ 1) ? 2 : 1;
+        fail(s, f->list + k, n);
+    }
     return before - energy(f, model, s, x);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Elements that break at one instant, and their nodes. A triangle takes the other triangle of its cell along, and a
- * spring the triangles that hold it: a spring breaks alone only if none does. */
+/* Elements that break or soften at one instant, and their nodes. A triangle takes the other triangle of its cell along,
+ * and a spring the triangles that hold it: a spring breaks alone only if none does. */
 #ifndef DEM_FRACTURE_FAILING_ELEMENTS_H
 #define DEM_FRACTURE_FAILING_ELEMENTS_H
 
@@ -27,7 +27,10 @@ void failing_elements_complete(failing_elements *f, const dem_lattice *lattice);
 /** Whether a node is one of theirs. */
 bool failing_elements_have(const failing_elements *f, dem_index node);
 
-/** Breaks them.  \return the energy that they had at positions x [n][2], J */
-double failing_elements_break(const failing_elements *f, const dem_model *model, element_state *s, const double *x);
+/** How many of them would break, and not soften. */
+dem_index failing_elements_n_breaking(const failing_elements *f, const element_state *s);
+
+/** Breaks or softens them.  \return the energy that they lose at positions x [n][2], J */
+double failing_elements_fail(const failing_elements *f, const dem_model *model, element_state *s, const double *x);
 
 #endif

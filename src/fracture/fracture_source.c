@@ -58,7 +58,7 @@ void fracture_source_destroy(fracture_source *s)
     free(s->known);
     free(s->seen);
     free(s->strained);
-    free(s->broken);
+    free(s->failed);
     *s = (fracture_source){0};
 }
 
@@ -134,7 +134,8 @@ static double utilisation_at(fracture_source *s, dem_index element, double t)
 /* At the end of the step, computed when it is first asked for. */
 static const double *stress_at_end(fracture_source *s, dem_index i)
 {
-    if (s->known[i] != s->number) node_stress(s->model, s->elements, i, s->step->y1, &s->stress[3 * i]);
+    if (s->known[i] != s->number)
+        node_stress(s->model, s->elements, NODE_STRESS_EFFECTIVE, i, s->step->y1, &s->stress[3 * i]);
     s->known[i] = s->number;
     return &s->stress[3 * i];
 }
@@ -144,8 +145,8 @@ static double utilisation_at_end(fracture_source *s, dem_index element)
     const dem_lattice *l = &s->model->lattice;
     const dem_index *corner = &l->triangles[3 * element];
     if (element >= l->n_triangles) return utilisation_of(s->model, s->elements, element, s->step->y1);
-    return utilisation_of_stress(l->strength[element], stress_at_end(s, corner[0]), stress_at_end(s, corner[1]),
-                                 stress_at_end(s, corner[2]));
+    return utilisation_of_stress(utilisation_limit(l, s->elements, element), stress_at_end(s, corner[0]),
+                                 stress_at_end(s, corner[1]), stress_at_end(s, corner[2]));
 }
 
 /* The root of 1 - utilisation between two times, above 0 before and not above 0 after. */
@@ -282,7 +283,7 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
     s->number++;
     s->state = state;
     s->jumped = false;
-    s->n_broken = 0;
+    s->n_failed = s->n_broken = 0;
     s->n_damaged = s->elements->n_damaged;
     s->taken_before = *s->taken;
     event_heap_clear(&s->heap);
@@ -328,7 +329,8 @@ static dem_index fracture_source_seeds(const void *self, dem_index key, dem_inde
 static dem_status check_number(const fracture_source *s, double t)
 {
     const dem_lattice *l = &s->model->lattice;
-    const dem_index n = s->n_broken + s->failing->n, first = s->failing->nodes[0];
+    const dem_index n = s->n_broken + failing_elements_n_breaking(s->failing, s->elements),
+                    first = s->failing->nodes[0];
     CHECK(n <= s->most, DEM_ERROR_INTEGRATOR,
           "%lld triangles and springs break within one step at t = %.9g s, the last of them at (%g, %g) m at rest: "
           "stress may be uniform there, where brittle bodies break everywhere at once",
@@ -336,18 +338,20 @@ static dem_status check_number(const fracture_source *s, double t)
     return DEM_OK;
 }
 
-/* Breaks what fails at positions x, and takes it off the heap. */
+/* Breaks or softens what is due at positions x. Effective stresses jump where something breaks alone. */
 static dem_status break_failing(fracture_source *s, double t, const double *x)
 {
     const failing_elements *f = s->failing;
     TRY(f->status);
     TRY(check_number(s, t));
-    CHECK(grow_array((void **)&s->broken, &s->capacity, s->n_broken + f->n, sizeof *s->broken), DEM_ERROR_MEMORY,
+    CHECK(grow_array((void **)&s->failed, &s->capacity, s->n_failed + f->n, sizeof *s->failed), DEM_ERROR_MEMORY,
           "out of memory for what breaks in a step");
-    memcpy(s->broken + s->n_broken, f->list, (size_t)f->n * sizeof *s->broken);
-    s->n_broken += f->n;
-    *s->taken += failing_elements_break(f, s->model, s->elements, x);
-    s->jumped = true;
+    memcpy(s->failed + s->n_failed, f->list, (size_t)f->n * sizeof *s->failed);
+    const dem_index n_breaking = failing_elements_n_breaking(f, s->elements);
+    s->n_failed += f->n;
+    s->n_broken += n_breaking;
+    s->jumped = n_breaking > 0;
+    *s->taken += failing_elements_fail(f, s->model, s->elements, x);
     return DEM_OK;
 }
 
@@ -414,7 +418,8 @@ static void fracture_source_follow(void *self, const event_place *at)
 static void fracture_source_undo(void *self)
 {
     fracture_source *s = self;
-    while (s->n_broken > 0) element_state_mend(s->elements, s->broken[--s->n_broken]);
+    while (s->n_failed > 0) element_state_mend(s->elements, s->failed[--s->n_failed]);
+    s->n_broken = 0;
     element_state_forget_nodes(s->elements, s->n_damaged);
     *s->taken = s->taken_before;
     s->jumped = false;

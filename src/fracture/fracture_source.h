@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fracture as a source of events: an element breaks at the time in the step at which its utilisation is 1. Its keys are
- * the numbers of elements (fracture/utilisation.h). */
+/* Fracture as a source of events: an element breaks, or softens, at the time in the step at which its utilisation is 1.
+ * Its keys are the numbers of elements (fracture/utilisation.h). */
 #ifndef DEM_FRACTURE_FRACTURE_SOURCE_H
 #define DEM_FRACTURE_FRACTURE_SOURCE_H
 
@@ -12,7 +12,7 @@
 typedef struct fracture_source {
     const dem_model *model;
     element_state *elements;
-    double *taken;            /* J, by all that has broken: the ledger's */
+    double *taken;            /* J, by all that has broken or softened: the ledger's */
     dem_index most;           /* elements that may break in a step; for more it is rejected */
     const dense_output *step; /* the accepted one */
     double *state;            /* [2 dim n_rows] scratch, the queue's */
@@ -24,11 +24,12 @@ typedef struct fracture_source {
     uint32_t *strained;        /* [n_triangles] and in which one was last asked what it may drive */
     uint32_t *placed;          /* [n_nodes] the look at which a node was put into `state` last */
     uint32_t look;             /* number of the present one */
-    event_heap heap;           /* elements by the time at which they break */
-    failing_elements *failing; /* those that break next, or have broken last */
-    bool jumped;               /* they have, and stresses beside them are others at once */
-    dem_index n_broken, capacity;
-    dem_index *broken;   /* [n_broken] in the step so far, in their order */
+    event_heap heap;           /* elements by the time at which they break or soften */
+    failing_elements *failing; /* those that do so next, or have done so last */
+    bool jumped;               /* some have broken, and stresses beside them are others at once */
+    dem_index n_failed, capacity;
+    dem_index *failed;   /* [n_failed] what has broken or softened in the step so far, in this order; */
+    dem_index n_broken;  /* how many of them have broken */
     dem_index n_damaged; /* nodes beside broken elements before the step */
     double taken_before; /* J */
 } fracture_source;
@@ -48,11 +49,18 @@ static inline bool fracture_source_has_broken(const fracture_source *s)
     return s->n_broken > 0;
 }
 
-/** Where the whole body stops at events: when something breaks first in a step, from its start; infinity if nothing
+/** Whether something has broken or softened in the step. */
+static inline bool fracture_source_has_failed(const fracture_source *s)
+{
+    return s->n_failed > 0;
+}
+
+/** Where the whole body stops at events: when something breaks or softens first in a step, from its start; infinity if nothing
  *  does before its end.  \param state  [2 dim n_rows] scratch */
 double fracture_source_first(fracture_source *s, const dense_output *step, double *state);
 
-/** Then breaks, in the state y of that time, what breaks first, and all that is over its limit in consequence. */
+/** Then breaks or softens, in the state y of that time, what is due first, and all that is over its limit in
+ *  consequence. */
 dem_status fracture_source_break(fracture_source *s, const double *y);
 
 /** `s` must stay where it is. */

@@ -9,12 +9,18 @@
 
 #include "model/node_stress.h"
 
-double utilisation_of_stress(double strength, const double a[3], const double b[3], const double c[3])
+double utilisation_limit(const dem_lattice *l, const element_state *elements, dem_index triangle)
+{
+    const int level = element_state_level(elements, triangle);
+    return level > 0 ? l->strength[triangle] * softening_limit(l->softening[triangle], level) : l->strength[triangle];
+}
+
+double utilisation_of_stress(double limit, const double a[3], const double b[3], const double c[3])
 {
     double mean[3];
     for (int k = 0; k < 3; k++) mean[k] = (a[k] + b[k] + c[k]) / 3.0;
     const double middle = 0.5 * (mean[0] + mean[1]), half = 0.5 * (mean[0] - mean[1]);
-    return (middle + sqrt(half * half + mean[2] * mean[2])) / strength;
+    return (middle + sqrt(half * half + mean[2] * mean[2])) / limit;
 }
 
 double utilisation_of(const dem_model *model, const element_state *elements, dem_index element, const double *x)
@@ -23,8 +29,8 @@ double utilisation_of(const dem_model *model, const element_state *elements, dem
     const dem_index spring = element - l->n_triangles, *corner = &l->triangles[3 * element];
     double stress[3][3];
     if (spring >= 0) return springs_strain_of(l, spring, x) / l->critical_stretch[spring];
-    for (int c = 0; c < 3; c++) node_stress(model, elements, corner[c], x, stress[c]);
-    return utilisation_of_stress(l->strength[element], stress[0], stress[1], stress[2]);
+    for (int c = 0; c < 3; c++) node_stress(model, elements, NODE_STRESS_EFFECTIVE, corner[c], x, stress[c]);
+    return utilisation_of_stress(utilisation_limit(l, elements, element), stress[0], stress[1], stress[2]);
 }
 
 bool utilisation_is_limited(const dem_lattice *l, dem_index element)

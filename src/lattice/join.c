@@ -115,7 +115,8 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     return join_numbers(&out->critical_stretch, a->critical_stretch, n, b->critical_stretch, m, (double)INFINITY);
 }
 
-/* A guard, an area stiffness and couplings that are missing are 0; without a strength triangles never break. */
+/* A guard, an area stiffness and couplings that are missing are 0; without a strength triangles never break, and without
+ * softening they break at once. */
 static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_triangles, m = b->n_triangles;
@@ -129,6 +130,7 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     TRY(join_numbers(&out->guard, a->guard, n, b->guard, m, 0.0));
     TRY(join_numbers(&out->area_stiffness, a->area_stiffness, n, b->area_stiffness, m, 0.0));
     TRY(join_numbers(&out->strength, a->strength, n, b->strength, m, (double)INFINITY));
+    TRY(join_numbers(&out->softening, a->softening, n, b->softening, m, 1.0));
     if (a->coupling != NULL || b->coupling != NULL) {
         out->coupling = join(a->coupling, n, b->coupling, m, 3 * sizeof *out->coupling);
         CHECK_MEMORY(out->coupling);

@@ -71,6 +71,11 @@ bool lattice_has_limits(const dem_lattice *lattice)
     return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, critical_stretch);
 }
 
+bool lattice_has_softening(const dem_lattice *lattice)
+{
+    return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, softening);
+}
+
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs)
 {
     *ours = dem_lattice_empty();
@@ -110,6 +115,7 @@ void dem_lattice_free(dem_lattice *lattice)
     free(own.coupling);
     free(own.strength);
     free(own.critical_stretch);
+    free(own.softening);
     free(own.flags);
     free(own.body);
     free(own.position);

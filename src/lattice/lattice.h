@@ -22,6 +22,9 @@ bool lattice_has_couplings(const dem_lattice *lattice);
 /** The same of strengths and critical stretches. */
 bool lattice_has_limits(const dem_lattice *lattice);
 
+/** And of softening. */
+bool lattice_has_softening(const dem_lattice *lattice);
+
 /* Whether a lattice can be written: not NULL, and struct_size is that of some version.  \return DEM_ERROR_ARGUMENT */
 dem_status lattice_check_out(const dem_lattice *out);
 

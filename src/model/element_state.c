@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What is broken in a simulation: a flag for each triangle, the integrity of each spring, a flag for each node beside
- * an element that is not whole, and the list of these nodes. The model stays as it is, so several simulations of one
+ * an element that is not whole, and the list of these nodes. Where triangles soften there are also how many times each
+ * has done so, what this leaves of it, and what is left of each spring in tension. The model stays as it is, so several simulations of one
  * model may have different states. The flags of nodes let the force on an intact node skip the state of its elements,
  * and the list tells the sweep over all nodes which of them to evaluate once more, one by one (accelerate_rest() in
  * forces/kernel.c). When an element breaks is decided elsewhere.
@@ -18,6 +19,20 @@
  * triangles break, and a break can be taken back to the bit. */
 static const double unit = 0x1p-52;
 
+/* Nothing has softened. */
+static dem_status allocate_softening(element_state *s)
+{
+    const dem_lattice *l = s->lattice;
+    s->tension = malloc(((size_t)l->n_springs + 1) * sizeof *s->tension);
+    s->level = calloc((size_t)l->n_triangles + 1, sizeof *s->level);
+    s->left = malloc(((size_t)l->n_triangles + 1) * sizeof *s->left);
+    CHECK(s->tension && s->level && s->left, DEM_ERROR_MEMORY, "out of memory for the state of %lld triangles",
+          (long long)l->n_triangles);
+    for (dem_index k = 0; k < l->n_springs; k++) s->tension[k] = 1.0;
+    for (dem_index t = 0; t < l->n_triangles; t++) s->left[t] = 1.0;
+    return DEM_OK;
+}
+
 /* One more item than needed in each array, so that no allocation is of no bytes. */
 static dem_status allocate(element_state *s)
 {
@@ -34,7 +49,7 @@ static dem_status allocate(element_state *s)
     CHECK(s->integrity && s->triangle && s->node && s->damaged && s->row && s->held && s->at_row && s->at,
           DEM_ERROR_MEMORY, "out of memory for the state of %lld springs", (long long)l->n_springs);
     for (dem_index k = 0; k < l->n_springs; k++) s->integrity[k] = 1.0;
-    return DEM_OK;
+    return l->softening != NULL ? allocate_softening(s) : DEM_OK;
 }
 
 /* at_row[i + 2] counts the triangles at node i first; summed up, at_row[i + 1] is where the next one goes, and in the
@@ -113,6 +128,9 @@ dem_status element_state_create(element_state *out, const dem_lattice *lattice, 
 void element_state_destroy(element_state *s)
 {
     free(s->integrity);
+    free(s->tension);
+    free(s->level);
+    free(s->left);
     free(s->triangle);
     free(s->node);
     free(s->damaged);
@@ -134,26 +152,64 @@ static void damage(element_state *s, dem_index node)
     s->damaged[s->n_damaged++] = node;
 }
 
-/* The ends of a spring need not be corners of the triangle that breaks: the second diagonal of a cell. */
-static void weaken(element_state *s, dem_index spring, double left)
+/* The ends of a spring need not be corners of a triangle that holds it: the second diagonal of a cell. */
+static void damage_ends(element_state *s, dem_index spring)
 {
-    s->integrity[spring] = left > 0.0 ? left : 0.0; /* it may have been broken alone before */
     for (int end = 0; end < 2; end++) damage(s, s->lattice->ends[2 * spring + end]);
+}
+
+static void damage_corners(element_state *s, dem_index triangle)
+{
+    for (int corner = 0; corner < 3; corner++) damage(s, s->lattice->triangles[3 * triangle + corner]);
+}
+
+/* The spring may have been broken alone before: then nothing is left to take from. */
+static void take(double *integrity, double share)
+{
+    *integrity = *integrity > share ? *integrity - share : 0.0;
 }
 
 /* The element keeps its place in all arrays; those who read its numbers ask for its state. */
 void element_state_break_spring(element_state *s, dem_index spring)
 {
-    weaken(s, spring, 0.0);
+    s->integrity[spring] = 0.0;
+    if (s->tension != NULL) s->tension[spring] = 0.0;
+    damage_ends(s, spring);
+}
+
+/* What a triangle of which `left` is left gives to the spring in slot p in tension. */
+static double share_in_tension(const element_state *s, dem_index p, double left)
+{
+    return nearbyint(left * s->share[p] / unit) * unit;
 }
 
 void element_state_break_triangle(element_state *s, dem_index triangle)
 {
     if (s->triangle[triangle]) return;
     s->triangle[triangle] = 1;
-    for (int corner = 0; corner < 3; corner++) damage(s, s->lattice->triangles[3 * triangle + corner]);
+    damage_corners(s, triangle);
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
+        take(&s->integrity[s->spring[p]], s->share[p]);
+        if (s->tension != NULL) take(&s->tension[s->spring[p]], share_in_tension(s, p, s->left[triangle]));
+        damage_ends(s, s->spring[p]);
+    }
+}
+
+/* Gives a triangle that is not broken another level. */
+static void change_level(element_state *s, dem_index triangle, int level)
+{
+    const double left = softening_left(s->lattice->softening[triangle], level);
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
-        weaken(s, s->spring[p], s->integrity[s->spring[p]] - s->share[p]);
+        s->tension[s->spring[p]] += share_in_tension(s, p, left) - share_in_tension(s, p, s->left[triangle]);
+    s->level[triangle] = (unsigned char)level;
+    s->left[triangle] = left;
+}
+
+void element_state_soften(element_state *s, dem_index triangle)
+{
+    damage_corners(s, triangle);
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) damage_ends(s, s->spring[p]);
+    change_level(s, triangle, s->level[triangle] + 1);
 }
 
 void element_state_break(element_state *s, dem_index element)
@@ -165,15 +221,30 @@ void element_state_break(element_state *s, dem_index element)
         element_state_break_triangle(s, element);
 }
 
+static void mend_spring(element_state *s, dem_index spring)
+{
+    s->integrity[spring] = 1.0;
+    if (s->tension != NULL) s->tension[spring] = 1.0;
+}
+
+static void mend_triangle(element_state *s, dem_index triangle)
+{
+    s->triangle[triangle] = 0;
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
+        s->integrity[s->spring[p]] += s->share[p];
+        if (s->tension != NULL) s->tension[s->spring[p]] += share_in_tension(s, p, s->left[triangle]);
+    }
+}
+
 void element_state_mend(element_state *s, dem_index element)
 {
     const dem_index spring = element - s->lattice->n_triangles;
-    if (spring >= 0) {
-        s->integrity[spring] = 1.0;
-        return;
-    }
-    s->triangle[element] = 0;
-    for (dem_index p = s->row[element]; p < s->row[element + 1]; p++) s->integrity[s->spring[p]] += s->share[p];
+    if (spring >= 0)
+        mend_spring(s, spring);
+    else if (s->triangle[element])
+        mend_triangle(s, element);
+    else
+        change_level(s, element, s->level[element] - 1);
 }
 
 void element_state_forget_nodes(element_state *s, dem_index n)

@@ -1,16 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which triangles and springs have broken in one simulation. A triangle is whole or broken. A spring keeps the shares
- * of those of its triangles that are whole; one that no triangle holds is whole or broken, too. The model, which has
+/* Which triangles and springs have broken or softened in one simulation. A triangle is whole, or has softened in
+ * tension a number of times (elastic/softening.h), or is broken. A spring keeps the shares of those of its triangles
+ * that are not broken, and in tension what is left of these; one that no triangle holds is whole or broken. The model, which has
  * their numbers, never changes and may belong to many simulations. A simulation without such a state has whole elements
  * only. What breaks them is src/simulation/breaking.c. */
 #ifndef DEM_MODEL_ELEMENT_STATE_H
 #define DEM_MODEL_ELEMENT_STATE_H
 
+#include "elastic/softening.h"
 #include "elastic/springs.h"
+#include "elastic/triangles.h"
 
 typedef struct element_state {
     const dem_lattice *lattice;
     double *integrity;       /* [n_springs] what is left of its stiffness: 1: whole, 0: broken */
+    double *tension;         /* [n_springs] the same in tension; NULL: no triangle softens, as of the next two */
+    unsigned char *level;    /* [n_triangles] how many times it has softened */
+    double *left;            /* [n_triangles] what this leaves of it in tension */
     unsigned char *triangle; /* [n_triangles] 1: broken */
     unsigned char *node;     /* [n_nodes] 1: an element at the node is not whole */
     dem_index n_damaged;
@@ -36,19 +42,35 @@ void element_state_break_triangle(element_state *s, dem_index triangle);
 /** The same by the element's number: triangles come first, then springs. */
 void element_state_break(element_state *s, dem_index element);
 
-/** Takes the break of an element back, to the bit; then the nodes that have become damaged since there were n. */
+/** Softens a triangle that is not broken once more. What is left of springs depends on the levels, not on the order. */
+void element_state_soften(element_state *s, dem_index triangle);
+
+/** Takes the last break or softening of an element back, to the bit; then the nodes that have become damaged since there
+ *  were n. */
 void element_state_mend(element_state *s, dem_index element);
 void element_state_forget_nodes(element_state *s, dem_index n);
 
-/** Integrities of springs, or flags of triangles, by the lattice's numbers; NULL: all are whole. */
-static inline const double *element_state_springs(const element_state *s)
+/** What is left of springs and of triangles, by the lattice's numbers.  \param s  NULL: all are whole */
+static inline springs_integrity element_state_springs(const element_state *s)
 {
-    return s != NULL ? s->integrity : NULL;
+    return s != NULL ? (springs_integrity){s->integrity, s->tension} : SPRINGS_WHOLE;
 }
 
-static inline const unsigned char *element_state_triangles(const element_state *s)
+static inline triangles_integrity element_state_triangles(const element_state *s)
 {
-    return s != NULL ? s->triangle : NULL;
+    return s != NULL ? (triangles_integrity){s->triangle, s->left} : TRIANGLES_WHOLE;
+}
+
+/** How many times a triangle has softened. */
+static inline int element_state_level(const element_state *s, dem_index triangle)
+{
+    return s->level != NULL ? s->level[triangle] : 0;
+}
+
+/** Whether what drives it next to its limit breaks a triangle, and does not soften it. */
+static inline bool element_state_is_last(const element_state *s, dem_index triangle)
+{
+    return s->level == NULL || s->level[triangle] == softening_levels(s->lattice->softening[triangle]);
 }
 
 /** Whether a triangle is whole and holds a spring. */

@@ -11,7 +11,7 @@ dem_index fragments_find(const dem_lattice *lattice, const double *integrity, de
     dem_index n_fragments = 0;
     union_find_start(fragment, lattice->n_nodes);
     for (dem_index k = 0; k < lattice->n_springs; k++)
-        if (!springs_is_broken(integrity, k))
+        if (integrity == NULL || integrity[k] != 0.0)
             union_find_unite(fragment, lattice->ends[2 * k], lattice->ends[2 * k + 1]);
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         n_fragments += fragment[i] == i;

@@ -7,7 +7,7 @@
 
 /** Nodes joined by springs that are not broken are of one fragment, whatever else breaks or broke before. A node
  *  without such a spring is one of its own.
- *  \param integrity      [n_springs] 0: broken, as element_state_springs() has it; NULL: all are whole
+ *  \param integrity      [n_springs] 0: broken, as an element state has it; NULL: all are whole
  *  \param[out] fragment  [n_nodes] the lowest node of the fragment of each
  *  \return their number */
 dem_index fragments_find(const dem_lattice *lattice, const double *integrity, dem_index *fragment);

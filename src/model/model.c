@@ -90,6 +90,8 @@ static dem_status check_triangles(const dem_lattice *l)
               "triangle %lld: modulus must be > 0, got %g Pa", (long long)k, l->modulus[k]);
         CHECK(l->strength == NULL || l->strength[k] > 0.0, DEM_ERROR_MODEL,
               "triangle %lld: strength must be > 0, got %g Pa", (long long)k, l->strength[k]);
+        CHECK(l->softening == NULL || (isfinite(l->softening[k]) && l->softening[k] >= 1.0), DEM_ERROR_MODEL,
+              "triangle %lld: softening must be >= 1, got %g", (long long)k, l->softening[k]);
     }
     return DEM_OK;
 }

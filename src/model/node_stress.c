@@ -3,18 +3,28 @@
  *     S = (1/V) sum over these of (1/3) (sum over springs of w r x f + sum of r x f of its couplings + A dW/dA I),
  * with V a third of their volumes, w the triangle's share of each spring, and f the force of the whole spring: w of it
  * is what the triangle carries. To count broken triangles with a stress of 0 would make the node look unloaded where it
- * carries most, at the tip of a crack. Where all elements are whole model/stress.c has the same sum by rows. */
+ * carries most, at the tip of a crack. Of a triangle that has softened each part in tension counts as it is left, or, of
+ * the effective stress, as if it were whole. Where all elements are whole model/stress.c has the same sum by rows. */
 #include "model/node_stress.h"
 
 #include "model/spring_share.h"
 
-/* Adds w r x f of the springs that a triangle holds. */
-static void add_triangle(const dem_model *m, const element_state *s, dem_index triangle, const double *x, double sum[3])
+/* What counts of a triangle in tension. */
+static double counted(const element_state *s, node_stress_kind kind, dem_index triangle)
+{
+    return kind == NODE_STRESS_CARRIED && s->left != NULL ? s->left[triangle] : 1.0;
+}
+
+/* Adds w r x f of the springs that a triangle of which `left` counts in tension holds. A spring is pulled if the trace of
+ * its r x f is positive. */
+static void add_triangle(const dem_model *m, const element_state *s, dem_index triangle, double left, const double *x,
+                         double sum[3])
 {
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
         double virial[3];
         springs_virial(&m->lattice, s->spring[p], x, virial);
-        for (int k = 0; k < 3; k++) sum[k] += s->share[p] * virial[k];
+        const double share = virial[0] + virial[1] > 0.0 ? left * s->share[p] : s->share[p];
+        for (int k = 0; k < 3; k++) sum[k] += share * virial[k];
     }
 }
 
@@ -31,40 +41,44 @@ static void add_loose(const dem_model *m, const element_state *s, dem_index i, c
     }
 }
 
-static void add_couplings(const couplings *c, const element_state *s, dem_index i, const double *x, double sum[3])
+static void add_couplings(const couplings *c, const element_state *s, node_stress_kind kind, dem_index i,
+                          const double *x, double sum[3])
 {
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
+        const dem_index triangle = c->list[c->slot[p] / 3].triangle;
         double virial[3];
-        if (couplings_broken(c, s->triangle, c->slot[p] / 3)) continue;
+        if (s->triangle[triangle]) continue;
         couplings_virial(c, p, x, virial);
-        for (int k = 0; k < 3; k++) sum[k] += virial[k];
+        for (int k = 0; k < 3; k++) sum[k] += counted(s, kind, triangle) * virial[k];
     }
 }
 
-static void add_areas(const triangles *t, const element_state *s, dem_index i, const double *x, double sum[3])
+static void add_areas(const triangles *t, const element_state *s, node_stress_kind kind, dem_index i, const double *x,
+                      double sum[3])
 {
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const double spread = triangles_broken(t, s->triangle, p) ? 0.0 : triangles_virial(t, i, p, x);
+        const dem_index triangle = t->triangle[p];
+        const double spread = s->triangle[triangle] ? 0.0 : triangles_virial(t, counted(s, kind, triangle), i, p, x);
         sum[0] += spread;
         sum[1] += spread;
     }
 }
 
 /* A third of everything falls to this corner; the thirds of r x f and of V cancel. */
-static void of_whole_triangles(const dem_model *m, const element_state *s, dem_index i, const double *x,
-                               double stress[3])
+static void of_whole_triangles(const dem_model *m, const element_state *s, node_stress_kind kind, dem_index i,
+                               const double *x, double stress[3])
 {
     double volume = 0.0;
     stress[0] = stress[1] = stress[2] = 0.0;
     for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++) {
         if (s->triangle[s->at[p]]) continue;
-        add_triangle(m, s, s->at[p], x, stress);
+        add_triangle(m, s, s->at[p], counted(s, kind, s->at[p]), x, stress);
         volume += spring_share_volume(&m->lattice, s->at[p]);
     }
     if (volume == 0.0) return;
     add_loose(m, s, i, x, stress);
-    add_couplings(&m->couplings, s, i, x, stress);
-    add_areas(&m->triangles, s, i, x, stress);
+    add_couplings(&m->couplings, s, kind, i, x, stress);
+    add_areas(&m->triangles, s, kind, i, x, stress);
     for (int k = 0; k < 3; k++) stress[k] /= volume;
 }
 
@@ -78,23 +92,24 @@ void node_stress_of_triangle(const dem_model *m, const element_state *s, dem_ind
     const double volume = spring_share_volume(&m->lattice, triangle);
     double virial[3], spread = 0.0;
     stress[0] = stress[1] = stress[2] = 0.0;
-    add_triangle(m, s, triangle, x, stress);
+    add_triangle(m, s, triangle, 1.0, x, stress);
     for (dem_index p = c->n > 0 ? c->row[corner] : 0; c->n > 0 && p < c->row[corner + 1]; p++) {
         if (c->list[c->slot[p] / 3].triangle != triangle) continue;
         couplings_virial(c, p, x, virial);
         for (int k = 0; k < 3; k++) stress[k] += virial[k];
     }
     for (dem_index p = t->row[corner]; p < t->row[corner + 1]; p++)
-        if (t->triangle[p] == triangle) spread = triangles_virial(t, corner, p, x);
+        if (t->triangle[p] == triangle) spread = triangles_virial(t, 1.0, corner, p, x);
     stress[0] += spread;
     stress[1] += spread;
     for (int k = 0; k < 3; k++) stress[k] /= volume;
 }
 
-void node_stress(const dem_model *model, const element_state *state, dem_index i, const double *x, double stress[3])
+void node_stress(const dem_model *model, const element_state *state, node_stress_kind kind, dem_index i,
+                 const double *x, double stress[3])
 {
     if (element_state_at(state, i) != NULL)
-        of_whole_triangles(model, state, i, x, stress);
+        of_whole_triangles(model, state, kind, i, x, stress);
     else
         stress_of_node(&model->stress, &model->lattice, &model->triangles, i, x, stress);
 }

@@ -37,6 +37,7 @@ enum array {
     MODULUS,
     COUPLING,
     STRENGTH,
+    SOFTENING,
     BODY,
     POSITION,
     VELOCITY,
@@ -69,6 +70,7 @@ static const struct dataset {
     [MODULUS] = {"/lattice/modulus", HDF5_F64, TRIANGLES, 1, 0},
     [COUPLING] = {"/lattice/coupling", HDF5_F64, TRIANGLES, 3, 0},
     [STRENGTH] = {"/lattice/strength", HDF5_F64, TRIANGLES, 1, 0},
+    [SOFTENING] = {"/lattice/softening", HDF5_F64, TRIANGLES, 1, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
     [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
     [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
@@ -241,6 +243,7 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->viscosity = r->data[VISCOSITY];
     lattice->critical_stretch = r->data[CRITICAL_STRETCH];
     lattice->strength = r->data[STRENGTH];
+    lattice->softening = r->data[SOFTENING];
     lattice->triangles = r->data[CORNERS];
     lattice->guard = r->data[GUARD];
     lattice->area_stiffness = r->data[AREA_STIFFNESS];
@@ -370,6 +373,7 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, THICKNESS, deflate, t, lattice->thickness));
     TRY(write_array(file, MODULUS, deflate, t, lattice->modulus));
     TRY(write_array(file, STRENGTH, deflate, t, lattice->strength));
+    TRY(write_array(file, SOFTENING, deflate, t, lattice->softening));
     TRY(write_array(file, COUPLING, deflate, t, lattice->coupling));
     TRY(write_array(file, BODY, deflate, n, lattice->body));
     TRY(write_array(file, POSITION, deflate, n, lattice->position));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Elements of a simulation break: forces, the surfaces that touch, and overlaps go on with those that are whole. The
+/* Elements of a simulation break or soften: forces, the surfaces that touch, and overlaps go on with those that are whole. The
  * new state of elements and its surface are made beside the ones in force, which they replace when nothing can fail any
  * more. The energy that the broken elements had is entered as that of fracture, so that the ledger closes: the change
  * of the mechanical energy with the motion as it is, that of new surfaces near others with it. Masses stay. All that
@@ -16,12 +16,13 @@
 #include "simulation/pausing.h"
 #include "simulation/set_motion.h"
 
-static const char of_triangles[] = "broken triangles", of_springs[] = "broken springs", of_energy[] = "fracture";
+static const char of_triangles[] = "broken triangles", of_springs[] = "broken springs", of_energy[] = "fracture",
+                  of_levels[] = "softened triangles";
 
 /* Triangles that are broken now; NULL: none. */
 static const unsigned char *broken_now(const dem_simulation *s)
 {
-    return element_state_triangles(s->forces.elements);
+    return element_state_triangles(s->forces.elements).broken;
 }
 
 /* ---- what depends on it ---- */
@@ -133,12 +134,20 @@ dem_status breaking_end_step(dem_simulation *s)
 
 /* ---- by the program ---- */
 
-/* A new state with what is broken already. */
+/* Softens the triangles of a state in which none has softened or broken.  \param level  [n_triangles] */
+static void soften_to(element_state *elements, const unsigned char *level)
+{
+    for (dem_index k = 0; elements->level != NULL && k < elements->lattice->n_triangles; k++)
+        while (elements->level[k] < level[k]) element_state_soften(elements, k);
+}
+
+/* A new state with what is broken or has softened already. */
 static dem_status copy_elements(const dem_simulation *s, element_state *out)
 {
     const dem_lattice *l = &s->model->lattice;
     const element_state *now = s->forces.elements;
     TRY(element_state_create(out, l, &s->model->springs));
+    if (now != NULL) soften_to(out, now->level);
     for (dem_index k = 0; now != NULL && k < l->n_triangles; k++)
         if (now->triangle[k]) element_state_break_triangle(out, k);
     for (dem_index k = 0; now != NULL && k < l->n_springs; k++)
@@ -237,29 +246,50 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
     free(flags);
     if (status == DEM_OK)
         status = dem_checkpoint_put(checkpoint, of_triangles, elements->triangle, (size_t)l->n_triangles);
+    if (status == DEM_OK && elements->level != NULL)
+        status = dem_checkpoint_put(checkpoint, of_levels, elements->level, (size_t)l->n_triangles);
     return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &s->fracture, sizeof s->fracture) : status;
 }
 
-/* Flags in a checkpoint, which may be damaged. */
-static dem_status find_flags(const dem_checkpoint *checkpoint, const char *name, dem_index n, const unsigned char **out)
+/* Bytes in a checkpoint, which may be damaged. */
+static dem_status find_bytes(const dem_checkpoint *checkpoint, const char *name, dem_index n, const unsigned char **out)
 {
     size_t size = 0;
-    const unsigned char *flags = dem_checkpoint_find(checkpoint, name, &size);
-    CHECK(flags != NULL && size == (size_t)n, DEM_ERROR_IO, "the checkpoint has %zu bytes of %s, %lld are expected",
+    *out = dem_checkpoint_find(checkpoint, name, &size);
+    CHECK(*out != NULL && size == (size_t)n, DEM_ERROR_IO, "the checkpoint has %zu bytes of %s, %lld are expected",
           size, name, (long long)n);
+    return DEM_OK;
+}
+
+static dem_status find_flags(const dem_checkpoint *checkpoint, const char *name, dem_index n, const unsigned char **out)
+{
+    TRY(find_bytes(checkpoint, name, n, out));
     for (dem_index k = 0; k < n; k++)
-        CHECK(flags[k] <= 1, DEM_ERROR_IO, "number %lld of the %s in the checkpoint is %d", (long long)k, name,
-              flags[k]);
-    *out = flags;
+        CHECK((*out)[k] <= 1, DEM_ERROR_IO, "number %lld of the %s in the checkpoint is %d", (long long)k, name,
+              (*out)[k]);
+    return DEM_OK;
+}
+
+/* NULL where triangles do not soften. */
+static dem_status find_levels(const dem_simulation *s, const dem_checkpoint *checkpoint, const unsigned char **out)
+{
+    const dem_lattice *l = &s->model->lattice;
+    if (l->softening == NULL) return DEM_OK;
+    TRY(find_bytes(checkpoint, of_levels, l->n_triangles, out));
+    for (dem_index k = 0; k < l->n_triangles; k++)
+        CHECK((*out)[k] <= softening_levels(l->softening[k]), DEM_ERROR_IO,
+              "triangle %lld in the checkpoint has softened %d times, it does so %d times at most", (long long)k,
+              (*out)[k], softening_levels(l->softening[k]));
     return DEM_OK;
 }
 
 /* The checks of what a program breaks hold for files, too. */
-static dem_status break_flagged(const dem_simulation *s, element_state *elements, const unsigned char *triangle,
-                                const unsigned char *spring)
+static dem_status break_flagged(const dem_simulation *s, element_state *elements, const unsigned char *level,
+                                const unsigned char *triangle, const unsigned char *spring)
 {
     const dem_lattice *l = &s->model->lattice;
     TRY(element_state_create(elements, l, &s->model->springs));
+    soften_to(elements, level);
     for (dem_index k = 0; k < l->n_triangles; k++) {
         if (!triangle[k]) continue;
         TRY(check_triangle(s, k));
@@ -278,6 +308,7 @@ static bool is_the_same(const dem_simulation *s, const element_state *next)
 {
     const element_state *now = s->forces.elements;
     const dem_lattice *l = &s->model->lattice;
+    if (now != NULL && now->level != NULL && memcmp(now->level, next->level, (size_t)l->n_triangles) != 0) return false;
     return now != NULL && memcmp(now->triangle, next->triangle, (size_t)l->n_triangles) == 0 &&
            memcmp(now->integrity, next->integrity, (size_t)l->n_springs * sizeof *now->integrity) == 0;
 }
@@ -285,15 +316,16 @@ static bool is_the_same(const dem_simulation *s, const element_state *next)
 dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     const dem_lattice *l = &s->model->lattice;
-    const unsigned char *triangle = NULL, *spring = NULL;
+    const unsigned char *level = NULL, *triangle = NULL, *spring = NULL;
     element_state next = {0};
     size_t size;
     if (dem_checkpoint_find(checkpoint, of_energy, &size) == NULL) return DEM_OK;
     TRY(find_flags(checkpoint, of_triangles, l->n_triangles, &triangle));
     TRY(find_flags(checkpoint, of_springs, l->n_springs, &spring));
+    TRY(find_levels(s, checkpoint, &level));
     TRY(dem_checkpoint_get(checkpoint, of_energy, &s->fracture, sizeof s->fracture));
     CHECK(isfinite(s->fracture), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");
-    const dem_status status = break_flagged(s, &next, triangle, spring);
+    const dem_status status = break_flagged(s, &next, level, triangle, spring);
     if (status == DEM_OK && !is_the_same(s, &next)) return renew(s, &next);
     element_state_destroy(&next);
     return status;

@@ -210,9 +210,9 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
     TRY(check_given("dem_simulation_force_at", s, out));
     const dem_lattice *l = &s->model->lattice;
     TRY(status_check_number("spring", spring, l->n_springs));
-    const double *integrity = element_state_springs(s->forces.elements), *x = seen_of(s);
-    const double left = integrity != NULL ? integrity[spring] : 1.0;
-    const double own = left > 0.0 ? springs_strain_of(l, spring, x) * (left * l->stiffness[spring]) : 0.0;
+    const springs_integrity integrity = element_state_springs(s->forces.elements);
+    const double *x = seen_of(s), strain = springs_is_broken(integrity, spring) ? 0.0 : springs_strain_of(l, spring, x);
+    const double own = strain * (springs_left(integrity, spring, strain) * l->stiffness[spring]);
     *out = couplings_add_tension(&s->model->couplings, element_state_triangles(s->forces.elements), l->ends[2 * spring],
                                  spring, x, own);
     return DEM_OK;
@@ -234,13 +234,13 @@ dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragme
 {
     TRY(check_given("dem_simulation_fragments", s, n_fragments));
     TRY(check_given("dem_simulation_fragments", s, fragment));
-    *n_fragments = fragments_find(&s->model->lattice, element_state_springs(s->forces.elements), fragment);
+    *n_fragments = fragments_find(&s->model->lattice, element_state_springs(s->forces.elements).pushed, fragment);
     return DEM_OK;
 }
 
 static void stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
-    node_stress(s->model, s->forces.elements, node, seen_of(s), stress);
+    node_stress(s->model, s->forces.elements, NODE_STRESS_CARRIED, node, seen_of(s), stress);
 }
 
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)

@@ -292,11 +292,12 @@ static dem_status commit_step(dem_simulation *s)
     TRY(reduce_status(breaking_end_step(s), 0.0));
     /* From here on the end of the step is the state: y and t. */
     const bool broken = reduce_any(fracture_source_has_broken(&s->breaks));
+    const bool failed = reduce_any(fracture_source_has_failed(&s->breaks));
     const bool moved = settle_step(s), paused = pausing_end_step(s, broken);
     TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_stops) + s->at_break;
-    TRY(go_on_changed(s, moved || broken || paused || s->outgrown || events_moved_rigid(s)));
+    TRY(go_on_changed(s, moved || failed || paused || s->outgrown || events_moved_rigid(s)));
     return report_step(s);
 }
 

@@ -136,7 +136,7 @@ static dem_status after_step(void *context, const dem_simulation *simulation)
     if (quiet && 10 * state.n_contacts >= 8 * t->columns && t->n < most) {
         const double start = seconds(CLOCK_MONOTONIC);
         for (dem_index i = 0; i < t->model->lattice.n_nodes; i++)
-            t->sum += springs_force(&t->model->springs, NULL, i, state.x).x;
+            t->sum += springs_force(&t->model->springs, SPRINGS_WHOLE, i, state.x).x;
         t->force[t->n] = seconds(CLOCK_MONOTONIC) - start;
         t->contact[t->n] = 0.0;
         for (int k = 0; k < PARTS; k++) t->contact[t->n] += t->part[k][t->n] = spent[k];

@@ -87,7 +87,7 @@ TEST(without_couplings_every_row_is_empty)
         }
         assert_ok(couplings_compile(&s.couplings, &s.lattice, &s.springs));
         for (int i = 0; i <= n_nodes; i++) assert_int_equal(s.couplings.row[i], 0);
-        assert_close(couplings_energy(&s.couplings, NULL, corners), 0.0, 0.0);
+        assert_close(couplings_energy(&s.couplings, TRIANGLES_WHOLE, corners), 0.0, 0.0);
     }
 }
 
@@ -107,7 +107,7 @@ TEST(a_lattice_at_rest_feels_nothing)
 {
     CLEANUP(free_square) square s = make_square();
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = couplings_add_force(&s.couplings, NULL, i, corners, (vec2){3.0, 4.0});
+        const vec2 force = couplings_add_force(&s.couplings, TRIANGLES_WHOLE, i, corners, (vec2){3.0, 4.0});
         assert_true(force.x == 3.0 && force.y == 4.0);
     }
 }
@@ -125,8 +125,8 @@ TEST(the_energy_is_that_of_pairs_of_stretches)
         const double behind = length_of(x, here, last) - length_of(corners, here, last);
         expected += strengths[k] * ahead * behind;
     }
-    for (dem_index i = 0; i < n_nodes; i++) at_four += couplings_node_energy(&s.couplings, NULL, i, x);
-    assert_close(couplings_energy(&s.couplings, NULL, x), expected, 1e-15);
+    for (dem_index i = 0; i < n_nodes; i++) at_four += couplings_node_energy(&s.couplings, TRIANGLES_WHOLE, i, x);
+    assert_close(couplings_energy(&s.couplings, TRIANGLES_WHOLE, x), expected, 1e-15);
     assert_close(at_four, 3.0 * expected, 1e-14); /* every triangle counts at each of its corners */
 }
 
@@ -141,17 +141,17 @@ TEST(forces_and_tensions_are_derivatives_of_the_energy)
     for (int trial = 0; trial < 50; trial++) {
         stir(x, r);
         for (int k = 0; k < 2 * n_nodes; k++) {
-            const vec2 force = couplings_add_force(&s.couplings, NULL, k / 2, x, (vec2){0.0, 0.0});
+            const vec2 force = couplings_add_force(&s.couplings, TRIANGLES_WHOLE, k / 2, x, (vec2){0.0, 0.0});
             const double here = x[k];
             x[k] = here + step;
-            const double above = couplings_energy(&s.couplings, NULL, x);
+            const double above = couplings_energy(&s.couplings, TRIANGLES_WHOLE, x);
             x[k] = here - step;
-            const double below = couplings_energy(&s.couplings, NULL, x);
+            const double below = couplings_energy(&s.couplings, TRIANGLES_WHOLE, x);
             x[k] = here;
             assert_close(k % 2 == 0 ? force.x : force.y, (below - above) / (2.0 * step), 1e-8);
         }
         memset(tension, 0, sizeof tension);
-        couplings_add_tensions(&s.couplings, NULL, x, tension);
+        couplings_add_tensions(&s.couplings, TRIANGLES_WHOLE, x, tension);
         for (int k = 0; k < n_springs; k++) {
             double energy[2];
             for (int side = 0; side < 2; side++) {
@@ -159,7 +159,7 @@ TEST(forces_and_tensions_are_derivatives_of_the_energy)
                     if (s.couplings.list[q / 3].spring[q % 3] == k)
                         s.couplings.list[q / 3].rest_length[q % 3] =
                             s.lattice.rest_length[k] + (side == 0 ? -step : step);
-                energy[side] = couplings_energy(&s.couplings, NULL, x);
+                energy[side] = couplings_energy(&s.couplings, TRIANGLES_WHOLE, x);
             }
             for (int q = 0; q < 9; q++)
                 if (s.couplings.list[q / 3].spring[q % 3] == k)
@@ -179,7 +179,7 @@ TEST(forces_have_neither_resultant_nor_moment)
         vec2 sum = {0.0, 0.0};
         stir(x, r);
         for (dem_index i = 0; i < n_nodes; i++) {
-            const vec2 force = couplings_add_force(&s.couplings, NULL, i, x, (vec2){0.0, 0.0});
+            const vec2 force = couplings_add_force(&s.couplings, TRIANGLES_WHOLE, i, x, (vec2){0.0, 0.0});
             sum = vec2_add(sum, force);
             moment += vec2_cross(vec2_at(x, i), force);
         }
@@ -204,8 +204,8 @@ TEST(the_tangent_is_the_derivative_of_the_force)
             below[k] = x[k] - step * u[k];
         }
         for (dem_index i = 0; i < n_nodes; i++) {
-            const vec2 a = couplings_add_force(&s.couplings, NULL, i, above, (vec2){0.0, 0.0});
-            const vec2 b = couplings_add_force(&s.couplings, NULL, i, below, (vec2){0.0, 0.0});
+            const vec2 a = couplings_add_force(&s.couplings, TRIANGLES_WHOLE, i, above, (vec2){0.0, 0.0});
+            const vec2 b = couplings_add_force(&s.couplings, TRIANGLES_WHOLE, i, below, (vec2){0.0, 0.0});
             const vec2 expected = vec2_scale(0.5 / step, vec2_sub(b, a));
             const vec2 found = couplings_tangent(&s.couplings, i, x, u);
             assert_close(found.x, expected.x, 1e-7);
@@ -217,7 +217,8 @@ TEST(the_tangent_is_the_derivative_of_the_force)
 /* Of the first triangle, at each of its corners. */
 TEST(a_broken_triangle_has_no_couplings)
 {
-    const unsigned char broken[n_triangles] = {1, 1, 0, 0};
+    const unsigned char flags[n_triangles] = {1, 1, 0, 0};
+    const triangles_integrity broken = {flags, NULL};
     CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     CLEANUP(free_square) square s = make_square();
     double x[2 * n_nodes], tension[n_springs] = {0.0};

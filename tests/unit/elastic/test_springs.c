@@ -75,8 +75,8 @@ TEST(strain_force_and_virial_are_those_of_each_spring)
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.3, 5);
-    springs_strains(&lattice, NULL, x, strain);
-    springs_forces(&lattice, NULL, x, force);
+    springs_strains(&lattice, SPRINGS_WHOLE, x, strain);
+    springs_forces(&lattice, SPRINGS_WHOLE, x, force);
     for (dem_index k = 0; k < n_springs; k++) {
         const dem_index i = pairs[2 * k], j = pairs[2 * k + 1];
         const double dx = x[2 * j] - x[2 * i], dy = x[2 * j + 1] - x[2 * i + 1], d = hypot(dx, dy);
@@ -133,10 +133,10 @@ TEST(nodes_without_springs_feel_nothing)
     CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(n_nodes, corners, masses, 0, NULL, 0.0, 0.0, NULL);
     assert_ok(springs_compile(&s, &lattice));
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_force(&s, NULL, i, corners);
+        const vec2 force = springs_force(&s, SPRINGS_WHOLE, i, corners);
         assert_true(force.x == 0.0 && force.y == 0.0);
     }
-    assert_close(springs_energy(&lattice, NULL, corners), 0.0, 0.0);
+    assert_close(springs_energy(&lattice, SPRINGS_WHOLE, corners), 0.0, 0.0);
     assert_close(sym2_largest(springs_block(&s, s.stiffness, 0, corners)), 0.0, 0.0);
 }
 
@@ -149,21 +149,21 @@ TEST(a_stretched_spring_pulls_with_stiffness_times_strain)
     const double x[4] = {1.0, -1.0, 4.0, 3.0};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(x, 2.0, 100.0);
     CLEANUP(springs_free) springs s = compile_pair(x, 2.0, 100.0);
-    const vec2 first = springs_force(&s, NULL, 0, x), second = springs_force(&s, NULL, 1, x);
+    const vec2 first = springs_force(&s, SPRINGS_WHOLE, 0, x), second = springs_force(&s, SPRINGS_WHOLE, 1, x);
     assert_close(first.x, 90.0, 1e-13);
     assert_close(first.y, 120.0, 1e-13);
     assert_true(second.x == -first.x && second.y == -first.y);
     assert_close(springs_strain(&s, 0, 0, x), 1.5, 0.0);
-    assert_close(springs_energy(&lattice, NULL, x), 225.0, 0.0);
-    assert_close(springs_node_energy(&s, NULL, 1, x), 225.0, 0.0);
+    assert_close(springs_energy(&lattice, SPRINGS_WHOLE, x), 225.0, 0.0);
+    assert_close(springs_node_energy(&s, SPRINGS_WHOLE, 1, x), 225.0, 0.0);
 }
 
 TEST(a_compressed_spring_pushes)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.5};
     CLEANUP(springs_free) springs s = compile_pair(x, 2.0, 100.0);
-    assert_close(springs_force(&s, NULL, 0, x).y, -25.0, 0.0);
-    assert_close(springs_force(&s, NULL, 1, x).y, 25.0, 0.0);
+    assert_close(springs_force(&s, SPRINGS_WHOLE, 0, x).y, -25.0, 0.0);
+    assert_close(springs_force(&s, SPRINGS_WHOLE, 1, x).y, 25.0, 0.0);
     assert_close(springs_strain(&s, 1, 1, x), -0.25, 0.0);
 }
 
@@ -178,13 +178,15 @@ TEST(the_force_is_minus_the_gradient_of_the_energy)
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 1);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_force(&s, NULL, i, x);
+        const vec2 force = springs_force(&s, SPRINGS_WHOLE, i, x);
         for (int k = 0; k < 2; k++) {
             const double here = x[2 * i + k];
             x[2 * i + k] = here + step;
-            const double above = springs_energy(&lattice, NULL, x), node_above = springs_node_energy(&s, NULL, i, x);
+            const double above = springs_energy(&lattice, SPRINGS_WHOLE, x),
+                         node_above = springs_node_energy(&s, SPRINGS_WHOLE, i, x);
             x[2 * i + k] = here - step;
-            const double below = springs_energy(&lattice, NULL, x), node_below = springs_node_energy(&s, NULL, i, x);
+            const double below = springs_energy(&lattice, SPRINGS_WHOLE, x),
+                         node_below = springs_node_energy(&s, SPRINGS_WHOLE, i, x);
             x[2 * i + k] = here;
             assert_close(k == 0 ? force.x : force.y, (below - above) / (2.0 * step), 1e-6);
             assert_close(k == 0 ? force.x : force.y, (node_below - node_above) / (2.0 * step), 1e-6);
@@ -202,16 +204,16 @@ TEST(springs_exert_no_force_and_no_torque_on_the_whole)
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 2);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_force(&s, NULL, i, x);
+        const vec2 force = springs_force(&s, SPRINGS_WHOLE, i, x);
         total = vec2_add(total, force);
         torque += vec2_cross(vec2_at(x, i), force);
-        energy += 0.5 * springs_node_energy(&s, NULL, i, x); /* every spring is at two nodes */
+        energy += 0.5 * springs_node_energy(&s, SPRINGS_WHOLE, i, x); /* every spring is at two nodes */
     }
     assert_close(total.x, 0.0, 1e-12);
     assert_close(total.y, 0.0, 1e-12);
     assert_close(torque, 0.0, 1e-12);
-    assert_true(springs_energy(&lattice, NULL, x) > 1.0);
-    assert_close(energy, springs_energy(&lattice, NULL, x), 1e-12);
+    assert_true(springs_energy(&lattice, SPRINGS_WHOLE, x) > 1.0);
+    assert_close(energy, springs_energy(&lattice, SPRINGS_WHOLE, x), 1e-12);
 }
 
 TEST(nodes_that_coincide_give_a_force_that_is_no_number)
@@ -219,9 +221,9 @@ TEST(nodes_that_coincide_give_a_force_that_is_no_number)
     const double apart[4] = {0.0, 0.0, 1.0, 0.0}, together[4] = {0.3, 0.7, 0.3, 0.7};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(apart, 1.0, 10.0);
     CLEANUP(springs_free) springs s = compile_pair(apart, 1.0, 10.0);
-    assert_true(isnan(springs_force(&s, NULL, 0, together).x) != 0);
-    assert_true(isnan(springs_force(&s, NULL, 1, together).y) != 0);
-    assert_close(springs_energy(&lattice, NULL, together), 5.0, 0.0);
+    assert_true(isnan(springs_force(&s, SPRINGS_WHOLE, 0, together).x) != 0);
+    assert_true(isnan(springs_force(&s, SPRINGS_WHOLE, 1, together).y) != 0);
+    assert_close(springs_energy(&lattice, SPRINGS_WHOLE, together), 5.0, 0.0);
 }
 
 /* ---- damping ---- */
@@ -231,7 +233,7 @@ TEST(springs_without_viscosities_stay_without)
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, v[4] = {0.0, 0.0, 1.0, 0.0}, inverse_mass[2] = {1.0, 1.0};
     CLEANUP(springs_free) springs s = compile_pair(x, 1.0, 10.0);
     assert_null(s.viscosity);
-    assert_close(springs_damping_power(&s, NULL, x, v), 0.0, 0.0);
+    assert_close(springs_damping_power(&s, SPRINGS_WHOLE, x, v), 0.0, 0.0);
     assert_close(springs_damping_bound(&s, x, inverse_mass), 0.0, 0.0);
 }
 
@@ -253,11 +255,12 @@ TEST(a_lengthening_spring_pulls_with_viscosity_times_strain_rate)
 {
     const double x[4] = {1.0, -1.0, 4.0, 3.0}, v[4] = {-2.0, 5.0, 5.0, 4.0};
     CLEANUP(springs_free) springs s = compile_damped_pair(x, 2.0, 6.0);
-    const vec2 first = springs_damping(&s, NULL, 0, x, v), second = springs_damping(&s, NULL, 1, x, v);
+    const vec2 first = springs_damping(&s, SPRINGS_WHOLE, 0, x, v),
+               second = springs_damping(&s, SPRINGS_WHOLE, 1, x, v);
     assert_close(first.x, 6.12, 1e-14);
     assert_close(first.y, 8.16, 1e-14);
     assert_true(second.x == -first.x && second.y == -first.y);
-    assert_close(springs_damping_power(&s, NULL, x, v), 34.68, 1e-13);
+    assert_close(springs_damping_power(&s, SPRINGS_WHOLE, x, v), 34.68, 1e-13);
 }
 
 /* Rounding of sums of a dozen terms of about 10 N at 1 m/s. */
@@ -270,7 +273,7 @@ TEST(damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power)
     stir(x, n_nodes, 0.2, 3);
     stir(v, n_nodes, 1.0, 4);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_damping(&s, NULL, i, x, v);
+        const vec2 force = springs_damping(&s, SPRINGS_WHOLE, i, x, v);
         total = vec2_add(total, force);
         torque += vec2_cross(vec2_at(x, i), force);
         given += vec2_dot(vec2_at(v, i), force);
@@ -278,8 +281,8 @@ TEST(damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power)
     assert_close(total.x, 0.0, 1e-13);
     assert_close(total.y, 0.0, 1e-13);
     assert_close(torque, 0.0, 1e-13);
-    assert_true(springs_damping_power(&s, NULL, x, v) > 1.0);
-    assert_close(springs_damping_power(&s, NULL, x, v), -given, 1e-13);
+    assert_true(springs_damping_power(&s, SPRINGS_WHOLE, x, v) > 1.0);
+    assert_close(springs_damping_power(&s, SPRINGS_WHOLE, x, v), -given, 1e-13);
 }
 
 /* However much it is strained: each force is of the rounding of 10 N. */
@@ -291,11 +294,11 @@ TEST(a_rigid_motion_is_not_damped)
     stir(x, n_nodes, 0.2, 5);
     for (dem_index i = 0; i < n_nodes; i++) vec2_put(v, i, (vec2){0.7 - 3.0 * x[2 * i + 1], -0.2 + 3.0 * x[2 * i]});
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = springs_damping(&s, NULL, i, x, v);
+        const vec2 force = springs_damping(&s, SPRINGS_WHOLE, i, x, v);
         assert_close(force.x, 0.0, 1e-13);
         assert_close(force.y, 0.0, 1e-13);
     }
-    assert_close(springs_damping_power(&s, NULL, x, v), 0.0, 1e-26);
+    assert_close(springs_damping_power(&s, SPRINGS_WHOLE, x, v), 0.0, 1e-26);
 }
 
 /* ---- frequencies ---- */
@@ -357,7 +360,7 @@ static double highest_damping_rate(const springs *s, const dem_lattice *lattice)
     for (dem_index q = 0; q < 2 * lattice->n_nodes; q++) {
         v[q] = 1.0;
         for (dem_index i = 0; i < lattice->n_nodes; i++)
-            set_entry(damping, lattice, i, q, vec2_scale(-1.0, springs_damping(s, NULL, i, lattice->x, v)));
+            set_entry(damping, lattice, i, q, vec2_scale(-1.0, springs_damping(s, SPRINGS_WHOLE, i, lattice->x, v)));
         v[q] = 0.0;
     }
     return largest_eigenvalue(damping);

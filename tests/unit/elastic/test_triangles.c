@@ -143,7 +143,7 @@ static const double strengths[n_triangles] = {2.0, 3.0, 5.0, 7.0}, kappas[n_tria
 static double energy_of(const triangles *t, const double *x)
 {
     double area, guard;
-    triangles_energy(t, NULL, x, &area, &guard);
+    triangles_energy(t, TRIANGLES_WHOLE, x, &area, &guard);
     return area + guard;
 }
 
@@ -195,7 +195,7 @@ TEST(a_lattice_at_rest_feels_nothing)
 {
     CLEANUP(triangles_free) triangles t = compile_fan(strengths, kappas);
     for (dem_index i = 0; i < n_nodes; i++) {
-        const vec2 force = triangles_force(&t, NULL, i, corners);
+        const vec2 force = triangles_force(&t, TRIANGLES_WHOLE, i, corners);
         assert_true(force.x == 0.0 && force.y == 0.0);
     }
     assert_close(energy_of(&t, corners), 0.0, 0.0);
@@ -212,9 +212,9 @@ TEST(the_area_term_is_linear_in_the_area)
     for (double y = -1.0; y < 2.0; y += 0.3) {
         const double J = 2.0 * y, other = 2.0 - 2.0 * y;
         x[9] = y;
-        const vec2 force = triangles_force(&t, NULL, 4, x);
+        const vec2 force = triangles_force(&t, TRIANGLES_WHOLE, 4, x);
         double area, guard;
-        triangles_energy(&t, NULL, x, &area, &guard);
+        triangles_energy(&t, TRIANGLES_WHOLE, x, &area, &guard);
         assert_close(force.x, 0.0, 1e-13);
         assert_close(force.y, -0.5 * 300.0 * (J - 1.0) + 0.5 * -50.0 * (other - 1.0), 1e-12);
         assert_close(area, 0.125 * (300.0 * (J - 1.0) * (J - 1.0) - 50.0 * (other - 1.0) * (other - 1.0)), 1e-12);
@@ -246,15 +246,16 @@ TEST(a_squeezed_triangle_pushes_its_corner_back)
     memcpy(x, corners, sizeof x);
     for (int k = 0; k < 3; k++) {
         x[9] = 0.5 * ratios[k];
-        const vec2 force = triangles_force(&t, NULL, 4, x), left = triangles_force(&t, NULL, 0, x);
+        const vec2 force = triangles_force(&t, TRIANGLES_WHOLE, 4, x),
+                   left = triangles_force(&t, TRIANGLES_WHOLE, 0, x);
         const double expected = -2.0 * slope_at(ratios[k]) * 0.5;
         assert_true(expected > 0.0);
         assert_close(force.x, 0.0, 0.0);
         assert_close(force.y, expected, 1e-13 * expected);
         assert_close(left.y, -0.5 * expected, 1e-13 * expected);
         assert_close(energy_of(&t, x), 0.25 * 2.0 * energy_at(ratios[k]), 1e-13 * expected);
-        assert_close(triangles_node_energy(&t, NULL, 4, x), energy_of(&t, x), 0.0);
-        assert_close(triangles_node_energy(&t, NULL, 2, x), 0.0, 0.0);
+        assert_close(triangles_node_energy(&t, TRIANGLES_WHOLE, 4, x), energy_of(&t, x), 0.0);
+        assert_close(triangles_node_energy(&t, TRIANGLES_WHOLE, 2, x), 0.0, 0.0);
     }
 }
 
@@ -276,12 +277,12 @@ TEST(forces_are_minus_the_gradient_of_the_energy)
     for (int trial = 0; trial < 50; trial++) {
         squeeze(x, rng);
         for (dem_index k = 0; k < 2 * n_nodes; k++) {
-            const vec2 force = triangles_force(&t, NULL, k / 2, x);
+            const vec2 force = triangles_force(&t, TRIANGLES_WHOLE, k / 2, x);
             const double here = x[k], scale = 1.0 + fabs(energy_of(&t, x));
             x[k] = here + step;
-            const double above = energy_of(&t, x), node_above = triangles_node_energy(&t, NULL, k / 2, x);
+            const double above = energy_of(&t, x), node_above = triangles_node_energy(&t, TRIANGLES_WHOLE, k / 2, x);
             x[k] = here - step;
-            const double below = energy_of(&t, x), node_below = triangles_node_energy(&t, NULL, k / 2, x);
+            const double below = energy_of(&t, x), node_below = triangles_node_energy(&t, TRIANGLES_WHOLE, k / 2, x);
             x[k] = here;
             assert_close(k % 2 == 0 ? force.x : force.y, (below - above) / (2.0 * step), 1e-7 * scale);
             assert_close((node_above - node_below) / (2.0 * step), (above - below) / (2.0 * step), 1e-7 * scale);
@@ -297,14 +298,15 @@ TEST(the_bound_of_the_guard_is_above_its_second_variation)
     CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     double x[2 * n_nodes], closest = 0.0;
     CLEANUP(triangles_free) triangles t = compile_fan(strengths, NULL);
-    for (dem_index i = 0; i < n_nodes; i++) assert_close(triangles_guard_bound(&t, NULL, i, corners), 0.0, 0.0);
+    for (dem_index i = 0; i < n_nodes; i++)
+        assert_close(triangles_guard_bound(&t, TRIANGLES_WHOLE, i, corners), 0.0, 0.0);
     for (int trial = 0; trial < 2000; trial++) {
         double u[2 * n_nodes], moved[2 * n_nodes], allowed = 0.0, scale = 0.0;
         squeeze(x, rng);
         for (int k = 0; k < 2 * n_nodes; k++) {
-            const vec2 force = triangles_force(&t, NULL, k / 2, x);
+            const vec2 force = triangles_force(&t, TRIANGLES_WHOLE, k / 2, x);
             u[k] = trial % 2 == 1 ? gsl_rng_uniform(rng) - 0.5 : (k % 2 == 0 ? force.x : force.y);
-            allowed += triangles_guard_bound(&t, NULL, k / 2, x) * u[k] * u[k];
+            allowed += triangles_guard_bound(&t, TRIANGLES_WHOLE, k / 2, x) * u[k] * u[k];
             scale = fmax(scale, fabs(u[k]));
         }
         if (!(scale > 0.0)) continue;
@@ -336,7 +338,8 @@ TEST(the_tangent_is_the_derivative_of_the_force)
             below[k] = x[k] - step * u[k];
         }
         for (dem_index i = 0; i < n_nodes; i++) {
-            const vec2 change = vec2_sub(triangles_force(&t, NULL, i, below), triangles_force(&t, NULL, i, above));
+            const vec2 change = vec2_sub(triangles_force(&t, TRIANGLES_WHOLE, i, below),
+                                         triangles_force(&t, TRIANGLES_WHOLE, i, above));
             const vec2 tangent = triangles_tangent(&t, i, x, u);
             const double scale = 1.0 + vec2_norm(tangent);
             assert_close(tangent.x, change.x / (2.0 * step), 1e-6 * scale);
@@ -356,11 +359,11 @@ TEST(triangles_exert_no_force_and_no_torque_on_the_whole)
         vec2 total = {0.0, 0.0};
         squeeze(x, rng);
         for (dem_index i = 0; i < n_nodes; i++) {
-            const vec2 force = triangles_force(&t, NULL, i, x);
+            const vec2 force = triangles_force(&t, TRIANGLES_WHOLE, i, x);
             total = vec2_add(total, force);
             torque += vec2_cross(vec2_at(x, i), force);
             largest = fmax(largest, vec2_norm(force));
-            energy += triangles_node_energy(&t, NULL, i, x) / 3.0; /* every triangle is at three nodes */
+            energy += triangles_node_energy(&t, TRIANGLES_WHOLE, i, x) / 3.0; /* every triangle is at three nodes */
         }
         assert_true(largest > 0.0);
         assert_close(vec2_norm(total), 0.0, 1e-13 * largest);

@@ -348,6 +348,50 @@ TEST(what_is_broken_is_as_if_it_had_never_been)
     assert_int_equal(strain.inverted, left.inverted);
 }
 
+/* A body of which all triangles soften, those about the middle by some levels; some are broken. */
+static void open_soft(body *b)
+{
+    *b = (body){0};
+    make_lattice(&b->lattice, 0.0);
+    const dem_index n = b->lattice.n_triangles;
+    b->lattice.softening = malloc((size_t)n * sizeof *b->lattice.softening);
+    assert_non_null(b->lattice.softening);
+    for (dem_index t = 0; t < n; t++) b->lattice.softening[t] = 2.5;
+    compile(b);
+    for (dem_index t = 0; t < n; t++)
+        for (dem_index k = 0; k < 5 * t % 17 && t % 3 > 0; k++) element_state_soften(&b->state, t);
+    for (dem_index t = 0; t < n; t += 7) element_state_break_triangle(&b->state, t);
+}
+
+/* Forces are minus the gradient of the energy that depends on a node, springs in tension and under pressure, couplings,
+ * areas and guard among them. The energy of a node has parts of 1e4 J, and central differences over 2e-7 m the error
+ * 1e4 J 1e-16/2e-7 m = 5e-6 N and that of the third derivative; forces are up to 1e6 N. */
+TEST(forces_of_what_has_softened_come_from_its_energy)
+{
+    const double h = 1e-7;
+    CLEANUP(close_body) body b;
+    dem_index n_pulled = 0, n_pushed = 0;
+    open_soft(&b);
+    for (dem_index k = 0; k < b.lattice.n_springs; k++) {
+        const bool soft = b.state.tension[k] < b.state.integrity[k];
+        const double strain = springs_strain_of(&b.lattice, k, b.x);
+        n_pulled += soft && strain > 0.0;
+        n_pushed += soft && strain < 0.0;
+    }
+    assert_true(n_pulled > 10 && n_pushed > 10);
+    for (dem_index c = 0; c < 2 * b.n; c++) {
+        const dem_index i = c / 2;
+        const vec2 force = vec2_scale(b.lattice.mass[i], forces_acceleration(&b.f, i, b.x, b.v));
+        const double x = b.x[c];
+        b.x[c] = x + h;
+        const double above = forces_node_energy(&b.f, i, b.x);
+        b.x[c] = x - h;
+        const double below = forces_node_energy(&b.f, i, b.x);
+        b.x[c] = x;
+        assert_close(c % 2 == 0 ? force.x : force.y, (below - above) / (2.0 * h), 1e-2);
+    }
+}
+
 /* Strains and forces that are reported of each spring: those that are broken have none, weaker ones
  * less force. */
 TEST(a_broken_spring_has_no_strain_and_no_force)
@@ -359,10 +403,11 @@ TEST(a_broken_spring_has_no_strain_and_no_force)
     assert_non_null(whole);
     double *strain = whole + b.lattice.n_springs, *force = strain + b.lattice.n_springs;
     const double *integrity = b.state.integrity;
+    const springs_integrity state = element_state_springs(&b.state);
     dem_index n_weaker = 0;
-    springs_strains(&b.model->lattice, NULL, b.x, whole);
-    springs_strains(&b.model->lattice, integrity, b.x, strain);
-    springs_forces(&b.model->lattice, integrity, b.x, force);
+    springs_strains(&b.model->lattice, SPRINGS_WHOLE, b.x, whole);
+    springs_strains(&b.model->lattice, state, b.x, strain);
+    springs_forces(&b.model->lattice, state, b.x, force);
     for (dem_index k = 0; k < b.lattice.n_springs; k++) {
         const double expected = integrity[k] * b.lattice.stiffness[k] * whole[k];
         assert_true(whole[k] != 0.0);

@@ -329,8 +329,10 @@ TEST(limits_stay_with_their_elements)
     CLEANUP(dem_lattice_free) dem_lattice all = dem_lattice_empty();
     given.strength = calloc((size_t)given.n_triangles, sizeof *given.strength);
     given.critical_stretch = calloc((size_t)given.n_springs, sizeof *given.critical_stretch);
-    assert_true(given.strength != NULL && given.critical_stretch != NULL);
+    given.softening = calloc((size_t)given.n_triangles, sizeof *given.softening);
+    assert_true(given.strength != NULL && given.critical_stretch != NULL && given.softening != NULL);
     for (dem_index t = 0; t < given.n_triangles; t++) given.strength[t] = 1e6 + (double)t;
+    for (dem_index t = 0; t < given.n_triangles; t++) given.softening[t] = 2.0 + (double)t;
     for (dem_index k = 0; k < given.n_springs; k++) given.critical_stretch[k] = 0.1 + (double)k;
     assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
     assert_null(all.strength);
@@ -339,12 +341,15 @@ TEST(limits_stay_with_their_elements)
     assert_int_equal(dem_lattice_append(&all, &plain), DEM_OK);
     const double strength[4] = {INFINITY, 1e6, 1e6 + 1.0, INFINITY};
     assert_memory_equal(all.strength, strength, sizeof strength);
+    const double softening[4] = {1.0, 2.0, 3.0, 1.0};
+    assert_memory_equal(all.softening, softening, sizeof softening);
     for (dem_index k = 0; k < 12; k++)
         assert_true(all.critical_stretch[k] == (k >= 3 && k < 9 ? 0.1 + (double)(k - 3) : (double)INFINITY));
     bool keep[32];
     for (dem_index i = 0; i < all.n_nodes; i++) keep[i] = i >= 3; /* without the first body */
     assert_int_equal(dem_lattice_select(&all, keep), DEM_OK);
     assert_memory_equal(all.strength, strength + 1, 3 * sizeof *strength);
+    assert_memory_equal(all.softening, softening + 1, 3 * sizeof *softening);
     assert_true(all.critical_stretch[0] == 0.1 && all.critical_stretch[5] == 5.1);
     dem_lattice_free(&given);
     dem_lattice_free(&plain);

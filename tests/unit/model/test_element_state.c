@@ -107,6 +107,102 @@ TEST(a_break_is_taken_back_to_the_bit)
     }
 }
 
+/* Ratios that differ from triangle to triangle, some of them brittle. */
+static void make_soft(dem_lattice *l)
+{
+    l->softening = malloc((size_t)l->n_triangles * sizeof *l->softening);
+    assert_non_null(l->softening);
+    for (dem_index t = 0; t < l->n_triangles; t++) l->softening[t] = t % 5 == 0 ? 1.0 : 1.5 + 0.37 * (double)(t % 7);
+}
+
+/* A level for each triangle, and those that are broken besides; brittle ones have none. */
+static void weaken_some(element_state *s, dem_index t)
+{
+    const int levels = softening_levels(s->lattice->softening[t]);
+    for (int k = 0; k < (int)(t * 11 % 17) && k < levels; k++) element_state_soften(s, t);
+    if (t % 4 == 0) element_state_break_triangle(s, t);
+}
+
+static void assert_same_state(const subject *s, const subject *other)
+{
+    const size_t n_springs = (size_t)s->lattice.n_springs, n_triangles = (size_t)s->lattice.n_triangles;
+    assert_memory_equal(s->state.integrity, other->state.integrity, n_springs * sizeof(double));
+    assert_memory_equal(s->state.tension, other->state.tension, n_springs * sizeof(double));
+    assert_memory_equal(s->state.left, other->state.left, n_triangles * sizeof(double));
+    assert_memory_equal(s->state.level, other->state.level, n_triangles);
+    assert_memory_equal(s->state.triangle, other->state.triangle, n_triangles);
+    assert_memory_equal(s->state.node, other->state.node, (size_t)s->lattice.n_nodes);
+    assert_int_equal(s->state.n_damaged, other->state.n_damaged);
+}
+
+/* What is left of a spring in tension is the sum of its shares times what is left of the triangles that have them; each
+ * of the two at most is rounded to 2^-52. */
+TEST(a_spring_has_in_tension_what_its_triangles_leave)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(close_subject) subject s;
+        dem_lattice soft = solid_of(kind);
+        make_soft(&soft);
+        open_subject(&s, soft);
+        for (dem_index t = 0; t < soft.n_triangles; t++) weaken_some(&s.state, t);
+        CLEANUP(free_memory) double *sum = calloc((size_t)soft.n_springs, sizeof *sum);
+        assert_non_null(sum);
+        for (dem_index t = 0; t < soft.n_triangles; t++)
+            for (dem_index p = s.state.row[t]; p < s.state.row[t + 1] && !s.state.triangle[t]; p++)
+                sum[s.state.spring[p]] += s.state.share[p] * softening_left(soft.softening[t], s.state.level[t]);
+        for (dem_index k = 0; k < soft.n_springs; k++) {
+            assert_close(s.state.tension[k], sum[k], 4e-16);
+            assert_true(s.state.tension[k] <= s.state.integrity[k]);
+            assert_int_equal(s.state.tension[k] == 0.0, s.state.integrity[k] == 0.0);
+        }
+    }
+}
+
+/* To the bit, as of breaks alone. */
+TEST(the_order_of_softening_does_not_matter)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(close_subject) subject s, other;
+        dem_lattice soft = solid_of(kind), same = solid_of(kind);
+        make_soft(&soft);
+        make_soft(&same);
+        open_subject(&s, soft);
+        open_subject(&other, same);
+        for (dem_index t = 0; t < soft.n_triangles; t++) {
+            weaken_some(&s.state, t);
+            weaken_some(&other.state, soft.n_triangles - 1 - t);
+        }
+        assert_same_state(&s, &other);
+    }
+}
+
+TEST(softening_is_taken_back_to_the_bit)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(close_subject) subject s, other;
+        dem_lattice soft = solid_of(kind), same = solid_of(kind);
+        make_soft(&soft);
+        make_soft(&same);
+        open_subject(&s, soft);
+        open_subject(&other, same);
+        const dem_index n = soft.n_triangles;
+        for (dem_index t = 0; t < n; t += 3) weaken_some(&s.state, t);
+        for (dem_index t = 0; t < n; t += 3) weaken_some(&other.state, t);
+        const dem_index n_damaged = s.state.n_damaged;
+        for (dem_index t = 0; t < n; t++) {
+            if (s.state.triangle[t] || t % 2 == 0 || element_state_is_last(&s.state, t))
+                element_state_break(&s.state, t);
+            else
+                element_state_soften(&s.state, t);
+        }
+        for (dem_index t = n - 1; t >= 0; t--)
+            if (s.state.triangle[t] != other.state.triangle[t] || s.state.level[t] != other.state.level[t])
+                element_state_mend(&s.state, t);
+        element_state_forget_nodes(&s.state, n_damaged);
+        assert_same_state(&s, &other);
+    }
+}
+
 /* With the triangles all of their springs go, of any shape and material. */
 TEST(nothing_is_left_without_triangles)
 {
@@ -150,8 +246,8 @@ TEST(all_are_whole_at_first)
 TEST(no_state_is_one_of_whole_elements)
 {
     assert_null(element_state_at(NULL, 3));
-    assert_null(element_state_springs(NULL));
-    assert_null(element_state_triangles(NULL));
+    assert_null(element_state_springs(NULL).pushed);
+    assert_null(element_state_triangles(NULL).broken);
 }
 
 /* The triangle that is left is beside all nodes of its own; the fourth one has lost all it had. */
@@ -170,8 +266,8 @@ TEST(a_node_beside_what_is_broken_is_listed_once)
     }
     assert_int_equal(n_half, 1);
     assert_int_equal(n_gone, 2);
-    assert_ptr_equal(element_state_springs(&s.state), s.state.integrity);
-    assert_ptr_equal(element_state_triangles(&s.state), s.state.triangle);
+    assert_ptr_equal(element_state_springs(&s.state).pushed, s.state.integrity);
+    assert_ptr_equal(element_state_triangles(&s.state).broken, s.state.triangle);
 }
 
 /* A chain: no triangle holds its springs. */

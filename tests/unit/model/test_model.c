@@ -475,7 +475,7 @@ TEST(force_and_weight_are_minus_the_gradient_of_the_energy_at_a_node)
     const forces acting = {.model = model, .gravity = {gravity[0], gravity[1]}};
     memcpy(x, s.x, sizeof x);
     x[5] = 0.1;
-    assert_true(triangles_node_energy(&model->triangles, NULL, 2, x) > 1.0);
+    assert_true(triangles_node_energy(&model->triangles, TRIANGLES_WHOLE, 2, x) > 1.0);
     for (dem_index i = 0; i < n_nodes; i++) {
         const vec2 a = forces_acceleration(&acting, i, x, v), force = forces_of_elements(&acting, i, x, v);
         for (int k = 0; k < 2; k++) {

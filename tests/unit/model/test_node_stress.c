@@ -43,8 +43,8 @@ TEST(it_is_the_stress_of_the_solid_without_the_broken_triangles)
         for (dem_index i = 0; i < whole.n_nodes; i++) {
             const dem_index same = same_node(&cut, &whole.x[2 * i]);
             double stress[3], expected[3] = {0.0};
-            node_stress(model, &state, i, x, stress);
-            if (same >= 0) node_stress(cut_model, NULL, same, cut_x, expected);
+            node_stress(model, &state, NODE_STRESS_CARRIED, i, x, stress);
+            if (same >= 0) node_stress(cut_model, NULL, NODE_STRESS_CARRIED, same, cut_x, expected);
             for (int k = 0; k < 3; k++) assert_close(stress[k], expected[k], 1e-8);
             assert_int_equal(same >= 0, stress[0] != 0.0);
             n_without += same < 0;
@@ -80,9 +80,53 @@ TEST(it_is_the_mean_of_its_triangles)
         }
         for (dem_index i = 0; i < whole.n_nodes; i++) {
             double stress[3];
-            node_stress(model, &state, i, x, stress);
+            node_stress(model, &state, NODE_STRESS_CARRIED, i, x, stress);
             for (int k = 0; k < 3; k++)
                 assert_close(stress[k], sum[4 * i + 3] > 0.0 ? sum[4 * i + k] / sum[4 * i + 3] : 0.0, 1e-8);
+        }
+    }
+}
+
+/* Stretched in all directions, every part of a triangle is in tension: a node carries the mean of its triangles' effective
+ * stresses times what is left of them. Squeezed, it carries all. */
+TEST(softened_triangles_carry_what_is_left_in_tension)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(dem_lattice_free) dem_lattice soft = solid_of(kind);
+        CLEANUP(free_model) dem_model *model = NULL;
+        CLEANUP(element_state_destroy) element_state state;
+        soft.softening = malloc((size_t)soft.n_triangles * sizeof *soft.softening);
+        CLEANUP(free_memory) double *x = calloc(2 * (size_t)soft.n_nodes, sizeof *x);
+        CLEANUP(free_memory) double *sum = calloc(4 * (size_t)soft.n_nodes, sizeof *sum);
+        assert_true(soft.softening && x && sum);
+        for (dem_index t = 0; t < soft.n_triangles; t++) soft.softening[t] = 3.0;
+        assert_ok(dem_model_create(&model, &soft, NULL, 0));
+        assert_ok(element_state_create(&state, &model->lattice, &model->springs));
+        for (dem_index t = 0; t < soft.n_triangles; t++)
+            for (int k = 0; k < 1 + (int)(t % 16); k++) element_state_soften(&state, t);
+        for (int sign = -1; sign <= 1; sign += 2) {
+            memset(sum, 0, 4 * (size_t)soft.n_nodes * sizeof *sum);
+            for (dem_index c = 0; c < 2 * soft.n_nodes; c++) x[c] = soft.x[c] * (1.0 + sign * strain_size);
+            for (dem_index t = 0; t < soft.n_triangles; t++) {
+                const double left = sign > 0 ? softening_left(3.0, 1 + (int)(t % 16)) : 1.0;
+                double own[3];
+                node_stress_of_triangle(model, &state, t, x, own);
+                for (int c = 0; c < 3; c++) {
+                    double *at = &sum[4 * soft.triangles[3 * t + c]];
+                    for (int k = 0; k < 3; k++) at[k] += left * spring_share_volume(&soft, t) * own[k];
+                    at[3] += spring_share_volume(&soft, t);
+                }
+            }
+            for (dem_index i = 0; i < soft.n_nodes; i++) {
+                double stress[3], effective[3], whole[3];
+                node_stress(model, &state, NODE_STRESS_CARRIED, i, x, stress);
+                node_stress(model, &state, NODE_STRESS_EFFECTIVE, i, x, effective);
+                node_stress(model, NULL, NODE_STRESS_CARRIED, i, x, whole);
+                for (int k = 0; k < 3; k++) {
+                    if (kind != COUPLED || sign > 0) assert_close(stress[k], sum[4 * i + k] / sum[4 * i + 3], 1e-8);
+                    assert_close(effective[k], whole[k], 1e-8);
+                }
+            }
         }
     }
 }
@@ -102,8 +146,8 @@ TEST(elsewhere_nothing_changes)
     element_state_break_triangle(&state, whole.n_triangles / 2);
     for (dem_index i = 0; i < whole.n_nodes; i++) {
         double stress[3], before[3];
-        node_stress(model, &state, i, x, stress);
-        node_stress(model, NULL, i, x, before);
+        node_stress(model, &state, NODE_STRESS_CARRIED, i, x, stress);
+        node_stress(model, NULL, NODE_STRESS_CARRIED, i, x, before);
         n_changed += memcmp(stress, before, sizeof stress) != 0;
     }
     assert_int_equal(n_changed, 3); /* its corners; its other nodes keep the stresses of their own triangles */
@@ -148,15 +192,15 @@ TEST(a_bar_that_no_triangle_holds_counts_as_before)
     CLEANUP(element_state_destroy) element_state state;
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
     assert_ok(element_state_create(&state, &model->lattice, &model->springs));
-    node_stress(model, &state, node, lattice.x, stress);
+    node_stress(model, &state, NODE_STRESS_CARRIED, node, lattice.x, stress);
     assert_close(stress[0] * volume_at(&lattice, &state, node), 1e6, 1e-3);
     for (dem_index k = 0; k < 3 * lattice.n_triangles; k++)
         if (lattice.triangles[k] == node) triangle = k / 3;
     element_state_break_triangle(&state, triangle);
-    node_stress(model, &state, node, lattice.x, stress);
+    node_stress(model, &state, NODE_STRESS_CARRIED, node, lattice.x, stress);
     assert_close(stress[0] * volume_at(&lattice, &state, node), 1e6, 1e-3);
     assert_close(stress[1], 0.0, 1e-3);
     element_state_break_spring(&state, lattice.n_springs - 1);
-    node_stress(model, &state, node, lattice.x, stress);
+    node_stress(model, &state, NODE_STRESS_CARRIED, node, lattice.x, stress);
     assert_close(stress[0], 0.0, 1e-3);
 }
