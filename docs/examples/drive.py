@@ -27,7 +27,8 @@ class dem_material(Sized):
     _fields_ = [("struct_size", c_size_t), ("youngs_modulus", c_double), ("bond_stiffness", c_double),
                 ("poissons_ratio", c_double), ("plane", c_int), ("density", c_double),
                 ("thickness", c_double), ("guard", c_double), ("damping_time", c_double),
-                ("springs", c_int), ("strength", c_double), ("critical_stretch", c_double)]
+                ("springs", c_int), ("strength", c_double), ("critical_stretch", c_double),
+                ("fracture_energy", c_double)]
 
 
 class dem_lattice(Sized):

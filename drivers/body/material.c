@@ -32,12 +32,14 @@ dem_material material_of(const schema_deck *groups, const schema_instance *user)
                           .damping_time = schema_real(m, "damping_time"),
                           .springs = coupled ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT,
                           .strength = schema_real(m, "strength"),
-                          .critical_stretch = schema_real(m, "critical_stretch")};
+                          .critical_stretch = schema_real(m, "critical_stretch"),
+                          .fracture_energy = schema_real(m, "fracture_energy")};
 }
 
 /* ---- checks ---- */
 
-static const conditional_key limits[] = {{"strength", "stress", true}, {"critical_stretch", "stretch", true}};
+static const conditional_key limits[] = {
+    {"strength", "stress", false}, {"fracture_energy", "stress", false}, {"critical_stretch", "stretch", true}};
 static const conditional_keys by_fracture = {
     .group = "material", .by = "fracture", .keys = limits, .n = sizeof limits / sizeof *limits};
 
@@ -91,6 +93,21 @@ static void check_stiffness(const schema_instance *material, namelist_errors *er
                                 "'%s' in &material does not go with 'bond_stiffness'", unused[k]);
 }
 
+/* By stress: one of both at least. A fracture energy needs E. */
+static void check_limits(const schema_instance *material, namelist_errors *errors)
+{
+    const schema_value *strength = schema_value_of(material, "strength"),
+                       *energy = schema_value_of(material, "fracture_energy");
+    if (schema_is(material, "fracture", "stress") && !strength->given && !energy->given && !strength->faulty &&
+        !energy->faulty)
+        namelist_errors_add(errors, material->place,
+                            "'strength' or 'fracture_energy' in &material must be given for fracture 'stress'");
+    if (energy->given && schema_given(material, "bond_stiffness"))
+        namelist_errors_add(errors, energy->place,
+                            "'fracture_energy' in &material does not go with 'bond_stiffness': it needs "
+                            "'youngs_modulus'");
+}
+
 static void check_name(const schema_deck *groups, const schema_instance *material, namelist_errors *errors)
 {
     const schema_instance *first = material_find(groups, schema_text(material, "name"));
@@ -116,6 +133,7 @@ void material_check_all(const schema_deck *groups, namelist_errors *errors)
         check_stiffness(material, errors);
         check_ratio(material, errors);
         conditional_keys_check(material, &by_fracture, errors);
+        check_limits(material, errors);
     }
 }
 

@@ -49,6 +49,10 @@ static const schema_key material_keys[] = {
      NULL},
     {"strength", SCHEMA_REAL, 1, 1, "Pa", NONE, "> 0", NULL, PHYSICS,
      "With fracture 'stress': largest principal stress that a triangle stands, mean of its corners.", NONE},
+    {"fracture_energy", SCHEMA_REAL, 1, 1, "J/m^2", NONE, "> 0", NULL, PHYSICS,
+     "With fracture 'stress': energy that a crack takes for its area. Alone it gives the strength of brittle triangles "
+     "by the spacing; with 'strength' triangles soften.",
+     NONE},
     {"critical_stretch", SCHEMA_REAL, 1, 1, "-", NONE, "> 0", NULL, PHYSICS,
      "With fracture 'stretch': strain at which a spring breaks.", NONE},
     {"friction", SCHEMA_REAL, 1, 1, "-", NONE, ">= 0", NULL, PHYSICS,

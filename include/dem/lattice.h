@@ -44,6 +44,9 @@ typedef struct dem_material {
     dem_springs springs;     /**< of triangles; coupled ones go neither with bond_stiffness nor with cells */
     double strength;         /**< Pa, >= 0: of its triangles; 0: none breaks by its stress */
     double critical_stretch; /**< >= 0: strain at which its springs break; 0: none does */
+    double fracture_energy;  /**< G_f, J/m^2, >= 0, that a crack takes for its area; 0: what follows from the strength.
+                                  Without a strength triangles are brittle, with one that follows from it; with both
+                                  they soften. Neither with critical_stretch nor with bond_stiffness */
 } dem_material;
 
 enum {
@@ -155,7 +158,9 @@ DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edg
  *  With coupled springs the triangles that are not equilateral get other stiffnesses, and couplings, such that any
  *  block of triangles has exactly E and nu.
  *  With a damping time each spring gets the viscosity damping_time times its stiffness. A strength and a critical
- *  stretch are written beside every triangle and spring; without them those that the lattice has stay.          (1) */
+ *  stretch are written beside every triangle and spring; without them those that the lattice has stay.          (1)
+ *  \return DEM_ERROR_ARGUMENT where triangles are too large for their strength and fracture energy: the edge of an
+ *  equilateral one of their mean area may be E G_f/(3.4 strength^2) at most */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
 
 /** The same for cells of two triangles each, 2 k and 2 k + 1, that make a convex quadrilateral; both its diagonals are

@@ -116,12 +116,12 @@ module dem_c
   end enum
 
   type, bind(c) :: dem_material
-    integer(c_size_t) :: struct_size = 96
+    integer(c_size_t) :: struct_size = 104
     real(c_double) :: youngs_modulus = 0, bond_stiffness = 0, poissons_ratio = 0
     integer(dem_plane) :: plane = 0
     real(c_double) :: density = 0, thickness = 0, guard = 0, damping_time = 0
     integer(dem_springs) :: springs = 0
-    real(c_double) :: strength = 0, critical_stretch = 0
+    real(c_double) :: strength = 0, critical_stretch = 0, fracture_energy = 0
   end type
 
   type, bind(c) :: dem_lattice

@@ -15,6 +15,7 @@
 #include "base/status.h"
 #include "base/struct_size.h"
 #include "base/vec2.h"
+#include "lattice/crack_band.h"
 #include "lattice/lattice.h"
 #include "lattice/triangle_share.h"
 
@@ -63,6 +64,11 @@ static dem_status check_material(const dem_material *m)
     CHECK(isfinite(m->strength) && m->strength >= 0.0, DEM_ERROR_ARGUMENT, "strength must be >= 0: %g Pa", m->strength);
     CHECK(isfinite(m->critical_stretch) && m->critical_stretch >= 0.0, DEM_ERROR_ARGUMENT,
           "critical_stretch must be >= 0: %g", m->critical_stretch);
+    CHECK(isfinite(m->fracture_energy) && m->fracture_energy >= 0.0, DEM_ERROR_ARGUMENT,
+          "fracture_energy must be >= 0: %g J/m^2", m->fracture_energy);
+    CHECK(m->fracture_energy == 0.0 || (m->critical_stretch == 0.0 && m->bond_stiffness == 0.0), DEM_ERROR_ARGUMENT,
+          "a fracture energy, %g J/m^2, goes neither with a critical stretch nor with a bond stiffness",
+          m->fracture_energy);
     return DEM_OK;
 }
 
@@ -297,21 +303,12 @@ static void make_equal(dem_lattice *solid, const dem_material *m)
     }
 }
 
-/* An array of zeros becomes NULL, which stands for "none": later code then skips damping, guard or area term
- * altogether. */
-static void drop_zeros(double **array, dem_index n)
+/* An array of which all items are the usual number, 0 or "never", becomes NULL, which stands for it: later code then
+ * skips damping, guard, area term or fracture altogether. */
+static void drop_equal(double **array, dem_index n, double usual)
 {
     for (dem_index k = 0; k < n; k++)
-        if ((*array)[k] != 0.0) return;
-    free(*array);
-    *array = NULL;
-}
-
-/* The same of limits of which none is ever reached. */
-static void drop_infinities(double **array, dem_index n)
-{
-    for (dem_index k = 0; k < n; k++)
-        if (isfinite((*array)[k])) return;
+        if ((*array)[k] != usual) return;
     free(*array);
     *array = NULL;
 }
@@ -345,8 +342,8 @@ static dem_status fill_springs(draft *d)
         s->critical_stretch[k] = fmin(s->critical_stretch[k], here->critical_stretch);
     }
     make_equal(s, d->materials);
-    drop_zeros(&s->viscosity, s->n_springs);
-    drop_infinities(&s->critical_stretch, s->n_springs);
+    drop_equal(&s->viscosity, s->n_springs, 0.0);
+    drop_equal(&s->critical_stretch, s->n_springs, (double)INFINITY);
     return DEM_OK;
 }
 
@@ -385,6 +382,46 @@ static void fill_couplings(draft *d)
     }
 }
 
+/* The modulus of the plate in plane stress that moves like the solid, Pa. */
+static double plate_modulus(const dem_material *m)
+{
+    return plate_of(m).modulus / m->thickness;
+}
+
+/* Strength and softening of a triangle. */
+static void limit_triangle(draft *d, dem_index t)
+{
+    const dem_material *m = material_of(d, t);
+    const dem_index *c = d->lattice->triangles + 3 * t;
+    const double modulus = plate_modulus(m), energy = m->fracture_energy;
+    const double size = crack_band_size(area_of(d->lattice, c[0], c[1], c[2]));
+    d->solid.strength[t] = limit_or_never(m->strength);
+    d->solid.softening[t] = 1.0;
+    if (energy > 0.0 && m->strength > 0.0)
+        d->solid.softening[t] = crack_band_softening(modulus, energy, m->strength, size);
+    else if (energy > 0.0)
+        d->solid.strength[t] = crack_band_strength(modulus, energy, size);
+}
+
+/* What breaks triangles by their stress. */
+static dem_status fill_limits(draft *d)
+{
+    const dem_index n = d->lattice->n_triangles;
+    dem_lattice *s = &d->solid;
+    s->strength = lattice_zeros(n, sizeof *s->strength);
+    s->softening = lattice_zeros(n, sizeof *s->softening);
+    CHECK(s->strength && s->softening, DEM_ERROR_MEMORY, "out of memory for the strengths of %lld triangles",
+          (long long)n);
+    for (dem_index t = 0; t < n; t++) limit_triangle(d, t);
+    drop_equal(&s->strength, n, (double)INFINITY);
+    drop_equal(&s->softening, n, 1.0);
+    CHECK((s->strength == NULL && s->critical_stretch == NULL) || lattice_has_limits(d->lattice), DEM_ERROR_ARGUMENT,
+          "dem_lattice: struct_size is %zu, without room for strengths", d->lattice->struct_size);
+    CHECK(s->softening == NULL || lattice_has_softening(d->lattice), DEM_ERROR_ARGUMENT,
+          "dem_lattice: struct_size is %zu, without room for softening", d->lattice->struct_size);
+    return DEM_OK;
+}
+
 /* Guard, area term, couplings, thickness and the modulus by which stresses share springs out (model/stress.c). */
 static dem_status fill_triangles(draft *d)
 {
@@ -395,8 +432,7 @@ static dem_status fill_triangles(draft *d)
     s->thickness = lattice_zeros(n, sizeof *s->thickness);
     s->modulus = lattice_zeros(n, sizeof *s->modulus);
     s->coupling = lattice_zeros(3 * n, sizeof *s->coupling);
-    s->strength = lattice_zeros(n, sizeof *s->strength);
-    CHECK(s->guard && s->area_stiffness && s->thickness && s->modulus && s->coupling && s->strength, DEM_ERROR_MEMORY,
+    CHECK(s->guard && s->area_stiffness && s->thickness && s->modulus && s->coupling, DEM_ERROR_MEMORY,
           "out of memory for %lld triangles", (long long)n);
     for (dem_index t = 0; t < n; t++) {
         const dem_material *m = material_of(d, t);
@@ -405,18 +441,15 @@ static dem_status fill_triangles(draft *d)
         s->thickness[t] = m->thickness;
         /* Triangles share the stress of a spring as they have given to its stiffness: by (8/3) G h A. */
         s->modulus[t] = spring_modulus(plate_of(m)) / m->thickness;
-        s->strength[t] = limit_or_never(m->strength);
     }
+    TRY(fill_limits(d));
     fill_couplings(d);
-    drop_zeros(&s->coupling, 3 * n);
+    drop_equal(&s->coupling, 3 * n, 0.0);
     CHECK(s->coupling == NULL || lattice_has_couplings(d->lattice), DEM_ERROR_ARGUMENT,
           "dem_lattice: struct_size is %zu, without room for couplings", d->lattice->struct_size);
-    drop_zeros(&s->guard, n);
-    drop_zeros(&s->area_stiffness, n);
-    drop_zeros(&s->modulus, n);
-    drop_infinities(&s->strength, n);
-    CHECK((s->strength == NULL && s->critical_stretch == NULL) || lattice_has_limits(d->lattice), DEM_ERROR_ARGUMENT,
-          "dem_lattice: struct_size is %zu, without room for strengths", d->lattice->struct_size);
+    drop_equal(&s->guard, n, 0.0);
+    drop_equal(&s->area_stiffness, n, 0.0);
+    drop_equal(&s->modulus, n, 0.0);
     return DEM_OK;
 }
 
@@ -445,6 +478,7 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     swap(&lattice->thickness, &solid->thickness);
     swap(&lattice->modulus, &solid->modulus);
     if (lattice_has_couplings(lattice)) swap(&lattice->coupling, &solid->coupling);
+    if (solid->strength != NULL && lattice_has_softening(lattice)) swap(&lattice->softening, &solid->softening);
     if (solid->strength != NULL) swap(&lattice->strength, &solid->strength);
     if (solid->critical_stretch != NULL) swap(&lattice->critical_stretch, &solid->critical_stretch);
 }
@@ -480,6 +514,36 @@ static dem_status check_materials(const draft *d, dem_index n_materials)
     return DEM_OK;
 }
 
+/* The edge of an equilateral triangle of the mean area of those of a material, m; 0 if there are none. */
+static double mean_size(const draft *d, const dem_material *m)
+{
+    const dem_index *c = d->lattice->triangles;
+    double sum = 0.0;
+    dem_index n = 0;
+    for (dem_index t = 0; t < d->lattice->n_triangles; t++) {
+        if (material_of(d, t) != m) continue;
+        sum += area_of(d->lattice, c[3 * t], c[3 * t + 1], c[3 * t + 2]);
+        n++;
+    }
+    return n > 0 ? crack_band_size(sum / (double)n) : 0.0;
+}
+
+/* Strength and fracture energy together need small triangles. */
+static dem_status check_sizes(const draft *d, dem_index n_materials)
+{
+    for (dem_index k = 0; k < n_materials; k++) {
+        const dem_material *m = &d->materials[k];
+        if (!(m->fracture_energy > 0.0 && m->strength > 0.0)) continue;
+        const double size = mean_size(d, m);
+        const double coarsest = crack_band_coarsest(plate_modulus(m), m->fracture_energy, m->strength);
+        CHECK(size <= coarsest, DEM_ERROR_ARGUMENT,
+              "triangles with edges of %g m are too large for a strength of %g Pa and a fracture energy of %g J/m^2, "
+              "which need %g m at most",
+              size, m->strength, m->fracture_energy, coarsest);
+    }
+    return DEM_OK;
+}
+
 /* Springs that are there already would be lost, since assembling makes all of them. */
 static dem_status check_lattice(const dem_lattice *lattice, bool cells)
 {
@@ -497,6 +561,7 @@ static dem_status assemble(dem_lattice *lattice, draft *d, dem_index n_materials
 {
     TRY(check_lattice(d->lattice, d->cells));
     TRY(check_materials(d, n_materials));
+    TRY(check_sizes(d, n_materials));
     d->solid = dem_lattice_empty();
     const dem_status status = draw(d);
     if (status == DEM_OK) give(lattice, &d->solid);

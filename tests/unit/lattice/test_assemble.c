@@ -512,3 +512,59 @@ TEST(limits_are_those_of_the_materials)
     of[0].critical_stretch = NAN;
     assert_int_equal(dem_lattice_assemble(&other, &of[0]), DEM_ERROR_ARGUMENT);
 }
+
+/* Alone a fracture energy gives each triangle a strength by its own size, with a strength it gives it a softening. Plane
+ * strain is a plate of E/(1 - nu^2). */
+TEST(a_fracture_energy_gives_strength_or_softening)
+{
+    dem_material glass = {.struct_size = sizeof(dem_material),
+                          .youngs_modulus = 72e9,
+                          .poissons_ratio = 0.22,
+                          .plane = DEM_PLANE_STRAIN,
+                          .density = 2440.0,
+                          .thickness = 0.01,
+                          .fracture_energy = 8.0};
+    const double modulus = 72e9 / (1.0 - 0.22 * 0.22), edge = 1e-5;
+    CLEANUP(dem_lattice_free) dem_lattice brittle = dem_lattice_empty(), soft = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&brittle, 10.0 * edge, 10.0 * edge, edge), DEM_OK);
+    assert_int_equal(dem_lattice_jitter(&brittle, 0.2 * edge, 3), DEM_OK);
+    assert_int_equal(dem_lattice_append(&soft, &brittle), DEM_OK);
+    assert_int_equal(dem_lattice_assemble(&brittle, &glass), DEM_OK);
+    glass.strength = 60e6;
+    assert_int_equal(dem_lattice_assemble(&soft, &glass), DEM_OK);
+    assert_null(brittle.softening);
+    for (dem_index t = 0; t < soft.n_triangles; t++) {
+        const double area = area_of(&soft, t), size = sqrt(4.0 * area / sqrt(3.0));
+        assert_close(brittle.strength[t], sqrt(modulus * 8.0 / (3.4 * size)), 1e-14 * brittle.strength[t]);
+        assert_close(soft.strength[t], 60e6, 0.0);
+        assert_close(soft.softening[t], (modulus * 8.0 / (60e6 * 60e6 * size) - 1.9) / 1.03, 1e-12 * soft.softening[t]);
+    }
+}
+
+/* 3.4 times the size that would have this strength and this energy is the length E G/strength^2, here 5 a in the mean. */
+TEST(triangles_too_large_for_strength_and_fracture_energy_are_refused)
+{
+    dem_material glass = {.struct_size = sizeof(dem_material),
+                          .youngs_modulus = 1e10,
+                          .density = 2440.0,
+                          .thickness = 1.0,
+                          .strength = 1e7,
+                          .fracture_energy = 2e4};
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&block, 5.0, 5.0, 1.0), DEM_OK);
+    assert_refused(
+        dem_lattice_assemble(&block, &glass), DEM_ERROR_ARGUMENT,
+        "triangles with edges of 1 m are too large for a strength of 1e+07 Pa and a fracture energy of 20000 "
+        "J/m^2 * 0.588235 m at most");
+    glass.strength = 5e6;
+    assert_int_equal(dem_lattice_assemble(&block, &glass), DEM_OK);
+    assert_close(block.softening[0], (8.0 - 1.9) / 1.03, 1e-12);
+    glass.fracture_energy = -1.0;
+    assert_refused(dem_lattice_assemble(&block, &glass), DEM_ERROR_MODEL, "already has");
+    CLEANUP(dem_lattice_free) dem_lattice other = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&other, 5.0, 5.0, 1.0), DEM_OK);
+    assert_refused(dem_lattice_assemble(&other, &glass), DEM_ERROR_ARGUMENT, "fracture_energy must be >= 0");
+    glass.fracture_energy = 1.0;
+    glass.critical_stretch = 0.1;
+    assert_refused(dem_lattice_assemble(&other, &glass), DEM_ERROR_ARGUMENT, "neither with a critical stretch");
+}

@@ -80,7 +80,13 @@ TEST(a_limit_goes_with_its_kind_of_fracture)
     assert_checked(RAW "fracture = 'stress', strength = 1e5 /\n" BODY, "");
     assert_checked(RAW "fracture = 'stretch', critical_stretch = 0.1 /\n" BODY, "");
     assert_checked(RAW "fracture = 'stress' /\n" BODY,
-                   "2:1 'strength' in &material must be given for fracture 'stress'");
+                   "2:1 'strength' or 'fracture_energy' in &material must be given for fracture 'stress'");
+    assert_checked(RAW "fracture = 'stress', fracture_energy = 10 /\n" BODY, "");
+    assert_checked(RAW "fracture = 'stretch', critical_stretch = 0.1,\nfracture_energy = 10 /\n" BODY,
+                   "3:1 'fracture_energy' in &material is not used by fracture 'stretch'");
+    assert_checked(RUN "&material name = 'rubber', bond_stiffness = 1, density = 1, fracture = 'stress',\n"
+                       "fracture_energy = 10 /\n" BODY,
+                   "3:1 'fracture_energy' in &material does not go with 'bond_stiffness': it needs 'youngs_modulus'");
     assert_checked(RAW "\nstrength = 1e5 /\n" BODY, "3:1 'strength' in &material is not used by fracture 'none'");
     assert_checked(RAW "fracture = 'stretch', critical_stretch = 0.1,\nstrength = 1e5 /\n" BODY,
                    "3:1 'strength' in &material is not used by fracture 'stretch'");

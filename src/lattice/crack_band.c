@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The energy G that a crack takes for its area is a number of the lattice. It was measured, in strips whose sides are
+ * parted (tests/verification/test_strip.c), as
+ *     G E/(strength^2 a) = 3.4               of brittle triangles,
+ *                          1.9 + 1.03 q      where they soften, from q = 2 on,
+ * and in between a straight line joins the two. */
+#include "lattice/crack_band.h"
+
+#include <math.h>
+
+static const double brittle = 3.4, offset = 1.9, slope = 1.03, joint = 2.0;
+
+double crack_band_size(double area)
+{
+    return sqrt(4.0 * area / sqrt(3.0));
+}
+
+double crack_band_strength(double modulus, double fracture_energy, double size)
+{
+    return sqrt(modulus * fracture_energy / (brittle * size));
+}
+
+double crack_band_coarsest(double modulus, double fracture_energy, double strength)
+{
+    return modulus * fracture_energy / (strength * strength) / brittle;
+}
+
+double crack_band_softening(double modulus, double fracture_energy, double strength, double size)
+{
+    const double toughness = modulus * fracture_energy / (strength * strength * size),
+                 at_joint = offset + slope * joint;
+    if (toughness >= at_joint) return (toughness - offset) / slope;
+    return fmax(1.0 + (joint - 1.0) * (toughness - brittle) / (at_joint - brittle), 1.0);
+}

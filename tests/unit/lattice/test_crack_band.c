@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* crack_band.c: that strengths and softening give back the fracture energy that they are made from. */
+#include "verification/support.h"
+
+#include "lattice/crack_band.h"
+
+static const double modulus = 72e9, strength = 60e6; /* Pa */
+
+/* G E/(strength^2 a) of docs/fracture.md. */
+static double toughness(double energy, double of_strength, double size)
+{
+    return energy * modulus / (of_strength * of_strength * size);
+}
+
+TEST(the_size_is_the_edge_of_an_equilateral_triangle)
+{
+    assert_close(crack_band_size(0.25 * sqrt(3.0) * 0.02 * 0.02), 0.02, 1e-17);
+}
+
+TEST(a_brittle_lattice_has_a_toughness_of_3_4)
+{
+    const double energy = 8.0, size = 1e-3;
+    assert_close(toughness(energy, crack_band_strength(modulus, energy, size), size), 3.4, 1e-14);
+}
+
+/* From q = 2 on 1.9 + 1.03 q, 1 at the coarsest lattice and beyond it, and no step in between. */
+TEST(softening_has_the_toughness_that_was_measured)
+{
+    const double energy = 2.0, coarsest = crack_band_coarsest(modulus, energy, strength);
+    double last = 1.0;
+    assert_close(toughness(energy, strength, coarsest), 3.4, 1e-14);
+    assert_close(crack_band_softening(modulus, energy, strength, 1.5 * coarsest), 1.0, 0.0);
+    assert_close(crack_band_softening(modulus, energy, strength, coarsest), 1.0, 1e-14);
+    for (double size = coarsest; size > 0.05 * coarsest; size *= 0.99) {
+        const double q = crack_band_softening(modulus, energy, strength, size);
+        assert_true(q >= last &&
+                    q < last + 0.075 * q); /* 1 % of the size is at most 0.04 times 1.8 of q near the joint */
+        if (q >= 2.0) assert_close(1.9 + 1.03 * q, toughness(energy, strength, size), 1e-12 * q);
+        last = q;
+    }
+    assert_true(last > 30.0);
+}
