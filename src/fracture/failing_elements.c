@@ -38,20 +38,21 @@ static bool is_corner(const dem_lattice *l, dem_index triangle, dem_index node)
     return node == corner[0] || node == corner[1] || node == corner[2];
 }
 
-/* Whether a triangle is half of a cell: it holds the second diagonal, which is none of its sides. */
-static bool is_of_cell(const element_state *s, dem_index triangle)
+/* The other half of a cell holds the second diagonal, too, whose ends are no corners of both: as long as it is whole. */
+static void add_other_half(failing_elements *f, const element_state *s, dem_index triangle, dem_index diagonal)
 {
-    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
-        for (int end = 0; end < 2; end++)
-            if (!is_corner(s->lattice, triangle, s->lattice->ends[2 * s->spring[p] + end])) return true;
-    return false;
+    for (int end = 0; end < 2; end++) {
+        const dem_index i = s->lattice->ends[2 * diagonal + end];
+        if (is_corner(s->lattice, triangle, i)) continue;
+        for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++)
+            if (element_state_holds(s, s->at[p], diagonal)) append(f, &f->list, &f->n, &f->capacity, s->at[p]);
+    }
 }
 
-/* The triangles of a cell have numbers 2 k and 2 k + 1. */
 static void add_triangle(failing_elements *f, const element_state *s, dem_index triangle)
 {
     append(f, &f->list, &f->n, &f->capacity, triangle);
-    if (is_of_cell(s, triangle)) append(f, &f->list, &f->n, &f->capacity, triangle ^ 1);
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) add_other_half(f, s, triangle, s->spring[p]);
 }
 
 /* A triangle that holds a spring has at least one of its ends as a corner. */

@@ -450,6 +450,30 @@ TEST(both_triangles_of_a_cell_break)
     for (dem_index t = 0; t < squares.n_triangles; t += 2) assert_int_equal(triangle[t], triangle[t + 1]);
 }
 
+/* Numbers of triangles tell nothing of cells where a body of one triangle comes first. */
+TEST(both_halves_of_a_cell_break_behind_a_triangle)
+{
+    unsigned char triangle[512], spring[1024];
+    CLEANUP(dem_lattice_free) dem_lattice body = dem_lattice_empty(), squares = dem_lattice_empty();
+    body.n_nodes = 3;
+    body.n_triangles = 1;
+    body.x = malloc(6 * sizeof *body.x);
+    body.triangles = malloc(3 * sizeof *body.triangles);
+    assert_true(body.x != NULL && body.triangles != NULL);
+    memcpy(body.x, (const double[6]){1.0, 0.0, 1.005, 0.0, 1.0, 0.005}, 6 * sizeof *body.x);
+    memcpy(body.triangles, (const dem_index[3]){0, 1, 2}, 3 * sizeof *body.triangles);
+    assert_ok(dem_lattice_assemble(&body, &rubber));
+    assert_ok(dem_lattice_squares(&squares, 0.04, 0.06, 0.005));
+    assert_ok(dem_lattice_assemble_squares(&squares, &rubber, 0.5));
+    assert_ok(dem_lattice_append(&body, &squares));
+    assert_true(body.n_triangles <= 512 && body.n_springs <= 1024);
+    body.strength = equal(body.n_triangles, INFINITY);
+    for (dem_index t = 1; t < body.n_triangles; t += 6) body.strength[t + t / 6 % 2] = 2e5;
+    assert_true(stretch(&body, triangle, spring) > 10);
+    assert_int_equal(triangle[0], 0);
+    for (dem_index t = 1; t < body.n_triangles; t += 2) assert_int_equal(triangle[t], triangle[t + 1]);
+}
+
 TEST(a_spring_takes_its_triangles_along)
 {
     unsigned char triangle[512], spring[1024];
