@@ -200,7 +200,8 @@ static dem_status check_list(const char *what, const dem_index *list, dem_index 
     return DEM_OK;
 }
 
-/* All that can be refused is refused before anything is replaced. */
+/* All that can be refused is refused before anything is replaced. What breaks by itself later in the step in hand is
+ * taken back first. */
 dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, dem_index n_triangles,
                                 const dem_index *spring, dem_index n_springs)
 {
@@ -210,9 +211,8 @@ dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, de
     CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_break: an advance is under way");
     TRY(check_list("triangles", triangle, n_triangles));
     TRY(check_list("springs", spring, n_springs));
-    dem_status status = break_all(s, &next, triangle, n_triangles, spring, n_springs);
-    if (status == DEM_OK) status = set_motion_take_seen(s, &seen);
-    status = reduce_status(status, 0.0);
+    TRY(set_motion_take_seen(s, &seen));
+    const dem_status status = reduce_status(break_all(s, &next, triangle, n_triangles, spring, n_springs), 0.0);
     if (status != DEM_OK) {
         element_state_destroy(&next);
         return status;

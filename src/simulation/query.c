@@ -222,6 +222,7 @@ dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangl
 {
     TRY(check_given("dem_simulation_broken", s, s));
     const dem_lattice *l = &s->model->lattice;
+    (void)contact_of(s);
     const element_state *elements = s->forces.elements;
     for (dem_index k = 0; k < l->n_triangles && triangle != NULL; k++)
         triangle[k] = elements != NULL && elements->triangle[k];
@@ -234,6 +235,7 @@ dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragme
 {
     TRY(check_given("dem_simulation_fragments", s, n_fragments));
     TRY(check_given("dem_simulation_fragments", s, fragment));
+    (void)contact_of(s);
     *n_fragments = fragments_find(&s->model->lattice, element_state_springs(s->forces.elements).pushed, fragment);
     return DEM_OK;
 }

@@ -68,6 +68,34 @@ TEST(a_pair_breaks_when_it_must)
     }
 }
 
+/* Looks at times of which some are in the step in which the pair breaks later; then a program breaks nothing, and the
+ * pair flies on. */
+TEST(what_breaks_later_in_a_step_is_whole_as_yet)
+{
+    const double broken_at = asin(0.1 * 4.0 / 0.6) / 4.0;
+    for (int k = 1; k <= 30; k++) {
+        const dem_options options = no_weight(1e-12);
+        CLEANUP(support_close) support_run run;
+        dem_index n, fragment[2];
+        unsigned char broken;
+        open_pair(&run, &options);
+        assert_ok(dem_simulation_advance(run.simulation, broken_at - 1e-3 * k));
+        if (k % 2 == 0) {
+            assert_ok(dem_simulation_broken(run.simulation, NULL, &broken));
+            assert_int_equal(broken, 0);
+        } else if (k % 3 == 0) {
+            assert_ok(dem_simulation_fragments(run.simulation, &n, fragment));
+            assert_int_equal(n, 1);
+        }
+        assert_ok(dem_simulation_break(run.simulation, NULL, 0, NULL, 0));
+        assert_ok(dem_simulation_broken(run.simulation, NULL, &broken));
+        assert_int_equal(broken, 0);
+        const motion s = support_at(&run, 1.0);
+        assert_close(s.x[2] - s.x[0], separation(1.0), 1e-10);
+        assert_close(s.energy.fracture, 0.04, 1e-11);
+    }
+}
+
 static double verlet_error(double step)
 {
     dem_options options = no_weight(1e-6);
