@@ -26,9 +26,10 @@ double utilisation_of_stress(double limit, const double a[3], const double b[3],
 double utilisation_of(const dem_model *model, const element_state *elements, dem_index element, const double *x)
 {
     const dem_lattice *l = &model->lattice;
-    const dem_index spring = element - l->n_triangles, *corner = &l->triangles[3 * element];
+    const dem_index spring = element - l->n_triangles;
     double stress[3][3];
     if (spring >= 0) return springs_strain_of(l, spring, x) / l->critical_stretch[spring];
+    const dem_index *corner = &l->triangles[3 * element];
     for (int c = 0; c < 3; c++) node_stress(model, elements, NODE_STRESS_EFFECTIVE, corner[c], x, stress[c]);
     return utilisation_of_stress(utilisation_limit(l, elements, element), stress[0], stress[1], stress[2]);
 }
