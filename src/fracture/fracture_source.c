@@ -415,7 +415,7 @@ static void fracture_source_follow(void *self, const event_place *at)
 }
 
 /* From the last to the first. */
-static void fracture_source_undo(void *self)
+void fracture_source_undo(void *self)
 {
     fracture_source *s = self;
     while (s->n_failed > 0) element_state_mend(s->elements, s->failed[--s->n_failed]);

@@ -60,8 +60,12 @@ static inline bool fracture_source_has_failed(const fracture_source *s)
 double fracture_source_first(fracture_source *s, const dense_output *step, double *state);
 
 /** Then breaks or softens, in the state y of that time, what is due first, and all that is over its limit in
- *  consequence. */
+ *  consequence.
+ *  \return DEM_ERROR_INTEGRATOR if that is too much, DEM_ERROR_MEMORY: some has broken, to be taken back */
 dem_status fracture_source_break(fracture_source *s, const double *y);
+
+/** Takes back all that has broken in the step.  \param self  the source */
+void fracture_source_undo(void *self);
 
 /** `s` must stay where it is. */
 event_source fracture_source_events(fracture_source *s);

@@ -128,8 +128,10 @@ dem_status breaking_end_step(dem_simulation *s)
 {
     if (!s->at_break) return breaking_follow(s, s->path.y1);
     dense_output_state(&s->path, s->path.end, s->frame);
-    TRY(fracture_source_break(&s->breaks, s->frame));
-    return breaking_follow(s, s->frame);
+    dem_status status = fracture_source_break(&s->breaks, s->frame);
+    if (status == DEM_OK) status = breaking_follow(s, s->frame);
+    if (status != DEM_OK) fracture_source_undo(&s->breaks);
+    return status;
 }
 
 /* ---- by the program ---- */
