@@ -13,12 +13,13 @@ void failing_elements_destroy(failing_elements *f)
 {
     free(f->list);
     free(f->nodes);
+    free(f->breaks);
     *f = (failing_elements){0};
 }
 
 void failing_elements_clear(failing_elements *f)
 {
-    f->n = f->n_nodes = 0;
+    f->n = f->n_nodes = f->n_breaking = 0;
     f->status = DEM_OK;
 }
 
@@ -38,21 +39,26 @@ static bool is_corner(const dem_lattice *l, dem_index triangle, dem_index node)
     return node == corner[0] || node == corner[1] || node == corner[2];
 }
 
-/* The other half of a cell holds the second diagonal, too, whose ends are no corners of both: as long as it is whole. */
-static void add_other_half(failing_elements *f, const element_state *s, dem_index triangle, dem_index diagonal)
+/* The other half of the cell of a triangle of which the spring in slot p is the second diagonal: that ends at another
+ * node. -1: the triangle is none, the spring another one, or the other half is broken. */
+static dem_index other_half(const element_state *s, dem_index triangle, dem_index p)
 {
     for (int end = 0; end < 2; end++) {
-        const dem_index i = s->lattice->ends[2 * diagonal + end];
+        const dem_index i = s->lattice->ends[2 * s->spring[p] + end];
         if (is_corner(s->lattice, triangle, i)) continue;
-        for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++)
-            if (element_state_holds(s, s->at[p], diagonal)) append(f, &f->list, &f->n, &f->capacity, s->at[p]);
+        for (dem_index q = s->at_row[i]; q < s->at_row[i + 1]; q++)
+            if (element_state_holds(s, s->at[q], s->spring[p])) return s->at[q];
     }
+    return -1;
 }
 
 static void add_triangle(failing_elements *f, const element_state *s, dem_index triangle)
 {
     append(f, &f->list, &f->n, &f->capacity, triangle);
-    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) add_other_half(f, s, triangle, s->spring[p]);
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
+        const dem_index half = other_half(s, triangle, p);
+        if (half >= 0) append(f, &f->list, &f->n, &f->capacity, half);
+    }
 }
 
 /* A triangle that holds a spring has at least one of its ends as a corner. */
@@ -94,15 +100,37 @@ static dem_index sort(dem_index *list, dem_index n)
     return kept;
 }
 
-void failing_elements_complete(failing_elements *f, const dem_lattice *l)
+/* Whether an element breaks, and does not soften: a cell does if one of its halves does. */
+static bool breaks(const element_state *s, dem_index element)
 {
-    f->n = sort(f->list, f->n);
+    if (element >= s->lattice->n_triangles || element_state_is_last(s, element)) return true;
+    for (dem_index p = s->row[element]; p < s->row[element + 1]; p++) {
+        const dem_index half = other_half(s, element, p);
+        if (half >= 0 && element_state_is_last(s, half)) return true;
+    }
+    return false;
+}
+
+static void find_nodes(failing_elements *f, const dem_lattice *l)
+{
     for (dem_index k = 0; k < f->n; k++) {
         const dem_index spring = f->list[k] - l->n_triangles;
         const dem_index *corner = spring < 0 ? &l->triangles[3 * f->list[k]] : &l->ends[2 * spring];
         for (int c = 0; c < (spring < 0 ? 3 : 2); c++) append(f, &f->nodes, &f->n_nodes, &f->node_capacity, corner[c]);
     }
     f->n_nodes = sort(f->nodes, f->n_nodes);
+}
+
+void failing_elements_complete(failing_elements *f, const element_state *s)
+{
+    f->n = sort(f->list, f->n);
+    find_nodes(f, s->lattice);
+    if (!grow_array((void **)&f->breaks, &f->breaks_capacity, f->n, sizeof *f->breaks)) {
+        f->status = status_fail(DEM_ERROR_MEMORY, "out of memory for elements that break");
+        return;
+    }
+    f->n_breaking = 0;
+    for (dem_index k = 0; k < f->n; k++) f->n_breaking += f->breaks[k] = breaks(s, f->list[k]);
 }
 
 bool failing_elements_have(const failing_elements *f, dem_index node)
@@ -126,39 +154,14 @@ static double energy(const failing_elements *f, const dem_model *m, const elemen
     return of_springs / 2.0 + of_triangles / 3.0;
 }
 
-/* A cell breaks if one of its triangles does. */
-static bool breaks(const element_state *s, dem_index element)
-{
-    if (element >= s->lattice->n_triangles || element_state_is_last(s, element)) return true;
-    return is_of_cell(s, element) && element_state_is_last(s, element ^ 1);
-}
-
-dem_index failing_elements_n_breaking(const failing_elements *f, const element_state *s)
-{
-    dem_index n = 0;
-    for (dem_index k = 0; k < f->n; k++) n += breaks(s, f->list[k]);
-    return n;
-}
-
-/* The triangles of a cell follow each other, and the first one must not decide before the second one has. */
-static void fail(element_state *s, const dem_index *list, dem_index n)
-{
-    bool last[2] = {false, false};
-    for (dem_index k = 0; k < n; k++) last[k] = breaks(s, list[k]);
-    for (dem_index k = 0; k < n; k++) {
-        if (last[k])
-            element_state_break(s, list[k]);
-        else
-            element_state_soften(s, list[k]);
-    }
-}
-
 double failing_elements_fail(const failing_elements *f, const dem_model *model, element_state *s, const double *x)
 {
     const double before = energy(f, model, s, x);
-    for (dem_index k = 0, n; k < f->n; k += n) {
-        n = k + 1 < f->n && f->list[k + 1] == (f->list[k] ^ 1) ? 2 : 1;
-        fail(s, f->list + k, n);
+    for (dem_index k = 0; k < f->n; k++) {
+        if (f->breaks[k])
+            element_state_break(s, f->list[k]);
+        else
+            element_state_soften(s, f->list[k]);
     }
     return before - energy(f, model, s, x);
 }

@@ -10,6 +10,8 @@
 typedef struct failing_elements {
     dem_index n, capacity;
     dem_index *list; /* [n] elements, ascending when complete */
+    dem_index n_breaking, breaks_capacity;
+    bool *breaks; /* [n] whether each breaks; others soften */
     dem_index n_nodes, node_capacity;
     dem_index *nodes;  /* [n_nodes] theirs, ascending */
     dem_status status; /* DEM_ERROR_MEMORY: the lists are not complete */
@@ -21,14 +23,11 @@ void failing_elements_clear(failing_elements *f);
 /** Adds an element that is whole, with those that break with it. */
 void failing_elements_add(failing_elements *f, const element_state *s, dem_index element);
 
-/** Sorts the elements, and finds their nodes. */
-void failing_elements_complete(failing_elements *f, const dem_lattice *lattice);
+/** Sorts the elements, finds their nodes, and which of them break. */
+void failing_elements_complete(failing_elements *f, const element_state *s);
 
 /** Whether a node is one of theirs. */
 bool failing_elements_have(const failing_elements *f, dem_index node);
-
-/** How many of them would break, and not soften. */
-dem_index failing_elements_n_breaking(const failing_elements *f, const element_state *s);
 
 /** Breaks or softens them.  \return the energy that they lose at positions x [n][2], J */
 double failing_elements_fail(const failing_elements *f, const dem_model *model, element_state *s, const double *x);

@@ -313,7 +313,7 @@ static void find_failing(const fracture_source *s)
 {
     failing_elements_clear(s->failing);
     if (s->heap.n > 0) collect(s, 0, s->heap.due[s->heap.keys[0]] + dense_output_resolution(s->step));
-    failing_elements_complete(s->failing, &s->model->lattice);
+    failing_elements_complete(s->failing, s->elements);
 }
 
 static dem_index fracture_source_seeds(const void *self, dem_index key, dem_index *nodes, dem_index capacity)
@@ -329,8 +329,7 @@ static dem_index fracture_source_seeds(const void *self, dem_index key, dem_inde
 static dem_status check_number(const fracture_source *s, double t)
 {
     const dem_lattice *l = &s->model->lattice;
-    const dem_index n = s->n_broken + failing_elements_n_breaking(s->failing, s->elements),
-                    first = s->failing->nodes[0];
+    const dem_index n = s->n_broken + s->failing->n_breaking, first = s->failing->nodes[0];
     CHECK(n <= s->most, DEM_ERROR_INTEGRATOR,
           "%lld triangles and springs break within one step at t = %.9g s, the last of them at (%g, %g) m at rest: "
           "stress may be uniform there, where brittle bodies break everywhere at once",
@@ -347,10 +346,9 @@ static dem_status break_failing(fracture_source *s, double t, const double *x)
     CHECK(grow_array((void **)&s->failed, &s->capacity, s->n_failed + f->n, sizeof *s->failed), DEM_ERROR_MEMORY,
           "out of memory for what breaks in a step");
     memcpy(s->failed + s->n_failed, f->list, (size_t)f->n * sizeof *s->failed);
-    const dem_index n_breaking = failing_elements_n_breaking(f, s->elements);
     s->n_failed += f->n;
-    s->n_broken += n_breaking;
-    s->jumped = n_breaking > 0;
+    s->n_broken += f->n_breaking;
+    s->jumped = f->n_breaking > 0;
     *s->taken += failing_elements_fail(f, s->model, s->elements, x);
     return DEM_OK;
 }
@@ -440,7 +438,7 @@ static void find_over_limit(fracture_source *s, const double *y)
     for (dem_index e = 0; e < utilisation_n_elements(&s->model->lattice); e++)
         if (may_break(s, e) && utilisation_of(s->model, s->elements, e, y) >= 1.0)
             failing_elements_add(s->failing, s->elements, e);
-    failing_elements_complete(s->failing, &s->model->lattice);
+    failing_elements_complete(s->failing, s->elements);
 }
 
 dem_status fracture_source_break(fracture_source *s, const double *y)

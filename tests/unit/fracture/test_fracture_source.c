@@ -521,6 +521,26 @@ TEST(both_triangles_of_a_cell_break)
     for (dem_index t = 0; t < squares.n_triangles; t += 2) assert_int_equal(triangle[t], triangle[t + 1]);
 }
 
+/* A half that softens goes with one that is brittle, and does not with one that softens. */
+TEST(both_halves_of_a_cell_soften)
+{
+    unsigned char triangle[512], spring[1024];
+    CLEANUP(dem_lattice_free) dem_lattice squares = dem_lattice_empty();
+    dem_index n_softened = 0;
+    assert_ok(dem_lattice_squares(&squares, 0.04, 0.06, 0.005));
+    assert_ok(dem_lattice_assemble_squares(&squares, &rubber, 0.5));
+    const dem_index n = squares.n_triangles;
+    assert_true(n <= 512 && squares.n_springs <= 1024);
+    squares.strength = equal(n, INFINITY);
+    squares.softening = equal(n, 6.0);
+    for (dem_index t = 0; t < n; t += 6) squares.strength[t + t / 6 % 2] = 2e5; /* one of some cells */
+    for (dem_index t = 0; t < n; t += 12) squares.softening[t + 1 - t / 6 % 2] = 1.0;
+    const dem_index n_broken = stretch(&squares, triangle, spring);
+    for (dem_index t = 0; t < n; t += 2) assert_int_equal(triangle[t], triangle[t + 1]);
+    for (dem_index t = 6; t < n; t += 12) n_softened += !triangle[t];
+    assert_true(n_broken > 4 && n_softened > 4);
+}
+
 /* Numbers of triangles tell nothing of cells where a body of one triangle comes first. */
 TEST(both_halves_of_a_cell_break_behind_a_triangle)
 {
