@@ -10,6 +10,20 @@
 extern "C" {
 #endif
 
+/** A triangle, or a spring that no triangle holds, has broken. Breaks are the library's: a program reads of them what its
+ *  header knows, and struct_size tells what there is. */
+typedef struct dem_break {
+    size_t struct_size; /**< bytes that the library has filled */
+    double t;           /**< s */
+    dem_index triangle; /**< its number in the lattice; -1: a spring */
+    dem_index spring;   /**< likewise; -1: a triangle, with what it gave to its springs */
+    dem_index body;     /**< of its nodes */
+    double x[3];        /**< m, mean place of its nodes then */
+    double stress[3]; /**< Pa, of a triangle the mean of its corners' stresses just before: xx, yy, xy; 0 of a spring */
+    double energy;    /**< J, that it had. Elements that break at one instant are taken in their order: what several
+                             of them hold goes with the last */
+} dem_break;
+
 /** Called during dem_simulation_advance(), in the order of time; any callback may be NULL. A status other than DEM_OK
  *  ends the advance and is returned by it. */
 typedef struct dem_observer {
@@ -22,6 +36,9 @@ typedef struct dem_observer {
     dem_status (*checkpoint)(void *context, const dem_simulation *simulation, dem_checkpoint *checkpoint);
     /**< at every checkpoint, which has the simulation's entries already: puts in what the observer has to remember */
     void *context;
+    dem_status (*broken)(void *context, const dem_simulation *simulation, const dem_break *what);
+    /**< after every break, in the order of time with contact events; the simulation shows the state of that instant.
+     *   What dem_simulation_break() has broken is reported at the start of the next advance */
 } dem_observer;
 
 /** Copies `observer`. At most 8; to be called before the first advance. One of a resumed simulation is shown the frames

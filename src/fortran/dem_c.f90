@@ -900,11 +900,19 @@ module dem_c
 
   ! ---- dem/observer.h ------------------------------------------------------------------------------------------------
 
+  type, bind(c) :: dem_break
+    integer(c_size_t) :: struct_size = 96
+    real(c_double) :: t = 0
+    integer(dem_index) :: triangle = 0, spring = 0, body = 0
+    real(c_double) :: x(3) = 0, stress(3) = 0, energy = 0
+  end type
+
   type, bind(c) :: dem_observer
-    integer(c_size_t) :: struct_size = 56
+    integer(c_size_t) :: struct_size = 64
     real(c_double) :: interval = 0
     type(c_funptr) :: frame = c_null_funptr, step = c_null_funptr, event = c_null_funptr, checkpoint = c_null_funptr
     type(c_ptr) :: context = c_null_ptr
+    type(c_funptr) :: broken = c_null_funptr
   end type
 
   type, bind(c) :: dem_node_peak
@@ -936,6 +944,12 @@ module dem_c
     integer(dem_status) function dem_observer_checkpoint(context, simulation, checkpoint) bind(c)
       import
       type(c_ptr), value :: context, simulation, checkpoint
+    end function
+
+    integer(dem_status) function dem_observer_broken(context, simulation, what) bind(c)
+      import
+      type(c_ptr), value :: context, simulation
+      type(dem_break), intent(in) :: what
     end function
 
   end interface

@@ -140,28 +140,17 @@ bool failing_elements_have(const failing_elements *f, dem_index node)
 
 /* ---- their end ---- */
 
-/* Half of the springs and a third of the triangles at all of the nodes: each element of which all nodes are among them
- * is in it once, and what it has of others does not change. */
-static double energy(const failing_elements *f, const dem_model *m, const element_state *s, const double *x)
+/* The energy of all is taken at once, whose rounding does not depend on their number. */
+double failing_elements_fail(const failing_elements *f, const dem_model *model, element_state *s, const double *x,
+                             break_list *noted)
 {
-    double of_springs = 0.0, of_triangles = 0.0;
-    for (dem_index j = 0; j < f->n_nodes; j++) {
-        const dem_index i = f->nodes[j];
-        of_springs += springs_node_energy(&m->springs, element_state_springs(s), i, x);
-        of_triangles += couplings_node_energy(&m->couplings, element_state_triangles(s), i, x) +
-                        triangles_node_energy(&m->triangles, element_state_triangles(s), i, x);
-    }
-    return of_springs / 2.0 + of_triangles / 3.0;
-}
-
-double failing_elements_fail(const failing_elements *f, const dem_model *model, element_state *s, const double *x)
-{
-    const double before = energy(f, model, s, x);
+    const double before = break_list_energy(f->nodes, f->n_nodes, model, s, x);
+    dem_index at = noted->n - f->n_breaking;
     for (dem_index k = 0; k < f->n; k++) {
         if (f->breaks[k])
-            element_state_break(s, f->list[k]);
+            break_list_break(noted, at++, model, s, x);
         else
             element_state_soften(s, f->list[k]);
     }
-    return before - energy(f, model, s, x);
+    return before - break_list_energy(f->nodes, f->n_nodes, model, s, x);
 }

@@ -4,8 +4,7 @@
 #ifndef DEM_FRACTURE_FAILING_ELEMENTS_H
 #define DEM_FRACTURE_FAILING_ELEMENTS_H
 
-#include "model/element_state.h"
-#include "model/model.h"
+#include "fracture/break_list.h"
 
 typedef struct failing_elements {
     dem_index n, capacity;
@@ -29,7 +28,10 @@ void failing_elements_complete(failing_elements *f, const element_state *s);
 /** Whether a node is one of theirs. */
 bool failing_elements_have(const failing_elements *f, dem_index node);
 
-/** Breaks or softens them.  \return the energy that they lose at positions x [n][2], J */
-double failing_elements_fail(const failing_elements *f, const dem_model *model, element_state *s, const double *x);
+/** Breaks or softens them.
+ *  \param noted  ends with those that break, and gets their energies
+ *  \return the energy that all lose at positions x [n][2], J */
+double failing_elements_fail(const failing_elements *f, const dem_model *model, element_state *s, const double *x,
+                             break_list *noted);
 
 #endif

@@ -59,6 +59,7 @@ void fracture_source_destroy(fracture_source *s)
     free(s->seen);
     free(s->strained);
     free(s->failed);
+    break_list_destroy(&s->breaks);
     *s = (fracture_source){0};
 }
 
@@ -283,7 +284,7 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
     s->number++;
     s->state = state;
     s->jumped = false;
-    s->n_failed = s->n_broken = 0;
+    s->n_failed = s->breaks.n = 0;
     s->n_damaged = s->elements->n_damaged;
     s->taken_before = *s->taken;
     event_heap_clear(&s->heap);
@@ -329,7 +330,7 @@ static dem_index fracture_source_seeds(const void *self, dem_index key, dem_inde
 static dem_status check_number(const fracture_source *s, double t)
 {
     const dem_lattice *l = &s->model->lattice;
-    const dem_index n = s->n_broken + s->failing->n_breaking, first = s->failing->nodes[0];
+    const dem_index n = s->breaks.n + s->failing->n_breaking, first = s->failing->nodes[0];
     CHECK(n <= s->most, DEM_ERROR_INTEGRATOR,
           "%lld triangles and springs break within one step at t = %.9g s, the last of them at (%g, %g) m at rest: "
           "stress may be uniform there, where brittle bodies break everywhere at once",
@@ -345,11 +346,12 @@ static dem_status break_failing(fracture_source *s, double t, const double *x)
     TRY(check_number(s, t));
     CHECK(grow_array((void **)&s->failed, &s->capacity, s->n_failed + f->n, sizeof *s->failed), DEM_ERROR_MEMORY,
           "out of memory for what breaks in a step");
+    for (dem_index k = 0; k < f->n; k++)
+        if (f->breaks[k]) TRY(break_list_note(&s->breaks, s->model, s->elements, f->list[k], t, x));
     memcpy(s->failed + s->n_failed, f->list, (size_t)f->n * sizeof *s->failed);
     s->n_failed += f->n;
-    s->n_broken += f->n_breaking;
     s->jumped = f->n_breaking > 0;
-    *s->taken += failing_elements_fail(f, s->model, s->elements, x);
+    *s->taken += failing_elements_fail(f, s->model, s->elements, x, &s->breaks);
     return DEM_OK;
 }
 
@@ -417,7 +419,7 @@ void fracture_source_undo(void *self)
 {
     fracture_source *s = self;
     while (s->n_failed > 0) element_state_mend(s->elements, s->failed[--s->n_failed]);
-    s->n_broken = 0;
+    s->breaks.n = 0;
     element_state_forget_nodes(s->elements, s->n_damaged);
     *s->taken = s->taken_before;
     s->jumped = false;

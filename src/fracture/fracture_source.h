@@ -28,8 +28,8 @@ typedef struct fracture_source {
     failing_elements *failing; /* those that do so next, or have done so last */
     bool jumped;               /* some have broken, and stresses beside them are others at once */
     dem_index n_failed, capacity;
-    dem_index *failed;   /* [n_failed] what has broken or softened in the step so far, in this order; */
-    dem_index n_broken;  /* how many of them have broken */
+    dem_index *failed;   /* [n_failed] what has broken or softened in the step so far, in this order */
+    break_list breaks;   /* what has broken of it, as it is reported */
     dem_index n_damaged; /* nodes beside broken elements before the step */
     double taken_before; /* J */
 } fracture_source;
@@ -46,7 +46,7 @@ dem_status fracture_source_check_start(const fracture_source *s, const double *x
 /** Whether something has broken in the step. */
 static inline bool fracture_source_has_broken(const fracture_source *s)
 {
-    return s->n_broken > 0;
+    return s->breaks.n > 0;
 }
 
 /** Whether something has broken or softened in the step. */

@@ -76,6 +76,7 @@ static dem_status renew(dem_simulation *s, element_state *next)
 void breaking_destroy(dem_simulation *s)
 {
     fracture_source_destroy(&s->breaks);
+    break_list_destroy(&s->given);
     element_state_destroy(&s->elements);
     free_outline(s->outline);
 }
@@ -180,17 +181,27 @@ static dem_status check_spring(const dem_simulation *s, const element_state *ele
     return DEM_OK;
 }
 
-static dem_status break_all(const dem_simulation *s, element_state *elements, const dem_index *triangle,
+/* Breaks an element that is still whole in the new state, in the state of motion s->frame. */
+static dem_status break_one(dem_simulation *s, element_state *elements, dem_index element)
+{
+    const dem_index spring = element - s->model->lattice.n_triangles;
+    if (spring >= 0 ? elements->integrity[spring] == 0.0 : elements->triangle[element] != 0) return DEM_OK;
+    TRY(break_list_note(&s->given, s->model, s->forces.elements, element, s->seen_t, s->frame));
+    break_list_break(&s->given, s->given.n - 1, s->model, elements, s->frame);
+    return DEM_OK;
+}
+
+static dem_status break_all(dem_simulation *s, element_state *elements, const dem_index *triangle,
                             dem_index n_triangles, const dem_index *spring, dem_index n_springs)
 {
     TRY(copy_elements(s, elements));
     for (dem_index k = 0; k < n_triangles; k++) {
         TRY(check_triangle(s, triangle[k]));
-        element_state_break_triangle(elements, triangle[k]);
+        TRY(break_one(s, elements, triangle[k]));
     }
     for (dem_index k = 0; k < n_springs; k++) {
         TRY(check_spring(s, elements, spring[k]));
-        element_state_break_spring(elements, spring[k]);
+        TRY(break_one(s, elements, s->model->lattice.n_triangles + spring[k]));
     }
     return DEM_OK;
 }
@@ -214,13 +225,15 @@ dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, de
     TRY(check_list("triangles", triangle, n_triangles));
     TRY(check_list("springs", spring, n_springs));
     TRY(set_motion_take_seen(s, &seen));
-    const dem_status status = reduce_status(break_all(s, &next, triangle, n_triangles, spring, n_springs), 0.0);
+    const dem_index n_given = s->given.n;
+    dem_status status = reduce_status(break_all(s, &next, triangle, n_triangles, spring, n_springs), 0.0);
+    if (status != DEM_OK) element_state_destroy(&next);
+    const double before = status == DEM_OK ? set_motion_energy(s, s->frame) : 0.0;
+    if (status == DEM_OK) status = reduce_status(renew(s, &next), 0.0);
     if (status != DEM_OK) {
-        element_state_destroy(&next);
+        s->given.n = n_given;
         return status;
     }
-    const double before = set_motion_energy(s, s->frame);
-    TRY(reduce_status(renew(s, &next), 0.0));
     s->fracture += before - set_motion_energy(s, s->frame);
     (void)pausing_begin(s, s->seen_t, s->frame);
     return set_motion_begin_anew(s);

@@ -56,6 +56,23 @@ dem_status observers_event(const observers *a, const dem_simulation *simulation,
     return status;
 }
 
+bool observers_want_breaks(const observers *a)
+{
+    for (int k = 0; k < a->n; k++)
+        if (a->members[k].observer.broken != NULL) return true;
+    return false;
+}
+
+dem_status observers_broken(const observers *a, const dem_simulation *simulation, const dem_break *what)
+{
+    dem_status status = DEM_OK;
+    for (int k = 0; k < a->n; k++) {
+        const dem_observer *o = &a->members[k].observer;
+        if (o->broken != NULL) status = status_first(status, o->broken(o->context, simulation, what));
+    }
+    return status;
+}
+
 dem_status observers_step(const observers *a, const dem_simulation *simulation)
 {
     dem_status status = DEM_OK;

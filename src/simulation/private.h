@@ -57,6 +57,7 @@ struct dem_simulation {
     surface *outline;              /* of those that are whole; NULL: the model's */
     double fracture;               /* J, taken by breaking */
     fracture_source breaks;        /* inside steps; empty: nothing breaks by itself */
+    break_list given;              /* what the program has broken, of which observers know nothing yet */
     local_springs local_springs;
     local_forces local_forces;   /* those of local_springs, as events see them */
     constraints closed_contacts; /* as events see them */
@@ -88,6 +89,7 @@ struct dem_simulation {
     dem_checkpoint *rollback;       /* the state before contacts change, in case the external force fails, */
     bool has_rollback;              /* if there is one */
     dem_index n_inside, n_reported; /* events inside the step in hand; those of them that observers know */
+    dem_index n_broken, n_told;     /* breaks, likewise */
     observers observers;
 };
 

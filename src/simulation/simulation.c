@@ -50,17 +50,56 @@ static dem_status report_event(void *context, const dem_event *event)
     return observers_event(&s->observers, s, event);
 }
 
+/* When the next event inside the step in hand that has still to be reported has happened; infinity: there is none. */
+static double next_event(const dem_simulation *s)
+{
+    return s->n_reported < s->n_inside ? s->queue.events[s->n_reported].t : (double)INFINITY;
+}
+
+static double next_break(const dem_simulation *s)
+{
+    return s->n_told < s->n_broken ? s->breaks.breaks.list[s->n_told].t : (double)INFINITY;
+}
+
+static dem_status report_one_event(dem_simulation *s)
+{
+    const dem_event event = s->queue.events[s->n_reported++];
+    TRY(show_inside(s, event.t));
+    return observers_event(&s->observers, s, &event);
+}
+
+static dem_status report_one_break(dem_simulation *s)
+{
+    const dem_break what = s->breaks.breaks.list[s->n_told++];
+    TRY(show_inside(s, what.t));
+    return observers_broken(&s->observers, s, &what);
+}
+
 /* Reports the events inside the step in hand, up to t, in the order of time, each with the state of its time: the queue
- * goes back there and on again. All of them are reported, and the first failure is returned. */
+ * goes back there and on again. All of them are reported, and the first failure is returned. Contact comes first of
+ * what happens at one time, as in the queue. */
 static dem_status report_events(dem_simulation *s, double t)
 {
     dem_status status = DEM_OK;
-    if (!observers_want_events(&s->observers)) return DEM_OK;
-    while (s->n_reported < s->n_inside && s->queue.events[s->n_reported].t <= t) {
-        const dem_event event = s->queue.events[s->n_reported++];
-        TRY(show_inside(s, event.t));
-        status = status_first(status, observers_event(&s->observers, s, &event));
+    if (!observers_want_events(&s->observers)) s->n_reported = s->n_inside;
+    if (!observers_want_breaks(&s->observers)) s->n_told = s->n_broken;
+    while (fmin(next_event(s), next_break(s)) <= t) {
+        const bool contact = next_event(s) <= next_break(s);
+        const dem_status reported = contact ? report_one_event(s) : report_one_break(s);
+        if (run_force_failed(s)) return reported;
+        status = status_first(status, reported);
     }
+    return reduce_status(status, 0.0);
+}
+
+/* What has broken at the end of a step that a break has ended, or by the program, is reported with that state. */
+static dem_status report_breaks(dem_simulation *s, const break_list *breaks, dem_index from)
+{
+    dem_status status = DEM_OK;
+    if (from == breaks->n || !observers_want_breaks(&s->observers)) return DEM_OK;
+    TRY(show_state(s));
+    for (dem_index k = from; k < breaks->n; k++)
+        status = status_first(status, observers_broken(&s->observers, s, &breaks->list[k]));
     return reduce_status(status, 0.0);
 }
 
@@ -194,7 +233,8 @@ static dem_status take_step(dem_simulation *s)
     }
     /* Events have been found to the end of the step, but observers know of none of them yet. */
     s->n_inside = s->queue.n_events;
-    s->n_reported = 0;
+    s->n_broken = run_is_local(s) ? s->breaks.breaks.n : 0;
+    s->n_reported = s->n_told = 0;
     s->in_hand = true;
     return DEM_OK;
 }
@@ -298,7 +338,8 @@ static dem_status commit_step(dem_simulation *s)
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_stops) + s->at_break;
     TRY(go_on_changed(s, moved || failed || paused || s->outgrown || events_moved_rigid(s)));
-    return report_step(s);
+    const dem_status reported = report_breaks(s, &s->breaks.breaks, s->n_broken);
+    return status_first(reported, report_step(s));
 }
 
 /* Closes the contacts of the initial state before the first step, and gives bodies that touch their friction, when the
@@ -308,6 +349,9 @@ static dem_status start(dem_simulation *s)
     const event_listener listener = {report_event, s};
     TRY(reduce_status(breaking_follow(s, s->y), 0.0)); /* a motion may have been set inside a step */
     TRY(body_contact_settle(s, s->y));
+    const dem_status reported = report_breaks(s, &s->given, 0);
+    s->given.n = 0;
+    TRY(reported);
     TRY(take_rollback(s));
     const dem_status status = go_on(s, reduce_status(automaton_start(&s->automaton, s->t, s->y, &listener), 0.0));
     s->started = !run_force_failed(s);

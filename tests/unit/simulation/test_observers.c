@@ -44,10 +44,17 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
     return note(context, 'e');
 }
 
+static dem_status on_break(void *context, const dem_simulation *simulation, const dem_break *what)
+{
+    assert_null(simulation);
+    assert_int_equal(what->triangle, 7);
+    return note(context, 'b');
+}
+
 static void join(observers *a, voice *v, double interval)
 {
-    const dem_observer observer =
-        SIZED(dem_observer, .interval = interval, .frame = on_frame, .step = on_step, .event = on_event, .context = v);
+    const dem_observer observer = SIZED(dem_observer, .interval = interval, .frame = on_frame, .step = on_step,
+                                        .event = on_event, .broken = on_break, .context = v);
     assert_ok(observers_add(a, &observer, -1.0));
 }
 
@@ -100,14 +107,15 @@ TEST(all_are_called_in_the_order_in_which_they_came)
     observers a = {0};
     voice first = {'1', DEM_OK}, second = {'2', DEM_OK};
     const dem_event event = {.t = 0.75};
-    assert_false(observers_want_events(&a));
+    assert_false(observers_want_events(&a) || observers_want_breaks(&a));
     join(&a, &first, 0.0);
     join(&a, &second, 0.0);
-    assert_true(observers_want_events(&a));
+    assert_true(observers_want_events(&a) && observers_want_breaks(&a));
     assert_ok(observers_event(&a, NULL, &event));
+    assert_ok(observers_broken(&a, NULL, &(dem_break){.triangle = 7}));
     assert_ok(observers_step(&a, NULL));
     assert_ok(observers_frame(&a, 1, NULL));
-    expect("e1e2s1s2f2");
+    expect("e1e2b1b2s1s2f2");
 }
 
 TEST(observers_without_a_function_are_left_out)
@@ -118,8 +126,9 @@ TEST(observers_without_a_function_are_left_out)
     const dem_event event = {.t = 0.75};
     double t = -1.0;
     assert_ok(observers_add(&a, &deaf, -1.0));
-    assert_false(observers_want_events(&a));
+    assert_false(observers_want_events(&a) || observers_want_breaks(&a));
     assert_ok(observers_event(&a, NULL, &event));
+    assert_ok(observers_broken(&a, NULL, &(dem_break){.triangle = 7}));
     assert_ok(observers_step(&a, NULL));
     assert_int_equal(observers_due(&a, 10.0, 10.0, &t), -1);
     join(&a, &v, 0.0); /* interval 0: no frames either */
