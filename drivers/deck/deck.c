@@ -193,6 +193,7 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     d->double_precision = strcmp(schema_text(output, "precision"), "double") == 0;
     d->deflate = (int)schema_real(output, "deflate");
     d->events = schema_real(output, "events") != 0.0;
+    d->breaks = schema_real(output, "breaks") != 0.0;
     d->fields = fields_of(schema_value_of(output, "fields"));
     d->peak_every = (dem_index)schema_real(output, "peak_every");
     d->most_stressed = (dem_index)schema_real(output, "most_stressed");

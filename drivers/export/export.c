@@ -14,7 +14,7 @@ static const char usage[] =
     "formats:\n"
     "  lammps  NAME.data, in.NAME, NAME.dump and NAME.local.dump, for LAMMPS, OVITO and MDAnalysis\n"
     "  vtu     NAME.pvd, NAME_0000.vtu, ... and NAME.obstacle.vtu or .pvd, for ParaView of any version\n"
-    "  csv     NAME.nodes.csv, NAME.springs.csv, NAME.history.csv, NAME.events.csv, ..., a file for each table\n"
+    "  csv     NAME.nodes.csv, NAME.springs.csv, NAME.history.csv, NAME.breaks.csv, ..., a file for each table\n"
     "options:\n"
     "  --to lammps|vtu|csv  the format\n"
     "  -o NAME              what the names of files begin with; a folder, or FOLDER/: the run's name in it (default: "

@@ -312,6 +312,8 @@ static const schema_key output_keys[] = {
      "Compression of the frames: 0 is none, 9 the smallest files.", NULL},
     {"events", SCHEMA_LOGICAL, 1, 1, "-", ".false.", ANY, NULL, false, "Write the table /events of all contact events.",
      NULL},
+    {"breaks", SCHEMA_LOGICAL, 1, 1, "-", ".true.", ANY, NULL, false,
+     "Where something may break: write the table /breaks of all that breaks.", NULL},
     {"closure", SCHEMA_REAL, 1, 1, "-", "1e-2", "> 0", NULL, false,
      "The log warns when the energy ledger is open by this share of the largest energy of motion and strain so far.",
      NULL},

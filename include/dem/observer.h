@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/** A triangle, or a spring that no triangle holds, has broken. Breaks are the library's: a program reads of them what its
- *  header knows, and struct_size tells what there is. */
+/** A triangle, or a spring that no triangle holds, has broken. Breaks are the library's: a program reads of them what
+ *  its header knows, and struct_size tells what there is. */
 typedef struct dem_break {
     size_t struct_size; /**< bytes that the library has filled */
     double t;           /**< s */

@@ -84,8 +84,8 @@ DEM_API dem_status dem_reader_broken_triangles(const dem_reader *reader, dem_ind
 
 /* ---- tables ----------------------------------------------------------------------------------------------------- */
 
-/** A column of a table: "history", "events", "probes/NAME", "most_stressed/nodes", "most_stressed/springs", and
- *  "frames", which has a row for each frame: energies and contacts. */
+/** A column of a table: "history", "events", "breaks", "probes/NAME", "most_stressed/nodes", "most_stressed/springs",
+ *  and "frames", which has a row for each frame: energies and contacts. */
 typedef struct dem_reader_column {
     const char *table, *name;
     const char *unit;     /**< as of arrays */

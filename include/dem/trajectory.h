@@ -56,6 +56,7 @@ typedef struct dem_trajectory_options {
     dem_index most_stressed; /**< nodes and springs of the peaks that are listed; default 5 */
     dem_index n_probes;      /**< default 0 */
     const dem_probe *probes; /**< [n_probes] copied */
+    bool breaks;             /**< true: the table /breaks of all that breaks; default false */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)

@@ -1156,7 +1156,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_trajectory_options
-    integer(c_size_t) :: struct_size = 64
+    integer(c_size_t) :: struct_size = 72
     real(c_double) :: frame_interval = 0
     logical(c_bool) :: double_precision = .false.
     integer(c_int) :: deflate = 0
@@ -1165,6 +1165,7 @@ module dem_c
     type(c_ptr) :: peaks = c_null_ptr
     integer(dem_index) :: most_stressed = 0, n_probes = 0
     type(c_ptr) :: probes = c_null_ptr
+    logical(c_bool) :: breaks = .false.
   end type
 
   interface

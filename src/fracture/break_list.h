@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Breaks as observers are told of them, in the order of time. */
+/* Breaks as they are reported to observers, in the order of time. */
 #ifndef DEM_FRACTURE_BREAK_LIST_H
 #define DEM_FRACTURE_BREAK_LIST_H
 

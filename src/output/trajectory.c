@@ -2,7 +2,7 @@
 /* A run as an observer that writes VTKHDF files: what is written when, what a checkpoint has to hold of it, and how a
  * run goes on with the same files (docs/output.md lists all datasets).
  *   accepted step    a row of the history and of the probes that are due, in memory
- *   event            a row of the events, in memory
+ *   event, break     a row of the events or breaks, in memory
  *   frame            opens the part, writes buffered rows and the frame, closes it: it may be looked at in between
  *   checkpoint       an entry with the numbers of rows, and with what the next rows depend on
  *   segment          cuts the rows of a checkpoint off, before the program publishes it
@@ -99,6 +99,17 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
     return DEM_OK;
 }
 
+/* So have breaks, which may be many in a step, too. */
+static dem_status on_break(void *context, const dem_simulation *simulation, const dem_break *what)
+{
+    dem_trajectory *t = context;
+    (void)simulation;
+    CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more breaks", path_of(t));
+    if (t->rows.breaks.buffered == TABLE_ROWS) TRY(flush(t));
+    break_table_record(&t->rows.breaks, what);
+    return DEM_OK;
+}
+
 /* ---- checkpoints ---- */
 
 /* Names of the entries in a checkpoint. */
@@ -107,8 +118,8 @@ static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
 /* What a checkpoint keeps of a trajectory, as bytes of an entry. All members are of 8 bytes, so that there are no
  * gaps. */
 typedef struct progress {
-    int64_t rows[ROWS_PROBES];                          /* so far, over all segments */
-    int64_t n_probes, fields, double_precision, events; /* of the options, which have to be these again */
+    int64_t rows[ROWS_PROBES];                                  /* so far, over all segments */
+    int64_t n_probes, fields, double_precision, events, breaks; /* of the options, which have to be these again */
     double frame_interval;
     double last_frame, last_row; /* s */
     double start, largest;       /* J, of the history */
@@ -124,6 +135,7 @@ static progress read_progress(const dem_trajectory *t)
                   .fields = o->fields,
                   .double_precision = o->double_precision != 0,
                   .events = o->events != 0,
+                  .breaks = o->breaks != 0,
                   .frame_interval = o->frame_interval,
                   .last_frame = r->frames.last,
                   .last_row = r->history.last,
@@ -165,6 +177,7 @@ static dem_status check_options_then(const progress *now, const progress *then)
     TRY(check_same("fields", (double)now->fields, (double)then->fields));
     TRY(check_same("double_precision", (double)now->double_precision, (double)then->double_precision));
     TRY(check_same("events", (double)now->events, (double)then->events));
+    TRY(check_same("breaks", (double)now->breaks, (double)then->breaks));
     return check_same("frame_interval", now->frame_interval, then->frame_interval);
 }
 
@@ -188,7 +201,7 @@ static dem_status read_checkpoint(checkpointed *out, const dem_trajectory *t, co
     out->probes = dem_checkpoint_find(checkpoint, probes_entry, &size);
     CHECK(n == 0 || (out->probes != NULL && size == n * sizeof *out->probes), DEM_ERROR_IO,
           "the checkpoint has no entry %s of %zu probes", probes_entry, n);
-    /* Kinds of rows are numbered frames, history, events, then the probes. */
+    /* Kinds of rows are numbered frames, history, events, breaks, then the probes. */
     for (int k = 0; k < ROWS_PROBES; k++) out->rows[k] = (hsize_t)out->progress.rows[k];
     for (size_t k = 0; k < n; k++) out->rows[ROWS_PROBES + k] = (hsize_t)out->probes[k].rows;
     return DEM_OK;
@@ -307,7 +320,7 @@ dem_status dem_trajectory_resume(dem_trajectory **out, const char *path, const d
     return hand_out(out, t, go_on(t, checkpoint));
 }
 
-/* Without `events` the simulation need not report any. */
+/* Without `events` or `breaks` the simulation need not report any. */
 dem_status dem_trajectory_observer(dem_trajectory *trajectory, dem_observer *out)
 {
     CHECK(trajectory != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_observer: %s is NULL",
@@ -316,6 +329,7 @@ dem_status dem_trajectory_observer(dem_trajectory *trajectory, dem_observer *out
                               .frame = on_frame,
                               .step = on_step,
                               .event = trajectory->rows.options.events ? on_event : NULL,
+                              .broken = trajectory->rows.options.breaks ? on_break : NULL,
                               .checkpoint = on_checkpoint,
                               .context = trajectory};
     return struct_size_write(&STRUCT_KIND(dem_observer), out, &own);

@@ -11,8 +11,8 @@
  * and a kill between any two of them leaves A in the part or in the segment. A run that is resumed finds its segments
  * (trajectory_parts_find), removes younger ones and begins a new part. At the end all segments and the part are joined
  * into one file, which is published before they are removed. Rows are of several kinds (frames, history, events,
- * probes), and `spans` says for each kind which ones are meant. What rows are is in trajectory_rows.c. A segment
- * carries its number as an attribute, so that no file of another run is taken for one. */
+ * breaks, probes), and `spans` says for each kind which ones are meant. What rows are is in trajectory_rows.c. A
+ * segment carries its number as an attribute, so that no file of another run is taken for one. */
 #include "output/trajectory_parts.h"
 
 #include "base/status.h"

@@ -4,7 +4,7 @@
  *   /VTKHDF/PointData, CellData       arrays of nodes, of springs
  *   /VTKHDF/FieldData                 the table "frames", a row for each frame
  *   /fracture/triangles               which triangles are broken in each frame
- *   /history, /events                 tables of these names
+ *   /history, /events, /breaks        tables of these names
  *   /probes/NAME, /most_stressed/...  tables "probes/NAME", ...
  *   /lattice, /obstacles              read by lattice_file.c and obstacle_file.c
  * The file may be any: it is checked as in hdf5_untrusted.c, and since it is closed between calls and may have been
@@ -372,6 +372,7 @@ static dem_status list_all(dem_reader *reader, const hdf5_file *file)
     TRY(list_frames(reader, file));
     TRY(add_table(reader, file, history_table));
     TRY(add_table(reader, file, "events"));
+    TRY(add_table(reader, file, "breaks"));
     TRY(add_tables(reader, file, "probes"));
     TRY(add_tables(reader, file, "most_stressed"));
     TRY(obstacle_file_read(file, &reader->obstacles, &reader->n_obstacles));

@@ -17,7 +17,8 @@
 static const table *table_of(const trajectory_rows *r, int kind)
 {
     if (kind == ROWS_HISTORY) return &r->history.table;
-    return kind == ROWS_EVENTS ? &r->events : &r->probes[kind - ROWS_PROBES].table;
+    if (kind == ROWS_EVENTS) return &r->events;
+    return kind == ROWS_BREAKS ? &r->breaks : &r->probes[kind - ROWS_PROBES].table;
 }
 
 /* The same of a trajectory that may change. */
@@ -55,12 +56,13 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
 {
     out->model = dem_simulation_model(simulation);
     out->options = *options;
-    /* Events count as a kind even if they are not wanted: their table then has no columns. */
+    /* Events and breaks count as kinds even if they are not wanted: their tables then have no columns. */
     out->n_kinds = ROWS_PROBES + (int)options->n_probes;
     TRY(frames_init(&out->frames, out->model, options));
     TRY(make_probes(out));
     out->options.probes = NULL; /* the caller's */
     if (options->events) TRY(event_table_init(&out->events));
+    if (options->breaks) TRY(break_table_init(&out->breaks));
     return history_init(&out->history, simulation);
 }
 
@@ -68,6 +70,7 @@ void trajectory_rows_free(trajectory_rows *r)
 {
     history_free(&r->history);
     table_free(&r->events);
+    table_free(&r->breaks);
     for (dem_index k = 0; r->probes != NULL && k < r->options.n_probes; k++) probe_free(&r->probes[k]);
     free(r->probes);
     frames_free(&r->frames);
@@ -82,6 +85,7 @@ dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *fil
     TRY(lattice_file_write(file, lattice, r->options.deflate));
     TRY(obstacle_file_write(file, r->model));
     if (r->options.events) TRY(event_table_create(&r->events, file));
+    TRY(table_create(&r->breaks, file));
     for (dem_index k = 0; k < r->options.n_probes; k++) TRY(probe_create(&r->probes[k], file));
     TRY(table_create(&r->history.table, file));
     return provenance_write(&r->provenance, file);
@@ -136,7 +140,8 @@ void trajectory_rows_place(trajectory_rows *r, int kind, hsize_t before, hsize_t
 
 const char *trajectory_rows_name(const trajectory_rows *r, int kind)
 {
-    static const char *const names[] = {[ROWS_FRAMES] = "frames", [ROWS_HISTORY] = "history", [ROWS_EVENTS] = "events"};
+    static const char *const names[] = {
+        [ROWS_FRAMES] = "frames", [ROWS_HISTORY] = "history", [ROWS_EVENTS] = "events", [ROWS_BREAKS] = "breaks"};
     return kind < ROWS_PROBES ? names[kind] : r->probes[kind - ROWS_PROBES].what.name;
 }
 

@@ -4,21 +4,23 @@
 #ifndef DEM_OUTPUT_TRAJECTORY_ROWS_H
 #define DEM_OUTPUT_TRAJECTORY_ROWS_H
 
+#include "output/break_table.h"
 #include "output/event_table.h"
 #include "output/frames.h"
 #include "output/history.h"
 #include "output/probe.h"
 #include "output/provenance.h"
 
-enum { ROWS_FRAMES, ROWS_HISTORY, ROWS_EVENTS, ROWS_PROBES /**< the first of them */ }; /* kinds of rows */
+/* Kinds of rows. */
+enum { ROWS_FRAMES, ROWS_HISTORY, ROWS_EVENTS, ROWS_BREAKS, ROWS_PROBES /**< the first of them */ };
 
 typedef struct trajectory_rows {
     const dem_model *model;
     dem_trajectory_options options;
     frames frames;
     history history;
-    table events;  /* without columns unless wanted */
-    probe *probes; /* [options.n_probes] */
+    table events, breaks; /* without columns unless wanted */
+    probe *probes;        /* [options.n_probes] */
     provenance provenance;
     int n_kinds;
 } trajectory_rows;

@@ -89,7 +89,7 @@ struct dem_simulation {
     dem_checkpoint *rollback;       /* the state before contacts change, in case the external force fails, */
     bool has_rollback;              /* if there is one */
     dem_index n_inside, n_reported; /* events inside the step in hand; those of them that observers know */
-    dem_index n_broken, n_told;     /* breaks, likewise */
+    dem_index n_broken, n_known;    /* breaks, likewise */
     observers observers;
 };
 

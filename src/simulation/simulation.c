@@ -58,7 +58,7 @@ static double next_event(const dem_simulation *s)
 
 static double next_break(const dem_simulation *s)
 {
-    return s->n_told < s->n_broken ? s->breaks.breaks.list[s->n_told].t : (double)INFINITY;
+    return s->n_known < s->n_broken ? s->breaks.breaks.list[s->n_known].t : (double)INFINITY;
 }
 
 static dem_status report_one_event(dem_simulation *s)
@@ -70,7 +70,7 @@ static dem_status report_one_event(dem_simulation *s)
 
 static dem_status report_one_break(dem_simulation *s)
 {
-    const dem_break what = s->breaks.breaks.list[s->n_told++];
+    const dem_break what = s->breaks.breaks.list[s->n_known++];
     TRY(show_inside(s, what.t));
     return observers_broken(&s->observers, s, &what);
 }
@@ -82,7 +82,7 @@ static dem_status report_events(dem_simulation *s, double t)
 {
     dem_status status = DEM_OK;
     if (!observers_want_events(&s->observers)) s->n_reported = s->n_inside;
-    if (!observers_want_breaks(&s->observers)) s->n_told = s->n_broken;
+    if (!observers_want_breaks(&s->observers)) s->n_known = s->n_broken;
     while (fmin(next_event(s), next_break(s)) <= t) {
         const bool contact = next_event(s) <= next_break(s);
         const dem_status reported = contact ? report_one_event(s) : report_one_break(s);
@@ -234,7 +234,7 @@ static dem_status take_step(dem_simulation *s)
     /* Events have been found to the end of the step, but observers know of none of them yet. */
     s->n_inside = s->queue.n_events;
     s->n_broken = run_is_local(s) ? s->breaks.breaks.n : 0;
-    s->n_reported = s->n_told = 0;
+    s->n_reported = s->n_known = 0;
     s->in_hand = true;
     return DEM_OK;
 }

@@ -120,8 +120,9 @@ contains
     real(dp) :: frame_interval, closure
     character(32) :: fields(7)
     integer :: deflate, peak_every, most_stressed
-    logical :: events
-    namelist /output/ name, frame_interval, precision, deflate, events, closure, fields, peak_every, most_stressed
+    logical :: events, breaks
+    namelist /output/ name, frame_interval, precision, deflate, events, breaks, closure, fields, peak_every, &
+      most_stressed
     read (unit, nml=output, iostat=status, iomsg=message)
   end subroutine
 

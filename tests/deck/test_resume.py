@@ -168,11 +168,24 @@ class Cuts(Case):
         self.assertRegex(log, r"\nfragments  [1-9]\d*; the largest has 0?\.?\d+ of the mass, single nodes ")
         self.assertGreater(self.result("whole")["energy"]["fracture"], 10.0)
         self.assertLess(abs(self.result("whole")["closure"]), 1e-6)
+        self.expect_breaks()
         self.assertGreater(self.go_on("cut", *AT_ONCE), 10)
         self.expect_same("cut")
         self.call(0, "--set", "solver.kernel='portable'", "--set", "solver.threads=2", outdir="other")
         other, whole = lasting(self.result("other")), lasting(self.result("whole"))
         self.assertEqual({key for key in other if other[key] != whole[key]}, {"run"}, "which has kernel and threads")
+
+    def expect_breaks(self):
+        """The table has each triangle that is broken at the end, once, in the order of time, and all of the energy."""
+        if compare is None:
+            return
+        with h5py.File(self.folder / "whole" / "a.vtkhdf", "r") as file:
+            table, triangles = file["breaks"], sorted(file["breaks/triangle"][...])
+            last = file["fracture/triangles"][-len(file["lattice/triangles"]):]
+            self.assertEqual(triangles, [k for k, broken in enumerate(last) if broken])
+            self.assertTrue(all(table["t"][1:] >= table["t"][:-1]))
+            taken = file["history/fracture"][-1]
+            self.assertAlmostEqual(sum(table["energy"]), taken, delta=1e-12 * taken)
 
     def test_a_later_end(self):
         """Three ends, each continued; that of the whole run is one more."""

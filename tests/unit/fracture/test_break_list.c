@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* break_list.c through the doors of a simulation: what observers are told of breaks, against closed forms and against
+/* break_list.c through the doors of a simulation: what observers are heard of breaks, against closed forms and against
  * what is broken in the end. */
 #include "verification/support.h"
 
@@ -10,18 +10,18 @@
 
 enum { MOST_BREAKS = 2048, MOST_TRIANGLES = 1024 };
 
-/* What an observer has been told, and of what else it heard meanwhile. */
-typedef struct told {
+/* What an observer has been heard, and of what else it heard meanwhile. */
+typedef struct heard {
     dem_index n, n_events;
     dem_break list[MOST_BREAKS];
     double last; /* s, of the last event or break */
     unsigned char triangle[MOST_TRIANGLES];
-} told;
+} heard;
 
 /* The state that is shown is that of the instant, in which the element is broken. */
 static dem_status on_break(void *context, const dem_simulation *simulation, const dem_break *what)
 {
-    told *t = context;
+    heard *t = context;
     unsigned char spring[4];
     dem_state seen = {.struct_size = sizeof seen};
     assert_ok(dem_simulation_state(simulation, &seen));
@@ -37,7 +37,7 @@ static dem_status on_break(void *context, const dem_simulation *simulation, cons
 
 static dem_status on_event(void *context, const dem_simulation *simulation, const dem_event *event)
 {
-    told *t = context;
+    heard *t = context;
     (void)simulation;
     assert_true(event->t >= t->last);
     t->last = event->t;
@@ -45,10 +45,10 @@ static dem_status on_event(void *context, const dem_simulation *simulation, cons
     return DEM_OK;
 }
 
-static void listen(support_run *run, told *t)
+static void listen(support_run *run, heard *t)
 {
     const dem_observer observer = SIZED(dem_observer, .broken = on_break, .event = on_event, .context = t);
-    *t = (told){.last = -1.0};
+    *t = (heard){.last = -1.0};
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
 
@@ -72,7 +72,7 @@ TEST(a_spring_is_reported_when_and_where_it_breaks)
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, v[4] = {-0.3, 0.0, 0.3, 0.0}, masses[2] = {1.0, 1.0};
     const dem_index ends[2] = {0, 1};
     for (int k = 0; k < 2; k++) {
-        static told t;
+        static heard t;
         const dem_options options = no_weight(1e-12, ways[k]);
         CLEANUP(dem_lattice_free) dem_lattice pair = support_lattice(2, x, masses, 1, ends, 1.0, 8.0, NULL);
         CLEANUP(support_close) support_run run;
@@ -133,7 +133,7 @@ static double largest_principal(const double stress[3])
 /* Each triangle that is broken in the end has been reported once, in the order of time with contacts, and their
  * energies are all that fracture took, to rounding of some hundred. A break is where the stress is the strength, or
  * beyond it at once where another break has brought it there: the first one has it to the width of a root. */
-static void assert_complete(const support_run *run, const dem_lattice *block, const told *t)
+static void assert_complete(const support_run *run, const dem_lattice *block, const heard *t)
 {
     unsigned char flags[MOST_TRIANGLES];
     dem_energy energy = {.struct_size = sizeof energy};
@@ -157,7 +157,7 @@ static void assert_complete(const support_run *run, const dem_lattice *block, co
 TEST(every_break_is_reported_once_in_the_order_of_time)
 {
     for (int k = 0; k < 2; k++) {
-        static told t;
+        static heard t;
         const dem_options options = no_weight(1e-6, ways[k]);
         CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
         CLEANUP(support_close) support_run run;
@@ -172,7 +172,7 @@ TEST(every_break_is_reported_once_in_the_order_of_time)
 /* So fast that more than 100 would break in a step, which is taken again. */
 TEST(what_a_rejected_step_broke_is_not_reported)
 {
-    static told t;
+    static heard t;
     dem_counts counts = {.struct_size = sizeof counts};
     const dem_options options = no_weight(1e-6, DEM_CONTACT_LOCAL);
     CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
@@ -189,7 +189,7 @@ TEST(what_a_rejected_step_broke_is_not_reported)
 /* The same list, to the bit, with advances that end inside steps. */
 TEST(reports_do_not_depend_on_cuts)
 {
-    static told whole, cut;
+    static heard whole, cut;
     const dem_options options = no_weight(1e-6, DEM_CONTACT_LOCAL);
     for (int n_parts = 1; n_parts <= 53; n_parts += 52) {
         CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
@@ -208,7 +208,7 @@ TEST(reports_do_not_depend_on_cuts)
  * program breaks the second: until then nothing but the second is broken or reported. */
 TEST(what_a_program_breaks_is_reported_at_the_start_of_the_next_advance)
 {
-    static told t;
+    static heard t;
     const double x[8] = {0.0, 0.0, 1.0, 0.0, 0.0, 5.0, 1.0, 5.0}, v[8] = {-0.3, 0.0, 0.3, 0.0};
     const double masses[4] = {1.0, 1.0, 1.0, 1.0}, broken_at = asin(0.1 * 4.0 / 0.6) / 4.0;
     const dem_index ends[4] = {0, 1, 2, 3}, which[2] = {1, 1};

@@ -27,13 +27,14 @@ static shot *shoot(void)
     const dem_event event = {.normal = {0.0, 1.0}, .other = -1};
     dem_lattice lattice = make_solid(0.03, 0.04, 0.01);
     dem_trajectory_options what = dem_trajectory_options_default();
-    what.frame_interval = 1.0, what.events = 1, what.n_probes = 2, what.probes = probes;
+    what.frame_interval = 1.0, what.events = 1, what.breaks = true, what.n_probes = 2, what.probes = probes;
     support_open(&s->run, &lattice, NULL, 0, &options);
     dem_lattice_free(&lattice);
     stored_open(&s->stored);
     assert_ok(trajectory_rows_init(&s->rows, s->run.simulation, &what));
     assert_ok(trajectory_rows_create(&s->rows, &s->stored.file));
     history_record(&s->rows.history, s->run.simulation);
+    break_table_record(&s->rows.breaks, &(dem_break){.spring = -1});
     for (int k = 0; k < 2; k++) {
         probe_record(&s->rows.probes[k], s->run.simulation);
         event_table_record(&s->rows.events, &event);
@@ -54,8 +55,8 @@ static void put_away(shot *s)
 
 TEST(rows_are_those_of_the_file_and_of_files_before)
 {
-    static const hsize_t rows[n_kinds] = {1, 1, 2, 1, 1};
-    static const char *const names[n_kinds] = {"frames", "history", "events", "node", "gauge"};
+    static const hsize_t rows[n_kinds] = {1, 1, 2, 1, 1, 1};
+    static const char *const names[n_kinds] = {"frames", "history", "events", "breaks", "node", "gauge"};
     shot *s = shoot();
     hdf5_span spans[n_kinds] = {{0, 0, 0}};
     assert_int_equal(s->rows.n_kinds, n_kinds);
