@@ -92,12 +92,6 @@ static dem_status stop_at_overlap(void *context, const dem_simulation *simulatio
     return ask_overlap(simulation).node >= 0 ? DEM_STOPPED : DEM_OK;
 }
 
-static bool may_break(const job *j)
-{
-    const dem_lattice *l = dem_model_lattice(j->model);
-    return l->strength != NULL || l->critical_stretch != NULL;
-}
-
 static dem_trajectory_options frames_of(const job *j)
 {
     const deck *d = &j->deck;
@@ -106,7 +100,7 @@ static dem_trajectory_options frames_of(const job *j)
     options.double_precision = d->double_precision;
     options.deflate = d->deflate;
     options.events = d->events;
-    options.breaks = d->breaks && may_break(j);
+    options.breaks = d->breaks;
     options.fields = d->fields;
     options.peaks = j->peaks;
     options.most_stressed = d->most_stressed;

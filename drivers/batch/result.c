@@ -163,13 +163,14 @@ static void write_strain(json *j, const report *r)
 
 static void write_broken(json *j, const dem_simulation *simulation)
 {
-    const fracture_report broken = fracture_report_of(simulation);
+    const dem_fracture broken = ask_fracture(simulation);
     json_integer(j, "broken_triangles", broken.triangles);
     json_integer(j, "broken_springs", broken.springs);
     json_integer(j, "fragments", broken.fragments);
     json_real(j, "largest_fragment", broken.largest);
     json_real(j, "debris", broken.debris);
     json_real(j, "median_fragment", broken.median);
+    json_real(j, "crack_length", broken.crack_length);
 }
 
 static void write_node_peak(json *j, const report *r, const dem_model *model)

@@ -56,6 +56,11 @@ static inline dem_surfaces ask_surfaces(const dem_simulation *simulation)
     ASK(dem_surfaces, dem_simulation_surfaces(simulation, &out));
 }
 
+static inline dem_fracture ask_fracture(const dem_simulation *simulation)
+{
+    ASK(dem_fracture, dem_simulation_fracture(simulation, &out));
+}
+
 static inline dem_pair ask_pair(const dem_simulation *simulation, dem_index pair)
 {
     ASK(dem_pair, dem_simulation_pair(simulation, pair, &out));

@@ -166,14 +166,10 @@ static uint32_t fields_of(const schema_value *names)
     static const struct {
         const char *name;
         uint32_t field;
-    } all[] = {{"displacement", DEM_FIELD_DISPLACEMENT},
-               {"velocity", DEM_FIELD_VELOCITY},
-               {"stress", DEM_FIELD_STRESS},
-               {"von_mises", DEM_FIELD_VON_MISES},
-               {"principal", DEM_FIELD_PRINCIPAL},
-               {"contact", DEM_FIELD_CONTACT},
-               {"strain", DEM_FIELD_STRAIN},
-               {"force", DEM_FIELD_FORCE}};
+    } all[] = {
+        {"displacement", DEM_FIELD_DISPLACEMENT}, {"velocity", DEM_FIELD_VELOCITY},   {"stress", DEM_FIELD_STRESS},
+        {"von_mises", DEM_FIELD_VON_MISES},       {"principal", DEM_FIELD_PRINCIPAL}, {"contact", DEM_FIELD_CONTACT},
+        {"fragment", DEM_FIELD_FRAGMENT},         {"strain", DEM_FIELD_STRAIN},       {"force", DEM_FIELD_FORCE}};
     uint32_t fields = 0;
     for (int k = 0; k < names->count; k++)
         for (size_t f = 0; f < sizeof all / sizeof *all; f++)
@@ -367,6 +363,13 @@ deck_status deck_parse(deck *out, const char *path, const setting *settings, siz
     return conclude(out, status, errors);
 }
 
+/* Where nothing may break there is no table of it; where something may, frames show fragments, too. */
+static void settle_breaks(deck *d)
+{
+    d->breaks = d->breaks && (d->lattice.strength != NULL || d->lattice.critical_stretch != NULL);
+    if (d->breaks) d->fields |= DEM_FIELD_FRAGMENT;
+}
+
 deck_status deck_build(deck *d, namelist_errors *errors)
 {
     d->obstacles = obstacles_make(&d->groups, errors);
@@ -374,6 +377,7 @@ deck_status deck_build(deck *d, namelist_errors *errors)
     bool good = d->obstacles != NULL;
     if (good && errors->n == 0) good = set_bodies(d, &d->groups, d->folder, errors);
     if (good && errors->n == 0) good = set_texts(d, &d->groups, d->folder, errors);
+    settle_breaks(d);
     return conclude(d, good ? DECK_OK : DECK_MEMORY, errors);
 }
 

@@ -336,6 +336,19 @@ typedef struct dem_pair {
                                coefficient allows; 0: it holds, or there is none */
 } dem_pair;
 
+/** How much is broken, and into what. */
+typedef struct dem_fracture {
+    size_t struct_size;  /**< to be set to sizeof(dem_fracture) */
+    dem_index triangles; /**< that are broken */
+    dem_index springs;   /**< of which nothing is left */
+    dem_index fragments; /**< as dem_simulation_fragments() has them */
+    double largest;      /**< share of the mass that the largest fragment has */
+    double debris;       /**< share of the mass in fragments of a single node */
+    double median;       /**< kg, mass of the fragment with which, from the smallest on, half of all is reached: d50 */
+    double crack_length; /**< m, sum of sqrt(A/sqrt(3)) over the broken triangles, A the area at rest: what a row of
+                              equilateral triangles of that area is long */
+} dem_fracture;
+
 typedef struct dem_simulation dem_simulation;
 
 /** Starts at t = 0 in the lattice's initial state. Touching an obstacle there is legal, deeper than the penetration
@@ -423,6 +436,9 @@ DEM_API dem_status dem_simulation_broken(const dem_simulation *simulation, unsig
  *  \param[out] fragment     [n_nodes] the lowest node of the fragment of each, whatever broke before */
 DEM_API dem_status dem_simulation_fragments(const dem_simulation *simulation, dem_index *n_fragments,
                                             dem_index *fragment);
+
+/** \return also DEM_ERROR_MEMORY */
+DEM_API dem_status dem_simulation_fracture(const dem_simulation *simulation, dem_fracture *out);
 
 /** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
  *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither

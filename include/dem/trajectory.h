@@ -27,8 +27,9 @@ enum {
     DEM_FIELD_PRINCIPAL = 16, /**< both principal stresses */
     DEM_FIELD_STRAIN = 32,    /**< of the springs */
     DEM_FIELD_FORCE = 64,
-    DEM_FIELD_CONTACT = 128, /**< dem_simulation_contact_forces() and _pressures() */
-    DEM_FIELD_ALL = 255
+    DEM_FIELD_CONTACT = 128,  /**< dem_simulation_contact_forces() and _pressures() */
+    DEM_FIELD_FRAGMENT = 256, /**< dem_simulation_fragments() */
+    DEM_FIELD_ALL = 511
 };
 
 typedef enum dem_probe_kind {
@@ -51,12 +52,12 @@ typedef struct dem_trajectory_options {
     bool double_precision;  /**< false: displacement, velocity, strain, force in single precision; true: in double */
     int deflate;            /**< compression 0 (none) to 9; default 1 */
     bool events;            /**< true: the table /events of all contact events; default false */
-    uint32_t fields;        /**< DEM_FIELD_... ORed; default all but DEM_FIELD_PRINCIPAL and _CONTACT */
+    uint32_t fields;        /**< DEM_FIELD_... ORed; default all but DEM_FIELD_PRINCIPAL, _CONTACT, _FRAGMENT */
     const dem_peaks *peaks; /**< written by dem_trajectory_finish(), until when they are borrowed; default NULL: none */
     dem_index most_stressed; /**< nodes and springs of the peaks that are listed; default 5 */
     dem_index n_probes;      /**< default 0 */
     const dem_probe *probes; /**< [n_probes] copied */
-    bool breaks;             /**< true: the table /breaks of all that breaks; default false */
+    bool breaks;             /**< true: the table /breaks of all that breaks, and columns of /history; default false */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)
@@ -66,7 +67,7 @@ static inline dem_trajectory_options dem_trajectory_options_default(void)
     options.struct_size = sizeof options;
     options.deflate = 1;
     options.most_stressed = 5;
-    options.fields = DEM_FIELD_ALL & ~(DEM_FIELD_PRINCIPAL | DEM_FIELD_CONTACT);
+    options.fields = DEM_FIELD_ALL & ~(DEM_FIELD_PRINCIPAL | DEM_FIELD_CONTACT | DEM_FIELD_FRAGMENT);
     return options;
 }
 

@@ -662,6 +662,12 @@ module dem_c
     integer(c_int32_t) :: slides = 0
   end type
 
+  type, bind(c) :: dem_fracture
+    integer(c_size_t) :: struct_size = 64
+    integer(dem_index) :: triangles = 0, springs = 0, fragments = 0
+    real(c_double) :: largest = 0, debris = 0, median = 0, crack_length = 0
+  end type
+
   abstract interface
 
     integer(dem_status) function dem_force(context, query, force) bind(c)
@@ -791,6 +797,12 @@ module dem_c
       import
       type(c_ptr), value :: simulation
       integer(dem_index), intent(out) :: n_fragments, fragment(*)
+    end function
+
+    integer(dem_status) function dem_simulation_fracture(simulation, out) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      type(dem_fracture), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_stress(simulation, stress) bind(c)
@@ -1141,7 +1153,7 @@ module dem_c
   enum, bind(c)
     enumerator :: DEM_FIELD_DISPLACEMENT = 1, DEM_FIELD_VELOCITY = 2, DEM_FIELD_STRESS = 4, DEM_FIELD_VON_MISES = 8
     enumerator :: DEM_FIELD_PRINCIPAL = 16, DEM_FIELD_STRAIN = 32, DEM_FIELD_FORCE = 64, DEM_FIELD_CONTACT = 128
-    enumerator :: DEM_FIELD_ALL = 255
+    enumerator :: DEM_FIELD_FRAGMENT = 256, DEM_FIELD_ALL = 511
   end enum
 
   integer, parameter :: dem_probe_kind = c_int

@@ -1,8 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
+/* The pieces that springs join which are not broken, and numbers of the whole of them. */
 #include "model/fragments.h"
 
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/status.h"
 #include "base/union_find.h"
 #include "elastic/springs.h"
+
+/* ---- which nodes belong together ---- */
 
 /* Roots are the lowest nodes of fragments. In the last pass those of lower nodes are known already, and no node points
  * above itself. */
@@ -18,4 +25,78 @@ dem_index fragments_find(const dem_lattice *lattice, const double *integrity, de
         fragment[i] = fragment[fragment[i]];
     }
     return n_fragments;
+}
+
+/* ---- how much is broken, and into what ---- */
+
+static int compare(const void *a, const void *b)
+{
+    const double first = *(const double *)a, second = *(const double *)b;
+    return (first > second) - (first < second);
+}
+
+/* From the masses of fragments, each at its lowest node, and 0 at the others. They are sorted, so that the sums have
+ * the same bits however nodes are numbered. */
+static void weigh(dem_fracture *out, double *mass, dem_index n)
+{
+    double sum = 0.0, part = 0.0;
+    qsort(mass, (size_t)n, sizeof *mass, compare);
+    for (dem_index k = 0; k < n; k++) sum += mass[k];
+    for (dem_index k = 0; k < n && part < 0.5 * sum; k++) {
+        part += mass[k];
+        out->median = mass[k];
+    }
+    out->largest = sum > 0.0 ? mass[n - 1] / sum : 0.0;
+    out->debris = sum > 0.0 ? out->debris / sum : 0.0;
+}
+
+/* `mass` is 0, and so is `nodes`: how many nodes a fragment has. All are [n_nodes]. */
+static void measure(dem_fracture *out, const dem_lattice *l, const dem_index *fragment, double *mass, dem_index *nodes)
+{
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        mass[fragment[i]] += l->mass[i];
+        nodes[fragment[i]]++;
+    }
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (nodes[i] == 1) out->debris += mass[i];
+    weigh(out, mass, l->n_nodes);
+}
+
+/* What a triangle adds to a crack along a row of equilateral ones of its area: half of their side. */
+static double crack_length(const dem_lattice *l, dem_index triangle)
+{
+    const dem_index *corner = &l->triangles[3 * triangle];
+    const double *a = &l->x[2 * corner[0]], *b = &l->x[2 * corner[1]], *c = &l->x[2 * corner[2]];
+    const double area = 0.5 * fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    return sqrt(area / sqrt(3.0));
+}
+
+static void count(dem_fracture *out, const dem_lattice *l, const element_state *elements)
+{
+    for (dem_index k = 0; k < l->n_springs; k++) out->springs += springs_is_broken(element_state_springs(elements), k);
+    for (dem_index k = 0; elements != NULL && k < l->n_triangles; k++) {
+        if (!elements->triangle[k]) continue;
+        out->triangles++;
+        out->crack_length += crack_length(l, k);
+    }
+}
+
+dem_status fragments_measure(const dem_lattice *l, const element_state *elements, dem_fracture *out)
+{
+    const size_t n = (size_t)l->n_nodes;
+    dem_index *fragment = calloc(n, sizeof *fragment), *nodes = calloc(n, sizeof *nodes);
+    double *mass = calloc(n, sizeof *mass);
+    dem_fracture own = {.struct_size = sizeof own};
+    const bool good = fragment != NULL && nodes != NULL && mass != NULL;
+    if (good) {
+        own.fragments = fragments_find(l, element_state_springs(elements).pushed, fragment);
+        measure(&own, l, fragment, mass, nodes);
+        count(&own, l, elements);
+        *out = own;
+    }
+    free(fragment);
+    free(nodes);
+    free(mass);
+    CHECK(good, DEM_ERROR_MEMORY, "out of memory for the fragments of %zu nodes", n);
+    return DEM_OK;
 }

@@ -3,7 +3,7 @@
 #ifndef DEM_MODEL_FRAGMENTS_H
 #define DEM_MODEL_FRAGMENTS_H
 
-#include <dem/dem.h>
+#include "model/element_state.h"
 
 /** Nodes joined by springs that are not broken are of one fragment, whatever else breaks or broke before. A node
  *  without such a spring is one of its own.
@@ -11,5 +11,8 @@
  *  \param[out] fragment  [n_nodes] the lowest node of the fragment of each
  *  \return their number */
 dem_index fragments_find(const dem_lattice *lattice, const double *integrity, dem_index *fragment);
+
+/** How much is broken, and into what.  \param elements  NULL: all are whole  \return DEM_ERROR_MEMORY */
+dem_status fragments_measure(const dem_lattice *lattice, const element_state *elements, dem_fracture *out);
 
 #endif

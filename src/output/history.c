@@ -71,7 +71,16 @@ static const table_column columns[] = {
     {"/history/obstacle_power", HDF5_F64, OBSTACLES, 1},
     {"/history/boundary_force", HDF5_F64, BOUNDARIES, 2},
     {"/history/boundary_displacement", HDF5_F64, BOUNDARIES, 2},
+    /* What is broken, and into what. These come last, since most runs do without them. */
+    {"/history/largest_fragment", HDF5_F64, RUN, 1},
+    {"/history/debris", HDF5_F64, RUN, 1},
+    {"/history/median_fragment", HDF5_F64, RUN, 1},
+    {"/history/crack_length", HDF5_F64, RUN, 1},
+    {"/history/broken_triangles", HDF5_I64, RUN, 1},
+    {"/history/broken_springs", HDF5_I64, RUN, 1},
+    {"/history/fragments", HDF5_I64, RUN, 1},
 };
+enum { N_COLUMNS = sizeof columns / sizeof columns[0], OF_FRACTURE = 7 };
 
 /* Columns about the run: first all reals, then all counts, as `columns` lists them. Returns the cell behind, as the
  * others do. */
@@ -147,6 +156,29 @@ static table_cell *put_boundaries(table_cell *cell, const dem_simulation *simula
     return displacement;
 }
 
+static void put_fracture(table_cell *cell, const dem_fracture *f)
+{
+    const double reals[] = {f->largest, f->debris, f->median, f->crack_length};
+    const dem_index counts[] = {f->triangles, f->springs, f->fragments};
+    cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
+    (void)table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
+}
+
+/* All nodes are looked at, so only where something has broken since the last row. */
+static dem_status measure_fracture(history *h, const dem_simulation *simulation)
+{
+    if (!h->breaks || !h->stale) return DEM_OK;
+    h->fracture = (dem_fracture){.struct_size = sizeof h->fracture};
+    TRY(dem_simulation_fracture(simulation, &h->fracture));
+    h->stale = false;
+    return DEM_OK;
+}
+
+void history_forget(history *h)
+{
+    h->stale = true;
+}
+
 /* The closure: by what the ledger has changed since the first row, over the largest energy of motion and strain so far.
  * The ledger is constant but for the error of integration. */
 static double close_ledger(history *h, const dem_energy *e)
@@ -157,15 +189,15 @@ static double close_ledger(history *h, const dem_energy *e)
 }
 
 /* How many bodies, obstacles and boundary conditions the model and the options have decides the width of a row. */
-dem_status history_init(history *out, const dem_simulation *simulation)
+dem_status history_init(history *out, const dem_simulation *simulation, bool breaks)
 {
     dem_model_size size = {.struct_size = sizeof size};
     dem_options options = dem_options_default();
     (void)dem_model_sizes(dem_simulation_model(simulation), &size);
     (void)dem_simulation_options(simulation, &options);
     const dem_index count[] = {size.n_bodies, size.n_obstacles, options.n_boundaries};
-    *out = (history){.last = 0.0};
-    return table_init(&out->table, columns, sizeof columns / sizeof columns[0], count);
+    *out = (history){.breaks = breaks, .stale = true};
+    return table_init(&out->table, columns, breaks ? N_COLUMNS : N_COLUMNS - OF_FRACTURE, count);
 }
 
 void history_free(history *h)
@@ -174,12 +206,13 @@ void history_free(history *h)
 }
 
 /* The step that a run is resumed at comes twice: a row of the same instant is not added again. */
-void history_record(history *h, const dem_simulation *simulation)
+dem_status history_record(history *h, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
     /* table_total() counts rows of earlier files, too. */
-    if (table_total(&h->table) > 0 && state.t == h->last) return;
+    if (table_total(&h->table) > 0 && state.t == h->last) return DEM_OK;
+    TRY(measure_fracture(h, simulation));
     dem_energy energy = {.struct_size = sizeof energy};
     (void)dem_simulation_energy(simulation, &energy);
     const double closure = close_ledger(h, &energy);
@@ -187,8 +220,10 @@ void history_record(history *h, const dem_simulation *simulation)
     cell = put_run(cell, simulation, &state, &energy, closure);
     cell = put_bodies(cell, simulation, (dem_index)h->table.count[BODIES]);
     cell = put_obstacles(cell, simulation, (dem_index)h->table.count[OBSTACLES]);
-    (void)put_boundaries(cell, simulation, (dem_index)h->table.count[BOUNDARIES]);
+    cell = put_boundaries(cell, simulation, (dem_index)h->table.count[BOUNDARIES]);
+    if (h->breaks) put_fracture(cell, &h->fracture);
     h->last = state.t;
+    return DEM_OK;
 }
 
 /* A file whose history does not have this instant in this row belongs to another run. */

@@ -3,6 +3,8 @@
 #ifndef DEM_OUTPUT_HISTORY_H
 #define DEM_OUTPUT_HISTORY_H
 
+#include <stdbool.h>
+
 #include "output/table.h"
 
 typedef struct history {
@@ -10,14 +12,21 @@ typedef struct history {
     double last;    /**< t of the last row, s */
     double start;   /**< J, of the ledger in the first row */
     double largest; /**< J, energy of motion and strain so far */
+    bool breaks;    /**< there are columns of what is broken: */
+    bool stale;     /**< something has broken since it was measured */
+    dem_fracture fracture;
 } history;
 
-/** Free with history_free(). */
-dem_status history_init(history *out, const dem_simulation *simulation);
+/** Free with history_free().  \param breaks  whether there are columns of what is broken */
+dem_status history_init(history *out, const dem_simulation *simulation, bool breaks);
 void history_free(history *h);
 
-/** Appends the state as a row, unless the last row is of the same instant. The table's buffer must have room. */
-void history_record(history *h, const dem_simulation *simulation);
+/** To be called when something has broken. */
+void history_forget(history *h);
+
+/** Appends the state as a row, unless the last row is of the same instant. The table's buffer must have room.
+ *  \return DEM_ERROR_MEMORY, then there is no row */
+dem_status history_record(history *h, const dem_simulation *simulation);
 
 /** DEM_ERROR_IO unless this row of a file has the time h->last. */
 dem_status history_expect_last(const history *h, const hdf5_file *file, hsize_t row);

@@ -83,7 +83,7 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
     trajectory_rows *r = &t->rows;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", path_of(t));
     if (r->history.table.buffered == TABLE_ROWS) TRY(flush(t));
-    history_record(&r->history, simulation);
+    TRY(history_record(&r->history, simulation));
     for (dem_index k = 0; k < r->options.n_probes; k++) probe_record(&r->probes[k], simulation);
     return DEM_OK;
 }
@@ -105,6 +105,7 @@ static dem_status on_break(void *context, const dem_simulation *simulation, cons
     dem_trajectory *t = context;
     (void)simulation;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more breaks", path_of(t));
+    history_forget(&t->rows.history);
     if (t->rows.breaks.buffered == TABLE_ROWS) TRY(flush(t));
     break_table_record(&t->rows.breaks, what);
     return DEM_OK;

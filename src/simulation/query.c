@@ -218,12 +218,18 @@ dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, do
     return DEM_OK;
 }
 
+/* At the time that is seen: breaks are taken back with the other events. */
+static const element_state *elements_of(const dem_simulation *s)
+{
+    (void)contact_of(s);
+    return s->forces.elements;
+}
+
 dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangle, unsigned char *spring)
 {
     TRY(check_given("dem_simulation_broken", s, s));
     const dem_lattice *l = &s->model->lattice;
-    (void)contact_of(s);
-    const element_state *elements = s->forces.elements;
+    const element_state *elements = elements_of(s);
     for (dem_index k = 0; k < l->n_triangles && triangle != NULL; k++)
         triangle[k] = elements != NULL && elements->triangle[k];
     for (dem_index k = 0; k < l->n_springs && spring != NULL; k++)
@@ -235,9 +241,16 @@ dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragme
 {
     TRY(check_given("dem_simulation_fragments", s, n_fragments));
     TRY(check_given("dem_simulation_fragments", s, fragment));
-    (void)contact_of(s);
-    *n_fragments = fragments_find(&s->model->lattice, element_state_springs(s->forces.elements).pushed, fragment);
+    *n_fragments = fragments_find(&s->model->lattice, element_state_springs(elements_of(s)).pushed, fragment);
     return DEM_OK;
+}
+
+dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
+{
+    dem_fracture seen;
+    TRY(check_given("dem_simulation_fracture", s, out));
+    TRY(fragments_measure(&s->model->lattice, elements_of(s), &seen));
+    return GIVE(dem_fracture, out, &seen);
 }
 
 static void stress_at(const dem_simulation *s, dem_index node, double *stress)

@@ -118,7 +118,7 @@ contains
   subroutine read_output()
     character(4096) :: name, precision
     real(dp) :: frame_interval, closure
-    character(32) :: fields(7)
+    character(32) :: fields(9)
     integer :: deflate, peak_every, most_stressed
     logical :: events, breaks
     namelist /output/ name, frame_interval, precision, deflate, events, breaks, closure, fields, peak_every, &

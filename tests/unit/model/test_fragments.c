@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask.h"
 #include "model/fragments.h"
 
 enum { max_nodes = 40, max_springs = 120, n_lattices = 500 };
@@ -102,4 +103,93 @@ TEST(a_body_without_breaks_is_one_fragment)
     }
     assert_int_equal(fragments_find(&r.lattice, NULL, r.fragment), 1);
     for (dem_index i = 0; i < max_nodes; i++) assert_int_equal(r.fragment[i], 0);
+}
+
+/* ---- how much is broken, and into what ---- */
+
+/* A chain of six masses, 1 to 6 kg, broken behind the first and behind the third. */
+enum { N = 6 };
+
+static void open_chain(support_run *run)
+{
+    double x[2 * N], masses[N];
+    dem_index ends[2 * (N - 1)];
+    for (dem_index i = 0; i < N; i++) {
+        x[2 * i] = (double)i;
+        x[2 * i + 1] = 0.0;
+        masses[i] = (double)(i + 1);
+    }
+    for (dem_index k = 0; k < 2 * (N - 1); k++) ends[k] = (k + 1) / 2;
+    CLEANUP(dem_lattice_free) dem_lattice chain = support_lattice(N, x, masses, N - 1, ends, 1.0, 1.0, NULL);
+    const dem_options options = dem_options_default();
+    support_open(run, &chain, NULL, 0, &options);
+}
+
+TEST(a_whole_chain_is_one_fragment)
+{
+    CLEANUP(support_close) support_run run;
+    open_chain(&run);
+    const dem_fracture report = ask_fracture(run.simulation);
+    assert_int_equal(report.springs, 0);
+    assert_int_equal(report.fragments, 1);
+    assert_close(report.largest, 1.0, 0.0);
+    assert_close(report.debris, 0.0, 0.0);
+    assert_close(report.median, 21.0, 0.0);
+}
+
+/* Pieces of 1, 5 and 15 of 21 kg: half of that is reached with the last one. */
+TEST(masses_of_fragments_are_those_of_their_nodes)
+{
+    const dem_index which[] = {0, 2};
+    CLEANUP(support_close) support_run run;
+    open_chain(&run);
+    assert_ok(dem_simulation_break(run.simulation, NULL, 0, which, 2));
+    const dem_fracture report = ask_fracture(run.simulation);
+    assert_int_equal(report.springs, 2);
+    assert_int_equal(report.fragments, 3);
+    assert_close(report.largest, 15.0 / 21.0, 1e-16);
+    assert_close(report.debris, 1.0 / 21.0, 1e-16);
+    assert_close(report.median, 15.0, 0.0);
+}
+
+/* All nodes by themselves: 1 + 2 + 3 + 4 kg are less than half of 21, with 5 it is more. */
+TEST(single_nodes_are_debris)
+{
+    const dem_index which[] = {0, 1, 2, 3, 4};
+    CLEANUP(support_close) support_run run;
+    open_chain(&run);
+    assert_ok(dem_simulation_break(run.simulation, NULL, 0, which, 5));
+    const dem_fracture report = ask_fracture(run.simulation);
+    assert_int_equal(report.fragments, N);
+    assert_close(report.largest, 6.0 / 21.0, 1e-16);
+    assert_close(report.debris, 1.0, 1e-15);
+    assert_close(report.median, 5.0, 0.0);
+}
+
+/* A row of triangles of 5 mm is broken across a block: twelve triangles between rows of seven and six nodes are a
+ * crack of 30 mm, to rounding. */
+TEST(a_row_of_triangles_is_as_long_as_its_springs)
+{
+    const dem_material rubber = {.struct_size = sizeof(dem_material),
+                                 .youngs_modulus = 1e7,
+                                 .poissons_ratio = 0.2,
+                                 .density = 1050.0,
+                                 .thickness = 1.0};
+    const dem_options options = dem_options_default();
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.03, 0.052, 0.005, &rubber);
+    CLEANUP(support_close) support_run run;
+    dem_index row[64], n = 0;
+    for (dem_index t = 0; t < block.n_triangles; t++) {
+        int above = 0;
+        for (int c = 0; c < 3; c++) above += block.x[2 * block.triangles[3 * t + c] + 1] > 0.026;
+        if (above == 1 || above == 2) row[n++] = t;
+        assert_true(n < 64);
+    }
+    support_open(&run, &block, NULL, 0, &options);
+    assert_ok(dem_simulation_break(run.simulation, row, n, NULL, 0));
+    const dem_fracture report = ask_fracture(run.simulation);
+    assert_int_equal(report.triangles, n);
+    assert_int_equal(report.fragments, 2);
+    assert_close(report.crack_length, 0.0025 * (double)n, 1e-15);
+    assert_close(report.crack_length, 0.03, 0.0026);
 }

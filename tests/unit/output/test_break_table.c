@@ -17,6 +17,8 @@ static const char *path, *part;
 /* What was heard while the file was written. */
 enum { MOST = 1024 };
 static dem_break heard[MOST];
+static dem_index fragment[MOST];
+static dem_fracture fracture;
 static dem_index n_heard;
 
 static dem_status on_break(void *context, const dem_simulation *simulation, const dem_break *what)
@@ -65,13 +67,15 @@ static void write_run(bool breaks)
     CLEANUP(support_close) support_run run;
     dem_trajectory *trajectory = NULL;
     dem_trajectory_options options = dem_trajectory_options_default();
-    options.frame_interval = 2e-4, options.breaks = breaks;
+    options.frame_interval = 2e-4, options.breaks = breaks, options.fields = DEM_FIELD_FRAGMENT;
     open_block(&run);
     assert_ok(dem_trajectory_create(&trajectory, path, run.simulation, &options));
     watch(&run, trajectory);
     (void)support_at(&run, 4e-4);
     assert_ok(dem_simulation_break(run.simulation, which, 1, NULL, 0));
     (void)support_at(&run, 1e-3);
+    fracture = ask_fracture(run.simulation);
+    assert_ok(dem_simulation_fragments(run.simulation, &fracture.fragments, fragment));
     assert_ok(dem_trajectory_finish(trajectory));
     dem_trajectory_destroy(trajectory);
 }
@@ -118,6 +122,55 @@ TEST(the_table_has_every_break)
     dem_reader_close(reader);
 }
 
+/* The last frame is at the end. */
+TEST(frames_show_fragments)
+{
+    static double values[MOST];
+    dem_reader *reader = NULL;
+    dem_index n_frames;
+    write_run(true);
+    assert_true(fracture.fragments > 1);
+    assert_ok(dem_reader_open(&reader, path));
+    const dem_reader_array *array = dem_reader_array_find(reader, "fragment");
+    const dem_index n = dem_reader_lattice(reader)->n_nodes;
+    assert_non_null(array);
+    assert_true(!array->of_springs && array->type == DEM_READER_I64 && !array->constant && n <= MOST);
+    (void)dem_reader_times(reader, &n_frames);
+    assert_int_equal(n_frames, 6);
+    assert_ok(dem_reader_read(reader, array, 0, values));
+    for (dem_index i = 0; i < n; i++) assert_close(values[i], 0.0, 0.0);
+    assert_ok(dem_reader_read(reader, array, 5, values));
+    for (dem_index i = 0; i < n; i++) assert_close(values[i], (double)fragment[i], 0.0);
+    dem_reader_close(reader);
+}
+
+static void expect_last(const dem_reader *reader, const char *name, const char *unit, double expected)
+{
+    double value;
+    const dem_reader_column *column = dem_reader_column_find(reader, "history", name);
+    if (column == NULL) fail_msg("there is no history/%s", name);
+    assert_string_equal(column->unit, unit);
+    assert_ok(dem_reader_read_rows(reader, column, column->n_rows - 1, 1, &value));
+    assert_close(value, expected, 0.0);
+}
+
+/* Nothing breaks in the step in which the run ends. */
+TEST(the_history_knows_how_much_is_broken)
+{
+    dem_reader *reader = NULL;
+    write_run(true);
+    assert_true(fracture.triangles > 10 && fracture.springs > 1 && fracture.largest < 1.0);
+    assert_ok(dem_reader_open(&reader, path));
+    expect_last(reader, "broken_triangles", "", (double)fracture.triangles);
+    expect_last(reader, "broken_springs", "", (double)fracture.springs);
+    expect_last(reader, "fragments", "", (double)fracture.fragments);
+    expect_last(reader, "largest_fragment", "1", fracture.largest);
+    expect_last(reader, "debris", "1", fracture.debris);
+    expect_last(reader, "median_fragment", "kg", fracture.median);
+    expect_last(reader, "crack_length", "m", fracture.crack_length);
+    dem_reader_close(reader);
+}
+
 TEST(without_the_option_there_is_no_table)
 {
     dem_reader *reader = NULL;
@@ -125,6 +178,7 @@ TEST(without_the_option_there_is_no_table)
     assert_true(n_heard > 10);
     assert_ok(dem_reader_open(&reader, path));
     assert_null(dem_reader_column_find(reader, "breaks", "t"));
+    assert_null(dem_reader_column_find(reader, "history", "fragments"));
     dem_reader_close(reader);
 }
 

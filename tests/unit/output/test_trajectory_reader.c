@@ -358,6 +358,7 @@ TEST(arrays_are_listed_with_what_they_are)
         {"contact_force", "N", DEM_READER_F64, 0, 3, 0},
         {"contact_pressure", "Pa", DEM_READER_F64, 0, 1, 0},
         {"displacement", "m", DEM_READER_F64, 0, 3, 0},
+        {"fragment", "", DEM_READER_I64, 0, 1, 0},
         {"id", "", DEM_READER_I64, 0, 1, 1},
         {"peak_stress", "Pa", DEM_READER_F64, 0, 6, 1},
         {"peak_von_mises", "Pa", DEM_READER_F64, 0, 1, 1},

@@ -33,7 +33,7 @@ static shot *shoot(void)
     stored_open(&s->stored);
     assert_ok(trajectory_rows_init(&s->rows, s->run.simulation, &what));
     assert_ok(trajectory_rows_create(&s->rows, &s->stored.file));
-    history_record(&s->rows.history, s->run.simulation);
+    assert_ok(history_record(&s->rows.history, s->run.simulation));
     break_table_record(&s->rows.breaks, &(dem_break){.spring = -1});
     for (int k = 0; k < 2; k++) {
         probe_record(&s->rows.probes[k], s->run.simulation);

@@ -334,6 +334,7 @@ static void look_at_all(const dem_simulation *s)
     dem_index n_fragments;
     assert_ok(dem_simulation_fragments(s, &n_fragments, fragment));
     free(fragment);
+    assert_int_equal(ask_fracture(s).fragments, n_fragments);
 }
 
 static dem_status only_look(void *context, const dem_simulation *simulation)
