@@ -101,6 +101,7 @@ static dem_trajectory_options frames_of(const job *j)
     options.deflate = d->deflate;
     options.events = d->events;
     options.breaks = d->breaks;
+    options.fragments = d->fragments;
     options.fields = d->fields;
     options.peaks = j->peaks;
     options.most_stressed = d->most_stressed;

@@ -190,6 +190,7 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     d->deflate = (int)schema_real(output, "deflate");
     d->events = schema_real(output, "events") != 0.0;
     d->breaks = schema_real(output, "breaks") != 0.0;
+    d->fragments = schema_real(output, "fragments") != 0.0;
     d->fields = fields_of(schema_value_of(output, "fields"));
     d->peak_every = (dem_index)schema_real(output, "peak_every");
     d->most_stressed = (dem_index)schema_real(output, "most_stressed");
@@ -366,7 +367,9 @@ deck_status deck_parse(deck *out, const char *path, const setting *settings, siz
 /* Where nothing may break there is no table of it; where something may, frames show fragments, too. */
 static void settle_breaks(deck *d)
 {
-    d->breaks = d->breaks && (d->lattice.strength != NULL || d->lattice.critical_stretch != NULL);
+    const bool may_break = d->lattice.strength != NULL || d->lattice.critical_stretch != NULL;
+    d->breaks = d->breaks && may_break;
+    d->fragments = d->fragments && may_break;
     if (d->breaks) d->fields |= DEM_FIELD_FRAGMENT;
 }
 

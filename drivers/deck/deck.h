@@ -30,7 +30,7 @@ typedef struct deck {
     double closure;        /* share of the energy from which on the log warns */
     dem_options options;   /* 0, of the window < 0, where the library is to choose; with its arrays once built */
     double frame_interval; /* s */
-    int double_precision, deflate, events, breaks;
+    int double_precision, deflate, events, breaks, fragments;
     uint32_t fields;         /* DEM_FIELD_... */
     dem_index peak_every;    /* accepted steps between looks at peaks; 0: none */
     dem_index most_stressed; /* that are listed */

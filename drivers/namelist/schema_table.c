@@ -315,6 +315,8 @@ static const schema_key output_keys[] = {
     {"breaks", SCHEMA_LOGICAL, 1, 1, "-", ".true.", ANY, NULL, false,
      "Where something may break: write the table /breaks, columns of /history, and `fragment` of nodes in frames.",
      NULL},
+    {"fragments", SCHEMA_LOGICAL, 1, 1, "-", ".true.", ANY, NULL, false,
+     "Where something may break: write the table /fragments, with a row for each fragment in each frame.", NULL},
     {"closure", SCHEMA_REAL, 1, 1, "-", "1e-2", "> 0", NULL, false,
      "The log warns when the energy ledger is open by this share of the largest energy of motion and strain so far.",
      NULL},

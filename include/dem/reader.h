@@ -85,7 +85,8 @@ DEM_API dem_status dem_reader_broken_triangles(const dem_reader *reader, dem_ind
 /* ---- tables ----------------------------------------------------------------------------------------------------- */
 
 /** A column of a table: "history", "events", "breaks", "probes/NAME", "most_stressed/nodes", "most_stressed/springs",
- *  and "frames", which has a row for each frame: energies and contacts. */
+ *  "fragments", which has a row for each fragment in each frame, and "frames", which has one for each frame: energies
+ *  and contacts. */
 typedef struct dem_reader_column {
     const char *table, *name;
     const char *unit;     /**< as of arrays */
@@ -101,6 +102,12 @@ DEM_API const dem_reader_column *dem_reader_columns(const dem_reader *reader, de
 
 /** NULL if there is none. */
 DEM_API const dem_reader_column *dem_reader_column_find(const dem_reader *reader, const char *table, const char *name);
+
+/** Which rows of the table "fragments" are those of a frame, by the ids of fragments.
+ *  \param frame              0 <= frame < n_frames
+ *  \param[out] first, count  for dem_reader_read_rows(); 0 and 0 where there is no such table
+ *  \return DEM_ERROR_ARGUMENT if there is no such frame */
+DEM_API dem_status dem_reader_fragments(const dem_reader *reader, dem_index frame, dem_index *first, dem_index *count);
 
 /** \param column       one of dem_reader_columns()
  *  \param[out] values  [n_rows][items][components]

@@ -58,6 +58,7 @@ typedef struct dem_trajectory_options {
     dem_index n_probes;      /**< default 0 */
     const dem_probe *probes; /**< [n_probes] copied */
     bool breaks;             /**< true: the table /breaks of all that breaks, and columns of /history; default false */
+    bool fragments;          /**< true: the table /fragments, of each frame; default false */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)

@@ -1131,6 +1131,13 @@ module dem_c
       character(kind=c_char), intent(in) :: table(*), name(*)
     end function
 
+    integer(dem_status) function dem_reader_fragments(reader, frame, first, count) bind(c)
+      import
+      type(c_ptr), value :: reader
+      integer(dem_index), value :: frame
+      integer(dem_index), intent(out) :: first, count
+    end function
+
     integer(dem_status) function dem_reader_read_column(reader, column, values) bind(c)
       import
       type(c_ptr), value :: reader
@@ -1177,7 +1184,7 @@ module dem_c
     type(c_ptr) :: peaks = c_null_ptr
     integer(dem_index) :: most_stressed = 0, n_probes = 0
     type(c_ptr) :: probes = c_null_ptr
-    logical(c_bool) :: breaks = .false.
+    logical(c_bool) :: breaks = .false., fragments = .false.
   end type
 
   interface

@@ -12,6 +12,9 @@
  *  without triangles, do not have it. */
 #define FRAMES_BROKEN_TRIANGLES "/fracture/triangles"
 
+/** The dataset of the first rows of frames in the table of fragments, and behind them of the number of its rows. */
+#define FRAMES_FRAGMENT_OFFSETS "/fragments/frame_offset"
+
 typedef struct frames {
     dem_index n_nodes, n_springs, n_triangles;
     uint32_t fields; /* DEM_FIELD_... */

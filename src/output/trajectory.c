@@ -46,6 +46,7 @@ static const char *part_of(const dem_trajectory *t)
 static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const dem_simulation *simulation)
 {
     TRY(trajectory_rows_flush(&t->rows, file));
+    TRY(fragment_table_append(&t->rows.fragments, file, t->rows.frames.n));
     return frames_append(&t->rows.frames, file, simulation);
 }
 
@@ -61,7 +62,9 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
     TRY(dem_simulation_state(simulation, &state));
     /* frames.before counts those in segments, so that the first frame of a resumed run is compared as well. */
     if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
-    TRY(hdf5_open_write(&file, part_of(t), trajectory_rows_flush_bytes(&t->rows) + frames_bytes(f)));
+    TRY(fragment_table_measure(&t->rows.fragments, simulation));
+    const hsize_t of_fragments = fragment_table_bytes(&t->rows.fragments);
+    TRY(hdf5_open_write(&file, part_of(t), trajectory_rows_flush_bytes(&t->rows) + of_fragments + frames_bytes(f)));
     TRY(hdf5_close(&file, append_frame(t, &file, simulation)));
     f->n++;
     f->last = state.t;
@@ -119,8 +122,9 @@ static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
 /* What a checkpoint keeps of a trajectory, as bytes of an entry. All members are of 8 bytes, so that there are no
  * gaps. */
 typedef struct progress {
-    int64_t rows[ROWS_PROBES];                                  /* so far, over all segments */
-    int64_t n_probes, fields, double_precision, events, breaks; /* of the options, which have to be these again */
+    int64_t rows[ROWS_PROBES]; /* so far, over all segments */
+    int64_t n_probes, fields, double_precision, events, breaks,
+        fragments; /* of the options, which have to be these again */
     double frame_interval;
     double last_frame, last_row; /* s */
     double start, largest;       /* J, of the history */
@@ -137,6 +141,7 @@ static progress read_progress(const dem_trajectory *t)
                   .double_precision = o->double_precision != 0,
                   .events = o->events != 0,
                   .breaks = o->breaks != 0,
+                  .fragments = o->fragments != 0,
                   .frame_interval = o->frame_interval,
                   .last_frame = r->frames.last,
                   .last_row = r->history.last,
@@ -179,6 +184,7 @@ static dem_status check_options_then(const progress *now, const progress *then)
     TRY(check_same("double_precision", (double)now->double_precision, (double)then->double_precision));
     TRY(check_same("events", (double)now->events, (double)then->events));
     TRY(check_same("breaks", (double)now->breaks, (double)then->breaks));
+    TRY(check_same("fragments", (double)now->fragments, (double)then->fragments));
     return check_same("frame_interval", now->frame_interval, then->frame_interval);
 }
 

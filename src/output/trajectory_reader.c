@@ -5,6 +5,7 @@
  *   /VTKHDF/FieldData                 the table "frames", a row for each frame
  *   /fracture/triangles               which triangles are broken in each frame
  *   /history, /events, /breaks        tables of these names
+ *   /fragments                        likewise, and which of its rows are of which frame
  *   /probes/NAME, /most_stressed/...  tables "probes/NAME", ...
  *   /lattice, /obstacles              read by lattice_file.c and obstacle_file.c
  * The file may be any: it is checked as in hdf5_untrusted.c, and since it is closed between calls and may have been
@@ -51,7 +52,8 @@ struct dem_reader {
     motion_record *records; /* [n_obstacles] of those that a program moved; NULL: none yet */
     double *times;
     dem_index n_frames;
-    bool knows_triangles; /* whether the file tells which are broken */
+    bool knows_triangles;       /* whether the file tells which are broken */
+    dem_index *fragment_offset; /* [n_frames + 1] first row of a frame in the table of fragments; NULL: there is none */
     dem_reader_array *arrays;
     dem_index n_arrays, room_arrays;
     dem_reader_column *columns;
@@ -234,7 +236,7 @@ static dem_status find_broken_triangles(dem_reader *reader, const hdf5_file *fil
 
 /* ---- tables ---- */
 
-static const char frames_table[] = "frames", history_table[] = "history";
+static const char frames_table[] = "frames", history_table[] = "history", fragments_table[] = "fragments";
 
 /* The table of frames is VTK's field data; the others are groups of their names. */
 static void name_table(char path[PATH], const char *table)
@@ -289,6 +291,12 @@ static void even_rows(dem_reader *reader, dem_index first)
     for (dem_index k = first; k < reader->n_columns; k++) reader->columns[k].n_rows = rows;
 }
 
+/* Of fragments, where the rows of frames begin is no column. */
+static bool is_offset(const char *table, const char *name)
+{
+    return strcmp(table, fragments_table) == 0 && strcmp(name, strrchr(FRAMES_FRAGMENT_OFFSETS, '/') + 1) == 0;
+}
+
 /* A group that is not there is a table without columns. */
 static dem_status add_table(dem_reader *reader, const hdf5_file *file, const char *name)
 {
@@ -299,7 +307,8 @@ static dem_status add_table(dem_reader *reader, const hdf5_file *file, const cha
     TRY(keep(reader, name, &table));
     name_table(group, table);
     dem_status status = list_names(&all, file, group);
-    for (dem_index k = 0; k < all.n && status == DEM_OK; k++) status = add_column(reader, file, table, all.list[k]);
+    for (dem_index k = 0; k < all.n && status == DEM_OK; k++)
+        if (!is_offset(table, all.list[k])) status = add_column(reader, file, table, all.list[k]);
     free(all.list);
     even_rows(reader, first);
     return status;
@@ -334,6 +343,45 @@ static dem_status add_frames_table(dem_reader *reader, const hdf5_file *file)
     return DEM_OK;
 }
 
+/* ---- fragments ---- */
+
+/* Ascending from 0 on, one for each frame and one more; a run that goes on may have another frame already. */
+static dem_status read_fragment_offsets(dem_reader *reader, const hdf5_file *file)
+{
+    static const char name[] = FRAMES_FRAGMENT_OFFSETS;
+    const dem_index n = reader->n_frames;
+    hdf5_untrusted_shape shape;
+    TRY(hdf5_untrusted_measure(file, name, HDF5_I64, &shape));
+    CHECK(shape.rank == 1 && shape.extent[0] > (hsize_t)n, DEM_ERROR_IO, "%s: %s: is not of shape [%lld frames + 1]",
+          file->path, name, (long long)n);
+    reader->fragment_offset = lattice_zeros(n + 1, sizeof *reader->fragment_offset);
+    CHECK_MEMORY(reader->fragment_offset);
+    TRY(hdf5_untrusted_read(file, name, HDF5_I64, (hdf5_untrusted_rows){0, (hsize_t)n + 1, 0},
+                            reader->fragment_offset));
+    for (dem_index k = 0; k <= n; k++)
+        if (reader->fragment_offset[k] < (k > 0 ? reader->fragment_offset[k - 1] : 0))
+            return hdf5_untrusted_refuse(file, name, "is not ascending from 0 on");
+    return DEM_OK;
+}
+
+/* Its rows are those of whole frames. */
+static dem_status add_fragments(dem_reader *reader, const hdf5_file *file)
+{
+    const dem_index first = reader->n_columns;
+    bool present = false;
+    TRY(hdf5_untrusted_find(file, FRAMES_FRAGMENT_OFFSETS, &present));
+    if (!present) return DEM_OK;
+    TRY(read_fragment_offsets(reader, file));
+    TRY(add_table(reader, file, fragments_table));
+    for (dem_index k = first; k < reader->n_columns; k++) {
+        CHECK(reader->columns[k].n_rows >= reader->fragment_offset[reader->n_frames], DEM_ERROR_IO,
+              "%s: /fragments: has columns of %lld rows, of %lld fragments", file->path,
+              (long long)reader->columns[k].n_rows, (long long)reader->fragment_offset[reader->n_frames]);
+        reader->columns[k].n_rows = reader->fragment_offset[reader->n_frames];
+    }
+    return DEM_OK;
+}
+
 /* ---- opening ---- */
 
 /* A run without frames has no such group. */
@@ -347,6 +395,7 @@ static dem_status list_frames(dem_reader *reader, const hdf5_file *file)
     TRY(add_arrays(reader, file, 0));
     TRY(add_arrays(reader, file, 1));
     TRY(find_broken_triangles(reader, file));
+    TRY(add_fragments(reader, file));
     return add_frames_table(reader, file);
 }
 
@@ -413,6 +462,7 @@ void dem_reader_close(dem_reader *reader)
     free(reader->columns);
     free(reader->arrays);
     free(reader->times);
+    free(reader->fragment_offset);
     for (dem_index k = 0; k < reader->n_obstacles && reader->records != NULL; k++)
         motion_record_free(&reader->records[k]);
     free(reader->records);
@@ -547,6 +597,17 @@ dem_status dem_reader_broken_triangles(const dem_reader *reader, dem_index frame
     TRY(hdf5_untrusted_open(&file, reader->path));
     TRY(hdf5_close(&file, read_checked(&file, FRAMES_BROKEN_TRIANGLES, HDF5_U8, rows, 1, triangle)));
     for (hsize_t k = 0; k < n; k++) triangle[k] = triangle[k] != 0;
+    return DEM_OK;
+}
+
+dem_status dem_reader_fragments(const dem_reader *reader, dem_index frame, dem_index *first, dem_index *count)
+{
+    CHECK(reader != NULL && first != NULL && count != NULL, DEM_ERROR_ARGUMENT,
+          "dem_reader_fragments: an argument is NULL");
+    TRY(check_frame(reader, frame));
+    const dem_index *offset = reader->fragment_offset;
+    *first = offset != NULL ? offset[frame] : 0;
+    *count = offset != NULL ? offset[frame + 1] - offset[frame] : 0;
     return DEM_OK;
 }
 

@@ -59,6 +59,7 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
     /* Events and breaks count as kinds even if they are not wanted: their tables then have no columns. */
     out->n_kinds = ROWS_PROBES + (int)options->n_probes;
     TRY(frames_init(&out->frames, out->model, options));
+    if (has_frames(out) && options->fragments) TRY(fragment_table_init(&out->fragments, out->model));
     TRY(make_probes(out));
     out->options.probes = NULL; /* the caller's */
     if (options->events) TRY(event_table_init(&out->events));
@@ -74,6 +75,7 @@ void trajectory_rows_free(trajectory_rows *r)
     for (dem_index k = 0; r->probes != NULL && k < r->options.n_probes; k++) probe_free(&r->probes[k]);
     free(r->probes);
     frames_free(&r->frames);
+    fragment_table_free(&r->fragments);
     provenance_free(&r->provenance);
 }
 
@@ -82,6 +84,7 @@ dem_status trajectory_rows_create(const trajectory_rows *r, const hdf5_file *fil
 {
     const dem_lattice *lattice = dem_model_lattice(r->model);
     if (has_frames(r)) TRY(frames_create(&r->frames, file, lattice));
+    TRY(fragment_table_create(&r->fragments, file));
     TRY(lattice_file_write(file, lattice, r->options.deflate));
     TRY(obstacle_file_write(file, r->model));
     if (r->options.events) TRY(event_table_create(&r->events, file));
@@ -150,6 +153,7 @@ dem_status trajectory_rows_copy(const trajectory_rows *r, const hdf5_file *from,
                                 const hdf5_span *spans)
 {
     TRY(frames_copy(&r->frames, from, to, spans[ROWS_FRAMES]));
+    TRY(fragment_table_copy(&r->fragments, from, to, spans[ROWS_FRAMES]));
     for (int k = ROWS_HISTORY; k < r->n_kinds; k++) TRY(table_copy(table_of(r, k), from, to, spans[k]));
     return DEM_OK;
 }
@@ -158,6 +162,7 @@ dem_status trajectory_rows_count(const trajectory_rows *r, const hdf5_file *file
 {
     spans[ROWS_FRAMES].count = 0;
     if (has_frames(r)) TRY(frames_count(&r->frames, file, &spans[ROWS_FRAMES].count));
+    TRY(fragment_table_verify(&r->fragments, file, spans[ROWS_FRAMES].count));
     for (int k = ROWS_HISTORY; k < r->n_kinds; k++) TRY(table_count(table_of(r, k), file, &spans[k].count));
     return DEM_OK;
 }
@@ -166,6 +171,7 @@ dem_status trajectory_rows_count(const trajectory_rows *r, const hdf5_file *file
 dem_status trajectory_rows_verify(const trajectory_rows *r, const hdf5_file *file, const hdf5_span *spans)
 {
     if (has_frames(r)) TRY(frames_verify(&r->frames, file, spans[ROWS_FRAMES].count));
+    TRY(fragment_table_verify(&r->fragments, file, spans[ROWS_FRAMES].count));
     for (int k = ROWS_HISTORY; k < r->n_kinds; k++) TRY(table_verify(table_of(r, k), file, spans[k].count));
     return DEM_OK;
 }

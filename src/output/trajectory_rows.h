@@ -6,6 +6,7 @@
 
 #include "output/break_table.h"
 #include "output/event_table.h"
+#include "output/fragment_table.h"
 #include "output/frames.h"
 #include "output/history.h"
 #include "output/probe.h"
@@ -18,6 +19,7 @@ typedef struct trajectory_rows {
     const dem_model *model;
     dem_trajectory_options options;
     frames frames;
+    fragment_table fragments; /* rows of frames; without columns unless wanted */
     history history;
     table events, breaks; /* without columns unless wanted */
     probe *probes;        /* [options.n_probes] */

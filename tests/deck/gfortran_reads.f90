@@ -120,9 +120,9 @@ contains
     real(dp) :: frame_interval, closure
     character(32) :: fields(9)
     integer :: deflate, peak_every, most_stressed
-    logical :: events, breaks
-    namelist /output/ name, frame_interval, precision, deflate, events, breaks, closure, fields, peak_every, &
-      most_stressed
+    logical :: events, breaks, fragments
+    namelist /output/ name, frame_interval, precision, deflate, events, breaks, fragments, closure, fields, &
+      peak_every, most_stressed
     read (unit, nml=output, iostat=status, iomsg=message)
   end subroutine
 

@@ -179,6 +179,7 @@ static dem_trajectory_options everything(void)
 {
     dem_trajectory_options options = dem_trajectory_options_default();
     options.frame_interval = interval, options.events = 1, options.fields = DEM_FIELD_ALL;
+    options.breaks = options.fragments = true;
     options.n_probes = n_probes, options.probes = probes;
     return options;
 }
