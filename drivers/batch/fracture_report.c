@@ -3,15 +3,25 @@
 
 #include "ask.h"
 
-void fracture_report_print(FILE *out, const dem_simulation *simulation)
+void fracture_report_note(fracture_report *r, const dem_break *what)
+{
+    if (r->breaks++ > 0) return;
+    r->first_t = what->t;
+    for (int d = 0; d < 2; d++) r->first_x[d] = what->x[d];
+}
+
+void fracture_report_print(FILE *out, const fracture_report *r, const dem_simulation *simulation)
 {
     const dem_model_size size = ask_sizes(dem_simulation_model(simulation));
-    const dem_fracture report = ask_fracture(simulation);
-    if (report.springs == 0 && report.triangles == 0) return;
-    (void)fprintf(out, "fracture   %lld of %lld triangles and %lld of %lld springs are broken, which took %.4g J\n",
-                  (long long)report.triangles, (long long)size.n_triangles, (long long)report.springs,
-                  (long long)size.n_springs, ask_energy(simulation).fracture);
+    const dem_fracture broken = ask_fracture(simulation);
+    if (r->breaks == 0) return;
+    (void)fprintf(out,
+                  "fracture   %lld of %lld triangles and %lld of %lld springs are broken, which took %.4g J for %.4g m "
+                  "of cracks; the first at %.4e s, (%g, %g) m\n",
+                  (long long)broken.triangles, (long long)size.n_triangles, (long long)broken.springs,
+                  (long long)size.n_springs, ask_energy(simulation).fracture, broken.crack_length, r->first_t,
+                  r->first_x[0], r->first_x[1]);
     (void)fprintf(
         out, "fragments  %lld; the largest has %.3g of the mass, single nodes %.3g; half is in those up to %.4g kg\n",
-        (long long)report.fragments, report.largest, report.debris, report.median);
+        (long long)broken.fragments, broken.largest, broken.debris, broken.median);
 }

@@ -12,7 +12,6 @@
 #include "angle.h"
 #include "ask.h"
 #include "edges.h"
-#include "fracture_report.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16, most_in_short = 4 }; /* obstacles, boundaries */
@@ -74,6 +73,14 @@ static dem_status note_event(void *context, const dem_simulation *simulation, co
     if (r->touched == NULL) return DEM_ERROR_MEMORY;
     r->touched[event->node] = (int32_t)event->obstacle + 1;
     if (event->other >= 0) r->touched[event->other] = (int32_t)event->obstacle + 1;
+    return DEM_OK;
+}
+
+static dem_status note_break(void *context, const dem_simulation *simulation, const dem_break *what)
+{
+    report *r = context;
+    (void)simulation;
+    fracture_report_note(&r->so_far.fracture_report, what);
     return DEM_OK;
 }
 
@@ -275,8 +282,12 @@ static dem_status save(void *context, const dem_simulation *simulation, dem_chec
 
 dem_observer report_observer(report *r)
 {
-    return (dem_observer){
-        .struct_size = sizeof(dem_observer), .step = follow, .event = note_event, .checkpoint = save, .context = r};
+    return (dem_observer){.struct_size = sizeof(dem_observer),
+                          .step = follow,
+                          .event = note_event,
+                          .checkpoint = save,
+                          .context = r,
+                          .broken = note_break};
 }
 
 static void print_strain(const report *r)
@@ -487,7 +498,7 @@ void report_summary(report *r, const dem_simulation *simulation)
         print_ledger(r, e);
     else
         print_balance(r, e);
-    fracture_report_print(out, simulation);
+    fracture_report_print(out, &r->so_far.fracture_report, simulation);
     print_obstacles(out, simulation, details);
     print_boundaries(out, simulation, details);
     surface_report_print_nearest(out, &r->so_far.surface_report);

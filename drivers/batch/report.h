@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "deck.h"
+#include "fracture_report.h"
 #include "rebound.h"
 #include "relaxation.h"
 #include "run_log.h"
@@ -23,6 +24,7 @@ typedef struct report_progress {
     step_report step_report;
     surface_report surface_report;
     rebound rebound;
+    fracture_report fracture_report;
     double warned_closure, warned_t; /* of the ledger's warning */
     bool warned, overlapped;
 } report_progress;

@@ -11,7 +11,6 @@
 
 #include "ask.h"
 #include "file.h"
-#include "fracture_report.h"
 #include "json.h"
 #include "output.h"
 #include "preview.h"
@@ -161,8 +160,23 @@ static void write_strain(json *j, const report *r)
     json_integer(j, "inverted", r->so_far.inverted_max);
 }
 
-static void write_broken(json *j, const dem_simulation *simulation)
+/* `null` where nothing has broken. */
+static void write_first_break(json *j, const fracture_report *first)
 {
+    if (first->breaks == 0) {
+        json_text(j, "first_break", NULL);
+        return;
+    }
+    json_open(j, "first_break", '{');
+    json_real(j, "t", first->first_t);
+    json_reals(j, "x", first->first_x, 2);
+    json_close(j, '}');
+}
+
+static void write_broken(json *j, const fracture_report *first, const dem_simulation *simulation)
+{
+    json_integer(j, "breaks", first->breaks);
+    write_first_break(j, first);
     const dem_fracture broken = ask_fracture(simulation);
     json_integer(j, "broken_triangles", broken.triangles);
     json_integer(j, "broken_springs", broken.springs);
@@ -289,7 +303,7 @@ static void write_run(json *j, const result *r)
     const dem_energy energy = ask_energy(r->simulation);
     write_energy(j, r->report, &energy);
     write_strain(j, r->report);
-    write_broken(j, r->simulation);
+    write_broken(j, &r->report->so_far.fracture_report, r->simulation);
     if (r->report->peaks != NULL) write_node_peak(j, r->report, dem_simulation_model(r->simulation));
     if (r->report->peaks != NULL) write_spring_peak(j, r->report);
     write_surfaces(j, &r->report->so_far.surface_report, r->simulation);

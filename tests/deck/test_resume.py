@@ -186,6 +186,11 @@ class Cuts(Case):
             self.assertTrue(all(table["t"][1:] >= table["t"][:-1]))
             taken = file["history/fracture"][-1]
             self.assertAlmostEqual(sum(table["energy"]), taken, delta=1e-12 * taken)
+            result, frames = self.result("whole"), file["fragments/frame_offset"]
+            self.assertEqual(result["breaks"], len(triangles))
+            self.assertEqual(result["first_break"], {"t": table["t"][0], "x": list(table["x"][0])})
+            self.assertEqual(result["fragments"], frames[-1] - frames[-2])
+            self.assertAlmostEqual(result["crack_length"], file["history/crack_length"][-1], delta=1e-15)
 
     def test_a_later_end(self):
         """Three ends, each continued; that of the whole run is one more."""

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* fracture_report.c: a chain of six masses, 1 to 6 kg, broken behind the first and behind the third. */
+#include "verification/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fracture_report.h"
+
+enum { N = 6 };
+
+static void open_chain(support_run *run)
+{
+    double x[2 * N], masses[N];
+    dem_index ends[2 * (N - 1)];
+    for (dem_index i = 0; i < N; i++) {
+        x[2 * i] = (double)i;
+        x[2 * i + 1] = 0.0;
+        masses[i] = (double)(i + 1);
+    }
+    for (dem_index k = 0; k < 2 * (N - 1); k++) ends[k] = (k + 1) / 2;
+    CLEANUP(dem_lattice_free) dem_lattice chain = support_lattice(N, x, masses, N - 1, ends, 1.0, 1.0, NULL);
+    const dem_options options = dem_options_default();
+    support_open(run, &chain, NULL, 0, &options);
+}
+
+/* What is printed, to be freed. */
+static char *print(const fracture_report *r, const dem_simulation *simulation)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    fracture_report_print(out, r, simulation);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+TEST(what_is_whole_has_no_lines)
+{
+    CLEANUP(support_close) support_run run;
+    const fracture_report none = {0};
+    open_chain(&run);
+    char *text = print(&none, run.simulation);
+    assert_string_equal(text, "");
+    free(text);
+}
+
+/* Pieces of 1, 5 and 15 of 21 kg: half of that is reached with the last one. */
+TEST(the_lines_have_the_first_break_and_the_fragments)
+{
+    const dem_index which[] = {0, 2};
+    CLEANUP(support_close) support_run run;
+    fracture_report report = {0};
+    open_chain(&run);
+    assert_ok(dem_simulation_break(run.simulation, NULL, 0, which, 2));
+    fracture_report_note(&report, &(dem_break){.t = 0.25, .x = {0.5, 2.0}});
+    fracture_report_note(&report, &(dem_break){.t = 0.75, .x = {2.5, 2.0}});
+    assert_int_equal(report.breaks, 2);
+    char *text = print(&report, run.simulation);
+    assert_string_equal(text, "fracture   0 of 0 triangles and 2 of 5 springs are broken, which took 0 J for 0 m of "
+                              "cracks; the first at 2.5000e-01 s, (0.5, 2) m\n"
+                              "fragments  3; the largest has 0.714 of the mass, single nodes 0.0476; half is in those "
+                              "up to 15 kg\n");
+    free(text);
+}
