@@ -80,12 +80,14 @@ static bool is_crossed(const dem_lattice *l, dem_index triangle, double y)
     return above == 1 || above == 2;
 }
 
-dem_index clamped_strip_cut(const clamped_strip *s, dem_simulation *simulation, const dem_lattice *l, double tip)
+dem_index clamped_strip_cut(const clamped_strip *s, dem_simulation *simulation, const dem_lattice *l, double from,
+                            double to)
 {
     dem_index *list = calloc((size_t)l->n_triangles, sizeof *list), n = 0;
     assert_non_null(list);
     for (dem_index t = 0; t < l->n_triangles; t++)
-        if (is_crossed(l, t, s->middle) && clamped_strip_centre(l, t, 0) < tip) list[n++] = t;
+        if (is_crossed(l, t, s->middle) && clamped_strip_centre(l, t, 0) > from && clamped_strip_centre(l, t, 0) < to)
+            list[n++] = t;
     assert_ok(dem_simulation_break(simulation, list, n, NULL, 0));
     free(list);
     return n;

@@ -39,7 +39,8 @@ void clamped_strip_hold(const clamped_strip *s, double speed, dem_boundary *pull
 /** The centre of a triangle, m. */
 double clamped_strip_centre(const dem_lattice *l, dem_index triangle, int axis);
 
-/** Breaks the triangles that the middle line crosses up to x = tip.  \return how many they are */
-dem_index clamped_strip_cut(const clamped_strip *s, dem_simulation *simulation, const dem_lattice *l, double tip);
+/** Breaks the triangles that the middle line crosses between x = from and to.  \return how many they are */
+dem_index clamped_strip_cut(const clamped_strip *s, dem_simulation *simulation, const dem_lattice *l, double from,
+                            double to);
 
 #endif

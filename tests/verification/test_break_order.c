@@ -66,7 +66,7 @@ static void run(breaks *b, bool by_stretch, double g, const way *w)
     support_open(&run, &l, NULL, 0, &options);
     const dem_observer observer = {.struct_size = sizeof observer, .broken = note, .context = b};
     assert_ok(dem_simulation_observe(run.simulation, &observer));
-    clamped_strip_cut(&strip, run.simulation, &l, strip.begin + CUT * spacing);
+    clamped_strip_cut(&strip, run.simulation, &l, strip.begin, strip.begin + CUT * spacing);
     assert_int_equal(dem_simulation_advance(run.simulation, 1000.0 * unit_time), DEM_STOPPED);
 }
 

@@ -77,7 +77,7 @@ static double speed(double g)
     assert_non_null(p->broken);
     const dem_observer observer = {.struct_size = sizeof observer, .step = note, .context = p};
     assert_ok(dem_simulation_observe(p->run.simulation, &observer));
-    clamped_strip_cut(&strip, p->run.simulation, p->lattice, p->cut);
+    clamped_strip_cut(&strip, p->run.simulation, p->lattice, strip.begin, p->cut);
     assert_int_equal(dem_simulation_advance(p->run.simulation, 4e-3), DEM_STOPPED);
     const double found = slope(p);
     support_close(&p->run);

@@ -84,7 +84,8 @@ static double toughness(const strip_case *k)
     assert_non_null(p.broken);
     clamped_strip_stretch(&strip, &l, p.start);
     open_strip(&p, &l, &strip);
-    p.n_cut = clamped_strip_cut(&strip, p.run.simulation, p.lattice, strip.begin + k->scale * CRACK * spacing);
+    p.n_cut =
+        clamped_strip_cut(&strip, p.run.simulation, p.lattice, strip.begin, strip.begin + k->scale * CRACK * spacing);
     p.n_broken = p.n_cut;
     assert_int_equal(dem_simulation_advance(p.run.simulation, 20.0 * last), DEM_STOPPED);
     assert_true(p.off < 0.5 * spacing); /* along its row */
