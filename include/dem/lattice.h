@@ -180,6 +180,36 @@ DEM_API dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_
 DEM_API dem_status dem_lattice_assemble_mixed(dem_lattice *lattice, const dem_material *materials,
                                               dem_index n_materials, const dem_index *of, double diagonal);
 
+/** Strengths that scatter by Weibull's law of the weakest link: a piece of volume V stands the share s of the strength
+ *  sigma_0 of its material with the probability exp(-(V/V_0) s^m). The strength of a body under uniform stress then
+ *  depends on its volume, and not on the mesh. */
+typedef struct dem_weibull {
+    size_t struct_size; /**< to be set to sizeof(dem_weibull), in each of an array */
+    double shape;       /**< m, >= 0: the larger, the less strengths scatter; 0: they do not, all factors are 1 */
+    double volume;      /**< V_0, m^3, > 0: of a piece of which a share of 1/e stands sigma_0 */
+    double section;     /**< m^2, >= 0: of springs that no triangle holds, whose volume is this times their rest length;
+                           0: there are none. That of the first law counts */
+    uint64_t seed;
+    dem_index body; /**< lattices with different numbers draw differently by one seed */
+    const dem_index
+        *number; /**< [n_triangles] distinct, in [0, 2^60): by which they draw; NULL: their own. A part that is cut
+                                out of a lattice draws like the whole where it keeps the numbers of that */
+} dem_weibull;
+
+/** Draws factors of strengths and critical stretches, which are the caller's to multiply and to bound: ((V_0/V)
+ *  (-ln u))^(1/m), with u uniform in (0, 1) by seed, body and number alone, the same bits on every machine. V is the
+ *  volume of a triangle, thickness times area in the rest shape. Each triangle gives its volume to the springs that it
+ *  holds in equal parts; what they have of it is the volume of springs.
+ *  \param laws  [n_laws]
+ *  \param of    [n_triangles] number of each triangle's law, from 0; NULL: the first. A spring between two laws has the
+ *               smaller factor of both
+ *  \param[out] triangle_factor  [n_triangles]; may be NULL
+ *  \param[out] spring_factor    [n_springs]; may be NULL
+ *  \return DEM_ERROR_ARGUMENT for a law that is none, DEM_ERROR_MODEL where a triangle or a spring has no volume;
+ *          factors are then of no meaning */
+DEM_API dem_status dem_lattice_weibull(const dem_lattice *lattice, const dem_weibull *laws, dem_index n_laws,
+                                       const dem_index *of, double *triangle_factor, double *spring_factor);
+
 /** Moves every node that is not on the boundary of the triangles to a random place within `radius`, m, >= 0, of it, the
  *  same on every machine. Where a triangle would keep less than a tenth of its area, its corners go half as far. For
  *  triangulations not yet assembled; a lattice that has springs is refused. */

@@ -135,6 +135,14 @@ module dem_c
     type(c_ptr) :: strength = c_null_ptr, critical_stretch = c_null_ptr, softening = c_null_ptr
   end type
 
+  type, bind(c) :: dem_weibull
+    integer(c_size_t) :: struct_size = 56
+    real(c_double) :: shape = 0, volume = 0, section = 0
+    integer(c_int64_t) :: seed = 0
+    integer(dem_index) :: body = 0
+    type(c_ptr) :: number = c_null_ptr
+  end type
+
   abstract interface
 
     logical(c_bool) function dem_lattice_cut_keep(context, x) bind(c)
@@ -216,6 +224,15 @@ module dem_c
       integer(dem_index), value :: n_materials
       integer(dem_index), intent(in), optional :: of(*)
       real(c_double), value :: diagonal
+    end function
+
+    integer(dem_status) function dem_lattice_weibull(lattice, laws, n_laws, of, triangle_factor, spring_factor) bind(c)
+      import
+      type(dem_lattice), intent(in) :: lattice
+      type(dem_weibull), intent(in) :: laws(*)
+      integer(dem_index), value :: n_laws
+      integer(dem_index), intent(in), optional :: of(*)
+      real(c_double), intent(out), optional :: triangle_factor(*), spring_factor(*)
     end function
 
     integer(dem_status) function dem_lattice_jitter(lattice, radius, seed) bind(c)
