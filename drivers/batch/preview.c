@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_version.h>
 #include <math.h>
+#include <string.h>
 
 #include "ask.h"
 #include "commit.h"
@@ -312,6 +313,24 @@ static void print_body(FILE *out, size_t number, const body_facts *b)
                       (long long)b->geometry.n_cracked);
 }
 
+static void print_range(FILE *out, size_t number, const char *what, const strengths_range *r, const char *limit)
+{
+    if (r->n == 0) return;
+    (void)fprintf(out, "strengths  body %zu: of %lld %s, from %.4g to %.4g%s", number, (long long)r->n, what, r->least,
+                  r->most, strcmp(limit, "strength") == 0 ? " Pa" : "");
+    if (r->n_raised > 0)
+        (void)fprintf(out, "; %lld drawn below are raised to %g of '%s'", (long long)r->n_raised, STRENGTHS_LEAST,
+                      limit);
+    (void)fprintf(out, "\n");
+}
+
+/* Where the weakest is far below the others, or has been raised, is no matter of details. */
+static void print_strengths(FILE *out, size_t number, const strengths *s)
+{
+    print_range(out, number, "triangles", &s->triangles, "strength");
+    print_range(out, number, "springs", &s->springs, "critical_stretch");
+}
+
 /* What a deck does not ask for, and so the short log has it too. */
 static void print_loose(FILE *out, size_t number, const body_facts *b)
 {
@@ -330,6 +349,7 @@ static void print_bodies(FILE *out, const deck *d, bool details)
     for (size_t k = 0; k < d->n_bodies && k < most_listed; k++) {
         if (details) print_body(out, k + 1, &d->bodies[k]);
         print_loose(out, k + 1, &d->bodies[k]);
+        print_strengths(out, k + 1, &d->bodies[k].strengths);
     }
     if (details && d->n_bodies > most_listed)
         (void)fprintf(out, "bodies     of %zu the first %d are listed\n", d->n_bodies, most_listed);

@@ -16,6 +16,7 @@
 #include "least_angle.h"
 #include "material.h"
 #include "rigid_keys.h"
+#include "weibull_keys.h"
 
 static const double lost = 1e-6; /* of the spacing: the default penetration tolerance, which rounding must not hide */
 
@@ -216,6 +217,23 @@ static double diagonal_of(const schema_instance *body)
     return diagonal != NULL ? diagonal[0] : 0.5;
 }
 
+/* By the numbers of the triangles; `of` has their materials. */
+static dem_status draw_strengths(builder *b, const dem_index *of, const dem_index *numbers)
+{
+    const size_t n = b->facts.geometry.n_inclusions + 1;
+    dem_weibull *laws = calloc(n, sizeof *laws);
+    if (laws == NULL) return DEM_ERROR_MEMORY;
+    for (size_t k = 0; k < n; k++) {
+        laws[k] = weibull_keys_law(b->scene->groups, body_geometry_user(b->scene->groups, b->number - 1, k));
+        laws[k].number = numbers;
+    }
+    const strengths_rule rule = {
+        .laws = laws, .n_laws = (dem_index)n, .of = of, .body = b->number - 1, .n_copies = copies_count(b->body)};
+    const dem_status status = report(b, strengths_draw(&b->facts.strengths, &b->lattice, &rule), "material");
+    free(laws);
+    return status;
+}
+
 /* The body's material and those of its inclusions, [1 + n]. */
 static dem_status assemble(builder *b)
 {
@@ -223,7 +241,8 @@ static dem_status assemble(builder *b)
     const size_t n = b->facts.geometry.n_inclusions + 1;
     dem_material *materials = calloc(n, sizeof *materials);
     dem_index *of = calloc((size_t)b->lattice.n_triangles, sizeof *of);
-    dem_status status = materials != NULL && of != NULL ? DEM_OK : DEM_ERROR_MEMORY;
+    dem_index *numbers = body_geometry_take_numbers(&b->lattice);
+    dem_status status = materials != NULL && of != NULL && numbers != NULL ? DEM_OK : DEM_ERROR_MEMORY;
     if (status == DEM_OK) {
         body_geometry_materials(materials, groups, b->number - 1);
         b->facts.plane = materials[0].plane;
@@ -234,8 +253,10 @@ static dem_status assemble(builder *b)
         status = report(b, dem_lattice_assemble_mixed(&b->lattice, materials, (dem_index)n, of, diagonal_of(b->body)),
                         body_geometry_has_squares(b->body) ? "diagonal" : "material");
     for (dem_index t = 0; status == DEM_OK && t < b->lattice.n_triangles; t++) b->facts.n_included += of[t] > 0;
+    if (status == DEM_OK) status = draw_strengths(b, of, numbers);
     free(materials);
     free(of);
+    free(numbers);
     return status;
 }
 
@@ -410,6 +431,7 @@ void body_drop_unused(schema_deck *groups)
     body_checks_drop_unused(groups);
     material_drop_unused(groups);
     rigid_keys_drop_unused(groups);
+    weibull_keys_drop_unused(groups);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
         if (strcmp(group->group->name, "body") == 0 && has_equal_springs(groups, group)) schema_drop(group, "diagonal");
@@ -436,6 +458,7 @@ void body_check_all(const schema_deck *groups, namelist_errors *errors)
     body_checks_all(groups, errors);
     material_check_all(groups, errors);
     rigid_keys_check(groups, errors);
+    weibull_keys_check(groups, errors);
     check_materials(groups, errors);
     check_springs(groups, errors);
     for (size_t k = 0; k < schema_count(groups, "body"); k++) {
@@ -485,13 +508,15 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
     return status != DEM_ERROR_MEMORY;
 }
 
-bool body_copy(dem_lattice *lattice, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors)
+bool body_copy(dem_lattice *lattice, const body_facts *facts, body_start *start, const body_scene *scene, size_t k,
+               namelist_errors *errors)
 {
     builder b = begin(scene, k, errors);
     b.lattice = *lattice;
     b.start.copy = start->copy + 1;
     b.start.angle = start->angle;
     for (int c = 0; c < 2; c++) b.start.offset[c] = start->offset[c];
+    strengths_put(&b.lattice, &facts->strengths, b.start.copy);
     const dem_status status = put_copy(&b, b.start.copy);
     *lattice = b.lattice;
     *start = b.start;

@@ -9,6 +9,7 @@
 #include "body_geometry.h"
 #include "parts.h"
 #include "schema.h"
+#include "strengths.h"
 
 /* What a body is built from and put into. */
 typedef struct body_scene {
@@ -50,6 +51,7 @@ typedef struct body_facts {
     parts_loose loose;    /* apart from its largest part */
     bool removed;         /* they have been */
     parts_hinges hinges;
+    strengths strengths; /* of the copies, too; strengths_free() when these are made */
 } body_facts;
 
 /* Builds body k, from 0, of a deck without faults. A fault of its geometry is appended to `errors` and *out is empty.
@@ -57,9 +59,10 @@ typedef struct body_facts {
 bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const body_scene *scene, size_t k,
                 namelist_errors *errors);
 
-/* Moves the body that was built, or copied, last to where its next copy is to be. A fault is appended to `errors`.
- * Returns false only when memory runs out. */
-bool body_copy(dem_lattice *lattice, body_start *start, const body_scene *scene, size_t k, namelist_errors *errors);
+/* Moves the body that was built, or copied, last to where its next copy is to be, with strengths of its own. A fault is
+ * appended to `errors`. Returns false only when memory runs out. */
+bool body_copy(dem_lattice *lattice, const body_facts *facts, body_start *start, const body_scene *scene, size_t k,
+               namelist_errors *errors);
 
 /* Reports body k if it starts deeper in an obstacle, or an obstacle in it, than `penetration_tolerance`, m. Returns
  * false only when memory runs out. */

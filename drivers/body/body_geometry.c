@@ -186,12 +186,35 @@ static dem_status check_voids(const former *f, const shape *s)
     return status;
 }
 
+/* ---- numbers ---- */
+
+/* Triangles have no strength yet; what is written there goes along with those that stay. Doubles hold them exactly. */
+static dem_status number_triangles(dem_lattice *lattice)
+{
+    lattice->strength = calloc((size_t)lattice->n_triangles + 1, sizeof *lattice->strength);
+    for (dem_index t = 0; lattice->strength != NULL && t < lattice->n_triangles; t++) lattice->strength[t] = (double)t;
+    return lattice->strength != NULL ? DEM_OK : DEM_ERROR_MEMORY;
+}
+
+dem_index *body_geometry_take_numbers(dem_lattice *lattice)
+{
+    dem_index *numbers = calloc((size_t)lattice->n_triangles + 1, sizeof *numbers);
+    for (dem_index t = 0; numbers != NULL && t < lattice->n_triangles; t++)
+        numbers[t] = (dem_index)lattice->strength[t];
+    free(lattice->strength);
+    lattice->strength = NULL;
+    return numbers;
+}
+
+/* ---- lattices ---- */
+
 static dem_status cut_lattice(former *f, const shape *s)
 {
     dem_status status = shape_mesh(&f->lattice, s);
     if (status == DEM_ERROR_MODEL)
         namelist_errors_add(f->errors, schema_place(f->body, "spacing"),
                             "body %zu would have more nodes than 2^40 with the spacing %g m", f->number, s->spacing);
+    if (status == DEM_OK) status = number_triangles(&f->lattice);
     if (status == DEM_OK) status = check_voids(f, s);
     if (status != DEM_OK) return status;
     const dem_index n = f->lattice.n_nodes;
@@ -229,7 +252,7 @@ static dem_status read_mesh(former *f)
         f->geometry.area += area;
     }
     f->geometry.spacing = sqrt(least / 0.43301270189221932); /* sqrt(3)/4 */
-    return DEM_OK;
+    return number_triangles(&f->lattice);
 }
 
 const char *body_geometry_hint(const schema_instance *body)
@@ -246,6 +269,16 @@ bool body_geometry_has_squares(const schema_instance *body)
 }
 
 /* ---- inclusions ---- */
+
+const schema_instance *body_geometry_user(const schema_deck *groups, size_t k, size_t i)
+{
+    const former f = {.groups = groups, .number = k + 1};
+    size_t n = 0;
+    if (i == 0) return schema_get(groups, "body", k);
+    for (size_t g = 0; g < schema_count(groups, "inclusion"); g++)
+        if (own(&f, "inclusion", g) != NULL && ++n == i) return own(&f, "inclusion", g);
+    return NULL;
+}
 
 void body_geometry_materials(dem_material *out, const schema_deck *groups, size_t k)
 {

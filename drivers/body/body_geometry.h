@@ -21,8 +21,9 @@ typedef struct body_geometry {
     smoothing smoothing; /* of a smooth outline; else n_rim is 0 */
 } body_geometry;
 
-/* Triangulates body k, from 0, of any shape but 'file'. Caller owns *lattice, which is empty unless DEM_OK is returned;
- * a fault is appended to `errors` with any other status but DEM_ERROR_MEMORY. `folder`: see body_geometry_file(). */
+/* Triangulates body k, from 0, of any shape but 'file'; there are no springs yet. Caller owns *lattice, which is empty
+ * unless DEM_OK is returned; a fault is appended to `errors` with any other status but DEM_ERROR_MEMORY. `folder`: see
+ * body_geometry_file(). */
 dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, const schema_deck *groups, size_t k,
                                      const char *folder, namelist_errors *errors);
 
@@ -31,6 +32,13 @@ const char *body_geometry_hint(const schema_instance *body);
 
 /* Whether a body's lattice is of squares: its triangles 2 k and 2 k + 1 are then a cell. */
 bool body_geometry_has_squares(const schema_instance *body);
+
+/* Takes the numbers that the triangles of a triangulation had before anything was cut out of it, which came along as
+ * its strengths: they do not depend on cuts, cracks and voids. [n_triangles], malloc'ed; NULL when memory runs out. */
+dem_index *body_geometry_take_numbers(dem_lattice *lattice);
+
+/* The groups that name the materials of body k: itself, then its inclusions, i from 0. */
+const schema_instance *body_geometry_user(const schema_deck *groups, size_t k, size_t i);
 
 /* Materials of body k and of its inclusions, [1 + n_inclusions]. */
 void body_geometry_materials(dem_material *out, const schema_deck *groups, size_t k);

@@ -242,9 +242,10 @@ static bool set_body(deck *d, body_start *starts, const body_scene *scene, size_
     bool good = append(d, &body, place, errors);
     for (size_t c = 1; c <= d->bodies[k].further && good && errors->n == before; c++) {
         starts[c] = starts[c - 1];
-        good = body_copy(&body, &starts[c], scene, k, errors) && append(d, &body, place, errors);
+        good = body_copy(&body, &d->bodies[k], &starts[c], scene, k, errors) && append(d, &body, place, errors);
     }
     dem_lattice_free(&body);
+    strengths_free(&d->bodies[k].strengths);
     return good;
 }
 

@@ -55,6 +55,14 @@ static const schema_key material_keys[] = {
      NONE},
     {"critical_stretch", SCHEMA_REAL, 1, 1, "-", NONE, "> 0", NULL, PHYSICS,
      "With fracture 'stretch': strain at which a spring breaks.", NONE},
+    {"weibull", SCHEMA_REAL, 1, 1, "-", NONE, ">= 1", NULL, PHYSICS,
+     "Strengths scatter by Weibull's law of this shape m, 5 to 20 of brittle solids: the larger, the less; default: "
+     "not.",
+     NONE},
+    {"weibull_volume", SCHEMA_REAL, 1, 1, "m^3", NONE, "> 0", NULL, PHYSICS,
+     "With 'weibull': volume of the pieces of which 63 % break below 'strength', or 'critical_stretch'.", NONE},
+    {"strength_seed", SCHEMA_INTEGER, 1, 1, "-", "1", ">= 0", NULL, PHYSICS,
+     "Seed of the strengths; the same seed gives the same strengths on every machine.", NONE},
     {"friction", SCHEMA_REAL, 1, 1, "-", NONE, ">= 0", NULL, PHYSICS,
      "Of its bodies with bodies, in place of that of &contact; two bodies have the smaller one of theirs.", NONE},
 };

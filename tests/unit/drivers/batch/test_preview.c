@@ -163,7 +163,9 @@ TEST(the_preview_tells_how_bodies_came_out)
          .geometry = {.area = 3.0, .pore_area = 1.0, .n_pores = 7, .n_cracked = 12},
          .loose = {.n = 2, .size = {5, 1}, .x = {{0.5, 2.0}, {3.0, 4.0}}},
          .removed = true,
-         .hinges = {.n = 1, .x = {6.0, 7.0}}},
+         .hinges = {.n = 1, .x = {6.0, 7.0}},
+         .strengths = {.triangles = {.n = 30, .n_raised = 4, .least = 2e5, .most = 3.5e6},
+                       .springs = {.n = 40, .least = 0.01, .most = 0.03}}},
         {.mass = 1.0,
          .least_angle = 26.54,
          .geometry = {.smoothing = {.n_rim = 90, .n_off = 2, .n_cut = 1, .farthest = 0.125}},
@@ -183,6 +185,10 @@ TEST(the_preview_tells_how_bodies_came_out)
         strstr(l->text, "\nhinges     body 1: 1 node between triangles that share no edge, one at (6, 7) m\n"));
     assert_non_null(strstr(l->text, "\nparts      body 2: 1 apart from the largest, of 3 nodes at (0, 0) m in its own "
                                     "coordinates\n"));
+    assert_non_null(strstr(l->text, "\nstrengths  body 1: of 30 triangles, from 2e+05 to 3.5e+06 Pa; 4 drawn below are "
+                                    "raised to 0.2 of 'strength'\n"));
+    assert_non_null(strstr(l->text, "\nstrengths  body 1: of 40 springs, from 0.01 to 0.03\n"));
+    assert_null(strstr(l->text, "strengths  body 2"));
     assert_null(strstr(l->text, "mass       body 2"));
     assert_null(strstr(l->text, "outline    body 1"));
     assert_non_null(strstr(l->text,

@@ -52,6 +52,7 @@ static void build_good(built *b, const char *text, const dem_obstacle *obstacles
 static void drop_built(built *b)
 {
     dem_lattice_free(&b->lattice);
+    strengths_free(&b->facts.strengths);
     namelist_errors_free(&b->errors);
     drop_resolved(&b->from);
 }
@@ -328,7 +329,7 @@ TEST(a_copy_is_the_body_moved_and_looked_at_where_it_is)
     assert_int_equal(b.facts.further, 3);
     for (size_t k = 1; k < 4; k++) {
         const double way[2] = {k % 2 == 1 ? 5.0 : 0.0, k > 1 ? 3.0 : 0.0};
-        assert_true(body_copy(&b.lattice, &b.start, &b.scene, 0, &b.errors));
+        assert_true(body_copy(&b.lattice, &b.facts, &b.start, &b.scene, 0, &b.errors));
         assert_int_equal(b.start.copy, k);
         for (dem_index i = 0; i < 2 * first.n_nodes; i++) assert_close(b.lattice.x[i], first.x[i] + way[i % 2], tiny);
         /* two metres of it are below its origin; rows are 3 m apart */
@@ -339,6 +340,141 @@ TEST(a_copy_is_the_body_moved_and_looked_at_where_it_is)
     b.start.depth = 0.5;
     assert_true(body_check_start(&b.scene, 0, &b.start, 0.1, &b.errors));
     assert_non_null(strstr(b.errors.list[0].text, "body 1 (copy 4) starts 0.5 m inside"));
+}
+
+/* ---- strengths ---- */
+
+#define GLASS                                                                                                          \
+    "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, thickness = 0.5,\n fracture = 'stress', "        \
+    "strength = 1e5, weibull = 8, weibull_volume = 0.05 /\n"
+
+static int by_size(const void *a, const void *b)
+{
+    const double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+/* (V/V_0) (s/sigma_0)^m is exponentially distributed: Kolmogorov's limit of 5 %. */
+TEST(strengths_have_weibulls_distribution_by_the_volumes_of_a_smooth_jittered_body)
+{
+    CLEANUP(drop_built) built b;
+    build_good(&b, RUN GLASS "&body shape = 'disc', radius = 5, spacing = 0.25, jitter = 0.2, material = 'rubber' /",
+               NULL, 0);
+    const dem_lattice *l = &b.lattice;
+    const dem_index n = l->n_triangles;
+    double *units = calloc((size_t)n, sizeof *units), most = 0.0;
+    assert_true(units != NULL && n > 2000);
+    for (dem_index t = 0; t < n; t++) {
+        const dem_index *c = l->triangles + 3 * t;
+        const double *p = l->x + 2 * c[0], *q = l->x + 2 * c[1], *r = l->x + 2 * c[2];
+        const double area = 0.5 * ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]));
+        units[t] = 0.5 * area / 0.05 * pow(l->strength[t] / 1e5, 8.0);
+    }
+    qsort(units, (size_t)n, sizeof *units, by_size);
+    for (dem_index k = 0; k < n; k++) {
+        const double expected = 1.0 - exp(-units[k]);
+        most = fmax(most, fmax(expected - (double)k / (double)n, (double)(k + 1) / (double)n - expected));
+    }
+    assert_true(most * sqrt((double)n) < 1.36);
+    assert_int_equal(b.facts.strengths.triangles.n, n);
+    free(units);
+}
+
+/* The same strengths, or not one the same. */
+static void compare_strengths(const char *first, const char *second, bool same)
+{
+    CLEANUP(drop_built) built a;
+    CLEANUP(drop_built) built b;
+    build_good(&a, first, NULL, 0);
+    build(&b, second, schema_count(&a.from.deck, "body") - 1, NULL, 0);
+    assert_int_equal(a.lattice.n_triangles, b.lattice.n_triangles);
+    for (dem_index t = 0; t < a.lattice.n_triangles; t++)
+        assert_true((a.lattice.strength[t] == b.lattice.strength[t]) == same);
+}
+
+TEST(strengths_are_drawn_before_a_body_is_placed)
+{
+    compare_strengths(RUN GLASS BLOCK " /", RUN GLASS BLOCK ", angle = 33, position = 7, 0.3, spin = 3 /", true);
+    compare_strengths(RUN GLASS BLOCK " /", RUN GLASS BLOCK " /\n" DISC " /", true);
+}
+
+TEST(a_seed_draws_other_strengths)
+{
+    compare_strengths(RUN GLASS BLOCK " /",
+                      RUN "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, thickness = 0.5, fracture "
+                          "= 'stress', strength = 1e5, weibull = 8, weibull_volume = 0.05, strength_seed = 2 /\n" BLOCK
+                          " /",
+                      false);
+}
+
+TEST(every_body_of_a_deck_and_every_copy_has_strengths_of_its_own)
+{
+    const char *text = RUN GLASS BLOCK ", copies = 2, 2, pitch = 5, 3 /\n" BLOCK ", position = 0, 10 /";
+    CLEANUP(drop_built) built first;
+    CLEANUP(drop_built) built second;
+    build_good(&first, text, NULL, 0);
+    build(&second, text, 1, NULL, 0);
+    const dem_index n = first.lattice.n_triangles;
+    double *before = calloc((size_t)n, sizeof *before);
+    assert_non_null(before);
+    for (dem_index t = 0; t < n; t++) {
+        before[t] = first.lattice.strength[t];
+        assert_true(before[t] != second.lattice.strength[t]);
+    }
+    for (int copy = 1; copy < 4; copy++) {
+        assert_true(body_copy(&first.lattice, &first.facts, &first.start, &first.scene, 0, &first.errors));
+        for (dem_index t = 0; t < n; t++) {
+            assert_true(before[t] != first.lattice.strength[t]);
+            before[t] = first.lattice.strength[t];
+        }
+    }
+    free(before);
+}
+
+static void centre_of(double centre[2], const dem_lattice *l, dem_index t)
+{
+    centre[0] = centre[1] = 0.0;
+    for (int k = 0; k < 6; k++) centre[k % 2] += l->x[2 * l->triangles[3 * t + k / 2] + k % 2] / 3.0;
+}
+
+static dem_index triangle_at(const dem_lattice *l, const double *place)
+{
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        double centre[2];
+        centre_of(centre, l, t);
+        if (fabs(centre[0] - place[0]) < 1e-9 && fabs(centre[1] - place[1]) < 1e-9) return t;
+    }
+    return -1;
+}
+
+/* What a void, pores or a crack leave of a body keeps the strengths that it had. */
+TEST(cuts_do_not_change_the_strengths_of_what_stays)
+{
+    static const char *const cuts[] = {"&void centre = 1, 1, radius = 0.4 /", "&crack points = -2, 1.1, 0, 1.1 /",
+                                       "&pores number = 2, radius = 0.2, 0.3, wall = 0.5 /"};
+    CLEANUP(drop_built) built whole;
+    build_good(&whole,
+               RUN GLASS "&body shape = 'rectangle', size = 4, 2, spacing = 0.1, outline = 'lattice', material = "
+                         "'rubber' /",
+               NULL, 0);
+    for (size_t k = 0; k < sizeof cuts / sizeof *cuts; k++) {
+        char text[1024];
+        CLEANUP(drop_built) built cut;
+        (void)snprintf(text, sizeof text, "%s%s",
+                       RUN GLASS "&body shape = 'rectangle', size = 4, 2, spacing = 0.1, "
+                                 "outline = 'lattice', material = 'rubber' /\n",
+                       cuts[k]);
+        build_good(&cut, text, NULL, 0);
+        assert_true(cut.lattice.n_triangles < whole.lattice.n_triangles - 20);
+        for (dem_index t = 0; t < cut.lattice.n_triangles; t++) {
+            const dem_lattice *l = &cut.lattice;
+            double centre[2];
+            centre_of(centre, l, t);
+            const dem_index there = triangle_at(&whole.lattice, centre);
+            assert_true(there >= 0);
+            assert_close(l->strength[t], whole.lattice.strength[there], 1e-12 * l->strength[t]);
+        }
+    }
 }
 
 /* ---- what cannot be built ---- */

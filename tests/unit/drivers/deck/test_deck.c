@@ -330,6 +330,29 @@ TEST(the_hash_is_of_the_physics_alone)
     assert_true(run_hash[0] != run_hash[1] && run_hash[0] != run_hash[2]);
 }
 
+/* A law of strengths makes another problem, each of its numbers does, and a seed that is stated is that by default. */
+TEST(the_hash_knows_how_strengths_scatter)
+{
+    static const char *const keys[] = {"",
+                                       ", weibull = 8, weibull_volume = 1",
+                                       ", weibull = 9, weibull_volume = 1",
+                                       ", weibull = 8, weibull_volume = 2",
+                                       ", weibull = 8, weibull_volume = 1, strength_seed = 2",
+                                       ", weibull = 8, weibull_volume = 1, strength_seed = 1"};
+    enum { n = sizeof keys / sizeof *keys };
+    uint64_t hash[n];
+    for (int k = 0; k < n; k++) {
+        char text[512];
+        (void)snprintf(text, sizeof text,
+                       RUN "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, fracture = 'stress', "
+                           "strength = 1e5%s /\n&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n",
+                       keys[k]);
+        CLEANUP(deck_free) deck d = deck_text_good(text);
+        hash[k] = d.hash;
+        for (int i = 0; i < k; i++) assert_true((hash[i] == hash[k]) == (i == 1 && k == 5));
+    }
+}
+
 TEST(the_echo_is_a_deck_of_the_same_problem)
 {
     CLEANUP(deck_free)
