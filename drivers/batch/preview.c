@@ -293,6 +293,17 @@ static void print_outline(FILE *out, size_t number, const body_facts *b)
     (void)fprintf(out, "\n");
 }
 
+/* Of those that are weaker than their material. */
+static void print_weak(FILE *out, size_t number, const char *where, const weakness_counts *c)
+{
+    if (c->n_triangles + c->n_springs == 0) return;
+    (void)fprintf(out, "%-10s body %zu: of ", where, number);
+    if (c->n_triangles > 0) (void)fprintf(out, "%lld triangles", (long long)c->n_triangles);
+    if (c->n_triangles > 0 && c->n_springs > 0) (void)fprintf(out, ", ");
+    if (c->n_springs > 0) (void)fprintf(out, "%lld springs", (long long)c->n_springs);
+    (void)fprintf(out, "\n");
+}
+
 /* Numbered from 1, as decks are. */
 static void print_body(FILE *out, size_t number, const body_facts *b)
 {
@@ -311,6 +322,8 @@ static void print_body(FILE *out, size_t number, const body_facts *b)
     if (b->geometry.n_cracked > 0)
         (void)fprintf(out, "cracks     body %zu: through %lld triangles, which are taken away\n", number,
                       (long long)b->geometry.n_cracked);
+    print_weak(out, number, "weaknesses", &b->weak.weaknesses);
+    print_weak(out, number, "interfaces", &b->weak.interfaces);
 }
 
 static void print_range(FILE *out, size_t number, const char *what, const strengths_range *r, const char *limit)

@@ -217,7 +217,18 @@ static double diagonal_of(const schema_instance *body)
     return diagonal != NULL ? diagonal[0] : 0.5;
 }
 
-/* By the numbers of the triangles; `of` has their materials. */
+/* `of` has the materials of the triangles. */
+static dem_status weaken(builder *b, const dem_index *of)
+{
+    const weakness_body body = {.groups = b->scene->groups,
+                                .k = b->number - 1,
+                                .spacing = b->facts.geometry.spacing,
+                                .n_inclusions = b->facts.geometry.n_inclusions,
+                                .of = of};
+    return weakness_apply(&b->facts.weak, &b->lattice, &body, b->errors);
+}
+
+/* By the numbers of the triangles. */
 static dem_status draw_strengths(builder *b, const dem_index *of, const dem_index *numbers)
 {
     const size_t n = b->facts.geometry.n_inclusions + 1;
@@ -253,6 +264,7 @@ static dem_status assemble(builder *b)
         status = report(b, dem_lattice_assemble_mixed(&b->lattice, materials, (dem_index)n, of, diagonal_of(b->body)),
                         body_geometry_has_squares(b->body) ? "diagonal" : "material");
     for (dem_index t = 0; status == DEM_OK && t < b->lattice.n_triangles; t++) b->facts.n_included += of[t] > 0;
+    if (status == DEM_OK) status = weaken(b, of);
     if (status == DEM_OK) status = draw_strengths(b, of, numbers);
     free(materials);
     free(of);

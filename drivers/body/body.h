@@ -10,6 +10,7 @@
 #include "parts.h"
 #include "schema.h"
 #include "strengths.h"
+#include "weakness.h"
 
 /* What a body is built from and put into. */
 typedef struct body_scene {
@@ -51,6 +52,7 @@ typedef struct body_facts {
     parts_loose loose;    /* apart from its largest part */
     bool removed;         /* they have been */
     parts_hinges hinges;
+    weakness_report weak;
     strengths strengths; /* of the copies, too; strengths_free() when these are made */
 } body_facts;
 

@@ -38,6 +38,14 @@ static const conditional_key void_keys[] = {
     {"size", "rectangle", true}, {"radius", "disc, ring", true},         {"inner_radius", "ring", true},
     {"points", "polygon", true}, {"angle", "rectangle, polygon", false},
 };
+static const conditional_key weakness_keys[] = {
+    {"centre", "disc, rectangle, ring, polygon", true},
+    {"size", "rectangle", true},
+    {"radius", "disc, ring", true},
+    {"inner_radius", "ring", true},
+    {"points", "polyline, polygon", true},
+    {"angle", "rectangle, polygon", false},
+};
 static const conditional_key lattice_keys[] = {{"diagonal", "square", false}, {"outline", "triangular", false}};
 static const conditional_key pores_keys[] = {{"mean", "lognormal, normal", true},
                                              {"deviation", "lognormal, normal", true}};
@@ -48,6 +56,7 @@ static const conditional_keys body_uses = {"body", "shape", COUNT(body_keys), bo
 static const conditional_keys lattice_uses = {"body", "lattice", COUNT(lattice_keys), lattice_keys};
 static const conditional_keys void_uses = {"void", "shape", COUNT(void_keys), void_keys};
 static const conditional_keys inclusion_uses = {"inclusion", "shape", COUNT(void_keys), void_keys};
+static const conditional_keys weakness_uses = {"weakness", "shape", COUNT(weakness_keys), weakness_keys};
 static const conditional_keys pores_uses = {"pores", "distribution", COUNT(pores_keys), pores_keys};
 
 /* Whether anything of a body is random. */
@@ -62,6 +71,7 @@ void body_checks_drop_unused(schema_deck *groups)
     conditional_keys_drop(groups, &lattice_uses);
     conditional_keys_drop(groups, &void_uses);
     conditional_keys_drop(groups, &inclusion_uses);
+    conditional_keys_drop(groups, &weakness_uses);
     conditional_keys_drop(groups, &pores_uses);
     for (size_t i = 0; i < groups->n_instances; i++) {
         schema_instance *group = &groups->instances[i];
@@ -174,7 +184,7 @@ static void check_file(const schema_instance *body, namelist_errors *errors)
         namelist_errors_add(errors, schema_place(body, "file"), "'file' in &body must name %s, got ''", what);
 }
 
-/* The body that a group is for, from 1 in the deck; only cracks and inclusions are for meshes, and nothing for lattice
+/* The body that a group is for, from 1 in the deck; voids and pores are not for meshes, and nothing is for lattice
  * files. */
 static void check_owner(const schema_deck *groups, const schema_instance *group, namelist_errors *errors)
 {
@@ -189,7 +199,7 @@ static void check_owner(const schema_deck *groups, const schema_instance *group,
     }
     const schema_instance *body = schema_get(groups, "body", (size_t)number - 1);
     const char *name = group->group->name;
-    const bool of_mesh = strcmp(name, "crack") == 0 || strcmp(name, "inclusion") == 0;
+    const bool of_mesh = strcmp(name, "void") != 0 && strcmp(name, "pores") != 0;
     if (has_shape(body, "file") || (has_shape(body, "mesh") && !of_mesh))
         namelist_errors_add(errors, place, "&%s is for body %.0f, which is of shape '%s'", group->group->name, number,
                             schema_text(body, "shape"));
@@ -238,7 +248,7 @@ static void check_body(const schema_instance *body, namelist_errors *errors)
     check_file(body, errors);
 }
 
-/* Voids or inclusions. */
+/* Voids, inclusions or weaknesses. */
 static void check_holes(const schema_deck *groups, const conditional_keys *table, namelist_errors *errors)
 {
     for (size_t k = 0; k < schema_count(groups, table->group); k++) {
@@ -246,7 +256,7 @@ static void check_holes(const schema_deck *groups, const conditional_keys *table
         conditional_keys_check(group, table, errors);
         check_owner(groups, group, errors);
         check_ring(group, errors);
-        (void)check_polygon(group, errors);
+        (void)(has_shape(group, "polyline") ? check_points(group, errors) : check_polygon(group, errors));
     }
 }
 
@@ -256,6 +266,7 @@ void body_checks_all(const schema_deck *groups, namelist_errors *errors)
     for (size_t k = 0; k < schema_count(groups, "body"); k++) check_body(schema_get(groups, "body", k), errors);
     check_holes(groups, &void_uses, errors);
     check_holes(groups, &inclusion_uses, errors);
+    check_holes(groups, &weakness_uses, errors);
     for (size_t k = 0; k < schema_count(groups, "pores"); k++) {
         const schema_instance *group = schema_get(groups, "pores", k);
         conditional_keys_check(group, &pores_uses, errors);

@@ -6,17 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "angle.h"
 #include "area.h"
 #include "body_checks.h"
 #include "body_outline.h"
 #include "crack.h"
+#include "enclosed.h"
 #include "material.h"
 #include "msh.h"
 #include "shape.h"
 
 static const double pi = 3.14159265358979323846;
-static const double aside = 1e-6; /* of the spacing: how far cracks run beside their points */
 
 static bool has_shape(const schema_instance *group, const char *name)
 {
@@ -42,38 +41,10 @@ static const schema_instance *own(const former *f, const char *name, size_t k)
     return (size_t)schema_real(group, "body") == f->number ? group : NULL;
 }
 
-/* With points of its own. False when memory runs out. */
-static bool copy_outline(outline *out, const schema_instance *group)
-{
-    *out = body_outline(group);
-    if (out->kind != OUTLINE_POLYGON) return true;
-    const size_t size = out->n_points * 2 * sizeof *out->points;
-    double *points = malloc(size);
-    if (points != NULL) memcpy(points, out->points, size);
-    out->points = points;
-    return points != NULL;
-}
-
-/* Of a void or an inclusion, in its place. False when memory runs out. */
-static bool read_hole(outline *hole, const schema_instance *group)
-{
-    const double *centre = schema_reals(group, "centre"), angle = angle_degree * schema_real(group, "angle");
-    const double turn[2] = {cos(angle), sin(angle)};
-    bool good = copy_outline(hole, group);
-    if (hole->kind == OUTLINE_POLYGON || angle != 0.0) {
-        good = good && outline_place(hole, turn, centre);
-    } else {
-        hole->centre[0] = centre[0];
-        hole->centre[1] = centre[1];
-    }
-    if (!good) outline_free(hole);
-    return good;
-}
-
 static dem_status add_void(shape *s, const schema_instance *group)
 {
     outline hole;
-    return read_hole(&hole, group) && shape_add_void(s, &hole) ? DEM_OK : DEM_ERROR_MEMORY;
+    return body_outline_place(&hole, group) && shape_add_void(s, &hole) ? DEM_OK : DEM_ERROR_MEMORY;
 }
 
 static dem_status report_pores(const former *f, const schema_instance *group, const pores_recipe *recipe,
@@ -152,7 +123,7 @@ static dem_status read_mask(const former *f, shape *s)
 /* Outline or mask, voids, pores; the true area. */
 static dem_status make_shape(former *f, shape *s)
 {
-    dem_status status = copy_outline(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
+    dem_status status = body_outline_copy(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
     s->spacing = f->geometry.spacing = schema_real(f->body, "spacing");
     s->squares = body_geometry_has_squares(f->body);
     /* Where areas underflow the lattice is left as it is, to be refused for that. */
@@ -292,22 +263,6 @@ void body_geometry_materials(dem_material *out, const schema_deck *groups, size_
         out[i].springs = DEM_SPRINGS_INDEPENDENT;
 }
 
-/* Gives the triangles in an outline a material, `step` of them at a time.  \return how many */
-static dem_index include(dem_index *of, const dem_lattice *lattice, const outline *o, dem_index material,
-                         dem_index step)
-{
-    dem_index n = 0;
-    for (dem_index t = 0; t < lattice->n_triangles; t += step) {
-        double centre[2] = {0.0, 0.0};
-        for (dem_index c = 0; c < 6 * step; c++)
-            centre[c % 2] += lattice->x[2 * lattice->triangles[3 * t + c / 2] + c % 2] / (double)(3 * step);
-        if (outline_distance(o, centre[0], centre[1]) > 0.0) continue;
-        for (dem_index i = t; i < t + step; i++) of[i] = material;
-        n += step;
-    }
-    return n;
-}
-
 dem_status body_geometry_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
                               namelist_errors *errors)
 {
@@ -318,8 +273,8 @@ dem_status body_geometry_mark(dem_index *of, const dem_lattice *lattice, const s
         const schema_instance *group = own(&f, "inclusion", i);
         outline o;
         if (group == NULL) continue;
-        if (!read_hole(&o, group)) return DEM_ERROR_MEMORY;
-        const dem_index n = include(of, lattice, &o, ++material, body_geometry_has_squares(f.body) ? 2 : 1);
+        if (!body_outline_place(&o, group)) return DEM_ERROR_MEMORY;
+        const dem_index n = enclosed_triangles(of, lattice, &o, ++material, body_geometry_has_squares(f.body) ? 2 : 1);
         outline_free(&o);
         if (n > 0) continue;
         namelist_errors_add(errors, schema_place(group, "centre"),
@@ -399,7 +354,7 @@ static bool has_cracks(const former *f)
 
 static dem_status crack(former *f)
 {
-    const double shift = aside * f->geometry.spacing;
+    const double shift = CRACK_ASIDE * f->geometry.spacing;
     const dem_index n = f->lattice.n_triangles;
     bool *keep = malloc((size_t)n + 1);
     dem_status status = DEM_OK;

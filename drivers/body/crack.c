@@ -47,21 +47,48 @@ static bool crosses(const double *a, const double *b, const double *const corner
     return true;
 }
 
-dem_index crack_mark(bool *keep, const dem_lattice *lattice, const double *points, size_t n_points, double shift)
+/* Elements of a lattice, with `arity` nodes each. */
+typedef struct elements {
+    const double *x;
+    const dem_index *nodes;
+    dem_index n;
+    int arity; /* 3, or 2: of a triangle without height */
+} elements;
+
+static bool is_hit(const elements *e, dem_index k, const double *path, size_t n_points)
+{
+    const double *corner[3];
+    bool hit = false;
+    for (int c = 0; c < 3; c++) corner[c] = e->x + 2 * e->nodes[e->arity * k + (c < e->arity ? c : e->arity - 1)];
+    for (size_t p = 0; p + 1 < n_points && !hit; p++) hit = crosses(path + 2 * p, path + 2 * p + 2, corner);
+    return hit;
+}
+
+static dem_index mark(bool *keep, const elements *e, const double *points, size_t n_points, double shift)
 {
     const size_t n = 2 * n_points - 2;
     double *path = calloc(n, 2 * sizeof *path);
     dem_index crossed = 0;
     if (path == NULL) return -1;
     shift_path(path, points, n_points, shift);
-    for (dem_index t = 0; t < lattice->n_triangles; t++) {
-        const dem_index *node = lattice->triangles + 3 * t;
-        const double *const corner[3] = {lattice->x + 2 * node[0], lattice->x + 2 * node[1], lattice->x + 2 * node[2]};
-        bool hit = false;
-        for (size_t k = 0; k + 1 < n && !hit; k++) hit = crosses(path + 2 * k, path + 2 * k + 2, corner);
-        if (hit) keep[t] = 0;
+    for (dem_index k = 0; k < e->n; k++) {
+        const bool hit = is_hit(e, k, path, n);
+        if (hit) keep[k] = 0;
         crossed += hit;
     }
     free(path);
     return crossed;
+}
+
+dem_index crack_mark(bool *keep, const dem_lattice *lattice, const double *points, size_t n_points, double shift)
+{
+    const elements triangles = {lattice->x, lattice->triangles, lattice->n_triangles, 3};
+    return mark(keep, &triangles, points, n_points, shift);
+}
+
+dem_index crack_mark_springs(bool *keep, const dem_lattice *lattice, const double *points, size_t n_points,
+                             double shift)
+{
+    const elements springs = {lattice->x, lattice->ends, lattice->n_springs, 2};
+    return mark(keep, &springs, points, n_points, shift);
 }

@@ -68,8 +68,18 @@ contains
     character(4096) :: material, shape
     real(dp), save :: points(20000)
     real(dp) :: centre(2), radius, inner_radius, size(2), angle
-    namelist /inclusion/ body, material, shape, centre, radius, inner_radius, size, points, angle
+    real(dp) :: interface
+    namelist /inclusion/ body, material, shape, centre, radius, inner_radius, size, points, angle, interface
     read (unit, nml=inclusion, iostat=status, iomsg=message)
+  end subroutine
+
+  subroutine read_weakness()
+    integer :: body
+    character(4096) :: shape
+    real(dp), save :: points(20000)
+    real(dp) :: strength, centre(2), radius, inner_radius, size(2), angle
+    namelist /weakness/ body, strength, shape, centre, radius, inner_radius, size, points, angle
+    read (unit, nml=weakness, iostat=status, iomsg=message)
   end subroutine
 
   subroutine read_crack()
@@ -187,6 +197,7 @@ program gfortran_reads
   call read_all('pores', read_pores)
   call read_all('crack', read_crack)
   call read_all('inclusion', read_inclusion)
+  call read_all('weakness', read_weakness)
   call read_all('boundary', read_boundary)
   call read_all('obstacle', read_obstacle)
   call read_all('contact', read_contact)

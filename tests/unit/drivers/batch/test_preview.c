@@ -164,6 +164,7 @@ TEST(the_preview_tells_how_bodies_came_out)
          .loose = {.n = 2, .size = {5, 1}, .x = {{0.5, 2.0}, {3.0, 4.0}}},
          .removed = true,
          .hinges = {.n = 1, .x = {6.0, 7.0}},
+         .weak = {.weaknesses = {.n_triangles = 20}, .interfaces = {.n_triangles = 8, .n_springs = 9}},
          .strengths = {.triangles = {.n = 30, .n_raised = 4, .least = 2e5, .most = 3.5e6},
                        .springs = {.n = 40, .least = 0.01, .most = 0.03}}},
         {.mass = 1.0,
@@ -189,6 +190,9 @@ TEST(the_preview_tells_how_bodies_came_out)
                                     "raised to 0.2 of 'strength'\n"));
     assert_non_null(strstr(l->text, "\nstrengths  body 1: of 40 springs, from 0.01 to 0.03\n"));
     assert_null(strstr(l->text, "strengths  body 2"));
+    assert_non_null(strstr(l->text, "\nweaknesses body 1: of 20 triangles\n"));
+    assert_non_null(strstr(l->text, "\ninterfaces body 1: of 8 triangles, 9 springs\n"));
+    assert_null(strstr(l->text, "weaknesses body 2"));
     assert_null(strstr(l->text, "mass       body 2"));
     assert_null(strstr(l->text, "outline    body 1"));
     assert_non_null(strstr(l->text,

@@ -67,6 +67,30 @@ TEST(groups_name_a_body_that_can_have_them)
     assert_checked(MESH "'' /", 1, "a mesh");
 }
 
+TEST(a_weakness_has_the_keys_of_its_shape)
+{
+    assert_checked(BLOCK "&weakness strength = 0.5, points = 0,0, 1,1 /", 0, NULL);
+    assert_checked(BLOCK "&weakness strength = 0.5, shape = 'disc', centre = 0,1, radius = 1 /", 0, NULL);
+    assert_checked(MESH "'a' /\n&weakness strength = 0.5, points = 0,0, 1,1 /", 0, NULL);
+    assert_checked("&body shape = 'file', file = 'a' /\n&weakness strength = 1, points = 0,0, 1,1 /", 2,
+                   "shape 'file'");
+    assert_checked(BLOCK "&weakness strength = 0.5 /", 2, "'points' in &weakness must be given for shape 'polyline'");
+    assert_checked(BLOCK "&weakness strength = 0.5, shape = 'disc', radius = 1 /", 2, "'centre' in &weakness must be");
+    assert_checked(BLOCK "&weakness strength = 0.5, points = 0,0, 1,1,\n centre = 0,0 /", 3,
+                   "'centre' in &weakness is");
+    assert_checked(BLOCK "&weakness strength = 0.5, points = 0,0, 1,1,\n angle = 3 /", 3, "'angle' in &weakness is");
+    assert_checked(BLOCK "&weakness strength = 0.5,\n points = 0,0, 1,1, 2 /", 3, "must be pairs");
+    assert_checked(BLOCK "&weakness strength = 0.5,\n points = 0,0, 0,0 /", 3, "no length");
+    assert_checked(BLOCK "&weakness strength = 0.5, shape = 'polygon', centre = 0,0,\n points = 0,0, 1,1 /", 3,
+                   "at least 3 points");
+    assert_checked(BLOCK "&weakness strength = 0.5, shape = 'ring', centre = 0,0, radius = 1,\n inner_radius = 2 /", 3,
+                   "'inner_radius' in &weakness must be less");
+    assert_checked(BLOCK "&weakness strength = 0.5, points = 0,0, 1,1,\n body = 2 /", 3, "&weakness is for body 2");
+    CLEANUP(drop_resolved) resolved r = resolve_clean(RUN RUBBER BLOCK "&weakness strength = 1, points = 0,0, 1,1 /");
+    body_checks_drop_unused(&r.deck);
+    assert_int_equal(schema_value_of(schema_get(&r.deck, "weakness", 0), "angle")->count, 0);
+}
+
 TEST(pores_have_a_number_or_a_porosity)
 {
     assert_checked(BLOCK "&pores number = 3, radius = 1, 1 /", 0, NULL);

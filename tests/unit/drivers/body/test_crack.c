@@ -175,3 +175,22 @@ TEST(a_crack_elsewhere_takes_nothing)
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(8.0, 6.0 * row, 1.0);
     assert_int_equal(cut(&lattice, points, 3), 0);
 }
+
+/* Along the rows it runs a little beside them, and so crosses none of their springs, but both others of each triangle
+ * on its left: 15 triangles of one row have 16 between them. Across the rows it is counted by hand. */
+TEST(springs_are_crossed_where_a_crack_goes_between_their_ends)
+{
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(8.0, 6.0 * row, 1.0);
+    const double along[4] = {-9.0, 3.0 * row, 9.0, 3.0 * row}, up[4] = {0.25, -1.0, 0.25, 0.5 * row};
+    bool keep[400];
+    for (int k = 0; k < 400; k++) keep[k] = true;
+    assert_true(lattice.n_springs <= 400);
+    assert_int_equal(crack_mark_springs(keep, &lattice, along, 2, shift), 16);
+    for (dem_index k = 0; k < lattice.n_springs; k++) {
+        const double a = lattice.x[2 * lattice.ends[2 * k] + 1], b = lattice.x[2 * lattice.ends[2 * k + 1] + 1];
+        assert_int_equal(!keep[k], fmin(a, b) < 3.1 * row && fmax(a, b) > 3.1 * row);
+    }
+    /* The lowest row has the spring from (0, 0) to (1, 0), and one that leans from there to (1/2, row). */
+    assert_int_equal(crack_mark_springs(keep, &lattice, up, 2, shift), 2);
+    assert_int_equal(crack_mark_springs(keep, &lattice, (const double[]){20.0, 0.0, 30.0, 1.0}, 2, shift), 0);
+}

@@ -330,23 +330,32 @@ TEST(the_hash_is_of_the_physics_alone)
     assert_true(run_hash[0] != run_hash[1] && run_hash[0] != run_hash[2]);
 }
 
-/* A law of strengths makes another problem, each of its numbers does, and a seed that is stated is that by default. */
-TEST(the_hash_knows_how_strengths_scatter)
+/* What makes strengths makes the problem, each number of it; a default that is stated is as one that is not. */
+TEST(the_hash_knows_strengths)
 {
-    static const char *const keys[] = {"",
-                                       ", weibull = 8, weibull_volume = 1",
-                                       ", weibull = 9, weibull_volume = 1",
-                                       ", weibull = 8, weibull_volume = 2",
-                                       ", weibull = 8, weibull_volume = 1, strength_seed = 2",
-                                       ", weibull = 8, weibull_volume = 1, strength_seed = 1"};
+    static const char *const keys[][2] = {
+        {"", ""},
+        {", weibull = 8, weibull_volume = 1", ""},
+        {", weibull = 9, weibull_volume = 1", ""},
+        {", weibull = 8, weibull_volume = 2", ""},
+        {", weibull = 8, weibull_volume = 1, strength_seed = 2", ""},
+        {", weibull = 8, weibull_volume = 1, strength_seed = 1", ""},
+        {"", "&weakness strength = 0.5, points = -9, 0.1, 9, 0.1 /"},
+        {"", "&weakness strength = 0.6, points = -9, 0.1, 9, 0.1 /"},
+        {"", "&weakness strength = 0.5, points = -9, 0.2, 9, 0.1 /"},
+        {"", "&weakness strength = 0.5, shape = 'disc', centre = 0, 0, radius = 1 /"},
+        {"", "&inclusion material = 'rubber', centre = 0, 0, radius = 1 /"},
+        {"", "&inclusion material = 'rubber', centre = 0, 0, radius = 1, interface = 1 /"},
+        {"", "&inclusion material = 'rubber', centre = 0, 0, radius = 1, interface = 2 /"}};
     enum { n = sizeof keys / sizeof *keys };
     uint64_t hash[n];
     for (int k = 0; k < n; k++) {
-        char text[512];
+        char text[1024];
         (void)snprintf(text, sizeof text,
-                       RUN "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, fracture = 'stress', "
-                           "strength = 1e5%s /\n&body shape = 'disc', radius = 2, spacing = 1, material = 'rubber' /\n",
-                       keys[k]);
+                       RUN
+                       "&material name = 'rubber', youngs_modulus = 1e7, density = 1000, fracture = 'stress', "
+                       "strength = 1e5%s /\n&body shape = 'disc', radius = 2, spacing = 0.5, material = 'rubber' /\n%s",
+                       keys[k][0], keys[k][1]);
         CLEANUP(deck_free) deck d = deck_text_good(text);
         hash[k] = d.hash;
         for (int i = 0; i < k; i++) assert_true((hash[i] == hash[k]) == (i == 1 && k == 5));

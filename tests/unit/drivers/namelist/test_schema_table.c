@@ -32,8 +32,8 @@ static int has_default(const schema_key *key)
 /* ---- names ---- */
 
 /* As design.md 7 has them, in the order of a deck. */
-static const char *const designed[] = {"run",      "material", "body",    "void",   "pores",  "crack", "inclusion",
-                                       "boundary", "obstacle", "contact", "solver", "output", "probe"};
+static const char *const designed[] = {"run",      "material", "body",     "void",    "pores",  "crack",  "inclusion",
+                                       "weakness", "boundary", "obstacle", "contact", "solver", "output", "probe"};
 
 TEST(groups_are_those_of_the_design_in_its_order)
 {
