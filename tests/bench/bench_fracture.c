@@ -1,0 +1,334 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What fracture costs, of rectangles of equilateral triangles with the folding guard.
+ *
+ *      bench_fracture memory NODES                      bytes a node of a simulation that may break, more than of one
+ *                                                       that may not: at the start, and with a triangle broken
+ *      bench_fracture whole NODES METHOD STEPS TURNS    a step of a run in which nothing breaks, over one that may not:
+ *                                                       medians of turns, strengths far above stresses and 1.5 times as high
+ *      bench_fracture damaged NODES TURNS               an evaluation of all forces with triangles dead, over that of
+ *                                                       the whole body: medians of turns
+ *      bench_fracture deaths NODES METHOD               a body that breaks where waves meet: time per broken triangle
+ *
+ * CPU time. Rows of dead triangles lie side by side across the body, as cracks do; dead ones at random are each of them
+ * chosen by itself. The time of a death is in parts: finding what breaks in a step, resolving it (with its root and
+ * local correction), and what follows at the end of the step (surfaces, layout); and all of a run, less as many steps
+ * of the same impact on a stronger body. */
+#include <math.h>
+#include <string.h>
+
+#include "base/aligned.h"
+#include "events/event_queue.h"
+#include "forces/kernel.h"
+#include "simulation/breaking.h"
+#include "ask.h"
+#include "bench.h"
+#include "memory.h"
+
+static const double spacing = 1e-3, youngs_modulus = 1e9, density = 2500.0, speed = 2.0;
+
+enum { MOST = 400 };
+
+/* ---- bodies ---- */
+
+/* Strength in units of E v/c, with v = `speed` and c the speed of waves; 0: it does not break. */
+static dem_lattice make_body(double nodes, double strength)
+{
+    const double c = sqrt(youngs_modulus / density), columns = sqrt(nodes * sqrt(3.0) / 2.0);
+    const dem_material stone = {.struct_size = sizeof(dem_material),
+                                .youngs_modulus = youngs_modulus,
+                                .poissons_ratio = 1.0 / 3.0,
+                                .density = density,
+                                .thickness = 1.0,
+                                .guard = 0.02,
+                                .strength = strength * youngs_modulus * speed / c};
+    dem_lattice l = dem_lattice_empty();
+    ask(dem_lattice_rectangle(&l, columns * spacing, columns * spacing, spacing));
+    ask(dem_lattice_assemble(&l, &stone));
+    return l;
+}
+
+static dem_model *compile(dem_lattice l, const dem_obstacle *obstacles, dem_index n)
+{
+    dem_model *model;
+    ask(dem_model_create(&model, &l, obstacles, n));
+    dem_lattice_free(&l);
+    return model;
+}
+
+/* A standing wave of twelve spacings. */
+static dem_model *make_waves(double nodes, double strength)
+{
+    dem_lattice l = make_body(nodes, strength);
+    l.velocity = calloc(2 * (size_t)l.n_nodes, sizeof *l.velocity);
+    must(l.velocity != NULL, "out of memory");
+    for (dem_index i = 0; i < l.n_nodes; i++) {
+        const double w = acos(-1.0) / (6.0 * spacing), x = w * l.x[2 * i], y = w * l.x[2 * i + 1];
+        l.velocity[2 * i] = speed * cos(x) * cos(0.5 * y);
+        l.velocity[2 * i + 1] = speed * cos(y) * cos(0.5 * x);
+    }
+    return compile(l, NULL, 0);
+}
+
+static dem_options options_of(const char *method)
+{
+    dem_options options = dem_options_default();
+    options.gravity[1] = 0.0;
+    ask(dem_method_find(&options.method, method));
+    return options;
+}
+
+/* ---- memory ---- */
+
+/* Bytes that a simulation has, or has when a triangle has broken; that of the second of two is measured, so that what is
+ * allocated once for all is not counted. */
+static double bytes_of(const dem_model *model, bool breaks)
+{
+    const dem_options options = options_of("verlet");
+    const dem_index first = 0;
+    dem_simulation *simulation;
+    double before = 0.0, taken = 0.0;
+    for (int turn = 0; turn < 2; turn++) {
+        before = memory_in_use();
+        ask(dem_simulation_create(&simulation, model, &options));
+        if (breaks) ask(dem_simulation_break(simulation, &first, 1, NULL, 0));
+        taken = memory_in_use() - before;
+        dem_simulation_destroy(simulation);
+    }
+    return taken;
+}
+
+static void measure_memory(double nodes)
+{
+    dem_model *whole = make_waves(nodes, 0.0), *brittle = make_waves(nodes, 100.0);
+    const double n = (double)whole->lattice.n_nodes, least = bytes_of(whole, false);
+    (void)printf("%.0f nodes: may break %.1f bytes a node more, with a broken triangle %.1f, without strength %.1f\n",
+                 n, (bytes_of(brittle, false) - least) / n, (bytes_of(brittle, true) - least) / n,
+                 (bytes_of(whole, true) - least) / n);
+    dem_model_destroy(whole);
+    dem_model_destroy(brittle);
+}
+
+/* ---- may break, but does not ---- */
+
+/* CPU time of a step, s. */
+static double time_step(const dem_model *model, const dem_options *options, int steps)
+{
+    enum { FIRST = 20 };
+    dem_simulation *simulation;
+    ask(dem_simulation_create(&simulation, model, options));
+    const double h = ask_options(simulation).max_step;
+    ask(dem_simulation_advance(simulation, FIRST * h));
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    ask(dem_simulation_advance(simulation, (FIRST + steps) * h));
+    const double spent = seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    must(ask_energy(simulation).fracture == 0.0, "something has broken");
+    dem_simulation_destroy(simulation);
+    return spent / steps;
+}
+
+static void measure_whole(double nodes, const char *method, int steps, int turns)
+{
+    enum { NONE, FAR, NEAR, KINDS };
+    static const double strength[KINDS] = {0.0, 100.0, 2.0};
+    static double times[KINDS][MOST];
+    dem_model *models[KINDS];
+    const dem_options options = options_of(method);
+    for (int k = 0; k < KINDS; k++) models[k] = make_waves(nodes, strength[k]);
+    for (int turn = 0; turn < turns; turn++)
+        for (int k = 0; k < KINDS; k++)
+            times[(turn + k) % KINDS][turn] = time_step(models[(turn + k) % KINDS], &options, steps);
+    for (int turn = 0; turn < turns; turn++)
+        for (int k = FAR; k < KINDS; k++) times[k][turn] /= times[NONE][turn];
+    const size_t n = (size_t)turns;
+    (void)printf("%lld nodes, %s: %.2f us a step, %.4f with a strength far above stresses, %.4f near them\n",
+                 (long long)models[0]->lattice.n_nodes, method, 1e6 * median(times[NONE], n), median(times[FAR], n),
+                 median(times[NEAR], n));
+    for (int k = 0; k < KINDS; k++) dem_model_destroy(models[k]);
+}
+
+/* ---- with dead triangles ---- */
+
+typedef struct damage {
+    const char *name;
+    bool by_rows;
+    double share;
+} damage;
+
+static const damage kinds[] = {{"whole", false, 0.0},       {"rows, 1 %", true, 0.01},    {"rows, 10 %", true, 0.1},
+                               {"rows, 30 %", true, 0.3},   {"random, 1 %", false, 0.01}, {"random, 10 %", false, 0.1},
+                               {"random, 30 %", false, 0.3}};
+enum { N_KINDS = sizeof kinds / sizeof *kinds };
+
+/* In [0, 1), of its own for each number. */
+static double share_of(dem_index number)
+{
+    uint64_t hash = ((uint64_t)number + 1) * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ hash >> 30) * 0xbf58476d1ce4e5b9u;
+    hash = (hash ^ hash >> 27) * 0x94d049bb133111ebu;
+    return ldexp((double)(hash >> 12), -52);
+}
+
+/* The row of triangles in which one lies. */
+static double row_of(const dem_lattice *l, dem_index triangle)
+{
+    double y = 0.0;
+    for (int c = 0; c < 3; c++) y += l->x[2 * l->triangles[3 * triangle + c] + 1] / 3.0;
+    return floor(y / (spacing * sqrt(3.0) / 2.0));
+}
+
+static bool is_dead(const dem_lattice *l, damage d, dem_index triangle)
+{
+    const double period = 1.0 / d.share;
+    return d.by_rows ? fmod(row_of(l, triangle), period) < 1.0 : share_of(triangle) < d.share;
+}
+
+/* A simulation of which the kernel is asked, with the elements and the layout that the run would have. */
+static dem_simulation *open_damaged(const dem_model *model, damage d)
+{
+    const dem_lattice *l = &model->lattice;
+    dem_options options = options_of("verlet");
+    dem_index *dead = malloc((size_t)l->n_triangles * sizeof *dead), n = 0;
+    dem_simulation *simulation;
+    options.bodies = DEM_BODIES_NONE;
+    must(dead != NULL, "out of memory");
+    for (dem_index t = 0; t < l->n_triangles && d.share > 0.0; t++)
+        if (is_dead(l, d, t)) dead[n++] = t;
+    ask(dem_simulation_create(&simulation, model, &options));
+    if (n > 0) ask(dem_simulation_break(simulation, dead, n, NULL, 0));
+    free(dead);
+    return simulation;
+}
+
+/* CPU time of an evaluation, s. */
+static double time_forces(dem_simulation *s, double *a, int rounds)
+{
+    const double *x = s->model->lattice.position;
+    const kernel_state y = {.x = x, .v = x, .a = a};
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    for (int r = 0; r < rounds; r++) must(isfinite(kernel_accelerate(&s->kernel, &s->forces, &y)), "not finite");
+    return (seconds(CLOCK_PROCESS_CPUTIME_ID) - start) / rounds;
+}
+
+static void measure_damaged(double nodes, int turns)
+{
+    static double times[N_KINDS][MOST];
+    dem_model *model = make_waves(nodes, 0.0);
+    const int rounds = (int)(2e6 / nodes) + 1;
+    double *a = aligned_zeros(2 * (size_t)model->lattice.n_nodes);
+    dem_simulation *simulations[N_KINDS];
+    must(a != NULL, "out of memory");
+    for (int k = 0; k < N_KINDS; k++) simulations[k] = open_damaged(model, kinds[k]);
+    for (int turn = 0; turn < turns; turn++)
+        for (int k = 0; k < N_KINDS; k++)
+            times[(turn + k) % N_KINDS][turn] = time_forces(simulations[(turn + k) % N_KINDS], a, rounds);
+    for (int turn = 0; turn < turns; turn++)
+        for (int k = 1; k < N_KINDS; k++) times[k][turn] /= times[0][turn];
+    (void)printf("%lld nodes: %.2f ns a node", (long long)model->lattice.n_nodes,
+                 1e9 * median(times[0], (size_t)turns) / (double)model->lattice.n_nodes);
+    for (int k = 1; k < N_KINDS; k++) (void)printf("; %s %.3f", kinds[k].name, median(times[k], (size_t)turns));
+    (void)printf("\n");
+    for (int k = 0; k < N_KINDS; k++) dem_simulation_destroy(simulations[k]);
+    dem_model_destroy(model);
+    free(a);
+}
+
+/* ---- deaths ---- */
+
+typedef struct times {
+    double all, find, take, follow; /* s */
+    dem_index steps, n_broken, with_breaks;
+} times;
+
+static times spent;
+
+void __real_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
+dem_status __real_event_queue_show(event_queue *q, double t);
+dem_status __real_breaking_end_step(dem_simulation *s);
+void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
+dem_status __wrap_event_queue_show(event_queue *q, double t);
+dem_status __wrap_breaking_end_step(dem_simulation *s);
+
+void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
+{
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    __real_event_queue_start(q, step, y1, f1, state);
+    spent.find += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+}
+
+dem_status __wrap_event_queue_show(event_queue *q, double t)
+{
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    const dem_status status = __real_event_queue_show(q, t);
+    spent.take += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    return status;
+}
+
+dem_status __wrap_breaking_end_step(dem_simulation *s)
+{
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    spent.with_breaks += fracture_source_has_broken(&s->breaks);
+    const dem_status status = __real_breaking_end_step(s);
+    spent.follow += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    return status;
+}
+
+static dem_index count_broken(const dem_simulation *simulation)
+{
+    const dem_index n = simulation->model->lattice.n_triangles;
+    unsigned char *triangle = malloc((size_t)n);
+    dem_index n_broken = 0;
+    must(triangle != NULL, "out of memory");
+    ask(dem_simulation_broken(simulation, triangle, NULL));
+    for (dem_index t = 0; t < n; t++) n_broken += triangle[t];
+    free(triangle);
+    return n_broken;
+}
+
+static times take(const dem_model *model, const char *method, double t_end)
+{
+    const dem_options options = options_of(method);
+    dem_simulation *simulation;
+    spent = (times){0};
+    ask(dem_simulation_create(&simulation, model, &options));
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    ask(dem_simulation_advance(simulation, t_end));
+    spent.all = seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    spent.steps = ask_counts(simulation).steps;
+    spent.n_broken = count_broken(simulation);
+    dem_simulation_destroy(simulation);
+    return spent;
+}
+
+/* The waves go once through the body. */
+static void measure_deaths(double nodes, const char *method)
+{
+    const double t_end = sqrt(nodes) * spacing / sqrt(youngs_modulus / density);
+    dem_model *brittle = make_waves(nodes, 1.0), *strong = make_waves(nodes, 100.0);
+    times least = {.all = INFINITY}, whole = {.all = INFINITY};
+    for (int turn = 0; turn < 3; turn++) {
+        const times b = take(brittle, method, t_end), w = take(strong, method, t_end);
+        if (b.all < least.all) least = b;
+        if (w.all < whole.all) whole = w;
+    }
+    must(least.n_broken > 0, "nothing has broken");
+    const double n = 1e-6 * (double)least.n_broken, step = whole.all / (double)whole.steps;
+    (void)printf("%lld nodes, %s: %lld deaths in %lld of %lld steps; us a death: find %.1f, take %.1f, follow %.1f, all"
+                 " %.1f (of %.3f s; %lld steps of the strong body take %.3f s)\n",
+                 (long long)brittle->lattice.n_nodes, method, (long long)least.n_broken, (long long)least.with_breaks,
+                 (long long)least.steps, least.find / n, least.take / n, least.follow / n,
+                 (least.all - step * (double)least.steps) / n, least.all, (long long)whole.steps, whole.all);
+    dem_model_destroy(brittle);
+    dem_model_destroy(strong);
+}
+
+int main(int argc, char **argv)
+{
+    must(argc > 2, "memory | whole | damaged | deaths, NODES ...");
+    const double nodes = atof(argv[2]);
+    if (strcmp(argv[1], "memory") == 0) measure_memory(nodes);
+    if (strcmp(argv[1], "whole") == 0 && argc == 6)
+        measure_whole(nodes, argv[3], atoi(argv[4]), (int)fmin(MOST, atof(argv[5])));
+    if (strcmp(argv[1], "damaged") == 0 && argc == 4) measure_damaged(nodes, (int)fmin(MOST, atof(argv[3])));
+    if (strcmp(argv[1], "deaths") == 0 && argc == 4) measure_deaths(nodes, argv[3]);
+    return 0;
+}
