@@ -61,6 +61,26 @@ static dem_status rehash(intern *p)
     return DEM_OK;
 }
 
+/* An array of items that begins at a cache line. NULL if there is no memory. */
+static void *copy_items(const intern *p, dem_index capacity)
+{
+    double *items = aligned_reals((size_t)capacity * p->unit / sizeof *items);
+    if (items != NULL && p->n > 0) memcpy(items, p->items, (size_t)p->n * p->unit);
+    return items;
+}
+
+/* As grow_array(), and the items stay aligned: they may be read before they are settled. */
+static bool grow_items(intern *p, dem_index needed)
+{
+    if (needed <= p->capacity) return true;
+    void *larger = copy_items(p, 2 * needed + 64);
+    if (larger == NULL) return false;
+    free(p->items);
+    p->items = larger;
+    p->capacity = 2 * needed + 64;
+    return true;
+}
+
 /* Spans hold indices rather than pointers, because the items move when the array grows. */
 dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *out)
 {
@@ -68,7 +88,7 @@ dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *o
     int32_t *slot = slot_of(p, items, n);
     if (*slot < 0) {
         CHECK(p->n + n < INT32_MAX, DEM_ERROR_MODEL, "too many springs or triangles");
-        CHECK(grow_array(&p->items, &p->capacity, p->n + n, p->unit), DEM_ERROR_MEMORY, "out of memory");
+        CHECK(grow_items(p, p->n + n), DEM_ERROR_MEMORY, "out of memory");
         CHECK(grow_array((void **)&p->lists, &p->list_capacity, p->n_lists + 1, sizeof *p->lists), DEM_ERROR_MEMORY,
               "out of memory");
         if (n > 0) memcpy((char *)p->items + (size_t)p->n * p->unit, items, (size_t)n * p->unit);
@@ -80,14 +100,18 @@ dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *o
     return DEM_OK;
 }
 
+dem_status intern_copy(intern *out, const intern *from)
+{
+    *out = (intern){.unit = from->unit, .items = copy_items(from, from->n), .n = from->n, .capacity = from->n};
+    CHECK_MEMORY(out->items);
+    return DEM_OK;
+}
+
 /* After the last list has been added the table is of no use. Spans that have been given out stay valid. */
 dem_status intern_settle(intern *p)
 {
-    const size_t size = (size_t)p->n * p->unit;
-    double *items = aligned_reals(size / sizeof *items);
-    CHECK_MEMORY(items);
-    if (size > 0) memcpy(items, p->items, size);
-    const intern settled = {.unit = p->unit, .items = items, .n = p->n, .capacity = p->n};
+    intern settled;
+    TRY(intern_copy(&settled, p));
     intern_free(p);
     *p = settled;
     return DEM_OK;

@@ -15,7 +15,7 @@ typedef struct intern_span {
 
 typedef struct intern {
     size_t unit; /* bytes of an item, a multiple of 8 without padding */
-    void *items; /* [n] */
+    void *items; /* [n] from the start of a cache line */
     dem_index n, capacity;
     intern_span *lists; /* [n_lists] those held */
     dem_index n_lists, list_capacity;
@@ -27,8 +27,11 @@ typedef struct intern {
  *  \return DEM_ERROR_MEMORY, or DEM_ERROR_MODEL for more than 2^31 items */
 dem_status intern_find(intern *p, const void *items, dem_index n, intern_span *out);
 
-/** Ends the building: frees the hash table, and moves the items to the start of a cache line. */
+/** Ends the building: frees the hash table and what has not been used. */
 dem_status intern_settle(intern *p);
+
+/** Copies the items, so that spans are valid in both. Lists that are found in the copy are new ones behind them. */
+dem_status intern_copy(intern *out, const intern *from);
 
 void intern_free(intern *p);
 

@@ -16,6 +16,7 @@
 #include "base/grow.h"
 #include "base/status.h"
 #include "elastic/lane_groups.h"
+#include "elastic/lane_slots.h"
 #include "elastic/renumber.h"
 #include "elastic/ring_streams.h"
 
@@ -36,21 +37,17 @@ typedef struct builder {
     int32_t *place;        /* [n_nodes] of each node; NULL: its number */
     int32_t *force;        /* [n_springs] place in the ring */
     int32_t *corner_force; /* [3 n] the same of each corner of coupled triangles */
+    dem_index *slot;       /* of one lane */
     lane_groups groups;
     dem_index n_entries, entry_capacity;
     layout_entry *entries; /* [n_entries] of the block in hand */
     ring_streams ring;
 } builder;
 
-/* The node at place q of the layout's order, and the other way round. Entries know places only. */
-static dem_index node_at(const layout *l, dem_index q)
-{
-    return l->order != NULL ? l->order[q] : q;
-}
-
+/* Entries know places only. */
 static int32_t place_of(const builder *b, dem_index node)
 {
-    return b->place != NULL ? b->place[node] : (int32_t)node;
+    return lane_slots_place(b->place, node);
 }
 
 /* ---- arrays that grow ---- */
@@ -145,34 +142,22 @@ static dem_status add_triangles(builder *b, const lane_item *leader, int32_t row
 
 /* ---- springs ---- */
 
-/* Insertion sort by the upper node's place: a node has a few springs, and the order of evaluation changes no sum. */
-static void sort_by_place(lane_item *list, dem_index n)
-{
-    for (dem_index k = 1; k < n; k++)
-        for (dem_index p = k; p > 0 && list[p].at < list[p - 1].at; p--) {
-            const lane_item kept = list[p];
-            list[p] = list[p - 1];
-            list[p - 1] = kept;
-        }
-}
-
 /* The items of the springs whose lower ends are in this block: those whose other end has a higher place. */
 static void list_springs(builder *b, dem_index block)
 {
     const springs *s = b->s;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const dem_index row = LAYOUT_LANES * block + lane, i = node_at(b->l, row);
-        lane_item *list = &b->groups.items[lane * b->groups.most];
-        dem_index n = 0;
-        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const dem_index n = lane_slots_springs(s, b->place, layout_node(b->l, LAYOUT_LANES * block + lane), b->slot);
+        for (dem_index k = 0; k < n; k++) {
+            const dem_index p = b->slot[k];
             const int32_t j = place_of(b, s->neighbour[p]);
-            if (j < row) continue;
-            list[n++] = (lane_item){.at = j, .base = j - lane, .last = j - lane, .element = s->spring[p]};
-            list[n - 1].set[0] = s->stiffness[p];
-            list[n - 1].set[1] = s->rest_length[p];
-            list[n - 1].set[2] = s->viscosity != NULL ? s->viscosity[p] : 0.0;
+            b->groups.items[lane * b->groups.most + k] =
+                (lane_item){.at = j,
+                            .base = j - lane,
+                            .last = j - lane,
+                            .element = s->spring[p],
+                            .set = {s->stiffness[p], s->rest_length[p], s->viscosity != NULL ? s->viscosity[p] : 0.0}};
         }
-        sort_by_place(list, n);
         b->groups.n[lane] = n;
     }
 }
@@ -209,15 +194,14 @@ static void list_couplings(builder *b, dem_index block)
 {
     const couplings *c = b->c;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const dem_index row = LAYOUT_LANES * block + lane, i = node_at(b->l, row);
-        dem_index n = 0;
-        for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
-            const coupled_triangle *t = &c->list[c->slot[p] / 3];
-            const int q = (int)(c->slot[p] % 3);
+        const dem_index n = lane_slots_couplings(c, b->place, layout_node(b->l, LAYOUT_LANES * block + lane), b->slot);
+        for (dem_index m = 0; m < n; m++) {
+            const dem_index slot = c->slot[b->slot[m]];
+            const coupled_triangle *t = &c->list[slot / 3];
+            const int q = (int)(slot % 3);
             const int32_t next = place_of(b, t->corner[(q + 1) % 3]), last = place_of(b, t->corner[(q + 2) % 3]);
-            if (next < row || last < row) continue;
-            lane_item *own = &b->groups.items[lane * b->groups.most + n++];
-            *own = (lane_item){.at = next, .to = last, .base = next - lane, .last = last - lane, .element = c->slot[p]};
+            lane_item *own = &b->groups.items[lane * b->groups.most + m];
+            *own = (lane_item){.at = next, .to = last, .base = next - lane, .last = last - lane, .element = slot};
             for (int k = 0; k < 3; k++) {
                 own->set[k] = t->rest_length[(q + k) % 3];
                 own->set[3 + k] = t->coupling[(q + k) % 3];
@@ -268,7 +252,7 @@ static void list_terms(builder *b, dem_index block)
 {
     const springs *s = b->s;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const dem_index row = LAYOUT_LANES * block + lane, i = node_at(b->l, row);
+        const dem_index row = LAYOUT_LANES * block + lane, i = layout_node(b->l, row);
         b->groups.n[lane] = s->row[i + 1] - s->row[i];
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const int32_t j = place_of(b, s->neighbour[p]), force = b->force[s->spring[p]];
@@ -283,7 +267,7 @@ static void list_coupling_terms(builder *b, dem_index block)
 {
     const couplings *c = b->c;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const dem_index i = node_at(b->l, LAYOUT_LANES * block + lane);
+        const dem_index i = layout_node(b->l, LAYOUT_LANES * block + lane);
         b->groups.n[lane] = c->row[i + 1] - c->row[i];
         for (int32_t k = 0; k < b->groups.n[lane]; k++) {
             const int32_t force = b->corner_force[c->slot[c->row[i] + k]];
@@ -328,7 +312,7 @@ static void list_corners(builder *b, dem_index block)
 {
     const triangles *t = b->t;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const dem_index i = node_at(b->l, LAYOUT_LANES * block + lane);
+        const dem_index i = layout_node(b->l, LAYOUT_LANES * block + lane);
         b->groups.n[lane] = t->row[i + 1] - t->row[i];
         for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
             const int32_t next = place_of(b, t->next[p]), last = place_of(b, t->last[p]);
@@ -420,20 +404,26 @@ static dem_status choose_order(builder *b)
     return DEM_OK;
 }
 
+dem_index layout_most_items(const springs *s, const triangles *t, const couplings *c)
+{
+    dem_index most = 0;
+    for (dem_index i = 0; i < s->n_nodes; i++) {
+        const dem_index n[3] = {s->row[i + 1] - s->row[i], t->row[i + 1] - t->row[i], c->row[i + 1] - c->row[i]};
+        for (int k = 0; k < 3; k++) most = n[k] > most ? n[k] : most;
+    }
+    return most;
+}
+
 static dem_status allocate(builder *b)
 {
-    dem_index most = 0; /* items that a lane can have */
+    const dem_index most = layout_most_items(b->s, b->t, b->c);
     layout *l = b->l;
     const size_t n = (size_t)l->n_blocks + 1;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const dem_index n_items[3] = {b->s->row[i + 1] - b->s->row[i], b->t->row[i + 1] - b->t->row[i],
-                                      b->c->row[i + 1] - b->c->row[i]};
-        for (int k = 0; k < 3; k++) most = n_items[k] > most ? n_items[k] : most;
-    }
     b->force = malloc(((size_t)b->s->n_springs + 1) * sizeof *b->force);
     b->corner_force = malloc((3 * (size_t)b->c->n + 1) * sizeof *b->corner_force);
+    b->slot = malloc(((size_t)most + 1) * sizeof *b->slot);
     layout_part *const parts[] = {&l->springs, &l->terms, &l->corners, &l->couplings, &l->coupling_terms};
-    bool complete = lane_groups_create(&b->groups, most) && b->force != NULL && b->corner_force != NULL;
+    bool complete = lane_groups_create(&b->groups, most) && b->force && b->corner_force && b->slot;
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
         *parts[k] = (layout_part){calloc(n, sizeof(intern_span)), {.unit = sizeof(layout_entry)}};
         complete = complete && parts[k]->span != NULL;
@@ -461,6 +451,7 @@ dem_status layout_compile(layout *out, const springs *s, const triangles *t, con
     free(b.force);
     free(b.corner_force);
     free(b.place);
+    free(b.slot);
     ring_streams_free(&b.ring);
     free(b.entries);
     if (status == DEM_OK)

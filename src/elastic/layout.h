@@ -71,6 +71,15 @@ typedef struct layout {
     dem_index ring_length; /* forces in the ring */
 } layout;
 
+/** The node at place q. */
+static inline dem_index layout_node(const layout *l, dem_index q)
+{
+    return l->order != NULL ? l->order[q] : q;
+}
+
+/** Springs, triangles or coupled triangles of a node, at most. */
+dem_index layout_most_items(const springs *s, const triangles *t, const couplings *c);
+
 /** Compiles. A lattice in which a node has springs to a great part of the others gets no blocks. Free with
  *  layout_free(). */
 dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Accelerations of all nodes, equations (3) and (4), by a sweep over the blocks of the layout, shared among threads
  * (docs/algorithms.md, How forces are evaluated). What is not in blocks, and what is rare, is evaluated row by row
- * behind the sweep: nodes on which the guard acts, nodes beside broken elements, nodes with given forces. The contact
- * of surfaces is added to what is there then, and last the external force. Each node's sum is that of
- * forces_own_acceleration() in the same order, so the bits depend neither on the instruction set nor on the number of
- * threads. The choice of the instruction set is here, too. The arithmetic of a block is in elastic/sweep_body.h, that
- * of a row in forces.h; contact forces are added elsewhere (contact/contact_forces.c). */
+ * behind the sweep: nodes on which the guard acts, nodes with given forces. Where something has broken the sweep reads
+ * a layout without it (elastic/trimmed_layout.c), which kernel_follow() keeps up. The contact of surfaces is added to
+ * what is there then, and last the external force. Each node's sum is that of forces_own_acceleration() in the same
+ * order, so the bits depend neither on the instruction set nor on the number of threads. The choice of the instruction
+ * set is here, too. The arithmetic of a block is in elastic/sweep_body.h, that of a row in forces.h;
+ * contact forces are added elsewhere (contact/contact_forces.c). */
 #include "forces/kernel.h"
 
 #include <stdlib.h>
@@ -110,6 +111,7 @@ dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, i
     kernel k = {.model = model,
                 .kind = kind,
                 .n_threads = n_threads,
+                .n_trimmed = -1,
                 .sweep = rows[kind].sweep,
                 .sweep_guard = rows[kind].sweep_guard,
                 .ops = rows[kind].ops};
@@ -127,7 +129,64 @@ void kernel_destroy(kernel *k)
     free(k->guarded);
     free(k->sums);
     free(k->packed);
+    trimmed_layout_destroy(&k->trimmed);
     *k = (kernel){0};
+}
+
+/* ---- what has broken ---- */
+
+static dem_status trim_all(kernel *k, const element_state *e, const trimmed_elements *left)
+{
+    const dem_model *m = k->model;
+    trimmed_layout_destroy(&k->trimmed);
+    TRY(trimmed_layout_create(&k->trimmed, &m->layout, &m->springs, &m->triangles, &m->couplings));
+    return trimmed_layout_follow(&k->trimmed, left, e->damaged, e->n_damaged);
+}
+
+/* Springs that a triangle holds need not be between its corners. */
+static dem_status trim_element(kernel *k, const element_state *e, const trimmed_elements *left, dem_index element)
+{
+    const dem_lattice *l = e->lattice;
+    const dem_index spring = element - l->n_triangles;
+    if (spring >= 0) return trimmed_layout_follow(&k->trimmed, left, &l->ends[2 * spring], 2);
+    for (dem_index p = e->row[element]; p < e->row[element + 1]; p++)
+        TRY(trimmed_layout_follow(&k->trimmed, left, &l->ends[2 * e->spring[p]], 2));
+    return trimmed_layout_follow(&k->trimmed, left, &l->triangles[3 * element], 3);
+}
+
+/* Springs that have softened are not as stiff in tension as under pressure, which no set of a layout can say. */
+static bool can_trim(const element_state *e)
+{
+    return e != NULL && e->tension == NULL;
+}
+
+void kernel_follow(kernel *k, const element_state *e, const dem_index *list, dem_index n)
+{
+    if (!can_trim(e)) return;
+    const trimmed_elements left = {e->integrity, e->triangle};
+    const bool known = list != NULL && k->n_trimmed >= 0 && k->n_trimmed + n == e->n_broken;
+    dem_status status = known ? DEM_OK : trim_all(k, e, &left);
+    for (dem_index j = 0; j < n && known && status == DEM_OK; j++) status = trim_element(k, e, &left, list[j]);
+    k->n_trimmed = status == DEM_OK ? e->n_broken : -1;
+    if (status != DEM_OK) trimmed_layout_destroy(&k->trimmed);
+}
+
+/* What had broken and been trimmed may have been mended since. Then as many other elements may break, so that their
+ * number says nothing any more. */
+static void forget_mended(kernel *k, const forces *f)
+{
+    if (f->elements == NULL || f->elements->n_broken < k->n_trimmed) k->n_trimmed = -1;
+}
+
+/* Whether the trimmed layout is that of the elements as they are: inside a step more may have broken. */
+static bool is_trimmed(const kernel *k, const forces *f)
+{
+    return can_trim(f->elements) && f->elements->n_broken == k->n_trimmed;
+}
+
+static const layout *layout_of(const kernel *k, const forces *f)
+{
+    return is_trimmed(k, f) ? &k->trimmed.layout : &k->model->layout;
 }
 
 /* ---- evaluation ---- */
@@ -233,8 +292,8 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
     return sum;
 }
 
-/* The sum over a state. The sweep evaluates broken springs, too, whose lengths may be anything, and its sum may be not
- * finite because of them; their nodes have been evaluated again by then. */
+/* The sum over a state. The sweep of the whole body evaluates broken springs, too, whose lengths may be anything, and
+ * its sum may be not finite because of them; their nodes have been evaluated again by then. */
 static double sum_up(const kernel_state *y, dem_index n)
 {
     double sum = 0.0;
@@ -254,16 +313,17 @@ static dem_index next_guarded(const kernel *k, dem_index q)
 }
 
 /* Evaluates row by row what the sweep leaves out: nodes behind the last block, nodes on which the guard acts, nodes
- * beside a broken element, and nodes with given forces. A node may come up twice, with the same result. */
+ * with given forces, and where the layout is not trimmed nodes beside an element that is not whole. A node may come up
+ * twice, with the same result. */
 static double accelerate_rest(const kernel *k, const forces *f, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     double sum = 0.0;
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
-        sum += accelerate_row(k, f, y, l->order != NULL ? l->order[q] : q);
+        sum += accelerate_row(k, f, y, layout_node(l, q));
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
-        sum += accelerate_row(k, f, y, l->order != NULL ? l->order[q] : q);
-    for (dem_index d = 0; f->elements != NULL && d < f->elements->n_damaged; d++)
+        sum += accelerate_row(k, f, y, layout_node(l, q));
+    for (dem_index d = 0; f->elements != NULL && !is_trimmed(k, f) && d < f->elements->n_damaged; d++)
         sum += accelerate_row(k, f, y, f->elements->damaged[d]);
     for (dem_index p = 0; forces_push(f) && p < f->boundaries->n; p++) {
         const boundary_condition *push = &f->boundaries->list[p];
@@ -327,7 +387,8 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     const dem_index n = l->n_nodes;
-    sweep s = {.layout = l,
+    forget_mended(k, f);
+    sweep s = {.layout = layout_of(k, f),
                .inverse_mass = k->model->inverse_mass,
                .gravity = {f->gravity[0], f->gravity[1]},
                .mass_damping = f->mass_damping,
@@ -363,7 +424,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 static double guard_bound(const kernel *k, const forces *f, const double *x, dem_index q)
 {
     const layout *l = &k->model->layout;
-    const dem_index i = l->order != NULL ? l->order[q] : q;
+    const dem_index i = layout_node(l, q);
     return triangles_guard_bound(&k->model->triangles, element_state_triangles(f->elements), i, x) *
            k->model->inverse_mass[i];
 }
@@ -375,10 +436,12 @@ double kernel_stiffening(kernel *k, const forces *f, const double *x)
     const layout *l = &k->model->layout;
     const double omega = k->model->omega_max;
     double added = 0.0;
+    forget_mended(k, f);
     if (k->model->triangles.row[l->n_nodes] == 0 || !(omega > 0.0)) return 1.0;
     if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
     /* Positions are all that is needed to find the nodes on which the guard acts. */
-    const sweep s = {.layout = l, .x = k->packed != NULL ? k->packed + l->n_nodes : x, .guarded = k->guarded};
+    const sweep s = {
+        .layout = layout_of(k, f), .x = k->packed != NULL ? k->packed + l->n_nodes : x, .guarded = k->guarded};
     THREADS_RUN(k->n_threads, t, k->sweep_guard(&s, share_of(k, t).first, share_of(k, t).last));
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         added = fmax(added, guard_bound(k, f, x, q));

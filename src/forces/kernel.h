@@ -8,6 +8,7 @@
 
 #include "base/array_ops.h"
 #include "elastic/sweep.h"
+#include "elastic/trimmed_layout.h"
 #include "forces/forces.h"
 
 typedef struct kernel {
@@ -17,17 +18,24 @@ typedef struct kernel {
     const array_ops *ops;
     dem_kernel kind; /* not DEM_KERNEL_AUTO */
     int n_threads;
-    double *rings;    /* [n_threads][ring_size] */
-    size_t ring_size; /* doubles */
-    uint8_t *guarded; /* [n_blocks] */
-    double *sums;     /* [n_threads] */
-    double *packed;   /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
+    double *rings;          /* [n_threads][ring_size] */
+    size_t ring_size;       /* doubles */
+    uint8_t *guarded;       /* [n_blocks] */
+    double *sums;           /* [n_threads] */
+    trimmed_layout trimmed; /* what sweeps read where something has broken, */
+    dem_index n_trimmed;    /* if so many elements have; -1: there is none */
+    double *packed;         /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
 } kernel;
 
 /** Borrows the model.  \return DEM_ERROR_ARGUMENT for a kernel that this machine does not have; DEM_ERROR_MEMORY. Free
  *  with kernel_destroy(). */
 dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads);
 void kernel_destroy(kernel *k);
+
+/** Makes the sweep fit a state of elements, of which the n of `list` have broken since the last call; NULL: any have.
+ *  It holds until more break, or are mended. Without memory for it, and as long as it does not hold, nodes beside
+ *  broken elements are evaluated one by one, to the same bits. */
+void kernel_follow(kernel *k, const element_state *elements, const dem_index *list, dem_index n);
 
 /** A state and its derivative, [n_nodes][2] each. */
 typedef struct kernel_state {

@@ -59,6 +59,7 @@ void fracture_source_destroy(fracture_source *s)
     free(s->seen);
     free(s->strained);
     free(s->failed);
+    free(s->broken);
     break_list_destroy(&s->breaks);
     *s = (fracture_source){0};
 }
@@ -338,18 +339,31 @@ static dem_status check_number(const fracture_source *s, double t)
     return DEM_OK;
 }
 
+/* Appends what fails to the lists. */
+static dem_status note_failing(fracture_source *s, double t, const double *x)
+{
+    const failing_elements *f = s->failing;
+    const dem_index most = s->breaks.n + f->n_breaking;
+    CHECK(grow_array((void **)&s->failed, &s->capacity, s->n_failed + f->n, sizeof *s->failed) &&
+              grow_array((void **)&s->broken, &s->broken_capacity, most, sizeof *s->broken),
+          DEM_ERROR_MEMORY, "out of memory for what breaks in a step");
+    for (dem_index k = 0; k < f->n; k++) {
+        if (!f->breaks[k]) continue;
+        s->broken[s->breaks.n] = f->list[k];
+        TRY(break_list_note(&s->breaks, s->model, s->elements, f->list[k], t, x));
+    }
+    memcpy(s->failed + s->n_failed, f->list, (size_t)f->n * sizeof *s->failed);
+    s->n_failed += f->n;
+    return DEM_OK;
+}
+
 /* Breaks or softens what is due at positions x. Effective stresses jump where something breaks alone. */
 static dem_status break_failing(fracture_source *s, double t, const double *x)
 {
     const failing_elements *f = s->failing;
     TRY(f->status);
     TRY(check_number(s, t));
-    CHECK(grow_array((void **)&s->failed, &s->capacity, s->n_failed + f->n, sizeof *s->failed), DEM_ERROR_MEMORY,
-          "out of memory for what breaks in a step");
-    for (dem_index k = 0; k < f->n; k++)
-        if (f->breaks[k]) TRY(break_list_note(&s->breaks, s->model, s->elements, f->list[k], t, x));
-    memcpy(s->failed + s->n_failed, f->list, (size_t)f->n * sizeof *s->failed);
-    s->n_failed += f->n;
+    TRY(note_failing(s, t, x));
     s->jumped = f->n_breaking > 0;
     *s->taken += failing_elements_fail(f, s->model, s->elements, x, &s->breaks);
     return DEM_OK;

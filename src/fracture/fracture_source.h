@@ -27,9 +27,10 @@ typedef struct fracture_source {
     event_heap heap;           /* elements by the time at which they break or soften */
     failing_elements *failing; /* those that do so next, or have done so last */
     bool jumped;               /* some have broken, and stresses beside them are others at once */
-    dem_index n_failed, capacity;
-    dem_index *failed;   /* [n_failed] what has broken or softened in the step so far, in this order */
-    break_list breaks;   /* what has broken of it, as it is reported */
+    dem_index n_failed, capacity, broken_capacity;
+    dem_index *failed;   /* [n_failed] what has broken or softened in the step so far, in this order; */
+    dem_index *broken;   /* [breaks.n] what has broken of it, */
+    break_list breaks;   /* the same, as it is reported */
     dem_index n_damaged; /* nodes beside broken elements before the step */
     double taken_before; /* J */
 } fracture_source;

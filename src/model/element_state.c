@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What is broken in a simulation: a flag for each triangle, the integrity of each spring, a flag for each node beside
  * an element that is not whole, and the list of these nodes. Where triangles soften there are also how many times each
- * has done so, what this leaves of it, and what is left of each spring in tension. The model stays as it is, so several simulations of one
- * model may have different states. The flags of nodes let the force on an intact node skip the state of its elements,
- * and the list tells the sweep over all nodes which of them to evaluate once more, one by one (accelerate_rest() in
- * forces/kernel.c). When an element breaks is decided elsewhere.
+ * has done so, what this leaves of it, and what is left of each spring in tension. The model stays as it is, so several
+ * simulations of one model may have different states. The flags of nodes let the force on an intact node skip the state
+ * of its elements, and the list tells the sweep over all nodes where its layout has to be trimmed (kernel_follow() in
+ * forces/kernel.c), or which nodes to evaluate once more, one by one, as long as it is not. When an element breaks is
+ * decided elsewhere.
  *
  * A triangle that breaks takes what it gave to its springs. What is left is what the lattice would have had without the
  * triangle from the start, so that a crack that opens in a run is as stiff as one that is cut before. */
@@ -172,6 +173,7 @@ static void take(double *integrity, double share)
 /* The element keeps its place in all arrays; those who read its numbers ask for its state. */
 void element_state_break_spring(element_state *s, dem_index spring)
 {
+    s->n_broken += s->integrity[spring] > 0.0;
     s->integrity[spring] = 0.0;
     if (s->tension != NULL) s->tension[spring] = 0.0;
     damage_ends(s, spring);
@@ -187,6 +189,7 @@ void element_state_break_triangle(element_state *s, dem_index triangle)
 {
     if (s->triangle[triangle]) return;
     s->triangle[triangle] = 1;
+    s->n_broken++;
     damage_corners(s, triangle);
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
         take(&s->integrity[s->spring[p]], s->share[p]);
@@ -223,12 +226,14 @@ void element_state_break(element_state *s, dem_index element)
 
 static void mend_spring(element_state *s, dem_index spring)
 {
+    s->n_broken--;
     s->integrity[spring] = 1.0;
     if (s->tension != NULL) s->tension[spring] = 1.0;
 }
 
 static void mend_triangle(element_state *s, dem_index triangle)
 {
+    s->n_broken--;
     s->triangle[triangle] = 0;
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
         s->integrity[s->spring[p]] += s->share[p];

@@ -19,6 +19,7 @@ typedef struct element_state {
     double *left;            /* [n_triangles] what this leaves of it in tension */
     unsigned char *triangle; /* [n_triangles] 1: broken */
     unsigned char *node;     /* [n_nodes] 1: an element at the node is not whole */
+    dem_index n_broken;      /* triangles, and springs that no triangle holds */
     dem_index n_damaged;
     dem_index *damaged;  /* [n_damaged] these nodes, in the order in which elements broke */
     dem_index *row;      /* [n_triangles + 1] slots row[t] .. row[t + 1] - 1 of a triangle: */

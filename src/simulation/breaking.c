@@ -70,6 +70,7 @@ static dem_status renew(dem_simulation *s, element_state *next)
     if (status != DEM_OK) return status;
     s->elements = *next;
     s->forces.elements = &s->elements;
+    kernel_follow(&s->kernel, &s->elements, NULL, 0);
     return DEM_OK;
 }
 
@@ -121,6 +122,7 @@ dem_status breaking_follow(dem_simulation *s, const double *y)
     if (!fracture_source_has_broken(&s->breaks)) return DEM_OK;
     const double before = s->surfaces != NULL ? set_motion_energy(s, y) : 0.0;
     TRY(renew_outline(s, &s->elements));
+    kernel_follow(&s->kernel, &s->elements, s->breaks.broken, s->breaks.breaks.n);
     if (s->surfaces != NULL) s->fracture += before - set_motion_energy(s, y);
     return DEM_OK;
 }

@@ -4,7 +4,8 @@
  *      bench_fracture memory NODES                      bytes a node of a simulation that may break, more than of one
  *                                                       that may not: at the start, and with a triangle broken
  *      bench_fracture whole NODES METHOD STEPS TURNS    a step of a run in which nothing breaks, over one that may not:
- *                                                       medians of turns, strengths far above stresses and 1.5 times as high
+ *                                                       medians of turns, strengths far above stresses and
+ *                                                       1.5 times as high
  *      bench_fracture damaged NODES TURNS               an evaluation of all forces with triangles dead, over that of
  *                                                       the whole body: medians of turns
  *      bench_fracture deaths NODES METHOD               a body that breaks where waves meet: time per broken triangle
@@ -79,8 +80,8 @@ static dem_options options_of(const char *method)
 
 /* ---- memory ---- */
 
-/* Bytes that a simulation has, or has when a triangle has broken; that of the second of two is measured, so that what is
- * allocated once for all is not counted. */
+/* Bytes that a simulation has, or has when a triangle has broken. That of the second of two is measured, so that what
+ * is allocated once for all is not counted. */
 static double bytes_of(const dem_model *model, bool breaks)
 {
     const dem_options options = options_of("verlet");

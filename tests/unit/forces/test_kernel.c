@@ -59,34 +59,52 @@ static void free_scene(scene *s)
     free(s->u);
 }
 
-static void check_kernel(scene *s, const forces *load, dem_kernel kind, int n_threads)
+/* A kernel and its number of threads, and whether what is broken is trimmed from its layout. */
+typedef struct trial {
+    dem_kernel kind;
+    int n_threads;
+    bool trims;
+} trial;
+
+static kernel open_kernel(const scene *s, const forces *load, const trial *of)
 {
-    CLEANUP(kernel_destroy) kernel k;
-    assert_ok(kernel_create(&k, s->model, kind, n_threads));
+    kernel k;
+    assert_ok(kernel_create(&k, s->model, of->kind, of->n_threads));
+    if (of->trims) kernel_follow(&k, load->elements, NULL, 0);
+    return k;
+}
+
+static void check_evaluations(scene *s, const forces *load, kernel *k)
+{
     for (int round = 0; round < 2; round++) { /* what the first has left in the ring does not matter */
         const dem_index n = s->model->lattice.n_nodes;
         const kernel_state y = {.x = s->x, .v = s->v, .u = round ? s->u : NULL, .a = s->a};
         for (dem_index c = 0; c < 2 * n; c++) s->a[c] = s->u[c] = NAN;
-        assert_true(isfinite(kernel_accelerate(&k, load, &y)));
+        assert_true(isfinite(kernel_accelerate(k, load, &y)));
         if (round) assert_memory_equal(s->u, s->v, 2 * (size_t)n * sizeof *s->v);
         for (dem_index i = 0; i < n; i++) {
             const vec2 a = forces_acceleration(load, i, s->x, s->v);
             if (a.x != s->a[2 * i] || a.y != s->a[2 * i + 1])
                 fail_msg("%s, %d threads, node %lld of %lld: (%.17g, %.17g) instead of (%.17g, %.17g)",
-                         dem_kernel_name(kind), n_threads, (long long)i, (long long)n, s->a[2 * i], s->a[2 * i + 1],
-                         a.x, a.y);
+                         dem_kernel_name(k->kind), k->n_threads, (long long)i, (long long)n, s->a[2 * i],
+                         s->a[2 * i + 1], a.x, a.y);
         }
     }
 }
 
+static void check_kernel(scene *s, const forces *load, const trial *of)
+{
+    CLEANUP(kernel_destroy) kernel k = open_kernel(s, load, of);
+    check_evaluations(s, load, &k);
+}
+
 /* v' = v0 + h/2 a0, x1 = x0 + h v', v1 = (v' + h/2 a0) + h/2 (a1 - a0), number by number. */
-static void check_fused_step(scene *s, const forces *load, dem_kernel kind, int n_threads)
+static void check_fused_step(scene *s, const forces *load, const trial *of)
 {
     const dem_index n = 2 * s->model->lattice.n_nodes;
     const double h = 0.1 * dem_model_spacing(s->model) / 10.0;
     CLEANUP(free_memory) double *a0 = copy_doubles(s->v, n), *x1 = copy_doubles(s->x, n), *v1 = copy_doubles(s->v, n);
-    CLEANUP(kernel_destroy) kernel k;
-    assert_ok(kernel_create(&k, s->model, kind, n_threads));
+    CLEANUP(kernel_destroy) kernel k = open_kernel(s, load, of);
     for (dem_index c = 0; c < n; c++) {
         a0[c] = about_zero(s->random, 10.0 / h);
         x1[c] = v1[c] = s->a[c] = 1.0;
@@ -123,10 +141,9 @@ static double stiffening_of(const scene *s, triangles_integrity integrity)
     return sqrt(1.0 + added / (m->omega_max * m->omega_max));
 }
 
-static void check_stiffening(scene *s, const forces *load, dem_kernel kind, int n_threads)
+static void check_stiffening(scene *s, const forces *load, const trial *of)
 {
-    CLEANUP(kernel_destroy) kernel k;
-    assert_ok(kernel_create(&k, s->model, kind, n_threads));
+    CLEANUP(kernel_destroy) kernel k = open_kernel(s, load, of);
     assert_close(kernel_stiffening(&k, load, s->x), stiffening_of(s, element_state_triangles(load->elements)), 0.0);
 }
 
@@ -135,12 +152,13 @@ static void check_load(scene *s, const forces *load)
     forces acting = *load;
     acting.model = s->model;
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++)
-        for (int n_threads = 1; n_threads <= 3; n_threads++)
-            if (dem_kernel_check(kind) == DEM_OK) {
-                check_kernel(s, &acting, kind, n_threads);
-                if (can_fuse(s, load)) check_fused_step(s, &acting, kind, n_threads);
-                check_stiffening(s, &acting, kind, n_threads);
-            }
+        for (int k = 0; k < (load->elements != NULL ? 6 : 3); k++) {
+            const trial of = {kind, k % 3 + 1, k >= 3};
+            if (dem_kernel_check(kind) != DEM_OK) continue;
+            check_kernel(s, &acting, &of);
+            if (can_fuse(s, load)) check_fused_step(s, &acting, &of);
+            check_stiffening(s, &acting, &of);
+        }
 }
 
 static void check_lattice(const dem_lattice *lattice, double share)
@@ -276,7 +294,8 @@ TEST(broken_elements_agree)
     }
 }
 
-/* The sweep evaluates what is broken too, and has no number for it; a spring that is whole has none either. */
+/* The sweep of the whole body evaluates what is broken too, and has no number for it; a spring that is whole has none
+ * either. */
 TEST(the_ends_of_a_broken_spring_may_meet)
 {
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
@@ -294,7 +313,57 @@ TEST(the_ends_of_a_broken_spring_may_meet)
         assert_true(!isfinite(kernel_accelerate(&sweeps, &f, &y)));
         element_state_break_spring(&broken, k);
         assert_true(isfinite(kernel_accelerate(&sweeps, &f, &y)));
+        kernel_follow(&sweeps, &broken, NULL, 0);
+        assert_true(isfinite(kernel_accelerate(&sweeps, &f, &y)));
     }
+}
+
+/* Every third element that is still whole breaks, and the kernel follows, a few at a time: until hardly anything
+ * is left. In between one breaks of which it does not know, and is mended. */
+static void check_breaking(const dem_lattice *lattice)
+{
+    CLEANUP(free_scene) scene s = make_scene(lattice, 0.1);
+    CLEANUP(element_state_destroy) element_state broken;
+    assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
+    CLEANUP(kernel_destroy) kernel k;
+    const forces f = {.model = s.model, .gravity = {0.5, -9.81}, .elements = &broken};
+    assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 2));
+    kernel_follow(&k, &broken, NULL, 0);
+    for (int round = 0; round < 16; round++) {
+        dem_index list[4], n = 0, other = -1;
+        for (int turn = 0; turn < 4; turn++) {
+            const dem_index t = (dem_index)gsl_rng_uniform_int(s.random, (unsigned long)lattice->n_triangles);
+            if (broken.triangle[t]) continue;
+            list[n++] = t;
+            element_state_break(&broken, t);
+        }
+        if (n == 0) continue;
+        check_evaluations(&s, &f, &k);
+        kernel_follow(&k, &broken, list, n);
+        assert_int_equal(k.n_trimmed, broken.n_broken);
+        check_evaluations(&s, &f, &k);
+        for (dem_index t = 0; t < lattice->n_triangles && other < 0; t++)
+            if (!broken.triangle[t]) other = t;
+        element_state_break(&broken, other);
+        check_evaluations(&s, &f, &k);
+        element_state_mend(&broken, other);
+        check_evaluations(&s, &f, &k);
+    }
+}
+
+TEST(what_breaks_by_and_by_agrees)
+{
+    for (int laws = 0; laws < 16; laws++) {
+        const dem_material material = law_of(laws);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+        check_breaking(&lattice);
+    }
+    const dem_material cell =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1050.0, .thickness = 1.0);
+    CLEANUP(dem_lattice_free) dem_lattice squares = dem_lattice_empty();
+    assert_ok(dem_lattice_squares(&squares, 0.2, 0.13, 0.01));
+    assert_ok(dem_lattice_assemble_squares(&squares, &cell, 0.5));
+    check_breaking(&squares);
 }
 
 TEST(squares_agree)
@@ -348,6 +417,7 @@ TEST(any_numbering_agrees)
         CLEANUP(free_memory) dem_index *number = shuffled(lattice.n_nodes);
         swap_nodes(&lattice, number);
         check_lattice(&lattice, 0.1);
+        if (k == 3) check_breaking(&lattice);
         CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
         assert_int_equal(s.model->layout.order != NULL, large);
     }
