@@ -10,34 +10,49 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "elastic/triangles.h"
-#include "lattice/mesh_edges.h"
-#include "model/whole_triangles.h"
 
 /* In units of a triangle's area: a node that only touches an edge is not inside. */
 static const double touching = 1e-9;
 
 /* Lists the boundary nodes once; the grid is filled anew at each look. */
-dem_status overlap_create(overlap *out, const dem_lattice *lattice)
+static dem_status list_nodes(overlap *o, const mesh_boundary *boundary)
 {
-    overlap o = {.found = {.node = -1, .triangle = -1}};
-    *out = o;
-    if (lattice->n_triangles == 0) return DEM_OK;
-    unsigned char *flags = malloc((size_t)lattice->n_nodes);
-    o.nodes = malloc((size_t)lattice->n_nodes * sizeof *o.nodes);
-    o.n_cells = lattice->n_triangles;
-    o.first = malloc((size_t)o.n_cells * sizeof *o.first);
-    dem_status status = flags != NULL && o.nodes != NULL && o.first != NULL
-                            ? mesh_edges_contact_flags(flags, lattice)
-                            : status_fail(DEM_ERROR_MEMORY, "out of memory");
-    for (dem_index i = 0; i < lattice->n_nodes && status == DEM_OK; i++)
-        if (flags[i] & DEM_NODE_CONTACT) o.nodes[o.n++] = i;
+    const dem_index n = boundary->lattice->n_nodes;
+    unsigned char *flags = calloc((size_t)n, 1);
+    CHECK_MEMORY(flags);
+    mesh_boundary_mark(boundary, flags, 1);
+    for (dem_index i = 0; i < n; i++) o->n += flags[i];
+    o->nodes = malloc(((size_t)o->n + 1) * sizeof *o->nodes);
+    for (dem_index i = 0, k = 0; i < n && o->nodes != NULL; i++)
+        if (flags[i]) o->nodes[k++] = i;
     free(flags);
+    CHECK_MEMORY(o->nodes);
+    return DEM_OK;
+}
+
+static dem_status create(overlap *out, const mesh_boundary *boundary, dem_index n_whole)
+{
+    overlap o = {.found = {.node = -1, .triangle = -1}, .n_cells = n_whole};
+    *out = o;
+    if (n_whole == 0) return DEM_OK;
+    dem_status status = list_nodes(&o, boundary);
+    o.first = malloc((size_t)o.n_cells * sizeof *o.first);
     o.next = malloc(((size_t)o.n + 1) * sizeof *o.next);
-    if (status == DEM_OK && o.next == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory");
+    if (status == DEM_OK && (o.first == NULL || o.next == NULL))
+        status = status_fail(DEM_ERROR_MEMORY, "out of memory");
     if (status == DEM_OK)
         *out = o;
     else
         overlap_destroy(&o);
+    return status;
+}
+
+dem_status overlap_create(overlap *out, const dem_lattice *lattice)
+{
+    mesh_boundary boundary;
+    TRY(mesh_boundary_create(&boundary, lattice, NULL));
+    const dem_status status = create(out, &boundary, lattice->n_triangles);
+    mesh_boundary_free(&boundary);
     return status;
 }
 
@@ -149,14 +164,12 @@ static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double 
 }
 
 /* A node that has lost all of its triangles is on no boundary any more. */
-dem_status overlap_break(overlap *o, const dem_lattice *lattice, const unsigned char *broken)
+dem_status overlap_break(overlap *o, const mesh_boundary *boundary, const unsigned char *broken)
 {
-    dem_lattice whole;
+    dem_index n_whole = 0;
     overlap next;
-    TRY(whole_triangles_of(&whole, lattice, broken));
-    const dem_status status = overlap_create(&next, &whole);
-    whole_triangles_free(&whole);
-    if (status != DEM_OK) return status;
+    for (dem_index t = 0; t < boundary->lattice->n_triangles; t++) n_whole += broken == NULL || !broken[t];
+    TRY(create(&next, boundary, n_whole));
     next.found = o->found;
     next.broken = broken;
     overlap_destroy(o);

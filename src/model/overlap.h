@@ -4,7 +4,7 @@
 #ifndef DEM_MODEL_OVERLAP_H
 #define DEM_MODEL_OVERLAP_H
 
-#include <dem/dem.h>
+#include "model/mesh_boundary.h"
 
 typedef struct overlap {
     dem_index n, *nodes;         /* [n] on the boundary of the triangulation */
@@ -19,10 +19,10 @@ typedef struct overlap {
 dem_status overlap_create(overlap *out, const dem_lattice *lattice);
 void overlap_destroy(overlap *o);
 
-/** Goes on with the triangles that are whole, and with their boundary; what has been found so far stays.
+/** Goes on with the triangles that are whole, of which this is the boundary; what has been found so far stays.
  *  \param broken  [n_triangles] 1: broken; borrowed
  *  \return DEM_ERROR_MEMORY, with all as it was */
-dem_status overlap_break(overlap *o, const dem_lattice *lattice, const unsigned char *broken);
+dem_status overlap_break(overlap *o, const mesh_boundary *boundary, const unsigned char *broken);
 
 /** Searches at positions x [n_nodes][2] at t. Costs a few comparisons for each triangle. */
 void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x);

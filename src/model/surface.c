@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The surface of the bodies: nodes that may touch obstacles, and the boundary edges between them, put in order along
  * each boundary, so that contact can go from an edge to the next one. Boundary edges are the sides that only one
- * triangle has (lattice/mesh_edges.c). Which obstacle feature touches which edge is the business of contact/. */
+ * triangle has (model/mesh_boundary.c). Which obstacle feature touches which edge is the business of contact/. */
 #include "model/surface.h"
 
 #include <stdbool.h>
@@ -9,8 +9,6 @@
 
 #include "base/status.h"
 #include "base/vec2.h"
-#include "lattice/mesh_edges.h"
-#include "model/whole_triangles.h"
 
 /* A fixed node takes no part, as no contact could move it, nor does one of a rigid body: these meet obstacles by the
  * contact of surfaces (src/surface_contact). */
@@ -48,20 +46,19 @@ static bool runs_from(const dem_index *corner, dem_index i, dem_index j)
 /* Boundary edges, in the order of their lower nodes, each running with the body on its left, as its triangle does.
  * \param ends  NULL: they are only counted
  * \return how many there are */
-static dem_index find_edges(const dem_lattice *l, surface_extent extent, const mesh_edges *list, dem_index *ends)
+static dem_index find_edges(const dem_lattice *l, surface_extent extent, const mesh_boundary *b, dem_index *ends)
 {
     dem_index n = 0;
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        for (dem_index p = list->row[i]; p < list->row[i + 1]; p++) {
-            const dem_index j = list->list[p].upper;
-            if (!mesh_edges_is_boundary(list, i, p) || !takes_part(l, extent, i, j)) continue;
-            const bool forward = runs_from(&l->triangles[3 * list->list[p].triangle], i, j);
-            if (ends != NULL) {
-                ends[2 * n] = forward ? i : j;
-                ends[2 * n + 1] = forward ? j : i;
-            }
-            n++;
+    for (dem_index k = 0; k < b->n; k++) {
+        const dem_index i = b->list[k].lower, j = b->list[k].upper;
+        if (!takes_part(l, extent, i, j)) continue;
+        const bool forward = runs_from(&l->triangles[3 * b->list[k].triangle], i, j);
+        if (ends != NULL) {
+            ends[2 * n] = forward ? i : j;
+            ends[2 * n + 1] = forward ? j : i;
         }
+        n++;
+    }
     return n;
 }
 
@@ -163,21 +160,16 @@ static dem_status allocate(surface *s, const dem_lattice *l)
 }
 
 /* Edges are counted, then listed, then put in order. */
-dem_status surface_compile(surface *out, const dem_lattice *lattice, surface_extent extent)
+dem_status surface_compile_boundary(surface *out, const dem_lattice *lattice, const mesh_boundary *boundary,
+                                    surface_extent extent)
 {
-    surface s = {0};
-    mesh_edges list = {0};
+    surface s = {.n_edges = find_edges(lattice, extent, boundary, NULL)};
     dem_status status = list_nodes(&s, lattice);
-    if (status == DEM_OK) status = mesh_edges_create(&list, lattice);
+    if (status == DEM_OK) status = allocate(&s, lattice);
     if (status == DEM_OK) {
-        s.n_edges = find_edges(lattice, extent, &list, NULL);
-        status = allocate(&s, lattice);
-    }
-    if (status == DEM_OK) {
-        (void)find_edges(lattice, extent, &list, s.ends);
+        (void)find_edges(lattice, extent, boundary, s.ends);
         status = sort_edges(&s, lattice);
     }
-    mesh_edges_free(&list);
     if (status == DEM_OK)
         *out = s;
     else
@@ -185,56 +177,56 @@ dem_status surface_compile(surface *out, const dem_lattice *lattice, surface_ext
     return status;
 }
 
+dem_status surface_compile(surface *out, const dem_lattice *lattice, surface_extent extent)
+{
+    mesh_boundary boundary;
+    TRY(mesh_boundary_create(&boundary, lattice, NULL));
+    const dem_status status = surface_compile_boundary(out, lattice, &boundary, extent);
+    mesh_boundary_free(&boundary);
+    return status;
+}
+
 /* ---- where triangles are broken ---- */
 
-/* What says whether a node has come to the boundary: on it before and now, and in a triangle before and now. */
-enum { WAS_BOUNDARY = 1, IS_BOUNDARY = 2, HAD_TRIANGLES = 4, HAS_TRIANGLES = 8 };
+enum { IS_OUTER = 1, HAS_TRIANGLES = 2, HAD_TRIANGLES = 4 };
 
-static dem_status mark_nodes(unsigned char *marks, const dem_lattice *l, unsigned char boundary, unsigned char inside)
+/* What was inside, and now is on the boundary or has lost all of its triangles. Without triangles in the lattice every
+ * node may touch from the start. */
+static bool is_exposed(const mesh_boundary *b, unsigned char marks, dem_index node)
 {
-    unsigned char *flags = malloc((size_t)l->n_nodes);
-    CHECK(flags != NULL, DEM_ERROR_MEMORY, "out of memory for the boundary of %lld nodes", (long long)l->n_nodes);
-    const dem_status status = mesh_edges_contact_flags(flags, l);
-    for (dem_index i = 0; i < l->n_nodes && status == DEM_OK; i++) marks[i] |= flags[i] ? boundary : 0;
-    for (dem_index k = 0; k < 3 * l->n_triangles && status == DEM_OK; k++) marks[l->triangles[k]] |= inside;
-    free(flags);
-    return status;
+    return (marks & HAD_TRIANGLES) && !b->outer[node] && ((marks & IS_OUTER) || !(marks & HAS_TRIANGLES));
 }
 
-/* A node that has lost all of its triangles has come to the boundary, too. */
-static bool is_exposed(unsigned char marks)
+static void mark_triangles(const dem_lattice *l, const unsigned char *broken, unsigned char *marks)
 {
-    const bool was_inside = (marks & HAD_TRIANGLES) && !(marks & WAS_BOUNDARY);
-    return was_inside && ((marks & IS_BOUNDARY) || !(marks & HAS_TRIANGLES));
-}
-
-/* Flags of the nodes as they are now. */
-static dem_status fill_flags(unsigned char *flags, const dem_lattice *lattice, const dem_lattice *whole,
-                             const unsigned char *excluded)
-{
-    unsigned char *marks = calloc((size_t)lattice->n_nodes, 1);
-    CHECK(marks != NULL, DEM_ERROR_MEMORY, "out of memory for the boundary of %lld nodes", (long long)lattice->n_nodes);
-    dem_status status = mark_nodes(marks, lattice, WAS_BOUNDARY, HAD_TRIANGLES);
-    if (status == DEM_OK) status = mark_nodes(marks, whole, IS_BOUNDARY, HAS_TRIANGLES);
-    for (dem_index i = 0; i < lattice->n_nodes && status == DEM_OK; i++) {
-        const bool may_touch = is_exposed(marks[i]) && (excluded == NULL || !excluded[i]);
-        flags[i] = may_touch ? lattice->flags[i] | DEM_NODE_CONTACT : lattice->flags[i];
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        const unsigned char bits = broken[t] ? HAD_TRIANGLES : HAD_TRIANGLES | HAS_TRIANGLES;
+        for (int c = 0; c < 3; c++) marks[l->triangles[3 * t + c]] |= bits;
     }
-    free(marks);
-    return status;
 }
 
-dem_status surface_compile_broken(surface *out, const dem_lattice *lattice, const unsigned char *broken,
+/* Flags of the nodes as they are now, of which `flags` has the marks first. */
+static void fill_flags(unsigned char *flags, const mesh_boundary *b, const unsigned char *broken,
+                       const unsigned char *excluded)
+{
+    const dem_lattice *l = b->lattice;
+    mark_triangles(l, broken, flags);
+    mesh_boundary_mark(b, flags, IS_OUTER);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const bool may_touch = is_exposed(b, flags[i], i) && (excluded == NULL || !excluded[i]);
+        flags[i] = may_touch ? l->flags[i] | DEM_NODE_CONTACT : l->flags[i];
+    }
+}
+
+dem_status surface_compile_broken(surface *out, const mesh_boundary *boundary, const unsigned char *broken,
                                   const unsigned char *excluded)
 {
-    dem_lattice whole;
-    TRY(whole_triangles_of(&whole, lattice, broken));
-    whole.flags = malloc((size_t)lattice->n_nodes);
-    dem_status status = whole.flags != NULL ? fill_flags(whole.flags, lattice, &whole, excluded)
-                                            : status_fail(DEM_ERROR_MEMORY, "out of memory");
-    if (status == DEM_OK) status = surface_compile(out, &whole, SURFACE_TOUCHING);
-    free(whole.flags);
-    whole_triangles_free(&whole);
+    dem_lattice now = *boundary->lattice;
+    now.flags = calloc((size_t)now.n_nodes, 1);
+    CHECK(now.flags != NULL, DEM_ERROR_MEMORY, "out of memory for the boundary of %lld nodes", (long long)now.n_nodes);
+    fill_flags(now.flags, boundary, broken, excluded);
+    const dem_status status = surface_compile_boundary(out, &now, boundary, SURFACE_TOUCHING);
+    free(now.flags);
     return status;
 }
 

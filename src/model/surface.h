@@ -3,7 +3,7 @@
 #ifndef DEM_MODEL_SURFACE_H
 #define DEM_MODEL_SURFACE_H
 
-#include <dem/dem.h>
+#include "model/mesh_boundary.h"
 
 typedef struct surface {
     dem_index n_nodes;
@@ -25,12 +25,16 @@ typedef enum surface_extent {
 dem_status surface_compile(surface *out, const dem_lattice *lattice, surface_extent extent);
 void surface_free(surface *s);
 
+/** The same of a boundary that is known, of the triangles that are whole. */
+dem_status surface_compile_boundary(surface *out, const dem_lattice *lattice, const mesh_boundary *boundary,
+                                    surface_extent extent);
+
 /** The surface that may touch obstacles, of the triangles that are whole. What was inside before anything broke may
  *  touch as soon as it is not, fixed nodes and those of rigid bodies apart; what was on the boundary keeps its flag.
  *  \param broken    [n_triangles] 1: broken
  *  \param excluded  [n_nodes] not 0: never touches; NULL: none
  *  \return DEM_ERROR_MEMORY */
-dem_status surface_compile_broken(surface *out, const dem_lattice *lattice, const unsigned char *broken,
+dem_status surface_compile_broken(surface *out, const mesh_boundary *boundary, const unsigned char *broken,
                                   const unsigned char *excluded);
 
 #endif

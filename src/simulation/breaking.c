@@ -27,20 +27,30 @@ static const unsigned char *broken_now(const dem_simulation *s)
 
 /* ---- what depends on it ---- */
 
-static dem_status break_surfaces(dem_simulation *s, const unsigned char *broken)
+static dem_status break_surfaces(dem_simulation *s, const mesh_boundary *boundary)
 {
-    return s->surfaces != NULL ? surface_contact_break(s->surfaces, broken) : DEM_OK;
+    return s->surfaces != NULL ? surface_contact_break(s->surfaces, boundary) : DEM_OK;
+}
+
+/* What surfaces and overlaps had before. */
+static dem_status go_back(dem_simulation *s)
+{
+    mesh_boundary before;
+    TRY(mesh_boundary_create(&before, &s->model->lattice, broken_now(s)));
+    dem_status status = break_surfaces(s, &before);
+    if (status == DEM_OK) status = overlap_break(&s->overlap, &before, broken_now(s));
+    mesh_boundary_free(&before);
+    return status;
 }
 
 /* After a failure all is as it was, unless there is no memory to go back either. */
-static dem_status follow(dem_simulation *s, const element_state *next, const surface *outline)
+static dem_status follow(dem_simulation *s, const element_state *next, const mesh_boundary *boundary,
+                         const surface *outline)
 {
-    dem_status status = break_surfaces(s, next->triangle);
-    if (status == DEM_OK) status = overlap_break(&s->overlap, &s->model->lattice, next->triangle);
+    dem_status status = break_surfaces(s, boundary);
+    if (status == DEM_OK) status = overlap_break(&s->overlap, boundary, next->triangle);
     if (status == DEM_OK) status = contact_source_follow_surface(&s->contact_events, outline);
-    if (status == DEM_OK) return DEM_OK;
-    status = status_first(status, break_surfaces(s, broken_now(s)));
-    return status_first(status, overlap_break(&s->overlap, &s->model->lattice, broken_now(s)));
+    return status == DEM_OK ? DEM_OK : status_first(status, go_back(s));
 }
 
 static void free_outline(surface *outline)
@@ -49,17 +59,31 @@ static void free_outline(surface *outline)
     free(outline);
 }
 
+/* Elements that break by themselves change the boundary that is known; else it is found anew. */
+static dem_status find_boundary(const dem_simulation *s, const element_state *next, mesh_boundary *out)
+{
+    const fracture_source *breaks = &s->breaks;
+    if (next == &s->elements && s->n_outside > 0 && s->n_outside + breaks->breaks.n == next->n_broken)
+        return mesh_boundary_follow(out, &s->boundary, next, breaks->broken, breaks->breaks.n);
+    return mesh_boundary_create(out, &s->model->lattice, next->triangle);
+}
+
 /* Makes the outline that of the elements of a state. */
 static dem_status renew_outline(dem_simulation *s, const element_state *next)
 {
+    mesh_boundary boundary = {0};
     surface *outline = calloc(1, sizeof *outline);
-    dem_status status = outline != NULL
-                            ? surface_compile_broken(outline, &s->model->lattice, next->triangle, s->boundaries.held)
-                            : status_fail(DEM_ERROR_MEMORY, "out of memory");
-    if (status == DEM_OK) status = follow(s, next, outline);
+    dem_status status =
+        outline != NULL ? find_boundary(s, next, &boundary) : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    if (status == DEM_OK) status = surface_compile_broken(outline, &boundary, next->triangle, s->boundaries.held);
+    if (status == DEM_OK) status = follow(s, next, &boundary, outline);
     free_outline(status == DEM_OK ? s->outline : outline);
-    if (status == DEM_OK) s->outline = outline;
-    return status;
+    mesh_boundary_free(status == DEM_OK ? &s->boundary : &boundary);
+    if (status != DEM_OK) return status;
+    s->outline = outline;
+    s->boundary = boundary;
+    s->n_outside = next->n_broken;
+    return DEM_OK;
 }
 
 /* The state of elements becomes `next`, which is taken over or freed. */
@@ -80,6 +104,7 @@ void breaking_destroy(dem_simulation *s)
     break_list_destroy(&s->given);
     element_state_destroy(&s->elements);
     free_outline(s->outline);
+    mesh_boundary_free(&s->boundary);
 }
 
 /* ---- by stress or strain ---- */

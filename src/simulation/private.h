@@ -54,7 +54,9 @@ struct dem_simulation {
     automaton automaton;
     contact_source contact_events; /* those inside steps */
     element_state elements;        /* empty as long as all are whole */
-    surface *outline;              /* of those that are whole; NULL: the model's */
+    mesh_boundary boundary;        /* of those that are whole, if so many are broken: */
+    dem_index n_outside;           /* 0: there is none yet */
+    surface *outline;              /* that may touch; NULL: the model's */
     double fracture;               /* J, taken by breaking */
     fracture_source breaks;        /* inside steps; empty: nothing breaks by itself */
     break_list given;              /* what the program has broken, of which observers know nothing yet */

@@ -10,7 +10,6 @@
 #include <string.h>
 
 #include "base/status.h"
-#include "model/whole_triangles.h"
 
 static const double usual_thickness = 0.2;    /* of the mean edge of a body */
 static const double largest_thickness = 0.45; /* of its shortest edge, if nothing is asked for */
@@ -44,10 +43,10 @@ static void note_triangle(contact_surface *c, dem_index triangle, int side)
 }
 
 /* A side that runs along an edge of the surface is that of a whole triangle: no other triangle has it in this sense. */
-static void find_triangles(contact_surface *c)
+static void find_triangles(contact_surface *c, const mesh_boundary *boundary)
 {
-    for (dem_index k = 0; k < c->lattice->n_triangles; k++)
-        for (int side = 0; side < 3; side++) note_triangle(c, k, side);
+    for (dem_index k = 0; k < boundary->n; k++)
+        for (int side = 0; side < 3; side++) note_triangle(c, boundary->list[k].triangle, side);
 }
 
 static double rest_length(const contact_surface *c, dem_index edge)
@@ -94,27 +93,26 @@ static void free_outline(contact_surface *c)
     free(c->plate);
 }
 
-/* Compiles the boundary of the triangles that are whole. */
-static dem_status compile_boundary(surface *out, const dem_lattice *lattice, const unsigned char *broken)
-{
-    dem_lattice whole;
-    TRY(whole_triangles_of(&whole, lattice, broken));
-    const dem_status status = surface_compile(out, &whole, SURFACE_WHOLE);
-    whole_triangles_free(&whole);
-    return status;
-}
-
 /* Fills in edges and nodes; `out` has a lattice, and no edges as yet. */
-static dem_status find_outline(contact_surface *out, const unsigned char *broken)
+static dem_status find_outline(contact_surface *out, const mesh_boundary *boundary)
 {
-    TRY(compile_boundary(&out->surface, out->lattice, broken));
+    TRY(surface_compile_boundary(&out->surface, out->lattice, boundary, SURFACE_WHOLE));
     TRY(allocate_outline(out));
     list_nodes(out);
-    find_triangles(out);
+    find_triangles(out, boundary);
     return DEM_OK;
 }
 
-dem_status contact_surface_break(contact_surface *c, const unsigned char *broken)
+static dem_status find_first_outline(contact_surface *out)
+{
+    mesh_boundary boundary;
+    TRY(mesh_boundary_create(&boundary, out->lattice, NULL));
+    const dem_status status = find_outline(out, &boundary);
+    mesh_boundary_free(&boundary);
+    return status;
+}
+
+dem_status contact_surface_break(contact_surface *c, const mesh_boundary *boundary)
 {
     contact_surface next = {.lattice = c->lattice,
                             .n_bodies = c->n_bodies,
@@ -122,7 +120,7 @@ dem_status contact_surface_break(contact_surface *c, const unsigned char *broken
                             .least = c->least,
                             .most = c->most,
                             .mean_length = c->mean_length};
-    const dem_status status = find_outline(&next, broken);
+    const dem_status status = find_outline(&next, boundary);
     free_outline(status == DEM_OK ? c : &next);
     if (status == DEM_OK) *c = next;
     return status;
@@ -191,7 +189,7 @@ dem_status contact_surface_compile(contact_surface *out, const dem_lattice *latt
     contact_surface c = {.lattice = lattice, .n_bodies = body_count(lattice)};
     c.laws = calloc((size_t)c.n_bodies + 1, sizeof *c.laws);
     CHECK_MEMORY(c.laws);
-    dem_status status = find_outline(&c, NULL);
+    dem_status status = find_first_outline(&c);
     if (status == DEM_OK) status = choose_laws(&c, c.n_bodies, thickness, stiffness);
     if (status == DEM_OK)
         *out = c;

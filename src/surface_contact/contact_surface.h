@@ -47,12 +47,11 @@ dem_status contact_surface_compile(contact_surface *out, const dem_lattice *latt
                                    double stiffness);
 void contact_surface_free(contact_surface *c);
 
-/** Makes edges and nodes anew for the triangles that are whole: those that contact_surface_compile() finds in a lattice
- *  without the others, in the same order. Thickness, modulus and friction stay what they are. A node that is left
- *  without a triangle is on no surface.
- *  \param broken  [n_triangles] 1: broken; NULL: all are whole
+/** Makes edges and nodes anew for the triangles that are whole, of which this is the boundary: those that
+ *  contact_surface_compile() finds in a lattice without the others, in the same order. Thickness, modulus and friction
+ *  stay what they are. A node that is left without a triangle is on no surface.
  *  \return DEM_ERROR_MEMORY; the surface is as it was then */
-dem_status contact_surface_break(contact_surface *c, const unsigned char *broken);
+dem_status contact_surface_break(contact_surface *c, const mesh_boundary *boundary);
 
 /** The edge from one node to another; -1 if there is none. */
 static inline dem_index contact_surface_edge(const contact_surface *c, dem_index first, dem_index second)

@@ -110,9 +110,9 @@ void surface_contact_forget(surface_contact *c)
     c->candidates.made = false;
 }
 
-dem_status surface_contact_break(surface_contact *c, const unsigned char *broken)
+dem_status surface_contact_break(surface_contact *c, const mesh_boundary *boundary)
 {
-    TRY(contact_surface_break(&c->surface, broken));
+    TRY(contact_surface_break(&c->surface, boundary));
     pair_list_clear(&c->candidates);
     close_pairs_clear(&c->close);
     pair_rows_clear(&c->near);

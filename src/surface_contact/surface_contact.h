@@ -64,9 +64,10 @@ void surface_contact_destroy(surface_contact *c);
 /** Forgets the lists: the next call that needs them makes them anew. */
 void surface_contact_forget(surface_contact *c);
 
-/** Goes on with the surface of the triangles that are whole, as contact_surface_break() makes it. The lists are empty
- *  until surface_contact_follow(), and anchors of what has no surface any more go with surface_contact_settle(). */
-dem_status surface_contact_break(surface_contact *c, const unsigned char *broken);
+/** Goes on with the surface of the triangles within a boundary, as contact_surface_break() makes it. The lists are
+ *  empty until surface_contact_follow(), and anchors of what has no surface any more go with
+ *  surface_contact_settle(). */
+dem_status surface_contact_break(surface_contact *c, const mesh_boundary *boundary);
 
 /** Makes the lists fit the positions x [n][2] of a state; all candidates count from now on.
  *  \return what pair_list_follow() returns */

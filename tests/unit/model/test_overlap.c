@@ -8,7 +8,6 @@
 #include "harness/cleanup_gsl.h"
 #include "lattice/mesh_edges.h"
 #include "model/overlap.h"
-#include "model/whole_triangles.h"
 #include "verification/support.h"
 
 /* Two discs of unit spacing, beside each other. */
@@ -74,15 +73,22 @@ TEST(broken_triangles_do_not_count)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
     CLEANUP(overlap_destroy) overlap o;
-    CLEANUP(whole_triangles_free) dem_lattice whole;
+    CLEANUP(mesh_boundary_free) mesh_boundary boundary;
     make_discs(&l);
     assert_ok(dem_lattice_exclude(&l, NULL, 0));
     assert_ok(overlap_create(&o, &l));
     CLEANUP(free_memory) unsigned char *broken = calloc((size_t)l.n_triangles, 1);
     assert_non_null(broken);
     for (dem_index k = 0; k < l.n_triangles; k++) broken[k] = k * k % 7 < 3 && k % 2 == 0;
-    assert_ok(whole_triangles_of(&whole, &l, broken));
-    assert_ok(overlap_break(&o, &l, broken));
+    dem_lattice whole = l;
+    CLEANUP(free_memory) dem_index *corners = malloc(3 * (size_t)l.n_triangles * sizeof *corners);
+    assert_non_null(corners);
+    whole.triangles = corners;
+    whole.n_triangles = 0;
+    for (dem_index k = 0; k < l.n_triangles; k++)
+        if (!broken[k]) memcpy(corners + 3 * whole.n_triangles++, l.triangles + 3 * k, 3 * sizeof *corners);
+    assert_ok(mesh_boundary_create(&boundary, &l, broken));
+    assert_ok(overlap_break(&o, &boundary, broken));
     assert_ok(mesh_edges_contact_flags(l.flags, &whole));
     check_counts(&o, &l, &whole);
 }

@@ -304,6 +304,15 @@ static void open_plate(broken_plate *b)
     assert_ok(dem_lattice_exclude(&b->cut, NULL, 0));
 }
 
+/* What may touch of the plate. */
+static dem_status compile_broken(surface *out, const broken_plate *b, const unsigned char *excluded)
+{
+    CLEANUP(mesh_boundary_free) mesh_boundary boundary;
+    assert_ok(mesh_boundary_create(&boundary, &b->plate, b->broken));
+    const dem_status status = surface_compile_broken(out, &boundary, b->broken, excluded);
+    return status;
+}
+
 static void close_plate(broken_plate *b)
 {
     dem_lattice_free(&b->plate);
@@ -325,7 +334,7 @@ TEST(what_breaks_open_may_touch_like_what_was_cut_before)
     CLEANUP(surface_free) surface s, of_cut;
     dem_index n_lone = 0, n_new = 0;
     open_plate(&b);
-    assert_ok(surface_compile_broken(&s, &b.plate, b.broken, NULL));
+    assert_ok(compile_broken(&s, &b, NULL));
     assert_ok(surface_compile(&of_cut, &b.cut, SURFACE_TOUCHING));
     assert_int_equal(s.n_edges, of_cut.n_edges);
     for (dem_index k = 0; k < 2 * s.n_edges; k++) assert_int_equal(b.number[s.ends[k]], of_cut.ends[k]);
@@ -348,7 +357,7 @@ TEST(some_nodes_never_touch)
     CLEANUP(surface_free) surface s, all;
     dem_index kept_out[3] = {-1, -1, -1};
     open_plate(&b);
-    assert_ok(surface_compile_broken(&all, &b.plate, b.broken, NULL));
+    assert_ok(compile_broken(&all, &b, NULL));
     CLEANUP(free_memory) unsigned char *excluded = calloc((size_t)b.plate.n_nodes, 1);
     assert_non_null(excluded);
     for (dem_index k = 0; k < all.n_nodes; k++) {
@@ -362,7 +371,7 @@ TEST(some_nodes_never_touch)
     b.plate.flags[kept_out[0]] = 0;
     b.plate.flags[kept_out[1]] = DEM_NODE_FIXED;
     excluded[kept_out[2]] = 1;
-    assert_ok(surface_compile_broken(&s, &b.plate, b.broken, excluded));
+    assert_ok(compile_broken(&s, &b, excluded));
     for (int k = 0; k < 3; k++) assert_false(has_node(&s, kept_out[k]));
     assert_int_equal(s.n_nodes, all.n_nodes - 3);
 }
@@ -374,7 +383,7 @@ TEST(a_whole_body_keeps_its_surface)
     CLEANUP(surface_free) surface s, before;
     open_plate(&b);
     memset(b.broken, 0, (size_t)b.plate.n_triangles);
-    assert_ok(surface_compile_broken(&s, &b.plate, b.broken, NULL));
+    assert_ok(compile_broken(&s, &b, NULL));
     assert_ok(surface_compile(&before, &b.plate, SURFACE_TOUCHING));
     assert_int_equal(s.n_nodes, before.n_nodes);
     assert_int_equal(s.n_edges, before.n_edges);
