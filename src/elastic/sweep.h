@@ -26,6 +26,8 @@ typedef struct sweep {
     double *u;                  /* [n_nodes][2] velocities, as v; NULL: not wanted */
     uint8_t *guarded;           /* [n_blocks] a bit for each node with a triangle on which the guard acts: its
                                    acceleration is without triangles */
+    const double *limit;        /* [n_blocks] strain that is not asked after; infinity: none of the block is */
+    uint8_t *strained; /* [n_blocks] a bit for each node with a spring, of those that it evaluates, strained more */
     const sweep_fused_step
         *fused_step; /* NULL: none. Else x is its x1, which the sweep fills before it reads it, but for
                                    layout->ahead blocks at both ends; and its v1, after the accelerations */
@@ -42,5 +44,10 @@ sweep_function sweep_portable, sweep_avx2, sweep_avx512;
 typedef void sweep_guard_function(const sweep *s, dem_index first, dem_index last);
 
 sweep_guard_function sweep_guard_portable, sweep_guard_avx2, sweep_guard_avx512;
+
+/** Fills `strained` and nothing else. A spring whose strain is within 1e-12 of the limit may count or not. */
+typedef void sweep_strain_function(const sweep *s, dem_index first, dem_index last);
+
+sweep_strain_function sweep_strain_portable, sweep_strain_avx2, sweep_strain_avx512;
 
 #endif

@@ -3,6 +3,7 @@
  * must be called only where instruction_set_avx2() says so. */
 #include "elastic/lanes_avx2.h"
 
-#define SWEEP       sweep_avx2
-#define SWEEP_GUARD sweep_guard_avx2
+#define SWEEP        sweep_avx2
+#define SWEEP_GUARD  sweep_guard_avx2
+#define SWEEP_STRAIN sweep_strain_avx2
 #include "elastic/sweep_body.h"

@@ -3,6 +3,7 @@
  * where instruction_set_avx512() says so. */
 #include "elastic/lanes_avx512.h"
 
-#define SWEEP       sweep_avx512
-#define SWEEP_GUARD sweep_guard_avx512
+#define SWEEP        sweep_avx512
+#define SWEEP_GUARD  sweep_guard_avx512
+#define SWEEP_STRAIN sweep_strain_avx512
 #include "elastic/sweep_body.h"

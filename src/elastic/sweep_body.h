@@ -3,10 +3,10 @@
  *   pairs  the two components of eight nodes, in the order x0 y0 x1 y1 .. x7 y7;
  *   lanes  one number for each of eight nodes, in the order 0 4 1 5 2 6 3 7, which is how pairs interleave without a
  *          permutation across the halves of a vector;
- * and their operations. The sweep_*.c files then define SWEEP and SWEEP_GUARD and include this. Every operation acts on
- * each node alone and rounds as in springs_force(), couplings_add_force(), triangles_force() and
- * forces_acceleration_by(): for each node the
- * same IEEE operations follow in the same order, which is why the bits are equal. */
+ * and their operations. The sweep_*.c files then define SWEEP, SWEEP_GUARD and SWEEP_STRAIN and include this. Every
+ * operation acts on each node alone and rounds as in springs_force(), couplings_add_force(), triangles_force() and
+ * forces_acceleration_by(): for each node the same IEEE operations follow in the same order, which is why the bits are
+ * equal. */
 #ifndef DEM_ELASTIC_SWEEP_BODY_H
 #define DEM_ELASTIC_SWEEP_BODY_H
 
@@ -233,6 +233,35 @@ void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
         unsigned guarded = 0;
         (void)sum_corners(s, block, &guarded);
         s->guarded[block] = (uint8_t)guarded;
+    }
+}
+
+/* Squares of lengths are compared, without roots. */
+INLINE unsigned strained_nodes(const sweep *s, dem_index block, double limit)
+{
+    const layout *l = s->layout;
+    const intern_span span = l->springs.span[block];
+    const layout_entry *entries = l->springs.entries.items;
+    const double *sets = l->bonds.items, *here = s->x + 2 * LAYOUT_LANES * block;
+    const double low = limit < 1.0 ? (1.0 - limit) * (1.0 - limit) : 0.0, high = (1.0 + limit) * (1.0 + limit);
+    const pairs x = pairs_load(here);
+    unsigned nodes = 0;
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
+        const pairs d = pairs_sub(fetch(l, s->x, here, e->at, e->kind == LAYOUT_GATHERED), x);
+        const lanes square = pairs_dot(d, d), rest = lanes_load(sets + e->set + LAYOUT_LANES);
+        const lanes at_rest = lanes_mul(rest, rest);
+        const unsigned over = lanes_below(lanes_mul(lanes_all(high), at_rest), square) |
+                              lanes_below(square, lanes_mul(lanes_all(low), at_rest));
+        if (over != 0) nodes |= nodes_of(over, e->mask);
+    }
+    return nodes;
+}
+
+void SWEEP_STRAIN(const sweep *s, dem_index first, dem_index last)
+{
+    for (dem_index block = first; block < last; block++) {
+        const double limit = s->limit[block] - 1e-12;
+        s->strained[block] = limit < (double)INFINITY ? (uint8_t)strained_nodes(s, block, limit) : 0;
     }
 }
 

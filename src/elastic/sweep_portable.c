@@ -2,6 +2,7 @@
 /* The sweep with the compiler's own vectors, for any machine: the arithmetic is in sweep_body.h. */
 #include "elastic/lanes_portable.h"
 
-#define SWEEP       sweep_portable
-#define SWEEP_GUARD sweep_guard_portable
+#define SWEEP        sweep_portable
+#define SWEEP_GUARD  sweep_guard_portable
+#define SWEEP_STRAIN sweep_strain_portable
 #include "elastic/sweep_body.h"

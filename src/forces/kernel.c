@@ -20,25 +20,29 @@
 /* ---- which there are ---- */
 
 #ifndef DEM_X86_KERNELS
-#define sweep_avx2         sweep_portable
-#define sweep_avx512       sweep_portable
-#define sweep_guard_avx2   sweep_guard_portable
-#define sweep_guard_avx512 sweep_guard_portable
+#define sweep_avx2          sweep_portable
+#define sweep_avx512        sweep_portable
+#define sweep_guard_avx2    sweep_guard_portable
+#define sweep_guard_avx512  sweep_guard_portable
+#define sweep_strain_avx2   sweep_strain_portable
+#define sweep_strain_avx512 sweep_strain_portable
 #endif
 
 typedef struct kernel_row {
     const char *name;
     sweep_function *sweep;
     sweep_guard_function *sweep_guard;
+    sweep_strain_function *sweep_strain;
     const array_ops *ops;
 } kernel_row;
 
 /* By dem_kernel. A build without the instruction sets of x86 has the portable functions in their place. */
 static const kernel_row rows[] = {
-    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL},
-    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, &array_ops_portable},
-    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, &array_ops_avx2},
-    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, &array_ops_avx512},
+    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL, NULL},
+    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, sweep_strain_portable,
+                             &array_ops_portable},
+    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, sweep_strain_avx2, &array_ops_avx2},
+    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, &array_ops_avx512},
 };
 enum { n_rows = sizeof rows / sizeof rows[0] };
 
@@ -114,6 +118,7 @@ dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, i
                 .n_trimmed = -1,
                 .sweep = rows[kind].sweep,
                 .sweep_guard = rows[kind].sweep_guard,
+                .sweep_strain = rows[kind].sweep_strain,
                 .ops = rows[kind].ops};
     const dem_status status = allocate(&k);
     if (status == DEM_OK)
@@ -129,6 +134,8 @@ void kernel_destroy(kernel *k)
     free(k->guarded);
     free(k->sums);
     free(k->packed);
+    free(k->limit);
+    free(k->strained);
     trimmed_layout_destroy(&k->trimmed);
     *k = (kernel){0};
 }
@@ -173,20 +180,20 @@ void kernel_follow(kernel *k, const element_state *e, const dem_index *list, dem
 
 /* What had broken and been trimmed may have been mended since. Then as many other elements may break, so that their
  * number says nothing any more. */
-static void forget_mended(kernel *k, const forces *f)
+static void forget_mended(kernel *k, const element_state *e)
 {
-    if (f->elements == NULL || f->elements->n_broken < k->n_trimmed) k->n_trimmed = -1;
+    if (e == NULL || e->n_broken < k->n_trimmed) k->n_trimmed = -1;
 }
 
 /* Whether the trimmed layout is that of the elements as they are: inside a step more may have broken. */
-static bool is_trimmed(const kernel *k, const forces *f)
+static bool is_trimmed(const kernel *k, const element_state *e)
 {
-    return can_trim(f->elements) && f->elements->n_broken == k->n_trimmed;
+    return can_trim(e) && e->n_broken == k->n_trimmed;
 }
 
-static const layout *layout_of(const kernel *k, const forces *f)
+static const layout *layout_of(const kernel *k, const element_state *e)
 {
-    return is_trimmed(k, f) ? &k->trimmed.layout : &k->model->layout;
+    return is_trimmed(k, e) ? &k->trimmed.layout : &k->model->layout;
 }
 
 /* ---- evaluation ---- */
@@ -323,7 +330,7 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
         sum += accelerate_row(k, f, y, layout_node(l, q));
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         sum += accelerate_row(k, f, y, layout_node(l, q));
-    for (dem_index d = 0; f->elements != NULL && !is_trimmed(k, f) && d < f->elements->n_damaged; d++)
+    for (dem_index d = 0; f->elements != NULL && !is_trimmed(k, f->elements) && d < f->elements->n_damaged; d++)
         sum += accelerate_row(k, f, y, f->elements->damaged[d]);
     for (dem_index p = 0; forces_push(f) && p < f->boundaries->n; p++) {
         const boundary_condition *push = &f->boundaries->list[p];
@@ -387,8 +394,8 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 {
     const layout *l = &k->model->layout;
     const dem_index n = l->n_nodes;
-    forget_mended(k, f);
-    sweep s = {.layout = layout_of(k, f),
+    forget_mended(k, f->elements);
+    sweep s = {.layout = layout_of(k, f->elements),
                .inverse_mass = k->model->inverse_mass,
                .gravity = {f->gravity[0], f->gravity[1]},
                .mass_damping = f->mass_damping,
@@ -420,6 +427,55 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     return f->external != NULL ? sum + push(f, y) : sum;
 }
 
+/* ---- strains ---- */
+
+/* A spring belongs to the block of its lower node; where nodes are renumbered that of both has its threshold. */
+dem_status kernel_watch(kernel *k, const double *threshold)
+{
+    const layout *l = &k->model->layout;
+    const springs *s = &k->model->springs;
+    k->limit = malloc(((size_t)l->n_blocks + 1) * sizeof *k->limit);
+    k->strained = malloc((size_t)l->n_blocks + 1);
+    CHECK(k->limit && k->strained, DEM_ERROR_MEMORY, "out of memory for the strains of %lld blocks",
+          (long long)l->n_blocks);
+    for (dem_index block = 0; block < l->n_blocks; block++) {
+        k->limit[block] = (double)INFINITY;
+        for (dem_index q = LAYOUT_LANES * block; q < LAYOUT_LANES * (block + 1); q++)
+            for (dem_index i = layout_node(l, q), p = s->row[i]; p < s->row[i + 1]; p++)
+                if (l->order != NULL || s->neighbour[p] > i)
+                    k->limit[block] = fmin(k->limit[block], threshold[s->spring[p]]);
+    }
+    return DEM_OK;
+}
+
+/* The springs that the node at place q evaluates, or all of its springs where nodes are renumbered. */
+static void visit_place(const kernel *k, dem_index q, kernel_visitor *visit, void *context)
+{
+    const layout *l = &k->model->layout;
+    const springs *s = &k->model->springs;
+    const dem_index i = layout_node(l, q);
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+        if (l->order != NULL || s->neighbour[p] > i) visit(context, s->spring[p]);
+}
+
+void kernel_visit_strained(kernel *k, const element_state *e, const double *x, kernel_visitor *visit, void *context)
+{
+    const layout *l = &k->model->layout;
+    if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
+    forget_mended(k, e);
+    const sweep s = {.layout = layout_of(k, e),
+                     .x = k->packed != NULL ? k->packed + l->n_nodes : x,
+                     .limit = k->limit,
+                     .strained = k->strained};
+    THREADS_RUN(k->n_threads, t, k->sweep_strain(&s, share_of(k, t).first, share_of(k, t).last));
+    for (dem_index block = 0; block < l->n_blocks; block++)
+        for (int lane = 0; lane < LAYOUT_LANES && k->strained[block] != 0; lane++)
+            if (k->strained[block] >> lane & 1) visit_place(k, LAYOUT_LANES * block + lane, visit, context);
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) visit_place(k, q, visit, context);
+}
+
+/* ---- the guard ---- */
+
 /* What the guard adds at most to omega^2 at the node at place q, 1/s^2. */
 static double guard_bound(const kernel *k, const forces *f, const double *x, dem_index q)
 {
@@ -436,12 +492,13 @@ double kernel_stiffening(kernel *k, const forces *f, const double *x)
     const layout *l = &k->model->layout;
     const double omega = k->model->omega_max;
     double added = 0.0;
-    forget_mended(k, f);
+    forget_mended(k, f->elements);
     if (k->model->triangles.row[l->n_nodes] == 0 || !(omega > 0.0)) return 1.0;
     if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
     /* Positions are all that is needed to find the nodes on which the guard acts. */
-    const sweep s = {
-        .layout = layout_of(k, f), .x = k->packed != NULL ? k->packed + l->n_nodes : x, .guarded = k->guarded};
+    const sweep s = {.layout = layout_of(k, f->elements),
+                     .x = k->packed != NULL ? k->packed + l->n_nodes : x,
+                     .guarded = k->guarded};
     THREADS_RUN(k->n_threads, t, k->sweep_guard(&s, share_of(k, t).first, share_of(k, t).last));
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         added = fmax(added, guard_bound(k, f, x, q));

@@ -15,6 +15,7 @@ typedef struct kernel {
     const dem_model *model;
     sweep_function *sweep;
     sweep_guard_function *sweep_guard;
+    sweep_strain_function *sweep_strain;
     const array_ops *ops;
     dem_kernel kind; /* not DEM_KERNEL_AUTO */
     int n_threads;
@@ -22,6 +23,8 @@ typedef struct kernel {
     size_t ring_size;       /* doubles */
     uint8_t *guarded;       /* [n_blocks] */
     double *sums;           /* [n_threads] */
+    double *limit;          /* [n_blocks] the least of the thresholds that are watched; NULL: none are */
+    uint8_t *strained;      /* [n_blocks] */
     trimmed_layout trimmed; /* what sweeps read where something has broken, */
     dem_index n_trimmed;    /* if so many elements have; -1: there is none */
     double *packed;         /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
@@ -36,6 +39,17 @@ void kernel_destroy(kernel *k);
  *  It holds until more break, or are mended. Without memory for it, and as long as it does not hold, nodes beside
  *  broken elements are evaluated one by one, to the same bits. */
 void kernel_follow(kernel *k, const element_state *elements, const dem_index *list, dem_index n);
+
+/** From now on strains are watched.  \param threshold  [n_springs] of |strain|, by the lattice's numbers
+ *  \return DEM_ERROR_MEMORY */
+dem_status kernel_watch(kernel *k, const double *threshold);
+
+typedef void kernel_visitor(void *context, dem_index spring);
+
+/** Visits springs at positions x [n][2]: all that are not broken and strained by more than their thresholds, and others
+ *  near those, in some order, some of them twice. They are watched. */
+void kernel_visit_strained(kernel *k, const element_state *elements, const double *x, kernel_visitor *visit,
+                           void *context);
 
 /** A state and its derivative, [n_nodes][2] each. */
 typedef struct kernel_state {

@@ -278,6 +278,29 @@ static void look_at_all(fracture_source *s)
     }
 }
 
+/* The kernel visits springs that may be over their thresholds. */
+static void look_if_strained(void *self, dem_index spring)
+{
+    fracture_source *s = self;
+    const double strain = springs_strain_of(&s->model->lattice, spring, s->step->y1);
+    if (!(fabs(strain) < s->filter.threshold[spring]) && s->elements->integrity[spring] > 0.0) look_near(s, spring);
+}
+
+static void look(fracture_source *s)
+{
+    if (s->kernel != NULL)
+        kernel_visit_strained(s->kernel, s->elements, s->step->y1, look_if_strained, s);
+    else
+        look_at_all(s);
+}
+
+dem_status fracture_source_watch(fracture_source *s, kernel *by)
+{
+    TRY(kernel_watch(by, s->filter.threshold));
+    s->kernel = by;
+    return DEM_OK;
+}
+
 static void fracture_source_begin(void *self, const dense_output *step, double *state)
 {
     fracture_source *s = self;
@@ -289,7 +312,7 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
     s->n_damaged = s->elements->n_damaged;
     s->taken_before = *s->taken;
     event_heap_clear(&s->heap);
-    look_at_all(s);
+    look(s);
 }
 
 static double fracture_source_next(const void *self, dem_index *key)

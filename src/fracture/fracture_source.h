@@ -6,12 +6,14 @@
 
 #include "events/event_heap.h"
 #include "events/event_source.h"
+#include "forces/kernel.h"
 #include "fracture/failing_elements.h"
 #include "fracture/strain_filter.h"
 
 typedef struct fracture_source {
     const dem_model *model;
     element_state *elements;
+    kernel *kernel;           /* watches strains; NULL: all springs are looked at */
     double *taken;            /* J, by all that has broken or softened: the ledger's */
     dem_index most;           /* elements that may break in a step; for more it is rejected */
     const dense_output *step; /* the accepted one */
@@ -40,6 +42,10 @@ typedef struct fracture_source {
 dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements, double *taken,
                                   dem_index most);
 void fracture_source_destroy(fracture_source *s);
+
+/** From now on finds springs that are strained by a kernel of the same model, which it borrows.
+ *  \return DEM_ERROR_MEMORY */
+dem_status fracture_source_watch(fracture_source *s, kernel *by);
 
 /** \return DEM_ERROR_MODEL if an element is beyond its limit at positions x [n][2] */
 dem_status fracture_source_check_start(const fracture_source *s, const double *x);

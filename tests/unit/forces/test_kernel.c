@@ -570,6 +570,86 @@ TEST(a_number_that_is_not_finite_shows_in_the_sum)
     }
 }
 
+/* ---- strains ---- */
+
+static void note_spring(void *context, dem_index spring)
+{
+    ((unsigned char *)context)[spring] = 1;
+}
+
+/* Visits; all that are strained by more than their thresholds must be among them.
+ * \return how many others are */
+static dem_index visit_strained(const scene *s, const forces *load, const trial *of, const double *threshold)
+{
+    const dem_lattice *l = &s->model->lattice;
+    CLEANUP(free_memory) unsigned char *visited = calloc((size_t)l->n_springs, 1);
+    CLEANUP(kernel_destroy) kernel k = open_kernel(s, load, of);
+    dem_index n_others = 0;
+    assert_non_null(visited);
+    assert_ok(kernel_watch(&k, threshold));
+    kernel_visit_strained(&k, load->elements, s->x, note_spring, visited);
+    for (dem_index j = 0; j < l->n_springs; j++) {
+        const double strain = fabs(springs_strain_of(l, j, s->x));
+        if (strain > threshold[j] && load->elements->integrity[j] > 0.0) assert_true(visited[j]);
+        n_others += visited[j] && !(strain > threshold[j]);
+    }
+    return n_others;
+}
+
+/* Thresholds of about half of the strains, from 1 % to beyond 1, and infinite ones: of these only nodes behind the last
+ * block have springs that are visited. */
+static void check_strained(const dem_lattice *lattice)
+{
+    CLEANUP(free_scene) scene s = make_scene(lattice, 0.2);
+    CLEANUP(element_state_destroy) element_state broken;
+    CLEANUP(free_memory) double *threshold = malloc((size_t)lattice->n_springs * sizeof *threshold);
+    const forces load = {.model = s.model, .elements = &broken};
+    assert_non_null(threshold);
+    assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
+    for (dem_index t = 0; t < lattice->n_triangles; t += 5) element_state_break(&broken, t);
+    for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++)
+        for (int k = 0; k < 6; k++) {
+            const trial of = {kind, k % 3 + 1, k >= 3};
+            if (dem_kernel_check(kind) != DEM_OK) continue;
+            for (dem_index j = 0; j < lattice->n_springs; j++)
+                threshold[j] = j % 7 == 0 ? (double)INFINITY : 0.01 / (1.01 - gsl_rng_uniform(s.random));
+            (void)visit_strained(&s, &load, &of, threshold);
+            for (dem_index j = 0; j < lattice->n_springs; j++) threshold[j] = (double)INFINITY;
+            assert_true(visit_strained(&s, &load, &of, threshold) <= 7 * 20);
+        }
+}
+
+TEST(springs_that_are_strained_are_visited)
+{
+    for (int k = 0; k < 4; k++) {
+        dem_material material = rubber;
+        if (k & 1) material.springs = DEM_SPRINGS_COUPLED;
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_irregular(k < 2 ? 0.2 : 0.6, k < 2 ? 0.1 : 0.4, &material);
+        CLEANUP(free_memory) dem_index *number = shuffled(lattice.n_nodes);
+        if (k >= 2) swap_nodes(&lattice, number);
+        check_strained(&lattice);
+    }
+}
+
+/* A uniform strain just above and just below the only threshold, in tension and compression. */
+TEST(a_threshold_parts_strains)
+{
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.0);
+    CLEANUP(element_state_destroy) element_state broken;
+    CLEANUP(free_memory) double *threshold = malloc((size_t)lattice.n_springs * sizeof *threshold);
+    const forces load = {.model = s.model, .elements = &broken};
+    assert_non_null(threshold);
+    assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
+    for (dem_index j = 0; j < lattice.n_springs; j++) threshold[j] = 1e-3;
+    for (int k = 0; k < 4; k++) {
+        const trial of = {DEM_KERNEL_AUTO, 1, false};
+        const double strain = (k & 1 ? -1e-3 : 1e-3) * (k & 2 ? 1.0 + 1e-6 : 1.0 - 1e-6);
+        for (dem_index c = 0; c < 2 * lattice.n_nodes; c++) s.x[c] = lattice.x[c] * (1.0 + strain);
+        assert_true(visit_strained(&s, &load, &of, threshold) <= 7 * 6);
+    }
+}
+
 /* ---- what the guard stiffens ---- */
 
 /* A triangle squeezed to a fifth along y: J = 0.2, ln(J/0.4) = -ln 2. Opposite to node 2 is the side of 1 m, to node 1
