@@ -14,6 +14,8 @@
 dem_status event_heap_create(event_heap *out, dem_index n_keys)
 {
     const size_t n = (size_t)n_keys + 1;
+    CHECK(n_keys < INT32_MAX, DEM_ERROR_MODEL, "%lld keys of events are more than the library takes",
+          (long long)n_keys);
     event_heap h = {
         .keys = malloc(n * sizeof *h.keys), .place = malloc(n * sizeof *h.place), .due = malloc(n * sizeof *h.due)};
     if (h.keys == NULL || h.place == NULL || h.due == NULL) {
@@ -48,8 +50,8 @@ static bool is_before(const event_heap *h, dem_index a, dem_index b)
 /* Puts a key into a place of the heap. */
 static void put(event_heap *h, dem_index p, dem_index key)
 {
-    h->keys[p] = key;
-    h->place[key] = p;
+    h->keys[p] = (int32_t)key;
+    h->place[key] = (int32_t)p;
 }
 
 /* Moves a key from place p towards the root, as far as it is due before what is there. */

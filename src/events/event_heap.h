@@ -5,16 +5,18 @@
 #ifndef DEM_EVENTS_EVENT_HEAP_H
 #define DEM_EVENTS_EVENT_HEAP_H
 
+#include <stdint.h>
+
 #include <dem/dem.h>
 
 typedef struct event_heap {
     dem_index n;
-    dem_index *keys;  /* [n] none is due before its parent, which is at (place - 1)/2 */
-    dem_index *place; /* [n_keys] in `keys`, or -1 */
-    double *due;      /* [n_keys] s, of those in `keys` */
+    int32_t *keys;  /* [n] none is due before its parent, which is at (place - 1)/2 */
+    int32_t *place; /* [n_keys] in `keys`, or -1 */
+    double *due;    /* [n_keys] s, of those in `keys` */
 } event_heap;
 
-/** Empty. Free with event_heap_destroy().  \return DEM_ERROR_MEMORY */
+/** Empty. Free with event_heap_destroy().  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL for 2^31 keys */
 dem_status event_heap_create(event_heap *out, dem_index n_keys);
 void event_heap_destroy(event_heap *h);
 

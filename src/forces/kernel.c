@@ -430,7 +430,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 /* ---- strains ---- */
 
 /* A spring belongs to the block of its lower node; where nodes are renumbered that of both has its threshold. */
-dem_status kernel_watch(kernel *k, const double *threshold)
+dem_status kernel_watch(kernel *k, const float *threshold)
 {
     const layout *l = &k->model->layout;
     const springs *s = &k->model->springs;
@@ -443,7 +443,7 @@ dem_status kernel_watch(kernel *k, const double *threshold)
         for (dem_index q = LAYOUT_LANES * block; q < LAYOUT_LANES * (block + 1); q++)
             for (dem_index i = layout_node(l, q), p = s->row[i]; p < s->row[i + 1]; p++)
                 if (l->order != NULL || s->neighbour[p] > i)
-                    k->limit[block] = fmin(k->limit[block], threshold[s->spring[p]]);
+                    k->limit[block] = fmin(k->limit[block], (double)threshold[s->spring[p]]);
     }
     return DEM_OK;
 }

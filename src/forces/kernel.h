@@ -42,7 +42,7 @@ void kernel_follow(kernel *k, const element_state *elements, const dem_index *li
 
 /** From now on strains are watched.  \param threshold  [n_springs] of |strain|, by the lattice's numbers
  *  \return DEM_ERROR_MEMORY */
-dem_status kernel_watch(kernel *k, const double *threshold);
+dem_status kernel_watch(kernel *k, const float *threshold);
 
 typedef void kernel_visitor(void *context, dem_index spring);
 

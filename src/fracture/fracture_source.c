@@ -252,7 +252,7 @@ static void look_near(fracture_source *s, dem_index spring)
     const element_state *e = s->elements;
     if (l->critical_stretch != NULL) look_at(s, l->n_triangles + spring);
     if (l->strength == NULL) return;
-    if (s->filter.threshold[spring] == 0.0) {
+    if (s->filter.threshold[spring] == 0.0f) {
         look_everywhere_near(s, spring);
         return;
     }
@@ -273,7 +273,7 @@ static void look_at_all(fracture_source *s)
         const int n = l->n_springs - first < BLOCK ? (int)(l->n_springs - first) : BLOCK;
         springs_strain_block(l, first, n, s->step->y1, strain);
         for (int q = 0; q < n; q++)
-            if (!(fabs(strain[q]) < s->filter.threshold[first + q]) && s->elements->integrity[first + q] > 0.0)
+            if (!(fabs(strain[q]) < (double)s->filter.threshold[first + q]) && s->elements->integrity[first + q] > 0.0)
                 look_near(s, first + q);
     }
 }
@@ -283,7 +283,8 @@ static void look_if_strained(void *self, dem_index spring)
 {
     fracture_source *s = self;
     const double strain = springs_strain_of(&s->model->lattice, spring, s->step->y1);
-    if (!(fabs(strain) < s->filter.threshold[spring]) && s->elements->integrity[spring] > 0.0) look_near(s, spring);
+    if (!(fabs(strain) < (double)s->filter.threshold[spring]) && s->elements->integrity[spring] > 0.0)
+        look_near(s, spring);
 }
 
 static void look(fracture_source *s)

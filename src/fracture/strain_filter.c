@@ -91,15 +91,22 @@ static double weakest_around(const dem_lattice *l, const element_state *s, dem_i
     return least;
 }
 
+/* Not above the number. */
+static float round_down(double number)
+{
+    const float near = (float)number;
+    return (double)near > number ? nextafterf(near, -INFINITY) : near;
+}
+
 /* Lowers the thresholds of the springs of a triangle to what its neighbours stand. */
 static void enter_triangle(strain_filter *f, const dem_lattice *l, const element_state *s, dem_index triangle,
                            double near_limit)
 {
     const double least = (double)f->least[triangle];
     if (isinf(least)) return;
-    const double strain = strain_for(l, s, triangle, near_limit * least);
+    const float strain = round_down(strain_for(l, s, triangle, near_limit * least));
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
-        f->threshold[s->spring[p]] = fmin(f->threshold[s->spring[p]], strain);
+        f->threshold[s->spring[p]] = fminf(f->threshold[s->spring[p]], strain);
 }
 
 /* Springs at a node beside one that no triangle holds are always over their threshold. */
@@ -109,15 +116,8 @@ static void enter_loose(strain_filter *f, const dem_model *m, const element_stat
     for (int end = 0; end < 2 && !s->held[spring]; end++) {
         const dem_index i = m->lattice.ends[2 * spring + end];
         for (dem_index p = all->row[i]; p < all->row[i + 1]; p++)
-            if (isfinite(weakest_at(&m->lattice, s, i))) f->threshold[all->spring[p]] = 0.0;
+            if (isfinite(weakest_at(&m->lattice, s, i))) f->threshold[all->spring[p]] = 0.0f;
     }
-}
-
-/* Not above the number. */
-static float round_down(double number)
-{
-    const float near = (float)number;
-    return (double)near > number ? nextafterf(near, -INFINITY) : near;
 }
 
 /* Triangles without a strength have no limits, and nothing to be asked. */
@@ -143,7 +143,7 @@ dem_status strain_filter_create(strain_filter *out, const dem_model *model, cons
     }
     for (dem_index k = 0; k < l->n_springs; k++) {
         const bool limited = l->critical_stretch != NULL && utilisation_is_limited(l, l->n_triangles + k);
-        f.threshold[k] = limited ? near_limit * l->critical_stretch[k] : (double)INFINITY;
+        f.threshold[k] = limited ? round_down(near_limit * l->critical_stretch[k]) : INFINITY;
     }
     enter_triangles(&f, model, elements, near_limit);
     *out = f;

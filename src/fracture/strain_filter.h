@@ -7,8 +7,8 @@
 #include "model/model.h"
 
 typedef struct strain_filter {
-    double *threshold; /* [n_springs] of |strain|; infinity: nothing near the spring ever breaks */
-    float *least;      /* [n_triangles] Pa, strength of the weakest triangle that shares a corner, or a rounding less;
+    float *threshold; /* [n_springs] of |strain|, or a rounding less; infinity: nothing near the spring ever breaks */
+    float *least;     /* [n_triangles] Pa, strength of the weakest triangle that shares a corner, or a rounding less;
                           infinity: none of them breaks */
 } strain_filter;
 

@@ -39,6 +39,9 @@ static dem_status allocate(element_state *s)
 {
     const dem_lattice *l = s->lattice;
     const size_t n = (size_t)l->n_nodes, n_springs = (size_t)l->n_springs, n_triangles = (size_t)l->n_triangles;
+    CHECK(l->n_springs < INT32_MAX && 6 * l->n_triangles < INT32_MAX, DEM_ERROR_MODEL,
+          "%lld springs and %lld triangles that may break are more than the library takes", (long long)l->n_springs,
+          (long long)l->n_triangles);
     s->integrity = malloc((n_springs + 1) * sizeof *s->integrity);
     s->triangle = calloc(n_triangles + 1, sizeof *s->triangle);
     s->node = calloc(n + 1, sizeof *s->node);
@@ -60,7 +63,7 @@ static void list_triangles(element_state *s)
     const dem_lattice *l = s->lattice;
     for (dem_index k = 0; k < 3 * l->n_triangles; k++) s->at_row[l->triangles[k] + 2]++;
     for (dem_index i = 0; i < l->n_nodes; i++) s->at_row[i + 2] += s->at_row[i + 1];
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++) s->at[s->at_row[l->triangles[k] + 1]++] = k / 3;
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) s->at[s->at_row[l->triangles[k] + 1]++] = (int32_t)(k / 3);
 }
 
 /* The same of the springs that a triangle holds. */
@@ -77,7 +80,7 @@ static void enter(void *context, dem_index spring, dem_index triangle, double sh
     element_state *s = context;
     if (triangle < 0) return;
     const dem_index p = s->row[triangle + 1]++;
-    s->spring[p] = spring;
+    s->spring[p] = (int32_t)spring;
     s->held[spring] = 1;
     s->share[p] = nearbyint(share / unit) * unit;
 }

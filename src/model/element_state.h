@@ -22,16 +22,16 @@ typedef struct element_state {
     dem_index n_broken;      /* triangles, and springs that no triangle holds */
     dem_index n_damaged;
     dem_index *damaged;  /* [n_damaged] these nodes, in the order in which elements broke */
-    dem_index *row;      /* [n_triangles + 1] slots row[t] .. row[t + 1] - 1 of a triangle: */
-    dem_index *spring;   /* a spring that it holds, */
+    int32_t *row;        /* [n_triangles + 1] slots row[t] .. row[t + 1] - 1 of a triangle: */
+    int32_t *spring;     /* a spring that it holds, */
     double *share;       /* and what part of that spring's stiffness is the triangle's */
     unsigned char *held; /* [n_springs] 1: a triangle holds it, or has held it */
-    dem_index *at_row;   /* [n_nodes + 1] slots at_row[i] .. at_row[i + 1] - 1 of a node: */
-    dem_index *at;       /* triangles at it, ascending */
+    int32_t *at_row;     /* [n_nodes + 1] slots at_row[i] .. at_row[i + 1] - 1 of a node: */
+    int32_t *at;         /* triangles at it, ascending */
 } element_state;
 
 /** Makes a state in which all elements are whole. Borrows the lattice.  \param s  its springs
- *  \return DEM_ERROR_MEMORY. Free with element_state_destroy(). */
+ *  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL for more than the library takes. Free with element_state_destroy(). */
 dem_status element_state_create(element_state *out, const dem_lattice *lattice, const springs *s);
 void element_state_destroy(element_state *s);
 

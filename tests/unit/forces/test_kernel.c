@@ -579,7 +579,7 @@ static void note_spring(void *context, dem_index spring)
 
 /* Visits; all that are strained by more than their thresholds must be among them.
  * \return how many others are */
-static dem_index visit_strained(const scene *s, const forces *load, const trial *of, const double *threshold)
+static dem_index visit_strained(const scene *s, const forces *load, const trial *of, const float *threshold)
 {
     const dem_lattice *l = &s->model->lattice;
     CLEANUP(free_memory) unsigned char *visited = calloc((size_t)l->n_springs, 1);
@@ -590,8 +590,8 @@ static dem_index visit_strained(const scene *s, const forces *load, const trial 
     kernel_visit_strained(&k, load->elements, s->x, note_spring, visited);
     for (dem_index j = 0; j < l->n_springs; j++) {
         const double strain = fabs(springs_strain_of(l, j, s->x));
-        if (strain > threshold[j] && load->elements->integrity[j] > 0.0) assert_true(visited[j]);
-        n_others += visited[j] && !(strain > threshold[j]);
+        if (strain > (double)threshold[j] && load->elements->integrity[j] > 0.0) assert_true(visited[j]);
+        n_others += visited[j] && !(strain > (double)threshold[j]);
     }
     return n_others;
 }
@@ -602,7 +602,7 @@ static void check_strained(const dem_lattice *lattice)
 {
     CLEANUP(free_scene) scene s = make_scene(lattice, 0.2);
     CLEANUP(element_state_destroy) element_state broken;
-    CLEANUP(free_memory) double *threshold = malloc((size_t)lattice->n_springs * sizeof *threshold);
+    CLEANUP(free_memory) float *threshold = malloc((size_t)lattice->n_springs * sizeof *threshold);
     const forces load = {.model = s.model, .elements = &broken};
     assert_non_null(threshold);
     assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
@@ -612,9 +612,9 @@ static void check_strained(const dem_lattice *lattice)
             const trial of = {kind, k % 3 + 1, k >= 3};
             if (dem_kernel_check(kind) != DEM_OK) continue;
             for (dem_index j = 0; j < lattice->n_springs; j++)
-                threshold[j] = j % 7 == 0 ? (double)INFINITY : 0.01 / (1.01 - gsl_rng_uniform(s.random));
+                threshold[j] = j % 7 == 0 ? INFINITY : (float)(0.01 / (1.01 - gsl_rng_uniform(s.random)));
             (void)visit_strained(&s, &load, &of, threshold);
-            for (dem_index j = 0; j < lattice->n_springs; j++) threshold[j] = (double)INFINITY;
+            for (dem_index j = 0; j < lattice->n_springs; j++) threshold[j] = INFINITY;
             assert_true(visit_strained(&s, &load, &of, threshold) <= 7 * 20);
         }
 }
@@ -637,11 +637,11 @@ TEST(a_threshold_parts_strains)
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
     CLEANUP(free_scene) scene s = make_scene(&lattice, 0.0);
     CLEANUP(element_state_destroy) element_state broken;
-    CLEANUP(free_memory) double *threshold = malloc((size_t)lattice.n_springs * sizeof *threshold);
+    CLEANUP(free_memory) float *threshold = malloc((size_t)lattice.n_springs * sizeof *threshold);
     const forces load = {.model = s.model, .elements = &broken};
     assert_non_null(threshold);
     assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
-    for (dem_index j = 0; j < lattice.n_springs; j++) threshold[j] = 1e-3;
+    for (dem_index j = 0; j < lattice.n_springs; j++) threshold[j] = 1e-3f;
     for (int k = 0; k < 4; k++) {
         const trial of = {DEM_KERNEL_AUTO, 1, false};
         const double strain = (k & 1 ? -1e-3 : 1e-3) * (k & 2 ? 1.0 + 1e-6 : 1.0 - 1e-6);
