@@ -8,7 +8,7 @@ programs=$(cd "${1:-$here/../../build}/drivers" && pwd)
 runs=$(mktemp -d)
 trap 'rm -rf "$runs"' EXIT
 
-for deck in rectangle disc porous two_discs mill hammer granular; do
+for deck in rectangle disc porous two_discs mill hammer granular brittle_disc; do
     "$programs/dem_batch" --outdir "$runs" "$here/../../inputs/$deck.nml" >"$runs/log"
 done
 cd "$here"
@@ -23,6 +23,8 @@ plot two_discs -o two_discs.png --frames 0:20:4 --columns 6 --color von_mises
 plot mill -o mill.png --frames 0,3,6,24 --columns 4 --color von_mises --zoom 0.1:0.2,-0.06:0.02
 plot hammer -o hammer.png --frames 0,7,13,20,26,30 --columns 6 --color von_mises
 plot granular -o granular.png --frames 0,5,8,12,18,36 --columns 3 --color von_mises --width 1000
+plot brittle_disc -o brittle_disc.png --color fragment --cracks --frames 2,5,8,12,20,40 --columns 3
+plot brittle_disc --fragments -o brittle_disc_sizes.png
 
 # Those of docs/tutorial.md.
 inputs=$here/../../inputs

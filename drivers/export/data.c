@@ -12,7 +12,7 @@ static void write_head(sheet *s, const molecule *m)
     if (m->omissions[0] != '\0') sheet_print(s, "# %s\n", m->omissions);
     sheet_print(s,
                 "# atom = node + 1, bond = spring + 1, molecule = body + 1; E = K (r - r0)^2, K = stiffness/(2 r0)\n");
-    sheet_print(s, "\n%lld atoms\n%lld bonds\n", (long long)m->lattice->n_nodes, (long long)m->lattice->n_springs);
+    sheet_print(s, "\n%lld atoms\n%lld bonds\n", (long long)m->lattice->n_nodes, (long long)m->n_bonds);
     sheet_print(s, "%lld atom types\n%lld bond types\n\n", (long long)m->atoms.n, (long long)m->bonds.n);
     sheet_print(s, "%.17g %.17g xlo xhi\n", box.low[0], box.high[0]);
     sheet_print(s, "%.17g %.17g ylo yhi\n%.17g %.17g zlo zhi\n", box.low[1], box.high[1], -z, z);
@@ -47,10 +47,11 @@ static void write_atoms(sheet *s, const molecule *m)
 static void write_bonds(sheet *s, const molecule *m)
 {
     const dem_lattice *l = m->lattice;
-    if (l->n_springs > 0) sheet_print(s, "\nBonds\n\n");
+    if (m->n_bonds > 0) sheet_print(s, "\nBonds\n\n");
     for (dem_index k = 0; k < l->n_springs; k++)
-        sheet_print(s, "%lld %lld %lld %lld\n", (long long)k + 1, (long long)m->bonds.of[k] + 1,
-                    (long long)l->ends[2 * k] + 1, (long long)l->ends[2 * k + 1] + 1);
+        if (m->gone[k] == 0.0)
+            sheet_print(s, "%lld %lld %lld %lld\n", (long long)k + 1, (long long)m->bonds.of[k] + 1,
+                        (long long)l->ends[2 * k] + 1, (long long)l->ends[2 * k + 1] + 1);
 }
 
 bool data_write(const molecule *m)

@@ -64,6 +64,20 @@ static bool read_velocities(molecule *m, const dem_reader_array *what, double *v
     return read;
 }
 
+/* Which springs are broken in the first frame; a run without frames has not begun to break. */
+static bool find_gone(molecule *m)
+{
+    const dem_lattice *l = m->lattice;
+    const dem_reader_array *broken = dem_reader_array_find(m->task->reader, "broken");
+    m->gone = task_allocate(m->task, l->n_springs, sizeof *m->gone);
+    if (m->gone == NULL) return false;
+    const bool known = broken != NULL && m->task->frames.n > 0 && l->n_springs > 0;
+    if (known && !task_holds(m->task, dem_reader_read(m->task->reader, broken, m->task->frames.frame[0], m->gone)))
+        return false;
+    for (dem_index k = 0; k < l->n_springs; k++) m->n_bonds += m->gone[k] == 0.0;
+    return true;
+}
+
 static bool read_state(molecule *m)
 {
     const dem_lattice *l = m->lattice;
@@ -144,9 +158,23 @@ static const char *plural(dem_index n)
     return n == 1 ? "" : "s";
 }
 
+/* Their springs keep what other triangles hold of them. */
+static dem_index count_broken_triangles(const molecule *m)
+{
+    const dem_index n = m->lattice->n_triangles;
+    dem_index found = 0;
+    unsigned char *flags = task_allocate(m->task, n, sizeof *flags);
+    if (flags != NULL && m->task->frames.n > 0 &&
+        dem_reader_broken_triangles(m->task->reader, m->task->frames.frame[0], flags) == DEM_OK)
+        for (dem_index k = 0; k < n; k++) found += flags[k];
+    free(flags);
+    return found;
+}
+
 static void find_omissions(molecule *m)
 {
     const dem_lattice *l = m->lattice;
+    const dem_index broken = count_broken_triangles(m);
     const dem_index obstacles = dem_reader_n_obstacles(m->task->reader);
     const dem_reader_column *boundaries = dem_reader_column_find(m->task->reader, "history", "boundary_force");
     const dem_index area = count(l->area_stiffness, l->n_triangles), guard = count(l->guard, l->n_triangles);
@@ -159,6 +187,7 @@ static void find_omissions(molecule *m)
     omit(m, damped > 0, "the damping of %lld spring%s", (long long)damped, plural(damped));
     omit(m, m->loads.mass_damping > 0.0, "the damping of masses, %.17g 1/s", m->loads.mass_damping);
     omit(m, rigid > 0, "the rigidity of %lld node%s", (long long)rigid, plural(rigid));
+    omit(m, broken > 0, "the loss of stiffness beside %lld broken triangle%s", (long long)broken, plural(broken));
     omit(m, obstacles > 0, "%lld obstacle%s", (long long)obstacles, plural(obstacles));
     omit(m, held > 0, "%lld boundary condition%s", (long long)held, plural(held));
     omit(m, !m->loads.known, "gravity, which a run without a deck does not state");
@@ -167,7 +196,8 @@ static void find_omissions(molecule *m)
 bool molecule_make(molecule *out, const task *t)
 {
     *out = (molecule){.task = t, .lattice = dem_reader_lattice(t->reader)};
-    if (!find_atoms(out) || !find_bonds(out) || !find_state(out) || !loads_find(&out->loads, t)) return false;
+    if (!find_atoms(out) || !find_bonds(out) || !find_gone(out) || !find_state(out) || !loads_find(&out->loads, t))
+        return false;
     find_omissions(out);
     return true;
 }
@@ -176,6 +206,7 @@ void molecule_free(molecule *m)
 {
     kinds_free(&m->atoms);
     kinds_free(&m->bonds);
+    free(m->gone);
     free(m->own[0]);
     free(m->own[1]);
     *m = (molecule){0};

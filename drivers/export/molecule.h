@@ -21,6 +21,8 @@ typedef struct molecule {
     double longest;      /* rest length, m; 1 without springs */
     double t;            /* s, of the state */
     const double *x, *v; /* [n_nodes][2] m, m/s; v in the precision of the file where it is not at rest at t = 0 */
+    double *gone;        /* [n_springs] not 0: broken, and no bond */
+    dem_index n_bonds;   /* springs that are not broken */
     double *own[2];      /* of x and v where they are not the lattice's */
     loads loads;
     char omissions[MOLECULE_OMISSIONS]; /* what is not the run's: "" if nothing */

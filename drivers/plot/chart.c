@@ -172,6 +172,22 @@ static void draw_times(const axes *a, bool has_labels, canvas *c)
     if (has_labels) write_text(c, 0.5 * (a->place.x0 + a->place.x1), bottom + 38.0, CANVAS_MIDDLE, text);
 }
 
+/* The same of powers of ten. */
+static void draw_decades(const chart *of, const axes *a, canvas *c)
+{
+    const int most = (int)fmin(fmax(box_width(a->place) / 60.0, 2.0), 11.0);
+    const ticks at = ticks_decades(pow(10.0, a->t0), pow(10.0, a->t1), most);
+    const double bottom = a->place.y1;
+    for (int k = 0; k < at.n; k++) {
+        char text[TICKS_TEXT];
+        const double x = across(a, log10(at.at[k]));
+        draw_line(c, canvas_black, x, bottom, x, bottom - 5.0);
+        ticks_print_power(text, at.at[k]);
+        write_text(c, x, bottom + 19.0, CANVAS_MIDDLE, text);
+    }
+    write_text(c, 0.5 * (a->place.x0 + a->place.x1), bottom + 38.0, CANVAS_MIDDLE, of->across);
+}
+
 static void draw_label(const chart *of, const axes *a, const char *unit, canvas *c)
 {
     char text[120];
@@ -214,7 +230,10 @@ bool chart_draw(const chart *of, box place, bool has_times, canvas *c)
     (void)snprintf(attributes, sizeof attributes, "class=\"chart\" data-rows=\"%zu\"", of->n);
     c->begin(c, attributes, NULL);
     draw_numbers(&a, factor, c);
-    draw_times(&a, has_times, c);
+    if (of->across != NULL)
+        draw_decades(of, &a, c);
+    else
+        draw_times(&a, has_times, c);
     for (int k = of->n_lines - 1; k >= 0 && drawn; k--) drawn = draw_curve(of, k, &a, c);
     canvas_outline(c, (canvas_pen){canvas_black, 1.0}, inner);
     draw_label(of, &a, unit, c);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A plot of numbers over time: axes with round ticks, lines, and their names beside. */
+/* A plot of numbers over time, or over decades of another number: axes with round ticks, lines, and their names
+ * beside. */
 #ifndef DEM_CHART_H
 #define DEM_CHART_H
 
@@ -12,13 +13,14 @@ typedef struct chart_line {
     const double *y; /* [n][stride] */
 } chart_line;
 
-enum { CHART_LINES = 12 };
+enum { CHART_LINES = 13 };
 
 typedef struct chart {
     const char *label, *unit; /* of the numbers; unit "" of counts */
     bool by_decades;          /* logarithmic; what is not > 0 is left out */
+    const char *across;       /* NULL: the axis is of times; else what its numbers are, of which `t` has logarithms */
     size_t n;
-    const double *t;   /* [n] s, ascending */
+    const double *t;   /* [n] s, ascending, or logarithms of base 10 */
     double begin, end; /* of the axis, s */
     int n_lines;
     chart_line line[CHART_LINES];

@@ -7,6 +7,7 @@
 #include "commit.h"
 #include "request.h"
 #include "show.h"
+#include "sizes.h"
 #include "streams.h"
 #include "timeline.h"
 
@@ -18,6 +19,8 @@ static void draw(const request *asked, outcome *o)
         outcome_fail_status(o, status, "dem_plot");
     else if (asked->action == REQUEST_HISTORY)
         (void)timeline_draw(reader, asked, stdout, o);
+    else if (asked->action == REQUEST_SIZES)
+        (void)sizes_draw(reader, asked, stdout, o);
     else if (asked->action == REQUEST_ANIMATION)
         (void)show_animation(reader, asked, stdout, o);
     else

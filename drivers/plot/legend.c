@@ -78,8 +78,27 @@ static void draw_numbers(colour_range range, double factor, box place, canvas *c
     }
 }
 
+/* Colours of fragments have no order: a bar of some of them, and grey, is all that can be said. */
+static void draw_pieces(const quantity *q, const palette *colours, box place, canvas *c)
+{
+    enum { SHOWN = 12 };
+    const double across = box_width(place) / SHOWN;
+    c->begin(c, "id=\"colours\"", NULL);
+    for (int k = 0; k < SHOWN; k++) {
+        const double x0 = place.x0 + k * across, x1 = x0 + across;
+        const double corners[] = {x0, place.y0, x1, place.y0, x1, place.y1, x0, place.y1};
+        c->fills(c, colours->of[k], 4, 1, corners);
+    }
+    draw_text(c, 0.5 * (place.x0 + place.x1), place.y0 - 7.0, CANVAS_MIDDLE, q->label);
+    c->end(c);
+}
+
 void legend_draw_colours(const quantity *q, const palette *colours, colour_range range, box place, canvas *c)
 {
+    if (q->scale == PALETTE_PIECES) {
+        draw_pieces(q, colours, place, c);
+        return;
+    }
     uint32_t argb[PALETTE_SIZE];
     for (int k = 0; k < PALETTE_SIZE; k++) {
         const colour shade = colours->of[k];

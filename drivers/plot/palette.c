@@ -48,8 +48,20 @@ static colour render(shade s)
                     encode(0.0556434 * X - 0.2040259 * Y + 1.0572252 * Z)};
 }
 
+/* Hues a golden section of the circle apart, in three lightnesses, so that places near each other differ in both. */
+static palette make_pieces(void)
+{
+    static const double lightness[] = {48.0, 63.0, 78.0}, turn = 2.399963229728653, vivid = 48.0;
+    palette made = {.kind = PALETTE_PIECES};
+    made.of[0] = render((shade){72.0, 0.0, 0.0});
+    for (int k = 1; k < PALETTE_SIZE; k++)
+        made.of[k] = render((shade){lightness[k % 3], vivid * cos(turn * k), vivid * sin(turn * k)});
+    return made;
+}
+
 palette palette_make(palette_kind kind)
 {
+    if (kind == PALETTE_PIECES) return make_pieces();
     palette made = {.kind = kind};
     const shade *row = stops[parts[kind].row];
     const int first = parts[kind].first, last = parts[kind].last;

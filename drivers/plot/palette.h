@@ -12,7 +12,8 @@ typedef enum palette_kind {
     PALETTE_DIVERGING,  /* blue, grey in the middle, red: both ends equally dark */
     PALETTE_SEQUENTIAL, /* from a light yellow to a dark blue */
     PALETTE_UPPER,      /* half of the diverging one, from grey to red */
-    PALETTE_LOWER       /* the other half, from blue to grey */
+    PALETTE_LOWER,      /* the other half, from blue to grey */
+    PALETTE_PIECES      /* grey, and behind it colours of no order that can be distinguished */
 } palette_kind;
 
 enum { PALETTE_SIZE = 255 }; /* odd: there is a middle */

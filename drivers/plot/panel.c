@@ -178,6 +178,26 @@ static void draw_points(const panel *p, const snapshot *s, const panel_look *loo
     }
 }
 
+/* Over all triangles, so that both sides of a crack are seen. */
+static bool draw_cracks(const panel *p, const snapshot *s, canvas *c)
+{
+    const double width = fmin(fmax(0.08 * panel_scale(p) * snapshot_spacing(s), 0.8), 2.5);
+    char attributes[80];
+    shape_batch h;
+    if (s->cracks.n == 0) return true;
+    if (!shape_batch_create(&h, (size_t)s->cracks.n, 2)) return false;
+    for (dem_index k = 0; k < s->cracks.n; k++) {
+        const cracks_side *side = &s->cracks.side[k];
+        h.n += cracks_open(side, s->broken_triangles) && place_all(p, s, side->node, 2, h.xy + 4 * h.n);
+    }
+    (void)snprintf(attributes, sizeof attributes, "class=\"cracks\" data-count=\"%zu\"", h.n);
+    c->begin(c, attributes, NULL);
+    if (h.n > 0) c->strokes(c, (canvas_pen){canvas_black, width}, 2, h.n, h.xy);
+    c->end(c);
+    shape_batch_free(&h);
+    return true;
+}
+
 bool panel_draw(const panel *p, const snapshot *s, const panel_look *look, canvas *c)
 {
     char attributes[400];
@@ -188,7 +208,8 @@ bool panel_draw(const panel *p, const snapshot *s, const panel_look *look, canva
                    (long long)s->frame, s->t, b.x0, b.y0, b.x1, b.y1, v.x0, v.y0, v.x1, v.y1, at.x0, at.y0, at.x1,
                    at.y1);
     c->begin(c, attributes, &at);
-    const bool drawn = draw_ground(p, s, c) && (look->is_binned ? draw_pixels : draw_vectors)(p, s, look, c);
+    const bool drawn =
+        draw_ground(p, s, c) && (look->is_binned ? draw_pixels : draw_vectors)(p, s, look, c) && draw_cracks(p, s, c);
     draw_points(p, s, look, c);
     c->end(c);
     canvas_outline(c, (canvas_pen){canvas_light, 1.0}, at);

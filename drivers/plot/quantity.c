@@ -27,6 +27,7 @@ static const struct {
     {"principal_2", "principal_stress", 1, PALETTE_DIVERGING, "smaller principal stress"},
     {"contact_pressure", "contact_pressure", 0, PALETTE_SEQUENTIAL, "contact pressure"},
     {"contact_force", "contact_force", LENGTH, PALETTE_SEQUENTIAL, "contact force"},
+    {"fragment", "fragment", 0, PALETTE_PIECES, "fragments, grey: half of a body or more"},
     {"peak_strain", "peak_strain", 0, PALETTE_DIVERGING, "peak strain of springs"},
     {"peak_von_mises", "peak_von_mises", 0, PALETTE_SEQUENTIAL, "peak von Mises stress"},
 };
@@ -40,6 +41,13 @@ bool quantity_is_known(const char *name)
     size_t k = 0;
     while (k < KNOWN && strcmp(name, known[k].name) != 0) k++;
     return k < KNOWN || strcmp(name, none) == 0;
+}
+
+bool quantity_is_unordered(const char *name)
+{
+    for (size_t k = 0; k < KNOWN; k++)
+        if (strcmp(name, known[k].name) == 0) return known[k].scale == PALETTE_PIECES;
+    return false;
 }
 
 void quantity_list(FILE *out)

@@ -25,6 +25,9 @@ bool quantity_find(quantity *q, const dem_reader *reader, const char *name, outc
 /** Whether there is such a name. */
 bool quantity_is_known(const char *name);
 
+/** Whether colours stand for what has no order, as the numbers of fragments. */
+bool quantity_is_unordered(const char *name);
+
 /** Prints all names, with commas between. */
 void quantity_list(FILE *out);
 

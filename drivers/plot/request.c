@@ -13,6 +13,7 @@ static const char usage[] =
     "usage: dem_plot RUN.vtkhdf -o FILE.png|.svg|.pdf [OPTION]...            a film strip\n"
     "       dem_plot RUN.vtkhdf --animate FOLDER [OPTION]...                 a numbered PNG of every frame\n"
     "       dem_plot RUN.vtkhdf --history -o FILE.png|.svg|.pdf [OPTION]...  energies, reaction, contacts, steps\n"
+    "       dem_plot RUN.vtkhdf --fragments -o FILE.png|.svg|.pdf [OPTION]... sizes of fragments\n"
     "       dem_plot --version | --help\n"
     "options:\n"
     "  --frames LIST          0,5,10 or 0:20:5; -1 is the last (default: six about the greatest compression)\n"
@@ -20,6 +21,7 @@ static const char usage[] =
     "  --color WHAT           one of the names below (default: strain)\n"
     "  --range LIMIT|LO:HI    of the colours, SI units (default: round limits for 99.5 % of the values of every "
     "frame)\n"
+    "  --cracks               draw the sides of triangles beside broken ones in black\n"
     "  --zoom X0:X1,Y0:Y1     show this, m (default: all that is in the frames, and the obstacles near it)\n"
     "  --width PIXELS         of the picture, 400 to 20000 (default: 1200)\n"
     "  --columns N            of the strip (default: what fits)\n"
@@ -48,6 +50,18 @@ __attribute__((format(printf, 1, 2))) static bool refuse(const char *format, ...
     return false;
 }
 
+/* What is drawn, unless something else is asked for as well. */
+static bool choose_action(request *r, request_action wanted)
+{
+    static const char *const words[] = {
+        [REQUEST_ANIMATION] = "--animate", [REQUEST_HISTORY] = "--history", [REQUEST_SIZES] = "--fragments"};
+    const request_action before = r->action;
+    r->action = wanted;
+    if (before == REQUEST_STRIP || before == wanted) return true;
+    return refuse("'%s' does not go with '%s'", words[before < wanted ? before : wanted],
+                  words[before < wanted ? wanted : before]);
+}
+
 /* ---- options with a value, which is not NULL ---- */
 
 /* n finite numbers with these marks between them, and nothing behind the last. */
@@ -70,10 +84,8 @@ static bool parse_output(request *r, const char *text)
 
 static bool parse_animate(request *r, const char *text)
 {
-    if (r->action != REQUEST_STRIP) return refuse("'--animate' does not go with '--history'");
-    r->action = REQUEST_ANIMATION;
     r->folder = text;
-    return true;
+    return choose_action(r, REQUEST_ANIMATION);
 }
 
 static bool parse_frames(request *r, const char *text)
@@ -154,10 +166,9 @@ static bool parse_word(request *r, const char *word)
     if (strcmp(word, "--help") == 0) return r->action = REQUEST_HELP, true;
     if (strcmp(word, "--version") == 0) return r->action = REQUEST_VERSION, true;
     if (strcmp(word, "--hash") == 0) return r->prints_hash = true;
-    if (strcmp(word, "--history") == 0) {
-        if (r->action == REQUEST_ANIMATION) return refuse("'--animate' does not go with '--history'");
-        return r->action = REQUEST_HISTORY, true;
-    }
+    if (strcmp(word, "--cracks") == 0) return r->has_cracks = true;
+    if (strcmp(word, "--history") == 0) return choose_action(r, REQUEST_HISTORY);
+    if (strcmp(word, "--fragments") == 0) return choose_action(r, REQUEST_SIZES);
     if (word[0] == '-') return refuse("'%s' is no option: dem_plot --help", word);
     if (r->input != NULL) return refuse("one run at a time: '%s' and '%s'", r->input, word);
     r->input = word;
@@ -171,6 +182,8 @@ static bool check(const request *r)
     if (r->output != NULL && r->folder != NULL) return refuse("'-o' does not go with '--animate'");
     if (r->output == NULL && r->folder == NULL)
         return refuse("where to? -o FILE.png, .svg or .pdf, or --animate FOLDER");
+    if (r->has_range && r->color != NULL && quantity_is_unordered(r->color))
+        return refuse("'--range' does not go with '--color %s', whose colours have no order", r->color);
     if (r->frames != NULL && r->times != NULL) return refuse("'--frames' does not go with '--times'");
     return true;
 }

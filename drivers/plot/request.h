@@ -13,6 +13,7 @@ typedef enum request_action {
     REQUEST_STRIP,
     REQUEST_ANIMATION,
     REQUEST_HISTORY,
+    REQUEST_SIZES,
     REQUEST_HELP,
     REQUEST_VERSION
 } request_action;
@@ -25,7 +26,7 @@ typedef struct request {
     const char *folder;         /* of an animation */
     const char *frames, *times; /* NULL: as it is by default */
     const char *color;          /* NULL: what there is */
-    bool has_range, has_zoom, prints_hash;
+    bool has_range, has_zoom, has_cracks, prints_hash;
     double lo, hi;  /* of the range; lo is -infinity where only a limit is given */
     box zoom;       /* m */
     double width;   /* pixels */

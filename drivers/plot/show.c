@@ -7,9 +7,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "choice.h"
 #include "digest.h"
 #include "legend.h"
-#include "frame_list.h"
 #include "picture.h"
 #include "time_label.h"
 #include "strip.h"
@@ -65,18 +65,10 @@ static dem_index most_compressed(const dem_reader *reader, dem_index n_frames, c
 static bool choose(show *s, outcome *o)
 {
     dem_index n;
-    const char *fault = NULL;
-    const request *asked = s->asked;
     const double *t = dem_reader_times(s->reader, &n);
-    if (n == 0) return outcome_fail(o, EXIT_INVALID, "dem_plot", "%s: has no frames", asked->input), false;
-    if (asked->frames != NULL && !frame_list_parse(&s->chosen, asked->frames, n, &fault))
-        return outcome_fail(o, EXIT_INVALID, "dem_plot", "%s: '--frames %s' %s: there are 0 to %lld", asked->input,
-                            asked->frames, fault, (long long)n - 1),
-               false;
-    if (asked->times != NULL && !frame_list_parse_times(&s->chosen, asked->times, n, t, &fault))
-        return outcome_fail(o, EXIT_INVALID, "dem_plot", "'--times %s' %s", asked->times, fault), false;
+    if (!choice_find(&s->chosen, s->reader, s->asked, o)) return false;
     if (s->chosen.n > 0) return true;
-    const bool all = asked->action == REQUEST_ANIMATION;
+    const bool all = s->asked->action == REQUEST_ANIMATION;
     return (all ? frame_list_all(&s->chosen, n) : frame_list_usual(&s->chosen, n, most_compressed(s->reader, n, t))) ||
            fail_memory(o);
 }
@@ -98,6 +90,7 @@ static bool set_times(show *s, outcome *o)
 static colour_range range_of(const show *s, colour_range_extent reach)
 {
     const request *asked = s->asked;
+    if (s->shown.scale == PALETTE_PIECES) return (colour_range){.hi = PALETTE_SIZE - 1}; /* places in the palette */
     const bool both_sides = s->shown.scale == PALETTE_DIVERGING;
     if (!asked->has_range) return colour_range_around(reach, both_sides);
     const double lo = isinf(asked->lo) ? (both_sides ? -asked->hi : 0.0) : asked->lo;
@@ -122,7 +115,9 @@ static bool open_show(show *s, const dem_reader *reader, const request *asked, o
 {
     *s = (show){.reader = reader, .asked = asked, .hash = DIGEST_BEGIN};
     if (!quantity_find(&s->shown, reader, asked->color, o) || !choose(s, o) || !set_times(s, o)) return false;
-    if (!snapshot_create(&s->now, reader, &s->shown, o) || !survey(s, o)) return false;
+    if (!snapshot_create(&s->now, reader, &s->shown, o)) return false;
+    if (asked->has_cracks && !snapshot_follow_cracks(&s->now, o)) return false;
+    if (!survey(s, o)) return false;
     const palette_kind kind = palette_between(s->shown.scale, s->look.range.lo, s->look.range.hi);
     s->colours = s->shown.source != NULL ? palette_make(kind) : palette_plain(canvas_grey);
     s->look.colours = &s->colours;
@@ -177,6 +172,7 @@ static strip plan(show *s, size_t n)
     s->look.thick = panel_thickness(panel_scale(&first) * snapshot_spacing(&s->now));
     s->letters = letters_for(s, planned.across);
     s->hash = digest_add(s->hash, s->shown.name, strlen(s->shown.name));
+    if (s->asked->has_cracks) s->hash = digest_add(s->hash, "cracks", strlen("cracks"));
     s->hash = digest_add(s->hash, &s->look.range, 2 * sizeof(double));
     s->hash = digest_add(s->hash, &planned.view, sizeof planned.view);
     for (dem_index k = 0; k < dem_reader_n_obstacles(s->reader); k++) {
@@ -232,7 +228,10 @@ static void report(const show *s, const char *path, const strip *planned, FILE *
     }
     (void)fprintf(log, "%s: %.0f x %.0f pixels, %zu frame%s of %lld springs", path, planned->width, planned->height,
                   s->chosen.n, s->chosen.n == 1 ? "" : "s", (long long)s->now.lattice->n_springs);
-    if (s->shown.source != NULL) (void)fprintf(log, ", %s %g to %g", s->shown.name, s->look.range.lo, s->look.range.hi);
+    const bool of_pieces = s->shown.scale == PALETTE_PIECES;
+    if (s->shown.source != NULL && of_pieces) (void)fprintf(log, ", %s", s->shown.name);
+    if (s->shown.source != NULL && !of_pieces)
+        (void)fprintf(log, ", %s %g to %g", s->shown.name, s->look.range.lo, s->look.range.hi);
     (void)fprintf(log, "%s\n", s->look.is_binned ? ", binned to pixels" : "");
 }
 

@@ -13,6 +13,17 @@ static void find_bare(snapshot *s)
     for (dem_index k = 0; k < 2 * l->n_springs; k++) s->is_bare[l->ends[k]] = 0;
 }
 
+static bool fail_memory(outcome *o)
+{
+    outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory");
+    return false;
+}
+
+static bool shows_pieces(const snapshot *s)
+{
+    return s->shown->source != NULL && s->shown->scale == PALETTE_PIECES;
+}
+
 bool snapshot_create(snapshot *s, const dem_reader *reader, const quantity *shown, outcome *o)
 {
     const dem_lattice *l = dem_reader_lattice(reader);
@@ -28,10 +39,14 @@ bool snapshot_create(snapshot *s, const dem_reader *reader, const quantity *show
     s->broken_triangles = calloc(triangles + 1, sizeof *s->broken_triangles);
     s->breaks = dem_reader_array_find(reader, "broken");
     if (s->x != NULL && s->value != NULL && s->work != NULL && s->is_bare != NULL && s->broken_springs != NULL &&
-        s->broken_triangles != NULL)
+        s->broken_triangles != NULL && (!shows_pieces(s) || pieces_create(&s->pieces, l)))
         return find_bare(s), true;
-    outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory");
-    return false;
+    return fail_memory(o);
+}
+
+bool snapshot_follow_cracks(snapshot *s, outcome *o)
+{
+    return cracks_create(&s->cracks, s->lattice) || fail_memory(o);
 }
 
 void snapshot_free(snapshot *s)
@@ -42,6 +57,8 @@ void snapshot_free(snapshot *s)
     free(s->broken_springs);
     free(s->broken_triangles);
     free(s->is_bare);
+    pieces_free(&s->pieces);
+    cracks_free(&s->cracks);
     *s = (snapshot){0};
 }
 
@@ -65,6 +82,7 @@ bool snapshot_load(snapshot *s, dem_index frame, outcome *o)
         outcome_fail(o, EXIT_INVALID, "dem_plot", "frame %lld has places that are not finite", (long long)frame);
         return false;
     }
+    if (shows_pieces(s)) pieces_shade(&s->pieces, s->work, s->value);
     s->frame = frame;
     s->t = dem_reader_times(s->reader, &n)[frame];
     s->bounds = box_around(s->lattice->n_nodes, s->x);

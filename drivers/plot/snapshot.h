@@ -8,7 +8,9 @@
 #include <dem/reader.h>
 
 #include "box.h"
+#include "cracks.h"
 #include "outcome.h"
+#include "pieces.h"
 #include "quantity.h"
 #include "colour_range.h"
 
@@ -23,12 +25,17 @@ typedef struct snapshot {
     const dem_reader_array *breaks;  /* NULL: springs never break */
     double *broken_springs;          /* [n_springs] not 0 where a spring is no more */
     unsigned char *broken_triangles; /* [n_triangles] 1 where a triangle is no more */
+    pieces pieces;                   /* where colours stand for fragments */
+    cracks cracks;                   /* empty unless they are drawn */
     unsigned char *is_bare;          /* [n_nodes] 1: no spring holds the node, which is drawn as a point */
     dem_index frame;
     double t;                  /* s */
     box bounds;                /* of the nodes, m */
     colour_range_extent reach; /* of the values */
 } snapshot;
+
+/** What has to be known of cracks, too. False after a fault, which is reported. */
+bool snapshot_follow_cracks(snapshot *s, outcome *o);
 
 /** Without a frame yet; borrows trajectory and quantity. False after a fault, which is reported. To be freed in any
  *  case. */

@@ -72,10 +72,19 @@ static void add_line(chart *to, const char *name, int ink, const double *y, size
 static const struct {
     const char *column, *name;
     double sign; /* in what stays constant */
-} energies[] = {{"kinetic", "kinetic", 1},         {"elastic", "springs", 1},         {"area", "area term", 1},
-                {"guard", "folding guard", 1},     {"contact", "bodies touching", 1}, {"gravity", "gravity", 1},
-                {"impact", "lost: impacts", 1},    {"friction", "lost: friction", 1}, {"damping", "lost: damping", 1},
-                {"boundary", "by boundaries", -1}, {"obstacle", "by obstacles", -1},  {"projection", "", -1}};
+} energies[] = {{"kinetic", "kinetic", 1},
+                {"elastic", "springs", 1},
+                {"area", "area term", 1},
+                {"guard", "folding guard", 1},
+                {"contact", "bodies touching", 1},
+                {"gravity", "gravity", 1},
+                {"impact", "lost: impacts", 1},
+                {"friction", "lost: friction", 1},
+                {"damping", "lost: damping", 1},
+                {"fracture", "lost: fracture", 1},
+                {"boundary", "by boundaries", -1},
+                {"obstacle", "by obstacles", -1},
+                {"projection", "", -1}};
 
 enum { ENERGIES = sizeof energies / sizeof *energies };
 

@@ -287,6 +287,45 @@ class Decks(unittest.TestCase):
         self.assertEqual(len(strip.inks(0, "triangles", "fill")), 1)
         self.assertGreater(len(strip.inks(1, "triangles", "fill")), 1)
 
+    def broken_run(self):
+        """A brittle disc on a slope, which breaks into several pieces."""
+        (self.folder / "brittle.nml").write_text(
+            "&run t_end = 6e-4 /\n"
+            "&material youngs_modulus = 1e9, density = 2500, fracture = 'stress', strength = 4e6 /\n"
+            "&body shape = 'disc', radius = 0.03, spacing = 4e-3, jitter = 0.2, velocity = 0, -8, clearance = 1e-4 /\n"
+            "&obstacle points = -0.3, -0.02, 0, 0, 0.3, -0.03, restitution = 0, friction = 0.3 /\n"
+            "&output name = 'brittle', frame_interval = 1e-4, fields = 'velocity' /\n", encoding="utf-8")
+        self.batch("brittle.nml", "--overwrite")
+        return self.at("brittle")
+
+    def test_cracks_are_drawn_and_fragments_coloured(self):
+        """Sides of whole triangles beside broken ones, counted anew; grey alone at first, then a colour for each piece
+        that has a whole triangle, but for colours that happen to be the same."""
+        with h5py.File(self.broken_run(), "r") as file:
+            triangles, n = file["lattice/triangles"][...], len(file["lattice/x"])
+            broken = file["fracture/triangles"][-len(triangles):] != 0
+            fragment = file["VTKHDF/PointData/fragment"][-n:]
+            last = len(file["VTKHDF/Steps/Values"]) - 1
+            sizes = file["fragments/mass"][file["fragments/frame_offset"][-2]:]
+        sides = {}
+        for k, corners in enumerate(triangles):
+            for a, b in zip(corners, np.roll(corners, -1)):
+                sides.setdefault((min(a, b), max(a, b)), []).append(broken[k])
+        cracks = sum(len(both) == 2 and both[0] != both[1] for both in sides.values())
+        strip = self.strip("brittle", "--color", "fragment", "--cracks", "--frames", f"0,{last}")
+        group = [next(g for g in frame.iter(f"{SVG}g") if g.get("class") == "cracks") for frame in
+                 (strip.frames[0], strip.frames[last])]
+        self.assertEqual([int(g.get("data-count")) for g in group], [0, cracks])
+        self.assertIn("fragments, grey: half of a body or more", strip.texts)
+        pieces = len(set(fragment[triangles[~broken][:, 0]]))
+        self.assertEqual(len(strip.inks(0, "triangles", "fill")), 1)
+        self.assertGreater(pieces, 2)
+        self.assertTrue(pieces - 1 <= len(strip.inks(last, "triangles", "fill")) <= pieces)
+        chart = self.folder / "sizes.svg"
+        stdout = run_plot(self.at("brittle"), "--fragments", "-o", chart, "--frames", f"0,{last}").stdout
+        self.assertIn(f"2 frames, at last {len(sizes)} fragments", stdout)
+        self.assertIn("mass of a fragment, kg", Strip(chart).texts)
+
     def test_an_animation_has_one_size_and_even_sides(self):
         folder, frames = self.folder / "animation", Frames(self.at("disc"))
         stdout = run_plot(self.at("disc"), "--animate", folder, "--width", 501).stdout
@@ -357,7 +396,7 @@ class Decks(unittest.TestCase):
             file["VTKHDF/Points"][7, 0] = np.inf
         cases = (([endless, "-o", out], 3), ([disc], 2), ([disc, "-o", "a.gif"], 2), ([disc, "-o", out, "--color", "red"], 2),
                  ([disc, "-o", out, "--frames", "99"], 3), ([disc, "-o", out, "--frames", "x"], 3),
-                 ([disc, "-o", out, "--color", "principal_1"], 3), ([self.folder / "no.vtkhdf", "-o", out], 5),
+                 ([disc, "-o", out, "--color", "principal_1"], 3), ([disc, "-o", out, "--fragments"], 3), ([self.folder / "no.vtkhdf", "-o", out], 5),
                  ([broken, "-o", out], 5), ([disc, "-o", self.folder / "no/where.svg"], 5),
                  ([disc, "--animate", disc], 5), ([disc, "-o", self.folder / "full.svg"], 5),
                  ([disc, "-o", self.folder / "full.png"], 5), ([disc, "-o", self.folder / "full.pdf"], 5))

@@ -34,6 +34,7 @@ typedef struct exported_how {
     const char *resolved; /* the deck; NULL: none */
     int double_precision, n_obstacles;
     double frame_interval;
+    bool breaks; /* the triangle breaks at 0.3 s, with all springs */
 } exported_how;
 
 static inline exported_how exported_usual(void)
@@ -74,6 +75,10 @@ static inline void exported_run(const exported *e, const exported_how *how)
     const dem_observer observer = ask_trajectory_observer(trajectory);
     assert_ok(dem_simulation_observe(simulation, &observer));
     if (how->resolved != NULL) assert_ok(dem_trajectory_note(trajectory, "resolved", how->resolved));
+    if (how->breaks) {
+        assert_ok(dem_simulation_advance(simulation, 0.3));
+        assert_ok(dem_simulation_break(simulation, (const dem_index[]){0}, 1, NULL, 0));
+    }
     assert_ok(dem_simulation_advance(simulation, 0.6));
     assert_ok(dem_trajectory_finish(trajectory));
     dem_trajectory_destroy(trajectory);

@@ -27,6 +27,24 @@ TEST_WITH(the_data_file_is_the_body, open_run, exported_end)
                     "\nBonds\n\n1 1 1 2\n2 3 2 3\n3 2 3 1\n");
 }
 
+static int open_broken_run(void **state)
+{
+    exported_how how = exported_usual();
+    how.breaks = true;
+    return exported_begin_with(state, how);
+}
+
+/* From the frame behind the break on. */
+TEST_WITH(the_data_file_has_no_broken_bonds, open_broken_run, exported_end)
+{
+    exported *e = *test_state;
+    e->task.frames.frame[0] = 2;
+    assert_true(lammps_export(&e->task));
+    exported_expect(e, "run.data", "\n3 atoms\n0 bonds\n");
+    assert_null(strstr(exported_text(e, "run.data"), "\nBonds\n"));
+    assert_null(strstr(exported_text(e, "run.data"), "\n1 1 1 2\n"));
+}
+
 TEST_WITH(the_input_moves_what_is_free, open_run, exported_end)
 {
     exported *e = *test_state;

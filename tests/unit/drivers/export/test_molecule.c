@@ -31,6 +31,22 @@ TEST(types_are_of_mass_and_of_spring)
     assert_close(m.longest, 5.0, 0.0);
 }
 
+/* In the frame at 0.25 s all is whole, in that at 0.5 s nothing is. */
+TEST(broken_springs_are_no_bonds)
+{
+    exported_how how = exported_usual();
+    how.breaks = true;
+    CLEANUP(end) molecule m;
+    make(&m, how, 1);
+    assert_int_equal(m.n_bonds, 3);
+    assert_null(strstr(m.omissions, "broken"));
+    end(&m);
+    make(&m, how, 2);
+    assert_int_equal(m.n_bonds, 0);
+    assert_true(m.gone[0] != 0.0 && m.gone[2] != 0.0);
+    assert_non_null(strstr(m.omissions, "the loss of stiffness beside 1 broken triangle,"));
+}
+
 TEST(the_start_is_not_rounded)
 {
     CLEANUP(end) molecule m;

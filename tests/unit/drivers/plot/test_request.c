@@ -47,6 +47,11 @@ TEST(options_are_read)
     assert_int_equal(r.action, REQUEST_ANIMATION);
     assert_int_equal(parse(&r, "a --history -o b.svg"), EXIT_DONE);
     assert_int_equal(r.action, REQUEST_HISTORY);
+    assert_int_equal(parse(&r, "a --fragments -o b.svg"), EXIT_DONE);
+    assert_int_equal(r.action, REQUEST_SIZES);
+    assert_false(r.has_cracks);
+    assert_int_equal(parse(&r, "a --cracks --color fragment -o b.svg"), EXIT_DONE);
+    assert_true(r.has_cracks);
     assert_int_equal(parse(&r, "--help"), EXIT_DONE);
     assert_int_equal(parse(&r, "--version"), EXIT_DONE);
 }
@@ -76,6 +81,9 @@ TEST(what_makes_no_sense_is_refused)
                                         "a -o b.svg --animate f",
                                         "a --history --animate f",
                                         "a --animate f --history",
+                                        "a --animate f --fragments",
+                                        "a --fragments --history -o b.svg",
+                                        "a -o b.svg --color fragment --range 1",
                                         "a -o b.svg --frobnicate"};
     for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
         request r;
