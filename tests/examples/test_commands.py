@@ -20,7 +20,8 @@ import tempfile
 PAGE, ROOT, *PROGRAMS = (pathlib.Path(word).resolve() for word in sys.argv[1:])
 SECONDS = 300  # more than any block takes, under a sanitizer too
 OPTIONAL = ("gmsh", "jq", "ffmpeg", "dem_plot")  # what a machine may lack
-COARSE = {} if PAGE.name == "README.md" else {"rectangle": "1e-2", "disc": "1e-2", "porous": "7e-3"}  # spacings
+COARSE = {} if PAGE.name == "README.md" else {"rectangle": "1e-2", "disc": "1e-2", "porous": "7e-3",
+                                              "brittle_disc": "5e-3"}  # spacings
 LOG = r"(?m)^(?:contact|rebound|normal)  .*$"  # lines of a log
 
 DROP = """&run t_end = 1e-4 /
@@ -30,7 +31,7 @@ DROP = """&run t_end = 1e-4 /
 &output name = '{}' /
 """
 # What a page needs beside inputs/ and the decks: runs whose files it reads.
-RUNS = {"pictures.md": ("disc", "porous"), "dem_plot.1": ("rectangle", "two_discs"), "dem_export.1": ("rectangle",)}
+RUNS = {"pictures.md": ("disc", "porous"), "dem_plot.1": ("rectangle", "two_discs", "brittle_disc"), "dem_export.1": ("rectangle",)}
 
 
 def make_decks(folder):
