@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Toughness and path of a crack in meshes with rows of any direction: a clamped strip with an edge crack
+/* Toughness and path of a crack in meshes with rows of any direction, and without: a clamped strip with an edge crack
  * is at rest, one triangle breaks, the strip comes to rest again, and so on. What breaks next, and under which load, is
  * found twice: by the stresses of the strip at rest, which are linear in the load, and by a second strip that is pulled
  * from a little below that load until something breaks in it by itself. Unlike in a strip whose load only grows, loads
@@ -13,13 +13,15 @@
 #include "body/shape.h"
 #include "body/smoothing.h"
 #include "driving.h"
+#include "unstructured.h"
 
 static const double spacing = CLAMPED_STRIP_SPACING, c = CLAMPED_STRIP_SPEED;
 enum { WIDE = 70, HIGH = 44, CRACK = 22 }; /* spacings */
 
 typedef struct path_case {
     double nu, angle, jitter; /* degrees, of the rows; spacings */
-    int scale, most;          /* the strip is so many times as large; breaks */
+    bool rows;                /* false: none */
+    int most;                 /* breaks */
     double beta, tolerance;   /* expected */
 } path_case;
 
@@ -35,7 +37,7 @@ typedef struct path {
 static dem_lattice mesh(const path_case *k)
 {
     const double turn = k->angle / 180.0 * M_PI, straight[2] = {0.0, 0.0};
-    shape s = {.outline = {.kind = OUTLINE_RECTANGLE, .size = {k->scale * WIDE * spacing, k->scale * HIGH * spacing}},
+    shape s = {.outline = {.kind = OUTLINE_RECTANGLE, .size = {WIDE * spacing, HIGH * spacing}},
                .spacing = spacing,
                .smooth = true};
     dem_lattice l = dem_lattice_empty();
@@ -46,6 +48,7 @@ static dem_lattice mesh(const path_case *k)
     assert_int_equal(out.n_off, 0);
     dem_lattice_move(&l, turn, straight);
     if (k->jitter > 0.0) assert_ok(dem_lattice_jitter(&l, k->jitter * spacing, 1));
+    if (!k->rows) unstructured_make(&l, spacing, 1);
     shape_free(&s);
     return l;
 }
@@ -91,8 +94,7 @@ static void open_path(path *p, const path_case *k)
     p->list = calloc((size_t)p->soft.n_triangles, sizeof *p->list);
     unsigned char *broken = calloc((size_t)p->soft.n_triangles, 1);
     assert_true(p->list != NULL && broken != NULL);
-    clamped_strip_cut(&p->strip, p->rest.simulation, &p->soft, p->strip.begin,
-                      p->strip.begin + k->scale * CRACK * spacing);
+    clamped_strip_cut(&p->strip, p->rest.simulation, &p->soft, p->strip.begin, p->strip.begin + CRACK * spacing);
     assert_ok(dem_simulation_broken(p->rest.simulation, broken, NULL));
     for (dem_index t = 0; t < p->soft.n_triangles; t++)
         if (broken[t]) p->list[p->n++] = t;
@@ -142,9 +144,9 @@ static void set_as_at_rest(const path *p, dem_simulation *other, double load)
 
 /* Pulls a strip like the one at rest from 0.995 of `parted` on, until something breaks by itself, which `next` must be
  * part of.  \return by how much its sides have parted then, m */
-static double pull_until_break(path *p, const path_case *k, double parted, dem_index next)
+static double pull_until_break(path *p, double parted, dem_index next)
 {
-    const double start = 0.995 * parted, speed = parted / (10000.0 * k->scale * spacing / c);
+    const double start = 0.995 * parted, speed = parted / (10000.0 * spacing / c);
     support_run run;
     first_break seen = {.expected = next};
     const dem_observer observer = {.struct_size = sizeof observer, .broken = note, .context = &seen};
@@ -167,7 +169,7 @@ static double next_toughness(path *p, const path_case *k)
     relax(p);
     const double strength = CLAMPED_STRIP_MODULUS * CLAMPED_STRIP_LIMIT;
     const double at_rest = p->parted * strength / driving_most(p->rest.simulation, &p->soft, &next);
-    const double by_itself = pull_until_break(p, k, at_rest, next);
+    const double by_itself = pull_until_break(p, at_rest, next);
     assert_close(by_itself * by_itself / (at_rest * at_rest), 1.003, 0.002);
     assert_ok(dem_simulation_break(p->rest.simulation, &next, 1, NULL, 0));
     p->list[p->n++] = next;
@@ -208,25 +210,27 @@ static void check(const path_case *list, size_t n)
 
 TEST(rows_that_are_turned_hardly_change_the_toughness)
 {
-    const path_case list[] = {{1.0 / 3.0, 15.0, 0.0, 1, 6, 3.51, 0.02}};
+    const path_case list[] = {{1.0 / 3.0, 15.0, 0.0, true, 6, 3.51, 0.02}};
     check(list, sizeof list / sizeof *list);
 }
 
 static void of_turned_rows(void **state)
 {
-    const path_case list[] = {{1.0 / 3.0, 0.0, 0.0, 1, 30, 3.40, 0.02},
-                              {1.0 / 3.0, 15.0, 0.0, 1, 30, 3.51, 0.02},
-                              {1.0 / 3.0, 30.0, 0.0, 1, 30, 3.52, 0.02},
-                              {0.0, 15.0, 0.0, 1, 30, 3.51, 0.05},
-                              {0.45, 15.0, 0.0, 1, 30, 3.51, 0.05}};
+    const path_case list[] = {{1.0 / 3.0, 0.0, 0.0, true, 30, 3.40, 0.02},
+                              {1.0 / 3.0, 15.0, 0.0, true, 30, 3.51, 0.02},
+                              {1.0 / 3.0, 30.0, 0.0, true, 30, 3.52, 0.02},
+                              {0.0, 15.0, 0.0, true, 30, 3.51, 0.05},
+                              {0.45, 15.0, 0.0, true, 30, 3.51, 0.05}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
 
-/* That code has 4.04 and 3.77 for meshes of these kinds. Found are 3.440 and 3.502: about that of rows. */
+/* That code has 4.04, 3.77 and 3.68 for its meshes of these kinds. Found are 3.440, 3.502 and 3.508: that of rows. */
 static void of_irregular_meshes(void **state)
 {
-    const path_case list[] = {{1.0 / 3.0, 0.0, 0.25, 1, 30, 3.5, 0.05}, {1.0 / 3.0, 15.0, 0.25, 1, 30, 3.5, 0.05}};
+    const path_case list[] = {{1.0 / 3.0, 0.0, 0.25, true, 30, 3.5, 0.05},
+                              {1.0 / 3.0, 15.0, 0.25, true, 30, 3.5, 0.05},
+                              {1.0 / 3.0, 0.0, 0.0, false, 30, 3.5, 0.05}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
