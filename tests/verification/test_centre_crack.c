@@ -113,7 +113,7 @@ static dem_status note(void *context, const dem_simulation *s, const dem_break *
     return what->t == 0.0 ? DEM_OK : DEM_STOPPED;
 }
 
-/* A plate that starts as `other` at rest, by `start` of its tension there, and is pulled further by a hundredth of that,
+/* A plate that starts as `other` at rest, under the tension `start`, and is pulled further by a hundredth of that,
  * breaks, and not as soon as it starts. */
 static void check_law(const plate *other, const plate_case *k, double of_other, double start)
 {
@@ -161,8 +161,8 @@ TEST(a_plate_breaks_where_its_crack_has_the_critical_stress_intensity)
     check_toughness(&(plate_case){0.6, 6.5});
 }
 
-/* Found: 1.780, 1.819, 1.836. So the tension that an infinite plate stands falls by the length of the crack to the power
- * of -0.477 rather than -0.5; another code found -0.47. */
+/* Found: 1.780, 1.819, 1.836. So the tension that an infinite plate stands falls as the length of the crack to the
+ * power of -0.476 rather than -0.5; another code found -0.47. */
 static void of_three_cracks(void **state)
 {
     const plate_case list[3] = {{1.0, 4.5}, {1.0, 8.5}, {1.0, 16.5}};
