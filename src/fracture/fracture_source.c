@@ -122,12 +122,30 @@ static void place_around(fracture_source *s, dem_index i, double t)
             for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * e->spring[q] + end], t);
 }
 
+/* Numbers begin anew after 2^32 of them, and so do marks with these. */
+static void begin_look(fracture_source *s)
+{
+    if (++s->look != 0) return;
+    memset(s->placed, 0, (size_t)s->model->lattice.n_nodes * sizeof *s->placed);
+    s->look = 1;
+}
+
+static void begin_number(fracture_source *s)
+{
+    const dem_lattice *l = &s->model->lattice;
+    if (++s->number != 0) return;
+    memset(s->known, 0, (size_t)l->n_nodes * sizeof *s->known);
+    memset(s->seen, 0, (size_t)l->n_triangles * sizeof *s->seen);
+    memset(s->strained, 0, (size_t)l->n_triangles * sizeof *s->strained);
+    s->number = 1;
+}
+
 /* In the step, by its dense output. */
 static double utilisation_at(fracture_source *s, dem_index element, double t)
 {
     const dem_lattice *l = &s->model->lattice;
     const dem_index spring = element - l->n_triangles;
-    s->look++;
+    begin_look(s);
     for (int end = 0; end < 2 && spring >= 0; end++) place(s, l->ends[2 * spring + end], t);
     for (int c = 0; c < 3 && spring < 0; c++) place_around(s, l->triangles[3 * element + c], t);
     return utilisation_of(s->model, s->elements, element, s->state);
@@ -306,7 +324,7 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
 {
     fracture_source *s = self;
     s->step = step;
-    s->number++;
+    begin_number(s);
     s->state = state;
     s->jumped = false;
     s->n_failed = s->breaks.n = 0;

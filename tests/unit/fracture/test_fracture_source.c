@@ -9,6 +9,7 @@
 #include "ask.h"
 #include "elastic/softening.h"
 #include "harness/message.h"
+#include "simulation/private.h"
 
 static dem_options no_weight(double rtol)
 {
@@ -368,6 +369,45 @@ TEST(bits_do_not_depend_on_threads_and_cuts)
         options.threads = 3;
         run_block(&options, ratios[q], 1, &other);
         assert_same_bits(&whole, &other);
+    }
+}
+
+/* The first break of the step in hand, asked for by a source that has taken so many steps and looks. */
+static double first_break(dem_simulation *s, uint32_t number, uint32_t look)
+{
+    fracture_source *f = &s->breaks;
+    const dem_lattice *l = &s->model->lattice;
+    double *scratch = calloc((size_t)state_size(&s->layout), sizeof *scratch);
+    assert_non_null(scratch);
+    f->number = number;
+    f->look = look;
+    memset(f->placed, 0, (size_t)l->n_nodes * sizeof *f->placed);
+    memset(f->known, 0, (size_t)l->n_nodes * sizeof *f->known);
+    memset(f->seen, 0, (size_t)l->n_triangles * sizeof *f->seen);
+    memset(f->strained, 0, (size_t)l->n_triangles * sizeof *f->strained);
+    const double first = fracture_source_first(f, &s->path, scratch);
+    free(scratch);
+    return first;
+}
+
+/* After 2^32 of them numbers begin anew, and the mark 0 of what has never been looked at is not one of them. */
+TEST(numbers_of_steps_and_looks_may_begin_anew)
+{
+    dem_options options = no_weight(1e-6);
+    options.contact = DEM_CONTACT_EXACT;
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
+    CLEANUP(support_close) support_run run;
+    double first = INFINITY;
+    make_block(&block, 1.0);
+    support_open(&run, &block, NULL, 0, &options);
+    for (int k = 0; k < 500 && !isfinite(first); k++) {
+        assert_ok(dem_simulation_advance(run.simulation, 1e-6 * k));
+        first = first_break(run.simulation, 1, 1);
+    }
+    assert_true(isfinite(first));
+    for (uint32_t k = 0; k < 4; k++) {
+        assert_close(first_break(run.simulation, UINT32_MAX - k, 1), first, 0.0);
+        assert_close(first_break(run.simulation, 1, UINT32_MAX - k), first, 0.0);
     }
 }
 
