@@ -273,7 +273,8 @@ typedef struct dem_counts {
     dem_index passings;           /**< of a segment's or an edge's end by a lasting contact */
     dem_index late;      /**< events that the root finder of DEM_CONTACT_EXACT had not seen, but the check of a step */
     dem_index retries;   /**< attempts repeated with a smaller step after a non-finite force */
-    dem_index behind;    /**< nodes that have passed round the end of an open obstacle, now */
+    dem_index behind;    /**< nodes that have passed round the end of an open obstacle, or have come to the surface
+                              inside one, now */
     dem_index crossings; /**< steps rejected because surfaces of bodies crossed in them */
 } dem_counts;
 

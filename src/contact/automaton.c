@@ -189,6 +189,7 @@ dem_status automaton_start(automaton *c, double t, double *y, const event_listen
 {
     contact_set *s = &c->set;
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
+    contact_set_look_at_new(s, instant_state(&now));
     TRY(reduce_status(touch_all(s, &now), 0.0));
     const dem_status status = automaton_resolve(c, t, y, listener);
     return now.listener_status != DEM_OK ? now.listener_status : status;

@@ -206,5 +206,6 @@ void automaton_end_step(automaton *c, const dense_output *p, const double *y)
     const scene_state state = automaton_state(c, p->end, y);
     if (c->solved != p->t1 || p->end < p->t1) contact_set_solve_all(s, state);
     contact_set_store_all(s);
+    contact_set_look_at_new(s, state);
     broad_phase_update(&c->broad_phase, s, state);
 }

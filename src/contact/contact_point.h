@@ -43,8 +43,10 @@ typedef struct contact_storm {
 typedef struct contact_candidate {
     dem_index node, other;    /* other: -1 for a node */
     dem_index previous, next; /* of an edge, the nodes before and after it on the boundary, or -1 */
-    dem_index behind[2];      /* obstacle round whose free end the node (the edge's nodes) has passed, or -1 */
-    int n_closed;             /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
+    dem_index behind[2]; /* obstacle round whose free end the node (the edge's nodes) has passed, or in which it has
+                                 come to the surface; or -1 */
+    bool is_new;         /* a node that has come to the surface, and has not been looked at there */
+    int n_closed;        /* 0 free; 1; a node in a corner, an edge on two vertices: 2 */
     contact_point closed[2];
     contact_clearance clearance;
     contact_storm storm;

@@ -97,10 +97,13 @@ static void carry_over(const contact_set *from, dem_index was, contact_set *to, 
     for (int q = 0; q < 2; q++) to->forces.force[k][q] = from->forces.force[was][q];
 }
 
-/* A new edge is behind what its nodes are behind. */
-static void begin_edge(contact_set *c, dem_index k)
+/* A new edge is behind what its nodes are behind; of a new node that is not known without a state. */
+static void begin(contact_set *c, dem_index k)
 {
     contact_candidate *edge = &c->list[k];
+    edge->is_new = !candidate_is_edge(edge);
+    c->has_new = c->has_new || edge->is_new;
+    if (edge->is_new) return;
     const dem_index ends[2] = {c->of_node[edge->node], c->of_node[edge->other]};
     for (int e = 0; e < 2; e++)
         if (ends[e] >= 0) edge->behind[e] = c->list[ends[e]].behind[0];
@@ -110,14 +113,15 @@ static void begin_edge(contact_set *c, dem_index k)
  * are handed on, not copied. */
 dem_status contact_set_follow_surface(contact_set *c, const surface *to)
 {
-    contact_set next = {.scene = c->scene, .surface = to, .ledger = c->ledger, .projected = c->projected};
+    contact_set next = {
+        .scene = c->scene, .surface = to, .ledger = c->ledger, .projected = c->projected, .has_new = c->has_new};
     dem_status status = list_candidates(&next, &c->scene);
     for (dem_index k = 0; k < next.n && status == DEM_OK; k++) {
         const dem_index was = contact_set_find(c, candidate_key(&next.list[k]));
         if (was >= 0)
             carry_over(c, was, &next, k);
-        else if (candidate_is_edge(&next.list[k]))
-            begin_edge(&next, k);
+        else
+            begin(&next, k);
     }
     if (status == DEM_OK) status = contact_set_regroup(&next);
     free_candidates(status == DEM_OK ? c : &next);
@@ -131,6 +135,24 @@ void contact_set_count_behind(contact_set *c)
 {
     c->ledger.counts.behind = 0;
     for (dem_index k = 0; k < c->surface->n_nodes; k++) c->ledger.counts.behind += c->list[k].behind[0] >= 0;
+}
+
+/* What is not as deep as an impact is, takes one. */
+static void look_at_new(contact_set *c, dem_index k, scene_state state)
+{
+    contact_candidate *candidate = &c->list[k];
+    const candidate_positions spot = candidate_place(candidate, state.t, state.x);
+    const contact_gap gap = candidate_gap(&c->scene, candidate, &spot);
+    candidate->is_new = false;
+    if (gap.distance >= -c->scene.rule.penetration_tolerance) return;
+    contact_set_pass_behind(c, k, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, gap.feature}));
+}
+
+void contact_set_look_at_new(contact_set *c, scene_state state)
+{
+    for (dem_index k = 0; k < c->surface->n_nodes && c->has_new; k++)
+        if (c->list[k].is_new) look_at_new(c, k, state);
+    c->has_new = false;
 }
 
 /* ---- what is beside a candidate ---- */

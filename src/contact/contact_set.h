@@ -41,6 +41,7 @@ typedef struct contact_set {
     candidate_impact *impacts; /* [n] scratch of the impact under way */
     dem_contact *described;    /* [2 n] closed contacts as they were last reported */
     double projected;          /* m, the furthest that nodes were moved after a step to put closed contacts back */
+    bool has_new;              /* some nodes may have come with the last surface */
 } contact_set;
 
 /** `c` must stay where it is. */
@@ -56,14 +57,15 @@ dem_status contact_set_follow_surface(contact_set *c, const surface *to);
 /** A candidate becomes what the same one was at another time, perhaps on another surface. */
 void contact_set_become(contact_set *c, dem_index k, const contact_candidate *was);
 
-/** A candidate without contacts and clearance; only the obstacles that it is behind are kept. */
+/** A candidate without contacts and clearance; only the obstacles that it is behind are kept, and that it is new. */
 static inline contact_candidate candidate_reset(const contact_candidate *candidate)
 {
     return (contact_candidate){.node = candidate->node,
                                .other = candidate->other,
                                .previous = candidate->previous,
                                .next = candidate->next,
-                               .behind = {candidate->behind[0], candidate->behind[1]}};
+                               .behind = {candidate->behind[0], candidate->behind[1]},
+                               .is_new = candidate->is_new};
 }
 
 /** Marks a candidate's clearance as unknown. */
@@ -121,6 +123,10 @@ void contact_set_pass_behind(contact_set *c, dem_index k, dem_index obstacle);
 
 /** Counts for the ledger the nodes that are behind obstacles. */
 void contact_set_count_behind(contact_set *c);
+
+/** Looks where nodes are that have come with the last surface: one that is inside an obstacle has not come through its
+ *  front, and is behind it. */
+void contact_set_look_at_new(contact_set *c, scene_state state);
 
 /** Finds the groups of all contacts, and which of them are corners. */
 dem_status contact_set_regroup(contact_set *c);

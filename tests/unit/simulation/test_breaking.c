@@ -217,6 +217,56 @@ TEST(what_was_inside_touches_the_floor)
     assert_true(n_inside > 5 && n_lying > n_inside);
 }
 
+/* A diamond of 2 mm within a body, about one of its nodes: edges do not see vertices. It turns clockwise. */
+static dem_index put_diamond(const dem_lattice *l, double points[10])
+{
+    static const double turn[10] = {1e-3, 0.0, 0.0, -1e-3, -1e-3, 0.0, 0.0, 1e-3, 1e-3, 0.0};
+    dem_index inner = -1;
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (fabs(l->x[2 * i]) < 2.6e-3 && fabs(l->x[2 * i + 1] - 0.026) < 2.2e-3) inner = i;
+    assert_true(inner >= 0);
+    for (int c = 0; c < 10; c++) points[c] = l->x[2 * inner + c % 2] + turn[c];
+    return inner;
+}
+
+static dem_index nodes_behind(const dem_simulation *s)
+{
+    dem_counts counts = {.struct_size = sizeof counts};
+    assert_ok(dem_simulation_counts(s, &counts));
+    return counts.behind;
+}
+
+/* A node that is inside an obstacle when it comes to the surface, as a program breaks a triangle, or as it breaks by
+ * itself, is behind the obstacle, and goes on with the body until it has come out. Nothing pulls: a way of 3 m/s t. */
+TEST(a_node_that_comes_to_the_surface_in_an_obstacle_is_behind_it)
+{
+    for (int itself = 0; itself < 2; itself++) {
+        CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+        double points[10], v[2 * MOST_NODES];
+        const dem_index inner = put_diamond(&block, points);
+        const dem_obstacle diamond = SIZED(dem_obstacle, .n_points = 5, .points = points);
+        dem_options options = free_fall(1e-8);
+        options.vertices = false;
+        dem_index triangle = 0;
+        while (block.triangles[3 * triangle] != inner && block.triangles[3 * triangle + 1] != inner) triangle++;
+        for (dem_index c = 0; c < 2 * block.n_nodes; c++) v[c] = c % 2 ? (itself ? 100.0 * block.x[c] : -3.0) : 0.0;
+        support_start(&block, NULL, v);
+        block.strength = itself ? malloc((size_t)block.n_triangles * sizeof *block.strength) : NULL;
+        for (dem_index t = 0; t < block.n_triangles && itself; t++)
+            block.strength[t] = t == triangle ? 1e4 : (double)INFINITY;
+        CLEANUP(support_close) support_run run;
+        support_open(&run, &block, &diamond, 1, &options);
+        const double had = support_at(&run, 0.0).energy.ledger;
+        if (!itself) break_triangles(run.simulation, &(numbers){1, {triangle}});
+        motion s = support_at(&run, 1e-4);
+        assert_int_equal(nodes_behind(run.simulation), 1);
+        assert_close(s.energy.ledger, had, 1e-7 * had);
+        s = support_at(&run, 2e-3);
+        assert_int_equal(nodes_behind(run.simulation), 0);
+        if (!itself) assert_close(s.x[2 * inner + 1], block.x[2 * inner + 1] - 6e-3, 1e-12);
+    }
+}
+
 /* The pieces of a block that is broken in two run into each other: faces push, nothing crosses, momentum stays. */
 TEST(new_faces_push_each_other)
 {
