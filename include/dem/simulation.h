@@ -387,8 +387,9 @@ DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const d
 /** Breaks elements, for good, where the last advance has ended: not from an observer. A triangle takes along what it
  *  gave to its springs, so that what is left is the body without it; a spring is broken when all of its triangles are.
  *  Masses stay. Nodes and edges that come to the surface touch obstacles from then on, and bodies with the option
- *  `bodies`. The energy of what breaks counts as taken by `fracture`. Otherwise the run goes on as after
- *  dem_simulation_set_motion(). What is broken already stays so.
+ *  `bodies`. The energy of what breaks counts as taken by `fracture`. What is over its limit in consequence breaks when
+ *  the run goes on, at the same instant. Otherwise it goes on as after dem_simulation_set_motion(). What is broken
+ *  already stays so.
  *  \param triangle  [n_triangles] numbers in the lattice; of cells both triangles should break
  *  \param spring    [n_springs] numbers of springs that no triangle holds
  *  \return DEM_ERROR_ARGUMENT for a number that is out of range, an element of a rigid body, or a spring that triangles

@@ -320,6 +320,14 @@ dem_status fracture_source_watch(fracture_source *s, kernel *by)
     return DEM_OK;
 }
 
+/* What undo() goes back to. */
+static void note_start(fracture_source *s)
+{
+    s->n_failed = s->breaks.n = 0;
+    s->n_damaged = s->elements->n_damaged;
+    s->taken_before = *s->taken;
+}
+
 static void fracture_source_begin(void *self, const dense_output *step, double *state)
 {
     fracture_source *s = self;
@@ -327,9 +335,7 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
     begin_number(s);
     s->state = state;
     s->jumped = false;
-    s->n_failed = s->breaks.n = 0;
-    s->n_damaged = s->elements->n_damaged;
-    s->taken_before = *s->taken;
+    note_start(s);
     event_heap_clear(&s->heap);
     look(s);
 }
@@ -499,10 +505,24 @@ static void find_over_limit(fracture_source *s, const double *y)
     failing_elements_complete(s->failing, s->elements);
 }
 
+/* Breaks what fails, and what is over its limit in consequence. */
+static dem_status break_all(fracture_source *s, double t, const double *y)
+{
+    for (; s->failing->n > 0; find_over_limit(s, y)) TRY(break_failing(s, t, y));
+    return s->failing->status;
+}
+
 dem_status fracture_source_break(fracture_source *s, const double *y)
 {
-    for (find_failing(s); s->failing->n > 0; find_over_limit(s, y)) TRY(break_failing(s, s->step->end, y));
-    return s->failing->status;
+    find_failing(s);
+    return break_all(s, s->step->end, y);
+}
+
+dem_status fracture_source_break_at_start(fracture_source *s, double t, const double *y)
+{
+    note_start(s);
+    find_over_limit(s, y);
+    return break_all(s, t, y);
 }
 
 /* ---- checkpoints ---- */

@@ -71,6 +71,9 @@ double fracture_source_first(fracture_source *s, const dense_output *step, doubl
  *  \return DEM_ERROR_INTEGRATOR if that is too much, DEM_ERROR_MEMORY: some has broken, to be taken back */
 dem_status fracture_source_break(fracture_source *s, const double *y);
 
+/** Likewise breaks all that is over its limit in a state y at t that a program has changed, between two steps. */
+dem_status fracture_source_break_at_start(fracture_source *s, double t, const double *y);
+
 /** Takes back all that has broken in the step.  \param self  the source */
 void fracture_source_undo(void *self);
 

@@ -163,6 +163,19 @@ dem_status breaking_end_step(dem_simulation *s)
     return status;
 }
 
+/* Elements may be over their limits where a program has broken others or moved the bodies. A pause begins as after any
+ * break. */
+dem_status breaking_begin(dem_simulation *s)
+{
+    TRY(breaking_follow(s, s->y)); /* a motion may have been set inside a step */
+    if (!run_may_break(s)) return DEM_OK;
+    dem_status status = fracture_source_break_at_start(&s->breaks, s->t, s->y);
+    if (status == DEM_OK) status = breaking_follow(s, s->y);
+    if (status != DEM_OK) fracture_source_undo(&s->breaks);
+    if (fracture_source_has_broken(&s->breaks)) (void)pausing_begin(s, s->t, s->y);
+    return status;
+}
+
 /* ---- by the program ---- */
 
 /* Softens the triangles of a state in which none has softened or broken.  \param level  [n_triangles] */

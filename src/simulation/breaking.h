@@ -19,6 +19,10 @@ void breaking_destroy(dem_simulation *s);
  *  \return DEM_ERROR_MODEL if one is beyond its limit at the start, DEM_ERROR_MEMORY */
 dem_status breaking_create(dem_simulation *s);
 
+/** Called when the run begins, or goes on from a state that a program has changed: breaks what is over its limit, and
+ *  makes surfaces those of what is whole.  \return DEM_ERROR_INTEGRATOR if that is too much, DEM_ERROR_MEMORY */
+dem_status breaking_begin(dem_simulation *s);
+
 /** Where the whole body stops at events: ends the step in hand where something breaks, if that is before its end. */
 void breaking_check_step(dem_simulation *s);
 

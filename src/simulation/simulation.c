@@ -347,11 +347,11 @@ static dem_status commit_step(dem_simulation *s)
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
-    TRY(reduce_status(breaking_follow(s, s->y), 0.0)); /* a motion may have been set inside a step */
+    TRY(reduce_status(breaking_begin(s), 0.0));
     TRY(body_contact_settle(s, s->y));
-    const dem_status reported = report_breaks(s, &s->given, 0);
+    const dem_status given = report_breaks(s, &s->given, 0), own = report_breaks(s, &s->breaks.breaks, 0);
     s->given.n = 0;
-    TRY(reported);
+    TRY(status_first(given, own));
     TRY(take_rollback(s));
     const dem_status status = go_on(s, reduce_status(automaton_start(&s->automaton, s->t, s->y, &listener), 0.0));
     s->started = !run_force_failed(s);

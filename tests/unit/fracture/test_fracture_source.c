@@ -470,6 +470,37 @@ TEST(too_many_breaks_at_one_instant_are_taken_back)
     }
 }
 
+/* The same with its outer corner pulled out, and on its way back: a thousandth of a second later the second triangle
+ * stands what is left. It is broken at the instant at which a program has broken the first. */
+TEST(what_is_over_its_limit_after_a_break_by_the_program_breaks_then)
+{
+    const dem_index first[1] = {0};
+    const dem_contact_method ways[2] = {DEM_CONTACT_LOCAL, DEM_CONTACT_EXACT};
+    for (int k = 0; k < 2; k++) {
+        CLEANUP(dem_lattice_free) dem_lattice rhomb = dem_lattice_empty();
+        CLEANUP(support_close) support_run run;
+        dem_options options = no_weight(1e-8);
+        double stress[3], principal[2], direction[2];
+        unsigned char broken[2];
+        add_rhomb(&rhomb, 0.0);
+        support_start(&rhomb, rhomb.x, NULL);
+        rhomb.position[7] += 0.06;
+        rhomb.velocity[7] = -1.0;
+        rhomb.strength[0] = rhomb.strength[1] = INFINITY;
+        support_open(&run, &rhomb, NULL, 0, &options);
+        assert_ok(dem_simulation_stress_at(run.simulation, 3, stress));
+        dem_stress_principal(stress, principal, direction);
+        support_close(&run);
+        rhomb.strength[1] = 0.999 * principal[0];
+        options.contact = ways[k];
+        support_open(&run, &rhomb, NULL, 0, &options);
+        assert_ok(dem_simulation_break(run.simulation, first, 1, NULL, 0));
+        const motion s = support_at(&run, 0.01);
+        assert_int_equal(count_broken(&run, broken, 2), 2);
+        assert_close(s.x[7], 0.5 * sqrt(3.0) + 0.05, 1e-12); /* flies freely from the start on */
+    }
+}
+
 /* ---- a motion that is set ---- */
 
 /* Six triangles about a node, of which only the lowest breaks, as its lower corners fly apart, and the tip of a spike
