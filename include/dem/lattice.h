@@ -158,7 +158,7 @@ DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edg
  *  With coupled springs the triangles that are not equilateral get other stiffnesses, and couplings, such that any
  *  block of triangles has exactly E and nu.
  *  With a damping time each spring gets the viscosity damping_time times its stiffness. A strength and a critical
- *  stretch are written beside every triangle and spring; without them those that the lattice has stay.          (1)
+ *  stretch are written beside every triangle and spring; without a strength those that the lattice has stay.    (1)
  *  \return DEM_ERROR_ARGUMENT where triangles are too large for their strength and fracture energy: the edge of an
  *  equilateral one of their mean area may be E G_f/(3.4 strength^2) at most */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);

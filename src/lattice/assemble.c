@@ -480,7 +480,7 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     if (lattice_has_couplings(lattice)) swap(&lattice->coupling, &solid->coupling);
     if (solid->strength != NULL && lattice_has_softening(lattice)) swap(&lattice->softening, &solid->softening);
     if (solid->strength != NULL) swap(&lattice->strength, &solid->strength);
-    if (solid->critical_stretch != NULL) swap(&lattice->critical_stretch, &solid->critical_stretch);
+    if (lattice_has_limits(lattice)) swap(&lattice->critical_stretch, &solid->critical_stretch);
 }
 
 /* Shares first, then springs made of them, then triangles. */

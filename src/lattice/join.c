@@ -167,6 +167,12 @@ dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
     if (status == DEM_OK && joined.coupling != NULL && !lattice_has_couplings(lattice))
         status = status_fail(DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is %zu, without room for couplings",
                              lattice->struct_size);
+    if (status == DEM_OK && (joined.strength || joined.critical_stretch) && !lattice_has_limits(lattice))
+        status = status_fail(DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is %zu, without room for strengths",
+                             lattice->struct_size);
+    if (status == DEM_OK && joined.softening != NULL && !lattice_has_softening(lattice))
+        status = status_fail(DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is %zu, without room for softening",
+                             lattice->struct_size);
     if (status == DEM_OK) {
         dem_lattice_free(lattice);
         lattice_give(lattice, &joined);

@@ -568,3 +568,15 @@ TEST(triangles_too_large_for_strength_and_fracture_energy_are_refused)
     glass.critical_stretch = 0.1;
     assert_refused(dem_lattice_assemble(&other, &glass), DEM_ERROR_ARGUMENT, "neither with a critical stretch");
 }
+
+/* Springs are made anew, and what a lattice had of others is not theirs. */
+TEST(new_springs_have_no_old_critical_stretch)
+{
+    const dem_material plain = {
+        .struct_size = sizeof(dem_material), .youngs_modulus = 1e7, .density = 1e3, .thickness = 1.0};
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&lattice, 1.0, 1.6, 1.0), DEM_OK);
+    lattice.critical_stretch = calloc(1, sizeof *lattice.critical_stretch);
+    assert_int_equal(dem_lattice_assemble(&lattice, &plain), DEM_OK);
+    assert_null(lattice.critical_stretch);
+}

@@ -374,3 +374,16 @@ TEST(append_refuses_mixed_and_broken_lattices)
     dem_lattice_free(&bare);
     dem_lattice_free(NULL);
 }
+
+/* A program of an older version has no place for limits, and a lattice with limits is not joined without them. */
+TEST(append_loses_no_limits)
+{
+    const dem_material brittle = {
+        .struct_size = sizeof(dem_material), .youngs_modulus = 1e7, .density = 1e3, .thickness = 1.0, .strength = 2e5};
+    CLEANUP(dem_lattice_free) dem_lattice old = dem_lattice_empty(), other = dem_lattice_empty();
+    old.struct_size = offsetof(dem_lattice, strength);
+    assert_int_equal(dem_lattice_rectangle(&other, 1.0, 1.6, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_assemble(&other, &brittle), DEM_OK);
+    assert_int_equal(dem_lattice_append(&old, &other), DEM_ERROR_ARGUMENT);
+    assert_int_equal(old.n_nodes, 0);
+}
