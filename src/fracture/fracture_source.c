@@ -117,9 +117,11 @@ static void place_around(fracture_source *s, dem_index i, double t)
     const springs *own = &s->model->springs;
     place(s, i, t);
     for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) place(s, own->neighbour[p], t);
-    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
+    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
+        for (int c = 0; c < 3; c++) place(s, e->lattice->triangles[3 * e->at[p] + c], t);
         for (dem_index q = e->row[e->at[p]]; q < e->row[e->at[p] + 1]; q++)
             for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * e->spring[q] + end], t);
+    }
 }
 
 /* Numbers begin anew after 2^32 of them, and so do marks with these. */

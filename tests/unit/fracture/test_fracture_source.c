@@ -8,6 +8,7 @@
 
 #include "ask.h"
 #include "elastic/softening.h"
+#include "fracture/utilisation.h"
 #include "harness/message.h"
 #include "simulation/private.h"
 
@@ -409,6 +410,39 @@ TEST(numbers_of_steps_and_looks_may_begin_anew)
         assert_close(first_break(run.simulation, UINT32_MAX - k, 1), first, 0.0);
         assert_close(first_break(run.simulation, 1, UINT32_MAX - k), first, 0.0);
     }
+}
+
+/* Two triangles on a side, of which the lower one has an area term of kappa = 1 N/m, and at its lower corner no springs
+ * but one to a mass below, which pulls it down: what drives the upper one depends on that corner, too. */
+TEST(a_corner_without_springs_is_looked_at_in_its_place)
+{
+    const double low = -0.5 * sqrt(3.0), masses[5] = {1.0, 1.0, 1.0, 1.0, 1.0};
+    const double x[10] = {0.0, 0.0, 1.0, 0.0, 0.5, low, 0.5, -low, 0.5, low - 1.0};
+    const double v[10] = {0.0, 0.0, 0.0, 0.0, 0.0, -0.2, 0.0, 0.0, 0.0, -0.2};
+    const dem_index ends[8] = {0, 1, 0, 3, 3, 1, 2, 4}, corners[6] = {0, 2, 1, 0, 1, 3};
+    CLEANUP(dem_lattice_free) dem_lattice body = support_lattice(5, x, masses, 4, ends, 1.0, 1.0, NULL);
+    CLEANUP(support_close) support_run run;
+    dem_options options = no_weight(1e-8);
+    options.contact = DEM_CONTACT_EXACT;
+    support_start(&body, NULL, v);
+    body.n_triangles = 2;
+    body.triangles = malloc(sizeof corners);
+    assert_non_null(body.triangles);
+    memcpy(body.triangles, corners, sizeof corners);
+    body.area_stiffness = equal(2, 1.0);
+    body.strength = equal(2, INFINITY);
+    body.strength[1] = 0.05;
+    support_open(&run, &body, NULL, 0, &options);
+    dem_simulation *s = run.simulation;
+    double state[64], first = INFINITY;
+    assert_true(state_size(&s->layout) <= 64);
+    for (int k = 0; k < 200 && !isfinite(first); k++) {
+        assert_ok(dem_simulation_advance(s, 0.01 * k));
+        memset(state, 0, sizeof state);
+        first = fracture_source_first(&s->breaks, &s->path, state);
+    }
+    dense_output_state(&s->path, first, state);
+    assert_close(utilisation_of(s->model, &s->elements, 1, state), 1.0, 1e-10);
 }
 
 /* ---- what is refused ---- */
