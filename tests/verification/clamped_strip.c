@@ -58,19 +58,35 @@ void clamped_strip_stretch(const clamped_strip *s, dem_lattice *l, double parted
     free(position);
 }
 
+double clamped_strip_centre(const dem_lattice *l, dem_index triangle, int axis)
+{
+    double sum = 0.0;
+    for (int c = 0; c < 3; c++) sum += l->x[2 * l->triangles[3 * triangle + c] + axis] / 3.0;
+    return sum;
+}
+
+static bool is_near_edge(const clamped_strip *s, double x, double y)
+{
+    const double inside = fmin(0.5 * s->height - fabs(y - s->bottom - 0.5 * s->height), s->end - x);
+    return inside < 4.0 * CLAMPED_STRIP_SPACING;
+}
+
+void clamped_strip_strengthen(const clamped_strip *s, dem_lattice *l)
+{
+    for (dem_index t = 0; l->strength != NULL && t < l->n_triangles; t++)
+        if (is_near_edge(s, clamped_strip_centre(l, t, 0), clamped_strip_centre(l, t, 1))) l->strength[t] *= 1e3;
+    for (dem_index k = 0; l->critical_stretch != NULL && k < l->n_springs; k++) {
+        const double *x = &l->x[2 * l->ends[2 * k]];
+        if (is_near_edge(s, x[0], x[1])) l->critical_stretch[k] *= 1e3;
+    }
+}
+
 void clamped_strip_hold(const clamped_strip *s, double speed, dem_boundary *pull)
 {
     for (int side = 0; side < 2; side++)
         pull[side] = (dem_boundary)SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY,
                                          .components = DEM_COMPONENT_X | DEM_COMPONENT_Y, .nodes = s->sides[side],
                                          .n_nodes = s->n_sides[side], .value = {0.0, (side ? 0.5 : -0.5) * speed});
-}
-
-double clamped_strip_centre(const dem_lattice *l, dem_index triangle, int axis)
-{
-    double sum = 0.0;
-    for (int c = 0; c < 3; c++) sum += l->x[2 * l->triangles[3 * triangle + c] + axis] / 3.0;
-    return sum;
 }
 
 static bool is_crossed(const dem_lattice *l, dem_index triangle, double y)

@@ -33,6 +33,9 @@ double clamped_strip_unit(const clamped_strip *s, double nu);
 /** The strip starts with its sides parted by `parted`, m, uniformly stretched. */
 void clamped_strip_stretch(const clamped_strip *s, dem_lattice *l, double parted);
 
+/** What is nearer than 4 spacings to the sides and to the right end does not break: corners of a strip might. */
+void clamped_strip_strengthen(const clamped_strip *s, dem_lattice *l);
+
 /** Prescribes both sides, which part at `speed`, m/s. Borrows the sides.  \param[out] pull  [2] */
 void clamped_strip_hold(const clamped_strip *s, double speed, dem_boundary *pull);
 

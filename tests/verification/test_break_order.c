@@ -37,14 +37,6 @@ static dem_status note(void *context, const dem_simulation *s, const dem_break *
     return b->n == b->most ? DEM_STOPPED : DEM_OK;
 }
 
-/* What is beside the sides does not break: corners of the strip would, at both sides at the same time. */
-static void strengthen_sides(const clamped_strip *strip, dem_lattice *l)
-{
-    for (dem_index t = 0; t < l->n_triangles; t++)
-        if (fabs(clamped_strip_centre(l, t, 1) - strip->middle) > 0.5 * strip->height - 4.0 * spacing)
-            l->strength[t] *= 1e3;
-}
-
 /* Breaks of a strip that is stretched to G = g E limit^2 a. */
 static void run(breaks *b, bool by_stretch, double g, const way *w)
 {
@@ -54,7 +46,7 @@ static void run(breaks *b, bool by_stretch, double g, const way *w)
     CLEANUP(support_close) support_run run;
     dem_boundary hold[2];
     clamped_strip_stretch(&strip, &l, strip.height * sqrt(g * clamped_strip_unit(&strip, nu)));
-    if (!by_stretch) strengthen_sides(&strip, &l);
+    clamped_strip_strengthen(&strip, &l);
     clamped_strip_hold(&strip, 0.0, hold);
     dem_options options = dem_options_default();
     options.gravity[1] = 0.0;

@@ -62,6 +62,7 @@ static double speed(double g)
     dem_boundary hold[2];
     assert_non_null(p);
     clamped_strip_stretch(&strip, &l, strip.height * sqrt(g * clamped_strip_unit(&strip, nu)));
+    clamped_strip_strengthen(&strip, &l);
     clamped_strip_hold(&strip, 0.0, hold);
     dem_options options = dem_options_default();
     options.gravity[1] = 0.0;
@@ -87,11 +88,11 @@ static double speed(double g)
 }
 
 /* The speeds are those of another code, which measured them otherwise: slopes by least squares and between the ends of
- * the way differ by 0.01. */
+ * the way differ by 0.01. Found: 0.844, 0.868, 0.892, 0.940. */
 TEST(cracks_run_below_the_speed_of_rayleigh_waves)
 {
-    const double g[] = {1.5, 2.0, 3.0}, expected[] = {0.837, 0.865, 0.899};
-    for (int k = 0; k < 3; k++) {
+    const double g[] = {1.5, 2.0, 3.0, 5.0}, expected[] = {0.837, 0.865, 0.899, 0.946};
+    for (int k = 0; k < 4; k++) {
         const double found = speed(g[k]);
         assert_close(found, expected[k], 0.01);
         assert_true(found < 1.0);
