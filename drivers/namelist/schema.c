@@ -462,7 +462,7 @@ static bool parse_defaults(resolver *r)
         }
         (void)fprintf(file, "/\n");
     }
-    const bool good = fclose(file) == 0 && namelist_parse(&r->defaults, text, size, &errors);
+    const bool good = fclose(file) == 0 && text != NULL && namelist_parse(&r->defaults, text, size, &errors);
     assert(!good || errors.n == 0);
     namelist_errors_free(&errors);
     free(text);

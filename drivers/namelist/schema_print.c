@@ -237,7 +237,7 @@ bool schema_echo(const schema_deck *deck, schema_form form, char **out)
     if (file == NULL) return false;
     for (size_t k = 0; k < deck->n_instances; k++) echo_instance(file, &deck->instances[k], form);
     const bool good = ferror(file) == 0;
-    if (fclose(file) == 0 && good) return true;
+    if (fclose(file) == 0 && good && *out != NULL) return true; /* glibc closes without memory, and says nothing */
     free(*out);
     *out = NULL;
     return false;
