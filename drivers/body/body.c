@@ -513,6 +513,7 @@ bool body_build(dem_lattice *out, body_facts *facts, body_start *start, const bo
     if (status == DEM_OK && copies_count(b.body) > 1) status = put_copy(&b, 0);
     for (dem_index i = 0; status == DEM_OK && i < b.lattice.n_nodes; i++) b.facts.mass += b.lattice.mass[i];
     if (status != DEM_OK) dem_lattice_free(&b.lattice);
+    if (status != DEM_OK) strengths_free(&b.facts.strengths);
     b.facts.further = copies_count(b.body) - 1;
     *out = b.lattice;
     *facts = b.facts;
