@@ -77,7 +77,8 @@ seen = ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p)
 class dem_observer(Sized):
     _fields_ = [("struct_size", c_size_t), ("interval", c_double), ("frame", seen), ("step", seen),
                 ("event", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)),
-                ("checkpoint", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("context", c_void_p)]
+                ("checkpoint", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)), ("context", c_void_p),
+                ("broken", ctypes.CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p))]
 
 
 dem = ctypes.CDLL("libdem.so.2")

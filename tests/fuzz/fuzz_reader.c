@@ -15,6 +15,15 @@ static void require_message(dem_status status)
     require(status == DEM_ERROR_IO && strstr(dem_status_message(), "run.vtkhdf") != NULL);
 }
 
+/* Rows of frames lie one behind the other within the table. */
+static void require_fragments(const dem_reader *reader, dem_index n_frames)
+{
+    const dem_reader_column *column = dem_reader_column_find(reader, "fragments", "t");
+    dem_index first = 0, count = 0;
+    require(dem_reader_fragments(reader, n_frames - 1, &first, &count) == DEM_OK);
+    require(first >= 0 && count >= 0 && (column == NULL || first + count == column->n_rows));
+}
+
 static void read_frames(const dem_reader *reader, double *values)
 {
     dem_index n_frames = 0, n = 0;
@@ -29,7 +38,9 @@ static void read_frames(const dem_reader *reader, double *values)
         const dem_status status = dem_reader_read(reader, &arrays[k], n_frames - 1, values);
         if (status != DEM_OK) require_message(status);
     }
-    if (n_frames == 0 || 2 * l->n_nodes > MOST_NUMBERS) return;
+    if (n_frames == 0) return;
+    require_fragments(reader, n_frames);
+    if (2 * l->n_nodes > MOST_NUMBERS) return;
     const dem_status status = dem_reader_positions(reader, n_frames - 1, values);
     if (status != DEM_OK) require_message(status);
     if (l->n_triangles > MOST_NUMBERS) return;
