@@ -29,3 +29,30 @@ double driving_most(const dem_simulation *simulation, const dem_lattice *l, dem_
     free(broken);
     return most;
 }
+
+static bool has_both(const dem_index *corner, const dem_index *ends)
+{
+    int n = 0;
+    for (int j = 0; j < 6; j++) n += corner[j / 2] == ends[j % 2];
+    return n == 2;
+}
+
+double driving_most_strain(const dem_simulation *simulation, const dem_lattice *l, dem_index *n, dem_index *triangle)
+{
+    double *strain = calloc((size_t)l->n_springs, sizeof *strain);
+    unsigned char *spring_broken = calloc((size_t)l->n_springs, 1), *broken = calloc((size_t)l->n_triangles, 1);
+    dem_index most = -1;
+    assert_true(strain != NULL && spring_broken != NULL && broken != NULL);
+    assert_ok(dem_simulation_strains(simulation, strain));
+    assert_ok(dem_simulation_broken(simulation, broken, spring_broken));
+    for (dem_index k = 0; k < l->n_springs; k++)
+        if (!spring_broken[k] && (most < 0 || strain[k] > strain[most])) most = k;
+    *n = 0;
+    for (dem_index t = 0; t < l->n_triangles; t++)
+        if (!broken[t] && has_both(&l->triangles[3 * t], &l->ends[2 * most])) triangle[(*n)++] = t;
+    const double found = strain[most];
+    free(strain);
+    free(spring_broken);
+    free(broken);
+    return found;
+}

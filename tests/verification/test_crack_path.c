@@ -19,6 +19,7 @@ static const double spacing = CLAMPED_STRIP_SPACING, c = CLAMPED_STRIP_SPEED;
 enum { WIDE = 70, HIGH = 44, CRACK = 22 }; /* spacings */
 
 typedef struct path_case {
+    bool by_stretch;
     double nu, angle, jitter; /* degrees, of the rows; spacings */
     bool rows;                /* false: none */
     int most;                 /* breaks */
@@ -56,8 +57,8 @@ static dem_lattice mesh(const path_case *k)
 static dem_lattice assemble(const path_case *k, bool breaks)
 {
     dem_lattice l = mesh(k);
-    dem_material solid = clamped_strip_material(false, k->nu);
-    if (!breaks) solid.strength = 0.0;
+    dem_material solid = clamped_strip_material(k->by_stretch, k->nu);
+    if (!breaks) solid.strength = solid.critical_stretch = 0.0;
     assert_ok(dem_lattice_assemble(&l, &solid));
     return l;
 }
@@ -142,9 +143,9 @@ static void set_as_at_rest(const path *p, dem_simulation *other, double load)
     free(x);
 }
 
-/* Pulls a strip like the one at rest from 0.995 of `parted` on, until something breaks by itself, which `next` must be
- * part of.  \return by how much its sides have parted then, m */
-static double pull_until_break(path *p, double parted, dem_index next)
+/* Pulls a strip like the one at rest from 0.995 of `parted` on, until something breaks by itself.
+ * \return by how much its sides have parted then, m */
+static double pull_until_break(path *p, const path_case *k, double parted, dem_index next)
 {
     const double start = 0.995 * parted, speed = parted / (10000.0 * spacing / c);
     support_run run;
@@ -155,9 +156,17 @@ static double pull_until_break(path *p, double parted, dem_index next)
     assert_ok(dem_simulation_break(run.simulation, p->list, p->n, NULL, 0));
     set_as_at_rest(p, run.simulation, start);
     assert_int_equal(dem_simulation_advance(run.simulation, 0.02 * parted / speed), DEM_STOPPED);
-    assert_true(seen.found);
+    assert_true(seen.found || k->by_stretch); /* springs may be equal by symmetry */
     support_close(&run);
     return start + speed * seen.t;
+}
+
+/* What breaks next: one triangle, or the two at a spring.  \return over the limit, at rest */
+static double find_next(const path *p, const path_case *k, dem_index *n, dem_index *next)
+{
+    *n = 1;
+    if (k->by_stretch) return driving_most_strain(p->rest.simulation, &p->soft, n, next) / CLAMPED_STRIP_LIMIT;
+    return driving_most(p->rest.simulation, &p->soft, next) / (CLAMPED_STRIP_MODULUS * CLAMPED_STRIP_LIMIT);
 }
 
 /* Drag and inertia let the strip that is pulled break at a G that is higher by 0.003 (found: 0.0024 to 0.0032). A law
@@ -165,14 +174,13 @@ static double pull_until_break(path *p, double parted, dem_index next)
 static double next_toughness(path *p, const path_case *k)
 {
     const double unit = clamped_strip_unit(&p->strip, k->nu) * p->strip.height * p->strip.height;
-    dem_index next = -1;
+    dem_index n, next[2] = {-1, -1};
     relax(p);
-    const double strength = CLAMPED_STRIP_MODULUS * CLAMPED_STRIP_LIMIT;
-    const double at_rest = p->parted * strength / driving_most(p->rest.simulation, &p->soft, &next);
-    const double by_itself = pull_until_break(p, at_rest, next);
+    const double at_rest = p->parted / find_next(p, k, &n, next);
+    const double by_itself = pull_until_break(p, k, at_rest, next[0]);
     assert_close(by_itself * by_itself / (at_rest * at_rest), 1.003, 0.002);
-    assert_ok(dem_simulation_break(p->rest.simulation, &next, 1, NULL, 0));
-    p->list[p->n++] = next;
+    assert_ok(dem_simulation_break(p->rest.simulation, next, n, NULL, 0));
+    for (dem_index j = 0; j < n; j++) p->list[p->n++] = next[j];
     return at_rest * at_rest / unit;
 }
 
@@ -210,17 +218,27 @@ static void check(const path_case *list, size_t n)
 
 TEST(rows_that_are_turned_hardly_change_the_toughness)
 {
-    const path_case list[] = {{1.0 / 3.0, 15.0, 0.0, true, 6, 3.51, 0.02}};
+    const path_case list[] = {{false, 1.0 / 3.0, 15.0, 0.0, true, 6, 3.51, 0.02}};
     check(list, sizeof list / sizeof *list);
 }
 
 static void of_turned_rows(void **state)
 {
-    const path_case list[] = {{1.0 / 3.0, 0.0, 0.0, true, 30, 3.40, 0.02},
-                              {1.0 / 3.0, 15.0, 0.0, true, 30, 3.51, 0.02},
-                              {1.0 / 3.0, 30.0, 0.0, true, 30, 3.52, 0.02},
-                              {0.0, 15.0, 0.0, true, 30, 3.51, 0.05},
-                              {0.45, 15.0, 0.0, true, 30, 3.51, 0.05}};
+    const path_case list[] = {{false, 1.0 / 3.0, 0.0, 0.0, true, 30, 3.40, 0.02},
+                              {false, 1.0 / 3.0, 15.0, 0.0, true, 30, 3.51, 0.02},
+                              {false, 1.0 / 3.0, 30.0, 0.0, true, 30, 3.52, 0.02},
+                              {false, 0.0, 15.0, 0.0, true, 30, 3.51, 0.05},
+                              {false, 0.45, 15.0, 0.0, true, 30, 3.51, 0.05}};
+    (void)state;
+    check(list, sizeof list / sizeof *list);
+}
+
+/* By stretch directions differ; found: 1.324, 1.669, 2.924. */
+static void of_stretch(void **state)
+{
+    const path_case list[] = {{true, 1.0 / 3.0, 0.0, 0.0, true, 30, 1.325, 0.02},
+                              {true, 1.0 / 3.0, 15.0, 0.0, true, 30, 1.68, 0.02},
+                              {true, 1.0 / 3.0, 30.0, 0.0, true, 30, 2.93, 0.02}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -228,9 +246,9 @@ static void of_turned_rows(void **state)
 /* That code has 4.04, 3.77 and 3.68 for its meshes of these kinds. Found are 3.440, 3.502 and 3.508: that of rows. */
 static void of_irregular_meshes(void **state)
 {
-    const path_case list[] = {{1.0 / 3.0, 0.0, 0.25, true, 30, 3.5, 0.05},
-                              {1.0 / 3.0, 15.0, 0.25, true, 30, 3.5, 0.05},
-                              {1.0 / 3.0, 0.0, 0.0, false, 30, 3.5, 0.05}};
+    const path_case list[] = {{false, 1.0 / 3.0, 0.0, 0.25, true, 30, 3.5, 0.05},
+                              {false, 1.0 / 3.0, 15.0, 0.25, true, 30, 3.5, 0.05},
+                              {false, 1.0 / 3.0, 0.0, 0.0, false, 30, 3.5, 0.05}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -240,6 +258,7 @@ int main(int argc, char **argv)
     if (argc > 1 && strcmp(argv[1], "long") == 0) {
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_turned_rows), 1000);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_irregular_meshes), 1001);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_stretch), 1002);
     }
     return test_run();
 }
