@@ -153,19 +153,27 @@ static bool weaken(work *w, double (*join)(double before, double factor), double
     return any;
 }
 
-/* And begins anew: what interfaces do comes on top of what weaknesses do. */
-static void multiply(work *w, double *strength, double *critical_stretch, weakness_counts *counts)
+/* Counts those that break.  \param factor  [n] 0 becomes 1 */
+static void settle(double *factor, dem_index n, const double *limits, dem_index *count)
 {
-    for (dem_index t = 0; t < w->lattice->n_triangles; t++) {
-        if (breaks(strength, t) && w->of_triangles[t] > 0.0) strength[t] *= w->of_triangles[t];
-        counts->n_triangles += breaks(strength, t) && w->of_triangles[t] > 0.0;
-        w->of_triangles[t] = 0.0;
+    for (dem_index k = 0; k < n; k++) {
+        *count += factor[k] > 0.0 && breaks(limits, k);
+        if (factor[k] == 0.0) factor[k] = 1.0;
     }
-    for (dem_index k = 0; k < w->lattice->n_springs; k++) {
-        if (breaks(critical_stretch, k) && w->of_springs[k] > 0.0) critical_stretch[k] *= w->of_springs[k];
-        counts->n_springs += breaks(critical_stretch, k) && w->of_springs[k] > 0.0;
-        w->of_springs[k] = 0.0;
-    }
+}
+
+/* And begins anew: what interfaces do comes on top of what weaknesses do. */
+static dem_status multiply(work *w, dem_lattice *lattice, weakness_counts *counts)
+{
+    settle(w->of_triangles, lattice->n_triangles, lattice->strength, &counts->n_triangles);
+    settle(w->of_springs, lattice->n_springs, lattice->critical_stretch, &counts->n_springs);
+    const dem_status status = dem_lattice_weaken(lattice, w->of_triangles, w->of_springs);
+    if (status != DEM_OK)
+        namelist_errors_add(w->errors, schema_get(w->body->groups, "body", w->body->k)->place, "body %zu: %s",
+                            w->body->k + 1, dem_status_message());
+    memset(w->of_triangles, 0, (size_t)lattice->n_triangles * sizeof *w->of_triangles);
+    memset(w->of_springs, 0, (size_t)lattice->n_springs * sizeof *w->of_springs);
+    return status;
 }
 
 /* ---- groups ---- */
@@ -211,9 +219,9 @@ static dem_status use_groups(work *w, dem_lattice *lattice, weakness_report *out
         const schema_instance *group = schema_get(groups, "weakness", i);
         if ((size_t)schema_real(group, "body") == w->body->k + 1) status = use_weakness(w, group);
     }
-    if (status == DEM_OK) multiply(w, lattice->strength, lattice->critical_stretch, &out->weaknesses);
+    if (status == DEM_OK) status = multiply(w, lattice, &out->weaknesses);
     for (size_t i = 1; status == DEM_OK && i <= w->body->n_inclusions; i++) status = use_interface(w, (dem_index)i);
-    if (status == DEM_OK) multiply(w, lattice->strength, lattice->critical_stretch, &out->interfaces);
+    if (status == DEM_OK) status = multiply(w, lattice, &out->interfaces);
     return status;
 }
 

@@ -24,6 +24,11 @@ static void check_material(const schema_instance *material, namelist_errors *err
             "'weibull' in &material needs 'weibull_volume', the volume, m^3, of the pieces on which '%s' "
             "was measured",
             schema_is(material, "fracture", "stress") ? "strength" : "critical_stretch");
+    if (shape->given && schema_is(material, "fracture", "stress") && !schema_given(material, "strength") &&
+        !schema_value_of(material, "strength")->faulty)
+        namelist_errors_add(errors, shape->place,
+                            "'weibull' in &material needs 'strength', which scatters; that of 'fracture_energy' alone "
+                            "is a number of the mesh");
     for (size_t k = 1; k < by_fracture.n && !shape->given; k++)
         if (schema_given(material, all[k].key))
             namelist_errors_add(errors, schema_place(material, all[k].key),

@@ -196,7 +196,7 @@ typedef struct dem_weibull {
                                 out of a lattice draws like the whole where it keeps the numbers of that */
 } dem_weibull;
 
-/** Draws factors of strengths and critical stretches, which are the caller's to multiply and to bound: ((V_0/V)
+/** Draws factors of strengths and critical stretches for dem_lattice_weaken(), which are the caller's to bound: ((V_0/V)
  *  (-ln u))^(1/m), with u uniform in (0, 1) by seed, body and number alone, the same bits on every machine. V is the
  *  volume of a triangle, thickness times area in the rest shape. Each triangle gives its volume to the springs that it
  *  holds in equal parts; what they have of it is the volume of springs.
@@ -209,6 +209,14 @@ typedef struct dem_weibull {
  *          factors are then of no meaning */
 DEM_API dem_status dem_lattice_weibull(const dem_lattice *lattice, const dem_weibull *laws, dem_index n_laws,
                                        const dem_index *of, double *triangle_factor, double *spring_factor);
+
+/** Multiplies strengths and critical stretches by factors > 0, as dem_lattice_weibull() draws them. Where triangles
+ *  soften, the energy that a crack takes stays: they get another softening with another strength. One that would have
+ *  to be stronger than a brittle triangle of that energy is brittle, and as strong as that.
+ *  \param triangle_factor  [n_triangles]; NULL: strengths stay
+ *  \param spring_factor    [n_springs]; NULL: critical stretches stay
+ *  \return DEM_ERROR_ARGUMENT; then nothing has changed */
+DEM_API dem_status dem_lattice_weaken(dem_lattice *lattice, const double *triangle_factor, const double *spring_factor);
 
 /** Moves every node that is not on the boundary of the triangles to a random place within `radius`, m, >= 0, of it, the
  *  same on every machine. Where a triangle would keep less than a tenth of its area, its corners go half as far. For

@@ -25,7 +25,8 @@ MANY = {
     "dem_force.force": "2, *", "dem_simulation_contact_forces.force": "2, *", "pressure": "*", "direction": "2", "points": "2, *"}
 MAY_BE_NULL = {
     "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of", "dem_lattice_weibull.of",
-    "dem_lattice_weibull.triangle_factor", "dem_lattice_weibull.spring_factor",
+    "dem_lattice_weibull.triangle_factor", "dem_lattice_weibull.spring_factor", "dem_lattice_weaken.triangle_factor",
+    "dem_lattice_weaken.spring_factor",
     "dem_lattice_edge_shares.direction", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
     "dem_simulation_set_motion.v", "dem_obstacle_moves.by", "dem_simulation_break.triangle", "dem_simulation_break.spring",
     "dem_simulation_broken.triangle", "dem_simulation_broken.spring"}

@@ -235,6 +235,12 @@ module dem_c
       real(c_double), intent(out), optional :: triangle_factor(*), spring_factor(*)
     end function
 
+    integer(dem_status) function dem_lattice_weaken(lattice, triangle_factor, spring_factor) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: lattice
+      real(c_double), intent(in), optional :: triangle_factor(*), spring_factor(*)
+    end function
+
     integer(dem_status) function dem_lattice_jitter(lattice, radius, seed) bind(c)
       import
       type(dem_lattice), intent(inout) :: lattice

@@ -25,10 +25,21 @@ double crack_band_coarsest(double modulus, double fracture_energy, double streng
     return modulus * fracture_energy / (strength * strength) / brittle;
 }
 
-double crack_band_softening(double modulus, double fracture_energy, double strength, double size)
+double crack_band_toughness(double softening)
 {
-    const double toughness = modulus * fracture_energy / (strength * strength * size),
-                 at_joint = offset + slope * joint;
+    const double at_joint = offset + slope * joint;
+    if (softening >= joint) return offset + slope * softening;
+    return brittle + (softening - 1.0) * (at_joint - brittle) / (joint - 1.0);
+}
+
+double crack_band_softening_of(double toughness)
+{
+    const double at_joint = offset + slope * joint;
     if (toughness >= at_joint) return (toughness - offset) / slope;
     return fmax(1.0 + (joint - 1.0) * (toughness - brittle) / (at_joint - brittle), 1.0);
+}
+
+double crack_band_softening(double modulus, double fracture_energy, double strength, double size)
+{
+    return crack_band_softening_of(modulus * fracture_energy / (strength * strength * size));
 }

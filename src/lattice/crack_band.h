@@ -15,6 +15,11 @@ double crack_band_strength(double modulus, double fracture_energy, double size);
 /** The largest size, m, of triangles that have this strength, Pa, and this fracture energy, J/m^2. */
 double crack_band_coarsest(double modulus, double fracture_energy, double strength);
 
+/** G E/(strength^2 a) of triangles with this dem_lattice.softening, and the other way round; 1 where brittle ones take
+ *  more. */
+double crack_band_toughness(double softening);
+double crack_band_softening_of(double toughness);
+
 /** dem_lattice.softening of a triangle of size a, m; 1 where it is too large. */
 double crack_band_softening(double modulus, double fracture_energy, double strength, double size);
 

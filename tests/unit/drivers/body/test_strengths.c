@@ -94,6 +94,33 @@ TEST(every_copy_draws_anew)
     assert_int_equal(s.triangles.n, lattice.n_triangles); /* of one copy */
 }
 
+/* 3.4 at 1, 1.9 + 1.03 q from 2 on (crack_band.c): times the square of the strength it is the energy. */
+static double energy_of(double strength, double softening)
+{
+    const double toughness = softening >= 2.0 ? 1.9 + 1.03 * softening : 3.4 + 0.56 * (softening - 1.0);
+    return toughness * strength * strength;
+}
+
+TEST(copies_that_soften_keep_the_energy_of_a_crack)
+{
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_brittle(3e6, 0.0);
+    lattice.softening = calloc((size_t)lattice.n_triangles, sizeof *lattice.softening);
+    assert_non_null(lattice.softening);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) lattice.softening[t] = 5.0;
+    const double energy = energy_of(3e6, 5.0);
+    CLEANUP(strengths_free) strengths s = draw(&lattice, 4.0, 2);
+    for (size_t c = 0; c < 2; c++) {
+        dem_index n_brittle = 0;
+        strengths_put(&lattice, &s, c);
+        for (dem_index t = 0; t < lattice.n_triangles; t++) {
+            assert_close(energy_of(lattice.strength[t], lattice.softening[t]), energy, 1e-12 * energy);
+            n_brittle += lattice.softening[t] == 1.0;
+        }
+        assert_true(n_brittle < lattice.n_triangles / 2);
+        assert_true(lattice.softening[0] != 5.0);
+    }
+}
+
 TEST(without_a_law_strengths_stay)
 {
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_brittle(3e6, 0.0);

@@ -227,6 +227,24 @@ TEST(weak_places_scatter_as_their_surroundings)
     }
 }
 
+/* 1.9 + 1.03 q is the toughness over strength^2 a/E (crack_band.c). */
+TEST(where_a_fracture_energy_is_given_it_stays)
+{
+    CLEANUP(drop_built) built b;
+    build_good(&b, RUN "&material name = 'm', " STIFF
+                       ", fracture = 'stress', strength = 1e4, fracture_energy = 100 /\n" BLOCK
+                       "&weakness shape = 'disc', centre = 1, 3, radius = 1.3, strength = 0.25 /");
+    double before = 0.0;
+    for (dem_index t = 0; t < b.lattice.n_triangles && before == 0.0; t++)
+        if (b.lattice.strength[t] == 1e4) before = 1.9 + 1.03 * b.lattice.softening[t];
+    assert_true(before > 4.0);
+    for (dem_index t = 0; t < b.lattice.n_triangles; t++) {
+        const double f = b.lattice.strength[t] / 1e4;
+        assert_close((1.9 + 1.03 * b.lattice.softening[t]) * f * f, before, 1e-9 * before);
+    }
+    assert_true(b.facts.weak.weaknesses.n_triangles > 30);
+}
+
 /* ---- interfaces ---- */
 
 /* An inclusion of the triangles below a row: at its edge are the rows above and below it. */

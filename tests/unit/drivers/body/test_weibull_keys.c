@@ -19,11 +19,14 @@ static void assert_checked(const char *text, const char *expected)
 TEST(a_shape_goes_with_a_volume_and_a_kind_of_fracture)
 {
     assert_checked(RAW "fracture = 'stress', strength = 1 /", "");
-    assert_checked(RAW "fracture = 'stress', weibull = 8, weibull_volume = 1 /", "");
+    assert_checked(RAW "fracture = 'stress', strength = 1, weibull = 8, weibull_volume = 1 /", "");
     assert_checked(RAW "fracture = 'stretch', weibull = 8, weibull_volume = 1, strength_seed = 4 /", "");
-    assert_checked(RAW "fracture = 'stress',\n weibull = 8 /", "4:2 'weibull' * needs 'weibull_volume' * 'strength'");
+    assert_checked(RAW "fracture = 'stress', strength = 1,\n weibull = 8 /",
+                   "4:2 'weibull' * needs 'weibull_volume' * 'strength'");
     assert_checked(RAW "fracture = 'stretch',\n weibull = 8 /",
                    "4:2 'weibull' * needs 'weibull_volume' * 'critical_stretch'");
+    assert_checked(RAW "fracture = 'stress', fracture_energy = 1,\n weibull = 8, weibull_volume = 1 /",
+                   "4:2 'weibull' * needs 'strength' * 'fracture_energy'");
     assert_checked(RAW "fracture = 'stress',\n weibull_volume = 8 /", "4:2 'weibull_volume' * without 'weibull'");
     assert_checked(RAW "fracture = 'stress',\n strength_seed = 8 /", "4:2 'strength_seed' * without 'weibull'");
     assert_checked(RAW "\n weibull = 8 /", "4:2 'weibull' * not used by fracture 'none'");

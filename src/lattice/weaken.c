@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Other strengths for some elements than their materials have. Where strength and fracture energy were given, triangles
+ * soften, and it is the energy that stays: a weaker one softens for longer, a stronger one for less, and where it would
+ * have to be stronger than a brittle one of that energy, it is that. Of brittle triangles the energy follows from the
+ * strength. */
+#include <dem/dem.h>
+
+#include <math.h>
+
+#include "base/status.h"
+#include "lattice/crack_band.h"
+#include "lattice/lattice.h"
+
+static dem_status check_factors(const char *what, const double *factor, dem_index n)
+{
+    for (dem_index k = 0; factor != NULL && k < n; k++)
+        CHECK(isfinite(factor[k]) && factor[k] > 0.0, DEM_ERROR_ARGUMENT, "%s %lld: the factor must be > 0: %g", what,
+              (long long)k, factor[k]);
+    return DEM_OK;
+}
+
+/* Its toughness over strength^2 a/E falls with the square of the strength. */
+static void weaken_softening(double *strength, double *softening, double factor)
+{
+    const double least = crack_band_toughness(1.0), before = crack_band_toughness(*softening);
+    const double after = before / (factor * factor);
+    *strength *= after > least ? factor : sqrt(before / least);
+    *softening = crack_band_softening_of(after);
+}
+
+dem_status dem_lattice_weaken(dem_lattice *lattice, const double *triangle_factor, const double *spring_factor)
+{
+    dem_lattice l;
+    TRY(lattice_check(lattice));
+    TRY(lattice_read(&l, lattice));
+    TRY(check_factors("triangle", triangle_factor, l.n_triangles));
+    TRY(check_factors("spring", spring_factor, l.n_springs));
+    for (dem_index t = 0; t < l.n_triangles && triangle_factor != NULL && l.strength != NULL; t++) {
+        if (l.softening != NULL && l.softening[t] > 1.0)
+            weaken_softening(&l.strength[t], &l.softening[t], triangle_factor[t]);
+        else
+            l.strength[t] *= triangle_factor[t];
+    }
+    for (dem_index k = 0; k < l.n_springs && spring_factor != NULL && l.critical_stretch != NULL; k++)
+        l.critical_stretch[k] *= spring_factor[k];
+    return DEM_OK;
+}

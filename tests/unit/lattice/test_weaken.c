@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* weaken.c: other strengths, and what stays with them. */
+#include <stdlib.h>
+
+#include "harness/message.h"
+#include "lattice/crack_band.h"
+#include "unit/solids.h"
+
+enum { most = 400 };
+
+static dem_lattice make_breakable(void)
+{
+    dem_material m = rubber;
+    m.strength = 3e6;
+    m.critical_stretch = 0.1;
+    dem_lattice lattice = make_rectangle(0.05, 0.05, 0.01);
+    assert_int_equal(dem_lattice_assemble(&lattice, &m), DEM_OK);
+    assert_true(lattice.n_triangles <= most && lattice.n_springs <= most);
+    return lattice;
+}
+
+TEST(strengths_and_critical_stretches_are_multiplied)
+{
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_breakable();
+    double triangles[most], springs[most];
+    for (int k = 0; k < most; k++) triangles[k] = 0.5 + k, springs[k] = 2.0 + k;
+    lattice.strength[3] = (double)INFINITY;
+    assert_int_equal(dem_lattice_weaken(&lattice, triangles, springs), DEM_OK);
+    for (dem_index t = 0; t < lattice.n_triangles; t++)
+        assert_true(lattice.strength[t] == (t == 3 ? (double)INFINITY : 3e6 * triangles[t]));
+    for (dem_index k = 0; k < lattice.n_springs; k++) assert_close(lattice.critical_stretch[k], 0.1 * springs[k], 0.0);
+    assert_null(lattice.softening);
+    assert_int_equal(dem_lattice_weaken(&lattice, NULL, NULL), DEM_OK);
+    assert_close(lattice.strength[0], 1.5e6, 0.0);
+}
+
+/* The toughness G E/(strength^2 a) of crack_band.c; a brittle triangle has none that could stay. Twice as strong would
+ * be too much at q = 5: 7.05/4 is less than 3.4. */
+TEST(where_triangles_soften_the_energy_of_a_crack_stays)
+{
+    static const double factors[] = {0.1, 0.5, 0.9, 1.0, 1.1, 1.4, 2.0, 100.0};
+    enum { n = sizeof factors / sizeof *factors };
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_breakable();
+    double factor[most];
+    lattice.softening = calloc((size_t)lattice.n_triangles, sizeof *lattice.softening);
+    assert_non_null(lattice.softening);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        lattice.softening[t] = t < n ? 5.0 : (t < 2 * n ? 1.5 : 1.0);
+        factor[t] = factors[t % n];
+    }
+    assert_int_equal(dem_lattice_weaken(&lattice, factor, NULL), DEM_OK);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        const double before = t < n ? 7.05 : (t < 2 * n ? 3.68 : 3.4), f = lattice.strength[t] / 3e6;
+        if (t >= 2 * n) {
+            assert_close(f, factor[t], 1e-15 * factor[t]);
+            assert_close(lattice.softening[t], 1.0, 0.0);
+            continue;
+        }
+        assert_close(crack_band_toughness(lattice.softening[t]) * f * f, before, 1e-13 * before);
+        assert_close(f, fmin(factor[t], sqrt(before / 3.4)), 1e-14 * f);
+        assert_true((lattice.softening[t] > 1.0) == (factor[t] < sqrt(before / 3.4)));
+    }
+}
+
+TEST(factors_that_are_none_change_nothing)
+{
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_breakable();
+    static const double bad[] = {0.0, -1.0, (double)NAN, (double)INFINITY};
+    double factor[most];
+    for (int k = 0; k < 8; k++) {
+        for (int i = 0; i < most; i++) factor[i] = 0.5;
+        factor[7] = bad[k % 4];
+        assert_int_equal(dem_lattice_weaken(&lattice, k < 4 ? factor : NULL, k < 4 ? NULL : factor),
+                         DEM_ERROR_ARGUMENT);
+        assert_message_parts(k < 4 ? "triangle 7 * factor * > 0" : "spring 7 * factor * > 0");
+        assert_close(lattice.strength[0], 3e6, 0.0);
+        assert_close(lattice.critical_stretch[0], 0.1, 0.0);
+    }
+    assert_int_equal(dem_lattice_weaken(NULL, NULL, NULL), DEM_ERROR_ARGUMENT);
+}
