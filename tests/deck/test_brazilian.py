@@ -62,6 +62,6 @@ class Brazilian(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    DEM_BATCH, INPUTS = sys.argv[1], pathlib.Path(sys.argv[2])
+    DEM_BATCH, INPUTS = (pathlib.Path(path).resolve() for path in sys.argv[1:3])
     SPACING = sys.argv[3] if len(sys.argv) > 3 else SPACING
     unittest.main(argv=sys.argv[:1])
