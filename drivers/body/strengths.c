@@ -100,7 +100,7 @@ static dem_status draw_copy(strengths *s, const dem_lattice *lattice, const stre
     begin_copy(&view, lattice);
     raise(&s->triangles, f->triangles, lattice->strength, lattice->n_triangles);
     raise(&s->springs, f->springs, lattice->critical_stretch, lattice->n_springs);
-    status = dem_lattice_weaken(&view, f->triangles, f->springs);
+    status = dem_lattice_weaken(&view, f->triangles, NULL, f->springs);
     measure(&s->triangles, view.strength, lattice->strength, f->triangles, lattice->n_triangles);
     measure(&s->springs, view.critical_stretch, lattice->critical_stretch, f->springs, lattice->n_springs);
     return status;

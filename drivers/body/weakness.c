@@ -20,7 +20,7 @@ typedef struct work {
     bool *triangles, *springs; /* [n_triangles], [n_springs] touched */
     dem_index *enclosed;       /* [n_triangles] 1: in a shape */
     unsigned char *sides;      /* [n_nodes] 1: of a triangle in an inclusion, 2: of one beside it, 3: of both */
-    double *of_triangles, *of_springs;
+    double *of_triangles, *of_energies, *of_springs;
 } work;
 
 static void work_free(work *w)
@@ -30,6 +30,7 @@ static void work_free(work *w)
     free(w->enclosed);
     free(w->sides);
     free(w->of_triangles);
+    free(w->of_energies);
     free(w->of_springs);
 }
 
@@ -43,8 +44,10 @@ static dem_status work_create(work *w, const weakness_body *body, const dem_latt
     w->enclosed = calloc(n, sizeof *w->enclosed);
     w->sides = calloc((size_t)l->n_nodes + 1, 1);
     w->of_triangles = calloc(n, sizeof *w->of_triangles);
+    w->of_energies = calloc(n, sizeof *w->of_energies);
     w->of_springs = calloc(m, sizeof *w->of_springs);
-    if (w->triangles && w->springs && w->enclosed && w->sides && w->of_triangles && w->of_springs) return DEM_OK;
+    if (w->triangles && w->springs && w->enclosed && w->sides && w->of_triangles && w->of_energies && w->of_springs)
+        return DEM_OK;
     work_free(w);
     return DEM_ERROR_MEMORY;
 }
@@ -153,6 +156,19 @@ static bool weaken(work *w, double (*join)(double before, double factor), double
     return any;
 }
 
+/* Of the energies of all that is touched.  \return whether any of it has one */
+static bool embrittle(work *w, double factor)
+{
+    const double *softening = w->lattice->softening;
+    bool any = false;
+    for (dem_index t = 0; t < w->lattice->n_triangles; t++) {
+        if (!w->triangles[t]) continue;
+        w->of_energies[t] = product(w->of_energies[t], factor);
+        any = any || (softening != NULL && softening[t] > 1.0);
+    }
+    return any;
+}
+
 /* Counts those that break.  \param factor  [n] 0 becomes 1 */
 static void settle(double *factor, dem_index n, const double *limits, dem_index *count)
 {
@@ -166,27 +182,40 @@ static void settle(double *factor, dem_index n, const double *limits, dem_index 
 static dem_status multiply(work *w, dem_lattice *lattice, weakness_counts *counts)
 {
     settle(w->of_triangles, lattice->n_triangles, lattice->strength, &counts->n_triangles);
+    settle(w->of_energies, lattice->n_triangles, NULL, &counts->n_triangles);
     settle(w->of_springs, lattice->n_springs, lattice->critical_stretch, &counts->n_springs);
-    const dem_status status = dem_lattice_weaken(lattice, w->of_triangles, w->of_springs);
+    const dem_status status = dem_lattice_weaken(lattice, w->of_triangles, w->of_energies, w->of_springs);
     if (status != DEM_OK)
         namelist_errors_add(w->errors, schema_get(w->body->groups, "body", w->body->k)->place, "body %zu: %s",
                             w->body->k + 1, dem_status_message());
     memset(w->of_triangles, 0, (size_t)lattice->n_triangles * sizeof *w->of_triangles);
+    memset(w->of_energies, 0, (size_t)lattice->n_triangles * sizeof *w->of_energies);
     memset(w->of_springs, 0, (size_t)lattice->n_springs * sizeof *w->of_springs);
     return status;
 }
 
 /* ---- groups ---- */
 
-static dem_status use_weakness(work *w, const schema_instance *group)
+static dem_status refuse_touch(const work *w, const schema_instance *group)
 {
     const bool line = schema_is(group, "shape", "polyline");
-    const dem_status status = touch_group(w, group);
-    if (status != DEM_OK || weaken(w, product, schema_real(group, "strength"))) return status;
     namelist_errors_add(w->errors, schema_place(group, line ? "points" : "centre"),
                         "weakness touches nothing of body %zu that can break: its %s in the body's own coordinates, "
                         "and materials need a 'fracture'",
                         w->body->k + 1, line ? "points are" : "centre is");
+    return DEM_ERROR_MODEL;
+}
+
+static dem_status use_weakness(work *w, const schema_instance *group)
+{
+    const dem_status status = touch_group(w, group);
+    if (status != DEM_OK) return status;
+    if (!weaken(w, product, schema_real(group, "strength"))) return refuse_touch(w, group);
+    if (!schema_given(group, "toughness") || embrittle(w, schema_real(group, "toughness"))) return DEM_OK;
+    namelist_errors_add(w->errors, schema_place(group, "toughness"),
+                        "'toughness' in &weakness: nothing that it touches in body %zu softens; materials need both "
+                        "'strength' and 'fracture_energy', else toughness follows from 'strength'",
+                        w->body->k + 1);
     return DEM_ERROR_MODEL;
 }
 

@@ -194,6 +194,8 @@ static const schema_key weakness_keys[] = {
      "Number of the body that is weaker there, in the order of the deck.", NULL},
     {"strength", SCHEMA_REAL, 1, 1, "-", REQUIRED, "> 0", NULL, PHYSICS,
      "Factor of the strengths and critical stretches of what it touches; factors of several multiply.", "0.5"},
+    {"toughness", SCHEMA_REAL, 1, 1, "-", NONE, "> 0", NULL, PHYSICS,
+     "With strength and fracture_energy in &material: factor of the latter; default: 1.", NONE},
     {"shape", SCHEMA_CHOICE, 1, 1, "-", "'polyline'", ANY, "polyline|disc|rectangle|ring|polygon", PHYSICS,
      "Touched are triangles and springs that a polyline crosses, as of &crack, or with their centres in a shape.",
      "'rectangle'"},

@@ -210,13 +210,15 @@ typedef struct dem_weibull {
 DEM_API dem_status dem_lattice_weibull(const dem_lattice *lattice, const dem_weibull *laws, dem_index n_laws,
                                        const dem_index *of, double *triangle_factor, double *spring_factor);
 
-/** Multiplies strengths and critical stretches by factors > 0, as dem_lattice_weibull() draws them. Where triangles
- *  soften, the energy that a crack takes stays: they get another softening with another strength. One that would have
- *  to be stronger than a brittle triangle of that energy is brittle, and as strong as that.
- *  \param triangle_factor  [n_triangles]; NULL: strengths stay
- *  \param spring_factor    [n_springs]; NULL: critical stretches stay
+/** Multiplies strengths, fracture energies and critical stretches by factors > 0, as dem_lattice_weibull() draws them.
+ *  Only triangles that soften have an energy of their own: with another strength or energy they get another softening.
+ *  One that would have to be stronger than a brittle triangle of its energy is brittle, and as strong as that.
+ *  \param strength_factor  [n_triangles]; NULL: 1
+ *  \param energy_factor    [n_triangles]; NULL: 1
+ *  \param stretch_factor   [n_springs]; NULL: 1
  *  \return DEM_ERROR_ARGUMENT; then nothing has changed */
-DEM_API dem_status dem_lattice_weaken(dem_lattice *lattice, const double *triangle_factor, const double *spring_factor);
+DEM_API dem_status dem_lattice_weaken(dem_lattice *lattice, const double *strength_factor, const double *energy_factor,
+                                      const double *stretch_factor);
 
 /** Moves every node that is not on the boundary of the triangles to a random place within `radius`, m, >= 0, of it, the
  *  same on every machine. Where a triangle would keep less than a tenth of its area, its corners go half as far. For

@@ -235,10 +235,10 @@ module dem_c
       real(c_double), intent(out), optional :: triangle_factor(*), spring_factor(*)
     end function
 
-    integer(dem_status) function dem_lattice_weaken(lattice, triangle_factor, spring_factor) bind(c)
+    integer(dem_status) function dem_lattice_weaken(lattice, strength_factor, energy_factor, stretch_factor) bind(c)
       import
       type(dem_lattice), intent(inout) :: lattice
-      real(c_double), intent(in), optional :: triangle_factor(*), spring_factor(*)
+      real(c_double), intent(in), optional :: strength_factor(*), energy_factor(*), stretch_factor(*)
     end function
 
     integer(dem_status) function dem_lattice_jitter(lattice, radius, seed) bind(c)

@@ -19,29 +19,36 @@ static dem_status check_factors(const char *what, const double *factor, dem_inde
     return DEM_OK;
 }
 
-/* Its toughness over strength^2 a/E falls with the square of the strength. */
-static void weaken_softening(double *strength, double *softening, double factor)
+/* Its toughness is over strength^2 a/E. */
+static void weaken_softening(double *strength, double *softening, double factor, double of_energy)
 {
-    const double least = crack_band_toughness(1.0), before = crack_band_toughness(*softening);
-    const double after = before / (factor * factor);
-    *strength *= after > least ? factor : sqrt(before / least);
+    const double least = crack_band_toughness(1.0), energy = of_energy * crack_band_toughness(*softening);
+    const double after = energy / (factor * factor);
+    *strength *= after > least ? factor : sqrt(energy / least);
     *softening = crack_band_softening_of(after);
 }
 
-dem_status dem_lattice_weaken(dem_lattice *lattice, const double *triangle_factor, const double *spring_factor)
+static double at(const double *factor, dem_index k)
+{
+    return factor != NULL ? factor[k] : 1.0;
+}
+
+dem_status dem_lattice_weaken(dem_lattice *lattice, const double *strength_factor, const double *energy_factor,
+                              const double *stretch_factor)
 {
     dem_lattice l;
     TRY(lattice_check(lattice));
     TRY(lattice_read(&l, lattice));
-    TRY(check_factors("triangle", triangle_factor, l.n_triangles));
-    TRY(check_factors("spring", spring_factor, l.n_springs));
-    for (dem_index t = 0; t < l.n_triangles && triangle_factor != NULL && l.strength != NULL; t++) {
+    TRY(check_factors("triangle", strength_factor, l.n_triangles));
+    TRY(check_factors("triangle", energy_factor, l.n_triangles));
+    TRY(check_factors("spring", stretch_factor, l.n_springs));
+    for (dem_index t = 0; t < l.n_triangles && l.strength != NULL; t++) {
         if (l.softening != NULL && l.softening[t] > 1.0)
-            weaken_softening(&l.strength[t], &l.softening[t], triangle_factor[t]);
+            weaken_softening(&l.strength[t], &l.softening[t], at(strength_factor, t), at(energy_factor, t));
         else
-            l.strength[t] *= triangle_factor[t];
+            l.strength[t] *= at(strength_factor, t);
     }
-    for (dem_index k = 0; k < l.n_springs && spring_factor != NULL && l.critical_stretch != NULL; k++)
-        l.critical_stretch[k] *= spring_factor[k];
+    for (dem_index k = 0; k < l.n_springs && l.critical_stretch != NULL; k++)
+        l.critical_stretch[k] *= at(stretch_factor, k);
     return DEM_OK;
 }

@@ -77,8 +77,8 @@ contains
     integer :: body
     character(4096) :: shape
     real(dp), save :: points(20000)
-    real(dp) :: strength, centre(2), radius, inner_radius, size(2), angle
-    namelist /weakness/ body, strength, shape, centre, radius, inner_radius, size, points, angle
+    real(dp) :: strength, toughness, centre(2), radius, inner_radius, size(2), angle
+    namelist /weakness/ body, strength, toughness, shape, centre, radius, inner_radius, size, points, angle
     read (unit, nml=weakness, iostat=status, iomsg=message)
   end subroutine
 

@@ -25,12 +25,12 @@ TEST(strengths_and_critical_stretches_are_multiplied)
     double triangles[most], springs[most];
     for (int k = 0; k < most; k++) triangles[k] = 0.5 + k, springs[k] = 2.0 + k;
     lattice.strength[3] = (double)INFINITY;
-    assert_int_equal(dem_lattice_weaken(&lattice, triangles, springs), DEM_OK);
+    assert_int_equal(dem_lattice_weaken(&lattice, triangles, NULL, springs), DEM_OK);
     for (dem_index t = 0; t < lattice.n_triangles; t++)
         assert_true(lattice.strength[t] == (t == 3 ? (double)INFINITY : 3e6 * triangles[t]));
     for (dem_index k = 0; k < lattice.n_springs; k++) assert_close(lattice.critical_stretch[k], 0.1 * springs[k], 0.0);
     assert_null(lattice.softening);
-    assert_int_equal(dem_lattice_weaken(&lattice, NULL, NULL), DEM_OK);
+    assert_int_equal(dem_lattice_weaken(&lattice, NULL, NULL, NULL), DEM_OK);
     assert_close(lattice.strength[0], 1.5e6, 0.0);
 }
 
@@ -48,7 +48,7 @@ TEST(where_triangles_soften_the_energy_of_a_crack_stays)
         lattice.softening[t] = t < n ? 5.0 : (t < 2 * n ? 1.5 : 1.0);
         factor[t] = factors[t % n];
     }
-    assert_int_equal(dem_lattice_weaken(&lattice, factor, NULL), DEM_OK);
+    assert_int_equal(dem_lattice_weaken(&lattice, factor, NULL, NULL), DEM_OK);
     for (dem_index t = 0; t < lattice.n_triangles; t++) {
         const double before = t < n ? 7.05 : (t < 2 * n ? 3.68 : 3.4), f = lattice.strength[t] / 3e6;
         if (t >= 2 * n) {
@@ -62,19 +62,41 @@ TEST(where_triangles_soften_the_energy_of_a_crack_stays)
     }
 }
 
+/* 7.05 g f^-2 of what it is over strength^2 a/E; at less than 3.4 it is brittle, with the strength of that energy. */
+TEST(an_energy_is_multiplied_where_triangles_soften)
+{
+    static const double energies[] = {0.1, 0.4, 0.9, 1.0, 3.0}, strengths[] = {0.5, 1.0, 1.3};
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_breakable();
+    double of_energy[most], of_strength[most];
+    lattice.softening = calloc((size_t)lattice.n_triangles, sizeof *lattice.softening);
+    assert_non_null(lattice.softening);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        lattice.softening[t] = t < 15 ? 5.0 : 1.0;
+        of_energy[t] = energies[t % 5];
+        of_strength[t] = strengths[t % 3];
+    }
+    assert_int_equal(dem_lattice_weaken(&lattice, of_strength, of_energy, NULL), DEM_OK);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        const double f = lattice.strength[t] / 3e6, energy = 7.05 * of_energy[t];
+        if (t < 15) assert_close(crack_band_toughness(lattice.softening[t]) * f * f, energy, 1e-13 * energy);
+        assert_close(f, t < 15 ? fmin(of_strength[t], sqrt(energy / 3.4)) : of_strength[t], 1e-14 * f);
+    }
+}
+
 TEST(factors_that_are_none_change_nothing)
 {
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_breakable();
     static const double bad[] = {0.0, -1.0, (double)NAN, (double)INFINITY};
     double factor[most];
-    for (int k = 0; k < 8; k++) {
+    for (int k = 0; k < 12; k++) {
         for (int i = 0; i < most; i++) factor[i] = 0.5;
         factor[7] = bad[k % 4];
-        assert_int_equal(dem_lattice_weaken(&lattice, k < 4 ? factor : NULL, k < 4 ? NULL : factor),
+        const double *of_strength = k < 4 ? factor : NULL, *of_energy = k >= 4 && k < 8 ? factor : NULL;
+        assert_int_equal(dem_lattice_weaken(&lattice, of_strength, of_energy, k < 8 ? NULL : factor),
                          DEM_ERROR_ARGUMENT);
-        assert_message_parts(k < 4 ? "triangle 7 * factor * > 0" : "spring 7 * factor * > 0");
+        assert_message_parts(k < 8 ? "triangle 7 * factor * > 0" : "spring 7 * factor * > 0");
         assert_close(lattice.strength[0], 3e6, 0.0);
         assert_close(lattice.critical_stretch[0], 0.1, 0.0);
     }
-    assert_int_equal(dem_lattice_weaken(NULL, NULL, NULL), DEM_ERROR_ARGUMENT);
+    assert_int_equal(dem_lattice_weaken(NULL, NULL, NULL, NULL), DEM_ERROR_ARGUMENT);
 }

@@ -245,6 +245,27 @@ TEST(where_a_fracture_energy_is_given_it_stays)
     assert_true(b.facts.weak.weaknesses.n_triangles > 30);
 }
 
+TEST(a_toughness_is_a_factor_of_the_fracture_energy)
+{
+#define SOFT "&material name = 'm', " STIFF ", fracture = 'stress', strength = 1e4, fracture_energy = 100 /\n"
+    CLEANUP(drop_built) built b;
+    build_good(&b, RUN SOFT BLOCK
+               "&weakness shape = 'disc', centre = 1, 3, radius = 1.3, strength = 0.5, toughness = 0.3 /\n"
+               "&weakness shape = 'disc', centre = 1, 3, radius = 0.7, strength = 1, toughness = 0.9 /");
+    double before = 0.0;
+    for (dem_index t = 0; t < b.lattice.n_triangles && before == 0.0; t++)
+        if (b.lattice.strength[t] == 1e4) before = 1.9 + 1.03 * b.lattice.softening[t];
+    for (dem_index t = 0; t < b.lattice.n_triangles; t++) {
+        double at[2];
+        find_middle(at, &b.lattice, b.lattice.triangles + 3 * t, 3);
+        const double away = hypot(at[0] - 1.0, at[1] - 3.0), f = b.lattice.strength[t] / 1e4;
+        const double factor = away <= 0.7 ? 0.27 : (away <= 1.3 ? 0.3 : 1.0);
+        assert_close(f, away <= 1.3 ? 0.5 : 1.0, 1e-15);
+        assert_close((1.9 + 1.03 * b.lattice.softening[t]) * f * f, factor * before, 1e-9 * before);
+    }
+#undef SOFT
+}
+
 /* ---- interfaces ---- */
 
 /* An inclusion of the triangles below a row: at its edge are the rows above and below it. */
@@ -332,6 +353,8 @@ TEST(what_touches_nothing_that_can_break_is_a_fault)
                  "weakness touches nothing of body 1 * centre * own coordinates");
     expect_fault(RUN SOLID BLOCK "&weakness strength = 0.5,\n points = -9, 1, 9, 2 /", 5,
                  "weakness touches nothing of body 1 * 'fracture'");
+    expect_fault(RUN GLASS BLOCK "&weakness strength = 0.5, points = -9, 1, 9, 2,\n toughness = 0.5 /", 5,
+                 "'toughness' in &weakness * body 1 softens * 'fracture_energy'");
     expect_fault(RUN SOLID BLOCK "&inclusion material = 'm', centre = 0, 3, radius = 1,\n interface = 0.5 /", 5,
                  "'interface' in &inclusion * body 1 * 'fracture'");
     expect_fault(RUN GLASS BLOCK "&inclusion material = 'm', centre = 0, 3, radius = 100,\n interface = 0.5 /", 5,
