@@ -178,6 +178,12 @@ dem_status breaking_begin(dem_simulation *s)
 
 /* ---- by the program ---- */
 
+/* Whether no triangle holds a spring, and it is broken. */
+static bool is_broken_alone(const element_state *elements, dem_index spring)
+{
+    return !elements->held[spring] && elements->integrity[spring] == 0.0;
+}
+
 /* Softens the triangles of a state in which none has softened or broken.  \param level  [n_triangles] */
 static void soften_to(element_state *elements, const unsigned char *level)
 {
@@ -195,7 +201,7 @@ static dem_status copy_elements(const dem_simulation *s, element_state *out)
     for (dem_index k = 0; now != NULL && k < l->n_triangles; k++)
         if (now->triangle[k]) element_state_break_triangle(out, k);
     for (dem_index k = 0; now != NULL && k < l->n_springs; k++)
-        if (!now->held[k] && now->integrity[k] == 0.0) element_state_break_spring(out, k);
+        if (is_broken_alone(now, k)) element_state_break_spring(out, k);
     return DEM_OK;
 }
 
@@ -282,11 +288,9 @@ dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, de
 
 /* ---- checkpoints ---- */
 
-/* Springs that no triangle holds and that are broken. */
 static void list_springs(const element_state *elements, unsigned char *flags)
 {
-    for (dem_index k = 0; k < elements->lattice->n_springs; k++)
-        flags[k] = !elements->held[k] && elements->integrity[k] == 0.0;
+    for (dem_index k = 0; k < elements->lattice->n_springs; k++) flags[k] = is_broken_alone(elements, k);
 }
 
 /* A run in which nothing has broken puts nothing, so that its checkpoint is that of a library which breaks nothing. */
@@ -306,6 +310,12 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
         status = dem_checkpoint_put(checkpoint, of_levels, elements->level, (size_t)l->n_triangles);
     return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &s->fracture, sizeof s->fracture) : status;
 }
+
+/* What a checkpoint has of elements. */
+typedef struct element_flags {
+    const unsigned char *triangle, *spring; /* [n_triangles], [n_springs] broken, springs that no triangle holds */
+    const unsigned char *level;             /* [n_triangles] how many times they have softened; NULL: none does */
+} element_flags;
 
 /* Bytes in a checkpoint, which may be damaged. */
 static dem_status find_bytes(const dem_checkpoint *checkpoint, const char *name, dem_index n, const unsigned char **out)
@@ -340,49 +350,52 @@ static dem_status find_levels(const dem_simulation *s, const dem_checkpoint *che
 }
 
 /* The checks of what a program breaks hold for files, too. */
-static dem_status break_flagged(const dem_simulation *s, element_state *elements, const unsigned char *level,
-                                const unsigned char *triangle, const unsigned char *spring)
+static dem_status break_flagged(const dem_simulation *s, element_state *elements, const element_flags *flags)
 {
     const dem_lattice *l = &s->model->lattice;
     TRY(element_state_create(elements, l, &s->model->springs));
-    soften_to(elements, level);
+    soften_to(elements, flags->level);
     for (dem_index k = 0; k < l->n_triangles; k++) {
-        if (!triangle[k]) continue;
+        if (!flags->triangle[k]) continue;
         TRY(check_triangle(s, k));
         element_state_break_triangle(elements, k);
     }
     for (dem_index k = 0; k < l->n_springs; k++) {
-        if (!spring[k]) continue;
+        if (!flags->spring[k]) continue;
         TRY(check_spring(s, elements, k));
         element_state_break_spring(elements, k);
     }
     return DEM_OK;
 }
 
-/* What is the same already is not made anew: the run that takes a checkpoint goes on from it, too. */
-static bool is_the_same(const dem_simulation *s, const element_state *next)
+/* What is the same already is not made anew: the run that takes a checkpoint goes on from it, too. All else follows
+ * from these flags. */
+static bool is_the_same(const dem_simulation *s, const element_flags *flags)
 {
     const element_state *now = s->forces.elements;
     const dem_lattice *l = &s->model->lattice;
-    if (now != NULL && now->level != NULL && memcmp(now->level, next->level, (size_t)l->n_triangles) != 0) return false;
-    return now != NULL && memcmp(now->triangle, next->triangle, (size_t)l->n_triangles) == 0 &&
-           memcmp(now->integrity, next->integrity, (size_t)l->n_springs * sizeof *now->integrity) == 0;
+    if (now == NULL || memcmp(now->triangle, flags->triangle, (size_t)l->n_triangles) != 0) return false;
+    if (now->level != NULL && memcmp(now->level, flags->level, (size_t)l->n_triangles) != 0) return false;
+    for (dem_index k = 0; k < l->n_springs; k++)
+        if (is_broken_alone(now, k) != flags->spring[k]) return false;
+    return true;
 }
 
 dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     const dem_lattice *l = &s->model->lattice;
-    const unsigned char *level = NULL, *triangle = NULL, *spring = NULL;
+    element_flags flags = {NULL, NULL, NULL};
     element_state next = {0};
     size_t size;
     if (dem_checkpoint_find(checkpoint, of_energy, &size) == NULL) return DEM_OK;
-    TRY(find_flags(checkpoint, of_triangles, l->n_triangles, &triangle));
-    TRY(find_flags(checkpoint, of_springs, l->n_springs, &spring));
-    TRY(find_levels(s, checkpoint, &level));
+    TRY(find_flags(checkpoint, of_triangles, l->n_triangles, &flags.triangle));
+    TRY(find_flags(checkpoint, of_springs, l->n_springs, &flags.spring));
+    TRY(find_levels(s, checkpoint, &flags.level));
     TRY(dem_checkpoint_get(checkpoint, of_energy, &s->fracture, sizeof s->fracture));
     CHECK(isfinite(s->fracture), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");
-    const dem_status status = break_flagged(s, &next, level, triangle, spring);
-    if (status == DEM_OK && !is_the_same(s, &next)) return renew(s, &next);
+    if (is_the_same(s, &flags)) return DEM_OK;
+    const dem_status status = break_flagged(s, &next, &flags);
+    if (status == DEM_OK) return renew(s, &next);
     element_state_destroy(&next);
     return status;
 }
