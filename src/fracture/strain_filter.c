@@ -6,8 +6,8 @@
  * its triangles, and a triangle's utilisation the largest principal value of a mean of nodes' stresses, which is at
  * most the mean of their largest principal values: so if a triangle is near its limit, one of those with which it
  * shares a corner has a spring strained by near_limit strength/C. A spring that no triangle holds adds to the stress
- * without a bound; beside it, and where an edge of a triangle has no spring, every step takes a look: the threshold is
- * 0. By the same means, of triangles with a strained spring only those need a look around them whose own stress is
+ * without a bound; beside it, and at a triangle of which an edge has no spring, every step takes a look: the threshold
+ * is 0. By the same means, of triangles with a strained spring only those need a look around them whose own stress is
  * near_limit strength (may_drive() in fracture_source.c): most are strained by compression. */
 #include "fracture/strain_filter.h"
 
@@ -109,14 +109,25 @@ static void enter_triangle(strain_filter *f, const dem_lattice *l, const element
         f->threshold[s->spring[p]] = fminf(f->threshold[s->spring[p]], strain);
 }
 
+/* All springs at a corner are always over their threshold. */
+static void enter_corner(strain_filter *f, const springs *all, dem_index i)
+{
+    for (dem_index p = all->row[i]; p < all->row[i + 1]; p++) f->threshold[all->spring[p]] = 0.0f;
+}
+
+/* A triangle of which an edge has no spring may be stressed whatever its springs are. */
+static void enter_corners(strain_filter *f, const dem_model *m, const element_state *s, dem_index triangle)
+{
+    if (isinf(f->least[triangle]) || has_all_edges(&m->lattice, s, triangle)) return;
+    for (int c = 0; c < 3; c++) enter_corner(f, &m->springs, m->lattice.triangles[3 * triangle + c]);
+}
+
 /* Springs at a node beside one that no triangle holds are always over their threshold. */
 static void enter_loose(strain_filter *f, const dem_model *m, const element_state *s, dem_index spring)
 {
-    const springs *all = &m->springs;
     for (int end = 0; end < 2 && !s->held[spring]; end++) {
         const dem_index i = m->lattice.ends[2 * spring + end];
-        for (dem_index p = all->row[i]; p < all->row[i + 1]; p++)
-            if (isfinite(weakest_at(&m->lattice, s, i))) f->threshold[all->spring[p]] = 0.0f;
+        if (isfinite(weakest_at(&m->lattice, s, i))) enter_corner(f, &m->springs, i);
     }
 }
 
@@ -127,6 +138,7 @@ static void enter_triangles(strain_filter *f, const dem_model *m, const element_
     for (dem_index t = 0; t < l->n_triangles && l->strength != NULL; t++) {
         f->least[t] = round_down(weakest_around(l, s, t));
         enter_triangle(f, l, s, t, near_limit);
+        enter_corners(f, m, s, t);
     }
     for (dem_index k = 0; k < l->n_springs && l->strength != NULL; k++) enter_loose(f, m, s, k);
 }

@@ -445,6 +445,52 @@ TEST(a_corner_without_springs_is_looked_at_in_its_place)
     assert_close(utilisation_of(s->model, &s->elements, 1, state), 1.0, 1e-10);
 }
 
+/* Three triangles of springs fly apart without being strained, and a fourth one between their corners, that has an area
+ * term of kappa = 1 N/m alone, and no springs, grows with them: it is stressed by kappa A/A0 (A/A0 - 1), the virial A
+ * dW/dA over the volume A0, in all directions. Half of the volume of its nodes is its own. Masses are so large that it
+ * does not slow them. */
+TEST(a_triangle_without_springs_is_looked_at_at_every_step)
+{
+    const double radius = 1.0 / sqrt(3.0), u = 0.1, growth = 1.2;
+    double x[18], v[18], masses[9];
+    dem_index ends[18], corners[12] = {0, 3, 6};
+    for (int k = 0; k < 3; k++)
+        for (int c = 0; c < 3; c++) {
+            const dem_index i = 3 * k + c;
+            const double away = 2.0 * acos(-1.0) / 3.0 * k, place = c == 0 ? 0.0 : 0.5 * sqrt(3.0);
+            const double along = radius + place, across = c == 0 ? 0.0 : (c == 1 ? -0.5 : 0.5);
+            x[2 * i] = along * cos(away) - across * sin(away);
+            x[2 * i + 1] = along * sin(away) + across * cos(away);
+            v[2 * i] = u * cos(away);
+            v[2 * i + 1] = u * sin(away);
+            masses[i] = 1e7;
+            ends[2 * i] = i;
+            ends[2 * i + 1] = 3 * k + (c + 1) % 3;
+            corners[3 + i] = i;
+        }
+    CLEANUP(dem_lattice_free) dem_lattice body = support_lattice(9, x, masses, 9, ends, 1.0, 1.0, NULL);
+    CLEANUP(support_close) support_run run;
+    dem_options options = no_weight(1e-8);
+    options.max_step = 0.1;
+    support_start(&body, NULL, v);
+    body.n_triangles = 4;
+    body.triangles = malloc(sizeof corners);
+    assert_non_null(body.triangles);
+    memcpy(body.triangles, corners, sizeof corners);
+    body.area_stiffness = equal(4, 0.0);
+    body.area_stiffness[0] = 1.0;
+    body.strength = equal(4, INFINITY);
+    body.strength[0] = growth * (growth - 1.0) / 2.0;
+    support_open(&run, &body, NULL, 0, &options);
+    unsigned char broken[4];
+    const double due = (sqrt(growth) - 1.0) * radius / u;
+    (void)support_at(&run, due - 1e-4);
+    assert_int_equal(count_broken(&run, broken, 4), 0);
+    (void)support_at(&run, due + 1e-4);
+    assert_int_equal(count_broken(&run, broken, 4), 1);
+    assert_int_equal(broken[0], 1);
+}
+
 /* ---- what is refused ---- */
 
 TEST(a_start_beyond_the_strength_is_refused)
