@@ -33,19 +33,13 @@ static void append(failing_elements *f, dem_index **list, dem_index *n, dem_inde
         f->status = status_fail(DEM_ERROR_MEMORY, "out of memory for elements that break");
 }
 
-static bool is_corner(const dem_lattice *l, dem_index triangle, dem_index node)
-{
-    const dem_index *corner = &l->triangles[3 * triangle];
-    return node == corner[0] || node == corner[1] || node == corner[2];
-}
-
 /* The other half of the cell of a triangle of which the spring in slot p is the second diagonal: that ends at another
  * node. -1: the triangle is none, the spring another one, or the other half is broken. */
 static dem_index other_half(const element_state *s, dem_index triangle, dem_index p)
 {
     for (int end = 0; end < 2; end++) {
         const dem_index i = s->lattice->ends[2 * s->spring[p] + end];
-        if (is_corner(s->lattice, triangle, i)) continue;
+        if (element_state_is_corner(s, triangle, i)) continue;
         for (dem_index q = s->at_row[i]; q < s->at_row[i + 1]; q++)
             if (element_state_holds(s, s->at[q], s->spring[p])) return s->at[q];
     }

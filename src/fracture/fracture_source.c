@@ -264,24 +264,36 @@ static void look_everywhere_near(fracture_source *s, dem_index spring)
     }
 }
 
+/* Looks around the triangles at one end of a spring that hold it.
+ * \return whether it is a side of any: all that hold it have both of its ends then */
+static bool look_near_end(fracture_source *s, dem_index spring, int end)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const element_state *e = s->elements;
+    const dem_index i = l->ends[2 * spring + end], other = l->ends[2 * spring + 1 - end];
+    bool is_side = false;
+    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
+        const dem_index t = e->at[p];
+        const bool along = element_state_is_corner(e, t, other);
+        is_side = is_side || along;
+        if (s->strained[t] == s->number) continue;
+        if (along ? !e->triangle[t] : element_state_holds(e, t, spring)) look_near_triangle(s, t);
+    }
+    return is_side;
+}
+
 /* All that a spring over its threshold may bring to its limit: itself, and the triangles that share a corner with one
  * that holds it, and that is stressed enough. A triangle has an end of each spring that it holds as a corner. */
 static void look_near(fracture_source *s, dem_index spring)
 {
     const dem_lattice *l = &s->model->lattice;
-    const element_state *e = s->elements;
     if (l->critical_stretch != NULL) look_at(s, l->n_triangles + spring);
     if (l->strength == NULL) return;
     if (s->filter.threshold[spring] == 0.0f) {
         look_everywhere_near(s, spring);
         return;
     }
-    for (int end = 0; end < 2; end++) {
-        const dem_index i = l->ends[2 * spring + end];
-        for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
-            if (s->strained[e->at[p]] != s->number && element_state_holds(e, e->at[p], spring))
-                look_near_triangle(s, e->at[p]);
-    }
+    if (!look_near_end(s, spring, 0)) (void)look_near_end(s, spring, 1);
 }
 
 static void look_at_all(fracture_source *s)

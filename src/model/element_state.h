@@ -74,6 +74,12 @@ static inline bool element_state_is_last(const element_state *s, dem_index trian
     return s->level == NULL || s->level[triangle] == softening_levels(s->lattice->softening[triangle]);
 }
 
+static inline bool element_state_is_corner(const element_state *s, dem_index triangle, dem_index node)
+{
+    const dem_index *corner = &s->lattice->triangles[3 * triangle];
+    return corner[0] == node || corner[1] == node || corner[2] == node;
+}
+
 /** Whether a triangle is whole and holds a spring. */
 static inline bool element_state_holds(const element_state *s, dem_index triangle, dem_index spring)
 {

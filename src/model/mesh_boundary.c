@@ -92,19 +92,13 @@ static int compare(const void *a, const void *b)
     return (first->upper > second->upper) - (first->upper < second->upper);
 }
 
-static bool is_corner(const dem_lattice *l, dem_index triangle, dem_index node)
-{
-    const dem_index *corner = &l->triangles[3 * triangle];
-    return corner[0] == node || corner[1] == node || corner[2] == node;
-}
-
 /* The whole triangle that has a side alone; -1: none, or more than one. */
 static dem_index find_holder(const element_state *s, dem_index lower, dem_index upper)
 {
     dem_index found = -1, n = 0;
     for (dem_index p = s->at_row[lower]; p < s->at_row[lower + 1]; p++) {
         const dem_index t = s->at[p];
-        if (s->triangle[t] || !is_corner(s->lattice, t, upper)) continue;
+        if (s->triangle[t] || !element_state_is_corner(s, t, upper)) continue;
         found = t;
         n++;
     }
