@@ -166,10 +166,16 @@ static uint32_t fields_of(const schema_value *names)
     static const struct {
         const char *name;
         uint32_t field;
-    } all[] = {
-        {"displacement", DEM_FIELD_DISPLACEMENT}, {"velocity", DEM_FIELD_VELOCITY},   {"stress", DEM_FIELD_STRESS},
-        {"von_mises", DEM_FIELD_VON_MISES},       {"principal", DEM_FIELD_PRINCIPAL}, {"contact", DEM_FIELD_CONTACT},
-        {"fragment", DEM_FIELD_FRAGMENT},         {"strain", DEM_FIELD_STRAIN},       {"force", DEM_FIELD_FORCE}};
+    } all[] = {{"displacement", DEM_FIELD_DISPLACEMENT},
+               {"velocity", DEM_FIELD_VELOCITY},
+               {"stress", DEM_FIELD_STRESS},
+               {"von_mises", DEM_FIELD_VON_MISES},
+               {"principal", DEM_FIELD_PRINCIPAL},
+               {"contact", DEM_FIELD_CONTACT},
+               {"fragment", DEM_FIELD_FRAGMENT},
+               {"damage", DEM_FIELD_DAMAGE},
+               {"strain", DEM_FIELD_STRAIN},
+               {"force", DEM_FIELD_FORCE}};
     uint32_t fields = 0;
     for (int k = 0; k < names->count; k++)
         for (size_t f = 0; f < sizeof all / sizeof *all; f++)
@@ -365,13 +371,15 @@ deck_status deck_parse(deck *out, const char *path, const setting *settings, siz
     return conclude(out, status, errors);
 }
 
-/* Where nothing may break there is no table of it; where something may, frames show fragments, too. */
+/* Where nothing may break there is no table of it; where something may, frames show fragments,
+ * too, and where something may soften damage. */
 static void settle_breaks(deck *d)
 {
     const bool may_break = d->lattice.strength != NULL || d->lattice.critical_stretch != NULL;
     d->breaks = d->breaks && may_break;
     d->fragments = d->fragments && may_break;
     if (d->breaks) d->fields |= DEM_FIELD_FRAGMENT;
+    if (d->breaks && d->lattice.softening != NULL) d->fields |= DEM_FIELD_DAMAGE;
 }
 
 deck_status deck_build(deck *d, namelist_errors *errors)

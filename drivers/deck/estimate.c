@@ -177,7 +177,8 @@ static double frame_bytes(const deck *d, const contents *c)
         double of_node, of_spring; /* numbers */
     } fields[] = {{DEM_FIELD_DISPLACEMENT, 3.0, 0.0}, {DEM_FIELD_VELOCITY, 3.0, 0.0},  {DEM_FIELD_STRESS, 6.0, 0.0},
                   {DEM_FIELD_VON_MISES, 1.0, 0.0},    {DEM_FIELD_PRINCIPAL, 2.0, 0.0}, {DEM_FIELD_STRAIN, 0.0, 1.0},
-                  {DEM_FIELD_FORCE, 0.0, 1.0},        {DEM_FIELD_CONTACT, 4.0, 0.0},   {DEM_FIELD_FRAGMENT, 2.0, 0.0}};
+                  {DEM_FIELD_FORCE, 0.0, 1.0},        {DEM_FIELD_CONTACT, 4.0, 0.0},   {DEM_FIELD_FRAGMENT, 2.0, 0.0},
+                  {DEM_FIELD_DAMAGE, 1.0, 0.0}};
     const double width = d->double_precision ? 8.0 : 4.0;
     double of_node = 24.0, of_spring = 1.0;
     for (size_t k = 0; k < sizeof fields / sizeof *fields; k++) {

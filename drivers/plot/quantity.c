@@ -28,6 +28,7 @@ static const struct {
     {"contact_pressure", "contact_pressure", 0, PALETTE_SEQUENTIAL, "contact pressure"},
     {"contact_force", "contact_force", LENGTH, PALETTE_SEQUENTIAL, "contact force"},
     {"fragment", "fragment", 0, PALETTE_PIECES, "fragments, grey: half of a body or more"},
+    {"damage", "damage", 0, PALETTE_SEQUENTIAL, "damage"},
     {"peak_strain", "peak_strain", 0, PALETTE_DIVERGING, "peak strain of springs"},
     {"peak_von_mises", "peak_von_mises", 0, PALETTE_SEQUENTIAL, "peak von Mises stress"},
 };

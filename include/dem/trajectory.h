@@ -29,7 +29,8 @@ enum {
     DEM_FIELD_FORCE = 64,
     DEM_FIELD_CONTACT = 128,  /**< dem_simulation_contact_forces() and _pressures() */
     DEM_FIELD_FRAGMENT = 256, /**< dem_simulation_fragments() */
-    DEM_FIELD_ALL = 511
+    DEM_FIELD_DAMAGE = 512,   /**< of the nodes: dem_simulation_damage() */
+    DEM_FIELD_ALL = 1023
 };
 
 typedef enum dem_probe_kind {
@@ -68,7 +69,7 @@ static inline dem_trajectory_options dem_trajectory_options_default(void)
     options.struct_size = sizeof options;
     options.deflate = 1;
     options.most_stressed = 5;
-    options.fields = DEM_FIELD_ALL & ~(DEM_FIELD_PRINCIPAL | DEM_FIELD_CONTACT | DEM_FIELD_FRAGMENT);
+    options.fields = DEM_FIELD_ALL & ~(DEM_FIELD_PRINCIPAL | DEM_FIELD_CONTACT | DEM_FIELD_FRAGMENT | DEM_FIELD_DAMAGE);
     return options;
 }
 

@@ -20,7 +20,7 @@ ONE = {"out", "omega", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts
        "obstacle", "by"}
 MANY = {
     "obstacles": "*", "materials": "*", "laws": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "fragment": "*", "n_edges": "*",
-    "nodes": "*", "springs": "*", "triangle": "*", "spring": "*", "area": "*", "triangle_factor": "*", "spring_factor": "*", "strength_factor": "*", "energy_factor": "*", "stretch_factor": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
+    "nodes": "*", "springs": "*", "triangle": "*", "node": "*", "spring": "*", "area": "*", "triangle_factor": "*", "spring_factor": "*", "strength_factor": "*", "energy_factor": "*", "stretch_factor": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
     "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_model_gap.x": "*", "dem_obstacle_velocity.x": "*", "velocity": "*",
     "dem_force.force": "2, *", "dem_simulation_contact_forces.force": "2, *", "pressure": "*", "direction": "2", "points": "2, *"}
 MAY_BE_NULL = {
@@ -29,7 +29,8 @@ MAY_BE_NULL = {
     "dem_lattice_weaken.energy_factor", "dem_lattice_weaken.stretch_factor",
     "dem_lattice_edge_shares.direction", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
     "dem_simulation_set_motion.v", "dem_obstacle_moves.by", "dem_simulation_break.triangle", "dem_simulation_break.spring",
-    "dem_simulation_broken.triangle", "dem_simulation_broken.spring"}
+    "dem_simulation_broken.triangle", "dem_simulation_broken.spring", "dem_simulation_damage.triangle",
+    "dem_simulation_damage.node"}
 ZERO_AT_ENTRY = {"dem_force.force"}
 
 MAX_LINE = 120

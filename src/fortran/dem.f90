@@ -80,7 +80,8 @@ contains
   pure type(dem_trajectory_options) function dem_trajectory_options_default() result(options)
     options%deflate = 1
     options%most_stressed = 5
-    options%fields = iand(DEM_FIELD_ALL, not(ior(ior(DEM_FIELD_PRINCIPAL, DEM_FIELD_CONTACT), DEM_FIELD_FRAGMENT)))
+    options%fields = iand(DEM_FIELD_ALL, not(ior(ior(DEM_FIELD_PRINCIPAL, DEM_FIELD_CONTACT), &
+      ior(DEM_FIELD_FRAGMENT, DEM_FIELD_DAMAGE))))
   end function
 
   pure type(dem_lattice) function dem_lattice_empty() result(lattice)

@@ -816,6 +816,12 @@ module dem_c
       integer(c_signed_char), intent(out), optional :: triangle(*), spring(*)
     end function
 
+    integer(dem_status) function dem_simulation_damage(simulation, triangle, node) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(out), optional :: triangle(*), node(*)
+    end function
+
     integer(dem_status) function dem_simulation_fragments(simulation, n_fragments, fragment) bind(c)
       import
       type(c_ptr), value :: simulation
@@ -1183,7 +1189,7 @@ module dem_c
   enum, bind(c)
     enumerator :: DEM_FIELD_DISPLACEMENT = 1, DEM_FIELD_VELOCITY = 2, DEM_FIELD_STRESS = 4, DEM_FIELD_VON_MISES = 8
     enumerator :: DEM_FIELD_PRINCIPAL = 16, DEM_FIELD_STRAIN = 32, DEM_FIELD_FORCE = 64, DEM_FIELD_CONTACT = 128
-    enumerator :: DEM_FIELD_FRAGMENT = 256, DEM_FIELD_ALL = 511
+    enumerator :: DEM_FIELD_FRAGMENT = 256, DEM_FIELD_DAMAGE = 512, DEM_FIELD_ALL = 1023
   end enum
 
   integer, parameter :: dem_probe_kind = c_int

@@ -126,6 +126,11 @@ static void fill_fragment(const frames *f, const view *v)
     (void)dem_simulation_fragments(v->simulation, &n_fragments, (dem_index *)(void *)f->scratch);
 }
 
+static void fill_damage(const frames *f, const view *v)
+{
+    (void)dem_simulation_damage(v->simulation, NULL, f->scratch);
+}
+
 static void fill_broken(const frames *f, const view *v)
 {
     (void)dem_simulation_broken(v->simulation, NULL, (unsigned char *)f->scratch);
@@ -155,6 +160,7 @@ static const struct array {
     {IN("PointData", "contact_force"), DEM_FIELD_CONTACT, HDF5_F32, NODES, 3, fill_contact_force},
     {IN("PointData", "contact_pressure"), DEM_FIELD_CONTACT, HDF5_F32, NODES, 1, fill_contact_pressure},
     {IN("PointData", "fragment"), DEM_FIELD_FRAGMENT, HDF5_I64, NODES, 1, fill_fragment},
+    {IN("PointData", "damage"), DEM_FIELD_DAMAGE, HDF5_F32, NODES, 1, fill_damage},
     /* Springs. */
     {IN("CellData", "strain"), DEM_FIELD_STRAIN, HDF5_F32, SPRINGS, 1, fill_strain},
     {IN("CellData", "force"), DEM_FIELD_FORCE, HDF5_F32, SPRINGS, 1, fill_force},

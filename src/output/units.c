@@ -26,7 +26,7 @@ static const struct unit {
     {"Pa", {"stress", "von_mises", "principal_stress", "contact_pressure", "peak_von_mises", "peak_stress"}},
     {"1",
      {"strain", "peak_strain", "strain_min", "strain_max", "area_min", "closure", "weight", "normal",
-      "largest_fragment", "debris"}},
+      "largest_fragment", "debris", "damage"}},
     {"J", {"energy",          "kinetic",          "elastic",         "area",           "guard",
            "gravity",         "impact",           "friction",        "damping",        "projection",
            "boundary",        "kinetic_energy",   "elastic_energy",  "area_energy",    "guard_energy",

@@ -184,11 +184,11 @@ static void open_soft_triangle(support_run *run, double rate, const dem_options 
 }
 
 /* The strain at t > 0 and what has been taken, of a triangle that begins to grow at a rate, 1/s. */
-typedef struct growth {
+typedef struct growing {
     double e, rate; /* of the strain */
     double taken;   /* J */
-    bool broken;
-} growth;
+    double left;    /* in tension; 0: it is broken */
+} growing;
 
 /* The next time at which a strain reaches `limit`, where it is e with a rate, and goes as a sine of frequency w;
  * infinity: never. */
@@ -198,10 +198,10 @@ static double reach(double e, double rate, double w, double limit)
     return amplitude > limit ? (asin(limit / amplitude) - phase) / w : (double)INFINITY;
 }
 
-static growth growth_at(double rate, double t_end)
+static growing growth_at(double rate, double t_end)
 {
     const double w = sqrt(3.0 * soft_stiffness), energy = 1.5 * soft_stiffness; /* J, at strain 1 */
-    growth s = {.rate = rate};
+    growing s = {.rate = rate, .left = 1.0};
     for (int level = 0; level <= SOFTENING_LEVELS; level++) {
         const double left = softening_left(soft_ratio, level), own = sqrt(left) * w, limit = limit_strain(level);
         const double due = reach(s.e, s.rate, own, limit), dt = fmin(due, t_end);
@@ -219,7 +219,7 @@ static growth growth_at(double rate, double t_end)
         if (due > dt) return s;
         const double after = level < SOFTENING_LEVELS ? softening_left(soft_ratio, level + 1) : 0.0;
         s.taken += (left - after) * energy * limit * limit;
-        s.broken = level == SOFTENING_LEVELS;
+        s.left = after;
     }
     s.e += s.rate * t_end;
     return s;
@@ -239,17 +239,21 @@ TEST(a_triangle_softens_when_and_as_it_must)
         for (int q = 1; q <= 8; q++) {
             const double t = 0.25 * q;
             const motion s = support_at(&run, t);
-            const growth expected = growth_at(rates[k / 2], t);
+            const growing expected = growth_at(rates[k / 2], t);
+            double damage, of_nodes[3];
             unsigned char broken;
             assert_ok(dem_simulation_broken(run.simulation, &broken, NULL));
+            assert_ok(dem_simulation_damage(run.simulation, &damage, of_nodes));
             assert_close(s.x[0] * sqrt(3.0) - 1.0, expected.e, 1e-10);
             assert_close(s.v[0] * sqrt(3.0), expected.rate, 1e-9);
             assert_close(s.energy.fracture, expected.taken, 1e-11);
             assert_close(s.energy.ledger, 0.5 * rates[k / 2] * rates[k / 2], 1e-11);
-            assert_int_equal(broken, expected.broken);
+            assert_int_equal(broken, expected.left == 0.0);
+            assert_close(damage, 1.0 - expected.left, 0.0);
+            for (int i = 0; i < 3; i++) assert_close(of_nodes[i], damage, 1e-15);
             n_pressed += expected.e < 0.0;
         }
-        assert_int_equal(growth_at(rates[k / 2], 2.0).broken, k / 2 == 0);
+        assert_int_equal(growth_at(rates[k / 2], 2.0).left == 0.0, k / 2 == 0);
         assert_true(growth_at(rates[k / 2], 2.0).taken > 0.0);
         assert_true(k / 2 == 0 || n_pressed > 1);
     }

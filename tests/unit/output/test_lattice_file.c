@@ -293,11 +293,12 @@ TEST_WITH(unknown_names_are_refused, write_lattice, remove_lattice)
         {"velocities", "velocities"}, {"Fixed", "Fixed"}, {"a\nb \xff", "a?b??"}, {"m", "m"}};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
         char message[320];
-        (void)snprintf(message, sizeof message,
-                       "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
-                       "viscosity, critical_stretch, triangles, guard, area_stiffness, "
-                       "thickness, modulus, coupling, strength, softening, body, position, velocity, fixed, rigid, contact_nodes",
-                       path, names[k][1]);
+        (void)snprintf(
+            message, sizeof message,
+            "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
+            "viscosity, critical_stretch, triangles, guard, area_stiffness, "
+            "thickness, modulus, coupling, strength, softening, body, position, velocity, fixed, rigid, contact_nodes",
+            path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);
         drop(names[k][0]);

@@ -680,8 +680,8 @@ TEST(bad_arguments_are_refused)
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "deflate is 10, not in 0 to 9");
     options = every_frame(), options.frame_interval = NAN;
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "frame_interval");
-    options = every_frame(), options.fields = 512 | DEM_FIELD_STRESS;
-    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "fields is 0x204, with unknown bits");
+    options = every_frame(), options.fields = 1024 | DEM_FIELD_STRESS;
+    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "fields is 0x404, with unknown bits");
     options = every_frame(), options.most_stressed = -1;
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "most_stressed is -1; it must be >= 0");
     options = every_frame(), options.n_probes = 2;

@@ -357,6 +357,7 @@ TEST(arrays_are_listed_with_what_they_are)
         {"body", "", DEM_READER_I32, 0, 1, 1},
         {"contact_force", "N", DEM_READER_F64, 0, 3, 0},
         {"contact_pressure", "Pa", DEM_READER_F64, 0, 1, 0},
+        {"damage", "1", DEM_READER_F64, 0, 1, 0},
         {"displacement", "m", DEM_READER_F64, 0, 3, 0},
         {"fragment", "", DEM_READER_I64, 0, 1, 0},
         {"id", "", DEM_READER_I64, 0, 1, 1},
