@@ -46,12 +46,12 @@ TEST(limits_grow_and_what_is_left_falls)
     }
 }
 
-/* Before and after each limit the stress is off the law by the same, q ln q/(32 (q - 1)), to the next order in the way
+/* Before and after each limit the stress is off the law by the same, q ln q/(64 (q - 1)), to the next order in the way
  * between two limits. */
 TEST(the_stress_stays_near_the_law)
 {
     for (int k = 0; k < N_RATIOS; k++) {
-        const double q = ratios[k], bound = q * log(q) / (32.0 * (q - 1.0)), way = log(q) / 16.0;
+        const double q = ratios[k], bound = q * log(q) / (64.0 * (q - 1.0)), way = log(q) / 32.0;
         for (int level = 1; level <= softening_levels(q); level++) {
             const double left = softening_left(q, level), from = softening_limit(q, level - 1);
             const double to = softening_limit(q, level);

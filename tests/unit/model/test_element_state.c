@@ -119,7 +119,7 @@ static void make_soft(dem_lattice *l)
 static void weaken_some(element_state *s, dem_index t)
 {
     const int levels = softening_levels(s->lattice->softening[t]);
-    for (int k = 0; k < (int)(t * 11 % 17) && k < levels; k++) element_state_soften(s, t);
+    for (int k = 0; k < (int)(t * 11 % 33) && k < levels; k++) element_state_soften(s, t);
     if (t % 4 == 0) element_state_break_triangle(s, t);
 }
 

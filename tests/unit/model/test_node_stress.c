@@ -103,12 +103,12 @@ TEST(softened_triangles_carry_what_is_left_in_tension)
         assert_ok(dem_model_create(&model, &soft, NULL, 0));
         assert_ok(element_state_create(&state, &model->lattice, &model->springs));
         for (dem_index t = 0; t < soft.n_triangles; t++)
-            for (int k = 0; k < 1 + (int)(t % 16); k++) element_state_soften(&state, t);
+            for (int k = 0; k < 1 + (int)(t % 32); k++) element_state_soften(&state, t);
         for (int sign = -1; sign <= 1; sign += 2) {
             memset(sum, 0, 4 * (size_t)soft.n_nodes * sizeof *sum);
             for (dem_index c = 0; c < 2 * soft.n_nodes; c++) x[c] = soft.x[c] * (1.0 + sign * strain_size);
             for (dem_index t = 0; t < soft.n_triangles; t++) {
-                const double left = sign > 0 ? softening_left(3.0, 1 + (int)(t % 16)) : 1.0;
+                const double left = sign > 0 ? softening_left(3.0, 1 + (int)(t % 32)) : 1.0;
                 double own[3];
                 node_stress_of_triangle(model, &state, t, x, own);
                 for (int c = 0; c < 3; c++) {
