@@ -50,8 +50,7 @@ static const schema_key material_keys[] = {
     {"strength", SCHEMA_REAL, 1, 1, "Pa", NONE, "> 0", NULL, PHYSICS,
      "With fracture 'stress': largest principal stress that a triangle stands, mean of its corners.", "2e7"},
     {"fracture_energy", SCHEMA_REAL, 1, 1, "J/m^2", NONE, "> 0", NULL, PHYSICS,
-     "With fracture 'stress': energy that a crack takes for its area. Alone it gives the strength of brittle triangles "
-     "by the spacing; with 'strength' triangles soften.",
+     "With fracture 'stress': energy of a crack for its area. Alone it gives the strength; with one, triangles soften.",
      NONE},
     {"critical_stretch", SCHEMA_REAL, 1, 1, "-", NONE, "> 0", NULL, PHYSICS,
      "With fracture 'stretch': strain at which a spring breaks.", NONE},
@@ -353,8 +352,10 @@ static const schema_key output_keys[] = {
      NULL},
     {"fields", SCHEMA_CHOICE, 1, 0, "-", "'displacement', 'velocity', 'stress', 'von_mises', 'strain', 'force'", ANY,
      "displacement|velocity|stress|von_mises|principal|contact|fragment|damage|strain|force", false,
-     "What frames show beside positions: eight of nodes, two of springs; `breaks` adds 'fragment', and 'damage' of what "
-     "softens.", NULL},
+     "What frames show beside positions: eight of nodes, two of springs; `breaks` adds 'fragment', and 'damage' of "
+     "what "
+     "softens.",
+     NULL},
     {"peak_every", SCHEMA_INTEGER, 1, 1, "-", "4", ">= 0", NULL, false,
      "Accepted steps from one look for the largest stresses and strains of the run to the next; 0: no looks.", NULL},
     {"most_stressed", SCHEMA_INTEGER, 1, 1, "-", "5", "[0, 1000]", NULL, false,

@@ -111,8 +111,8 @@ TEST(groups_and_keys_have_sentences)
 
 static void check_unit(const schema_group *group, const schema_key *key)
 {
-    static const char *const units[] = {"-",   "m",  "s",       "m/s", "m/s^2", "Pa",    "kg/m^3", "N",
-                                        "N/m", "kg", "degrees", "J",   "Hz",    "rad/s", "1/s",    "m^3"};
+    static const char *const units[] = {"-",  "m",       "s", "m/s", "m/s^2", "Pa",  "kg/m^3", "N",    "N/m",
+                                        "kg", "degrees", "J", "Hz",  "rad/s", "1/s", "m^3",    "J/m^2"};
     if (!is_listed(key->unit, units, LENGTH(units)))
         fail_msg("%s in &%s: unit '%s'", key->name, group->name, key->unit);
     if (key->type != SCHEMA_REAL) assert_string_equal(key->unit, "-");
