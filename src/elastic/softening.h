@@ -7,7 +7,7 @@
  * and to 0 at the last one. Between limits the triangle is linear elastic. Since the integral of g_k U from U_k to
  * U_(k+1) is that of s, a triangle that breaks has taken the energy of the law, and since the limits are in geometric
  * progression the stress is nowhere further from the law than by q ln q/(64 (q - 1)) of the strength: 0.022, 0.034
- * at q = 2, 6. The 32nd root is five square roots, which are rounded alike everywhere. */
+ * at q = 2, 6. The powers are products of square roots of square roots of q, which are rounded alike everywhere. */
 #ifndef DEM_ELASTIC_SOFTENING_H
 #define DEM_ELASTIC_SOFTENING_H
 
@@ -24,9 +24,11 @@ static inline int softening_levels(double q)
 /** U_k, at which a triangle softens or breaks that has softened k times before. */
 static inline double softening_limit(double q, int k)
 {
-    const double ratio = sqrt(sqrt(sqrt(sqrt(sqrt(q)))));
-    double limit = 1.0;
-    for (int i = 0; i < k; i++) limit *= ratio;
+    double limit = 1.0, root = q;
+    for (int bit = SOFTENING_LEVELS; bit > 0; bit /= 2) {
+        if (k & bit) limit *= root;
+        root = sqrt(root);
+    }
     return limit;
 }
 

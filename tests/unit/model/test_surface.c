@@ -14,22 +14,22 @@ enum { MOST_NODES = 64 };
 /* A triangulation from literal arrays, every node of which may touch. */
 typedef struct body {
     double x[2 * MOST_NODES];
-    dem_index triangles[3 * MOST_NODES];
+    dem_index corners[3 * MOST_NODES];
     unsigned char flags[MOST_NODES];
     dem_lattice lattice;
 } body;
 
-static void body_open(body *b, dem_index n_nodes, const double *x, dem_index n_triangles, const dem_index *triangles)
+static void body_open(body *b, dem_index n_nodes, const double *x, dem_index n_triangles, const dem_index *corners)
 {
     memcpy(b->x, x, 2 * (size_t)n_nodes * sizeof *x);
-    memcpy(b->triangles, triangles, 3 * (size_t)n_triangles * sizeof *triangles);
+    memcpy(b->corners, corners, 3 * (size_t)n_triangles * sizeof *corners);
     memset(b->flags, DEM_NODE_CONTACT, sizeof b->flags);
     b->lattice = (dem_lattice){.struct_size = sizeof(dem_lattice),
                                .dim = 2,
                                .n_nodes = n_nodes,
                                .n_triangles = n_triangles,
                                .x = b->x,
-                               .triangles = b->triangles,
+                               .triangles = b->corners,
                                .flags = b->flags};
 }
 
@@ -37,8 +37,8 @@ static void body_open(body *b, dem_index n_nodes, const double *x, dem_index n_t
 static void open_square(body *b)
 {
     static const double x[8] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0};
-    static const dem_index triangles[6] = {0, 1, 2, 3, 0, 2};
-    body_open(b, 4, x, 2, triangles);
+    static const dem_index corners[6] = {0, 1, 2, 3, 0, 2};
+    body_open(b, 4, x, 2, corners);
 }
 
 static void check_ends(const surface *s, dem_index n, const dem_index *ends)
@@ -165,11 +165,11 @@ TEST(a_ring_has_two_boundaries_that_run_opposite_ways)
 TEST(the_boundaries_of_two_bodies_follow_one_another)
 {
     static const double x[16] = {0, 0, 5, 0, 1, 0, 6, 0, 1, 1, 6, 1, 0, 1, 5, 1};
-    static const dem_index triangles[12] = {0, 2, 4, 1, 3, 5, 0, 4, 6, 1, 5, 7};
+    static const dem_index corners[12] = {0, 2, 4, 1, 3, 5, 0, 4, 6, 1, 5, 7};
     static const dem_index ends[16] = {0, 2, 2, 4, 4, 6, 6, 0, 1, 3, 3, 5, 5, 7, 7, 1};
     body b;
     CLEANUP(surface_free) surface s;
-    body_open(&b, 8, x, 4, triangles);
+    body_open(&b, 8, x, 4, corners);
     assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     check_ends(&s, 8, ends);
     check_lists(&s, 8);
@@ -181,11 +181,11 @@ TEST(the_boundaries_of_two_bodies_follow_one_another)
 TEST(at_a_pinch_node_two_boundaries_meet)
 {
     static const double x[10] = {-1, 1, -1, -1, 0, 0, 1, -1, 1, 1};
-    static const dem_index triangles[6] = {0, 1, 2, 3, 4, 2};
+    static const dem_index corners[6] = {0, 1, 2, 3, 4, 2};
     int starts = 0, stops = 0;
     body b;
     CLEANUP(surface_free) surface s;
-    body_open(&b, 5, x, 2, triangles);
+    body_open(&b, 5, x, 2, corners);
     assert_ok(surface_compile(&s, &b.lattice, SURFACE_TOUCHING));
     assert_int_equal(s.n_edges, 6);
     check_lists(&s, 5);
