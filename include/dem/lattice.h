@@ -196,10 +196,10 @@ typedef struct dem_weibull {
                                 out of a lattice draws like the whole where it keeps the numbers of that */
 } dem_weibull;
 
-/** Draws factors of strengths and critical stretches for dem_lattice_weaken(), which are the caller's to bound: ((V_0/V)
- *  (-ln u))^(1/m), with u uniform in (0, 1) by seed, body and number alone, the same bits on every machine. V is the
- *  volume of a triangle, thickness times area in the rest shape. Each triangle gives its volume to the springs that it
- *  holds in equal parts; what they have of it is the volume of springs.
+/** Draws factors of strengths and critical stretches for dem_lattice_weaken(), which are the caller's to bound:
+ *  ((V_0/V) (-ln u))^(1/m), with u uniform in (0, 1) by seed, body and number alone, the same bits on every machine. V
+ *  is the volume of a triangle, thickness times area in the rest shape. Each triangle gives its volume to the springs
+ *  that it holds in equal parts; what they have of it is the volume of springs.
  *  \param laws  [n_laws]
  *  \param of    [n_triangles] number of each triangle's law, from 0; NULL: the first. A spring between two laws has the
  *               smaller factor of both

@@ -62,8 +62,8 @@ static inline bool fracture_source_has_failed(const fracture_source *s)
     return s->n_failed > 0;
 }
 
-/** Where the whole body stops at events: when something breaks or softens first in a step, from its start; infinity if nothing
- *  does before its end.  \param state  [2 dim n_rows] scratch */
+/** Where the whole body stops at events: when something breaks or softens first in a step, from its start; infinity if
+ *  nothing does before its end.  \param state  [2 dim n_rows] scratch */
 double fracture_source_first(fracture_source *s, const dense_output *step, double *state);
 
 /** Then breaks or softens, in the state y of that time, what is due first, and all that is over its limit in

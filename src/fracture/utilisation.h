@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How far an element is from breaking or softening: its utilisation is what drives it over what it stands as it is, and
- * it breaks, or softens once more, at 1 (docs/method.md, Fracture). Elements are numbered: first the triangles of a lattice, then its springs. */
+ * it breaks, or softens once more, at 1 (docs/method.md, Fracture). Elements are numbered: first the triangles of a
+ * lattice, then its springs. */
 #ifndef DEM_FRACTURE_UTILISATION_H
 #define DEM_FRACTURE_UTILISATION_H
 
 #include "model/element_state.h"
 #include "model/model.h"
 
-/** What a triangle stands, Pa: its strength, or more if it has softened, since what drives it is its effective stress. */
+/** What a triangle stands, Pa: its strength, or more if it has softened, as effective stress is what drives it. */
 double utilisation_limit(const dem_lattice *lattice, const element_state *elements, dem_index triangle);
 
-/** Of a triangle with a limit whose corners have these effective stresses, Pa: the largest principal value of their mean
- *  over the limit. */
+/** Of a triangle with a limit whose corners have these effective stresses, Pa: the largest principal value of their
+ *  mean over the limit. */
 double utilisation_of_stress(double limit, const double a[3], const double b[3], const double c[3]);
 
 /** Of an element that is whole, at positions x [n][2]: of a triangle by its corners' stresses, of a spring its strain

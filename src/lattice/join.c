@@ -115,8 +115,8 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     return join_numbers(&out->critical_stretch, a->critical_stretch, n, b->critical_stretch, m, (double)INFINITY);
 }
 
-/* A guard, an area stiffness and couplings that are missing are 0; without a strength triangles never break, and without
- * softening they break at once. */
+/* A guard, an area stiffness and couplings that are missing are 0; without a strength triangles never break, and
+ * without softening they break at once. */
 static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_triangles, m = b->n_triangles;

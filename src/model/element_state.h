@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Which triangles and springs have broken or softened in one simulation. A triangle is whole, or has softened in
  * tension a number of times (elastic/softening.h), or is broken. A spring keeps the shares of those of its triangles
- * that are not broken, and in tension what is left of these; one that no triangle holds is whole or broken. The model, which has
- * their numbers, never changes and may belong to many simulations. A simulation without such a state has whole elements
- * only. What breaks them is src/simulation/breaking.c. */
+ * that are not broken, and in tension what is left of these; one that no triangle holds is whole or broken. The model,
+ * which has their numbers, never changes and may belong to many simulations. A simulation without such a state has
+ * whole elements only. What breaks them is src/simulation/breaking.c. */
 #ifndef DEM_MODEL_ELEMENT_STATE_H
 #define DEM_MODEL_ELEMENT_STATE_H
 
@@ -46,8 +46,8 @@ void element_state_break(element_state *s, dem_index element);
 /** Softens a triangle that is not broken once more. What is left of springs depends on the levels, not on the order. */
 void element_state_soften(element_state *s, dem_index triangle);
 
-/** Takes the last break or softening of an element back, to the bit; then the nodes that have become damaged since there
- *  were n. */
+/** Takes the last break or softening of an element back, to the bit; then the nodes that have become damaged since
+ *  there were n. */
 void element_state_mend(element_state *s, dem_index element);
 void element_state_forget_nodes(element_state *s, dem_index n);
 

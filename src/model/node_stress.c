@@ -3,8 +3,8 @@
  *     S = (1/V) sum over these of (1/3) (sum over springs of w r x f + sum of r x f of its couplings + A dW/dA I),
  * with V a third of their volumes, w the triangle's share of each spring, and f the force of the whole spring: w of it
  * is what the triangle carries. To count broken triangles with a stress of 0 would make the node look unloaded where it
- * carries most, at the tip of a crack. Of a triangle that has softened each part in tension counts as it is left, or, of
- * the effective stress, as if it were whole. Where all elements are whole model/stress.c has the same sum by rows. */
+ * carries most, at the tip of a crack. Of a triangle that has softened each part in tension counts as it is left; of
+ * the effective stress all counts. Where all elements are whole model/stress.c has the same sum by rows. */
 #include "model/node_stress.h"
 
 #include "model/spring_share.h"
@@ -15,8 +15,8 @@ static double counted(const element_state *s, node_stress_kind kind, dem_index t
     return kind == NODE_STRESS_CARRIED && s->left != NULL ? s->left[triangle] : 1.0;
 }
 
-/* Adds w r x f of the springs that a triangle of which `left` counts in tension holds. A spring is pulled if the trace of
- * its r x f is positive. */
+/* Adds w r x f of the springs that a triangle of which `left` counts in tension holds. A spring is pulled if the trace
+ * of its r x f is positive. */
 static void add_triangle(const dem_model *m, const element_state *s, dem_index triangle, double left, const double *x,
                          double sum[3])
 {

@@ -17,8 +17,8 @@ typedef enum node_stress_kind {
 void node_stress(const dem_model *model, const element_state *state, node_stress_kind kind, dem_index i,
                  const double *x, double stress[3]);
 
-/** The own effective stress of a triangle, Pa: those of nodes are means of such by volume, where all springs are held by
- *  triangles. */
+/** The own effective stress of a triangle, Pa: those of nodes are means of such by volume, where all springs are held
+ *  by triangles. */
 void node_stress_of_triangle(const dem_model *model, const element_state *state, dem_index triangle, const double *x,
                              double stress[3]);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Elements of a simulation break or soften: forces, the surfaces that touch, and overlaps go on with those that are whole. The
- * new state of elements and its surface are made beside the ones in force, which they replace when nothing can fail any
- * more. The energy that the broken elements had is entered as that of fracture, so that the ledger closes: the change
- * of the mechanical energy with the motion as it is, that of new surfaces near others with it. Masses stay. All that
- * follows from what is broken is a function of the flags alone, which are all that a checkpoint has. */
+/* Elements of a simulation break or soften: forces, the surfaces that touch, and overlaps go on with those that are
+ * whole. The new state of elements and its surface are made beside the ones in force, which they replace when nothing
+ * can fail any more. The energy that the broken elements had is entered as that of fracture, so that the ledger closes:
+ * the change of the mechanical energy with the motion as it is, that of new surfaces near others with it. Masses stay.
+ * All that follows from what is broken is a function of the flags alone, which are all that a checkpoint has. */
 #include "simulation/breaking.h"
 
 #include <math.h>

@@ -150,7 +150,7 @@ TEST(a_triangle_breaks_at_its_strength)
 /* ---- a triangle that softens ---- */
 
 /* The triangle above, which softens at the strains e_k at which its stress is U_k times the strength that it has at
- * e_0. Between them the strain is a sine of the frequency sqrt(g_k) w while it is positive, of w while it is negative. */
+ * e_0. Between them the strain is a sine of the frequency sqrt(g_k) w where it is positive, of w where negative. */
 static const double soft_stiffness = 3.0, first_strain = 0.02, soft_ratio = 3.0;
 
 static double stress_at(double e)

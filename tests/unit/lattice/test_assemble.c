@@ -513,8 +513,8 @@ TEST(limits_are_those_of_the_materials)
     assert_int_equal(dem_lattice_assemble(&other, &of[0]), DEM_ERROR_ARGUMENT);
 }
 
-/* Alone a fracture energy gives each triangle a strength by its own size, with a strength it gives it a softening. Plane
- * strain is a plate of E/(1 - nu^2). */
+/* Alone a fracture energy gives each triangle a strength by its own size, with a strength it gives it a softening.
+ * Plane strain is a plate of E/(1 - nu^2). */
 TEST(a_fracture_energy_gives_strength_or_softening)
 {
     dem_material glass = {.struct_size = sizeof(dem_material),

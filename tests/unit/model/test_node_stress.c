@@ -87,8 +87,8 @@ TEST(it_is_the_mean_of_its_triangles)
     }
 }
 
-/* Stretched in all directions, every part of a triangle is in tension: a node carries the mean of its triangles' effective
- * stresses times what is left of them. Squeezed, it carries all. */
+/* Stretched in all directions, every part of a triangle is in tension: a node carries the mean of its triangles'
+ * effective stresses times what is left of them. Squeezed, it carries all. */
 TEST(softened_triangles_carry_what_is_left_in_tension)
 {
     for (int kind = 0; kind < N_KINDS; kind++) {
