@@ -352,10 +352,7 @@ static const schema_key output_keys[] = {
      NULL},
     {"fields", SCHEMA_CHOICE, 1, 0, "-", "'displacement', 'velocity', 'stress', 'von_mises', 'strain', 'force'", ANY,
      "displacement|velocity|stress|von_mises|principal|contact|fragment|damage|strain|force", false,
-     "What frames show beside positions: eight of nodes, two of springs; `breaks` adds 'fragment', and 'damage' of "
-     "what "
-     "softens.",
-     NULL},
+     "What frames show beside positions: all but two of nodes; `breaks` adds 'fragment' and 'damage'.", NULL},
     {"peak_every", SCHEMA_INTEGER, 1, 1, "-", "4", ">= 0", NULL, false,
      "Accepted steps from one look for the largest stresses and strains of the run to the next; 0: no looks.", NULL},
     {"most_stressed", SCHEMA_INTEGER, 1, 1, "-", "5", "[0, 1000]", NULL, false,

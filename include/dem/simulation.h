@@ -433,7 +433,7 @@ DEM_API dem_status dem_simulation_broken(const dem_simulation *simulation, unsig
                                          unsigned char *spring);
 
 /** Damage: what is gone of triangles in tension, 0 of one that is whole, 1 of one that is broken, and of nodes, the
- *  mean of their triangles by rest area; 0 of a node without triangles. Each may be NULL.
+ *  mean of their triangles by rest volume; 0 of a node without triangles. Each may be NULL.
  *  \param[out] triangle  [n_triangles]
  *  \param[out] node      [n_nodes] */
 DEM_API dem_status dem_simulation_damage(const dem_simulation *simulation, double *triangle, double *node);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The energy G that a crack takes for its area is a number of the lattice. It was measured, in strips whose sides are
- * parted (tests/verification/test_strip.c), as
+ * parted (test_strip.c and test_crack_band.c in tests/verification), as
  *     G E/(strength^2 a) = 3.4               of brittle triangles,
- *                          1.9 + 1.03 q      where they soften, from q = 2 on,
+ *                          2.0 + 1.07 q      where they soften, from q = 2 on,
  * and in between a straight line joins the two. */
 #include "lattice/crack_band.h"
 
 #include <math.h>
 
-static const double brittle = 3.4, offset = 1.9, slope = 1.03, joint = 2.0;
+static const double brittle = 3.4, offset = 2.0, slope = 1.07, joint = 2.0;
 
 double crack_band_size(double area)
 {

@@ -15,6 +15,7 @@
 
 #include "base/status.h"
 #include "model/spring_holders.h"
+#include "model/spring_share.h"
 
 /* Shares are multiples of 2^-52, so that differences of them are exact and do not depend on the order in which
  * triangles break, and a break can be taken back to the bit. */
@@ -258,4 +259,24 @@ void element_state_mend(element_state *s, dem_index element)
 void element_state_forget_nodes(element_state *s, dem_index n)
 {
     while (s->n_damaged > n) s->node[s->damaged[--s->n_damaged]] = 0;
+}
+
+/* ---- what is gone ---- */
+
+double element_state_damage(const element_state *s, dem_index triangle)
+{
+    if (s == NULL) return 0.0;
+    return s->triangle[triangle] ? 1.0 : 1.0 - triangles_left(element_state_triangles(s), triangle);
+}
+
+double element_state_node_damage(const element_state *s, dem_index node)
+{
+    double volume = 0.0, gone = 0.0;
+    if (element_state_at(s, node) == NULL) return 0.0;
+    for (dem_index p = s->at_row[node]; p < s->at_row[node + 1]; p++) {
+        const double own = spring_share_volume(s->lattice, s->at[p]);
+        volume += own;
+        gone += element_state_damage(s, s->at[p]) * own;
+    }
+    return volume > 0.0 ? gone / volume : 0.0;
 }

@@ -80,6 +80,11 @@ static inline bool element_state_is_corner(const element_state *s, dem_index tri
     return corner[0] == node || corner[1] == node || corner[2] == node;
 }
 
+/** What is gone of a triangle in tension, 1 of one that is broken; and of a node, the mean of its triangles by rest
+ *  volume, 0 without triangles.  \param s  NULL: nothing */
+double element_state_damage(const element_state *s, dem_index triangle);
+double element_state_node_damage(const element_state *s, dem_index node);
+
 /** Whether a triangle is whole and holds a spring. */
 static inline bool element_state_holds(const element_state *s, dem_index triangle, dem_index spring)
 {

@@ -237,34 +237,13 @@ dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangl
     return DEM_OK;
 }
 
-/* Of a triangle of the lattice. */
-static double damage_of(const element_state *elements, dem_index triangle)
-{
-    if (elements == NULL) return 0.0;
-    return elements->triangle[triangle] ? 1.0 : 1.0 - triangles_left(element_state_triangles(elements), triangle);
-}
-
-/* The mean of a node's triangles, of which there is no list where all elements are whole. */
-static double mean_damage(const dem_lattice *l, const element_state *elements, dem_index node)
-{
-    double area = 0.0, damaged = 0.0;
-    if (element_state_at(elements, node) == NULL) return 0.0;
-    for (dem_index p = elements->at_row[node]; p < elements->at_row[node + 1]; p++) {
-        const dem_index t = elements->at[p], *c = &l->triangles[3 * t];
-        const double own = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
-        area += own;
-        damaged += damage_of(elements, t) * own;
-    }
-    return area > 0.0 ? damaged / area : 0.0;
-}
-
 dem_status dem_simulation_damage(const dem_simulation *s, double *triangle, double *node)
 {
     TRY(check_given("dem_simulation_damage", s, s));
     const dem_lattice *l = &s->model->lattice;
     const element_state *elements = elements_of(s);
-    for (dem_index t = 0; t < l->n_triangles && triangle != NULL; t++) triangle[t] = damage_of(elements, t);
-    for (dem_index i = 0; i < l->n_nodes && node != NULL; i++) node[i] = mean_damage(l, elements, i);
+    for (dem_index t = 0; t < l->n_triangles && triangle != NULL; t++) triangle[t] = element_state_damage(elements, t);
+    for (dem_index i = 0; i < l->n_nodes && node != NULL; i++) node[i] = element_state_node_damage(elements, i);
     return DEM_OK;
 }
 

@@ -537,11 +537,11 @@ TEST(a_fracture_energy_gives_strength_or_softening)
         const double area = area_of(&soft, t), size = sqrt(4.0 * area / sqrt(3.0));
         assert_close(brittle.strength[t], sqrt(modulus * 8.0 / (3.4 * size)), 1e-14 * brittle.strength[t]);
         assert_close(soft.strength[t], 60e6, 0.0);
-        assert_close(soft.softening[t], (modulus * 8.0 / (60e6 * 60e6 * size) - 1.9) / 1.03, 1e-12 * soft.softening[t]);
+        assert_close(soft.softening[t], (modulus * 8.0 / (60e6 * 60e6 * size) - 2.0) / 1.07, 1e-12 * soft.softening[t]);
     }
 }
 
-/* 3.4 times the size that would have this strength and this energy is the length E G/strength^2, here 5 a in the mean. */
+/* 3.4 times the size that would have this strength and this energy is the length E G/strength^2, here 2 m. */
 TEST(triangles_too_large_for_strength_and_fracture_energy_are_refused)
 {
     dem_material glass = {.struct_size = sizeof(dem_material),
@@ -558,7 +558,7 @@ TEST(triangles_too_large_for_strength_and_fracture_energy_are_refused)
         "J/m^2 * 0.588235 m at most");
     glass.strength = 5e6;
     assert_int_equal(dem_lattice_assemble(&block, &glass), DEM_OK);
-    assert_close(block.softening[0], (8.0 - 1.9) / 1.03, 1e-12);
+    assert_close(block.softening[0], (8.0 - 2.0) / 1.07, 1e-12);
     glass.fracture_energy = -1.0;
     assert_refused(dem_lattice_assemble(&block, &glass), DEM_ERROR_MODEL, "already has");
     CLEANUP(dem_lattice_free) dem_lattice other = dem_lattice_empty();

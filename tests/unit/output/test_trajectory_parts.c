@@ -561,7 +561,7 @@ TEST(other_options_are_refused)
     const point none = {0, NULL};
     dem_trajectory_options options = everything();
     options.fields = DEM_FIELD_STRESS;
-    assert_resume_fails(&p, &a, options, DEM_ERROR_ARGUMENT, "fields is 4, in the run that is to go on it is 511");
+    assert_resume_fails(&p, &a, options, DEM_ERROR_ARGUMENT, "fields is 4, in the run that is to go on it is 1023");
     options = everything(), options.double_precision = 1;
     assert_resume_fails(&p, &a, options, DEM_ERROR_ARGUMENT, "double_precision is 1");
     options = everything(), options.events = 0;

@@ -305,12 +305,13 @@ static dem_simulation *drop_pair(dem_model **model, dem_contact_method contact, 
 static void look_at_all(const dem_simulation *s)
 {
     dem_state now = {.struct_size = sizeof now};
-    double strain, force, stress[6], of_contact[4], pressure[2];
+    double strain, force, stress[6], of_contact[4], pressure[2], damage[2];
     assert_ok(dem_simulation_state(s, &now));
     for (dem_index k = 0; k < now.n_contacts; k++) (void)ask_contact(s, k);
     (void)ask_energy(s);
     (void)ask_strain(s);
     assert_ok(dem_simulation_strains(s, &strain));
+    assert_ok(dem_simulation_damage(s, NULL, damage));
     assert_ok(dem_simulation_forces(s, &force));
     assert_ok(dem_simulation_force_at(s, 0, &force));
     assert_ok(dem_simulation_stress(s, stress));

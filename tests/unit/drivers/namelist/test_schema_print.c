@@ -282,7 +282,7 @@ TEST(the_template_tells_type_unit_range_choices_and_default)
     assert_contains(text, "\n    ! [real, s, > 0; must be given]\n    t_end = ");
     assert_contains(text, "\n    ! [reals, 2 of them, m/s^2; default: 0, -9.81]\n    gravity = 0, -9.81\n");
     assert_contains(text, "\n    ! [reals, 2 to 4 of them, m]\n    place = ");
-    assert_contains(text, "|strain|\n    !     force; default: 'displacement', "); /* too long for one line */
+    assert_contains(text, "|damage|\n    !     strain|force; default: 'displacement', "); /* too long for one line */
     assert_contains(text, "\n    ! [reals, at least 4, m; must be given]\n    points = ");
     assert_contains(text, "\n    ! [string, single|double; default: 'single']\n    precision = 'single'\n");
     assert_contains(text, "\n    ! [integer, in [0, 9]; default: 1]\n    deflate = 1\n");
