@@ -129,7 +129,7 @@ static void check_strengths(double strength[SIZES][BODIES])
         double mean = 0.0;
         for (int b = 0; b < BODIES; b++) mean += strength[s][b] / BODIES;
         const double statistic = kolmogorov(strength[s], sizes[s]);
-        print_message("volume %2d: mean %.4f, expected %.4f; Kolmogorov %.2f\n", sizes[s], mean, expected, statistic);
+        print_message("# volume %2d: mean %.4f, expected %.4f; Kolmogorov %.2f\n", sizes[s], mean, expected, statistic);
         assert_close(mean, expected, 0.031 * expected);
         assert_true(statistic < 1.36);
     }
