@@ -31,7 +31,7 @@ DECKS = [
                    "most_stressed = 5": "most_stressed = 7",
                    "events = .false.": "events = .true.", "'force'\n": "'force', 'principal'\n",
                    "&probe\n": PROBES + "&probe\n"}, 6, 1e-3,
-     ["--probes", "3", "--fields", "displacement,velocity,stress,von_mises,principal_stress,strain,force"]),
+     ["--probes", "3", "--fields", "displacement,fragment,velocity,stress,von_mises,principal_stress,strain,force"]),
 ]
 
 # A point of 2 kg is thrown onto a floor, against a wall and onto the floor again.

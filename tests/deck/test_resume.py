@@ -175,6 +175,22 @@ class Cuts(Case):
         other, whole = lasting(self.result("other")), lasting(self.result("whole"))
         self.assertEqual({key for key in other if other[key] != whole[key]}, {"run"}, "which has kernel and threads")
 
+    def test_a_body_that_softens(self):
+        self.put(BRITTLE.replace("strength = 4e6", "strength = 3e6, fracture_energy = 150"))
+        self.call(0, outdir="whole")
+        self.assertGreater(self.result("whole")["broken_triangles"], 5)
+        self.assertLess(abs(self.result("whole")["closure"]), 1e-6)
+        if compare is not None:
+            with h5py.File(self.folder / "whole" / "a.vtkhdf", "r") as file:
+                damage = file["VTKHDF/PointData/damage"][...]
+                self.assertTrue(damage.min() == 0.0 and damage.max() <= 1.0)
+                self.assertTrue(((damage > 0.0) & (damage < 0.3)).any(), "something has softened a little")
+        self.assertGreater(self.go_on("cut", *AT_ONCE), 10)
+        self.expect_same("cut")
+        self.call(0, "--set", "solver.kernel='portable'", "--set", "solver.threads=2", outdir="other")
+        other, whole = lasting(self.result("other")), lasting(self.result("whole"))
+        self.assertEqual({key for key in other if other[key] != whole[key]}, {"run"}, "which has kernel and threads")
+
     def expect_breaks(self):
         """The table has each triangle that is broken at the end, once, in the order of time, and all of the energy."""
         if compare is None:

@@ -104,7 +104,8 @@ static dem_trajectory_options all_of(const deck *d, const dem_peaks *peaks)
     options.frame_interval = d->t_end / 4.0;
     options.double_precision = 1;
     options.events = 1;
-    options.fields = DEM_FIELD_ALL & ~(DEM_FIELD_CONTACT | DEM_FIELD_FRAGMENT); /* that came after the stored hashes */
+    /* The others came after the stored hashes. */
+    options.fields = DEM_FIELD_ALL & ~(DEM_FIELD_CONTACT | DEM_FIELD_FRAGMENT | DEM_FIELD_DAMAGE);
     options.peaks = peaks;
     options.n_probes = d->n_probes;
     options.probes = d->probes;
