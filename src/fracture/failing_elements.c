@@ -14,12 +14,13 @@ void failing_elements_destroy(failing_elements *f)
     free(f->list);
     free(f->nodes);
     free(f->breaks);
+    free(f->forced);
     *f = (failing_elements){0};
 }
 
 void failing_elements_clear(failing_elements *f)
 {
-    f->n = f->n_nodes = f->n_breaking = 0;
+    f->n = f->n_nodes = f->n_forced = f->n_breaking = 0;
     f->status = DEM_OK;
 }
 
@@ -61,7 +62,10 @@ static void add_holders(failing_elements *f, const element_state *s, dem_index s
     for (int end = 0; end < 2; end++) {
         const dem_index i = s->lattice->ends[2 * spring + end];
         for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++)
-            if (element_state_holds(s, s->at[p], spring)) add_triangle(f, s, s->at[p]);
+            if (element_state_holds(s, s->at[p], spring)) {
+                add_triangle(f, s, s->at[p]);
+                append(f, &f->forced, &f->n_forced, &f->forced_capacity, s->at[p]);
+            }
     }
 }
 
@@ -94,23 +98,34 @@ static dem_index sort(dem_index *list, dem_index n)
     return kept;
 }
 
-/* Whether an element breaks, and does not soften: a cell does if one of its halves does. */
-static bool breaks(const element_state *s, dem_index element)
+/* Whether a triangle breaks for its own part. */
+static bool breaks_alone(const failing_elements *f, const element_state *s, dem_index triangle)
 {
-    if (element >= s->lattice->n_triangles || element_state_is_last(s, element)) return true;
+    return element_state_is_last(s, triangle) || sorted_find(f->forced, f->n_forced, triangle) >= 0;
+}
+
+/* Whether an element breaks, and does not soften: a cell does if one of its halves does. */
+static bool breaks(const failing_elements *f, const element_state *s, dem_index element)
+{
+    if (element >= s->lattice->n_triangles || breaks_alone(f, s, element)) return true;
     for (dem_index p = s->row[element]; p < s->row[element + 1]; p++) {
         const dem_index half = other_half(s, element, p);
-        if (half >= 0 && element_state_is_last(s, half)) return true;
+        if (half >= 0 && breaks_alone(f, s, half)) return true;
     }
     return false;
 }
 
-static void find_nodes(failing_elements *f, const dem_lattice *l)
+/* The ends of all springs that triangles hold are among them, and so the far end of a second diagonal. */
+static void find_nodes(failing_elements *f, const element_state *s)
 {
+    const dem_lattice *l = s->lattice;
     for (dem_index k = 0; k < f->n; k++) {
-        const dem_index spring = f->list[k] - l->n_triangles;
-        const dem_index *corner = spring < 0 ? &l->triangles[3 * f->list[k]] : &l->ends[2 * spring];
+        const dem_index t = f->list[k], spring = t - l->n_triangles;
+        const dem_index *corner = spring < 0 ? &l->triangles[3 * t] : &l->ends[2 * spring];
         for (int c = 0; c < (spring < 0 ? 3 : 2); c++) append(f, &f->nodes, &f->n_nodes, &f->node_capacity, corner[c]);
+        for (dem_index p = spring < 0 ? s->row[t] : 0; spring < 0 && p < s->row[t + 1]; p++)
+            for (int end = 0; end < 2; end++)
+                append(f, &f->nodes, &f->n_nodes, &f->node_capacity, l->ends[2 * s->spring[p] + end]);
     }
     f->n_nodes = sort(f->nodes, f->n_nodes);
 }
@@ -118,13 +133,14 @@ static void find_nodes(failing_elements *f, const dem_lattice *l)
 void failing_elements_complete(failing_elements *f, const element_state *s)
 {
     f->n = sort(f->list, f->n);
-    find_nodes(f, s->lattice);
+    f->n_forced = sort(f->forced, f->n_forced);
+    find_nodes(f, s);
     if (!grow_array((void **)&f->breaks, &f->breaks_capacity, f->n, sizeof *f->breaks)) {
         f->status = status_fail(DEM_ERROR_MEMORY, "out of memory for elements that break");
         return;
     }
     f->n_breaking = 0;
-    for (dem_index k = 0; k < f->n; k++) f->n_breaking += f->breaks[k] = breaks(s, f->list[k]);
+    for (dem_index k = 0; k < f->n; k++) f->n_breaking += f->breaks[k] = breaks(f, s, f->list[k]);
 }
 
 bool failing_elements_have(const failing_elements *f, dem_index node)

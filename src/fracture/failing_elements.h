@@ -9,6 +9,8 @@
 typedef struct failing_elements {
     dem_index n, capacity;
     dem_index *list; /* [n] elements, ascending when complete */
+    dem_index n_forced, forced_capacity;
+    dem_index *forced; /* [n_forced] triangles that a spring takes along, ascending when complete: they do not soften */
     dem_index n_breaking, breaks_capacity;
     bool *breaks; /* [n] whether each breaks; others soften */
     dem_index n_nodes, node_capacity;

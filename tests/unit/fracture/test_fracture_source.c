@@ -720,7 +720,7 @@ TEST(both_halves_of_a_cell_break_behind_a_triangle)
     for (dem_index t = 1; t < body.n_triangles; t += 2) assert_int_equal(triangle[t], triangle[t + 1]);
 }
 
-TEST(a_spring_takes_its_triangles_along)
+static void check_spring(double q)
 {
     unsigned char triangle[512], spring[1024];
     CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
@@ -735,6 +735,7 @@ TEST(a_spring_takes_its_triangles_along)
     assert_true(weak >= 0);
     block.critical_stretch = equal(block.n_springs, INFINITY);
     block.critical_stretch[weak] = 0.02;
+    if (q > 1.0) block.softening = equal(block.n_triangles, q);
     assert_int_equal(stretch(&block, triangle, spring), 2);
     for (dem_index k = 0; k < block.n_springs; k++) assert_int_equal(spring[k], k == weak);
     for (dem_index t = 0; t < block.n_triangles; t++) {
@@ -742,4 +743,11 @@ TEST(a_spring_takes_its_triangles_along)
         for (int c = 0; c < 6; c++) ends += block.triangles[3 * t + c % 3] == block.ends[2 * weak + c / 3];
         assert_int_equal(triangle[t], ends == 2);
     }
+}
+
+/* Those that would soften, too. */
+TEST(a_spring_takes_its_triangles_along)
+{
+    check_spring(1.0);
+    check_spring(3.0);
 }
