@@ -419,14 +419,15 @@ static dem_status note_failing(fracture_source *s, double t, const double *x)
     return DEM_OK;
 }
 
-/* Breaks or softens what is due at positions x. Effective stresses jump where something breaks alone. */
+/* Breaks or softens what is due at positions x. Effective stresses jump where something breaks, and what has softened
+ * may be over its next limit at once. */
 static dem_status break_failing(fracture_source *s, double t, const double *x)
 {
     const failing_elements *f = s->failing;
     TRY(f->status);
     TRY(check_number(s, t));
     TRY(note_failing(s, t, x));
-    s->jumped = f->n_breaking > 0;
+    s->jumped = f->n > 0;
     *s->taken += failing_elements_fail(f, s->model, s->elements, x, &s->breaks);
     return DEM_OK;
 }

@@ -28,7 +28,7 @@ typedef struct fracture_source {
     uint32_t look;             /* number of the present one */
     event_heap heap;           /* elements by the time at which they break or soften */
     failing_elements *failing; /* those that do so next, or have done so last */
-    bool jumped;               /* some have broken, and stresses beside them are others at once */
+    bool jumped;               /* some have, and others may be over their limits at once */
     dem_index n_failed, capacity, broken_capacity;
     dem_index *failed;   /* [n_failed] what has broken or softened in the step so far, in this order; */
     dem_index *broken;   /* [breaks.n] what has broken of it, */
