@@ -37,7 +37,7 @@ static inline double softening_left(double q, int k)
 {
     if (k == 0) return 1.0;
     const double middle = 0.5 * (softening_limit(q, k - 1) + softening_limit(q, k));
-    return (q - middle) / ((q - 1.0) * middle);
+    return (q / middle - 1.0) / (q - 1.0);
 }
 
 #endif

@@ -354,6 +354,8 @@ static dem_status break_flagged(const dem_simulation *s, element_state *elements
 {
     const dem_lattice *l = &s->model->lattice;
     TRY(element_state_create(elements, l, &s->model->springs));
+    for (dem_index k = 0; flags->level != NULL && k < l->n_triangles; k++)
+        if (flags->level[k] > 0) TRY(check_triangle(s, k));
     soften_to(elements, flags->level);
     for (dem_index k = 0; k < l->n_triangles; k++) {
         if (!flags->triangle[k]) continue;
