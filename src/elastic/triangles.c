@@ -45,18 +45,26 @@ static vec2 gradient(const triangles *t, dem_index p, const double *x)
     return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
-/* kappa, N/m, of the triangle in slot p, at an area ratio: one that is larger than at rest has what is left in
- * tension. */
-static double area_stiffness_at(const triangles *t, double left, dem_index p, double J)
+static bool is_coupled(const double *coupling, dem_index k)
 {
-    return J > 1.0 ? left * t->area_stiffness[p] : t->area_stiffness[p];
+    return coupling != NULL && (coupling[3 * k] != 0.0 || coupling[3 * k + 1] != 0.0 || coupling[3 * k + 2] != 0.0);
+}
+
+/* kappa, N/m, of the triangle in slot p, at an area ratio: one that is larger than at rest has what is left in tension.
+ * A negative one takes from springs; of coupled triangles, whose springs soften under pressure, too, it goes along. */
+static double area_stiffness_at(const triangles *t, triangles_integrity integrity, dem_index p, double J)
+{
+    const double kappa = t->area_stiffness[p];
+    const dem_index k = t->triangle[p];
+    if (integrity.left == NULL) return kappa;
+    return J > 1.0 || (kappa < 0.0 && is_coupled(integrity.coupling, k)) ? integrity.left[k] * kappa : kappa;
 }
 
 /* dW/dA = kappa (J - 1) + g w'(J), N/m: what area term and guard together resist a change of area with. */
-static double slope_at(const triangles *t, double left, dem_index p, double A)
+static double slope_at(const triangles *t, triangles_integrity integrity, dem_index p, double A)
 {
     const double A0 = t->rest_area[p], J = A / A0;
-    double slope = t->area_stiffness != NULL ? area_stiffness_at(t, left, p, J) * (J - 1.0) : 0.0;
+    double slope = t->area_stiffness != NULL ? area_stiffness_at(t, integrity, p, J) * (J - 1.0) : 0.0;
     if (A < TRIANGLES_GUARD_ONSET * A0) slope += t->guard[p] * triangles_guard_law(A / A0).slope;
     return slope;
 }
@@ -74,18 +82,17 @@ vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_inde
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         if (triangles_broken(t, integrity, p)) continue;
-        const double left = triangles_left(integrity, t->triangle[p]);
-        const double slope = slope_at(t, left, p, area_at(t, i, p, x));
+        const double slope = slope_at(t, integrity, p, area_at(t, i, p, x));
         if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
     }
     return force;
 }
 
 /* For an energy of the area alone r x f is A dW/dA times the unit tensor, since dA = A tr(e) under a strain e. */
-double triangles_virial(const triangles *t, double left, dem_index i, dem_index p, const double *x)
+double triangles_virial(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p, const double *x)
 {
     const double A = area_at(t, i, p, x);
-    return A * slope_at(t, left, p, A);
+    return A * slope_at(t, integrity, p, A);
 }
 
 /* d(dW/dA dA/dx_i) = d^2W/dA^2 (dA.u) dA/dx_i + dW/dA d(dA/dx_i). The area is quadratic in the positions: `change` =
@@ -100,7 +107,7 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
                    uc = vec2_sub(vec2_at(u, t->last[p]), vec2_at(u, i));
         const double A = 0.5 * vec2_cross(b, c), change = 0.5 * (vec2_cross(ub, c) + vec2_cross(b, uc));
         out = vec2_along(out, curvature_at(t, p, A) * change / t->rest_area[p], gradient(t, p, x));
-        out = vec2_along(out, slope_at(t, 1.0, p, A), gradient(t, p, u));
+        out = vec2_along(out, slope_at(t, TRIANGLES_WHOLE, p, A), gradient(t, p, u));
     }
     return out;
 }
@@ -109,8 +116,7 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
 static double area_energy(const triangles *t, triangles_integrity integrity, dem_index p, double J)
 {
     if (t->area_stiffness == NULL) return 0.0;
-    const double left = triangles_left(integrity, t->triangle[p]);
-    return 0.5 * t->rest_area[p] * area_stiffness_at(t, left, p, J) * (J - 1.0) * (J - 1.0);
+    return 0.5 * t->rest_area[p] * area_stiffness_at(t, integrity, p, J) * (J - 1.0) * (J - 1.0);
 }
 
 static double guard_energy(const triangles *t, dem_index p, double J)

@@ -15,8 +15,9 @@
 typedef struct triangles_integrity {
     const unsigned char *broken; /* [n_triangles] 1: nothing; NULL: all are whole */
     const double *left;          /* [n_triangles] of others, in tension; NULL: all */
+    const double *coupling;      /* [n_triangles][3] the lattice's; NULL: none */
 } triangles_integrity;
-#define TRIANGLES_WHOLE ((triangles_integrity){NULL, NULL})
+#define TRIANGLES_WHOLE ((triangles_integrity){NULL, NULL, NULL})
 
 /** What is left of triangle k of a lattice in tension. */
 static inline double triangles_left(triangles_integrity q, dem_index k)
@@ -49,9 +50,9 @@ static inline bool triangles_broken(const triangles *t, triangles_integrity q, d
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
 vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 
-/** r x f of the triangle in slot p of row i, J: A dW/dA of its energy W, which depends on its area A alone, times the
- *  unit tensor.  \param left  what is left of it in tension */
-double triangles_virial(const triangles *t, double left, dem_index i, dem_index p, const double *x);
+/** r x f of the triangle in slot p of row i, J, which is not broken: A dW/dA of its energy W, which depends on its area
+ *  A alone, times the unit tensor. */
+double triangles_virial(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p, const double *x);
 
 /** (K u)_i, N: minus the change of the force on node i when the nodes move from x by u; K is the second derivative of
  *  the energy. */

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 
 #include "base/status.h"
+#include "model/closed_crack.h"
 #include "model/spring_holders.h"
 #include "model/spring_share.h"
 
@@ -189,6 +190,55 @@ static double share_in_tension(const element_state *s, dem_index p, double left)
     return nearbyint(left * s->share[p] / unit) * unit;
 }
 
+static bool is_coupled(const dem_lattice *l, dem_index triangle)
+{
+    const double *coupling = l->coupling != NULL ? &l->coupling[3 * triangle] : NULL;
+    return coupling != NULL && (coupling[0] != 0.0 || coupling[1] != 0.0 || coupling[2] != 0.0);
+}
+
+/* The edge from corner c to the next one that a spring is; -1: none. */
+static int edge_of(const dem_lattice *l, dem_index triangle, dem_index spring)
+{
+    const dem_index *corner = &l->triangles[3 * triangle], *end = &l->ends[2 * spring];
+    for (int c = 0; c < 3; c++) {
+        const dem_index a = corner[c], b = corner[(c + 1) % 3];
+        if ((a == end[0] && b == end[1]) || (a == end[1] && b == end[0])) return c;
+    }
+    return -1;
+}
+
+/* What the spring in slot p would have of a coupled triangle under pressure if nothing of it were left in tension. */
+static double closed_part(const element_state *s, dem_index triangle, dem_index p)
+{
+    const dem_lattice *l = s->lattice;
+    double share[3] = {0.0}, part[3];
+    for (dem_index q = s->row[triangle]; q < s->row[triangle + 1]; q++) {
+        const dem_index k = s->spring[q];
+        share[edge_of(l, triangle, k)] = s->share[q] * springs_rate(l, k);
+    }
+    closed_crack_parts(l, triangle, share, part);
+    return part[edge_of(l, triangle, s->spring[p])];
+}
+
+/* The same as share_in_tension() under pressure: all of it, but of coupled triangles. */
+static double share_under_pressure(const element_state *s, dem_index triangle, dem_index p, double left)
+{
+    if (left == 1.0 || !is_coupled(s->lattice, triangle)) return s->share[p];
+    return nearbyint((left + (1.0 - left) * closed_part(s, triangle, p)) * s->share[p] / unit) * unit;
+}
+
+/* What is left of a triangle that is not broken. */
+static double left_of(const element_state *s, dem_index triangle)
+{
+    return s->left != NULL ? s->left[triangle] : 1.0;
+}
+
+double element_state_share(const element_state *s, dem_index triangle, dem_index p, bool pulled)
+{
+    const double left = left_of(s, triangle);
+    return pulled ? share_in_tension(s, p, left) : share_under_pressure(s, triangle, p, left);
+}
+
 void element_state_break_triangle(element_state *s, dem_index triangle)
 {
     if (s->triangle[triangle]) return;
@@ -196,7 +246,7 @@ void element_state_break_triangle(element_state *s, dem_index triangle)
     s->n_broken++;
     damage_corners(s, triangle);
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
-        take(&s->integrity[s->spring[p]], s->share[p]);
+        take(&s->integrity[s->spring[p]], share_under_pressure(s, triangle, p, left_of(s, triangle)));
         if (s->tension != NULL) take(&s->tension[s->spring[p]], share_in_tension(s, p, s->left[triangle]));
         damage_ends(s, s->spring[p]);
     }
@@ -206,8 +256,12 @@ void element_state_break_triangle(element_state *s, dem_index triangle)
 static void change_level(element_state *s, dem_index triangle, int level)
 {
     const double left = softening_left(s->lattice->softening[triangle], level);
-    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
-        s->tension[s->spring[p]] += share_in_tension(s, p, left) - share_in_tension(s, p, s->left[triangle]);
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
+        const dem_index k = s->spring[p];
+        const double before = s->left[triangle];
+        s->tension[k] += share_in_tension(s, p, left) - share_in_tension(s, p, before);
+        s->integrity[k] += share_under_pressure(s, triangle, p, left) - share_under_pressure(s, triangle, p, before);
+    }
     s->level[triangle] = (unsigned char)level;
     s->left[triangle] = left;
 }
@@ -240,7 +294,7 @@ static void mend_triangle(element_state *s, dem_index triangle)
     s->n_broken--;
     s->triangle[triangle] = 0;
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
-        s->integrity[s->spring[p]] += s->share[p];
+        s->integrity[s->spring[p]] += share_under_pressure(s, triangle, p, left_of(s, triangle));
         if (s->tension != NULL) s->tension[s->spring[p]] += share_in_tension(s, p, s->left[triangle]);
     }
 }

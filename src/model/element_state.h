@@ -59,8 +59,12 @@ static inline springs_integrity element_state_springs(const element_state *s)
 
 static inline triangles_integrity element_state_triangles(const element_state *s)
 {
-    return s != NULL ? (triangles_integrity){s->triangle, s->left} : TRIANGLES_WHOLE;
+    return s != NULL ? (triangles_integrity){s->triangle, s->left, s->lattice->coupling} : TRIANGLES_WHOLE;
 }
+
+/** What a triangle that is not broken gives to the spring in its slot p, over the stiffness of that, as it has
+ *  softened. */
+double element_state_share(const element_state *s, dem_index triangle, dem_index p, bool pulled);
 
 /** How many times a triangle has softened. */
 static inline int element_state_level(const element_state *s, dem_index triangle)

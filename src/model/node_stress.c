@@ -15,15 +15,15 @@ static double counted(const element_state *s, node_stress_kind kind, dem_index t
     return kind == NODE_STRESS_CARRIED && s->left != NULL ? s->left[triangle] : 1.0;
 }
 
-/* Adds w r x f of the springs that a triangle of which `left` counts in tension holds. A spring is pulled if the trace
- * of its r x f is positive. */
-static void add_triangle(const dem_model *m, const element_state *s, dem_index triangle, double left, const double *x,
-                         double sum[3])
+/* Adds w r x f of the springs that a triangle holds. A spring is pulled if the trace of its r x f is positive. */
+static void add_triangle(const dem_model *m, const element_state *s, node_stress_kind kind, dem_index triangle,
+                         const double *x, double sum[3])
 {
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
         double virial[3];
         springs_virial(&m->lattice, s->spring[p], x, virial);
-        const double share = virial[0] + virial[1] > 0.0 ? left * s->share[p] : s->share[p];
+        const bool pulled = virial[0] + virial[1] > 0.0, carried = kind == NODE_STRESS_CARRIED && s->left != NULL;
+        const double share = carried ? element_state_share(s, triangle, p, pulled) : s->share[p];
         for (int k = 0; k < 3; k++) sum[k] += share * virial[k];
     }
 }
@@ -56,9 +56,10 @@ static void add_couplings(const couplings *c, const element_state *s, node_stres
 static void add_areas(const triangles *t, const element_state *s, node_stress_kind kind, dem_index i, const double *x,
                       double sum[3])
 {
+    const triangles_integrity q = kind == NODE_STRESS_CARRIED ? element_state_triangles(s) : TRIANGLES_WHOLE;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         const dem_index triangle = t->triangle[p];
-        const double spread = s->triangle[triangle] ? 0.0 : triangles_virial(t, counted(s, kind, triangle), i, p, x);
+        const double spread = s->triangle[triangle] ? 0.0 : triangles_virial(t, q, i, p, x);
         sum[0] += spread;
         sum[1] += spread;
     }
@@ -72,7 +73,7 @@ static void of_whole_triangles(const dem_model *m, const element_state *s, node_
     stress[0] = stress[1] = stress[2] = 0.0;
     for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++) {
         if (s->triangle[s->at[p]]) continue;
-        add_triangle(m, s, s->at[p], counted(s, kind, s->at[p]), x, stress);
+        add_triangle(m, s, kind, s->at[p], x, stress);
         volume += spring_share_volume(&m->lattice, s->at[p]);
     }
     if (volume == 0.0) return;
@@ -92,14 +93,14 @@ void node_stress_of_triangle(const dem_model *m, const element_state *s, dem_ind
     const double volume = spring_share_volume(&m->lattice, triangle);
     double virial[3], spread = 0.0;
     stress[0] = stress[1] = stress[2] = 0.0;
-    add_triangle(m, s, triangle, 1.0, x, stress);
+    add_triangle(m, s, NODE_STRESS_EFFECTIVE, triangle, x, stress);
     for (dem_index p = c->n > 0 ? c->row[corner] : 0; c->n > 0 && p < c->row[corner + 1]; p++) {
         if (c->list[c->slot[p] / 3].triangle != triangle) continue;
         couplings_virial(c, p, x, virial);
         for (int k = 0; k < 3; k++) stress[k] += virial[k];
     }
     for (dem_index p = t->row[corner]; p < t->row[corner + 1]; p++)
-        if (t->triangle[p] == triangle) spread = triangles_virial(t, 1.0, corner, p, x);
+        if (t->triangle[p] == triangle) spread = triangles_virial(t, TRIANGLES_WHOLE, corner, p, x);
     stress[0] += spread;
     stress[1] += spread;
     for (int k = 0; k < 3; k++) stress[k] /= volume;

@@ -160,7 +160,7 @@ void stress_of_node(const stress_map *map, const dem_lattice *lattice, const tri
     }
     double spread = 0.0; /* of triangles, the same in all directions */
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
-        spread += triangles_virial(t, 1.0, i, p, x) / (3.0 * map->volume[i]);
+        spread += triangles_virial(t, TRIANGLES_WHOLE, i, p, x) / (3.0 * map->volume[i]);
     stress[0] = xx + spread;
     stress[1] = yy + spread;
     stress[2] = xy;

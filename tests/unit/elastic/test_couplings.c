@@ -218,7 +218,7 @@ TEST(the_tangent_is_the_derivative_of_the_force)
 TEST(a_broken_triangle_has_no_couplings)
 {
     const unsigned char flags[n_triangles] = {1, 1, 0, 0};
-    const triangles_integrity broken = {flags, NULL};
+    const triangles_integrity broken = {flags, NULL, NULL};
     CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
     CLEANUP(free_square) square s = make_square();
     double x[2 * n_nodes], tension[n_springs] = {0.0};
