@@ -86,8 +86,14 @@ dem_simulation *support_simulation(const dem_model *model, const dem_options *op
 void support_start(dem_lattice *lattice, const double *position, const double *velocity)
 {
     const size_t size = 2 * (size_t)lattice->n_nodes * sizeof(double);
-    if (position != NULL) lattice->position = copy(position, size);
-    if (velocity != NULL) lattice->velocity = copy(velocity, size);
+    if (position != NULL) {
+        free(lattice->position);
+        lattice->position = copy(position, size);
+    }
+    if (velocity != NULL) {
+        free(lattice->velocity);
+        lattice->velocity = copy(velocity, size);
+    }
 }
 
 /* e(s) = (1 - s^2)^2 and its first and second integral over y = half s. */
