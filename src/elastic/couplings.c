@@ -132,9 +132,7 @@ double couplings_add_tension(const couplings *c, triangles_integrity integrity, 
 
 static bool is_coupled(const dem_lattice *lattice, dem_index k)
 {
-    const double *coupling = lattice->coupling != NULL ? &lattice->coupling[3 * k] : NULL;
-    if (coupling == NULL || rigid_nodes_have(lattice, lattice->triangles[3 * k])) return false;
-    return coupling[0] != 0.0 || coupling[1] != 0.0 || coupling[2] != 0.0;
+    return triangles_are_coupled(lattice->coupling, k) && !rigid_nodes_have(lattice, lattice->triangles[3 * k]);
 }
 
 static dem_status allocate(couplings *c)

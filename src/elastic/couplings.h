@@ -37,8 +37,8 @@ static inline bool couplings_broken(const couplings *c, triangles_integrity inte
     return integrity.broken != NULL && integrity.broken[c->list[k].triangle];
 }
 
-/** What is left of the couplings of triangle k of the list, whether it is pulled or pushed: a couplings' energy has no
- *  part of each edge that could have its own. */
+/** What is left of the couplings of triangle k of the list, whether it is pulled or pushed: their energy has no part of
+ *  each edge that could have its own. */
 static inline double couplings_left(const couplings *c, triangles_integrity integrity, dem_index k)
 {
     return triangles_left(integrity, c->list[k].triangle);

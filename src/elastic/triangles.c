@@ -45,11 +45,6 @@ static vec2 gradient(const triangles *t, dem_index p, const double *x)
     return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
-static bool is_coupled(const double *coupling, dem_index k)
-{
-    return coupling != NULL && (coupling[3 * k] != 0.0 || coupling[3 * k + 1] != 0.0 || coupling[3 * k + 2] != 0.0);
-}
-
 /* kappa, N/m, of the triangle in slot p, at an area ratio: one that is larger than at rest has what is left in tension.
  * A negative one takes from springs; of coupled triangles, whose springs soften under pressure, too, it goes along. */
 static double area_stiffness_at(const triangles *t, triangles_integrity integrity, dem_index p, double J)
@@ -57,7 +52,7 @@ static double area_stiffness_at(const triangles *t, triangles_integrity integrit
     const double kappa = t->area_stiffness[p];
     const dem_index k = t->triangle[p];
     if (integrity.left == NULL) return kappa;
-    return J > 1.0 || (kappa < 0.0 && is_coupled(integrity.coupling, k)) ? integrity.left[k] * kappa : kappa;
+    return J > 1.0 || (kappa < 0.0 && triangles_are_coupled(integrity.coupling, k)) ? integrity.left[k] * kappa : kappa;
 }
 
 /* dW/dA = kappa (J - 1) + g w'(J), N/m: what area term and guard together resist a change of area with. */

@@ -19,6 +19,12 @@ typedef struct triangles_integrity {
 } triangles_integrity;
 #define TRIANGLES_WHOLE ((triangles_integrity){NULL, NULL, NULL})
 
+/** Whether the springs of triangle k of a lattice are coupled.  \param coupling  the lattice's */
+static inline bool triangles_are_coupled(const double *coupling, dem_index k)
+{
+    return coupling != NULL && (coupling[3 * k] != 0.0 || coupling[3 * k + 1] != 0.0 || coupling[3 * k + 2] != 0.0);
+}
+
 /** What is left of triangle k of a lattice in tension. */
 static inline double triangles_left(triangles_integrity q, dem_index k)
 {

@@ -190,12 +190,6 @@ static double share_in_tension(const element_state *s, dem_index p, double left)
     return nearbyint(left * s->share[p] / unit) * unit;
 }
 
-static bool is_coupled(const dem_lattice *l, dem_index triangle)
-{
-    const double *coupling = l->coupling != NULL ? &l->coupling[3 * triangle] : NULL;
-    return coupling != NULL && (coupling[0] != 0.0 || coupling[1] != 0.0 || coupling[2] != 0.0);
-}
-
 /* The edge from corner c to the next one that a spring is; -1: none. */
 static int edge_of(const dem_lattice *l, dem_index triangle, dem_index spring)
 {
@@ -223,7 +217,7 @@ static double closed_part(const element_state *s, dem_index triangle, dem_index 
 /* The same as share_in_tension() under pressure: all of it, but of coupled triangles. */
 static double share_under_pressure(const element_state *s, dem_index triangle, dem_index p, double left)
 {
-    if (left == 1.0 || !is_coupled(s->lattice, triangle)) return s->share[p];
+    if (left == 1.0 || !triangles_are_coupled(s->lattice->coupling, triangle)) return s->share[p];
     return nearbyint((left + (1.0 - left) * closed_part(s, triangle, p)) * s->share[p] / unit) * unit;
 }
 
