@@ -115,6 +115,13 @@ static void make_soft(dem_lattice *l)
     for (dem_index t = 0; t < l->n_triangles; t++) l->softening[t] = t % 5 == 0 ? 1.0 : 1.5 + 0.37 * (double)(t % 7);
 }
 
+static void open_soft(subject *s, int kind)
+{
+    dem_lattice soft = solid_of(kind);
+    make_soft(&soft);
+    open_subject(s, soft);
+}
+
 /* A level for each triangle, and those that are broken besides; brittle ones have none. */
 static void weaken_some(element_state *s, dem_index t)
 {
@@ -141,16 +148,14 @@ TEST(a_spring_has_in_tension_what_its_triangles_leave)
 {
     for (int kind = 0; kind < N_KINDS; kind++) {
         CLEANUP(close_subject) subject s;
-        dem_lattice soft = solid_of(kind);
-        make_soft(&soft);
-        open_subject(&s, soft);
-        for (dem_index t = 0; t < soft.n_triangles; t++) weaken_some(&s.state, t);
-        CLEANUP(free_memory) double *sum = calloc((size_t)soft.n_springs, sizeof *sum);
+        open_soft(&s, kind);
+        for (dem_index t = 0; t < s.lattice.n_triangles; t++) weaken_some(&s.state, t);
+        CLEANUP(free_memory) double *sum = calloc((size_t)s.lattice.n_springs, sizeof *sum);
         assert_non_null(sum);
-        for (dem_index t = 0; t < soft.n_triangles; t++)
+        for (dem_index t = 0; t < s.lattice.n_triangles; t++)
             for (dem_index p = s.state.row[t]; p < s.state.row[t + 1] && !s.state.triangle[t]; p++)
-                sum[s.state.spring[p]] += s.state.share[p] * softening_left(soft.softening[t], s.state.level[t]);
-        for (dem_index k = 0; k < soft.n_springs; k++) {
+                sum[s.state.spring[p]] += s.state.share[p] * softening_left(s.lattice.softening[t], s.state.level[t]);
+        for (dem_index k = 0; k < s.lattice.n_springs; k++) {
             assert_close(s.state.tension[k], sum[k], 4e-16);
             assert_true(s.state.tension[k] <= s.state.integrity[k]);
             assert_int_equal(s.state.tension[k] == 0.0, s.state.integrity[k] == 0.0);
@@ -163,14 +168,11 @@ TEST(the_order_of_softening_does_not_matter)
 {
     for (int kind = 0; kind < N_KINDS; kind++) {
         CLEANUP(close_subject) subject s, other;
-        dem_lattice soft = solid_of(kind), same = solid_of(kind);
-        make_soft(&soft);
-        make_soft(&same);
-        open_subject(&s, soft);
-        open_subject(&other, same);
-        for (dem_index t = 0; t < soft.n_triangles; t++) {
+        open_soft(&s, kind);
+        open_soft(&other, kind);
+        for (dem_index t = 0; t < s.lattice.n_triangles; t++) {
             weaken_some(&s.state, t);
-            weaken_some(&other.state, soft.n_triangles - 1 - t);
+            weaken_some(&other.state, s.lattice.n_triangles - 1 - t);
         }
         assert_same_state(&s, &other);
     }
@@ -180,12 +182,9 @@ TEST(softening_is_taken_back_to_the_bit)
 {
     for (int kind = 0; kind < N_KINDS; kind++) {
         CLEANUP(close_subject) subject s, other;
-        dem_lattice soft = solid_of(kind), same = solid_of(kind);
-        make_soft(&soft);
-        make_soft(&same);
-        open_subject(&s, soft);
-        open_subject(&other, same);
-        const dem_index n = soft.n_triangles;
+        open_soft(&s, kind);
+        open_soft(&other, kind);
+        const dem_index n = s.lattice.n_triangles;
         for (dem_index t = 0; t < n; t += 3) weaken_some(&s.state, t);
         for (dem_index t = 0; t < n; t += 3) weaken_some(&other.state, t);
         const dem_index n_damaged = s.state.n_damaged;
