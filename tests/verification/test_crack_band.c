@@ -114,7 +114,7 @@ static void of_regular_meshes(void **state)
     check(list, sizeof list / sizeof *list);
 }
 
-/* Found: 5.25, 5.07 (5.21). */
+/* Found: 5.26, 5.07 (5.21). */
 static void of_irregular_meshes(void **state)
 {
     const band_case list[] = {{3.0, {15.0, 0.25, true}, 1.5}, {3.0, {0.0, 0.0, false}, 6.0}};
