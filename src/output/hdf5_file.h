@@ -6,8 +6,7 @@
 
 #include <dem/dem.h>
 
-#define H5_USE_110_API /* the functions of version 1.10 are called, whatever the version installed */
-#include <hdf5.h>
+#include "output/hdf5_api.h"
 
 /** Types of numbers in a file. In memory HDF5_F32 is double and HDF5_I8 is int64_t; the others are the same. */
 typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;

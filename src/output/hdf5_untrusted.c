@@ -7,11 +7,13 @@
  *   layout        in this file, no external or virtual storage
  *   filters       deflate, shuffle and fletcher32: others may be plugins, which are programs
  *   size          no more than the stored bytes can hold, however well they are deflated
+ *   chunks        each holds what its extent says (hdf5_chunks.h)
  * The functions are fuzzed (docs/fuzzing.md). Files of this process's own run are opened by hdf5_file.c without these
  * checks. */
 #include "output/hdf5_untrusted.h"
 
 #include "base/status.h"
+#include "output/hdf5_chunks.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -265,16 +267,16 @@ static dem_status read_rows(const hdf5_file *file, const char *name, hid_t datas
 {
     const hsize_t start[HDF5_UNTRUSTED_RANK] = {rows->first};
     hsize_t count[HDF5_UNTRUSTED_RANK] = {0, 1, 1};
-    dem_status status = DEM_OK;
     const hid_t space = H5Dget_space(dataset), transfer = H5Pcreate(H5P_DATASET_XFER);
     const int rank = H5Sget_simple_extent_dims(space, count, NULL);
     count[0] = rows->count;
     /* A selection of columns within the rows. */
     if (rows->width > 0 && rank > 1) count[1] = rows->width;
     const hid_t memory = H5Screate_simple(rank, count, NULL);
-    if (H5Pset_type_conv_cb(transfer, on_conversion, NULL) < 0 ||
-        H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) < 0 ||
-        H5Dread(dataset, hdf5_memory_type(kind), memory, space, transfer, data) < 0)
+    dem_status status = hdf5_chunks_check(file->path, name, dataset, start, count, rank);
+    if (status == DEM_OK && (H5Pset_type_conv_cb(transfer, on_conversion, NULL) < 0 ||
+                             H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL) < 0 ||
+                             H5Dread(dataset, hdf5_memory_type(kind), memory, space, transfer, data) < 0))
         status = hdf5_fail(file, name, "cannot be read");
     (void)H5Sclose(memory);
     (void)H5Pclose(transfer);
@@ -287,7 +289,7 @@ dem_status hdf5_untrusted_read(const hdf5_file *file, const char *name, hdf5_kin
                                void *data)
 {
     if (rows.count == 0) return DEM_OK;
-    const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+    const hid_t dataset = hdf5_chunks_open(file->id, name);
     if (dataset < 0) return hdf5_fail(file, name, "is not a readable dataset");
     const dem_status status = read_rows(file, name, dataset, kind, &rows, data);
     (void)H5Dclose(dataset);

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is stored of a chunk is read as it is and unpacked here, to know how many bytes it gives: the filter mask and
+ * the size of a chunk stand in an index without a checksum, and a short deflated stream is valid in itself. */
+#include "output/hdf5_chunks.h"
+
+#include "base/status.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <zlib.h>
+
+enum { MAX_RANK = 3 };
+
+/* How the chunks of a dataset are stored. */
+typedef struct chunk_form {
+    int rank, n_filters;
+    int deflate; /* which filter unpacks; -1: none */
+    hsize_t extent[MAX_RANK];
+    hsize_t bytes; /* of the numbers of a chunk */
+} chunk_form;
+
+/* A cache of no bytes takes no chunk. */
+hid_t hdf5_chunks_open(hid_t file, const char *name)
+{
+    const hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
+    (void)H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, 0, H5D_CHUNK_CACHE_W0_DEFAULT);
+    const hid_t dataset = H5Dopen2(file, name, access);
+    (void)H5Pclose(access);
+    return dataset;
+}
+
+/* Which filter is deflate, -1 if none. */
+static int find_deflate(hid_t layout, int n_filters)
+{
+    for (int k = 0; k < n_filters; k++) {
+        size_t n_values = 0;
+        unsigned flags = 0;
+        if (H5Pget_filter2(layout, (unsigned)k, &flags, &n_values, NULL, 0, NULL, NULL) == H5Z_FILTER_DEFLATE) return k;
+    }
+    return -1;
+}
+
+static hsize_t bytes_of_number(hid_t dataset)
+{
+    const hid_t type = H5Dget_type(dataset);
+    const size_t size = H5Tget_size(type);
+    (void)H5Tclose(type);
+    return size;
+}
+
+static hsize_t bytes_of_file(hid_t dataset)
+{
+    hsize_t bytes = 0;
+    const hid_t file = H5Iget_file_id(dataset);
+    (void)H5Fget_filesize(file, &bytes);
+    (void)H5Fclose(file);
+    return bytes;
+}
+
+/* The rank is 0 where there are no chunks. */
+static chunk_form form_of(hid_t dataset)
+{
+    chunk_form f = {.deflate = -1, .extent = {1, 1, 1}};
+    const hid_t layout = H5Dget_create_plist(dataset);
+    if (H5Pget_layout(layout) == H5D_CHUNKED) {
+        f.rank = H5Pget_chunk(layout, MAX_RANK, f.extent);
+        f.n_filters = H5Pget_nfilters(layout);
+        f.deflate = find_deflate(layout, f.n_filters);
+    }
+    (void)H5Pclose(layout);
+    f.bytes = f.extent[0] * f.extent[1] * f.extent[2] * bytes_of_number(dataset);
+    return f;
+}
+
+/* How many bytes a deflated stream gives, counted up to `enough`; 0 if it is damaged. */
+static hsize_t count_inflated(unsigned char *packed, hsize_t size, hsize_t enough)
+{
+    unsigned char scratch[16384];
+    z_stream z = {.next_in = packed, .avail_in = (uInt)size};
+    int result = inflateInit(&z);
+    while (result == Z_OK && z.total_out < enough) {
+        z.next_out = scratch;
+        z.avail_out = sizeof scratch;
+        result = inflate(&z, Z_NO_FLUSH);
+    }
+    const hsize_t n = result == Z_OK || result == Z_STREAM_END ? z.total_out : 0;
+    (void)inflateEnd(&z);
+    return n;
+}
+
+/* Whether the stored bytes of the chunk give at least its extent. */
+static bool gives_all(hid_t dataset, const chunk_form *f, const hsize_t *at, unsigned char *stored, hsize_t size)
+{
+    uint32_t left_out = 0; /* the filters that were not used for this chunk, a bit each */
+    if (H5Dread_chunk(dataset, H5P_DEFAULT, at, &left_out, stored) < 0) return false;
+    const bool packed = f->deflate >= 0 && (left_out >> f->deflate & 1) == 0;
+    return (packed ? count_inflated(stored, size, f->bytes) : size) >= f->bytes;
+}
+
+/* A chunk that was never written is read as zeros. Where the index gives no size, reading fails and says why. */
+static dem_status check_chunk(const char *path, const char *name, hid_t dataset, const chunk_form *f, const hsize_t *at)
+{
+    hsize_t size = 0;
+    if (H5Dget_chunk_storage_size(dataset, at, &size) < 0 || size == 0) return DEM_OK;
+    bool whole = size <= bytes_of_file(dataset) && size <= UINT_MAX;
+    if (whole) {
+        unsigned char *stored = malloc((size_t)size);
+        CHECK_MEMORY(stored);
+        whole = gives_all(dataset, f, at, stored, size);
+        free(stored);
+    }
+    CHECK(whole, DEM_ERROR_IO, "%s: %s: cannot be read (a chunk is shorter than its extent)", path, name);
+    return DEM_OK;
+}
+
+/* The next chunk of the block behind the one at `at`, the last dimension first; false behind the last one. */
+static bool go_on(const chunk_form *f, const hsize_t *start, const hsize_t *count, hsize_t *at)
+{
+    for (int d = f->rank - 1; d >= 0; d--) {
+        at[d] += f->extent[d];
+        if (at[d] < start[d] + count[d]) return true;
+        at[d] = start[d] - start[d] % f->extent[d];
+    }
+    return false;
+}
+
+dem_status hdf5_chunks_check(const char *path, const char *name, hid_t dataset, const hsize_t *start,
+                             const hsize_t *count, int rank)
+{
+    const chunk_form f = form_of(dataset);
+    hsize_t at[MAX_RANK] = {0};
+    if (f.rank == 0) return DEM_OK;
+    CHECK(f.rank == rank, DEM_ERROR_IO, "%s: %s: has chunks of rank %d, not %d", path, name, f.rank, rank);
+    if (f.n_filters == 0 || count[0] == 0) return DEM_OK;
+    for (int d = 0; d < rank; d++) at[d] = start[d] - start[d] % f.extent[d];
+    do TRY(check_chunk(path, name, dataset, &f, at));
+    while (go_on(&f, start, count, at));
+    return DEM_OK;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Chunks of a dataset that is read: HDF5 does not compare the bytes stored of a chunk with its extent, and reads beyond
+ * its own memory where they are fewer. A damaged file has such chunks, and a crash would be all that a user sees. */
+#ifndef DEM_OUTPUT_HDF5_CHUNKS_H
+#define DEM_OUTPUT_HDF5_CHUNKS_H
+
+#include <dem/dem.h>
+
+#include "output/hdf5_api.h"
+
+/** Opens a dataset to read from it, so that plain chunks are read from the file without a copy in memory: beyond its
+ *  end HDF5 then fails. It must be closed by H5Dclose().
+ *  \return negative if there is none */
+hid_t hdf5_chunks_open(hid_t file, const char *name);
+
+/** Checks the deflated chunks in which a block of numbers is. A dataset without filters passes.
+ *  \param path,name    of the file and the dataset, for messages
+ *  \param start,count  [rank] the block
+ *  \return DEM_ERROR_IO naming file and dataset if a chunk holds less than its extent says, or if the rank is another;
+ *          DEM_ERROR_MEMORY */
+dem_status hdf5_chunks_check(const char *path, const char *name, hid_t dataset, const hsize_t *start,
+                             const hsize_t *count, int rank);
+
+#endif
