@@ -26,14 +26,16 @@ typedef struct sweep {
     double *u;                  /* [n_nodes][2] velocities, as v; NULL: not wanted */
     uint8_t *guarded;           /* [n_blocks] a bit for each node with a triangle on which the guard acts: its
                                    acceleration is without triangles */
-    const double *limit;        /* [n_blocks] strain that is not asked after; infinity: none of the block is */
-    uint8_t *strained; /* [n_blocks] a bit for each node with a spring, of those that it evaluates, strained more */
+    const double *limit;        /* [n_blocks] strain that is not asked after; infinity: none of the block is. Of a sweep
+                                   that fills accelerations NULL: no strains are asked after */
+    uint8_t *strained;          /* [n_blocks] a bit for each node with a spring, of those that it evaluates, strained
+                                   more */
     const sweep_fused_step
         *fused_step; /* NULL: none. Else x is its x1, which the sweep fills before it reads it, but for
                                    layout->ahead blocks at both ends; and its v1, after the accelerations */
 } sweep;
 
-/** Sweeps the blocks `first` to `last` - 1.
+/** Sweeps the blocks `first` to `last` - 1. Strains may be asked after in a fused step.
  *  \param ring  [layout->ring_length][2], twice that where springs are damped: scratch of one thread
  *  \return the sum of the accelerations, and of the velocities if wanted: not finite if one of them is not */
 typedef double sweep_function(const sweep *s, dem_index first, dem_index last, double *ring);
@@ -45,7 +47,8 @@ typedef void sweep_guard_function(const sweep *s, dem_index first, dem_index las
 
 sweep_guard_function sweep_guard_portable, sweep_guard_avx2, sweep_guard_avx512;
 
-/** Fills `strained` and nothing else. A spring whose strain is within 1e-12 of the limit may count or not. */
+/** Fills `strained` and nothing else. In either sweep a spring whose strain is within 1e-12 of the limit may count or
+ *  not. */
 typedef void sweep_strain_function(const sweep *s, dem_index first, dem_index last);
 
 sweep_strain_function sweep_strain_portable, sweep_strain_avx2, sweep_strain_avx512;

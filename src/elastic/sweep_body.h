@@ -14,9 +14,10 @@
 
 #define INLINE static inline __attribute__((always_inline)) /* so that laws are known where loops are compiled */
 
-/* What acts beside undamped springs of their own, and whether the pass takes a step. */
+/* What acts beside undamped springs of their own, whether the pass takes a step, and whether it also tells which nodes
+ * have springs that are strained more than their block's limit. */
 typedef struct laws {
-    bool damped, coupled, fused;
+    bool damped, coupled, fused, watched;
 } laws;
 
 /* The operands of an entry for all lanes. `here` is where those that lie side by side are counted from. */
@@ -37,10 +38,27 @@ INLINE void repeat(const layout *l, intern_span span, double *ring)
     for (int32_t p = span.first; p < span.end; p++) repeat_first(l, ring + entries[p].to);
 }
 
-/* Forces (1) of the springs of which the block has the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), into the ring;
- * and behind all of them, those of damping, c (d.v)/(d0 d^2) d. Lanes that take no part leave what nobody collects. */
-INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, double *ring)
+/* A bit for each node whose lane is chosen and takes part. */
+INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
 {
+    unsigned nodes = 0;
+    for (int q = 0; q < LAYOUT_LANES; q++) nodes |= (chosen >> layout_lane(q) & mask >> (2 * q) & 1u) << q;
+    return nodes;
+}
+
+/* The same of the nodes whose springs are longer or shorter than at rest by more than `most`. */
+INLINE unsigned strained_of(lanes longer, lanes most, unsigned mask)
+{
+    const unsigned over = lanes_below(most, longer) | lanes_below(longer, lanes_mul(lanes_all(-1.0), most));
+    return over != 0 ? nodes_of(over, mask) : 0;
+}
+
+/* Forces (1) of the springs of which the block has the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), into the ring;
+ * and behind all of them, those of damping, c (d.v)/(d0 d^2) d. Lanes that take no part leave what nobody collects.
+ * \return if it is watched, the nodes with a spring strained by more than the limit, a bit each */
+INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, double limit, double *ring)
+{
+    const bool damped = acting.damped;
     const layout *l = s->layout;
     const intern_span span = l->springs.span[block];
     const layout_entry *entries = l->springs.entries.items;
@@ -49,21 +67,32 @@ INLINE void evaluate_springs(const sweep *s, dem_index block, bool damped, doubl
     const double *positions = s->x + 2 * row, *velocities = damped ? s->v + 2 * row : NULL;
     const pairs x = pairs_load(positions), v = damped ? pairs_load(velocities) : x;
     double *out = ring + 2 * at_row, *damping = ring + 2 * l->ring_length;
+    unsigned nodes = 0;
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const double *set = sets + e->set;
         const pairs d = pairs_sub(fetch(l, s->x, positions, e->at, gathered), x);
         const lanes square = pairs_dot(d, d), length = lanes_sqrt(square), rest = lanes_load(set + LAYOUT_LANES);
-        const lanes stretch = lanes_mul(lanes_load(set), lanes_sub(length, rest));
+        const lanes longer = lanes_sub(length, rest), stretch = lanes_mul(lanes_load(set), longer);
         pairs_store(out + e->to, pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d));
+        if (acting.watched) nodes |= strained_of(longer, lanes_mul(lanes_all(limit), rest), e->mask);
         if (!damped) continue;
         const pairs dv = pairs_sub(fetch(l, s->v, velocities, e->at, gathered), v);
         const lanes rate = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), pairs_dot(d, dv));
         pairs_store(damping + 2 * at_row + e->to, pairs_scale(lanes_div(rate, lanes_mul(rest, square)), d));
     }
-    if (at_row != 0) return;
+    if (at_row != 0) return nodes;
     repeat(l, span, ring);
     if (damped) repeat(l, span, damping);
+    return nodes;
+}
+
+/* A strain within 1e-12 of the limit may count or not. The blocks below the first are another share's. */
+INLINE void evaluate_block(const sweep *s, dem_index block, dem_index first, laws acting, double *ring)
+{
+    const double limit = acting.watched ? s->limit[block] - 1e-12 : 0.0;
+    const unsigned nodes = evaluate_springs(s, block, acting, limit, ring);
+    if (acting.watched && block >= first) s->strained[block] = (uint8_t)nodes;
 }
 
 /* What couplings add to the tensions of edges, over their lengths, times the edges: `own` and `other` are the couplings
@@ -127,14 +156,6 @@ INLINE pairs sum_terms(const layout *l, const layout_part *part, dem_index block
         }
     }
     return sum;
-}
-
-/* A bit for each node whose lane is chosen and takes part. */
-INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
-{
-    unsigned nodes = 0;
-    for (int q = 0; q < LAYOUT_LANES; q++) nodes |= (chosen >> layout_lane(q) & mask >> (2 * q) & 1u) << q;
-    return nodes;
 }
 
 /* Each node's sum over its triangles of the area term, -kappa (A/A0 - 1) dA/dx_i, and which nodes the guard acts on. */
@@ -211,7 +232,7 @@ INLINE double run(const sweep *s, dem_index first, dem_index last, laws acting, 
     pairs sum = pairs_both(0.0, 0.0);
     for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
         if (acting.fused && block >= first && block + ahead < last - ahead) drift(s->fused_step, block + ahead);
-        if (block < last) evaluate_springs(s, block, acting.damped, ring);
+        if (block < last) evaluate_block(s, block, first, acting, ring);
         if (acting.coupled && block < last) evaluate_couplings(s, block, ring);
         if (block <= first) continue;
         const dem_index at = 2 * LAYOUT_LANES * (block - 1);
@@ -268,8 +289,10 @@ void SWEEP_STRAIN(const sweep *s, dem_index first, dem_index last)
 double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
 {
     const layout *l = s->layout;
-    if (l->coupled) return run(s, first, last, (laws){l->damped, true, s->fused_step != NULL}, ring);
-    if (s->fused_step != NULL) return run(s, first, last, (laws){.fused = true}, ring);
+    const bool fused = s->fused_step != NULL, watched = s->limit != NULL;
+    if (l->coupled) return run(s, first, last, (laws){l->damped, true, fused, watched}, ring);
+    if (fused && watched) return run(s, first, last, (laws){.fused = true, .watched = true}, ring);
+    if (fused) return run(s, first, last, (laws){.fused = true}, ring);
     return l->damped ? run(s, first, last, (laws){.damped = true}, ring) : run(s, first, last, (laws){0}, ring);
 }
 

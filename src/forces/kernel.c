@@ -404,7 +404,10 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
                .u = y->u,
                .a = y->a,
                .guarded = k->guarded,
+               .limit = y->fused_step != NULL ? k->limit : NULL,
+               .strained = k->strained,
                .fused_step = y->fused_step};
+    k->watched = s.limit != NULL ? y->x : NULL;
     if (y->fused_step != NULL) THREADS_RUN(k->n_threads, t, drift_ends(k, t, y->fused_step));
     /* The sweep knows the layout's order only. `packed` has 1/m first, x from n on, v from 3 n on and a from 5 n on. */
     if (k->packed != NULL) {
@@ -458,7 +461,8 @@ static void visit_place(const kernel *k, dem_index q, kernel_visitor *visit, voi
         if (l->order != NULL || s->neighbour[p] > i) visit(context, s->spring[p]);
 }
 
-void kernel_visit_strained(kernel *k, const element_state *e, const double *x, kernel_visitor *visit, void *context)
+/* Which nodes have strained springs. */
+static void find_strained(kernel *k, const element_state *e, const double *x)
 {
     const layout *l = &k->model->layout;
     if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
@@ -468,6 +472,14 @@ void kernel_visit_strained(kernel *k, const element_state *e, const double *x, k
                      .limit = k->limit,
                      .strained = k->strained};
     THREADS_RUN(k->n_threads, t, k->sweep_strain(&s, share_of(k, t).first, share_of(k, t).last));
+}
+
+/* What a fused step has found is asked for once: the next who asks may have changed the positions. */
+void kernel_visit_strained(kernel *k, const element_state *e, const double *x, kernel_visitor *visit, void *context)
+{
+    const layout *l = &k->model->layout;
+    if (k->watched != x) find_strained(k, e, x);
+    k->watched = NULL;
     for (dem_index block = 0; block < l->n_blocks; block++)
         for (int lane = 0; lane < LAYOUT_LANES && k->strained[block] != 0; lane++)
             if (k->strained[block] >> lane & 1) visit_place(k, LAYOUT_LANES * block + lane, visit, context);

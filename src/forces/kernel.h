@@ -24,7 +24,8 @@ typedef struct kernel {
     uint8_t *guarded;       /* [n_blocks] */
     double *sums;           /* [n_threads] */
     double *limit;          /* [n_blocks] the least of the thresholds that are watched; NULL: none are */
-    uint8_t *strained;      /* [n_blocks] */
+    uint8_t *strained;      /* [n_blocks] nodes with springs strained more, */
+    const double *watched;  /* at these positions, of a fused step; NULL: to be found */
     trimmed_layout trimmed; /* what sweeps read where something has broken, */
     dem_index n_trimmed;    /* if so many elements have; -1: there is none */
     double *packed;         /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
@@ -47,7 +48,8 @@ dem_status kernel_watch(kernel *k, const float *threshold);
 typedef void kernel_visitor(void *context, dem_index spring);
 
 /** Visits springs at positions x [n][2]: all that are not broken and strained by more than their thresholds, and others
- *  near those, in some order, some of them twice. They are watched. */
+ *  near those, in some order, some of them twice. They are watched. If x is where a fused step has just ended, the
+ *  step itself has found them: no other positions may stand there by now. */
 void kernel_visit_strained(kernel *k, const element_state *elements, const double *x, kernel_visitor *visit,
                            void *context);
 
