@@ -55,6 +55,7 @@ static dem_lattice view_of(const strengths *s, const dem_lattice *lattice, size_
     dem_lattice view = *lattice;
     view.strength = part_of(s->of_triangles, lattice->n_triangles, copy);
     view.softening = part_of(s->softening, lattice->n_triangles, copy);
+    view.compressive_strength = part_of(s->compressive, lattice->n_triangles, copy);
     view.critical_stretch = part_of(s->of_springs, lattice->n_springs, copy);
     return view;
 }
@@ -63,6 +64,7 @@ static void begin_copy(dem_lattice *view, const dem_lattice *lattice)
 {
     put(view->strength, lattice->strength, lattice->n_triangles, 0);
     put(view->softening, lattice->softening, lattice->n_triangles, 0);
+    put(view->compressive_strength, lattice->compressive_strength, lattice->n_triangles, 0);
     put(view->critical_stretch, lattice->critical_stretch, lattice->n_springs, 0);
 }
 
@@ -79,6 +81,7 @@ static bool make_room(strengths *s, const dem_lattice *l, size_t n_copies)
     bool complete = true;
     s->of_triangles = make_like(l->strength, l->n_triangles, n_copies, &complete);
     s->softening = make_like(l->softening, l->n_triangles, n_copies, &complete);
+    s->compressive = make_like(l->compressive_strength, l->n_triangles, n_copies, &complete);
     s->of_springs = make_like(l->critical_stretch, l->n_springs, n_copies, &complete);
     return complete;
 }
@@ -133,13 +136,15 @@ void strengths_free(strengths *s)
 {
     free(s->of_triangles);
     free(s->softening);
+    free(s->compressive);
     free(s->of_springs);
-    s->of_triangles = s->softening = s->of_springs = NULL;
+    s->of_triangles = s->softening = s->compressive = s->of_springs = NULL;
 }
 
 void strengths_put(dem_lattice *lattice, const strengths *s, size_t number)
 {
     put(lattice->strength, s->of_triangles, lattice->n_triangles, number);
     put(lattice->softening, s->softening, lattice->n_triangles, number);
+    put(lattice->compressive_strength, s->compressive, lattice->n_triangles, number);
     put(lattice->critical_stretch, s->of_springs, lattice->n_springs, number);
 }

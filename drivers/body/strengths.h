@@ -28,6 +28,7 @@ typedef struct strengths {
     strengths_range triangles, springs; /* without numbers: these do not scatter */
     double *of_triangles, *of_springs;  /* [n_copies][n] Pa, and strains, where there are copies; owned */
     double *softening;                  /* [n_copies][n_triangles] where they soften; owned */
+    double *compressive;                /* [n_copies][n_triangles] Pa, where pressure breaks them; owned */
 } strengths;
 
 /* Draws for a lattice that has the strengths of its materials and is not placed yet, and gives it those of the first

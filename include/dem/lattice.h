@@ -47,6 +47,8 @@ typedef struct dem_material {
     double fracture_energy;  /**< G_f, J/m^2, >= 0, that a crack takes for its area; 0: what follows from the strength.
                                   Without a strength triangles are brittle, with one that follows from it; with both
                                   they soften. Neither with critical_stretch nor with bond_stiffness */
+    double compressive_strength; /**< Pa, 0 or >= strength: under pressure alone, with a strength and without a
+                                      fracture energy; 0: pressure breaks nothing. See dem_lattice */
 } dem_material;
 
 enum {
@@ -99,6 +101,13 @@ typedef struct dem_lattice {
                                 hold it; INFINITY: never; NULL: none breaks by its strain */
     double *softening; /**< [n_triangles]   q >= 1: at its strength a triangle does not break yet, but has less and less
                             left in tension, nothing at q times the strain; 1: it breaks; NULL: 1 in all */
+    double *compressive_strength; /**< [n_triangles] f_c >= strength, Pa: a triangle breaks when max(s1, 0)/strength -
+                            min(s3, 0)/f_c reaches 1, s1 >= s3 being the principal values of the mean of its corners'
+                            stresses. Of one that does not soften; INFINITY: pressure alone does not break it; NULL:
+                            INFINITY in all */
+    double *confinement; /**< [n_triangles] k >= 0: where s1 is a pressure, too, it breaks when -s3 is f_c - k s1. With
+                            f_c/strength that is Mohr-Coulomb's law in plane strain, with 0 in plane stress, where the
+                            largest principal stress is that of the free faces; NULL: 0 in all */
 } dem_lattice;
 
 /** No nodes, all arrays NULL. Every lattice begins like this: functions that make one write no further than the
@@ -159,6 +168,7 @@ DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edg
  *  block of triangles has exactly E and nu.
  *  With a damping time each spring gets the viscosity damping_time times its stiffness. A strength and a critical
  *  stretch are written beside every triangle and spring; without a strength those that the lattice has stay.    (1)
+ *  With a compressive strength the confinement is what the plane makes it: see dem_lattice.
  *  \return DEM_ERROR_ARGUMENT where triangles are too large for their strength and fracture energy: the edge of an
  *  equilateral one of their mean area may be E G_f/(3.4 strength^2) at most */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
@@ -211,6 +221,7 @@ DEM_API dem_status dem_lattice_weibull(const dem_lattice *lattice, const dem_wei
                                        const dem_index *of, double *triangle_factor, double *spring_factor);
 
 /** Multiplies strengths, fracture energies and critical stretches by factors > 0, as dem_lattice_weibull() draws them.
+ *  The compressive strength of a triangle has the factor of its strength.
  *  Only triangles that soften have an energy of their own: with another strength or energy they get another softening.
  *  One that would have to be stronger than a brittle triangle of its energy is brittle, and as strong as that.
  *  \param strength_factor  [n_triangles]; NULL: 1

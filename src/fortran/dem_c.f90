@@ -116,16 +116,16 @@ module dem_c
   end enum
 
   type, bind(c) :: dem_material
-    integer(c_size_t) :: struct_size = 104
+    integer(c_size_t) :: struct_size = 112
     real(c_double) :: youngs_modulus = 0, bond_stiffness = 0, poissons_ratio = 0
     integer(dem_plane) :: plane = 0
     real(c_double) :: density = 0, thickness = 0, guard = 0, damping_time = 0
     integer(dem_springs) :: springs = 0
-    real(c_double) :: strength = 0, critical_stretch = 0, fracture_energy = 0
+    real(c_double) :: strength = 0, critical_stretch = 0, fracture_energy = 0, compressive_strength = 0
   end type
 
   type, bind(c) :: dem_lattice
-    integer(c_size_t) :: struct_size = 192
+    integer(c_size_t) :: struct_size = 208
     integer(c_int) :: dim = 0
     integer(dem_index) :: n_nodes = 0, n_springs = 0, n_triangles = 0
     type(c_ptr) :: x = c_null_ptr, mass = c_null_ptr, ends = c_null_ptr, rest_length = c_null_ptr
@@ -133,6 +133,7 @@ module dem_c
     type(c_ptr) :: area_stiffness = c_null_ptr, thickness = c_null_ptr, modulus = c_null_ptr, flags = c_null_ptr
     type(c_ptr) :: body = c_null_ptr, position = c_null_ptr, velocity = c_null_ptr, coupling = c_null_ptr
     type(c_ptr) :: strength = c_null_ptr, critical_stretch = c_null_ptr, softening = c_null_ptr
+    type(c_ptr) :: compressive_strength = c_null_ptr, confinement = c_null_ptr
   end type
 
   type, bind(c) :: dem_weibull

@@ -74,6 +74,11 @@ static dem_status refuse(const fracture_source *s, dem_index element, double uti
         return status_fail(DEM_ERROR_MODEL,
                            "spring %lld at (%g, %g) m has the strain %g at the start, beyond its critical stretch %g",
                            (long long)spring, x[0], x[1], utilisation * limit, limit);
+    if (l->compressive_strength != NULL && isfinite(l->compressive_strength[element]))
+        return status_fail(DEM_ERROR_MODEL,
+                           "triangle %lld at (%g, %g) m is at %g times what it stands at the start, by its strength %g "
+                           "Pa and its compressive strength %g Pa",
+                           (long long)element, x[0], x[1], utilisation, limit, l->compressive_strength[element]);
     return status_fail(DEM_ERROR_MODEL,
                        "triangle %lld at (%g, %g) m has the stress %g Pa at the start, beyond its strength %g Pa",
                        (long long)element, x[0], x[1], utilisation * limit, limit);
@@ -167,7 +172,7 @@ static double utilisation_at_end(fracture_source *s, dem_index element)
     const dem_lattice *l = &s->model->lattice;
     if (element >= l->n_triangles) return utilisation_of(s->model, s->elements, element, s->step->y1);
     const dem_index *corner = &l->triangles[3 * element];
-    return utilisation_of_stress(utilisation_limit(l, s->elements, element), stress_at_end(s, corner[0]),
+    return utilisation_of_stress(utilisation_limits_of(l, s->elements, element), stress_at_end(s, corner[0]),
                                  stress_at_end(s, corner[1]), stress_at_end(s, corner[2]));
 }
 
@@ -237,12 +242,13 @@ static void look_around(fracture_source *s, dem_index triangle)
 }
 
 /* Whether a triangle may bring one with which it shares a corner near its limit: stresses of nodes are means of those
- * of triangles, of which the largest principal values are at least as large in the mean. The last digits may differ. */
+ * of triangles, of which the utilisations by the weakest limits are at least as large in the mean. The last digits may
+ * differ. */
 static bool may_drive(const fracture_source *s, dem_index triangle)
 {
     double own[3];
     node_stress_of_triangle(s->model, s->elements, triangle, s->step->y1, own);
-    return !(utilisation_of_stress((double)s->filter.least[triangle], own, own, own) < 0.999 * near_limit);
+    return !(utilisation_of_stress(strain_filter_weakest(&s->filter, triangle), own, own, own) < 0.999 * near_limit);
 }
 
 static void look_near_triangle(fracture_source *s, dem_index triangle)

@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The largest principal stress of a triangle is at most C m, with m the largest |strain| of its springs:
+/* No principal stress of a triangle is larger than C m, nor a larger pressure, with m the largest |strain| of its
+ * springs:
  *   C = (1/V) (sum over springs of w E d0 (1 + m) + sum over couplings of 2 |gamma| L1 L2 (1 + m)
  *              + |kappa| A0 c (1 + c m)^2),   c = sum over edges of |d ln A/d ln L| = L^2 |cot(opposite angle)|/(2 A).
- * The bound is used for m <= 0.1 and c m <= 0.3 alone. The guard only presses. A node's stress is a mean of those of
- * its triangles, and a triangle's utilisation the largest principal value of a mean of nodes' stresses, which is at
- * most the mean of their largest principal values: so if a triangle is near its limit, one of those with which it
- * shares a corner has a spring strained by near_limit strength/C. A spring that no triangle holds adds to the stress
- * without a bound; beside it, and at a triangle of which an edge has no spring, every step takes a look: the threshold
- * is 0. By the same means, of triangles with a strained spring only those need a look around them whose own stress is
- * near_limit strength (may_drive() in fracture_source.c): most are strained by compression. */
+ * The bound is used for m <= 0.1 and c m <= 0.3 alone, where the guard does not press yet. A node's stress is a mean
+ * of those of its triangles, and a triangle's utilisation that of a mean of nodes' stresses. Without confinement,
+ * which only lowers it, the utilisation is a sum of convex functions of the stress, and so at most the mean of the
+ * utilisations by those stresses: if a triangle is near its limit, one of those with which it shares a corner is by
+ * the same limits, and has a spring strained by near_limit/(C/strength + C/compressive strength). A spring that no
+ * triangle holds adds to the stress without a bound; beside it, and at a triangle of which an edge has no spring,
+ * every step takes a look: the threshold is 0. By the same means, of triangles with a strained spring only those need
+ * a look around them whose own utilisation, by the least limits around, is near_limit (may_drive() in
+ * fracture_source.c): most are strained by compression, and do not break by that. */
 #include "fracture/strain_filter.h"
 
 #include <math.h>
@@ -56,7 +59,7 @@ static bool has_all_edges(const dem_lattice *l, const element_state *s, dem_inde
     return n == 3;
 }
 
-/* The strain below which the largest principal stress of a triangle is less than `stress`. */
+/* The strain below which neither tension nor pressure of a triangle reaches `stress`. */
 static double strain_for(const dem_lattice *l, const element_state *s, dem_index triangle, double stress)
 {
     const shape at_rest = shape_of(l, triangle);
@@ -74,20 +77,21 @@ static double strain_for(const dem_lattice *l, const element_state *s, dem_index
     return fmin(strain, fmin(most_strain, most_growth / at_rest.sensitivity));
 }
 
-/* The least strength of the triangles at a node; infinity: none breaks. */
-static double weakest_at(const dem_lattice *l, const element_state *s, dem_index i)
+/* The least limit of the triangles at a node that may break; infinity: none does.
+ * \param limits  [n_triangles] their strengths, or compressive strengths */
+static double weakest_at(const dem_lattice *l, const double *limits, const element_state *s, dem_index i)
 {
     double least = (double)INFINITY;
     for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++)
-        if (utilisation_is_limited(l, s->at[p])) least = fmin(least, l->strength[s->at[p]]);
+        if (utilisation_is_limited(l, s->at[p])) least = fmin(least, limits[s->at[p]]);
     return least;
 }
 
 /* The same of the triangles that share a corner with one. */
-static double weakest_around(const dem_lattice *l, const element_state *s, dem_index triangle)
+static double weakest_around(const dem_lattice *l, const double *limits, const element_state *s, dem_index triangle)
 {
     double least = (double)INFINITY;
-    for (int c = 0; c < 3; c++) least = fmin(least, weakest_at(l, s, l->triangles[3 * triangle + c]));
+    for (int c = 0; c < 3; c++) least = fmin(least, weakest_at(l, limits, s, l->triangles[3 * triangle + c]));
     return least;
 }
 
@@ -102,9 +106,10 @@ static float round_down(double number)
 static void enter_triangle(strain_filter *f, const dem_lattice *l, const element_state *s, dem_index triangle,
                            double near_limit)
 {
-    const double least = (double)f->least[triangle];
-    if (isinf(least)) return;
-    const float strain = round_down(strain_for(l, s, triangle, near_limit * least));
+    const utilisation_limits weakest = strain_filter_weakest(f, triangle);
+    if (isinf(weakest.tension)) return;
+    const double stress = near_limit * weakest.tension / (1.0 + weakest.tension / weakest.pressure);
+    const float strain = round_down(strain_for(l, s, triangle, stress));
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
         f->threshold[s->spring[p]] = fminf(f->threshold[s->spring[p]], strain);
 }
@@ -127,7 +132,7 @@ static void enter_loose(strain_filter *f, const dem_model *m, const element_stat
 {
     for (int end = 0; end < 2 && !s->held[spring]; end++) {
         const dem_index i = m->lattice.ends[2 * spring + end];
-        if (isfinite(weakest_at(&m->lattice, s, i))) enter_corner(f, &m->springs, i);
+        if (isfinite(weakest_at(&m->lattice, m->lattice.strength, s, i))) enter_corner(f, &m->springs, i);
     }
 }
 
@@ -136,23 +141,33 @@ static void enter_triangles(strain_filter *f, const dem_model *m, const element_
 {
     const dem_lattice *l = &m->lattice;
     for (dem_index t = 0; t < l->n_triangles && l->strength != NULL; t++) {
-        f->least[t] = round_down(weakest_around(l, s, t));
+        f->least[t] = round_down(weakest_around(l, l->strength, s, t));
+        if (f->least_pressure != NULL)
+            f->least_pressure[t] = round_down(weakest_around(l, l->compressive_strength, s, t));
         enter_triangle(f, l, s, t, near_limit);
         enter_corners(f, m, s, t);
     }
     for (dem_index k = 0; k < l->n_springs && l->strength != NULL; k++) enter_loose(f, m, s, k);
 }
 
+static dem_status allocate(strain_filter *f, const dem_lattice *l)
+{
+    const size_t n = (size_t)l->n_triangles + 1;
+    const bool pressed = l->compressive_strength != NULL;
+    f->threshold = malloc(((size_t)l->n_springs + 1) * sizeof *f->threshold);
+    f->least = malloc(n * sizeof *f->least);
+    if (pressed) f->least_pressure = malloc(n * sizeof *f->least_pressure);
+    if (f->threshold != NULL && f->least != NULL && (f->least_pressure != NULL || !pressed)) return DEM_OK;
+    strain_filter_destroy(f);
+    return status_fail(DEM_ERROR_MEMORY, "out of memory for the limits of %lld springs", (long long)l->n_springs);
+}
+
 dem_status strain_filter_create(strain_filter *out, const dem_model *model, const element_state *elements,
                                 double near_limit)
 {
     const dem_lattice *l = &model->lattice;
-    strain_filter f = {.threshold = malloc(((size_t)l->n_springs + 1) * sizeof *f.threshold)};
-    f.least = malloc(((size_t)l->n_triangles + 1) * sizeof *f.least);
-    if (f.threshold == NULL || f.least == NULL) {
-        strain_filter_destroy(&f);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory for the limits of %lld springs", (long long)l->n_springs);
-    }
+    strain_filter f = {0};
+    TRY(allocate(&f, l));
     for (dem_index k = 0; k < l->n_springs; k++) {
         const bool limited = l->critical_stretch != NULL && utilisation_is_limited(l, l->n_triangles + k);
         f.threshold[k] = limited ? round_down(near_limit * l->critical_stretch[k]) : INFINITY;
@@ -166,5 +181,6 @@ void strain_filter_destroy(strain_filter *f)
 {
     free(f->threshold);
     free(f->least);
+    free(f->least_pressure);
     *f = (strain_filter){0};
 }

@@ -8,12 +8,19 @@
 #include "model/element_state.h"
 #include "model/model.h"
 
-/** What a triangle stands, Pa: its strength, or more if it has softened, as effective stress is what drives it. */
-double utilisation_limit(const dem_lattice *lattice, const element_state *elements, dem_index triangle);
+/** What a triangle stands. */
+typedef struct utilisation_limits {
+    double tension;     /* Pa: its strength, or more if it has softened, as effective stress is what drives it */
+    double pressure;    /* Pa: its compressive strength; infinity: pressure alone does not break it */
+    double confinement; /* by how much that rises with pressure across */
+} utilisation_limits;
 
-/** Of a triangle with a limit whose corners have these effective stresses, Pa: the largest principal value of their
- *  mean over the limit. */
-double utilisation_of_stress(double limit, const double a[3], const double b[3], const double c[3]);
+utilisation_limits utilisation_limits_of(const dem_lattice *lattice, const element_state *elements, dem_index triangle);
+
+/** Of a triangle whose corners have these effective stresses, Pa, by the principal values s1 >= s3 of their mean:
+ *  s1/tension, and where pressure is limited
+ *      max(s1, 0)/tension - min(s3, 0)/pressure + confinement min(s1, 0)/pressure. */
+double utilisation_of_stress(utilisation_limits limits, const double a[3], const double b[3], const double c[3]);
 
 /** Of an element that is whole, at positions x [n][2]: of a triangle by its corners' stresses, of a spring its strain
  *  over the critical one. */

@@ -47,6 +47,28 @@ static dem_status check_elasticity(const dem_material *m)
     return DEM_OK;
 }
 
+/* What breaks it; 0: nothing does. */
+static dem_status check_limits(const dem_material *m)
+{
+    CHECK(isfinite(m->strength) && m->strength >= 0.0, DEM_ERROR_ARGUMENT, "strength must be >= 0: %g Pa", m->strength);
+    CHECK(isfinite(m->critical_stretch) && m->critical_stretch >= 0.0, DEM_ERROR_ARGUMENT,
+          "critical_stretch must be >= 0: %g", m->critical_stretch);
+    CHECK(isfinite(m->fracture_energy) && m->fracture_energy >= 0.0, DEM_ERROR_ARGUMENT,
+          "fracture_energy must be >= 0: %g J/m^2", m->fracture_energy);
+    CHECK(m->fracture_energy == 0.0 || (m->critical_stretch == 0.0 && m->bond_stiffness == 0.0), DEM_ERROR_ARGUMENT,
+          "a fracture energy, %g J/m^2, goes neither with a critical stretch nor with a bond stiffness",
+          m->fracture_energy);
+    CHECK(isfinite(m->compressive_strength) && m->compressive_strength >= 0.0, DEM_ERROR_ARGUMENT,
+          "compressive_strength must be >= 0: %g Pa", m->compressive_strength);
+    if (m->compressive_strength == 0.0) return DEM_OK;
+    CHECK(m->strength > 0.0 && m->fracture_energy == 0.0, DEM_ERROR_ARGUMENT,
+          "a compressive strength, %g Pa, goes with a strength, and without a fracture energy",
+          m->compressive_strength);
+    CHECK(m->compressive_strength >= m->strength, DEM_ERROR_ARGUMENT,
+          "compressive_strength must be at least the strength, %g Pa: %g Pa", m->strength, m->compressive_strength);
+    return DEM_OK;
+}
+
 /* What every rule of assembly needs: a mass and a thickness, and no negative guard or damping. */
 static dem_status check_material(const dem_material *m)
 {
@@ -61,15 +83,7 @@ static dem_status check_material(const dem_material *m)
     CHECK(isfinite(m->guard) && m->guard >= 0.0, DEM_ERROR_ARGUMENT, "guard must be >= 0: %g", m->guard);
     CHECK(isfinite(m->damping_time) && m->damping_time >= 0.0, DEM_ERROR_ARGUMENT, "damping_time must be >= 0: %g s",
           m->damping_time);
-    CHECK(isfinite(m->strength) && m->strength >= 0.0, DEM_ERROR_ARGUMENT, "strength must be >= 0: %g Pa", m->strength);
-    CHECK(isfinite(m->critical_stretch) && m->critical_stretch >= 0.0, DEM_ERROR_ARGUMENT,
-          "critical_stretch must be >= 0: %g", m->critical_stretch);
-    CHECK(isfinite(m->fracture_energy) && m->fracture_energy >= 0.0, DEM_ERROR_ARGUMENT,
-          "fracture_energy must be >= 0: %g J/m^2", m->fracture_energy);
-    CHECK(m->fracture_energy == 0.0 || (m->critical_stretch == 0.0 && m->bond_stiffness == 0.0), DEM_ERROR_ARGUMENT,
-          "a fracture energy, %g J/m^2, goes neither with a critical stretch nor with a bond stiffness",
-          m->fracture_energy);
-    return DEM_OK;
+    return check_limits(m);
 }
 
 /* The plate in plane stress that moves like the solid: all formulas below are for plane stress. */
@@ -401,6 +415,21 @@ static void limit_triangle(draft *d, dem_index t)
         d->solid.softening[t] = crack_band_softening(modulus, energy, m->strength, size);
     else if (energy > 0.0)
         d->solid.strength[t] = crack_band_strength(modulus, energy, size);
+    d->solid.compressive_strength[t] = limit_or_never(m->compressive_strength);
+    d->solid.confinement[t] =
+        m->plane == DEM_PLANE_STRAIN && m->compressive_strength > 0.0 ? m->compressive_strength / m->strength : 0.0;
+}
+
+/* What limits pressure stays only where something does. */
+static dem_status keep_pressure_limits(draft *d)
+{
+    const dem_index n = d->lattice->n_triangles;
+    dem_lattice *s = &d->solid;
+    drop_equal(&s->compressive_strength, n, (double)INFINITY);
+    drop_equal(&s->confinement, n, 0.0);
+    CHECK(s->compressive_strength == NULL || lattice_has_pressure_limits(d->lattice), DEM_ERROR_ARGUMENT,
+          "dem_lattice: struct_size is %zu, without room for compressive strengths", d->lattice->struct_size);
+    return DEM_OK;
 }
 
 /* What breaks triangles by their stress. */
@@ -410,8 +439,10 @@ static dem_status fill_limits(draft *d)
     dem_lattice *s = &d->solid;
     s->strength = lattice_zeros(n, sizeof *s->strength);
     s->softening = lattice_zeros(n, sizeof *s->softening);
-    CHECK(s->strength && s->softening, DEM_ERROR_MEMORY, "out of memory for the strengths of %lld triangles",
-          (long long)n);
+    s->compressive_strength = lattice_zeros(n, sizeof *s->compressive_strength);
+    s->confinement = lattice_zeros(n, sizeof *s->confinement);
+    CHECK(s->strength && s->softening && s->compressive_strength && s->confinement, DEM_ERROR_MEMORY,
+          "out of memory for the strengths of %lld triangles", (long long)n);
     for (dem_index t = 0; t < n; t++) limit_triangle(d, t);
     drop_equal(&s->strength, n, (double)INFINITY);
     drop_equal(&s->softening, n, 1.0);
@@ -419,7 +450,7 @@ static dem_status fill_limits(draft *d)
           "dem_lattice: struct_size is %zu, without room for strengths", d->lattice->struct_size);
     CHECK(s->softening == NULL || lattice_has_softening(d->lattice), DEM_ERROR_ARGUMENT,
           "dem_lattice: struct_size is %zu, without room for softening", d->lattice->struct_size);
-    return DEM_OK;
+    return keep_pressure_limits(d);
 }
 
 /* Guard, area term, couplings, thickness and the modulus by which stresses share springs out (model/stress.c). */
@@ -462,6 +493,18 @@ static void swap(double **a, double **b)
     *b = old;
 }
 
+/* The limits of triangles stay if the solid has none. */
+static void give_limits(dem_lattice *lattice, dem_lattice *solid)
+{
+    if (lattice_has_limits(lattice)) swap(&lattice->critical_stretch, &solid->critical_stretch);
+    if (solid->strength == NULL) return;
+    swap(&lattice->strength, &solid->strength);
+    if (lattice_has_softening(lattice)) swap(&lattice->softening, &solid->softening);
+    if (!lattice_has_pressure_limits(lattice)) return;
+    swap(&lattice->compressive_strength, &solid->compressive_strength);
+    swap(&lattice->confinement, &solid->confinement);
+}
+
 /* Hands the arrays of a solid over to the caller's lattice; `solid` gets the old ones and is freed with them. */
 static void give(dem_lattice *lattice, dem_lattice *solid)
 {
@@ -478,9 +521,7 @@ static void give(dem_lattice *lattice, dem_lattice *solid)
     swap(&lattice->thickness, &solid->thickness);
     swap(&lattice->modulus, &solid->modulus);
     if (lattice_has_couplings(lattice)) swap(&lattice->coupling, &solid->coupling);
-    if (solid->strength != NULL && lattice_has_softening(lattice)) swap(&lattice->softening, &solid->softening);
-    if (solid->strength != NULL) swap(&lattice->strength, &solid->strength);
-    if (lattice_has_limits(lattice)) swap(&lattice->critical_stretch, &solid->critical_stretch);
+    give_limits(lattice, solid);
 }
 
 /* Shares first, then springs made of them, then triangles. */

@@ -115,8 +115,19 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     return join_numbers(&out->critical_stretch, a->critical_stretch, n, b->critical_stretch, m, (double)INFINITY);
 }
 
-/* A guard, an area stiffness and couplings that are missing are 0; without a strength triangles never break, and
- * without softening they break at once. */
+/* Without a strength triangles never break, without softening they break at once, and without a compressive strength
+ * pressure does not break them. */
+static dem_status join_limits(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
+{
+    const dem_index n = a->n_triangles, m = b->n_triangles;
+    const double never = (double)INFINITY;
+    TRY(join_numbers(&out->strength, a->strength, n, b->strength, m, never));
+    TRY(join_numbers(&out->softening, a->softening, n, b->softening, m, 1.0));
+    TRY(join_numbers(&out->compressive_strength, a->compressive_strength, n, b->compressive_strength, m, never));
+    return join_numbers(&out->confinement, a->confinement, n, b->confinement, m, 0.0);
+}
+
+/* A guard, an area stiffness and couplings that are missing are 0. */
 static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_triangles, m = b->n_triangles;
@@ -129,8 +140,7 @@ static dem_status join_triangles(dem_lattice *out, const dem_lattice *a, const d
     TRY(join_numbers(&out->modulus, a->modulus, n, b->modulus, m, 1.0));
     TRY(join_numbers(&out->guard, a->guard, n, b->guard, m, 0.0));
     TRY(join_numbers(&out->area_stiffness, a->area_stiffness, n, b->area_stiffness, m, 0.0));
-    TRY(join_numbers(&out->strength, a->strength, n, b->strength, m, (double)INFINITY));
-    TRY(join_numbers(&out->softening, a->softening, n, b->softening, m, 1.0));
+    TRY(join_limits(out, a, b));
     if (a->coupling != NULL || b->coupling != NULL) {
         out->coupling = join(a->coupling, n, b->coupling, m, 3 * sizeof *out->coupling);
         CHECK_MEMORY(out->coupling);
@@ -173,6 +183,11 @@ dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
     if (status == DEM_OK && joined.softening != NULL && !lattice_has_softening(lattice))
         status = status_fail(DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is %zu, without room for softening",
                              lattice->struct_size);
+    if (status == DEM_OK && (joined.compressive_strength || joined.confinement) &&
+        !lattice_has_pressure_limits(lattice))
+        status =
+            status_fail(DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is %zu, without room for compressive strengths",
+                        lattice->struct_size);
     if (status == DEM_OK) {
         dem_lattice_free(lattice);
         lattice_give(lattice, &joined);

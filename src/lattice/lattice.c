@@ -76,6 +76,11 @@ bool lattice_has_softening(const dem_lattice *lattice)
     return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, softening);
 }
 
+bool lattice_has_pressure_limits(const dem_lattice *lattice)
+{
+    return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, confinement);
+}
+
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs)
 {
     *ours = dem_lattice_empty();
@@ -116,6 +121,8 @@ void dem_lattice_free(dem_lattice *lattice)
     free(own.strength);
     free(own.critical_stretch);
     free(own.softening);
+    free(own.compressive_strength);
+    free(own.confinement);
     free(own.flags);
     free(own.body);
     free(own.position);

@@ -2,7 +2,7 @@
 /* Other strengths for some elements than their materials have. Where strength and fracture energy were given, triangles
  * soften, and it is the energy that stays: a weaker one softens for longer, a stronger one for less, and where it would
  * have to be stronger than a brittle one of that energy, it is that. Of brittle triangles the energy follows from the
- * strength. */
+ * strength, and those alone have a compressive strength, which keeps its ratio to it. */
 #include <dem/dem.h>
 
 #include <math.h>
@@ -48,6 +48,8 @@ dem_status dem_lattice_weaken(dem_lattice *lattice, const double *strength_facto
         else
             l.strength[t] *= at(strength_factor, t);
     }
+    for (dem_index t = 0; t < l.n_triangles && l.compressive_strength != NULL; t++)
+        l.compressive_strength[t] *= at(strength_factor, t);
     for (dem_index k = 0; k < l.n_springs && l.critical_stretch != NULL; k++)
         l.critical_stretch[k] *= at(stretch_factor, k);
     return DEM_OK;

@@ -69,6 +69,26 @@ static dem_status check_springs(const dem_lattice *l)
     return DEM_OK;
 }
 
+/* What triangles stand; INFINITY: they never break so. A compressive strength below that in tension would be no law of
+ * Mohr and Coulomb, and a triangle that softens in tension keeps its stiffness under pressure. */
+static dem_status check_limits(const dem_lattice *l, dem_index k)
+{
+    const double tension = l->strength != NULL ? l->strength[k] : (double)INFINITY;
+    CHECK(tension > 0.0, DEM_ERROR_MODEL, "triangle %lld: strength must be > 0, got %g Pa", (long long)k, tension);
+    CHECK(l->softening == NULL || (isfinite(l->softening[k]) && l->softening[k] >= 1.0), DEM_ERROR_MODEL,
+          "triangle %lld: softening must be >= 1, got %g", (long long)k, l->softening[k]);
+    CHECK(l->confinement == NULL || (isfinite(l->confinement[k]) && l->confinement[k] >= 0.0), DEM_ERROR_MODEL,
+          "triangle %lld: confinement must be >= 0, got %g", (long long)k, l->confinement[k]);
+    if (l->compressive_strength == NULL || l->compressive_strength[k] == (double)INFINITY) return DEM_OK;
+    CHECK(l->compressive_strength[k] >= tension, DEM_ERROR_MODEL,
+          "triangle %lld: compressive strength must be at least its strength, %g Pa, got %g Pa", (long long)k, tension,
+          l->compressive_strength[k]);
+    CHECK(l->softening == NULL || l->softening[k] == 1.0, DEM_ERROR_MODEL,
+          "triangle %lld: one that softens, by %g, has no compressive strength, got %g Pa", (long long)k,
+          l->softening[k], l->compressive_strength[k]);
+    return DEM_OK;
+}
+
 /* Areas must be positive, which also means counter-clockwise corners. */
 static dem_status check_triangles(const dem_lattice *l)
 {
@@ -88,10 +108,7 @@ static dem_status check_triangles(const dem_lattice *l)
               "triangle %lld: thickness must be > 0, got %g m", (long long)k, l->thickness[k]);
         CHECK(l->modulus == NULL || (isfinite(l->modulus[k]) && l->modulus[k] > 0.0), DEM_ERROR_MODEL,
               "triangle %lld: modulus must be > 0, got %g Pa", (long long)k, l->modulus[k]);
-        CHECK(l->strength == NULL || l->strength[k] > 0.0, DEM_ERROR_MODEL,
-              "triangle %lld: strength must be > 0, got %g Pa", (long long)k, l->strength[k]);
-        CHECK(l->softening == NULL || (isfinite(l->softening[k]) && l->softening[k] >= 1.0), DEM_ERROR_MODEL,
-              "triangle %lld: softening must be >= 1, got %g", (long long)k, l->softening[k]);
+        TRY(check_limits(l, k));
     }
     return DEM_OK;
 }

@@ -38,6 +38,8 @@ enum array {
     COUPLING,
     STRENGTH,
     SOFTENING,
+    COMPRESSIVE_STRENGTH,
+    CONFINEMENT,
     BODY,
     POSITION,
     VELOCITY,
@@ -71,6 +73,8 @@ static const struct dataset {
     [COUPLING] = {"/lattice/coupling", HDF5_F64, TRIANGLES, 3, 0},
     [STRENGTH] = {"/lattice/strength", HDF5_F64, TRIANGLES, 1, 0},
     [SOFTENING] = {"/lattice/softening", HDF5_F64, TRIANGLES, 1, 0},
+    [COMPRESSIVE_STRENGTH] = {"/lattice/compressive_strength", HDF5_F64, TRIANGLES, 1, 0},
+    [CONFINEMENT] = {"/lattice/confinement", HDF5_F64, TRIANGLES, 1, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
     [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
     [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
@@ -152,7 +156,7 @@ static dem_status read_array(reader *r, enum array a)
 static dem_status check_name(void *context, const char *name)
 {
     reader *r = context;
-    char known[320] = "", printable[HDF5_UNTRUSTED_PRINTABLE];
+    char known[512] = "", printable[HDF5_UNTRUSTED_PRINTABLE];
     size_t n = 0;
     for (int a = 0; a < N_ARRAYS; a++) {
         const char *own = datasets[a].name + sizeof "/lattice";
@@ -244,6 +248,8 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->critical_stretch = r->data[CRITICAL_STRETCH];
     lattice->strength = r->data[STRENGTH];
     lattice->softening = r->data[SOFTENING];
+    lattice->compressive_strength = r->data[COMPRESSIVE_STRENGTH];
+    lattice->confinement = r->data[CONFINEMENT];
     lattice->triangles = r->data[CORNERS];
     lattice->guard = r->data[GUARD];
     lattice->area_stiffness = r->data[AREA_STIFFNESS];
@@ -374,6 +380,8 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, MODULUS, deflate, t, lattice->modulus));
     TRY(write_array(file, STRENGTH, deflate, t, lattice->strength));
     TRY(write_array(file, SOFTENING, deflate, t, lattice->softening));
+    TRY(write_array(file, COMPRESSIVE_STRENGTH, deflate, t, lattice->compressive_strength));
+    TRY(write_array(file, CONFINEMENT, deflate, t, lattice->confinement));
     TRY(write_array(file, COUPLING, deflate, t, lattice->coupling));
     TRY(write_array(file, BODY, deflate, n, lattice->body));
     TRY(write_array(file, POSITION, deflate, n, lattice->position));

@@ -114,8 +114,8 @@ def reference(file):
 
 NOT_REAL, NOT_WHOLE = "is neither floating-point nor integer", "is not integer"
 NAMES = ("is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, viscosity, critical_stretch, "
-         "triangles, guard, area_stiffness, thickness, modulus, coupling, strength, softening, body, position, velocity, fixed, "
-         "rigid, contact_nodes")
+         "triangles, guard, area_stiffness, thickness, modulus, coupling, strength, softening, "
+         "compressive_strength, confinement, body, position, velocity, fixed, rigid, contact_nodes")
 # name, maker, what is said behind the file's name
 FILES = [
     # names and links

@@ -569,6 +569,60 @@ TEST(triangles_too_large_for_strength_and_fracture_energy_are_refused)
     assert_refused(dem_lattice_assemble(&other, &glass), DEM_ERROR_ARGUMENT, "neither with a critical stretch");
 }
 
+/* Faces of a plate are free; in plane strain pressure across strengthens as much as the law of Mohr and Coulomb says.
+ * */
+TEST(a_compressive_strength_has_the_confinement_of_its_plane)
+{
+    dem_material of[2] = {{.struct_size = sizeof(dem_material),
+                           .youngs_modulus = 1e7,
+                           .poissons_ratio = 0.2,
+                           .plane = DEM_PLANE_STRAIN,
+                           .density = 1e3,
+                           .thickness = 1.0,
+                           .strength = 2e5,
+                           .compressive_strength = 1.5e6}};
+    const dem_index first[2] = {0, 1};
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty(), plate = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&lattice, 1.0, 1.6, 1.0), DEM_OK);
+    assert_int_equal(lattice.n_triangles, 2);
+    assert_int_equal(dem_lattice_append(&plate, &lattice), DEM_OK);
+    of[1] = of[0];
+    of[1].compressive_strength = 0.0;
+    assert_int_equal(dem_lattice_assemble_mixed(&lattice, of, 2, first, 0.0), DEM_OK);
+    assert_close(lattice.compressive_strength[0], 1.5e6, 0.0);
+    assert_close(lattice.confinement[0], 7.5, 0.0);
+    assert_true(isinf(lattice.compressive_strength[1]) && lattice.confinement[1] == 0.0);
+    of[0].plane = DEM_PLANE_STRESS;
+    assert_int_equal(dem_lattice_assemble(&plate, &of[0]), DEM_OK);
+    assert_close(plate.compressive_strength[1], 1.5e6, 0.0);
+    assert_null(plate.confinement);
+}
+
+TEST(a_compressive_strength_that_is_none_is_refused)
+{
+    const dem_material stone = {.struct_size = sizeof(dem_material),
+                                .youngs_modulus = 1e10,
+                                .density = 2440.0,
+                                .thickness = 1.0,
+                                .strength = 1e7};
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&block, 5.0, 5.0, 1.0), DEM_OK);
+    dem_material m = stone;
+    m.compressive_strength = 9e6;
+    assert_refused(dem_lattice_assemble(&block, &m), DEM_ERROR_ARGUMENT, "at least the strength, 1e+07 Pa: 9e+06 Pa");
+    m.compressive_strength = -1.0;
+    assert_refused(dem_lattice_assemble(&block, &m), DEM_ERROR_ARGUMENT, "compressive_strength must be >= 0");
+    m.compressive_strength = (double)NAN;
+    assert_refused(dem_lattice_assemble(&block, &m), DEM_ERROR_ARGUMENT, "compressive_strength must be >= 0");
+    m.compressive_strength = 1e8;
+    m.fracture_energy = 1e5;
+    assert_refused(dem_lattice_assemble(&block, &m), DEM_ERROR_ARGUMENT, "without a fracture energy");
+    m.fracture_energy = m.strength = 0.0;
+    assert_refused(dem_lattice_assemble(&block, &m), DEM_ERROR_ARGUMENT, "goes with a strength");
+    m.strength = 1e8;
+    assert_int_equal(dem_lattice_assemble(&block, &m), DEM_OK);
+}
+
 /* Springs are made anew, and what a lattice had of others is not theirs. */
 TEST(new_springs_have_no_old_critical_stretch)
 {

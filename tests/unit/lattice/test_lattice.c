@@ -330,7 +330,12 @@ TEST(limits_stay_with_their_elements)
     given.strength = calloc((size_t)given.n_triangles, sizeof *given.strength);
     given.critical_stretch = calloc((size_t)given.n_springs, sizeof *given.critical_stretch);
     given.softening = calloc((size_t)given.n_triangles, sizeof *given.softening);
+    given.compressive_strength = calloc((size_t)given.n_triangles, sizeof *given.compressive_strength);
+    given.confinement = calloc((size_t)given.n_triangles, sizeof *given.confinement);
     assert_true(given.strength != NULL && given.critical_stretch != NULL && given.softening != NULL);
+    assert_true(given.compressive_strength != NULL && given.confinement != NULL);
+    for (dem_index t = 0; t < given.n_triangles; t++) given.compressive_strength[t] = 5e6 + (double)t;
+    for (dem_index t = 0; t < given.n_triangles; t++) given.confinement[t] = 7.0 + (double)t;
     for (dem_index t = 0; t < given.n_triangles; t++) given.strength[t] = 1e6 + (double)t;
     for (dem_index t = 0; t < given.n_triangles; t++) given.softening[t] = 2.0 + (double)t;
     for (dem_index k = 0; k < given.n_springs; k++) given.critical_stretch[k] = 0.1 + (double)k;
@@ -343,6 +348,9 @@ TEST(limits_stay_with_their_elements)
     assert_memory_equal(all.strength, strength, sizeof strength);
     const double softening[4] = {1.0, 2.0, 3.0, 1.0};
     assert_memory_equal(all.softening, softening, sizeof softening);
+    const double compressive[4] = {INFINITY, 5e6, 5e6 + 1.0, INFINITY}, confinement[4] = {0.0, 7.0, 8.0, 0.0};
+    assert_memory_equal(all.compressive_strength, compressive, sizeof compressive);
+    assert_memory_equal(all.confinement, confinement, sizeof confinement);
     for (dem_index k = 0; k < 12; k++)
         assert_true(all.critical_stretch[k] == (k >= 3 && k < 9 ? 0.1 + (double)(k - 3) : (double)INFINITY));
     bool keep[32];
@@ -350,6 +358,8 @@ TEST(limits_stay_with_their_elements)
     assert_int_equal(dem_lattice_select(&all, keep), DEM_OK);
     assert_memory_equal(all.strength, strength + 1, 3 * sizeof *strength);
     assert_memory_equal(all.softening, softening + 1, 3 * sizeof *softening);
+    assert_memory_equal(all.compressive_strength, compressive + 1, 3 * sizeof *compressive);
+    assert_memory_equal(all.confinement, confinement + 1, 3 * sizeof *confinement);
     assert_true(all.critical_stretch[0] == 0.1 && all.critical_stretch[5] == 5.1);
     dem_lattice_free(&given);
     dem_lattice_free(&plain);

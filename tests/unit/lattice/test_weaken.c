@@ -13,6 +13,8 @@ static dem_lattice make_breakable(void)
     dem_material m = rubber;
     m.strength = 3e6;
     m.critical_stretch = 0.1;
+    m.compressive_strength = 2.4e7;
+    m.plane = DEM_PLANE_STRAIN;
     dem_lattice lattice = make_rectangle(0.05, 0.05, 0.01);
     assert_int_equal(dem_lattice_assemble(&lattice, &m), DEM_OK);
     assert_true(lattice.n_triangles <= most && lattice.n_springs <= most);
@@ -28,6 +30,10 @@ TEST(strengths_and_critical_stretches_are_multiplied)
     assert_int_equal(dem_lattice_weaken(&lattice, triangles, NULL, springs), DEM_OK);
     for (dem_index t = 0; t < lattice.n_triangles; t++)
         assert_true(lattice.strength[t] == (t == 3 ? (double)INFINITY : 3e6 * triangles[t]));
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        assert_close(lattice.compressive_strength[t], 2.4e7 * triangles[t], 0.0);
+        assert_close(lattice.confinement[t], 8.0, 0.0);
+    }
     for (dem_index k = 0; k < lattice.n_springs; k++) assert_close(lattice.critical_stretch[k], 0.1 * springs[k], 0.0);
     assert_null(lattice.softening);
     assert_int_equal(dem_lattice_weaken(&lattice, NULL, NULL, NULL), DEM_OK);

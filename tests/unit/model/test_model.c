@@ -241,6 +241,41 @@ TEST(triangles_are_counter_clockwise_with_numbers_in_range)
     refuse(&s, DEM_ERROR_MODEL, "triangle 1: coupling * finite * inf N/m");
 }
 
+/* What triangles stand: infinity is never, but no other number may be none. */
+TEST(limits_of_triangles_are_those_of_a_law)
+{
+    const double never = infinite, none = not_a_number;
+    const struct {
+        double strength, softening, compressive, confinement;
+        const char *reason; /* NULL: it is one */
+    } cases[] = {{1e5, 1.0, 1e5, 1.0, NULL},
+                 {1e5, 1.0, 1e6, 0.0, NULL},
+                 {1e5, 4.0, never, 0.0, NULL},
+                 {never, 1.0, never, 0.0, NULL},
+                 {0.0, 1.0, 1e6, 0.0, "triangle 0: strength must be > 0"},
+                 {none, 1.0, never, 0.0, "triangle 0: strength must be > 0"},
+                 {1e5, 0.5, never, 0.0, "triangle 0: softening must be >= 1"},
+                 {1e5, 1.0, 9e4, 0.0, "triangle 0: compressive strength must be at least its strength, 100000 Pa"},
+                 {1e5, 1.0, -1e6, 0.0, "triangle 0: compressive strength"},
+                 {1e5, 1.0, none, 0.0, "triangle 0: compressive strength"},
+                 {never, 1.0, 1e6, 0.0, "triangle 0: compressive strength must be at least its strength, inf"},
+                 {1e5, 4.0, 1e6, 0.0, "triangle 0: one that softens, by 4, has no compressive strength"},
+                 {1e5, 1.0, 1e6, -1.0, "triangle 0: confinement must be >= 0"},
+                 {1e5, 1.0, 1e6, never, "triangle 0: confinement must be >= 0"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        square s;
+        make_square(&s);
+        s.lattice.strength = (double[2]){cases[k].strength, 1.0};
+        s.lattice.softening = (double[2]){cases[k].softening, 1.0};
+        s.lattice.compressive_strength = (double[2]){cases[k].compressive, 1.0};
+        s.lattice.confinement = (double[2]){cases[k].confinement, 0.0};
+        if (cases[k].reason != NULL)
+            refuse(&s, DEM_ERROR_MODEL, cases[k].reason);
+        else
+            dem_model_destroy(compile(&s));
+    }
+}
+
 TEST(a_node_without_springs_must_be_a_body_of_its_own)
 {
     square s;

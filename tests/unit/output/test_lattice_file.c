@@ -170,7 +170,10 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
     const double coupling[6] = {3.0, -1.0, 0.0, 5.0, 1e9, -2.5};
     const double strength[2] = {1e6, INFINITY}, critical_stretch[6] = {0.1, 0.2, INFINITY, 0.3, 0.4, 0.5};
     const double softening[2] = {1.0, 2.5};
+    const double compressive[2] = {INFINITY, 8e6}, confinement[2] = {0.0, 7.5};
     put_real("softening", 2, 0, softening);
+    put_real("compressive_strength", 2, 0, compressive);
+    put_real("confinement", 2, 0, confinement);
     put_real("strength", 2, 0, strength);
     put_real("critical_stretch", 6, 0, critical_stretch);
     put_real("viscosity", 6, 0, viscosity);
@@ -187,6 +190,8 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
         assert_memory_equal(lattice.coupling, coupling, sizeof coupling);
         assert_memory_equal(lattice.strength, strength, sizeof strength);
         assert_memory_equal(lattice.softening, softening, sizeof softening);
+        assert_memory_equal(lattice.compressive_strength, compressive, sizeof compressive);
+        assert_memory_equal(lattice.confinement, confinement, sizeof confinement);
         assert_memory_equal(lattice.critical_stretch, critical_stretch, sizeof critical_stretch);
         assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
         assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
@@ -198,6 +203,8 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
     assert_memory_equal(back.coupling, coupling, sizeof coupling);
     assert_memory_equal(back.strength, strength, sizeof strength);
     assert_memory_equal(back.softening, softening, sizeof softening);
+    assert_memory_equal(back.compressive_strength, compressive, sizeof compressive);
+    assert_memory_equal(back.confinement, confinement, sizeof confinement);
     assert_memory_equal(back.critical_stretch, critical_stretch, sizeof critical_stretch);
 }
 
@@ -292,12 +299,13 @@ TEST_WITH(unknown_names_are_refused, write_lattice, remove_lattice)
     static const char *const names[][2] = {
         {"velocities", "velocities"}, {"Fixed", "Fixed"}, {"a\nb \xff", "a?b??"}, {"m", "m"}};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
-        char message[320];
+        char message[512];
         (void)snprintf(
             message, sizeof message,
             "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
             "viscosity, critical_stretch, triangles, guard, area_stiffness, "
-            "thickness, modulus, coupling, strength, softening, body, position, velocity, fixed, rigid, contact_nodes",
+            "thickness, modulus, coupling, strength, softening, compressive_strength, confinement, body, position, "
+            "velocity, fixed, rigid, contact_nodes",
             path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);

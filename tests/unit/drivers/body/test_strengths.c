@@ -14,6 +14,7 @@ static dem_lattice make_brittle(double strength, double critical_stretch)
     dem_material m = rubber;
     m.strength = strength;
     m.critical_stretch = critical_stretch;
+    m.compressive_strength = 9.0 * strength;
     dem_lattice lattice = make_rectangle(0.05, 0.05, 0.01);
     assert_int_equal(dem_lattice_assemble(&lattice, &m), DEM_OK);
     assert_true(lattice.n_triangles <= most && lattice.n_springs <= most);
@@ -88,6 +89,8 @@ TEST(every_copy_draws_anew)
         strengths_put(&lattice, &s, c);
         factors(triangles, springs, &plain, 8.0, c);
         for (dem_index t = 0; t < lattice.n_triangles; t++) assert_close(lattice.strength[t], 3e6 * triangles[t], 0.0);
+        for (dem_index t = 0; t < lattice.n_triangles; t++)
+            assert_close(lattice.compressive_strength[t], 2.7e7 * triangles[t], 0.0);
         for (dem_index k = 0; k < lattice.n_springs; k++)
             assert_close(lattice.critical_stretch[k], 0.1 * springs[k], 0.0);
     }
