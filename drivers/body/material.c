@@ -33,13 +33,16 @@ dem_material material_of(const schema_deck *groups, const schema_instance *user)
                           .springs = coupled ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT,
                           .strength = schema_real(m, "strength"),
                           .critical_stretch = schema_real(m, "critical_stretch"),
-                          .fracture_energy = schema_real(m, "fracture_energy")};
+                          .fracture_energy = schema_real(m, "fracture_energy"),
+                          .compressive_strength = schema_real(m, "compressive_strength")};
 }
 
 /* ---- checks ---- */
 
-static const conditional_key limits[] = {
-    {"strength", "stress", false}, {"fracture_energy", "stress", false}, {"critical_stretch", "stretch", true}};
+static const conditional_key limits[] = {{"strength", "stress", false},
+                                         {"compressive_strength", "stress", false},
+                                         {"fracture_energy", "stress", false},
+                                         {"critical_stretch", "stretch", true}};
 static const conditional_keys by_fracture = {
     .group = "material", .by = "fracture", .keys = limits, .n = sizeof limits / sizeof *limits};
 
@@ -108,6 +111,26 @@ static void check_limits(const schema_instance *material, namelist_errors *error
                             "'youngs_modulus'");
 }
 
+/* It is a limit of brittle triangles beside their strength, and not below that. */
+static void check_compressive(const schema_instance *material, namelist_errors *errors)
+{
+    const schema_value *strength = schema_value_of(material, "strength"),
+                       *energy = schema_value_of(material, "fracture_energy"),
+                       *compressive = schema_value_of(material, "compressive_strength");
+    const double least = schema_real(material, "strength"), got = schema_real(material, "compressive_strength");
+    if (!compressive->given || compressive->faulty || !schema_is(material, "fracture", "stress")) return;
+    if (energy->given)
+        namelist_errors_add(errors, compressive->place,
+                            "'compressive_strength' in &material does not go with 'fracture_energy', which is for "
+                            "bodies that break in tension: leave one of them out");
+    else if (!strength->given && !strength->faulty)
+        namelist_errors_add(errors, compressive->place,
+                            "'compressive_strength' in &material needs 'strength', that in tension");
+    else if (strength->given && !strength->faulty && got < least)
+        namelist_errors_add(errors, compressive->place,
+                            "'compressive_strength' in &material must be >= 'strength', %g Pa, got %g Pa", least, got);
+}
+
 static void check_name(const schema_deck *groups, const schema_instance *material, namelist_errors *errors)
 {
     const schema_instance *first = material_find(groups, schema_text(material, "name"));
@@ -134,6 +157,7 @@ void material_check_all(const schema_deck *groups, namelist_errors *errors)
         check_ratio(material, errors);
         conditional_keys_check(material, &by_fracture, errors);
         check_limits(material, errors);
+        check_compressive(material, errors);
     }
 }
 

@@ -96,6 +96,25 @@ TEST(a_limit_goes_with_its_kind_of_fracture)
     assert_close(material_of(&r.deck, schema_get(&r.deck, "body", 0)).critical_stretch, 0.0, 0.0);
 }
 
+TEST(a_compressive_strength_goes_with_a_strength_that_is_not_larger)
+{
+    assert_checked(RAW "fracture = 'stress', strength = 1e5, compressive_strength = 1e5 /\n" BODY, "");
+    assert_checked(RAW "fracture = 'stress', strength = 1e5,\ncompressive_strength = 9e4 /\n" BODY,
+                   "3:1 'compressive_strength' in &material must be >= 'strength', 100000 Pa, got 90000 Pa");
+    assert_checked(RAW
+                   "fracture = 'stress', strength = 1e5, fracture_energy = 10,\ncompressive_strength = 1e6 /\n" BODY,
+                   "3:1 'compressive_strength' in &material does not go with 'fracture_energy', which is for bodies "
+                   "that break in tension: leave one of them out");
+    assert_checked(RAW "fracture = 'stress',\ncompressive_strength = 1e6 /\n" BODY,
+                   "2:1 'strength' or 'fracture_energy' in &material must be given for fracture 'stress'\n"
+                   "3:1 'compressive_strength' in &material needs 'strength', that in tension");
+    assert_checked(RAW "fracture = 'stretch', critical_stretch = 0.1,\ncompressive_strength = 1e6 /\n" BODY,
+                   "3:1 'compressive_strength' in &material is not used by fracture 'stretch'");
+    CLEANUP(drop_resolved)
+    resolved r = resolve_clean(RAW "fracture = 'stress', strength = 1e5, compressive_strength = 8e5 /\n" BODY);
+    assert_close(material_of(&r.deck, schema_get(&r.deck, "body", 0)).compressive_strength, 8e5, 0.0);
+}
+
 TEST(names_are_given_once_and_found)
 {
     assert_checked(RUN RUBBER RUBBER BODY, "3:11 material 'rubber' is given twice, first in line 2");
