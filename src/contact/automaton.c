@@ -58,6 +58,13 @@ dem_status automaton_follow_surface(automaton *c, const surface *to)
     return DEM_OK;
 }
 
+dem_status automaton_release_orphans(automaton *c, double t, double *y, const event_listener *listener)
+{
+    contact_instant now = {t, y, y + state_velocities(scene_layout(&c->set.scene)), listener, DEM_OK};
+    contact_set_release_orphans(&c->set, &now);
+    return now.listener_status;
+}
+
 /* Resolves what is due at the candidates of a node: the node itself and its edges. */
 static dem_status settle_node(contact_set *c, dem_index node, contact_instant *now, bool *changed)
 {
@@ -200,6 +207,7 @@ dem_status automaton_open_all(automaton *c)
     c->solved = NAN;
     c->quiet = c->all = false;
     for (dem_index k = 0; k < c->set.n; k++) c->set.list[k] = candidate_reset(&c->set.list[k]);
+    c->set.n_orphans = 0;
     return contact_set_regroup(&c->set);
 }
 
@@ -213,6 +221,7 @@ dem_status automaton_restore(automaton *c, double t, const double *y)
     c->solved = NAN;
     c->quiet = c->all = false;
     c->way = c->broad_phase.travelled = 0.0;
+    s->n_orphans = 0;
     contact_set_count_behind(s);
     contact_set_solve_all(s, state);
     contact_set_store_all(s);

@@ -34,6 +34,10 @@ void automaton_destroy(automaton *c);
  *  \return DEM_ERROR_MEMORY, with all as it was */
 dem_status automaton_follow_surface(automaton *c, const surface *to);
 
+/** Reports the release of contacts that have gone with their surface, in the state y at t.
+ *  \return the first status other than DEM_OK that the listener returned */
+dem_status automaton_release_orphans(automaton *c, double t, double *y, const event_listener *listener);
+
 /** Whether no candidate without contacts is deeper in an obstacle than the penetration tolerance: else DEM_ERROR_MODEL
  *  names the node.
  *  \param x  [n][2] */
@@ -42,7 +46,7 @@ dem_status automaton_check_start(const automaton *c, double t, const double *x);
 /** Takes up the contacts of the initial state y = (x, v), where touching is enough. */
 dem_status automaton_start(automaton *c, double t, double *y, const event_listener *listener);
 
-/** Opens all contacts without an event, so that automaton_start() can find those of another motion.
+/** Opens all contacts without an event, orphans too, so that automaton_start() can find those of another motion.
  *  \return DEM_ERROR_MEMORY */
 dem_status automaton_open_all(automaton *c);
 

@@ -57,6 +57,7 @@ static void free_candidates(contact_set *c)
     free(c->involved);
     free(c->impacts);
     free(c->described);
+    free(c->orphans);
     contact_forces_destroy(&c->forces);
 }
 
@@ -109,6 +110,24 @@ static void begin(contact_set *c, dem_index k)
         if (ends[e] >= 0) edge->behind[e] = c->list[ends[e]].behind[0];
 }
 
+/* Adds a candidate to the orphans unless it is one of the surface. */
+static void keep_orphan(contact_set *next, const contact_candidate *was)
+{
+    if (was->n_closed > 0 && contact_set_find(next, candidate_key(was)) < 0) next->orphans[next->n_orphans++] = *was;
+}
+
+/* Those that have not been released yet come first; one whose surface has come back is none. */
+static dem_status list_orphans(const contact_set *c, contact_set *next)
+{
+    dem_index most = c->n_orphans;
+    for (dem_index k = 0; k < c->n; k++) most += c->list[k].n_closed > 0;
+    next->orphans = malloc(((size_t)most + 1) * sizeof *next->orphans);
+    CHECK(next->orphans != NULL, DEM_ERROR_MEMORY, "out of memory for contacts that go with their surface");
+    for (dem_index k = 0; k < c->n_orphans; k++) keep_orphan(next, &c->orphans[k]);
+    for (dem_index k = 0; k < c->n; k++) keep_orphan(next, &c->list[k]);
+    return DEM_OK;
+}
+
 /* The new set is complete before the old one is given up, so that after a failure nothing has changed. Ledger and scene
  * are handed on, not copied. */
 dem_status contact_set_follow_surface(contact_set *c, const surface *to)
@@ -116,6 +135,7 @@ dem_status contact_set_follow_surface(contact_set *c, const surface *to)
     contact_set next = {
         .scene = c->scene, .surface = to, .ledger = c->ledger, .projected = c->projected, .has_new = c->has_new};
     dem_status status = list_candidates(&next, &c->scene);
+    if (status == DEM_OK) status = list_orphans(c, &next);
     for (dem_index k = 0; k < next.n && status == DEM_OK; k++) {
         const dem_index was = contact_set_find(c, candidate_key(&next.list[k]));
         if (was >= 0)
@@ -368,10 +388,9 @@ contact_contribution contact_set_contribution(const contact_set *c, dem_index k,
 
 /* Velocity before and after is the present one, until an impact puts its own in place. Reports have velocities as they
  * are, not relative to the wall. */
-dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
-                            const contact_instant *now)
+static dem_event event_of(const contact_set *c, const contact_candidate *candidate, dem_index feature,
+                          dem_event_kind kind, const contact_instant *now)
 {
-    const contact_candidate *candidate = &c->list[k];
     const contact_frame f = contact_frame_on(&c->scene, candidate, feature, instant_state(now));
     const surface_feature on = contact_point_feature(candidate, feature);
     const vec2 v = contact_frame_velocity(&f, now->v);
@@ -394,6 +413,25 @@ dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature
     const int q = candidate_point_on(candidate, feature);
     if (q >= 0) event.state = contact_point_state(&candidate->closed[q]);
     return event;
+}
+
+dem_event contact_set_event(const contact_set *c, dem_index k, dem_index feature, dem_event_kind kind,
+                            const contact_instant *now)
+{
+    return event_of(c, &c->list[k], feature, kind, now);
+}
+
+/* They have no state any more, as a contact that has opened. */
+void contact_set_release_orphans(contact_set *c, contact_instant *now)
+{
+    for (dem_index k = 0; k < c->n_orphans; k++) {
+        const contact_candidate *was = &c->orphans[k], open = candidate_reset(was);
+        for (int q = 0; q < was->n_closed; q++) {
+            const dem_event event = event_of(c, &open, was->closed[q].feature, DEM_EVENT_RELEASE, now);
+            ledger_enter(&c->ledger, &event, now);
+        }
+    }
+    c->n_orphans = 0;
 }
 
 void contact_set_push(const contact_set *c, const contact_frame *f, vec2 impulse, double *v)

@@ -42,6 +42,8 @@ typedef struct contact_set {
     dem_contact *described;    /* [2 n] closed contacts as they were last reported */
     double projected;          /* m, the furthest that nodes were moved after a step to put closed contacts back */
     bool has_new;              /* some nodes may have come with the last surface */
+    dem_index n_orphans;
+    contact_candidate *orphans; /* [n_orphans] that have gone with their surface while they had closed contacts */
 } contact_set;
 
 /** `c` must stay where it is. */
@@ -50,9 +52,12 @@ void contact_set_destroy(contact_set *c);
 
 /** Makes the candidates those of another surface of the same nodes, which is borrowed; the one before has to last till
  *  then. Candidates of both keep their contacts and what is known of them under new numbers; new ones are free. Those
- *  that go leave no contact and no event behind: whoever takes a surface away knows why. Not during an impact.
+ *  that go with closed contacts are orphans until they are released. Not during an impact.
  *  \return DEM_ERROR_MEMORY, with the set as it was */
 dem_status contact_set_follow_surface(contact_set *c, const surface *to);
+
+/** Reports and counts the release of the orphans' contacts in the state after the surface has changed. */
+void contact_set_release_orphans(contact_set *c, contact_instant *now);
 
 /** A candidate becomes what the same one was at another time, perhaps on another surface. */
 void contact_set_become(contact_set *c, dem_index k, const contact_candidate *was);

@@ -304,6 +304,13 @@ static dem_status resolve_event(dem_simulation *s)
     return go_on(s, reduce_status(automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
 }
 
+/* Contacts of edges that have broken away in the step end with it. */
+static dem_status release_orphans(dem_simulation *s)
+{
+    const event_listener listener = {report_event, s};
+    return reduce_status(automaton_release_orphans(&s->automaton, s->t, s->y, &listener), 0.0);
+}
+
 /* Lets the integrator go on from the end of the step. If contacts were put back or surfaces have met (`moved`), the
  * derivative there is unknown: it starts anew. If events have changed the end and its derivative, it resumes from both
  * without an evaluation, with a step bounded for what their error would be in it; likewise if rigid bodies have got
@@ -338,7 +345,8 @@ static dem_status commit_step(dem_simulation *s)
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_stops) + s->at_break;
     TRY(go_on_changed(s, moved || failed || paused || s->outgrown || events_moved_rigid(s)));
-    const dem_status reported = report_breaks(s, &s->breaks.breaks, s->n_broken);
+    dem_status reported = report_breaks(s, &s->breaks.breaks, s->n_broken);
+    reported = status_first(reported, release_orphans(s));
     return status_first(reported, report_step(s));
 }
 

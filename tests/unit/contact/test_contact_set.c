@@ -155,7 +155,50 @@ TEST(candidates_of_both_surfaces_stay_what_they_are_under_new_numbers)
     assert_int_equal(c->list[scene_edge(&s, 1, 2)].closed[0].feature, 1);
 }
 
-/* A vertex in the notch between edges 1-2 and 2-3, and node 3 on a floor beside it. */
+static dem_status count_event(void *context, const dem_event *event)
+{
+    dem_index *n = context; /* [2] of node 3, of edge 2-3 */
+    assert_int_equal(event->kind, DEM_EVENT_RELEASE);
+    assert_int_equal(event->state, DEM_CONTACT_FREE);
+    assert_int_equal(event->node, event->other < 0 ? 3 : 2);
+    assert_true(event->other < 0 || event->other == 3);
+    n[event->other >= 0]++;
+    return DEM_OK;
+}
+
+static void release_orphans(scene *s, dem_index n[2])
+{
+    const event_listener listener = {count_event, n};
+    n[0] = n[1] = 0;
+    assert_ok(automaton_release_orphans(&s->c, 0.0, s->y, &listener));
+}
+
+/* A vertex in the notch between edges 1-2 and 2-3, and node 3 on a floor beside it. The surface may have changed again,
+ * or come back, before they are released. */
+TEST(contacts_of_candidates_that_go_are_released)
+{
+    for (int way = 0; way < 3; way++) {
+        CLEANUP(scene_close) scene s;
+        open_square(&s, roofs, 2);
+        contact_set *c = &s.c.set;
+        CLEANUP(surface_free) surface half = half_surface(&s);
+        CLEANUP(surface_free) surface again = half_surface(&s);
+        dem_index n[2];
+        close_contact(&s, 3, 0, 1);
+        close_contact(&s, scene_edge(&s, 1, 2), 0, -1);
+        close_contact(&s, scene_edge(&s, 2, 3), 0, 1);
+        close_contact(&s, scene_edge(&s, 2, 3), 1, 1);
+        assert_ok(contact_set_follow_surface(c, &half));
+        if (way > 0) assert_ok(contact_set_follow_surface(c, way == 1 ? &again : &s.model->surface));
+        release_orphans(&s, n);
+        assert_int_equal(n[0], way < 2 ? 1 : 0);
+        assert_int_equal(n[1], way < 2 ? 2 : 0);
+        assert_int_equal(c->ledger.counts.releases, way < 2 ? 3 : 0);
+        release_orphans(&s, n);
+        assert_int_equal(n[0] + n[1], 0);
+    }
+}
+
 TEST(contacts_of_candidates_that_go_are_open)
 {
     CLEANUP(scene_close) scene s;

@@ -267,6 +267,88 @@ TEST(a_node_that_comes_to_the_surface_in_an_obstacle_is_behind_it)
     }
 }
 
+/* What an observer sees of a break, and of the contacts that open from then on. */
+typedef struct parting {
+    dem_index n_breaks, n_releases;
+    double broke; /* s */
+    dem_event release;
+} parting;
+
+static dem_status note_break(void *context, const dem_simulation *s, const dem_break *what)
+{
+    parting *story = context;
+    (void)s;
+    story->broke = what->t;
+    story->n_breaks++;
+    return DEM_OK;
+}
+
+static dem_status note_release(void *context, const dem_simulation *s, const dem_event *event)
+{
+    parting *story = context;
+    assert_close(event->t, ask_state(s).t, 0.0);
+    if (event->kind == DEM_EVENT_RELEASE && story->n_breaks > 0) story->release = *event;
+    story->n_releases += event->kind == DEM_EVENT_RELEASE && story->n_breaks > 0;
+    return DEM_OK;
+}
+
+/* The triangle at the middle edge of a block's lower side, and a ridge under the middle of that edge. */
+static dem_index put_ridge(const dem_lattice *l, double points[6])
+{
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        int n_low = 0;
+        double x = 0.0;
+        for (int c = 0; c < 3; c++) n_low += l->x[2 * l->triangles[3 * t + c] + 1] < 1e-9;
+        for (int c = 0; c < 3; c++) x += l->x[2 * l->triangles[3 * t + c]] / 3.0;
+        for (int c = 0; c < 6; c++) points[c] = c % 2 ? (c == 3 ? 0.0 : -0.5) : x + 0.25 * (c - 2);
+        if (n_low == 2 && fabs(x) < 2.6e-3) return t;
+    }
+    fail_msg("no triangle at the lower side");
+    return -1;
+}
+
+/* A block is pressed on a ridge and stretched, until the triangle at the ridge breaks: the contact ends where its edge
+ * does, at the end of the step, which is shorter than 1/omega_max, or is that of the break. What has closed and not
+ * opened is what is listed. */
+TEST(a_contact_goes_with_its_edge_by_a_release)
+{
+    for (int exact = 0; exact < 2; exact++) {
+        CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+        double points[6], v[2 * MOST_NODES];
+        const dem_index triangle = put_ridge(&block, points);
+        const dem_obstacle ridge = SIZED(dem_obstacle, .n_points = 3, .points = points);
+        dem_options options = free_fall(1e-8);
+        options.gravity[1] = -500.0;
+        options.contact = exact ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
+        for (dem_index c = 0; c < 2 * block.n_nodes; c++) v[c] = c % 2 ? 0.0 : 20.0 * block.x[c];
+        support_start(&block, NULL, v);
+        block.strength = malloc((size_t)block.n_triangles * sizeof *block.strength);
+        assert_non_null(block.strength);
+        for (dem_index t = 0; t < block.n_triangles; t++) block.strength[t] = t == triangle ? 1e4 : (double)INFINITY;
+        parting story = {.n_breaks = 0};
+        const dem_observer observer =
+            SIZED(dem_observer, .context = &story, .event = note_release, .broken = note_break);
+        CLEANUP(support_close) support_run run;
+        support_open(&run, &block, &ridge, 1, &options);
+        assert_ok(dem_simulation_observe(run.simulation, &observer));
+        const double had = support_at(&run, 0.0).energy.ledger;
+        assert_int_equal(ask_state(run.simulation).n_contacts, 1);
+        const motion s = support_at(&run, 1e-4);
+        assert_int_equal(story.n_breaks, 1);
+        assert_int_equal(story.n_releases, 1);
+        assert_true(story.release.t >= story.broke && (!exact || story.release.t == story.broke));
+        assert_true(story.release.t < story.broke + 1.0 / dem_model_omega_max(run.model));
+        assert_int_equal(story.release.state, DEM_CONTACT_FREE);
+        for (int c = 0; c < 2; c++) assert_close(story.release.x[c], points[2 + c], 0.0);
+        assert_close(story.release.weight, 0.5, 1e-2);
+        assert_int_equal(ask_state(run.simulation).n_contacts, 0);
+        const dem_counts counts = ask_counts(run.simulation);
+        assert_int_equal(counts.closings, 1);
+        assert_int_equal(counts.releases, 1);
+        assert_close(s.energy.ledger, had, 1e-7 * had);
+    }
+}
+
 /* The pieces of a block that is broken in two run into each other: faces push, nothing crosses, momentum stays. */
 TEST(new_faces_push_each_other)
 {
