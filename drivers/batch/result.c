@@ -173,6 +173,20 @@ static void write_first_break(json *j, const fracture_report *first)
     json_close(j, '}');
 }
 
+/* `null` where no node was inside an obstacle when it came to the surface. */
+static void write_first_buried(json *j, const dem_fracture *broken)
+{
+    if (broken->buried == 0) {
+        json_text(j, "first_buried", NULL);
+        return;
+    }
+    json_open(j, "first_buried", '{');
+    json_integer(j, "node", broken->buried_node);
+    json_real(j, "t", broken->buried_t);
+    json_reals(j, "x", broken->buried_x, 2);
+    json_close(j, '}');
+}
+
 static void write_broken(json *j, const fracture_report *first, const dem_simulation *simulation)
 {
     json_integer(j, "breaks", first->breaks);
@@ -185,6 +199,8 @@ static void write_broken(json *j, const fracture_report *first, const dem_simula
     json_real(j, "debris", broken.debris);
     json_real(j, "median_fragment", broken.median);
     json_real(j, "crack_length", broken.crack_length);
+    json_integer(j, "buried", broken.buried);
+    write_first_buried(j, &broken);
 }
 
 static void write_node_peak(json *j, const report *r, const dem_model *model)

@@ -348,6 +348,11 @@ typedef struct dem_fracture {
     double median;       /**< kg, mass of the fragment with which, from the smallest on, half of all is reached: d50 */
     double crack_length; /**< m, sum of sqrt(A/sqrt(3)) over the broken triangles, A the area at rest: what a row of
                               equilateral triangles of that area is long */
+    dem_index buried;    /**< nodes that were inside an obstacle when they came to the surface: they touch it only once
+                                they have come out */
+    dem_index buried_node; /**< the first of them; -1 without one */
+    double buried_t;       /**< s, and when, */
+    double buried_x[3];    /**< m, and where that was; 0 without one */
 } dem_fracture;
 
 typedef struct dem_simulation dem_simulation;

@@ -132,8 +132,12 @@ static dem_status list_orphans(const contact_set *c, contact_set *next)
  * are handed on, not copied. */
 dem_status contact_set_follow_surface(contact_set *c, const surface *to)
 {
-    contact_set next = {
-        .scene = c->scene, .surface = to, .ledger = c->ledger, .projected = c->projected, .has_new = c->has_new};
+    contact_set next = {.scene = c->scene,
+                        .surface = to,
+                        .ledger = c->ledger,
+                        .projected = c->projected,
+                        .has_new = c->has_new,
+                        .burials = c->burials};
     dem_status status = list_candidates(&next, &c->scene);
     if (status == DEM_OK) status = list_orphans(c, &next);
     for (dem_index k = 0; k < next.n && status == DEM_OK; k++) {
@@ -157,6 +161,14 @@ void contact_set_count_behind(contact_set *c)
     for (dem_index k = 0; k < c->surface->n_nodes; k++) c->ledger.counts.behind += c->list[k].behind[0] >= 0;
 }
 
+static void note_burial(contact_burials *b, dem_index node, scene_state state)
+{
+    if (b->n++ > 0) return;
+    b->node = node;
+    b->t = state.t;
+    vec2_put(b->x, 0, vec2_at(state.x, node));
+}
+
 /* What is not as deep as an impact is, takes one. */
 static void look_at_new(contact_set *c, dem_index k, scene_state state)
 {
@@ -166,6 +178,7 @@ static void look_at_new(contact_set *c, dem_index k, scene_state state)
     candidate->is_new = false;
     if (gap.distance >= -c->scene.rule.penetration_tolerance) return;
     contact_set_pass_behind(c, k, surface_obstacle(&c->scene, (surface_feature){SURFACE_SEGMENT, gap.feature}));
+    note_burial(&c->burials, candidate->node, state);
 }
 
 void contact_set_look_at_new(contact_set *c, scene_state state)

@@ -28,6 +28,14 @@ typedef struct candidate_impact {
     contact_impact of[2];
 } candidate_impact;
 
+/** Nodes that were inside an obstacle when they came to the surface, so far: without gaps, as checkpoints have it. */
+typedef struct contact_burials {
+    dem_index n;
+    dem_index node;           /* of the first */
+    double t;                 /* s, likewise */
+    double x[STATE_DIM_MOST]; /* m, likewise */
+} contact_burials;
+
 typedef struct contact_set {
     contact_scene scene;
     const surface *surface; /* of the bodies */
@@ -42,6 +50,7 @@ typedef struct contact_set {
     dem_contact *described;    /* [2 n] closed contacts as they were last reported */
     double projected;          /* m, the furthest that nodes were moved after a step to put closed contacts back */
     bool has_new;              /* some nodes may have come with the last surface */
+    contact_burials burials;
     dem_index n_orphans;
     contact_candidate *orphans; /* [n_orphans] that have gone with their surface while they had closed contacts */
 } contact_set;

@@ -687,9 +687,11 @@ module dem_c
   end type
 
   type, bind(c) :: dem_fracture
-    integer(c_size_t) :: struct_size = 64
+    integer(c_size_t) :: struct_size = 112
     integer(dem_index) :: triangles = 0, springs = 0, fragments = 0
     real(c_double) :: largest = 0, debris = 0, median = 0, crack_length = 0
+    integer(dem_index) :: buried = 0, buried_node = 0
+    real(c_double) :: buried_t = 0, buried_x(3) = 0
   end type
 
   abstract interface

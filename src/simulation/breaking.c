@@ -17,7 +17,7 @@
 #include "simulation/set_motion.h"
 
 static const char of_triangles[] = "broken triangles", of_springs[] = "broken springs", of_energy[] = "fracture",
-                  of_levels[] = "softened triangles";
+                  of_levels[] = "softened triangles", of_burials[] = "nodes buried";
 
 /* Triangles that are broken now; NULL: none. */
 static const unsigned char *broken_now(const dem_simulation *s)
@@ -298,6 +298,7 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     const element_state *elements = s->forces.elements;
     const dem_lattice *l = &s->model->lattice;
+    const contact_burials *burials = &s->automaton.set.burials;
     if (elements == NULL) return DEM_OK;
     unsigned char *flags = malloc((size_t)l->n_springs + 1);
     CHECK(flags != NULL, DEM_ERROR_MEMORY, "out of memory for what is broken in a checkpoint");
@@ -308,6 +309,7 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
         status = dem_checkpoint_put(checkpoint, of_triangles, elements->triangle, (size_t)l->n_triangles);
     if (status == DEM_OK && elements->level != NULL)
         status = dem_checkpoint_put(checkpoint, of_levels, elements->level, (size_t)l->n_triangles);
+    if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, of_burials, burials, sizeof *burials);
     return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &s->fracture, sizeof s->fracture) : status;
 }
 
@@ -346,6 +348,20 @@ static dem_status find_levels(const dem_simulation *s, const dem_checkpoint *che
         CHECK((*out)[k] <= softening_levels(l->softening[k]), DEM_ERROR_IO,
               "triangle %lld in the checkpoint has softened %d times, it does so %d times at most", (long long)k,
               (*out)[k], softening_levels(l->softening[k]));
+    return DEM_OK;
+}
+
+/* Checkpoints of before these were counted have none of them. */
+static dem_status get_burials(dem_simulation *s, const dem_checkpoint *checkpoint)
+{
+    contact_burials read = {0};
+    size_t size;
+    if (dem_checkpoint_find(checkpoint, of_burials, &size) != NULL)
+        TRY(dem_checkpoint_get(checkpoint, of_burials, &read, sizeof read));
+    bool possible = read.n >= 0 && read.node >= 0 && read.node < s->model->lattice.n_nodes && isfinite(read.t);
+    for (int d = 0; d < STATE_DIM_MOST; d++) possible = possible && isfinite(read.x[d]);
+    CHECK(possible, DEM_ERROR_IO, "the checkpoint has impossible numbers of %s", of_burials);
+    s->automaton.set.burials = read;
     return DEM_OK;
 }
 
@@ -389,6 +405,7 @@ dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
     element_flags flags = {NULL, NULL, NULL};
     element_state next = {0};
     size_t size;
+    TRY(get_burials(s, checkpoint));
     if (dem_checkpoint_find(checkpoint, of_energy, &size) == NULL) return DEM_OK;
     TRY(find_flags(checkpoint, of_triangles, l->n_triangles, &flags.triangle));
     TRY(find_flags(checkpoint, of_springs, l->n_springs, &flags.spring));

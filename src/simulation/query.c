@@ -259,7 +259,12 @@ dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
 {
     dem_fracture seen;
     TRY(check_given("dem_simulation_fracture", s, out));
+    const contact_burials *buried = &s->automaton.set.burials;
     TRY(fragments_measure(&s->model->lattice, elements_of(s), &seen));
+    seen.buried = reduce_count(buried->n);
+    seen.buried_node = buried->n > 0 ? buried->node : -1;
+    seen.buried_t = buried->t;
+    state_copy_row(&s->layout, seen.buried_x, buried->x);
     return GIVE(dem_fracture, out, &seen);
 }
 

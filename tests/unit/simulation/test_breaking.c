@@ -247,6 +247,7 @@ TEST(a_node_that_comes_to_the_surface_in_an_obstacle_is_behind_it)
         const dem_obstacle diamond = SIZED(dem_obstacle, .n_points = 5, .points = points);
         dem_options options = free_fall(1e-8);
         options.vertices = false;
+        options.checkpoint_steps = 7;
         dem_index triangle = 0;
         while (block.triangles[3 * triangle] != inner && block.triangles[3 * triangle + 1] != inner) triangle++;
         for (dem_index c = 0; c < 2 * block.n_nodes; c++) v[c] = c % 2 ? (itself ? 100.0 * block.x[c] : -3.0) : 0.0;
@@ -258,11 +259,22 @@ TEST(a_node_that_comes_to_the_surface_in_an_obstacle_is_behind_it)
         support_open(&run, &block, &diamond, 1, &options);
         const double had = support_at(&run, 0.0).energy.ledger;
         if (!itself) break_triangles(run.simulation, &(numbers){1, {triangle}});
+        assert_int_equal(ask_fracture(run.simulation).buried, 0);
         motion s = support_at(&run, 1e-4);
         assert_int_equal(nodes_behind(run.simulation), 1);
+        const dem_fracture then = ask_fracture(run.simulation);
+        assert_int_equal(then.buried, 1);
+        assert_int_equal(then.buried_node, inner);
+        assert_true(itself ? then.buried_t > 0.0 && then.buried_t < 1e-4 : then.buried_t == 0.0);
+        for (int c = 0; c < 2; c++) assert_close(then.buried_x[c], block.x[2 * inner + c], itself ? 3e-4 : 0.0);
         assert_close(s.energy.ledger, had, 1e-7 * had);
         s = support_at(&run, 2e-3);
         assert_int_equal(nodes_behind(run.simulation), 0);
+        CLEANUP(free_simulation) dem_simulation *resumed = NULL;
+        assert_ok(dem_simulation_resume(&resumed, run.model, &options, dem_simulation_checkpoint(run.simulation)));
+        const dem_fracture later = ask_fracture(run.simulation), again = ask_fracture(resumed);
+        assert_memory_equal(&later, &then, sizeof then);
+        assert_memory_equal(&again, &then, sizeof then);
         if (!itself) assert_close(s.x[2 * inner + 1], block.x[2 * inner + 1] - 6e-3, 1e-12);
     }
 }

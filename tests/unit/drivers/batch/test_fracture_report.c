@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* fracture_report.c: a chain of six masses, 1 to 6 kg, broken behind the first and behind the third. */
+/* fracture_report.c: a chain of six masses, 1 to 6 kg, broken behind the first and behind the third; a hexagon of
+ * triangles about an obstacle. */
 #include "verification/support.h"
 
 #include <stdio.h>
@@ -63,5 +64,31 @@ TEST(the_lines_have_the_first_break_and_the_fragments)
                               "cracks; the first at 2.5000e-01 s, (0.5, 2) m\n"
                               "fragments  3; the largest has 0.714 of the mass, single nodes 0.0476; half is in those "
                               "up to 15 kg\n");
+    free(text);
+}
+
+/* A square around the middle node of six triangles, which comes to the surface with the first of them that breaks. */
+TEST(a_node_that_was_buried_has_a_line)
+{
+    static const dem_material material = {
+        .struct_size = sizeof material, .youngs_modulus = 1e6, .density = 1e3, .thickness = 1.0};
+    static const double square[10] = {0.1, 0.0, 0.0, -0.1, -0.1, 0.0, 0.0, 0.1, 0.1, 0.0};
+    const dem_obstacle obstacle = SIZED(dem_obstacle, .n_points = 5, .points = square);
+    const dem_index first[1] = {0};
+    const fracture_report report = {.breaks = 1};
+    CLEANUP(dem_lattice_free) dem_lattice hexagon = dem_lattice_empty();
+    assert_ok(dem_lattice_disc(&hexagon, 1.1, 1.0));
+    assert_ok(dem_lattice_assemble(&hexagon, &material));
+    assert_int_equal(hexagon.n_triangles, 6);
+    dem_options options = dem_options_default();
+    options.vertices = false;
+    options.gravity[1] = 0.0;
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &hexagon, &obstacle, 1, &options);
+    assert_ok(dem_simulation_break(run.simulation, first, 1, NULL, 0));
+    (void)support_at(&run, 0.0);
+    char *text = print(&report, run.simulation);
+    assert_non_null(strstr(text, "\nburied     nodes inside obstacles when they came to the surface, which they touch "
+                                 "only once they are out: 1; the first, node 3, at 0.0000e+00 s, (0, 0) m\n"));
     free(text);
 }
