@@ -189,6 +189,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
     if (surface_report_follow(&r->so_far.surface_report, simulation, state.t))
         surface_report_warn(&r->so_far.surface_report, r->log);
     rebound_follow(&r->so_far.rebound, simulation, &state);
+    fracture_report_follow(&r->so_far.fracture_report, simulation);
     watch_ledger(r, simulation, &state);
     watch_overlap(r, simulation);
     show_progress(r, simulation, &state);

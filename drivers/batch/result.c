@@ -160,6 +160,20 @@ static void write_strain(json *j, const report *r)
     json_integer(j, "inverted", r->so_far.inverted_max);
 }
 
+/* Numbered from 0, as all in the files; `null` where neither a boundary nor an obstacle gave a force. */
+static void write_load(json *j, const fracture_report_load *load)
+{
+    if (load->boundary == 0 && load->obstacle == 0) {
+        json_text(j, "load", NULL);
+        return;
+    }
+    json_open(j, "load", '{');
+    json_reals(j, "force", load->force, 2);
+    json_integer(j, load->boundary > 0 ? "boundary" : "obstacle",
+                 (load->boundary > 0 ? load->boundary : load->obstacle) - 1);
+    json_close(j, '}');
+}
+
 /* `null` where nothing has broken. */
 static void write_first_break(json *j, const fracture_report *first)
 {
@@ -170,6 +184,7 @@ static void write_first_break(json *j, const fracture_report *first)
     json_open(j, "first_break", '{');
     json_real(j, "t", first->first_t);
     json_reals(j, "x", first->first_x, 2);
+    write_load(j, &first->load);
     json_close(j, '}');
 }
 

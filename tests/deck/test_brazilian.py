@@ -53,6 +53,8 @@ class Brazilian(unittest.TestCase):
         self.assertLess(load.max(), 1.1 * by_two_forces)
         self.assertLess(numpy.ptp(load), 1e-3 * load.max())    # nothing else holds the disc
         self.assertLess(numpy.abs(self.force[-1]).max(), 0.6 * load.max())
+        reported = self.summary["first_break"]["load"]
+        self.assertEqual(reported["force"][1], self.force[first - 1][reported["boundary"]])
 
     def test_it_splits_along_the_load(self):
         """Wherever one looks from end to end but under the platens, something is broken near to the middle line."""

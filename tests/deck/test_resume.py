@@ -204,7 +204,10 @@ class Cuts(Case):
             self.assertAlmostEqual(sum(table["energy"]), taken, delta=1e-12 * taken)
             result, frames = self.result("whole"), file["fragments/frame_offset"]
             self.assertEqual(result["breaks"], len(triangles))
-            self.assertEqual(result["first_break"], {"t": table["t"][0], "x": list(table["x"][0])})
+            first = result["first_break"]
+            self.assertEqual([first["t"], first["x"]], [table["t"][0], list(table["x"][0])])
+            before = [t < first["t"] for t in file["history/t"]].index(False) - 1
+            self.assertEqual(first["load"], {"force": list(file["history/obstacle_reaction"][before, 0]), "obstacle": 0})
             self.assertEqual(result["fragments"], frames[-1] - frames[-2])
             self.assertAlmostEqual(result["crack_length"], file["history/crack_length"][-1], delta=1e-15)
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* fracture_report.c: a chain of six masses, 1 to 6 kg, broken behind the first and behind the third; a hexagon of
- * triangles about an obstacle. */
+ * triangles about an obstacle; and a spring that is pulled until it breaks. */
 #include "verification/support.h"
 
 #include <stdio.h>
@@ -90,5 +90,89 @@ TEST(a_node_that_was_buried_has_a_line)
     char *text = print(&report, run.simulation);
     assert_non_null(strstr(text, "\nburied     nodes inside obstacles when they came to the surface, which they touch "
                                  "only once they are out: 1; the first, node 3, at 0.0000e+00 s, (0, 0) m\n"));
+    free(text);
+}
+
+/* ---- the load ---- */
+
+static const double speed = 1e-3, limit = 0.01, step = 0.03, weight = 49.05; /* m/s, 1, s, N */
+
+static dem_status follow(void *context, const dem_simulation *simulation)
+{
+    fracture_report_follow(context, simulation);
+    return DEM_OK;
+}
+
+static dem_status note(void *context, const dem_simulation *simulation, const dem_break *what)
+{
+    (void)simulation;
+    fracture_report_note(context, what);
+    return DEM_OK;
+}
+
+/* A spring of 1 m and 1 N between a fixed node and one that is pulled along x, and beside them a third node of 5 kg,
+ * which rests on a floor if there is one. */
+static void open_spring(support_run *run, fracture_report *report, bool floor, dem_contact_method way)
+{
+    static const double x[] = {0.0, 1.0, 1.0, 1.0, 3.0, 0.0}, masses[] = {1.0, 1.0, 5.0};
+    static const double line[] = {2.0, 0.0, 4.0, 0.0};
+    static const dem_index ends[] = {0, 1}, pulled[] = {1};
+    static const unsigned char fixed[] = {1, 0, 0};
+    const dem_obstacle ground = {.struct_size = sizeof ground, .n_points = 2, .points = line};
+    const dem_boundary pull = {.struct_size = sizeof pull,
+                               .kind = DEM_BOUNDARY_VELOCITY,
+                               .components = DEM_COMPONENT_X | DEM_COMPONENT_Y,
+                               .n_nodes = 1,
+                               .nodes = pulled,
+                               .value = {speed, 0.0}};
+    CLEANUP(dem_lattice_free) dem_lattice l = support_lattice(3, x, masses, 1, ends, 1.0, 1.0, fixed);
+    dem_options options = dem_options_default();
+    options.max_step = step;
+    if (!floor) options.gravity[1] = 0.0;
+    options.contact = way;
+    options.n_boundaries = 1;
+    options.boundaries = &pull;
+    l.critical_stretch = malloc(sizeof *l.critical_stretch);
+    l.body = calloc(3, sizeof *l.body);
+    assert_true(l.critical_stretch != NULL && l.body != NULL);
+    l.body[2] = 1;
+    l.critical_stretch[0] = limit;
+    assert_ok(dem_lattice_exclude(&l, pulled, 1));
+    support_open(run, &l, floor ? &ground : NULL, floor, &options);
+    *report = (fracture_report){0};
+    const dem_observer observer = {.struct_size = sizeof observer, .step = follow, .context = report, .broken = note};
+    assert_ok(dem_simulation_observe(run->simulation, &observer));
+}
+
+/* The force is the strain in newtons, speed times time; a step before the break it is less by what a step adds. */
+TEST(the_load_is_that_of_the_last_step_before_the_first_break)
+{
+    const dem_contact_method ways[] = {DEM_CONTACT_LOCAL, DEM_CONTACT_EXACT};
+    for (int way = 0; way < 2; way++) {
+        CLEANUP(support_close) support_run run;
+        fracture_report report;
+        open_spring(&run, &report, false, ways[way]);
+        assert_ok(dem_simulation_advance(run.simulation, 12.0));
+        assert_int_equal(report.breaks, 1);
+        assert_close(report.first_t, limit / speed, 1e-6);
+        assert_true(report.load.force[0] < limit && report.load.force[0] >= limit - speed * step - 1e-12);
+        assert_close(report.load.force[1], 0.0, 1e-12);
+        assert_int_equal(report.load.boundary, 1);
+        assert_int_equal(report.load.obstacle, 0);
+    }
+}
+
+TEST(the_load_is_the_largest_of_all_boundaries_and_obstacles)
+{
+    CLEANUP(support_close) support_run run;
+    fracture_report report;
+    open_spring(&run, &report, true, DEM_CONTACT_LOCAL);
+    assert_ok(dem_simulation_advance(run.simulation, 12.0));
+    assert_int_equal(report.breaks, 1);
+    assert_close(report.load.force[1], weight, 1e-9); /* the solver's, of 5 kg times 9.81 m/s^2 */
+    assert_int_equal(report.load.boundary, 0);
+    assert_int_equal(report.load.obstacle, 1);
+    char *text = print(&report, run.simulation);
+    assert_non_null(strstr(text, " m, under (0, 49.05) N of obstacle 1\nfragments  3; "));
     free(text);
 }
