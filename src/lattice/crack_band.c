@@ -2,13 +2,22 @@
 /* The energy G that a crack takes for its area is a number of the lattice. It was measured, in strips whose sides are
  * parted (test_strip.c and test_crack_band.c in tests/verification), as
  *     G E/(strength^2 a) = 3.4               of brittle triangles,
- *                          2.0 + 1.07 q      where they soften, from q = 2 on,
- * and in between a straight line joins the two. */
+ *                          2.0 + 1.07 q      where they soften, from q = 2 to 6,
+ *                          8.42 + 1.29 (q - 6) beyond,
+ * and in between the first two a straight line joins them. */
 #include "lattice/crack_band.h"
 
 #include <math.h>
 
-static const double brittle = 3.4, offset = 2.0, slope = 1.07, joint = 2.0;
+static const double brittle = 3.4;
+
+/* A line for each softening from 1 on, up to that of the next one. */
+typedef struct line {
+    double softening, toughness, slope;
+} line;
+
+static const line lines[] = {{1.0, 3.4, 0.74}, {2.0, 4.14, 1.07}, {6.0, 8.42, 1.29}};
+enum { LINES = sizeof lines / sizeof *lines };
 
 double crack_band_size(double area)
 {
@@ -27,16 +36,16 @@ double crack_band_coarsest(double modulus, double fracture_energy, double streng
 
 double crack_band_toughness(double softening)
 {
-    const double at_joint = offset + slope * joint;
-    if (softening >= joint) return offset + slope * softening;
-    return brittle + (softening - 1.0) * (at_joint - brittle) / (joint - 1.0);
+    const line *of = &lines[0];
+    for (int k = 1; k < LINES && softening >= lines[k].softening; k++) of = &lines[k];
+    return of->toughness + of->slope * (softening - of->softening);
 }
 
 double crack_band_softening_of(double toughness)
 {
-    const double at_joint = offset + slope * joint;
-    if (toughness >= at_joint) return (toughness - offset) / slope;
-    return fmax(1.0 + (joint - 1.0) * (toughness - brittle) / (at_joint - brittle), 1.0);
+    const line *of = &lines[0];
+    for (int k = 1; k < LINES && toughness >= lines[k].toughness; k++) of = &lines[k];
+    return fmax(of->softening + (toughness - of->toughness) / of->slope, 1.0);
 }
 
 double crack_band_softening(double modulus, double fracture_energy, double strength, double size)
