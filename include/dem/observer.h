@@ -22,6 +22,8 @@ typedef struct dem_break {
     double stress[3]; /**< Pa, of a triangle the mean of its corners' stresses just before: xx, yy, xy; 0 of a spring */
     double energy;    /**< J, that it had. Elements that break at one instant are taken in their order: what several
                              of them hold goes with the last */
+    dem_index fragment_new; /**< the fragment that it has split off, by its lowest node then; of several the lowest; -1:
+                                 none. Elements that break at one instant are taken in their order, here too */
 } dem_break;
 
 /** Called during dem_simulation_advance(), in the order of time; any callback may be NULL. A status other than DEM_OK

@@ -945,10 +945,11 @@ module dem_c
   ! ---- dem/observer.h ------------------------------------------------------------------------------------------------
 
   type, bind(c) :: dem_break
-    integer(c_size_t) :: struct_size = 96
+    integer(c_size_t) :: struct_size = 104
     real(c_double) :: t = 0
     integer(dem_index) :: triangle = 0, spring = 0, body = 0
     real(c_double) :: x(3) = 0, stress(3) = 0, energy = 0
+    integer(dem_index) :: fragment_new = 0
   end type
 
   type, bind(c) :: dem_observer

@@ -1,18 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A break is noted before anything breaks at its instant, so that stresses are those that broke it, and the order in
  * which elements of one instant are listed does not change them. Energies are taken one element after the other: what
- * several hold together goes with the last of them, so that their sum is that of all, to rounding. */
+ * several hold together goes with the last of them, so that their sum is that of all, to rounding. So it is with
+ * fragments. These are found once for all breaks of a step, as all nodes are looked at. */
 #include "fracture/break_list.h"
 
 #include <stdlib.h>
 
 #include "base/grow.h"
 #include "base/status.h"
+#include "base/union_find.h"
+#include "model/fragments.h"
 #include "model/node_stress.h"
 
 void break_list_destroy(break_list *b)
 {
     free(b->list);
+    free(b->split);
+    free(b->fragment);
     *b = (break_list){0};
 }
 
@@ -35,6 +40,13 @@ static void put_place(dem_break *out, const dem_index *nodes, int n, const doubl
         for (int d = 0; d < 2; d++) out->x[d] += x[2 * nodes[k] + d] / n;
 }
 
+static bool make_room(break_list *b, dem_index n_nodes)
+{
+    if (b->fragment == NULL) b->fragment = malloc((size_t)n_nodes * sizeof *b->fragment);
+    return b->fragment != NULL && grow_array((void **)&b->list, &b->capacity, b->n + 1, sizeof *b->list) &&
+           grow_array((void **)&b->split, &b->split_capacity, b->n + 1, sizeof *b->split);
+}
+
 dem_status break_list_note(break_list *b, const dem_model *model, const element_state *elements, dem_index element,
                            double t, const double *x)
 {
@@ -42,8 +54,7 @@ dem_status break_list_note(break_list *b, const dem_model *model, const element_
     const dem_index spring = element - l->n_triangles;
     const bool alone = spring >= 0;
     const dem_index *nodes = alone ? &l->ends[2 * spring] : &l->triangles[3 * element];
-    CHECK(grow_array((void **)&b->list, &b->capacity, b->n + 1, sizeof *b->list), DEM_ERROR_MEMORY,
-          "out of memory for what has broken");
+    CHECK(make_room(b, l->n_nodes), DEM_ERROR_MEMORY, "out of memory for what has broken");
     dem_break own = {.struct_size = sizeof own,
                      .t = t,
                      .triangle = alone ? -1 : element,
@@ -106,4 +117,47 @@ void break_list_break(break_list *b, dem_index k, const dem_model *model, elemen
     const double before = break_list_energy(nodes, n, model, elements, x);
     element_state_break(elements, own->triangle >= 0 ? own->triangle : model->lattice.n_triangles + own->spring);
     own->energy = before - break_list_energy(nodes, n, model, elements, x);
+}
+
+/* ---- the fragments that it splits off ---- */
+
+/* If a spring is broken, makes the fragments at its ends one again.
+ * \return the number that goes, of two fragments that of the higher one; n_nodes: none does */
+static dem_index mend_spring(dem_index *fragment, const element_state *e, dem_index spring)
+{
+    const dem_index *ends = &e->lattice->ends[2 * spring], none = e->lattice->n_nodes;
+    if (!springs_is_broken(element_state_springs(e), spring)) return none;
+    const dem_index a = union_find_root(fragment, ends[0]), b = union_find_root(fragment, ends[1]);
+    union_find_unite(fragment, a, b);
+    return a == b ? none : a > b ? a : b;
+}
+
+/* The same with what an element has held.  \return the lowest number that goes; -1: none does */
+static dem_index mend(dem_index *fragment, const element_state *e, const dem_break *b)
+{
+    const dem_index none = e->lattice->n_nodes;
+    const dem_index first = b->triangle >= 0 ? e->row[b->triangle] : 0;
+    const dem_index end = b->triangle >= 0 ? e->row[b->triangle + 1] : 0;
+    dem_index lowest = b->spring >= 0 ? mend_spring(fragment, e, b->spring) : none;
+    for (dem_index p = first; p < end; p++) {
+        const dem_index gone = mend_spring(fragment, e, e->spring[p]);
+        lowest = gone < lowest ? gone : lowest;
+    }
+    return lowest < none ? lowest : -1;
+}
+
+/* From the last to the first, each break is taken back: a spring has then been broken by the last of the triangles that
+ * held it. */
+void break_list_find_split(break_list *b, dem_index from, const dem_model *model, const element_state *elements)
+{
+    if (from >= b->n) return;
+    (void)fragments_find(&model->lattice, element_state_springs(elements).pushed, b->fragment);
+    for (dem_index k = b->n; k-- > from;) b->split[k] = mend(b->fragment, elements, &b->list[k]);
+}
+
+dem_break break_list_at(const break_list *b, dem_index k)
+{
+    dem_break own = b->list[k];
+    own.fragment_new = b->split[k];
+    return own;
 }

@@ -10,7 +10,10 @@
 
 typedef struct break_list {
     dem_index n, capacity;
-    dem_break *list; /* [n] */
+    dem_break *list;     /* [n] */
+    dem_index *split;    /* [n] the fragment that each has split off: break_list_find_split() */
+    dem_index *fragment; /* [n_nodes] its room; NULL: nothing has been noted yet */
+    dem_index split_capacity;
 } break_list;
 
 void break_list_destroy(break_list *b);
@@ -23,6 +26,14 @@ dem_status break_list_note(break_list *b, const dem_model *model, const element_
 
 /** Breaks the k-th in `elements`, and notes the energy that it has there. */
 void break_list_break(break_list *b, dem_index k, const dem_model *model, element_state *elements, const double *x);
+
+/** Finds which fragments the breaks from number `from` on have split off. What is noted of these anew, when events are
+ *  resolved again, keeps that.
+ *  \param elements  the state after all in the list, and before anything else has broken */
+void break_list_find_split(break_list *b, dem_index from, const dem_model *model, const element_state *elements);
+
+/** The k-th with what it has split off. */
+dem_break break_list_at(const break_list *b, dem_index k);
 
 /** Energy of the springs and triangles of which all nodes are among these, J; of others the part of these nodes. */
 double break_list_energy(const dem_index *nodes, dem_index n, const dem_model *model, const element_state *elements,

@@ -5,9 +5,10 @@
 
 /* In the order in which break_table_record() fills a row. */
 static const table_column columns[] = {
-    {"/breaks/t", HDF5_F64, 0, 1},      {"/breaks/x", HDF5_F64, 0, 2},    {"/breaks/stress", HDF5_F64, 0, 3},
-    {"/breaks/energy", HDF5_F64, 0, 1}, {"/breaks/body", HDF5_I64, 0, 1}, {"/breaks/triangle", HDF5_I64, 0, 1},
-    {"/breaks/spring", HDF5_I64, 0, 1},
+    {"/breaks/t", HDF5_F64, 0, 1},      {"/breaks/x", HDF5_F64, 0, 2},
+    {"/breaks/stress", HDF5_F64, 0, 3}, {"/breaks/energy", HDF5_F64, 0, 1},
+    {"/breaks/body", HDF5_I64, 0, 1},   {"/breaks/triangle", HDF5_I64, 0, 1},
+    {"/breaks/spring", HDF5_I64, 0, 1}, {"/breaks/fragment_new", HDF5_I64, 0, 1},
 };
 
 /* A row has one item in every column, so there are no counts. */
@@ -21,7 +22,7 @@ void break_table_record(table *t, const dem_break *what)
 {
     const double reals[] = {what->t,         what->x[0],      what->x[1],  what->stress[0],
                             what->stress[1], what->stress[2], what->energy};
-    const dem_index wholes[] = {what->body, what->triangle, what->spring};
+    const dem_index wholes[] = {what->body, what->triangle, what->spring, what->fragment_new};
     table_cell *cell = table_put_reals(table_add(t), reals, sizeof reals / sizeof reals[0]);
     (void)table_put_wholes(cell, wholes, sizeof wholes / sizeof wholes[0]);
 }

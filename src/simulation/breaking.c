@@ -281,6 +281,7 @@ dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, de
         s->given.n = n_given;
         return status;
     }
+    break_list_find_split(&s->given, n_given, s->model, &s->elements);
     s->fracture += before - set_motion_energy(s, s->frame);
     (void)pausing_begin(s, s->seen_t, s->frame);
     return set_motion_begin_anew(s);

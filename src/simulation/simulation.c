@@ -70,7 +70,7 @@ static dem_status report_one_event(dem_simulation *s)
 
 static dem_status report_one_break(dem_simulation *s)
 {
-    const dem_break what = s->breaks.breaks.list[s->n_known++];
+    const dem_break what = break_list_at(&s->breaks.breaks, s->n_known++);
     TRY(show_inside(s, what.t));
     return observers_broken(&s->observers, s, &what);
 }
@@ -98,9 +98,23 @@ static dem_status report_breaks(dem_simulation *s, const break_list *breaks, dem
     dem_status status = DEM_OK;
     if (from == breaks->n || !observers_want_breaks(&s->observers)) return DEM_OK;
     TRY(show_state(s));
-    for (dem_index k = from; k < breaks->n; k++)
-        status = status_first(status, observers_broken(&s->observers, s, &breaks->list[k]));
+    for (dem_index k = from; k < breaks->n; k++) {
+        const dem_break what = break_list_at(breaks, k);
+        status = status_first(status, observers_broken(&s->observers, s, &what));
+    }
     return reduce_status(status, 0.0);
+}
+
+/* Which fragments have come of what has broken by itself, before anybody goes back to the instants of these breaks. */
+static void find_split(dem_simulation *s, dem_index from)
+{
+    if (observers_want_breaks(&s->observers)) break_list_find_split(&s->breaks.breaks, from, s->model, &s->elements);
+}
+
+static dem_status report_own_breaks(dem_simulation *s, dem_index from)
+{
+    find_split(s, from);
+    return report_breaks(s, &s->breaks.breaks, from);
 }
 
 /* Every accepted step, after its contacts have changed. */
@@ -236,6 +250,7 @@ static dem_status take_step(dem_simulation *s)
     s->n_broken = run_is_local(s) ? s->breaks.breaks.n : 0;
     s->n_reported = s->n_known = 0;
     s->in_hand = true;
+    if (s->n_broken > 0) find_split(s, 0);
     return DEM_OK;
 }
 
@@ -345,7 +360,7 @@ static dem_status commit_step(dem_simulation *s)
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_stops) + s->at_break;
     TRY(go_on_changed(s, moved || failed || paused || s->outgrown || events_moved_rigid(s)));
-    dem_status reported = report_breaks(s, &s->breaks.breaks, s->n_broken);
+    dem_status reported = report_own_breaks(s, s->n_broken);
     reported = status_first(reported, release_orphans(s));
     return status_first(reported, report_step(s));
 }
@@ -357,7 +372,7 @@ static dem_status start(dem_simulation *s)
     const event_listener listener = {report_event, s};
     TRY(reduce_status(breaking_begin(s), 0.0));
     TRY(body_contact_settle(s, s->y));
-    const dem_status given = report_breaks(s, &s->given, 0), own = report_breaks(s, &s->breaks.breaks, 0);
+    const dem_status given = report_breaks(s, &s->given, 0), own = report_own_breaks(s, 0);
     s->given.n = 0;
     TRY(status_first(given, own));
     TRY(take_rollback(s));

@@ -154,6 +154,45 @@ static void assert_complete(const support_run *run, const dem_lattice *block, co
                  1e-6 * block->strength[t->list[0].triangle]);
 }
 
+/* The numbers of fragments by a way of its own: the lowest number spreads along the sides of whole triangles until
+ * nothing changes. */
+static void spread(const dem_lattice *l, const unsigned char *broken, dem_index *fragment)
+{
+    bool changed = true;
+    for (dem_index i = 0; i < l->n_nodes; i++) fragment[i] = i;
+    while (changed) {
+        changed = false;
+        for (dem_index k = 0; k < 3 * l->n_triangles; k++) {
+            const dem_index a = l->triangles[k], b = l->triangles[k - k % 3 + (k + 1) % 3];
+            if (broken[k / 3] || fragment[a] == fragment[b]) continue;
+            fragment[a] = fragment[b] = fragment[a] < fragment[b] ? fragment[a] : fragment[b];
+            changed = true;
+        }
+    }
+}
+
+/* Breaks the triangles one after the other: numbers that were not there before, the lowest of them first.
+ * \return how many fragments there are in the end */
+static dem_index assert_split(const dem_lattice *l, const heard *t)
+{
+    static dem_index before[MOST_TRIANGLES], after[MOST_TRIANGLES];
+    static unsigned char broken[MOST_TRIANGLES];
+    dem_index n = 0;
+    memset(broken, 0, sizeof broken);
+    spread(l, broken, before);
+    for (dem_index k = 0; k < t->n; k++) {
+        dem_index expected = -1;
+        broken[t->list[k].triangle] = 1;
+        spread(l, broken, after);
+        for (dem_index i = l->n_nodes; i-- > 0;)
+            if (after[i] == i && before[i] != i) expected = i;
+        assert_int_equal(t->list[k].fragment_new, expected);
+        memcpy(before, after, sizeof before);
+    }
+    for (dem_index i = 0; i < l->n_nodes; i++) n += before[i] == i;
+    return n;
+}
+
 TEST(every_break_is_reported_once_in_the_order_of_time)
 {
     for (int k = 0; k < 2; k++) {
@@ -202,6 +241,27 @@ TEST(reports_do_not_depend_on_cuts)
     assert_memory_equal(whole.list, cut.list, (size_t)whole.n * sizeof *whole.list);
 }
 
+/* ---- the fragments that breaks split off ---- */
+
+/* With 4000 1/s some hundred break in a step, many of them at one instant. */
+TEST(a_break_is_reported_with_the_fragment_that_it_splits_off)
+{
+    const double rates[2] = {250.0, 4000.0};
+    for (int k = 0; k < 4; k++) {
+        static heard t;
+        const dem_options options = no_weight(1e-6, ways[k / 2]);
+        CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
+        CLEANUP(support_close) support_run run;
+        dem_fracture all = {.struct_size = sizeof all};
+        open_block(&run, &block, &options, rates[k % 2]);
+        listen(&run, &t);
+        (void)support_at(&run, t_end);
+        assert_ok(dem_simulation_fracture(run.simulation, &all));
+        assert_true(all.fragments > 5);
+        assert_int_equal(assert_split(&block, &t), all.fragments);
+    }
+}
+
 /* ---- by the program ---- */
 
 /* Of a chain of two springs the first would break by itself at a time in the same step after the one at which the
@@ -236,6 +296,8 @@ TEST(what_a_program_breaks_is_reported_at_the_start_of_the_next_advance)
     assert_close(t.list[0].t, broken_at - 1e-9, 0.0);
     assert_close(t.list[0].x[1], 5.0, 0.0);
     assert_close(t.list[0].energy, 0.0, 0.0);
+    assert_int_equal(t.list[0].fragment_new, 3);
     assert_int_equal(t.list[1].spring, 0);
     assert_close(t.list[1].t, broken_at, 1e-9);
+    assert_int_equal(t.list[1].fragment_new, 1);
 }

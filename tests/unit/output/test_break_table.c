@@ -119,6 +119,7 @@ TEST(the_table_has_every_break)
     expect(reader, "body", "", offsetof(dem_break, body), 1);
     expect(reader, "triangle", "", offsetof(dem_break, triangle), 1);
     expect(reader, "spring", "", offsetof(dem_break, spring), 1);
+    expect(reader, "fragment_new", "", offsetof(dem_break, fragment_new), 1);
     dem_reader_close(reader);
 }
 
