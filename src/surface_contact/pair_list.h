@@ -45,7 +45,7 @@ void pair_list_clear(pair_list *l);
 dem_status pair_list_follow(pair_list *l, const double *x, double spare);
 
 /** Counts the pairs of nodes and edges of one body that never touch because they are nearer than the thickness in the
- *  rest shape: those of a notch that is narrower than the surfaces are thick. Called before the list is first made.
+ *  rest shape: those of a notch that is narrower than the surfaces are thick. Called while the list is empty.
  *  \return DEM_ERROR_MEMORY */
 dem_status pair_list_count_left_out(pair_list *l, dem_index *out);
 

@@ -118,7 +118,7 @@ dem_status surface_contact_break(surface_contact *c, const mesh_boundary *bounda
     pair_rows_clear(&c->near);
     c->rows = &c->candidates.pairs;
     c->is_evaluated = false;
-    return DEM_OK;
+    return pair_list_count_left_out(&c->candidates, &c->n_left_out);
 }
 
 /* As long as the close pairs hold, the candidates hold for what is near in a step, too: they are made anew while they

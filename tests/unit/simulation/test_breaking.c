@@ -395,6 +395,27 @@ TEST(new_faces_push_each_other)
     assert_close(s.energy.ledger, had, 1e-5 * had);
 }
 
+/* Two halves of a body with a slot between them, narrower than surfaces are thick: on either side 11 nodes, each across
+ * from one that two edges have as their end. The lowest row of triangles breaks off the upper half. */
+TEST(pairs_that_never_push_are_counted_anew)
+{
+    const double spacing = 0.005, gap = 0.1 * spacing;
+    CLEANUP(dem_lattice_free) dem_lattice halves = support_rectangle(0.05, 0.052, spacing, &rubber);
+    const double floor = support_top(&halves) + gap;
+    CLEANUP(dem_lattice_free) dem_lattice upper = support_rectangle(0.05, 0.052, spacing, &rubber);
+    dem_lattice_move(&upper, 0.0, (const double[2]){0.0, floor});
+    assert_ok(dem_lattice_append(&halves, &upper));
+    memset(halves.body, 0, (size_t)halves.n_nodes * sizeof *halves.body);
+    const numbers row = across(&halves, floor + 0.5 * spacing);
+    dem_options options = free_fall(1e-8);
+    options.bodies = DEM_BODIES_ALL;
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &halves, NULL, 0, &options);
+    assert_int_equal(ask_surfaces(run.simulation).left_out, 2 * 11 * 2);
+    break_triangles(run.simulation, &row);
+    assert_int_equal(ask_surfaces(run.simulation).left_out, 0);
+}
+
 /* Without contact of bodies the pieces pass through each other, which is counted: by nodes that were inside before, and
  * not while these are where broken triangles were. */
 TEST(pieces_that_overlap_are_counted)
