@@ -82,6 +82,15 @@ void doubts_of_surfaces(run_log *log, const deck *d, const dem_simulation *simul
                           "&contact if that is meant");
 }
 
+/* Pieces stay of the body that they come from. Who gives 'none' wants no contact of bodies at all. */
+void doubts_of_pieces(run_log *log, const dem_simulation *simulation)
+{
+    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
+    if (ask_options(simulation).bodies == DEM_BODIES_OTHERS && l->n_triangles > 0 && ask_may_break(l))
+        run_log_warn(log, "pieces of one body pass through each other with bodies = 'others', as do the faces of a "
+                          "crack; bodies = 'all' in &contact lets them touch");
+}
+
 void doubts_of_step(run_log *log, const dem_simulation *simulation)
 {
     char why[STEP_REPORT_WHY];

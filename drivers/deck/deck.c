@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ask.h"
 #include "body.h"
 #include "body_files.h"
 #include "body_friction.h"
@@ -375,7 +376,7 @@ deck_status deck_parse(deck *out, const char *path, const setting *settings, siz
  * too, and where something may soften damage. */
 static void settle_breaks(deck *d)
 {
-    const bool may_break = d->lattice.strength != NULL || d->lattice.critical_stretch != NULL;
+    const bool may_break = ask_may_break(&d->lattice);
     d->breaks = d->breaks && may_break;
     d->fragments = d->fragments && may_break;
     if (d->breaks) d->fields |= DEM_FIELD_FRAGMENT;

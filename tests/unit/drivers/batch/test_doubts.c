@@ -2,6 +2,7 @@
 /* doubts.c: bodies and speeds on both sides of the bounds. */
 #include "doubts.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "harness/message.h"
@@ -124,6 +125,37 @@ TEST(a_speed_is_that_against_an_obstacle)
     assert_int_equal(count_doubts(16.0, 2.0, 1), 0);
     assert_int_equal(count_doubts(30.0, -2.0, 1), 1);
     assert_int_equal(count_doubts(1.0, 0.0, 0), 0); /* there is nothing to hit */
+}
+
+/* A rectangle that may break, or has no strength. */
+static size_t count_pieces(bool breaks, dem_bodies bodies)
+{
+    const dem_material solid =
+        SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1000.0, .thickness = 1.0);
+    dem_options options = dem_options_default();
+    run_log log = {.out = tmpfile()};
+    support_run run;
+    assert_non_null(log.out);
+    options.bodies = bodies;
+    CLEANUP(dem_lattice_free) dem_lattice body = support_rectangle(4.0, 4.0, 1.0, &solid);
+    if (breaks) body.strength = malloc((size_t)body.n_triangles * sizeof *body.strength);
+    assert_true((body.strength != NULL) == breaks);
+    for (dem_index t = 0; breaks && t < body.n_triangles; t++) body.strength[t] = 1e6;
+    support_open(&run, &body, NULL, 0, &options);
+    doubts_of_pieces(&log, run.simulation);
+    support_close(&run);
+    read_log(&log);
+    return log.n_warnings;
+}
+
+TEST(pieces_that_touch_other_bodies_only_are_doubted)
+{
+    assert_int_equal(count_pieces(false, DEM_BODIES_OTHERS), 0);
+    assert_int_equal(count_pieces(true, DEM_BODIES_ALL), 0);
+    assert_int_equal(count_pieces(true, DEM_BODIES_NONE), 0);
+    assert_int_equal(count_pieces(true, DEM_BODIES_OTHERS), 1);
+    assert_string_equal(text, "warning    pieces of one body pass through each other with bodies = 'others', as do the "
+                              "faces of a crack; bodies = 'all' in &contact lets them touch\n");
 }
 
 /* Two rectangles, of which the second one is moved by (x, 0.3). */
