@@ -97,7 +97,18 @@ double sizes_share(dem_index n, const double *mass, double most)
     return sum > 0.0 ? part / sum : 0.0;
 }
 
-/* From the lightest fragment to the heaviest, and a tenth of that way more on both sides. */
+/* From the lightest fragment to the heaviest, and a tenth of that way more on both sides; only powers of ten have
+ * ticks. */
+void sizes_axis(double lo, double hi, double *begin, double *end)
+{
+    const double room = fmax(0.1 * log10(hi / lo), 0.2);
+    *begin = log10(lo) - room;
+    *end = log10(hi) + room;
+    if (floor(*end) > ceil(*begin)) return;
+    *begin = floor(*begin);
+    *end = ceil(*end);
+}
+
 static bool set_axis(sizes *s)
 {
     double lo = (double)INFINITY, hi = 0.0;
@@ -106,7 +117,8 @@ static bool set_axis(sizes *s)
             if (s->of[k].mass[i] > 0.0 && isfinite(s->of[k].mass[i]))
                 lo = fmin(lo, s->of[k].mass[i]), hi = fmax(hi, s->of[k].mass[i]);
     if (!(lo <= hi)) return outcome_fail(s->o, EXIT_INVALID, "dem_plot", "no fragment has a mass"), false;
-    const double room = fmax(0.1 * log10(hi / lo), 0.2), begin = log10(lo) - room, end = log10(hi) + room;
+    double begin, end;
+    sizes_axis(lo, hi, &begin, &end);
     for (int i = 0; i < SAMPLES; i++) s->logarithm[i] = begin + (end - begin) * i / (SAMPLES - 1);
     return true;
 }
@@ -161,8 +173,9 @@ static bool draw(sizes *s, const request *asked, FILE *log)
     if (asked->prints_hash)
         (void)fprintf(log, "%016" PRIx64 "\n", s->hash);
     else
-        (void)fprintf(log, "%s: %.0f x %.0f pixels, %zu frame%s, at last %lld fragments\n", asked->output, width,
-                      height, s->chosen.n, s->chosen.n == 1 ? "" : "s", (long long)s->of[s->chosen.n - 1].n);
+        (void)fprintf(log, "%s: %.0f x %.0f pixels, %zu frame%s, at last %lld fragment%s\n", asked->output, width,
+                      height, s->chosen.n, s->chosen.n == 1 ? "" : "s", (long long)s->of[s->chosen.n - 1].n,
+                      s->of[s->chosen.n - 1].n == 1 ? "" : "s");
     return true;
 }
 

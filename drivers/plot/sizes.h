@@ -15,4 +15,7 @@ bool sizes_draw(const dem_reader *reader, const request *asked, FILE *log, outco
  *  \param mass  [n], ascending */
 double sizes_share(dem_index n, const double *mass, double most);
 
+/** An axis for masses from lo to hi, both > 0, as decimal logarithms: it has two powers of ten or more. */
+void sizes_axis(double lo, double hi, double *begin, double *end);
+
 #endif
