@@ -2,8 +2,8 @@
 /* Strength of a wide plate with a crack across its middle: by linear elastic fracture mechanics it breaks under the
  * tension S at which K = S sqrt(pi L sec(pi L/W)) is K_Ic, with L half of the crack's length, and W the width of the
  * plate (Feddersen's factor). The toughness of the lattice, G_c = 3.5 strength^2 a/E, gives K_Ic = 1.87 strength
- * sqrt(a): the same crack in a lattice of half the spacing is one of twice as many spacings. Where triangles soften K_Ic
- * = sqrt(E G) is an input. `long` as argument: three cracks instead of one. */
+ * sqrt(a): the same crack in a lattice of half the spacing is one of twice as many spacings. Where triangles soften
+ * K_Ic = sqrt(E G) is an input. `long` as argument: three cracks instead of one. */
 #include "clamped_strip.h"
 
 #include <stdlib.h>
@@ -197,7 +197,7 @@ static double by_theory(const plate_case *k)
     return strength * sqrt(k->toughness * spacing / (M_PI * half) * cos(M_PI * half / wide(k)));
 }
 
-/* The tension grows from 0.75 of theory to 1.25, and is read when the crack has grown by an eighth at one of its ends. */
+/* The tension grows from 0.75 of theory to 1.25, and is read when the crack has grown by an eighth at one end. */
 static void check_softening(const plate_case *k)
 {
     const double tension = by_theory(k);

@@ -6,9 +6,9 @@
  * Slow rings so have pieces of 2 l, and fast ones those of Grady (1982), l (24/r^2)^(1/3). Cracks do not appear where
  * they would do so best, and pieces are shorter: computations of bars with many weak places and cohesive cracks have
  * S = 3/(1 + 4.5 r^(2/3)) (Levy and Molinari, J. Mech. Phys. Solids 58, 2010). The ring softens; it is 4 rows of nodes
- * wide, starts half-way to its strength, and its strengths scatter by some per cent (Weibull's 40 for a triangle), since
- * without that nothing says where to break. The rate is that at the first break: until then the tension of the ring
- * slows it down. `long` as argument: a slope, from four rates and three draws of strengths. */
+ * wide, starts half-way to its strength, and its strengths scatter by some per cent (Weibull's 40 for a triangle),
+ * since without that nothing says where to break. The rate is that at the first break: until then the tension of the
+ * ring slows it down. `long` as argument: a slope, from four rates and three draws of strengths. */
 #include "verification/support.h"
 
 #include <stdlib.h>

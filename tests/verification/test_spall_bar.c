@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Spall of a bar of triangles: its first part, the flyer, moves towards the rest with the speed v. By the diagram of
- * waves in a thin bar a compression E v/(2 c), c = sqrt(E/density), twice as long as the flyer goes towards the far end,
- * which sends it back as tension. Where its front meets what is still coming, as far from the end as the flyer is long,
- * is the first tension in the bar, after the time length/c. There the bar has to break, if it is not stronger than that
- * tension. With Poisson's ratio 0 the sides of the bar do not move; with 1/3 they do, and fronts are as wide as the
- * bar.
- */
+ * waves in a thin bar a compression E v/(2 c), c = sqrt(E/density), twice as long as the flyer goes towards the far
+ * end, which sends it back as tension. Where its front meets what is still coming, as far from the end as the flyer is
+ * long, is the first tension in the bar, after the time length/c. There the bar has to break, if it is not stronger
+ * than that tension. With Poisson's ratio 0 the sides of the bar do not move; with 1/3 they do, and fronts are as wide
+ * as the bar. */
 #include "verification/support.h"
 
 #include <stdlib.h>
@@ -74,9 +73,9 @@ static void check(const spall_case *k)
     assert_close(found.place, (LONG - FLYER) * spacing, 2.0 * spacing);
 }
 
-/* Found, over the time of the diagram: 1.015, 1.030, 1.039; 120.6, 120.1, 121.6 spacings from the flyer's end for 120. A
- * bar that stands less than 0.6 of the tension breaks at its ends before that where sides move: the wave, which begins
- * as a step, overshoots. */
+/* Found, over the time of the diagram: 1.015, 1.030, 1.039; 120.6, 120.1, 121.6 spacings from the flyer's end for 120.
+ * A bar that stands less than 0.6 of the tension breaks at its ends before that where sides move: the wave, which
+ * begins as a step, overshoots. */
 TEST(a_brittle_bar_spalls_where_and_when_the_diagram_of_waves_says)
 {
     const spall_case list[] = {{0.0, 0.7, 0.0}, {1.0 / 3.0, 0.7, 0.0}, {1.0 / 3.0, 0.9, 0.0}};

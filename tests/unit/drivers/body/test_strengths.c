@@ -97,8 +97,8 @@ TEST(every_copy_draws_anew)
     assert_int_equal(s.triangles.n, lattice.n_triangles); /* of one copy */
 }
 
-/* 3.4 at 1, 2.0 + 1.07 q from 2 on, 8.42 + 1.29 (q - 6) from 6 on (crack_band.c): times the square of the strength it is
- * the energy. */
+/* 3.4 at 1, 2.0 + 1.07 q from 2 on, 8.42 + 1.29 (q - 6) from 6 on (crack_band.c): times the square of the strength it
+ * is the energy. */
 static double energy_of(double strength, double softening)
 {
     double toughness = 3.4 + 0.74 * (softening - 1.0);
