@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What drives a triangle is the largest principal value of the mean of its corners' stresses, those that pictures
- * show. The triangle's own stress would scatter by 1.65 over an irregular mesh in uniform tension, and the toughness
- * of a crack would depend on its direction; the mean does by 1.15 and 1.03. Where it has a compressive strength the
+ * show. The triangle's own stress would make toughness depend on the direction of a crack; with the mean it does by a
+ * factor of 1.03 (docs/fracture.md, Mesh). Where it has a compressive strength the
  * smallest principal value takes part, by the law of Mohr and Coulomb: of three principal stresses the largest over
  * the strength less the smallest over the compressive strength. Out of the plane the third is 0 in plane stress; in
  * plane strain it is the middle one where the law can break a triangle at all, if nu is not less than the ratio of

@@ -74,7 +74,7 @@ static void check(const spall_case *k)
 }
 
 /* Found, over the time of the diagram: 1.015, 1.030, 1.039; 120.6, 120.1, 121.6 spacings from the flyer's end for 120.
- * A bar that stands less than 0.6 of the tension breaks at its ends before that where sides move: the wave, which
+ * A bar that stands 0.6 of the tension or less breaks at its ends before that where sides move: the wave, which
  * begins as a step, overshoots. */
 TEST(a_brittle_bar_spalls_where_and_when_the_diagram_of_waves_says)
 {
