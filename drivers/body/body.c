@@ -360,6 +360,7 @@ static dem_status face(builder *b)
     if (status == DEM_OK && cleared) status = clear(b, model);
     if (status == DEM_OK && cleared) status = check_place(b, "clearance");
     if (status == DEM_OK) measure_start(b, model);
+    if (status == DEM_OK && !clearance_find_pierced(&b->start.pierced, model, &b->lattice)) status = DEM_ERROR_MEMORY;
     dem_model_destroy(model);
     if (status == DEM_OK && !clearance_find_spike(&b->start.spike, &b->lattice, scene->obstacles, scene->n_obstacles))
         status = DEM_ERROR_MEMORY;
@@ -413,6 +414,7 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
                       namelist_errors *errors)
 {
     const clearance_spike *spike = &start->spike;
+    const clearance_pierced *pierced = &start->pierced;
     const schema_instance *body = schema_get(scene->groups, "body", k);
     const namelist_place place = body->place;
     char copy[48] = "";
@@ -427,7 +429,7 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
                             penetration_tolerance, reversed);
         return obstacle > 0;
     }
-    if (spike->depth > penetration_tolerance)
+    if (spike->depth > penetration_tolerance) {
         namelist_errors_add(
             errors, place,
             "body %zu%s starts with point %lld of obstacle %lld, at (%g, %g) m, %g m inside it between "
@@ -435,6 +437,15 @@ bool body_check_start(const body_scene *scene, size_t k, const body_start *start
             "in front",
             k + 1, copy, (long long)spike->point + 1, (long long)spike->obstacle + 1, spike->x[0], spike->x[1],
             spike->depth, penetration_tolerance);
+        return true;
+    }
+    if (pierced->depth > penetration_tolerance)
+        namelist_errors_add(errors, place,
+                            "body %zu%s starts with obstacle %lld, after its point %lld, through its side at (%g, %g) "
+                            "m, %g m deep, more than the penetration tolerance of %g m; 'position' or 'clearance' can "
+                            "put it in front",
+                            k + 1, copy, (long long)pierced->obstacle + 1, (long long)pierced->point + 1, pierced->x[0],
+                            pierced->x[1], pierced->depth, penetration_tolerance);
     return true;
 }
 

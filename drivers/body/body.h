@@ -31,13 +31,15 @@ void body_drop_unused(schema_deck *groups);
  * one. To be called after body_drop_unused(). Returns false only when memory runs out. */
 bool body_settle_outlines(schema_deck *groups);
 
-/* How a body starts: its node that may touch and lies deepest in the obstacles; their point deepest in its triangles */
+/* How a body starts: its node that may touch and lies deepest in the obstacles; their point deepest in its triangles;
+ * its side that they go through deepest. */
 typedef struct body_start {
     size_t copy;        /* from 0 */
     double depth;       /* m; < 0 in front of all obstacles, -infinity where nothing can touch */
     double x[2];        /* of the node, m */
     double rest_length; /* m, of its shortest spring; infinity without springs */
     clearance_spike spike;
+    clearance_pierced pierced;
     double angle, offset[2]; /* how its own coordinates were turned, radians, and shifted, m */
 } body_start;
 

@@ -201,6 +201,76 @@ bool clearance_find_spike(clearance_spike *deepest, const dem_lattice *lattice, 
     return good;
 }
 
+/* ---- obstacles through sides ---- */
+
+static bool may_touch(const dem_model *model, dem_index i)
+{
+    return (dem_model_lattice(model)->flags[i] & DEM_NODE_CONTACT) != 0;
+}
+
+static bool both_may_touch(const dem_model *model, const side *at)
+{
+    const uint8_t *flags = dem_model_lattice(model)->flags;
+    return may_touch(model, at->ends[0]) && may_touch(model, at->ends[1]) &&
+           ((flags[at->ends[0]] | flags[at->ends[1]]) & DEM_NODE_FIXED) == 0;
+}
+
+static bool parts(const double a[2], const double b[2], const double p[2], const double q[2])
+{
+    const double left = turn(a, b, p), right = turn(a, b, q);
+    return (left > 0.0 && right < 0.0) || (left < 0.0 && right > 0.0);
+}
+
+/* How far ab and pq, which cross, must move to come apart: until an end of one is on the other. 0 if they do not. */
+static double crossing_depth(const double a[2], const double b[2], const double p[2], const double q[2])
+{
+    if (!parts(a, b, p, q) || !parts(p, q, a, b)) return 0.0;
+    return fmin(fmin(distance_to(a, p, q), distance_to(b, p, q)), fmin(distance_to(p, a, b), distance_to(q, a, b)));
+}
+
+/* Whether the segment from p to q meets the box. */
+static bool meets(const double box[4], const double p[2], const double q[2])
+{
+    return fmax(p[0], q[0]) >= box[0] && fmin(p[0], q[0]) <= box[2] && fmax(p[1], q[1]) >= box[1] &&
+           fmin(p[1], q[1]) <= box[3];
+}
+
+/* Of all sides against the segment from p to q. */
+static void pierce(clearance_pierced *deepest, const dem_model *model, const rim *r, const double p[2],
+                   const double q[2])
+{
+    for (size_t k = 0; k < r->n; k++) {
+        const double *a = start_of(r->lattice, r->sides[k].ends[0]), *b = start_of(r->lattice, r->sides[k].ends[1]);
+        const double depth = both_may_touch(model, &r->sides[k]) ? crossing_depth(a, b, p, q) : 0.0;
+        if (depth <= deepest->depth) continue;
+        *deepest = (clearance_pierced){.x = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}, .depth = depth};
+    }
+}
+
+/* Of the body moved by `shift`; deepest->x is on the unmoved one. */
+static clearance_pierced find_pierced(const dem_model *model, const rim *r, const ground *g, const double shift[2])
+{
+    clearance_pierced deepest = {.depth = 0.0};
+    for (dem_index o = 0; o < g->n; o++)
+        for (dem_index k = 0; k + 1 < obstacle_of(g, o)->n_points; k++) {
+            const double *at = obstacle_of(g, o)->points + 2 * k, before = deepest.depth;
+            const double p[2] = {at[0] - shift[0], at[1] - shift[1]}, q[2] = {at[2] - shift[0], at[3] - shift[1]};
+            if (meets(r->box, p, q)) pierce(&deepest, model, r, p, q);
+            if (deepest.depth > before) deepest.obstacle = o, deepest.point = k;
+        }
+    return deepest;
+}
+
+bool clearance_find_pierced(clearance_pierced *deepest, const dem_model *model, const dem_lattice *lattice)
+{
+    const ground g = {.model = model, .n = ask_sizes(model).n_obstacles};
+    rim r;
+    const bool good = find_rim(&r, lattice);
+    if (good) *deepest = find_pierced(model, &r, &g, (const double[2]){0.0, 0.0});
+    free(r.sides);
+    return good;
+}
+
 /* ---- the way back ---- */
 
 typedef struct path {
@@ -211,11 +281,6 @@ typedef struct path {
     ground ground;
 } path;
 
-static bool may_touch(const path *p, dem_index i)
-{
-    return (dem_model_lattice(p->model)->flags[i] & DEM_NODE_CONTACT) != 0;
-}
-
 static double least_gap(const path *p, double s)
 {
     const dem_lattice *lattice = dem_model_lattice(p->model);
@@ -223,7 +288,7 @@ static double least_gap(const path *p, double s)
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         const double *x = lattice->position + 2 * i;
         const double moved[2] = {x[0] + s * p->direction[0], x[1] + s * p->direction[1]};
-        if (may_touch(p, i)) least = fmin(least, dem_model_gap(p->model, moved));
+        if (may_touch(p->model, i)) least = fmin(least, dem_model_gap(p->model, moved));
     }
     return least;
 }
@@ -239,7 +304,7 @@ static double extent(const path *p)
     return hypot(box[2] - box[0], box[3] - box[1]);
 }
 
-/* Of nodes and of points, less than all of it only below the clearance. Returns false when memory runs out. */
+/* Of nodes, points and sides, less than all of it only below the clearance. Returns false when memory runs out. */
 static bool find_gap(double *gap, const path *p, double s)
 {
     const double shift[2] = {s * p->direction[0], s * p->direction[1]};
@@ -247,6 +312,8 @@ static bool find_gap(double *gap, const path *p, double s)
     if (!find_deepest(&nearest, &p->rim, &p->ground, shift, p->clearance)) return false;
     *gap = least_gap(p, s);
     if (nearest.depth > -p->clearance) *gap = fmin(*gap, -nearest.depth);
+    const clearance_pierced pierced = find_pierced(p->model, &p->rim, &p->ground, shift);
+    if (pierced.depth > 0.0) *gap = fmin(*gap, -pierced.depth);
     return true;
 }
 
@@ -305,7 +372,7 @@ static double advance_nodes(const path *p, double s)
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         const double *x = lattice->position + 2 * i;
         const double moved[2] = {x[0] + s * p->direction[0], x[1] + s * p->direction[1]};
-        for (dem_index k = 0; may_touch(p, i) && k < p->ground.n; k++)
+        for (dem_index k = 0; may_touch(p->model, i) && k < p->ground.n; k++)
             way = fmin(way, way_to_obstacle(p, moved, obstacle_of(&p->ground, k)));
     }
     return way;
@@ -320,7 +387,7 @@ static double advance_sides(const path *p, double s)
     for (size_t k = 0; k < p->rim.n; k++) {
         const dem_index i = p->rim.sides[k].ends[0], j = p->rim.sides[k].ends[1];
         const double *a = lattice->position + 2 * i, *b = lattice->position + 2 * j;
-        if (!may_touch(p, i) || !may_touch(p, j)) continue;
+        if (!may_touch(p->model, i) || !may_touch(p->model, j)) continue;
         for (dem_index o = 0; o < p->ground.n; o++)
             for (dem_index q = 0; q < obstacle_of(&p->ground, o)->n_points; q++) {
                 const double *x = obstacle_of(&p->ground, o)->points + 2 * q;

@@ -144,26 +144,49 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     return now.listener_status;
 }
 
-/* Each candidate is taken as free and without a clearance, so that its gap is exact. */
-dem_status automaton_check_start(const automaton *c, double t, const double *x)
+/* Nodes and vertices: each candidate is taken as free and without a clearance, so that its gap is exact. */
+static dem_status check_depth(const automaton *c, dem_index k, double t, const double *x)
 {
     const contact_scene *scene = &c->set.scene;
+    const contact_candidate candidate = candidate_reset(&c->set.list[k]);
+    const candidate_positions spot = candidate_place(&candidate, t, x);
+    const contact_gap gap = candidate_gap(scene, &candidate, &spot);
+    if (gap.distance >= -scene->rule.penetration_tolerance) return DEM_OK;
+    const surface_feature feature = contact_point_feature(&candidate, gap.feature);
+    const long long obstacle = surface_obstacle(scene, feature);
+    const vec2 end = surface_line_at(scene, surface_segment(scene, feature), t).end;
+    CHECK(candidate_is_edge(&candidate), DEM_ERROR_MODEL,
+          "node %lld at (%g, %g) m starts %g m inside obstacle %lld, deeper than the penetration tolerance of %g m",
+          (long long)candidate.node, spot.a.x, spot.a.y, -gap.distance, obstacle, scene->rule.penetration_tolerance);
+    return status_fail(DEM_ERROR_MODEL,
+                       "the vertex at (%g, %g) m of obstacle %lld starts %g m inside the body, deeper than the "
+                       "penetration tolerance of %g m",
+                       end.x, end.y, obstacle, -gap.distance, scene->rule.penetration_tolerance);
+}
+
+/* Edges: an obstacle may go through one into a void of the body, with its vertex in the open. A fixed node is no
+ * candidate, and its edges may begin inside an obstacle that holds it. */
+static dem_status check_crossing(const automaton *c, dem_index k, double t, const double *x)
+{
+    const contact_scene *scene = &c->set.scene;
+    const contact_candidate *candidate = &c->set.list[k];
+    if (!candidate_is_edge(candidate)) return DEM_OK;
+    if (c->set.of_node[candidate->node] < 0 || c->set.of_node[candidate->other] < 0) return DEM_OK;
+    const vec2 edge[2] = {vec2_at(x, candidate->node), vec2_at(x, candidate->other)};
+    const obstacle_crossing at = surface_crossing_of(scene, t, edge, candidate->behind);
+    CHECK(at.depth <= scene->rule.penetration_tolerance, DEM_ERROR_MODEL,
+          "obstacle %lld starts across the edge between nodes %lld and %lld near (%g, %g) m, %g m deep, more than the "
+          "penetration tolerance of %g m",
+          (long long)scene->model->obstacles.segments[at.segment].obstacle, (long long)candidate->node,
+          (long long)candidate->other, edge[0].x, edge[0].y, at.depth, scene->rule.penetration_tolerance);
+    return DEM_OK;
+}
+
+dem_status automaton_check_start(const automaton *c, double t, const double *x)
+{
     for (dem_index k = 0; k < c->set.n; k++) {
-        const contact_candidate candidate = candidate_reset(&c->set.list[k]);
-        const candidate_positions spot = candidate_place(&candidate, t, x);
-        const contact_gap gap = candidate_gap(scene, &candidate, &spot);
-        if (gap.distance >= -scene->rule.penetration_tolerance) continue;
-        const surface_feature feature = contact_point_feature(&candidate, gap.feature);
-        const long long obstacle = surface_obstacle(scene, feature);
-        const vec2 end = surface_line_at(scene, surface_segment(scene, feature), t).end;
-        CHECK(candidate_is_edge(&candidate), DEM_ERROR_MODEL,
-              "node %lld at (%g, %g) m starts %g m inside obstacle %lld, deeper than the penetration tolerance of %g m",
-              (long long)candidate.node, spot.a.x, spot.a.y, -gap.distance, obstacle,
-              scene->rule.penetration_tolerance);
-        return status_fail(DEM_ERROR_MODEL,
-                           "the vertex at (%g, %g) m of obstacle %lld starts %g m inside the body, deeper than the "
-                           "penetration tolerance of %g m",
-                           end.x, end.y, obstacle, -gap.distance, scene->rule.penetration_tolerance);
+        TRY(check_depth(c, k, t, x));
+        TRY(check_crossing(c, k, t, x));
     }
     return DEM_OK;
 }

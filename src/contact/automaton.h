@@ -38,8 +38,9 @@ dem_status automaton_follow_surface(automaton *c, const surface *to);
  *  \return the first status other than DEM_OK that the listener returned */
 dem_status automaton_release_orphans(automaton *c, double t, double *y, const event_listener *listener);
 
-/** Whether no candidate without contacts is deeper in an obstacle than the penetration tolerance: else DEM_ERROR_MODEL
- *  names the node.
+/** Whether no candidate without contacts is deeper in an obstacle than the penetration tolerance, and no obstacle goes
+ *  through an edge: else DEM_ERROR_MODEL
+ *  names the node, the vertex or the edge.
  *  \param x  [n][2] */
 dem_status automaton_check_start(const automaton *c, double t, const double *x);
 

@@ -8,6 +8,7 @@
 #include "contact/scene.h"
 #include "obstacle/given_motion.h"
 #include "obstacle/point_gap.h"
+#include "obstacle/edge_crossing.h"
 #include "obstacle/vertex_gap.h"
 
 typedef enum surface_kind { SURFACE_SEGMENT, SURFACE_VERTEX } surface_kind;
@@ -181,6 +182,13 @@ static inline obstacle_vertex_gap surface_vertex_gap(const contact_scene *scene,
 static inline double surface_clearance(const contact_scene *scene, double t, const obstacle_edge *edge)
 {
     return obstacles_clearance(&scene->model->obstacles, t, edge);
+}
+
+/** The segment that goes deepest through an edge at t, leaving out up to two obstacles (-1: none). */
+static inline obstacle_crossing surface_crossing_of(const contact_scene *scene, double t, const vec2 edge[2],
+                                                    const dem_index without[2])
+{
+    return obstacles_crossing(&scene->model->obstacles, t, edge, without);
 }
 
 #endif

@@ -349,6 +349,20 @@ TEST(an_edge_may_touch_a_vertex_but_not_start_with_it_inside)
     assert_message_parts("vertex * (0, 0) m * obstacle 0 * 0.125 m inside * penetration tolerance * 1e-06 m");
 }
 
+/* The point of a needle is above the body's node 3, nodes and vertices are in the open. */
+TEST(an_obstacle_may_not_start_through_an_edge)
+{
+    const double points[6] = {0.45, -4.0, 0.5, 3.0, 0.55, -4.0};
+    const dem_obstacle needle = {.struct_size = sizeof(dem_obstacle), .n_points = 3, .points = points};
+    CLEANUP(scene_close) scene s;
+    open_side(&s, &needle, 0.0, 0.0, 0.0);
+    assert_int_equal(automaton_check_start(&s.c, 0.0, s.y), DEM_ERROR_MODEL);
+    assert_message_parts("obstacle 0 * across the edge between nodes 1 and 2 * penetration tolerance * 1e-06 m");
+    scene_close(&s);
+    open_side(&s, &needle, 0.0, 3.0 - 1e-7, 0.0); /* by less than the penetration tolerance */
+    assert_ok(automaton_check_start(&s.c, 0.0, s.y));
+}
+
 /* At rest, sliding and falling on the ridge; and a nanometre above it. */
 TEST(at_the_start_a_touching_edge_is_in_contact)
 {

@@ -20,6 +20,10 @@ static const double floor_points[4] = {-9.0, 0.0, 9.0, 0.0}, low_points[4] = {-9
 static const dem_obstacle flat_floors[2] = {
     {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low_points, .restitution = 0.0},
     {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = floor_points, .restitution = 0.0}};
+static const double wall_points[4] = {0.1, -5.0, 0.1, 5.0};
+static const dem_obstacle floor_and_wall[2] = {
+    {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = low_points, .restitution = 0.0},
+    {.struct_size = sizeof(dem_obstacle), .n_points = 2, .points = wall_points, .restitution = 0.0}};
 
 /* A body built from a text. Tests free it with drop_built(). */
 typedef struct built {
@@ -316,6 +320,21 @@ TEST(a_start_is_refused_if_deeper_than_the_penetration_tolerance)
     assert_int_equal(b.errors.list[0].place.line, 3);
     assert_non_null(strstr(b.errors.list[0].text, "body 1"));
     assert_non_null(strstr(b.errors.list[0].text, "obstacle 2")); /* it is in front of the first */
+}
+
+/* The wall goes through both long sides of the block, and its ends are in the open. */
+TEST(a_start_is_refused_if_an_obstacle_goes_through_a_side)
+{
+    CLEANUP(drop_built) built b;
+    build_good(&b, RUN RUBBER BLOCK " /", floor_and_wall, 2);
+    assert_close(b.start.pierced.depth, 0.1, 1e-12); /* nodes are at 0 and at 0.5 m */
+    b.start.depth = b.start.spike.depth = 0.0;
+    assert_true(body_check_start(&b.scene, 0, &b.start, 0.11, &b.errors));
+    assert_int_equal(b.errors.n, 0);
+    assert_true(body_check_start(&b.scene, 0, &b.start, 0.09, &b.errors));
+    assert_int_equal(b.errors.n, 1);
+    assert_int_equal(b.errors.list[0].place.line, 3);
+    assert_non_null(strstr(b.errors.list[0].text, "obstacle 2, after its point 1, through its side"));
 }
 
 /* The second of two columns is 5 m to the right, where the floor still is, the second row in the air. */

@@ -159,6 +159,37 @@ TEST(a_body_that_touches_already_stays)
     }
 }
 
+/* The needle ends 3 m above the body, which goes up by what is missing: its lower side meets the point first. */
+TEST(a_body_with_an_obstacle_through_its_side_goes_back)
+{
+    const double needle[] = {0.45, -4.0, 0.5, 3.0, 0.55, -4.0};
+    double shift[2];
+    CLEANUP(free_scene) scene s = make_scene(0.0, 0.0, needle, 3);
+    assert_true(shift_to(shift, s.model, down, 0.25));
+    assert_close(shift[0], 0.0, 1e-15);
+    assert_close(shift[1], 3.25, 1e-12);
+}
+
+TEST(the_side_that_an_obstacle_goes_through_is_found)
+{
+    const double needle[] = {0.4, -4.0, 0.45, 3.0, 0.5, -4.0};
+    clearance_pierced found;
+    CLEANUP(free_scene) scene s = make_scene(0.0, 0.0, needle, 3);
+    assert_true(clearance_find_pierced(&found, s.model, &s.lattice));
+    assert_int_equal(found.obstacle, 0);
+    /* the second segment falls 7 on 0.05, and meets the side 0.45 + 0.05 * 3/7 from the left corner */
+    assert_int_equal(found.point, 1);
+    assert_close(found.depth, (0.45 + 0.05 * 3.0 / 7.0) * 7.0 / hypot(7.0, 0.05), 1e-14);
+    assert_close(found.x[0], 0.5, 1e-14);
+    assert_close(found.x[1], 0.0, 1e-14);
+    dem_lattice_move(&s.lattice, 0.0, (double[2]){0.0, 3.0});
+    assert_true(clearance_find_pierced(&found, s.model, &s.lattice));
+    assert_close(found.depth, 0.0, 1e-14);
+    dem_lattice_move(&s.lattice, 0.0, (double[2]){0.0, -0.25});
+    assert_true(clearance_find_pierced(&found, s.model, &s.lattice));
+    assert_close(found.depth, 0.25, 1e-14); /* the point is 0.25 above the side */
+}
+
 static clearance_spike find_spike(const dem_lattice *lattice, const double *points, dem_index n)
 {
     const double floor[] = {-9.0, -1.0, 9.0, -1.0};
