@@ -19,11 +19,20 @@ typedef struct sample {
     double guard;
 } sample;
 
+/* The gap is exact: a lower bound has no slope that shows a dip. A vertex that seems to be behind an edge which has not
+ * used up its clearance has not come through it, and counts as far as the clearance says, as it does where the event
+ * would be resolved: in a body folded over itself it may lie behind an edge's line, in another part of the body. */
 static sample sample_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
+    contact_candidate exact = *candidate;
+    exact.clearance.distance = 0.0;
     sample s = {.spot = candidate_place_at(candidate, p, t)};
-    s.gap = candidate_gap(scene, candidate, &s.spot);
+    s.gap = candidate_gap(scene, &exact, &s.spot);
     s.guard = contact_gap_guard(scene, &s.gap);
+    if (s.guard <= 0.0 && candidate_is_edge(candidate)) {
+        const contact_gap bound = candidate_gap(scene, candidate, &s.spot);
+        s.guard = contact_gap_guard(scene, &bound);
+    }
     return s;
 }
 
@@ -179,10 +188,7 @@ double event_location_crossing(const contact_scene *scene, const contact_candida
     const double h = p->end - from;
     const double reach =
         2.0 * h * (fmax(fastest(p, from, candidate), fastest(p, p->end, candidate)) + surface_speed(scene));
-    if (stays_clear(scene, candidate, p, reach)) return INFINITY;
-    contact_candidate near = *candidate;
-    near.clearance.distance = 0.0; /* for an exact gap: a lower bound has no slope that shows a dip */
-    return crossing_within(scene, &near, p, from, reach);
+    return stays_clear(scene, candidate, p, reach) ? INFINITY : crossing_within(scene, candidate, p, from, reach);
 }
 
 /* ---- closed contacts ---- */
