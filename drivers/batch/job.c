@@ -150,15 +150,16 @@ static dem_status observe(job *j)
     return status;
 }
 
-/* A fixed step that is too long is the likely cause, whether the motion overflows or passes through an obstacle. Where
- * bodies touch, it may be a body that was turned inside out: its surface then has its front inside. */
+/* A fixed step that is too long is the likely cause, whether the motion overflows or passes through an obstacle. Or a
+ * body was turned inside out: its surface then has its front inside, and neither bodies nor obstacles push it. */
 static void report_failure(job *j, dem_status status)
 {
     char why[STEP_REPORT_WHY];
-    const dem_index inverted = j->options.bodies != DEM_BODIES_NONE ? ask_strain(j->simulation).inverted : 0;
+    const bool surfaces = j->options.bodies != DEM_BODIES_NONE || status == DEM_ERROR_CONTACT;
+    const dem_index inverted = surfaces ? ask_strain(j->simulation).inverted : 0;
     if (step_report_is_long(j->simulation, why))
         outcome_fail(&j->outcome, EXIT_NUMERICS, j->deck.path, "%s; %s", dem_status_message(), why);
-    else if (status == DEM_ERROR_INTEGRATOR && inverted > 0)
+    else if (inverted > 0)
         outcome_fail(&j->outcome, EXIT_NUMERICS, j->deck.path,
                      "%s; %lld triangles are turned inside out, whose surfaces cannot push: 'guard' in &material "
                      "prevents that",
