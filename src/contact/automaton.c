@@ -89,11 +89,13 @@ static dem_status settle_around(contact_set *c, dem_index k, contact_instant *no
 }
 
 /* Makes the changes that are due, of all candidates or around one, until a round changes nothing. `idle` counts events
- * in a row at which the first round found nothing to change: more than max_impacts of them are an error, as the run
- * would stand still. */
+ * in a row at which the first round found nothing to change: more than most_in_step of them ask for a shorter step, or
+ * else more than max_impacts are an error, as the run would stand still. */
 static dem_status settle_until_done(automaton *c, dem_index around, contact_instant *now)
 {
     contact_set *s = &c->set;
+    const contact_rule *rule = &s->scene.rule;
+    const dem_index most = rule->most_in_step > 0 ? rule->most_in_step : rule->max_impacts;
     bool changed = true;
     c->solved = NAN;
     for (c->idle++; changed; c->idle = changed ? 0 : c->idle) {
@@ -101,9 +103,8 @@ static dem_status settle_until_done(automaton *c, dem_index around, contact_inst
         TRY(around < 0 ? reduce_status(settle_all(s, now, &changed), 0.0) : settle_around(s, around, now, &changed));
         if (around < 0) changed = reduce_any(changed);
     }
-    CHECK(c->idle <= s->scene.rule.max_impacts, DEM_ERROR_CONTACT,
-          "more than %lld contact events in a row changed nothing, at t = %.9g s", (long long)s->scene.rule.max_impacts,
-          now->t);
+    CHECK(c->idle <= most, DEM_ERROR_CONTACT, "more than %lld contact events in a row changed nothing, at t = %.9g s",
+          (long long)most, now->t);
     return DEM_OK;
 }
 

@@ -213,8 +213,28 @@ static dem_status settle_closed(contact_set *c, dem_index k, contact_instant *no
     return settle_other(c, k, now, changed);
 }
 
-/* Makes the first change that is due. A candidate with more than max_impacts of them within storm_time is an error: it
- * would go on without time advancing. */
+/* Counts a change of a candidate. One with more than most_in_step of them in a step asks for a shorter step, as those
+ * that follow each other so fast are often due to the error of a long one. One with more than max_impacts within
+ * storm_time is an error in any case: it would go on without time advancing. */
+static dem_status count(const contact_set *c, contact_candidate *candidate, const contact_instant *now)
+{
+    const contact_rule *rule = &c->scene.rule;
+    contact_storm *storm = &candidate->storm;
+    const char *kind = candidate_is_edge(candidate) ? "the edge from node" : "node";
+    const vec2 place = vec2_at(now->x, candidate->node);
+    if (now->t - storm->start > rule->storm_time) storm->start = now->t, storm->n = 0;
+    if (storm->step != c->step) storm->step = c->step, storm->in_step = 0;
+    storm->n++, storm->in_step++;
+    CHECK(storm->n <= rule->max_impacts, DEM_ERROR_CONTACT,
+          "%s %lld at (%g, %g) m had more than %lld contact events within %g s, at t = %.9g s", kind,
+          (long long)candidate->node, place.x, place.y, (long long)rule->max_impacts, rule->storm_time, now->t);
+    CHECK(rule->most_in_step == 0 || storm->in_step <= rule->most_in_step, DEM_ERROR_CONTACT,
+          "%s %lld at (%g, %g) m had more than %lld contact events in a step, at t = %.9g s", kind,
+          (long long)candidate->node, place.x, place.y, (long long)rule->most_in_step, now->t);
+    return DEM_OK;
+}
+
+/* Makes the first change that is due. */
 dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, bool *changed)
 {
     bool here = false;
@@ -223,14 +243,5 @@ dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, 
     TRY(candidate->n_closed == 0 ? settle_free(c, k, now, &here) : settle_closed(c, k, now, &here));
     if (!here) return DEM_OK;
     *changed = true;
-    if (now->t - candidate->storm.start > c->scene.rule.storm_time) {
-        candidate->storm.start = now->t;
-        candidate->storm.n = 0;
-    }
-    const vec2 place = vec2_at(now->x, candidate->node);
-    CHECK(++candidate->storm.n <= c->scene.rule.max_impacts, DEM_ERROR_CONTACT,
-          "%s %lld at (%g, %g) m had more than %lld contact events within %g s, at t = %.9g s",
-          candidate_is_edge(candidate) ? "the edge from node" : "node", (long long)candidate->node, place.x, place.y,
-          (long long)c->scene.rule.max_impacts, c->scene.rule.storm_time, now->t);
-    return DEM_OK;
+    return count(c, candidate, now);
 }

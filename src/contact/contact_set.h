@@ -48,6 +48,7 @@ typedef struct contact_set {
     dem_index *involved;       /* [n_involved] candidates that take part in the impact under way; room for all */
     candidate_impact *impacts; /* [n] scratch of the impact under way */
     dem_contact *described;    /* [2 n] closed contacts as they were last reported */
+    double step;               /* s, start of the step whose events are resolved one after the other */
     double projected;          /* m, the furthest that nodes were moved after a step to put closed contacts back */
     bool has_new;              /* some nodes may have come with the last surface */
     contact_burials burials;

@@ -149,6 +149,7 @@ static void contact_source_begin(void *self, const dense_output *step, double *s
     s->step = step;
     s->state = state;
     s->idle = s->automaton->idle;
+    s->automaton->set.step = step->t0;
     look_ahead(s);
 }
 

@@ -14,6 +14,7 @@ typedef struct contact_rule {
     double max_step;              /* s, longest step: with t it sets how exactly an event is located */
     double storm_time;            /* s */
     dem_index max_impacts;        /* within storm_time at one candidate */
+    dem_index most_in_step;       /* at one candidate in a step that can be taken again, shorter; else 0 */
     bool vertices;                /* whether edges touch vertices */
     state_layout layout;          /* of the states */
     int n_threads;                /* that look at free candidates at once; 0 counts as 1 */

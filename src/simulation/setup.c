@@ -33,12 +33,17 @@ static dem_status allocate(dem_simulation *s)
     return DEM_OK;
 }
 
+/* Changes of one candidate in a step beyond which it is taken again, shorter. Of 450 random decks none had more than 11
+ * within 1/omega_max but for one, which had 10,000 of them, each as near to the one before as events are located. */
+enum { most_changes_in_step = 50 };
+
 /* What contacts need of the options. A storm is more than max_impacts changes of one candidate within 1/omega_max, the
  * shortest time in which a lattice moves. */
 static contact_rule rule_of(const dem_simulation *s)
 {
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
+    const bool can_shorten = run_is_local(s) && o->fixed_step == 0.0;
     return (contact_rule){.penetration_tolerance = o->penetration_tolerance,
                           .position_error = o->rtol * o->spacing,
                           .rest_speed = o->rest_speed,
@@ -46,6 +51,7 @@ static contact_rule rule_of(const dem_simulation *s)
                           .max_step = o->max_step,
                           .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                           .max_impacts = o->max_impacts,
+                          .most_in_step = can_shorten ? most_changes_in_step : 0,
                           .vertices = o->vertices != 0,
                           .layout = s->layout,
                           .n_threads = model->obstacles.is_asked ? 1 : o->threads};

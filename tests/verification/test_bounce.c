@@ -83,6 +83,17 @@ TEST(a_ball_of_restitution_nine_tenths_follows_the_geometric_series_and_rests)
     check_bounces(0.9, times, 8.578949178728887);
 }
 
+/* Hundreds of bounces are left in the last 1e-3 of the time, which is one step: it is taken in parts of 50. */
+TEST(a_ball_that_bounces_hundreds_of_times_in_a_step_comes_to_rest)
+{
+    const double eta = 0.98, fall = sqrt(2.0 * height / g), t_star = fall * (1.0 + 2.0 * eta / (1.0 - eta));
+    CLEANUP(support_close) support_run run;
+    drop(&run, eta);
+    (void)support_at(&run, t_star + 1e-3);
+    assert_true(run.n_impacts > 500);
+    check_rest(&run, eta, t_star);
+}
+
 TEST(an_elastic_ball_returns_to_its_height_for_ever)
 {
     const double t0 = sqrt(2.0 * height / g);

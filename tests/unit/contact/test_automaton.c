@@ -409,6 +409,10 @@ TEST(events_that_change_nothing_end_the_run_after_a_while)
     assert_ok(scene_resolve(&s, 0.4));
     assert_int_equal(scene_resolve(&s, 0.5), DEM_ERROR_CONTACT);
     assert_message_parts("2 contact events * t = 0.5 s");
+    s.c.set.scene.rule.most_in_step = 4; /* where the step can be shorter, that counts */
+    assert_ok(scene_resolve(&s, 0.6));
+    assert_int_equal(scene_resolve(&s, 0.7), DEM_ERROR_CONTACT);
+    assert_message_parts("4 contact events * t = 0.7 s");
 }
 
 /* ---- the window ---- */

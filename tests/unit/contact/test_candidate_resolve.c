@@ -357,6 +357,24 @@ TEST(changes_further_apart_are_no_storm)
     }
 }
 
+/* Steps begin at 7, 8 and 9 s; 0.6 s apart no changes are a storm. */
+TEST(too_many_changes_of_one_candidate_in_a_step_ask_for_a_shorter_one)
+{
+    CLEANUP(scene_close) scene s;
+    open_scene(&s, 1, &half, 1);
+    s.c.set.scene.rule.most_in_step = 2;
+    for (int k = 0; k < 5; k++) {
+        s.c.set.step = 7 + k / 2;
+        scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0);
+        assert_ok(scene_resolve(&s, 0.6 * (k + 1)));
+    }
+    scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0);
+    assert_ok(scene_resolve(&s, 3.6));
+    scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0);
+    assert_int_equal(scene_resolve(&s, 4.2), DEM_ERROR_CONTACT);
+    assert_message_parts("node 0 * (0.5, 0) m * 2 contact events in a step * t = 4.2 s");
+}
+
 TEST(a_vertex_found_deep_inside_a_body_is_an_error)
 {
     CLEANUP(scene_close) scene s;

@@ -124,7 +124,7 @@ TEST(candidates_of_both_surfaces_stay_what_they_are_under_new_numbers)
         contact_set_close(c, scene_edge(&s, 1, 2), (contact_point){.feature = 1, .place = 0.25, .friction = 2.0}));
     for (int k = 0; k < 5; k++) {
         contact_candidate *candidate = &c->list[contact_set_find(c, kept[k])];
-        candidate->storm = (contact_storm){0.5, k};
+        candidate->storm = (contact_storm){.start = 0.5, .n = k};
         candidate->clearance = (contact_clearance){true, 1.0 + k, 2.0 + k, {{3.0, 4.0}, {5.0, 6.0}}, 7.0 + k};
         c->forces.force[contact_set_find(c, kept[k])][0] = (contact_force){k, -k};
         before[k] = *candidate;
