@@ -28,7 +28,8 @@ class dem_material(Sized):
                 ("poissons_ratio", c_double), ("plane", c_int), ("density", c_double),
                 ("thickness", c_double), ("guard", c_double), ("damping_time", c_double),
                 ("springs", c_int), ("strength", c_double), ("critical_stretch", c_double),
-                ("fracture_energy", c_double), ("compressive_strength", c_double)]
+                ("fracture_energy", c_double), ("compressive_strength", c_double),
+                ("stress_average", c_int)]
 
 
 class dem_lattice(Sized):
@@ -39,7 +40,7 @@ class dem_lattice(Sized):
                 ("flags", POINTER(ctypes.c_ubyte)), ("body", POINTER(c_int32)), ("position", doubles),
                 ("velocity", doubles), ("coupling", doubles), ("strength", doubles),
                 ("critical_stretch", doubles), ("softening", doubles), ("compressive_strength", doubles),
-                ("confinement", doubles)]
+                ("confinement", doubles), ("own_stress", POINTER(ctypes.c_ubyte))]
 
 
 class dem_force_query(ctypes.Structure):

@@ -34,7 +34,9 @@ dem_material material_of(const schema_deck *groups, const schema_instance *user)
                           .strength = schema_real(m, "strength"),
                           .critical_stretch = schema_real(m, "critical_stretch"),
                           .fracture_energy = schema_real(m, "fracture_energy"),
-                          .compressive_strength = schema_real(m, "compressive_strength")};
+                          .compressive_strength = schema_real(m, "compressive_strength"),
+                          .stress_average = schema_is(m, "stress_average", "element") ? DEM_STRESS_AVERAGE_ELEMENT
+                                                                                      : DEM_STRESS_AVERAGE_CORNERS};
 }
 
 /* ---- checks ---- */
@@ -42,6 +44,7 @@ dem_material material_of(const schema_deck *groups, const schema_instance *user)
 static const conditional_key limits[] = {{"strength", "stress", false},
                                          {"compressive_strength", "stress", false},
                                          {"fracture_energy", "stress", false},
+                                         {"stress_average", "stress", false},
                                          {"critical_stretch", "stretch", true}};
 static const conditional_keys by_fracture = {
     .group = "material", .by = "fracture", .keys = limits, .n = sizeof limits / sizeof *limits};
@@ -131,6 +134,17 @@ static void check_compressive(const schema_instance *material, namelist_errors *
                             "'compressive_strength' in &material must be >= 'strength', %g Pa, got %g Pa", least, got);
 }
 
+/* Brittle triangles that their own stress breaks have a toughness that depends on direction and mesh. */
+static void check_average(const schema_instance *material, namelist_errors *errors)
+{
+    const schema_value *strength = schema_value_of(material, "strength"),
+                       *energy = schema_value_of(material, "fracture_energy");
+    if (!schema_is(material, "stress_average", "element") || !schema_is(material, "fracture", "stress")) return;
+    if (strength->faulty || energy->faulty || (strength->given && energy->given)) return;
+    namelist_errors_add(errors, schema_place(material, "stress_average"),
+                        "'stress_average' in &material is 'element' only with both 'strength' and 'fracture_energy'");
+}
+
 static void check_name(const schema_deck *groups, const schema_instance *material, namelist_errors *errors)
 {
     const schema_instance *first = material_find(groups, schema_text(material, "name"));
@@ -158,6 +172,7 @@ void material_check_all(const schema_deck *groups, namelist_errors *errors)
         conditional_keys_check(material, &by_fracture, errors);
         check_limits(material, errors);
         check_compressive(material, errors);
+        check_average(material, errors);
     }
 }
 

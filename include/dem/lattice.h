@@ -27,6 +27,12 @@ typedef enum dem_springs {
     DEM_SPRINGS_COUPLED          /**< the tension of each depends on all three: exact in any triangle */
 } dem_springs;
 
+/** Which stress breaks a triangle. */
+typedef enum dem_stress_average {
+    DEM_STRESS_AVERAGE_CORNERS = 0, /**< the mean of its three corners' stresses, each a mean of their triangles' */
+    DEM_STRESS_AVERAGE_ELEMENT      /**< its own */
+} dem_stress_average;
+
 /** An isotropic solid; `plane` says how it is a body in the plane. */
 typedef struct dem_material {
     size_t struct_size;    /**< to be set to sizeof(dem_material), in each of an array */
@@ -47,8 +53,10 @@ typedef struct dem_material {
     double fracture_energy;  /**< G_f, J/m^2, >= 0, that a crack takes for its area; 0: what follows from the strength.
                                   Without a strength triangles are brittle, with one that follows from it; with both
                                   they soften. Neither with critical_stretch nor with bond_stiffness */
-    double compressive_strength; /**< Pa, 0 or >= strength: under pressure alone, with a strength and without a
+    double compressive_strength;       /**< Pa, 0 or >= strength: under pressure alone, with a strength and without a
                                       fracture energy; 0: pressure breaks nothing. See dem_lattice */
+    dem_stress_average stress_average; /**< of its triangles, not of cells; that of the element with a strength and a
+                                            fracture energy */
 } dem_material;
 
 enum {
@@ -108,6 +116,8 @@ typedef struct dem_lattice {
     double *confinement; /**< [n_triangles] k >= 0: where s1 is a pressure, too, it breaks when -s3 is f_c - k s1. With
                             f_c/strength that is Mohr-Coulomb's law in plane strain, with 0 in plane stress, where the
                             largest principal stress is that of the free faces; NULL: 0 in all */
+    unsigned char *own_stress; /**< [n_triangles] 1: its own stress breaks it or lets it soften, 0: the mean of its
+                            corners' stresses; NULL: 0 in all */
 } dem_lattice;
 
 /** No nodes, all arrays NULL. Every lattice begins like this: functions that make one write no further than the
@@ -170,7 +180,8 @@ DEM_API dem_status dem_lattice_rims(const dem_lattice *lattice, dem_index *n_edg
  *  stretch are written beside every triangle and spring; without a strength those that the lattice has stay.    (1)
  *  With a compressive strength the confinement is what the plane makes it: see dem_lattice.
  *  \return DEM_ERROR_ARGUMENT where triangles are too large for their strength and fracture energy: the edge of an
- *  equilateral one of their mean area may be E G_f/(3.4 strength^2) at most */
+ *  equilateral one of their mean area may be E G_f/(3.4 strength^2) at most, where their own stress breaks them
+ *  E G_f/(1.64 strength^2) */
 DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *material);
 
 /** The same for cells of two triangles each, 2 k and 2 k + 1, that make a convex quadrilateral; both its diagonals are
@@ -223,7 +234,8 @@ DEM_API dem_status dem_lattice_weibull(const dem_lattice *lattice, const dem_wei
 /** Multiplies strengths, fracture energies and critical stretches by factors > 0, as dem_lattice_weibull() draws them.
  *  The compressive strength of a triangle has the factor of its strength.
  *  Only triangles that soften have an energy of their own: with another strength or energy they get another softening.
- *  One that would have to be stronger than a brittle triangle of its energy is brittle, and as strong as that.
+ *  One that would have to be stronger than a brittle triangle of its energy is brittle, and as strong as that; one that
+ *  its own stress lets soften does so by 3 at least.
  *  \param strength_factor  [n_triangles]; NULL: 1
  *  \param energy_factor    [n_triangles]; NULL: 1
  *  \param stretch_factor   [n_springs]; NULL: 1

@@ -105,6 +105,11 @@ module dem_c
     enumerator :: DEM_SPRINGS_INDEPENDENT = 0, DEM_SPRINGS_COUPLED = 1
   end enum
 
+  integer, parameter :: dem_stress_average = c_int
+  enum, bind(c)
+    enumerator :: DEM_STRESS_AVERAGE_CORNERS = 0, DEM_STRESS_AVERAGE_ELEMENT = 1
+  end enum
+
   enum, bind(c)
     enumerator :: DEM_NODE_FIXED = 1, DEM_NODE_CONTACT = 2, DEM_NODE_RIGID = 4, DEM_NODE_GUIDE_X = 8
     enumerator :: DEM_NODE_GUIDE_Y = 16
@@ -116,16 +121,17 @@ module dem_c
   end enum
 
   type, bind(c) :: dem_material
-    integer(c_size_t) :: struct_size = 112
+    integer(c_size_t) :: struct_size = 120
     real(c_double) :: youngs_modulus = 0, bond_stiffness = 0, poissons_ratio = 0
     integer(dem_plane) :: plane = 0
     real(c_double) :: density = 0, thickness = 0, guard = 0, damping_time = 0
     integer(dem_springs) :: springs = 0
     real(c_double) :: strength = 0, critical_stretch = 0, fracture_energy = 0, compressive_strength = 0
+    integer(dem_stress_average) :: stress_average = 0
   end type
 
   type, bind(c) :: dem_lattice
-    integer(c_size_t) :: struct_size = 208
+    integer(c_size_t) :: struct_size = 216
     integer(c_int) :: dim = 0
     integer(dem_index) :: n_nodes = 0, n_springs = 0, n_triangles = 0
     type(c_ptr) :: x = c_null_ptr, mass = c_null_ptr, ends = c_null_ptr, rest_length = c_null_ptr
@@ -133,7 +139,7 @@ module dem_c
     type(c_ptr) :: area_stiffness = c_null_ptr, thickness = c_null_ptr, modulus = c_null_ptr, flags = c_null_ptr
     type(c_ptr) :: body = c_null_ptr, position = c_null_ptr, velocity = c_null_ptr, coupling = c_null_ptr
     type(c_ptr) :: strength = c_null_ptr, critical_stretch = c_null_ptr, softening = c_null_ptr
-    type(c_ptr) :: compressive_strength = c_null_ptr, confinement = c_null_ptr
+    type(c_ptr) :: compressive_strength = c_null_ptr, confinement = c_null_ptr, own_stress = c_null_ptr
   end type
 
   type, bind(c) :: dem_weibull

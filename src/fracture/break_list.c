@@ -10,6 +10,7 @@
 #include "base/grow.h"
 #include "base/status.h"
 #include "base/union_find.h"
+#include "fracture/utilisation.h"
 #include "model/fragments.h"
 #include "model/node_stress.h"
 
@@ -23,10 +24,14 @@ void break_list_destroy(break_list *b)
 
 /* ---- what a break is ---- */
 
-/* The mean of the corners' effective stresses, which is what drives a triangle (utilisation.c). */
-static void put_stress(dem_break *out, const dem_model *m, const element_state *e, const dem_index *corner,
-                       const double *x)
+/* The mean of the corners' effective stresses, or its own, which is what drives a triangle (utilisation.c). */
+static void put_stress(dem_break *out, const dem_model *m, const element_state *e, const double *x)
 {
+    const dem_index *corner = &m->lattice.triangles[3 * out->triangle];
+    if (utilisation_by_own_stress(&m->lattice, out->triangle)) {
+        node_stress_of_triangle(m, e, out->triangle, x, out->stress);
+        return;
+    }
     for (int c = 0; c < 3; c++) {
         double stress[3];
         node_stress(m, e, NODE_STRESS_EFFECTIVE, corner[c], x, stress);
@@ -61,7 +66,7 @@ dem_status break_list_note(break_list *b, const dem_model *model, const element_
                      .spring = alone ? spring : -1,
                      .body = l->body[nodes[0]]};
     put_place(&own, nodes, alone ? 2 : 3, x);
-    if (!alone) put_stress(&own, model, elements, nodes, x);
+    if (!alone) put_stress(&own, model, elements, x);
     b->list[b->n++] = own;
     return DEM_OK;
 }

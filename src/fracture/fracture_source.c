@@ -170,7 +170,8 @@ static const double *stress_at_end(fracture_source *s, dem_index i)
 static double utilisation_at_end(fracture_source *s, dem_index element)
 {
     const dem_lattice *l = &s->model->lattice;
-    if (element >= l->n_triangles) return utilisation_of(s->model, s->elements, element, s->step->y1);
+    if (element >= l->n_triangles || utilisation_by_own_stress(l, element))
+        return utilisation_of(s->model, s->elements, element, s->step->y1);
     const dem_index *corner = &l->triangles[3 * element];
     return utilisation_of_stress(utilisation_limits_of(l, s->elements, element), stress_at_end(s, corner[0]),
                                  stress_at_end(s, corner[1]), stress_at_end(s, corner[2]));

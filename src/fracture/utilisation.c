@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What drives a triangle is the largest principal value of the mean of its corners' stresses, those that pictures
- * show. The triangle's own stress would make toughness depend on the direction of a crack; with the mean it does by a
- * factor of 1.03 (docs/fracture.md, Mesh). Where it has a compressive strength the
+ * show. By the triangle's own stress, which may be chosen where it softens, the toughness of a brittle crack would
+ * depend on its direction by a factor of 1.63; by the mean it does by 1.03. Where it has a compressive strength the
  * smallest principal value takes part, by the law of Mohr and Coulomb: of three principal stresses the largest over
  * the strength less the smallest over the compressive strength. Out of the plane the third is 0 in plane stress; in
  * plane strain it is the middle one where the law can break a triangle at all, if nu is not less than the ratio of
@@ -41,8 +41,13 @@ double utilisation_of(const dem_model *model, const element_state *elements, dem
     double stress[3][3];
     if (spring >= 0) return springs_strain_of(l, spring, x) / l->critical_stretch[spring];
     const dem_index *corner = &l->triangles[3 * element];
+    const utilisation_limits limits = utilisation_limits_of(l, elements, element);
+    if (utilisation_by_own_stress(l, element)) {
+        node_stress_of_triangle(model, elements, element, x, stress[0]);
+        return utilisation_of_stress(limits, stress[0], stress[0], stress[0]);
+    }
     for (int c = 0; c < 3; c++) node_stress(model, elements, NODE_STRESS_EFFECTIVE, corner[c], x, stress[c]);
-    return utilisation_of_stress(utilisation_limits_of(l, elements, element), stress[0], stress[1], stress[2]);
+    return utilisation_of_stress(limits, stress[0], stress[1], stress[2]);
 }
 
 bool utilisation_is_limited(const dem_lattice *l, dem_index element)

@@ -22,8 +22,14 @@ utilisation_limits utilisation_limits_of(const dem_lattice *lattice, const eleme
  *      max(s1, 0)/tension - min(s3, 0)/pressure + confinement min(s1, 0)/pressure. */
 double utilisation_of_stress(utilisation_limits limits, const double a[3], const double b[3], const double c[3]);
 
-/** Of an element that is whole, at positions x [n][2]: of a triangle by its corners' stresses, of a spring its strain
- *  over the critical one. */
+/** Whether it is not the mean of its corners' stresses that breaks a triangle, but its own. */
+static inline bool utilisation_by_own_stress(const dem_lattice *l, dem_index triangle)
+{
+    return l->own_stress != NULL && l->own_stress[triangle] != 0;
+}
+
+/** Of an element that is whole, at positions x [n][2]: of a triangle by its corners' stresses, or its own, of a spring
+ *  its strain over the critical one. */
 double utilisation_of(const dem_model *model, const element_state *elements, dem_index element, const double *x);
 
 /** Whether an element may break at all: it has a limit, and its body is not rigid. */

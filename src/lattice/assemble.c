@@ -58,6 +58,10 @@ static dem_status check_limits(const dem_material *m)
     CHECK(m->fracture_energy == 0.0 || (m->critical_stretch == 0.0 && m->bond_stiffness == 0.0), DEM_ERROR_ARGUMENT,
           "a fracture energy, %g J/m^2, goes neither with a critical stretch nor with a bond stiffness",
           m->fracture_energy);
+    CHECK(m->stress_average == DEM_STRESS_AVERAGE_CORNERS || m->stress_average == DEM_STRESS_AVERAGE_ELEMENT,
+          DEM_ERROR_ARGUMENT, "stress_average is %d, which is neither corners nor element", (int)m->stress_average);
+    CHECK(m->stress_average == DEM_STRESS_AVERAGE_CORNERS || (m->strength > 0.0 && m->fracture_energy > 0.0),
+          DEM_ERROR_ARGUMENT, "the stress of elements breaks them with a strength and a fracture energy only");
     CHECK(isfinite(m->compressive_strength) && m->compressive_strength >= 0.0, DEM_ERROR_ARGUMENT,
           "compressive_strength must be >= 0: %g Pa", m->compressive_strength);
     if (m->compressive_strength == 0.0) return DEM_OK;
@@ -402,6 +406,16 @@ static double plate_modulus(const dem_material *m)
     return plate_of(m).modulus / m->thickness;
 }
 
+static bool is_own(const dem_material *m)
+{
+    return m->stress_average == DEM_STRESS_AVERAGE_ELEMENT;
+}
+
+static const crack_band *band_of(const dem_material *m)
+{
+    return crack_band_of(is_own(m));
+}
+
 /* Strength and softening of a triangle. */
 static void limit_triangle(draft *d, dem_index t)
 {
@@ -412,7 +426,8 @@ static void limit_triangle(draft *d, dem_index t)
     d->solid.strength[t] = limit_or_never(m->strength);
     d->solid.softening[t] = 1.0;
     if (energy > 0.0 && m->strength > 0.0)
-        d->solid.softening[t] = crack_band_softening(modulus, energy, m->strength, size);
+        d->solid.softening[t] =
+            crack_band_softening_of(band_of(m), modulus * energy / (m->strength * m->strength * size));
     else if (energy > 0.0)
         d->solid.strength[t] = crack_band_strength(modulus, energy, size);
     d->solid.compressive_strength[t] = limit_or_never(m->compressive_strength);
@@ -429,6 +444,21 @@ static dem_status keep_pressure_limits(draft *d)
     drop_equal(&s->confinement, n, 0.0);
     CHECK(s->compressive_strength == NULL || lattice_has_pressure_limits(d->lattice), DEM_ERROR_ARGUMENT,
           "dem_lattice: struct_size is %zu, without room for compressive strengths", d->lattice->struct_size);
+    return DEM_OK;
+}
+
+/* Which triangles break by their own stress, if any do. */
+static dem_status fill_own_stress(draft *d)
+{
+    const dem_index n = d->lattice->n_triangles;
+    bool any = false;
+    for (dem_index t = 0; t < n && !any; t++) any = is_own(material_of(d, t));
+    if (!any) return DEM_OK;
+    CHECK(lattice_has_own_stress(d->lattice), DEM_ERROR_ARGUMENT,
+          "dem_lattice: struct_size is %zu, without room for own_stress", d->lattice->struct_size);
+    d->solid.own_stress = lattice_zeros(n, sizeof *d->solid.own_stress);
+    CHECK_MEMORY(d->solid.own_stress);
+    for (dem_index t = 0; t < n; t++) d->solid.own_stress[t] = is_own(material_of(d, t));
     return DEM_OK;
 }
 
@@ -450,7 +480,8 @@ static dem_status fill_limits(draft *d)
           "dem_lattice: struct_size is %zu, without room for strengths", d->lattice->struct_size);
     CHECK(s->softening == NULL || lattice_has_softening(d->lattice), DEM_ERROR_ARGUMENT,
           "dem_lattice: struct_size is %zu, without room for softening", d->lattice->struct_size);
-    return keep_pressure_limits(d);
+    TRY(keep_pressure_limits(d));
+    return fill_own_stress(d);
 }
 
 /* Guard, area term, couplings, thickness and the modulus by which stresses share springs out (model/stress.c). */
@@ -503,6 +534,10 @@ static void give_limits(dem_lattice *lattice, dem_lattice *solid)
     if (!lattice_has_pressure_limits(lattice)) return;
     swap(&lattice->compressive_strength, &solid->compressive_strength);
     swap(&lattice->confinement, &solid->confinement);
+    if (!lattice_has_own_stress(lattice)) return;
+    unsigned char *const old = lattice->own_stress;
+    lattice->own_stress = solid->own_stress;
+    solid->own_stress = old;
 }
 
 /* Hands the arrays of a solid over to the caller's lattice; `solid` gets the old ones and is freed with them. */
@@ -546,6 +581,8 @@ static dem_status check_materials(const draft *d, dem_index n_materials)
               "a bond stiffness, %g N, is for bodies of one material", m->bond_stiffness);
         CHECK(!d->cells || m->springs == DEM_SPRINGS_INDEPENDENT, DEM_ERROR_ARGUMENT,
               "coupled springs are those of triangles, but cells are asked for");
+        CHECK(!d->cells || m->stress_average == DEM_STRESS_AVERAGE_CORNERS, DEM_ERROR_ARGUMENT,
+              "the stress of elements breaks triangles, but cells are asked for");
         if (d->cells && m->bond_stiffness == 0.0) TRY(check_diagonal(plate_of(m), d->diagonal));
     }
     for (dem_index t = 0; d->of != NULL && t < d->lattice->n_triangles; t++)
@@ -576,7 +613,7 @@ static dem_status check_sizes(const draft *d, dem_index n_materials)
         const dem_material *m = &d->materials[k];
         if (!(m->fracture_energy > 0.0 && m->strength > 0.0)) continue;
         const double size = mean_size(d, m);
-        const double coarsest = crack_band_coarsest(plate_modulus(m), m->fracture_energy, m->strength);
+        const double coarsest = crack_band_coarsest(band_of(m), plate_modulus(m), m->fracture_energy, m->strength);
         CHECK(size <= coarsest, DEM_ERROR_ARGUMENT,
               "triangles with edges of %g m are too large for a strength of %g Pa and a fracture energy of %g J/m^2, "
               "which need %g m at most",

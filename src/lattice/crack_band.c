@@ -4,20 +4,19 @@
  *     G E/(strength^2 a) = 3.4               of brittle triangles,
  *                          2.0 + 1.07 q      where they soften, from q = 2 to 6,
  *                          8.42 + 1.29 (q - 6) beyond,
- * and in between the first two a straight line joins them. */
+ * and in between the first two a straight line joins them; where their own stress lets triangles soften it is
+ * 0.2 + 0.48 q in irregular meshes, used from q = 3 on. */
 #include "lattice/crack_band.h"
 
 #include <math.h>
 
-static const double brittle = 3.4;
+static const crack_band by_corners = {3, {{1.0, 3.4, 0.74}, {2.0, 4.14, 1.07}, {6.0, 8.42, 1.29}}};
+static const crack_band by_own = {1, {{3.0, 1.64, 0.48}}};
 
-/* A line for each softening from 1 on, up to that of the next one. */
-typedef struct line {
-    double softening, toughness, slope;
-} line;
-
-static const line lines[] = {{1.0, 3.4, 0.74}, {2.0, 4.14, 1.07}, {6.0, 8.42, 1.29}};
-enum { LINES = sizeof lines / sizeof *lines };
+const crack_band *crack_band_of(bool own_stress)
+{
+    return own_stress ? &by_own : &by_corners;
+}
 
 double crack_band_size(double area)
 {
@@ -26,29 +25,24 @@ double crack_band_size(double area)
 
 double crack_band_strength(double modulus, double fracture_energy, double size)
 {
-    return sqrt(modulus * fracture_energy / (brittle * size));
+    return sqrt(modulus * fracture_energy / (by_corners.lines[0].toughness * size));
 }
 
-double crack_band_coarsest(double modulus, double fracture_energy, double strength)
+double crack_band_coarsest(const crack_band *band, double modulus, double fracture_energy, double strength)
 {
-    return modulus * fracture_energy / (strength * strength) / brittle;
+    return modulus * fracture_energy / (strength * strength) / band->lines[0].toughness;
 }
 
-double crack_band_toughness(double softening)
+double crack_band_toughness(const crack_band *band, double softening)
 {
-    const line *of = &lines[0];
-    for (int k = 1; k < LINES && softening >= lines[k].softening; k++) of = &lines[k];
+    const crack_band_line *of = &band->lines[0];
+    for (int k = 1; k < band->n && softening >= band->lines[k].softening; k++) of = &band->lines[k];
     return of->toughness + of->slope * (softening - of->softening);
 }
 
-double crack_band_softening_of(double toughness)
+double crack_band_softening_of(const crack_band *band, double toughness)
 {
-    const line *of = &lines[0];
-    for (int k = 1; k < LINES && toughness >= lines[k].toughness; k++) of = &lines[k];
-    return fmax(of->softening + (toughness - of->toughness) / of->slope, 1.0);
-}
-
-double crack_band_softening(double modulus, double fracture_energy, double strength, double size)
-{
-    return crack_band_softening_of(modulus * fracture_energy / (strength * strength * size));
+    const crack_band_line *of = &band->lines[0];
+    for (int k = 1; k < band->n && toughness >= band->lines[k].toughness; k++) of = &band->lines[k];
+    return fmax(of->softening + (toughness - of->toughness) / of->slope, band->lines[0].softening);
 }

@@ -5,6 +5,23 @@
 #ifndef DEM_LATTICE_CRACK_BAND_H
 #define DEM_LATTICE_CRACK_BAND_H
 
+#include <stdbool.h>
+
+/** From a softening q = dem_lattice.softening on, up to that of the next line: G E/(strength^2 a) there, and how much
+ *  more it is for each 1 more of q. */
+typedef struct crack_band_line {
+    double softening, toughness, slope;
+} crack_band_line;
+
+/** G E/(strength^2 a) of triangles that soften. The first line has the least. */
+typedef struct crack_band {
+    int n;
+    crack_band_line lines[3];
+} crack_band;
+
+/** Of triangles that the mean of their corners' stresses breaks, which may be brittle, or their own stress. */
+const crack_band *crack_band_of(bool own_stress);
+
 /** a, m, of a triangle of an area, m^2. */
 double crack_band_size(double area);
 
@@ -13,14 +30,11 @@ double crack_band_size(double area);
 double crack_band_strength(double modulus, double fracture_energy, double size);
 
 /** The largest size, m, of triangles that have this strength, Pa, and this fracture energy, J/m^2. */
-double crack_band_coarsest(double modulus, double fracture_energy, double strength);
+double crack_band_coarsest(const crack_band *band, double modulus, double fracture_energy, double strength);
 
-/** G E/(strength^2 a) of triangles with this dem_lattice.softening, and the other way round; 1 where brittle ones take
- *  more. */
-double crack_band_toughness(double softening);
-double crack_band_softening_of(double toughness);
-
-/** dem_lattice.softening of a triangle of size a, m; 1 where it is too large. */
-double crack_band_softening(double modulus, double fracture_energy, double strength, double size);
+/** G E/(strength^2 a) of triangles with this softening, and the other way round: the least one where that takes more
+ *  than is given. */
+double crack_band_toughness(const crack_band *band, double softening);
+double crack_band_softening_of(const crack_band *band, double toughness);
 
 #endif

@@ -115,8 +115,8 @@ static dem_status join_springs(dem_lattice *out, const dem_lattice *a, const dem
     return join_numbers(&out->critical_stretch, a->critical_stretch, n, b->critical_stretch, m, (double)INFINITY);
 }
 
-/* Without a strength triangles never break, without softening they break at once, and without a compressive strength
- * pressure does not break them. */
+/* Without a strength triangles never break, without softening they break at once, without a compressive strength
+ * pressure does not break them, and without a flag the mean of their corners' stresses does. */
 static dem_status join_limits(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
     const dem_index n = a->n_triangles, m = b->n_triangles;
@@ -124,7 +124,11 @@ static dem_status join_limits(dem_lattice *out, const dem_lattice *a, const dem_
     TRY(join_numbers(&out->strength, a->strength, n, b->strength, m, never));
     TRY(join_numbers(&out->softening, a->softening, n, b->softening, m, 1.0));
     TRY(join_numbers(&out->compressive_strength, a->compressive_strength, n, b->compressive_strength, m, never));
-    return join_numbers(&out->confinement, a->confinement, n, b->confinement, m, 0.0);
+    TRY(join_numbers(&out->confinement, a->confinement, n, b->confinement, m, 0.0));
+    if (a->own_stress == NULL && b->own_stress == NULL) return DEM_OK;
+    out->own_stress = join(a->own_stress, n, b->own_stress, m, sizeof *out->own_stress);
+    CHECK_MEMORY(out->own_stress);
+    return DEM_OK;
 }
 
 /* A guard, an area stiffness and couplings that are missing are 0. */
@@ -188,6 +192,9 @@ dem_status dem_lattice_append(dem_lattice *lattice, const dem_lattice *other)
         status =
             status_fail(DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is %zu, without room for compressive strengths",
                         lattice->struct_size);
+    if (status == DEM_OK && joined.own_stress != NULL && !lattice_has_own_stress(lattice))
+        status = status_fail(DEM_ERROR_ARGUMENT, "dem_lattice: struct_size is %zu, without room for own_stress",
+                             lattice->struct_size);
     if (status == DEM_OK) {
         dem_lattice_free(lattice);
         lattice_give(lattice, &joined);

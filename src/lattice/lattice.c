@@ -81,6 +81,11 @@ bool lattice_has_pressure_limits(const dem_lattice *lattice)
     return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, confinement);
 }
 
+bool lattice_has_own_stress(const dem_lattice *lattice)
+{
+    return lattice->struct_size >= STRUCT_SIZE_WITH(dem_lattice, own_stress);
+}
+
 dem_status lattice_read(dem_lattice *ours, const dem_lattice *theirs)
 {
     *ours = dem_lattice_empty();
@@ -123,6 +128,7 @@ void dem_lattice_free(dem_lattice *lattice)
     free(own.softening);
     free(own.compressive_strength);
     free(own.confinement);
+    free(own.own_stress);
     free(own.flags);
     free(own.body);
     free(own.position);

@@ -28,6 +28,9 @@ bool lattice_has_softening(const dem_lattice *lattice);
 /** And of what limits pressure. */
 bool lattice_has_pressure_limits(const dem_lattice *lattice);
 
+/** And of which stress breaks triangles. */
+bool lattice_has_own_stress(const dem_lattice *lattice);
+
 /* Whether a lattice can be written: not NULL, and struct_size is that of some version.  \return DEM_ERROR_ARGUMENT */
 dem_status lattice_check_out(const dem_lattice *out);
 

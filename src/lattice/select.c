@@ -68,6 +68,7 @@ static void pack_triangles(dem_lattice *lattice, const dem_index *number, bool *
     if (lattice_has_couplings(lattice)) pack(lattice->coupling, 3 * sizeof *lattice->coupling, n, whole);
     if (lattice_has_limits(lattice)) pack(lattice->strength, sizeof *lattice->strength, n, whole);
     if (lattice_has_softening(lattice)) pack(lattice->softening, sizeof *lattice->softening, n, whole);
+    if (lattice_has_own_stress(lattice)) pack(lattice->own_stress, sizeof *lattice->own_stress, n, whole);
     if (!lattice_has_pressure_limits(lattice)) return;
     pack(lattice->compressive_strength, sizeof *lattice->compressive_strength, n, whole);
     pack(lattice->confinement, sizeof *lattice->confinement, n, whole);

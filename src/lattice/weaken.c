@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Other strengths for some elements than their materials have. Where strength and fracture energy were given, triangles
- * soften, and it is the energy that stays: a weaker one softens for longer, a stronger one for less, and where it would
- * have to be stronger than a brittle one of that energy, it is that. Of brittle triangles the energy follows from the
- * strength, and those alone have a compressive strength, which keeps its ratio to it. */
+/* Other strengths for some elements than their materials have. Where strength and fracture energy were given,
+ * triangles soften, and it is the energy that stays: a weaker one softens for longer, a stronger one for less, and
+ * where it would have to be stronger than one of that energy that softens least, or is brittle, it is that. Of
+ * brittle triangles the energy follows from the strength, and those alone have a compressive strength, which keeps
+ * its ratio to it. */
 #include <dem/dem.h>
 
 #include <math.h>
@@ -20,12 +21,12 @@ static dem_status check_factors(const char *what, const double *factor, dem_inde
 }
 
 /* Its toughness is over strength^2 a/E. */
-static void weaken_softening(double *strength, double *softening, double factor, double of_energy)
+static void weaken_softening(dem_lattice *l, dem_index t, double factor, double of_energy)
 {
-    const double least = crack_band_toughness(1.0), energy = of_energy * crack_band_toughness(*softening);
-    const double after = energy / (factor * factor);
-    *strength *= after > least ? factor : sqrt(energy / least);
-    *softening = crack_band_softening_of(after);
+    const crack_band *band = crack_band_of(l->own_stress != NULL && l->own_stress[t]);
+    const double energy = of_energy * crack_band_toughness(band, l->softening[t]), after = energy / (factor * factor);
+    l->strength[t] *= after > band->lines[0].toughness ? factor : sqrt(energy / band->lines[0].toughness);
+    l->softening[t] = crack_band_softening_of(band, after);
 }
 
 static double at(const double *factor, dem_index k)
@@ -44,7 +45,7 @@ dem_status dem_lattice_weaken(dem_lattice *lattice, const double *strength_facto
     TRY(check_factors("spring", stretch_factor, l.n_springs));
     for (dem_index t = 0; t < l.n_triangles && l.strength != NULL; t++) {
         if (l.softening != NULL && l.softening[t] > 1.0)
-            weaken_softening(&l.strength[t], &l.softening[t], at(strength_factor, t), at(energy_factor, t));
+            weaken_softening(&l, t, at(strength_factor, t), at(energy_factor, t));
         else
             l.strength[t] *= at(strength_factor, t);
     }

@@ -79,6 +79,8 @@ static dem_status check_limits(const dem_lattice *l, dem_index k)
           "triangle %lld: softening must be >= 1, got %g", (long long)k, l->softening[k]);
     CHECK(l->confinement == NULL || (isfinite(l->confinement[k]) && l->confinement[k] >= 0.0), DEM_ERROR_MODEL,
           "triangle %lld: confinement must be >= 0, got %g", (long long)k, l->confinement[k]);
+    CHECK(l->own_stress == NULL || l->own_stress[k] <= 1, DEM_ERROR_MODEL,
+          "triangle %lld: own_stress must be 0 or 1, got %d", (long long)k, l->own_stress[k]);
     if (l->compressive_strength == NULL || l->compressive_strength[k] == (double)INFINITY) return DEM_OK;
     CHECK(l->compressive_strength[k] >= tension, DEM_ERROR_MODEL,
           "triangle %lld: compressive strength must be at least its strength, %g Pa, got %g Pa", (long long)k, tension,

@@ -40,6 +40,7 @@ enum array {
     SOFTENING,
     COMPRESSIVE_STRENGTH,
     CONFINEMENT,
+    OWN_STRESS,
     BODY,
     POSITION,
     VELOCITY,
@@ -75,6 +76,7 @@ static const struct dataset {
     [SOFTENING] = {"/lattice/softening", HDF5_F64, TRIANGLES, 1, 0},
     [COMPRESSIVE_STRENGTH] = {"/lattice/compressive_strength", HDF5_F64, TRIANGLES, 1, 0},
     [CONFINEMENT] = {"/lattice/confinement", HDF5_F64, TRIANGLES, 1, 0},
+    [OWN_STRESS] = {"/lattice/own_stress", HDF5_U8, TRIANGLES, 1, 0},
     [BODY] = {"/lattice/body", HDF5_I32, NODES, 1, 0},
     [POSITION] = {"/lattice/position", HDF5_F64, NODES, 2, 0},
     [VELOCITY] = {"/lattice/velocity", HDF5_F64, NODES, 2, 0},
@@ -250,6 +252,7 @@ static void fill(dem_lattice *lattice, reader *r)
     lattice->softening = r->data[SOFTENING];
     lattice->compressive_strength = r->data[COMPRESSIVE_STRENGTH];
     lattice->confinement = r->data[CONFINEMENT];
+    lattice->own_stress = r->data[OWN_STRESS];
     lattice->triangles = r->data[CORNERS];
     lattice->guard = r->data[GUARD];
     lattice->area_stiffness = r->data[AREA_STIFFNESS];
@@ -382,6 +385,7 @@ dem_status lattice_file_write(const hdf5_file *file, const dem_lattice *lattice,
     TRY(write_array(file, SOFTENING, deflate, t, lattice->softening));
     TRY(write_array(file, COMPRESSIVE_STRENGTH, deflate, t, lattice->compressive_strength));
     TRY(write_array(file, CONFINEMENT, deflate, t, lattice->confinement));
+    TRY(write_array(file, OWN_STRESS, deflate, t, lattice->own_stress));
     TRY(write_array(file, COUPLING, deflate, t, lattice->coupling));
     TRY(write_array(file, BODY, deflate, n, lattice->body));
     TRY(write_array(file, POSITION, deflate, n, lattice->position));

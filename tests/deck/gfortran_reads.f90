@@ -22,13 +22,13 @@ contains
   end subroutine
 
   subroutine read_material()
-    character(4096) :: name, plane, springs, fracture
+    character(4096) :: name, plane, springs, fracture, stress_average
     real(dp) :: youngs_modulus, bond_stiffness, poissons_ratio, density, thickness, guard, damping_time, friction
     real(dp) :: strength, compressive_strength, fracture_energy, critical_stretch, weibull, weibull_volume
     integer(selected_int_kind(18)) :: strength_seed
     namelist /material/ name, youngs_modulus, bond_stiffness, poissons_ratio, plane, density, thickness, guard, &
-      damping_time, springs, fracture, strength, compressive_strength, fracture_energy, critical_stretch, &
-      weibull, weibull_volume, strength_seed, friction
+      damping_time, springs, fracture, strength, compressive_strength, fracture_energy, stress_average, &
+      critical_stretch, weibull, weibull_volume, strength_seed, friction
     read (unit, nml=material, iostat=status, iomsg=message)
   end subroutine
 

@@ -115,7 +115,7 @@ def reference(file):
 NOT_REAL, NOT_WHOLE = "is neither floating-point nor integer", "is not integer"
 NAMES = ("is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, viscosity, critical_stretch, "
          "triangles, guard, area_stiffness, thickness, modulus, coupling, strength, softening, "
-         "compressive_strength, confinement, body, position, velocity, fixed, rigid, contact_nodes")
+         "compressive_strength, confinement, own_stress, body, position, velocity, fixed, rigid, contact_nodes")
 # name, maker, what is said behind the file's name
 FILES = [
     # names and links

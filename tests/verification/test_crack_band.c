@@ -22,6 +22,7 @@ typedef struct band_case {
     bool alone;       /* the fracture energy is given without a strength: triangles are brittle */
     strip_mesh mesh;
     double most_angle, tolerance; /* degrees, of the path; of the toughness */
+    bool own;                     /* triangles soften by their own stress */
 } band_case;
 
 typedef struct band {
@@ -36,6 +37,11 @@ typedef struct band {
 static double softened(double q)
 {
     return q < 6.0 ? 2.0 + 1.07 * q : 8.42 + 1.29 * (q - 6.0);
+}
+
+static double softened_by_own(double q)
+{
+    return 0.2 + 0.48 * q;
 }
 
 static double asked(const band_case *k)
@@ -85,6 +91,7 @@ static dem_lattice assemble(const band_case *k)
     dem_lattice l = strip_mesh_make(k->size * WIDE, k->size * HIGH, &k->mesh);
     solid.fracture_energy = asked(k) * solid.strength * solid.strength * spacing / solid.youngs_modulus;
     if (k->alone) solid.strength = 0.0;
+    if (k->own) solid.stress_average = DEM_STRESS_AVERAGE_ELEMENT;
     assert_ok(dem_lattice_assemble(&l, &solid));
     return l;
 }
@@ -119,16 +126,16 @@ static void check(const band_case *list, size_t n)
 /* Found: 4.02 (4.14), 5.20 (5.21). */
 TEST(a_crack_takes_the_fracture_energy)
 {
-    const band_case list[] = {{1.0, softened(2.0), false, {0.0, 0.0, true}, 1.5, 0.05},
-                              {1.0, softened(3.0), false, {30.0, 0.0, true}, 1.5, 0.05}};
+    const band_case list[] = {{1.0, softened(2.0), false, {0.0, 0.0, true}, 1.5, 0.05, false},
+                              {1.0, softened(3.0), false, {30.0, 0.0, true}, 1.5, 0.05, false}};
     check(list, sizeof list / sizeof *list);
 }
 
 /* Found: 0.958, 0.917 of what was asked for: a crack of 11 spacings is short. */
 TEST(a_crack_takes_the_fracture_energy_at_twice_the_spacing)
 {
-    const band_case list[] = {{0.5, 3.4, true, {0.0, 0.0, true}, 1.5, 0.10},
-                              {0.5, 8.4, false, {0.0, 0.0, true}, 1.5, 0.10}};
+    const band_case list[] = {{0.5, 3.4, true, {0.0, 0.0, true}, 1.5, 0.10, false},
+                              {0.5, 8.4, false, {0.0, 0.0, true}, 1.5, 0.10, false}};
     check(list, sizeof list / sizeof *list);
 }
 
@@ -136,10 +143,10 @@ TEST(a_crack_takes_the_fracture_energy_at_twice_the_spacing)
  * asked for; at rest a brittle crack of twice as many spacings needs 3.51 instead of 3.40, too (test_strip.c). */
 static void at_finer_spacings(void **state)
 {
-    const band_case list[] = {{1.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05},
-                              {2.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05},
-                              {1.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05},
-                              {2.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05}};
+    const band_case list[] = {{1.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, false},
+                              {2.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, false},
+                              {1.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, false},
+                              {2.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, false}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -148,12 +155,12 @@ static void at_finer_spacings(void **state)
  * were brittle is off straight by 1.9 degrees at q = 6, by 0.3 at 2. */
 static void of_regular_meshes(void **state)
 {
-    const band_case list[] = {{1.0, softened(2.0), false, {15.0, 0.0, true}, 1.5, 0.05},
-                              {1.0, softened(2.0), false, {30.0, 0.0, true}, 1.5, 0.05},
-                              {1.0, softened(3.0), false, {0.0, 0.0, true}, 1.5, 0.05},
-                              {1.0, softened(6.0), false, {0.0, 0.0, true}, 1.5, 0.05},
-                              {1.0, softened(6.0), false, {15.0, 0.0, true}, 2.5, 0.05},
-                              {1.0, softened(6.0), false, {30.0, 0.0, true}, 1.5, 0.05}};
+    const band_case list[] = {{1.0, softened(2.0), false, {15.0, 0.0, true}, 1.5, 0.05, false},
+                              {1.0, softened(2.0), false, {30.0, 0.0, true}, 1.5, 0.05, false},
+                              {1.0, softened(3.0), false, {0.0, 0.0, true}, 1.5, 0.05, false},
+                              {1.0, softened(6.0), false, {0.0, 0.0, true}, 1.5, 0.05, false},
+                              {1.0, softened(6.0), false, {15.0, 0.0, true}, 2.5, 0.05, false},
+                              {1.0, softened(6.0), false, {30.0, 0.0, true}, 1.5, 0.05, false}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -161,8 +168,26 @@ static void of_regular_meshes(void **state)
 /* Found: 5.26, 5.07 (5.21). */
 static void of_irregular_meshes(void **state)
 {
-    const band_case list[] = {{1.0, softened(3.0), false, {15.0, 0.25, true}, 1.5, 0.05},
-                              {1.0, softened(3.0), false, {0.0, 0.0, false}, 6.0, 0.05}};
+    const band_case list[] = {{1.0, softened(3.0), false, {15.0, 0.25, true}, 1.5, 0.05, false},
+                              {1.0, softened(3.0), false, {0.0, 0.0, false}, 6.0, 0.05, false}};
+    (void)state;
+    check(list, sizeof list / sizeof *list);
+}
+
+/* Where their own stress lets triangles soften irregular meshes take what is asked to 13 %, and cracks keep to what is
+ * left of rows. Found: 2.73 (3.08). */
+TEST(a_crack_takes_about_the_fracture_energy_by_the_stress_of_elements)
+{
+    const band_case list[] = {{1.0, softened_by_own(6.0), false, {0.0, 0.25, true}, 1.5, 0.13, true}};
+    check(list, sizeof list / sizeof *list);
+}
+
+/* Found: 2.87, 3.32 (3.08), 5.57 (5.96); 15.5, 9.2, 15.5 degrees off straight. */
+static void of_own_stress(void **state)
+{
+    const band_case list[] = {{1.0, softened_by_own(6.0), false, {15.0, 0.25, true}, 17.0, 0.13, true},
+                              {1.0, softened_by_own(6.0), false, {30.0, 0.25, true}, 17.0, 0.13, true},
+                              {1.0, softened_by_own(12.0), false, {15.0, 0.25, true}, 17.0, 0.13, true}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -173,6 +198,7 @@ int main(int argc, char **argv)
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_regular_meshes), 1000);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_irregular_meshes), 1001);
         test_add(&(struct CMUnitTest)cmocka_unit_test(at_finer_spacings), 1002);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_own_stress), 1003);
     }
     return test_run();
 }

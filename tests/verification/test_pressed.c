@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies that break under pressure, by the law of Mohr and Coulomb: a block that is deformed uniformly along all kinds
  * of paths, of which stress and time of the break are known, and a triangle that swings inwards by itself; then a block
- * that breaks here and there, by both methods of contact, with no help of filters, with other threads and cuts. */
+ * that breaks here and there, by pressure, or in tension by the own stress of most triangles, by both methods of
+ * contact, with no help of filters, with other threads and cuts. */
 #include "support.h"
 
 #include <stdlib.h>
@@ -275,20 +276,38 @@ typedef struct ending {
     unsigned char broken[MOST_TRIANGLES];
 } ending;
 
-/* Pressed along y, pulled along x, and turned: every triangle has another strength. */
-static void make_block(dem_lattice *block, dem_plane plane)
+/* Pressed, as a plate and as a slice, or pulled, with triangles that soften by their own stress. */
+enum { PLATE, SLICE, OWN, KINDS };
+
+/* One triangle of four softens by the stresses of its corners. */
+static void let_soften(dem_lattice *block)
 {
-    const dem_material m = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.2, .plane = plane,
-                                 .density = 1050.0, .thickness = 1.0, .guard = 0.02, .springs = DEM_SPRINGS_COUPLED,
-                                 .strength = 2e5, .compressive_strength = 8e5);
+    const dem_index n = block->n_triangles;
+    block->softening = calloc((size_t)n, sizeof *block->softening);
+    block->own_stress = calloc((size_t)n, 1);
+    assert_true(block->softening != NULL && block->own_stress != NULL);
+    for (dem_index t = 0; t < n; t++) {
+        block->softening[t] = 3.0;
+        block->own_stress[t] = t % 4 != 0;
+    }
+}
+
+/* Pressed or pulled along y: every triangle has another strength. */
+static void make_block(dem_lattice *block, int kind)
+{
+    const dem_material m = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.2,
+                                 .plane = kind == SLICE ? DEM_PLANE_STRAIN : DEM_PLANE_STRESS, .density = 1050.0,
+                                 .thickness = 1.0, .guard = 0.02, .springs = DEM_SPRINGS_COUPLED,
+                                 .strength = kind == OWN ? 4e5 : 2e5, .compressive_strength = kind == OWN ? 0.0 : 8e5);
     assert_ok(dem_lattice_rectangle(block, 0.04, 0.08, 0.005));
     assert_ok(dem_lattice_jitter(block, 0.001, 3));
     assert_ok(dem_lattice_assemble(block, &m));
     assert_ok(dem_lattice_launch(block, (const double[2]){0.0, 0.0}));
     for (dem_index i = 0; i < block->n_nodes; i++) {
         block->velocity[2 * i] = 20.0 * block->x[2 * i];
-        block->velocity[2 * i + 1] = -300.0 * (block->x[2 * i + 1] - 0.04);
+        block->velocity[2 * i + 1] = (kind == OWN ? 300.0 : -300.0) * (block->x[2 * i + 1] - 0.04);
     }
+    if (kind == OWN) let_soften(block);
     double factor[MOST_TRIANGLES];
     assert_true(block->n_triangles <= MOST_TRIANGLES && block->n_nodes <= 256);
     for (dem_index t = 0; t < block->n_triangles; t++)
@@ -311,11 +330,11 @@ static void read_ending(support_run *run, double t, dem_index n_triangles, endin
 static const double t_end = 4e-4;
 
 /* `all`: every triangle is looked at in every step. */
-static void run_block(const dem_options *options, dem_plane plane, bool all, int n_parts, ending *out)
+static void run_block(const dem_options *options, int kind, bool all, int n_parts, ending *out)
 {
     CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
     CLEANUP(support_close) support_run run;
-    make_block(&block, plane);
+    make_block(&block, kind);
     support_open(&run, &block, NULL, 0, options);
     fracture_source *source = &run.simulation->breaks;
     const double before = ask_energy(run.simulation).ledger;
@@ -336,41 +355,45 @@ static void assert_same_bits(const ending *a, const ending *b)
     assert_memory_equal(a->broken, b->broken, sizeof a->broken);
 }
 
-TEST(filters_hide_nothing_that_pressure_breaks)
+TEST(filters_hide_nothing_that_breaks)
 {
     static ending whole, other;
-    for (int plane = 0; plane < 2; plane++) {
-        const dem_options options = no_weight(1e-6, DEM_CONTACT_LOCAL);
-        run_block(&options, plane == 0 ? DEM_PLANE_STRESS : DEM_PLANE_STRAIN, false, 1, &whole);
-        run_block(&options, plane == 0 ? DEM_PLANE_STRESS : DEM_PLANE_STRAIN, true, 1, &other);
+    const dem_options options = no_weight(1e-6, DEM_CONTACT_LOCAL);
+    for (int kind = 0; kind < KINDS; kind++) {
+        run_block(&options, kind, false, 1, &whole);
+        run_block(&options, kind, true, 1, &other);
         assert_same_bits(&whole, &other);
     }
 }
 
-TEST(bits_under_pressure_do_not_depend_on_threads_and_cuts)
+TEST(bits_of_breaks_do_not_depend_on_threads_and_cuts)
 {
     static ending whole, other;
-    dem_options options = no_weight(1e-6, DEM_CONTACT_LOCAL);
-    run_block(&options, DEM_PLANE_STRESS, false, 1, &whole);
-    run_block(&options, DEM_PLANE_STRESS, false, 37, &other);
-    assert_same_bits(&whole, &other);
-    options.threads = 3;
-    run_block(&options, DEM_PLANE_STRESS, false, 1, &other);
-    assert_same_bits(&whole, &other);
+    for (int kind = 0; kind < KINDS; kind++) {
+        dem_options options = no_weight(1e-6, DEM_CONTACT_LOCAL);
+        run_block(&options, kind, false, 1, &whole);
+        run_block(&options, kind, false, 37, &other);
+        assert_same_bits(&whole, &other);
+        options.threads = 3;
+        run_block(&options, kind, false, 1, &other);
+        assert_same_bits(&whole, &other);
+    }
 }
 
 /* The two ways resolve the same breaks at the same times. */
-TEST(local_corrections_break_under_pressure_as_stops_of_the_whole_body_do)
+TEST(local_corrections_break_as_stops_of_the_whole_body_do)
 {
     static ending local, exact;
-    dem_options options = no_weight(1e-10, DEM_CONTACT_LOCAL);
-    run_block(&options, DEM_PLANE_STRESS, false, 1, &local);
-    options.contact = DEM_CONTACT_EXACT;
-    run_block(&options, DEM_PLANE_STRESS, false, 1, &exact);
-    double most = 0.0;
-    for (dem_index k = 0; k < local.n; k++) most = fmax(most, fabs(local.x[k] - exact.x[k]));
-    assert_memory_equal(local.broken, exact.broken, sizeof local.broken);
-    assert_true(most < 1e-7);
+    for (int kind = 0; kind < KINDS; kind++) {
+        dem_options options = no_weight(1e-10, DEM_CONTACT_LOCAL);
+        run_block(&options, kind, false, 1, &local);
+        options.contact = DEM_CONTACT_EXACT;
+        run_block(&options, kind, false, 1, &exact);
+        double most = 0.0;
+        for (dem_index k = 0; k < local.n; k++) most = fmax(most, fabs(local.x[k] - exact.x[k]));
+        assert_memory_equal(local.broken, exact.broken, sizeof local.broken);
+        assert_true(most < 1e-7);
+    }
 }
 
 /* ---- what is refused ---- */

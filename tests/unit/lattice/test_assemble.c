@@ -624,6 +624,33 @@ TEST(a_compressive_strength_that_is_none_is_refused)
     assert_int_equal(dem_lattice_assemble(&block, &m), DEM_OK);
 }
 
+/* It needs softening, gives another one for the same strength and energy, and is not for cells. */
+TEST(the_stress_of_elements_is_for_triangles_that_soften)
+{
+    dem_material m = {.struct_size = sizeof(dem_material),
+                      .youngs_modulus = 1e10,
+                      .density = 2440.0,
+                      .thickness = 1.0,
+                      .strength = 1e7,
+                      .stress_average = DEM_STRESS_AVERAGE_ELEMENT};
+    CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty(), cells = dem_lattice_empty();
+    assert_int_equal(dem_lattice_rectangle(&block, 5.0, 5.0, 1.0), DEM_OK);
+    assert_int_equal(dem_lattice_squares(&cells, 5.0, 5.0, 1.0), DEM_OK);
+    assert_refused(dem_lattice_assemble(&block, &m), DEM_ERROR_ARGUMENT, "a strength and a fracture energy only");
+    m.fracture_energy = 1.5e4; /* 1.5 strength^2 a/E */
+    assert_refused(dem_lattice_assemble(&block, &m), DEM_ERROR_ARGUMENT, "too large * which need 0.914634 m at most");
+    m.fracture_energy = 5e4;
+    assert_refused(dem_lattice_assemble_squares(&cells, &m, 0.5), DEM_ERROR_ARGUMENT, "but cells are asked for");
+    m.stress_average = (dem_stress_average)2;
+    assert_refused(dem_lattice_assemble(&block, &m), DEM_ERROR_ARGUMENT, "stress_average is 2");
+    m.stress_average = DEM_STRESS_AVERAGE_ELEMENT;
+    assert_int_equal(dem_lattice_assemble(&block, &m), DEM_OK);
+    for (dem_index t = 0; t < block.n_triangles; t++) {
+        assert_int_equal(block.own_stress[t], 1);
+        assert_close(block.softening[t], (5.0 - 0.2) / 0.48, 1e-10);
+    }
+}
+
 /* Springs are made anew, and what a lattice had of others is not theirs. */
 TEST(new_springs_have_no_old_critical_stretch)
 {

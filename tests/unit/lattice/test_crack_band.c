@@ -27,17 +27,31 @@ TEST(a_brittle_lattice_has_a_toughness_of_3_4)
  * between. */
 TEST(softening_has_the_toughness_that_was_measured)
 {
-    const double energy = 2.0, coarsest = crack_band_coarsest(modulus, energy, strength);
+    const crack_band *band = crack_band_of(false);
+    const double energy = 2.0, coarsest = crack_band_coarsest(band, modulus, energy, strength);
     double last = 1.0;
     assert_close(toughness(energy, strength, coarsest), 3.4, 1e-14);
-    assert_close(crack_band_softening(modulus, energy, strength, 1.5 * coarsest), 1.0, 0.0);
-    assert_close(crack_band_softening(modulus, energy, strength, coarsest), 1.0, 1e-14);
+    assert_close(crack_band_softening_of(band, toughness(energy, strength, 1.5 * coarsest)), 1.0, 0.0);
+    assert_close(crack_band_softening_of(band, toughness(energy, strength, coarsest)), 1.0, 1e-14);
     for (double size = coarsest; size > 0.05 * coarsest; size *= 0.99) {
-        const double q = crack_band_softening(modulus, energy, strength, size);
+        const double q = crack_band_softening_of(band, toughness(energy, strength, size));
         assert_true(q >= last && q < last + 0.05 * q); /* 1 % of the size is at most 0.041 times 1.07 of q */
         const double of_softening = q < 6.0 ? 2.0 + 1.07 * q : 8.42 + 1.29 * (q - 6.0);
         if (q >= 2.0) assert_close(of_softening, toughness(energy, strength, size), 1e-12 * q);
         last = q;
     }
     assert_true(last > 30.0);
+}
+
+/* 0.2 + 0.48 q from q = 3 on, where triangles are as large as they may. */
+TEST(softening_by_the_stress_of_elements_has_its_own_toughness)
+{
+    const crack_band *band = crack_band_of(true);
+    const double energy = 2.0, coarsest = crack_band_coarsest(band, modulus, energy, strength);
+    assert_close(toughness(energy, strength, coarsest), 0.2 + 0.48 * 3.0, 1e-14);
+    assert_close(crack_band_softening_of(band, toughness(energy, strength, 1.5 * coarsest)), 3.0, 0.0);
+    for (double q = 3.0; q < 50.0; q *= 1.1) {
+        assert_close(crack_band_toughness(band, q), 0.2 + 0.48 * q, 1e-14 * q);
+        assert_close(crack_band_softening_of(band, 0.2 + 0.48 * q), q, 1e-14 * q);
+    }
 }

@@ -333,7 +333,9 @@ TEST(limits_stay_with_their_elements)
     given.compressive_strength = calloc((size_t)given.n_triangles, sizeof *given.compressive_strength);
     given.confinement = calloc((size_t)given.n_triangles, sizeof *given.confinement);
     assert_true(given.strength != NULL && given.critical_stretch != NULL && given.softening != NULL);
-    assert_true(given.compressive_strength != NULL && given.confinement != NULL);
+    given.own_stress = calloc((size_t)given.n_triangles, sizeof *given.own_stress);
+    assert_true(given.compressive_strength != NULL && given.confinement != NULL && given.own_stress != NULL);
+    given.own_stress[1] = 1;
     for (dem_index t = 0; t < given.n_triangles; t++) given.compressive_strength[t] = 5e6 + (double)t;
     for (dem_index t = 0; t < given.n_triangles; t++) given.confinement[t] = 7.0 + (double)t;
     for (dem_index t = 0; t < given.n_triangles; t++) given.strength[t] = 1e6 + (double)t;
@@ -351,6 +353,7 @@ TEST(limits_stay_with_their_elements)
     const double compressive[4] = {INFINITY, 5e6, 5e6 + 1.0, INFINITY}, confinement[4] = {0.0, 7.0, 8.0, 0.0};
     assert_memory_equal(all.compressive_strength, compressive, sizeof compressive);
     assert_memory_equal(all.confinement, confinement, sizeof confinement);
+    assert_memory_equal(all.own_stress, "\0\0\1\0", 4);
     for (dem_index k = 0; k < 12; k++)
         assert_true(all.critical_stretch[k] == (k >= 3 && k < 9 ? 0.1 + (double)(k - 3) : (double)INFINITY));
     bool keep[32];
@@ -360,6 +363,7 @@ TEST(limits_stay_with_their_elements)
     assert_memory_equal(all.softening, softening + 1, 3 * sizeof *softening);
     assert_memory_equal(all.compressive_strength, compressive + 1, 3 * sizeof *compressive);
     assert_memory_equal(all.confinement, confinement + 1, 3 * sizeof *confinement);
+    assert_memory_equal(all.own_stress, "\0\1\0", 3);
     assert_true(all.critical_stretch[0] == 0.1 && all.critical_stretch[5] == 5.1);
     dem_lattice_free(&given);
     dem_lattice_free(&plain);

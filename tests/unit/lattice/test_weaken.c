@@ -62,7 +62,7 @@ TEST(where_triangles_soften_the_energy_of_a_crack_stays)
             assert_close(lattice.softening[t], 1.0, 0.0);
             continue;
         }
-        assert_close(crack_band_toughness(lattice.softening[t]) * f * f, before, 1e-13 * before);
+        assert_close(crack_band_toughness(crack_band_of(false), lattice.softening[t]) * f * f, before, 1e-13 * before);
         assert_close(f, fmin(factor[t], sqrt(before / 3.4)), 1e-14 * f);
         assert_true((lattice.softening[t] > 1.0) == (factor[t] < sqrt(before / 3.4)));
     }
@@ -84,8 +84,31 @@ TEST(an_energy_is_multiplied_where_triangles_soften)
     assert_int_equal(dem_lattice_weaken(&lattice, of_strength, of_energy, NULL), DEM_OK);
     for (dem_index t = 0; t < lattice.n_triangles; t++) {
         const double f = lattice.strength[t] / 3e6, energy = 7.35 * of_energy[t];
-        if (t < 15) assert_close(crack_band_toughness(lattice.softening[t]) * f * f, energy, 1e-13 * energy);
+        if (t < 15)
+            assert_close(crack_band_toughness(crack_band_of(false), lattice.softening[t]) * f * f, energy,
+                         1e-13 * energy);
         assert_close(f, t < 15 ? fmin(of_strength[t], sqrt(energy / 3.4)) : of_strength[t], 1e-14 * f);
+    }
+}
+
+/* By their own stress triangles have another toughness, and soften by q = 3 at least. */
+TEST(the_energy_stays_where_the_stress_of_elements_lets_them_soften)
+{
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_breakable();
+    double factor[most];
+    lattice.softening = calloc((size_t)lattice.n_triangles, sizeof *lattice.softening);
+    lattice.own_stress = calloc((size_t)lattice.n_triangles, 1);
+    assert_true(lattice.softening != NULL && lattice.own_stress != NULL);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        lattice.softening[t] = 6.0;
+        lattice.own_stress[t] = 1;
+        factor[t] = 0.5 + 0.1 * (double)(t % 12);
+    }
+    assert_int_equal(dem_lattice_weaken(&lattice, factor, NULL, NULL), DEM_OK);
+    for (dem_index t = 0; t < lattice.n_triangles; t++) {
+        const double f = lattice.strength[t] / 3e6, before = 0.2 + 0.48 * 6.0;
+        assert_close((0.2 + 0.48 * lattice.softening[t]) * f * f, before, 1e-13 * before);
+        assert_close(f, fmin(factor[t], sqrt(before / (0.2 + 0.48 * 3.0))), 1e-14 * f);
     }
 }
 

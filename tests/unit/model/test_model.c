@@ -276,6 +276,14 @@ TEST(limits_of_triangles_are_those_of_a_law)
     }
 }
 
+TEST(own_stress_is_a_flag)
+{
+    square s;
+    make_square(&s);
+    s.lattice.own_stress = (unsigned char[2]){1, 2};
+    refuse(&s, DEM_ERROR_MODEL, "triangle 1: own_stress must be 0 or 1, got 2");
+}
+
 TEST(a_node_without_springs_must_be_a_body_of_its_own)
 {
     square s;

@@ -174,6 +174,7 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
     put_real("softening", 2, 0, softening);
     put_real("compressive_strength", 2, 0, compressive);
     put_real("confinement", 2, 0, confinement);
+    put_whole("own_stress", 2, 0, (int64_t[2]){1, 0});
     put_real("strength", 2, 0, strength);
     put_real("critical_stretch", 6, 0, critical_stretch);
     put_real("viscosity", 6, 0, viscosity);
@@ -192,6 +193,7 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
         assert_memory_equal(lattice.softening, softening, sizeof softening);
         assert_memory_equal(lattice.compressive_strength, compressive, sizeof compressive);
         assert_memory_equal(lattice.confinement, confinement, sizeof confinement);
+        assert_memory_equal(lattice.own_stress, "\1\0", 2);
         assert_memory_equal(lattice.critical_stretch, critical_stretch, sizeof critical_stretch);
         assert_int_equal(hdf5_open_new(&file, path, 4096), DEM_OK);
         assert_int_equal(hdf5_close(&file, lattice_file_write(&file, &lattice, deflate)), DEM_OK);
@@ -205,6 +207,7 @@ TEST_WITH(optional_numbers_are_read_and_come_back_as_they_were_written, write_la
     assert_memory_equal(back.softening, softening, sizeof softening);
     assert_memory_equal(back.compressive_strength, compressive, sizeof compressive);
     assert_memory_equal(back.confinement, confinement, sizeof confinement);
+    assert_memory_equal(back.own_stress, "\1\0", 2);
     assert_memory_equal(back.critical_stretch, critical_stretch, sizeof critical_stretch);
 }
 
@@ -304,8 +307,8 @@ TEST_WITH(unknown_names_are_refused, write_lattice, remove_lattice)
             message, sizeof message,
             "%s: /lattice/%s: is none of the datasets of a lattice: x, mass, ends, rest_length, stiffness, "
             "viscosity, critical_stretch, triangles, guard, area_stiffness, "
-            "thickness, modulus, coupling, strength, softening, compressive_strength, confinement, body, position, "
-            "velocity, fixed, rigid, contact_nodes",
+            "thickness, modulus, coupling, strength, softening, compressive_strength, confinement, own_stress, body, "
+            "position, velocity, fixed, rigid, contact_nodes",
             path, names[k][1]);
         put_real(names[k][0], 5, 2, x);
         assert_refused(path, DEM_ERROR_IO, message);

@@ -115,6 +115,22 @@ TEST(a_compressive_strength_goes_with_a_strength_that_is_not_larger)
     assert_close(material_of(&r.deck, schema_get(&r.deck, "body", 0)).compressive_strength, 8e5, 0.0);
 }
 
+TEST(the_stress_of_elements_goes_with_softening)
+{
+    assert_checked(RAW "fracture = 'stress', strength = 1e5, stress_average = 'corners' /\n" BODY, "");
+    assert_checked(RAW "fracture = 'stress', strength = 1e5,\nstress_average = 'element' /\n" BODY,
+                   "3:1 'stress_average' in &material is 'element' only with both 'strength' and 'fracture_energy'");
+    assert_checked(RAW "fracture = 'stress', fracture_energy = 10,\nstress_average = 'element' /\n" BODY,
+                   "3:1 'stress_average' in &material is 'element' only with both 'strength' and 'fracture_energy'");
+    assert_checked(RAW "fracture = 'stretch', critical_stretch = 0.1,\nstress_average = 'element' /\n" BODY,
+                   "3:1 'stress_average' in &material is not used by fracture 'stretch'");
+    const char *const deck = RAW "fracture = 'stress', strength = 1e5, fracture_energy = 10,\n"
+                                 "stress_average = 'element' /\n" BODY;
+    assert_checked(deck, "");
+    CLEANUP(drop_resolved) resolved r = resolve_clean(deck);
+    assert_int_equal(material_of(&r.deck, schema_get(&r.deck, "body", 0)).stress_average, DEM_STRESS_AVERAGE_ELEMENT);
+}
+
 TEST(names_are_given_once_and_found)
 {
     assert_checked(RUN RUBBER RUBBER BODY, "3:11 material 'rubber' is given twice, first in line 2");
