@@ -394,7 +394,7 @@ DEM_API dem_status dem_simulation_set_motion(dem_simulation *simulation, const d
  *  Masses stay. Nodes and edges that come to the surface touch obstacles from then on, and bodies with the option
  *  `bodies`. The energy of what breaks counts as taken by `fracture`. What is over its limit in consequence breaks when
  *  the run goes on, at the same instant. Otherwise it goes on as after dem_simulation_set_motion(). What is broken
- *  already stays so.
+ *  already stays so; where all of it is nothing changes.
  *  \param triangle  [n_triangles] numbers in the lattice; of cells both triangles should break
  *  \param spring    [n_springs] numbers of springs that no triangle holds
  *  \return DEM_ERROR_ARGUMENT for a number that is out of range, an element of a rigid body, or a spring that triangles

@@ -32,12 +32,20 @@ static dem_status break_surfaces(dem_simulation *s, const mesh_boundary *boundar
     return s->surfaces != NULL ? surface_contact_break(s->surfaces, boundary) : DEM_OK;
 }
 
-/* What surfaces and overlaps had before. */
-static dem_status go_back(dem_simulation *s)
+/* Lists of surfaces fit a state, so that its energy is found without memory; NULL: that comes later. */
+static dem_status follow_state(dem_simulation *s, const double *y)
+{
+    return y != NULL ? body_contact_follow(s, y) : DEM_OK;
+}
+
+/* What surfaces and overlaps had before. Without memory for that overlaps still must not keep flags that are freed. */
+static dem_status go_back(dem_simulation *s, const double *y)
 {
     mesh_boundary before;
+    s->overlap.broken = broken_now(s);
     TRY(mesh_boundary_create(&before, &s->model->lattice, broken_now(s)));
     dem_status status = break_surfaces(s, &before);
+    if (status == DEM_OK) status = follow_state(s, y);
     if (status == DEM_OK) status = overlap_break(&s->overlap, &before, broken_now(s));
     mesh_boundary_free(&before);
     return status;
@@ -45,12 +53,13 @@ static dem_status go_back(dem_simulation *s)
 
 /* After a failure all is as it was, unless there is no memory to go back either. */
 static dem_status follow(dem_simulation *s, const element_state *next, const mesh_boundary *boundary,
-                         const surface *outline)
+                         const surface *outline, const double *y)
 {
     dem_status status = break_surfaces(s, boundary);
+    if (status == DEM_OK) status = follow_state(s, y);
     if (status == DEM_OK) status = overlap_break(&s->overlap, boundary, next->triangle);
     if (status == DEM_OK) status = contact_source_follow_surface(&s->contact_events, outline);
-    return status == DEM_OK ? DEM_OK : status_first(status, go_back(s));
+    return status == DEM_OK ? DEM_OK : status_first(status, go_back(s, y));
 }
 
 static void free_outline(surface *outline)
@@ -68,15 +77,15 @@ static dem_status find_boundary(const dem_simulation *s, const element_state *ne
     return mesh_boundary_create(out, &s->model->lattice, next->triangle);
 }
 
-/* Makes the outline that of the elements of a state. */
-static dem_status renew_outline(dem_simulation *s, const element_state *next)
+/* Makes the outline that of a state of elements.  \param y  [2 dim n_rows] the motion in it, or NULL */
+static dem_status renew_outline(dem_simulation *s, const element_state *next, const double *y)
 {
     mesh_boundary boundary = {0};
     surface *outline = calloc(1, sizeof *outline);
     dem_status status =
         outline != NULL ? find_boundary(s, next, &boundary) : status_fail(DEM_ERROR_MEMORY, "out of memory");
     if (status == DEM_OK) status = surface_compile_broken(outline, &boundary, next->triangle, s->boundaries.held);
-    if (status == DEM_OK) status = follow(s, next, &boundary, outline);
+    if (status == DEM_OK) status = follow(s, next, &boundary, outline, y);
     free_outline(status == DEM_OK ? s->outline : outline);
     mesh_boundary_free(status == DEM_OK ? &s->boundary : &boundary);
     if (status != DEM_OK) return status;
@@ -87,9 +96,9 @@ static dem_status renew_outline(dem_simulation *s, const element_state *next)
 }
 
 /* The state of elements becomes `next`, which is taken over or freed. */
-static dem_status renew(dem_simulation *s, element_state *next)
+static dem_status renew(dem_simulation *s, element_state *next, const double *y)
 {
-    const dem_status status = renew_outline(s, next);
+    const dem_status status = renew_outline(s, next, y);
     element_state_destroy(status == DEM_OK ? &s->elements : next);
     if (status != DEM_OK) return status;
     s->elements = *next;
@@ -146,8 +155,9 @@ void breaking_check_step(dem_simulation *s)
 dem_status breaking_follow(dem_simulation *s, const double *y)
 {
     if (!fracture_source_has_broken(&s->breaks)) return DEM_OK;
+    TRY(body_contact_follow(s, y));
     const double before = s->surfaces != NULL ? set_motion_energy(s, y) : 0.0;
-    TRY(renew_outline(s, &s->elements));
+    TRY(renew_outline(s, &s->elements, y));
     kernel_follow(&s->kernel, &s->elements, s->breaks.broken, s->breaks.breaks.n);
     if (s->surfaces != NULL) s->fracture += before - set_motion_energy(s, y);
     return DEM_OK;
@@ -261,7 +271,7 @@ static dem_status check_list(const char *what, const dem_index *list, dem_index 
 }
 
 /* All that can be refused is refused before anything is replaced. What breaks by itself later in the step in hand is
- * taken back first. */
+ * taken back first. Where nothing is left to break nothing changes, contacts and ramps included. */
 dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, dem_index n_triangles,
                                 const dem_index *spring, dem_index n_springs)
 {
@@ -271,12 +281,16 @@ dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, de
     CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_break: an advance is under way");
     TRY(check_list("triangles", triangle, n_triangles));
     TRY(check_list("springs", spring, n_springs));
+    if (n_triangles == 0 && n_springs == 0) return DEM_OK;
     TRY(set_motion_take_seen(s, &seen));
+    TRY(reduce_status(body_contact_follow(s, s->frame), 0.0));
     const dem_index n_given = s->given.n;
     dem_status status = reduce_status(break_all(s, &next, triangle, n_triangles, spring, n_springs), 0.0);
-    if (status != DEM_OK) element_state_destroy(&next);
+    const bool all_broken = status == DEM_OK && !reduce_any(s->given.n > n_given);
+    if (status != DEM_OK || all_broken) element_state_destroy(&next);
+    if (all_broken) return DEM_OK;
     const double before = status == DEM_OK ? set_motion_energy(s, s->frame) : 0.0;
-    if (status == DEM_OK) status = reduce_status(renew(s, &next), 0.0);
+    if (status == DEM_OK) status = reduce_status(renew(s, &next, s->frame), 0.0);
     if (status != DEM_OK) {
         s->given.n = n_given;
         return status;
@@ -415,7 +429,7 @@ dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
     CHECK(isfinite(s->fracture), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");
     if (is_the_same(s, &flags)) return DEM_OK;
     const dem_status status = break_flagged(s, &next, &flags);
-    if (status == DEM_OK) return renew(s, &next);
+    if (status == DEM_OK) return renew(s, &next, NULL);
     element_state_destroy(&next);
     return status;
 }

@@ -436,6 +436,36 @@ TEST(pieces_that_overlap_are_counted)
     assert_true(ask_overlap(run.simulation).most > 5);
 }
 
+/* A body on the floor goes on to the same bits, with the contacts that it has, when nothing breaks, or nothing that is
+ * not broken already. */
+TEST(to_break_nothing_changes_nothing)
+{
+    static const double ground[4] = {-1.0, 0.0, 1.0, 0.0};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = ground);
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+    const numbers row = across(&block, middle);
+    motion end[2];
+    dem_index releases[2];
+    for (int again = 0; again < 2; again++) {
+        const dem_options options = dem_options_default();
+        CLEANUP(support_close) support_run run;
+        support_open(&run, &block, &floor, 1, &options);
+        break_triangles(run.simulation, &row);
+        (void)support_at(&run, t_break);
+        const dem_index n = ask_state(run.simulation).n_contacts;
+        assert_true(n > 0);
+        if (again) {
+            break_triangles(run.simulation, &row);
+            assert_ok(dem_simulation_break(run.simulation, NULL, 0, NULL, 0));
+        }
+        assert_int_equal(ask_state(run.simulation).n_contacts, n);
+        end[again] = support_at(&run, t_end);
+        releases[again] = ask_counts(run.simulation).releases;
+        assert_memory_equal(&end[again].energy, &end[0].energy, sizeof end->energy);
+        assert_int_equal(releases[again], releases[0]);
+    }
+}
+
 /* ---- what is refused ---- */
 
 TEST(what_cannot_break_is_refused_and_nothing_changes)
