@@ -451,16 +451,6 @@ dem_status kernel_watch(kernel *k, const float *threshold)
     return DEM_OK;
 }
 
-/* The springs that the node at place q evaluates, or all of its springs where nodes are renumbered. */
-static void visit_place(const kernel *k, dem_index q, kernel_visitor *visit, void *context)
-{
-    const layout *l = &k->model->layout;
-    const springs *s = &k->model->springs;
-    const dem_index i = layout_node(l, q);
-    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-        if (l->order != NULL || s->neighbour[p] > i) visit(context, s->spring[p]);
-}
-
 /* Which nodes have strained springs. */
 static void find_strained(kernel *k, const element_state *e, const double *x)
 {
@@ -474,6 +464,27 @@ static void find_strained(kernel *k, const element_state *e, const double *x)
     THREADS_RUN(k->n_threads, t, k->sweep_strain(&s, share_of(k, t).first, share_of(k, t).last));
 }
 
+/* A layout that is not trimmed has broken springs, too, whose ends may be anywhere. */
+static bool has_strained(const kernel *k, springs_integrity left, dem_index i, double limit, const double *x)
+{
+    const springs *s = &k->model->springs;
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+        if (!springs_is_broken(left, s->spring[p]) && !(fabs(springs_strain(s, i, p, x)) < limit - 1e-12)) return true;
+    return false;
+}
+
+static void visit_block(const kernel *k, const element_state *e, const double *x, dem_index block,
+                        kernel_visitor *visit, void *context)
+{
+    const element_state *broken = is_trimmed(k, e) ? NULL : e;
+    for (unsigned lane = 0, nodes = k->strained[block]; nodes >> lane != 0; lane++) {
+        if (!(nodes >> lane & 1)) continue;
+        const dem_index i = layout_node(&k->model->layout, LAYOUT_LANES * block + lane);
+        const springs_integrity left = element_state_springs(element_state_at(broken, i));
+        if (left.pushed == NULL || has_strained(k, left, i, k->limit[block], x)) visit(context, i);
+    }
+}
+
 /* What a fused step has found is asked for once: the next who asks may have changed the positions. */
 void kernel_visit_strained(kernel *k, const element_state *e, const double *x, kernel_visitor *visit, void *context)
 {
@@ -481,9 +492,8 @@ void kernel_visit_strained(kernel *k, const element_state *e, const double *x, k
     if (k->watched != x) find_strained(k, e, x);
     k->watched = NULL;
     for (dem_index block = 0; block < l->n_blocks; block++)
-        for (int lane = 0; lane < LAYOUT_LANES && k->strained[block] != 0; lane++)
-            if (k->strained[block] >> lane & 1) visit_place(k, LAYOUT_LANES * block + lane, visit, context);
-    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) visit_place(k, q, visit, context);
+        if (k->strained[block] != 0) visit_block(k, e, x, block, visit, context);
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) visit(context, layout_node(l, q));
 }
 
 /* ---- the guard ---- */

@@ -45,11 +45,11 @@ void kernel_follow(kernel *k, const element_state *elements, const dem_index *li
  *  \return DEM_ERROR_MEMORY */
 dem_status kernel_watch(kernel *k, const float *threshold);
 
-typedef void kernel_visitor(void *context, dem_index spring);
+typedef void kernel_visitor(void *context, dem_index node);
 
-/** Visits springs at positions x [n][2]: all that are not broken and strained by more than their thresholds, and others
- *  near those, in some order, some of them twice. They are watched. If x is where a fused step has just ended, the
- *  step itself has found them: no other positions may stand there by now. */
+/** Visits at least one end of each spring that is not broken and, at positions x [n][2], strained by more than its
+ *  threshold; and other nodes near those, in some order. Strains are watched. If x is where a fused step has just
+ *  ended, the step itself has found them: no other positions may stand there by now. */
 void kernel_visit_strained(kernel *k, const element_state *elements, const double *x, kernel_visitor *visit,
                            void *context);
 

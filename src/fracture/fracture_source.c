@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fracture as a source of events (docs/method.md, Fracture). begin() looks at the end of the step where springs are
- * strained and triangles stressed enough (strain_filter.c), and searches the step for elements that are at their limit
- * there or nearly so; a heap holds the times at which they break. What breaks at the same time, to the width of a root,
+ * strained (strain_filter.c) and nodes stressed enough, and searches the step for elements that are at their limit there
+ * or nearly so; a heap holds the times at which they break. What breaks at the same time, to the width of a root,
  * breaks together. After an event the elements near it are looked at again. A break changes the stresses beside it at
  * once: what is then over its limit breaks at the same instant. undo() mends what has broken in the step, to the bit.
  * Surfaces follow at the end of the step (simulation/breaking.c): new ones cannot touch anything within it. */
@@ -23,23 +23,35 @@ enum { N_SAMPLES = 8 };
 
 /* ---- set-up ---- */
 
-dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements, double *taken,
-                                  dem_index most)
+/* What the kernel is given is not kept: its limits of blocks are all that is asked. */
+static dem_status watch(fracture_source *s)
 {
-    const size_t n = (size_t)model->lattice.n_nodes;
-    const dem_index n_elements = utilisation_n_elements(&model->lattice);
-    fracture_source s = {.model = model, .elements = elements, .taken = taken};
-    s.most = most >= 0 ? most : n_elements;
-    s.stress = malloc(3 * n * sizeof *s.stress);
-    s.placed = calloc(n, sizeof *s.placed);
-    s.known = calloc(n, sizeof *s.known);
-    s.seen = calloc((size_t)model->lattice.n_triangles + 1, sizeof *s.seen);
-    s.strained = calloc((size_t)model->lattice.n_triangles + 1, sizeof *s.strained);
-    s.failing = calloc(1, sizeof *s.failing);
-    dem_status status = event_heap_create(&s.heap, n_elements);
-    if (status == DEM_OK) status = strain_filter_create(&s.filter, model, elements, near_limit);
-    if (status == DEM_OK && !(s.stress && s.placed && s.known && s.seen && s.strained && s.failing))
-        status = status_fail(DEM_ERROR_MEMORY, "out of memory for the stresses of %zu nodes", n);
+    TRY(strain_filter_create(&s->filter, s->model, s->elements, near_limit));
+    TRY(kernel_watch(s->kernel, s->filter.threshold));
+    strain_filter_forget_thresholds(&s->filter);
+    return DEM_OK;
+}
+
+static dem_status allocate(fracture_source *s)
+{
+    const dem_lattice *l = &s->model->lattice;
+    s->placed = calloc((size_t)l->n_nodes + 1, sizeof *s->placed);
+    s->asked = calloc((size_t)l->n_nodes + 1, sizeof *s->asked);
+    s->seen = calloc((size_t)l->n_triangles + 1, sizeof *s->seen);
+    s->failing = calloc(1, sizeof *s->failing);
+    CHECK(s->placed && s->asked && s->seen && s->failing, DEM_ERROR_MEMORY,
+          "out of memory for the stresses of %lld nodes", (long long)l->n_nodes);
+    TRY(event_heap_create(&s->heap, utilisation_n_elements(l)));
+    TRY(stress_cache_create(&s->stress, s->model, s->elements));
+    return watch(s);
+}
+
+dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements, double *taken,
+                                  dem_index most, kernel *by)
+{
+    fracture_source s = {.model = model, .elements = elements, .taken = taken, .kernel = by};
+    s.most = most >= 0 ? most : utilisation_n_elements(&model->lattice);
+    const dem_status status = allocate(&s);
     if (status == DEM_OK)
         *out = s;
     else
@@ -52,12 +64,11 @@ void fracture_source_destroy(fracture_source *s)
     event_heap_destroy(&s->heap);
     if (s->failing != NULL) failing_elements_destroy(s->failing);
     free(s->failing);
-    free(s->stress);
+    stress_cache_destroy(&s->stress);
     strain_filter_destroy(&s->filter);
     free(s->placed);
-    free(s->known);
+    free(s->asked);
     free(s->seen);
-    free(s->strained);
     free(s->failed);
     free(s->broken);
     break_list_destroy(&s->breaks);
@@ -129,7 +140,7 @@ static void place_around(fracture_source *s, dem_index i, double t)
     }
 }
 
-/* Numbers begin anew after 2^32 of them, and so do marks with these. */
+/* Numbers are so short that marks begin anew with them from time to time, which costs less than wider marks would. */
 static void begin_look(fracture_source *s)
 {
     if (++s->look != 0) return;
@@ -141,9 +152,8 @@ static void begin_number(fracture_source *s)
 {
     const dem_lattice *l = &s->model->lattice;
     if (++s->number != 0) return;
-    memset(s->known, 0, (size_t)l->n_nodes * sizeof *s->known);
+    memset(s->asked, 0, (size_t)l->n_nodes * sizeof *s->asked);
     memset(s->seen, 0, (size_t)l->n_triangles * sizeof *s->seen);
-    memset(s->strained, 0, (size_t)l->n_triangles * sizeof *s->strained);
     s->number = 1;
 }
 
@@ -158,23 +168,14 @@ static double utilisation_at(fracture_source *s, dem_index element, double t)
     return utilisation_of(s->model, s->elements, element, s->state);
 }
 
-/* At the end of the step, computed when it is first asked for. */
-static const double *stress_at_end(fracture_source *s, dem_index i)
-{
-    if (s->known[i] != s->number)
-        node_stress(s->model, s->elements, NODE_STRESS_EFFECTIVE, i, s->step->y1, &s->stress[3 * i]);
-    s->known[i] = s->number;
-    return &s->stress[3 * i];
-}
-
 static double utilisation_at_end(fracture_source *s, dem_index element)
 {
     const dem_lattice *l = &s->model->lattice;
+    double stress[3][3];
     if (element >= l->n_triangles || utilisation_by_own_stress(l, element))
         return utilisation_of(s->model, s->elements, element, s->step->y1);
-    const dem_index *corner = &l->triangles[3 * element];
-    return utilisation_of_stress(utilisation_limits_of(l, s->elements, element), stress_at_end(s, corner[0]),
-                                 stress_at_end(s, corner[1]), stress_at_end(s, corner[2]));
+    for (int c = 0; c < 3; c++) stress_cache_find(&s->stress, l->triangles[3 * element + c], stress[c]);
+    return utilisation_of_stress(utilisation_limits_of(l, s->elements, element), stress[0], stress[1], stress[2]);
 }
 
 /* The root of 1 - utilisation between two times, above 0 before and not above 0 after. */
@@ -227,118 +228,65 @@ static void look_at(fracture_source *s, dem_index element)
     if (isfinite(due)) event_heap_set(&s->heap, element, due);
 }
 
-static void look_at_triangles_of(fracture_source *s, dem_index i)
+/* Whether a triangle may be near its limit by the stress at one of its corners: without confinement, which only lowers
+ * it, its utilisation is a convex function of the mean of three stresses, and not larger than by each of them in the
+ * mean. The last digits may differ. */
+static bool may_be_near(utilisation_limits limits, const double *stress)
+{
+    limits.confinement = 0.0;
+    return !(utilisation_of_stress(limits, stress, stress, stress) < 0.999 * near_limit);
+}
+
+static void look_at_triangles_of(fracture_source *s, dem_index i, const double *stress)
 {
     const element_state *e = s->elements;
     for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
         const dem_index t = e->at[p];
-        if (s->seen[t] != s->number) look_at(s, t);
+        if (s->seen[t] == s->number || !may_break(s, t)) continue;
+        if (!may_be_near(utilisation_limits_of(e->lattice, e, t), stress)) continue;
         s->seen[t] = s->number;
+        look_at(s, t);
     }
 }
 
-static void look_around(fracture_source *s, dem_index triangle)
+/* Most nodes are far from what the weakest triangle of all stands. */
+static void ask(fracture_source *s, dem_index i)
 {
-    for (int c = 0; c < 3; c++) look_at_triangles_of(s, s->model->lattice.triangles[3 * triangle + c]);
+    double stress[3];
+    if (s->asked[i] == s->number) return;
+    s->asked[i] = s->number;
+    stress_cache_find(&s->stress, i, stress);
+    if (may_be_near(s->filter.weakest, stress)) look_at_triangles_of(s, i, stress);
 }
 
-/* Whether a triangle may bring one with which it shares a corner near its limit: stresses of nodes are means of those
- * of triangles, of which the utilisations by the weakest limits are at least as large in the mean. The last digits may
- * differ. */
-static bool may_drive(const fracture_source *s, dem_index triangle)
-{
-    double own[3];
-    node_stress_of_triangle(s->model, s->elements, triangle, s->step->y1, own);
-    return !(utilisation_of_stress(strain_filter_weakest(&s->filter, triangle), own, own, own) < 0.999 * near_limit);
-}
-
-static void look_near_triangle(fracture_source *s, dem_index triangle)
-{
-    s->strained[triangle] = s->number;
-    if (may_drive(s, triangle)) look_around(s, triangle);
-}
-
-/* Where a threshold is 0 stresses of nodes are no means of those of triangles: all at its ends, and around those that
- * hold it, get a look. */
-static void look_everywhere_near(fracture_source *s, dem_index spring)
-{
-    const element_state *e = s->elements;
-    for (int end = 0; end < 2; end++) {
-        const dem_index i = s->model->lattice.ends[2 * spring + end];
-        look_at_triangles_of(s, i);
-        for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
-            if (element_state_holds(e, e->at[p], spring)) look_around(s, e->at[p]);
-    }
-}
-
-/* Looks around the triangles at one end of a spring that hold it.
- * \return whether it is a side of any: all that hold it have both of its ends then */
-static bool look_near_end(fracture_source *s, dem_index spring, int end)
+static void look_at_springs_of(fracture_source *s, dem_index i)
 {
     const dem_lattice *l = &s->model->lattice;
-    const element_state *e = s->elements;
-    const dem_index i = l->ends[2 * spring + end], other = l->ends[2 * spring + 1 - end];
-    bool is_side = false;
-    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
-        const dem_index t = e->at[p];
-        const bool along = element_state_is_corner(e, t, other);
-        is_side = is_side || along;
-        if (s->strained[t] == s->number) continue;
-        if (along ? !e->triangle[t] : element_state_holds(e, t, spring)) look_near_triangle(s, t);
-    }
-    return is_side;
-}
-
-/* All that a spring over its threshold may bring to its limit: itself, and the triangles that share a corner with one
- * that holds it, and that is stressed enough. A triangle has an end of each spring that it holds as a corner. */
-static void look_near(fracture_source *s, dem_index spring)
-{
-    const dem_lattice *l = &s->model->lattice;
-    if (l->critical_stretch != NULL) look_at(s, l->n_triangles + spring);
-    if (l->strength == NULL) return;
-    if (s->filter.threshold[spring] == 0.0f) {
-        look_everywhere_near(s, spring);
-        return;
-    }
-    if (!look_near_end(s, spring, 0)) (void)look_near_end(s, spring, 1);
-}
-
-static void look_at_all(fracture_source *s)
-{
-    enum { BLOCK = 256 };
-    const dem_lattice *l = &s->model->lattice;
-    double strain[BLOCK];
-    for (dem_index first = 0; first < l->n_springs; first += BLOCK) {
-        const int n = l->n_springs - first < BLOCK ? (int)(l->n_springs - first) : BLOCK;
-        springs_strain_block(l, first, n, s->step->y1, strain);
-        for (int q = 0; q < n; q++)
-            if (!(fabs(strain[q]) < (double)s->filter.threshold[first + q]) && s->elements->integrity[first + q] > 0.0)
-                look_near(s, first + q);
+    const springs *own = &s->model->springs;
+    for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) {
+        const dem_index k = own->spring[p];
+        if (!(springs_strain_of(l, k, s->step->y1) < near_limit * l->critical_stretch[k]))
+            look_at(s, l->n_triangles + k);
     }
 }
 
-/* The kernel visits springs that may be over their thresholds. */
-static void look_if_strained(void *self, dem_index spring)
+/* The kernel visits a node of each spring that is over its threshold. All that this may bring to its limit: springs at
+ * the node, and triangles with a corner at one that holds the spring. The corners of these are neighbours of the node,
+ * or have been noted otherwise (strain_filter.c). */
+static void look_near(void *self, dem_index i)
 {
     fracture_source *s = self;
-    const double strain = springs_strain_of(&s->model->lattice, spring, s->step->y1);
-    if (!(fabs(strain) < (double)s->filter.threshold[spring]) && s->elements->integrity[spring] > 0.0)
-        look_near(s, spring);
+    const springs *own = &s->model->springs;
+    if (s->model->lattice.critical_stretch != NULL) look_at_springs_of(s, i);
+    if (s->model->lattice.strength == NULL) return;
+    ask(s, i);
+    for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) ask(s, own->neighbour[p]);
 }
 
 static void look(fracture_source *s)
 {
-    if (s->kernel != NULL)
-        kernel_visit_strained(s->kernel, s->elements, s->step->y1, look_if_strained, s);
-    else
-        look_at_all(s);
-}
-
-dem_status fracture_source_watch(fracture_source *s, kernel *by)
-{
-    TRY(kernel_watch(by, s->filter.threshold));
-    s->kernel = by;
-    return DEM_OK;
+    kernel_visit_strained(s->kernel, s->elements, s->step->y1, look_near, s);
+    for (dem_index k = 0; k < s->filter.n_always; k++) ask(s, s->filter.always[k]);
 }
 
 /* What undo() goes back to. */
@@ -354,6 +302,7 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
     fracture_source *s = self;
     s->step = step;
     begin_number(s);
+    stress_cache_begin(&s->stress, step->y1);
     s->state = state;
     s->jumped = false;
     note_start(s);
@@ -486,7 +435,7 @@ static void fracture_source_follow(void *self, const event_place *at)
     const dem_lattice *l = &s->model->lattice;
     const local_nodes *nodes = &at->near->nodes;
     const element_state *e = s->elements;
-    for (dem_index j = 0; j < nodes->n; j++) s->known[nodes->list[j]] = s->number - 1;
+    for (dem_index j = 0; j < nodes->n; j++) stress_cache_forget(&s->stress, nodes->list[j]);
     for (dem_index j = 0; j < nodes->n; j++) {
         const dem_index i = nodes->list[j];
         const springs *all = &s->model->springs;

@@ -9,23 +9,23 @@
 #include "forces/kernel.h"
 #include "fracture/failing_elements.h"
 #include "fracture/strain_filter.h"
+#include "fracture/stress_cache.h"
 
 typedef struct fracture_source {
     const dem_model *model;
     element_state *elements;
-    kernel *kernel;           /* watches strains; NULL: all springs are looked at */
+    kernel *kernel;           /* watches strains */
     double *taken;            /* J, by all that has broken or softened: the ledger's */
     dem_index most;           /* elements that may break in a step; for more it is rejected */
     const dense_output *step; /* the accepted one */
     double *state;            /* [2 dim n_rows] scratch, the queue's */
     strain_filter filter;
-    uint32_t number;           /* of the step */
-    double *stress;            /* [n_nodes][3] Pa, at the end of the step, */
-    uint32_t *known;           /* [n_nodes] where this is the number of the step */
-    uint32_t *seen;            /* [n_triangles] the number of the step in which one was looked at last, */
-    uint32_t *strained;        /* [n_triangles] and in which one was last asked what it may drive */
-    uint32_t *placed;          /* [n_nodes] the look at which a node was put into `state` last */
-    uint32_t look;             /* number of the present one */
+    stress_cache stress;       /* at the end of the step */
+    uint8_t number;            /* of the step */
+    uint8_t look;              /* of the present look at a time within it */
+    uint8_t *asked;            /* [n_nodes] the number of the step in which the stress at one was looked at last */
+    uint8_t *seen;             /* [n_triangles] the same of triangles near their limits */
+    uint8_t *placed;           /* [n_nodes] the look at which a node was put into `state` last */
     event_heap heap;           /* elements by the time at which they break or soften */
     failing_elements *failing; /* those that do so next, or have done so last */
     bool jumped;               /* some have, and others may be over their limits at once */
@@ -37,15 +37,12 @@ typedef struct fracture_source {
     double taken_before; /* J */
 } fracture_source;
 
-/** Borrows all three.  \param most  elements that may break in a step, or -1 for any number
+/** Borrows all four.  \param most  elements that may break in a step, or -1 for any number
+ *  \param by  the kernel of the same model, by which strained springs are found from now on
  *  \return DEM_ERROR_MEMORY. Free with fracture_source_destroy() */
 dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements, double *taken,
-                                  dem_index most);
+                                  dem_index most, kernel *by);
 void fracture_source_destroy(fracture_source *s);
-
-/** From now on finds springs that are strained by a kernel of the same model, which it borrows.
- *  \return DEM_ERROR_MEMORY */
-dem_status fracture_source_watch(fracture_source *s, kernel *by);
 
 /** \return DEM_ERROR_MODEL if an element is beyond its limit at positions x [n][2] */
 dem_status fracture_source_check_start(const fracture_source *s, const double *x);

@@ -1,50 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* No principal stress of a triangle is larger than C m, nor a larger pressure, with m the largest |strain| of its
- * springs:
- *   C = (1/V) (sum over springs of w E d0 (1 + m) + sum over couplings of 2 |gamma| L1 L2 (1 + m)
- *              + |kappa| A0 c (1 + c m)^2),   c = sum over edges of |d ln A/d ln L| = L^2 |cot(opposite angle)|/(2 A).
- * The bound is used for m <= 0.1 and c m <= 0.3 alone, where the guard does not press yet. A node's stress is a mean
- * of those of its triangles, and a triangle's utilisation that of a mean of nodes' stresses. Without confinement,
- * which only lowers it, the utilisation is a sum of convex functions of the stress, and so at most the mean of the
- * utilisations by those stresses: if a triangle is near its limit, one of those with which it shares a corner is by
- * the same limits, and has a spring strained by near_limit/(C/strength + C/compressive strength). A spring that no
- * triangle holds adds to the stress without a bound; beside it, and at a triangle of which an edge has no spring,
- * every step takes a look: the threshold is 0. By the same means, of triangles with a strained spring only those need
- * a look around them whose own utilisation, by the least limits around, is near_limit (may_drive() in
- * fracture_source.c): most are strained by compression, and do not break by that. */
+/* Strains bound the stress of a triangle (stress_bound.c). A node's stress is a mean of those of its triangles, and a
+ * triangle's utilisation that of a mean of nodes' stresses. Without confinement, which only lowers it, the utilisation
+ * is a sum of convex functions of the stress, and so at most the mean of the utilisations by those stresses: if a
+ * triangle is near its limit, so is one of its corners by the triangle's limits, and one of the triangles at that
+ * corner. With all principal stresses below s in size it is below s (1/strength + 1/compressive strength). A spring that
+ * no triangle holds adds to the stress of its ends without a bound, and so does a triangle of which an edge has no
+ * spring to that of its corners: these nodes are listed, and get a look at every step. */
 #include "fracture/strain_filter.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/grow.h"
 #include "base/status.h"
-#include "base/vec2.h"
+#include "fracture/stress_bound.h"
 #include "fracture/utilisation.h"
-#include "model/spring_share.h"
-
-static const double most_strain = 0.1, most_growth = 0.3; /* m, c m */
-
-/* A triangle at rest. */
-typedef struct shape {
-    double length[3];   /* m, of the edge from corner c to the next */
-    double sensitivity; /* c above */
-    double area;
-} shape;
-
-static shape shape_of(const dem_lattice *l, dem_index triangle)
-{
-    const dem_index *corner = &l->triangles[3 * triangle];
-    shape s = {.sensitivity = 0.0};
-    vec2 x[3];
-    for (int c = 0; c < 3; c++) x[c] = vec2_at(l->x, corner[c]);
-    s.area = vec2_triangle_area(x[0], x[1], x[2]);
-    for (int c = 0; c < 3; c++) s.length[c] = vec2_norm(vec2_sub(x[(c + 1) % 3], x[c]));
-    for (int c = 0; c < 3; c++) {
-        const double a = s.length[c], b = s.length[(c + 1) % 3], d = s.length[(c + 2) % 3];
-        s.sensitivity += a * a * fabs(b * b + d * d - a * a) / (8.0 * s.area * s.area);
-    }
-    return s;
-}
 
 /* Whether all edges of a triangle have springs: those that it holds between its own corners are three. */
 static bool has_all_edges(const dem_lattice *l, const element_state *s, dem_index triangle)
@@ -59,39 +29,37 @@ static bool has_all_edges(const dem_lattice *l, const element_state *s, dem_inde
     return n == 3;
 }
 
-/* The strain below which neither tension nor pressure of a triangle reaches `stress`. */
-static double strain_for(const dem_lattice *l, const element_state *s, dem_index triangle, double stress)
+static const utilisation_limits unlimited = {.tension = (double)INFINITY, .pressure = (double)INFINITY};
+
+/* Of a triangle that may break, whatever the pressure across. */
+static utilisation_limits limits_of(const dem_lattice *l, dem_index triangle)
 {
-    const shape at_rest = shape_of(l, triangle);
-    const double growth = 1.0 + most_growth;
-    double sum = 0.0;
-    if (!has_all_edges(l, s, triangle)) return 0.0;
-    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
-        sum += s->share[p] * l->stiffness[s->spring[p]] * l->rest_length[s->spring[p]] * (1.0 + most_strain);
-    for (int c = 0; c < 3 && l->coupling != NULL; c++)
-        sum += 2.0 * fabs(l->coupling[3 * triangle + c]) * at_rest.length[c] * at_rest.length[(c + 2) % 3] *
-               (1.0 + most_strain);
-    if (l->area_stiffness != NULL)
-        sum += fabs(l->area_stiffness[triangle]) * at_rest.area * at_rest.sensitivity * growth * growth;
-    const double strain = stress * spring_share_volume(l, triangle) / sum;
-    return fmin(strain, fmin(most_strain, most_growth / at_rest.sensitivity));
+    utilisation_limits limits = unlimited;
+    if (!utilisation_is_limited(l, triangle)) return limits;
+    limits.tension = l->strength[triangle];
+    if (l->compressive_strength != NULL) limits.pressure = l->compressive_strength[triangle];
+    return limits;
 }
 
-/* The least limit of the triangles at a node that may break; infinity: none does.
- * \param limits  [n_triangles] their strengths, or compressive strengths */
-static double weakest_at(const dem_lattice *l, const double *limits, const element_state *s, dem_index i)
+/* The lower one of each. */
+static utilisation_limits weaker(utilisation_limits a, utilisation_limits b)
 {
-    double least = (double)INFINITY;
-    for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++)
-        if (utilisation_is_limited(l, s->at[p])) least = fmin(least, limits[s->at[p]]);
+    return (utilisation_limits){.tension = fmin(a.tension, b.tension), .pressure = fmin(a.pressure, b.pressure)};
+}
+
+/* The least limits of the triangles at a node. */
+static utilisation_limits weakest_at(const dem_lattice *l, const element_state *s, dem_index i)
+{
+    utilisation_limits least = unlimited;
+    for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++) least = weaker(least, limits_of(l, s->at[p]));
     return least;
 }
 
 /* The same of the triangles that share a corner with one. */
-static double weakest_around(const dem_lattice *l, const double *limits, const element_state *s, dem_index triangle)
+static utilisation_limits weakest_around(const dem_lattice *l, const element_state *s, dem_index triangle)
 {
-    double least = (double)INFINITY;
-    for (int c = 0; c < 3; c++) least = fmin(least, weakest_at(l, limits, s, l->triangles[3 * triangle + c]));
+    utilisation_limits least = unlimited;
+    for (int c = 0; c < 3; c++) least = weaker(least, weakest_at(l, s, l->triangles[3 * triangle + c]));
     return least;
 }
 
@@ -106,81 +74,84 @@ static float round_down(double number)
 static void enter_triangle(strain_filter *f, const dem_lattice *l, const element_state *s, dem_index triangle,
                            double near_limit)
 {
-    const utilisation_limits weakest = strain_filter_weakest(f, triangle);
+    const utilisation_limits weakest = weakest_around(l, s, triangle);
     if (isinf(weakest.tension)) return;
     const double stress = near_limit * weakest.tension / (1.0 + weakest.tension / weakest.pressure);
-    const float strain = round_down(strain_for(l, s, triangle, stress));
+    const float strain = round_down(stress_bound_strain(l, s, triangle, stress));
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
         f->threshold[s->spring[p]] = fminf(f->threshold[s->spring[p]], strain);
 }
 
-/* All springs at a corner are always over their threshold. */
-static void enter_corner(strain_filter *f, const springs *all, dem_index i)
-{
-    for (dem_index p = all->row[i]; p < all->row[i + 1]; p++) f->threshold[all->spring[p]] = 0.0f;
-}
-
-/* A triangle of which an edge has no spring may be stressed whatever its springs are. */
-static void enter_corners(strain_filter *f, const dem_model *m, const element_state *s, dem_index triangle)
-{
-    if (isinf(f->least[triangle]) || has_all_edges(&m->lattice, s, triangle)) return;
-    for (int c = 0; c < 3; c++) enter_corner(f, &m->springs, m->lattice.triangles[3 * triangle + c]);
-}
-
-/* Springs at a node beside one that no triangle holds are always over their threshold. */
-static void enter_loose(strain_filter *f, const dem_model *m, const element_state *s, dem_index spring)
-{
-    for (int end = 0; end < 2 && !s->held[spring]; end++) {
-        const dem_index i = m->lattice.ends[2 * spring + end];
-        if (isfinite(weakest_at(&m->lattice, m->lattice.strength, s, i))) enter_corner(f, &m->springs, i);
-    }
-}
-
 /* Triangles without a strength have no limits, and nothing to be asked. */
-static void enter_triangles(strain_filter *f, const dem_model *m, const element_state *s, double near_limit)
+static void enter_triangles(strain_filter *f, const dem_lattice *l, const element_state *s, double near_limit)
 {
-    const dem_lattice *l = &m->lattice;
     for (dem_index t = 0; t < l->n_triangles && l->strength != NULL; t++) {
-        f->least[t] = round_down(weakest_around(l, l->strength, s, t));
-        if (f->least_pressure != NULL)
-            f->least_pressure[t] = round_down(weakest_around(l, l->compressive_strength, s, t));
-        enter_triangle(f, l, s, t, near_limit);
-        enter_corners(f, m, s, t);
+        f->weakest = weaker(f->weakest, limits_of(l, t));
+        if (has_all_edges(l, s, t)) enter_triangle(f, l, s, t, near_limit);
     }
-    for (dem_index k = 0; k < l->n_springs && l->strength != NULL; k++) enter_loose(f, m, s, k);
 }
 
-static dem_status allocate(strain_filter *f, const dem_lattice *l)
+/* Marks the corners of triangles of which an edge has no spring, and the ends of springs that no triangle holds. */
+static void mark_unbounded(unsigned char *marks, const dem_lattice *l, const element_state *s)
 {
-    const size_t n = (size_t)l->n_triangles + 1;
-    const bool pressed = l->compressive_strength != NULL;
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+        if (!has_all_edges(l, s, k / 3)) marks[l->triangles[k]] = 1;
+    for (dem_index k = 0; k < 2 * l->n_springs; k++)
+        if (!s->held[k / 2]) marks[l->ends[k]] = 1;
+}
+
+/* Lists those of them at which a triangle may break. */
+static dem_status list_unbounded(strain_filter *f, const dem_lattice *l, const element_state *s)
+{
+    dem_index capacity = 0;
+    unsigned char *marks = calloc((size_t)l->n_nodes + 1, 1);
+    CHECK(marks != NULL, DEM_ERROR_MEMORY, "out of memory for the limits of %lld nodes", (long long)l->n_nodes);
+    mark_unbounded(marks, l, s);
+    bool has_room = true;
+    for (dem_index i = 0; i < l->n_nodes && has_room; i++) {
+        if (!marks[i] || isinf(weakest_at(l, s, i).tension)) continue;
+        has_room = grow_array((void **)&f->always, &capacity, f->n_always + 1, sizeof *f->always);
+        if (has_room) f->always[f->n_always++] = i;
+    }
+    free(marks);
+    CHECK(has_room, DEM_ERROR_MEMORY, "out of memory for the limits of %lld nodes", (long long)l->n_nodes);
+    return DEM_OK;
+}
+
+static dem_status fill(strain_filter *f, const dem_lattice *l, const element_state *s, double near_limit)
+{
     f->threshold = malloc(((size_t)l->n_springs + 1) * sizeof *f->threshold);
-    f->least = malloc(n * sizeof *f->least);
-    if (pressed) f->least_pressure = malloc(n * sizeof *f->least_pressure);
-    if (f->threshold != NULL && f->least != NULL && (f->least_pressure != NULL || !pressed)) return DEM_OK;
-    strain_filter_destroy(f);
-    return status_fail(DEM_ERROR_MEMORY, "out of memory for the limits of %lld springs", (long long)l->n_springs);
+    CHECK(f->threshold != NULL, DEM_ERROR_MEMORY, "out of memory for the limits of %lld springs",
+          (long long)l->n_springs);
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const bool limited = l->critical_stretch != NULL && utilisation_is_limited(l, l->n_triangles + k);
+        f->threshold[k] = limited ? round_down(near_limit * l->critical_stretch[k]) : INFINITY;
+    }
+    enter_triangles(f, l, s, near_limit);
+    return l->strength != NULL ? list_unbounded(f, l, s) : DEM_OK;
 }
 
 dem_status strain_filter_create(strain_filter *out, const dem_model *model, const element_state *elements,
                                 double near_limit)
 {
-    const dem_lattice *l = &model->lattice;
-    strain_filter f = {0};
-    TRY(allocate(&f, l));
-    for (dem_index k = 0; k < l->n_springs; k++) {
-        const bool limited = l->critical_stretch != NULL && utilisation_is_limited(l, l->n_triangles + k);
-        f.threshold[k] = limited ? round_down(near_limit * l->critical_stretch[k]) : INFINITY;
-    }
-    enter_triangles(&f, model, elements, near_limit);
-    *out = f;
-    return DEM_OK;
+    strain_filter f = {.weakest = unlimited};
+    const dem_status status = fill(&f, &model->lattice, elements, near_limit);
+    if (status == DEM_OK)
+        *out = f;
+    else
+        strain_filter_destroy(&f);
+    return status;
+}
+
+void strain_filter_forget_thresholds(strain_filter *f)
+{
+    free(f->threshold);
+    f->threshold = NULL;
 }
 
 void strain_filter_destroy(strain_filter *f)
 {
     free(f->threshold);
-    free(f->least);
-    free(f->least_pressure);
+    free(f->always);
     *f = (strain_filter){0};
 }

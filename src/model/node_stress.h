@@ -18,7 +18,7 @@ void node_stress(const dem_model *model, const element_state *state, node_stress
                  const double *x, double stress[3]);
 
 /** The own effective stress of a triangle, Pa: those of nodes are means of such by volume, where all springs are held
- *  by triangles. */
+ *  by triangles.  \param state  prepared */
 void node_stress_of_triangle(const dem_model *model, const element_state *state, dem_index triangle, const double *x,
                              double stress[3]);
 

@@ -133,8 +133,7 @@ dem_status breaking_create(dem_simulation *s)
     if (l->strength == NULL && l->critical_stretch == NULL) return DEM_OK;
     TRY(element_state_create(&s->elements, l, &s->model->springs));
     s->forces.elements = &s->elements;
-    TRY(fracture_source_create(&s->breaks, s->model, &s->elements, &s->fracture, most_in_step(s)));
-    TRY(fracture_source_watch(&s->breaks, &s->kernel));
+    TRY(fracture_source_create(&s->breaks, s->model, &s->elements, &s->fracture, most_in_step(s), &s->kernel));
     TRY(reduce_status(fracture_source_check_start(&s->breaks, s->y), 0.0));
     return source_list_add(&s->sources, fracture_source_events(&s->breaks));
 }

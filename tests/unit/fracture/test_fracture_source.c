@@ -378,7 +378,7 @@ TEST(bits_do_not_depend_on_threads_and_cuts)
 }
 
 /* The first break of the step in hand, asked for by a source that has taken so many steps and looks. */
-static double first_break(dem_simulation *s, uint32_t number, uint32_t look)
+static double first_break(dem_simulation *s, uint8_t number, uint8_t look)
 {
     fracture_source *f = &s->breaks;
     const dem_lattice *l = &s->model->lattice;
@@ -387,15 +387,14 @@ static double first_break(dem_simulation *s, uint32_t number, uint32_t look)
     f->number = number;
     f->look = look;
     memset(f->placed, 0, (size_t)l->n_nodes * sizeof *f->placed);
-    memset(f->known, 0, (size_t)l->n_nodes * sizeof *f->known);
+    memset(f->asked, 0, (size_t)l->n_nodes * sizeof *f->asked);
     memset(f->seen, 0, (size_t)l->n_triangles * sizeof *f->seen);
-    memset(f->strained, 0, (size_t)l->n_triangles * sizeof *f->strained);
     const double first = fracture_source_first(f, &s->path, scratch);
     free(scratch);
     return first;
 }
 
-/* After 2^32 of them numbers begin anew, and the mark 0 of what has never been looked at is not one of them. */
+/* After 2^8 of them numbers begin anew, and the mark 0 of what has never been looked at is not one of them. */
 TEST(numbers_of_steps_and_looks_may_begin_anew)
 {
     dem_options options = no_weight(1e-6);
@@ -410,9 +409,9 @@ TEST(numbers_of_steps_and_looks_may_begin_anew)
         first = first_break(run.simulation, 1, 1);
     }
     assert_true(isfinite(first));
-    for (uint32_t k = 0; k < 4; k++) {
-        assert_close(first_break(run.simulation, UINT32_MAX - k, 1), first, 0.0);
-        assert_close(first_break(run.simulation, 1, UINT32_MAX - k), first, 0.0);
+    for (uint8_t k = 0; k < 4; k++) {
+        assert_close(first_break(run.simulation, (uint8_t)(UINT8_MAX - k), 1), first, 0.0);
+        assert_close(first_break(run.simulation, 1, (uint8_t)(UINT8_MAX - k)), first, 0.0);
     }
 }
 

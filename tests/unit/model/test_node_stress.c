@@ -7,6 +7,7 @@
 #include "model/node_stress.h"
 #include "model/spring_share.h"
 #include "unit/model/cut_solids.h"
+#include "unit/model/triangle_stress.h"
 
 static const double strain_size = 0.02;
 
@@ -71,7 +72,7 @@ TEST(it_is_the_mean_of_its_triangles)
         for (dem_index t = 0; t < whole.n_triangles; t++) {
             double own[3];
             if (state.triangle[t]) continue;
-            node_stress_of_triangle(model, &state, t, x, own);
+            triangle_stress(model, &state, t, x, own);
             for (int c = 0; c < 3; c++) {
                 double *at = &sum[4 * whole.triangles[3 * t + c]];
                 for (int k = 0; k < 3; k++) at[k] += spring_share_volume(&whole, t) * own[k];
@@ -110,7 +111,7 @@ TEST(softened_triangles_carry_what_is_left_in_tension)
             for (dem_index t = 0; t < soft.n_triangles; t++) {
                 const double left = sign > 0 ? softening_left(3.0, 1 + (int)(t % 32)) : 1.0;
                 double own[3];
-                node_stress_of_triangle(model, &state, t, x, own);
+                triangle_stress(model, &state, t, x, own);
                 for (int c = 0; c < 3; c++) {
                     double *at = &sum[4 * soft.triangles[3 * t + c]];
                     for (int k = 0; k < 3; k++) at[k] += left * spring_share_volume(&soft, t) * own[k];
