@@ -164,7 +164,7 @@ static dem_status trim_element(kernel *k, const element_state *e, const trimmed_
 /* Springs that have softened are not as stiff in tension as under pressure, which no set of a layout can say. */
 static bool can_trim(const element_state *e)
 {
-    return e != NULL && e->tension == NULL;
+    return e != NULL && e->lattice->softening == NULL;
 }
 
 void kernel_follow(kernel *k, const element_state *e, const dem_index *list, dem_index n)

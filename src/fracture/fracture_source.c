@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fracture as a source of events (docs/method.md, Fracture). begin() looks at the end of the step where springs are
  * strained (strain_filter.c) and nodes stressed enough, and searches the step for elements that are at their limit there
- * or nearly so; a heap holds the times at which they break. What breaks at the same time, to the width of a root,
+ * or nearly so; a list holds the times at which they break. What breaks at the same time, to the width of a root,
  * breaks together. After an event the elements near it are looked at again. A break changes the stresses beside it at
  * once: what is then over its limit breaks at the same instant. undo() mends what has broken in the step, to the bit.
  * Surfaces follow at the end of the step (simulation/breaking.c): new ones cannot touch anything within it. */
@@ -26,7 +26,11 @@ enum { N_SAMPLES = 8 };
 /* What the kernel is given is not kept: its limits of blocks are all that is asked. */
 static dem_status watch(fracture_source *s)
 {
-    TRY(strain_filter_create(&s->filter, s->model, s->elements, near_limit));
+    element_state whole;
+    TRY(element_state_create(&whole, &s->model->lattice, &s->model->springs));
+    const dem_status status = strain_filter_create(&s->filter, s->model, &whole, near_limit);
+    element_state_destroy(&whole);
+    TRY(status);
     TRY(kernel_watch(s->kernel, s->filter.threshold));
     strain_filter_forget_thresholds(&s->filter);
     return DEM_OK;
@@ -41,7 +45,6 @@ static dem_status allocate(fracture_source *s)
     s->failing = calloc(1, sizeof *s->failing);
     CHECK(s->placed && s->asked && s->seen && s->failing, DEM_ERROR_MEMORY,
           "out of memory for the stresses of %lld nodes", (long long)l->n_nodes);
-    TRY(event_heap_create(&s->heap, utilisation_n_elements(l)));
     TRY(stress_cache_create(&s->stress, s->model, s->elements));
     return watch(s);
 }
@@ -61,7 +64,7 @@ dem_status fracture_source_create(fracture_source *out, const dem_model *model, 
 
 void fracture_source_destroy(fracture_source *s)
 {
-    event_heap_destroy(&s->heap);
+    due_elements_destroy(&s->due);
     if (s->failing != NULL) failing_elements_destroy(s->failing);
     free(s->failing);
     stress_cache_destroy(&s->stress);
@@ -99,7 +102,8 @@ static dem_status refuse(const fracture_source *s, dem_index element, double uti
 static bool is_whole(const fracture_source *s, dem_index element)
 {
     const dem_index spring = element - s->model->lattice.n_triangles;
-    return spring >= 0 ? s->elements->integrity[spring] > 0.0 : !s->elements->triangle[element];
+    return spring >= 0 ? !springs_is_broken(element_state_springs(s->elements), spring)
+                       : !s->elements->triangle[element];
 }
 
 static bool may_break(const fracture_source *s, dem_index element)
@@ -130,14 +134,12 @@ static void place(fracture_source *s, dem_index node, double t)
 static void place_around(fracture_source *s, dem_index i, double t)
 {
     const element_state *e = s->elements;
-    const springs *own = &s->model->springs;
+    const stress_map *map = &s->model->stress;
     place(s, i, t);
-    for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) place(s, own->neighbour[p], t);
-    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
+    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
         for (int c = 0; c < 3; c++) place(s, e->lattice->triangles[3 * e->at[p] + c], t);
-        for (dem_index q = e->row[e->at[p]]; q < e->row[e->at[p] + 1]; q++)
-            for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * e->spring[q] + end], t);
-    }
+    for (dem_index p = map->row[i]; p < map->row[i + 1]; p++)
+        for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * map->spring[p] + end], t);
 }
 
 /* Numbers are so short that marks begin anew with them from time to time, which costs less than wider marks would. */
@@ -225,7 +227,7 @@ static double next_break(fracture_source *s, dem_index element, double from, boo
 static void look_at(fracture_source *s, dem_index element)
 {
     const double due = may_break(s, element) ? next_break(s, element, s->step->t0, false) : (double)INFINITY;
-    if (isfinite(due)) event_heap_set(&s->heap, element, due);
+    if (isfinite(due)) due_elements_set(&s->due, element, due);
 }
 
 /* Whether a triangle may be near its limit by the stress at one of its corners: without confinement, which only lowers
@@ -306,24 +308,31 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
     s->state = state;
     s->jumped = false;
     note_start(s);
-    event_heap_clear(&s->heap);
+    due_elements_clear(&s->due);
     look(s);
 }
 
 static double fracture_source_next(const void *self, dem_index *key)
 {
     const fracture_source *s = self;
-    *key = event_heap_first(&s->heap);
-    return *key >= 0 ? s->heap.due[*key] : (double)INFINITY;
+    *key = s->due.n > 0 ? s->due.list[0].element : -1;
+    return due_elements_first(&s->due);
 }
 
 /* ---- what breaks ---- */
 
-/* Adds what is due until t of the part of the heap under place p: nothing there is due before it. */
+/* What nothing has broken of so far has to be made ready for it. */
+static void add_failing(const fracture_source *s, dem_index element)
+{
+    if (s->failing->status == DEM_OK) s->failing->status = element_state_prepare(s->elements);
+    if (s->failing->status == DEM_OK) failing_elements_add(s->failing, s->elements, element);
+}
+
+/* Adds what is due until t of the part of the list under place p: nothing there is due before it. */
 static void collect(const fracture_source *s, dem_index p, double t)
 {
-    if (p >= s->heap.n || s->heap.due[s->heap.keys[p]] > t) return;
-    failing_elements_add(s->failing, s->elements, s->heap.keys[p]);
+    if (p >= s->due.n || s->due.list[p].t > t) return;
+    add_failing(s, s->due.list[p].element);
     collect(s, 2 * p + 1, t);
     collect(s, 2 * p + 2, t);
 }
@@ -332,7 +341,7 @@ static void collect(const fracture_source *s, dem_index p, double t)
 static void find_failing(const fracture_source *s)
 {
     failing_elements_clear(s->failing);
-    if (s->heap.n > 0) collect(s, 0, s->heap.due[s->heap.keys[0]] + dense_output_resolution(s->step));
+    collect(s, 0, due_elements_first(&s->due) + dense_output_resolution(s->step));
     failing_elements_complete(s->failing, s->elements);
 }
 
@@ -406,7 +415,7 @@ static dem_status fracture_source_resolve(void *self, dem_index key, const event
 
 static void look_again(fracture_source *s, dem_index element, double t, bool jumped)
 {
-    event_heap_set(&s->heap, element, may_break(s, element) ? next_break(s, element, t, jumped) : (double)INFINITY);
+    due_elements_set(&s->due, element, may_break(s, element) ? next_break(s, element, t, jumped) : (double)INFINITY);
 }
 
 static void look_at_triangle(fracture_source *s, const event_place *at, dem_index triangle, dem_index node)
@@ -471,8 +480,7 @@ static void find_over_limit(fracture_source *s, const double *y)
 {
     failing_elements_clear(s->failing);
     for (dem_index e = 0; e < utilisation_n_elements(&s->model->lattice); e++)
-        if (may_break(s, e) && utilisation_of(s->model, s->elements, e, y) >= 1.0)
-            failing_elements_add(s->failing, s->elements, e);
+        if (may_break(s, e) && utilisation_of(s->model, s->elements, e, y) >= 1.0) add_failing(s, e);
     failing_elements_complete(s->failing, s->elements);
 }
 
@@ -481,6 +489,11 @@ static dem_status break_all(fracture_source *s, double t, const double *y)
 {
     for (; s->failing->n > 0; find_over_limit(s, y)) TRY(break_failing(s, t, y));
     return s->failing->status;
+}
+
+dem_status fracture_source_found(const fracture_source *s)
+{
+    return s->due.status;
 }
 
 dem_status fracture_source_break(fracture_source *s, const double *y)

@@ -4,9 +4,9 @@
 #ifndef DEM_FRACTURE_FRACTURE_SOURCE_H
 #define DEM_FRACTURE_FRACTURE_SOURCE_H
 
-#include "events/event_heap.h"
 #include "events/event_source.h"
 #include "forces/kernel.h"
+#include "fracture/due_elements.h"
 #include "fracture/failing_elements.h"
 #include "fracture/strain_filter.h"
 #include "fracture/stress_cache.h"
@@ -26,7 +26,7 @@ typedef struct fracture_source {
     uint8_t *asked;            /* [n_nodes] the number of the step in which the stress at one was looked at last */
     uint8_t *seen;             /* [n_triangles] the same of triangles near their limits */
     uint8_t *placed;           /* [n_nodes] the look at which a node was put into `state` last */
-    event_heap heap;           /* elements by the time at which they break or soften */
+    due_elements due;          /* elements by the time at which they break or soften */
     failing_elements *failing; /* those that do so next, or have done so last */
     bool jumped;               /* some have, and others may be over their limits at once */
     dem_index n_failed, capacity, broken_capacity;
@@ -58,6 +58,9 @@ static inline bool fracture_source_has_failed(const fracture_source *s)
 {
     return s->n_failed > 0;
 }
+
+/** Whether all that breaks in the step has been found.  \return DEM_ERROR_MEMORY if it has not */
+dem_status fracture_source_found(const fracture_source *s);
 
 /** Where the whole body stops at events: when something breaks or softens first in a step, from its start; infinity if
  *  nothing does before its end.  \param state  [2 dim n_rows] scratch */

@@ -7,11 +7,11 @@
 
 #include "base/status.h"
 
-/* Meshes have their nodes row by row, or are renumbered so: room for eight rows of a square body. */
+/* Meshes have their nodes row by row, or are renumbered so: room for four rows of a square body. */
 dem_status stress_cache_create(stress_cache *out, const dem_model *model, const element_state *elements)
 {
     stress_cache c = {.model = model, .elements = elements, .n = 64};
-    while (c.n * c.n < 64 * model->lattice.n_nodes) c.n *= 2;
+    while (c.n * c.n < 16 * model->lattice.n_nodes) c.n *= 2;
     c.slots = calloc((size_t)c.n, sizeof *c.slots);
     CHECK(c.slots != NULL, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes", (long long)c.n);
     *out = c;

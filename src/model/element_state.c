@@ -5,7 +5,7 @@
  * simulations of one model may have different states. The flags of nodes let the force on an intact node skip the state
  * of its elements, and the list tells the sweep over all nodes where its layout has to be trimmed (kernel_follow() in
  * forces/kernel.c), or which nodes to evaluate once more, one by one, as long as it is not. When an element breaks is
- * decided elsewhere.
+ * decided elsewhere. As long as all are whole there are only the flags, and the list of triangles at each node.
  *
  * A triangle that breaks takes what it gave to its springs. What is left is what the lattice would have had without the
  * triangle from the start, so that a crack that opens in a run is as stiff as one that is cut before. */
@@ -22,6 +22,23 @@
  * triangles break, and a break can be taken back to the bit. */
 static const double unit = 0x1p-52;
 
+/* One more item than needed in each array, so that no allocation is of no bytes. */
+static dem_status allocate_flags(element_state *s)
+{
+    const dem_lattice *l = s->lattice;
+    const size_t n = (size_t)l->n_nodes, n_triangles = (size_t)l->n_triangles;
+    CHECK(l->n_springs < INT32_MAX && 6 * l->n_triangles < INT32_MAX, DEM_ERROR_MODEL,
+          "%lld springs and %lld triangles that may break are more than the library takes", (long long)l->n_springs,
+          (long long)l->n_triangles);
+    s->triangle = calloc(n_triangles + 1, sizeof *s->triangle);
+    s->node = calloc(n + 1, sizeof *s->node);
+    s->at_row = calloc(n + 2, sizeof *s->at_row);
+    s->at = malloc((3 * n_triangles + 1) * sizeof *s->at);
+    CHECK(s->triangle && s->node && s->at_row && s->at, DEM_ERROR_MEMORY,
+          "out of memory for the state of %lld triangles", (long long)l->n_triangles);
+    return DEM_OK;
+}
+
 /* Nothing has softened. */
 static dem_status allocate_softening(element_state *s)
 {
@@ -36,24 +53,16 @@ static dem_status allocate_softening(element_state *s)
     return DEM_OK;
 }
 
-/* One more item than needed in each array, so that no allocation is of no bytes. */
 static dem_status allocate(element_state *s)
 {
     const dem_lattice *l = s->lattice;
-    const size_t n = (size_t)l->n_nodes, n_springs = (size_t)l->n_springs, n_triangles = (size_t)l->n_triangles;
-    CHECK(l->n_springs < INT32_MAX && 6 * l->n_triangles < INT32_MAX, DEM_ERROR_MODEL,
-          "%lld springs and %lld triangles that may break are more than the library takes", (long long)l->n_springs,
-          (long long)l->n_triangles);
+    const size_t n_springs = (size_t)l->n_springs;
     s->integrity = malloc((n_springs + 1) * sizeof *s->integrity);
-    s->triangle = calloc(n_triangles + 1, sizeof *s->triangle);
-    s->node = calloc(n + 1, sizeof *s->node);
-    s->damaged = malloc((n + 1) * sizeof *s->damaged);
-    s->row = calloc(n_triangles + 2, sizeof *s->row);
+    s->damaged = malloc(((size_t)l->n_nodes + 1) * sizeof *s->damaged);
+    s->row = calloc((size_t)l->n_triangles + 2, sizeof *s->row);
     s->held = calloc(n_springs + 1, sizeof *s->held);
-    s->at_row = calloc(n + 2, sizeof *s->at_row);
-    s->at = malloc((3 * n_triangles + 1) * sizeof *s->at);
-    CHECK(s->integrity && s->triangle && s->node && s->damaged && s->row && s->held && s->at_row && s->at,
-          DEM_ERROR_MEMORY, "out of memory for the state of %lld springs", (long long)l->n_springs);
+    CHECK(s->integrity && s->damaged && s->row && s->held, DEM_ERROR_MEMORY,
+          "out of memory for the state of %lld springs", (long long)l->n_springs);
     for (dem_index k = 0; k < l->n_springs; k++) s->integrity[k] = 1.0;
     return l->softening != NULL ? allocate_softening(s) : DEM_OK;
 }
@@ -115,15 +124,11 @@ static dem_status list_springs(element_state *s, spring_holders *holders)
     return DEM_OK;
 }
 
-dem_status element_state_create(element_state *out, const dem_lattice *lattice, const springs *s)
+dem_status element_state_begin(element_state *out, const dem_lattice *lattice, const springs *s)
 {
-    element_state state = {.lattice = lattice};
-    spring_holders holders = {0};
-    dem_status status = allocate(&state);
-    if (status == DEM_OK) status = spring_holders_create(&holders, lattice, s);
-    if (status == DEM_OK) status = list_springs(&state, &holders);
+    element_state state = {.lattice = lattice, .springs = s};
+    const dem_status status = allocate_flags(&state);
     if (status == DEM_OK) list_triangles(&state);
-    spring_holders_free(&holders);
     if (status == DEM_OK)
         *out = state;
     else
@@ -131,19 +136,49 @@ dem_status element_state_create(element_state *out, const dem_lattice *lattice, 
     return status;
 }
 
-void element_state_destroy(element_state *s)
+/* What is needed once an element is not whole. */
+static void free_parts(element_state *s)
 {
     free(s->integrity);
     free(s->tension);
     free(s->level);
     free(s->left);
-    free(s->triangle);
-    free(s->node);
     free(s->damaged);
     free(s->row);
     free(s->spring);
     free(s->share);
     free(s->held);
+}
+
+dem_status element_state_prepare(element_state *s)
+{
+    if (s->integrity != NULL) return DEM_OK;
+    element_state ready = *s;
+    spring_holders holders = {0};
+    dem_status status = allocate(&ready);
+    if (status == DEM_OK) status = spring_holders_create(&holders, s->lattice, s->springs);
+    if (status == DEM_OK) status = list_springs(&ready, &holders);
+    spring_holders_free(&holders);
+    if (status == DEM_OK)
+        *s = ready;
+    else
+        free_parts(&ready);
+    return status;
+}
+
+dem_status element_state_create(element_state *out, const dem_lattice *lattice, const springs *s)
+{
+    TRY(element_state_begin(out, lattice, s));
+    const dem_status status = element_state_prepare(out);
+    if (status != DEM_OK) element_state_destroy(out);
+    return status;
+}
+
+void element_state_destroy(element_state *s)
+{
+    free_parts(s);
+    free(s->triangle);
+    free(s->node);
     free(s->at_row);
     free(s->at);
     *s = (element_state){0};

@@ -13,30 +13,42 @@
 
 typedef struct element_state {
     const dem_lattice *lattice;
-    double *integrity;       /* [n_springs] what is left of its stiffness: 1: whole, 0: broken */
-    double *tension;         /* [n_springs] the same in tension; NULL: no triangle softens, as of the next two */
-    unsigned char *level;    /* [n_triangles] how many times it has softened */
-    double *left;            /* [n_triangles] what this leaves of it in tension */
+    const springs *springs;
+    double *integrity;       /* [n_springs] what is left of its stiffness: 1: whole, 0: broken; NULL: all are whole, and
+                                there is nothing yet of what is called prepared below */
+    double *tension;         /* prepared: [n_springs] the same in tension; NULL: no triangle softens, as of the next
+                                two */
+    unsigned char *level;    /* prepared: [n_triangles] how many times it has softened */
+    double *left;            /* prepared: [n_triangles] what this leaves of it in tension */
     unsigned char *triangle; /* [n_triangles] 1: broken */
     unsigned char *node;     /* [n_nodes] 1: an element at the node is not whole */
     dem_index n_broken;      /* triangles, and springs that no triangle holds */
     dem_index n_damaged;
-    dem_index *damaged;  /* [n_damaged] these nodes, in the order in which elements broke */
-    int32_t *row;        /* [n_triangles + 1] slots row[t] .. row[t + 1] - 1 of a triangle: */
+    dem_index *damaged;  /* prepared: [n_damaged] these nodes, in the order in which elements broke */
+    int32_t *row;        /* prepared: [n_triangles + 1] slots row[t] .. row[t + 1] - 1 of a triangle: */
     int32_t *spring;     /* a spring that it holds, */
     double *share;       /* and what part of that spring's stiffness is the triangle's */
-    unsigned char *held; /* [n_springs] 1: a triangle holds it, or has held it */
+    unsigned char *held; /* prepared: [n_springs] 1: a triangle holds it, or has held it */
     int32_t *at_row;     /* [n_nodes + 1] slots at_row[i] .. at_row[i + 1] - 1 of a node: */
     int32_t *at;         /* triangles at it, ascending */
 } element_state;
 
-/** Makes a state in which all elements are whole. Borrows the lattice.  \param s  its springs
+/** Makes a state in which all elements are whole, and for as long as they are. Borrows the lattice.
+ *  \param s  its springs, which it borrows, too
  *  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL for more than the library takes. Free with element_state_destroy(). */
+dem_status element_state_begin(element_state *out, const dem_lattice *lattice, const springs *s);
+
+/** Makes it ready for elements that break or soften, if it is not yet.
+ *  \return DEM_ERROR_MEMORY: it is as it was */
+dem_status element_state_prepare(element_state *s);
+
+/** Both. */
 dem_status element_state_create(element_state *out, const dem_lattice *lattice, const springs *s);
 void element_state_destroy(element_state *s);
 
-/** Breaks an element of the lattice, for good; one that is broken stays so. The integrity of springs depends on which
- *  elements are broken, not on their order: with all of its triangles a spring is broken, too. */
+/** Breaks an element of the lattice, of a state that is prepared, for good; one that is broken stays so. The integrity
+ *  of springs depends on which elements are broken, not on their order: with all of its triangles a spring is broken,
+ *  too. */
 void element_state_break_spring(element_state *s, dem_index spring);
 void element_state_break_triangle(element_state *s, dem_index triangle);
 
@@ -75,7 +87,8 @@ static inline int element_state_level(const element_state *s, dem_index triangle
 /** Whether what drives it next to its limit breaks a triangle, and does not soften it. */
 static inline bool element_state_is_last(const element_state *s, dem_index triangle)
 {
-    return s->level == NULL || s->level[triangle] == softening_levels(s->lattice->softening[triangle]);
+    const double *softening = s->lattice->softening;
+    return softening == NULL || element_state_level(s, triangle) == softening_levels(softening[triangle]);
 }
 
 static inline bool element_state_is_corner(const element_state *s, dem_index triangle, dem_index node)

@@ -131,7 +131,8 @@ dem_status breaking_create(dem_simulation *s)
 {
     const dem_lattice *l = &s->model->lattice;
     if (l->strength == NULL && l->critical_stretch == NULL) return DEM_OK;
-    TRY(element_state_create(&s->elements, l, &s->model->springs));
+    TRY(element_state_begin(&s->elements, l, &s->model->springs));
+    if (l->own_stress != NULL) TRY(element_state_prepare(&s->elements)); /* which needs the shares of springs */
     s->forces.elements = &s->elements;
     TRY(fracture_source_create(&s->breaks, s->model, &s->elements, &s->fracture, most_in_step(s), &s->kernel));
     TRY(reduce_status(fracture_source_check_start(&s->breaks, s->y), 0.0));
@@ -148,6 +149,11 @@ void breaking_check_step(dem_simulation *s)
     if (!s->at_break) return;
     s->path.end = first;
     s->at_event = false;
+}
+
+dem_status breaking_found(const dem_simulation *s)
+{
+    return run_may_break(s) ? fracture_source_found(&s->breaks) : DEM_OK;
 }
 
 /* New faces near others change the energy of contact: what it is less goes with that of the broken elements. */
@@ -190,13 +196,13 @@ dem_status breaking_begin(dem_simulation *s)
 /* Whether no triangle holds a spring, and it is broken. */
 static bool is_broken_alone(const element_state *elements, dem_index spring)
 {
-    return !elements->held[spring] && elements->integrity[spring] == 0.0;
+    return springs_is_broken(element_state_springs(elements), spring) && !elements->held[spring];
 }
 
-/* Softens the triangles of a state in which none has softened or broken.  \param level  [n_triangles] */
+/* Softens the triangles of a state in which none has softened or broken.  \param level  [n_triangles]; NULL: none */
 static void soften_to(element_state *elements, const unsigned char *level)
 {
-    for (dem_index k = 0; elements->level != NULL && k < elements->lattice->n_triangles; k++)
+    for (dem_index k = 0; level != NULL && k < elements->lattice->n_triangles; k++)
         while (elements->level[k] < level[k]) element_state_soften(elements, k);
 }
 
@@ -307,6 +313,18 @@ static void list_springs(const element_state *elements, unsigned char *flags)
     for (dem_index k = 0; k < elements->lattice->n_springs; k++) flags[k] = is_broken_alone(elements, k);
 }
 
+/* Of a body that may soften, whether anything has or not. */
+static dem_status save_levels(const element_state *elements, dem_checkpoint *checkpoint)
+{
+    const size_t n = (size_t)elements->lattice->n_triangles;
+    if (elements->level != NULL) return dem_checkpoint_put(checkpoint, of_levels, elements->level, n);
+    unsigned char *none = calloc(n + 1, sizeof *none);
+    CHECK(none != NULL, DEM_ERROR_MEMORY, "out of memory for what has softened in a checkpoint");
+    const dem_status status = dem_checkpoint_put(checkpoint, of_levels, none, n);
+    free(none);
+    return status;
+}
+
 /* A run in which nothing has broken puts nothing, so that its checkpoint is that of a library which breaks nothing. */
 dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
@@ -321,8 +339,7 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
     free(flags);
     if (status == DEM_OK)
         status = dem_checkpoint_put(checkpoint, of_triangles, elements->triangle, (size_t)l->n_triangles);
-    if (status == DEM_OK && elements->level != NULL)
-        status = dem_checkpoint_put(checkpoint, of_levels, elements->level, (size_t)l->n_triangles);
+    if (status == DEM_OK && l->softening != NULL) status = save_levels(elements, checkpoint);
     if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, of_burials, burials, sizeof *burials);
     return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &s->fracture, sizeof s->fracture) : status;
 }
@@ -407,7 +424,8 @@ static bool is_the_same(const dem_simulation *s, const element_flags *flags)
     const element_state *now = s->forces.elements;
     const dem_lattice *l = &s->model->lattice;
     if (now == NULL || memcmp(now->triangle, flags->triangle, (size_t)l->n_triangles) != 0) return false;
-    if (now->level != NULL && memcmp(now->level, flags->level, (size_t)l->n_triangles) != 0) return false;
+    for (dem_index k = 0; flags->level != NULL && k < l->n_triangles; k++)
+        if (element_state_level(now, k) != flags->level[k]) return false;
     for (dem_index k = 0; k < l->n_springs; k++)
         if (is_broken_alone(now, k) != flags->spring[k]) return false;
     return true;

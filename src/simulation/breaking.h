@@ -26,6 +26,9 @@ dem_status breaking_begin(dem_simulation *s);
 /** Where the whole body stops at events: ends the step in hand where something breaks, if that is before its end. */
 void breaking_check_step(dem_simulation *s);
 
+/** Whether all that breaks in the step in hand has been found.  \return DEM_ERROR_MEMORY if it has not */
+dem_status breaking_found(const dem_simulation *s);
+
 /** Makes surfaces those of what is whole, in the state y, if something has broken in the last step: also where the rest
  *  of that has been dropped.  \return DEM_ERROR_MEMORY */
 dem_status breaking_follow(dem_simulation *s, const double *y);

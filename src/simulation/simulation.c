@@ -210,11 +210,13 @@ static dem_status find_events(dem_simulation *s, bool rooted)
     if (!run_is_local(s)) {
         s->at_event = automaton_check_step(&s->automaton, &s->path, rooted, s->frame) || rooted;
         breaking_check_step(s);
+        TRY(breaking_found(s));
         return body_contact_check_step(s);
     }
     integrator_end(&s->integrator, &y1, &f1);
     event_queue_start(&s->queue, &s->path, y1, f1, s->frame);
     TRY(event_queue_show(&s->queue, s->path.t1));
+    TRY(breaking_found(s));
     return body_contact_check_step(s);
 }
 

@@ -329,7 +329,16 @@ static void read_ending(support_run *run, double t, dem_index n_triangles, endin
 
 static const double t_end = 4e-4;
 
-/* `all`: every triangle is looked at in every step. */
+/* The stress at every node is looked at in every step. */
+static void look_everywhere(strain_filter *f, dem_index n)
+{
+    f->always = realloc(f->always, (size_t)n * sizeof *f->always);
+    assert_non_null(f->always);
+    for (dem_index i = 0; i < n; i++) f->always[i] = i;
+    f->n_always = n;
+    f->weakest = (utilisation_limits){.tension = 1.0, .pressure = 1.0};
+}
+
 static void run_block(const dem_options *options, int kind, bool all, int n_parts, ending *out)
 {
     CLEANUP(dem_lattice_free) dem_lattice block = dem_lattice_empty();
@@ -338,8 +347,7 @@ static void run_block(const dem_options *options, int kind, bool all, int n_part
     support_open(&run, &block, NULL, 0, options);
     fracture_source *source = &run.simulation->breaks;
     const double before = ask_energy(run.simulation).ledger;
-    for (dem_index k = 0; k < block.n_springs && all; k++) source->filter.threshold[k] = 0.0f;
-    if (all) source->kernel = NULL;
+    if (all) look_everywhere(&source->filter, block.n_nodes);
     for (int k = 1; k < n_parts; k++) (void)support_at(&run, t_end * k / n_parts);
     read_ending(&run, t_end, block.n_triangles, out);
     assert_true(out->n_broken > 10 && out->n_broken < block.n_triangles / 2);

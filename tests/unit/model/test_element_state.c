@@ -293,3 +293,27 @@ TEST(a_spring_outside_of_triangles_breaks_alone)
     assert_int_equal(s.n_damaged, 2);
     assert_null(element_state_at(&s, 0));
 }
+
+/* As long as all are whole there is nothing of springs; then all is that of a state that was ready from the start. */
+TEST(a_state_is_made_ready_when_something_breaks)
+{
+    for (int kind = 0; kind < N_KINDS; kind++) {
+        CLEANUP(close_subject) subject s;
+        CLEANUP(element_state_destroy) element_state later;
+        open_subject(&s, solid_of(kind));
+        const dem_index n = s.lattice.n_triangles, n_slots = s.state.row[n];
+        assert_ok(element_state_begin(&later, &s.lattice, &s.springs));
+        assert_null(element_state_springs(&later).pushed);
+        assert_null(later.share);
+        assert_int_equal(element_state_level(&later, n - 1), 0);
+        for (int turn = 0; turn < 2; turn++) assert_ok(element_state_prepare(&later));
+        assert_memory_equal(later.row, s.state.row, (size_t)(n + 1) * sizeof *later.row);
+        assert_memory_equal(later.spring, s.state.spring, (size_t)n_slots * sizeof *later.spring);
+        assert_memory_equal(later.share, s.state.share, (size_t)n_slots * sizeof *later.share);
+        for (dem_index t = 0; t < n; t += 3) {
+            element_state_break(&later, t);
+            element_state_break(&s.state, t);
+        }
+        assert_memory_equal(later.integrity, s.state.integrity, (size_t)s.lattice.n_springs * sizeof(double));
+    }
+}
