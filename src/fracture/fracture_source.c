@@ -10,16 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/bracket.h"
 #include "base/grow.h"
 #include "base/status.h"
 #include "fracture/utilisation.h"
 #include "model/node_stress.h"
-
-/* Between the ends of a step of h omega = 0.5 a utilisation may exceed that at its end by (h omega)^2/8, 3 %: an
- * element that is nearer to its limit, and falls, is searched for a time before. */
-static const double near_limit = 0.97;
-enum { N_SAMPLES = 8 };
 
 /* ---- set-up ---- */
 
@@ -28,7 +22,7 @@ static dem_status watch(fracture_source *s)
 {
     element_state whole;
     TRY(element_state_create(&whole, &s->model->lattice, &s->model->springs));
-    const dem_status status = strain_filter_create(&s->filter, s->model, &whole, near_limit);
+    const dem_status status = strain_filter_create(&s->filter, s->model, &whole, BREAK_SEARCH_NEAR);
     element_state_destroy(&whole);
     TRY(status);
     TRY(kernel_watch(s->kernel, s->filter.threshold));
@@ -39,13 +33,12 @@ static dem_status watch(fracture_source *s)
 static dem_status allocate(fracture_source *s)
 {
     const dem_lattice *l = &s->model->lattice;
-    s->placed = calloc((size_t)l->n_nodes + 1, sizeof *s->placed);
     s->asked = calloc((size_t)l->n_nodes + 1, sizeof *s->asked);
     s->seen = calloc((size_t)l->n_triangles + 1, sizeof *s->seen);
     s->failing = calloc(1, sizeof *s->failing);
-    CHECK(s->placed && s->asked && s->seen && s->failing, DEM_ERROR_MEMORY,
-          "out of memory for the stresses of %lld nodes", (long long)l->n_nodes);
-    TRY(stress_cache_create(&s->stress, s->model, s->elements));
+    CHECK(s->asked && s->seen && s->failing, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes",
+          (long long)l->n_nodes);
+    TRY(break_search_create(&s->search, s->model, s->elements));
     return watch(s);
 }
 
@@ -64,12 +57,10 @@ dem_status fracture_source_create(fracture_source *out, const dem_model *model, 
 
 void fracture_source_destroy(fracture_source *s)
 {
-    due_elements_destroy(&s->due);
+    break_search_destroy(&s->search);
     if (s->failing != NULL) failing_elements_destroy(s->failing);
     free(s->failing);
-    stress_cache_destroy(&s->stress);
     strain_filter_destroy(&s->filter);
-    free(s->placed);
     free(s->asked);
     free(s->seen);
     free(s->failed);
@@ -120,36 +111,9 @@ dem_status fracture_source_check_start(const fracture_source *s, const double *x
     return DEM_OK;
 }
 
-/* ---- when an element breaks ---- */
+/* ---- where to look ---- */
 
-static void place(fracture_source *s, dem_index node, double t)
-{
-    if (s->placed[node] == s->look) return;
-    s->placed[node] = s->look;
-    dense_output_position(s->step, t, node, s->state + state_row(&s->step->layout, node));
-}
-
-/* The nodes on which the stress at node i depends: those of its triangles and of all springs that these hold, and
- * the other ends of its own springs. */
-static void place_around(fracture_source *s, dem_index i, double t)
-{
-    const element_state *e = s->elements;
-    const stress_map *map = &s->model->stress;
-    place(s, i, t);
-    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
-        for (int c = 0; c < 3; c++) place(s, e->lattice->triangles[3 * e->at[p] + c], t);
-    for (dem_index p = map->row[i]; p < map->row[i + 1]; p++)
-        for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * map->spring[p] + end], t);
-}
-
-/* Numbers are so short that marks begin anew with them from time to time, which costs less than wider marks would. */
-static void begin_look(fracture_source *s)
-{
-    if (++s->look != 0) return;
-    memset(s->placed, 0, (size_t)s->model->lattice.n_nodes * sizeof *s->placed);
-    s->look = 1;
-}
-
+/* Marks of steps are so short that they begin anew from time to time, which costs less than wider ones would. */
 static void begin_number(fracture_source *s)
 {
     const dem_lattice *l = &s->model->lattice;
@@ -159,84 +123,13 @@ static void begin_number(fracture_source *s)
     s->number = 1;
 }
 
-/* In the step, by its dense output. */
-static double utilisation_at(fracture_source *s, dem_index element, double t)
-{
-    const dem_lattice *l = &s->model->lattice;
-    const dem_index spring = element - l->n_triangles;
-    begin_look(s);
-    for (int end = 0; end < 2 && spring >= 0; end++) place(s, l->ends[2 * spring + end], t);
-    for (int c = 0; c < 3 && spring < 0; c++) place_around(s, l->triangles[3 * element + c], t);
-    return utilisation_of(s->model, s->elements, element, s->state);
-}
-
-static double utilisation_at_end(fracture_source *s, dem_index element)
-{
-    const dem_lattice *l = &s->model->lattice;
-    double stress[3][3];
-    if (element >= l->n_triangles || utilisation_by_own_stress(l, element))
-        return utilisation_of(s->model, s->elements, element, s->step->y1);
-    for (int c = 0; c < 3; c++) stress_cache_find(&s->stress, l->triangles[3 * element + c], stress[c]);
-    return utilisation_of_stress(utilisation_limits_of(l, s->elements, element), stress[0], stress[1], stress[2]);
-}
-
-/* The root of 1 - utilisation between two times, above 0 before and not above 0 after. */
-static double root(fracture_source *s, dem_index element, bracket b)
-{
-    const double width = dense_output_resolution(s->step);
-    while (b.after - b.before > width) {
-        const double t = bracket_trial(&b, width), margin = 1.0 - utilisation_at(s, element, t);
-        bracket_close(&b, t, margin, margin <= 0.0);
-    }
-    return b.after;
-}
-
-/* First time from `from` on at which an element is at its limit; infinity if it never is at one of the samples. */
-static double search(fracture_source *s, dem_index element, double from, double end)
-{
-    const double rest = s->step->t1 - from;
-    double before = from, above = 1.0 - utilisation_at(s, element, from);
-    if (above <= 0.0) return from;
-    for (int k = 1; k <= N_SAMPLES; k++) {
-        const bool last = k == N_SAMPLES;
-        const double t = last ? s->step->t1 : from + rest * k / N_SAMPLES;
-        const double margin = 1.0 - (last ? end : utilisation_at(s, element, t));
-        if (margin <= 0.0) return root(s, element, (bracket){before, t, above, margin, 0, 0});
-        before = t;
-        above = margin;
-    }
-    return (double)INFINITY;
-}
-
-static bool falls(fracture_source *s, dem_index element, double from, double end)
-{
-    return utilisation_at(s, element, s->step->t1 - (s->step->t1 - from) / N_SAMPLES) > end;
-}
-
-/* When an element breaks after `from`; infinity: not in this step. */
-static double next_break(fracture_source *s, dem_index element, double from, bool jumped)
-{
-    const double end = utilisation_at_end(s, element);
-    if (jumped && utilisation_at(s, element, from) >= 1.0) return from;
-    if (!(end >= near_limit) || (end < 1.0 && !falls(s, element, from, end))) return (double)INFINITY;
-    return search(s, element, from, end);
-}
-
-/* ---- where to look ---- */
-
-static void look_at(fracture_source *s, dem_index element)
-{
-    const double due = may_break(s, element) ? next_break(s, element, s->step->t0, false) : (double)INFINITY;
-    if (isfinite(due)) due_elements_set(&s->due, element, due);
-}
-
 /* Whether a triangle may be near its limit by the stress at one of its corners: without confinement, which only lowers
  * it, its utilisation is a convex function of the mean of three stresses, and not larger than by each of them in the
  * mean. The last digits may differ. */
 static bool may_be_near(utilisation_limits limits, const double *stress)
 {
     limits.confinement = 0.0;
-    return !(utilisation_of_stress(limits, stress, stress, stress) < 0.999 * near_limit);
+    return !(utilisation_of_stress(limits, stress, stress, stress) < 0.999 * BREAK_SEARCH_NEAR);
 }
 
 static void look_at_triangles_of(fracture_source *s, dem_index i, const double *stress)
@@ -247,7 +140,19 @@ static void look_at_triangles_of(fracture_source *s, dem_index i, const double *
         if (s->seen[t] == s->number || !may_break(s, t)) continue;
         if (!may_be_near(utilisation_limits_of(e->lattice, e, t), stress)) continue;
         s->seen[t] = s->number;
-        look_at(s, t);
+        break_search_note(&s->search, t);
+    }
+}
+
+/* The stress of a node says nothing of what its triangles stand by their own. */
+static void look_at_own_stresses(fracture_source *s, dem_index i)
+{
+    const element_state *e = s->elements;
+    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
+        const dem_index t = e->at[p];
+        if (s->seen[t] == s->number || !utilisation_by_own_stress(e->lattice, t) || !may_break(s, t)) continue;
+        s->seen[t] = s->number;
+        break_search_note(&s->search, t);
     }
 }
 
@@ -257,7 +162,8 @@ static void ask(fracture_source *s, dem_index i)
     double stress[3];
     if (s->asked[i] == s->number) return;
     s->asked[i] = s->number;
-    stress_cache_find(&s->stress, i, stress);
+    if (s->model->lattice.own_stress != NULL) look_at_own_stresses(s, i);
+    break_search_stress(&s->search, i, stress);
     if (may_be_near(s->filter.weakest, stress)) look_at_triangles_of(s, i, stress);
 }
 
@@ -266,9 +172,8 @@ static void look_at_springs_of(fracture_source *s, dem_index i)
     const dem_lattice *l = &s->model->lattice;
     const springs *own = &s->model->springs;
     for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) {
-        const dem_index k = own->spring[p];
-        if (!(springs_strain_of(l, k, s->step->y1) < near_limit * l->critical_stretch[k]))
-            look_at(s, l->n_triangles + k);
+        const dem_index element = l->n_triangles + own->spring[p];
+        if (may_break(s, element)) break_search_note(&s->search, element);
     }
 }
 
@@ -289,6 +194,7 @@ static void look(fracture_source *s)
 {
     kernel_visit_strained(s->kernel, s->elements, s->step->y1, look_near, s);
     for (dem_index k = 0; k < s->filter.n_always; k++) ask(s, s->filter.always[k]);
+    break_search_find(&s->search, s->step->t0);
 }
 
 /* What undo() goes back to. */
@@ -304,19 +210,17 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
     fracture_source *s = self;
     s->step = step;
     begin_number(s);
-    stress_cache_begin(&s->stress, step->y1);
-    s->state = state;
+    break_search_begin(&s->search, step, state);
     s->jumped = false;
     note_start(s);
-    due_elements_clear(&s->due);
     look(s);
 }
 
 static double fracture_source_next(const void *self, dem_index *key)
 {
     const fracture_source *s = self;
-    *key = s->due.n > 0 ? s->due.list[0].element : -1;
-    return due_elements_first(&s->due);
+    *key = s->search.due.n > 0 ? s->search.due.list[0].element : -1;
+    return due_elements_first(&s->search.due);
 }
 
 /* ---- what breaks ---- */
@@ -331,8 +235,8 @@ static void add_failing(const fracture_source *s, dem_index element)
 /* Adds what is due until t of the part of the list under place p: nothing there is due before it. */
 static void collect(const fracture_source *s, dem_index p, double t)
 {
-    if (p >= s->due.n || s->due.list[p].t > t) return;
-    add_failing(s, s->due.list[p].element);
+    if (p >= s->search.due.n || s->search.due.list[p].t > t) return;
+    add_failing(s, s->search.due.list[p].element);
     collect(s, 2 * p + 1, t);
     collect(s, 2 * p + 2, t);
 }
@@ -341,7 +245,7 @@ static void collect(const fracture_source *s, dem_index p, double t)
 static void find_failing(const fracture_source *s)
 {
     failing_elements_clear(s->failing);
-    collect(s, 0, due_elements_first(&s->due) + dense_output_resolution(s->step));
+    collect(s, 0, due_elements_first(&s->search.due) + dense_output_resolution(s->step));
     failing_elements_complete(s->failing, s->elements);
 }
 
@@ -413,9 +317,12 @@ static dem_status fracture_source_resolve(void *self, dem_index key, const event
 
 /* ---- what follows ---- */
 
+/* What has jumped may be over its limit at once; all else is searched for when all have been noted. */
 static void look_again(fracture_source *s, dem_index element, double t, bool jumped)
 {
-    due_elements_set(&s->due, element, may_break(s, element) ? next_break(s, element, t, jumped) : (double)INFINITY);
+    const bool may = may_break(s, element), at_once = may && jumped && break_search_is_over(&s->search, element, t);
+    due_elements_set(&s->search.due, element, at_once ? t : (double)INFINITY);
+    if (may && !at_once) break_search_note(&s->search, element);
 }
 
 static void look_at_triangle(fracture_source *s, const event_place *at, dem_index triangle, dem_index node)
@@ -444,15 +351,16 @@ static void fracture_source_follow(void *self, const event_place *at)
     const dem_lattice *l = &s->model->lattice;
     const local_nodes *nodes = &at->near->nodes;
     const element_state *e = s->elements;
-    for (dem_index j = 0; j < nodes->n; j++) stress_cache_forget(&s->stress, nodes->list[j]);
+    const springs *all = &s->model->springs;
+    break_search_renew(&s->search, nodes->list, nodes->n);
     for (dem_index j = 0; j < nodes->n; j++) {
         const dem_index i = nodes->list[j];
-        const springs *all = &s->model->springs;
         for (dem_index p = e->at_row[i]; p < e->at_row[i + 1] && l->strength != NULL; p++)
             look_at_triangle(s, at, e->at[p], i);
         for (dem_index p = all->row[i]; p < all->row[i + 1] && l->critical_stretch != NULL; p++)
             if (nodes->number[all->neighbour[p]] < nodes->number[i]) look_at_spring(s, at, p);
     }
+    break_search_find(&s->search, at->t);
     s->jumped = false;
 }
 
@@ -493,7 +401,7 @@ static dem_status break_all(fracture_source *s, double t, const double *y)
 
 dem_status fracture_source_found(const fracture_source *s)
 {
-    return s->due.status;
+    return s->search.due.status;
 }
 
 dem_status fracture_source_break(fracture_source *s, const double *y)

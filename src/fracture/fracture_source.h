@@ -6,10 +6,9 @@
 
 #include "events/event_source.h"
 #include "forces/kernel.h"
-#include "fracture/due_elements.h"
+#include "fracture/break_search.h"
 #include "fracture/failing_elements.h"
 #include "fracture/strain_filter.h"
-#include "fracture/stress_cache.h"
 
 typedef struct fracture_source {
     const dem_model *model;
@@ -18,15 +17,11 @@ typedef struct fracture_source {
     double *taken;            /* J, by all that has broken or softened: the ledger's */
     dem_index most;           /* elements that may break in a step; for more it is rejected */
     const dense_output *step; /* the accepted one */
-    double *state;            /* [2 dim n_rows] scratch, the queue's */
     strain_filter filter;
-    stress_cache stress;       /* at the end of the step */
+    break_search search;       /* when elements break or soften; */
     uint8_t number;            /* of the step */
-    uint8_t look;              /* of the present look at a time within it */
     uint8_t *asked;            /* [n_nodes] the number of the step in which the stress at one was looked at last */
     uint8_t *seen;             /* [n_triangles] the same of triangles near their limits */
-    uint8_t *placed;           /* [n_nodes] the look at which a node was put into `state` last */
-    due_elements due;          /* elements by the time at which they break or soften */
     failing_elements *failing; /* those that do so next, or have done so last */
     bool jumped;               /* some have, and others may be over their limits at once */
     dem_index n_failed, capacity, broken_capacity;

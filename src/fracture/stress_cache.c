@@ -7,11 +7,10 @@
 
 #include "base/status.h"
 
-/* Meshes have their nodes row by row, or are renumbered so: room for four rows of a square body. */
-dem_status stress_cache_create(stress_cache *out, const dem_model *model, const element_state *elements)
+dem_status stress_cache_create(stress_cache *out, const dem_model *model, const element_state *elements, dem_index room)
 {
     stress_cache c = {.model = model, .elements = elements, .n = 64};
-    while (c.n * c.n < 16 * model->lattice.n_nodes) c.n *= 2;
+    while (c.n < room) c.n *= 2;
     c.slots = calloc((size_t)c.n, sizeof *c.slots);
     CHECK(c.slots != NULL, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes", (long long)c.n);
     *out = c;
@@ -38,10 +37,16 @@ static stress_cache_slot *slot_of(const stress_cache *c, dem_index i)
     return &c->slots[i & (c->n - 1)];
 }
 
+bool stress_cache_has(const stress_cache *c, dem_index i)
+{
+    const stress_cache_slot *slot = slot_of(c, i);
+    return slot->number == c->number && slot->node == i;
+}
+
 void stress_cache_find(stress_cache *c, dem_index i, double stress[3])
 {
     stress_cache_slot *slot = slot_of(c, i);
-    if (slot->number != c->number || slot->node != i) {
+    if (!stress_cache_has(c, i)) {
         node_stress(c->model, c->elements, NODE_STRESS_EFFECTIVE, i, c->x, slot->stress);
         slot->number = c->number;
         slot->node = (int32_t)i;

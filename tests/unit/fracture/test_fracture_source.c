@@ -385,8 +385,8 @@ static double first_break(dem_simulation *s, uint8_t number, uint8_t look)
     double *scratch = calloc((size_t)state_size(&s->layout), sizeof *scratch);
     assert_non_null(scratch);
     f->number = number;
-    f->look = look;
-    memset(f->placed, 0, (size_t)l->n_nodes * sizeof *f->placed);
+    f->search.look = look;
+    memset(f->search.placed, 0, (size_t)l->n_nodes * sizeof *f->search.placed);
     memset(f->asked, 0, (size_t)l->n_nodes * sizeof *f->asked);
     memset(f->seen, 0, (size_t)l->n_triangles * sizeof *f->seen);
     const double first = fracture_source_first(f, &s->path, scratch);

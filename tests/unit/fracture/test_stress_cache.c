@@ -36,7 +36,7 @@ TEST(it_finds_the_stress_of_the_state)
     dem_model *model = support_model(&block, NULL, 0);
     double *x = malloc(2 * (size_t)block.n_nodes * sizeof *x);
     assert_non_null(x);
-    assert_ok(stress_cache_create(&c, model, NULL));
+    assert_ok(stress_cache_create(&c, model, NULL, 100));
     assert_true(c.n < block.n_nodes);
     for (int state = 0; state < 3; state++) {
         move(&block, 1e-3 * state, x);
@@ -62,7 +62,7 @@ TEST(numbers_of_states_may_begin_anew)
     dem_model *model = support_model(&block, NULL, 0);
     double *x = malloc(2 * (size_t)block.n_nodes * sizeof *x);
     assert_non_null(x);
-    assert_ok(stress_cache_create(&c, model, NULL));
+    assert_ok(stress_cache_create(&c, model, NULL, 100));
     for (int k = 0; k < 2; k++) {
         move(&block, 1e-3 * k, x);
         stress_cache_begin(&c, x);

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* When in a step elements are at their limits. Those that are asked after together are searched together, time by time:
+ * neighbours share the stresses of nodes. */
+#ifndef DEM_FRACTURE_BREAK_SEARCH_H
+#define DEM_FRACTURE_BREAK_SEARCH_H
+
+#include "fracture/due_elements.h"
+#include "fracture/stress_cache.h"
+#include "time/dense_output.h"
+
+/** An element that is searched for a time. */
+typedef struct break_candidate {
+    dem_index element;
+    double before, after; /* s, about the time, if it has been found */
+    double above, below;  /* 1 - utilisation at these */
+    double end;           /* utilisation at the end of the step */
+    bool found;
+} break_candidate;
+
+typedef struct break_search {
+    const dem_model *model;
+    const element_state *elements;
+    const dense_output *step;
+    double *state;       /* [2 dim n_rows] scratch, not the search's: positions at the present time */
+    stress_cache end;    /* stresses at the end of the step */
+    stress_cache within; /* and at the present time; */
+    double t;            /* s, that is this one; not a number: none */
+    uint8_t look;        /* its number */
+    uint8_t *placed;     /* [n_nodes] the time at which a node was put into `state` last */
+    dem_index n, capacity;
+    break_candidate *list; /* [n] those that are searched next */
+    due_elements due;      /* those that have been found */
+} break_search;
+
+/** At the end of a step of h omega = 0.5 a utilisation may be smaller than in it by (h omega)^2/8, 3 %: an element that
+ *  is nearer to its limit, and falls, is searched for a time before. */
+#define BREAK_SEARCH_NEAR 0.97
+
+/** Borrows both.  \return DEM_ERROR_MEMORY. Free with break_search_destroy() */
+dem_status break_search_create(break_search *out, const dem_model *model, const element_state *elements);
+void break_search_destroy(break_search *s);
+
+/** A step in which nothing has been found yet. Borrows both.  \param state  [2 dim n_rows] scratch */
+void break_search_begin(break_search *s, const dense_output *step, double *state);
+
+/** The motion or the elements have changed, or others have used the scratch; and so may stresses at the end of the step
+ *  have at the n nodes of a list. */
+void break_search_renew(break_search *s, const dem_index *list, dem_index n);
+
+/** Effective stress of node i at the end of the step, Pa. */
+void break_search_stress(break_search *s, dem_index i, double stress[3]);
+
+/** Whether an element is at or beyond its limit at t. */
+bool break_search_is_over(break_search *s, dem_index element, double t);
+
+/** Notes an element if it may be at its limit before the end of the step or at it. Without room for it `due` has a
+ *  status. */
+void break_search_note(break_search *s, dem_index element);
+
+/** Enters those that have been noted, and are at their limits in the step after `from`, into `due`. */
+void break_search_find(break_search *s, double from);
+
+#endif
