@@ -38,6 +38,13 @@ static double area_at(const triangles *t, dem_index i, dem_index p, const double
     return vec2_triangle_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
 }
 
+/* Whether nothing resists a change of area at an area A of the triangle in slot p: it has no area term, and the guard
+ * does not act. */
+static bool is_slack(const triangles *t, dem_index p, double A)
+{
+    return t->area_stiffness == NULL && !(A < TRIANGLES_GUARD_ONSET * t->rest_area[p]);
+}
+
 /* dA/dx_i = (z x (x_last - x_next))/2: the side opposite to node i, turned by 90 degrees towards it, and halved. */
 static vec2 gradient(const triangles *t, dem_index p, const double *x)
 {
@@ -77,7 +84,7 @@ vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_inde
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         if (triangles_broken(t, integrity, p)) continue;
-        const double slope = slope_at(t, integrity, p, area_at(t, i, p, x));
+        const double A = area_at(t, i, p, x), slope = is_slack(t, p, A) ? 0.0 : slope_at(t, integrity, p, A);
         if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
     }
     return force;
@@ -87,7 +94,17 @@ vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_inde
 double triangles_virial(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p, const double *x)
 {
     const double A = area_at(t, i, p, x);
-    return A * slope_at(t, integrity, p, A);
+    return is_slack(t, p, A) ? 0.0 : A * slope_at(t, integrity, p, A);
+}
+
+double triangles_node_virial(const triangles *t, dem_index i, const double *x, double divisor)
+{
+    double sum = 0.0;
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
+        const double A = area_at(t, i, p, x);
+        if (!is_slack(t, p, A)) sum += A * slope_at(t, TRIANGLES_WHOLE, p, A) / divisor;
+    }
+    return sum;
 }
 
 /* d(dW/dA dA/dx_i) = d^2W/dA^2 (dA.u) dA/dx_i + dW/dA d(dA/dx_i). The area is quadratic in the positions: `change` =

@@ -60,6 +60,9 @@ vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_inde
  *  A alone, times the unit tensor. */
 double triangles_virial(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p, const double *x);
 
+/** The sum of that over the row of node i, of triangles that are whole, each over the divisor. */
+double triangles_node_virial(const triangles *t, dem_index i, const double *x, double divisor);
+
 /** (K u)_i, N: minus the change of the force on node i when the nodes move from x by u; K is the second derivative of
  *  the energy. */
 vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const double *u);

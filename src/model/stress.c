@@ -158,9 +158,7 @@ void stress_of_node(const stress_map *map, const dem_lattice *lattice, const tri
         yy += map->share[p] * virial[1];
         xy += map->share[p] * virial[2];
     }
-    double spread = 0.0; /* of triangles, the same in all directions */
-    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
-        spread += triangles_virial(t, TRIANGLES_WHOLE, i, p, x) / (3.0 * map->volume[i]);
+    const double spread = triangles_node_virial(t, i, x, 3.0 * map->volume[i]); /* the same in all directions */
     stress[0] = xx + spread;
     stress[1] = yy + spread;
     stress[2] = xy;

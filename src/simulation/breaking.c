@@ -51,14 +51,14 @@ static dem_status go_back(dem_simulation *s, const double *y)
     return status;
 }
 
-/* After a failure all is as it was, unless there is no memory to go back either. */
+/* After a failure all is as it was, unless there is no memory to go back either.  \param outline  NULL: as it is */
 static dem_status follow(dem_simulation *s, const element_state *next, const mesh_boundary *boundary,
                          const surface *outline, const double *y)
 {
     dem_status status = break_surfaces(s, boundary);
     if (status == DEM_OK) status = follow_state(s, y);
     if (status == DEM_OK) status = overlap_break(&s->overlap, boundary, next->triangle);
-    if (status == DEM_OK) status = contact_source_follow_surface(&s->contact_events, outline);
+    if (status == DEM_OK && outline != NULL) status = contact_source_follow_surface(&s->contact_events, outline);
     return status == DEM_OK ? DEM_OK : status_first(status, go_back(s, y));
 }
 
@@ -77,14 +77,24 @@ static dem_status find_boundary(const dem_simulation *s, const element_state *ne
     return mesh_boundary_create(out, &s->model->lattice, next->triangle);
 }
 
+/* What may touch obstacles; NULL where there are none to touch. */
+static dem_status make_outline(const dem_simulation *s, const element_state *next, const mesh_boundary *boundary,
+                               surface **out)
+{
+    *out = NULL;
+    if (s->model->obstacles.n == 0) return DEM_OK;
+    *out = calloc(1, sizeof **out);
+    CHECK(*out != NULL, DEM_ERROR_MEMORY, "out of memory for what may touch obstacles");
+    return surface_compile_broken(*out, boundary, next->triangle, s->boundaries.held);
+}
+
 /* Makes the outline that of a state of elements.  \param y  [2 dim n_rows] the motion in it, or NULL */
 static dem_status renew_outline(dem_simulation *s, const element_state *next, const double *y)
 {
     mesh_boundary boundary = {0};
-    surface *outline = calloc(1, sizeof *outline);
-    dem_status status =
-        outline != NULL ? find_boundary(s, next, &boundary) : status_fail(DEM_ERROR_MEMORY, "out of memory");
-    if (status == DEM_OK) status = surface_compile_broken(outline, &boundary, next->triangle, s->boundaries.held);
+    surface *outline = NULL;
+    dem_status status = find_boundary(s, next, &boundary);
+    if (status == DEM_OK) status = make_outline(s, next, &boundary, &outline);
     if (status == DEM_OK) status = follow(s, next, &boundary, outline, y);
     free_outline(status == DEM_OK ? s->outline : outline);
     mesh_boundary_free(status == DEM_OK ? &s->boundary : &boundary);

@@ -130,11 +130,13 @@ static dem_status find_state(const dem_simulation *s, const dem_checkpoint *chec
     return DEM_OK;
 }
 
+/* Without obstacles candidates need not be those of the present surface. */
 static dem_status check_sizes(const dem_simulation *s, const dem_checkpoint *checkpoint)
 {
     const sizes here = sizes_of(s);
     sizes there;
     TRY(dem_checkpoint_get(checkpoint, "sizes", &there, sizeof there));
+    if (here.n_obstacles == 0) there.n_candidates = here.n_candidates;
     CHECK(memcmp(&here, &there, sizeof here) == 0, DEM_ERROR_IO,
           "the checkpoint is of another model: %lld nodes, %lld springs, %lld segments, not %lld, %lld, %lld",
           (long long)there.n_nodes, (long long)there.n_springs, (long long)there.n_segments, (long long)here.n_nodes,
