@@ -143,11 +143,6 @@ void failing_elements_complete(failing_elements *f, const element_state *s)
     for (dem_index k = 0; k < f->n; k++) f->n_breaking += f->breaks[k] = breaks(f, s, f->list[k]);
 }
 
-bool failing_elements_have(const failing_elements *f, dem_index node)
-{
-    return sorted_find(f->nodes, f->n_nodes, node) >= 0;
-}
-
 /* ---- their end ---- */
 
 /* The energy of all is taken at once, whose rounding does not depend on their number. */

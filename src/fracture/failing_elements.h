@@ -27,9 +27,6 @@ void failing_elements_add(failing_elements *f, const element_state *s, dem_index
 /** Sorts the elements, finds their nodes, and which of them break. */
 void failing_elements_complete(failing_elements *f, const element_state *s);
 
-/** Whether a node is one of theirs. */
-bool failing_elements_have(const failing_elements *f, dem_index node);
-
 /** Breaks or softens them.
  *  \param noted  ends with those that break, and gets their energies
  *  \return the energy that all lose at positions x [n][2], J */

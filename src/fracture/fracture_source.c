@@ -328,11 +328,11 @@ static void look_again(fracture_source *s, dem_index element, double t, bool jum
 static void look_at_triangle(fracture_source *s, const event_place *at, dem_index triangle, dem_index node)
 {
     const dem_index *corner = &s->model->lattice.triangles[3 * triangle];
-    const int32_t *number = at->near->nodes.number;
+    const int32_t *number = at->near->nodes.number; /* the seeds, which are the nodes of what fails, come first */
     bool jumped = false;
     for (int c = 0; c < 3; c++) {
         if (number[corner[c]] >= 0 && number[corner[c]] < number[node]) return; /* it has been looked at there */
-        jumped = jumped || (s->jumped && failing_elements_have(s->failing, corner[c]));
+        jumped = jumped || (s->jumped && number[corner[c]] >= 0 && number[corner[c]] < s->failing->n_nodes);
     }
     look_again(s, triangle, at->t, jumped);
 }
