@@ -15,6 +15,11 @@ typedef struct sweep_fused_step {
     double *x1, *v1;
 } sweep_fused_step;
 
+/** Strains from none to these do not count, > 0; infinity: none does. */
+typedef struct sweep_limits {
+    double stretch, squeeze; /* in tension, and under pressure */
+} sweep_limits;
+
 /** What a sweep reads and writes; nodes in the order of the layout. */
 typedef struct sweep {
     const layout *layout;
@@ -26,9 +31,9 @@ typedef struct sweep {
     double *u;                  /* [n_nodes][2] velocities, as v; NULL: not wanted */
     uint8_t *guarded;           /* [n_blocks] a bit for each node with a triangle on which the guard acts: its
                                    acceleration is without triangles */
-    const double *limit;        /* [n_blocks] strain that is not asked after; infinity: none of the block is. Of a sweep
-                                   that fills accelerations NULL: no strains are asked after */
-    uint8_t *strained;          /* [n_blocks] a bit for each node with a spring, of those that it evaluates, strained
+    const sweep_limits *limit; /* [n_blocks] strains that are not asked after. Of a sweep that fills accelerations NULL:
+                                   none are */
+    uint8_t *strained;         /* [n_blocks] a bit for each node with a spring, of those that it evaluates, strained
                                    more */
     const sweep_fused_step
         *fused_step; /* NULL: none. Else x is its x1, which the sweep fills before it reads it, but for
@@ -47,7 +52,7 @@ typedef void sweep_guard_function(const sweep *s, dem_index first, dem_index las
 
 sweep_guard_function sweep_guard_portable, sweep_guard_avx2, sweep_guard_avx512;
 
-/** Fills `strained` and nothing else. In either sweep a spring whose strain is within 1e-12 of the limit may count or
+/** Fills `strained` and nothing else. In either sweep a spring whose strain is within 1e-12 of a limit may count or
  *  not. */
 typedef void sweep_strain_function(const sweep *s, dem_index first, dem_index last);
 

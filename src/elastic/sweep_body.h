@@ -46,17 +46,24 @@ INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
     return nodes;
 }
 
-/* The same of the nodes whose springs are longer or shorter than at rest by more than `most`. */
-INLINE unsigned strained_of(lanes longer, lanes most, unsigned mask)
+/* The same of the nodes whose springs are longer or shorter than at rest by more than the limits. */
+INLINE unsigned strained_of(lanes longer, lanes rest, sweep_limits limit, unsigned mask)
 {
-    const unsigned over = lanes_below(most, longer) | lanes_below(longer, lanes_mul(lanes_all(-1.0), most));
+    const unsigned over = lanes_below(lanes_mul(lanes_all(limit.stretch), rest), longer) |
+                          lanes_below(longer, lanes_mul(lanes_all(-limit.squeeze), rest));
     return over != 0 ? nodes_of(over, mask) : 0;
+}
+
+/* A strain within 1e-12 of a limit may count or not. */
+INLINE sweep_limits limits_of(const sweep *s, dem_index block)
+{
+    return (sweep_limits){s->limit[block].stretch - 1e-12, s->limit[block].squeeze - 1e-12};
 }
 
 /* Forces (1) of the springs of which the block has the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), into the ring;
  * and behind all of them, those of damping, c (d.v)/(d0 d^2) d. Lanes that take no part leave what nobody collects.
  * \return if it is watched, the nodes with a spring strained by more than the limit, a bit each */
-INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, double limit, double *ring)
+INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, sweep_limits limit, double *ring)
 {
     const bool damped = acting.damped;
     const layout *l = s->layout;
@@ -75,7 +82,7 @@ INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, d
         const lanes square = pairs_dot(d, d), length = lanes_sqrt(square), rest = lanes_load(set + LAYOUT_LANES);
         const lanes longer = lanes_sub(length, rest), stretch = lanes_mul(lanes_load(set), longer);
         pairs_store(out + e->to, pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d));
-        if (acting.watched) nodes |= strained_of(longer, lanes_mul(lanes_all(limit), rest), e->mask);
+        if (acting.watched) nodes |= strained_of(longer, rest, limit, e->mask);
         if (!damped) continue;
         const pairs dv = pairs_sub(fetch(l, s->v, velocities, e->at, gathered), v);
         const lanes rate = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), pairs_dot(d, dv));
@@ -87,10 +94,10 @@ INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, d
     return nodes;
 }
 
-/* A strain within 1e-12 of the limit may count or not. The blocks below the first are another share's. */
+/* The blocks below the first are another share's. */
 INLINE void evaluate_block(const sweep *s, dem_index block, dem_index first, laws acting, double *ring)
 {
-    const double limit = acting.watched ? s->limit[block] - 1e-12 : 0.0;
+    const sweep_limits limit = acting.watched ? limits_of(s, block) : (sweep_limits){0.0, 0.0};
     const unsigned nodes = evaluate_springs(s, block, acting, limit, ring);
     if (acting.watched && block >= first) s->strained[block] = (uint8_t)nodes;
 }
@@ -258,13 +265,14 @@ void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
 }
 
 /* Squares of lengths are compared, without roots. */
-INLINE unsigned strained_nodes(const sweep *s, dem_index block, double limit)
+INLINE unsigned strained_nodes(const sweep *s, dem_index block, sweep_limits limit)
 {
     const layout *l = s->layout;
     const intern_span span = l->springs.span[block];
     const layout_entry *entries = l->springs.entries.items;
     const double *sets = l->bonds.items, *here = s->x + 2 * LAYOUT_LANES * block;
-    const double low = limit < 1.0 ? (1.0 - limit) * (1.0 - limit) : 0.0, high = (1.0 + limit) * (1.0 + limit);
+    const double least = limit.squeeze < 1.0 ? 1.0 - limit.squeeze : 0.0, most = 1.0 + limit.stretch;
+    const double low = least * least, high = most * most;
     const pairs x = pairs_load(here);
     unsigned nodes = 0;
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
@@ -281,8 +289,9 @@ INLINE unsigned strained_nodes(const sweep *s, dem_index block, double limit)
 void SWEEP_STRAIN(const sweep *s, dem_index first, dem_index last)
 {
     for (dem_index block = first; block < last; block++) {
-        const double limit = s->limit[block] - 1e-12;
-        s->strained[block] = limit < (double)INFINITY ? (uint8_t)strained_nodes(s, block, limit) : 0;
+        const sweep_limits limit = limits_of(s, block);
+        const bool is_watched = fmin(limit.stretch, limit.squeeze) < (double)INFINITY;
+        s->strained[block] = is_watched ? (uint8_t)strained_nodes(s, block, limit) : 0;
     }
 }
 

@@ -433,7 +433,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 /* ---- strains ---- */
 
 /* A spring belongs to the block of its lower node; where nodes are renumbered that of both has its threshold. */
-dem_status kernel_watch(kernel *k, const float *threshold)
+dem_status kernel_watch(kernel *k, const kernel_threshold *threshold)
 {
     const layout *l = &k->model->layout;
     const springs *s = &k->model->springs;
@@ -442,11 +442,14 @@ dem_status kernel_watch(kernel *k, const float *threshold)
     CHECK(k->limit && k->strained, DEM_ERROR_MEMORY, "out of memory for the strains of %lld blocks",
           (long long)l->n_blocks);
     for (dem_index block = 0; block < l->n_blocks; block++) {
-        k->limit[block] = (double)INFINITY;
+        sweep_limits *limit = &k->limit[block];
+        *limit = (sweep_limits){(double)INFINITY, (double)INFINITY};
         for (dem_index q = LAYOUT_LANES * block; q < LAYOUT_LANES * (block + 1); q++)
-            for (dem_index i = layout_node(l, q), p = s->row[i]; p < s->row[i + 1]; p++)
-                if (l->order != NULL || s->neighbour[p] > i)
-                    k->limit[block] = fmin(k->limit[block], (double)threshold[s->spring[p]]);
+            for (dem_index i = layout_node(l, q), p = s->row[i]; p < s->row[i + 1]; p++) {
+                if (l->order == NULL && s->neighbour[p] < i) continue;
+                limit->stretch = fmin(limit->stretch, (double)threshold[s->spring[p]].stretch);
+                limit->squeeze = fmin(limit->squeeze, (double)threshold[s->spring[p]].squeeze);
+            }
     }
     return DEM_OK;
 }
@@ -465,11 +468,14 @@ static void find_strained(kernel *k, const element_state *e, const double *x)
 }
 
 /* A layout that is not trimmed has broken springs, too, whose ends may be anywhere. */
-static bool has_strained(const kernel *k, springs_integrity left, dem_index i, double limit, const double *x)
+static bool has_strained(const kernel *k, springs_integrity left, dem_index i, sweep_limits limit, const double *x)
 {
     const springs *s = &k->model->springs;
-    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-        if (!springs_is_broken(left, s->spring[p]) && !(fabs(springs_strain(s, i, p, x)) < limit - 1e-12)) return true;
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        const double strain = springs_strain(s, i, p, x);
+        const bool is_within = strain < limit.stretch - 1e-12 && -strain < limit.squeeze - 1e-12;
+        if (!is_within && !springs_is_broken(left, s->spring[p])) return true;
+    }
     return false;
 }
 

@@ -23,7 +23,7 @@ typedef struct kernel {
     size_t ring_size;       /* doubles */
     uint8_t *guarded;       /* [n_blocks] */
     double *sums;           /* [n_threads] */
-    double *limit;          /* [n_blocks] the least of the thresholds that are watched; NULL: none are */
+    sweep_limits *limit;    /* [n_blocks] the least of the thresholds that are watched; NULL: none are */
     uint8_t *strained;      /* [n_blocks] nodes with springs strained more, */
     const double *watched;  /* at these positions, of a fused step; NULL: to be found */
     trimmed_layout trimmed; /* what sweeps read where something has broken, */
@@ -41,9 +41,14 @@ void kernel_destroy(kernel *k);
  *  broken elements are evaluated one by one, to the same bits. */
 void kernel_follow(kernel *k, const element_state *elements, const dem_index *list, dem_index n);
 
-/** From now on strains are watched.  \param threshold  [n_springs] of |strain|, by the lattice's numbers
+/** Strains of a spring that are not asked after, > 0, in tension and under pressure; infinity: none is. */
+typedef struct kernel_threshold {
+    float stretch, squeeze;
+} kernel_threshold;
+
+/** From now on strains are watched.  \param threshold  [n_springs] by the lattice's numbers
  *  \return DEM_ERROR_MEMORY */
-dem_status kernel_watch(kernel *k, const float *threshold);
+dem_status kernel_watch(kernel *k, const kernel_threshold *threshold);
 
 typedef void kernel_visitor(void *context, dem_index node);
 

@@ -3,7 +3,8 @@
  * triangle's utilisation that of a mean of nodes' stresses. Without confinement, which only lowers it, the utilisation
  * is a sum of convex functions of the stress, and so at most the mean of the utilisations by those stresses: if a
  * triangle is near its limit, so is one of its corners by the triangle's limits, and one of the triangles at that
- * corner. With all principal stresses below s in size it is below s (1/strength + 1/compressive strength). A spring that
+ * corner. With all principal stresses below s in size it is below s (1/strength + 1/compressive strength); where pressure
+ * breaks none, those in tension count. A spring that
  * no triangle holds adds to the stress of its ends without a bound, and so does a triangle of which an edge has no
  * spring to that of its corners: these nodes are listed, and get a look at every step. */
 #include "fracture/strain_filter.h"
@@ -77,9 +78,12 @@ static void enter_triangle(strain_filter *f, const dem_lattice *l, const element
     const utilisation_limits weakest = weakest_around(l, s, triangle);
     if (isinf(weakest.tension)) return;
     const double stress = near_limit * weakest.tension / (1.0 + weakest.tension / weakest.pressure);
-    const float strain = round_down(stress_bound_strain(l, s, triangle, stress));
-    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++)
-        f->threshold[s->spring[p]] = fminf(f->threshold[s->spring[p]], strain);
+    const stress_bound bound = stress_bound_of(l, s, triangle, stress, isfinite(weakest.pressure));
+    for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
+        kernel_threshold *own = &f->threshold[s->spring[p]];
+        own->stretch = fminf(own->stretch, round_down(bound.stretch));
+        own->squeeze = fminf(own->squeeze, round_down(bound.squeeze));
+    }
 }
 
 /* Triangles without a strength have no limits, and nothing to be asked. */
@@ -125,7 +129,8 @@ static dem_status fill(strain_filter *f, const dem_lattice *l, const element_sta
           (long long)l->n_springs);
     for (dem_index k = 0; k < l->n_springs; k++) {
         const bool limited = l->critical_stretch != NULL && utilisation_is_limited(l, l->n_triangles + k);
-        f->threshold[k] = limited ? round_down(near_limit * l->critical_stretch[k]) : INFINITY;
+        f->threshold[k] = (kernel_threshold){INFINITY, INFINITY};
+        if (limited) f->threshold[k].stretch = round_down(near_limit * l->critical_stretch[k]);
     }
     enter_triangles(f, l, s, near_limit);
     return l->strength != NULL ? list_unbounded(f, l, s) : DEM_OK;

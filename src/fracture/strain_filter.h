@@ -5,11 +5,12 @@
 
 #include <math.h>
 
+#include "forces/kernel.h"
 #include "fracture/utilisation.h"
 
 typedef struct strain_filter {
-    float *threshold; /* [n_springs] of |strain|, or a rounding less; infinity: nothing near the spring ever breaks;
-                         NULL: forgotten */
+    kernel_threshold *threshold; /* [n_springs] strains, or a rounding less; infinity: nothing near the spring ever
+                                    breaks by such; NULL: forgotten */
     dem_index n_always;
     dem_index *always;          /* [n_always] nodes of which the stress has no bound by strains */
     utilisation_limits weakest; /* the least limits of all triangles, whatever the pressure across */

@@ -8,14 +8,18 @@
  * stress is that of the strains e of the edges,
  *   V sigma = sum of e M,   M = w E d0 n n^T + gamma L L1 n1 n1^T + gamma' L L2 n2 n2^T + kappa A0 s I,
  * with n at rest, and edges 1 and 2 the other two: no principal value is larger than m times the largest one of the
- * sum of |M|, which has the eigenvectors of M, and their sizes. For what is left out let g = k m (1 + m/2) be the
- * largest Green strain, k = L1 L2 L3 (L1 + L2 + L3)/(4 A^2), since an edge adds L^2/(4 A^2) a b^T, made symmetric, for
- * each unit of its own, with a and b the other two turned by 90 degrees. For g <= 0.1
- *   - directions turn, and lengths grow: |F Q F^T - R Q R^T| <= 5 g |Q| for F = R U with U = sqrt(1 + 2 G), and the sum
- *     Q of all n n^T has |Q| <= S m/(1 - m);
+ * sum of |M|, which has the eigenvectors of M, and their sizes. With M+ = (|M| + M)/2 and M- = (|M| - M)/2 none in
+ * tension is larger than m C+ + r m C- with the largest ones of their sums, where no edge is shorter by more than r m:
+ * pressure along an edge brings little tension, or none.
+ * For what is left out let g be the largest Green strain: an edge adds E = L^2/(4 A^2) a b^T, made symmetric, for each
+ * unit of its own, with a and b the other two turned by 90 degrees, so that g = k m (1 + m/2) with k the largest
+ * principal value of the sum of |E|. For g <= 0.1
+ *   - directions turn, and lengths grow: |F Q F^T - R Q R^T| <= 2.25 g |Q| for F = R U with U = sqrt(1 + 2 G), as
+ *     |U - 1| <= 1.06 g and |U| + 1 <= 2.1; and the sum Q of all n n^T has |Q| <= S m/(1 - m);
  *   - tension over length is E e/(1 + e): S m^2/(1 - m);
  *   - J^2 = 1 + 2 tr G + 4 det G, so that |J (J - 1) - sum of s e| <= c m^2/2 + 2 g^2 + 20 g^2.
- * Both bounds hold, and the larger strain is taken. */
+ * All bounds hold, and the largest strains are taken; more pressure is let in where that costs no more than a fourth of
+ * the tension. */
 #include "fracture/stress_bound.h"
 
 #include <math.h>
@@ -35,6 +39,28 @@ typedef struct shape {
     double area;           /* m^2 */
 } shape;
 
+/* The matrix with the same eigenvectors and the sizes of the eigenvalues, mean +- radius: of different signs,
+ * |M| = (mean M - (mean^2 - radius^2) I)/radius. */
+static sym2 size_of(sym2 M)
+{
+    const double mean = 0.5 * (M.xx + M.yy), radius = sym2_largest(M) - mean, other = mean * mean - radius * radius;
+    if (other >= 0.0) return mean >= 0.0 ? M : (sym2){-M.xx, -M.xy, -M.yy};
+    return (sym2){(mean * M.xx - other) / radius, mean * M.xy / radius, (mean * M.yy - other) / radius};
+}
+
+/* k */
+static double turning_of(const shape *s)
+{
+    sym2 sum = {0.0, 0.0, 0.0};
+    for (int c = 0; c < 3; c++) {
+        const vec2 a = s->edge[(c + 1) % 3], b = s->edge[(c + 2) % 3];
+        const double factor = s->length[c] * s->length[c] / (4.0 * s->area * s->area);
+        const sym2 E = {factor * a.y * b.y, -0.5 * factor * (a.x * b.y + a.y * b.x), factor * a.x * b.x};
+        sum = sym2_add(sum, size_of(E));
+    }
+    return sym2_largest(sum);
+}
+
 static shape shape_of(const dem_lattice *l, dem_index triangle)
 {
     const dem_index *corner = &l->triangles[3 * triangle];
@@ -50,7 +76,7 @@ static shape shape_of(const dem_lattice *l, dem_index triangle)
         s.sensitivity[c] = a * a * (b * b + d * d - a * a) / (8.0 * squared);
         s.growth += fabs(s.sensitivity[c]);
     }
-    s.turning = L[0] * L[1] * L[2] * (L[0] + L[1] + L[2]) / (4.0 * squared);
+    s.turning = turning_of(&s);
     return s;
 }
 
@@ -97,15 +123,6 @@ static bool find_stiffness(const dem_lattice *l, const element_state *e, const s
     return true;
 }
 
-/* The matrix with the same eigenvectors and the sizes of the eigenvalues, mean +- radius: of different signs,
- * |M| = (mean M - (mean^2 - radius^2) I)/radius. */
-static sym2 size_of(sym2 M)
-{
-    const double mean = 0.5 * (M.xx + M.yy), radius = sym2_largest(M) - mean, other = mean * mean - radius * radius;
-    if (other >= 0.0) return mean >= 0.0 ? M : (sym2){-M.xx, -M.xy, -M.yy};
-    return (sym2){(mean * M.xx - other) / radius, mean * M.xy / radius, (mean * M.yy - other) / radius};
-}
-
 /* M of edge c. */
 static sym2 response(const dem_lattice *l, const shape *s, dem_index triangle, const double stiffness[3], int c)
 {
@@ -118,18 +135,48 @@ static sym2 response(const dem_lattice *l, const shape *s, dem_index triangle, c
     return sym2_along(M, coupling[next] * L[c] / L[next], s->edge[next]);
 }
 
-/* The second bound: stress V = (first + second m) m. */
-static double directed_strain(const dem_lattice *l, const element_state *e, const shape *s, dem_index triangle,
-                              double stress_volume)
+/* What edges do to stress: the largest principal values of the sums of |M|, M+ and M-. */
+typedef struct responses {
+    double both, pulled, pushed;
+} responses;
+
+static responses add_up(const dem_lattice *l, const shape *s, dem_index triangle, const double stiffness[3])
 {
-    double stiffness[3];
-    sym2 sum = {0.0, 0.0, 0.0};
-    if (!find_stiffness(l, e, s, triangle, stiffness)) return 0.0;
-    for (int c = 0; c < 3; c++) sum = sym2_add(sum, size_of(response(l, s, triangle, stiffness, c)));
-    const double first = sym2_largest(sum), k = s->turning, most = fmin(stress_volume / first, most_turning / k);
-    const double of_springs = sum_of_sizes(l, e, s, triangle) * (5.0 * k * (1.0 + 0.5 * most) + 1.0) / (1.0 - most);
+    sym2 both = {0.0, 0.0, 0.0}, difference = both;
+    for (int c = 0; c < 3; c++) {
+        const sym2 M = response(l, s, triangle, stiffness, c);
+        both = sym2_add(both, size_of(M));
+        difference = sym2_add(difference, M);
+    }
+    const sym2 turned = {-difference.xx, -difference.xy, -difference.yy};
+    return (responses){sym2_largest(both), 0.5 * sym2_largest(sym2_add(both, difference)),
+                       fmax(0.5 * sym2_largest(sym2_add(both, turned)), 0.0)};
+}
+
+/* The strain m for which first m + second (r m)^2 is at most stress times V, with k r m small enough. */
+static double strain_for(const dem_lattice *l, const element_state *e, const shape *s, dem_index triangle,
+                         double stress_volume, double first, double r)
+{
+    const double k = s->turning, most = fmin(stress_volume / first, most_turning / (k * r)), m = r * most;
+    const double of_springs = sum_of_sizes(l, e, s, triangle) * (2.25 * k * (1.0 + 0.5 * m) + 1.0) / (1.0 - m);
     const double of_area = area_part(l, s, triangle) * (0.5 * s->growth + 22.0 * 1.1 * k * k);
-    return fmin(most, stress_volume / (first + (of_springs + of_area) * most));
+    return fmin(most, stress_volume / (first + (of_springs + of_area) * r * m));
+}
+
+/* The second bound. */
+static stress_bound directed_bound(const dem_lattice *l, const element_state *e, const shape *s, dem_index triangle,
+                                   double stress_volume, bool pressure)
+{
+    static const double ratios[3] = {4.0, 2.0, 1.5};
+    double stiffness[3];
+    if (!find_stiffness(l, e, s, triangle, stiffness)) return (stress_bound){0.0, 0.0};
+    const responses of = add_up(l, s, triangle, stiffness);
+    const double equal = strain_for(l, e, s, triangle, stress_volume, of.both, 1.0);
+    for (int k = 0; k < 3 && !pressure; k++) {
+        const double r = ratios[k], m = strain_for(l, e, s, triangle, stress_volume, of.pulled + r * of.pushed, r);
+        if (m >= 0.75 * equal) return (stress_bound){m, r * m};
+    }
+    return (stress_bound){equal, equal};
 }
 
 /* The first one. */
@@ -142,9 +189,12 @@ static double plain_strain(const dem_lattice *l, const element_state *e, const s
     return fmin(stress_volume / most, fmin(most_strain, most_growth / s->growth));
 }
 
-double stress_bound_strain(const dem_lattice *l, const element_state *e, dem_index triangle, double stress)
+stress_bound stress_bound_of(const dem_lattice *l, const element_state *e, dem_index triangle, double stress,
+                             bool pressure)
 {
     const shape s = shape_of(l, triangle);
     const double stress_volume = stress * spring_share_volume(l, triangle);
-    return fmax(plain_strain(l, e, &s, triangle, stress_volume), directed_strain(l, e, &s, triangle, stress_volume));
+    const double plain = plain_strain(l, e, &s, triangle, stress_volume);
+    const stress_bound directed = directed_bound(l, e, &s, triangle, stress_volume, pressure);
+    return directed.stretch > plain ? directed : (stress_bound){plain, plain};
 }

@@ -5,9 +5,14 @@
 
 #include "model/element_state.h"
 
-/** The strain, in size, up to which of all springs that a triangle holds none of its principal stresses is larger in
- *  size than `stress`, Pa. All of its edges have springs. */
-double stress_bound_strain(const dem_lattice *lattice, const element_state *elements, dem_index triangle,
-                           double stress);
+/** Strains, > 0, in tension and under pressure. */
+typedef struct stress_bound {
+    double stretch, squeeze;
+} stress_bound;
+
+/** The strains up to which of all springs that a triangle holds none of its principal stresses is larger than `stress`,
+ *  Pa: in tension, and if `pressure` in size. All of its edges have springs. */
+stress_bound stress_bound_of(const dem_lattice *lattice, const element_state *elements, dem_index triangle,
+                             double stress, bool pressure);
 
 #endif

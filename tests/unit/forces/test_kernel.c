@@ -579,15 +579,17 @@ static void note_node(void *context, dem_index node)
 
 /* Of all springs that are strained by more than their thresholds an end must have been visited.
  * \return how many springs have one that need not */
-static dem_index count_others(const scene *s, const forces *load, const float *threshold, const unsigned char *visited)
+static dem_index count_others(const scene *s, const forces *load, const kernel_threshold *threshold,
+                              const unsigned char *visited)
 {
     const dem_lattice *l = &s->model->lattice;
     dem_index n_others = 0;
     for (dem_index j = 0; j < l->n_springs; j++) {
-        const double strain = fabs(springs_strain_of(l, j, s->x));
+        const double strain = springs_strain_of(l, j, s->x);
+        const bool is_over = strain > (double)threshold[j].stretch || -strain > (double)threshold[j].squeeze;
         const bool has_been = visited[l->ends[2 * j]] || visited[l->ends[2 * j + 1]];
-        if (strain > (double)threshold[j] && load->elements->integrity[j] > 0.0) assert_true(has_been);
-        n_others += has_been && !(strain > (double)threshold[j]);
+        if (is_over && load->elements->integrity[j] > 0.0) assert_true(has_been);
+        n_others += has_been && !is_over;
     }
     return n_others;
 }
@@ -609,7 +611,7 @@ static void visit_after_step(kernel *k, const scene *s, const forces *load, kern
 
 /* Visits, and again after a fused step if one is possible.
  * \return how many are visited that need not be */
-static dem_index visit_strained(const scene *s, const forces *load, const trial *of, const float *threshold)
+static dem_index visit_strained(const scene *s, const forces *load, const trial *of, const kernel_threshold *threshold)
 {
     const size_t n = (size_t)s->model->lattice.n_nodes;
     CLEANUP(free_memory) unsigned char *visited = calloc(n, 1);
@@ -625,13 +627,18 @@ static dem_index visit_strained(const scene *s, const forces *load, const trial 
     return n_others;
 }
 
+static float some_threshold(const gsl_rng *random, bool infinite)
+{
+    return infinite ? INFINITY : (float)(0.01 / (1.01 - gsl_rng_uniform(random)));
+}
+
 /* Thresholds of about half of the strains, from 1 % to beyond 1, and infinite ones: of these only nodes behind the last
  * block have springs that are visited. */
 static void check_strained(const dem_lattice *lattice)
 {
     CLEANUP(free_scene) scene s = make_scene(lattice, 0.2);
     CLEANUP(element_state_destroy) element_state broken;
-    CLEANUP(free_memory) float *threshold = malloc((size_t)lattice->n_springs * sizeof *threshold);
+    CLEANUP(free_memory) kernel_threshold *threshold = malloc((size_t)lattice->n_springs * sizeof *threshold);
     const forces load = {.model = s.model, .elements = &broken};
     assert_non_null(threshold);
     assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
@@ -641,9 +648,10 @@ static void check_strained(const dem_lattice *lattice)
             const trial of = {kind, k % 3 + 1, k >= 3};
             if (dem_kernel_check(kind) != DEM_OK) continue;
             for (dem_index j = 0; j < lattice->n_springs; j++)
-                threshold[j] = j % 7 == 0 ? INFINITY : (float)(0.01 / (1.01 - gsl_rng_uniform(s.random)));
+                threshold[j] =
+                    (kernel_threshold){some_threshold(s.random, j % 7 == 0), some_threshold(s.random, j % 5 == 0)};
             (void)visit_strained(&s, &load, &of, threshold);
-            for (dem_index j = 0; j < lattice->n_springs; j++) threshold[j] = INFINITY;
+            for (dem_index j = 0; j < lattice->n_springs; j++) threshold[j] = (kernel_threshold){INFINITY, INFINITY};
             assert_true(visit_strained(&s, &load, &of, threshold) <= 7 * 20);
         }
 }
@@ -660,20 +668,20 @@ TEST(ends_of_springs_that_are_strained_are_visited)
     }
 }
 
-/* A uniform strain just above and just below the only threshold, in tension and compression. */
+/* A uniform strain just above and just below the only thresholds, in tension and compression. */
 TEST(a_threshold_parts_strains)
 {
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2, 0.1, &rubber);
     CLEANUP(free_scene) scene s = make_scene(&lattice, 0.0);
     CLEANUP(element_state_destroy) element_state broken;
-    CLEANUP(free_memory) float *threshold = malloc((size_t)lattice.n_springs * sizeof *threshold);
+    CLEANUP(free_memory) kernel_threshold *threshold = malloc((size_t)lattice.n_springs * sizeof *threshold);
     const forces load = {.model = s.model, .elements = &broken};
     assert_non_null(threshold);
     assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
-    for (dem_index j = 0; j < lattice.n_springs; j++) threshold[j] = 1e-3f;
+    for (dem_index j = 0; j < lattice.n_springs; j++) threshold[j] = (kernel_threshold){1e-3f, 2e-3f};
     for (int k = 0; k < 4; k++) {
         const trial of = {DEM_KERNEL_AUTO, 1, false};
-        const double strain = (k & 1 ? -1e-3 : 1e-3) * (k & 2 ? 1.0 + 1e-6 : 1.0 - 1e-6);
+        const double strain = (k & 1 ? -2e-3 : 1e-3) * (k & 2 ? 1.0 + 1e-6 : 1.0 - 1e-6);
         for (dem_index c = 0; c < 2 * lattice.n_nodes; c++) s.x[c] = lattice.x[c] * (1.0 + strain);
         assert_true(visit_strained(&s, &load, &of, threshold) <= 7 * 6);
     }

@@ -82,12 +82,17 @@ static void displace(const dem_lattice *l, int kind, double factor, double *x)
     }
 }
 
-/* Largest |strain| over its threshold. */
+static double share_of(double strain, kernel_threshold threshold)
+{
+    return strain > 0.0 ? strain / (double)threshold.stretch : -strain / (double)threshold.squeeze;
+}
+
+/* Largest strain over its threshold. */
 static double largest_share(const subject *s, const double *x)
 {
     double most = 0.0;
     for (dem_index k = 0; k < s->lattice.n_springs; k++)
-        most = fmax(most, fabs(springs_strain_of(&s->model->lattice, k, x)) / (double)s->filter.threshold[k]);
+        most = fmax(most, share_of(springs_strain_of(&s->model->lattice, k, x), s->filter.threshold[k]));
     return most;
 }
 
@@ -176,9 +181,12 @@ TEST(a_body_without_strength_has_no_thresholds)
     strain_filter filter;
     assert_ok(element_state_create(&state, &model->lattice, &model->springs));
     assert_ok(strain_filter_create(&filter, model, &state, near_limit));
-    for (dem_index k = 0; k < block.n_springs; k++) assert_true(k == 5 || isinf(filter.threshold[k]));
-    assert_true((double)filter.threshold[5] <= near_limit * 0.2); /* in single precision, rounded down */
-    assert_close((double)filter.threshold[5], near_limit * 0.2, 0.2 * 0x1p-23);
+    for (dem_index k = 0; k < block.n_springs; k++) {
+        assert_true(k == 5 || isinf(filter.threshold[k].stretch));
+        assert_true(isinf(filter.threshold[k].squeeze));
+    }
+    assert_true((double)filter.threshold[5].stretch <= near_limit * 0.2); /* in single precision, rounded down */
+    assert_close((double)filter.threshold[5].stretch, near_limit * 0.2, 0.2 * 0x1p-23);
     strain_filter_destroy(&filter);
     element_state_destroy(&state);
     dem_model_destroy(model);

@@ -58,30 +58,34 @@ static void deform(const subject *s, const double gradient[4], double factor)
     }
 }
 
-static double largest_strain(const subject *s, dem_index triangle)
+/* Of the springs of a triangle the largest share of a bound: 1 where one is at it. */
+static double largest_share(const subject *s, dem_index triangle, stress_bound bound)
 {
     double most = 0.0;
-    for (dem_index p = s->state.row[triangle]; p < s->state.row[triangle + 1]; p++)
-        most = fmax(most, fabs(springs_strain_of(&s->model->lattice, s->state.spring[p], s->x)));
+    for (dem_index p = s->state.row[triangle]; p < s->state.row[triangle + 1]; p++) {
+        const double strain = springs_strain_of(&s->model->lattice, s->state.spring[p], s->x);
+        most = fmax(most, strain > 0.0 ? strain / bound.stretch : -strain / bound.squeeze);
+    }
     return most;
 }
 
-/* The size of the larger principal stress where the most strained spring is at the bound for a stress, over that. */
-static double reached(const subject *s, dem_index triangle, const double gradient[4], double stress)
+/* The largest principal stress, of `pressure` in size, where the first spring is at the bound for a stress, over
+ * that. */
+static double reached(const subject *s, dem_index triangle, const double gradient[4], double stress, bool pressure)
 {
-    const double bound = stress_bound_strain(&s->model->lattice, &s->state, triangle, stress);
-    double factor = bound, own[3];
+    const stress_bound bound = stress_bound_of(&s->model->lattice, &s->state, triangle, stress, pressure);
+    double factor = bound.stretch, own[3];
     for (int k = 0; k < 30; k++) {
         deform(s, gradient, factor);
-        factor *= bound / largest_strain(s, triangle);
+        factor /= largest_share(s, triangle, bound);
     }
     triangle_stress(s->model, &s->state, triangle, s->x, own);
-    return (0.5 * fabs(own[0] + own[1]) + sqrt(0.25 * (own[0] - own[1]) * (own[0] - own[1]) + own[2] * own[2])) /
-           stress;
+    const double mean = 0.5 * (own[0] + own[1]), half = 0.5 * (own[0] - own[1]);
+    return ((pressure ? fabs(mean) : mean) + sqrt(half * half + own[2] * own[2])) / stress;
 }
 
 /* Gradients of all kinds, at stresses of 1e-5 to 0.2 of the modulus; the last digits of sums may differ. */
-static double largest_reached(const subject *s, double stress)
+static double largest_reached(const subject *s, double stress, bool pressure)
 {
     double most = 0.0;
     unsigned seed = 12345u;
@@ -91,7 +95,7 @@ static double largest_reached(const subject *s, double stress)
             seed = seed * 1664525u + 1013904223u;
             gradient[k] = (double)(seed >> 8) / 16777216.0 - 0.5;
         }
-        most = fmax(most, reached(s, trial % s->lattice.n_triangles, gradient, stress));
+        most = fmax(most, reached(s, trial % s->lattice.n_triangles, gradient, stress, pressure));
     }
     return most;
 }
@@ -99,11 +103,11 @@ static double largest_reached(const subject *s, double stress)
 TEST(no_principal_stress_is_larger_than_asked_for)
 {
     const double ratios[4] = {-0.3, 0.0, 1.0 / 3.0, 0.45}, jitters[2] = {0.0, 0.25};
-    for (int k = 0; k < 16; k++) {
+    for (int k = 0; k < 32; k++) {
         CLEANUP(close_subject) subject s;
-        open_subject(&s, ratios[k % 4], k / 8 ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT, jitters[k / 4 % 2]);
+        open_subject(&s, ratios[k % 4], k / 8 % 2 ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT, jitters[k / 4 % 2]);
         for (double stress = 1e-5 * modulus; stress < 0.3 * modulus; stress *= 7.0)
-            assert_true(largest_reached(&s, stress) < 1.0 + 1e-9);
+            assert_true(largest_reached(&s, stress, k >= 16) < 1.0 + 1e-9);
     }
 }
 
@@ -112,12 +116,24 @@ TEST(no_principal_stress_is_larger_than_asked_for)
 TEST(it_is_not_much_larger_for_small_strains)
 {
     const double equal[4] = {1.0, 0.0, 0.0, 1.0}, small = 1e-5 * modulus;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 6; k++) {
         CLEANUP(close_subject) subject s;
-        open_subject(&s, k == 0 ? 1.0 / 3.0 : 0.1, DEM_SPRINGS_COUPLED, k == 2 ? 0.25 : 0.0);
-        if (k == 0) assert_close(reached(&s, 3, equal, small), 1.0, 1e-3);
-        assert_true(largest_reached(&s, small) > 0.5);
+        open_subject(&s, k / 2 == 0 ? 1.0 / 3.0 : 0.1, DEM_SPRINGS_COUPLED, k / 2 == 2 ? 0.25 : 0.0);
+        if (k / 2 == 0) assert_close(reached(&s, 3, equal, small, k % 2 != 0), 1.0, 2e-3);
+        assert_true(largest_reached(&s, small, k % 2 != 0) > 0.5);
     }
+}
+
+/* Springs alone bring no tension under pressure. */
+TEST(pressure_along_springs_may_be_larger_where_it_breaks_nothing)
+{
+    CLEANUP(close_subject) subject s;
+    open_subject(&s, 1.0 / 3.0, DEM_SPRINGS_COUPLED, 0.0);
+    const stress_bound tension = stress_bound_of(&s.model->lattice, &s.state, 3, 1e-5 * modulus, false);
+    const stress_bound both = stress_bound_of(&s.model->lattice, &s.state, 3, 1e-5 * modulus, true);
+    assert_close(tension.squeeze, 4.0 * tension.stretch, 1e-12 * tension.squeeze);
+    assert_close(tension.stretch, both.stretch, 2e-3 * both.stretch);
+    assert_close(both.squeeze, both.stretch, 0.0);
 }
 
 /* Uniform tension along a row of equilateral triangles strains its springs alone at nu = 1/3, of which the stress is
@@ -127,5 +143,5 @@ TEST(tension_along_a_row_reaches_two_thirds)
     const double along[4] = {1.0, 0.0, 0.0, -1.0 / 3.0};
     CLEANUP(close_subject) subject s;
     open_subject(&s, 1.0 / 3.0, DEM_SPRINGS_COUPLED, 0.0);
-    assert_close(reached(&s, 3, along, 1e-5 * modulus), 2.0 / 3.0, 1e-3);
+    assert_close(reached(&s, 3, along, 1e-5 * modulus, false), 2.0 / 3.0, 1e-3);
 }
