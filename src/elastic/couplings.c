@@ -10,7 +10,6 @@
 
 #include <stdlib.h>
 
-#include "base/reduce.h"
 #include "base/status.h"
 #include "elastic/rigid_nodes.h"
 
@@ -76,7 +75,7 @@ static double energy(const coupled_triangle *t, const double *x)
 {
     const coupled_edges e = couplings_edges(t, x);
     double sum = 0.0;
-    for (int c = 0; c < 3; c++) sum += t->coupling[c] * e.stretch[c] * e.stretch[(c + 2) % 3];
+    for (int q = 0; q < 3; q++) sum += couplings_energy_term(t, &e, q);
     return sum;
 }
 
@@ -88,21 +87,6 @@ double couplings_node_energy(const couplings *c, triangles_integrity integrity, 
         if (!couplings_broken(c, integrity, c->slot[p] / 3))
             sum += couplings_left(c, integrity, c->slot[p] / 3) * energy(&c->list[c->slot[p] / 3], x);
     return sum;
-}
-
-double couplings_energy(const couplings *c, triangles_integrity integrity, const double *x)
-{
-    exact_sum sum = {0};
-    double terms[EXACT_SUM_BLOCK];
-    for (dem_index first = 0; first < c->n; first += EXACT_SUM_BLOCK) {
-        const int n = exact_sum_block(first, c->n);
-        for (int q = 0; q < n; q++)
-            terms[q] = couplings_broken(c, integrity, first + q)
-                           ? 0.0
-                           : couplings_left(c, integrity, first + q) * energy(&c->list[first + q], x);
-        exact_sum_take(&sum, terms, n);
-    }
-    return reduce_sum(&sum);
 }
 
 void couplings_add_tensions(const couplings *c, triangles_integrity integrity, const double *x, double *force)

@@ -67,6 +67,12 @@ static inline coupled_edges couplings_edges(const coupled_triangle *t, const dou
     return e;
 }
 
+/** Energy, J, of the edges at corner c: the sum of these over the corners is the triangle's. */
+static inline double couplings_energy_term(const coupled_triangle *t, const coupled_edges *e, int c)
+{
+    return t->coupling[c] * e->stretch[c] * e->stretch[(c + 2) % 3];
+}
+
 /** Adds the forces on node i, N, along the edges at it, in the order of its row. Not finite where two corners
  *  coincide. */
 vec2 couplings_add_force(const couplings *c, triangles_integrity integrity, dem_index i, const double *x, vec2 force);
@@ -80,9 +86,6 @@ vec2 couplings_tangent(const couplings *c, dem_index i, const double *x, const d
 /** Energy of the couplings at node i, J, of any sign: of the triangles there, stretch times coupling times stretch of
  *  every pair of edges. */
 double couplings_node_energy(const couplings *c, triangles_integrity integrity, dem_index i, const double *x);
-
-/** Energy of all couplings, J; an exact sum. */
-double couplings_energy(const couplings *c, triangles_integrity integrity, const double *x);
 
 /** Adds to the tension of one spring, N, what the couplings do.  \param i  one of its nodes */
 double couplings_add_tension(const couplings *c, triangles_integrity integrity, dem_index i, dem_index spring,

@@ -23,15 +23,18 @@ dem_index lane_slots_springs(const springs *s, const int32_t *place, dem_index n
     return n;
 }
 
+bool lane_slots_is_lowest(const couplings *c, const int32_t *place, dem_index p, dem_index node)
+{
+    const dem_index *corner = c->list[c->slot[p] / 3].corner;
+    for (int q = 0; q < 3; q++)
+        if (lane_slots_place(place, corner[q]) < lane_slots_place(place, node)) return false;
+    return true;
+}
+
 dem_index lane_slots_couplings(const couplings *c, const int32_t *place, dem_index node, dem_index *slot)
 {
-    const int32_t own = lane_slots_place(place, node);
     dem_index n = 0;
-    for (dem_index p = c->row[node]; p < c->row[node + 1]; p++) {
-        const dem_index *corner = c->list[c->slot[p] / 3].corner;
-        bool lowest = true;
-        for (int q = 0; q < 3; q++) lowest = lowest && lane_slots_place(place, corner[q]) >= own;
-        if (lowest) slot[n++] = p;
-    }
+    for (dem_index p = c->row[node]; p < c->row[node + 1]; p++)
+        if (lane_slots_is_lowest(c, place, p, node)) slot[n++] = p;
     return n;
 }

@@ -21,6 +21,9 @@ static inline int32_t lane_slots_place(const int32_t *place, dem_index node)
  *  \return how many there are */
 dem_index lane_slots_springs(const springs *s, const int32_t *place, dem_index node, dem_index *slot);
 
+/** Whether the node whose row has slot p is the lowest corner of the coupled triangle there. */
+bool lane_slots_is_lowest(const couplings *c, const int32_t *place, dem_index p, dem_index node);
+
 /** Slots of coupled triangles of which the node is the lowest corner, in the order of its row. */
 dem_index lane_slots_couplings(const couplings *c, const int32_t *place, dem_index node, dem_index *slot);
 

@@ -176,6 +176,31 @@ static inline unsigned lanes_below(lanes a, lanes b)
     return (unsigned)(low | high << 4);
 }
 
+static inline void lanes_store(double *p, lanes a)
+{
+    _mm256_storeu_pd(p, a.low);
+    _mm256_storeu_pd(p + 4, a.high);
+}
+
+/** a < b ? a : b */
+static inline lanes lanes_min(lanes a, lanes b)
+{
+    return (lanes){_mm256_min_pd(a.low, b.low), _mm256_min_pd(a.high, b.high)};
+}
+
+/** a > b ? a : b */
+static inline lanes lanes_max(lanes a, lanes b)
+{
+    return (lanes){_mm256_max_pd(a.low, b.low), _mm256_max_pd(a.high, b.high)};
+}
+
+/** a in the lanes that are chosen, by bits as in lanes_below(), b in the others. */
+static inline lanes lanes_where(unsigned chosen, lanes a, lanes b)
+{
+    return (lanes){_mm256_blendv_pd(b.low, a.low, spread_bits(chosen)),
+                   _mm256_blendv_pd(b.high, a.high, spread_bits(chosen >> 4))};
+}
+
 #undef EACH
 
 #endif

@@ -156,4 +156,27 @@ static inline unsigned lanes_below(lanes a, lanes b)
     return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
 }
 
+static inline void lanes_store(double *p, lanes a)
+{
+    _mm512_storeu_pd(p, a);
+}
+
+/** a < b ? a : b */
+static inline lanes lanes_min(lanes a, lanes b)
+{
+    return _mm512_min_pd(a, b);
+}
+
+/** a > b ? a : b */
+static inline lanes lanes_max(lanes a, lanes b)
+{
+    return _mm512_max_pd(a, b);
+}
+
+/** a in the lanes that are chosen, by bits as in lanes_below(), b in the others. */
+static inline lanes lanes_where(unsigned chosen, lanes a, lanes b)
+{
+    return _mm512_mask_mov_pd(b, (__mmask8)chosen, a);
+}
+
 #endif

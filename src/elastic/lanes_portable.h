@@ -194,6 +194,37 @@ static inline unsigned lanes_below(lanes a, lanes b)
     return below;
 }
 
+static inline void lanes_store(double *p, lanes a)
+{
+    HALF
+    {
+        p[2 * k] = a.n[k][0];
+        p[2 * k + 1] = a.n[k][1];
+    }
+}
+
+/** a < b ? a : b */
+static inline lanes lanes_min(lanes a, lanes b)
+{
+    HALF a.n[k] = (two){a.n[k][0] < b.n[k][0] ? a.n[k][0] : b.n[k][0], a.n[k][1] < b.n[k][1] ? a.n[k][1] : b.n[k][1]};
+    return a;
+}
+
+/** a > b ? a : b */
+static inline lanes lanes_max(lanes a, lanes b)
+{
+    HALF a.n[k] = (two){a.n[k][0] > b.n[k][0] ? a.n[k][0] : b.n[k][0], a.n[k][1] > b.n[k][1] ? a.n[k][1] : b.n[k][1]};
+    return a;
+}
+
+/** a in the lanes that are chosen, by bits as in lanes_below(), b in the others. */
+static inline lanes lanes_where(unsigned chosen, lanes a, lanes b)
+{
+    HALF b.n[k] =
+        (two){chosen >> (2 * k) & 1u ? a.n[k][0] : b.n[k][0], chosen >> (2 * k + 1) & 1u ? a.n[k][1] : b.n[k][1]};
+    return b;
+}
+
 #undef EACH
 #undef HALF
 

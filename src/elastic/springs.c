@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #include "base/array_ops.h"
-#include "base/reduce.h"
+#include "base/exact_sum.h"
 #include "base/status.h"
 #include "elastic/rigid_nodes.h"
 
@@ -123,12 +123,6 @@ vec2 springs_tangent(const springs *s, dem_index i, const double *x, const doubl
     return out;
 }
 
-/* E d0 e^2/2: the work of (1) from the rest length to the strain e, J. */
-static double energy(double stiffness, double rest_length, double strain)
-{
-    return 0.5 * stiffness * rest_length * strain * strain;
-}
-
 /* A rounded sum in the order of the row. Each spring counts in full here, as the energy that depends on this node. */
 double springs_node_energy(const springs *s, springs_integrity integrity, dem_index i, const double *x)
 {
@@ -136,7 +130,7 @@ double springs_node_energy(const springs *s, springs_integrity integrity, dem_in
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         if (springs_is_broken(integrity, s->spring[p])) continue;
         const double strain = springs_strain(s, i, p, x), left = springs_left(integrity, s->spring[p], strain);
-        sum += energy(left * s->stiffness[p], s->rest_length[p], strain);
+        sum += springs_energy_of(left * s->stiffness[p], s->rest_length[p], strain);
     }
     return sum;
 }
@@ -150,32 +144,6 @@ void springs_strain_block(const dem_lattice *lattice, dem_index first, int n, co
         strain[q] = vec2_dot(d, d);
     }
     array_ops_fastest()->stretch(strain, lattice->rest_length + first, n);
-}
-
-/* Energies of n springs from `first` on in place of their strains. */
-static void fill_energies(const dem_lattice *lattice, springs_integrity integrity, dem_index first, int n,
-                          double *terms)
-{
-    const double *stiffness = lattice->stiffness + first, *rest_length = lattice->rest_length + first;
-    for (int q = 0; q < n && integrity.pushed == NULL; q++) terms[q] = energy(stiffness[q], rest_length[q], terms[q]);
-    for (int q = 0; q < n && integrity.pushed != NULL; q++) {
-        const double left = springs_left(integrity, first + q, terms[q]);
-        terms[q] = left > 0.0 ? left * energy(stiffness[q], rest_length[q], terms[q]) : 0.0;
-    }
-}
-
-/* An exact sum: its bits depend neither on the order of springs nor on that of nodes (docs/algorithms.md). */
-double springs_energy(const dem_lattice *lattice, springs_integrity integrity, const double *x)
-{
-    exact_sum sum = {0};
-    double terms[EXACT_SUM_BLOCK];
-    for (dem_index first = 0; first < lattice->n_springs; first += EXACT_SUM_BLOCK) {
-        const int n = exact_sum_block(first, lattice->n_springs);
-        springs_strain_block(lattice, first, n, x, terms);
-        fill_energies(lattice, integrity, first, n, terms);
-        exact_sum_take(&sum, terms, n);
-    }
-    return reduce_sum(&sum);
 }
 
 void springs_strains(const dem_lattice *lattice, springs_integrity integrity, const double *x, double *strain)

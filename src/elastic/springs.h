@@ -107,7 +107,13 @@ static inline double springs_strain_of(const dem_lattice *lattice, dem_index k, 
     return (vec2_norm(d) - lattice->rest_length[k]) / lattice->rest_length[k];
 }
 
-/** The same of n springs from `first` on, broken or not, into `strain` [n], with vector instructions. */
+/** E d0 e^2/2: the work of (1) from the rest length to the strain e, J. */
+static inline double springs_energy_of(double stiffness, double rest_length, double strain)
+{
+    return 0.5 * stiffness * rest_length * strain * strain;
+}
+
+/** The strains of n springs from `first` on, broken or not, into `strain` [n], with vector instructions. */
 void springs_strain_block(const dem_lattice *lattice, dem_index first, int n, const double *x, double *strain);
 
 /** r x f of spring k of a lattice, N m: xx, yy, xy of E_ij (d - d0)/d0 d n n^T, symmetric; the damping left out. Not
@@ -128,9 +134,6 @@ vec2 springs_tangent(const springs *s, dem_index i, const double *x, const doubl
 
 /** Energy of the springs at node i, J: sum over its row of E_ij (d - d0)^2/(2 d0). */
 double springs_node_energy(const springs *s, springs_integrity integrity, dem_index i, const double *x);
-
-/** Energy of all springs of a lattice, J. An exact sum: it does not depend on the numbering of springs and nodes. */
-double springs_energy(const dem_lattice *lattice, springs_integrity integrity, const double *x);
 
 /** Strain of every spring of a lattice; 0 of one that is broken.  \param[out] strain  [n_springs] */
 void springs_strains(const dem_lattice *lattice, springs_integrity integrity, const double *x, double *strain);

@@ -10,7 +10,6 @@
 #include <stdlib.h>
 
 #include "base/natural_log.h"
-#include "base/reduce.h"
 #include "base/status.h"
 #include "elastic/rigid_nodes.h"
 
@@ -124,16 +123,14 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
     return out;
 }
 
-/* Energies, J, of the triangle in slot p at the area ratio J. */
-static double area_energy(const triangles *t, triangles_integrity integrity, dem_index p, double J)
+/* With J = A/A0:  W = A0 (kappa/2 (J - 1)^2 + g w(J)) */
+triangles_energies triangles_energies_at(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p,
+                                         const double *x)
 {
-    if (t->area_stiffness == NULL) return 0.0;
-    return 0.5 * t->rest_area[p] * area_stiffness_at(t, integrity, p, J) * (J - 1.0) * (J - 1.0);
-}
-
-static double guard_energy(const triangles *t, dem_index p, double J)
-{
-    return J >= TRIANGLES_GUARD_ONSET ? 0.0 : t->rest_area[p] * t->guard[p] * triangles_guard_law(J).energy;
+    const double A0 = t->rest_area[p], J = area_at(t, i, p, x) / A0;
+    const double kappa = t->area_stiffness != NULL ? area_stiffness_at(t, integrity, p, J) : 0.0;
+    const double guard = J >= TRIANGLES_GUARD_ONSET ? 0.0 : A0 * t->guard[p] * triangles_guard_law(J).energy;
+    return (triangles_energies){J, 0.5 * A0 * kappa * (J - 1.0) * (J - 1.0), guard};
 }
 
 /* Every triangle at the node counts in full: the energy that depends on this node. A rounded sum in the order of the
@@ -143,32 +140,10 @@ double triangles_node_energy(const triangles *t, triangles_integrity integrity, 
     double energy = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         if (triangles_broken(t, integrity, p)) continue;
-        const double J = area_at(t, i, p, x) / t->rest_area[p];
-        energy += area_energy(t, integrity, p, J) + guard_energy(t, p, J);
+        const triangles_energies own = triangles_energies_at(t, integrity, i, p, x);
+        energy += own.area + own.guard;
     }
     return energy;
-}
-
-/* A triangle is taken from the row of its lowest corner. Both sums are exact. Areas are collected in blocks; the guard
- * acts on few triangles, which are added one by one. */
-void triangles_energy(const triangles *t, triangles_integrity integrity, const double *x, double *area, double *guard)
-{
-    exact_sum areas = {0}, guards = {0};
-    double terms[EXACT_SUM_BLOCK];
-    int n = 0;
-    for (dem_index i = 0; i < t->n_nodes; i++)
-        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-            if (t->next[p] < i || t->last[p] < i || triangles_broken(t, integrity, p)) continue;
-            const double J = area_at(t, i, p, x) / t->rest_area[p];
-            if (t->area_stiffness != NULL) terms[n++] = area_energy(t, integrity, p, J);
-            if (!(J >= TRIANGLES_GUARD_ONSET)) exact_sum_add(&guards, guard_energy(t, p, J));
-            if (n < EXACT_SUM_BLOCK) continue;
-            exact_sum_take(&areas, terms, n);
-            n = 0;
-        }
-    exact_sum_take(&areas, terms, n);
-    *area = reduce_sum(&areas);
-    *guard = reduce_sum(&guards);
 }
 
 /* A negative kappa lowers frequencies and is left out of their upper bound. */

@@ -70,8 +70,14 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
 /** Energy of the triangles at node i, J. */
 double triangles_node_energy(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 
-/** Energies of the area term and of the guard, J; exact sums. */
-void triangles_energy(const triangles *t, triangles_integrity integrity, const double *x, double *area, double *guard);
+/** Area over rest area, and energies, J, of the area term and of the guard. */
+typedef struct triangles_energies {
+    double ratio, area, guard;
+} triangles_energies;
+
+/** Of the triangle in slot p of row i, which is not broken. */
+triangles_energies triangles_energies_at(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p,
+                                         const double *x);
 
 /** T_i = sum of max(kappa, 0)/A0 g g^T over the triangles at node i, with g = dA/dx_i at x. The matrix of the area term
  *  is at most three times the sum of these blocks. */

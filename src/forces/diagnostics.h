@@ -1,18 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is measured on a state: energies, powers, mean motions, strains. Sums are exact: they do not depend on the order
- * of their terms. */
+/* What is measured on a state besides what survey.h measures of all nodes: energy of contact, reactions of obstacles
+ * and boundary conditions, residual. */
 #ifndef DEM_FORCES_DIAGNOSTICS_H
 #define DEM_FORCES_DIAGNOSTICS_H
 
-#include "forces/forces.h"
+#include "forces/survey.h"
 
 /** Kinetic, elastic, area, guard, contact and gravity energy of positions x and velocities v [n][2]; the other entries
- *  are 0. */
-dem_energy diagnostics_energy(const forces *f, const double *x, const double *v);
-
-dem_body_motion diagnostics_body(const dem_model *model, dem_index body, const double *x, const double *v);
-
-dem_strain diagnostics_strain(const forces *f, const double *x);
+ *  are 0.  \param s  whose last survey was of this state */
+dem_energy diagnostics_energy(const forces *f, const survey *s, const double *x, const double *v);
 
 /** Resultant of the contacts that are on an obstacle, where it acts, and their number; no impulses. */
 dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle,

@@ -55,11 +55,20 @@ static const double *seen_of(const dem_simulation *s)
     return s->seen;
 }
 
+/* Who asks for one of these numbers mostly asks for the others, too: all are measured in one pass. */
+static const survey *survey_of(const dem_simulation *s)
+{
+    const double *y = seen_of(s);
+    if (!s->measures->has_survey) survey_take(s->survey, &s->forces, y, y + state_velocities(&s->layout));
+    s->measures->has_survey = true;
+    return s->survey;
+}
+
 static void measure_energy(const dem_simulation *s)
 {
     run_measures *m = s->measures;
     const double *y = seen_of(s);
-    if (!m->has_energy) m->energy = diagnostics_energy(&s->forces, y, y + state_velocities(&s->layout));
+    if (!m->has_energy) m->energy = diagnostics_energy(&s->forces, survey_of(s), y, y + state_velocities(&s->layout));
     m->has_energy = true;
 }
 
@@ -175,10 +184,7 @@ dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 dem_status dem_simulation_strain(const dem_simulation *s, dem_strain *out)
 {
     TRY(check_given("dem_simulation_strain", s, out));
-    run_measures *m = s->measures;
-    if (!m->has_strain) m->strain = diagnostics_strain(&s->forces, seen_of(s));
-    m->has_strain = true;
-    return GIVE(dem_strain, out, &m->strain);
+    return GIVE(dem_strain, out, &survey_of(s)->strain);
 }
 
 dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, dem_contact *out)
@@ -356,8 +362,9 @@ dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 /* Who asks about one body usually asks about all. */
 static void measure_bodies(const dem_simulation *s)
 {
-    const double *x = seen_of(s), *v = x + state_velocities(&s->layout);
-    for (dem_index b = 0; b < s->model->n_bodies; b++) s->bodies[b] = diagnostics_body(s->model, b, x, v);
+    const double *y = seen_of(s);
+    (void)survey_of(s);
+    survey_bodies(s->survey, y, y + state_velocities(&s->layout), s->bodies);
     s->measures->has_bodies = true;
 }
 

@@ -57,7 +57,10 @@ static dem_status check_rigid(const dem_simulation *s, const double *x, const do
 double set_motion_energy(dem_simulation *s, const double *y)
 {
     (void)body_contact_follow(s, y); /* cannot fail: positions have been checked */
-    const dem_energy e = diagnostics_energy(&s->forces, y, y + state_velocities(&s->layout));
+    const double *v = y + state_velocities(&s->layout);
+    survey_take(s->survey, &s->forces, y, v);
+    s->measures->has_survey = false; /* of what is seen */
+    const dem_energy e = diagnostics_energy(&s->forces, s->survey, y, v);
     return e.motion + e.friction + e.gravity;
 }
 

@@ -10,6 +10,7 @@
 #include "elastic/couplings.h"
 #include "harness/cleanup_gsl.h"
 #include "harness/message.h"
+#include "unit/elastic/energy.h"
 
 enum { n_nodes = 5, n_triangles = 4, n_springs = 8 };
 
@@ -87,7 +88,7 @@ TEST(without_couplings_every_row_is_empty)
         }
         assert_ok(couplings_compile(&s.couplings, &s.lattice, &s.springs));
         for (int i = 0; i <= n_nodes; i++) assert_int_equal(s.couplings.row[i], 0);
-        assert_close(couplings_energy(&s.couplings, TRIANGLES_WHOLE, corners), 0.0, 0.0);
+        assert_close(energy_couplings(&s.couplings, TRIANGLES_WHOLE, corners), 0.0, 0.0);
     }
 }
 
@@ -126,7 +127,7 @@ TEST(the_energy_is_that_of_pairs_of_stretches)
         expected += strengths[k] * ahead * behind;
     }
     for (dem_index i = 0; i < n_nodes; i++) at_four += couplings_node_energy(&s.couplings, TRIANGLES_WHOLE, i, x);
-    assert_close(couplings_energy(&s.couplings, TRIANGLES_WHOLE, x), expected, 1e-15);
+    assert_close(energy_couplings(&s.couplings, TRIANGLES_WHOLE, x), expected, 1e-15);
     assert_close(at_four, 3.0 * expected, 1e-14); /* every triangle counts at each of its corners */
 }
 
@@ -144,9 +145,9 @@ TEST(forces_and_tensions_are_derivatives_of_the_energy)
             const vec2 force = couplings_add_force(&s.couplings, TRIANGLES_WHOLE, k / 2, x, (vec2){0.0, 0.0});
             const double here = x[k];
             x[k] = here + step;
-            const double above = couplings_energy(&s.couplings, TRIANGLES_WHOLE, x);
+            const double above = energy_couplings(&s.couplings, TRIANGLES_WHOLE, x);
             x[k] = here - step;
-            const double below = couplings_energy(&s.couplings, TRIANGLES_WHOLE, x);
+            const double below = energy_couplings(&s.couplings, TRIANGLES_WHOLE, x);
             x[k] = here;
             assert_close(k % 2 == 0 ? force.x : force.y, (below - above) / (2.0 * step), 1e-8);
         }
@@ -159,7 +160,7 @@ TEST(forces_and_tensions_are_derivatives_of_the_energy)
                     if (s.couplings.list[q / 3].spring[q % 3] == k)
                         s.couplings.list[q / 3].rest_length[q % 3] =
                             s.lattice.rest_length[k] + (side == 0 ? -step : step);
-                energy[side] = couplings_energy(&s.couplings, TRIANGLES_WHOLE, x);
+                energy[side] = energy_couplings(&s.couplings, TRIANGLES_WHOLE, x);
             }
             for (int q = 0; q < 9; q++)
                 if (s.couplings.list[q / 3].spring[q % 3] == k)
@@ -227,6 +228,6 @@ TEST(a_broken_triangle_has_no_couplings)
     couplings_add_tensions(&s.couplings, broken, x, tension);
     assert_true(force.x == 0.0 && force.y == 0.0);
     assert_close(couplings_node_energy(&s.couplings, broken, 1, x), 0.0, 0.0);
-    assert_close(couplings_energy(&s.couplings, broken, x), couplings_node_energy(&s.couplings, broken, 3, x), 0.0);
+    assert_close(energy_couplings(&s.couplings, broken, x), couplings_node_energy(&s.couplings, broken, 3, x), 0.0);
     for (int k = 0; k < n_springs; k++) assert_int_equal(tension[k] != 0.0, k == 3 || k == 4 || k == 7);
 }

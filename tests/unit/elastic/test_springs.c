@@ -11,6 +11,7 @@
 #include "elastic/springs.h"
 #include "harness/cleanup_gsl.h"
 #include "harness/message.h"
+#include "unit/elastic/energy.h"
 
 enum { n_nodes = 5, n_springs = 6 };
 
@@ -136,7 +137,7 @@ TEST(nodes_without_springs_feel_nothing)
         const vec2 force = springs_force(&s, SPRINGS_WHOLE, i, corners);
         assert_true(force.x == 0.0 && force.y == 0.0);
     }
-    assert_close(springs_energy(&lattice, SPRINGS_WHOLE, corners), 0.0, 0.0);
+    assert_close(energy_springs(&lattice, SPRINGS_WHOLE, corners), 0.0, 0.0);
     assert_close(sym2_largest(springs_block(&s, s.stiffness, 0, corners)), 0.0, 0.0);
 }
 
@@ -154,7 +155,7 @@ TEST(a_stretched_spring_pulls_with_stiffness_times_strain)
     assert_close(first.y, 120.0, 1e-13);
     assert_true(second.x == -first.x && second.y == -first.y);
     assert_close(springs_strain(&s, 0, 0, x), 1.5, 0.0);
-    assert_close(springs_energy(&lattice, SPRINGS_WHOLE, x), 225.0, 0.0);
+    assert_close(energy_springs(&lattice, SPRINGS_WHOLE, x), 225.0, 0.0);
     assert_close(springs_node_energy(&s, SPRINGS_WHOLE, 1, x), 225.0, 0.0);
 }
 
@@ -182,10 +183,10 @@ TEST(the_force_is_minus_the_gradient_of_the_energy)
         for (int k = 0; k < 2; k++) {
             const double here = x[2 * i + k];
             x[2 * i + k] = here + step;
-            const double above = springs_energy(&lattice, SPRINGS_WHOLE, x),
+            const double above = energy_springs(&lattice, SPRINGS_WHOLE, x),
                          node_above = springs_node_energy(&s, SPRINGS_WHOLE, i, x);
             x[2 * i + k] = here - step;
-            const double below = springs_energy(&lattice, SPRINGS_WHOLE, x),
+            const double below = energy_springs(&lattice, SPRINGS_WHOLE, x),
                          node_below = springs_node_energy(&s, SPRINGS_WHOLE, i, x);
             x[2 * i + k] = here;
             assert_close(k == 0 ? force.x : force.y, (below - above) / (2.0 * step), 1e-6);
@@ -212,8 +213,8 @@ TEST(springs_exert_no_force_and_no_torque_on_the_whole)
     assert_close(total.x, 0.0, 1e-12);
     assert_close(total.y, 0.0, 1e-12);
     assert_close(torque, 0.0, 1e-12);
-    assert_true(springs_energy(&lattice, SPRINGS_WHOLE, x) > 1.0);
-    assert_close(energy, springs_energy(&lattice, SPRINGS_WHOLE, x), 1e-12);
+    assert_true(energy_springs(&lattice, SPRINGS_WHOLE, x) > 1.0);
+    assert_close(energy, energy_springs(&lattice, SPRINGS_WHOLE, x), 1e-12);
 }
 
 TEST(nodes_that_coincide_give_a_force_that_is_no_number)
@@ -223,7 +224,7 @@ TEST(nodes_that_coincide_give_a_force_that_is_no_number)
     CLEANUP(springs_free) springs s = compile_pair(apart, 1.0, 10.0);
     assert_true(isnan(springs_force(&s, SPRINGS_WHOLE, 0, together).x) != 0);
     assert_true(isnan(springs_force(&s, SPRINGS_WHOLE, 1, together).y) != 0);
-    assert_close(springs_energy(&lattice, SPRINGS_WHOLE, together), 5.0, 0.0);
+    assert_close(energy_springs(&lattice, SPRINGS_WHOLE, together), 5.0, 0.0);
 }
 
 /* ---- damping ---- */

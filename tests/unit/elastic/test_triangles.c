@@ -9,6 +9,7 @@
 
 #include "elastic/triangles.h"
 #include "harness/cleanup_gsl.h"
+#include "unit/elastic/energy.h"
 
 static const double onset = 0.4, taylor_below = 0.005;
 
@@ -143,7 +144,7 @@ static const double strengths[n_triangles] = {2.0, 3.0, 5.0, 7.0}, kappas[n_tria
 static double energy_of(const triangles *t, const double *x)
 {
     double area, guard;
-    triangles_energy(t, TRIANGLES_WHOLE, x, &area, &guard);
+    energy_triangles(t, x, &area, &guard);
     return area + guard;
 }
 
@@ -214,7 +215,7 @@ TEST(the_area_term_is_linear_in_the_area)
         x[9] = y;
         const vec2 force = triangles_force(&t, TRIANGLES_WHOLE, 4, x);
         double area, guard;
-        triangles_energy(&t, TRIANGLES_WHOLE, x, &area, &guard);
+        energy_triangles(&t, x, &area, &guard);
         assert_close(force.x, 0.0, 1e-13);
         assert_close(force.y, -0.5 * 300.0 * (J - 1.0) + 0.5 * -50.0 * (other - 1.0), 1e-12);
         assert_close(area, 0.125 * (300.0 * (J - 1.0) * (J - 1.0) - 50.0 * (other - 1.0) * (other - 1.0)), 1e-12);

@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "forces/diagnostics.h"
+#include "unit/forces/measure.h"
 
 static const double gravity[2] = {0.5, -10.0};
 
@@ -96,13 +96,19 @@ static void free_moving(moving *m)
 static dem_energy energy_of(const dem_model *model, const double *x, const double *v)
 {
     const forces acting = {.model = model, .gravity = {gravity[0], gravity[1]}};
-    return diagnostics_energy(&acting, x, v);
+    return measure_state(&acting, x, v).energy;
 }
 
 static dem_strain strain_of(const dem_model *model, const double *x)
 {
     const forces acting = {.model = model};
-    return diagnostics_strain(&acting, x);
+    return measure_state(&acting, x, x).strain;
+}
+
+static dem_body_motion body_of(const dem_model *model, dem_index body, const double *x, const double *v)
+{
+    const forces acting = {.model = model};
+    return measure_state(&acting, x, v).body[body];
 }
 
 /* Relative rounding of sums of some 30 terms; the elastic energy is of the order of E h A eps^2. */
@@ -129,7 +135,7 @@ TEST(each_body_has_the_mean_motion_it_was_given)
     CLEANUP(free_moving) moving m = make_moving();
     for (int b = 0; b < 2; b++) {
         const inertia body = inertia_of(&m.model->lattice, b);
-        const dem_body_motion measured = diagnostics_body(m.model, b, m.x, m.v);
+        const dem_body_motion measured = body_of(m.model, b, m.x, m.v);
         assert_close(measured.mass, body.mass, 1e-13 * body.mass);
         assert_close(measured.centre[0], centre[b].x, 1e-14);
         assert_close(measured.centre[1], centre[b].y, 1e-14);
@@ -250,7 +256,7 @@ TEST(without_springs_and_triangles_there_is_no_strain)
     assert_close(strain.area_min, 1.0, 0.0);
     assert_int_equal(strain.guarded, 0);
     assert_int_equal(strain.inverted, 0);
-    const dem_body_motion measured = diagnostics_body(model, 0, x, v);
+    const dem_body_motion measured = body_of(model, 0, x, v);
     assert_close(measured.angular_momentum[2], 0.0, 0.0);
     assert_close(energy_of(model, x, v).kinetic, 25.0, 0.0);
     assert_close(energy_of(model, x, v).gravity, -2.0 * (0.5 - 20.0), 0.0);
@@ -356,7 +362,7 @@ TEST(bodies_may_take_turns_in_the_list_of_nodes)
     assert_non_null(lattice.body);
     lattice.body[1] = lattice.body[3] = 1;
     CLEANUP(free_model) dem_model *model = support_model(&lattice, NULL, 0);
-    const dem_body_motion first = diagnostics_body(model, 0, x, v), second = diagnostics_body(model, 1, x, v);
+    const dem_body_motion first = body_of(model, 0, x, v), second = body_of(model, 1, x, v);
     assert_close(first.mass, 4.0, 0.0);
     assert_close(first.centre[0], 1.5, 0.0);
     assert_close(first.velocity[1], 1.0, 0.0);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "forces/diagnostics.h"
+#include "unit/forces/measure.h"
 
 enum { MOST_NODES = 64 };
 
@@ -213,7 +213,7 @@ TEST(the_power_of_all_forces_is_what_the_energy_loses)
         for (dem_index i = 0; i < b.n; i++) power += vec2_dot(force_on(&b, i), vec2_at(b.v, i));
         for (int k = 0; k < 2; k++) {
             for (dem_index c = 0; c < 2 * b.n; c++) moved[k][c] = b.x[c] + (k == 0 ? -tau : tau) * b.v[c];
-            const dem_energy e = diagnostics_energy(&b.f, moved[k], b.v);
+            const dem_energy e = measure_state(&b.f, moved[k], b.v).energy;
             assert_true(e.guard > 0.0 && e.area < 0.0 && e.elastic > 0.0);
             stored[k] = e.elastic + e.area + e.guard + e.gravity;
         }
@@ -337,10 +337,10 @@ TEST(what_is_broken_is_as_if_it_had_never_been)
         assert_close(own.y, other.y, 0.0);
         assert_close(forces_node_energy(&b.f, i, b.x), forces_node_energy(&without.f, i, b.x), 0.0);
     }
-    const dem_energy e = diagnostics_energy(&b.f, b.x, b.v), expected = diagnostics_energy(&without.f, b.x, b.v);
+    const dem_energy e = measure_state(&b.f, b.x, b.v).energy, expected = measure_state(&without.f, b.x, b.v).energy;
     assert_memory_equal(&e, &expected, sizeof e);
     assert_close(forces_damping_power(&b.f, b.x, b.v), forces_damping_power(&without.f, b.x, b.v), 0.0);
-    const dem_strain strain = diagnostics_strain(&b.f, b.x), left = diagnostics_strain(&without.f, b.x);
+    const dem_strain strain = measure_state(&b.f, b.x, b.v).strain, left = measure_state(&without.f, b.x, b.v).strain;
     assert_close(strain.min, left.min, 0.0);
     assert_close(strain.max, left.max, 0.0);
     assert_close(strain.area_min, left.area_min, 0.0);

@@ -9,6 +9,7 @@
 #include "forces/forces.h"
 #include "harness/cleanup_gsl.h"
 #include "ask.h"
+#include "unit/elastic/energy.h"
 #include "unit/elastic/look.h"
 #include "unit/solids.h"
 
@@ -92,7 +93,7 @@ static double *stir(const dem_model *model, double height, double share, gsl_rng
 static double triangles_energy_at(const dem_model *m, const double *x)
 {
     double area, guard;
-    triangles_energy(&m->triangles, TRIANGLES_WHOLE, x, &area, &guard);
+    energy_triangles(&m->triangles, x, &area, &guard);
     return area + guard;
 }
 
@@ -214,8 +215,8 @@ static double energy_of(const dem_model *model, const double *x, const double F[
     CLEANUP(free_memory) double *turned = copy_positions(model);
     memcpy(turned, x, 2 * (size_t)model->lattice.n_nodes * sizeof *x);
     deform(turned, model->lattice.n_nodes, F);
-    const double energy = springs_energy(&model->lattice, SPRINGS_WHOLE, turned) +
-                          couplings_energy(&model->couplings, TRIANGLES_WHOLE, turned) +
+    const double energy = energy_springs(&model->lattice, SPRINGS_WHOLE, turned) +
+                          energy_couplings(&model->couplings, TRIANGLES_WHOLE, turned) +
                           triangles_energy_at(model, turned);
     return energy;
 }

@@ -1,0 +1,476 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Springs and triangles are measured chunk by chunk of the layout's blocks, nodes run by run of the nodes of a body
+ * (elastic/energy_pass.c, elastic/motion_pass.c); chunks and runs are joined in their order afterwards. One by one come
+ * nodes behind the last block, nodes with elements that are not whole, triangles on which the guard acts, and springs
+ * of rigid bodies, which no layout has. The pass finds how large the extreme strains are; which springs have them is
+ * found by a second look at the few blocks where they occur. An element belongs to the lowest of its nodes, by their
+ * places in the layout. */
+#include "forces/survey.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/aligned.h"
+#include "base/reduce.h"
+#include "base/status.h"
+#include "base/threads.h"
+#include "elastic/lane_slots.h"
+#include "elastic/rigid_nodes.h"
+
+/* ---- set-up ---- */
+
+#ifndef DEM_X86_KERNELS
+#define energy_pass_avx2        energy_pass_portable
+#define energy_pass_avx512      energy_pass_portable
+#define motion_pass_avx2        motion_pass_portable
+#define motion_pass_avx512      motion_pass_portable
+#define motion_pass_spin_avx2   motion_pass_spin_portable
+#define motion_pass_spin_avx512 motion_pass_spin_portable
+#endif
+
+typedef struct survey_row {
+    energy_pass_function *energies;
+    motion_pass_function *motions;
+    motion_spin_function *spins;
+} survey_row;
+
+static const survey_row rows[] = {
+    [DEM_KERNEL_PORTABLE] = {energy_pass_portable, motion_pass_portable, motion_pass_spin_portable},
+    [DEM_KERNEL_AVX2] = {energy_pass_avx2, motion_pass_avx2, motion_pass_spin_avx2},
+    [DEM_KERNEL_AVX512] = {energy_pass_avx512, motion_pass_avx512, motion_pass_spin_avx512},
+};
+
+enum { RUN_NODES = SURVEY_CHUNK * LAYOUT_LANES };
+
+/* Cuts the nodes into runs: first counts them, then lists them. */
+static dem_index cut(const dem_lattice *l, survey_run *runs)
+{
+    dem_index n = 0;
+    for (dem_index first = 0, last = 0; first < l->n_nodes; first = last, n++) {
+        while (last < l->n_nodes && l->body[last] == l->body[first] && last - first < RUN_NODES) last++;
+        if (runs != NULL) runs[n] = (survey_run){first, last, l->body[first]};
+    }
+    return n;
+}
+
+/* The masses of bodies never change. */
+static dem_status weigh(survey *s)
+{
+    const dem_lattice *l = &s->model->lattice;
+    twofold *sum = calloc((size_t)s->model->n_bodies + 1, sizeof *sum);
+    CHECK_MEMORY(sum);
+    for (dem_index i = 0; i < l->n_nodes; i++) twofold_add(&sum[l->body[i]], l->mass[i]);
+    for (dem_index b = 0; b < s->model->n_bodies; b++) s->mass[b] = reduce_twofold(sum[b]);
+    free(sum);
+    return DEM_OK;
+}
+
+static dem_status find_places(survey *s)
+{
+    const layout *l = &s->model->layout;
+    const size_t n = (size_t)l->n_nodes;
+    if (l->order == NULL) return DEM_OK;
+    s->place = malloc((n + 1) * sizeof *s->place);
+    s->packed = aligned_reals(2 * n);
+    CHECK(s->place && s->packed, DEM_ERROR_MEMORY, "out of memory for the energies of %zu nodes", n);
+    for (dem_index q = 0; q < l->n_nodes; q++) s->place[l->order[q]] = (int32_t)q;
+    return DEM_OK;
+}
+
+static dem_status allocate(survey *s)
+{
+    const size_t blocks = (size_t)s->model->layout.n_blocks + 1, bodies = (size_t)s->model->n_bodies + 1;
+    const size_t groups = (size_t)s->n_groups + 1, runs = (size_t)s->n_runs + 1;
+    s->skipped = calloc(blocks, sizeof *s->skipped);
+    s->folded = calloc(blocks, sizeof *s->folded);
+    s->least = malloc(groups * sizeof *s->least);
+    s->largest = malloc(groups * sizeof *s->largest);
+    s->chunks = calloc((size_t)s->n_chunks + 1, sizeof *s->chunks);
+    s->runs = malloc(runs * sizeof *s->runs);
+    s->moving = calloc(runs, sizeof *s->moving);
+    s->spins = calloc(runs, sizeof *s->spins);
+    s->bodies = calloc(bodies, sizeof *s->bodies);
+    s->mass = calloc(bodies, sizeof *s->mass);
+    CHECK(s->skipped && s->folded && s->least && s->largest && s->chunks && s->runs && s->moving && s->spins &&
+              s->bodies && s->mass,
+          DEM_ERROR_MEMORY, "out of memory for the energies of %lld nodes", (long long)s->model->lattice.n_nodes);
+    return DEM_OK;
+}
+
+static dem_status set_up(survey *s)
+{
+    const dem_index n_blocks = s->model->layout.n_blocks;
+    s->n_groups = (n_blocks + ENERGY_PASS_GROUP - 1) / ENERGY_PASS_GROUP;
+    s->n_chunks = (n_blocks + SURVEY_CHUNK - 1) / SURVEY_CHUNK;
+    s->n_runs = cut(&s->model->lattice, NULL);
+    TRY(allocate(s));
+    (void)cut(&s->model->lattice, s->runs);
+    TRY(weigh(s));
+    return find_places(s);
+}
+
+dem_status survey_create(survey *out, const kernel *k)
+{
+    const survey_row *row = &rows[k->kind];
+    survey s = {.model = k->model,
+                .n_threads = k->n_threads,
+                .measure_energies = row->energies,
+                .measure_motions = row->motions,
+                .measure_spins = row->spins};
+    const dem_status status = set_up(&s);
+    if (status == DEM_OK)
+        *out = s;
+    else
+        survey_destroy(&s);
+    return status;
+}
+
+void survey_destroy(survey *s)
+{
+    free(s->place);
+    free(s->packed);
+    free(s->skipped);
+    free(s->folded);
+    free(s->least);
+    free(s->largest);
+    free(s->chunks);
+    free(s->runs);
+    free(s->moving);
+    free(s->spins);
+    free(s->bodies);
+    free(s->mass);
+    *s = (survey){0};
+}
+
+/* ---- extreme strains ---- */
+
+/* The ends of a spring, the lower number first. */
+typedef struct spring_ends {
+    dem_index low, high;
+} spring_ends;
+
+static spring_ends ends_of(const dem_lattice *l, dem_index spring)
+{
+    const dem_index *ends = &l->ends[2 * spring];
+    return ends[0] < ends[1] ? (spring_ends){ends[0], ends[1]} : (spring_ends){ends[1], ends[0]};
+}
+
+/* Of springs with equal strains the first one by its ends is named: this does not depend on the order of springs. */
+static bool is_before(const dem_lattice *l, dem_index spring, dem_index other)
+{
+    const spring_ends a = ends_of(l, spring), b = ends_of(l, other);
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+}
+
+/* The extremes so far, and their springs; -1: none. */
+typedef struct extreme_strains {
+    double min, max;
+    dem_index least, largest;
+} extreme_strains;
+
+/* Keeps spring k if its strain is beyond the extremes so far, or equal to one of them and first by its ends. */
+static void measure_spring(const dem_lattice *l, dem_index k, double strain, extreme_strains *e)
+{
+    if (e->least < 0 || strain < e->min || (strain == e->min && is_before(l, k, e->least))) {
+        e->min = strain;
+        e->least = k;
+    }
+    if (e->largest < 0 || strain > e->max || (strain == e->max && is_before(l, k, e->largest))) {
+        e->max = strain;
+        e->largest = k;
+    }
+}
+
+/* ---- one by one ---- */
+
+/* A survey under way, and what is measured one by one. */
+typedef struct taking {
+    survey *s;
+    const forces *f;
+    const double *x, *v;
+    springs_integrity springs;
+    triangles_integrity triangles;
+    twofold elastic, area, guard;
+    extreme_strains extremes;
+    dem_strain strain;
+} taking;
+
+static dem_index place_of(const taking *t, dem_index node)
+{
+    return lane_slots_place(t->s->place, node);
+}
+
+static void add_spring(taking *t, dem_index k, double stiffness, double rest_length, double strain)
+{
+    if (springs_is_broken(t->springs, k)) return;
+    const double left = springs_left(t->springs, k, strain);
+    measure_spring(&t->s->model->lattice, k, strain, &t->extremes);
+    twofold_add(&t->elastic, left * springs_energy_of(stiffness, rest_length, strain));
+}
+
+/* Those to nodes at higher places. */
+static void add_springs(taking *t, dem_index i)
+{
+    const springs *s = &t->s->model->springs;
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+        if (place_of(t, s->neighbour[p]) > place_of(t, i))
+            add_spring(t, s->spring[p], s->stiffness[p], s->rest_length[p], springs_strain(s, i, p, t->x));
+}
+
+/* Of rigid bodies. */
+static void add_rigid_springs(taking *t)
+{
+    const dem_lattice *l = &t->s->model->lattice;
+    if (t->s->model->rigid.n == 0) return;
+    for (dem_index k = 0; k < l->n_springs; k++)
+        if (rigid_nodes_have(l, l->ends[2 * k]))
+            add_spring(t, k, l->stiffness[k], l->rest_length[k], springs_strain_of(l, k, t->x));
+}
+
+static void add_couplings(taking *t, dem_index i)
+{
+    const couplings *c = &t->s->model->couplings;
+    for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
+        const dem_index k = c->slot[p] / 3;
+        if (!lane_slots_is_lowest(c, t->s->place, p, i) || couplings_broken(c, t->triangles, k)) continue;
+        const coupled_edges e = couplings_edges(&c->list[k], t->x);
+        for (int q = 0; q < 3; q++)
+            twofold_add(&t->elastic, couplings_left(c, t->triangles, k) * couplings_energy_term(&c->list[k], &e, q));
+    }
+}
+
+/* Of the triangles of which node i is the lowest corner: what a pass measures, if it has not, and what the guard does
+ * to them. */
+static void add_triangles(taking *t, dem_index i, bool passed)
+{
+    const triangles *all = &t->s->model->triangles;
+    const dem_index own = place_of(t, i);
+    for (dem_index p = all->row[i]; p < all->row[i + 1]; p++) {
+        if (place_of(t, all->next[p]) < own || place_of(t, all->last[p]) < own) continue;
+        if (triangles_broken(all, t->triangles, p)) continue;
+        const triangles_energies e = triangles_energies_at(all, t->triangles, i, p, t->x);
+        if (!passed) twofold_add(&t->area, e.area);
+        if (!passed && e.ratio < t->strain.area_min) t->strain.area_min = e.ratio;
+        if (e.ratio >= TRIANGLES_GUARD_ONSET) continue;
+        twofold_add(&t->guard, e.guard);
+        t->strain.guarded += all->guard[p] > 0.0;
+        t->strain.inverted += e.ratio <= 0.0;
+    }
+}
+
+static void add_node(taking *t, dem_index i)
+{
+    add_springs(t, i);
+    if (t->s->model->couplings.n > 0) add_couplings(t, i);
+    add_triangles(t, i, false);
+}
+
+/* Behind the blocks, beside elements that are not whole, and where a pass has found folded triangles. */
+static void add_rest(taking *t)
+{
+    const layout *l = &t->s->model->layout;
+    const element_state *e = t->f->elements;
+    for (dem_index block = 0; block < l->n_blocks; block++)
+        for (int q = 0; q < LAYOUT_LANES && t->s->folded[block] != 0; q++)
+            if (t->s->folded[block] >> q & 1) add_triangles(t, layout_node(l, LAYOUT_LANES * block + q), true);
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) add_node(t, layout_node(l, q));
+    for (dem_index d = 0; e != NULL && d < e->n_damaged; d++)
+        if (place_of(t, e->damaged[d]) < LAYOUT_LANES * l->n_blocks) add_node(t, e->damaged[d]);
+    add_rigid_springs(t);
+}
+
+/* Triangles that neither area term nor guard acts on are in no layout: then all are looked at by the lattice's list. */
+static void measure_idle_triangles(taking *t)
+{
+    const dem_lattice *l = &t->s->model->lattice;
+    if (t->s->model->triangles.row[l->n_nodes] == 3 * l->n_triangles) return;
+    t->strain = (dem_strain){.area_min = 1.0};
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        if (t->f->elements != NULL && t->f->elements->triangle[k]) continue;
+        const dem_index *c = &l->triangles[3 * k];
+        /* From the lattice's rest positions, as triangles_compile() has it: the ratio is exactly 1 at rest. */
+        const double rest_area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        const double ratio =
+            vec2_triangle_area(vec2_at(t->x, c[0]), vec2_at(t->x, c[1]), vec2_at(t->x, c[2])) / rest_area;
+        if (ratio < t->strain.area_min) t->strain.area_min = ratio;
+        t->strain.guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
+        t->strain.inverted += ratio <= 0.0;
+    }
+}
+
+/* ---- passes ---- */
+
+static void skip_damaged(taking *t)
+{
+    const element_state *e = t->f->elements;
+    const dem_index end = LAYOUT_LANES * t->s->model->layout.n_blocks;
+    if (e == NULL || e->n_damaged == 0) return;
+    memset(t->s->skipped, 0, (size_t)t->s->model->layout.n_blocks);
+    for (dem_index d = 0; d < e->n_damaged; d++) {
+        const dem_index q = place_of(t, e->damaged[d]);
+        if (q < end) t->s->skipped[q / LAYOUT_LANES] |= (uint8_t)(1u << q % LAYOUT_LANES);
+    }
+}
+
+static void pack_share(const survey *s, int share, const double *x)
+{
+    const layout *l = &s->model->layout;
+    const dem_index end = threads_share(l->n_nodes, s->n_threads, share + 1);
+    for (dem_index q = threads_share(l->n_nodes, s->n_threads, share); q < end; q++)
+        vec2_put(s->packed, q, vec2_at(x, l->order[q]));
+}
+
+/* Chunks and runs go side by side, as what they read is mostly the same. */
+static void measure_share(const taking *t, int share)
+{
+    survey *s = t->s;
+    const dem_index n_blocks = s->model->layout.n_blocks, n = s->n_chunks > s->n_runs ? s->n_chunks : s->n_runs;
+    const bool damaged = t->f->elements != NULL && t->f->elements->n_damaged > 0;
+    const energy_pass energies = {.layout = &s->model->layout,
+                                  .x = s->packed != NULL ? s->packed : t->x,
+                                  .skipped = damaged ? s->skipped : NULL,
+                                  .folded = s->folded,
+                                  .least = s->least,
+                                  .largest = s->largest};
+    const motion_pass motions = {s->model->lattice.mass, t->x, t->v, {t->f->gravity[0], t->f->gravity[1]}};
+    const dem_index end = threads_share(n, s->n_threads, share + 1);
+    for (dem_index k = threads_share(n, s->n_threads, share); k < end; k++) {
+        const dem_index first = SURVEY_CHUNK * k,
+                        last = first + SURVEY_CHUNK < n_blocks ? first + SURVEY_CHUNK : n_blocks;
+        if (k < s->n_chunks) s->measure_energies(&energies, first, last, &s->chunks[k]);
+        if (k < s->n_runs) s->measure_motions(&motions, s->runs[k].first, s->runs[k].last, &s->moving[k]);
+    }
+}
+
+static void join_motions(motion_sums *to, const motion_sums *more)
+{
+    twofold_join(&to->kinetic, more->kinetic);
+    twofold_join(&to->weight, more->weight);
+    for (int c = 0; c < 2; c++) {
+        twofold_join(&to->place[c], more->place[c]);
+        twofold_join(&to->momentum[c], more->momentum[c]);
+    }
+}
+
+/* Sums of bodies, and of all. */
+static motion_sums join_runs(survey *s)
+{
+    motion_sums all = {0};
+    memset(s->bodies, 0, (size_t)s->model->n_bodies * sizeof *s->bodies);
+    for (dem_index k = 0; k < s->n_runs; k++) join_motions(&s->bodies[s->runs[k].body], &s->moving[k]);
+    for (dem_index b = 0; b < s->model->n_bodies; b++) join_motions(&all, &s->bodies[b]);
+    return all;
+}
+
+static void join_chunks(taking *t)
+{
+    for (dem_index k = 0; k < t->s->n_chunks; k++) {
+        const energy_sums *own = &t->s->chunks[k];
+        twofold_join(&t->elastic, own->elastic);
+        twofold_join(&t->area, own->area);
+        if (own->area_min < t->strain.area_min) t->strain.area_min = own->area_min;
+    }
+}
+
+/* The springs of a group of blocks that are whole. */
+static void look_at_group(taking *t, dem_index group)
+{
+    const layout *l = &t->s->model->layout;
+    const springs *s = &t->s->model->springs;
+    const dem_index first = LAYOUT_LANES * ENERGY_PASS_GROUP * group, end = LAYOUT_LANES * l->n_blocks;
+    for (dem_index q = first; q < end && q < first + LAYOUT_LANES * ENERGY_PASS_GROUP; q++) {
+        const dem_index i = layout_node(l, q);
+        if (element_state_at(t->f->elements, i) != NULL) continue;
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+            if (place_of(t, s->neighbour[p]) > q)
+                measure_spring(&t->s->model->lattice, s->spring[p], springs_strain(s, i, p, t->x), &t->extremes);
+    }
+}
+
+/* Looks at the groups in which the extremes of all groups occur. */
+static void find_extremes(taking *t)
+{
+    const survey *s = t->s;
+    double least = (double)INFINITY, largest = -(double)INFINITY;
+    for (dem_index g = 0; g < s->n_groups; g++) {
+        if (s->least[g] < least) least = s->least[g];
+        if (s->largest[g] > largest) largest = s->largest[g];
+    }
+    for (dem_index g = 0; g < s->n_groups && least <= largest; g++)
+        if (s->least[g] == least || s->largest[g] == largest) look_at_group(t, g);
+}
+
+/* The key tells which of equal values counts if several processes have one. */
+static dem_strain reduce(taking *t)
+{
+    const dem_lattice *l = &t->s->model->lattice;
+    extreme_strains *e = &t->extremes;
+    reduce_least(&e->min, &e->least, e->least < 0 ? -1 : ends_of(l, e->least).low);
+    reduce_largest(&e->max, &e->largest, e->largest < 0 ? -1 : ends_of(l, e->largest).low);
+    return (dem_strain){.min = e->min,
+                        .max = e->max,
+                        .spring_min = e->least,
+                        .spring_max = e->largest,
+                        .area_min = reduce_min(t->strain.area_min),
+                        .guarded = reduce_count(t->strain.guarded),
+                        .inverted = reduce_count(t->strain.inverted)};
+}
+
+void survey_take(survey *s, const forces *f, const double *x, const double *v)
+{
+    taking t = {.s = s,
+                .f = f,
+                .x = x,
+                .v = v,
+                .springs = element_state_springs(f->elements),
+                .triangles = element_state_triangles(f->elements),
+                .extremes = {.least = -1, .largest = -1},
+                .strain = {.area_min = 1.0}};
+    skip_damaged(&t);
+    if (s->packed != NULL) THREADS_RUN(s->n_threads, share, pack_share(s, share, x));
+    THREADS_RUN(s->n_threads, share, measure_share(&t, share));
+    join_chunks(&t);
+    const motion_sums all = join_runs(s);
+    find_extremes(&t);
+    add_rest(&t);
+    measure_idle_triangles(&t);
+    s->strain = reduce(&t);
+    s->energies = (survey_energies){.kinetic = reduce_twofold(all.kinetic),
+                                    .elastic = reduce_twofold(t.elastic),
+                                    .area = reduce_twofold(t.area),
+                                    .guard = reduce_twofold(t.guard),
+                                    .weight = reduce_twofold(all.weight)};
+}
+
+/* ---- motion of bodies ---- */
+
+static vec2 mean_of(const twofold sum[2], double mass)
+{
+    return vec2_scale(1.0 / mass, (vec2){reduce_twofold(sum[0]), reduce_twofold(sum[1])});
+}
+
+static void spin_share(const survey *s, const motion_pass *p, const dem_body_motion *motion, int share)
+{
+    const dem_index end = threads_share(s->n_runs, s->n_threads, share + 1);
+    for (dem_index k = threads_share(s->n_runs, s->n_threads, share); k < end; k++) {
+        const dem_body_motion *m = &motion[s->runs[k].body];
+        const vec2 mean[2] = {vec2_at(m->centre, 0), vec2_at(m->velocity, 0)};
+        s->spins[k] = s->measure_spins(p, s->runs[k].first, s->runs[k].last, mean);
+    }
+}
+
+/* Centre of mass and its velocity come first, since the angular momentum is taken about them. */
+void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion *motion)
+{
+    const motion_pass nodes = {.mass = s->model->lattice.mass, .x = x, .v = v};
+    for (dem_index b = 0; b < s->model->n_bodies; b++) {
+        motion[b] = (dem_body_motion){.mass = s->mass[b]};
+        vec2_put(motion[b].centre, 0, mean_of(s->bodies[b].place, s->mass[b]));
+        vec2_put(motion[b].velocity, 0, mean_of(s->bodies[b].momentum, s->mass[b]));
+    }
+    THREADS_RUN(s->n_threads, share, spin_share(s, &nodes, motion, share));
+    for (dem_index b = 0; b < s->model->n_bodies; b++) s->bodies[b].spin = (twofold){0};
+    for (dem_index k = 0; k < s->n_runs; k++) twofold_join(&s->bodies[s->runs[k].body].spin, s->spins[k]);
+    for (dem_index b = 0; b < s->model->n_bodies; b++)
+        motion[b].angular_momentum[2] = reduce_twofold(s->bodies[b].spin);
+}

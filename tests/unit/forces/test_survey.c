@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* survey.c and its passes: every kernel with 1, 2 and 3 threads against sums element by element, which are exact. All
+ * numbers are to be equal, so that no tolerance is needed. */
+#include <gsl/gsl_rng.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "harness/cleanup_gsl.h"
+#include "unit/elastic/energy.h"
+#include "unit/forces/measure.h"
+
+static const double gravity[2] = {0.5, -9.81};
+
+typedef struct scene {
+    dem_model *model;
+    double *x, *v;
+} scene;
+
+static void free_scene(scene *s)
+{
+    dem_model_destroy(s->model);
+    free(s->x);
+    free(s->v);
+}
+
+/* Positions at rest, moved at random by up to `share` of the spacing, and random velocities. */
+static scene make_scene(const dem_lattice *lattice, double share)
+{
+    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    scene s = {0};
+    const dem_index n = 2 * lattice->n_nodes;
+    assert_ok(dem_model_create(&s.model, lattice, NULL, 0));
+    s.x = malloc((size_t)n * sizeof *s.x);
+    s.v = malloc((size_t)n * sizeof *s.v);
+    assert_true(s.x != NULL && s.v != NULL);
+    for (dem_index k = 0; k < n; k++) {
+        s.x[k] = lattice->x[k] + share * dem_model_spacing(s.model) * (2.0 * gsl_rng_uniform(r) - 1.0);
+        s.v[k] = 20.0 * gsl_rng_uniform(r) - 10.0;
+    }
+    return s;
+}
+
+/* ---- element by element ---- */
+
+static void expect_energies(const forces *f, const double *x, const double *v, dem_energy *e)
+{
+    const dem_model *m = f->model;
+    const springs_integrity left = element_state_springs(f->elements);
+    const triangles_integrity whole = element_state_triangles(f->elements);
+    exact_sum elastic = {0}, areas[2] = {{.n_terms = 0}}, kinetic = {0}, weight = {0};
+    energy_add_springs(&elastic, &m->lattice, left, x);
+    energy_add_couplings(&elastic, &m->couplings, whole, x);
+    energy_add_triangles(areas, &m->triangles, whole, x);
+    for (dem_index i = 0; i < m->lattice.n_nodes; i++) {
+        const double mass = m->lattice.mass[i];
+        exact_sum_add(&kinetic, 0.5 * mass * vec2_dot(vec2_at(v, i), vec2_at(v, i)));
+        exact_sum_add(&weight, -mass * vec2_dot((vec2){f->gravity[0], f->gravity[1]}, vec2_at(x, i)));
+    }
+    e->elastic = exact_sum_value(&elastic);
+    e->area = exact_sum_value(&areas[0]);
+    e->guard = exact_sum_value(&areas[1]);
+    e->kinetic = exact_sum_value(&kinetic);
+    e->gravity = exact_sum_value(&weight);
+}
+
+/* Of equal strains the first spring by its ends. */
+static bool is_first(const dem_lattice *l, dem_index k, dem_index other)
+{
+    const dem_index *a = l->ends + 2 * k, *b = l->ends + 2 * other;
+    const dem_index low[2] = {a[0] < a[1] ? a[0] : a[1], b[0] < b[1] ? b[0] : b[1]};
+    return low[0] != low[1] ? low[0] < low[1] : a[0] + a[1] < b[0] + b[1];
+}
+
+static dem_strain expect_strains(const forces *f, const double *x)
+{
+    const dem_lattice *l = &f->model->lattice;
+    const springs_integrity q = element_state_springs(f->elements);
+    dem_strain s = {.spring_min = -1, .spring_max = -1};
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const double strain = springs_strain_of(l, k, x);
+        if (springs_is_broken(q, k)) continue;
+        if (s.spring_min < 0 || strain < s.min || (strain == s.min && is_first(l, k, s.spring_min))) {
+            s.min = strain;
+            s.spring_min = k;
+        }
+        if (s.spring_max < 0 || strain > s.max || (strain == s.max && is_first(l, k, s.spring_max))) {
+            s.max = strain;
+            s.spring_max = k;
+        }
+    }
+    return s;
+}
+
+/* A ratio of areas may differ by rounding, 1e-15 here, as the corner from which it is computed is another one. */
+static void check_areas(const forces *f, const double *x, const dem_strain *s)
+{
+    const dem_lattice *l = &f->model->lattice;
+    double least = 1.0;
+    dem_index guarded = 0, inverted = 0;
+    for (dem_index k = 0; k < l->n_triangles; k++) {
+        const dem_index *c = l->triangles + 3 * k;
+        const double rest = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        const double J = vec2_triangle_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2])) / rest;
+        if (f->elements != NULL && f->elements->triangle[k]) continue;
+        least = fmin(least, J);
+        guarded += J < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
+        inverted += J <= 0.0;
+    }
+    assert_close(s->area_min, least, 1e-14);
+    assert_int_equal(s->guarded, guarded);
+    assert_int_equal(s->inverted, inverted);
+}
+
+static void check_bodies(const forces *f, const double *x, const double *v, const dem_body_motion *body)
+{
+    const dem_lattice *l = &f->model->lattice;
+    for (dem_index b = 0; b < f->model->n_bodies; b++) {
+        exact_sum sum[5] = {{.n_terms = 0}}, spin = {0};
+        for (dem_index i = 0; i < l->n_nodes; i++) {
+            const double m = l->mass[i], terms[5] = {m, m * x[2 * i], m * x[2 * i + 1], m * v[2 * i], m * v[2 * i + 1]};
+            for (int k = 0; k < 5 && l->body[i] == b; k++) exact_sum_add(&sum[k], terms[k]);
+        }
+        const double over = 1.0 / exact_sum_value(&sum[0]);
+        const vec2 centre = {over * exact_sum_value(&sum[1]), over * exact_sum_value(&sum[2])};
+        const vec2 velocity = {over * exact_sum_value(&sum[3]), over * exact_sum_value(&sum[4])};
+        for (dem_index i = 0; i < l->n_nodes; i++)
+            if (l->body[i] == b)
+                exact_sum_add(
+                    &spin, l->mass[i] * vec2_cross(vec2_sub(vec2_at(x, i), centre), vec2_sub(vec2_at(v, i), velocity)));
+        assert_close(body[b].mass, exact_sum_value(&sum[0]), 0.0);
+        assert_close(body[b].centre[0], centre.x, 0.0);
+        assert_close(body[b].centre[1], centre.y, 0.0);
+        assert_close(body[b].velocity[0], velocity.x, 0.0);
+        assert_close(body[b].velocity[1], velocity.y, 0.0);
+        assert_close(body[b].angular_momentum[2], exact_sum_value(&spin), 0.0);
+    }
+}
+
+/* Area terms are equal where nodes have the numbers of the layout, or else to rounding: the lowest corner of a triangle
+ * may be another one then. */
+static void check_against(const forces *f, const scene *s, const measures *m)
+{
+    dem_energy e;
+    expect_energies(f, s->x, s->v, &e);
+    const dem_strain strain = expect_strains(f, s->x);
+    const double rounding = f->model->layout.order != NULL ? 1e-13 : 0.0;
+    assert_close(m->energy.kinetic, e.kinetic, 0.0);
+    assert_close(m->energy.elastic, e.elastic, 0.0);
+    assert_close(m->energy.area, e.area, rounding * fabs(e.area));
+    assert_close(m->energy.guard, e.guard, rounding * e.guard);
+    assert_close(m->energy.gravity, e.gravity, 0.0);
+    assert_close(m->strain.min, strain.min, 0.0);
+    assert_close(m->strain.max, strain.max, 0.0);
+    assert_int_equal(m->strain.spring_min, strain.spring_min);
+    assert_int_equal(m->strain.spring_max, strain.spring_max);
+    check_areas(f, s->x, &m->strain);
+    check_bodies(f, s->x, s->v, m->body);
+}
+
+static void check_survey(const scene *s, const forces *load)
+{
+    forces f = *load;
+    f.model = s->model;
+    f.gravity[0] = gravity[0];
+    f.gravity[1] = gravity[1];
+    const measures first = measure_with(&f, s->x, s->v, DEM_KERNEL_PORTABLE, 1);
+    check_against(&f, s, &first);
+    for (dem_kernel kind = DEM_KERNEL_PORTABLE; dem_kernel_name(kind) != NULL; kind++)
+        for (int n = 1; n <= 3 && dem_kernel_check(kind) == DEM_OK; n++) {
+            const measures m = measure_with(&f, s->x, s->v, kind, n);
+            assert_memory_equal(&m.energy, &first.energy, sizeof m.energy);
+            assert_memory_equal(&m.strain, &first.strain, sizeof m.strain);
+            assert_memory_equal(m.body, first.body, (size_t)f.model->n_bodies * sizeof *m.body);
+        }
+}
+
+static void check_lattice(const dem_lattice *lattice, double share)
+{
+    CLEANUP(free_scene) scene s = make_scene(lattice, share);
+    check_survey(&s, &(const forces){0});
+}
+
+/* ---- lattices ---- */
+
+static dem_material law_of(int laws)
+{
+    dem_material material = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0,
+                                  .thickness = 1.0, .guard = 0.02);
+    if (laws & 1) material.poissons_ratio = 0.45;
+    if (laws & 2) material.guard = 0.0;
+    if (laws & 4) material.springs = DEM_SPRINGS_COUPLED;
+    return material;
+}
+
+static dem_lattice make_solid(double width, double height, const dem_material *material)
+{
+    dem_lattice lattice = dem_lattice_empty();
+    assert_ok(dem_lattice_rectangle(&lattice, width, height, 1e-2));
+    assert_ok(dem_lattice_assemble(&lattice, material));
+    return lattice;
+}
+
+static bool outside_hole(void *context, const double *x)
+{
+    (void)context;
+    return hypot(x[0] - 0.08, x[1] - 0.1) > 0.043;
+}
+
+static dem_lattice make_holed(const dem_material *material)
+{
+    dem_lattice lattice = dem_lattice_empty();
+    assert_ok(dem_lattice_disc(&lattice, 0.15, 1e-2));
+    dem_lattice_move(&lattice, 0.1, (const double[2]){0.15, 0.15});
+    assert_ok(dem_lattice_cut(&lattice, outside_hole, NULL));
+    if (material->springs == DEM_SPRINGS_COUPLED) assert_ok(dem_lattice_jitter(&lattice, 2e-3, 1));
+    assert_ok(dem_lattice_assemble(&lattice, material));
+    return lattice;
+}
+
+/* From one cell to rows longer than several blocks, with every number of nodes left over. */
+TEST(rectangles_of_all_sizes_agree)
+{
+    const dem_material material = law_of(1);
+    for (int rows = 1; rows <= 5; rows += 2)
+        for (int columns = 1; columns <= 21; columns++) {
+            CLEANUP(dem_lattice_free)
+            dem_lattice lattice = make_solid(1e-2 * columns + 1e-4, 0.9e-2 * rows + 1e-2, &material);
+            check_lattice(&lattice, 0.05);
+        }
+}
+
+/* Discs with holes; every law. */
+TEST(every_law_agrees_on_bodies_with_holes)
+{
+    for (int laws = 0; laws < 8; laws++) {
+        const dem_material material = law_of(laws);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+        check_lattice(&lattice, 0.1);
+    }
+}
+
+/* Some 6,000 nodes: several chunks of blocks and runs of nodes. */
+TEST(large_bodies_agree)
+{
+    const dem_material material = law_of(5);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(1.1, 0.5, &material);
+    assert_true(lattice.n_nodes > 5 * SURVEY_CHUNK * 8);
+    check_lattice(&lattice, 0.1);
+}
+
+/* Moved by up to 0.6 of a spacing, many triangles are below the guard's onset, and some are inverted. */
+TEST(squeezed_triangles_agree)
+{
+    for (int laws = 0; laws < 4; laws++) {
+        const dem_material material = law_of(laws);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+        CLEANUP(free_scene) scene s = make_scene(&lattice, 0.6);
+        check_survey(&s, &(const forces){0});
+        const forces f = {.model = s.model};
+        assert_true(measure_state(&f, s.x, s.v).strain.inverted > 3);
+    }
+}
+
+/* At rest all strains are nearly the same, and many are equal: the first spring by its ends is named. */
+TEST(a_body_at_rest_agrees)
+{
+    const dem_material material = law_of(0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+    check_lattice(&lattice, 0.0);
+}
+
+/* Every seventh spring and every fifth triangle. */
+TEST(broken_elements_agree)
+{
+    for (int laws = 0; laws < 8; laws++) {
+        const dem_material material = law_of(laws);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+        CLEANUP(springs_free) springs all;
+        CLEANUP(element_state_destroy) element_state broken;
+        assert_ok(springs_compile(&all, &lattice));
+        assert_ok(element_state_create(&broken, &lattice, &all));
+        for (dem_index k = 0; k < lattice.n_springs; k += 29) element_state_break_spring(&broken, k);
+        for (dem_index k = 0; k < lattice.n_triangles; k += 31) element_state_break_triangle(&broken, k);
+        CLEANUP(free_scene) scene s = make_scene(&lattice, laws & 1 ? 0.1 : 0.6);
+        check_survey(&s, &(const forces){.elements = &broken});
+        assert_true(broken.n_damaged < lattice.n_nodes);
+    }
+}
+
+/* ---- numbers ---- */
+
+static void swap_nodes(dem_lattice *l, const dem_index *number)
+{
+    const size_t size = 2 * (size_t)l->n_nodes * sizeof *l->x;
+    double *old = malloc(size);
+    assert_non_null(old);
+    memcpy(old, l->x, size);
+    for (dem_index i = 0; i < l->n_nodes; i++) memcpy(l->x + 2 * number[i], old + 2 * i, 2 * sizeof *old);
+    free(old);
+    for (dem_index k = 0; k < 2 * l->n_springs; k++) l->ends[k] = number[l->ends[k]];
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) l->triangles[k] = number[l->triangles[k]];
+}
+
+/* A body whose nodes are numbered at random has a layout with an order of its own. */
+TEST(any_numbering_agrees)
+{
+    const dem_material material = law_of(5);
+    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
+    assert_ok(dem_lattice_rectangle(&lattice, 0.5, 0.4, 1e-2));
+    CLEANUP(free_memory) dem_index *number = malloc((size_t)lattice.n_nodes * sizeof *number);
+    assert_non_null(number);
+    for (dem_index k = 0; k < lattice.n_nodes; k++) number[k] = k;
+    for (dem_index k = lattice.n_nodes - 1; k > 0; k--) {
+        const dem_index j = (dem_index)gsl_rng_uniform_int(r, (unsigned long)k + 1), kept = number[k];
+        number[k] = number[j];
+        number[j] = kept;
+    }
+    swap_nodes(&lattice, number);
+    assert_ok(dem_lattice_assemble(&lattice, &material));
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.4);
+    assert_non_null(s.model->layout.order);
+    check_survey(&s, &(const forces){0});
+}
+
+/* Three bodies, one of them rigid: no layout has its springs. */
+TEST(bodies_agree)
+{
+    const dem_material material = law_of(1), other = law_of(0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.11, 0.07, &material);
+    CLEANUP(dem_lattice_free)
+    dem_lattice second = make_solid(0.13, 0.05, &other), third = make_solid(0.04, 0.05, &other);
+    dem_lattice_move(&second, 0.0, (const double[2]){0.2, 0.0});
+    dem_lattice_move(&third, 0.0, (const double[2]){0.5, 0.0});
+    assert_ok(dem_lattice_append(&lattice, &second));
+    assert_ok(dem_lattice_append(&lattice, &third));
+    for (int rigid = 0; rigid < 2; rigid++) {
+        if (rigid && lattice.flags == NULL) lattice.flags = calloc((size_t)lattice.n_nodes, sizeof *lattice.flags);
+        assert_true(!rigid || lattice.flags != NULL);
+        for (dem_index i = 0; rigid && i < lattice.n_nodes; i++)
+            if (lattice.body[i] == 1) lattice.flags[i] |= DEM_NODE_RIGID;
+        check_lattice(&lattice, 0.1);
+    }
+}
