@@ -93,18 +93,24 @@ static inline vec2 springs_damping(const springs *s, springs_integrity integrity
     return force;
 }
 
-/** Strain (d - d0)/d0 of the spring in slot p of row i. */
+/** Strain (d - d0)/d0 of a spring of length d. */
+static inline double springs_strain_at(double rest_length, double length)
+{
+    return (length - rest_length) / rest_length;
+}
+
+/** Strain of the spring in slot p of row i. */
 static inline double springs_strain(const springs *s, dem_index i, dem_index p, const double *x)
 {
     const double length = vec2_norm(vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i)));
-    return (length - s->rest_length[p]) / s->rest_length[p];
+    return springs_strain_at(s->rest_length[p], length);
 }
 
-/** Strain (d - d0)/d0 of spring k of a lattice. */
+/** Strain of spring k of a lattice. */
 static inline double springs_strain_of(const dem_lattice *lattice, dem_index k, const double *x)
 {
     const vec2 d = vec2_sub(vec2_at(x, lattice->ends[2 * k + 1]), vec2_at(x, lattice->ends[2 * k]));
-    return (vec2_norm(d) - lattice->rest_length[k]) / lattice->rest_length[k];
+    return springs_strain_at(lattice->rest_length[k], vec2_norm(d));
 }
 
 /** E d0 e^2/2: the work of (1) from the rest length to the strain e, J. */

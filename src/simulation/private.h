@@ -12,6 +12,7 @@
 #include "forces/kernel.h"
 #include "forces/local_springs.h"
 #include "forces/rigid_motion.h"
+#include "forces/stress_field.h"
 #include "forces/survey.h"
 #include "fracture/fracture_source.h"
 #include "model/overlap.h"
@@ -21,8 +22,8 @@
 
 /* Results from the state as seen; each is computed once, when it is first asked for. */
 typedef struct run_measures {
-    bool has_events, has_state, has_contacts, has_held_forces, has_poses, has_survey, has_energy, has_bodies,
-        has_surfaces, has_pairs, has_rigid;
+    bool has_events, has_state, has_contacts, has_held_forces, has_poses, has_survey, has_stress, has_energy,
+        has_bodies, has_surfaces, has_pairs, has_rigid;
     dem_index n_contacts;
     const dem_contact *contacts; /* [n_contacts] closed ones */
     dem_energy energy;
@@ -82,6 +83,7 @@ struct dem_simulation {
     const double *seen; /* y or frame */
     run_measures *measures;
     survey *survey;          /* of the state as seen, if `measures` has it */
+    stress_field *field;     /* of the same, likewise */
     dem_body_motion *bodies; /* [bodies] in the state as seen, if `measures` has them */
     int unlooked;            /* steps since overlaps were looked for */
     int unlooked_pause;      /* in a pause of the ramps: steps since the residual was looked at */

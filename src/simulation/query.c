@@ -199,7 +199,11 @@ dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, de
 dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
 {
     TRY(check_given("dem_simulation_strains", s, strain));
-    springs_strains(&s->model->lattice, element_state_springs(s->forces.elements), seen_of(s), strain);
+    const double *x = seen_of(s);
+    if (s->measures->has_stress)
+        stress_field_strains(s->field, s->forces.elements, strain);
+    else
+        springs_strains(&s->model->lattice, element_state_springs(s->forces.elements), x, strain);
     return DEM_OK;
 }
 
@@ -274,15 +278,11 @@ dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
     return GIVE(dem_fracture, out, &seen);
 }
 
-static void stress_at(const dem_simulation *s, dem_index node, double *stress)
-{
-    node_stress(s->model, s->forces.elements, NODE_STRESS_CARRIED, node, seen_of(s), stress);
-}
-
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
     TRY(check_given("dem_simulation_stress", s, stress));
-    for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) stress_at(s, i, stress + 3 * i);
+    const double *x = seen_of(s);
+    s->measures->has_stress = stress_field_take(s->field, s->forces.elements, x, stress);
     return DEM_OK;
 }
 
@@ -290,7 +290,7 @@ dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, dou
 {
     TRY(check_given("dem_simulation_stress_at", s, stress));
     TRY(status_check_number("node", node, s->model->lattice.n_nodes));
-    stress_at(s, node, stress);
+    node_stress(s->model, s->forces.elements, NODE_STRESS_CARRIED, node, seen_of(s), stress);
     return DEM_OK;
 }
 

@@ -27,10 +27,11 @@ static dem_status allocate(dem_simulation *s)
     s->frame = malloc(n * sizeof *s->frame);
     s->measures = calloc(1, sizeof *s->measures);
     s->survey = calloc(1, sizeof *s->survey);
+    s->field = calloc(1, sizeof *s->field);
     s->bodies = calloc((size_t)s->model->n_bodies, sizeof *s->bodies);
     if (o->is_asked) s->poses = calloc((size_t)o->n, sizeof *s->poses);
-    CHECK(s->y && s->frame && s->measures && s->survey && s->bodies && (s->poses || !o->is_asked), DEM_ERROR_MEMORY,
-          "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
+    CHECK(s->y && s->frame && s->measures && s->survey && s->field && s->bodies && (s->poses || !o->is_asked),
+          DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes", (long long)s->model->lattice.n_nodes);
     return DEM_OK;
 }
 
@@ -119,6 +120,7 @@ static dem_status set_up(dem_simulation *s)
     TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
     s->options.kernel = s->kernel.kind;
     TRY(survey_create(s->survey, &s->kernel));
+    stress_field_create(s->field, &s->kernel);
     const contact_rule rule = rule_of(s);
     TRY(automaton_create(&s->automaton, &s->forces, &rule));
     TRY(reduce_status(automaton_check_start(&s->automaton, 0.0, s->y), 0.0));
@@ -205,6 +207,8 @@ void dem_simulation_destroy(dem_simulation *s)
     free(s->frame);
     free(s->measures);
     if (s->survey != NULL) survey_destroy(s->survey);
+    if (s->field != NULL) stress_field_destroy(s->field);
+    free(s->field);
     free(s->survey);
     free(s->bodies);
     free(s->poses);

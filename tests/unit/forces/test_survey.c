@@ -1,44 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* survey.c and its passes: every kernel with 1, 2 and 3 threads against sums element by element, which are exact. All
  * numbers are to be equal, so that no tolerance is needed. */
-#include <gsl/gsl_rng.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/cleanup_gsl.h"
 #include "unit/elastic/energy.h"
 #include "unit/forces/measure.h"
+#include "unit/forces/scenes.h"
 
 static const double gravity[2] = {0.5, -9.81};
-
-typedef struct scene {
-    dem_model *model;
-    double *x, *v;
-} scene;
-
-static void free_scene(scene *s)
-{
-    dem_model_destroy(s->model);
-    free(s->x);
-    free(s->v);
-}
-
-/* Positions at rest, moved at random by up to `share` of the spacing, and random velocities. */
-static scene make_scene(const dem_lattice *lattice, double share)
-{
-    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
-    scene s = {0};
-    const dem_index n = 2 * lattice->n_nodes;
-    assert_ok(dem_model_create(&s.model, lattice, NULL, 0));
-    s.x = malloc((size_t)n * sizeof *s.x);
-    s.v = malloc((size_t)n * sizeof *s.v);
-    assert_true(s.x != NULL && s.v != NULL);
-    for (dem_index k = 0; k < n; k++) {
-        s.x[k] = lattice->x[k] + share * dem_model_spacing(s.model) * (2.0 * gsl_rng_uniform(r) - 1.0);
-        s.v[k] = 20.0 * gsl_rng_uniform(r) - 10.0;
-    }
-    return s;
-}
 
 /* ---- element by element ---- */
 
@@ -180,43 +150,6 @@ static void check_lattice(const dem_lattice *lattice, double share)
     check_survey(&s, &(const forces){0});
 }
 
-/* ---- lattices ---- */
-
-static dem_material law_of(int laws)
-{
-    dem_material material = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0, .density = 1050.0,
-                                  .thickness = 1.0, .guard = 0.02);
-    if (laws & 1) material.poissons_ratio = 0.45;
-    if (laws & 2) material.guard = 0.0;
-    if (laws & 4) material.springs = DEM_SPRINGS_COUPLED;
-    return material;
-}
-
-static dem_lattice make_solid(double width, double height, const dem_material *material)
-{
-    dem_lattice lattice = dem_lattice_empty();
-    assert_ok(dem_lattice_rectangle(&lattice, width, height, 1e-2));
-    assert_ok(dem_lattice_assemble(&lattice, material));
-    return lattice;
-}
-
-static bool outside_hole(void *context, const double *x)
-{
-    (void)context;
-    return hypot(x[0] - 0.08, x[1] - 0.1) > 0.043;
-}
-
-static dem_lattice make_holed(const dem_material *material)
-{
-    dem_lattice lattice = dem_lattice_empty();
-    assert_ok(dem_lattice_disc(&lattice, 0.15, 1e-2));
-    dem_lattice_move(&lattice, 0.1, (const double[2]){0.15, 0.15});
-    assert_ok(dem_lattice_cut(&lattice, outside_hole, NULL));
-    if (material->springs == DEM_SPRINGS_COUPLED) assert_ok(dem_lattice_jitter(&lattice, 2e-3, 1));
-    assert_ok(dem_lattice_assemble(&lattice, material));
-    return lattice;
-}
-
 /* From one cell to rows longer than several blocks, with every number of nodes left over. */
 TEST(rectangles_of_all_sizes_agree)
 {
@@ -269,55 +202,23 @@ TEST(a_body_at_rest_agrees)
     check_lattice(&lattice, 0.0);
 }
 
-/* Every seventh spring and every fifth triangle. */
 TEST(broken_elements_agree)
 {
     for (int laws = 0; laws < 8; laws++) {
         const dem_material material = law_of(laws);
         CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
-        CLEANUP(springs_free) springs all;
-        CLEANUP(element_state_destroy) element_state broken;
-        assert_ok(springs_compile(&all, &lattice));
-        assert_ok(element_state_create(&broken, &lattice, &all));
-        for (dem_index k = 0; k < lattice.n_springs; k += 29) element_state_break_spring(&broken, k);
-        for (dem_index k = 0; k < lattice.n_triangles; k += 31) element_state_break_triangle(&broken, k);
+        CLEANUP(element_state_destroy) element_state broken = break_some(&lattice);
         CLEANUP(free_scene) scene s = make_scene(&lattice, laws & 1 ? 0.1 : 0.6);
         check_survey(&s, &(const forces){.elements = &broken});
         assert_true(broken.n_damaged < lattice.n_nodes);
     }
 }
 
-/* ---- numbers ---- */
-
-static void swap_nodes(dem_lattice *l, const dem_index *number)
-{
-    const size_t size = 2 * (size_t)l->n_nodes * sizeof *l->x;
-    double *old = malloc(size);
-    assert_non_null(old);
-    memcpy(old, l->x, size);
-    for (dem_index i = 0; i < l->n_nodes; i++) memcpy(l->x + 2 * number[i], old + 2 * i, 2 * sizeof *old);
-    free(old);
-    for (dem_index k = 0; k < 2 * l->n_springs; k++) l->ends[k] = number[l->ends[k]];
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++) l->triangles[k] = number[l->triangles[k]];
-}
-
 /* A body whose nodes are numbered at random has a layout with an order of its own. */
 TEST(any_numbering_agrees)
 {
     const dem_material material = law_of(5);
-    CLEANUP(free_rng) gsl_rng *r = gsl_rng_alloc(gsl_rng_mt19937);
-    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
-    assert_ok(dem_lattice_rectangle(&lattice, 0.5, 0.4, 1e-2));
-    CLEANUP(free_memory) dem_index *number = malloc((size_t)lattice.n_nodes * sizeof *number);
-    assert_non_null(number);
-    for (dem_index k = 0; k < lattice.n_nodes; k++) number[k] = k;
-    for (dem_index k = lattice.n_nodes - 1; k > 0; k--) {
-        const dem_index j = (dem_index)gsl_rng_uniform_int(r, (unsigned long)k + 1), kept = number[k];
-        number[k] = number[j];
-        number[j] = kept;
-    }
-    swap_nodes(&lattice, number);
-    assert_ok(dem_lattice_assemble(&lattice, &material));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_shuffled(&material);
     CLEANUP(free_scene) scene s = make_scene(&lattice, 0.4);
     assert_non_null(s.model->layout.order);
     check_survey(&s, &(const forces){0});
@@ -326,14 +227,7 @@ TEST(any_numbering_agrees)
 /* Three bodies, one of them rigid: no layout has its springs. */
 TEST(bodies_agree)
 {
-    const dem_material material = law_of(1), other = law_of(0);
-    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.11, 0.07, &material);
-    CLEANUP(dem_lattice_free)
-    dem_lattice second = make_solid(0.13, 0.05, &other), third = make_solid(0.04, 0.05, &other);
-    dem_lattice_move(&second, 0.0, (const double[2]){0.2, 0.0});
-    dem_lattice_move(&third, 0.0, (const double[2]){0.5, 0.0});
-    assert_ok(dem_lattice_append(&lattice, &second));
-    assert_ok(dem_lattice_append(&lattice, &third));
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_bodies();
     for (int rigid = 0; rigid < 2; rigid++) {
         if (rigid && lattice.flags == NULL) lattice.flags = calloc((size_t)lattice.n_nodes, sizeof *lattice.flags);
         assert_true(!rigid || lattice.flags != NULL);

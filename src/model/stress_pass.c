@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Each spring's r x f is computed once, and each node sums up its share of that. Compiled once for each instruction
+ * set, whose vectors LANES names; with the plain loops the compiler fills vectors by itself. */
+#include LANES
+
+#include "elastic/lanes_twofold.h"
+#include "model/stress_pass.h"
+
+typedef double four __attribute__((vector_size(32)));
+
+enum { BATCH = 256 };
+
+/* Vectors from end to end. */
+static void fill_ways(const stress_pass *p, dem_index first, int n, double *dx, double *dy)
+{
+    const dem_index *ends = p->lattice->ends + 2 * first;
+    for (int q = 0; q < n; q++) {
+        const double *from = p->x + 2 * ends[2 * q], *to = p->x + 2 * ends[2 * q + 1];
+        dx[q] = to[0] - from[0];
+        dy[q] = to[1] - from[1];
+    }
+}
+
+/* With the tension over the length, N/m, as in springs_virial(). */
+static void fill_virials(const stress_pass *p, dem_index first, int n)
+{
+    double dx[BATCH], dy[BATCH];
+    const double *stiffness = p->lattice->stiffness + first, *rest_length = p->lattice->rest_length + first;
+    double *out = p->virial + 4 * first;
+    fill_ways(p, first, n, dx, dy);
+    for (int q = 0; q < n; q++) {
+        const double length = sqrt(dx[q] * dx[q] + dy[q] * dy[q]), rest = rest_length[q];
+        const double tension = springs_pull(stiffness[q], rest, length);
+        out[4 * q] = tension * dx[q] * dx[q];
+        out[4 * q + 1] = tension * dy[q] * dy[q];
+        out[4 * q + 2] = tension * dx[q] * dy[q];
+        out[4 * q + 3] = springs_strain_at(rest, length);
+    }
+}
+
+void STRESS_PASS_SPRINGS(const stress_pass *p, dem_index first, dem_index last)
+{
+    for (; first < last; first += BATCH) fill_virials(p, first, last - first < BATCH ? (int)(last - first) : BATCH);
+}
+
+/* Four numbers at once, of which the last is of no use. */
+void STRESS_PASS_NODES(const stress_pass *p, dem_index first, dem_index last)
+{
+    const stress_map *map = p->map;
+    const four *virial = (const four *)p->virial;
+    for (dem_index i = first; i < last; i++) {
+        four sum = {0.0, 0.0, 0.0, 0.0};
+        for (dem_index k = map->row[i]; k < map->row[i + 1]; k++) sum += map->share[k] * virial[map->spring[k]];
+        for (int c = 0; c < 3; c++) p->stress[3 * i + c] = sum[c];
+    }
+}
+
+/* Sum over a node's triangles of A dW/dA over three of its volumes. */
+INLINE lanes spread_of(const stress_pass *p, dem_index block, unsigned *guarded)
+{
+    const layout *l = p->layout;
+    const intern_span span = l->corners.span[block];
+    const layout_entry *entries = l->corners.entries.items;
+    const double *here = p->x + 2 * LAYOUT_LANES * block;
+    const pairs x = pairs_load(here);
+    const lanes volume = pairs_dot(pairs_spread(p->map->volume + LAYOUT_LANES * block), pairs_both(1.0, 0.0));
+    const lanes thrice = lanes_mul(lanes_all(3.0), volume);
+    lanes sum = lanes_all(0.0);
+    for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
+        const bool gathered = e->kind == LAYOUT_GATHERED;
+        const double *set = (const double *)l->areas.items + e->set;
+        const pairs next = gathered ? pairs_gather(p->x, l->lists + e->at) : pairs_load(here + e->at);
+        const pairs last = gathered ? pairs_gather(p->x, l->lists + e->to) : pairs_load(here + e->to);
+        const lanes area = lanes_mul(lanes_all(0.5), pairs_cross(pairs_sub(next, x), pairs_sub(last, x)));
+        const unsigned taken = (e->mask & 0x55u) | (e->mask >> 8 & 0x55u) << 1; /* lanes */
+        *guarded |= lanes_below(area, lanes_load(set + LAYOUT_LANES)) & taken;
+        if (!l->stiff) continue;
+        const lanes stretch = lanes_sub(lanes_div(area, lanes_load(set)), lanes_all(1.0));
+        const lanes slope = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), stretch);
+        sum = lanes_where(taken, lanes_add(sum, lanes_div(lanes_mul(area, slope), thrice)), sum);
+    }
+    return sum;
+}
+
+void STRESS_PASS_AREAS(const stress_pass *p, dem_index first, dem_index last)
+{
+    double spread[LAYOUT_LANES];
+    for (dem_index block = first; block < last; block++) {
+        unsigned guarded = 0, nodes = 0;
+        lanes_store(spread, spread_of(p, block, &guarded));
+        for (int q = 0; q < LAYOUT_LANES && guarded != 0; q++) nodes |= (guarded >> layout_lane(q) & 1u) << q;
+        p->guarded[block] = (uint8_t)nodes;
+        double *stress = p->stress + 3 * LAYOUT_LANES * block;
+        for (int q = 0; q < LAYOUT_LANES && p->layout->stiff; q++)
+            for (int c = 0; c < 2 && !(nodes >> q & 1); c++) stress[3 * q + c] += spread[layout_lane(q)];
+    }
+}
