@@ -179,18 +179,27 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
     (void)fflush(r->log->out);
 }
 
+/* At t = 0, and then at the steps that have a row in the history. */
+static bool has_row(const report *r, double t)
+{
+    const double interval = r->deck->history_interval;
+    return t == 0.0 || !(interval > 0.0) || floor(t / interval) > floor(r->so_far.looked_t / interval);
+}
+
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
     report *r = context;
     const dem_state state = ask_state(simulation);
-    follow_energy(r, simulation, &state);
-    follow_strain(r, simulation, state.t);
+    const bool looks = has_row(r, state.t); /* at all nodes and springs */
+    if (looks) follow_energy(r, simulation, &state);
+    if (looks) follow_strain(r, simulation, state.t);
     step_report_follow(&r->so_far.step_report, simulation, &state);
     if (surface_report_follow(&r->so_far.surface_report, simulation, state.t))
         surface_report_warn(&r->so_far.surface_report, r->log);
     rebound_follow(&r->so_far.rebound, simulation, &state);
     fracture_report_follow(&r->so_far.fracture_report, simulation);
-    watch_ledger(r, simulation, &state);
+    if (looks) watch_ledger(r, simulation, &state);
+    if (looks) r->so_far.looked_t = state.t;
     watch_overlap(r, simulation);
     show_progress(r, simulation, &state);
     return DEM_OK;

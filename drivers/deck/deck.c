@@ -193,6 +193,7 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     d->closure = schema_real(output, "closure");
     d->stop_at_overlap = strcmp(schema_text(schema_get(groups, "contact", 0), "overlap"), "stop") == 0;
     d->frame_interval = schema_real(output, "frame_interval");
+    d->history_interval = schema_real(output, "history_interval");
     d->double_precision = strcmp(schema_text(output, "precision"), "double") == 0;
     d->deflate = (int)schema_real(output, "deflate");
     d->events = schema_real(output, "events") != 0.0;

@@ -27,9 +27,10 @@ typedef struct deck {
     double t_end;    /* s */
     double residual; /* > 0: a quasi-static run ends there */
     int stop_at_overlap;
-    double closure;        /* share of the energy from which on the log warns */
-    dem_options options;   /* 0, of the window < 0, where the library is to choose; with its arrays once built */
-    double frame_interval; /* s */
+    double closure;          /* share of the energy from which on the log warns */
+    dem_options options;     /* 0, of the window < 0, where the library is to choose; with its arrays once built */
+    double frame_interval;   /* s */
+    double history_interval; /* s between rows of the history, at least; 0: every step has one */
     int double_precision, deflate, events, breaks, fragments;
     uint32_t fields;         /* DEM_FIELD_... */
     dem_index peak_every;    /* accepted steps between looks at peaks; 0: none */

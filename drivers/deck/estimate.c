@@ -199,7 +199,9 @@ static double table_bytes(double rows, double width)
 static double tables_bytes(const deck *d, const contents *c, double steps)
 {
     static const double of_probe[] = {[DEM_PROBE_NODE] = 9.0, [DEM_PROBE_SPRING] = 3.0, [DEM_PROBE_GAUGE] = 3.0};
-    double bytes = table_bytes(steps, 35.0 + 5.0 * c->bodies + 9.0 * c->obstacles + 4.0 * c->boundaries);
+    const double duration = estimate_duration(d);
+    const double rows = d->history_interval > 0.0 ? fmin(steps, duration / d->history_interval + 2.0) : steps;
+    double bytes = table_bytes(rows, 35.0 + 5.0 * c->bodies + 9.0 * c->obstacles + 4.0 * c->boundaries);
     for (dem_index k = 0; k < d->n_probes; k++)
         bytes += table_bytes(steps / (double)d->probes[k].every, of_probe[d->probes[k].kind]);
     return bytes;

@@ -342,6 +342,8 @@ static const schema_key output_keys[] = {
      "'every_key'"},
     {"frame_interval", SCHEMA_REAL, 1, 1, "s", "1e-3", "> 0", NULL, false, "Time between frames; the first is at 0.",
      NULL},
+    {"history_interval", SCHEMA_REAL, 1, 1, "s", "0", ">= 0", NULL, false,
+     "Least time between rows of /history, and looks for extremes of energy and strain; 0: every accepted step.", NULL},
     {"precision", SCHEMA_CHOICE, 1, 1, "-", "'single'", ANY, "single|double", false,
      "Precision of the arrays in the frames; positions are always double.", NULL},
     {"deflate", SCHEMA_INTEGER, 1, 1, "-", "1", "[0, 9]", NULL, false,

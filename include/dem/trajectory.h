@@ -60,6 +60,7 @@ typedef struct dem_trajectory_options {
     const dem_probe *probes; /**< [n_probes] copied */
     bool breaks;             /**< true: the table /breaks of all that breaks, and columns of /history; default false */
     bool fragments;          /**< true: the table /fragments, of each frame; default false */
+    double history_interval; /**< s, at least, between rows of /history, which are accepted steps; default 0: each is */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)

@@ -1214,7 +1214,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_trajectory_options
-    integer(c_size_t) :: struct_size = 72
+    integer(c_size_t) :: struct_size = 80
     real(c_double) :: frame_interval = 0
     logical(c_bool) :: double_precision = .false.
     integer(c_int) :: deflate = 0
@@ -1224,6 +1224,7 @@ module dem_c
     integer(dem_index) :: most_stressed = 0, n_probes = 0
     type(c_ptr) :: probes = c_null_ptr
     logical(c_bool) :: breaks = .false., fragments = .false.
+    real(c_double) :: history_interval = 0
   end type
 
   interface

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The group /history: a row of numbers of the whole at t = 0 and after each accepted step (docs/output.md). This file
+/* The group /history: a row of numbers of the whole at t = 0 and after accepted steps (docs/output.md). This file
  * has the list of columns and what fills them. The numbers themselves are computed in forces/diagnostics.c and
  * simulation/query.c, which it reaches through the public interface only; how rows reach the file is in table.c. */
 #include "output/history.h"
+
+#include <math.h>
 
 #include "base/status.h"
 
@@ -205,13 +207,20 @@ void history_free(history *h)
     table_free(&h->table);
 }
 
-/* The step that a run is resumed at comes twice: a row of the same instant is not added again. */
+/* The step that a run is resumed at comes twice: a row of the same instant is not added again. Whether one is due
+ * follows from the last row alone, so that a resumed run has the same rows. table_total() counts rows of earlier files,
+ * too. */
+static bool is_due(const history *h, double t)
+{
+    if (table_total(&h->table) == 0) return true;
+    return t != h->last && !(h->interval > 0.0 && floor(t / h->interval) <= floor(h->last / h->interval));
+}
+
 dem_status history_record(history *h, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
-    /* table_total() counts rows of earlier files, too. */
-    if (table_total(&h->table) > 0 && state.t == h->last) return DEM_OK;
+    if (!is_due(h, state.t)) return DEM_OK;
     TRY(measure_fracture(h, simulation));
     dem_energy energy = {.struct_size = sizeof energy};
     (void)dem_simulation_energy(simulation, &energy);

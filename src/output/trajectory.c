@@ -117,7 +117,7 @@ static dem_status on_break(void *context, const dem_simulation *simulation, cons
 /* ---- checkpoints ---- */
 
 /* Names of the entries in a checkpoint. */
-static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes";
+static const char entry[] = "trajectory", probes_entry[] = "trajectory.probes", interval_entry[] = "trajectory.history";
 
 /* What a checkpoint keeps of a trajectory, as bytes of an entry. All members are of 8 bytes, so that there are no
  * gaps. */
@@ -161,6 +161,7 @@ static dem_status on_checkpoint(void *context, const dem_simulation *simulation,
     const size_t n = (size_t)m.n_probes;
     (void)simulation;
     TRY(dem_checkpoint_put(checkpoint, entry, &m, sizeof m));
+    TRY(dem_checkpoint_put(checkpoint, interval_entry, &t->rows.history.interval, sizeof t->rows.history.interval));
     if (n == 0) return DEM_OK;
     probe_progress *probes = malloc(n * sizeof *probes);
     CHECK_MEMORY(probes);
@@ -188,6 +189,16 @@ static dem_status check_options_then(const progress *now, const progress *then)
     return check_same("frame_interval", now->frame_interval, then->frame_interval);
 }
 
+/* Checkpoints of earlier versions have no such entry, and a row for every accepted step. */
+static dem_status check_interval_then(const dem_trajectory *t, const dem_checkpoint *checkpoint)
+{
+    double then = 0.0;
+    size_t size = 0;
+    if (dem_checkpoint_find(checkpoint, interval_entry, &size) != NULL)
+        TRY(dem_checkpoint_get(checkpoint, interval_entry, &then, sizeof then));
+    return check_same("history_interval", t->rows.history.interval, then);
+}
+
 /* What a checkpoint says of this trajectory; the probes are a view into it. */
 typedef struct checkpointed {
     progress progress;
@@ -205,6 +216,7 @@ static dem_status read_checkpoint(checkpointed *out, const dem_trajectory *t, co
     CHECK_MEMORY(out->rows);
     TRY(dem_checkpoint_get(checkpoint, entry, &out->progress, sizeof out->progress));
     TRY(check_options_then(&now, &out->progress));
+    TRY(check_interval_then(t, checkpoint));
     out->probes = dem_checkpoint_find(checkpoint, probes_entry, &size);
     CHECK(n == 0 || (out->probes != NULL && size == n * sizeof *out->probes), DEM_ERROR_IO,
           "the checkpoint has no entry %s of %zu probes", probes_entry, n);
@@ -229,6 +241,8 @@ static dem_status check_options(const char *path, const dem_trajectory_options *
     CHECK(length > end && strcmp(path + length - end, suffix) == 0 && path[length - end - 1] != '/', DEM_ERROR_ARGUMENT,
           "%s: the name of a trajectory ends in %s", path, suffix);
     CHECK(isfinite(options->frame_interval), DEM_ERROR_ARGUMENT, "frame_interval is not a finite number");
+    CHECK(isfinite(options->history_interval) && options->history_interval >= 0.0, DEM_ERROR_ARGUMENT,
+          "history_interval is %g s; it must be >= 0, where 0 is every accepted step", options->history_interval);
     CHECK((options->fields & ~(uint32_t)DEM_FIELD_ALL) == 0, DEM_ERROR_ARGUMENT, "fields is 0x%x, with unknown bits",
           options->fields);
     CHECK(options->n_probes >= 0 && (options->n_probes == 0 || options->probes != NULL), DEM_ERROR_ARGUMENT,

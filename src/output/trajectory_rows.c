@@ -64,7 +64,9 @@ dem_status trajectory_rows_init(trajectory_rows *out, const dem_simulation *simu
     out->options.probes = NULL; /* the caller's */
     if (options->events) TRY(event_table_init(&out->events));
     if (options->breaks) TRY(break_table_init(&out->breaks));
-    return history_init(&out->history, simulation, options->breaks);
+    TRY(history_init(&out->history, simulation, options->breaks));
+    out->history.interval = options->history_interval;
+    return DEM_OK;
 }
 
 void trajectory_rows_free(trajectory_rows *r)

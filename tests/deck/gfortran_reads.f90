@@ -129,12 +129,12 @@ contains
 
   subroutine read_output()
     character(4096) :: name, precision
-    real(dp) :: frame_interval, closure
+    real(dp) :: frame_interval, history_interval, closure
     character(32) :: fields(9)
     integer :: deflate, peak_every, most_stressed
     logical :: events, breaks, fragments
-    namelist /output/ name, frame_interval, precision, deflate, events, breaks, fragments, closure, fields, &
-      peak_every, most_stressed
+    namelist /output/ name, frame_interval, history_interval, precision, deflate, events, breaks, fragments, closure, &
+      fields, peak_every, most_stressed
     read (unit, nml=output, iostat=status, iomsg=message)
   end subroutine
 

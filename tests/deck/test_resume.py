@@ -153,6 +153,25 @@ class Cuts(Case):
         result, whole = lasting(self.result("cut")), lasting(self.result("whole"))
         self.assertEqual({key for key in result if result[key] != whole[key]}, {"run"}, "which has kernel and threads")
 
+    def test_a_history_at_an_interval(self):
+        self.call(0, outdir="dense")
+        self.put(DECK.replace("peak_every = 3", "peak_every = 3, history_interval = 1e-4"))
+        self.call(0, outdir="whole")
+        self.assertGreater(self.go_on("cut", *AT_ONCE), 10)
+        self.expect_same("cut")
+        dense, whole = self.result("dense"), self.result("whole")
+        self.assertEqual(whole["rebound"], dense["rebound"])
+        self.assertLessEqual(whole["strain_max"]["strain"], dense["strain_max"]["strain"])
+        if compare is None:
+            return
+        with h5py.File(self.folder / "dense/a.vtkhdf") as all_rows, h5py.File(self.folder / "whole/a.vtkhdf") as file:
+            every, t = list(all_rows["history/t"]), list(file["history/t"])
+            due = [every[0]] + [b for a, b in zip(every, every[1:]) if int(b / 1e-4) > int(a / 1e-4)]
+            self.assertEqual(t, due)
+            self.assertGreater(len(every), 2 * len(t))
+            elastic = dict(zip(every, all_rows["history/elastic"]))
+            self.assertEqual(list(file["history/elastic"]), [elastic[instant] for instant in t])
+
     def test_a_run_to_rest(self):
         self.put(REST)
         self.call(0, outdir="whole")

@@ -247,6 +247,20 @@ TEST(contact_of_bodies_has_its_columns)
     }
 }
 
+/* Steps of 0.01 s: the first behind each multiple of 0.025 s has a row. */
+TEST(rows_are_an_interval_apart)
+{
+    static const double rows[] = {0.0, 0.03, 0.05, 0.08, 0.1};
+    flight *f = new_flight(1);
+    f->history.interval = 0.025;
+    for (int k = 0; k <= 12; k++) record_at(f, 0.01 * k);
+    record_at(f, 0.12);
+    assert_int_equal(table_total(&f->history.table), 5);
+    assert_ok(table_flush(&f->history.table, &f->file));
+    for (dem_index k = 0; k < 5; k++) expect_number(f, "t", (hsize_t)k, rows[k]);
+    drop(f);
+}
+
 TEST(every_part_of_a_load_has_its_column)
 {
     flight *f = new_landing();

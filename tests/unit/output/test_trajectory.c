@@ -678,6 +678,10 @@ TEST(bad_arguments_are_refused)
                         "/no/such/folder/run.part.vtkhdf: cannot be created (No such file or directory)");
     options.deflate = 10;
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "deflate is 10, not in 0 to 9");
+    options = every_frame(), options.history_interval = -1e-3;
+    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "history_interval is -0.001 s");
+    options = every_frame(), options.history_interval = NAN;
+    assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "history_interval");
     options = every_frame(), options.frame_interval = NAN;
     assert_create_fails(&r, r.path, &options, DEM_ERROR_ARGUMENT, "frame_interval");
     options = every_frame(), options.fields = 1024 | DEM_FIELD_STRESS;

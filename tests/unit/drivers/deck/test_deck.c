@@ -56,7 +56,8 @@ TEST(every_key_finds_its_place)
                        "&contact penetration_tolerance = 1e-7, rest_speed = 1e-4, max_impacts = 77 /\n"
                        "&solver method = 'bs23', rtol = 1e-4, max_step = 1e-5, v_scale = 3, spacing = 0.5,\n"
                        "kernel = 'portable', threads = 2 /\n"
-                       "&output name = 'n', frame_interval = 0.125, precision = 'double', deflate = 4, events = T /\n");
+                       "&output name = 'n', frame_interval = 0.125, history_interval = 0.25, "
+                       "precision = 'double', deflate = 4, events = T /\n");
     assert_string_equal(d.title, "A title");
     assert_string_equal(d.name, "n");
     assert_string_equal(strrchr(d.path, '/'), "/a.nml");
@@ -65,6 +66,7 @@ TEST(every_key_finds_its_place)
     assert_null(strstr(d.physics, "A title"));
     assert_close(d.t_end, 2.5, 0.0);
     assert_close(d.frame_interval, 0.125, 0.0);
+    assert_close(d.history_interval, 0.25, 0.0);
     assert_int_equal(d.double_precision, 1);
     assert_int_equal(d.deflate, 4);
     assert_int_equal(d.events, 1);
@@ -241,6 +243,7 @@ TEST(keys_not_given_are_left_to_the_library)
     assert_int_equal(d.fields, dem_trajectory_options_default().fields);
     assert_int_equal(d.most_stressed, dem_trajectory_options_default().most_stressed);
     assert_int_equal(d.peak_every, 4);
+    assert_close(d.history_interval, 0.0, 0.0);
     assert_int_equal(d.n_probes, 0);
     assert_string_equal(d.title, "");
     assert_int_equal(d.lattice.n_nodes, 19);
