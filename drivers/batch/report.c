@@ -198,6 +198,7 @@ static dem_status follow(void *context, const dem_simulation *simulation)
         surface_report_warn(&r->so_far.surface_report, r->log);
     rebound_follow(&r->so_far.rebound, simulation, &state);
     fracture_report_follow(&r->so_far.fracture_report, simulation);
+    if (looks) surface_report_look(&r->so_far.surface_report, simulation);
     if (looks) watch_ledger(r, simulation, &state);
     if (looks) r->so_far.looked_t = state.t;
     watch_overlap(r, simulation);

@@ -67,10 +67,14 @@ bool surface_report_follow(surface_report *p, const dem_simulation *simulation, 
         p->gap_t = t;
     }
     if (s.pushing > p->most) p->most = s.pushing;
-    p->energy = fmax(p->energy, ask_energy(simulation).contact);
     if (p->warning.given || !(s.gap_share < too_near)) return false;
     p->warning = warning_of(simulation, &s, t);
     return true;
+}
+
+void surface_report_look(surface_report *p, const dem_simulation *simulation)
+{
+    if (ask_surfaces(simulation).pushing > 0) p->energy = fmax(p->energy, ask_energy(simulation).contact);
 }
 
 void surface_report_warn(const surface_report *p, run_log *log)

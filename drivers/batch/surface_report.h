@@ -34,6 +34,9 @@ void surface_report_print(FILE *out, const dem_simulation *simulation);
 /** To be called at t = 0 and after every accepted step.  \return whether the log has to warn now */
 bool surface_report_follow(surface_report *p, const dem_simulation *simulation, double t);
 
+/** To be called at t = 0 and after accepted steps: looks for the largest energy of their contact. */
+void surface_report_look(surface_report *p, const dem_simulation *simulation);
+
 /** Warns that surfaces have come very near, where and when they first did. */
 void surface_report_warn(const surface_report *p, run_log *log);
 

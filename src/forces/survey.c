@@ -444,6 +444,20 @@ void survey_take(survey *s, const forces *f, const double *x, const double *v)
 
 /* ---- motion of bodies ---- */
 
+static void motions_share(survey *s, const motion_pass *nodes, int share)
+{
+    const dem_index end = threads_share(s->n_runs, s->n_threads, share + 1);
+    for (dem_index k = threads_share(s->n_runs, s->n_threads, share); k < end; k++)
+        s->measure_motions(nodes, s->runs[k].first, s->runs[k].last, &s->moving[k]);
+}
+
+void survey_take_motions(survey *s, const double *x, const double *v)
+{
+    const motion_pass nodes = {.mass = s->model->lattice.mass, .x = x, .v = v};
+    THREADS_RUN(s->n_threads, share, motions_share(s, &nodes, share));
+    (void)join_runs(s);
+}
+
 static vec2 mean_of(const twofold sum[2], double mass)
 {
     return vec2_scale(1.0 / mass, (vec2){reduce_twofold(sum[0]), reduce_twofold(sum[1])});

@@ -54,6 +54,9 @@ void survey_destroy(survey *s);
  *  \param x, v  [n_nodes][2] */
 void survey_take(survey *s, const forces *f, const double *x, const double *v);
 
+/** Measures no more than survey_bodies() asks for. */
+void survey_take_motions(survey *s, const double *x, const double *v);
+
 /** Motion of every body in the state of the last survey: centre of mass, velocity of that, angular momentum about it.
  *  \param x, v  of that state  \param[out] motion  [n_bodies] */
 void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion *motion);

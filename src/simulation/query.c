@@ -363,7 +363,7 @@ dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 static void measure_bodies(const dem_simulation *s)
 {
     const double *y = seen_of(s);
-    (void)survey_of(s);
+    if (!s->measures->has_survey) survey_take_motions(s->survey, y, y + state_velocities(&s->layout));
     survey_bodies(s->survey, y, y + state_velocities(&s->layout), s->bodies);
     s->measures->has_bodies = true;
 }

@@ -127,6 +127,19 @@ static void check_against(const forces *f, const scene *s, const measures *m)
     check_bodies(f, s->x, s->v, m->body);
 }
 
+/* Alone, without energies. */
+static void check_motions(const forces *f, const scene *s, const dem_body_motion *expected)
+{
+    dem_body_motion body[MEASURE_BODIES];
+    CLEANUP(kernel_destroy) kernel k;
+    CLEANUP(survey_destroy) survey own;
+    assert_ok(kernel_create(&k, f->model, DEM_KERNEL_AUTO, 2));
+    assert_ok(survey_create(&own, &k));
+    survey_take_motions(&own, s->x, s->v);
+    survey_bodies(&own, s->x, s->v, body);
+    assert_memory_equal(body, expected, (size_t)f->model->n_bodies * sizeof *body);
+}
+
 static void check_survey(const scene *s, const forces *load)
 {
     forces f = *load;
@@ -135,6 +148,7 @@ static void check_survey(const scene *s, const forces *load)
     f.gravity[1] = gravity[1];
     const measures first = measure_with(&f, s->x, s->v, DEM_KERNEL_PORTABLE, 1);
     check_against(&f, s, &first);
+    check_motions(&f, s, first.body);
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; dem_kernel_name(kind) != NULL; kind++)
         for (int n = 1; n <= 3 && dem_kernel_check(kind) == DEM_OK; n++) {
             const measures m = measure_with(&f, s->x, s->v, kind, n);
