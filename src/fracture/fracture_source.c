@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fracture as a source of events (docs/method.md, Fracture). begin() looks at the end of the step where springs are
- * strained (strain_filter.c) and nodes stressed enough, and searches the step for elements that are at their limit there
- * or nearly so; a list holds the times at which they break. What breaks at the same time, to the width of a root,
+ * strained (strain_filter.c) and nodes stressed enough, and searches the step for elements that are at their limit
+ * there or nearly so; a list holds the times at which they break. What breaks at the same time, to the width of a root,
  * breaks together. After an event the elements near it are looked at again. A break changes the stresses beside it at
  * once: what is then over its limit breaks at the same instant. undo() mends what has broken in the step, to the bit.
  * Surfaces follow at the end of the step (simulation/breaking.c): new ones cannot touch anything within it. */

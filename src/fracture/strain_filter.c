@@ -3,10 +3,10 @@
  * triangle's utilisation that of a mean of nodes' stresses. Without confinement, which only lowers it, the utilisation
  * is a sum of convex functions of the stress, and so at most the mean of the utilisations by those stresses: if a
  * triangle is near its limit, so is one of its corners by the triangle's limits, and one of the triangles at that
- * corner. With all principal stresses below s in size it is below s (1/strength + 1/compressive strength); where pressure
- * breaks none, those in tension count. A spring that
- * no triangle holds adds to the stress of its ends without a bound, and so does a triangle of which an edge has no
- * spring to that of its corners: these nodes are listed, and get a look at every step. */
+ * corner. With all principal stresses below s in size it is below s (1/strength + 1/compressive strength); where
+ * pressure breaks none, those in tension count. A spring that no triangle holds adds to the stress of its ends without
+ * a bound, and so does a triangle of which an edge has no spring to that of its corners: these nodes are listed, and
+ * get a look at every step. */
 #include "fracture/strain_filter.h"
 
 #include <math.h>

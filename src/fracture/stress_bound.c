@@ -37,6 +37,8 @@ typedef struct shape {
     double growth;         /* c */
     double turning;        /* k */
     double area;           /* m^2 */
+    double springs;        /* S, N m */
+    double compression;    /* |kappa| A0, N m */
 } shape;
 
 /* The matrix with the same eigenvectors and the sizes of the eigenvalues, mean +- radius: of different signs,
@@ -61,7 +63,18 @@ static double turning_of(const shape *s)
     return sym2_largest(sum);
 }
 
-static shape shape_of(const dem_lattice *l, dem_index triangle)
+/* S. */
+static double sum_of_sizes(const dem_lattice *l, const element_state *e, const shape *s, dem_index triangle)
+{
+    double sum = 0.0;
+    for (dem_index p = e->row[triangle]; p < e->row[triangle + 1]; p++)
+        sum += e->share[p] * l->stiffness[e->spring[p]] * l->rest_length[e->spring[p]];
+    for (int c = 0; c < 3 && l->coupling != NULL; c++)
+        sum += 2.0 * fabs(l->coupling[3 * triangle + c]) * s->length[c] * s->length[(c + 2) % 3];
+    return sum;
+}
+
+static shape shape_of(const dem_lattice *l, const element_state *e, dem_index triangle)
 {
     const dem_index *corner = &l->triangles[3 * triangle];
     shape s = {.growth = 0.0};
@@ -77,24 +90,9 @@ static shape shape_of(const dem_lattice *l, dem_index triangle)
         s.growth += fabs(s.sensitivity[c]);
     }
     s.turning = turning_of(&s);
+    s.springs = sum_of_sizes(l, e, &s, triangle);
+    if (l->area_stiffness != NULL) s.compression = fabs(l->area_stiffness[triangle]) * s.area;
     return s;
-}
-
-/* |kappa| A0 of a triangle. */
-static double area_part(const dem_lattice *l, const shape *s, dem_index triangle)
-{
-    return l->area_stiffness != NULL ? fabs(l->area_stiffness[triangle]) * s->area : 0.0;
-}
-
-/* S. */
-static double sum_of_sizes(const dem_lattice *l, const element_state *e, const shape *s, dem_index triangle)
-{
-    double sum = 0.0;
-    for (dem_index p = e->row[triangle]; p < e->row[triangle + 1]; p++)
-        sum += e->share[p] * l->stiffness[e->spring[p]] * l->rest_length[e->spring[p]];
-    for (int c = 0; c < 3 && l->coupling != NULL; c++)
-        sum += 2.0 * fabs(l->coupling[3 * triangle + c]) * s->length[c] * s->length[(c + 2) % 3];
-    return sum;
 }
 
 /* The edge that a spring is, which is as long at rest as it; -1: none. */
@@ -154,12 +152,11 @@ static responses add_up(const dem_lattice *l, const shape *s, dem_index triangle
 }
 
 /* The strain m for which first m + second (r m)^2 is at most stress times V, with k r m small enough. */
-static double strain_for(const dem_lattice *l, const element_state *e, const shape *s, dem_index triangle,
-                         double stress_volume, double first, double r)
+static double strain_for(const shape *s, double stress_volume, double first, double r)
 {
     const double k = s->turning, most = fmin(stress_volume / first, most_turning / (k * r)), m = r * most;
-    const double of_springs = sum_of_sizes(l, e, s, triangle) * (2.25 * k * (1.0 + 0.5 * m) + 1.0) / (1.0 - m);
-    const double of_area = area_part(l, s, triangle) * (0.5 * s->growth + 22.0 * 1.1 * k * k);
+    const double of_springs = s->springs * (2.25 * k * (1.0 + 0.5 * m) + 1.0) / (1.0 - m);
+    const double of_area = s->compression * (0.5 * s->growth + 22.0 * 1.1 * k * k);
     return fmin(most, stress_volume / (first + (of_springs + of_area) * r * m));
 }
 
@@ -171,30 +168,28 @@ static stress_bound directed_bound(const dem_lattice *l, const element_state *e,
     double stiffness[3];
     if (!find_stiffness(l, e, s, triangle, stiffness)) return (stress_bound){0.0, 0.0};
     const responses of = add_up(l, s, triangle, stiffness);
-    const double equal = strain_for(l, e, s, triangle, stress_volume, of.both, 1.0);
+    const double equal = strain_for(s, stress_volume, of.both, 1.0);
     for (int k = 0; k < 3 && !pressure; k++) {
-        const double r = ratios[k], m = strain_for(l, e, s, triangle, stress_volume, of.pulled + r * of.pushed, r);
+        const double r = ratios[k], m = strain_for(s, stress_volume, of.pulled + r * of.pushed, r);
         if (m >= 0.75 * equal) return (stress_bound){m, r * m};
     }
     return (stress_bound){equal, equal};
 }
 
 /* The first one. */
-static double plain_strain(const dem_lattice *l, const element_state *e, const shape *s, dem_index triangle,
-                           double stress_volume)
+static double plain_strain(const shape *s, double stress_volume)
 {
-    const double growth = (1.0 + most_growth) * (1.0 + most_growth);
-    const double most =
-        sum_of_sizes(l, e, s, triangle) * (1.0 + most_strain) + area_part(l, s, triangle) * s->growth * growth;
+    const double growth = 1.0 + most_growth;
+    const double most = s->springs * (1.0 + most_strain) + s->compression * s->growth * growth * growth;
     return fmin(stress_volume / most, fmin(most_strain, most_growth / s->growth));
 }
 
 stress_bound stress_bound_of(const dem_lattice *l, const element_state *e, dem_index triangle, double stress,
                              bool pressure)
 {
-    const shape s = shape_of(l, triangle);
+    const shape s = shape_of(l, e, triangle);
     const double stress_volume = stress * spring_share_volume(l, triangle);
-    const double plain = plain_strain(l, e, &s, triangle, stress_volume);
+    const double plain = plain_strain(&s, stress_volume);
     const stress_bound directed = directed_bound(l, e, &s, triangle, stress_volume, pressure);
     return directed.stretch > plain ? directed : (stress_bound){plain, plain};
 }

@@ -46,8 +46,8 @@ dem_status element_state_prepare(element_state *s);
 dem_status element_state_create(element_state *out, const dem_lattice *lattice, const springs *s);
 void element_state_destroy(element_state *s);
 
-/** Breaks an element of the lattice, of a state that is prepared, for good; one that is broken stays so. The integrity
- *  of springs depends on which elements are broken, not on their order: with all of its triangles a spring is broken,
+/** Breaks an element of the lattice, of a state that is ready, for good; one that is broken stays so. The integrity of
+ *  springs depends on which elements are broken, not on their order: with all of its triangles a spring is broken,
  *  too. */
 void element_state_break_spring(element_state *s, dem_index spring);
 void element_state_break_triangle(element_state *s, dem_index triangle);
