@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-#define INLINE static inline __attribute__((always_inline))
+#include "base/inline.h"
 
 enum {
     most_terms = 8, /* that are added up in one pass */

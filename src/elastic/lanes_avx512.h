@@ -5,6 +5,7 @@
 
 #include <immintrin.h>
 
+#include "base/inline.h"
 #include "elastic/layout.h"
 
 typedef struct pairs {
@@ -14,145 +15,145 @@ typedef struct pairs {
 typedef __m512d lanes; /* of nodes 0 4 1 5 2 6 3 7 */
 
 /* Compilers put eight numbers together in memory, and the load has to wait for their stores. */
-static inline pairs pairs_both(double x, double y)
+INLINE pairs pairs_both(double x, double y)
 {
     const __m512d a = _mm512_broadcast_f64x2(_mm_setr_pd(x, y));
     return (pairs){a, a};
 }
 
-static inline pairs pairs_load(const double *p)
+INLINE pairs pairs_load(const double *p)
 {
     return (pairs){_mm512_loadu_pd(p), _mm512_loadu_pd(p + 8)};
 }
 
-static inline void pairs_store(double *p, pairs a)
+INLINE void pairs_store(double *p, pairs a)
 {
     _mm512_storeu_pd(p, a.low);
     _mm512_storeu_pd(p + 8, a.high);
 }
 
-static inline __m256d gather_two(const double *array, const int32_t *index)
+INLINE __m256d gather_two(const double *array, const int32_t *index)
 {
     const __m128d a = _mm_loadu_pd(array + index[0]), b = _mm_loadu_pd(array + index[1]);
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(a), b, 1);
 }
 
-static inline __m512d gather_four(const double *array, const int32_t *index)
+INLINE __m512d gather_four(const double *array, const int32_t *index)
 {
     return _mm512_insertf64x4(_mm512_castpd256_pd512(gather_two(array, index)), gather_two(array, index + 2), 1);
 }
 
-static inline pairs pairs_gather(const double *array, const int32_t *index)
+INLINE pairs pairs_gather(const double *array, const int32_t *index)
 {
     return (pairs){gather_four(array, index), gather_four(array, index + 4)};
 }
 
-static inline pairs pairs_spread(const double *p)
+INLINE pairs pairs_spread(const double *p)
 {
     const __m512d a = _mm512_loadu_pd(p);
     return (pairs){_mm512_permutexvar_pd(_mm512_setr_epi64(0, 0, 1, 1, 2, 2, 3, 3), a),
                    _mm512_permutexvar_pd(_mm512_setr_epi64(4, 4, 5, 5, 6, 6, 7, 7), a)};
 }
 
-static inline pairs pairs_mask(pairs a, unsigned mask)
+INLINE pairs pairs_mask(pairs a, unsigned mask)
 {
     return (pairs){_mm512_maskz_mov_pd((__mmask8)mask, a.low), _mm512_maskz_mov_pd((__mmask8)(mask >> 8), a.high)};
 }
 
 /* Of the nodes in the mask. */
-static inline pairs pairs_negate(pairs a, unsigned mask)
+INLINE pairs pairs_negate(pairs a, unsigned mask)
 {
     const __m512d sign = _mm512_set1_pd(-0.0);
     return (pairs){_mm512_mask_xor_pd(a.low, (__mmask8)mask, a.low, sign),
                    _mm512_mask_xor_pd(a.high, (__mmask8)(mask >> 8), a.high, sign)};
 }
 
-static inline pairs pairs_unless_zero(pairs where, pairs a)
+INLINE pairs pairs_unless_zero(pairs where, pairs a)
 {
     const __m512d zero = _mm512_setzero_pd();
     return (pairs){_mm512_maskz_mov_pd(_mm512_cmp_pd_mask(where.low, zero, _CMP_NEQ_UQ), a.low),
                    _mm512_maskz_mov_pd(_mm512_cmp_pd_mask(where.high, zero, _CMP_NEQ_UQ), a.high)};
 }
 
-static inline pairs pairs_swap(pairs a)
+INLINE pairs pairs_swap(pairs a)
 {
     return (pairs){_mm512_permute_pd(a.low, 0x55), _mm512_permute_pd(a.high, 0x55)};
 }
 
-static inline pairs pairs_add(pairs a, pairs b)
+INLINE pairs pairs_add(pairs a, pairs b)
 {
     return (pairs){_mm512_add_pd(a.low, b.low), _mm512_add_pd(a.high, b.high)};
 }
 
-static inline pairs pairs_sub(pairs a, pairs b)
+INLINE pairs pairs_sub(pairs a, pairs b)
 {
     return (pairs){_mm512_sub_pd(a.low, b.low), _mm512_sub_pd(a.high, b.high)};
 }
 
-static inline pairs pairs_mul(pairs a, pairs b)
+INLINE pairs pairs_mul(pairs a, pairs b)
 {
     return (pairs){_mm512_mul_pd(a.low, b.low), _mm512_mul_pd(a.high, b.high)};
 }
 
-static inline double pairs_total(pairs a)
+INLINE double pairs_total(pairs a)
 {
     return _mm512_reduce_add_pd(_mm512_add_pd(a.low, a.high));
 }
 
-static inline pairs pairs_scale(lanes s, pairs a)
+INLINE pairs pairs_scale(lanes s, pairs a)
 {
     return (pairs){_mm512_mul_pd(_mm512_unpacklo_pd(s, s), a.low), _mm512_mul_pd(_mm512_unpackhi_pd(s, s), a.high)};
 }
 
-static inline lanes pairs_dot(pairs a, pairs b)
+INLINE lanes pairs_dot(pairs a, pairs b)
 {
     const pairs c = pairs_mul(a, b);
     return _mm512_add_pd(_mm512_unpacklo_pd(c.low, c.high), _mm512_unpackhi_pd(c.low, c.high));
 }
 
-static inline lanes pairs_cross(pairs a, pairs b)
+INLINE lanes pairs_cross(pairs a, pairs b)
 {
     const pairs c = pairs_mul(a, pairs_swap(b));
     return _mm512_sub_pd(_mm512_unpacklo_pd(c.low, c.high), _mm512_unpackhi_pd(c.low, c.high));
 }
 
-static inline lanes lanes_all(double value)
+INLINE lanes lanes_all(double value)
 {
     return _mm512_set1_pd(value);
 }
 
-static inline lanes lanes_load(const double *p)
+INLINE lanes lanes_load(const double *p)
 {
     return _mm512_loadu_pd(p);
 }
 
-static inline lanes lanes_add(lanes a, lanes b)
+INLINE lanes lanes_add(lanes a, lanes b)
 {
     return _mm512_add_pd(a, b);
 }
 
-static inline lanes lanes_sub(lanes a, lanes b)
+INLINE lanes lanes_sub(lanes a, lanes b)
 {
     return _mm512_sub_pd(a, b);
 }
 
-static inline lanes lanes_mul(lanes a, lanes b)
+INLINE lanes lanes_mul(lanes a, lanes b)
 {
     return _mm512_mul_pd(a, b);
 }
 
-static inline lanes lanes_div(lanes a, lanes b)
+INLINE lanes lanes_div(lanes a, lanes b)
 {
     return _mm512_div_pd(a, b);
 }
 
-static inline lanes lanes_sqrt(lanes a)
+INLINE lanes lanes_sqrt(lanes a)
 {
     return _mm512_sqrt_pd(a);
 }
 
 /** Bit layout_lane(q) is that of node q. */
-static inline unsigned lanes_below(lanes a, lanes b)
+INLINE unsigned lanes_below(lanes a, lanes b)
 {
     return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
 }

@@ -3,6 +3,7 @@
 #ifndef DEM_ELASTIC_LANES_PORTABLE_H
 #define DEM_ELASTIC_LANES_PORTABLE_H
 
+#include "base/inline.h"
 #include "elastic/layout.h"
 
 typedef double two __attribute__((vector_size(16)));
@@ -16,30 +17,29 @@ typedef struct lanes {
     two n[4]; /* of nodes 0 and 4, 1 and 5, ... */
 } lanes;
 
-/* The compiler is to unroll these: vectors stay in registers. */
-#define EACH for (int k = 0; k < 8; k++)
-#define HALF for (int k = 0; k < 4; k++)
+#define EACH UNROLLED for (int k = 0; k < 8; k++)
+#define HALF UNROLLED for (int k = 0; k < 4; k++)
 
-static inline two load_two(const double *p)
+INLINE two load_two(const double *p)
 {
     return (two){p[0], p[1]};
 }
 
-static inline pairs pairs_both(double x, double y)
+INLINE pairs pairs_both(double x, double y)
 {
     pairs a;
     EACH a.n[k] = (two){x, y};
     return a;
 }
 
-static inline pairs pairs_load(const double *p)
+INLINE pairs pairs_load(const double *p)
 {
     pairs a;
     EACH a.n[k] = load_two(p + 2 * k);
     return a;
 }
 
-static inline void pairs_store(double *p, pairs a)
+INLINE void pairs_store(double *p, pairs a)
 {
     EACH
     {
@@ -48,14 +48,14 @@ static inline void pairs_store(double *p, pairs a)
     }
 }
 
-static inline pairs pairs_gather(const double *array, const int32_t *index)
+INLINE pairs pairs_gather(const double *array, const int32_t *index)
 {
     pairs a;
     EACH a.n[k] = load_two(array + index[k]);
     return a;
 }
 
-static inline pairs pairs_spread(const double *p)
+INLINE pairs pairs_spread(const double *p)
 {
     pairs a;
     EACH a.n[k] = (two){p[k], p[k]};
@@ -63,70 +63,70 @@ static inline pairs pairs_spread(const double *p)
 }
 
 /* All bits if node k is in the mask. */
-static inline two_bits spread_bit(unsigned mask, int k)
+INLINE two_bits spread_bit(unsigned mask, int k)
 {
     const int64_t bits = -(int64_t)(mask >> (2 * k) & 1u);
     return (two_bits){bits, bits};
 }
 
-static inline pairs pairs_mask(pairs a, unsigned mask)
+INLINE pairs pairs_mask(pairs a, unsigned mask)
 {
     EACH a.n[k] = (two)((two_bits)a.n[k] & spread_bit(mask, k));
     return a;
 }
 
 /* Of the nodes in the mask. */
-static inline pairs pairs_negate(pairs a, unsigned mask)
+INLINE pairs pairs_negate(pairs a, unsigned mask)
 {
     EACH a.n[k] = (two)((two_bits)a.n[k] ^ (spread_bit(mask, k) & (two_bits){INT64_MIN, INT64_MIN}));
     return a;
 }
 
-static inline pairs pairs_unless_zero(pairs where, pairs a)
+INLINE pairs pairs_unless_zero(pairs where, pairs a)
 {
     EACH a.n[k] = where.n[k][0] != 0.0 ? a.n[k] : (two){0.0, 0.0};
     return a;
 }
 
-static inline pairs pairs_swap(pairs a)
+INLINE pairs pairs_swap(pairs a)
 {
     EACH a.n[k] = (two){a.n[k][1], a.n[k][0]};
     return a;
 }
 
-static inline pairs pairs_add(pairs a, pairs b)
+INLINE pairs pairs_add(pairs a, pairs b)
 {
     EACH a.n[k] += b.n[k];
     return a;
 }
 
-static inline pairs pairs_sub(pairs a, pairs b)
+INLINE pairs pairs_sub(pairs a, pairs b)
 {
     EACH a.n[k] -= b.n[k];
     return a;
 }
 
-static inline pairs pairs_mul(pairs a, pairs b)
+INLINE pairs pairs_mul(pairs a, pairs b)
 {
     EACH a.n[k] *= b.n[k];
     return a;
 }
 
-static inline double pairs_total(pairs a)
+INLINE double pairs_total(pairs a)
 {
     double sum = 0.0;
     EACH sum += a.n[k][0] + a.n[k][1];
     return sum;
 }
 
-static inline pairs pairs_scale(lanes s, pairs a)
+INLINE pairs pairs_scale(lanes s, pairs a)
 {
     HALF a.n[k] *= (two){s.n[k][0], s.n[k][0]};
     HALF a.n[k + 4] *= (two){s.n[k][1], s.n[k][1]};
     return a;
 }
 
-static inline lanes pairs_dot(pairs a, pairs b)
+INLINE lanes pairs_dot(pairs a, pairs b)
 {
     lanes c;
     const pairs p = pairs_mul(a, b);
@@ -134,7 +134,7 @@ static inline lanes pairs_dot(pairs a, pairs b)
     return c;
 }
 
-static inline lanes pairs_cross(pairs a, pairs b)
+INLINE lanes pairs_cross(pairs a, pairs b)
 {
     lanes c;
     const pairs p = pairs_mul(a, pairs_swap(b));
@@ -142,52 +142,52 @@ static inline lanes pairs_cross(pairs a, pairs b)
     return c;
 }
 
-static inline lanes lanes_all(double value)
+INLINE lanes lanes_all(double value)
 {
     lanes a;
     HALF a.n[k] = (two){value, value};
     return a;
 }
 
-static inline lanes lanes_load(const double *p)
+INLINE lanes lanes_load(const double *p)
 {
     lanes a;
     HALF a.n[k] = load_two(p + 2 * k);
     return a;
 }
 
-static inline lanes lanes_add(lanes a, lanes b)
+INLINE lanes lanes_add(lanes a, lanes b)
 {
     HALF a.n[k] += b.n[k];
     return a;
 }
 
-static inline lanes lanes_sub(lanes a, lanes b)
+INLINE lanes lanes_sub(lanes a, lanes b)
 {
     HALF a.n[k] -= b.n[k];
     return a;
 }
 
-static inline lanes lanes_mul(lanes a, lanes b)
+INLINE lanes lanes_mul(lanes a, lanes b)
 {
     HALF a.n[k] *= b.n[k];
     return a;
 }
 
-static inline lanes lanes_div(lanes a, lanes b)
+INLINE lanes lanes_div(lanes a, lanes b)
 {
     HALF a.n[k] /= b.n[k];
     return a;
 }
 
-static inline lanes lanes_sqrt(lanes a)
+INLINE lanes lanes_sqrt(lanes a)
 {
     HALF a.n[k] = (two){sqrt(a.n[k][0]), sqrt(a.n[k][1])};
     return a;
 }
 
 /** Bit layout_lane(q) is that of node q. */
-static inline unsigned lanes_below(lanes a, lanes b)
+INLINE unsigned lanes_below(lanes a, lanes b)
 {
     unsigned below = 0;
     HALF below |= (unsigned)(a.n[k][0] < b.n[k][0]) << (2 * k) | (unsigned)(a.n[k][1] < b.n[k][1]) << (2 * k + 1);

@@ -10,15 +10,16 @@
 #ifndef DEM_ELASTIC_SWEEP_BODY_H
 #define DEM_ELASTIC_SWEEP_BODY_H
 
+#include "base/inline.h"
 #include "elastic/sweep.h"
-
-#define INLINE static inline __attribute__((always_inline)) /* so that laws are known where loops are compiled */
 
 /* What acts beside undamped springs of their own, whether the pass takes a step, and whether it also tells which nodes
  * have springs that are strained more than their block's limit. */
 typedef struct laws {
     bool damped, coupled, fused, watched;
 } laws;
+
+enum { all_lanes = 0xffff };
 
 /* The operands of an entry for all lanes. `here` is where those that lie side by side are counted from. */
 INLINE pairs fetch(const layout *l, const double *array, const double *here, int32_t at, bool gathered)
@@ -46,9 +47,10 @@ INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
     return nodes;
 }
 
-/* The same of the nodes whose springs are longer or shorter than at rest by more than the limits. */
-INLINE unsigned strained_of(lanes longer, lanes rest, sweep_limits limit, unsigned mask)
+/* The same of the nodes whose springs, of these lengths, are longer or shorter than at rest by more than the limits. */
+INLINE unsigned strained_of(const double *set, lanes length, sweep_limits limit, unsigned mask)
 {
+    const lanes rest = lanes_load(set + LAYOUT_LANES), longer = lanes_sub(length, rest);
     const unsigned over = lanes_below(lanes_mul(lanes_all(limit.stretch), rest), longer) |
                           lanes_below(longer, lanes_mul(lanes_all(-limit.squeeze), rest));
     return over != 0 ? nodes_of(over, mask) : 0;
@@ -60,8 +62,16 @@ INLINE sweep_limits limits_of(const sweep *s, dem_index block)
     return (sweep_limits){s->limit[block].stretch - 1e-12, s->limit[block].squeeze - 1e-12};
 }
 
-/* Forces (1) of the springs of which the block has the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), into the ring;
- * and behind all of them, those of damping, c (d.v)/(d0 d^2) d. Lanes that take no part leave what nobody collects.
+/* Force (1) on the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), of springs with the coefficients of a set. */
+INLINE pairs pull(const double *set, pairs d, lanes length)
+{
+    const lanes rest = lanes_load(set + LAYOUT_LANES);
+    const lanes stretch = lanes_mul(lanes_load(set), lanes_sub(length, rest));
+    return pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d);
+}
+
+/* Forces of the springs of which the block has the lower nodes, into the ring; and behind all of them, those of
+ * damping, c (d.v)/(d0 d^2) d. Lanes that take no part leave what nobody collects.
  * \return if it is watched, the nodes with a spring strained by more than the limit, a bit each */
 INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, sweep_limits limit, double *ring)
 {
@@ -79,14 +89,14 @@ INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, s
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const double *set = sets + e->set;
         const pairs d = pairs_sub(fetch(l, s->x, positions, e->at, gathered), x);
-        const lanes square = pairs_dot(d, d), length = lanes_sqrt(square), rest = lanes_load(set + LAYOUT_LANES);
-        const lanes longer = lanes_sub(length, rest), stretch = lanes_mul(lanes_load(set), longer);
-        pairs_store(out + e->to, pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d));
-        if (acting.watched) nodes |= strained_of(longer, rest, limit, e->mask);
+        const lanes square = pairs_dot(d, d), length = lanes_sqrt(square);
+        pairs_store(out + e->to, pull(set, d, length));
+        if (acting.watched) nodes |= strained_of(set, length, limit, e->mask);
         if (!damped) continue;
         const pairs dv = pairs_sub(fetch(l, s->v, velocities, e->at, gathered), v);
         const lanes rate = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), pairs_dot(d, dv));
-        pairs_store(damping + 2 * at_row + e->to, pairs_scale(lanes_div(rate, lanes_mul(rest, square)), d));
+        const lanes scale = lanes_div(rate, lanes_mul(lanes_load(set + LAYOUT_LANES), square));
+        pairs_store(damping + 2 * at_row + e->to, pairs_scale(scale, d));
     }
     if (at_row != 0) return nodes;
     repeat(l, span, ring);
@@ -94,11 +104,15 @@ INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, s
     return nodes;
 }
 
-/* The blocks below the first are another share's. */
-INLINE void evaluate_block(const sweep *s, dem_index block, dem_index first, laws acting, double *ring)
+/* Those of a block that is watched, by which springs are compared; else of none. */
+INLINE sweep_limits limits_watched(const sweep *s, dem_index block, laws acting)
 {
-    const sweep_limits limit = acting.watched ? limits_of(s, block) : (sweep_limits){0.0, 0.0};
-    const unsigned nodes = evaluate_springs(s, block, acting, limit, ring);
+    return acting.watched ? limits_of(s, block) : (sweep_limits){0.0, 0.0};
+}
+
+/* The blocks below the first are another share's. */
+INLINE void note_strained(const sweep *s, dem_index block, dem_index first, laws acting, unsigned nodes)
+{
     if (acting.watched && block >= first) s->strained[block] = (uint8_t)nodes;
 }
 
@@ -192,67 +206,199 @@ INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
     return sum;
 }
 
-/* a = g + F/m - alpha v; 0 where 1/m = 0, which is a fixed node. */
-INLINE pairs accelerate(const sweep *s, dem_index block, laws acting, const double *ring)
+/* The sum of forces on the nodes of a block but for those of triangles. */
+INLINE pairs force_on(const sweep *s, dem_index block, laws acting, const double *ring)
 {
     const layout *l = s->layout;
-    const dem_index row = LAYOUT_LANES * block;
     const pairs none = pairs_both(0.0, 0.0);
     pairs force = sum_terms(l, &l->terms, block, ring, none);
     if (acting.coupled) force = sum_terms(l, &l->coupling_terms, block, ring, force);
     if (acting.damped) force = pairs_add(force, sum_terms(l, &l->terms, block, ring + 2 * l->ring_length, none));
+    return force;
+}
+
+/* A pass over the blocks `first` to `last` - 1: what is the same for all of them, and what is added up. */
+typedef struct pass {
+    const sweep *sweep;
+    dem_index first, last;
+    double *ring;
+    pairs gravity, h, half_h, sum;
+} pass;
+
+INLINE pass begin_pass(const sweep *s, dem_index first, dem_index last, double *ring)
+{
+    const double h = s->fused_step != NULL ? s->fused_step->h : 0.0;
+    return (pass){s,
+                  first,
+                  last,
+                  ring,
+                  pairs_both(s->gravity.x, s->gravity.y),
+                  pairs_both(h, h),
+                  pairs_both(0.5 * h, 0.5 * h),
+                  pairs_both(0.0, 0.0)};
+}
+
+/* a = g + F/m - alpha v; 0 where 1/m = 0, which is a fixed node. */
+INLINE pairs accelerate(const pass *p, dem_index block, pairs force)
+{
+    const sweep *s = p->sweep;
+    const layout *l = s->layout;
+    const dem_index row = LAYOUT_LANES * block;
     unsigned guarded = 0;
     if (l->corners.span[block].first < l->corners.span[block].end)
         force = pairs_add(force, sum_corners(s, block, &guarded));
     s->guarded[block] = (uint8_t)guarded;
     const pairs inverse_mass = pairs_spread(s->inverse_mass + row);
-    pairs a = pairs_add(pairs_both(s->gravity.x, s->gravity.y), pairs_mul(inverse_mass, force));
+    pairs a = pairs_add(p->gravity, pairs_mul(inverse_mass, force));
     if (s->mass_damping != 0.0)
         a = pairs_add(a, pairs_mul(pairs_both(-s->mass_damping, -s->mass_damping), pairs_load(s->v + 2 * row)));
     return pairs_unless_zero(inverse_mass, a);
 }
 
 /* x1 = x0 + h v',  v' = v0 + h/2 a0 */
-INLINE void drift(const sweep_fused_step *p, dem_index block)
+INLINE void drift(const pass *p, const sweep_fused_step *step, dem_index block)
 {
     const dem_index at = 2 * LAYOUT_LANES * block;
-    const pairs h = pairs_both(p->h, p->h), half_h = pairs_both(0.5 * p->h, 0.5 * p->h);
-    const pairs half = pairs_add(pairs_load(p->v0 + at), pairs_mul(half_h, pairs_load(p->a0 + at)));
-    pairs_store(p->x1 + at, pairs_add(pairs_load(p->x0 + at), pairs_mul(h, half)));
+    const pairs half = pairs_add(pairs_load(step->v0 + at), pairs_mul(p->half_h, pairs_load(step->a0 + at)));
+    pairs_store(step->x1 + at, pairs_add(pairs_load(step->x0 + at), pairs_mul(p->h, half)));
 }
 
 /* v1 = (v' + h/2 a0) + h/2 (a1 - a0), with the roundings of array_ops: there v1 is extrapolated first, since a1 may
  * depend on it. */
-INLINE void kick(const sweep_fused_step *p, dem_index block, pairs a1)
+INLINE void kick(const pass *p, const sweep_fused_step *step, dem_index block, pairs a1)
 {
     const dem_index at = 2 * LAYOUT_LANES * block;
-    const pairs half_h = pairs_both(0.5 * p->h, 0.5 * p->h), a0 = pairs_load(p->a0 + at), push = pairs_mul(half_h, a0);
-    const pairs extrapolated = pairs_add(pairs_add(pairs_load(p->v0 + at), push), push);
-    pairs_store(p->v1 + at, pairs_add(extrapolated, pairs_mul(half_h, pairs_sub(a1, a0))));
+    const pairs a0 = pairs_load(step->a0 + at), push = pairs_mul(p->half_h, a0);
+    const pairs extrapolated = pairs_add(pairs_add(pairs_load(step->v0 + at), push), push);
+    pairs_store(step->v1 + at, pairs_add(extrapolated, pairs_mul(p->half_h, pairs_sub(a1, a0))));
 }
+
+/* The positions that a block is the first to read. Those at both ends of the pass are there already. */
+INLINE void drift_ahead(const pass *p, dem_index block, laws acting)
+{
+    const dem_index ahead = p->sweep->layout->ahead;
+    if (acting.fused && block >= p->first && block + ahead < p->last - ahead)
+        drift(p, p->sweep->fused_step, block + ahead);
+}
+
+/* What follows from the forces of springs on the nodes of a block. */
+INLINE void complete(pass *p, dem_index block, laws acting, pairs force)
+{
+    const sweep *s = p->sweep;
+    const dem_index at = 2 * LAYOUT_LANES * block;
+    const pairs a = accelerate(p, block, force);
+    pairs_store(s->a + at, a);
+    p->sum = pairs_add(p->sum, a);
+    if (acting.fused) kick(p, s->fused_step, block, a);
+    if (s->u == NULL) return;
+    const pairs v = pairs_load(s->v + at);
+    pairs_store(s->u + at, v);
+    p->sum = pairs_add(p->sum, v);
+}
+
+/* ---- rows of a lattice ---- */
+
+enum { most_rows = 4 }; /* neighbours of a node at higher places, in a square lattice with both diagonals */
+
+/* What a block does whose nodes all have n neighbours at higher places and n at lower ones, side by side, which are
+ * nearly all blocks of a lattice numbered by rows. Operands are counted in numbers from the block on. */
+typedef struct row_block {
+    int32_t upper[most_rows];                 /* neighbours at higher places */
+    int32_t own[most_rows], lower[most_rows]; /* in the ring: forces that the block evaluates, and those from below */
+    const double *set[most_rows];             /* coefficients */
+} row_block;
+
+/* \return n; 0: the block is not of this kind */
+INLINE int describe_row(const layout *l, dem_index block, row_block *out)
+{
+    const intern_span evaluated = l->springs.span[block], summed = l->terms.span[block];
+    const layout_entry *e = (const layout_entry *)l->springs.entries.items + evaluated.first;
+    const layout_entry *term = (const layout_entry *)l->terms.entries.items + summed.first;
+    const int n = evaluated.end - evaluated.first;
+    if (n > most_rows || summed.end - summed.first != 2 * n) return 0;
+    for (int k = 0; k < n; k++) {
+        if (e[k].kind != LAYOUT_ADD || term[k].kind != LAYOUT_SUBTRACT) return 0;
+        if (term[n + k].kind != LAYOUT_ADD || term[n + k].at != e[k].to) return 0;
+        out->upper[k] = e[k].at;
+        out->own[k] = e[k].to;
+        out->lower[k] = term[k].at;
+        out->set[k] = (const double *)l->bonds.items + e[k].set;
+    }
+    return n;
+}
+
+/* Equal lists of entries are stored once. */
+INLINE bool do_the_same(const layout *l, dem_index a, dem_index b)
+{
+    return l->springs.span[a].first == l->springs.span[b].first && l->terms.span[a].first == l->terms.span[b].first;
+}
+
+/* Passes over blocks of rows from `block` on, of which the one before has been evaluated; entries are looked up where
+ * they change. Roots are begun before the block before is completed, and divisions follow behind that, so that the
+ * divider is busy meanwhile.
+ * \return the first block that is something else */
+INLINE dem_index run_rows(pass *p, dem_index block, laws acting, row_block now, int n)
+{
+    const sweep *s = p->sweep;
+    const layout *l = s->layout;
+    for (row_block before = now; block < p->last; block++) {
+        const bool same = do_the_same(l, block, block - 1);
+        if (!same && describe_row(l, block, &now) != n) break;
+        const dem_index row = LAYOUT_LANES * block, at_row = row & (l->ring_rows - 1);
+        const double *here = s->x + 2 * row, *forces = p->ring + 2 * ((row - LAYOUT_LANES) & (l->ring_rows - 1));
+        const pairs x = pairs_load(here);
+        const sweep_limits limit = limits_watched(s, block, acting);
+        pairs d[most_rows], force = pairs_both(0.0, 0.0);
+        lanes length[most_rows];
+        unsigned strained = 0;
+        drift_ahead(p, block, acting);
+        UNROLLED for (int k = 0; k < n; k++) d[k] = pairs_sub(pairs_load(here + now.upper[k]), x);
+        UNROLLED for (int k = 0; k < n; k++) length[k] = lanes_sqrt(pairs_dot(d[k], d[k]));
+        UNROLLED for (int k = 0; k < n; k++) force = pairs_sub(force, pairs_load(forces + before.lower[k]));
+        UNROLLED for (int k = 0; k < n; k++) force = pairs_add(force, pairs_load(forces + before.own[k]));
+        complete(p, block - 1, acting, force);
+        UNROLLED for (int k = 0; k < n; k++)
+        {
+            double *stream = p->ring + now.own[k];
+            pairs_store(stream + 2 * at_row, pull(now.set[k], d[k], length[k]));
+            if (at_row == 0) repeat_first(l, stream);
+            if (acting.watched) strained |= strained_of(now.set[k], length[k], limit, all_lanes);
+        }
+        note_strained(s, block, p->first, acting, strained);
+        if (!same) before = now;
+    }
+    return block;
+}
+
+/* Does so where it can. Damping and couplings are not done there.  \return the block behind those passed over */
+INLINE dem_index pass_rows(pass *p, dem_index block, laws acting)
+{
+    row_block before;
+    if (acting.damped || acting.coupled || block <= p->first || block >= p->last) return block;
+    const int n = describe_row(p->sweep->layout, block - 1, &before);
+    if (n == 3) return run_rows(p, block, acting, before, 3);
+    return n == 4 ? run_rows(p, block, acting, before, 4) : block;
+}
+
+/* ---- all blocks ---- */
 
 /* Blocks below the first are evaluated only, for the springs that reach into this share from below. Nodes collect their
  * forces a block later than these are computed, when what was stored has reached the cache. */
 INLINE double run(const sweep *s, dem_index first, dem_index last, laws acting, double *ring)
 {
-    const dem_index reach = s->layout->reach, ahead = s->layout->ahead;
-    pairs sum = pairs_both(0.0, 0.0);
+    const dem_index reach = s->layout->reach;
+    pass p = begin_pass(s, first, last, ring);
     for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
-        if (acting.fused && block >= first && block + ahead < last - ahead) drift(s->fused_step, block + ahead);
-        if (block < last) evaluate_block(s, block, first, acting, ring);
+        block = pass_rows(&p, block, acting);
+        drift_ahead(&p, block, acting);
+        if (block < last) {
+            const unsigned strained = evaluate_springs(s, block, acting, limits_watched(s, block, acting), ring);
+            note_strained(s, block, first, acting, strained);
+        }
         if (acting.coupled && block < last) evaluate_couplings(s, block, ring);
-        if (block <= first) continue;
-        const dem_index at = 2 * LAYOUT_LANES * (block - 1);
-        const pairs a = accelerate(s, block - 1, acting, ring);
-        pairs_store(s->a + at, a);
-        sum = pairs_add(sum, a);
-        if (acting.fused) kick(s->fused_step, block - 1, a);
-        if (s->u == NULL) continue;
-        const pairs v = pairs_load(s->v + at);
-        pairs_store(s->u + at, v);
-        sum = pairs_add(sum, v);
+        if (block > first) complete(&p, block - 1, acting, force_on(s, block - 1, acting, ring));
     }
-    return pairs_total(sum);
+    return pairs_total(p.sum);
 }
 
 void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)

@@ -3,6 +3,7 @@
  * front of its vector, and is appended to the batch. */
 #include "surface_contact/contact_batch.h"
 
+#include "base/inline.h"
 #include "base/instruction_set.h"
 
 #ifdef DEM_X86_KERNELS
@@ -152,7 +153,7 @@ bool contact_batch_next(contact_batch *b, const double *x)
 /* ---- forces ---- */
 
 /* What does not push has any numbers here, and they are not read. */
-static inline __attribute__((always_inline)) void evaluate(contact_batch *b)
+INLINE void evaluate(contact_batch *b)
 {
     for (int k = 0; k < b->n; k++) {
         const edge_terms e = {

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Functions that are always compiled into their callers, and loops of which every round is written out: so constants
+ * among their arguments are known, and vectors stay in registers. Compilers do neither where they find a function too
+ * large, and then a sweep takes many times as long. */
+#ifndef DEM_BASE_INLINE_H
+#define DEM_BASE_INLINE_H
+
+#define INLINE static inline __attribute__((always_inline))
+
+/** Before a loop of at most eight rounds, whose number the compiler knows. */
+#define UNROLLED _Pragma("GCC unroll 8")
+
+#endif
