@@ -30,9 +30,9 @@ vec2 couplings_add_force(const couplings *c, triangles_integrity integrity, dem_
     return force;
 }
 
-void couplings_virial(const couplings *c, dem_index p, const double *x, double virial[3])
+void couplings_virial_of(const coupled_triangle *t, const double *x, double virial[3])
 {
-    const coupled_edges e = couplings_edges(&c->list[c->slot[p] / 3], x);
+    const coupled_edges e = couplings_edges(t, x);
     virial[0] = virial[1] = virial[2] = 0.0;
     for (int k = 0; k < 3; k++) {
         const double pull = e.tension[k] / e.length[k]; /* N/m */
@@ -40,6 +40,11 @@ void couplings_virial(const couplings *c, dem_index p, const double *x, double v
         virial[1] += pull * e.edge[k].y * e.edge[k].y;
         virial[2] += pull * e.edge[k].x * e.edge[k].y;
     }
+}
+
+void couplings_virial(const couplings *c, dem_index p, const double *x, double virial[3])
+{
+    couplings_virial_of(&c->list[c->slot[p] / 3], x, virial);
 }
 
 /* With n the direction of an edge, T its tension and w the difference of u along it, the stretch changes by n.w, and

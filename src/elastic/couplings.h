@@ -77,7 +77,10 @@ static inline double couplings_energy_term(const coupled_triangle *t, const coup
  *  coincide. */
 vec2 couplings_add_force(const couplings *c, triangles_integrity integrity, dem_index i, const double *x, vec2 force);
 
-/** r x f of the triangle in slot p, J: xx, yy, xy; symmetric. */
+/** r x f of a triangle, J: xx, yy, xy; symmetric. */
+void couplings_virial_of(const coupled_triangle *t, const double *x, double virial[3]);
+
+/** The same of the triangle in slot p. */
 void couplings_virial(const couplings *c, dem_index p, const double *x, double virial[3]);
 
 /** (K u)_i, N: minus the change of the force on node i when the nodes move from x by u. */

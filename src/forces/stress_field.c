@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Springs first, then nodes and blocks that need them (model/stress_pass.c). Then come one by one what couplings make
- * of each node's stress, nodes that a pass over blocks does not have or on which the guard acts, and nodes beside
- * elements that are not whole, whose stress is that of model/node_stress.c. */
+/* Springs and coupled triangles first, then nodes and blocks that need them (model/stress_pass.c). Then come one by one
+ * nodes that a pass over blocks does not have or on which the guard acts, and nodes beside elements that are not whole,
+ * whose stress is that of model/node_stress.c. */
 #include "forces/stress_field.h"
 
 #include <stdlib.h>
@@ -11,22 +11,29 @@
 #include "model/node_stress.h"
 
 #ifndef DEM_X86_KERNELS
-#define stress_pass_springs_avx2   stress_pass_springs_portable
-#define stress_pass_springs_avx512 stress_pass_springs_portable
-#define stress_pass_nodes_avx2     stress_pass_nodes_portable
-#define stress_pass_nodes_avx512   stress_pass_nodes_portable
-#define stress_pass_areas_avx2     stress_pass_areas_portable
-#define stress_pass_areas_avx512   stress_pass_areas_portable
+#define stress_pass_springs_avx2     stress_pass_springs_portable
+#define stress_pass_springs_avx512   stress_pass_springs_portable
+#define stress_pass_nodes_avx2       stress_pass_nodes_portable
+#define stress_pass_nodes_avx512     stress_pass_nodes_portable
+#define stress_pass_areas_avx2       stress_pass_areas_portable
+#define stress_pass_areas_avx512     stress_pass_areas_portable
+#define stress_pass_couplings_avx2   stress_pass_couplings_portable
+#define stress_pass_couplings_avx512 stress_pass_couplings_portable
+#define stress_pass_corners_avx2     stress_pass_corners_portable
+#define stress_pass_corners_avx512   stress_pass_corners_portable
 #endif
 
 typedef struct stress_field_row {
-    stress_pass_function *springs, *nodes, *areas;
+    stress_pass_function *springs, *nodes, *areas, *couplings, *corners;
 } stress_field_row;
 
 static const stress_field_row rows[] = {
-    [DEM_KERNEL_PORTABLE] = {stress_pass_springs_portable, stress_pass_nodes_portable, stress_pass_areas_portable},
-    [DEM_KERNEL_AVX2] = {stress_pass_springs_avx2, stress_pass_nodes_avx2, stress_pass_areas_avx2},
-    [DEM_KERNEL_AVX512] = {stress_pass_springs_avx512, stress_pass_nodes_avx512, stress_pass_areas_avx512},
+    [DEM_KERNEL_PORTABLE] = {stress_pass_springs_portable, stress_pass_nodes_portable, stress_pass_areas_portable,
+                             stress_pass_couplings_portable, stress_pass_corners_portable},
+    [DEM_KERNEL_AVX2] = {stress_pass_springs_avx2, stress_pass_nodes_avx2, stress_pass_areas_avx2,
+                         stress_pass_couplings_avx2, stress_pass_corners_avx2},
+    [DEM_KERNEL_AVX512] = {stress_pass_springs_avx512, stress_pass_nodes_avx512, stress_pass_areas_avx512,
+                           stress_pass_couplings_avx512, stress_pass_corners_avx512},
 };
 
 void stress_field_create(stress_field *out, const kernel *k)
@@ -36,12 +43,15 @@ void stress_field_create(stress_field *out, const kernel *k)
                           .springs = row->springs,
                           .nodes = row->nodes,
                           .areas = row->areas,
+                          .couplings = row->couplings,
+                          .corners = row->corners,
                           .n_threads = k->n_threads};
 }
 
 void stress_field_destroy(stress_field *s)
 {
     free(s->virial);
+    free(s->coupled);
     free(s->guarded);
     *s = (stress_field){0};
 }
@@ -51,8 +61,9 @@ static bool allocate(stress_field *s)
 {
     const dem_model *m = s->model;
     if (s->virial == NULL) s->virial = aligned_reals(4 * (size_t)m->lattice.n_springs);
+    if (s->coupled == NULL) s->coupled = aligned_zeros(4 * (size_t)m->couplings.n);
     if (s->guarded == NULL) s->guarded = calloc((size_t)m->layout.n_blocks + 1, sizeof *s->guarded);
-    return s->virial != NULL && s->guarded != NULL;
+    return s->virial != NULL && s->coupled != NULL && s->guarded != NULL;
 }
 
 /* Blocks have the nodes' own numbers only where nothing is renumbered. */
@@ -82,8 +93,10 @@ static void add_areas(const taking *t, dem_index i)
 
 static void springs_share(const taking *t, int share)
 {
-    const dem_index n = t->s->model->lattice.n_springs;
-    t->s->springs(&t->pass, threads_share(n, t->s->n_threads, share), threads_share(n, t->s->n_threads, share + 1));
+    const dem_index n = t->s->model->lattice.n_springs, m = t->s->model->couplings.n;
+    const int n_threads = t->s->n_threads;
+    t->s->springs(&t->pass, threads_share(n, n_threads, share), threads_share(n, n_threads, share + 1));
+    t->s->couplings(&t->pass, threads_share(m, n_threads, share), threads_share(m, n_threads, share + 1));
 }
 
 /* The nodes of some blocks, and the last share those behind. */
@@ -100,17 +113,18 @@ static void nodes_share(const taking *t, int share)
     for (dem_index i = LAYOUT_LANES * first; i < end; i++) {
         const dem_index block = i / LAYOUT_LANES;
         if (block >= n_blocks || s->guarded[block] >> i % LAYOUT_LANES & 1) add_areas(t, i);
-        if (m->couplings.n > 0) stress_add_couplings(&m->stress, i, t->pass.x, t->pass.stress + 3 * i);
+    }
+    if (m->couplings.n > 0) s->corners(&t->pass, LAYOUT_LANES * first, end);
+    for (dem_index i = LAYOUT_LANES * first; i < end && t->elements != NULL; i++)
         if (element_state_at(t->elements, i) != NULL)
             node_stress(m, t->elements, NODE_STRESS_CARRIED, i, t->pass.x, t->pass.stress + 3 * i);
-    }
 }
 
 bool stress_field_take(stress_field *s, const element_state *elements, const double *x, double *stress)
 {
     const dem_model *m = s->model;
     const bool has_memory = allocate(s);
-    const taking t = {s, elements, {&m->lattice, &m->stress, &m->layout, x, s->virial, stress, s->guarded}};
+    const taking t = {s, elements, {&m->lattice, &m->stress, &m->layout, x, s->virial, s->coupled, stress, s->guarded}};
     if (has_memory) {
         THREADS_RUN(s->n_threads, share, springs_share(&t, share));
         THREADS_RUN(s->n_threads, share, nodes_share(&t, share));

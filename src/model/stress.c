@@ -135,7 +135,7 @@ void stress_free(stress_map *map)
 /* ---- stresses ---- */
 
 /* A third of the r x f of the couplings of each triangle falls to each corner. */
-void stress_add_couplings(const stress_map *map, dem_index i, const double *x, double stress[3])
+static void add_couplings(const stress_map *map, dem_index i, const double *x, double stress[3])
 {
     const couplings *c = map->couplings;
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
@@ -162,7 +162,7 @@ void stress_of_node(const stress_map *map, const dem_lattice *lattice, const tri
     stress[0] = xx + spread;
     stress[1] = yy + spread;
     stress[2] = xy;
-    if (map->couplings->n > 0) stress_add_couplings(map, i, x, stress);
+    if (map->couplings->n > 0) add_couplings(map, i, x, stress);
 }
 
 /* Of plane stress. */

@@ -26,7 +26,4 @@ void stress_free(stress_map *map);
 void stress_of_node(const stress_map *map, const dem_lattice *lattice, const triangles *t, dem_index i, const double *x,
                     double stress[3]);
 
-/** Adds what couplings make of it. */
-void stress_add_couplings(const stress_map *map, dem_index i, const double *x, double stress[3]);
-
 #endif

@@ -55,6 +55,24 @@ void STRESS_PASS_NODES(const stress_pass *p, dem_index first, dem_index last)
     }
 }
 
+void STRESS_PASS_COUPLINGS(const stress_pass *p, dem_index first, dem_index last)
+{
+    for (dem_index k = first; k < last; k++) couplings_virial_of(&p->map->couplings->list[k], p->x, p->coupled + 4 * k);
+}
+
+/* A third of it falls to each corner. */
+void STRESS_PASS_CORNERS(const stress_pass *p, dem_index first, dem_index last)
+{
+    const couplings *c = p->map->couplings;
+    const four *virial = (const four *)p->coupled;
+    for (dem_index i = first; i < last; i++) {
+        const double thrice = 3.0 * p->map->volume[i];
+        four sum = {p->stress[3 * i], p->stress[3 * i + 1], p->stress[3 * i + 2], 0.0};
+        for (dem_index k = c->row[i]; k < c->row[i + 1]; k++) sum += virial[c->slot[k] / 3] / thrice;
+        for (int q = 0; q < 3; q++) p->stress[3 * i + q] = sum[q];
+    }
+}
+
 /* Sum over a node's triangles of A dW/dA over three of its volumes. */
 INLINE lanes spread_of(const stress_pass *p, dem_index block, unsigned *guarded)
 {
