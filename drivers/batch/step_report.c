@@ -79,12 +79,21 @@ void step_report_print_details(FILE *out, const dem_simulation *simulation)
                   o.v_scale * o.max_step / o.spacing);
 }
 
+/* The largest |v_x| + |v_y|. Four nodes at a time, which do not wait for each other. */
+static double fastest_of(const double *v, dem_index n)
+{
+    double most[4] = {0.0};
+    for (dem_index i = 0; i < n; i++) {
+        const double speed = fabs(v[2 * i]) + fabs(v[2 * i + 1]);
+        most[i % 4] = speed > most[i % 4] ? speed : most[i % 4];
+    }
+    return fmax(fmax(most[0], most[1]), fmax(most[2], most[3]));
+}
+
 void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_index n = ask_sizes(dem_simulation_model(simulation)).n_nodes;
-    double fastest = 0.0;
-    for (dem_index i = 0; i < n; i++) fastest = fmax(fastest, fabs(state->v[2 * i]) + fabs(state->v[2 * i + 1]));
-    const double value = fastest * state->step / ask_options(simulation).spacing; /* (6) */
+    const double value = fastest_of(state->v, n) * state->step / ask_options(simulation).spacing; /* (6) */
     if (value <= p->largest) return;
     p->largest = value;
     p->t = state->t;
