@@ -189,7 +189,8 @@ DEM_API dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material
  *  corner of a square a quarter of its mass. A block of squares then has exactly E and nu along its sides, and the
  *  shear stiffness diagonal E/(1 + nu): 0.5 is isotropic, and nu = diagonal/(1 + diagonal) needs no area term.
  *  \param diagonal  stiffness of a diagonal over that of a side, both in N/m, > 0 and less than (1 + nu)/(2 (1 - nu)),
- *                   or cells warp; usual: 0.5, for nu > 0. Not used with a bond stiffness */
+ *                   or cells warp; usual: 0.5, for nu > 0. Not used with a bond stiffness
+ *  \return as dem_lattice_assemble(); sides of squares may be E G_f/(3.55 strength^2) at most */
 DEM_API dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal);
 
 /** The same of several materials. Every triangle gives stiffness, mass and damping by its own; so a spring between two

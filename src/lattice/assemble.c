@@ -15,6 +15,7 @@
 #include "base/status.h"
 #include "base/struct_size.h"
 #include "base/vec2.h"
+#include "lattice/cell.h"
 #include "lattice/crack_band.h"
 #include "lattice/lattice.h"
 #include "lattice/triangle_share.h"
@@ -209,24 +210,6 @@ static void share_triangle(const draft *d, dem_index t)
     give_mass(d, 1.0, m, corner);
 }
 
-/* The corners of cell k counter-clockwise, the first and third where its triangles do not meet. Both triangles are
- * counter-clockwise, so their common edge runs from a to b in one and from b to a in the other.
- * \return false where they do not share an edge */
-static bool find_corners(const dem_lattice *l, dem_index k, dem_index corner[4])
-{
-    const dem_index *s = l->triangles + 6 * k, *t = s + 3;
-    for (int c = 0; c < 9; c++) { /* where they do, the edge runs from a to b in one, from b to a in the other */
-        const int a = c % 3, b = c / 3;
-        if (s[a] != t[(b + 1) % 3] || s[(a + 1) % 3] != t[b]) continue;
-        corner[0] = s[(a + 2) % 3];
-        corner[1] = s[a];
-        corner[2] = t[(b + 2) % 3];
-        corner[3] = s[(a + 1) % 3];
-        return true;
-    }
-    return false;
-}
-
 /* The stiffness, N, is that in N/m times the rest length: k/2 times the length to each side, r k times the length to
  * both diagonals. A side between two cells thus has k. Mass is shared out for all four triangles of three successive
  * corners, with half weight: these are the two ways to cut the cell, and a square gets a quarter at each corner. */
@@ -240,13 +223,12 @@ static dem_status share_cell(const draft *d, dem_index k)
     dem_index q[4];
     CHECK(m == material_of(d, 2 * k + 1), DEM_ERROR_MODEL, "triangles %lld and %lld, of a cell, have two materials",
           (long long)(2 * k), (long long)(2 * k + 1));
-    CHECK(find_corners(l, k, q), DEM_ERROR_MODEL, "triangles %lld and %lld, which are to be a cell, share no edge",
-          (long long)(2 * k), (long long)(2 * k + 1));
+    CHECK(cell_corners(l, 2 * k, 2 * k + 1, q), DEM_ERROR_MODEL,
+          "triangles %lld and %lld, which are to be a cell, share no edge", (long long)(2 * k), (long long)(2 * k + 1));
+    CHECK(cell_is_convex(l, q), DEM_ERROR_MODEL, "the cell of nodes %lld, %lld, %lld and %lld is not convex",
+          (long long)q[0], (long long)q[1], (long long)q[2], (long long)q[3]);
     for (int c = 0; c < 4; c++) {
         const dem_index i = q[c], j = q[(c + 1) % 4], corner[3] = {i, j, q[(c + 2) % 4]};
-        CHECK(area_of(l, corner[0], corner[1], corner[2]) > 0.0, DEM_ERROR_MODEL,
-              "the cell of nodes %lld, %lld, %lld and %lld is not convex", (long long)q[0], (long long)q[1],
-              (long long)q[2], (long long)q[3]);
         /* k/2 in N/m times the rest length. */
         d->shares[6 * k + c] = share_of(i, j, 0.5 * side * distance(l, i, j), m);
         give_mass(d, 0.5, m, corner);
@@ -411,9 +393,9 @@ static bool is_own(const dem_material *m)
     return m->stress_average == DEM_STRESS_AVERAGE_ELEMENT;
 }
 
-static const crack_band *band_of(const dem_material *m)
+static const crack_band *band_of(const draft *d, const dem_material *m)
 {
-    return crack_band_of(is_own(m));
+    return crack_band_of(d->cells ? CRACK_BAND_CELLS : is_own(m) ? CRACK_BAND_OWN_STRESS : CRACK_BAND_CORNERS);
 }
 
 /* Strength and softening of a triangle. */
@@ -421,15 +403,15 @@ static void limit_triangle(draft *d, dem_index t)
 {
     const dem_material *m = material_of(d, t);
     const dem_index *c = d->lattice->triangles + 3 * t;
+    const crack_band *band = band_of(d, m);
     const double modulus = plate_modulus(m), energy = m->fracture_energy;
     const double size = crack_band_size(area_of(d->lattice, c[0], c[1], c[2]));
     d->solid.strength[t] = limit_or_never(m->strength);
     d->solid.softening[t] = 1.0;
     if (energy > 0.0 && m->strength > 0.0)
-        d->solid.softening[t] =
-            crack_band_softening_of(band_of(m), modulus * energy / (m->strength * m->strength * size));
+        d->solid.softening[t] = crack_band_softening_of(band, modulus * energy / (m->strength * m->strength * size));
     else if (energy > 0.0)
-        d->solid.strength[t] = crack_band_strength(modulus, energy, size);
+        d->solid.strength[t] = crack_band_strength(band, modulus, energy, size);
     d->solid.compressive_strength[t] = limit_or_never(m->compressive_strength);
     d->solid.confinement[t] =
         m->plane == DEM_PLANE_STRAIN && m->compressive_strength > 0.0 ? m->compressive_strength / m->strength : 0.0;
@@ -612,12 +594,13 @@ static dem_status check_sizes(const draft *d, dem_index n_materials)
     for (dem_index k = 0; k < n_materials; k++) {
         const dem_material *m = &d->materials[k];
         if (!(m->fracture_energy > 0.0 && m->strength > 0.0)) continue;
-        const double size = mean_size(d, m);
-        const double coarsest = crack_band_coarsest(band_of(m), plate_modulus(m), m->fracture_energy, m->strength);
+        const double size = mean_size(d, m), edge = d->cells ? sqrt(0.5 * sqrt(3.0)) : 1.0;
+        const double coarsest = crack_band_coarsest(band_of(d, m), plate_modulus(m), m->fracture_energy, m->strength);
         CHECK(size <= coarsest, DEM_ERROR_ARGUMENT,
-              "triangles with edges of %g m are too large for a strength of %g Pa and a fracture energy of %g J/m^2, "
-              "which need %g m at most",
-              size, m->strength, m->fracture_energy, coarsest);
+              "%s of %g m are too large for a strength of %g Pa and a fracture energy of %g J/m^2, which need %g m at "
+              "most",
+              d->cells ? "squares" : "triangles with edges", edge * size, m->strength, m->fracture_energy,
+              edge * coarsest);
     }
     return DEM_OK;
 }

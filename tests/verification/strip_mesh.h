@@ -13,4 +13,8 @@ typedef struct strip_mesh {
 /** A triangulation that is so many spacings of clamped_strip.h wide and high. Caller owns it. */
 dem_lattice strip_mesh_make(double width, double height, const strip_mesh *m);
 
+/** The same of squares, whose sides are along the strip, or, if `turned`, at 45 degrees, with teeth at all edges, and a
+ *  height of whole half diagonals. Caller owns it. */
+dem_lattice strip_mesh_squares(double width, double height, bool turned);
+
 #endif

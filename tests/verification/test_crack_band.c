@@ -2,7 +2,7 @@
 /* Toughness and path of a crack where triangles soften: a clamped strip with an edge crack is pulled slowly, with a
  * drag that takes the waves of softening away. It has to go on at the fracture energy that was asked for, along a
  * straight path whatever the direction of the rows, and whatever the spacing. `long` as argument: more softening, more
- * meshes, finer ones. */
+ * meshes, finer ones, and squares. */
 #include "clamped_strip.h"
 
 #include <stdlib.h>
@@ -11,8 +11,12 @@
 #include "ask.h"
 #include "strip_mesh.h"
 
-static const double spacing = CLAMPED_STRIP_SPACING, c = CLAMPED_STRIP_SPEED, nu = 1.0 / 3.0;
+static const double spacing = CLAMPED_STRIP_SPACING, c = CLAMPED_STRIP_SPEED, third = 1.0 / 3.0;
 enum { WIDE = 70, HIGH = 44, CRACK = 22, GONE = 12 }; /* spacings */
+
+/* Triangles that soften by the mean of their corners' stresses, or by their own, and squares, whose a is 1.075 of their
+ * sides: the edge of the equilateral triangle that is half as large. Rows of squares are at 0 or at 45 degrees. */
+typedef enum band_kind { CORNERS, OWN, SQUARES } band_kind;
 
 /* A lattice knows no length but its spacing: a body at half the spacing is one of twice as many spacings, which takes
  * twice as many strength^2 a/E for the same fracture energy. */
@@ -22,7 +26,8 @@ typedef struct band_case {
     bool alone;       /* the fracture energy is given without a strength: triangles are brittle */
     strip_mesh mesh;
     double most_angle, tolerance; /* degrees, of the path; of the toughness */
-    bool own;                     /* triangles soften by their own stress */
+    band_kind kind;
+    double nu; /* Poisson's ratio */
 } band_case;
 
 typedef struct band {
@@ -44,9 +49,20 @@ static double softened_by_own(double q)
     return 0.2 + 0.48 * q;
 }
 
+static double of_squares(double q)
+{
+    return q < 2.0 ? 2.8 + 0.5 * q : q < 3.0 ? 1.8 + q : 1.2 + 1.2 * q;
+}
+
 static double asked(const band_case *k)
 {
     return k->size * k->toughness;
+}
+
+/* a, m. */
+static double edge(const band_case *k)
+{
+    return k->kind == SQUARES ? sqrt(2.0 / sqrt(3.0)) * spacing : spacing;
 }
 
 static dem_status note(void *context, const dem_simulation *s, const dem_break *what)
@@ -85,23 +101,82 @@ static void pull(band *b, dem_lattice *l, support_run *run)
     assert_ok(dem_simulation_observe(run->simulation, &observer));
 }
 
-static dem_lattice assemble(const band_case *k)
+static dem_lattice assemble(const band_case *k, bool breaks)
 {
-    dem_material solid = clamped_strip_material(false, nu);
-    dem_lattice l = strip_mesh_make(k->size * WIDE, k->size * HIGH, &k->mesh);
-    solid.fracture_energy = asked(k) * solid.strength * solid.strength * spacing / solid.youngs_modulus;
-    if (k->alone) solid.strength = 0.0;
-    if (k->own) solid.stress_average = DEM_STRESS_AVERAGE_ELEMENT;
-    assert_ok(dem_lattice_assemble(&l, &solid));
+    const double wide = k->size * WIDE, high = k->size * HIGH;
+    dem_material solid = clamped_strip_material(false, k->nu);
+    if (breaks) solid.fracture_energy = asked(k) * solid.strength * solid.strength * edge(k) / solid.youngs_modulus;
+    if (k->alone || !breaks) solid.strength = 0.0;
+    if (k->kind == OWN) solid.stress_average = DEM_STRESS_AVERAGE_ELEMENT;
+    if (k->kind != SQUARES) {
+        dem_lattice l = strip_mesh_make(wide, high, &k->mesh);
+        assert_ok(dem_lattice_assemble(&l, &solid));
+        return l;
+    }
+    dem_lattice l = strip_mesh_squares(wide, high, k->mesh.angle > 0.0);
+    solid.springs = DEM_SPRINGS_INDEPENDENT;
+    assert_ok(dem_lattice_assemble_squares(&l, &solid, 0.5));
     return l;
+}
+
+/* Between two sides the crack is through one row of squares, or two of turned ones, which hang together at corners. */
+static clamped_strip strip_of(const band_case *k, const dem_lattice *l)
+{
+    clamped_strip s = clamped_strip_of(l);
+    const double row = k->mesh.angle > 0.0 ? sqrt(0.5) * spacing : spacing;
+    if (k->kind == SQUARES) s.middle = s.bottom + (floor(0.5 * round(s.height / row)) + 0.5) * row;
+    return s;
+}
+
+/* Breaks both halves of the squares in these rows, or what triangles the middle line crosses, up to there. */
+static void cut(const band_case *k, const band *b, dem_simulation *simulation, const dem_lattice *l, double to)
+{
+    dem_index *list = calloc((size_t)l->n_triangles, sizeof *list), n = 0;
+    assert_non_null(list);
+    for (dem_index t = 0; k->kind == SQUARES && t < l->n_triangles; t++) {
+        const double x = 0.5 * (clamped_strip_centre(l, t, 0) + clamped_strip_centre(l, t ^ 1, 0)),
+                     y = 0.5 * (clamped_strip_centre(l, t, 1) + clamped_strip_centre(l, t ^ 1, 1));
+        if (fabs(y - b->strip.middle) < 0.4 * spacing && x < to) list[n++] = t;
+    }
+    if (k->kind == SQUARES)
+        assert_ok(dem_simulation_break(simulation, list, n, NULL, 0));
+    else
+        clamped_strip_cut(&b->strip, simulation, l, b->strip.begin, to);
+    free(list);
+}
+
+/* J, of a strip at rest, with a crack to there. */
+static double energy_at_rest(const band_case *k, double parted, double crack)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = assemble(k, false);
+    CLEANUP(support_close) support_run run;
+    band b = {.strip = strip_of(k, &l), .start = parted};
+    pull(&b, &l, &run);
+    cut(k, &b, run.simulation, &l, b.strip.begin + crack);
+    assert_ok(dem_simulation_advance(run.simulation, 12.0 * b.strip.height / (M_PI * c)));
+    const dem_energy e = ask_energy(run.simulation);
+    clamped_strip_free(&b.strip);
+    return e.elastic + e.area;
+}
+
+/* (D/H)^2 in which G is 1 E limit^2 a. Teeth at the sides are soft, so that of squares G is what a strip at rest loses
+ * while a crack goes on by eight squares, past the place where the load is read. */
+static double unit_of(const band_case *k, const clamped_strip *s)
+{
+    if (k->kind != SQUARES) return clamped_strip_unit(s, k->nu);
+    const double step = (k->mesh.angle > 0.0 ? sqrt(2.0) : 1.0) * spacing, at = (CRACK + 3) * spacing;
+    const double parted = CLAMPED_STRIP_LIMIT * s->height;
+    const double lost = energy_at_rest(k, parted, at - 4.0 * step) - energy_at_rest(k, parted, at + 4.0 * step);
+    return CLAMPED_STRIP_MODULUS * pow(CLAMPED_STRIP_LIMIT, 4.0) * edge(k) * 8.0 * step / lost;
 }
 
 static void check_case(const band_case *k)
 {
-    CLEANUP(dem_lattice_free) dem_lattice l = assemble(k);
+    CLEANUP(dem_lattice_free) dem_lattice l = assemble(k, true);
     CLEANUP(support_close) support_run run;
-    band b = {.strip = clamped_strip_of(&l)};
-    const double unit = clamped_strip_unit(&b.strip, nu), crack = b.strip.begin + k->size * CRACK * spacing;
+    band b = {.strip = strip_of(k, &l)};
+    if (k->kind == SQUARES) clamped_strip_strengthen(&b.strip, &l); /* teeth would break, too */
+    const double unit = unit_of(k, &b.strip), crack = b.strip.begin + k->size * CRACK * spacing;
     const double parted = b.strip.height * sqrt(asked(k) * unit),
                  last = (k->alone ? 20000.0 : 10000.0) * k->size * spacing / c;
     b.tip = b.strip.begin;
@@ -110,7 +185,7 @@ static void check_case(const band_case *k)
     b.start = 0.9 * parted;
     b.speed = parted / last;
     pull(&b, &l, &run);
-    clamped_strip_cut(&b.strip, run.simulation, &l, b.strip.begin, crack);
+    cut(k, &b, run.simulation, &l, crack);
     assert_int_equal(dem_simulation_advance(run.simulation, last), DEM_STOPPED);
     const double found = b.gone * b.gone / (b.strip.height * b.strip.height) / unit;
     assert_close(found, asked(k), k->tolerance * asked(k));
@@ -126,16 +201,16 @@ static void check(const band_case *list, size_t n)
 /* Found: 4.02 (4.14), 5.20 (5.21). */
 TEST(a_crack_takes_the_fracture_energy)
 {
-    const band_case list[] = {{1.0, softened(2.0), false, {0.0, 0.0, true}, 1.5, 0.05, false},
-                              {1.0, softened(3.0), false, {30.0, 0.0, true}, 1.5, 0.05, false}};
+    const band_case list[] = {{1.0, softened(2.0), false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(3.0), false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
     check(list, sizeof list / sizeof *list);
 }
 
 /* Found: 0.958, 0.917 of what was asked for: a crack of 11 spacings is short. */
 TEST(a_crack_takes_the_fracture_energy_at_twice_the_spacing)
 {
-    const band_case list[] = {{0.5, 3.4, true, {0.0, 0.0, true}, 1.5, 0.10, false},
-                              {0.5, 8.4, false, {0.0, 0.0, true}, 1.5, 0.10, false}};
+    const band_case list[] = {{0.5, 3.4, true, {0.0, 0.0, true}, 1.5, 0.10, CORNERS, third},
+                              {0.5, 8.4, false, {0.0, 0.0, true}, 1.5, 0.10, CORNERS, third}};
     check(list, sizeof list / sizeof *list);
 }
 
@@ -143,10 +218,10 @@ TEST(a_crack_takes_the_fracture_energy_at_twice_the_spacing)
  * asked for; at rest a brittle crack of twice as many spacings needs 3.51 instead of 3.40, too (test_strip.c). */
 static void at_finer_spacings(void **state)
 {
-    const band_case list[] = {{1.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, false},
-                              {2.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, false},
-                              {1.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, false},
-                              {2.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, false}};
+    const band_case list[] = {{1.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {2.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {1.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {2.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -155,12 +230,12 @@ static void at_finer_spacings(void **state)
  * were brittle is off straight by 1.9 degrees at q = 6, by 0.3 at 2. */
 static void of_regular_meshes(void **state)
 {
-    const band_case list[] = {{1.0, softened(2.0), false, {15.0, 0.0, true}, 1.5, 0.05, false},
-                              {1.0, softened(2.0), false, {30.0, 0.0, true}, 1.5, 0.05, false},
-                              {1.0, softened(3.0), false, {0.0, 0.0, true}, 1.5, 0.05, false},
-                              {1.0, softened(6.0), false, {0.0, 0.0, true}, 1.5, 0.05, false},
-                              {1.0, softened(6.0), false, {15.0, 0.0, true}, 2.5, 0.05, false},
-                              {1.0, softened(6.0), false, {30.0, 0.0, true}, 1.5, 0.05, false}};
+    const band_case list[] = {{1.0, softened(2.0), false, {15.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(2.0), false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(3.0), false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(6.0), false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(6.0), false, {15.0, 0.0, true}, 2.5, 0.05, CORNERS, third},
+                              {1.0, softened(6.0), false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -168,8 +243,8 @@ static void of_regular_meshes(void **state)
 /* Found: 5.26, 5.07 (5.21). */
 static void of_irregular_meshes(void **state)
 {
-    const band_case list[] = {{1.0, softened(3.0), false, {15.0, 0.25, true}, 1.5, 0.05, false},
-                              {1.0, softened(3.0), false, {0.0, 0.0, false}, 6.0, 0.05, false}};
+    const band_case list[] = {{1.0, softened(3.0), false, {15.0, 0.25, true}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(3.0), false, {0.0, 0.0, false}, 6.0, 0.05, CORNERS, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -178,16 +253,39 @@ static void of_irregular_meshes(void **state)
  * left of rows. Found: 2.73 (3.08). */
 TEST(a_crack_takes_about_the_fracture_energy_by_the_stress_of_elements)
 {
-    const band_case list[] = {{1.0, softened_by_own(6.0), false, {0.0, 0.25, true}, 1.5, 0.13, true}};
+    const band_case list[] = {{1.0, softened_by_own(6.0), false, {0.0, 0.25, true}, 1.5, 0.13, OWN, third}};
     check(list, sizeof list / sizeof *list);
 }
 
 /* Found: 2.87, 3.32 (3.08), 5.57 (5.96); 15.5, 9.2, 15.5 degrees off straight. */
 static void of_own_stress(void **state)
 {
-    const band_case list[] = {{1.0, softened_by_own(6.0), false, {15.0, 0.25, true}, 17.0, 0.13, true},
-                              {1.0, softened_by_own(6.0), false, {30.0, 0.25, true}, 17.0, 0.13, true},
-                              {1.0, softened_by_own(12.0), false, {15.0, 0.25, true}, 17.0, 0.13, true}};
+    const band_case list[] = {{1.0, softened_by_own(6.0), false, {15.0, 0.25, true}, 17.0, 0.13, OWN, third},
+                              {1.0, softened_by_own(6.0), false, {30.0, 0.25, true}, 17.0, 0.13, OWN, third},
+                              {1.0, softened_by_own(12.0), false, {15.0, 0.25, true}, 17.0, 0.13, OWN, third}};
+    (void)state;
+    check(list, sizeof list / sizeof *list);
+}
+
+/* Of squares toughness depends on direction, on Poisson's ratio and, where sides are at 45 degrees, on the square at
+ * which a crack begins: the lines in the middle of what was found are off by 12 % at most. */
+TEST(a_crack_through_squares_takes_about_the_fracture_energy)
+{
+    const band_case list[] = {{1.0, of_squares(3.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, third}};
+    check(list, sizeof list / sizeof *list);
+}
+
+static void of_squares_in_two_directions(void **state)
+{
+    const band_case list[] = {{1.0, of_squares(1.0), true, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(1.0), true, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(2.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(2.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(3.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(3.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, 0.2},
+                              {1.0, of_squares(3.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, 0.45},
+                              {1.0, of_squares(6.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(6.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -199,6 +297,7 @@ int main(int argc, char **argv)
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_irregular_meshes), 1001);
         test_add(&(struct CMUnitTest)cmocka_unit_test(at_finer_spacings), 1002);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_own_stress), 1003);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_squares_in_two_directions), 1004);
     }
     return test_run();
 }

@@ -542,6 +542,26 @@ TEST(a_fracture_energy_gives_strength_or_softening)
     }
 }
 
+/* The same of squares, for which the edge of an equilateral triangle of half their area counts. */
+TEST(squares_have_a_toughness_of_their_own)
+{
+    const double size = sqrt(2.0 / sqrt(3.0)) * spacing, modulus = rubber.youngs_modulus;
+    dem_material solid = rubber;
+    solid.fracture_energy = 100.0;
+    CLEANUP(dem_lattice_free) dem_lattice brittle = make_squares(0.03, 0.03);
+    assert_int_equal(dem_lattice_assemble_squares(&brittle, &solid, 0.5), DEM_OK);
+    assert_close(brittle.strength[0], sqrt(modulus * 100.0 / (3.3 * size)), 1e-6);
+    CLEANUP(dem_lattice_free) dem_lattice soft = make_squares(0.03, 0.03);
+    solid.strength = sqrt(modulus * 100.0 / (4.8 * size));
+    assert_int_equal(dem_lattice_assemble_squares(&soft, &solid, 0.5), DEM_OK);
+    assert_close(soft.softening[0], 3.0, 1e-12);
+    CLEANUP(dem_lattice_free) dem_lattice coarse = make_squares(0.03, 0.03);
+    solid.strength = 1e6;
+    assert_refused(dem_lattice_assemble_squares(&coarse, &solid, 0.5), DEM_ERROR_ARGUMENT,
+                   "squares of 0.0025 m are too large for a strength of 1e+06 Pa and a fracture energy of 100 J/m^2 * "
+                   "0.000282001 m at most");
+}
+
 /* 3.4 times the size that would have this strength and this energy is the length E G/strength^2, here 2 m. */
 TEST(triangles_too_large_for_strength_and_fracture_energy_are_refused)
 {

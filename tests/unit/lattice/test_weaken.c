@@ -62,7 +62,8 @@ TEST(where_triangles_soften_the_energy_of_a_crack_stays)
             assert_close(lattice.softening[t], 1.0, 0.0);
             continue;
         }
-        assert_close(crack_band_toughness(crack_band_of(false), lattice.softening[t]) * f * f, before, 1e-13 * before);
+        assert_close(crack_band_toughness(crack_band_of(CRACK_BAND_CORNERS), lattice.softening[t]) * f * f, before,
+                     1e-13 * before);
         assert_close(f, fmin(factor[t], sqrt(before / 3.4)), 1e-14 * f);
         assert_true((lattice.softening[t] > 1.0) == (factor[t] < sqrt(before / 3.4)));
     }
@@ -85,7 +86,7 @@ TEST(an_energy_is_multiplied_where_triangles_soften)
     for (dem_index t = 0; t < lattice.n_triangles; t++) {
         const double f = lattice.strength[t] / 3e6, energy = 7.35 * of_energy[t];
         if (t < 15)
-            assert_close(crack_band_toughness(crack_band_of(false), lattice.softening[t]) * f * f, energy,
+            assert_close(crack_band_toughness(crack_band_of(CRACK_BAND_CORNERS), lattice.softening[t]) * f * f, energy,
                          1e-13 * energy);
         assert_close(f, t < 15 ? fmin(of_strength[t], sqrt(energy / 3.4)) : of_strength[t], 1e-14 * f);
     }
@@ -110,6 +111,24 @@ TEST(the_energy_stays_where_the_stress_of_elements_lets_them_soften)
         assert_close((0.2 + 0.48 * lattice.softening[t]) * f * f, before, 1e-13 * before);
         assert_close(f, fmin(factor[t], sqrt(before / (0.2 + 0.48 * 3.0))), 1e-14 * f);
     }
+}
+
+/* Halves of cells have the toughness of cells. */
+TEST(the_energy_of_softening_cells_stays)
+{
+    dem_material m = rubber;
+    m.strength = 3e6;
+    m.fracture_energy = 30.0 * m.strength * m.strength * 0.01 / m.youngs_modulus;
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
+    assert_int_equal(dem_lattice_squares(&lattice, 0.05, 0.05, 0.01), DEM_OK);
+    assert_int_equal(dem_lattice_assemble_squares(&lattice, &m, 0.5), DEM_OK);
+    const crack_band *band = crack_band_of(CRACK_BAND_CELLS);
+    const double before = crack_band_toughness(band, lattice.softening[0]);
+    double factor[most];
+    for (dem_index t = 0; t < lattice.n_triangles; t++) factor[t] = 0.6 + 0.1 * (double)(t % 12);
+    assert_int_equal(dem_lattice_weaken(&lattice, factor, NULL, NULL), DEM_OK);
+    for (dem_index t = 0; t < lattice.n_triangles; t++)
+        assert_close(crack_band_toughness(band, lattice.softening[t]) * factor[t] * factor[t], before, 1e-13 * before);
 }
 
 TEST(factors_that_are_none_change_nothing)
