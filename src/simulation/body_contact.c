@@ -189,13 +189,39 @@ static const char *name_entry(dem_index k, char name[NAME_LENGTH])
     return name;
 }
 
+static const char of_fillings[] = "fillings";
+
+static dem_status save_fillings(const contact_surface *of, dem_checkpoint *checkpoint)
+{
+    const dem_index n = contact_surface_squeezed(of, NULL);
+    squeezed_filling *list = malloc((size_t)(n + 1) * sizeof *list);
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for %lld fillings", (long long)n);
+    (void)contact_surface_squeezed(of, list);
+    const dem_status status = dem_checkpoint_put(checkpoint, of_fillings, list, (size_t)n * sizeof *list);
+    free(list);
+    return status;
+}
+
 dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     char name[NAME_LENGTH];
+    if (s->surfaces != NULL && s->forces.elements != NULL) TRY(save_fillings(&s->surfaces->surface, checkpoint));
     if (surface_contact_has_friction(s->surfaces)) TRY(save_anchors(&s->surfaces->anchors, of_bodies, checkpoint));
     for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
         TRY(save_anchors(&s->rigid->list[k].anchors, name_entry(k, name), checkpoint));
     return DEM_OK;
+}
+
+/* The checkpoint of a run before there were any has none. Pairs in the lists are as of what was there before. */
+static dem_status restore_fillings(surface_contact *of, const dem_checkpoint *checkpoint)
+{
+    size_t size = 0;
+    const squeezed_filling *list = dem_checkpoint_find(checkpoint, of_fillings, &size);
+    CHECK(size % sizeof *list == 0, DEM_ERROR_IO, "the checkpoint has %zu bytes of %s, which has %zu bytes for each",
+          size, of_fillings, sizeof *list);
+    const dem_index n = list != NULL ? (dem_index)(size / sizeof *list) : 0;
+    if (n > 0 || contact_surface_squeezed(&of->surface, NULL) > 0) surface_contact_forget(of);
+    return contact_surface_squeeze(&of->surface, list, n);
 }
 
 static dem_status restore_bodies(dem_simulation *s, const dem_checkpoint *checkpoint, const double *y)
@@ -217,6 +243,7 @@ static dem_status restore_rigid(dem_simulation *s, dem_index k, const dem_checkp
 dem_status body_contact_restore(dem_simulation *s, const dem_checkpoint *checkpoint, const double *y)
 {
     body_contact_forget(s);
+    if (s->surfaces != NULL) TRY(restore_fillings(s->surfaces, checkpoint));
     if (surface_contact_has_friction(s->surfaces)) TRY(restore_bodies(s, checkpoint, y));
     for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
         TRY(restore_rigid(s, k, checkpoint, y));

@@ -27,9 +27,10 @@ static const unsigned char *broken_now(const dem_simulation *s)
 
 /* ---- what depends on it ---- */
 
-static dem_status break_surfaces(dem_simulation *s, const mesh_boundary *boundary)
+static dem_status break_surfaces(dem_simulation *s, const mesh_boundary *boundary, const unsigned char *broken,
+                                 const double *y)
 {
-    return s->surfaces != NULL ? surface_contact_break(s->surfaces, boundary) : DEM_OK;
+    return s->surfaces != NULL ? surface_contact_break(s->surfaces, boundary, broken, y) : DEM_OK;
 }
 
 /* Lists of surfaces fit a state, so that its energy is found without memory; NULL: that comes later. */
@@ -43,9 +44,9 @@ static dem_status go_back(dem_simulation *s, const double *y)
 {
     mesh_boundary before;
     s->overlap.broken = broken_now(s);
+    if (s->surfaces != NULL) surface_contact_mend(s->surfaces);
     TRY(mesh_boundary_create(&before, &s->model->lattice, broken_now(s)));
-    dem_status status = break_surfaces(s, &before);
-    if (status == DEM_OK) status = follow_state(s, y);
+    dem_status status = follow_state(s, y);
     if (status == DEM_OK) status = overlap_break(&s->overlap, &before, broken_now(s));
     mesh_boundary_free(&before);
     return status;
@@ -55,7 +56,7 @@ static dem_status go_back(dem_simulation *s, const double *y)
 static dem_status follow(dem_simulation *s, const element_state *next, const mesh_boundary *boundary,
                          const surface *outline, const double *y)
 {
-    dem_status status = break_surfaces(s, boundary);
+    dem_status status = break_surfaces(s, boundary, next->triangle, y);
     if (status == DEM_OK) status = follow_state(s, y);
     if (status == DEM_OK) status = overlap_break(&s->overlap, boundary, next->triangle);
     if (status == DEM_OK && outline != NULL) status = contact_source_follow_surface(&s->contact_events, outline);
@@ -99,6 +100,7 @@ static dem_status renew_outline(dem_simulation *s, const element_state *next, co
     free_outline(status == DEM_OK ? s->outline : outline);
     mesh_boundary_free(status == DEM_OK ? &s->boundary : &boundary);
     if (status != DEM_OK) return status;
+    if (s->surfaces != NULL) surface_contact_keep(s->surfaces);
     s->outline = outline;
     s->boundary = boundary;
     s->n_outside = next->n_broken;

@@ -107,7 +107,7 @@ static surface_law law_of_node(const anchor_set *s, dem_index node, dem_index bo
 const anchor *anchor_set_of_pair(const anchor_set *s, const contact_pair *p)
 {
     const dem_index k = s->now.n > 0 ? s->of[p->nodes[CONTACT_PAIR_NODE]] : -1;
-    return k >= 0 && body_of_edge(s, p) == s->now.at[k].body ? &s->now.at[k] : NULL;
+    return k >= 0 && !p->fills && body_of_edge(s, p) == s->now.at[k].body ? &s->now.at[k] : NULL;
 }
 
 /* g_0.(x - x_0), m, of an anchor of a list. */
@@ -368,11 +368,12 @@ static const anchor *old_of(const anchor_set *s, dem_index node, dem_index *k)
     return *k < l->n && l->at[*k].node == node ? &l->at[*k] : NULL;
 }
 
-/* The pairs of the node of pair k of a list. */
+/* The pairs of the node of pair k of a list. What fills cracks has no friction; it is behind all others. */
 static node_pairs pairs_from(const contact_pair *list, dem_index n, dem_index k)
 {
     dem_index last = k;
-    while (last < n && list[last].nodes[CONTACT_PAIR_NODE] == list[k].nodes[CONTACT_PAIR_NODE]) last++;
+    while (last < n && !list[last].fills && list[last].nodes[CONTACT_PAIR_NODE] == list[k].nodes[CONTACT_PAIR_NODE])
+        last++;
     return (node_pairs){list + k, last - k};
 }
 
@@ -380,7 +381,7 @@ dem_status anchor_set_settle(anchor_set *s, const contact_pair *list, dem_index 
 {
     dem_index at_old = 0;
     set_aside(s);
-    for (dem_index k = 0; k < n;) {
+    for (dem_index k = 0; k < n && !list[k].fills;) {
         const node_pairs of = pairs_from(list, n, k);
         const anchor *old = old_of(s, of.list->nodes[CONTACT_PAIR_NODE], &at_old);
         if (old != NULL && !is_pushed_by(s, &of, old->body, x)) old = NULL;

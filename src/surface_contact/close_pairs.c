@@ -38,9 +38,9 @@ dem_status close_pairs_choose(close_pairs *c, double margin, const double *x)
     c->n = 0;
     c->margin = margin;
     c->least = of->least.thickness;
-    TRY(surface_ways_note(&c->ways, of->most.thickness + margin, x));
+    TRY(surface_ways_note(&c->ways, contact_surface_reach(of) + margin, x));
     surface_ways_clear(&c->apart);
-    TRY(surface_ways_note(&c->apart, of->most.thickness + margin, x));
+    TRY(surface_ways_note(&c->apart, contact_surface_reach(of) + margin, x));
     CHECK(grow_array((void **)&c->list, &c->capacity, candidates->n, sizeof *c->list), DEM_ERROR_MEMORY,
           "out of memory for %lld contact pairs", (long long)candidates->n);
     for (dem_index k = 0; k < candidates->n; k++) {

@@ -187,12 +187,14 @@ void contact_batch_evaluate(contact_batch *b)
 bool contact_batch_push(const contact_batch *b, int k, const double *x, contact_push *out)
 {
     const bool by_edge = b->by_edge[k] != 0.0;
+    if (b->list[b->which[k]].fills) return contact_pair_push(&b->list[b->which[k]], x, out);
     *out = by_edge ? contact_batch_edge_push(b, k) : (contact_push){.pair = &b->list[b->which[k]]};
     return contact_pair_push_ends(out->pair, contact_batch_is_near_first(b, k), x, out) || by_edge;
 }
 
 double contact_batch_nearness(const contact_batch *b, int k)
 {
+    if (b->list[b->which[k]].fills) return 1.0;
     const double edge = b->by_edge[k] != 0.0 ? b->u[k] : 1.0, first = sqrt(b->radius[k]) / b->thickness[k];
     return edge < first ? edge : first;
 }

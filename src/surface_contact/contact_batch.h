@@ -41,10 +41,12 @@ static inline bool contact_batch_is_near_first(const contact_batch *b, int k)
     return b->radius[k] < b->thickness[k] * b->thickness[k];
 }
 
-/** Whether an end of the edge might push, too. Otherwise, found with the part 1, the edge does. */
+/** Whether an end of the edge might push, too, or the pair fills a crack. Otherwise, found with the part 1, the edge
+ *  does. */
 static inline bool contact_batch_is_near_end(const contact_batch *b, int k)
 {
-    return contact_batch_is_near_first(b, k) || b->list[b->which[k]].ends_at_second;
+    const contact_pair *p = &b->list[b->which[k]];
+    return contact_batch_is_near_first(b, k) || p->ends_at_second || p->fills;
 }
 
 /** The forces of the edge of pair k of the batch, once it has been evaluated and if its edge pushes. */
@@ -59,7 +61,8 @@ static inline contact_push contact_batch_edge_push(const contact_batch *b, int k
 /** The forces of its edge and of its ends.  \return whether there are any */
 bool contact_batch_push(const contact_batch *b, int k, const double *x, contact_push *out);
 
-/** Its distance over the thickness, from the edge if that pushes, or from the first end if that is as near. */
+/** Its distance over the thickness, from the edge if that pushes, or from the first end if that is as near; 1 for what
+ *  fills a crack, which has no bound that it comes near to. */
 double contact_batch_nearness(const contact_batch *b, int k);
 
 #endif

@@ -8,6 +8,9 @@
  *              or of one inside a concave vertex, z x t < 0, where a node of the same body may come if it is crushed;
  *              at the free end of a wall, z = -t, once beyond it, r.t < 0;
  *   an end beyond which the surface does not touch the node: taken off beside and in front of the edge alone.
+ * A pair that fills a crack pushes while the node is nearer than the height h at rest, as the broken triangle would
+ * under pressure: W = weight h (1 - g/h)^2/2 T(s). T is 1 in the middle of the edge and falls to 0 with its slope at
+ * both ends: T = q^2 (3 - 2 q), q = 4 s (1 - s), so that no force jumps where the faces slide along each other.
  * s < 1 is computed as (p - B).t < 0, so that two edges and their vertex compare the same numbers: no node falls
  * between them by rounding. For the same reason a vertex that is straight but for rounding counts as convex for a node
  * in front of both edges. What is behind an edge is not pushed, so a body that is squeezed does not push itself from
@@ -84,6 +87,63 @@ static bool find_place(const contact_pair *p, const double *x, pair_place *out)
     return e.by_edge || out->count != 0.0 || out->u_second > 0.0;
 }
 
+/* ---- what fills a crack ---- */
+
+typedef struct filling_place {
+    double share, left;  /* s, 1 - g/h */
+    double taper, slope; /* T and dT/ds */
+    double gap, length;  /* m, g and |t| */
+} filling_place;
+
+static filling_place place_filling(const contact_pair *p, const edge_terms *e)
+{
+    const double length = sqrt(e->square), gap = e->front / length, s = e->along / e->square, q = 4.0 * s * (1.0 - s);
+    return (filling_place){.share = s,
+                           .left = 1.0 - gap / p->thickness,
+                           .taper = q * q * (3.0 - 2.0 * q),
+                           .slope = 24.0 * q * (1.0 - q) * (1.0 - 2.0 * s),
+                           .gap = gap,
+                           .length = length};
+}
+
+/* dW/dg acts along the normal n like any push by the edge. dW/ds acts along ds/dr = t/t.t on the node and
+ * ds/dt = (g n - s t)/t.t on the second end. */
+static bool push_filling(const contact_pair *p, const double *x, contact_push *out)
+{
+    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    *out = (contact_push){.pair = p};
+    if (!e.by_edge) return false;
+    const filling_place at = place_filling(p, &e);
+    const vec2 normal = {e.t.y / at.length, -e.t.x / at.length};
+    const double along = 0.5 * p->weight * p->thickness * at.left * at.left * at.slope / e.square;
+    const vec2 across = vec2_along(vec2_scale(at.gap, normal), -at.share, e.t);
+    out->share = at.share;
+    out->by_edge = vec2_scale(p->weight * at.left * at.taper, normal);
+    out->by_second = vec2_scale(along, across);
+    out->by_vertex = vec2_scale(-along, vec2_add(e.t, across));
+    return true;
+}
+
+static double filling_energy(const contact_pair *p, const double *x)
+{
+    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    if (!e.by_edge) return 0.0;
+    const filling_place at = place_filling(p, &e);
+    return 0.5 * p->weight * p->thickness * at.left * at.left * at.taper;
+}
+
+/* With T' of 3.5 and T'' of 24 at most; W is no larger than along the normal alone where the faces have not slid. */
+static bool stiffen_filling(const contact_pair *p, const double *x, double added[CONTACT_PAIR_PUSHED])
+{
+    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    if (!e.by_edge) return false;
+    const filling_place at = place_filling(p, &e);
+    const double slid = at.left * p->thickness / at.length;
+    const double most = 2.0 * p->weight / p->thickness * (1.0 + 3.5 * slid + 12.0 * slid * slid);
+    for (int which = 0; which < CONTACT_PAIR_PUSHED; which++) added[which] = most;
+    return true;
+}
+
 /* ---- forces ---- */
 
 /* The force on the node by an end that counts so often, N. */
@@ -106,6 +166,7 @@ bool contact_pair_push_ends(const contact_pair *p, bool near_first, const double
 
 bool contact_pair_push(const contact_pair *p, const double *x, contact_push *out)
 {
+    if (p->fills) return push_filling(p, x, out);
     const edge_terms e = contact_pair_terms(p, 1.0, x);
     *out = (contact_push){.pair = p};
     if (e.by_edge) {
@@ -130,6 +191,7 @@ double contact_pair_energy(const contact_pair *p, const double *x)
 {
     pair_place at;
     double sum = 0.0;
+    if (p->fills) return filling_energy(p, x);
     if (!find_place(p, x, &at)) return 0.0;
     if (at.u_edge > 0.0) sum += contact_potential_energy(at.u_edge);
     if (at.count != 0.0) sum += at.count * contact_potential_energy(at.u_vertex);
@@ -141,6 +203,7 @@ double contact_pair_energy(const contact_pair *p, const double *x)
 bool contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_PUSHED])
 {
     pair_place at;
+    if (p->fills) return stiffen_filling(p, x, added);
     if (!find_place(p, x, &at)) return false;
     const double twice = 2.0 * p->weight / p->thickness;
     const double edge = at.u_edge > 0.0 ? twice * contact_potential_stiffness(at.u_edge) : 0.0;

@@ -78,12 +78,14 @@ static dem_status allocate_outline(contact_surface *c)
     c->corner = malloc(n * sizeof *c->corner);
     c->length = malloc(n * sizeof *c->length);
     c->plate = malloc(n * sizeof *c->plate);
-    CHECK(c->nodes && c->half_length && c->corner && c->length && c->plate, DEM_ERROR_MEMORY,
-          "out of memory for a surface of %lld edges", (long long)c->surface.n_edges);
+    c->opposite = malloc(n * sizeof *c->opposite);
+    c->filled = malloc(n * sizeof *c->filled);
+    CHECK(c->nodes && c->half_length && c->corner && c->length && c->plate && c->opposite && c->filled,
+          DEM_ERROR_MEMORY, "out of memory for a surface of %lld edges", (long long)c->surface.n_edges);
     return DEM_OK;
 }
 
-static void free_outline(contact_surface *c)
+void contact_surface_free_outline(contact_surface *c)
 {
     surface_free(&c->surface);
     free(c->nodes);
@@ -91,15 +93,83 @@ static void free_outline(contact_surface *c)
     free(c->corner);
     free(c->length);
     free(c->plate);
+    free(c->opposite);
+    free(c->filled);
+}
+
+/* ---- what is broken beside it ---- */
+
+double contact_surface_height(const contact_surface *c, dem_index edge)
+{
+    const double *x = c->lattice->x;
+    const vec2 a = vec2_at(x, contact_surface_first(c, edge)), b = vec2_at(x, contact_surface_second(c, edge));
+    return vec2_cross(vec2_sub(vec2_at(x, c->opposite[edge]), a), vec2_sub(b, a)) / c->length[edge];
+}
+
+/* A broken triangle runs along the edge the other way. */
+static void note_broken(contact_surface *c, dem_index triangle, int side)
+{
+    const dem_index *corner = &c->lattice->triangles[3 * triangle], opposite = corner[(side + 2) % 3];
+    const dem_index edge = contact_surface_edge(c, corner[(side + 1) % 3], corner[side]);
+    if (edge >= 0 && c->surface.row[opposite] < c->surface.row[opposite + 1]) c->opposite[edge] = opposite;
+}
+
+/* Of what may be crushed nothing is left. */
+static bool may_fill(const dem_lattice *l, dem_index triangle)
+{
+    return l->compressive_strength == NULL || !isfinite(l->compressive_strength[triangle]);
+}
+
+static dem_index next_broken(const unsigned char *broken, dem_index from, dem_index n)
+{
+    const unsigned char *next = from < n ? memchr(broken + from, 1, (size_t)(n - from)) : NULL;
+    return next != NULL ? (dem_index)(next - broken) : n;
+}
+
+static void find_broken(contact_surface *c, const unsigned char *broken)
+{
+    const dem_index n = broken != NULL ? c->lattice->n_triangles : 0;
+    for (dem_index e = 0; e < c->surface.n_edges; e++) c->opposite[e] = -1;
+    for (dem_index t = next_broken(broken, 0, n); t < n; t = next_broken(broken, t + 1, n))
+        for (int side = 0; may_fill(c->lattice, t) && side < 3; side++) note_broken(c, t, side);
+}
+
+/* How far an edge and the corner opposite are apart at positions x, m, where that is less than at rest. */
+static double room_at(const contact_surface *c, dem_index edge, const double *x)
+{
+    const vec2 a = vec2_at(x, contact_surface_first(c, edge));
+    const vec2 t = vec2_sub(vec2_at(x, contact_surface_second(c, edge)), a);
+    const double gap = vec2_cross(vec2_sub(vec2_at(x, c->opposite[edge]), a), t) / vec2_norm(t);
+    return fmin(fmax(gap, 0.0), contact_surface_height(c, edge));
+}
+
+/* What was filled before stays as it was; the rest is filled from now on. */
+static double find_filled(const contact_surface *c, const contact_surface *before, dem_index edge, const double *x)
+{
+    if (c->opposite[edge] < 0) return 0.0;
+    const dem_index first = contact_surface_first(c, edge), second = contact_surface_second(c, edge);
+    const dem_index was = before != NULL ? contact_surface_edge(before, first, second) : -1;
+    if (was >= 0 && before->opposite[was] == c->opposite[edge]) return before->filled[was];
+    return x != NULL ? room_at(c, edge, x) : contact_surface_height(c, edge);
+}
+
+static void fill(contact_surface *c, const contact_surface *before, const double *x)
+{
+    c->highest = 0.0;
+    for (dem_index e = 0; e < c->surface.n_edges; e++) {
+        c->filled[e] = find_filled(c, before, e, x);
+        c->highest = fmax(c->highest, c->filled[e]);
+    }
 }
 
 /* Fills in edges and nodes; `out` has a lattice, and no edges as yet. */
-static dem_status find_outline(contact_surface *out, const mesh_boundary *boundary)
+static dem_status find_outline(contact_surface *out, const mesh_boundary *boundary, const unsigned char *broken)
 {
     TRY(surface_compile_boundary(&out->surface, out->lattice, boundary, SURFACE_WHOLE));
     TRY(allocate_outline(out));
     list_nodes(out);
     find_triangles(out, boundary);
+    find_broken(out, broken);
     return DEM_OK;
 }
 
@@ -107,12 +177,14 @@ static dem_status find_first_outline(contact_surface *out)
 {
     mesh_boundary boundary;
     TRY(mesh_boundary_create(&boundary, out->lattice, NULL));
-    const dem_status status = find_outline(out, &boundary);
+    const dem_status status = find_outline(out, &boundary, NULL);
+    if (status == DEM_OK) fill(out, NULL, NULL);
     mesh_boundary_free(&boundary);
     return status;
 }
 
-dem_status contact_surface_break(contact_surface *c, const mesh_boundary *boundary)
+dem_status contact_surface_break(contact_surface *out, const contact_surface *c, const mesh_boundary *boundary,
+                                 const unsigned char *broken, const double *x)
 {
     contact_surface next = {.lattice = c->lattice,
                             .n_bodies = c->n_bodies,
@@ -120,10 +192,52 @@ dem_status contact_surface_break(contact_surface *c, const mesh_boundary *bounda
                             .least = c->least,
                             .most = c->most,
                             .mean_length = c->mean_length};
-    const dem_status status = find_outline(&next, boundary);
-    free_outline(status == DEM_OK ? c : &next);
-    if (status == DEM_OK) *c = next;
+    const dem_status status = find_outline(&next, boundary, broken);
+    if (status == DEM_OK) {
+        fill(&next, c, x);
+        *out = next;
+    } else {
+        contact_surface_free_outline(&next);
+    }
     return status;
+}
+
+/* ---- what a checkpoint has of it ---- */
+
+static bool is_squeezed(const contact_surface *c, dem_index edge)
+{
+    return c->opposite[edge] >= 0 && c->filled[edge] < contact_surface_height(c, edge);
+}
+
+dem_index contact_surface_squeezed(const contact_surface *c, squeezed_filling *list)
+{
+    dem_index n = 0;
+    for (dem_index e = 0; e < c->surface.n_edges; e++) {
+        if (!is_squeezed(c, e)) continue;
+        if (list != NULL)
+            list[n] = (squeezed_filling){contact_surface_first(c, e), contact_surface_second(c, e), c->filled[e]};
+        n++;
+    }
+    return n;
+}
+
+static dem_status squeeze(contact_surface *c, const squeezed_filling *of)
+{
+    const dem_index n = c->lattice->n_nodes;
+    const bool possible = of->first >= 0 && of->first < n && of->second >= 0 && of->second < n;
+    const dem_index edge = possible ? contact_surface_edge(c, of->first, of->second) : -1;
+    CHECK(edge >= 0 && c->opposite[edge] >= 0 && of->height >= 0.0 && of->height <= contact_surface_height(c, edge),
+          DEM_ERROR_IO, "the checkpoint has a filling of %g m at an edge between nodes %lld and %lld", of->height,
+          (long long)of->first, (long long)of->second);
+    c->filled[edge] = of->height;
+    return DEM_OK;
+}
+
+dem_status contact_surface_squeeze(contact_surface *c, const squeezed_filling *list, dem_index n)
+{
+    fill(c, NULL, NULL);
+    for (dem_index k = 0; k < n; k++) TRY(squeeze(c, &list[k]));
+    return DEM_OK;
 }
 
 static void sum_up(contact_surface *c, body_sums *sums, dem_index n_bodies)
@@ -200,7 +314,7 @@ dem_status contact_surface_compile(contact_surface *out, const dem_lattice *latt
 
 void contact_surface_free(contact_surface *c)
 {
-    free_outline(c);
+    contact_surface_free_outline(c);
     free(c->laws);
     *c = (contact_surface){0};
 }

@@ -33,6 +33,11 @@ typedef struct contact_surface {
     dem_index *corner;   /* [n_edges] the third corner of the triangle of each edge */
     double *length;      /* [n_edges] m, at rest */
     double *plate;       /* [n_edges] m, thickness of the triangle of each edge */
+    dem_index *opposite; /* [n_edges] the third corner of the broken triangle on the other side of each edge; -1: none,
+                            or that corner is on no surface */
+    double *filled; /* [n_edges] m, how far that corner and the edge were apart when the triangle broke, at most its
+                            height at rest: it pushes below that; 0: it does not */
+    double highest; /* m, these at most */
     dem_index n_bodies;
     surface_law *laws;       /* [n_bodies] */
     surface_law least, most; /* of all bodies, component by component */
@@ -47,11 +52,38 @@ dem_status contact_surface_compile(contact_surface *out, const dem_lattice *latt
                                    double stiffness);
 void contact_surface_free(contact_surface *c);
 
-/** Makes edges and nodes anew for the triangles that are whole, of which this is the boundary: those that
- *  contact_surface_compile() finds in a lattice without the others, in the same order. Thickness, modulus and friction
- *  stay what they are. A node that is left without a triangle is on no surface.
- *  \return DEM_ERROR_MEMORY; the surface is as it was then */
-dem_status contact_surface_break(contact_surface *c, const mesh_boundary *boundary);
+/** Makes in `out` the surface that c becomes where triangles break: that of those that are whole, of which this is the
+ *  boundary, as contact_surface_compile() finds it in a lattice without the others, in the same order.
+ *  `broken` [n_triangles] are these others, 1: broken; NULL: there are none. What breaks fills its place as it is at
+ *  positions x [n][2]; NULL: as at rest. What has filled its place before stays as it is. Bodies and laws are those of
+ *  c, which stays: one of the two is freed with contact_surface_free_outline(). A node that is left without a triangle
+ *  is on no surface.
+ *  \return DEM_ERROR_MEMORY */
+dem_status contact_surface_break(contact_surface *out, const contact_surface *c, const mesh_boundary *boundary,
+                                 const unsigned char *broken, const double *x);
+void contact_surface_free_outline(contact_surface *c);
+
+/** What fills less than the height at rest, as a checkpoint has it: numbers of 8 bytes. */
+typedef struct squeezed_filling {
+    dem_index first, second; /* nodes of its edge */
+    double height;           /* m, below which it pushes; 0: it does not */
+} squeezed_filling;
+
+/** Lists these, in the order of edges, if `list` is not NULL.  \return how many there are */
+dem_index contact_surface_squeezed(const contact_surface *c, squeezed_filling *list);
+
+/** Has n of a checkpoint in the place of all, on the surface of the same broken triangles.
+ *  \return DEM_ERROR_IO for a filling that is not possible; some may have been changed then */
+dem_status contact_surface_squeeze(contact_surface *c, const squeezed_filling *list, dem_index n);
+
+/** The distance that nothing is to be nearer than in order to push, m: of surfaces, and of what fills cracks. */
+static inline double contact_surface_reach(const contact_surface *c)
+{
+    return c->most.thickness > c->highest ? c->most.thickness : c->highest;
+}
+
+/** Height at rest of the broken triangle on the other side of an edge, m. */
+double contact_surface_height(const contact_surface *c, dem_index edge);
 
 /** The edge from one node to another; -1 if there is none. */
 static inline dem_index contact_surface_edge(const contact_surface *c, dem_index first, dem_index second)

@@ -165,6 +165,34 @@ static contact_pair make_pair(const contact_surface *c, found_pair found)
                           .ends_at_second = is_never_touched(c, here, s->next[found.edge])};
 }
 
+/* The broken triangle beside an edge, where a body touches itself: half of the pressure, as every surface has it. One
+ * that was squeezed when it broke pushes later, as stiff. */
+static contact_pair make_filling(const contact_surface *c, dem_index edge)
+{
+    const surface *s = &c->surface;
+    const dem_index first = contact_surface_first(c, edge), node = c->opposite[edge];
+    const surface_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, first));
+    const double part = c->filled[edge] / contact_surface_height(c, edge);
+    return (contact_pair){.nodes = {node, first, contact_surface_second(c, edge),
+                                    contact_surface_first(c, s->previous[edge]),
+                                    contact_surface_second(c, s->next[edge])},
+                          .thickness = c->filled[edge],
+                          .weight = 0.5 * c->length[edge] * law.modulus * part,
+                          .fills = true};
+}
+
+/* Those that may push, behind all other pairs. */
+static dem_status add_fillings(pair_list *l, const double *x)
+{
+    const contact_surface *c = l->surface;
+    for (dem_index edge = 0; l->within_bodies && c->highest > 0.0 && edge < c->surface.n_edges; edge++) {
+        if (c->filled[edge] <= 0.0) continue;
+        const contact_pair pair = make_filling(c, edge);
+        if (contact_pair_gap(&pair, x) <= pair.thickness + l->margin) TRY(pair_rows_add(&l->pairs, &pair));
+    }
+    return DEM_OK;
+}
+
 /* A pair that was found in several pieces of its edge, or in cells that share a bucket, is taken once. */
 static bool is_repeated(const pair_list *l, dem_index k)
 {
@@ -172,13 +200,14 @@ static bool is_repeated(const pair_list *l, dem_index k)
     return k > 0 && l->sorted[k - 1].node == here.node && l->sorted[k - 1].edge == here.edge;
 }
 
-static dem_status fill_rows(pair_list *l)
+static dem_status fill_rows(pair_list *l, const double *x)
 {
     for (dem_index k = 0; k < l->n_found; k++) {
         if (is_repeated(l, k)) continue;
         const contact_pair pair = make_pair(l->surface, l->sorted[k]);
         TRY(pair_rows_add(&l->pairs, &pair));
     }
+    TRY(add_fillings(l, x));
     return pair_rows_link(&l->pairs);
 }
 
@@ -198,9 +227,9 @@ static dem_status find_pairs(pair_list *l, const double *x, const pair_filter *f
 
 static dem_status make_list(pair_list *l, const double *x)
 {
-    TRY(surface_ways_note(&l->ways, l->surface->most.thickness + l->margin, x));
+    TRY(surface_ways_note(&l->ways, contact_surface_reach(l->surface) + l->margin, x));
     TRY(find_pairs(l, x, &(pair_filter){may_touch, l->margin}));
-    return fill_rows(l);
+    return fill_rows(l, x);
 }
 
 void pair_list_clear(pair_list *l)

@@ -94,6 +94,7 @@ void surface_contact_destroy(surface_contact *c)
     anchor_set_destroy(&c->anchors);
     close_pairs_destroy(&c->close);
     pair_rows_destroy(&c->near);
+    contact_surface_free_outline(&c->before);
     contact_surface_free(&c->surface);
     free(c->is_near);
     free(c->pushed);
@@ -110,15 +111,42 @@ void surface_contact_forget(surface_contact *c)
     c->candidates.made = false;
 }
 
-dem_status surface_contact_break(surface_contact *c, const mesh_boundary *boundary)
+/* Another surface has other pairs. */
+static void take_surface(surface_contact *c, const contact_surface *next)
 {
-    TRY(contact_surface_break(&c->surface, boundary));
+    c->surface = *next;
     pair_list_clear(&c->candidates);
     close_pairs_clear(&c->close);
     pair_rows_clear(&c->near);
     c->rows = &c->candidates.pairs;
     c->is_evaluated = false;
+}
+
+dem_status surface_contact_break(surface_contact *c, const mesh_boundary *boundary, const unsigned char *broken,
+                                 const double *x)
+{
+    contact_surface next;
+    TRY(contact_surface_break(&next, &c->surface, boundary, broken, x));
+    c->before = c->surface;
+    c->left_out_before = c->n_left_out;
+    take_surface(c, &next);
     return pair_list_count_left_out(&c->candidates, &c->n_left_out);
+}
+
+void surface_contact_keep(surface_contact *c)
+{
+    contact_surface_free_outline(&c->before);
+    c->before = (contact_surface){0};
+}
+
+void surface_contact_mend(surface_contact *c)
+{
+    if (c->before.lattice == NULL) return;
+    const contact_surface before = c->before;
+    contact_surface_free_outline(&c->surface);
+    c->before = (contact_surface){0};
+    c->n_left_out = c->left_out_before;
+    take_surface(c, &before);
 }
 
 /* As long as the close pairs hold, the candidates hold for what is near in a step, too: they are made anew while they
@@ -313,7 +341,7 @@ surface_gaps surface_contact_gaps(const surface_contact *c, const double *x)
     contact_push push;
     for (dem_index k = 0; k < c->rows->n; k++) {
         const contact_pair *p = &c->rows->list[k];
-        if (!contact_pair_push(p, x, &push)) continue;
+        if (p->fills || !contact_pair_push(p, x, &push)) continue;
         const double gap = contact_pair_gap(p, x);
         out.pushing++;
         out.least = fmin(out.least, gap);
@@ -339,7 +367,7 @@ static double unit_stiffening(surface_contact *c, const double *inverse_mass)
     static const double terms[CONTACT_PAIR_PUSHED] = {2.0, 2.0, 1.0};
     for (dem_index k = 0; k < c->close.n; k++) {
         const contact_pair *p = &c->close.list[k];
-        for (int which = 0; which < CONTACT_PAIR_PUSHED; which++)
+        for (int which = 0; which < CONTACT_PAIR_PUSHED && !p->fills; which++)
             add_force(c, p->nodes[which], (vec2){terms[which] * 2.0 * p->weight / p->thickness, 0.0});
     }
     return largest_over_mass(c, inverse_mass);
@@ -350,6 +378,13 @@ static void add_stiffness(surface_contact *c, const contact_pair *p, const doubl
     double added[CONTACT_PAIR_PUSHED];
     if (!contact_pair_stiffness(p, x, added)) return;
     for (int which = 0; which < CONTACT_PAIR_PUSHED; which++) add_force(c, p->nodes[which], (vec2){added[which], 0.0});
+}
+
+/* What fills cracks is as stiff however near it is. */
+static void add_fillings(surface_contact *c, const double *x)
+{
+    for (dem_index k = 0; k < c->close.n; k++)
+        if (c->close.list[k].fills) add_stiffness(c, &c->close.list[k], x);
 }
 
 /* What anchors add at a node. */
@@ -387,6 +422,7 @@ double surface_contact_stiffening(surface_contact *c, const double *inverse_mass
     c->rows = &c->candidates.pairs;
     if (c->n_chosen != c->close.n_chosen) c->unit = unit_stiffening(c, inverse_mass);
     c->n_chosen = c->close.n_chosen;
+    add_fillings(c, x);
     anchor_set_add_stiffness(&c->anchors, add_anchor, c);
     const double left = harmless - largest_over_mass(c, inverse_mass);
     const double part = sqrt(c->unit / (c->unit + fmax(left, 0.0)));

@@ -23,6 +23,8 @@ typedef struct surface_contact_rule {
 
 typedef struct surface_contact {
     contact_surface surface;
+    contact_surface before; /* the last break, until surface_contact_keep() */
+    dem_index left_out_before;
     pair_list candidates;
     anchor_set anchors;     /* of friction */
     close_pairs close;      /* those that whole states are evaluated with */
@@ -66,8 +68,11 @@ void surface_contact_forget(surface_contact *c);
 
 /** Goes on with the surface of the triangles within a boundary, as contact_surface_break() makes it. The lists are
  *  empty until surface_contact_follow(), and anchors of what has no surface any more go with
- *  surface_contact_settle(). */
-dem_status surface_contact_break(surface_contact *c, const mesh_boundary *boundary);
+ *  surface_contact_settle(). Then it is kept, or, also after a failure, taken back; the lists are empty again then. */
+dem_status surface_contact_break(surface_contact *c, const mesh_boundary *boundary, const unsigned char *broken,
+                                 const double *x);
+void surface_contact_keep(surface_contact *c);
+void surface_contact_mend(surface_contact *c);
 
 /** Makes the lists fit the positions x [n][2] of a state; all candidates count from now on.
  *  \return what pair_list_follow() returns */
@@ -108,7 +113,7 @@ dem_status surface_contact_restore(surface_contact *c, const anchor_record *reco
 double surface_contact_energy(const surface_contact *c, const double *x);
 double surface_contact_node_energy(const surface_contact *c, dem_index i, const double *x);
 
-/** The pairs that push each other at positions x. */
+/** The pairs that push each other at positions x, but for what fills cracks. */
 typedef struct surface_gaps {
     dem_index pushing;
     double least, least_share; /* m, and over the thickness; infinite if none pushes */

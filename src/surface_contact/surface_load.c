@@ -71,7 +71,7 @@ dem_status surface_load_list(surface_load *l, const surface_contact *c, const do
     l->n = 0;
     for (dem_index k = 0; k < c->rows->n; k++) {
         const contact_pair *p = &c->rows->list[k];
-        if (!contact_pair_push(p, x, &push)) continue;
+        if (p->fills || !contact_pair_push(p, x, &push)) continue;
         CHECK(grow_array((void **)&l->pairs, &l->capacity, l->n + 1, sizeof *l->pairs), DEM_ERROR_MEMORY,
               "out of memory for %lld contact pairs", (long long)l->n + 1);
         const anchor *a = anchor_set_of_pair(&c->anchors, p);

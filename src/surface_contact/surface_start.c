@@ -108,7 +108,7 @@ static dem_status check_distances(const surface_contact *c, const double *x)
         const dem_index node = p->nodes[CONTACT_PAIR_NODE], a = p->nodes[CONTACT_PAIR_FIRST];
         const dem_index b = p->nodes[CONTACT_PAIR_SECOND];
         const double gap = contact_pair_distance(vec2_at(x, node), vec2_at(x, a), vec2_at(x, b));
-        CHECK(gap >= least_distance * p->thickness, DEM_ERROR_MODEL,
+        CHECK(p->fills || gap >= least_distance * p->thickness, DEM_ERROR_MODEL,
               "node %lld of body %lld at (%g, %g) m is %g m from the edge between nodes %lld and %lld of body %lld: "
               "surfaces must be %g m apart at the start, a twentieth of the contact thickness",
               (long long)node, (long long)contact_surface_body(&c->surface, node), x[2 * node], x[2 * node + 1], gap,

@@ -186,8 +186,13 @@ class Cuts(Case):
         self.assertGreater(self.result("whole")["broken_triangles"], 10)
         self.assertRegex(log, r"\nfragments  [1-9]\d*; the largest has 0?\.?\d+ of the mass, single nodes ")
         self.assertGreater(self.result("whole")["energy"]["fracture"], 10.0)
-        self.assertLess(abs(self.result("whole")["closure"]), 1e-6)
-        self.expect_breaks()
+        # The error of the integrator: 1.1e-6 at its rtol of 1e-6, 3.8e-9 at 1e-10, where one of the ledger would stay.
+        self.assertLess(abs(self.result("whole")["closure"]), 2e-6)
+        self.call(0, "--set", "solver.rtol=1e-10", outdir="fine")
+        self.assertLess(abs(self.result("fine")["closure"]), 1e-8)
+        self.expect_breaks("whole", 0.05)
+        self.call(0, "--set", "contact.bodies='others'", outdir="alone")
+        self.expect_breaks("alone", 0.0)
         self.assertGreater(self.go_on("cut", *AT_ONCE), 10)
         self.expect_same("cut")
         self.call(0, "--set", "solver.kernel='portable'", "--set", "solver.threads=2", outdir="other")
@@ -210,18 +215,20 @@ class Cuts(Case):
         other, whole = lasting(self.result("other")), lasting(self.result("whole"))
         self.assertEqual({key for key in other if other[key] != whole[key]}, {"run"}, "which has kernel and threads")
 
-    def expect_breaks(self):
-        """The table has each triangle that is broken at the end, once, in the order of time, and all of the energy."""
+    def expect_breaks(self, run, pushed):
+        """The table has each triangle that is broken at the end, once, in the order of time, and all of the energy but
+        what was taken with faces that pushed each other, this share at most: where a body touches itself."""
         if compare is None:
             return
-        with h5py.File(self.folder / "whole" / "a.vtkhdf", "r") as file:
+        with h5py.File(self.folder / run / "a.vtkhdf", "r") as file:
             table, triangles = file["breaks"], sorted(file["breaks/triangle"][...])
             last = file["fracture/triangles"][-len(file["lattice/triangles"]):]
             self.assertEqual(triangles, [k for k, broken in enumerate(last) if broken])
             self.assertTrue(all(table["t"][1:] >= table["t"][:-1]))
             taken = file["history/fracture"][-1]
-            self.assertAlmostEqual(sum(table["energy"]), taken, delta=1e-12 * taken)
-            result, frames = self.result("whole"), file["fragments/frame_offset"]
+            self.assertLessEqual(sum(table["energy"]), taken * (1.0 + 1e-12))
+            self.assertGreaterEqual(sum(table["energy"]), taken * (1.0 - pushed - 1e-12))
+            result, frames = self.result(run), file["fragments/frame_offset"]
             self.assertEqual(result["breaks"], len(triangles))
             first = result["first_break"]
             self.assertEqual([first["t"], first["x"]], [table["t"][0], list(table["x"][0])])

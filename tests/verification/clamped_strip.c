@@ -89,10 +89,10 @@ void clamped_strip_hold(const clamped_strip *s, double speed, dem_boundary *pull
                                          .n_nodes = s->n_sides[side], .value = {0.0, (side ? 0.5 : -0.5) * speed});
 }
 
-static bool is_crossed(const dem_lattice *l, dem_index triangle, double y)
+bool clamped_strip_crosses(const clamped_strip *s, const dem_lattice *l, dem_index triangle)
 {
     int above = 0;
-    for (int c = 0; c < 3; c++) above += l->x[2 * l->triangles[3 * triangle + c] + 1] > y;
+    for (int c = 0; c < 3; c++) above += l->x[2 * l->triangles[3 * triangle + c] + 1] > s->middle;
     return above == 1 || above == 2;
 }
 
@@ -102,7 +102,8 @@ dem_index clamped_strip_cut(const clamped_strip *s, dem_simulation *simulation, 
     dem_index *list = calloc((size_t)l->n_triangles, sizeof *list), n = 0;
     assert_non_null(list);
     for (dem_index t = 0; t < l->n_triangles; t++)
-        if (is_crossed(l, t, s->middle) && clamped_strip_centre(l, t, 0) > from && clamped_strip_centre(l, t, 0) < to)
+        if (clamped_strip_crosses(s, l, t) && clamped_strip_centre(l, t, 0) > from &&
+            clamped_strip_centre(l, t, 0) < to)
             list[n++] = t;
     assert_ok(dem_simulation_break(simulation, list, n, NULL, 0));
     free(list);

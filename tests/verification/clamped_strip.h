@@ -42,6 +42,9 @@ void clamped_strip_hold(const clamped_strip *s, double speed, dem_boundary *pull
 /** The centre of a triangle, m. */
 double clamped_strip_centre(const dem_lattice *l, dem_index triangle, int axis);
 
+/** Whether the middle line crosses a triangle. */
+bool clamped_strip_crosses(const clamped_strip *s, const dem_lattice *l, dem_index triangle);
+
 /** Breaks the triangles that the middle line crosses between x = from and to.  \return how many they are */
 dem_index clamped_strip_cut(const clamped_strip *s, dem_simulation *simulation, const dem_lattice *l, double from,
                             double to);

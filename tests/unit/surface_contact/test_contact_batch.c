@@ -14,7 +14,7 @@ enum { MOST = 3 * CONTACT_BATCH_MOST + 9, NODES = CONTACT_PAIR_NODES * MOST };
 static void make(gsl_rng *rng, contact_pair *list, double *x)
 {
     for (dem_index k = 0; k < MOST; k++) {
-        list[k] = (contact_pair){.thickness = 0.5 + gsl_rng_uniform(rng), .weight = 1.0};
+        list[k] = (contact_pair){.thickness = 0.5 + gsl_rng_uniform(rng), .weight = 1.0, .fills = k % 5 == 4};
         for (dem_index which = 0; which < CONTACT_PAIR_NODES; which++)
             list[k].nodes[which] = CONTACT_PAIR_NODES * k + which;
     }
@@ -42,14 +42,17 @@ static void check_push(const contact_batch *b, int k, const double *x)
     assert_true(contact_batch_push(b, k, x, &push) == any);
     assert_true(push.pair == &b->list[b->which[k]] && push.share == expected.share);
     assert_true(are_equal(push.by_edge, expected.by_edge) && are_equal(push.by_vertex, expected.by_vertex));
+    assert_true(are_equal(push.by_second, expected.by_second));
 }
 
-/* Far from the ends the edge does all. An edge that pushes is as near as its gap, but for rounding. */
+/* Far from the ends the edge does all. An edge that pushes is as near as its gap, but for rounding; what fills a crack
+ * counts as far. */
 static void check_edge(const contact_batch *b, int k, const double *x)
 {
     const contact_pair *p = &b->list[b->which[k]];
     const double u = contact_batch_nearness(b, k);
-    if (b->by_edge[k] != 0.0) assert_true(fabs(u - contact_pair_gap(p, x) / p->thickness) < 1e-13);
+    if (p->fills) assert_true(u == 1.0);
+    if (b->by_edge[k] != 0.0 && !p->fills) assert_true(fabs(u - contact_pair_gap(p, x) / p->thickness) < 1e-13);
     if (contact_batch_is_near_end(b, k)) return;
     const contact_push push = contact_batch_edge_push(b, k);
     contact_push expected;

@@ -135,6 +135,85 @@ TEST(a_pair_keeps_momentum_and_angular_momentum)
     }
 }
 
+/* ---- what fills a crack ---- */
+
+/* A node in front of an edge, behind it and beyond its ends. */
+static void draw_filling(gsl_rng *rng, double *x)
+{
+    const vec2 a = {draw(rng, -1.0, 1.0), draw(rng, -1.0, 1.0)};
+    const vec2 t = vec2_scale(draw(rng, 0.8, 2.0), unit_at(draw(rng, -M_PI, M_PI)));
+    const vec2 normal = vec2_scale(1.0 / vec2_norm(t), (vec2){t.y, -t.x});
+    draw_nodes(rng, x);
+    vec2_put(x, CONTACT_PAIR_FIRST, a);
+    vec2_put(x, CONTACT_PAIR_SECOND, vec2_add(a, t));
+    vec2_put(x, CONTACT_PAIR_NODE, vec2_along(vec2_along(a, draw(rng, -0.1, 1.1), t), draw(rng, -0.2, 1.2), normal));
+}
+
+/* Its slope jumps nowhere: differences of fourth order are exact to 24 h/L at the ends, T'' times their step, and to h
+ * at the height where it begins to push. */
+TEST(what_fills_a_crack_pushes_by_the_gradient_of_its_energy)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    contact_pair filling = pair;
+    int n_pushing = 0;
+    filling.fills = true;
+    for (int k = 0; k < 10000; k++) {
+        double x[N], moment = 0.0;
+        contact_push push;
+        vec2 sum = {0.0, 0.0};
+        draw_filling(rng, x);
+        n_pushing += contact_pair_push(&filling, x, &push);
+        for (int c = 0; c < N; c++) {
+            const double h = 1e-6;
+            double moved[N], energy[2];
+            memcpy(moved, x, sizeof moved);
+            for (int side = 0; side < 2; side++) {
+                moved[c] = x[c] + (side ? -h : h);
+                energy[side] = contact_pair_energy(&filling, moved);
+            }
+            assert_close(component(&push, c), (energy[1] - energy[0]) / (2.0 * h), 40.0 * h);
+        }
+        for (int which = 0; which < CONTACT_PAIR_NODES; which++) {
+            sum = vec2_add(sum, contact_push_on(&push, which));
+            moment += vec2_cross(vec2_at(x, which), contact_push_on(&push, which));
+        }
+        assert_close(vec2_norm(sum), 0.0, 1e-14);
+        assert_close(moment, 0.0, 1e-13);
+    }
+    assert_true(n_pushing > 5000);
+}
+
+/* Above the middle of its edge it is a triangle of the height 1 m under pressure. Its stiffness of 1 N/m is within the
+ * bounds of it, and so are those beside the middle, by differences of the force. */
+TEST(what_fills_a_crack_is_as_stiff_as_it_was)
+{
+    contact_pair filling = pair;
+    contact_push push;
+    double added[CONTACT_PAIR_PUSHED];
+    filling.fills = true;
+    for (double gap = -0.25; gap < 1.5; gap += 0.25) {
+        const double x[N] = {0.5, -gap, 0.0, 0.0, 1.0, 0.0}, left = gap > 0.0 && gap < 1.0 ? 1.0 - gap : 0.0;
+        assert_true(contact_pair_push(&filling, x, &push) == (left > 0.0));
+        assert_close(contact_push_on(&push, CONTACT_PAIR_NODE).y, -left, 1e-15);
+        assert_close(contact_push_on(&push, CONTACT_PAIR_FIRST).y, 0.5 * left, 1e-15);
+        assert_close(contact_push_on(&push, CONTACT_PAIR_SECOND).x, 0.0, 1e-15);
+        assert_close(contact_pair_energy(&filling, x), 0.5 * left * left, 1e-15);
+        assert_true(contact_pair_stiffness(&filling, x, added) == (left > 0.0));
+    }
+    for (double s = 0.05; s < 1.0; s += 0.1)
+        for (double gap = 0.1; gap < 1.0; gap += 0.1)
+            for (int c = 0; c < 2; c++) {
+                const double x[N] = {s, -gap, 0.0, 0.0, 1.0, 0.0}, h = 1e-5;
+                contact_push after;
+                double moved[N];
+                memcpy(moved, x, sizeof moved);
+                moved[c] += h;
+                assert_true(contact_pair_push(&filling, x, &push) && contact_pair_stiffness(&filling, x, added));
+                (void)contact_pair_push(&filling, moved, &after);
+                assert_true(fabs(component(&after, c) - component(&push, c)) / h < added[CONTACT_PAIR_NODE]);
+            }
+}
+
 static vec2 turned_by(vec2 turn, vec2 a)
 {
     return (vec2){turn.x * a.x - turn.y * a.y, turn.y * a.x + turn.x * a.y};

@@ -39,7 +39,8 @@ static void break_contact(scene *s, const unsigned char *broken)
 {
     CLEANUP(mesh_boundary_free) mesh_boundary boundary;
     assert_ok(mesh_boundary_create(&boundary, &s->lattice, broken));
-    assert_ok(surface_contact_break(s->contact, &boundary));
+    assert_ok(surface_contact_break(s->contact, &boundary, NULL, NULL));
+    surface_contact_keep(s->contact);
 }
 
 /* Breaks one triangle of a star that has others. */

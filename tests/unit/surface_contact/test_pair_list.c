@@ -182,3 +182,157 @@ TEST(pairs_near_at_rest_are_counted_and_left_out)
         contact_surface_free(&of);
     }
 }
+
+/* ---- what fills cracks ---- */
+
+/* A block across which a row of triangles breaks: each has one side left, that of a face. */
+typedef struct crack {
+    dem_lattice block;
+    unsigned char *broken;
+    dem_index n_broken;
+    mesh_boundary boundary;
+    contact_surface whole, faces; /* `faces` as of open_crack() */
+} crack;
+
+static const double row_height = 0.0025 * 1.7320508075688772; /* m */
+
+static void break_row(crack *c)
+{
+    const dem_lattice *l = &c->block;
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        int n_above = 0;
+        for (int k = 0; k < 3; k++) n_above += l->x[2 * l->triangles[3 * t + k] + 1] > 0.024;
+        c->broken[t] = n_above == 1 || n_above == 2;
+        c->n_broken += c->broken[t];
+    }
+}
+
+static double *stretched(const dem_lattice *l, double stretch)
+{
+    double *x = calloc((size_t)l->n_nodes, 2 * sizeof *x);
+    assert_non_null(x);
+    for (dem_index k = 0; k < 2 * l->n_nodes; k++) x[k] = l->x[k] * (k % 2 == 1 ? 1.0 + stretch : 1.0);
+    return x;
+}
+
+/* As the row breaks while the block is longer by this part in its direction; 0: at rest.  \param strengths  Pa */
+static void open_crack(crack *c, double stretch, const double strengths[2])
+{
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.2, .density = 1050.0,
+                                      .thickness = 1.0, .strength = strengths[0], .compressive_strength = strengths[1]);
+    *c = (crack){.block = support_rectangle(0.05, 0.052, 0.005, &rubber)};
+    CLEANUP(free_memory) double *x = stretched(&c->block, stretch);
+    c->broken = calloc((size_t)c->block.n_triangles, 1);
+    c->block.body = calloc((size_t)c->block.n_nodes, sizeof *c->block.body);
+    c->block.flags = calloc((size_t)c->block.n_nodes, sizeof *c->block.flags);
+    assert_true(c->broken != NULL && c->block.body != NULL && c->block.flags != NULL);
+    break_row(c);
+    assert_ok(mesh_boundary_create(&c->boundary, &c->block, c->broken));
+    assert_ok(contact_surface_compile(&c->whole, &c->block, 0.0, 1.0));
+    assert_ok(contact_surface_break(&c->faces, &c->whole, &c->boundary, c->broken, x));
+}
+
+static void close_crack(crack *c)
+{
+    contact_surface_free_outline(&c->faces);
+    contact_surface_free(&c->whole);
+    mesh_boundary_free(&c->boundary);
+    dem_lattice_free(&c->block);
+    free(c->broken);
+}
+
+static const double no_strength[2] = {0.0, 0.0};
+
+TEST(broken_triangles_fill_the_cracks_of_bodies_that_touch_themselves)
+{
+    for (int within = 0; within < 2; within++) {
+        CLEANUP(close_crack) crack c;
+        CLEANUP(pair_list_destroy) pair_list list;
+        dem_index n = 0;
+        open_crack(&c, 0.0, no_strength);
+        assert_ok(pair_list_create(&list, &c.faces, within, 1e-3));
+        assert_ok(pair_list_follow(&list, c.block.x, 0.0));
+        for (dem_index k = 0; k < list.pairs.n; k++) {
+            const contact_pair *p = &list.pairs.list[k];
+            assert_true(k == 0 || p->fills || !list.pairs.list[k - 1].fills); /* behind all others */
+            if (!p->fills) continue;
+            n++;
+            assert_close(p->thickness, row_height, 1e-15);
+            assert_close(p->weight, 0.0025 * c.faces.laws[0].modulus, 1e-9 * p->weight);
+            assert_close(contact_pair_gap(p, c.block.x), p->thickness, 1e-15);
+        }
+        assert_int_equal(n, within ? c.n_broken : 0);
+    }
+}
+
+/* The energy of n pairs of this stiffness that push by so much, J; the middle of its edge is below each corner. */
+static void check_fillings(const crack *c, const pair_list *list, const double *x, double height)
+{
+    const double stiffness = 0.0025 * c->faces.laws[0].modulus / row_height;
+    dem_index n = 0;
+    for (dem_index k = 0; k < list->pairs.n; k++) {
+        const contact_pair *p = &list->pairs.list[k];
+        if (!p->fills) continue;
+        const double pushed = fmax(height - row_height * (1.0 - 0.02), 0.0), energy = 0.5 * stiffness * pushed * pushed;
+        assert_close(p->thickness, height, 1e-15);
+        assert_close(contact_pair_energy(p, x), energy, 1e-9 * stiffness * 1e-8);
+        n++;
+    }
+    assert_int_equal(n, c->n_broken);
+}
+
+/* A row that is stretched as it breaks pushes from its height on, one that is shorter by 1 % from there on, both as
+ * stiff. Nothing changes when more breaks. */
+TEST(what_is_squeezed_when_it_breaks_fills_the_room_that_it_had)
+{
+    for (int k = -1; k < 2; k++) {
+        CLEANUP(close_crack) crack c;
+        CLEANUP(contact_surface_free_outline) contact_surface later;
+        CLEANUP(pair_list_destroy) pair_list list;
+        open_crack(&c, 0.01 * k, no_strength);
+        assert_ok(contact_surface_break(&later, &c.faces, &c.boundary, c.broken, c.block.x));
+        assert_ok(pair_list_create(&list, &later, true, 1e-3));
+        CLEANUP(free_memory) double *x = stretched(&c.block, -0.02);
+        assert_ok(pair_list_follow(&list, x, 0.0));
+        check_fillings(&c, &list, x, row_height * (1.0 + 0.01 * fmin(k, 0)));
+    }
+}
+
+/* What has been squeezed is listed, and taken from a list; impossible ones are refused. */
+TEST(what_is_squeezed_can_be_had_again)
+{
+    CLEANUP(close_crack) crack c;
+    CLEANUP(contact_surface_free_outline) contact_surface other;
+    CLEANUP(free_memory) squeezed_filling *list = NULL;
+    open_crack(&c, -0.01, no_strength);
+    assert_ok(contact_surface_break(&other, &c.whole, &c.boundary, c.broken, NULL));
+    assert_int_equal(contact_surface_squeezed(&other, NULL), 0);
+    assert_int_equal(contact_surface_squeezed(&c.faces, NULL), c.n_broken);
+    list = calloc((size_t)c.n_broken, sizeof *list);
+    assert_non_null(list);
+    (void)contact_surface_squeezed(&c.faces, list);
+    assert_ok(contact_surface_squeeze(&other, list, c.n_broken));
+    assert_memory_equal(other.filled, c.faces.filled, (size_t)c.faces.surface.n_edges * sizeof *other.filled);
+    assert_ok(contact_surface_squeeze(&other, NULL, 0));
+    assert_int_equal(contact_surface_squeezed(&other, NULL), 0);
+    const squeezed_filling wrong[] = {{list->first, list->second, 2.0 * row_height},
+                                      {list->first, list->second, -row_height},
+                                      {list->first, list->second, (double)NAN},
+                                      {list->second, list->first, row_height},
+                                      {-1, list->second, row_height},
+                                      {list->first, c.block.n_nodes, row_height}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
+        assert_int_equal(contact_surface_squeeze(&other, &wrong[k], 1), DEM_ERROR_IO);
+        assert_message_parts("checkpoint * filling * nodes");
+    }
+}
+
+/* Of a triangle that may be crushed nothing is left. */
+TEST(triangles_with_a_compressive_strength_fill_nothing)
+{
+    static const double strengths[2] = {1e5, 1e6};
+    CLEANUP(close_crack) crack c;
+    open_crack(&c, 0.0, strengths);
+    assert_true(c.n_broken > 10);
+    for (dem_index e = 0; e < c.faces.surface.n_edges; e++) assert_close(c.faces.filled[e], 0.0, 0.0);
+}
