@@ -268,23 +268,25 @@ static void of_own_stress(void **state)
 }
 
 /* Of squares toughness depends on direction, on Poisson's ratio and, where sides are at 45 degrees, on the square at
- * which a crack begins: the lines in the middle of what was found are off by 12 % at most. */
+ * which a crack begins: the lines in the middle of what was found are off by 12 % at most.
+ * Found: 0.961 of what was asked for. */
 TEST(a_crack_through_squares_takes_about_the_fracture_energy)
 {
-    const band_case list[] = {{1.0, of_squares(3.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, third}};
+    const band_case list[] = {{1.0, of_squares(3.0), false, {0.0, 0.0, true}, 1.5, 0.05, SQUARES, third}};
     check(list, sizeof list / sizeof *list);
 }
 
+/* Found: 0.945, 1.059, 0.970, 0.893, 0.885, 0.949, 0.898, 0.980, 0.905. */
 static void of_squares_in_two_directions(void **state)
 {
-    const band_case list[] = {{1.0, of_squares(1.0), true, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
-                              {1.0, of_squares(1.0), true, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
-                              {1.0, of_squares(2.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
+    const band_case list[] = {{1.0, of_squares(1.0), true, {0.0, 0.0, true}, 1.5, 0.07, SQUARES, third},
+                              {1.0, of_squares(1.0), true, {45.0, 0.0, true}, 1.5, 0.07, SQUARES, third},
+                              {1.0, of_squares(2.0), false, {0.0, 0.0, true}, 1.5, 0.05, SQUARES, third},
                               {1.0, of_squares(2.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
                               {1.0, of_squares(3.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
-                              {1.0, of_squares(3.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, 0.2},
+                              {1.0, of_squares(3.0), false, {45.0, 0.0, true}, 1.5, 0.07, SQUARES, 0.2},
                               {1.0, of_squares(3.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, 0.45},
-                              {1.0, of_squares(6.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(6.0), false, {0.0, 0.0, true}, 1.5, 0.05, SQUARES, third},
                               {1.0, of_squares(6.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
