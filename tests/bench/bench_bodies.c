@@ -119,7 +119,7 @@ static dem_model *make_blocks(dem_index nodes, double gap)
     return model;
 }
 
-static void run(const dem_model *model, const dem_options *options, double steps)
+static void run(const dem_model *model, const dem_options *options, double steps, bool is_last)
 {
     dem_simulation *simulation;
     ask(dem_simulation_create(&simulation, model, options));
@@ -127,9 +127,10 @@ static void run(const dem_model *model, const dem_options *options, double steps
     ask(dem_simulation_advance(simulation, steps * ask_options(simulation).max_step));
     const dem_counts counts = ask_counts(simulation);
     const surface_contact *c = simulation->surfaces;
-    (void)printf("%lld nodes, %lld edges, %lld steps, %lld evaluations, %lld searches, %lld pairs",
-                 (long long)model->lattice.n_nodes, (long long)c->surface.surface.n_edges, (long long)counts.steps,
-                 (long long)counts.evaluations, (long long)c->candidates.n_made, (long long)c->close.n);
+    if (is_last)
+        (void)printf("%lld nodes, %lld edges, %lld steps, %lld evaluations, %lld searches, %lld pairs",
+                     (long long)model->lattice.n_nodes, (long long)c->surface.surface.n_edges, (long long)counts.steps,
+                     (long long)counts.evaluations, (long long)c->candidates.n_made, (long long)c->close.n);
     dem_simulation_destroy(simulation);
 }
 
@@ -142,7 +143,8 @@ int main(int argc, char **argv)
     options.gravity[1] = 0.0;
     options.bodies = DEM_BODIES_ALL;
     ask(dem_method_find(&options.method, argv[4]));
-    for (int turn = 0; turn < atoi(argv[5]); turn++) run(model, &options, atof(argv[3]));
+    const int n_turns = atoi(argv[5]);
+    for (int turn = 1; turn <= n_turns; turn++) run(model, &options, atof(argv[3]), turn == n_turns);
     const double clock = time_clock();
     double whole = sum_of(STEPS), sum = 0.0, spent[STEPS];
     for (int k = 0; k < STEPS; k++) {
