@@ -35,8 +35,7 @@ static dem_status allocate(dem_simulation *s)
     return DEM_OK;
 }
 
-/* Changes of one candidate in a step beyond which it is taken again, shorter. Of 450 random decks none had more than 11
- * within 1/omega_max but for one, which had 10,000 of them, each as near to the one before as events are located. */
+/* Changes of one candidate in a step beyond which it is taken again, shorter (docs/algorithms.md, Refused states). */
 enum { most_changes_in_step = 50 };
 
 /* What contacts need of the options. A storm is more than max_impacts changes of one candidate within 1/omega_max, the

@@ -8,9 +8,10 @@
  *              or of one inside a concave vertex, z x t < 0, where a node of the same body may come if it is crushed;
  *              at the free end of a wall, z = -t, once beyond it, r.t < 0;
  *   an end beyond which the surface does not touch the node: taken off beside and in front of the edge alone.
- * A pair that fills a crack pushes while the node is nearer than the height h at rest, as the broken triangle would
- * under pressure: W = weight h (1 - g/h)^2/2 T(s). T is 1 in the middle of the edge and falls to 0 with its slope at
- * both ends: T = q^2 (3 - 2 q), q = 4 s (1 - s), so that no force jumps where the faces slide along each other.
+ * A pair that fills a crack pushes while the node is nearer than the room r, the distance of the two when the triangle
+ * broke, at most its height at rest: W = weight r (1 - g/r)^2/2 T(s). T is 1 in the middle of the edge and falls to 0
+ * with its slope at both ends: T = q^2 (3 - 2 q), q = 4 s (1 - s), so that no force jumps where the faces slide along
+ * each other.
  * s < 1 is computed as (p - B).t < 0, so that two edges and their vertex compare the same numbers: no node falls
  * between them by rounding. For the same reason a vertex that is straight but for rounding counts as convex for a node
  * in front of both edges. What is behind an edge is not pushed, so a body that is squeezed does not push itself from
@@ -90,7 +91,7 @@ static bool find_place(const contact_pair *p, const double *x, pair_place *out)
 /* ---- what fills a crack ---- */
 
 typedef struct filling_place {
-    double share, left;  /* s, 1 - g/h */
+    double share, left;  /* s, 1 - g/r */
     double taper, slope; /* T and dT/ds */
     double gap, length;  /* m, g and |t| */
 } filling_place;

@@ -31,8 +31,8 @@ typedef struct contact_pair {
     double thickness; /* m, contact thickness of the two bodies */
     double weight;    /* N, half the node's length of surface times the contact modulus of the two bodies */
     bool ends_at_first, ends_at_second; /* whether the edge beyond that end never touches the node */
-    bool fills; /* it is what a broken triangle leaves between its corner and the edge opposite; `thickness` is its
-                   height at rest then */
+    bool fills; /* it is what a broken triangle leaves between its corner and the edge opposite; `thickness` is
+                   then how far these were apart when it broke, at most its height at rest */
 } contact_pair;
 
 /** The forces of a pair, N. */
