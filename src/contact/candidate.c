@@ -91,11 +91,17 @@ vec2 contact_gap_velocity_moving(const contact_scene *scene, const contact_candi
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot)
 {
-    if (candidate->n_closed == 2 || candidate->clearance.inactive) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
-    const double left = candidate->clearance.distance > 0.0
-                            ? candidate->clearance.distance - candidate_moved(scene, candidate, spot)
-                            : 0.0;
+    const bool bounded =
+        candidate->n_closed < 2 && !candidate->clearance.inactive && candidate->clearance.distance > 0.0;
+    const double left = bounded ? candidate->clearance.distance - candidate_moved(scene, candidate, spot) : 0.0;
     if (left > 0.0) return (contact_gap){left, -1, 0.0, {0.0, 0.0}};
+    return candidate_exact_gap(scene, candidate, spot);
+}
+
+contact_gap candidate_exact_gap(const contact_scene *scene, const contact_candidate *candidate,
+                                const candidate_positions *spot)
+{
+    if (candidate->n_closed == 2 || candidate->clearance.inactive) return (contact_gap){INFINITY, -1, 0.0, {0.0, 0.0}};
     return candidate_is_edge(candidate) ? edge_gap(scene, candidate, spot)
                                         : node_gap(scene, candidate, (surface_query){spot->t, spot->a});
 }

@@ -36,6 +36,10 @@ double candidate_moved(const contact_scene *scene, const contact_candidate *cand
 contact_gap candidate_gap(const contact_scene *scene, const contact_candidate *candidate,
                           const candidate_positions *spot);
 
+/** The same without the bound, whatever the clearance: what has a slope that shows a dip. */
+contact_gap candidate_exact_gap(const contact_scene *scene, const contact_candidate *candidate,
+                                const candidate_positions *spot);
+
 /** Root function of a gap, m: gap + penetration tolerance. It is bounded: where there is nothing to touch the gap is
  *  infinite. */
 static inline double contact_gap_guard(const contact_scene *scene, const contact_gap *gap)

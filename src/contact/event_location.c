@@ -24,10 +24,8 @@ typedef struct sample {
  * would be resolved: in a body folded over itself it may lie behind an edge's line, in another part of the body. */
 static sample sample_at(const contact_scene *scene, const contact_candidate *candidate, const dense_output *p, double t)
 {
-    contact_candidate exact = *candidate;
-    exact.clearance.distance = 0.0;
     sample s = {.spot = candidate_place_at(candidate, p, t)};
-    s.gap = candidate_gap(scene, &exact, &s.spot);
+    s.gap = candidate_exact_gap(scene, candidate, &s.spot);
     s.guard = contact_gap_guard(scene, &s.gap);
     if (s.guard <= 0.0 && candidate_is_edge(candidate)) {
         const contact_gap bound = candidate_gap(scene, candidate, &s.spot);
