@@ -344,13 +344,15 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
  * and a drift leaves them as they are. */
 static double push_surfaces(const kernel *k, const forces *f, const kernel_state *y)
 {
-    surface_contact *c = f->surfaces;
+    const compact_pairs *c = &f->surfaces->compact;
     double sum = 0.0;
-    if (!surface_contact_evaluate(c, y->x)) return (double)NAN;
-    for (dem_index j = 0; j < c->n_pushed; j++) {
-        const dem_index i = c->pushed[j];
+    if (!surface_contact_evaluate(f->surfaces, y->x)) return (double)NAN;
+    for (dem_index j = 0; j < c->n_nodes; j++) {
+        const dem_index i = c->nodes[j];
+        const vec2 force = vec2_at(c->force, j);
+        if (!surface_contact_acts(force)) continue;
         drift_again(k, y, i);
-        sum += put_row(k, y, i, forces_with(f, i, vec2_at(y->a, i), vec2_at(c->force, i)));
+        sum += put_row(k, y, i, forces_with(f, i, vec2_at(y->a, i), force));
     }
     return sum;
 }

@@ -77,7 +77,7 @@ typedef struct pair_place {
 
 static bool find_place(const contact_pair *p, const double *x, pair_place *out)
 {
-    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    const edge_terms e = contact_pair_terms(p, x);
     *out = (pair_place){.count = e.near_first ? vertex_count(p, x) : 0.0};
     if (e.by_edge) {
         out->u_edge = e.front / sqrt(e.square) / p->thickness;
@@ -111,7 +111,7 @@ static filling_place place_filling(const contact_pair *p, const edge_terms *e)
  * ds/dt = (g n - s t)/t.t on the second end. */
 static bool push_filling(const contact_pair *p, const double *x, contact_push *out)
 {
-    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    const edge_terms e = contact_pair_terms(p, x);
     *out = (contact_push){.pair = p};
     if (!e.by_edge) return false;
     const filling_place at = place_filling(p, &e);
@@ -127,7 +127,7 @@ static bool push_filling(const contact_pair *p, const double *x, contact_push *o
 
 static double filling_energy(const contact_pair *p, const double *x)
 {
-    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    const edge_terms e = contact_pair_terms(p, x);
     if (!e.by_edge) return 0.0;
     const filling_place at = place_filling(p, &e);
     return 0.5 * p->weight * p->thickness * at.left * at.left * at.taper;
@@ -136,7 +136,7 @@ static double filling_energy(const contact_pair *p, const double *x)
 /* With T' of 3.5 and T'' of 24 at most; W is no larger than along the normal alone where the faces have not slid. */
 static bool stiffen_filling(const contact_pair *p, const double *x, double added[CONTACT_PAIR_PUSHED])
 {
-    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    const edge_terms e = contact_pair_terms(p, x);
     if (!e.by_edge) return false;
     const filling_place at = place_filling(p, &e);
     const double slid = at.left * p->thickness / at.length;
@@ -168,7 +168,7 @@ bool contact_pair_push_ends(const contact_pair *p, bool near_first, const double
 bool contact_pair_push(const contact_pair *p, const double *x, contact_push *out)
 {
     if (p->fills) return push_filling(p, x, out);
-    const edge_terms e = contact_pair_terms(p, 1.0, x);
+    const edge_terms e = contact_pair_terms(p, x);
     *out = (contact_push){.pair = p};
     if (e.by_edge) {
         const edge_push push = contact_pair_edge(e, p->thickness);

@@ -60,13 +60,12 @@ typedef struct edge_terms {
     bool near_first;                     /* the node is so near to the first end that it might */
 } edge_terms;
 
-/** Without a root or a division, for a part of the contact thickness, up to 1. */
-static inline edge_terms contact_pair_terms(const contact_pair *p, double part, const double *x)
+/** Without a root or a division, of node and edge AB at these places, for a part of the contact thickness up to 1. */
+static inline edge_terms contact_pair_terms_at(vec2 node, vec2 a, vec2 b, double part, double thickness)
 {
-    const vec2 node = vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), a = vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]);
-    const vec2 b = vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]), r = vec2_sub(node, a), t = vec2_sub(b, a);
+    const vec2 r = vec2_sub(node, a), t = vec2_sub(b, a);
     const double along = vec2_dot(r, t), front = vec2_cross(r, t), square = vec2_dot(t, t), radius = vec2_dot(r, r);
-    const double limit = part * part * p->thickness * p->thickness;
+    const double limit = part * part * thickness * thickness;
     const bool beside = along >= 0.0 && vec2_dot(vec2_sub(node, b), t) < 0.0;
     return (edge_terms){.t = t,
                         .along = along,
@@ -75,6 +74,13 @@ static inline edge_terms contact_pair_terms(const contact_pair *p, double part, 
                         .radius = radius,
                         .by_edge = beside && front > 0.0 && front * front < limit * square,
                         .near_first = radius < limit};
+}
+
+/** Of a pair at positions x [n][2], for the whole thickness. */
+static inline edge_terms contact_pair_terms(const contact_pair *p, const double *x)
+{
+    return contact_pair_terms_at(vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]),
+                                 vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]), 1.0, p->thickness);
 }
 
 /** What an edge that pushes does. */

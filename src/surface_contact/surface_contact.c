@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Forces, energy and stiffness of all contact pairs, and what a step has to fulfil. Each pair is evaluated by itself
  * (contact_pair.c), and each node sums its pairs in the order of (node, edge), beginning with 0, and then its anchors:
- * so neither threads nor lists have a part in the bits. A node on which nothing acts is left alone. */
+ * so neither threads nor lists have a part in the bits. */
 #include "surface_contact/surface_contact.h"
 
 #include <stdlib.h>
@@ -13,16 +13,6 @@
 
 /* Over the mean edge: of the list of candidates, of close pairs, and of the pairs that are near in a step. */
 static const double usual_margin = 0.5, usual_close_margin = 0.15, near_margin = 0.05;
-
-static dem_status allocate(surface_contact *c, dem_index n)
-{
-    c->pushed = malloc((size_t)n * sizeof *c->pushed);
-    c->force = calloc(2 * (size_t)n, sizeof *c->force);
-    c->is_pushed = calloc((size_t)n, 1);
-    CHECK(c->pushed && c->force && c->is_pushed, DEM_ERROR_MEMORY, "out of memory for the contact of %lld nodes",
-          (long long)n);
-    return pair_rows_create(&c->near, n);
-}
 
 /* ---- what anchors ask of the surface ---- */
 
@@ -64,7 +54,8 @@ static dem_status set_up(surface_contact *c, const dem_lattice *lattice, const s
 {
     const double margin = rule->margin > 0.0 ? rule->margin : usual_margin;
     TRY(contact_surface_compile(&c->surface, lattice, rule->thickness, rule->stiffness));
-    TRY(allocate(c, lattice->n_nodes));
+    TRY(compact_pairs_create(&c->compact, lattice->n_nodes));
+    TRY(pair_rows_create(&c->near, lattice->n_nodes));
     c->near_margin = near_margin * c->surface.mean_length;
     TRY(pair_list_create(&c->candidates, &c->surface, rule->within_bodies, margin * c->surface.mean_length));
     c->rows = &c->candidates.pairs;
@@ -96,10 +87,8 @@ void surface_contact_destroy(surface_contact *c)
     pair_rows_destroy(&c->near);
     contact_surface_free_outline(&c->before);
     contact_surface_free(&c->surface);
+    compact_pairs_destroy(&c->compact);
     free(c->is_near);
-    free(c->pushed);
-    free(c->force);
-    free(c->is_pushed);
     free(c);
 }
 
@@ -117,6 +106,7 @@ static void take_surface(surface_contact *c, const contact_surface *next)
     c->surface = *next;
     pair_list_clear(&c->candidates);
     close_pairs_clear(&c->close);
+    compact_pairs_clear(&c->compact);
     pair_rows_clear(&c->near);
     c->rows = &c->candidates.pairs;
     c->is_evaluated = false;
@@ -157,7 +147,8 @@ static dem_status renew_lists(surface_contact *c, const double *x)
     const double close = fmin(usual_close_margin * c->surface.mean_length, most);
     c->close.chosen = false;
     TRY(pair_list_follow(&c->candidates, x, fmin((close + c->near_margin) / margin, 1.0)));
-    return close_pairs_choose(&c->close, close, x);
+    TRY(close_pairs_choose(&c->close, close, x));
+    return compact_pairs_take(&c->compact, c->close.list, c->close.n);
 }
 
 /* One list that has found no memory must not be forgotten when the next one finds some. */
@@ -176,55 +167,58 @@ dem_status surface_contact_follow(surface_contact *c, const double *x)
 
 /* ---- forces ---- */
 
-static void forget_forces(surface_contact *c)
+static inline void add_at(double *at, vec2 force)
 {
-    for (dem_index k = 0; k < c->n_pushed; k++) {
-        vec2_put(c->force, c->pushed[k], (vec2){0.0, 0.0});
-        c->is_pushed[c->pushed[k]] = 0;
-    }
-    c->n_pushed = 0;
+    vec2_put(at, 0, vec2_add(vec2_at(at, 0), force));
 }
 
 static void add_force(surface_contact *c, dem_index node, vec2 force)
 {
-    if (!c->is_pushed[node]) {
-        c->pushed[c->n_pushed++] = node;
-        c->is_pushed[node] = 1;
-    }
-    vec2_put(c->force, node, vec2_add(vec2_at(c->force, node), force));
+    add_at(c->compact.force + compact_pairs_row(&c->compact, node), force);
 }
 
-static inline void add_push(surface_contact *c, const contact_push *push, const double *x)
+static void add_push(surface_contact *c, const contact_push *push, const double *x)
 {
-    const dem_index *nodes = push->pair->nodes;
-    add_force(c, nodes[CONTACT_PAIR_NODE], contact_push_on(push, CONTACT_PAIR_NODE));
-    add_force(c, nodes[CONTACT_PAIR_FIRST], contact_push_on(push, CONTACT_PAIR_FIRST));
-    add_force(c, nodes[CONTACT_PAIR_SECOND], contact_push_on(push, CONTACT_PAIR_SECOND));
+    for (int which = 0; which < CONTACT_PAIR_PUSHED; which++)
+        add_force(c, push->pair->nodes[which], contact_push_on(push, which));
     if (c->anchors.now.n > 0) anchor_set_hold(&c->anchors, push, x);
 }
 
-/* Each of these returns how near the pair is, over the thickness. */
+/* As add_push() of contact_batch_edge_push(). */
+static inline void add_edge_push(double *restrict force, const contact_batch *restrict b, int k)
+{
+    const compact_pair *p = contact_batch_compact(b, k);
+    const double size = p->weight * b->pressure[k], share = b->share[k];
+    const vec2 on_node = vec2_scale(size, (vec2){b->n_x[k], b->n_y[k]});
+    add_at(force + p->rows[CONTACT_PAIR_NODE], on_node);
+    add_at(force + p->rows[CONTACT_PAIR_FIRST], vec2_scale(share - 1.0, on_node));
+    add_at(force + p->rows[CONTACT_PAIR_SECOND], vec2_scale(-share, on_node));
+}
+
+/* \return how near the pair is, over the thickness */
 static double add_push_near_end(surface_contact *c, const contact_batch *b, int k, const double *x)
 {
     contact_push push;
     if (contact_batch_push(b, k, x, &push)) add_push(c, &push, x);
-    return contact_batch_nearness(b, k);
+    return contact_batch_nearness(b, k, x);
 }
 
-static double add_edge_push(surface_contact *c, const contact_batch *b, int k, const double *x)
+static void hold_edge_push(surface_contact *c, const contact_batch *b, int k, const double *x)
 {
     const contact_push push = contact_batch_edge_push(b, k);
-    add_push(c, &push, x);
-    return b->u[k];
+    anchor_set_hold(&c->anchors, &push, x);
 }
 
 /* The pairs of a batch, most of which are far from the ends of their edge. */
 static void add_pushes(surface_contact *c, const contact_batch *b, const double *x)
 {
-    double nearest = c->nearest;
+    const bool has_anchors = c->anchors.now.n > 0;
+    double *force = c->compact.force, nearest = c->nearest;
     for (int k = 0; k < b->n; k++) {
-        const bool is_near_end = contact_batch_is_near_end(b, k);
-        const double u = is_near_end ? add_push_near_end(c, b, k, x) : add_edge_push(c, b, k, x);
+        const bool is_alone = contact_batch_is_edge_alone(b, k);
+        if (is_alone) add_edge_push(force, b, k);
+        if (is_alone && has_anchors) hold_edge_push(c, b, k, x);
+        const double u = is_alone ? b->u[k] : add_push_near_end(c, b, k, x);
         if (u < nearest) nearest = u;
     }
     c->nearest = nearest;
@@ -244,13 +238,14 @@ static void add_friction(surface_contact *c, const double *x)
 
 bool surface_contact_evaluate(surface_contact *c, const double *x)
 {
-    forget_forces(c);
     if (surface_contact_follow(c, x) != DEM_OK) return false;
+    compact_pairs_clear_forces(&c->compact);
     if (note_status(c, anchor_set_begin(&c->anchors, c->close.n)) != DEM_OK) return false;
     contact_batch batch;
     c->nearest = 1.0;
-    contact_batch_begin(&batch, c->close.list, c->close.n, 1.0);
-    while (contact_batch_next(&batch, x)) {
+    compact_pairs_read(&c->compact, x);
+    contact_batch_begin(&batch, &c->compact, 1.0);
+    while (contact_batch_next(&batch)) {
         contact_batch_evaluate(&batch);
         add_pushes(c, &batch, x);
     }
@@ -262,16 +257,15 @@ bool surface_contact_evaluate(surface_contact *c, const double *x)
 bool surface_contact_force(const surface_contact *c, dem_index i, const double *x, vec2 *force)
 {
     const pair_rows *r = c->rows;
-    bool is_pushed = false;
     contact_push push;
     *force = (vec2){0.0, 0.0};
     for (dem_index slot = r->first[i]; slot >= 0; slot = r->next[slot]) {
         const int which = pair_rows_which(slot);
         if (which >= CONTACT_PAIR_PUSHED || !contact_pair_push(pair_rows_pair(r, slot), x, &push)) continue;
         *force = vec2_add(*force, contact_push_on(&push, which));
-        is_pushed = true;
     }
-    return anchor_set_add_force(&c->anchors, r, i, x, force) || is_pushed;
+    (void)anchor_set_add_force(&c->anchors, r, i, x, force);
+    return surface_contact_acts(*force);
 }
 
 /* ---- friction ---- */
@@ -354,10 +348,10 @@ surface_gaps surface_contact_gaps(const surface_contact *c, const double *x)
  * \return the largest of them over the mass, rad^2/s^2 */
 static double largest_over_mass(surface_contact *c, const double *inverse_mass)
 {
+    const compact_pairs *all = &c->compact;
     double largest = 0.0;
-    for (dem_index j = 0; j < c->n_pushed; j++)
-        largest = fmax(largest, vec2_at(c->force, c->pushed[j]).x * inverse_mass[c->pushed[j]]);
-    forget_forces(c);
+    for (dem_index j = 0; j < all->n_nodes; j++)
+        largest = fmax(largest, vec2_at(all->force, j).x * inverse_mass[all->nodes[j]]);
     return largest;
 }
 
@@ -365,6 +359,7 @@ static double largest_over_mass(surface_contact *c, const double *inverse_mass)
 static double unit_stiffening(surface_contact *c, const double *inverse_mass)
 {
     static const double terms[CONTACT_PAIR_PUSHED] = {2.0, 2.0, 1.0};
+    compact_pairs_clear_forces(&c->compact);
     for (dem_index k = 0; k < c->close.n; k++) {
         const contact_pair *p = &c->close.list[k];
         for (int which = 0; which < CONTACT_PAIR_PUSHED && !p->fills; which++)
@@ -380,55 +375,65 @@ static void add_stiffness(surface_contact *c, const contact_pair *p, const doubl
     for (int which = 0; which < CONTACT_PAIR_PUSHED; which++) add_force(c, p->nodes[which], (vec2){added[which], 0.0});
 }
 
-/* What fills cracks is as stiff however near it is. */
-static void add_fillings(surface_contact *c, const double *x)
-{
-    for (dem_index k = 0; k < c->close.n; k++)
-        if (c->close.list[k].fills) add_stiffness(c, &c->close.list[k], x);
-}
-
 /* What anchors add at a node. */
 static void add_anchor(void *to, dem_index node, double stiffness)
 {
     add_force(to, node, (vec2){stiffness, 0.0});
 }
 
+/* What adds as much however near it is: what fills cracks, and the anchors. */
+static double steady_stiffening(surface_contact *c, const double *inverse_mass, const double *x)
+{
+    const compact_pairs *all = &c->compact;
+    if (all->n_fillings == 0 && c->anchors.now.n == 0) return 0.0;
+    compact_pairs_clear_forces(&c->compact);
+    for (dem_index k = 0; k < all->n && all->n_fillings > 0; k++)
+        if (all->list[k].fills) add_stiffness(c, &all->list[k], x);
+    anchor_set_add_stiffness(&c->anchors, add_anchor, c);
+    return largest_over_mass(c, inverse_mass);
+}
+
 /* What the pairs in reach add, and the anchors. */
 static double stiffening_within_reach(surface_contact *c, const double *inverse_mass, const double *x)
 {
     contact_batch batch;
-    contact_batch_begin(&batch, c->close.list, c->close.n, 1.0);
-    while (contact_batch_next(&batch, x))
-        for (int k = 0; k < batch.n; k++) add_stiffness(c, &c->close.list[batch.which[k]], x);
+    compact_pairs_clear_forces(&c->compact);
+    contact_batch_begin(&batch, &c->compact, 1.0);
+    while (contact_batch_next(&batch))
+        for (int k = 0; k < batch.n; k++) add_stiffness(c, contact_batch_pair(&batch, k), x);
     anchor_set_add_stiffness(&c->anchors, add_anchor, c);
     return largest_over_mass(c, inverse_mass);
 }
 
 /* Whether the node of any pair is within a part of the contact thickness. */
-static bool any_within(const surface_contact *c, double part, const double *x)
+static bool any_within(const surface_contact *c, double part)
 {
     contact_batch batch;
-    contact_batch_begin(&batch, c->close.list, c->close.n, part);
-    return contact_batch_next(&batch, x);
+    contact_batch_begin(&batch, &c->compact, part);
+    return contact_batch_next(&batch);
 }
 
-/* If no pair is nearer than u, all of them add no more than 1/u^2 - 1 times their unit. */
+/* If no pair is nearer than u, all of them add no more than 1/u^2 - 1 times their unit.
+ * \return whether they add no more than `most`, rad^2/s^2, to the square of the frequency */
+static bool adds_no_more(const surface_contact *c, double most, bool is_evaluated)
+{
+    const double part = sqrt(c->unit / (c->unit + fmax(most, 0.0)));
+    if (c->close.n == 0) return true;
+    if (is_evaluated && c->nearest > part) return part < 1.0;
+    return part < 1.0 && !any_within(c, part);
+}
+
 double surface_contact_stiffening(surface_contact *c, const double *inverse_mass, double harmless, const double *x,
                                   bool is_known)
 {
     const bool is_evaluated = is_known && c->is_evaluated;
-    forget_forces(c);
     if (!is_evaluated && surface_contact_follow(c, x) != DEM_OK) return INFINITY;
+    if (!is_evaluated) compact_pairs_read(&c->compact, x);
     c->rows = &c->candidates.pairs;
     if (c->n_chosen != c->close.n_chosen) c->unit = unit_stiffening(c, inverse_mass);
     c->n_chosen = c->close.n_chosen;
-    add_fillings(c, x);
-    anchor_set_add_stiffness(&c->anchors, add_anchor, c);
-    const double left = harmless - largest_over_mass(c, inverse_mass);
-    const double part = sqrt(c->unit / (c->unit + fmax(left, 0.0)));
-    const bool is_below = is_evaluated && c->nearest > part;
-    const bool is_harmless = c->close.n == 0 || (part < 1.0 && (is_below || !any_within(c, part, x)));
-    return is_harmless ? 0.0 : stiffening_within_reach(c, inverse_mass, x);
+    const double steady = steady_stiffening(c, inverse_mass, x);
+    return adds_no_more(c, harmless - steady, is_evaluated) ? 0.0 : stiffening_within_reach(c, inverse_mass, x);
 }
 
 /* ---- steps ---- */

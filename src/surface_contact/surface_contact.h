@@ -31,18 +31,15 @@ typedef struct surface_contact {
     pair_rows near;         /* pairs that are near in the step in hand */
     unsigned char *is_near; /* [candidates] */
     dem_index near_capacity;
-    const pair_rows *rows;    /* what single nodes are evaluated with: those of the candidates, or `near` */
-    double near_margin;       /* m */
-    dem_index n_left_out;     /* pairs that never touch: pair_list_count_left_out() */
-    dem_index n_chosen;       /* close.n_chosen for which `unit` is */
-    double unit;              /* rad^2/s^2, what close pairs add with contact_potential_stiffness() = 1, at most */
-    dem_status status;        /* of the last evaluation; DEM_ERROR_MEMORY stays until it is set back */
-    bool is_evaluated;        /* the lists fit the state of the last evaluation */
-    double nearest;           /* distance over thickness, in that evaluation no pair was nearer than this */
-    dem_index n_pushed;       /* nodes on which something acted in the last evaluation */
-    dem_index *pushed;        /* [n_pushed] in the order in which pairs come to them */
-    double *force;            /* [n_nodes][2] N, on these */
-    unsigned char *is_pushed; /* [n_nodes] */
+    const pair_rows *rows; /* what single nodes are evaluated with: those of the candidates, or `near` */
+    double near_margin;    /* m */
+    dem_index n_left_out;  /* pairs that never touch: pair_list_count_left_out() */
+    dem_index n_chosen;    /* close.n_chosen for which `unit` is */
+    double unit;           /* rad^2/s^2, what close pairs add with contact_potential_stiffness() = 1, at most */
+    dem_status status;     /* of the last evaluation; DEM_ERROR_MEMORY stays until it is set back */
+    bool is_evaluated;     /* the lists fit the state of the last evaluation */
+    double nearest;        /* distance over thickness, in that evaluation no pair was nearer than this */
+    compact_pairs compact; /* the close pairs, and the forces of the last evaluation on their nodes */
 } surface_contact;
 
 /** What a step has done that it must not. */
@@ -78,9 +75,14 @@ void surface_contact_mend(surface_contact *c);
  *  \return what pair_list_follow() returns */
 dem_status surface_contact_follow(surface_contact *c, const double *x);
 
-/** Evaluates the forces on all nodes, into `pushed` and `force`, and follows the state.
+/** Evaluates the forces on all nodes, into `compact`, and follows the state. Where the force is 0 nothing acts.
  *  \return false if that fails: `status` says why */
 bool surface_contact_evaluate(surface_contact *c, const double *x);
+
+static inline bool surface_contact_acts(vec2 force)
+{
+    return force.x != 0.0 || force.y != 0.0;
+}
 
 /** Force on node i, N, with the bits of surface_contact_evaluate().  \return whether anything acts */
 bool surface_contact_force(const surface_contact *c, dem_index i, const double *x, vec2 *force);

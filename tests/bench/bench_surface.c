@@ -33,9 +33,9 @@ int main(int argc, char **argv)
     }
     const double n = (double)c->surface.surface.n_edges;
     (void)printf(
-        "%.0f edges, %lld candidates, %lld close pairs, %lld nodes pushed: lists %.1f ms, %.0f ns an edge; moved "
+        "%.0f edges, %lld candidates, %lld close pairs, %lld nodes in them: lists %.1f ms, %.0f ns an edge; moved "
         "check %.2f ns a node; evaluation with it %.2f ns a node\n",
-        n, (long long)c->candidates.pairs.n, (long long)c->close.n, (long long)c->n_pushed, 1e3 * spent[0],
+        n, (long long)c->candidates.pairs.n, (long long)c->close.n, (long long)c->compact.n_nodes, 1e3 * spent[0],
         1e9 * spent[0] / n, 1e9 * spent[1] / n, 1e9 * spent[2] / n);
     surface_contact_destroy(c);
     dem_lattice_free(&l);

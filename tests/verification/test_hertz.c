@@ -9,6 +9,7 @@
 #include "elastic_bodies.h"
 #include "simulation/private.h"
 #include "support.h"
+#include "unit/surface_contact/evaluated.h"
 
 enum { MOST_NODES = 64 };
 
@@ -68,9 +69,10 @@ static int find_pressed(const surface_contact *c, const double *x, dem_index n, 
 {
     int n_pressed = 0;
     for (dem_index i = 0; i < n; i++) {
-        if (c->force[2 * i] >= 0.0) continue;
+        const double force = evaluated_force(c, i).x;
+        if (force >= 0.0) continue;
         assert_true(n_pressed < MOST_NODES);
-        list[n_pressed++] = (pressed){x[2 * i + 1], -c->force[2 * i]};
+        list[n_pressed++] = (pressed){x[2 * i + 1], -force};
     }
     qsort(list, (size_t)n_pressed, sizeof *list, compare);
     return n_pressed;

@@ -4,6 +4,7 @@
 #include "ask.h"
 #include "simulation/private.h"
 #include "support.h"
+#include "unit/surface_contact/evaluated.h"
 
 static const double fine = 2.5e-3; /* m, spacing of the lower block */
 
@@ -132,16 +133,16 @@ static squeeze make_squeeze(const dem_lattice *l)
 
 /* Nodes of the upper block on its lower side carry half of each of their edges: in the middle half of the blocks the
  * mean of two of them is the pressure of an edge.  Returns the resultant, N. */
-static double check_side(const dem_lattice *l, double spacing, const double *force)
+static double check_side(const dem_lattice *l, double spacing, const surface_contact *contact)
 {
     double resultant = 0.0, before = 0.0, worst = 0.0, low = INFINITY;
     for (dem_index i = 0; i < l->n_nodes; i++)
         if (l->body[i] == 1) low = fmin(low, l->x[2 * i + 1]);
     for (dem_index i = 0; i < l->n_nodes; i++) {
         if (l->body[i] == 0) continue;
-        resultant += force[2 * i + 1];
+        resultant += evaluated_force(contact, i).y;
         if (l->x[2 * i + 1] > low + 1e-6 || fabs(l->x[2 * i]) > 0.25 * breadth) continue;
-        const double here = force[2 * i + 1] / spacing;
+        const double here = evaluated_force(contact, i).y / spacing;
         if (before > 0.0) worst = fmax(worst, fabs(0.5 * (here + before) / pressure - 1.0));
         before = here;
     }
@@ -165,8 +166,7 @@ static void press(double spacing, double factor)
     o.boundaries = s.push;
     support_open(&run, &l, NULL, 0, &o);
     (void)support_at(&run, 6e-3);
-    assert_close(check_side(&l, spacing, run.simulation->surfaces->force), pressure * breadth,
-                 1e-3 * pressure * breadth);
+    assert_close(check_side(&l, spacing, run.simulation->surfaces), pressure * breadth, 1e-3 * pressure * breadth);
 }
 
 /* Free blocks under body forces have the same pressure everywhere. Single nodes of the finer side carry 0.8 to 1.5 of

@@ -6,7 +6,7 @@
 #include <gsl/gsl_rng.h>
 
 #include "harness/cleanup_gsl.h"
-#include "harness/test.h"
+#include "verification/support.h"
 
 enum { MOST = 3 * CONTACT_BATCH_MOST + 9, NODES = CONTACT_PAIR_NODES * MOST };
 
@@ -38,9 +38,9 @@ static bool are_equal(vec2 a, vec2 b)
 static void check_push(const contact_batch *b, int k, const double *x)
 {
     contact_push push, expected;
-    const bool any = contact_pair_push(&b->list[b->which[k]], x, &expected);
+    const bool any = contact_pair_push(contact_batch_pair(b, k), x, &expected);
     assert_true(contact_batch_push(b, k, x, &push) == any);
-    assert_true(push.pair == &b->list[b->which[k]] && push.share == expected.share);
+    assert_true(push.pair == contact_batch_pair(b, k) && push.share == expected.share);
     assert_true(are_equal(push.by_edge, expected.by_edge) && are_equal(push.by_vertex, expected.by_vertex));
     assert_true(are_equal(push.by_second, expected.by_second));
 }
@@ -49,11 +49,12 @@ static void check_push(const contact_batch *b, int k, const double *x)
  * counts as far. */
 static void check_edge(const contact_batch *b, int k, const double *x)
 {
-    const contact_pair *p = &b->list[b->which[k]];
-    const double u = contact_batch_nearness(b, k);
+    const contact_pair *p = contact_batch_pair(b, k);
+    const double u = contact_batch_nearness(b, k, x);
     if (p->fills) assert_true(u == 1.0);
-    if (b->by_edge[k] != 0.0 && !p->fills) assert_true(fabs(u - contact_pair_gap(p, x) / p->thickness) < 1e-13);
-    if (contact_batch_is_near_end(b, k)) return;
+    if (contact_batch_is_by_edge(b, k) && !p->fills)
+        assert_true(fabs(u - contact_pair_gap(p, x) / p->thickness) < 1e-13);
+    if (!contact_batch_is_edge_alone(b, k)) return;
     const contact_push push = contact_batch_edge_push(b, k);
     contact_push expected;
     assert_true(contact_pair_push(p, x, &expected) && b->u[k] == u);
@@ -72,13 +73,17 @@ static void check_found(const contact_pair *p, bool is_found, double part, const
 /* \return how many are found */
 static dem_index check(const contact_pair *list, dem_index n, double part, const double *x)
 {
+    CLEANUP(compact_pairs_destroy) compact_pairs compact;
     contact_batch b;
     dem_index next = 0, n_found = 0;
-    contact_batch_begin(&b, list, n, part);
-    while (contact_batch_next(&b, x)) {
+    assert_ok(compact_pairs_create(&compact, NODES));
+    assert_ok(compact_pairs_take(&compact, list, n));
+    compact_pairs_read(&compact, x);
+    contact_batch_begin(&b, &compact, part);
+    while (contact_batch_next(&b)) {
         contact_batch_evaluate(&b);
         for (int k = 0; k < b.n; k++) {
-            for (; next < b.which[k]; next++) check_found(&list[next], false, part, x);
+            for (; next < contact_batch_place(&b, k); next++) check_found(&list[next], false, part, x);
             check_found(&list[next++], true, part, x);
             if (part == 1.0) check_push(&b, k, x);
             if (part == 1.0) check_edge(&b, k, x);

@@ -4,6 +4,7 @@
 #include "surface_contact/contact_surface.h"
 
 #include "curves.h"
+#include "evaluated.h"
 #include "harness/cleanup_gsl.h"
 #include "surface_contact/surface_contact.h"
 #include "verification/support.h"
@@ -103,13 +104,11 @@ static void check_surface(const contact_surface *found, const contact_surface *e
 static void check_forces(surface_contact *found, surface_contact *expected, const double *x)
 {
     assert_true(surface_contact_evaluate(found, x) && surface_contact_evaluate(expected, x));
-    const dem_index n = found->surface.lattice->n_nodes;
-    assert_memory_equal(found->force, expected->force, 2 * (size_t)n * sizeof(double));
-    assert_memory_equal(found->is_pushed, expected->is_pushed, (size_t)n);
-    for (dem_index i = 0; i < n; i++) {
+    for (dem_index i = 0; i < found->surface.lattice->n_nodes; i++) {
+        const vec2 all = evaluated_force(found, i), others = evaluated_force(expected, i);
         vec2 force;
-        assert_true(surface_contact_force(found, i, x, &force) == (found->is_pushed[i] != 0));
-        assert_true(force.x == found->force[2 * i] && force.y == found->force[2 * i + 1]);
+        assert_true(surface_contact_force(found, i, x, &force) == surface_contact_acts(all));
+        assert_true(force.x == all.x && force.y == all.y && all.x == others.x && all.y == others.y);
     }
     assert_true(surface_contact_energy(found, x) == surface_contact_energy(expected, x));
 }
@@ -126,7 +125,7 @@ TEST(triangles_that_break_leave_the_surface_of_the_others)
         open_leftover(&r, &s);
         check_surface(&s.contact->surface, &r.contact->surface);
         check_forces(s.contact, r.contact, s.x);
-        n_pushed += s.contact->n_pushed;
+        n_pushed += evaluated_pushed(s.contact);
     }
     assert_true(n_pushed > 8 * TRIANGLES);
 }
