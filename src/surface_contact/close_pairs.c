@@ -30,6 +30,21 @@ void close_pairs_clear(close_pairs *c)
 }
 
 /* What is no candidate is beyond the thickness. */
+static void take_close(close_pairs *c, double margin, const double *x)
+{
+    const pair_rows *candidates = c->apart.of;
+    const double least = c->ways.surface->least.thickness;
+    double square = least * least;
+    c->n = 0;
+    for (dem_index k = 0; k < candidates->n; k++) {
+        const contact_pair *p = &candidates->list[k];
+        const double gap = contact_pair_square_gap(p, x), reach = p->thickness + margin;
+        square = gap < square ? gap : square;
+        if (gap <= reach * reach) c->list[c->n++] = *p;
+    }
+    c->least = sqrt(square);
+}
+
 dem_status close_pairs_choose(close_pairs *c, double margin, const double *x)
 {
     const contact_surface *of = c->ways.surface;
@@ -37,18 +52,13 @@ dem_status close_pairs_choose(close_pairs *c, double margin, const double *x)
     c->chosen = false;
     c->n = 0;
     c->margin = margin;
-    c->least = of->least.thickness;
     TRY(surface_ways_note(&c->ways, contact_surface_reach(of) + margin, x));
-    surface_ways_clear(&c->apart);
+    if (c->n_linked != candidates->n_linked) surface_ways_clear(&c->apart);
+    c->n_linked = candidates->n_linked;
     TRY(surface_ways_note(&c->apart, contact_surface_reach(of) + margin, x));
     CHECK(grow_array((void **)&c->list, &c->capacity, candidates->n, sizeof *c->list), DEM_ERROR_MEMORY,
           "out of memory for %lld contact pairs", (long long)candidates->n);
-    for (dem_index k = 0; k < candidates->n; k++) {
-        const contact_pair *p = &candidates->list[k];
-        const double gap = contact_pair_gap(p, x);
-        c->least = fmin(c->least, gap);
-        if (gap <= p->thickness + margin) c->list[c->n++] = *p;
-    }
+    take_close(c, margin, x);
     c->chosen = true;
     c->n_chosen++;
     return DEM_OK;

@@ -14,6 +14,7 @@ typedef struct close_pairs {
     double margin;      /* m */
     surface_ways ways;  /* from the state for which they were chosen */
     surface_ways apart; /* likewise of the nodes of the candidates, which alone may cross an edge */
+    dem_index n_linked; /* of the candidates, for which the nodes of `apart` are listed */
     double least;       /* m, there no node was nearer than this to an edge that may touch it */
     dem_index n, capacity;
     contact_pair *list; /* [n] in the order of (node, edge) */

@@ -215,13 +215,6 @@ bool contact_pair_stiffness(const contact_pair *p, const double *x, double added
     return true;
 }
 
-double contact_pair_distance(vec2 point, vec2 a, vec2 b)
-{
-    const vec2 r = vec2_sub(point, a), t = vec2_sub(b, a);
-    const double s = vec2_dot(r, t) / vec2_dot(t, t), beside = s < 1.0 ? s : 1.0;
-    return vec2_norm(vec2_along(r, s > 0.0 ? -beside : -0.0, t));
-}
-
 /* Whether the node is between the ends of the edge at a part of the way. */
 static bool is_between(const pair_vectors *start, const pair_vectors *way, double part)
 {

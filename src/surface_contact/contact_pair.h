@@ -121,14 +121,33 @@ double contact_pair_energy(const contact_pair *p, const double *x);
  *  \return whether it is */
 bool contact_pair_stiffness(const contact_pair *p, const double *x, double added[CONTACT_PAIR_PUSHED]);
 
-/** Distance of a point from the segment ab, m. */
-double contact_pair_distance(vec2 point, vec2 a, vec2 b);
+/** Square of the distance of a point from the segment ab, m^2. */
+static inline double contact_pair_square_distance(vec2 point, vec2 a, vec2 b)
+{
+    const vec2 r = vec2_sub(point, a), t = vec2_sub(b, a);
+    const double s = vec2_dot(r, t) / vec2_dot(t, t), beside = s < 1.0 ? s : 1.0;
+    const vec2 way = vec2_along(r, s > 0.0 ? -beside : -0.0, t);
+    return vec2_dot(way, way);
+}
 
-/** Distance of the node of a pair from its edge, m. */
+/** That distance, m. */
+static inline double contact_pair_distance(vec2 point, vec2 a, vec2 b)
+{
+    return sqrt(contact_pair_square_distance(point, a, b));
+}
+
+/** Square of the distance of the node of a pair from its edge, m^2. */
+static inline double contact_pair_square_gap(const contact_pair *p, const double *x)
+{
+    return contact_pair_square_distance(vec2_at(x, p->nodes[CONTACT_PAIR_NODE]),
+                                        vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]),
+                                        vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]));
+}
+
+/** That distance, m. */
 static inline double contact_pair_gap(const contact_pair *p, const double *x)
 {
-    return contact_pair_distance(vec2_at(x, p->nodes[CONTACT_PAIR_NODE]), vec2_at(x, p->nodes[CONTACT_PAIR_FIRST]),
-                                 vec2_at(x, p->nodes[CONTACT_PAIR_SECOND]));
+    return sqrt(contact_pair_square_gap(p, x));
 }
 
 /** Whether the node crosses the edge when all move along straight lines from x0 to x1.

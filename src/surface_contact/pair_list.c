@@ -10,6 +10,7 @@
 #include "base/grow.h"
 #include "base/status.h"
 
+static const double rounding = 1.0 + 1e-9;   /* what is as near as a list reaches is in it whatever the rounding */
 static const double largest_stretch = 100.0; /* of an edge; beyond it positions have lost all meaning */
 
 dem_status pair_list_create(pair_list *out, const contact_surface *of, bool within_bodies, double margin)
@@ -91,45 +92,73 @@ static bool is_never_touched(const contact_surface *c, possible_pair p, dem_inde
     return is_within_body(c, &p) && (!is_apart(c, p.node, edge) || is_near_at_rest(c, &p));
 }
 
-/* Adds those of the points just found that are near the edge at positions x. */
-static dem_status take_found(pair_list *l, dem_index edge, const double *x, const pair_filter *filter)
+/* An edge in a search. */
+typedef struct searched_edge {
+    dem_index edge, first;
+    vec2 a, t;         /* m, its first end and the way to the second one */
+    double per_square; /* 1/m^2, 1/t.t */
+} searched_edge;
+
+/* contact_pair_square_distance() but for rounding. */
+static double square_distance(const searched_edge *e, vec2 point)
+{
+    const vec2 r = vec2_sub(point, e->a);
+    const double s = vec2_dot(r, e->t) * e->per_square, beside = s < 1.0 ? s : 1.0;
+    const vec2 way = vec2_along(r, s > 0.0 ? -beside : -0.0, e->t);
+    return vec2_dot(way, way);
+}
+
+/* Whether a node and the edge may be a pair for the filter, at the square of their distance. */
+static bool is_found(const pair_list *l, const searched_edge *e, dem_index node, double square,
+                     const pair_filter *filter)
 {
     const contact_surface *c = l->surface;
-    const dem_index first = contact_surface_first(c, edge);
-    const vec2 a = vec2_at(x, first), b = vec2_at(x, contact_surface_second(c, edge));
+    if (!is_apart(c, node, e->edge)) return false;
+    const surface_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, e->first));
+    const double reach = rounding * (law.thickness + filter->margin);
+    return square <= reach * reach && filter->takes(l, &(possible_pair){node, e->edge, law});
+}
+
+/* Adds those of the points just found that are near the edge. */
+static dem_status take_found(pair_list *l, const searched_edge *e, const pair_filter *filter)
+{
+    const contact_surface *c = l->surface;
+    const double reach = rounding * (c->most.thickness + filter->margin);
     for (dem_index k = 0; k < l->cells.n_found; k++) {
-        const dem_index number = l->cells.found[k], node = c->nodes[number];
-        if (!is_apart(c, node, edge)) continue;
-        const surface_law law = contact_surface_law(c, contact_surface_body(c, node), contact_surface_body(c, first));
-        if (contact_pair_distance(vec2_at(x, node), a, b) > law.thickness + filter->margin) continue;
-        if (!filter->takes(l, &(possible_pair){node, edge, law})) continue;
+        const dem_index number = l->cells.found[k];
+        const double square = square_distance(e, vec2_at(l->points, number));
+        if (square > reach * reach || !is_found(l, e, c->nodes[number], square, filter)) continue;
         CHECK(grow_array((void **)&l->found, &l->found_capacity, l->n_found + 1, sizeof *l->found), DEM_ERROR_MEMORY,
               "out of memory for %lld contact pairs", (long long)l->n_found + 1);
-        l->found[l->n_found++] = (found_pair){number, edge};
+        l->found[l->n_found++] = (found_pair){number, e->edge};
     }
     return DEM_OK;
+}
+
+/* Searches around the piece pq of the edge. */
+static dem_status search_piece(pair_list *l, const searched_edge *e, vec2 p, vec2 q, const pair_filter *filter)
+{
+    const double reach = rounding * (l->surface->most.thickness + filter->margin);
+    const box of = box_with((box){p, p}, q);
+    TRY(cell_search_find(&l->cells, vec2_sub(of.low, (vec2){reach, reach}), vec2_add(of.high, (vec2){reach, reach})));
+    return take_found(l, e, filter);
 }
 
 /* An edge longer than a cell asks piece by piece, so that the boxes of a long one do not cover an area. */
 static dem_status search_along(pair_list *l, dem_index edge, const double *x, const pair_filter *filter)
 {
     const contact_surface *c = l->surface;
-    const vec2 a = vec2_at(x, contact_surface_first(c, edge));
-    const vec2 t = vec2_sub(vec2_at(x, contact_surface_second(c, edge)), a);
-    const double length = vec2_norm(t), reach = c->most.thickness + filter->margin;
-    CHECK(length <= largest_stretch * c->length[edge], DEM_ERROR_INTEGRATOR,
-          "the boundary edge between nodes %lld and %lld is %g m long, %g times its length at rest",
-          (long long)contact_surface_first(c, edge), (long long)contact_surface_second(c, edge), length,
-          length / c->length[edge]);
-    const int n_pieces = 1 + (int)(length / l->cells.side);
-    for (int k = 0; k < n_pieces; k++) {
-        const vec2 p = vec2_along(a, (double)k / n_pieces, t), q = vec2_along(a, (k + 1.0) / n_pieces, t);
-        const vec2 middle = vec2_scale(0.5, vec2_add(p, q)), half = {0.5 * fabs(q.x - p.x), 0.5 * fabs(q.y - p.y)};
-        const vec2 low = {middle.x - half.x - reach, middle.y - half.y - reach};
-        const vec2 high = {middle.x + half.x + reach, middle.y + half.y + reach};
-        TRY(cell_search_find(&l->cells, low, high));
-        TRY(take_found(l, edge, x, filter));
-    }
+    const dem_index first = contact_surface_first(c, edge), second = contact_surface_second(c, edge);
+    const vec2 a = vec2_at(x, first), b = vec2_at(x, second), t = vec2_sub(b, a);
+    const searched_edge e = {edge, first, a, t, 1.0 / vec2_dot(t, t)};
+    const double most = largest_stretch * c->length[edge], length = vec2_norm(t);
+    if (length <= fmin(l->cells.side, most)) return search_piece(l, &e, a, b, filter);
+    CHECK(length <= most, DEM_ERROR_INTEGRATOR,
+          "the boundary edge between nodes %lld and %lld is %g m long, %g times its length at rest", (long long)first,
+          (long long)second, length, length / c->length[edge]);
+    const double n_pieces = ceil(length / l->cells.side);
+    for (double k = 0.0; k < n_pieces; k++)
+        TRY(search_piece(l, &e, vec2_along(a, k / n_pieces, t), vec2_along(a, (k + 1.0) / n_pieces, t), filter));
     return DEM_OK;
 }
 

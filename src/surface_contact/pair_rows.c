@@ -50,5 +50,6 @@ dem_status pair_rows_link(pair_rows *r)
         r->next[slot] = r->first[node];
         r->first[node] = slot;
     }
+    r->n_linked++;
     return DEM_OK;
 }

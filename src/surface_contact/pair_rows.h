@@ -8,6 +8,7 @@
 typedef struct pair_rows {
     dem_index n_nodes;
     dem_index n, capacity;
+    dem_index n_linked; /* how often they have been linked: other pairs have another number */
     contact_pair *list; /* [n] */
     dem_index *first;   /* [n_nodes] first slot of each node, -1: none */
     dem_index *next;    /* [CONTACT_PAIR_NODES n] the next slot of the same node, -1: none; room for all of list */

@@ -7,6 +7,7 @@
 #include "surface_contact/surface_ways.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/status.h"
 
@@ -83,16 +84,15 @@ static dem_status list_twos(surface_ways *w)
 
 /* ---- the state noted ---- */
 
-/* Boxes of positions are those of ways from nowhere. */
+/* Boxes of positions are those of ways from the origin. */
 static void look_at_positions(surface_ways *w, const double *x)
 {
     for (int g = 0; g < w->n_groups; g++) {
-        w->boxes[g] = box_empty();
-        for (dem_index k = 2 * w->begin[g]; k < 2 * w->begin[g + 1]; k++) {
-            const vec2 place = vec2_at(x + w->at[k / 2], k % 2);
-            w->boxes[g] = box_with(w->boxes[g], place);
-            vec2_put(w->places, k, place);
-        }
+        const dem_index begin = w->begin[g], n = w->begin[g + 1] - begin;
+        double *places = w->places + 4 * begin;
+        memset(places, 0, 4 * (size_t)n * sizeof *places);
+        w->boxes[g] = way_box_of(x, w->at + begin, places, n);
+        for (dem_index k = 0; k < n; k++) memcpy(places + 4 * k, x + w->at[begin + k], 4 * sizeof *places);
     }
 }
 

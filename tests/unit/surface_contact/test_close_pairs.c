@@ -121,3 +121,26 @@ TEST(what_is_in_no_candidate_crosses_nothing)
     s.x1[2 * pairs->list[0].nodes[CONTACT_PAIR_NODE]] += 0.5;
     assert_false(close_pairs_stay_apart(&s.close, s.x, s.x1));
 }
+
+/* Other candidates have other nodes: the first star comes to where the third one is. */
+TEST(nodes_of_new_candidates_are_looked_at_for_crossings)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    dem_index n = 0;
+    open_scene(&s, rng, margin);
+    CLEANUP(free_memory) unsigned char *was = calloc((size_t)s.lattice.n_nodes, 1);
+    for (dem_index i = 0; i < s.lattice.n_nodes; i++) was[i] = pair_rows_has(&s.list.pairs, i);
+    for (dem_index i = 0; i < s.lattice.n_nodes; i++)
+        if (s.lattice.body[i] == 0) s.x[2 * i] += 4.2;
+    assert_ok(pair_list_follow(&s.list, s.x, 0.0));
+    assert_ok(close_pairs_choose(&s.close, margin, s.x));
+    for (dem_index i = 1; i + 1 < s.lattice.n_nodes; i++) {
+        if (was[i - 1] || was[i] || was[i + 1] || !pair_rows_has(&s.list.pairs, i)) continue;
+        memcpy(s.x1, s.x, 2 * (size_t)s.lattice.n_nodes * sizeof *s.x);
+        s.x1[2 * i] += 0.5;
+        assert_false(close_pairs_stay_apart(&s.close, s.x, s.x1));
+        n++;
+    }
+    assert_true(n > 2);
+}
