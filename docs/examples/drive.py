@@ -59,7 +59,7 @@ class dem_options(Sized):
                 ("force", dem_force), ("force_context", c_void_p), ("bodies", c_int),
                 ("contact_thickness", c_double), ("contact_stiffness", c_double),
                 ("contact_friction", c_double), ("n_body_frictions", c_int64), ("body_friction", doubles),
-                ("pause", c_double)]
+                ("pause", c_double), ("thread_nodes", c_int64)]
 
     def __init__(self, **given):
         """As dem_options_default(), which is inline in the header."""

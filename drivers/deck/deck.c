@@ -142,6 +142,7 @@ static void set_options(dem_options *options, const schema_deck *groups)
     (void)dem_method_find(&options->method, schema_text(solver, "method")); /* the table of keys has no other name */
     (void)dem_kernel_find(&options->kernel, schema_text(solver, "kernel"));
     options->threads = (int32_t)schema_real(solver, "threads");
+    options->thread_nodes = (dem_index)schema_real(solver, "thread_nodes");
     options->checkpoint_steps = (dem_index)schema_real(solver, "checkpoint_steps");
     options->rtol = schema_real(solver, "rtol");
     options->pause = schema_real(run, "pause") != 0.0 ? schema_real(run, "residual") : 0.0;

@@ -109,8 +109,8 @@ typedef struct dem_options {
     bool vertices; /**< default true: convex vertices of obstacles touch the edges of bodies; false: only nodes touch */
     dem_contact_method contact; /**< default DEM_CONTACT_LOCAL */
     dem_kernel kernel;          /**< default DEM_KERNEL_AUTO */
-    int32_t threads; /**< default 1, 1 to 1024: threads that work at once; the results are the same to the bit.
-                                     A library built without OpenMP does the work of all in one */
+    int32_t threads;            /**< default 1, 1 to 1024: threads that work at once, at most; as many are used as pay
+                                     (thread_nodes). The results are the same to the bit */
     dem_index checkpoint_steps; /**< default 256: accepted steps between checkpoints, of which the bits of a run depend
                                      as on a tolerance; 0: no checkpoints */
     dem_index n_boundaries;     /**< default 0 */
@@ -128,6 +128,9 @@ typedef struct dem_options {
     double pause; /**< default 0: none; else up to 0.1: from a break on the ramps of all boundaries stand still, until
                      dem_simulation_residual() is at most this. Looked at after every 16th step; needs damping to end.
                      Obstacles move on */
+    dem_index thread_nodes; /**< default 0; else the nodes that a thread has to have before there is another one. By
+                               default 100000, or 50000 for methods with fixed steps, and no more threads than cores
+                               that this process may use, by affinity and by the quota of its control group */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */

@@ -7,9 +7,12 @@
 #include <dem/dem.h>
 
 #ifdef _OPENMP
+#include <omp.h>
 #define THREADS_DO(directive) _Pragma(#directive)
+#define THREADS_MOST          omp_get_num_procs() /* cores that affinity leaves to the process */
 #else
 #define THREADS_DO(directive)
+#define THREADS_MOST 1
 #endif
 
 /** Runs a statement for t = 0 to n - 1, each in a thread of its own. A single one is not left to OpenMP: creating a

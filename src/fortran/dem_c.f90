@@ -583,7 +583,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_options
-    integer(c_size_t) :: struct_size = 232
+    integer(c_size_t) :: struct_size = 240
     integer(dem_method) :: method = 0
     real(c_double) :: gravity(3) = 0, rtol = 0, spacing = 0, v_scale = 0, max_step = 0, fixed_step = 0
     real(c_double) :: penetration_tolerance = 0, rest_speed = 0
@@ -602,6 +602,7 @@ module dem_c
     integer(dem_index) :: n_body_frictions = 0
     type(c_ptr) :: body_friction = c_null_ptr
     real(c_double) :: pause = 0
+    integer(dem_index) :: thread_nodes = 0
   end type
 
   type, bind(c) :: dem_energy

@@ -5,6 +5,7 @@
  * decided elsewhere. */
 #include "simulation/options.h"
 
+#include "base/cores.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "base/struct_size.h"
@@ -15,6 +16,7 @@ static const struct_kind kind = {"dem_options", STRUCT_SIZE_WITH(dem_options, fo
 static const double adaptive_share = 0.5; /* of 1/omega_max: longest step */
 static const double fixed_share = 0.125;  /* of the stability bound: steps of methods that do not choose theirs */
 static const double window_share = 0.1;   /* of 1/omega_max: default window, by the table in docs/algorithms.md */
+static const dem_index adaptive_nodes = 100000, fixed_nodes = 50000; /* of a thread: docs/performance.md */
 
 dem_status options_read(dem_options *ours, const dem_options *theirs)
 {
@@ -59,6 +61,7 @@ dem_status options_check(const dem_options *o)
     CHECK(isfinite(o->window), DEM_ERROR_ARGUMENT, "window must be finite, got %g", o->window);
     CHECK(o->threads >= 1 && o->threads <= 1024, DEM_ERROR_ARGUMENT, "threads must be in [1, 1024], got %d",
           o->threads);
+    CHECK(o->thread_nodes >= 0, DEM_ERROR_ARGUMENT, "thread_nodes must be >= 0, got %lld", (long long)o->thread_nodes);
     CHECK(o->contact == DEM_CONTACT_LOCAL || o->contact == DEM_CONTACT_EXACT, DEM_ERROR_ARGUMENT,
           "unknown contact method %d", (int)o->contact);
     CHECK(o->max_impacts >= 1, DEM_ERROR_ARGUMENT, "max_impacts must be >= 1, got %lld", (long long)o->max_impacts);
@@ -98,6 +101,16 @@ static double damping_rate(const dem_options *o, const dem_model *m)
     return reduce_max(springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass)) + o->mass_damping;
 }
 
+/* As many threads as pay, up to those that were asked for: a step of few nodes ends before another thread has begun. */
+static void fill_threads(dem_options *o, dem_index n_nodes, bool adaptive)
+{
+    const dem_index nodes = o->thread_nodes > 0 ? o->thread_nodes : adaptive ? adaptive_nodes : fixed_nodes;
+    const dem_index pay = n_nodes / nodes > 1 ? n_nodes / nodes : 1;
+    int most = o->threads;
+    if (most > 1 && o->thread_nodes == 0 && cores_allowed() < most) most = cores_allowed();
+    o->threads = (int32_t)(pay < most ? pay : most);
+}
+
 dem_status options_fill(dem_options *o, const dem_model *model, const boundary_conditions *b)
 {
     if (o->spacing == 0.0) o->spacing = model->spacing;
@@ -123,6 +136,7 @@ dem_status options_fill(dem_options *o, const dem_model *model, const boundary_c
     if (o->window < 0.0 && o->contact == DEM_CONTACT_EXACT && model->omega_max > 0.0)
         o->window = window_share * fmin(1.0 / model->omega_max, 2.0 * o->max_step);
     o->window = fmax(o->window, 0.0);
+    fill_threads(o, model->lattice.n_nodes, method.adaptive);
     if (o->contact_stiffness == 0.0) o->contact_stiffness = 1.0;
     if (o->v_scale == 0.0) o->v_scale = default_v_scale(o, model, b);
     CHECK(o->v_scale > 0.0, DEM_ERROR_ARGUMENT, "nothing sets a scale of speed: the option v_scale is needed, in m/s");

@@ -122,8 +122,9 @@ contains
   subroutine read_solver()
     character(4096) :: method, kernel
     real(dp) :: rtol, max_step, v_scale, spacing, mass_damping
-    integer :: threads, checkpoint_steps
-    namelist /solver/ method, rtol, max_step, v_scale, spacing, mass_damping, kernel, threads, checkpoint_steps
+    integer :: threads, thread_nodes, checkpoint_steps
+    namelist /solver/ method, rtol, max_step, v_scale, spacing, mass_damping, kernel, threads, &
+      thread_nodes, checkpoint_steps
     read (unit, nml=solver, iostat=status, iomsg=message)
   end subroutine
 

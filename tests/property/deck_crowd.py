@@ -32,7 +32,7 @@ def solver(dice):
     if keys["method"] != "verlet" and dice.chance(0.4):
         keys["rtol"] = dice.log(1e-8, 1e-5)
     if dice.chance(0.1):
-        keys["threads"] = 2
+        keys["threads"], keys["thread_nodes"] = 2, 1
     if dice.chance(0.3):
         keys["checkpoint_steps"] = dice.one_of([0, 7, 50])
     return keys

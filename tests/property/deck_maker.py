@@ -121,7 +121,7 @@ def solver(dice, deck, harsh):
     if dice.chance(0.2):
         keys["kernel"] = dice.one_of(["auto", "portable", "portable", "portable", "avx2"])
     if dice.chance(0.05):
-        keys["threads"] = 2
+        keys["threads"], keys["thread_nodes"] = 2, 1
     if dice.chance(0.3):
         keys["checkpoint_steps"] = dice.one_of([0, 7, 50])
     return keys

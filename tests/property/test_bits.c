@@ -107,6 +107,7 @@ static picture run_scene(unsigned long seed, dem_method method, manner how)
     sc.options.contact = DEM_CONTACT_LOCAL;
     sc.options.method = method;
     sc.options.threads = how.threads;
+    sc.options.thread_nodes = 1;
     dem_observer observer = observers[how.observer];
     observer.context = &n_calls;
     support_open(&run, &sc.body, sc.obstacles, sc.n, &sc.options);
@@ -164,6 +165,7 @@ static picture run_strip(int threads)
     assert_ok(dem_lattice_launch(&strip, down));
     options.contact = DEM_CONTACT_LOCAL;
     options.threads = threads;
+    options.thread_nodes = 1;
     support_open(&run, &strip, &ground, 1, &options);
     dem_lattice_free(&strip);
     assert_ok(dem_simulation_advance(run.simulation, 1e-4));

@@ -103,6 +103,7 @@ static void set(scene *sc, unsigned long seed, manner how)
     sc->options.method = how.method;
     sc->options.contact = how.contact;
     sc->options.threads = how.threads;
+    sc->options.thread_nodes = 1;
     sc->options.checkpoint_steps = 5 + (dem_index)(seed % 7);
 }
 

@@ -35,6 +35,7 @@ static void open_stage(stage *s, unsigned long seed, manner how, const dem_check
     o->method = how.method;
     o->contact = how.contact;
     o->threads = how.threads;
+    o->thread_nodes = 1;
     o->checkpoint_steps = 20;
     o->force = field_act;
     o->force_context = &s->field;

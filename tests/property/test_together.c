@@ -98,6 +98,7 @@ static void open_job(job *j, unsigned long seed, const char *folder)
     field_random(&j->field, &j->scene, seed);
     j->scene.options.contact = seed % 2 == 0 ? DEM_CONTACT_LOCAL : DEM_CONTACT_EXACT;
     j->scene.options.threads = 1 + (seed % 4 == 0);
+    j->scene.options.thread_nodes = 1;
     j->scene.options.checkpoint_steps = 20;
     j->scene.options.force = field_act;
     j->scene.options.force_context = &j->field;

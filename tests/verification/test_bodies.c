@@ -316,6 +316,7 @@ TEST(no_bit_depends_on_threads_or_instructions)
         o.method = methods[m];
         const bits expected = run_on_floor(&o, 0.25);
         o.kernel = DEM_KERNEL_PORTABLE;
+        o.thread_nodes = 1;
         for (o.threads = 1; o.threads <= 3; o.threads++) check_bits(&o, 0.25, &expected);
     }
 }

@@ -426,6 +426,7 @@ TEST(no_bit_depends_on_the_pair_list_threads_or_instructions)
             compare_bits(&found, &expected);
         }
         o.kernel = DEM_KERNEL_PORTABLE;
+        o.thread_nodes = 1;
         for (o.threads = 1; o.threads <= 3; o.threads++) {
             const bits found = run_on_floor(&o, 0.25);
             compare_bits(&found, &expected);

@@ -66,6 +66,7 @@ static double *run(const dem_lattice *lattice, const dem_obstacle *ground, doubl
     assert_non_null(x);
     options.rtol = 1e-9;
     options.threads = 2;
+    options.thread_nodes = 1;
     support_open(&r, lattice, ground, ground != NULL ? 1 : 0, &options);
     memcpy(x, support_at(&r, t).x, size);
     assert_true(ground == NULL || ask_counts(r.simulation).impacts > 3);

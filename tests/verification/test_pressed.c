@@ -383,6 +383,7 @@ TEST(bits_of_breaks_do_not_depend_on_threads_and_cuts)
         run_block(&options, kind, false, 37, &other);
         assert_same_bits(&whole, &other);
         options.threads = 3;
+        options.thread_nodes = 1;
         run_block(&options, kind, false, 1, &other);
         assert_same_bits(&whole, &other);
     }

@@ -697,6 +697,7 @@ TEST(no_bit_depends_on_threads_or_instructions)
         o.method = methods_of_bits[m];
         const bits expected = drop(&o);
         o.kernel = DEM_KERNEL_PORTABLE;
+        o.thread_nodes = 1;
         for (o.threads = 1; o.threads <= 3; o.threads++) {
             const bits found = drop(&o);
             assert_memory_equal(&found, &expected, sizeof found);

@@ -331,6 +331,7 @@ TEST(no_bit_depends_on_the_list_of_pairs_threads_or_instructions)
             assert_memory_equal(&found, &expected, sizeof found);
         }
         o.kernel = DEM_KERNEL_PORTABLE;
+        o.thread_nodes = 1;
         for (o.threads = 2; o.threads <= 3; o.threads++) {
             const bits found = meet((met)(m % N_MET), &o, 1.0);
             assert_memory_equal(&found, &expected, sizeof found);

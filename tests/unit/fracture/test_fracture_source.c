@@ -372,6 +372,7 @@ TEST(bits_do_not_depend_on_threads_and_cuts)
         run_block(&options, ratios[q], 37, &other);
         assert_same_bits(&whole, &other);
         options.threads = 3;
+        options.thread_nodes = 1;
         run_block(&options, ratios[q], 1, &other);
         assert_same_bits(&whole, &other);
     }

@@ -92,6 +92,7 @@ TEST(options_outside_their_ranges_are_named)
     REFUSE(max_impacts, 0, "max_impacts * >= 1 * 0");
     REFUSE(contact, (dem_contact_method)7, "method 7");
     REFUSE(threads, 0, "threads * [1, 1024] * 0");
+    REFUSE(thread_nodes, -1, "thread_nodes * >= 0 * -1");
     REFUSE(threads, 1025, "threads * [1, 1024] * 1025");
 }
 
@@ -203,6 +204,27 @@ TEST(methods_without_error_estimate_take_steps_of_one_length)
         assert_ok(options_fill(&options, model, &no_boundaries));
         assert_close(options.fixed_step, 0.01, 0.0);
     }
+}
+
+/* How many threads are used of five. */
+static int used_of_five(const dem_model *model, dem_index thread_nodes)
+{
+    dem_options options = dem_options_default();
+    options.threads = 5;
+    options.thread_nodes = thread_nodes;
+    assert_ok(options_fill(&options, model, &no_boundaries));
+    return options.threads;
+}
+
+TEST(as_many_threads_are_used_as_have_nodes_enough)
+{
+    CLEANUP(free_model) dem_model *model = make_rubber(0.0, 4.0);
+    const dem_index n = model->lattice.n_nodes;
+    assert_int_equal(used_of_five(model, 1), n < 5 ? n : 5);
+    assert_int_equal(used_of_five(model, n / 2), 2);
+    assert_int_equal(used_of_five(model, n / 2 + 1), 1);
+    assert_int_equal(used_of_five(model, 2 * n), 1);
+    assert_int_equal(used_of_five(model, 0), 1);
 }
 
 /* Where damping is faster than the springs it sets the longest step, 1/(2 (rate + mass damping)). */

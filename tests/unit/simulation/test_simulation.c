@@ -37,6 +37,7 @@ TEST(kernels_and_threads_leave_no_trace_in_the_run)
             for (int threads = 1; threads <= 3; threads++) {
                 options.kernel = kind;
                 options.threads = threads;
+                options.thread_nodes = 1;
                 if (dem_kernel_check(kind) != DEM_OK) continue;
                 CLEANUP(free_simulation) dem_simulation *simulation = simulate(model, &options);
                 assert_true(kind == DEM_KERNEL_AUTO || ask_options(simulation).kernel == kind);

@@ -63,6 +63,7 @@ TEST(the_bound_is_that_of_the_method)
     options.method = DEM_METHOD_VERLET;
     options.v_scale = 3.0;
     options.threads = 2;
+    options.thread_nodes = 1;
     print_plan(&options);
     assert_string_equal(
         text, "time       t_end 7 s, at least 140 steps of verlet; fixed step 0.025 s (safe up to 0.2 s)\n"

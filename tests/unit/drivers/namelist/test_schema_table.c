@@ -292,8 +292,8 @@ TEST(what_must_be_given_has_an_example_and_examples_resolve)
 
 static void check_physics(const schema_group *group, const schema_key *key)
 {
-    static const char *const runs[] = {"title", "t_end", "max_impacts", "kernel",
-                                       "threads"}; /* how long, how reported and how made */
+    static const char *const runs[] = {"title",  "t_end",   "max_impacts",
+                                       "kernel", "threads", "thread_nodes"}; /* how long, how reported and how made */
     const int run = strcmp(group->name, "output") == 0 || strcmp(group->name, "probe") == 0;
     if (key->physics != !(run || is_listed(key->name, runs, LENGTH(runs))))
         fail_msg("%s in &%s: physics is %d", key->name, group->name, key->physics);
