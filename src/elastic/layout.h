@@ -38,7 +38,9 @@ typedef struct layout_entry {
     int32_t to;    /* of springs: force in the ring; of terms: mask of the upper nodes; of corners: last node */
     int32_t set;   /* where its coefficients are */
     uint16_t mask; /* two bits for each lane that takes part */
-    uint16_t kind;
+    uint8_t kind;
+    uint8_t soft; /* 1: some of its springs or triangles have another stiffness in tension, behind the coefficients of
+                     the set, or of coupled triangles a share of their couplings */
 } layout_entry;
 
 /* A coupled triangle has two entries: the first one like that of a corner, and in `at`, `to` and `set` of the second
@@ -56,6 +58,7 @@ typedef struct layout {
     int32_t *order;                        /* [n_nodes] the node at each place; NULL: places are node numbers */
     bool damped, stiff;                    /* whether springs are damped, and whether there is an area term */
     bool coupled;                          /* whether there are couplings */
+    bool softened;                         /* whether entries may be soft */
     layout_part springs;                   /* what a block evaluates */
     layout_part terms;                     /* what its nodes sum up, in the order of their rows */
     layout_part corners;                   /* its triangles */

@@ -13,10 +13,10 @@
 #include "base/inline.h"
 #include "elastic/sweep.h"
 
-/* What acts beside undamped springs of their own, whether the pass takes a step, and whether it also tells which nodes
- * have springs that are strained more than their block's limit. */
+/* What acts beside undamped springs of their own, whether the pass takes a step, whether it also tells which nodes have
+ * springs that are strained more than their block's limit, and whether entries may be soft. */
 typedef struct laws {
-    bool damped, coupled, fused, watched;
+    bool damped, coupled, fused, watched, softened;
 } laws;
 
 enum { all_lanes = 0xffff };
@@ -62,12 +62,26 @@ INLINE sweep_limits limits_of(const sweep *s, dem_index block)
     return (sweep_limits){s->limit[block].stretch - 1e-12, s->limit[block].squeeze - 1e-12};
 }
 
-/* Force (1) on the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), of springs with the coefficients of a set. */
-INLINE pairs pull(const double *set, pairs d, lanes length)
+/* Force (1) on the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), of springs with a stiffness E and the rest lengths
+ * of a set. */
+INLINE pairs pull_by(lanes stiffness, const double *set, pairs d, lanes length)
 {
     const lanes rest = lanes_load(set + LAYOUT_LANES);
-    const lanes stretch = lanes_mul(lanes_load(set), lanes_sub(length, rest));
+    const lanes stretch = lanes_mul(stiffness, lanes_sub(length, rest));
     return pairs_scale(lanes_div(stretch, lanes_mul(rest, length)), d);
+}
+
+INLINE pairs pull(const double *set, pairs d, lanes length)
+{
+    return pull_by(lanes_load(set), set, d, length);
+}
+
+/* The same of springs which are not as stiff in tension as under pressure. */
+INLINE pairs pull_soft(const double *set, bool damped, pairs d, lanes length)
+{
+    const lanes pushed = lanes_load(set), pulled = lanes_load(set + (damped ? 3 : 2) * LAYOUT_LANES);
+    const unsigned longer = lanes_below(lanes_load(set + LAYOUT_LANES), length);
+    return pull_by(lanes_where(longer, pulled, pushed), set, d, length);
 }
 
 /* Forces of the springs of which the block has the lower nodes, into the ring; and behind all of them, those of
@@ -90,7 +104,7 @@ INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, s
         const double *set = sets + e->set;
         const pairs d = pairs_sub(fetch(l, s->x, positions, e->at, gathered), x);
         const lanes square = pairs_dot(d, d), length = lanes_sqrt(square);
-        pairs_store(out + e->to, pull(set, d, length));
+        pairs_store(out + e->to, acting.softened && e->soft ? pull_soft(set, damped, d, length) : pull(set, d, length));
         if (acting.watched) nodes |= strained_of(set, length, limit, e->mask);
         if (!damped) continue;
         const pairs dv = pairs_sub(fetch(l, s->v, velocities, e->at, gathered), v);
@@ -116,16 +130,15 @@ INLINE void note_strained(const sweep *s, dem_index block, dem_index first, laws
     if (acting.watched && block >= first) s->strained[block] = (uint8_t)nodes;
 }
 
-/* What couplings add to the tensions of edges, over their lengths, times the edges: `own` and `other` are the couplings
- * at the ends of an edge, and `before` and `behind` the stretches of the edges there. */
-INLINE pairs pull_edge(pairs edge, lanes length, lanes own, lanes before, lanes other, lanes behind)
+/* What couplings add to the tensions of edges: `own` and `other` are the couplings at the ends of an edge, and `before`
+ * and `behind` the stretches of the edges there. */
+INLINE lanes tension_of(lanes own, lanes before, lanes other, lanes behind)
 {
-    const lanes tension = lanes_add(lanes_mul(own, before), lanes_mul(other, behind));
-    return pairs_scale(lanes_div(tension, length), edge);
+    return lanes_add(lanes_mul(own, before), lanes_mul(other, behind));
 }
 
 /* Forces of the coupled triangles of which the block has the lowest corners, on each corner, into the ring. */
-INLINE void evaluate_couplings(const sweep *s, dem_index block, double *ring)
+INLINE void evaluate_couplings(const sweep *s, dem_index block, laws acting, double *ring)
 {
     const layout *l = s->layout;
     const intern_span span = l->couplings.span[block];
@@ -146,9 +159,11 @@ INLINE void evaluate_couplings(const sweep *s, dem_index block, double *ring)
             stretch[c] = lanes_sub(length[c], lanes_load(set + c * LAYOUT_LANES));
             coupling[c] = lanes_load(set + (3 + c) * LAYOUT_LANES);
         }
-        for (int c = 0; c < 3; c++)
-            force[c] = pull_edge(edge[c], length[c], coupling[c], stretch[(c + 2) % 3], coupling[(c + 1) % 3],
-                                 stretch[(c + 1) % 3]);
+        for (int c = 0; c < 3; c++) {
+            lanes tension = tension_of(coupling[c], stretch[(c + 2) % 3], coupling[(c + 1) % 3], stretch[(c + 1) % 3]);
+            if (acting.softened && e->soft) tension = lanes_mul(lanes_load(set + 6 * LAYOUT_LANES), tension);
+            force[c] = pairs_scale(lanes_div(tension, length[c]), edge[c]);
+        }
         pairs_store(out + e[1].at, pairs_sub(force[0], force[2]));
         pairs_store(out + e[1].to, pairs_sub(force[1], force[0]));
         pairs_store(out + e[1].set, pairs_sub(force[2], force[1]));
@@ -180,7 +195,7 @@ INLINE pairs sum_terms(const layout *l, const layout_part *part, dem_index block
 }
 
 /* Each node's sum over its triangles of the area term, -kappa (A/A0 - 1) dA/dx_i, and which nodes the guard acts on. */
-INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
+INLINE pairs sum_corners(const sweep *s, dem_index block, laws acting, unsigned *guarded)
 {
     const layout *l = s->layout;
     const intern_span span = l->corners.span[block];
@@ -197,8 +212,11 @@ INLINE pairs sum_corners(const sweep *s, dem_index block, unsigned *guarded)
         const unsigned below = lanes_below(area, lanes_load(set + LAYOUT_LANES));
         if (below != 0) *guarded |= nodes_of(below, e->mask);
         if (!l->stiff) continue;
-        const lanes stretch = lanes_sub(lanes_div(area, rest), lanes_all(1.0));
-        const lanes slope = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), stretch);
+        const lanes ratio = lanes_div(area, rest), stretch = lanes_sub(ratio, lanes_all(1.0));
+        lanes stiffness = lanes_load(set + 2 * LAYOUT_LANES);
+        if (acting.softened && e->soft)
+            stiffness = lanes_where(lanes_below(lanes_all(1.0), ratio), lanes_load(set + 3 * LAYOUT_LANES), stiffness);
+        const lanes slope = lanes_mul(stiffness, stretch);
         const pairs gradient = pairs_mul(turn, pairs_swap(pairs_sub(last, next)));
         const pairs force = pairs_scale(lanes_mul(lanes_all(-1.0), slope), gradient);
         sum = pairs_add(sum, pairs_mask(force, e->mask));
@@ -239,14 +257,14 @@ INLINE pass begin_pass(const sweep *s, dem_index first, dem_index last, double *
 }
 
 /* a = g + F/m - alpha v; 0 where 1/m = 0, which is a fixed node. */
-INLINE pairs accelerate(const pass *p, dem_index block, pairs force)
+INLINE pairs accelerate(const pass *p, dem_index block, laws acting, pairs force)
 {
     const sweep *s = p->sweep;
     const layout *l = s->layout;
     const dem_index row = LAYOUT_LANES * block;
     unsigned guarded = 0;
     if (l->corners.span[block].first < l->corners.span[block].end)
-        force = pairs_add(force, sum_corners(s, block, &guarded));
+        force = pairs_add(force, sum_corners(s, block, acting, &guarded));
     s->guarded[block] = (uint8_t)guarded;
     const pairs inverse_mass = pairs_spread(s->inverse_mass + row);
     pairs a = pairs_add(p->gravity, pairs_mul(inverse_mass, force));
@@ -286,7 +304,7 @@ INLINE void complete(pass *p, dem_index block, laws acting, pairs force)
 {
     const sweep *s = p->sweep;
     const dem_index at = 2 * LAYOUT_LANES * block;
-    const pairs a = accelerate(p, block, force);
+    const pairs a = accelerate(p, block, acting, force);
     pairs_store(s->a + at, a);
     p->sum = pairs_add(p->sum, a);
     if (acting.fused) kick(p, s->fused_step, block, a);
@@ -395,7 +413,7 @@ INLINE double run(const sweep *s, dem_index first, dem_index last, laws acting, 
             const unsigned strained = evaluate_springs(s, block, acting, limits_watched(s, block, acting), ring);
             note_strained(s, block, first, acting, strained);
         }
-        if (acting.coupled && block < last) evaluate_couplings(s, block, ring);
+        if (acting.coupled && block < last) evaluate_couplings(s, block, acting, ring);
         if (block > first) complete(&p, block - 1, acting, force_on(s, block - 1, acting, ring));
     }
     return pairs_total(p.sum);
@@ -405,7 +423,7 @@ void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
 {
     for (dem_index block = first; block < last; block++) {
         unsigned guarded = 0;
-        (void)sum_corners(s, block, &guarded);
+        (void)sum_corners(s, block, (laws){0}, &guarded);
         s->guarded[block] = (uint8_t)guarded;
     }
 }
@@ -445,7 +463,8 @@ double SWEEP(const sweep *s, dem_index first, dem_index last, double *ring)
 {
     const layout *l = s->layout;
     const bool fused = s->fused_step != NULL, watched = s->limit != NULL;
-    if (l->coupled) return run(s, first, last, (laws){l->damped, true, fused, watched}, ring);
+    if (l->softened) return run(s, first, last, (laws){l->damped, l->coupled, fused, watched, true}, ring);
+    if (l->coupled) return run(s, first, last, (laws){l->damped, true, fused, watched, false}, ring);
     if (fused && watched) return run(s, first, last, (laws){.fused = true, .watched = true}, ring);
     if (fused) return run(s, first, last, (laws){.fused = true}, ring);
     return l->damped ? run(s, first, last, (laws){.damped = true}, ring) : run(s, first, last, (laws){0}, ring);

@@ -51,14 +51,11 @@ static vec2 gradient(const triangles *t, dem_index p, const double *x)
     return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
 }
 
-/* kappa, N/m, of the triangle in slot p, at an area ratio: one that is larger than at rest has what is left in tension.
- * A negative one takes from springs; of coupled triangles, whose springs soften under pressure, too, it goes along. */
+/* kappa, N/m, of the triangle in slot p, at an area ratio. */
 static double area_stiffness_at(const triangles *t, triangles_integrity integrity, dem_index p, double J)
 {
     const double kappa = t->area_stiffness[p];
-    const dem_index k = t->triangle[p];
-    if (integrity.left == NULL) return kappa;
-    return J > 1.0 || (kappa < 0.0 && triangles_are_coupled(integrity.coupling, k)) ? integrity.left[k] * kappa : kappa;
+    return integrity.left != NULL ? triangles_area_left(t, integrity, p, J > 1.0) * kappa : kappa;
 }
 
 /* dW/dA = kappa (J - 1) + g w'(J), N/m: what area term and guard together resist a change of area with. */

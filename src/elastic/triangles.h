@@ -53,6 +53,16 @@ static inline bool triangles_broken(const triangles *t, triangles_integrity q, d
     return q.broken != NULL && q.broken[t->triangle[p]];
 }
 
+/** What is left of kappa of the triangle in slot p, which is not broken, where it is larger than at rest or not. There
+ *  is an area term. A negative kappa takes from springs; of coupled triangles, whose springs soften under pressure,
+ *  too, it goes along. */
+static inline double triangles_area_left(const triangles *t, triangles_integrity q, dem_index p, bool larger)
+{
+    const dem_index k = t->triangle[p];
+    const bool goes_along = t->area_stiffness[p] < 0.0 && triangles_are_coupled(q.coupling, k);
+    return larger || goes_along ? triangles_left(q, k) : 1.0;
+}
+
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
 vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 

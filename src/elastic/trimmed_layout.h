@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The layout of a body of which something has broken: that of the whole body, from which broken springs and triangles
- * have been taken out, block by block, and in which springs have the stiffness that is left. A sweep of it gives what
- * rows give in which broken elements are passed over, to the bit. The layout of the whole body, which belongs to the
- * model, stays as it is. */
+/* The layout of a body of which something has broken or softened: that of the whole body, from which broken springs and
+ * triangles have been taken out, block by block, and in which the others have the stiffness that is left. A sweep of it
+ * gives what rows give in which broken elements are passed over, to the bit. The layout of the whole body, which
+ * belongs to the model, stays as it is. */
 #ifndef DEM_ELASTIC_TRIMMED_LAYOUT_H
 #define DEM_ELASTIC_TRIMMED_LAYOUT_H
 
 #include "elastic/layout.h"
 
-/** What is left of the elements, by the lattice's numbers, as in springs.h and triangles.h. */
+/** What is left of the elements. */
 typedef struct trimmed_elements {
-    const double *integrity;     /* [n_springs] */
-    const unsigned char *broken; /* [n_triangles] */
+    springs_integrity springs;
+    triangles_integrity triangles;
 } trimmed_elements;
 
 typedef struct trimmed_layout {
@@ -26,14 +26,17 @@ typedef struct trimmed_layout {
     double settled;    /* bytes of entries and sets when they were last made anew */
     dem_index most;    /* items of a lane */
     dem_index *slot;   /* [most] scratch */
-    double *left;      /* [LAYOUT_LANES][most] scratch: what is left of each item */
+    double *left;      /* [LAYOUT_LANES][most] scratch: what is left of each item, 0: it is broken, */
+    double *pulled;    /* and what is in tension */
     dem_index n_entries, entry_capacity;
     layout_entry *entries; /* [n_entries] of the block in hand */
 } trimmed_layout;
 
-/** Nothing is trimmed yet. Borrows all four. Free with trimmed_layout_destroy().  \return DEM_ERROR_MEMORY */
+/** Nothing is trimmed yet. Borrows all four. Free with trimmed_layout_destroy().
+ *  \param softens  whether elements may not be as stiff in tension as under pressure
+ *  \return DEM_ERROR_MEMORY */
 dem_status trimmed_layout_create(trimmed_layout *out, const layout *whole, const springs *s, const triangles *t,
-                                 const couplings *c);
+                                 const couplings *c, bool softens);
 void trimmed_layout_destroy(trimmed_layout *l);
 
 /** Trims the blocks of n nodes. Where the elements of no other nodes have changed the layout is then that of what is

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Accelerations of all nodes, equations (3) and (4), by a sweep over the blocks of the layout, shared among threads
  * (docs/algorithms.md, How forces are evaluated). What is not in blocks, and what is rare, is evaluated row by row
- * behind the sweep: nodes on which the guard acts, nodes with given forces. Where something has broken the sweep reads
- * a layout without it (elastic/trimmed_layout.c), which kernel_follow() keeps up. The contact of surfaces is added to
- * what is there then, and last the external force. Each node's sum is that of forces_own_acceleration() in the same
- * order, so the bits depend neither on the instruction set nor on the number of threads. The choice of the instruction
- * set is here, too. The arithmetic of a block is in elastic/sweep_body.h, that of a row in forces.h;
- * contact forces are added elsewhere (contact/contact_forces.c). */
+ * behind the sweep: nodes on which the guard acts, nodes with given forces. Where something has broken or softened the
+ * sweep reads a layout of what is left (elastic/trimmed_layout.c), which kernel_follow() keeps up. The contact of
+ * surfaces is added to what is there then, and last the external force. Each node's sum is that of
+ * forces_own_acceleration() in the same order, so the bits depend neither on the instruction set nor on the number of
+ * threads. The choice of the instruction set is here, too. The arithmetic of a block is in elastic/sweep_body.h, that
+ * of a row in forces.h; contact forces are added elsewhere (contact/contact_forces.c). */
 #include "forces/kernel.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/aligned.h"
+#include "base/grow.h"
 #include "base/instruction_set.h"
 #include "base/status.h"
 #include "base/threads.h"
@@ -137,58 +138,74 @@ void kernel_destroy(kernel *k)
     free(k->limit);
     free(k->strained);
     trimmed_layout_destroy(&k->trimmed);
+    free(k->beside);
     *k = (kernel){0};
 }
 
 /* ---- what has broken ---- */
 
-static dem_status trim_all(kernel *k, const element_state *e, const trimmed_elements *left)
+static trimmed_elements elements_of(const element_state *e)
+{
+    return (trimmed_elements){element_state_springs(e), element_state_triangles(e)};
+}
+
+static dem_status trim_all(kernel *k, const element_state *e)
 {
     const dem_model *m = k->model;
+    const trimmed_elements left = elements_of(e);
     trimmed_layout_destroy(&k->trimmed);
-    TRY(trimmed_layout_create(&k->trimmed, &m->layout, &m->springs, &m->triangles, &m->couplings));
-    return trimmed_layout_follow(&k->trimmed, left, e->damaged, e->n_damaged);
+    TRY(trimmed_layout_create(&k->trimmed, &m->layout, &m->springs, &m->triangles, &m->couplings, e->tension != NULL));
+    return trimmed_layout_follow(&k->trimmed, &left, e->damaged, e->n_damaged);
+}
+
+static dem_status add_beside(kernel *k, const dem_index *nodes, int n)
+{
+    CHECK(grow_array((void **)&k->beside, &k->beside_capacity, k->n_beside + n, sizeof *k->beside), DEM_ERROR_MEMORY,
+          "out of memory for the layout of springs");
+    memcpy(k->beside + k->n_beside, nodes, (size_t)n * sizeof *nodes);
+    k->n_beside += n;
+    return DEM_OK;
 }
 
 /* Springs that a triangle holds need not be between its corners. */
-static dem_status trim_element(kernel *k, const element_state *e, const trimmed_elements *left, dem_index element)
+static dem_status list_beside(kernel *k, const element_state *e, dem_index element)
 {
     const dem_lattice *l = e->lattice;
     const dem_index spring = element - l->n_triangles;
-    if (spring >= 0) return trimmed_layout_follow(&k->trimmed, left, &l->ends[2 * spring], 2);
-    for (dem_index p = e->row[element]; p < e->row[element + 1]; p++)
-        TRY(trimmed_layout_follow(&k->trimmed, left, &l->ends[2 * e->spring[p]], 2));
-    return trimmed_layout_follow(&k->trimmed, left, &l->triangles[3 * element], 3);
+    if (spring >= 0) return add_beside(k, &l->ends[2 * spring], 2);
+    for (dem_index p = e->row[element]; p < e->row[element + 1]; p++) TRY(add_beside(k, &l->ends[2 * e->spring[p]], 2));
+    return add_beside(k, &l->triangles[3 * element], 3);
 }
 
-/* Springs that have softened are not as stiff in tension as under pressure, which no set of a layout can say. */
-static bool can_trim(const element_state *e)
+/* All at once, so that a block is trimmed once. */
+static dem_status trim(kernel *k, const element_state *e, const dem_index *list, dem_index n)
 {
-    return e != NULL && e->lattice->softening == NULL;
+    const trimmed_elements left = elements_of(e);
+    k->n_beside = 0;
+    for (dem_index j = 0; j < n; j++) TRY(list_beside(k, e, list[j]));
+    return trimmed_layout_follow(&k->trimmed, &left, k->beside, k->n_beside);
 }
 
 void kernel_follow(kernel *k, const element_state *e, const dem_index *list, dem_index n)
 {
-    if (!can_trim(e)) return;
-    const trimmed_elements left = {e->integrity, e->triangle};
-    const bool known = list != NULL && k->n_trimmed >= 0 && k->n_trimmed + n == e->n_broken;
-    dem_status status = known ? DEM_OK : trim_all(k, e, &left);
-    for (dem_index j = 0; j < n && known && status == DEM_OK; j++) status = trim_element(k, e, &left, list[j]);
-    k->n_trimmed = status == DEM_OK ? e->n_broken : -1;
+    if (e == NULL) return;
+    const bool known = list != NULL && k->n_trimmed >= 0 && k->n_trimmed + n == element_state_n_failures(e);
+    const dem_status status = known ? trim(k, e, list, n) : trim_all(k, e);
+    k->n_trimmed = status == DEM_OK ? element_state_n_failures(e) : -1;
     if (status != DEM_OK) trimmed_layout_destroy(&k->trimmed);
 }
 
-/* What had broken and been trimmed may have been mended since. Then as many other elements may break, so that their
- * number says nothing any more. */
+/* What has been trimmed may have been mended since. Then as many other elements may fail, so that their number says
+ * nothing any more. */
 static void forget_mended(kernel *k, const element_state *e)
 {
-    if (e == NULL || e->n_broken < k->n_trimmed) k->n_trimmed = -1;
+    if (e == NULL || element_state_n_failures(e) < k->n_trimmed) k->n_trimmed = -1;
 }
 
-/* Whether the trimmed layout is that of the elements as they are: inside a step more may have broken. */
+/* Whether the trimmed layout is that of the elements as they are: inside a step more may have failed. */
 static bool is_trimmed(const kernel *k, const element_state *e)
 {
-    return can_trim(e) && e->n_broken == k->n_trimmed;
+    return e != NULL && element_state_n_failures(e) == k->n_trimmed;
 }
 
 static const layout *layout_of(const kernel *k, const element_state *e)

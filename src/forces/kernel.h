@@ -26,9 +26,11 @@ typedef struct kernel {
     sweep_limits *limit;    /* [n_blocks] the least of the thresholds that are watched; NULL: none are */
     uint8_t *strained;      /* [n_blocks] nodes with springs strained more, */
     const double *watched;  /* at these positions, of a fused step; NULL: to be found */
-    trimmed_layout trimmed; /* what sweeps read where something has broken, */
-    dem_index n_trimmed;    /* if so many elements have; -1: there is none */
-    double *packed;         /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
+    trimmed_layout trimmed; /* what sweeps read where something has broken or softened, */
+    dem_index n_trimmed;    /* if elements have done so as often; -1: there is none */
+    dem_index n_beside, beside_capacity;
+    dem_index *beside; /* [n_beside] scratch: nodes beside elements, some more than once */
+    double *packed;    /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
 } kernel;
 
 /** Borrows the model.  \return DEM_ERROR_ARGUMENT for a kernel that this machine does not have; DEM_ERROR_MEMORY. Free
@@ -36,9 +38,9 @@ typedef struct kernel {
 dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads);
 void kernel_destroy(kernel *k);
 
-/** Makes the sweep fit a state of elements, of which the n of `list` have broken since the last call; NULL: any have.
- *  It holds until more break, or are mended. Without memory for it, and as long as it does not hold, nodes beside
- *  broken elements are evaluated one by one, to the same bits. */
+/** Makes the sweep fit a state of elements, of which the n of `list` have broken or softened since the last call, some
+ *  of them more than once; NULL: any have. It holds until more fail, or are mended. Without memory for it, and as long
+ *  as it does not hold, nodes beside elements that are not whole are evaluated one by one, to the same bits. */
 void kernel_follow(kernel *k, const element_state *elements, const dem_index *list, dem_index n);
 
 /** Strains of a spring that are not asked after, > 0, in tension and under pressure; infinity: none is. */

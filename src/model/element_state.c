@@ -291,6 +291,7 @@ static void change_level(element_state *s, dem_index triangle, int level)
         s->tension[k] += share_in_tension(s, p, left) - share_in_tension(s, p, before);
         s->integrity[k] += share_under_pressure(s, triangle, p, left) - share_under_pressure(s, triangle, p, before);
     }
+    s->n_softenings += level - s->level[triangle];
     s->level[triangle] = (unsigned char)level;
     s->left[triangle] = left;
 }

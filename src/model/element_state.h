@@ -23,6 +23,7 @@ typedef struct element_state {
     unsigned char *triangle; /* [n_triangles] 1: broken */
     unsigned char *node;     /* [n_nodes] 1: an element at the node is not whole */
     dem_index n_broken;      /* triangles, and springs that no triangle holds */
+    dem_index n_softenings;  /* of all triangles together, broken or not */
     dem_index n_damaged;
     dem_index *damaged;  /* prepared: [n_damaged] these nodes, in the order in which elements broke */
     int32_t *row;        /* prepared: [n_triangles + 1] slots row[t] .. row[t + 1] - 1 of a triangle: */
@@ -89,6 +90,12 @@ static inline bool element_state_is_last(const element_state *s, dem_index trian
 {
     const double *softening = s->lattice->softening;
     return softening == NULL || element_state_level(s, triangle) == softening_levels(softening[triangle]);
+}
+
+/** How many times elements have broken or softened, all together. */
+static inline dem_index element_state_n_failures(const element_state *s)
+{
+    return s->n_broken + s->n_softenings;
 }
 
 static inline bool element_state_is_corner(const element_state *s, dem_index triangle, dem_index node)

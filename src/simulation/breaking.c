@@ -171,11 +171,12 @@ dem_status breaking_found(const dem_simulation *s)
 /* New faces near others change the energy of contact: what it is less goes with that of the broken elements. */
 dem_status breaking_follow(dem_simulation *s, const double *y)
 {
-    if (!fracture_source_has_broken(&s->breaks)) return DEM_OK;
+    const fracture_source *b = &s->breaks;
+    if (fracture_source_has_failed(b)) kernel_follow(&s->kernel, &s->elements, b->failed, b->n_failed);
+    if (!fracture_source_has_broken(b)) return DEM_OK;
     TRY(body_contact_follow(s, y));
     const double before = s->surfaces != NULL ? set_motion_energy(s, y) : 0.0;
     TRY(renew_outline(s, &s->elements, y));
-    kernel_follow(&s->kernel, &s->elements, s->breaks.broken, s->breaks.breaks.n);
     if (s->surfaces != NULL) s->fracture += before - set_motion_energy(s, y);
     return DEM_OK;
 }

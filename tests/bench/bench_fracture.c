@@ -8,12 +8,14 @@
  *                                                       1.5 times as high
  *      bench_fracture damaged NODES TURNS               an evaluation of all forces with triangles dead, over that of
  *                                                       the whole body: medians of turns
+ *      bench_fracture softened NODES TURNS              the same with triangles softened, of nodes moved at random, of
+ *                                                       which springs are coupled
  *      bench_fracture deaths NODES METHOD               a body that breaks where waves meet: time per broken triangle
  *
- * CPU time. Rows of dead triangles lie side by side across the body, as cracks do; dead ones at random are each of them
- * chosen by itself. The time of a death is in parts: finding what breaks in a step, resolving it (with its root and
- * local correction), and what follows at the end of the step (surfaces, layout); and all of a run, less as many steps
- * of the same impact on a stronger body. */
+ * CPU time. Rows of dead or softened triangles lie side by side across the body, as cracks do; those at random are each
+ * of them chosen by itself. The time of a death is in parts: finding what breaks in a step, resolving it (with its root
+ * and local correction), and what follows at the end of the step (surfaces, layout); and all of a run, less as many
+ * steps of the same impact on a stronger body. */
 #include <math.h>
 #include <string.h>
 
@@ -31,19 +33,24 @@ enum { MOST = 400 };
 
 /* ---- bodies ---- */
 
-/* Strength in units of E v/c, with v = `speed` and c the speed of waves; 0: it does not break. */
-static dem_lattice make_body(double nodes, double strength)
+/* Strength in units of E v/c, with v = `speed` and c the speed of waves; 0: it does not break. Bodies that soften have
+ * nodes moved at random. */
+static dem_lattice make_body(double nodes, double strength, bool softens)
 {
     const double c = sqrt(youngs_modulus / density), columns = sqrt(nodes * sqrt(3.0) / 2.0);
+    const double stress = strength * youngs_modulus * speed / c;
     const dem_material stone = {.struct_size = sizeof(dem_material),
                                 .youngs_modulus = youngs_modulus,
-                                .poissons_ratio = 1.0 / 3.0,
+                                .poissons_ratio = softens ? 0.22 : 1.0 / 3.0,
                                 .density = density,
                                 .thickness = 1.0,
                                 .guard = 0.02,
-                                .strength = strength * youngs_modulus * speed / c};
+                                .springs = softens ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT,
+                                .strength = stress,
+                                .fracture_energy = softens ? 8.0 * stress * stress * spacing / youngs_modulus : 0.0};
     dem_lattice l = dem_lattice_empty();
     ask(dem_lattice_rectangle(&l, columns * spacing, columns * spacing, spacing));
+    if (softens) ask(dem_lattice_jitter(&l, 0.25 * spacing, 1));
     ask(dem_lattice_assemble(&l, &stone));
     return l;
 }
@@ -59,7 +66,7 @@ static dem_model *compile(dem_lattice l, const dem_obstacle *obstacles, dem_inde
 /* A standing wave of twelve spacings. */
 static dem_model *make_waves(double nodes, double strength)
 {
-    dem_lattice l = make_body(nodes, strength);
+    dem_lattice l = make_body(nodes, strength, false);
     l.velocity = calloc(2 * (size_t)l.n_nodes, sizeof *l.velocity);
     must(l.velocity != NULL, "out of memory");
     for (dem_index i = 0; i < l.n_nodes; i++) {
@@ -147,7 +154,7 @@ static void measure_whole(double nodes, const char *method, int steps, int turns
     for (int k = 0; k < KINDS; k++) dem_model_destroy(models[k]);
 }
 
-/* ---- with dead triangles ---- */
+/* ---- with dead or softened triangles ---- */
 
 typedef struct damage {
     const char *name;
@@ -155,9 +162,10 @@ typedef struct damage {
     double share;
 } damage;
 
-static const damage kinds[] = {{"whole", false, 0.0},       {"rows, 1 %", true, 0.01},    {"rows, 10 %", true, 0.1},
-                               {"rows, 30 %", true, 0.3},   {"random, 1 %", false, 0.01}, {"random, 10 %", false, 0.1},
-                               {"random, 30 %", false, 0.3}};
+/* All of it as well where triangles soften, whose forces remain. */
+static const damage kinds[] = {{"whole", false, 0.0},        {"rows, 1 %", true, 0.01},    {"rows, 10 %", true, 0.1},
+                               {"rows, 30 %", true, 0.3},    {"random, 1 %", false, 0.01}, {"random, 10 %", false, 0.1},
+                               {"random, 30 %", false, 0.3}, {"all", false, 1.0}};
 enum { N_KINDS = sizeof kinds / sizeof *kinds };
 
 /* In [0, 1), of its own for each number. */
@@ -177,10 +185,19 @@ static double row_of(const dem_lattice *l, dem_index triangle)
     return floor(y / (spacing * sqrt(3.0) / 2.0));
 }
 
-static bool is_dead(const dem_lattice *l, damage d, dem_index triangle)
+static bool is_chosen(const dem_lattice *l, damage d, dem_index triangle)
 {
     const double period = 1.0 / d.share;
     return d.by_rows ? fmod(row_of(l, triangle), period) < 1.0 : share_of(triangle) < d.share;
+}
+
+/* Each between one and 32 times. */
+static void soften(dem_simulation *s, const dem_index *triangle, dem_index n)
+{
+    ask(element_state_prepare(&s->elements));
+    for (dem_index k = 0; k < n; k++)
+        for (dem_index t = 0; t <= triangle[k] % SOFTENING_LEVELS; t++) element_state_soften(&s->elements, triangle[k]);
+    kernel_follow(&s->kernel, &s->elements, NULL, 0);
 }
 
 /* A simulation of which the kernel is asked, with the elements and the layout that the run would have. */
@@ -193,9 +210,10 @@ static dem_simulation *open_damaged(const dem_model *model, damage d)
     options.bodies = DEM_BODIES_NONE;
     must(dead != NULL, "out of memory");
     for (dem_index t = 0; t < l->n_triangles && d.share > 0.0; t++)
-        if (is_dead(l, d, t)) dead[n++] = t;
+        if (is_chosen(l, d, t)) dead[n++] = t;
     ask(dem_simulation_create(&simulation, model, &options));
-    if (n > 0) ask(dem_simulation_break(simulation, dead, n, NULL, 0));
+    if (n > 0 && l->softening != NULL) soften(simulation, dead, n);
+    if (n > 0 && l->softening == NULL) ask(dem_simulation_break(simulation, dead, n, NULL, 0));
     free(dead);
     return simulation;
 }
@@ -210,25 +228,25 @@ static double time_forces(dem_simulation *s, double *a, int rounds)
     return (seconds(CLOCK_PROCESS_CPUTIME_ID) - start) / rounds;
 }
 
-static void measure_damaged(double nodes, int turns)
+static void measure_damaged(double nodes, int turns, bool softens)
 {
     static double times[N_KINDS][MOST];
-    dem_model *model = make_waves(nodes, 0.0);
-    const int rounds = (int)(2e6 / nodes) + 1;
+    dem_model *model = softens ? compile(make_body(nodes, 1.0, true), NULL, 0) : make_waves(nodes, 0.0);
+    const int n_kinds = softens ? N_KINDS : N_KINDS - 1, rounds = (int)(2e6 / nodes) + 1;
     double *a = aligned_zeros(2 * (size_t)model->lattice.n_nodes);
     dem_simulation *simulations[N_KINDS];
     must(a != NULL, "out of memory");
-    for (int k = 0; k < N_KINDS; k++) simulations[k] = open_damaged(model, kinds[k]);
+    for (int k = 0; k < n_kinds; k++) simulations[k] = open_damaged(model, kinds[k]);
     for (int turn = 0; turn < turns; turn++)
-        for (int k = 0; k < N_KINDS; k++)
-            times[(turn + k) % N_KINDS][turn] = time_forces(simulations[(turn + k) % N_KINDS], a, rounds);
+        for (int k = 0; k < n_kinds; k++)
+            times[(turn + k) % n_kinds][turn] = time_forces(simulations[(turn + k) % n_kinds], a, rounds);
     for (int turn = 0; turn < turns; turn++)
-        for (int k = 1; k < N_KINDS; k++) times[k][turn] /= times[0][turn];
+        for (int k = 1; k < n_kinds; k++) times[k][turn] /= times[0][turn];
     (void)printf("%lld nodes: %.2f ns a node", (long long)model->lattice.n_nodes,
                  1e9 * median(times[0], (size_t)turns) / (double)model->lattice.n_nodes);
-    for (int k = 1; k < N_KINDS; k++) (void)printf("; %s %.3f", kinds[k].name, median(times[k], (size_t)turns));
+    for (int k = 1; k < n_kinds; k++) (void)printf("; %s %.3f", kinds[k].name, median(times[k], (size_t)turns));
     (void)printf("\n");
-    for (int k = 0; k < N_KINDS; k++) dem_simulation_destroy(simulations[k]);
+    for (int k = 0; k < n_kinds; k++) dem_simulation_destroy(simulations[k]);
     dem_model_destroy(model);
     free(a);
 }
@@ -324,12 +342,14 @@ static void measure_deaths(double nodes, const char *method)
 
 int main(int argc, char **argv)
 {
-    must(argc > 2, "memory | whole | damaged | deaths, NODES ...");
+    must(argc > 2, "memory | whole | damaged | softened | deaths, NODES ...");
     const double nodes = atof(argv[2]);
     if (strcmp(argv[1], "memory") == 0) measure_memory(nodes);
     if (strcmp(argv[1], "whole") == 0 && argc == 6)
         measure_whole(nodes, argv[3], atoi(argv[4]), (int)fmin(MOST, atof(argv[5])));
-    if (strcmp(argv[1], "damaged") == 0 && argc == 4) measure_damaged(nodes, (int)fmin(MOST, atof(argv[3])));
+    const bool softens = strcmp(argv[1], "softened") == 0;
+    if ((softens || strcmp(argv[1], "damaged") == 0) && argc == 4)
+        measure_damaged(nodes, (int)fmin(MOST, atof(argv[3])), softens);
     if (strcmp(argv[1], "deaths") == 0 && argc == 4) measure_deaths(nodes, argv[3]);
     return 0;
 }

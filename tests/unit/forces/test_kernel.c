@@ -294,6 +294,43 @@ TEST(broken_elements_agree)
     }
 }
 
+/* Triangles that soften as different materials do, every fifth of them brittle. */
+static void let_soften(dem_lattice *l)
+{
+    l->softening = malloc((size_t)l->n_triangles * sizeof *l->softening);
+    assert_non_null(l->softening);
+    for (dem_index t = 0; t < l->n_triangles; t++) l->softening[t] = t % 5 == 0 ? 1.0 : 1.5 + 0.37 * (double)(t % 7);
+}
+
+static bool may_soften(const element_state *e, dem_index t)
+{
+    return e->lattice->softening != NULL && e->level[t] < softening_levels(e->lattice->softening[t]);
+}
+
+/* A triangle is whole, has softened between one and 32 times, or is broken, and then may have softened before. */
+TEST(softened_elements_agree)
+{
+    for (int laws = 0; laws < 16; laws++) {
+        const dem_material material = law_of(laws);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+        CLEANUP(springs_free) springs all;
+        CLEANUP(element_state_destroy) element_state soft;
+        let_soften(&lattice);
+        assert_ok(springs_compile(&all, &lattice));
+        assert_ok(element_state_create(&soft, &lattice, &all));
+        for (dem_index t = 0; t < lattice.n_triangles; t++) {
+            for (dem_index n = 0; n < t * t % 41 && t % 4 != 0 && may_soften(&soft, t); n++)
+                element_state_soften(&soft, t);
+            if (t % 11 == 0) element_state_break_triangle(&soft, t);
+        }
+        const forces plain = {.gravity = {0.5, -9.81}, .elements = &soft};
+        const forces drag = {.gravity = {0.5, -9.81}, .mass_damping = 3.0, .elements = &soft};
+        CLEANUP(free_scene) scene s = make_scene(&lattice, laws & 1 ? 0.1 : 0.6);
+        check_load(&s, &plain);
+        check_load(&s, &drag);
+    }
+}
+
 /* The sweep of the whole body evaluates what is broken too, and has no number for it; a spring that is whole has none
  * either. */
 TEST(the_ends_of_a_broken_spring_may_meet)
@@ -318,8 +355,19 @@ TEST(the_ends_of_a_broken_spring_may_meet)
     }
 }
 
-/* Every third element that is still whole breaks, and the kernel follows, a few at a time: until hardly anything
- * is left. In between one breaks of which it does not know, and is mended. */
+/* A triangle softens where it may, up to three times, or breaks.  \return how many times it has been listed */
+static dem_index fail_one(element_state *e, dem_index t, dem_index *list)
+{
+    dem_index n = 0;
+    for (; n < 3 && may_soften(e, t); list[n++] = t) element_state_soften(e, t);
+    if (n > 0) return n;
+    element_state_break(e, t);
+    list[0] = t;
+    return 1;
+}
+
+/* Elements that are not broken fail, and the kernel follows, a few at a time: until hardly anything is left. In between
+ * one breaks of which it does not know, and is mended. */
 static void check_breaking(const dem_lattice *lattice)
 {
     CLEANUP(free_scene) scene s = make_scene(lattice, 0.1);
@@ -330,17 +378,16 @@ static void check_breaking(const dem_lattice *lattice)
     assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 2));
     kernel_follow(&k, &broken, NULL, 0);
     for (int round = 0; round < 16; round++) {
-        dem_index list[4], n = 0, other = -1;
+        dem_index list[12], n = 0, other = -1;
         for (int turn = 0; turn < 4; turn++) {
             const dem_index t = (dem_index)gsl_rng_uniform_int(s.random, (unsigned long)lattice->n_triangles);
             if (broken.triangle[t]) continue;
-            list[n++] = t;
-            element_state_break(&broken, t);
+            n += fail_one(&broken, t, list + n);
         }
         if (n == 0) continue;
         check_evaluations(&s, &f, &k);
         kernel_follow(&k, &broken, list, n);
-        assert_int_equal(k.n_trimmed, broken.n_broken);
+        assert_int_equal(k.n_trimmed, element_state_n_failures(&broken));
         check_evaluations(&s, &f, &k);
         for (dem_index t = 0; t < lattice->n_triangles && other < 0; t++)
             if (!broken.triangle[t]) other = t;
@@ -356,6 +403,8 @@ TEST(what_breaks_by_and_by_agrees)
     for (int laws = 0; laws < 16; laws++) {
         const dem_material material = law_of(laws);
         CLEANUP(dem_lattice_free) dem_lattice lattice = make_holed(&material);
+        check_breaking(&lattice);
+        let_soften(&lattice);
         check_breaking(&lattice);
     }
     const dem_material cell =
@@ -417,6 +466,8 @@ TEST(any_numbering_agrees)
         CLEANUP(free_memory) dem_index *number = shuffled(lattice.n_nodes);
         swap_nodes(&lattice, number);
         check_lattice(&lattice, 0.1);
+        if (k == 3) check_breaking(&lattice);
+        if (k == 3) let_soften(&lattice);
         if (k == 3) check_breaking(&lattice);
         CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
         assert_int_equal(s.model->layout.order != NULL, large);
