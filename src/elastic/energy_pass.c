@@ -5,6 +5,7 @@
 #include LANES
 
 #include "elastic/energy_pass.h"
+#include "elastic/lane_operands.h"
 #include "elastic/lanes_twofold.h"
 
 /* What is summed up and compared over some blocks. */
@@ -22,7 +23,7 @@ typedef struct place {
     unsigned folded;  /* lanes of which triangles are folded, found here */
 } place;
 
-/* The bits of lanes from those of nodes, and back. */
+/* The bits of lanes from those of nodes. */
 INLINE unsigned lanes_of_nodes(unsigned nodes)
 {
     unsigned chosen = 0;
@@ -30,24 +31,9 @@ INLINE unsigned lanes_of_nodes(unsigned nodes)
     return chosen;
 }
 
-INLINE unsigned nodes_of_lanes(unsigned chosen)
-{
-    unsigned nodes = 0;
-    for (int q = 0; q < LAYOUT_LANES; q++) nodes |= (chosen >> layout_lane(q) & 1u) << q;
-    return nodes;
-}
-
-/* The lanes that take part in an entry, whose mask has two bits for each node: those of nodes 0 to 3 are those of lanes
- * 0, 2, 4, 6, and nodes 4 to 7 have the others. */
-INLINE unsigned lanes_of_entry(const layout_entry *e)
-{
-    return (e->mask & 0x55u) | (e->mask >> 8 & 0x55u) << 1;
-}
-
-/* Positions of the operands of an entry. */
 INLINE pairs positions(const place *p, int32_t at, bool gathered)
 {
-    return gathered ? pairs_gather(p->x, p->l->lists + at) : pairs_load(p->here + at);
+    return lane_operands_fetch(p->l, p->x, p->here, at, gathered);
 }
 
 enum { ALL_LANES = (1 << LAYOUT_LANES) - 1 };
@@ -78,7 +64,7 @@ INLINE void measure_springs(const place *p, running *r)
         const lanes stiffness = lanes_load(sets + e->set), rest = lanes_load(sets + e->set + LAYOUT_LANES);
         const lanes strain = lanes_div(lanes_sub(lanes_sqrt(pairs_dot(d, d)), rest), rest);
         const lanes scale = lanes_mul(lanes_mul(lanes_all(0.5), stiffness), rest);
-        take_strains(r, strain, lanes_mul(lanes_mul(scale, strain), strain), lanes_of_entry(e) & ~p->skipped);
+        take_strains(r, strain, lanes_mul(lanes_mul(scale, strain), strain), lane_operands_taken(e) & ~p->skipped);
     }
 }
 
@@ -94,7 +80,7 @@ INLINE void measure_couplings(const place *p, running *r)
         const double *set = (const double *)p->l->couples.items + e->set;
         const pairs next = positions(p, e->at, gathered), last = positions(p, e->to, gathered);
         const pairs edge[3] = {pairs_sub(next, x), pairs_sub(last, next), pairs_sub(x, last)};
-        const unsigned taken = lanes_of_entry(e) & ~p->skipped;
+        const unsigned taken = lane_operands_taken(e) & ~p->skipped;
         lanes stretch[3];
         for (int c = 0; c < 3; c++)
             stretch[c] = lanes_sub(lanes_sqrt(pairs_dot(edge[c], edge[c])), lanes_load(set + c * LAYOUT_LANES));
@@ -110,12 +96,12 @@ INLINE void measure_couplings(const place *p, running *r)
 INLINE unsigned lowest_of(const place *p, const layout_entry *e)
 {
     unsigned nodes = 0;
-    if (e->kind != LAYOUT_GATHERED) return e->at > 0 && e->to > 0 ? lanes_of_entry(e) : 0;
+    if (e->kind != LAYOUT_GATHERED) return e->at > 0 && e->to > 0 ? lane_operands_taken(e) : 0;
     for (int32_t q = 0; q < LAYOUT_LANES; q++) {
         const dem_index own = 2 * (LAYOUT_LANES * p->block + q);
         nodes |= (unsigned)(p->l->lists[e->at + q] > own && p->l->lists[e->to + q] > own) << q;
     }
-    return lanes_of_nodes(nodes) & lanes_of_entry(e);
+    return lanes_of_nodes(nodes) & lane_operands_taken(e);
 }
 
 /* A0 kappa/2 (J - 1)^2 with J = A/A0 */
@@ -150,7 +136,7 @@ INLINE void measure_block(const energy_pass *p, dem_index block, running *r)
     measure_springs(&at, r);
     if (at.l->coupled) measure_couplings(&at, r);
     measure_areas(&at, r);
-    p->folded[block] = at.folded != 0 ? (uint8_t)nodes_of_lanes(at.folded) : 0;
+    p->folded[block] = at.folded != 0 ? (uint8_t)lane_operands_nodes(at.folded) : 0;
 }
 
 /* The extreme of eight lanes. */

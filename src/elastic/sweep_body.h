@@ -11,6 +11,7 @@
 #define DEM_ELASTIC_SWEEP_BODY_H
 
 #include "base/inline.h"
+#include "elastic/lane_operands.h"
 #include "elastic/sweep.h"
 
 /* What acts beside undamped springs of their own, whether the pass takes a step, whether it also tells which nodes have
@@ -20,12 +21,6 @@ typedef struct laws {
 } laws;
 
 enum { all_lanes = 0xffff };
-
-/* The operands of an entry for all lanes. `here` is where those that lie side by side are counted from. */
-INLINE pairs fetch(const layout *l, const double *array, const double *here, int32_t at, bool gathered)
-{
-    return gathered ? pairs_gather(array, l->lists + at) : pairs_load(here + at);
-}
 
 /* The first eight places of a stream are repeated behind its end, so that any eight in a row can be read. */
 INLINE void repeat_first(const layout *l, double *stream)
@@ -102,12 +97,12 @@ INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, s
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const double *set = sets + e->set;
-        const pairs d = pairs_sub(fetch(l, s->x, positions, e->at, gathered), x);
+        const pairs d = pairs_sub(lane_operands_fetch(l, s->x, positions, e->at, gathered), x);
         const lanes square = pairs_dot(d, d), length = lanes_sqrt(square);
         pairs_store(out + e->to, acting.softened && e->soft ? pull_soft(set, damped, d, length) : pull(set, d, length));
         if (acting.watched) nodes |= strained_of(set, length, limit, e->mask);
         if (!damped) continue;
-        const pairs dv = pairs_sub(fetch(l, s->v, velocities, e->at, gathered), v);
+        const pairs dv = pairs_sub(lane_operands_fetch(l, s->v, velocities, e->at, gathered), v);
         const lanes rate = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), pairs_dot(d, dv));
         const lanes scale = lanes_div(rate, lanes_mul(lanes_load(set + LAYOUT_LANES), square));
         pairs_store(damping + 2 * at_row + e->to, pairs_scale(scale, d));
@@ -150,7 +145,8 @@ INLINE void evaluate_couplings(const sweep *s, dem_index block, laws acting, dou
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e += 2) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const double *set = (const double *)l->couples.items + e->set;
-        const pairs next = fetch(l, s->x, here, e->at, gathered), last = fetch(l, s->x, here, e->to, gathered);
+        const pairs next = lane_operands_fetch(l, s->x, here, e->at, gathered),
+                    last = lane_operands_fetch(l, s->x, here, e->to, gathered);
         const pairs edge[3] = {pairs_sub(next, x), pairs_sub(last, next), pairs_sub(x, last)};
         lanes length[3], stretch[3], coupling[3];
         pairs force[3];
@@ -187,7 +183,7 @@ INLINE pairs sum_terms(const layout *l, const layout_part *part, dem_index block
         } else if (e->kind == LAYOUT_ADD) {
             sum = pairs_add(sum, pairs_load(here + e->at));
         } else {
-            const pairs force = fetch(l, ring, here, e->at, e->kind == LAYOUT_GATHERED);
+            const pairs force = lane_operands_fetch(l, ring, here, e->at, e->kind == LAYOUT_GATHERED);
             sum = pairs_add(sum, pairs_mask(pairs_negate(force, (unsigned)e->to), e->mask));
         }
     }
@@ -206,7 +202,8 @@ INLINE pairs sum_corners(const sweep *s, dem_index block, laws acting, unsigned 
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const double *set = sets + e->set;
-        const pairs next = fetch(l, s->x, here, e->at, gathered), last = fetch(l, s->x, here, e->to, gathered);
+        const pairs next = lane_operands_fetch(l, s->x, here, e->at, gathered),
+                    last = lane_operands_fetch(l, s->x, here, e->to, gathered);
         const lanes twice = pairs_cross(pairs_sub(next, x), pairs_sub(last, x));
         const lanes area = lanes_mul(lanes_all(0.5), twice), rest = lanes_load(set);
         const unsigned below = lanes_below(area, lanes_load(set + LAYOUT_LANES));
@@ -440,7 +437,7 @@ INLINE unsigned strained_nodes(const sweep *s, dem_index block, sweep_limits lim
     const pairs x = pairs_load(here);
     unsigned nodes = 0;
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
-        const pairs d = pairs_sub(fetch(l, s->x, here, e->at, e->kind == LAYOUT_GATHERED), x);
+        const pairs d = pairs_sub(lane_operands_fetch(l, s->x, here, e->at, e->kind == LAYOUT_GATHERED), x);
         const lanes square = pairs_dot(d, d), rest = lanes_load(sets + e->set + LAYOUT_LANES);
         const lanes at_rest = lanes_mul(rest, rest);
         const unsigned over = lanes_below(lanes_mul(lanes_all(high), at_rest), square) |

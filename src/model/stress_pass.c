@@ -3,6 +3,7 @@
  * set, whose vectors LANES names; with the plain loops the compiler fills vectors by itself. */
 #include LANES
 
+#include "elastic/lane_operands.h"
 #include "elastic/lanes_twofold.h"
 #include "model/stress_pass.h"
 
@@ -87,10 +88,10 @@ INLINE lanes spread_of(const stress_pass *p, dem_index block, unsigned *guarded)
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const double *set = (const double *)l->areas.items + e->set;
-        const pairs next = gathered ? pairs_gather(p->x, l->lists + e->at) : pairs_load(here + e->at);
-        const pairs last = gathered ? pairs_gather(p->x, l->lists + e->to) : pairs_load(here + e->to);
+        const pairs next = lane_operands_fetch(l, p->x, here, e->at, gathered);
+        const pairs last = lane_operands_fetch(l, p->x, here, e->to, gathered);
         const lanes area = lanes_mul(lanes_all(0.5), pairs_cross(pairs_sub(next, x), pairs_sub(last, x)));
-        const unsigned taken = (e->mask & 0x55u) | (e->mask >> 8 & 0x55u) << 1; /* lanes */
+        const unsigned taken = lane_operands_taken(e);
         *guarded |= lanes_below(area, lanes_load(set + LAYOUT_LANES)) & taken;
         if (!l->stiff) continue;
         const lanes stretch = lanes_sub(lanes_div(area, lanes_load(set)), lanes_all(1.0));
@@ -104,9 +105,9 @@ void STRESS_PASS_AREAS(const stress_pass *p, dem_index first, dem_index last)
 {
     double spread[LAYOUT_LANES];
     for (dem_index block = first; block < last; block++) {
-        unsigned guarded = 0, nodes = 0;
+        unsigned guarded = 0;
         lanes_store(spread, spread_of(p, block, &guarded));
-        for (int q = 0; q < LAYOUT_LANES && guarded != 0; q++) nodes |= (guarded >> layout_lane(q) & 1u) << q;
+        const unsigned nodes = guarded != 0 ? lane_operands_nodes(guarded) : 0;
         p->guarded[block] = (uint8_t)nodes;
         double *stress = p->stress + 3 * LAYOUT_LANES * block;
         for (int q = 0; q < LAYOUT_LANES && p->layout->stiff; q++)
