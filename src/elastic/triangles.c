@@ -4,7 +4,7 @@
  * depends on its area A alone, and so keeps momentum and angular momentum:
  *     W = A0 (kappa/2 (J - 1)^2 + g w(J)),   J = A/A0,   w = (-ln(J/Jc))^3 below Jc = 0.4 and 0 above.
  * Forces are gathered node by node in the fixed order of rows. The area term of the sweep is in sweep_body.h with the
- * same bits. kappa and g are chosen elsewhere, in lattice/assemble.c. */
+ * same bits. kappa and g are chosen in lattice/solid_material.c and lattice/assemble.c. */
 #include "elastic/triangles.h"
 
 #include <stdlib.h>

@@ -4,8 +4,9 @@
  * (8/3) G h A/|e| (in N, as E_ij of equation (1)) and each corner a third of its mass. A square cell gives k/2 to its
  * sides and r k to its diagonals, with k = E h/(1 + nu) in N/m. The shares of a pair of nodes add up to its spring, so
  * that springs on a boundary or between two materials come out right by themselves. In a block of equilateral triangles
- * or squares the springs and the area term then give exactly E and nu. Where nodes and triangles come from is not here
- * but in generate.c and the programs; what a lattice must satisfy to move is checked in model/model.c. */
+ * or squares the springs and the area term then give exactly E and nu. What of a material is for this is in
+ * solid_material.c, where nodes and triangles come from in generate.c and the programs; what a lattice must satisfy to
+ * move is checked in model/model.c. */
 #include <dem/dem.h>
 
 #include <math.h>
@@ -18,115 +19,8 @@
 #include "lattice/cell.h"
 #include "lattice/crack_band.h"
 #include "lattice/lattice.h"
+#include "lattice/solid_material.h"
 #include "lattice/triangle_share.h"
-
-/* ---- materials ---- */
-
-static bool is_positive(double value)
-{
-    return isfinite(value) && value > 0.0;
-}
-
-/* E and nu, or one stiffness for all springs, but not both. nu must be below 1 in plane stress and below 1/2 in plane
- * strain: there the material becomes incompressible. */
-static dem_status check_elasticity(const dem_material *m)
-{
-    const double nu = m->poissons_ratio, highest = m->plane == DEM_PLANE_STRAIN ? 0.5 : 1.0;
-    if (m->bond_stiffness != 0.0) {
-        CHECK(is_positive(m->bond_stiffness), DEM_ERROR_ARGUMENT, "the bond stiffness must be > 0: %g N",
-              m->bond_stiffness);
-        CHECK(m->youngs_modulus == 0.0, DEM_ERROR_ARGUMENT,
-              "a material has Young's modulus, %g Pa, or a bond stiffness, %g N, not both", m->youngs_modulus,
-              m->bond_stiffness);
-        return DEM_OK;
-    }
-    CHECK(is_positive(m->youngs_modulus), DEM_ERROR_ARGUMENT, "Young's modulus must be > 0: %g Pa", m->youngs_modulus);
-    CHECK(m->plane == DEM_PLANE_STRESS || m->plane == DEM_PLANE_STRAIN, DEM_ERROR_ARGUMENT,
-          "plane is %d, which is neither stress nor strain", (int)m->plane);
-    CHECK(nu > -1.0 && nu < highest, DEM_ERROR_ARGUMENT, "Poisson's ratio must be in (-1, %g) in plane %s: %g", highest,
-          m->plane == DEM_PLANE_STRAIN ? "strain" : "stress", nu);
-    return DEM_OK;
-}
-
-/* What breaks it; 0: nothing does. */
-static dem_status check_limits(const dem_material *m)
-{
-    CHECK(isfinite(m->strength) && m->strength >= 0.0, DEM_ERROR_ARGUMENT, "strength must be >= 0: %g Pa", m->strength);
-    CHECK(isfinite(m->critical_stretch) && m->critical_stretch >= 0.0, DEM_ERROR_ARGUMENT,
-          "critical_stretch must be >= 0: %g", m->critical_stretch);
-    CHECK(isfinite(m->fracture_energy) && m->fracture_energy >= 0.0, DEM_ERROR_ARGUMENT,
-          "fracture_energy must be >= 0: %g J/m^2", m->fracture_energy);
-    CHECK(m->fracture_energy == 0.0 || (m->critical_stretch == 0.0 && m->bond_stiffness == 0.0), DEM_ERROR_ARGUMENT,
-          "a fracture energy, %g J/m^2, goes neither with a critical stretch nor with a bond stiffness",
-          m->fracture_energy);
-    CHECK(m->stress_average == DEM_STRESS_AVERAGE_CORNERS || m->stress_average == DEM_STRESS_AVERAGE_ELEMENT,
-          DEM_ERROR_ARGUMENT, "stress_average is %d, which is neither corners nor element", (int)m->stress_average);
-    CHECK(m->stress_average == DEM_STRESS_AVERAGE_CORNERS || (m->strength > 0.0 && m->fracture_energy > 0.0),
-          DEM_ERROR_ARGUMENT, "the stress of elements breaks them with a strength and a fracture energy only");
-    CHECK(isfinite(m->compressive_strength) && m->compressive_strength >= 0.0, DEM_ERROR_ARGUMENT,
-          "compressive_strength must be >= 0: %g Pa", m->compressive_strength);
-    if (m->compressive_strength == 0.0) return DEM_OK;
-    CHECK(m->strength > 0.0 && m->fracture_energy == 0.0, DEM_ERROR_ARGUMENT,
-          "a compressive strength, %g Pa, goes with a strength, and without a fracture energy",
-          m->compressive_strength);
-    CHECK(m->compressive_strength >= m->strength, DEM_ERROR_ARGUMENT,
-          "compressive_strength must be at least the strength, %g Pa: %g Pa", m->strength, m->compressive_strength);
-    return DEM_OK;
-}
-
-/* What every rule of assembly needs: a mass and a thickness, and no negative guard or damping. */
-static dem_status check_material(const dem_material *m)
-{
-    CHECK(m != NULL, DEM_ERROR_ARGUMENT, "material is NULL");
-    TRY(check_elasticity(m));
-    CHECK(m->springs == DEM_SPRINGS_INDEPENDENT || m->springs == DEM_SPRINGS_COUPLED, DEM_ERROR_ARGUMENT,
-          "springs is %d, which is neither independent nor coupled", (int)m->springs);
-    CHECK(m->springs == DEM_SPRINGS_INDEPENDENT || m->bond_stiffness == 0.0, DEM_ERROR_ARGUMENT,
-          "springs of a given bond stiffness, %g N, cannot be coupled", m->bond_stiffness);
-    CHECK(is_positive(m->density), DEM_ERROR_ARGUMENT, "density must be > 0: %g kg/m^3", m->density);
-    CHECK(is_positive(m->thickness), DEM_ERROR_ARGUMENT, "thickness must be > 0: %g m", m->thickness);
-    CHECK(isfinite(m->guard) && m->guard >= 0.0, DEM_ERROR_ARGUMENT, "guard must be >= 0: %g", m->guard);
-    CHECK(isfinite(m->damping_time) && m->damping_time >= 0.0, DEM_ERROR_ARGUMENT, "damping_time must be >= 0: %g s",
-          m->damping_time);
-    return check_limits(m);
-}
-
-/* The plate in plane stress that moves like the solid: all formulas below are for plane stress. */
-typedef struct plate {
-    double modulus, ratio; /* E h, N/m; nu */
-} plate;
-
-/* Plane strain is plane stress with E/(1 - nu^2) and nu/(1 - nu). With a given stiffness of springs E and nu are
- * unknown. */
-static plate plate_of(const dem_material *m)
-{
-    const double nu = m->poissons_ratio, modulus = m->youngs_modulus * m->thickness;
-    if (m->bond_stiffness > 0.0) return (plate){0.0, 0.0};
-    if (m->plane == DEM_PLANE_STRESS) return (plate){modulus, nu};
-    return (plate){modulus / (1.0 - nu * nu), nu / (1.0 - nu)};
-}
-
-/* (8/3) G h = (4/3) E h/(1 + nu), N/m, which is E h at nu = 1/3, to the bit. */
-static double spring_modulus(plate p)
-{
-    return p.modulus * ((4.0 / 3.0) / (1.0 + p.ratio));
-}
-
-/* A cell warps when its corners move by turns along the same direction. Both diagonals keep their lengths; the sides
- * resist alone, and the areas of the two triangles change by the same amount, one up, one down. The stiffness of this
- * is
- *     k + 2 kappa = E h ((1 + nu) - 2 r (1 - nu))/(1 - nu^2),
- * which is positive if r < (1 + nu)/(2 (1 - nu)). Bodies whose cells are stable are stable. */
-static dem_status check_diagonal(plate p, double diagonal)
-{
-    const double limit = 0.5 * (1.0 + p.ratio) / (1.0 - p.ratio);
-    CHECK(
-        diagonal < limit, DEM_ERROR_ARGUMENT,
-        "the stiffness of a diagonal over a side's must be less than %g, or cells warp, at Poisson's ratio %g in plane "
-        "stress: %g",
-        limit, p.ratio, diagonal);
-    return DEM_OK;
-}
 
 /* ---- the rule ---- */
 
@@ -164,18 +58,12 @@ static double distance(const dem_lattice *l, dem_index i, dem_index j)
     return vec2_norm(vec2_sub(vec2_at(l->x, j), vec2_at(l->x, i)));
 }
 
-/* A limit that is not given is never reached. */
-static double limit_or_never(double given)
-{
-    return given > 0.0 ? given : (double)INFINITY;
-}
-
 /* The nodes of a share are in ascending order, so that both triangles at an edge name its spring alike. Kelvin-Voigt: a
  * strain rate e' acts like the strain damping_time e'. */
 static share share_of(dem_index i, dem_index j, double stiffness, const dem_material *m)
 {
     return (share){i < j ? i : j, i < j ? j : i, stiffness, m->damping_time * stiffness,
-                   limit_or_never(m->critical_stretch)};
+                   solid_material_critical_stretch(m)};
 }
 
 /* A third of `weight` times the mass of a triangle to each of its corners, kg. */
@@ -202,7 +90,8 @@ static void share_triangle(const draft *d, dem_index t)
     const dem_index *corner = d->lattice->triangles + 3 * t;
     const dem_material *m = material_of(d, t);
     const triangle_share own = share_of_triangle(d, t);
-    const double modulus = spring_modulus(plate_of(m)), area = area_of(d->lattice, corner[0], corner[1], corner[2]);
+    const double modulus = solid_material_spring_modulus(m),
+                 area = area_of(d->lattice, corner[0], corner[1], corner[2]);
     for (int c = 0; c < 3; c++) {
         const dem_index i = corner[c], j = corner[(c + 1) % 3];
         d->shares[3 * t + c] = share_of(i, j, own.weight[c] * (modulus * area / distance(d->lattice, i, j)), m);
@@ -218,7 +107,7 @@ static dem_status share_cell(const draft *d, dem_index k)
     const dem_lattice *l = d->lattice;
     const dem_material *m = material_of(d, 2 * k);
     /* In N/m; times a length it is a stiffness of springs in N. */
-    const plate p = plate_of(m);
+    const solid_plate p = solid_material_plate(m);
     const double side = p.modulus / (1.0 + p.ratio), diagonal = d->diagonal * side;
     dem_index q[4];
     CHECK(m == material_of(d, 2 * k + 1), DEM_ERROR_MODEL, "triangles %lld and %lld, of a cell, have two materials",
@@ -245,7 +134,7 @@ static dem_status share_all(const draft *d)
     for (dem_index t = 0; t < l->n_triangles; t++) {
         const dem_index *corner = l->triangles + 3 * t;
         const double area = area_of(l, corner[0], corner[1], corner[2]);
-        CHECK(is_positive(area), DEM_ERROR_MODEL,
+        CHECK(lattice_is_positive(area), DEM_ERROR_MODEL,
               "triangle %lld (nodes %lld, %lld, %lld) has the area %g m^2; it must be > 0", (long long)t,
               (long long)corner[0], (long long)corner[1], (long long)corner[2], area);
         if (!d->cells) share_triangle(d, t);
@@ -363,58 +252,24 @@ static double modulus_of(const draft *d, dem_index t)
     return m->bond_stiffness * perimeter / (6.0 * area_of(d->lattice, c[0], c[1], c[2]));
 }
 
-/* kappa, N/m: what the springs leave of C12 h = nu E h/(1 - nu^2), to which diagonals give r E h/(1 + nu). At r = 1/2,
- * which is isotropic, it is (lambda - G) h and 0 at nu = 1/3, to the bit. With equal springs there is none. */
-static double area_modulus(const draft *d, const dem_material *m)
-{
-    const plate p = plate_of(m);
-    const double nu = p.ratio, r = d->diagonal;
-    return m->bond_stiffness > 0.0 ? 0.0 : p.modulus * ((1.0 + r) * nu - r) / (1.0 - nu * nu);
-}
-
 /* N/m; 0 in cells and in equilateral triangles. */
 static void fill_couplings(draft *d)
 {
     for (dem_index t = 0; t < d->lattice->n_triangles && !d->cells; t++) {
         const triangle_share own = share_of_triangle(d, t);
-        const double modulus = spring_modulus(plate_of(material_of(d, t)));
+        const double modulus = solid_material_spring_modulus(material_of(d, t));
         for (int c = 0; c < 3; c++) d->solid.coupling[3 * t + c] = modulus * own.coupling[c];
     }
 }
 
-/* The modulus of the plate in plane stress that moves like the solid, Pa. */
-static double plate_modulus(const dem_material *m)
-{
-    return plate_of(m).modulus / m->thickness;
-}
-
-static bool is_own(const dem_material *m)
-{
-    return m->stress_average == DEM_STRESS_AVERAGE_ELEMENT;
-}
-
-static const crack_band *band_of(const draft *d, const dem_material *m)
-{
-    return crack_band_of(d->cells ? CRACK_BAND_CELLS : is_own(m) ? CRACK_BAND_OWN_STRESS : CRACK_BAND_CORNERS);
-}
-
-/* Strength and softening of a triangle. */
 static void limit_triangle(draft *d, dem_index t)
 {
-    const dem_material *m = material_of(d, t);
     const dem_index *c = d->lattice->triangles + 3 * t;
-    const crack_band *band = band_of(d, m);
-    const double modulus = plate_modulus(m), energy = m->fracture_energy;
-    const double size = crack_band_size(area_of(d->lattice, c[0], c[1], c[2]));
-    d->solid.strength[t] = limit_or_never(m->strength);
-    d->solid.softening[t] = 1.0;
-    if (energy > 0.0 && m->strength > 0.0)
-        d->solid.softening[t] = crack_band_softening_of(band, modulus * energy / (m->strength * m->strength * size));
-    else if (energy > 0.0)
-        d->solid.strength[t] = crack_band_strength(band, modulus, energy, size);
-    d->solid.compressive_strength[t] = limit_or_never(m->compressive_strength);
-    d->solid.confinement[t] =
-        m->plane == DEM_PLANE_STRAIN && m->compressive_strength > 0.0 ? m->compressive_strength / m->strength : 0.0;
+    const solid_limits own = solid_material_limits(material_of(d, t), d->cells, area_of(d->lattice, c[0], c[1], c[2]));
+    d->solid.strength[t] = own.strength;
+    d->solid.softening[t] = own.softening;
+    d->solid.compressive_strength[t] = own.compressive_strength;
+    d->solid.confinement[t] = own.confinement;
 }
 
 /* What limits pressure stays only where something does. */
@@ -434,13 +289,13 @@ static dem_status fill_own_stress(draft *d)
 {
     const dem_index n = d->lattice->n_triangles;
     bool any = false;
-    for (dem_index t = 0; t < n && !any; t++) any = is_own(material_of(d, t));
+    for (dem_index t = 0; t < n && !any; t++) any = solid_material_breaks_by_own_stress(material_of(d, t));
     if (!any) return DEM_OK;
     CHECK(lattice_has_own_stress(d->lattice), DEM_ERROR_ARGUMENT,
           "dem_lattice: struct_size is %zu, without room for own_stress", d->lattice->struct_size);
     d->solid.own_stress = lattice_zeros(n, sizeof *d->solid.own_stress);
     CHECK_MEMORY(d->solid.own_stress);
-    for (dem_index t = 0; t < n; t++) d->solid.own_stress[t] = is_own(material_of(d, t));
+    for (dem_index t = 0; t < n; t++) d->solid.own_stress[t] = solid_material_breaks_by_own_stress(material_of(d, t));
     return DEM_OK;
 }
 
@@ -481,10 +336,10 @@ static dem_status fill_triangles(draft *d)
     for (dem_index t = 0; t < n; t++) {
         const dem_material *m = material_of(d, t);
         s->guard[t] = m->guard * modulus_of(d, t);
-        s->area_stiffness[t] = area_modulus(d, m);
+        s->area_stiffness[t] = solid_material_area_modulus(m, d->diagonal);
         s->thickness[t] = m->thickness;
         /* Triangles share the stress of a spring as they have given to its stiffness: by (8/3) G h A. */
-        s->modulus[t] = spring_modulus(plate_of(m)) / m->thickness;
+        s->modulus[t] = solid_material_spring_modulus(m) / m->thickness;
     }
     TRY(fill_limits(d));
     fill_couplings(d);
@@ -558,14 +413,9 @@ static dem_status check_materials(const draft *d, dem_index n_materials)
     CHECK(n_materials > 0, DEM_ERROR_ARGUMENT, "the number of materials must be > 0: %lld", (long long)n_materials);
     for (dem_index k = 0; k < n_materials; k++) {
         const dem_material *m = d->materials != NULL ? d->materials + k : NULL;
-        TRY(check_material(m));
+        TRY(d->cells ? solid_material_check_cells(m, d->diagonal) : solid_material_check(m));
         CHECK(n_materials == 1 || m->bond_stiffness == 0.0, DEM_ERROR_ARGUMENT,
               "a bond stiffness, %g N, is for bodies of one material", m->bond_stiffness);
-        CHECK(!d->cells || m->springs == DEM_SPRINGS_INDEPENDENT, DEM_ERROR_ARGUMENT,
-              "coupled springs are those of triangles, but cells are asked for");
-        CHECK(!d->cells || m->stress_average == DEM_STRESS_AVERAGE_CORNERS, DEM_ERROR_ARGUMENT,
-              "the stress of elements breaks triangles, but cells are asked for");
-        if (d->cells && m->bond_stiffness == 0.0) TRY(check_diagonal(plate_of(m), d->diagonal));
     }
     for (dem_index t = 0; d->of != NULL && t < d->lattice->n_triangles; t++)
         CHECK(d->of[t] >= 0 && d->of[t] < n_materials, DEM_ERROR_ARGUMENT,
@@ -588,19 +438,11 @@ static double mean_size(const draft *d, const dem_material *m)
     return n > 0 ? crack_band_size(sum / (double)n) : 0.0;
 }
 
-/* Strength and fracture energy together need small triangles. */
 static dem_status check_sizes(const draft *d, dem_index n_materials)
 {
     for (dem_index k = 0; k < n_materials; k++) {
         const dem_material *m = &d->materials[k];
-        if (!(m->fracture_energy > 0.0 && m->strength > 0.0)) continue;
-        const double size = mean_size(d, m), edge = d->cells ? sqrt(0.5 * sqrt(3.0)) : 1.0;
-        const double coarsest = crack_band_coarsest(band_of(d, m), plate_modulus(m), m->fracture_energy, m->strength);
-        CHECK(size <= coarsest, DEM_ERROR_ARGUMENT,
-              "%s of %g m are too large for a strength of %g Pa and a fracture energy of %g J/m^2, which need %g m at "
-              "most",
-              d->cells ? "squares" : "triangles with edges", edge * size, m->strength, m->fracture_energy,
-              edge * coarsest);
+        if (solid_material_softens(m)) TRY(solid_material_check_size(m, d->cells, mean_size(d, m)));
     }
     return DEM_OK;
 }
@@ -640,7 +482,7 @@ dem_status dem_lattice_assemble_mixed(dem_lattice *lattice, const dem_material *
 {
     const bool cells = diagonal != 0.0;
     void *own = NULL;
-    CHECK(!cells || is_positive(diagonal), DEM_ERROR_ARGUMENT,
+    CHECK(!cells || lattice_is_positive(diagonal), DEM_ERROR_ARGUMENT,
           "the stiffness of a diagonal over a side's must be > 0: %g", diagonal);
     if (materials != NULL && n_materials > 0) TRY(struct_size_read_array(&kind, &own, materials, n_materials));
     draft d = {.lattice = lattice, .materials = own, .of = of, .cells = cells, .diagonal = cells ? diagonal : 0.5};
@@ -656,7 +498,7 @@ dem_status dem_lattice_assemble(dem_lattice *lattice, const dem_material *materi
 
 dem_status dem_lattice_assemble_squares(dem_lattice *lattice, const dem_material *material, double diagonal)
 {
-    CHECK(is_positive(diagonal), DEM_ERROR_ARGUMENT, "the stiffness of a diagonal over a side's must be > 0: %g",
-          diagonal);
+    CHECK(lattice_is_positive(diagonal), DEM_ERROR_ARGUMENT,
+          "the stiffness of a diagonal over a side's must be > 0: %g", diagonal);
     return dem_lattice_assemble_mixed(lattice, material, 1, NULL, diagonal);
 }

@@ -143,15 +143,10 @@ static bool is_in_disc(void *context, const double *x)
     return vec2_norm(vec2_at(x, 0)) <= *radius;
 }
 
-static bool is_positive(double value)
-{
-    return isfinite(value) && value > 0.0;
-}
-
 static dem_status check_rectangle(const dem_lattice *out, double width, double height, double spacing)
 {
     TRY(lattice_check_out(out));
-    CHECK(is_positive(spacing) && spacing <= width && spacing <= height && isfinite(width) && isfinite(height),
+    CHECK(lattice_is_positive(spacing) && spacing <= width && spacing <= height && isfinite(width) && isfinite(height),
           DEM_ERROR_ARGUMENT, "a rectangle of %g m x %g m cannot have the spacing %g m", width, height, spacing);
     return DEM_OK;
 }
@@ -187,7 +182,7 @@ static double area_of(const double *x, const dem_index *corner)
 static dem_status check_areas(const dem_lattice *l)
 {
     for (dem_index t = 0; t < l->n_triangles; t++)
-        CHECK(is_positive(area_of(l->x, l->triangles + 3 * t)), DEM_ERROR_MODEL,
+        CHECK(lattice_is_positive(area_of(l->x, l->triangles + 3 * t)), DEM_ERROR_MODEL,
               "triangle %lld has the area %g m^2; it must be > 0 to be jittered", (long long)t,
               area_of(l->x, l->triangles + 3 * t));
     return DEM_OK;
@@ -242,7 +237,7 @@ dem_status dem_lattice_squares(dem_lattice *out, double width, double height, do
 dem_status dem_lattice_disc(dem_lattice *out, double radius, double spacing)
 {
     TRY(lattice_check_out(out));
-    CHECK(is_positive(spacing) && spacing <= radius && isfinite(radius), DEM_ERROR_ARGUMENT,
+    CHECK(lattice_is_positive(spacing) && spacing <= radius && isfinite(radius), DEM_ERROR_ARGUMENT,
           "a disc of radius %g m cannot have the spacing %g m", radius, spacing);
     double reach = radius + 1e-9 * spacing; /* a radius of whole spacings has its last nodes */
     const double steps = floor(reach / spacing), strips = floor(reach / (sqrt3_2 * spacing));

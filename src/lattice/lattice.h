@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the files about lattices share: checks that keep loops inside the arrays, and arrays of zeros. */
+/* What the files about lattices share: checks of numbers and checks that keep loops inside the arrays, and arrays of
+ * zeros. */
 #ifndef DEM_LATTICE_LATTICE_H
 #define DEM_LATTICE_LATTICE_H
 
+#include <math.h>
 #include <stdbool.h>
 
 #include <dem/dem.h>
@@ -36,6 +38,12 @@ dem_status lattice_check_out(const dem_lattice *out);
 
 /* Hands a lattice over to a caller, as far as the caller's struct goes. */
 void lattice_give(dem_lattice *out, const dem_lattice *made);
+
+/* Of a length, a mass or the like: neither infinite nor NAN. */
+static inline bool lattice_is_positive(double value)
+{
+    return isfinite(value) && value > 0.0;
+}
 
 /* An array of n items that are all zero; it has memory for n = 0, too. NULL if there is no memory. */
 void *lattice_zeros(dem_index n, size_t size);
