@@ -179,18 +179,12 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
     (void)fflush(r->log->out);
 }
 
-/* At t = 0, and then at the steps that have a row in the history. */
-static bool has_row(const report *r, double t)
-{
-    const double interval = r->deck->history_interval;
-    return t == 0.0 || !(interval > 0.0) || floor(t / interval) > floor(r->so_far.looked_t / interval);
-}
-
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
     report *r = context;
     const dem_state state = ask_state(simulation);
-    const bool looks = has_row(r, state.t); /* at all nodes and springs */
+    /* At all nodes and springs at the steps that have a row in the history. */
+    const bool looks = dem_history_row_due(r->deck->history_interval, r->so_far.looked_t, state.t);
     if (looks) follow_energy(r, simulation, &state);
     if (looks) follow_strain(r, simulation, state.t);
     step_report_follow(&r->so_far.step_report, simulation, &state);
@@ -218,6 +212,7 @@ void report_start(report *r, run_log *log, const deck *d)
     r->settled = relaxation_settled(&d->options);
     r->most_stressed = d->most_stressed;
     r->so_far.area_min = 1.0;
+    r->so_far.looked_t = -(double)INFINITY;
     r->so_far.strain_min.spring_min = r->so_far.strain_max.spring_max = -1;
     r->wall_start = r->wall_shown = wall_clock();
 }

@@ -26,7 +26,7 @@ typedef struct report_progress {
     rebound rebound;
     fracture_report fracture_report;
     double warned_closure, warned_t; /* of the ledger's warning */
-    double looked_t;                 /* s, when energies and strains were looked at last */
+    double looked_t;                 /* s, when energies and strains were looked at last; -INFINITY: not yet */
     bool warned, overlapped;
 } report_progress;
 

@@ -74,6 +74,12 @@ static inline dem_trajectory_options dem_trajectory_options_default(void)
     return options;
 }
 
+/** Whether an accepted step at `t` has a row of /history: at every instant it is but once, and with an interval only
+ *  where a multiple of that lies behind the row before and not behind `t`.
+ *  \param interval  s, as dem_trajectory_options.history_interval
+ *  \param before    s, of the row before; -INFINITY: there is none */
+DEM_API bool dem_history_row_due(double interval, double before, double t);
+
 /** Starts `path`, which must end in ".vtkhdf". Until dem_trajectory_finish() the file is NAME.part.vtkhdf, closed after
  *  every frame so that it can be looked at while the run goes on.
  *  Writes the lattice group and the obstacle file NAME.obstacle.vtkhdf (none without obstacles).

@@ -1230,6 +1230,11 @@ module dem_c
 
   interface
 
+    logical(c_bool) function dem_history_row_due(interval, before, t) bind(c)
+      import
+      real(c_double), value :: interval, before, t
+    end function
+
     integer(dem_status) function dem_trajectory_create(out, path, simulation, options) bind(c)
       import
       type(c_ptr), intent(out) :: out

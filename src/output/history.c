@@ -4,6 +4,7 @@
  * simulation/query.c, which it reaches through the public interface only; how rows reach the file is in table.c. */
 #include "output/history.h"
 
+#include <dem/trajectory.h>
 #include <math.h>
 
 #include "base/status.h"
@@ -198,7 +199,7 @@ dem_status history_init(history *out, const dem_simulation *simulation, bool bre
     (void)dem_model_sizes(dem_simulation_model(simulation), &size);
     (void)dem_simulation_options(simulation, &options);
     const dem_index count[] = {size.n_bodies, size.n_obstacles, options.n_boundaries};
-    *out = (history){.breaks = breaks, .stale = true};
+    *out = (history){.last = -(double)INFINITY, .breaks = breaks, .stale = true};
     return table_init(&out->table, columns, breaks ? N_COLUMNS : N_COLUMNS - OF_FRACTURE, count);
 }
 
@@ -208,19 +209,17 @@ void history_free(history *h)
 }
 
 /* The step that a run is resumed at comes twice: a row of the same instant is not added again. Whether one is due
- * follows from the last row alone, so that a resumed run has the same rows. table_total() counts rows of earlier files,
- * too. */
-static bool is_due(const history *h, double t)
+ * follows from the last row alone, so that a resumed run has the same rows. */
+bool dem_history_row_due(double interval, double before, double t)
 {
-    if (table_total(&h->table) == 0) return true;
-    return t != h->last && !(h->interval > 0.0 && floor(t / h->interval) <= floor(h->last / h->interval));
+    return t != before && !(interval > 0.0 && floor(t / interval) <= floor(before / interval));
 }
 
 dem_status history_record(history *h, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
-    if (!is_due(h, state.t)) return DEM_OK;
+    if (!dem_history_row_due(h->interval, h->last, state.t)) return DEM_OK;
     TRY(measure_fracture(h, simulation));
     dem_energy energy = {.struct_size = sizeof energy};
     (void)dem_simulation_energy(simulation, &energy);

@@ -10,7 +10,7 @@
 typedef struct history {
     table table;
     double interval; /**< s between rows, at least; 0 unless it is set: every accepted step has one */
-    double last;     /**< t of the last row, s */
+    double last;     /**< t of the last row, s; -INFINITY: none yet */
     double start;    /**< J, of the ledger in the first row */
     double largest;  /**< J, energy of motion and strain so far */
     bool breaks;     /**< there are columns of what is broken: */
@@ -25,8 +25,7 @@ void history_free(history *h);
 /** To be called when something has broken. */
 void history_forget(history *h);
 
-/** Appends the state as a row, if one is due: at first, and where a multiple of the interval lies behind the last row
- *  and not behind the state, which is not of the same instant. The table's buffer must have room.
+/** Appends the state as a row, if one is due (dem_history_row_due()). The table's buffer must have room.
  *  \return DEM_ERROR_MEMORY, then there is no row */
 dem_status history_record(history *h, const dem_simulation *simulation);
 

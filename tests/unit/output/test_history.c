@@ -4,6 +4,7 @@
 #include "verification/support.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -375,6 +376,17 @@ TEST(an_instant_has_one_row)
     assert_int_equal(f->history.table.buffered, 0);
     assert_int_equal(f->history.table.written, 2);
     drop(f);
+}
+
+/* The interval is 0.25 s, so that all quotients are exact. */
+TEST(a_row_is_due_once_an_instant_and_where_a_multiple_of_the_interval_is_new)
+{
+    const double none = -(double)INFINITY;
+    assert_true(dem_history_row_due(0.0, none, 0.0) && dem_history_row_due(0.25, none, 0.0));
+    assert_true(dem_history_row_due(0.0, 0.1, 0.2) && !dem_history_row_due(0.0, 0.2, 0.2));
+    assert_false(dem_history_row_due(0.25, 0.0, 0.2) || dem_history_row_due(0.25, 0.3, 0.49));
+    assert_true(dem_history_row_due(0.25, 0.0, 0.25) && dem_history_row_due(0.25, 0.2, 0.8));
+    assert_false(dem_history_row_due(0.25, 0.5, 0.5));
 }
 
 SCRATCH_GROUP({&path, "a.h5"});
