@@ -272,6 +272,10 @@ static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
 {
     hdf5_file file = {.id = H5I_INVALID_HID, .path = path};
     dem_status status = DEM_OK;
+    if (access != H5F_ACC_RDONLY) {
+        file.deflater = calloc(1, sizeof *file.deflater);
+        CHECK_MEMORY(file.deflater);
+    }
     prepare(&file);
     const hid_t how = make_access();
     /* An existing file is emptied, or opened as it is. */
@@ -285,6 +289,7 @@ static dem_status open_file(hdf5_file *out, const char *path, unsigned access)
         *out = file;
     else
         restore(&file);
+    if (status != DEM_OK) free(file.deflater);
     return status;
 }
 
@@ -373,6 +378,8 @@ dem_status hdf5_close(hdf5_file *file, dem_status status)
     if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be flushed");
     if (H5Fclose(file->id) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be closed");
     restore(file);
+    if (file->deflater != NULL) deflater_free(file->deflater);
+    free(file->deflater);
     return status;
 }
 
@@ -402,22 +409,60 @@ dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target
     return status;
 }
 
+/* Numbers of a row. */
+static hsize_t width_of(const hdf5_rows *rows)
+{
+    return (rows->rank > 1 ? rows->tail[0] : 1) * (rows->rank > 2 ? rows->tail[1] : 1);
+}
+
+/* Whether the rows are all of a chunk, and in memory as they are stored but for their precision. */
+static bool is_chunk(const hdf5_rows *rows, hsize_t first, hsize_t count)
+{
+    const bool whole = count > 0 && count == rows->chunk && count <= CHUNK_LIMIT && first % count == 0;
+    return whole && rows->deflate > 0 && rows->kind != HDF5_I8 && H5Tequal(H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE) > 0;
+}
+
+/* A chunk at once, past HDF5's conversion, cache and filters. */
+static dem_status write_chunk(const hdf5_file *file, const hdf5_rows *rows, hid_t dataset, hsize_t first,
+                              const void *data)
+{
+    const hsize_t start[MAX_RANK] = {first};
+    deflater *d = file->deflater;
+    const deflater_numbers numbers = {data, rows->chunk * width_of(rows), H5Tget_size(file_type(rows->kind)),
+                                      rows->kind == HDF5_F32};
+    TRY(deflater_pack(d, numbers, rows->deflate));
+    if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, start, d->n_packed, d->packed) < 0)
+        return hdf5_fail(file, rows->name, "cannot be written");
+    return DEM_OK;
+}
+
+static dem_status write_slab(const hdf5_file *file, const hdf5_rows *rows, hid_t dataset, hdf5_span span,
+                             const void *data)
+{
+    const hsize_t start[MAX_RANK] = {span.at}, block[MAX_RANK] = {span.count, rows->tail[0], rows->tail[1]};
+    const hid_t memory = H5Screate_simple(rows->rank, block, NULL), space = H5Dget_space(dataset);
+    dem_status status = DEM_OK;
+    if (space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, block, NULL) < 0 ||
+        H5Dwrite(dataset, hdf5_memory_type(rows->kind), memory, space, H5P_DEFAULT, data) < 0)
+        status = hdf5_fail(file, rows->name, "cannot be written");
+    if (space >= 0) (void)H5Sclose(space);
+    (void)H5Sclose(memory);
+    return status;
+}
+
 /* Sets the number of rows to first + count, which also cuts off rows that a failed attempt has left, and fills the new
  * ones. Closing the dataset may be what fails: its chunk cache is written then. */
 dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data)
 {
-    const hsize_t start[MAX_RANK] = {first}, block[MAX_RANK] = {count, rows->tail[0], rows->tail[1]};
     const hsize_t whole[MAX_RANK] = {first + count, rows->tail[0], rows->tail[1]};
     dem_status status = DEM_OK;
-    hid_t space = H5I_INVALID_HID, memory = H5Screate_simple(rows->rank, block, NULL);
     const hid_t dataset = H5Dopen2(file->id, rows->name, H5P_DEFAULT);
-    /* Nothing is selected where there are no rows to write. */
-    if (dataset < 0 || H5Dset_extent(dataset, whole) < 0 || (space = H5Dget_space(dataset)) < 0 ||
-        (count > 0 && (H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, block, NULL) < 0 ||
-                       H5Dwrite(dataset, hdf5_memory_type(rows->kind), memory, space, H5P_DEFAULT, data) < 0)))
+    if (dataset < 0 || H5Dset_extent(dataset, whole) < 0)
         status = hdf5_fail(file, rows->name, "cannot be written");
-    if (space >= 0) (void)H5Sclose(space);
-    (void)H5Sclose(memory);
+    else if (is_chunk(rows, first, count))
+        status = write_chunk(file, rows, dataset, first, data);
+    else if (count > 0)
+        status = write_slab(file, rows, dataset, (hdf5_span){0, count, first}, data);
     if (dataset >= 0 && H5Dclose(dataset) < 0 && status == DEM_OK)
         status = hdf5_fail(file, rows->name, "cannot be written");
     return status;
@@ -440,9 +485,8 @@ dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows
 {
     /* The buffer holds one chunk of rows, of at most 8 bytes a number. */
     const hsize_t step = rows->chunk > 1 ? rows->chunk : 1;
-    const hsize_t width = (rows->rank > 1 ? rows->tail[0] : 1) * (rows->rank > 2 ? rows->tail[1] : 1);
     dem_status status = DEM_OK;
-    void *buffer = malloc((size_t)(step * width) * sizeof(double));
+    void *buffer = malloc((size_t)(step * width_of(rows)) * sizeof(double));
     CHECK_MEMORY(buffer);
     for (hsize_t done = 0; done < span.count && status == DEM_OK; done += step) {
         const hsize_t count = span.count - done < step ? span.count - done : step;

@@ -6,6 +6,7 @@
 
 #include <dem/dem.h>
 
+#include "output/deflater.h"
 #include "output/hdf5_api.h"
 
 /** Types of numbers in a file. In memory HDF5_F32 is double and HDF5_I8 is int64_t; the others are the same. */
@@ -19,7 +20,8 @@ typedef struct hdf5_file {
     const char *path;
     H5E_auto2_t report; /**< how errors were printed before */
     void *report_data;
-    unsigned plugins; /**< whether plugins were loaded before */
+    unsigned plugins;   /**< whether plugins were loaded before */
+    deflater *deflater; /**< of a file that is written to */
 } hdf5_file;
 
 /** A dataset that grows in its first dimension. */

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Packs the numbers of a chunk as HDF5's filters shuffle and deflate do, so that any reader unpacks them, but without
+ * making a new zlib stream for each, and at level 1 with runs of equal bytes only: of numbers that are shuffled little
+ * else is found, in twice the time (docs/performance.md). */
+#ifndef DEM_OUTPUT_DEFLATER_H
+#define DEM_OUTPUT_DEFLATER_H
+
+#include <dem/dem.h>
+#include <stdbool.h>
+
+/** Zero at first. */
+typedef struct deflater {
+    struct z_stream_s *stream; /**< zlib's; NULL: there is none yet */
+    int level;                 /**< of the stream */
+    unsigned char *shuffled;   /**< [room] */
+    unsigned char *packed;     /**< [packed_room] */
+    size_t room, packed_room;
+    size_t n_packed; /**< bytes that deflater_pack() has left in `packed` */
+} deflater;
+
+typedef struct deflater_numbers {
+    const void *data;
+    size_t count;
+    size_t width; /**< bytes of a number as it is stored: 1, 4 or 8 */
+    bool narrows; /**< `data` are doubles, of which floats are stored */
+} deflater_numbers;
+
+/** Packs into d->packed, which the next call overwrites.  \param level  1 to 9  \return DEM_ERROR_MEMORY */
+dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level);
+
+void deflater_free(deflater *d);
+
+#endif
