@@ -98,6 +98,7 @@ static dem_trajectory_options frames_of(const job *j)
     dem_trajectory_options options = dem_trajectory_options_default();
     options.frame_interval = d->frame_interval;
     options.history_interval = d->history_interval;
+    options.stays_open = true;
     options.double_precision = d->double_precision;
     options.deflate = d->deflate;
     options.events = d->events;

@@ -61,6 +61,8 @@ typedef struct dem_trajectory_options {
     bool breaks;             /**< true: the table /breaks of all that breaks, and columns of /history; default false */
     bool fragments;          /**< true: the table /fragments, of each frame; default false */
     double history_interval; /**< s, at least, between rows of /history, which are accepted steps; default 0: each is */
+    bool stays_open; /**< true: the part is whole in the file system after every frame, but stays open in this process,
+                          where nothing else opens it then; takes half the time of a small frame; default false */
 } dem_trajectory_options;
 
 static inline dem_trajectory_options dem_trajectory_options_default(void)
@@ -81,7 +83,7 @@ static inline dem_trajectory_options dem_trajectory_options_default(void)
 DEM_API bool dem_history_row_due(double interval, double before, double t);
 
 /** Starts `path`, which must end in ".vtkhdf". Until dem_trajectory_finish() the file is NAME.part.vtkhdf, closed after
- *  every frame so that it can be looked at while the run goes on.
+ *  every frame (but see stays_open) so that it can be looked at while the run goes on.
  *  Writes the lattice group and the obstacle file NAME.obstacle.vtkhdf (none without obstacles).
  *  The run starts anew: an older part is overwritten, and segments NAME.00001.vtkhdf, ... of an unfinished run are
  *  removed, from which only dem_trajectory_resume() goes on. A file of such a name that is no segment stays; it stops

@@ -1215,7 +1215,7 @@ module dem_c
   end type
 
   type, bind(c) :: dem_trajectory_options
-    integer(c_size_t) :: struct_size = 80
+    integer(c_size_t) :: struct_size = 88
     real(c_double) :: frame_interval = 0
     logical(c_bool) :: double_precision = .false.
     integer(c_int) :: deflate = 0
@@ -1226,6 +1226,7 @@ module dem_c
     type(c_ptr) :: probes = c_null_ptr
     logical(c_bool) :: breaks = .false., fragments = .false.
     real(c_double) :: history_interval = 0
+    logical(c_bool) :: stays_open = .false.
   end type
 
   interface

@@ -372,9 +372,49 @@ dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes)
     return hdf5_open_write(out, path, bytes);
 }
 
+void hdf5_keep(hdf5_file *file)
+{
+    if (file->kept == NULL) file->kept = kept_datasets_create();
+}
+
+/* HDF5 does not know of the room that was reserved while the file was open, and leaves what it has not used. */
+static dem_status cut_off(const hdf5_file *file)
+{
+    hsize_t bytes = 0;
+    if (H5Fget_filesize(file->id, &bytes) < 0) return hdf5_fail(file, "", "cannot be measured");
+    CHECK(truncate(file->path, (off_t)bytes) == 0, DEM_ERROR_IO, "%s: cannot be cut to its length (%s)", file->path,
+          strerror(errno));
+    return DEM_OK;
+}
+
+dem_status hdf5_pause(hdf5_file *file, dem_status status)
+{
+    if (status == DEM_OK && H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0) status = hdf5_fail(file, "", "cannot be flushed");
+    if (status == DEM_OK) status = cut_off(file);
+    if (status != DEM_OK) return hdf5_close(file, status);
+    deflater_free(file->deflater);
+    restore(file);
+    return DEM_OK;
+}
+
+dem_status hdf5_resume(hdf5_file *file, hsize_t bytes)
+{
+    TRY(reserve(file->path, 0, bytes));
+    prepare(file);
+    return DEM_OK;
+}
+
+dem_status hdf5_close_paused(hdf5_file *file)
+{
+    prepare(file);
+    return hdf5_close(file, DEM_OK);
+}
+
 /* The flush comes first, so that a failed write is found while the file is open. The lock is given back in any case. */
 dem_status hdf5_close(hdf5_file *file, dem_status status)
 {
+    if (kept_datasets_close(file->kept) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be written");
+    file->kept = NULL;
     if (H5Fflush(file->id, H5F_SCOPE_GLOBAL) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be flushed");
     if (H5Fclose(file->id) < 0 && status == DEM_OK) status = hdf5_fail(file, "", "cannot be closed");
     restore(file);
@@ -456,14 +496,14 @@ dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t fir
 {
     const hsize_t whole[MAX_RANK] = {first + count, rows->tail[0], rows->tail[1]};
     dem_status status = DEM_OK;
-    const hid_t dataset = H5Dopen2(file->id, rows->name, H5P_DEFAULT);
+    const hid_t dataset = kept_datasets_open(file->kept, file->id, rows->name);
     if (dataset < 0 || H5Dset_extent(dataset, whole) < 0)
         status = hdf5_fail(file, rows->name, "cannot be written");
     else if (is_chunk(rows, first, count))
         status = write_chunk(file, rows, dataset, first, data);
     else if (count > 0)
         status = write_slab(file, rows, dataset, (hdf5_span){0, count, first}, data);
-    if (dataset >= 0 && H5Dclose(dataset) < 0 && status == DEM_OK)
+    if (dataset >= 0 && kept_datasets_leave(file->kept, dataset) < 0 && status == DEM_OK)
         status = hdf5_fail(file, rows->name, "cannot be written");
     return status;
 }

@@ -8,6 +8,7 @@
 
 #include "output/deflater.h"
 #include "output/hdf5_api.h"
+#include "output/kept_datasets.h"
 
 /** Types of numbers in a file. In memory HDF5_F32 is double and HDF5_I8 is int64_t; the others are the same. */
 typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;
@@ -22,6 +23,7 @@ typedef struct hdf5_file {
     void *report_data;
     unsigned plugins;   /**< whether plugins were loaded before */
     deflater *deflater; /**< of a file that is written to */
+    kept_datasets *kept;
 } hdf5_file;
 
 /** A dataset that grows in its first dimension. */
@@ -48,6 +50,17 @@ dem_status hdf5_open_write(hdf5_file *out, const char *path, hsize_t bytes);
 
 /** The same with a new, empty file in place of an older one. */
 dem_status hdf5_open_new(hdf5_file *out, const char *path, hsize_t bytes);
+
+/** Keeps the datasets that rows are appended to from now on open until the file is closed. */
+void hdf5_keep(hdf5_file *file);
+
+/** Flushes, so that on the disk is a whole file, and gives back the lock; the file stays open. After a failure, which
+ *  may be `status`, it is closed. */
+dem_status hdf5_pause(hdf5_file *file, dem_status status);
+
+/** After a pause, what hdf5_open_write() does; after a failure the pause goes on. Or the file is closed after it. */
+dem_status hdf5_resume(hdf5_file *file, hsize_t bytes);
+dem_status hdf5_close_paused(hdf5_file *file);
 
 /** Flushes and closes.
  *  \return `status` if that is a failure already; otherwise whether closing succeeded */

@@ -3,7 +3,7 @@
  * run goes on with the same files (docs/output.md lists all datasets).
  *   accepted step    a row of the history and of the probes that are due, in memory
  *   event, break     a row of the events or breaks, in memory
- *   frame            opens the part, writes buffered rows and the frame, closes it: it may be looked at in between
+ *   frame            writes buffered rows and the frame to the part, and flushes it: it may be looked at in between
  *   checkpoint       an entry with the numbers of rows, and with what the next rows depend on
  *   segment          cuts the rows of a checkpoint off, before the program publishes it
  *   finish           joins all rows and the peaks in one file
@@ -18,6 +18,7 @@
 #include "output/vtk_grid.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,8 @@
 struct dem_trajectory {
     trajectory_rows rows;
     segments segments;
+    hdf5_file part; /* paused, if it is open */
+    bool open;
     int finished;
 };
 
@@ -40,6 +43,34 @@ static const char *part_of(const dem_trajectory *t)
     return t->segments.names[PARTS_PART];
 }
 
+/* ---- the part ---- */
+
+/* It may be open from the frame before. Room is reserved for so many bytes. */
+static dem_status open_part(dem_trajectory *t, hsize_t bytes)
+{
+    if (t->open) return hdf5_resume(&t->part, bytes);
+    TRY(hdf5_open_write(&t->part, part_of(t), bytes));
+    if (t->rows.options.stays_open) hdf5_keep(&t->part);
+    return DEM_OK;
+}
+
+/* The file is whole on the disk then. After a failure it is opened anew the next time. */
+static dem_status leave_part(dem_trajectory *t, dem_status status)
+{
+    if (!t->rows.options.stays_open) return hdf5_close(&t->part, status);
+    status = hdf5_pause(&t->part, status);
+    t->open = status == DEM_OK;
+    return status;
+}
+
+/* Before the file is renamed or read. */
+static dem_status close_part(dem_trajectory *t)
+{
+    if (!t->open) return DEM_OK;
+    t->open = false;
+    return hdf5_close_paused(&t->part);
+}
+
 /* ---- following a run ---- */
 
 /* Buffered rows go first: a frame in the file has all rows of the history before it. */
@@ -50,22 +81,21 @@ static dem_status append_frame(dem_trajectory *t, const hdf5_file *file, const d
     return frames_append(&t->rows.frames, file, simulation);
 }
 
-/* Opens the part, adds rows and the frame, and closes it. Room for both is reserved by opening. The frame counts only
- * if closing has succeeded; a frame at the same instant again, as a resumed run shows it, is not added. */
+/* Adds rows and the frame to the part. Room for both is reserved by opening. The frame counts only if the part has been
+ * flushed; a frame at the same instant again, as a resumed run shows it, is not added. */
 static dem_status on_frame(void *context, const dem_simulation *simulation)
 {
     dem_trajectory *t = context;
     frames *f = &t->rows.frames;
     dem_state state = {.struct_size = sizeof state};
-    hdf5_file file;
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more frames", path_of(t));
     TRY(dem_simulation_state(simulation, &state));
     /* frames.before counts those in segments, so that the first frame of a resumed run is compared as well. */
     if (f->before + f->n > 0 && state.t == f->last) return DEM_OK;
     TRY(fragment_table_measure(&t->rows.fragments, simulation));
     const hsize_t of_fragments = fragment_table_bytes(&t->rows.fragments);
-    TRY(hdf5_open_write(&file, part_of(t), trajectory_rows_flush_bytes(&t->rows) + of_fragments + frames_bytes(f)));
-    TRY(hdf5_close(&file, append_frame(t, &file, simulation)));
+    TRY(open_part(t, trajectory_rows_flush_bytes(&t->rows) + of_fragments + frames_bytes(f)));
+    TRY(leave_part(t, append_frame(t, &t->part, simulation)));
     f->n++;
     f->last = state.t;
     return DEM_OK;
@@ -74,9 +104,8 @@ static dem_status on_frame(void *context, const dem_simulation *simulation)
 /* Moves the buffered rows to the part. */
 static dem_status flush(dem_trajectory *t)
 {
-    hdf5_file file;
-    TRY(hdf5_open_write(&file, part_of(t), trajectory_rows_flush_bytes(&t->rows)));
-    return hdf5_close(&file, trajectory_rows_flush(&t->rows, &file));
+    TRY(open_part(t, trajectory_rows_flush_bytes(&t->rows)));
+    return leave_part(t, trajectory_rows_flush(&t->rows, &t->part));
 }
 
 /* The buffers of history and probes are emptied when the history's is full: no probe has more rows than that. */
@@ -360,14 +389,13 @@ dem_status dem_trajectory_observer(dem_trajectory *trajectory, dem_observer *out
 dem_status dem_trajectory_note(dem_trajectory *trajectory, const char *name, const char *text)
 {
     char path[PROVENANCE_PATH];
-    hdf5_file file;
     CHECK(trajectory != NULL && name != NULL && text != NULL, DEM_ERROR_ARGUMENT,
           "dem_trajectory_note: an argument is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more notes", path_of(trajectory));
     TRY(provenance_path(path, name));
     /* The room for the header of a dataset is within what hdf5_open_write() adds. */
-    TRY(hdf5_open_write(&file, part_of(trajectory), strlen(text)));
-    TRY(hdf5_close(&file, hdf5_write_text(&file, path, text)));
+    TRY(open_part(trajectory, strlen(text)));
+    TRY(leave_part(trajectory, hdf5_write_text(&trajectory->part, path, text)));
     return provenance_put(&trajectory->rows.provenance, path, text);
 }
 
@@ -379,6 +407,7 @@ dem_status dem_trajectory_segment(dem_trajectory *trajectory, const dem_checkpoi
     CHECK(trajectory != NULL && checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_segment: an argument is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more segments", path_of(trajectory));
     TRY(flush(trajectory));
+    TRY(close_part(trajectory));
     dem_status status = read_checkpoint(&then, trajectory, checkpoint);
     if (status == DEM_OK) status = trajectory_parts_cut(&trajectory->segments, &trajectory->rows, then.rows);
     free(then.rows);
@@ -419,6 +448,7 @@ dem_status dem_trajectory_finish(dem_trajectory *trajectory)
     CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
     CHECK(!trajectory->finished, DEM_ERROR_ARGUMENT, "%s is finished already", path_of(trajectory));
     TRY(flush(trajectory));
+    TRY(close_part(trajectory));
     TRY(trajectory_parts_join(&trajectory->segments, &trajectory->rows));
     trajectory->finished = 1;
     return draw_moving(trajectory);
@@ -427,6 +457,7 @@ dem_status dem_trajectory_finish(dem_trajectory *trajectory)
 void dem_trajectory_destroy(dem_trajectory *trajectory)
 {
     if (trajectory == NULL) return;
+    (void)close_part(trajectory);
     trajectory_rows_free(&trajectory->rows);
     trajectory_parts_free(&trajectory->segments);
     free(trajectory);

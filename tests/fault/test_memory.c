@@ -269,8 +269,12 @@ static dem_status run_afresh(standard_run *run_it, long failing_one)
     return status;
 }
 
+/* Stresses of all nodes are measured node by node where there is no room for those of springs: a run with peaks asks
+ * for three arrays, and again after it was resumed, and does without. */
 static void allocations_may_fail(standard_run *run_it, double of_share, int stays_so)
 {
+    enum { DOES_WITHOUT = 6 };
+    long harmless = 0;
     const double tried = share < 1.0 ? of_share * share : 1.0;
     uint64_t seed = 1;
     assert_int_equal(run_afresh(run_it, 0), DEM_OK);
@@ -280,7 +284,8 @@ static void allocations_may_fail(standard_run *run_it, double of_share, int stay
     for (long k = 1; k <= all; k++) {
         if (fabs(random_next(&seed)) > tried) continue;
         const dem_status status = run_afresh(run_it, k);
-        if (status != DEM_ERROR_MEMORY)
+        harmless += status == DEM_OK;
+        if (status != DEM_ERROR_MEMORY && (status != DEM_OK || harmless > DOES_WITHOUT))
             fail_msg("allocation %ld of %ld: status %d, %s", k, all, status, dem_status_message());
         if (go_on() != DEM_OK) fail_msg("allocation %ld of %ld, then: %s", k, all, dem_status_message());
     }

@@ -337,6 +337,46 @@ TEST(the_part_can_be_looked_at_while_the_run_goes_on)
     assert_int_equal(dem_simulation_advance(r.simulation, 3 * interval), DEM_OK);
 }
 
+/* As another process sees it: through the bytes in the file system. */
+static void copy_bytes(const char *from, const char *to)
+{
+    char buffer[4096];
+    FILE *in = fopen(from, "rb"), *out = fopen(to, "wb");
+    assert_true(in != NULL && out != NULL);
+    for (size_t n; (n = fread(buffer, 1, sizeof buffer, in)) > 0;) assert_int_equal(fwrite(buffer, 1, n, out), n);
+    assert_int_equal(fclose(in), 0);
+    assert_int_equal(fclose(out), 0);
+}
+
+static dem_status look_at_bytes(void *context, const dem_simulation *simulation)
+{
+    const run *r = context;
+    motion state;
+    motion_see(simulation, &state);
+    copy_bytes(r->part, r->path);
+    const int64_t n = count_steps(r->path);
+    assert_close(read_cell(r->path, "/VTKHDF/Steps/Values", (hsize_t)n - 1), state.t, 0.0);
+    assert_int_equal(count_rows(r->path, "/VTKHDF/Points"), n * dem_model_lattice(r->model)->n_nodes);
+    return DEM_OK;
+}
+
+TEST(a_part_that_stays_open_is_whole_after_every_frame)
+{
+    enum { RESERVED = 1 << 20 }; /* at least, before a frame is written */
+    dem_trajectory_options options = every_frame();
+    options.stays_open = true;
+    CLEANUP(end) run r = begin(&options);
+    const dem_observer observer = SIZED(dem_observer, .interval = interval, .frame = look_at_bytes, .context = &r);
+    struct stat about;
+    assert_int_equal(dem_simulation_observe(r.simulation, &observer), DEM_OK);
+    assert_int_equal(dem_simulation_advance(r.simulation, 3 * interval), DEM_OK);
+    assert_int_equal(stat(r.part, &about), 0);
+    assert_in_range(about.st_size, 1, RESERVED - 1);
+    assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+    assert_int_equal(count_steps(r.path), 4);
+    assert_last_frame_is_the_state(&r, 4, 1e-8);
+}
+
 TEST(a_reader_does_not_stop_the_run)
 {
     CLEANUP(end) run r = begin_usual();
