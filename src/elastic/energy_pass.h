@@ -9,7 +9,7 @@
 #include "base/twofold.h"
 #include "elastic/layout.h"
 
-enum { ENERGY_PASS_GROUP = 8 }; /* blocks that have extremes in common */
+enum { ENERGY_PASS_GROUP = 4 }; /* blocks that have extremes in common */
 
 /** What a pass reads and writes; nodes in the order of the layout. An element is its lowest node's. */
 typedef struct energy_pass {

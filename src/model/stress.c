@@ -165,11 +165,9 @@ void stress_of_node(const stress_map *map, const dem_lattice *lattice, const tri
     if (map->couplings->n > 0) add_couplings(map, i, x, stress);
 }
 
-/* Of plane stress. */
 double dem_stress_von_mises(const double stress[3])
 {
-    const double xx = stress[0], yy = stress[1], xy = stress[2];
-    return sqrt(xx * xx - xx * yy + yy * yy + 3.0 * xy * xy);
+    return sqrt(stress_square(stress));
 }
 
 /* Principal stresses, the larger one first, and the unit direction of that, with x >= 0. Since (S - value[0]) (S -

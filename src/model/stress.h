@@ -26,4 +26,11 @@ void stress_free(stress_map *map);
 void stress_of_node(const stress_map *map, const dem_lattice *lattice, const triangles *t, dem_index i, const double *x,
                     double stress[3]);
 
+/** The square of the von Mises stress of plane stress, Pa^2. */
+static inline double stress_square(const double stress[3])
+{
+    const double xx = stress[0], yy = stress[1], xy = stress[2];
+    return xx * xx - xx * yy + yy * yy + 3.0 * xy * xy;
+}
+
 #endif

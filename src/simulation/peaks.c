@@ -8,7 +8,9 @@
 #include "base/checkpoint_entries.h"
 #include "base/status.h"
 #include "base/struct_size.h"
+#include "model/stress.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -21,13 +23,17 @@ struct dem_peaks {
     double *strain; /* [n_springs] scratch */
 };
 
-/* The size of a node's stress is its von Mises stress; the components are kept with it. */
+/* The size of a node's stress is its von Mises stress; the components are kept with it. Most are below the peak by more
+ * than squares are rounded, and take no root. */
 static void look_at_nodes(dem_peaks *p, const dem_simulation *simulation, double t)
 {
+    const double surely = 1.0 - 8.0 * DBL_EPSILON;
     (void)dem_simulation_stress(simulation, p->stress);
     for (dem_index i = 0; i < p->n_nodes; i++) {
-        const double *s = p->stress + 3 * i, size = dem_stress_von_mises(s);
-        if (size > p->nodes[i].von_mises) p->nodes[i] = (dem_node_peak){size, t, {s[0], s[1], s[2]}};
+        const double *s = p->stress + 3 * i, square = stress_square(s), most = p->nodes[i].von_mises;
+        if (square < surely * most * most) continue;
+        const double size = sqrt(square);
+        if (size > most) p->nodes[i] = (dem_node_peak){size, t, {s[0], s[1], s[2]}};
     }
 }
 
@@ -174,7 +180,7 @@ dem_index dem_peaks_most_stressed_nodes(const dem_peaks *peaks, dem_index n, dem
     return rank(peaks, node_size, peaks->n_nodes, n, nodes);
 }
 
-dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *springs)
+dem_index dem_peaks_most_strained_springs(const dem_peaks *peaks, dem_index n, dem_index *list)
 {
-    return rank(peaks, spring_size, peaks->n_springs, n, springs);
+    return rank(peaks, spring_size, peaks->n_springs, n, list);
 }
