@@ -140,8 +140,8 @@ static dem_status observe(job *j)
     const struct {
         bool wanted;
         dem_observer observer;
-    } all[] = {{j->peaks != NULL, ask_peaks_observer(j->peaks)},
-               {true, ask_trajectory_observer(j->trajectory)},
+    } all[] = {{true, ask_trajectory_observer(j->trajectory)}, /* measures what peaks ask for, too */
+               {j->peaks != NULL, ask_peaks_observer(j->peaks)},
                {true, report_observer(&j->report)},
                {j->deck.residual > 0.0, relaxation_observer(&j->rest)},
                {j->deck.stop_at_overlap != 0, {.struct_size = sizeof(dem_observer), .step = stop_at_overlap}},

@@ -78,7 +78,14 @@ typedef struct taking {
     const stress_field *s;
     const element_state *elements;
     stress_pass pass;
+    bool areas; /* whether triangles add to stresses */
 } taking;
+
+/* The guard's onset is rounded, and so are areas. */
+static bool may_add_areas(const stress_field *s, double area_min)
+{
+    return s->model->layout.stiff || !(area_min > TRIANGLES_GUARD_ONSET * (1.0 + 1e-9));
+}
 
 /* What area terms and the guard make of the stress of a node, as stress_of_node() adds it up. */
 static void add_areas(const taking *t, dem_index i)
@@ -109,10 +116,10 @@ static void nodes_share(const taking *t, int share)
     const dem_index last = threads_share(groups, s->n_threads, share + 1);
     const dem_index end = share + 1 < s->n_threads ? LAYOUT_LANES * last : n;
     s->nodes(&t->pass, LAYOUT_LANES * first, end);
-    if (first < n_blocks) s->areas(&t->pass, first, last < n_blocks ? last : n_blocks);
+    if (first < n_blocks && t->areas) s->areas(&t->pass, first, last < n_blocks ? last : n_blocks);
     for (dem_index i = LAYOUT_LANES * first; i < end; i++) {
         const dem_index block = i / LAYOUT_LANES;
-        if (block >= n_blocks || s->guarded[block] >> i % LAYOUT_LANES & 1) add_areas(t, i);
+        if (block >= n_blocks || (t->areas && s->guarded[block] >> i % LAYOUT_LANES & 1)) add_areas(t, i);
     }
     if (m->couplings.n > 0) s->corners(&t->pass, LAYOUT_LANES * first, end);
     for (dem_index i = LAYOUT_LANES * first; i < end && t->elements != NULL; i++)
@@ -120,11 +127,14 @@ static void nodes_share(const taking *t, int share)
             node_stress(m, t->elements, NODE_STRESS_CARRIED, i, t->pass.x, t->pass.stress + 3 * i);
 }
 
-bool stress_field_take(stress_field *s, const element_state *elements, const double *x, double *stress)
+bool stress_field_take(stress_field *s, const element_state *elements, const double *x, double area_min, double *stress)
 {
     const dem_model *m = s->model;
     const bool has_memory = allocate(s);
-    const taking t = {s, elements, {&m->lattice, &m->stress, &m->layout, x, s->virial, s->coupled, stress, s->guarded}};
+    const taking t = {s,
+                      elements,
+                      {&m->lattice, &m->stress, &m->layout, x, s->virial, s->coupled, stress, s->guarded},
+                      may_add_areas(s, area_min)};
     if (has_memory) {
         THREADS_RUN(s->n_threads, share, springs_share(&t, share));
         THREADS_RUN(s->n_threads, share, nodes_share(&t, share));

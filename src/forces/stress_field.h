@@ -23,9 +23,12 @@ void stress_field_destroy(stress_field *s);
 
 /** Stresses at positions x [n_nodes][2]. Without memory for r x f of the springs each node computes that of its own.
  *  \param elements     NULL: all are whole
+ *  \param area_min     the smallest area of whole triangles over that at rest, if it is known: spares looking for those
+ *                      that the guard acts on; 0: it is not
  *  \param[out] stress  [n_nodes][3] Pa: xx, yy, xy
  *  \return whether stress_field_strains() has strains of this state now */
-bool stress_field_take(stress_field *s, const element_state *elements, const double *x, double *stress);
+bool stress_field_take(stress_field *s, const element_state *elements, const double *x, double area_min,
+                       double *stress);
 
 /** Strains of the springs in the state of the last stresses, 0 of those that are broken.
  *  \param[out] strain  [n_springs] */

@@ -282,7 +282,8 @@ dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
     TRY(check_given("dem_simulation_stress", s, stress));
     const double *x = seen_of(s);
-    s->measures->has_stress = stress_field_take(s->field, s->forces.elements, x, stress);
+    const double area_min = s->measures->has_survey ? s->survey->strain.area_min : 0.0;
+    s->measures->has_stress = stress_field_take(s->field, s->forces.elements, x, area_min, stress);
     return DEM_OK;
 }
 
