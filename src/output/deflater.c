@@ -81,12 +81,35 @@ static dem_status begin(deflater *d, int level)
     end(d);
     d->stream = calloc(1, sizeof *d->stream);
     CHECK_MEMORY(d->stream);
-    const int strategy = level == 1 ? Z_RLE : Z_DEFAULT_STRATEGY;
-    const bool begun = deflateInit2(d->stream, level, Z_DEFLATED, WINDOW, MEMORY, strategy) == Z_OK;
+    const bool begun = deflateInit2(d->stream, level, Z_DEFLATED, WINDOW, MEMORY, Z_DEFAULT_STRATEGY) == Z_OK;
     if (!begun) end(d);
     CHECK(begun, DEM_ERROR_MEMORY, "out of memory to deflate");
     d->level = level;
     return DEM_OK;
+}
+
+/* Whether most sequences of four bytes come again, as those of a lattice at rest do row by row. Of computed numbers
+ * some do, beside the zeros of the third direction. */
+static bool repeats(const unsigned char *bytes, size_t n)
+{
+    enum { LOOK = 16384, SLOTS = 4096 };
+    const size_t end = n < LOOK ? n : LOOK;
+    uint32_t seen[SLOTS] = {0}, four;
+    size_t again = 0;
+    for (size_t k = 0; k + sizeof four <= end; k++) {
+        memcpy(&four, bytes + k, sizeof four);
+        uint32_t *slot = &seen[four * 2654435761u >> 20];
+        again += *slot == four;
+        *slot = four;
+    }
+    return 2 * again > end;
+}
+
+/* At level 1 the bytes in the middle of the numbers tell whether more is to be found than runs of equal bytes. */
+static int strategy_of(const deflater *d, deflater_numbers numbers)
+{
+    const unsigned char *middle = d->shuffled + numbers.width / 2 * numbers.count;
+    return d->level > 1 || repeats(middle, numbers.count) ? Z_DEFAULT_STRATEGY : Z_RLE;
 }
 
 /* The room is what a stream of so many bytes can take at most, so that one call is enough. */
@@ -102,6 +125,7 @@ dem_status deflater_pack(deflater *d, deflater_numbers numbers, int level)
     d->stream->avail_in = (uInt)bytes;
     d->stream->next_out = d->packed;
     d->stream->avail_out = (uInt)d->packed_room;
+    (void)deflateParams(d->stream, level, strategy_of(d, numbers));
     CHECK(deflate(d->stream, Z_FINISH) == Z_STREAM_END, DEM_ERROR_IO, "%zu bytes cannot be deflated", bytes);
     d->n_packed = d->stream->total_out;
     return DEM_OK;

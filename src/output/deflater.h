@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Packs the numbers of a chunk as HDF5's filters shuffle and deflate do, so that any reader unpacks them, but without
- * making a new zlib stream for each, and at level 1 with runs of equal bytes only: of numbers that are shuffled little
- * else is found, in twice the time (docs/performance.md). */
+ * making a new zlib stream for each. At level 1 only runs of equal bytes are looked for where little else would be
+ * found in twice the time, as in numbers of a body that is deformed (docs/performance.md). */
 #ifndef DEM_OUTPUT_DEFLATER_H
 #define DEM_OUTPUT_DEFLATER_H
 
