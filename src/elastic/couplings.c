@@ -15,17 +15,13 @@
 
 /* ---- forces ---- */
 
-/* Edge c begins at corner c, and the last edge ends there. */
 vec2 couplings_add_force(const couplings *c, triangles_integrity integrity, dem_index i, const double *x, vec2 force)
 {
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
-        const int q = (int)(c->slot[p] % 3), last = (q + 2) % 3;
-        if (couplings_broken(c, integrity, c->slot[p] / 3)) continue;
-        const coupled_edges e = couplings_edges(&c->list[c->slot[p] / 3], x);
-        const double left = couplings_left(c, integrity, c->slot[p] / 3);
-        const vec2 ahead = vec2_scale(left * e.tension[q] / e.length[q], e.edge[q]);
-        const vec2 behind = vec2_scale(left * e.tension[last] / e.length[last], e.edge[last]);
-        force = vec2_add(force, vec2_sub(ahead, behind));
+        const dem_index k = c->slot[p] / 3;
+        if (couplings_broken(c, integrity, k)) continue;
+        const coupled_edges e = couplings_edges(&c->list[k], x);
+        force = vec2_add(force, couplings_force_at(&e, couplings_left(c, integrity, k), (int)(c->slot[p] % 3)));
     }
     return force;
 }

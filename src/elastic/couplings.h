@@ -73,6 +73,16 @@ static inline double couplings_energy_term(const coupled_triangle *t, const coup
     return t->coupling[c] * e->stretch[c] * e->stretch[(c + 2) % 3];
 }
 
+/** The force on corner q, N, along the edges at it, of which this is left: edge q begins there, and the last one ends
+ *  there. Not finite where two corners coincide. */
+static inline vec2 couplings_force_at(const coupled_edges *e, double left, int q)
+{
+    const int last = (q + 2) % 3;
+    const vec2 ahead = vec2_scale(left * e->tension[q] / e->length[q], e->edge[q]);
+    const vec2 behind = vec2_scale(left * e->tension[last] / e->length[last], e->edge[last]);
+    return vec2_sub(ahead, behind);
+}
+
 /** Adds the forces on node i, N, along the edges at it, in the order of its row. Not finite where two corners
  *  coincide. */
 vec2 couplings_add_force(const couplings *c, triangles_integrity integrity, dem_index i, const double *x, vec2 force);

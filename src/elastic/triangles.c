@@ -45,10 +45,15 @@ static bool is_slack(const triangles *t, dem_index p, double A)
 }
 
 /* dA/dx_i = (z x (x_last - x_next))/2: the side opposite to node i, turned by 90 degrees towards it, and halved. */
+static vec2 gradient_between(vec2 next, vec2 last)
+{
+    const vec2 opposite = vec2_sub(last, next);
+    return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
+}
+
 static vec2 gradient(const triangles *t, dem_index p, const double *x)
 {
-    const vec2 opposite = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, t->next[p]));
-    return (vec2){-0.5 * opposite.y, 0.5 * opposite.x};
+    return gradient_between(vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
 }
 
 /* kappa, N/m, of the triangle in slot p, at an area ratio. */
@@ -74,14 +79,27 @@ static double curvature_at(const triangles *t, dem_index p, double A)
     return t->area_stiffness != NULL ? t->area_stiffness[p] + curvature : curvature;
 }
 
-/* -dW/dA dA/dx_i, summed over the row. A triangle at its rest area is skipped. */
+/* -dW/dA dA/dx_i. A triangle at its rest area is skipped. */
+static inline vec2 add_force(const triangles *t, triangles_integrity integrity, dem_index p, const vec2 corner[3],
+                             vec2 force)
+{
+    const double A = vec2_triangle_area(corner[0], corner[1], corner[2]);
+    const double slope = is_slack(t, p, A) ? 0.0 : slope_at(t, integrity, p, A);
+    return slope != 0.0 ? vec2_along(force, -slope, gradient_between(corner[1], corner[2])) : force;
+}
+
+vec2 triangles_add_force(const triangles *t, triangles_integrity integrity, dem_index p, const vec2 corner[3],
+                         vec2 force)
+{
+    return add_force(t, integrity, p, corner, force);
+}
+
 vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        if (triangles_broken(t, integrity, p)) continue;
-        const double A = area_at(t, i, p, x), slope = is_slack(t, p, A) ? 0.0 : slope_at(t, integrity, p, A);
-        if (slope != 0.0) force = vec2_along(force, -slope, gradient(t, p, x));
+        const vec2 corner[3] = {vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p])};
+        if (!triangles_broken(t, integrity, p)) force = add_force(t, integrity, p, corner, force);
     }
     return force;
 }

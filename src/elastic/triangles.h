@@ -66,6 +66,11 @@ static inline double triangles_area_left(const triangles *t, triangles_integrity
 /** Force of the triangles on node i, N: minus the gradient of the sum of A0 (kappa/2 (J - 1)^2 + g w(J)). */
 vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 
+/** Adds to a force, N, that of the triangle in slot p, which is not broken, whose corners are at these places: first
+ *  that of the row's node, on which it is, then the next and the last one. */
+vec2 triangles_add_force(const triangles *t, triangles_integrity integrity, dem_index p, const vec2 corner[3],
+                         vec2 force);
+
 /** r x f of the triangle in slot p of row i, J, which is not broken: A dW/dA of its energy W, which depends on its area
  *  A alone, times the unit tensor. */
 double triangles_virial(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p, const double *x);

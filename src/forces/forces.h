@@ -168,13 +168,18 @@ static inline vec2 forces_acceleration_by(const forces *f, dem_index i, vec2 for
     return vec2_along(a, -f->mass_damping, v);
 }
 
+/** The same by the force of its elements, with what boundary conditions give. */
+static inline vec2 forces_acceleration_of(const forces *f, dem_index i, vec2 elements, vec2 vi, const double *v)
+{
+    if (forces_push(f)) elements = vec2_add(elements, boundary_conditions_force(f->boundaries, i, v[f->clock]));
+    return forces_acceleration_by(f, i, elements, vi);
+}
+
 /** Acceleration of node i, m/s^2, by its body alone: its elements, its weight, its drag, and what boundary conditions
  *  give. A fixed node has none. */
 static inline vec2 forces_body_acceleration(const forces *f, dem_index i, const double *x, const double *v)
 {
-    vec2 force = forces_of_elements(f, i, x, v);
-    if (forces_push(f)) force = vec2_add(force, boundary_conditions_force(f->boundaries, i, v[f->clock]));
-    return forces_acceleration_by(f, i, force, vec2_at(v, i));
+    return forces_acceleration_of(f, i, forces_of_elements(f, i, x, v), vec2_at(v, i), v);
 }
 
 /** An acceleration with a further force, N, added: a + f/m. */
@@ -183,13 +188,18 @@ static inline vec2 forces_with(const forces *f, dem_index i, vec2 own, vec2 furt
     return vec2_along(own, f->model->inverse_mass[i], further);
 }
 
+/** An acceleration with the contact of surfaces added. */
+static inline vec2 forces_with_surfaces(const forces *f, dem_index i, vec2 own, const double *x)
+{
+    vec2 push;
+    if (!surface_contact_has(f->surfaces, i) || !surface_contact_force(f->surfaces, i, x, &push)) return own;
+    return forces_with(f, i, own, push);
+}
+
 /** Acceleration of node i, m/s^2, free of contact with obstacles and of the external force: (4). */
 static inline vec2 forces_own_acceleration(const forces *f, dem_index i, const double *x, const double *v)
 {
-    const vec2 a = forces_body_acceleration(f, i, x, v);
-    vec2 push;
-    if (!surface_contact_has(f->surfaces, i) || !surface_contact_force(f->surfaces, i, x, &push)) return a;
-    return forces_with(f, i, a, push);
+    return forces_with_surfaces(f, i, forces_body_acceleration(f, i, x, v), x);
 }
 
 /** Acceleration of node i, m/s^2, free of contact with obstacles, with the external force. */

@@ -1,26 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations of the nodes near an event, as the functions of local_forces.h. Where undamped springs are all that
- * acts between nodes (`plain`) they are listed by local numbers, once for an event, and each is evaluated once for both
- * ends. Otherwise every node is evaluated by forces.h in a state of all nodes. The two differ in the order of sums,
- * hence by rounding. Contacts with obstacles near the event are not here but in contact/contact_constraints.c; the step
- * over the neighbourhood is in events/local_correction.c. */
+/* Accelerations of the nodes near an event, as the functions of local_forces.h. Springs and triangles are listed by
+ * local numbers, once for an event (local_elements.c); where springs are damped nothing is listed, and each node is
+ * evaluated in a state of all nodes. Both have the bits of forces.h but where undamped springs are all that acts
+ * between nodes (`plain`): their forces are summed up spring by spring, in another order. Contacts with obstacles near
+ * the event are not here but in contact/contact_constraints.c; the step over the neighbourhood is in
+ * events/local_correction.c. */
 #include "forces/local_springs.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/status.h"
 #include "forces/rigid_motion.h"
 
 void local_springs_create(local_springs *out, const forces *f, const state_layout *l)
 {
-    *out = (local_springs){.forces = f, .velocities = state_velocities(l)};
+    *out = (local_springs){.forces = f, .elements.forces = f, .velocities = state_velocities(l)};
 }
 
 void local_springs_destroy(local_springs *b)
 {
-    free(b->bonds);
-    free(b->stiffness);
+    local_elements_destroy(&b->elements);
     free(b->rigid);
     *b = (local_springs){0};
 }
@@ -51,49 +50,7 @@ static dem_status local_springs_add_neighbours(const void *self, local_nodes *no
     return DEM_OK;
 }
 
-/* ---- springs ---- */
-
-/* All numbers are one allocation. If it fails, the lists stay as they were. What they hold is not kept when they grow,
- * since they are filled anew. */
-static dem_status reserve(local_springs *b, dem_index n)
-{
-    if (n <= b->capacity) return DEM_OK;
-    local_bond *bonds = malloc(2 * (size_t)n * sizeof *bonds);
-    double *reals = malloc(10 * (size_t)n * sizeof *reals);
-    if (bonds == NULL || reals == NULL) {
-        free(bonds);
-        free(reals);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory for what is near an event");
-    }
-    free(b->bonds);
-    free(b->stiffness);
-    b->capacity = 2 * n;
-    b->bonds = bonds;
-    b->stiffness = reals;
-    b->rest_length = reals + 2 * n;
-    b->dx = reals + 4 * n;
-    b->dy = reals + 6 * n;
-    b->pull = reals + 8 * n;
-    return DEM_OK;
-}
-
-/* Lists the springs of local node j whose other end has a higher number. One with a lower number has listed the spring
- * already. All neighbours of a node that moves are local nodes. */
-static void add_bonds(local_springs *b, const local_nodes *nodes, dem_index j)
-{
-    const springs *s = &b->forces->model->springs;
-    const dem_index i = nodes->list[j];
-    const springs_integrity integrity = element_state_springs(element_state_at(b->forces->elements, i));
-    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-        const int32_t other = nodes->number[s->neighbour[p]];
-        /* A node that is not local has the number -1. */
-        const double left = springs_left(integrity, s->spring[p], 0.0);
-        if (other < j || left == 0.0) continue;
-        b->bonds[b->n_bonds] = (local_bond){(int32_t)j, other};
-        b->stiffness[b->n_bonds] = left * s->stiffness[p];
-        b->rest_length[b->n_bonds++] = s->rest_length[p];
-    }
-}
+/* ---- lists ---- */
 
 /* Whether springs are all that acts between the nodes: what acts at all, and no node is near another surface. */
 static bool are_plain(const forces *f, const local_nodes *nodes)
@@ -113,60 +70,34 @@ static dem_status reserve_rigid(local_springs *b)
     return DEM_OK;
 }
 
-/* Springs are listed ring by ring, so that those which act on ring r or nearer are the first bonds_end[r]. */
+/* Damping is not listed. */
 static dem_status local_springs_gather(void *self, const local_nodes *nodes)
 {
     local_springs *b = self;
-    const springs *s = &b->forces->model->springs;
-    dem_index most = 0;
     TRY(reserve_rigid(b));
     b->plain = are_plain(b->forces, nodes);
-    if (!b->plain) return DEM_OK;
-    for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++)
-        most += s->row[nodes->list[j] + 1] - s->row[nodes->list[j]];
-    TRY(reserve(b, most));
-    b->n_bonds = 0;
-    for (int ring = 0; ring < nodes->n_rings; ring++) {
-        for (dem_index j = local_nodes_begin(nodes, ring); j < nodes->end[ring]; j++) add_bonds(b, nodes, j);
-        b->bonds_end[ring] = b->n_bonds;
-    }
-    return DEM_OK;
+    return forces_couple_velocities(b->forces) ? DEM_OK : local_elements_list(&b->elements, nodes, !b->plain);
 }
 
 /* ---- accelerations ---- */
 
-/* Forces (1) of springs on the nodes of a ring or nearer, N. f [n][2] has room for one ring more, in which the other
- * ends collect sums that are not whole. Gathering and scattering are loops of their own, so that compilers make vector
- * instructions of the roots and divisions in between. */
-static void pull(const local_springs *b, const local_nodes *nodes, int ring, const double *x, double *f)
+/* By lists, which read the positions of the local nodes. */
+static void accelerate_listed(local_springs *b, const local_nodes *nodes, int ring, const local_state *s, double *a)
 {
-    const dem_index n = b->bonds_end[ring];
-    double *restrict dx = b->dx, *restrict dy = b->dy, *restrict factor = b->pull;
-    for (dem_index k = 0; k < n; k++) {
-        const vec2 d = vec2_sub(vec2_at(x, b->bonds[k].second), vec2_at(x, b->bonds[k].first));
-        dx[k] = d.x;
-        dy[k] = d.y;
-    }
-    for (dem_index k = 0; k < n; k++)
-        factor[k] = springs_pull(b->stiffness[k], b->rest_length[k], sqrt(dx[k] * dx[k] + dy[k] * dy[k]));
-    memset(f, 0, 2 * (size_t)nodes->end[ring + 1] * sizeof *f);
-    for (dem_index k = 0; k < n; k++) {
-        const local_bond bond = b->bonds[k];
-        /* The pull is the tension over the length: times the vector between the ends it is the force on the first
-         * one. */
-        const vec2 force = {factor[k] * dx[k], factor[k] * dy[k]};
-        vec2_put(f, bond.first, vec2_add(vec2_at(f, bond.first), force));
-        vec2_put(f, bond.second, vec2_sub(vec2_at(f, bond.second), force));
+    const forces *f = b->forces;
+    local_elements_push(&b->elements, nodes, ring, s->x, a);
+    for (dem_index j = 0; j < nodes->end[ring]; j++) {
+        const dem_index i = nodes->list[j];
+        const vec2 own = forces_acceleration_of(f, i, vec2_at(a, j), vec2_at(s->v, j), s->y + b->velocities);
+        vec2_put(a, j, forces_with_surfaces(f, i, own, s->y));
     }
 }
 
-/* a = g + F/m - alpha v. */
-static void accelerate_plain(const local_springs *b, const local_nodes *nodes, int ring, const local_state *s,
-                             double *a)
+/* Node by node, in the state of all nodes. */
+static void accelerate_damped(const local_springs *b, const local_nodes *nodes, int ring, const double *y, double *a)
 {
-    pull(b, nodes, ring, s->x, a);
     for (dem_index j = 0; j < nodes->end[ring]; j++)
-        vec2_put(a, j, forces_acceleration_by(b->forces, nodes->list[j], vec2_at(a, j), vec2_at(s->v, j)));
+        vec2_put(a, j, forces_own_acceleration(b->forces, nodes->list[j], y, y + b->velocities));
 }
 
 /* The time is that among the quadratures of the state, which the integrator carries along. */
@@ -204,14 +135,12 @@ static void move_rigid_bodies(const local_springs *b, const local_nodes *nodes, 
 /* The external force is evaluated for all these nodes in one call, and added last, as in forces_acceleration(). */
 static void local_springs_accelerate(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a)
 {
-    const local_springs *b = self;
+    local_springs *b = self;
     const forces *f = b->forces;
-    const double *v = s->y + b->velocities;
-    /* Listed springs read the positions of the local nodes; otherwise each node is evaluated in the state of all
-     * nodes. */
-    if (b->plain) accelerate_plain(b, nodes, ring, s, a);
-    for (dem_index j = 0; j < nodes->end[ring] && !b->plain; j++)
-        vec2_put(a, j, forces_own_acceleration(f, nodes->list[j], s->y, v));
+    if (forces_couple_velocities(f))
+        accelerate_damped(b, nodes, ring, s->y, a);
+    else
+        accelerate_listed(b, nodes, ring, s, a);
     local_springs_evaluate_external(self, nodes, ring, s);
     for (dem_index j = 0; j < nodes->end[ring] && f->external != NULL; j++)
         vec2_put(a, j, forces_with(f, nodes->list[j], vec2_at(a, j), vec2_at(f->external->value, j)));
@@ -252,7 +181,7 @@ local_forces local_springs_forces(local_springs *b)
     return (local_forces){.self = b,
                           .couple_velocities = forces_couple_velocities(f),
                           .are_driven = forces_are_driven(f),
-                          .read_state = !forces_are_plain(f) || f->surfaces != NULL,
+                          .read_state = forces_couple_velocities(f) || f->surfaces != NULL || f->model->rigid.n > 0,
                           .have_power = forces_have_power(f),
                           .held = f->boundaries != NULL ? f->boundaries->held : NULL,
                           .begin_step = local_springs_begin_step,

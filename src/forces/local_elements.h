@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The springs and triangles near an event, listed by local numbers, and their forces. Damping is not among them. */
+#ifndef DEM_FORCES_LOCAL_ELEMENTS_H
+#define DEM_FORCES_LOCAL_ELEMENTS_H
+
+#include "forces/forces.h"
+#include "forces/local_nodes.h"
+
+/** A spring between two local nodes: first < second. */
+typedef struct local_bond {
+    int32_t first, second;
+} local_bond;
+
+/** The other two corners of a triangle at a local node, counter-clockwise; -1: it is broken. */
+typedef struct local_corners {
+    int32_t next, last;
+} local_corners;
+
+/** A triangle that has a guard and no area term. */
+typedef struct local_guarded {
+    int32_t corner[3]; /* local nodes */
+    double onset;      /* area below which the guard acts, m^2 */
+} local_guarded;
+
+/** A triangle whose springs are coupled. */
+typedef struct local_coupled {
+    coupled_triangle own; /* with local nodes as its corners */
+    double left;
+    vec2 force[3]; /* on its corners, N: scratch */
+} local_coupled;
+
+/** How many of each list are those of the nodes before a node. */
+typedef struct local_places {
+    dem_index bonds, pulls, corners, guarded, coupled, pushes;
+} local_places;
+
+enum { LOCAL_ELEMENTS_ARRAYS = 12 };
+
+typedef struct local_elements {
+    const forces *forces;
+    bool by_node;                          /* whether sums go node by node */
+    local_places *places;                  /* [n + 1] of the n nodes that are accelerated, and of all of them */
+    local_bond *bonds;                     /* each is listed at its first node */
+    double *pushed, *pulled, *rest_length; /* of bonds: stiffness under pressure and in tension, N; m */
+    double *fx, *fy;                       /* of bonds: force on the first node, N: scratch */
+    int32_t *pulls;         /* of nodes, in the order of forces_of_elements(): 2 bond, + 1 on its second node */
+    local_corners *corners; /* of nodes, in that order, too */
+    local_guarded *guarded; /* each is listed at the corner with the lowest number, as the following are */
+    local_coupled *coupled;
+    int32_t *pushes;                       /* of nodes, in that order: 3 coupled + corner */
+    dem_index room[LOCAL_ELEMENTS_ARRAYS]; /* of the arrays */
+} local_elements;
+
+/** Lists what acts between the nodes.  \param by_node  whether sums go node by node, to the bits of
+ *  forces_of_elements(); otherwise there are no elements but springs
+ *  \return DEM_ERROR_MEMORY: nothing is listed. Free with local_elements_destroy(). */
+dem_status local_elements_list(local_elements *e, const local_nodes *nodes, bool by_node);
+void local_elements_destroy(local_elements *e);
+
+/** Forces, N, of the elements on the nodes of a ring or nearer, f [n][2], at local positions x [n][2] of one ring more,
+ *  for which f has room. */
+void local_elements_push(local_elements *e, const local_nodes *nodes, int ring, const double *x, double *f);
+
+#endif
