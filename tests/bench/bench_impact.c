@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A rectangle of 8 x 13 cm falls on a flat floor (W2): 10 m/s, tilted by 0.03, every impact by itself.
  *
- *      bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP TOLERANCE [FILE [ETA FRICTION DAMPING]]
+ *      bench_impact SPACING TIME TURNS METHOD CONTACT RTOL STEP TOLERANCE [FILE [ETA FRICTION DAMPING [GUARD]]]
  *      bench_impact SPACING lammps FILE
  *
  * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step,
- * times omega_max; TOLERANCE is the penetration tolerance in spacings, DAMPING the damping time in s. The state at
- * the end goes into FILE. Elastic, without friction and undamped unless the last three say else. Prints: nodes,
+ * times omega_max; TOLERANCE is the penetration tolerance in spacings, DAMPING the damping time in s, GUARD the strength
+ * of the folding guard over E h. The state at the end goes into FILE. Elastic, without friction, undamped and without a
+ * guard unless the last four say else. Prints: nodes,
  * springs, evaluations, steps, events, impacts, late ones; the least CPU time of a run in s and, of method local,
  * what of it went into finding contact events inside steps and into taking them. With `lammps`: the body as a data
  * file of LAMMPS. */
@@ -21,7 +22,7 @@ static const double width = 0.08, height = 0.13, speed[2] = {0.0, -10.0}, tilt =
 static const double least_time = 0.5; /* s */
 
 typedef struct law {
-    double restitution, friction, damping_time;
+    double restitution, friction, damping_time, guard;
 } law;
 
 static const law elastic = {.restitution = 1.0};
@@ -52,6 +53,7 @@ static dem_model *compile(double spacing, law l)
     dem_lattice body = make_body(spacing);
     dem_model *model;
     if (l.damping_time > 0.0) plate_damp(&body, l.damping_time);
+    if (l.guard > 0.0) plate_guard(&body, l.guard);
     ask(dem_model_create(&model, &body, &floor, 1));
     dem_lattice_free(&body);
     return model;
@@ -69,6 +71,12 @@ static dem_options read_options(char **argv, const dem_model *model)
     options.penetration_tolerance = atof(argv[4]) * dem_model_spacing(model);
     options.window = 0.0;
     return options;
+}
+
+static law read_law(char **argv, int n)
+{
+    if (n < 3) return elastic;
+    return (law){atof(argv[0]), atof(argv[1]), atof(argv[2]), n > 3 ? atof(argv[3]) : 0.0};
 }
 
 /* ---- what local contact does, timed where simulation.c calls it ---- */
@@ -124,8 +132,9 @@ static void print(const dem_simulation *simulation, times t)
 
 int main(int argc, char **argv)
 {
-    must(argc == 4 || argc == 9 || argc == 10 || argc == 13,
-         "SPACING TIME TURNS METHOD CONTACT RTOL STEP TOLERANCE [FILE [ETA FRICTION DAMPING]] or SPACING lammps FILE");
+    must(argc == 4 || argc == 9 || argc == 10 || argc == 13 || argc == 14,
+         "SPACING TIME TURNS METHOD CONTACT RTOL STEP TOLERANCE [FILE [ETA FRICTION DAMPING [GUARD]]] or SPACING "
+         "lammps FILE");
     const double spacing = atof(argv[1]), t_end = atof(argv[2]);
     if (argc == 4) {
         dem_lattice body = make_body(spacing);
@@ -133,7 +142,7 @@ int main(int argc, char **argv)
         dem_lattice_free(&body);
         return 0;
     }
-    dem_model *model = compile(spacing, argc == 13 ? (law){atof(argv[10]), atof(argv[11]), atof(argv[12])} : elastic);
+    dem_model *model = compile(spacing, read_law(argv + 10, argc - 10));
     const dem_options options = read_options(argv + 4, model);
     const int turns = atoi(argv[3]);
     dem_simulation *simulation = NULL;

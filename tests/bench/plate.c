@@ -94,6 +94,13 @@ void plate_triangulate(dem_lattice *l, dem_index columns)
     l->flags = NULL;
 }
 
+/* Springs of stiffness k per length have E h = 2 k/sqrt 3. */
+void plate_guard(dem_lattice *l, double strength)
+{
+    l->guard = zeros(l->n_triangles, sizeof *l->guard);
+    for (dem_index k = 0; k < l->n_triangles; k++) l->guard[k] = strength * 2.0 / sqrt(3.0) * plate_bond();
+}
+
 void plate_damp(dem_lattice *l, double time)
 {
     l->viscosity = zeros(l->n_springs, sizeof *l->viscosity);

@@ -19,6 +19,9 @@ void plate_triangulate(dem_lattice *l, dem_index columns);
  *  `gap` spacings between them, which run towards each other with this speed each, m/s. */
 dem_lattice plate_make_two(dem_index nodes, double gap, double spacing, double speed);
 
+/** Gives every triangle a folding guard, of this strength over E h. */
+void plate_guard(dem_lattice *l, double strength);
+
 /** Gives every spring this damping time, s. */
 void plate_damp(dem_lattice *l, double time);
 
