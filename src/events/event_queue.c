@@ -154,7 +154,8 @@ static dem_status take(event_queue *q, const due_event *due)
     q->n_stops += q->n_stops == 0 || due->t > q->now;
     q->now = due->t;
     TRY(find_seeds(q, due, &n_seeds));
-    TRY(local_correction_open(&q->correction, q->step, q->seeds, n_seeds, q->now, q->state));
+    const neighbourhood_seeds seeds = {q->seeds, n_seeds, due->source->changes_forces};
+    TRY(local_correction_open(&q->correction, q->step, seeds, q->now, q->state));
     TRY(resolve(q, due, &at));
     if (due->source->changes_forces) TRY(neighbourhood_list_forces(&q->correction.near));
     TRY(local_correction_close(&q->correction, q->step, &q->changed, q->state, &error));

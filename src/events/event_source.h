@@ -25,7 +25,7 @@ typedef struct event_place {
 typedef struct event_source {
     const char *name; /* in messages: "after a NAME event" */
     void *self;
-    bool changes_forces; /* its events change the forces between nodes, not their velocities alone */
+    bool changes_forces; /* its events change the forces between their seeds, and neither positions nor velocities */
     /** Finds the events of a step, from its start.
      *  \param state  [2 dim n_rows] scratch */
     void (*begin)(void *self, const dense_output *step, double *state);
@@ -35,7 +35,7 @@ typedef struct event_source {
     dem_index (*seeds)(const void *self, dem_index key, dem_index *nodes, dem_index capacity);
     /** Called before an event, of this source or another. */
     void (*prepare)(void *self, const event_place *at);
-    /** Resolves the event in the state: x and v of the seeds may change, and forces on the nodes near. */
+    /** Resolves the event in the state: x and v of the seeds may change, or the forces between them. */
     dem_status (*resolve)(void *self, dem_index key, const event_place *at, const event_listener *listener);
     /** Called when the rest of the step has been corrected for the event: finds the next events of the nodes near
      *  again. */

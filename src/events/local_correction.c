@@ -60,13 +60,14 @@ static dem_index components(const local_correction *p, dem_index n)
 
 /* The last ring on which accelerations change at a stage. dx_q has dv of the stages before, dv_q has da of them, and
  * da_q depends on dx_q of a node and its neighbours: so the change spreads by one ring in two stages. It begins with
- * ring 1, not 0, because a node may be put back on its surface, which its neighbours feel at once. Where springs are
- * damped, da_q depends on dv_q of the neighbours too, and every stage brings a ring. At the end of the step
- * accelerations change one ring beyond the last: event_queue.c computes them again. */
+ * ring 1, not 0, because a node may be put back on its surface, which its neighbours feel at once; but with ring 0
+ * where an event changes the forces between the seeds alone. Where springs are damped, da_q depends on dv_q of the
+ * neighbours too, and every stage brings a ring. At the end of the step accelerations change one ring beyond the last:
+ * event_queue.c computes them again. */
 static int reach(const local_correction *p, int stage)
 {
-    const int before = stage == END ? p->table.stages : stage;
-    const int rings = last_ring(p) == p->table.stages ? before + 1 : 1 + before / 2;
+    const int before = stage == END ? p->table.stages : stage, first = neighbourhood_is_short(&p->near) ? 0 : 1;
+    const int rings = first + (p->near.forces->couple_velocities ? before : before / 2);
     return rings < last_ring(p) ? rings : last_ring(p);
 }
 
@@ -267,14 +268,14 @@ static void find_motion(const local_correction *p, const dense_output *step, dem
 }
 
 /* The stage at the end of the step needs no evaluation; the others do, the first at t* itself. */
-dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
-                                 dem_index n_seeds, double t, double *state)
+dem_status local_correction_open(local_correction *p, const dense_output *step, neighbourhood_seeds seeds, double t,
+                                 double *state)
 {
     p->t = t;
     p->h = step->t1 - t;
     p->parabolic = step->parabolic;
     p->n_quadratures = 0;
-    TRY(neighbourhood_gather(&p->near, seeds, n_seeds));
+    TRY(neighbourhood_gather(&p->near, seeds));
     TRY(reserve(p, p->near.nodes.n, 0));
     for (dem_index j = 0; j < p->near.nodes.n; j++) find_motion(p, step, p->near.nodes.list[j], &p->motions[j]);
     TRY(open_end(p, step));

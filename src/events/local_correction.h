@@ -3,8 +3,9 @@
  *   d'' = a(x + d, constraints after) - a(x, constraints before)
  * and spreads by a ring of neighbours for every two stages of a Runge-Kutta step (for every one where springs are
  * damped). So it is integrated on a neighbourhood of 3 (6) rings round the event, by one step of Fehlberg's pair;
- * outside it is 0 to the bit. For methods of order 2 Heun's pair and 1 (2) rings suffice. Inside the step the change
- * is interpolated as the step is: by quintics, or by parabolas. */
+ * outside it is 0 to the bit. For methods of order 2 Heun's pair and 1 (2) rings suffice. Where an event changes forces
+ * alone it is one ring less. Inside the step the change is interpolated as the step is: by quintics, or by
+ * parabolas. */
 #ifndef DEM_EVENTS_LOCAL_CORRECTION_H
 #define DEM_EVENTS_LOCAL_CORRECTION_H
 
@@ -44,11 +45,11 @@ dem_status local_correction_create(local_correction *out, const state_layout *l,
                                    const constraints *c, const local_correction_rule *rule);
 void local_correction_destroy(local_correction *p);
 
-/** Called before an event that may change some nodes, the seeds, at once: gathers their neighbourhood, computes its
+/** Called before an event that may change the seeds at once: gathers their neighbourhood, computes its
  *  motion without the event at all stages, and puts its state at t into `state` [2 dim n_rows]. The constraints are to
  *  be solved for the end of the step. */
-dem_status local_correction_open(local_correction *p, const dense_output *step, const dem_index *seeds,
-                                 dem_index n_seeds, double t, double *state);
+dem_status local_correction_open(local_correction *p, const dense_output *step, neighbourhood_seeds seeds, double t,
+                                 double *state);
 
 /** Called when the event has changed `state` and the constraints: integrates the change of motion and adds it to the
  *  step.

@@ -13,7 +13,7 @@
 dem_status neighbourhood_create(neighbourhood *out, const state_layout *layout, const local_forces *f,
                                 const constraints *c, int n_rings)
 {
-    neighbourhood b = {.layout = *layout, .forces = f, .constraints = c};
+    neighbourhood b = {.layout = *layout, .n_rings = n_rings, .forces = f, .constraints = c};
     TRY(local_nodes_create(&b.nodes, layout->n_nodes, n_rings));
     *out = b;
     return DEM_OK;
@@ -69,15 +69,18 @@ dem_status neighbourhood_list_forces(neighbourhood *b)
     return b->forces->gather(b->forces->self, &b->nodes);
 }
 
-/* Rings 0 to n_rings; then the forces list what acts between the nodes found. */
-dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_index n_seeds)
+/* Rings 0 to n_rings; then the forces list what acts between the nodes found. Before an event closed contacts at the
+ * seeds are stopped, which changes velocities. */
+dem_status neighbourhood_gather(neighbourhood *b, neighbourhood_seeds seeds)
 {
     const local_forces *f = b->forces;
     local_nodes *nodes = &b->nodes;
     local_nodes_clear(nodes);
     b->n_groups = 0;
-    for (dem_index j = 0; j < n_seeds; j++) TRY(local_nodes_add(nodes, seeds[j]));
+    for (dem_index j = 0; j < seeds.n; j++) TRY(local_nodes_add(nodes, seeds.list[j]));
+    nodes->n_rings = b->n_rings;
     TRY(close_ring(b, 0));
+    if (seeds.by_forces && b->n_groups == 0) nodes->n_rings--;
     for (int ring = 1; ring <= nodes->n_rings; ring++) {
         TRY(f->add_neighbours(f->self, nodes, local_nodes_begin(nodes, ring - 1), nodes->end[ring - 1]));
         TRY(close_ring(b, ring));

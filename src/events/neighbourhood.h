@@ -13,8 +13,16 @@ typedef struct neighbourhood_group {
     int ring;
 } neighbourhood_group;
 
+/** The nodes that an event may change at once. */
+typedef struct neighbourhood_seeds {
+    const dem_index *list;
+    dem_index n;
+    bool by_forces; /* the forces between them, and neither positions nor velocities */
+} neighbourhood_seeds;
+
 typedef struct neighbourhood {
     state_layout layout;
+    int n_rings; /* at most */
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */
     local_nodes nodes;
@@ -27,8 +35,15 @@ dem_status neighbourhood_create(neighbourhood *out, const state_layout *layout, 
                                 const constraints *c, int n_rings);
 void neighbourhood_destroy(neighbourhood *b);
 
-/** Gathers the nodes round some, which are ring 0: what an event may change at once. */
-dem_status neighbourhood_gather(neighbourhood *b, const dem_index *seeds, dem_index n_seeds);
+/** Gathers the nodes round the seeds, which are ring 0: as many rings as there may be, or one less where only forces
+ *  between the seeds change and no constraint holds them. */
+dem_status neighbourhood_gather(neighbourhood *b, neighbourhood_seeds seeds);
+
+/** Whether there is one ring less. */
+static inline bool neighbourhood_is_short(const neighbourhood *b)
+{
+    return b->nodes.n_rings < b->n_rings;
+}
 
 /** Finds the groups again, after an event has changed them. */
 dem_status neighbourhood_regroup(neighbourhood *b);

@@ -20,10 +20,17 @@ typedef struct chain {
     state_layout layout;
     int axis[STATE_DIM_MOST]; /* [dim] which of three motions a component is */
     unsigned char held[CHAIN_NODES];
+    dem_index broken; /* the spring before this node is; 0: none */
     local_forces forces;
     double y0[CHAIN_STATE], f0[CHAIN_STATE], y1[CHAIN_STATE], f1[CHAIN_STATE], state[CHAIN_STATE];
     dense_output step;
 } chain;
+
+/* Whether there is a spring before a node. */
+static inline bool chain_has(const chain *s, dem_index i)
+{
+    return i > 0 && i < CHAIN_NODES && i != s->broken;
+}
 
 /* Acceleration of component c of a node whose neighbours are at `before` and `after`, NULL beyond an end. */
 static inline double chain_pull(const double *before, const double *x, const double *after, int c)
@@ -51,8 +58,9 @@ static inline dem_status chain_add_neighbours(const void *self, local_nodes *nod
 static inline void chain_accelerate_one(const void *self, dem_index i, const double *y, double *a)
 {
     const state_layout *l = &((const chain *)self)->layout;
-    const double *before = i > 0 ? state_x(l, y, i - 1) : NULL,
-                 *after = i < CHAIN_NODES - 1 ? state_x(l, y, i + 1) : NULL;
+    const chain *s = self;
+    const double *before = chain_has(s, i) ? state_x(l, y, i - 1) : NULL,
+                 *after = chain_has(s, i + 1) ? state_x(l, y, i + 1) : NULL;
     for (int c = 0; c < l->dim; c++) a[c] = chain_pull(before, state_x(l, y, i), after, c);
 }
 
@@ -68,8 +76,8 @@ static inline void chain_accelerate(void *self, const local_nodes *nodes, int ri
     const state_layout *l = &((const chain *)self)->layout;
     for (dem_index j = 0; j < nodes->end[ring]; j++) {
         const dem_index i = nodes->list[j];
-        const double *before = i > 0 ? s->x + state_row(l, look_number(nodes, i - 1)) : NULL,
-                     *after = i < CHAIN_NODES - 1 ? s->x + state_row(l, look_number(nodes, i + 1)) : NULL;
+        const double *before = chain_has(self, i) ? s->x + state_row(l, look_number(nodes, i - 1)) : NULL,
+                     *after = chain_has(self, i + 1) ? s->x + state_row(l, look_number(nodes, i + 1)) : NULL;
         for (int c = 0; c < l->dim; c++) a[state_row(l, j) + c] = chain_pull(before, s->x + state_row(l, j), after, c);
     }
 }

@@ -68,7 +68,7 @@ static dem_status gather(rig *r, dem_index candidate)
     dem_index seeds[16];
     const dem_index n = contact_set_seeds(&r->c.set, candidate, seeds, 16);
     assert_true(n <= 16);
-    return neighbourhood_gather(&r->b, seeds, n);
+    return neighbourhood_gather(&r->b, (neighbourhood_seeds){seeds, n, false});
 }
 
 static dem_index bottom_candidate(const rig *r)
@@ -206,7 +206,7 @@ TEST(tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension)
         chain_open(&s, dim, axes, -1, false);
         const constraints c = tie_constraints(&t, &s);
         assert_ok(neighbourhood_create(&b, &s.layout, &s.forces, &c, 3));
-        assert_ok(neighbourhood_gather(&b, &seed, 1));
+        assert_ok(neighbourhood_gather(&b, (neighbourhood_seeds){&seed, 1, false}));
         assert_int_equal(b.nodes.n, 8);
         for (int j = 0; j < 8; j++) assert_int_equal(b.nodes.list[j], order[j]);
         for (int ring = 0; ring < 4; ring++) assert_int_equal(b.nodes.end[ring], end[ring]);
@@ -227,4 +227,22 @@ TEST(tied_nodes_are_in_one_ring_and_move_as_they_must_in_any_dimension)
                 assert_close(a[state_row(&s.layout, j) + k], order[j] >= 8 ? tied[k] : expected[k], 0.0);
         }
     }
+}
+
+/* Of two seeds the first is free, and the second is tied. */
+TEST(forces_alone_take_one_ring_less_where_no_constraint_holds_the_seeds)
+{
+    static const dem_index seeds[2] = {4, 8};
+    chain s;
+    tie t;
+    CLEANUP(neighbourhood_destroy) neighbourhood b;
+    chain_open(&s, 2, (const int[2]){0, 1}, -1, false);
+    const constraints c = tie_constraints(&t, &s);
+    assert_ok(neighbourhood_create(&b, &s.layout, &s.forces, &c, 3));
+    for (int k = 0; k < 2; k++)
+        for (int by_forces = 0; by_forces < 2; by_forces++) {
+            assert_ok(neighbourhood_gather(&b, (neighbourhood_seeds){seeds + k, 1, by_forces}));
+            assert_int_equal(neighbourhood_is_short(&b), by_forces && k == 0);
+            assert_int_equal(b.nodes.n_rings, by_forces && k == 0 ? 2 : 3);
+        }
 }
