@@ -113,7 +113,7 @@ static void complete_shares(element_state *s)
 static dem_status list_springs(element_state *s, spring_holders *holders)
 {
     const dem_index n = s->lattice->n_triangles;
-    spring_holders_visit(holders, count, s);
+    spring_holders_count(holders, count, s);
     for (dem_index t = 0; t < n; t++) s->row[t + 2] += s->row[t + 1];
     const size_t slots = (size_t)s->row[n + 1] + 1;
     s->spring = malloc(slots * sizeof *s->spring);

@@ -38,18 +38,20 @@ static dem_index opposite(const dem_lattice *l, dem_index triangle, dem_index i,
     return c[0] != i && c[0] != j ? c[0] : (c[1] != i && c[1] != j ? c[1] : c[2]);
 }
 
-/* The triangles of the edge in slots p to end - 1 of the sides hold the spring. */
+/* The triangles of the edge in slots p to end - 1 of the sides hold the spring. While they are counted nobody asks for
+ * shares, which take the most. */
 static void visit_triangles(spring_holders *h, dem_index spring, dem_index p, dem_index end,
                             spring_holders_visitor *visit, void *context)
 {
     const dem_lattice *l = h->lattice;
     double sum = 0.0;
-    for (dem_index q = p; q < end; q++) sum += spring_share_given(l, h->sides.list[q].triangle, spring);
+    for (dem_index q = p; q < end && !h->counts; q++) sum += spring_share_given(l, h->sides.list[q].triangle, spring);
     for (dem_index q = p; q < end; q++) {
         const dem_index t = h->sides.list[q].triangle;
-        visit(context, spring, t, spring_share_given(l, t, spring) / sum);
+        visit(context, spring, t, h->counts ? 0.0 : spring_share_given(l, t, spring) / sum);
     }
     h->placed[spring] = true;
+    h->n_placed++;
 }
 
 /* The spring along the edge of node i in slots p to end - 1 of the sides; or else (`along` false), where two triangles
@@ -77,12 +79,26 @@ static void visit_edges(spring_holders *h, bool along, spring_holders_visitor *v
 }
 
 /* Springs along edges come first: a spring that is an edge of some triangle must not be taken for a diagonal between
- * the outer corners of two others. */
-void spring_holders_visit(spring_holders *h, spring_holders_visitor *visit, void *context)
+ * the outer corners of two others. Most lattices have no others. */
+static void visit(spring_holders *h, spring_holders_visitor *visitor, void *context)
 {
-    for (dem_index k = 0; k < h->lattice->n_springs; k++) h->placed[k] = false;
-    visit_edges(h, true, visit, context);
-    visit_edges(h, false, visit, context);
-    for (dem_index k = 0; k < 2 * h->lattice->n_springs; k++)
-        if (!h->placed[k / 2]) visit(context, k / 2, -1, 0.5);
+    const dem_index n = h->lattice->n_springs;
+    h->n_placed = 0;
+    for (dem_index k = 0; k < n; k++) h->placed[k] = false;
+    visit_edges(h, true, visitor, context);
+    if (h->n_placed < n) visit_edges(h, false, visitor, context);
+    for (dem_index k = 0; k < 2 * n && h->n_placed < n; k++)
+        if (!h->placed[k / 2]) visitor(context, k / 2, -1, 0.5);
+}
+
+void spring_holders_visit(spring_holders *h, spring_holders_visitor *visitor, void *context)
+{
+    h->counts = false;
+    visit(h, visitor, context);
+}
+
+void spring_holders_count(spring_holders *h, spring_holders_visitor *visitor, void *context)
+{
+    h->counts = true;
+    visit(h, visitor, context);
 }

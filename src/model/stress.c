@@ -95,7 +95,7 @@ static dem_status compile(draft *d, const springs *s)
     map->row = lattice_zeros(l->n_nodes + 1, sizeof *map->row);
     map->volume = lattice_zeros(l->n_nodes, sizeof *map->volume);
     CHECK(d->next && map->row && map->volume, DEM_ERROR_MEMORY, "out of memory");
-    spring_holders_visit(&d->holders, give_share, d);
+    spring_holders_count(&d->holders, give_share, d);
     lay_rows(d);
     map->spring = lattice_zeros(map->row[l->n_nodes], sizeof *map->spring);
     map->share = lattice_zeros(map->row[l->n_nodes], sizeof *map->share);

@@ -115,7 +115,7 @@ static void draw_spring(void *context, dem_index spring, dem_index triangle, dou
 static dem_status visit_springs(const drawing *d, spring_holders *h)
 {
     drawing context = *d;
-    spring_holders_visit(h, count_held, &context);
+    spring_holders_count(h, count_held, &context);
     spring_holders_visit(h, give_volume, &context);
     for (dem_index k = 0; k < d->lattice->n_springs; k++) {
         CHECK(d->volume[k] > 0.0 || d->laws[0].shape == 0.0, DEM_ERROR_MODEL,

@@ -7,9 +7,9 @@
  * As many runs as TURNS; if that is 0, for half a second. STEP is the longest step, of Verlet's method the step,
  * times omega_max; TOLERANCE is the penetration tolerance in spacings, DAMPING the damping time in s, GUARD the
  * strength of the folding guard over E h. The state at the end goes into FILE. Elastic, without friction, undamped and
- * without a guard unless the last four say else. Prints: nodes, springs, evaluations, steps, events, impacts, late ones; the least CPU time of a run in s and, of method local,
- * what of it went into finding contact events inside steps and into taking them. With `lammps`: the body as a data
- * file of LAMMPS. */
+ * without a guard unless the last four say else. Prints: nodes, springs, evaluations, steps, events, impacts, late
+ * ones; the least CPU time of a run in s and, of method local, what of it went into finding contact events inside steps
+ * and into taking them. With `lammps`: the body as a data file of LAMMPS. */
 #include <math.h>
 #include <string.h>
 
