@@ -10,6 +10,7 @@
  * part; which events come, and in which order, is event_queue.c's. */
 #include "events/local_correction.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -427,6 +428,24 @@ static double squared_error(const local_correction *p)
     return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / n_unknowns;
 }
 
+/* Whether a node of a ring ends elsewhere, by more than a hundredth of what counts as an error. */
+static bool moves(const local_correction *p, int ring)
+{
+    const double most = 0.01 * p->rule.position_error;
+    const dem_index first = components(p, local_nodes_begin(&p->near.nodes, ring));
+    for (dem_index k = first; k < components(p, p->near.nodes.end[ring]); k++)
+        if (!(fabs(p->dx[END][k]) <= most)) return true;
+    return false;
+}
+
+/* The nodes up to the last ring that moves, and of the next one. */
+static dem_index find_felt(const local_correction *p)
+{
+    int ring = last_ring(p);
+    while (ring > 0 && !moves(p, ring)) ring--;
+    return p->near.nodes.end[ring + 1];
+}
+
 /* `state` is what the source has made of the state at t*: its difference from x_0, v_0 is the jump d_0. The contacts
  * are those after the event. The stages of the change go on to the end of the step, where contact forces are left as
  * solved for the end. */
@@ -453,5 +472,6 @@ dem_status local_correction_close(local_correction *p, const dense_output *step,
         TRY(leave(p, tr, p->near.nodes.n + b, p->rows[b], &motion));
     }
     *error = squared_error(p);
+    p->near.n_felt = find_felt(p);
     return DEM_OK;
 }

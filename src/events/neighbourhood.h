@@ -26,6 +26,7 @@ typedef struct neighbourhood {
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */
     local_nodes nodes;
+    dem_index n_felt; /* the first ones of them, which may feel the event: they or neighbours move otherwise after it */
     dem_index n_groups, group_capacity;
     neighbourhood_group *groups; /* [n_groups] with nodes in it */
 } neighbourhood;

@@ -344,7 +344,7 @@ static void look_at_spring(fracture_source *s, const event_place *at, dem_index 
     look_again(s, s->model->lattice.n_triangles + all->spring[p], at->t, false);
 }
 
-/* The nodes of all rings may have another stress at the end of the step, so triangles at them may break otherwise. */
+/* Nodes that feel the event have another stress at the end of the step, so triangles at them may break otherwise. */
 static void fracture_source_follow(void *self, const event_place *at)
 {
     fracture_source *s = self;
@@ -353,7 +353,7 @@ static void fracture_source_follow(void *self, const event_place *at)
     const element_state *e = s->elements;
     const springs *all = &s->model->springs;
     break_search_renew(&s->search, nodes->list, nodes->n);
-    for (dem_index j = 0; j < nodes->n; j++) {
+    for (dem_index j = 0; j < at->near->n_felt; j++) {
         const dem_index i = nodes->list[j];
         for (dem_index p = e->at_row[i]; p < e->at_row[i + 1] && l->strength != NULL; p++)
             look_at_triangle(s, at, e->at[p], i);

@@ -671,6 +671,7 @@ typedef struct chain_correction {
     chain chain;
     changed_motion changed;
     double middle[CHAIN_STATE]; /* state at three quarters of the step */
+    int felt;                   /* ring up to which it is felt */
 } chain_correction;
 
 static void kick_chain(chain_correction *s, int dim, const int *axes, int order)
@@ -723,24 +724,34 @@ TEST(in_three_dimensions_each_component_is_that_of_two)
 
 /* ---- forces alone ---- */
 
-/* Breaks the spring before node 7 of a chain, with the rings that are enough if forces alone change, or with all. */
-static void break_chain(chain_correction *s, int order, bool by_forces)
+static int ring_of(const local_nodes *nodes, dem_index number)
+{
+    int ring = 0;
+    while (nodes->end[ring] < number) ring++;
+    return ring;
+}
+
+/* Breaks the spring before node 7 of a chain, with the rings that are enough if forces alone change, or with all. An
+ * error of 1 is one of so many metres. */
+static void break_chain(chain_correction *s, int order, bool by_forces, double error_of_one)
 {
     static const int axes[2] = {0, 1};
     static const dem_index seeds[2] = {6, 7};
     chain *c = &s->chain;
     local_correction p;
     double error;
+    const local_correction_rule rule = {order, error_of_one, 1.0};
     chain_open(c, 2, axes, -1, order == 2);
     assert_ok(changed_motion_create(&s->changed, &c->layout));
     changed_motion_start(&s->changed, chain_step, c->y1, c->f1);
     c->step.changed = &s->changed;
-    assert_ok(local_correction_create(&p, &c->layout, &c->forces, NULL, &(local_correction_rule){order, 1.0, 1.0}));
+    assert_ok(local_correction_create(&p, &c->layout, &c->forces, NULL, &rule));
     const neighbourhood_seeds both = {seeds, 2, by_forces};
     assert_ok(local_correction_open(&p, &c->step, both, 0.25 * chain_step, c->state));
     assert_int_equal(neighbourhood_is_short(&p.near), by_forces);
     c->broken = 7;
     assert_ok(local_correction_close(&p, &c->step, &s->changed, c->state, &error));
+    s->felt = ring_of(&p.near.nodes, p.near.n_felt);
     local_correction_destroy(&p);
     changed_motion_destroy(&s->changed);
 }
@@ -752,8 +763,8 @@ TEST(what_changes_forces_alone_needs_one_ring_less)
     for (int order = 2; order <= 5; order += 3) {
         chain_correction all, less, none;
         const int rings = order == 2 ? 0 : 2;
-        break_chain(&all, order, false);
-        break_chain(&less, order, true);
+        break_chain(&all, order, false, 1.0);
+        break_chain(&less, order, true, 1.0);
         chain_open(&none.chain, 2, (const int[2]){0, 1}, -1, order == 2);
         for (dem_index k = 0; k < state_size(&all.chain.layout); k++)
             assert_close(less.chain.y1[k], all.chain.y1[k], 1e-14);
@@ -762,5 +773,18 @@ TEST(what_changes_forces_alone_needs_one_ring_less)
             const bool near = i >= 6 - rings && i <= 7 + rings;
             assert_int_equal(state_x(l, less.chain.y1, i)[0] != state_x(l, none.chain.y1, i)[0], near);
         }
+    }
+}
+
+/* Rings 0, 1, 2 end 0.07, 5e-4 and 1e-6 m from where they would; of the last ring, which only has other forces, nothing
+ * is felt beyond. */
+TEST(it_is_felt_a_ring_beyond_what_moves_by_more_than_a_hundredth_of_an_error)
+{
+    static const double errors[5] = {100.0, 1.0, 1e-3, 1e-5, 0.0};
+    static const int rings[5] = {1, 1, 2, 3, 3};
+    for (int k = 0; k < 5; k++) {
+        chain_correction s;
+        break_chain(&s, 5, true, errors[k]);
+        assert_int_equal(s.felt, rings[k]);
     }
 }
