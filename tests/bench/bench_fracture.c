@@ -16,7 +16,7 @@
  * of them chosen by itself. The time of a death is in parts: finding what breaks in a step, resolving it (with its
  * local correction and the looks around it, in the steps in which something breaks), and what follows at the end of the
  * step (surfaces, layout); and all of a run, less as many steps of the same impact on a stronger body. What is made
- * ready once, at the first break, is told apart. */
+ * ready once, at the first break, is reported apart. */
 #include <math.h>
 #include <string.h>
 
