@@ -47,6 +47,8 @@ static const kernel_row rows[] = {
 };
 enum { n_rows = sizeof rows / sizeof rows[0] };
 
+enum { EIGHT = sizeof(uint64_t) };
+
 /* Whether this machine and this build have the instruction set. */
 static bool runs_here(dem_kernel kind)
 {
@@ -457,7 +459,7 @@ dem_status kernel_watch(kernel *k, const kernel_threshold *threshold)
     const layout *l = &k->model->layout;
     const springs *s = &k->model->springs;
     k->limit = malloc(((size_t)l->n_blocks + 1) * sizeof *k->limit);
-    k->strained = malloc((size_t)l->n_blocks + 1);
+    k->strained = calloc((size_t)l->n_blocks + EIGHT, 1);
     CHECK(k->limit && k->strained, DEM_ERROR_MEMORY, "out of memory for the strains of %lld blocks",
           (long long)l->n_blocks);
     for (dem_index block = 0; block < l->n_blocks; block++) {
@@ -510,14 +512,27 @@ static void visit_block(const kernel *k, const element_state *e, const double *x
     }
 }
 
+/* The first block from one on that has nodes with strained springs; the number of blocks if there is none. Most have
+ * none: they are passed by eights, with zeros behind the last one. */
+static dem_index next_strained(const kernel *k, dem_index block)
+{
+    const dem_index n = k->model->layout.n_blocks;
+    for (uint64_t eight = 0; block < n; block += EIGHT) {
+        memcpy(&eight, k->strained + block, sizeof eight);
+        if (eight != 0) break;
+    }
+    while (block < n && k->strained[block] == 0) block++;
+    return block < n ? block : n;
+}
+
 /* What a fused step has found is asked for once: the next who asks may have changed the positions. */
 void kernel_visit_strained(kernel *k, const element_state *e, const double *x, kernel_visitor *visit, void *context)
 {
     const layout *l = &k->model->layout;
     if (k->watched != x) find_strained(k, e, x);
     k->watched = NULL;
-    for (dem_index block = 0; block < l->n_blocks; block++)
-        if (k->strained[block] != 0) visit_block(k, e, x, block, visit, context);
+    for (dem_index block = next_strained(k, 0); block < l->n_blocks; block = next_strained(k, block + 1))
+        visit_block(k, e, x, block, visit, context);
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) visit(context, layout_node(l, q));
 }
 
