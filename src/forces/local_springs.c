@@ -81,12 +81,15 @@ static dem_status local_springs_gather(void *self, const local_nodes *nodes)
 
 /* ---- accelerations ---- */
 
-/* By lists, which read the positions of the local nodes. */
+/* By lists, which read the positions of the local nodes. Beside plain springs nothing has to be asked for. */
 static void accelerate_listed(local_springs *b, const local_nodes *nodes, int ring, const local_state *s, double *a)
 {
     const forces *f = b->forces;
+    const dem_index n = nodes->end[ring];
     local_elements_push(&b->elements, nodes, ring, s->x, a);
-    for (dem_index j = 0; j < nodes->end[ring]; j++) {
+    for (dem_index j = 0; j < n && b->plain; j++)
+        vec2_put(a, j, forces_acceleration_by(f, nodes->list[j], vec2_at(a, j), vec2_at(s->v, j)));
+    for (dem_index j = 0; j < n && !b->plain; j++) {
         const dem_index i = nodes->list[j];
         const vec2 own = forces_acceleration_of(f, i, vec2_at(a, j), vec2_at(s->v, j), s->y + b->velocities);
         vec2_put(a, j, forces_with_surfaces(f, i, own, s->y));
