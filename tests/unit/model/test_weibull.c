@@ -64,6 +64,31 @@ TEST(strengths_of_triangles_have_weibulls_distribution)
     free(factor);
 }
 
+/* The same draws in a law of 16 times the volume are 16^(1/m) as strong, to rounding. At m = 1 the mean of as many
+ * draws as here is known to 1/sqrt(n), 0.2 %, so that a volume is met to 0.6 %. */
+TEST(exponent_and_volume_are_exact)
+{
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_rectangle(0.4, 0.4, 0.01);
+    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    const dem_index n = lattice.n_triangles;
+    enum { SEEDS = 80 };
+    double *small = calloc((size_t)n, sizeof *small), *large = calloc((size_t)n, sizeof *large), mean = 0.0;
+    assert_true(n > 3000 && small != NULL && large != NULL);
+    for (uint64_t seed = 0; seed < SEEDS; seed++) {
+        dem_weibull w = law(seed);
+        assert_ok(dem_lattice_weibull(&lattice, &w, 1, NULL, small, NULL));
+        w.volume *= 16.0;
+        assert_ok(dem_lattice_weibull(&lattice, &w, 1, NULL, large, NULL));
+        for (dem_index t = 0; t < n; t++) assert_close(large[t] / small[t], pow(16.0, 1.0 / shape), 1e-12);
+        w = (dem_weibull)SIZED(dem_weibull, .shape = 1.0, .volume = volume, .seed = seed);
+        assert_ok(dem_lattice_weibull(&lattice, &w, 1, NULL, small, NULL));
+        for (dem_index t = 0; t < n; t++) mean += small[t] * volume_of(&lattice, t) / volume / (double)(SEEDS * n);
+    }
+    assert_close(mean, 1.0, 3.0 / sqrt((double)(SEEDS * n)));
+    free(small);
+    free(large);
+}
+
 /* Volumes by hand: of n equal parts of each triangle or cell a spring inside has two, at the boundary one. */
 static void check_springs(const dem_lattice *lattice, double side, double diagonal)
 {
