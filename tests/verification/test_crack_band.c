@@ -170,7 +170,9 @@ static double unit_of(const band_case *k, const clamped_strip *s)
     return CLAMPED_STRIP_MODULUS * pow(CLAMPED_STRIP_LIMIT, 4.0) * edge(k) * 8.0 * step / lost;
 }
 
-static void check_case(const band_case *k)
+/* The load grows by the whole of itself in `slow` 10000 a/c of a strip of size 1.
+ * \return what a crack took, over what was asked for */
+static double check_case(const band_case *k, double slow)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = assemble(k, true);
     CLEANUP(support_close) support_run run;
@@ -178,7 +180,7 @@ static void check_case(const band_case *k)
     if (k->kind == SQUARES) clamped_strip_strengthen(&b.strip, &l); /* teeth would break, too */
     const double unit = unit_of(k, &b.strip), crack = b.strip.begin + k->size * CRACK * spacing;
     const double parted = b.strip.height * sqrt(asked(k) * unit),
-                 last = (k->alone ? 20000.0 : 10000.0) * k->size * spacing / c;
+                 last = slow * (k->alone ? 20000.0 : 10000.0) * k->size * spacing / c;
     b.tip = b.strip.begin;
     b.nearer = crack + 3.0 * k->size * spacing;
     b.further = crack + GONE * k->size * spacing;
@@ -191,19 +193,26 @@ static void check_case(const band_case *k)
     assert_close(found, asked(k), k->tolerance * asked(k));
     assert_true(fabs(direction(&b)) < k->most_angle);
     clamped_strip_free(&b.strip);
+    print_message("# %.2f for %.2f: %.4f\n", found, asked(k), found / asked(k));
+    return found / asked(k);
 }
 
 static void check(const band_case *list, size_t n)
 {
-    for (size_t k = 0; k < n; k++) check_case(&list[k]);
+    for (size_t k = 0; k < n; k++) (void)check_case(&list[k], 1.0);
 }
 
-/* Found: 4.02 (4.14), 5.20 (5.21). */
+/* Found: 4.02 (4.14), 5.20 (5.21). Drag and inertia add in proportion to the load's speed: 0.9834, 0.9717, 0.9656,
+ * 0.9628 of what was asked for in the first strip if it grows in 5000, 10000, 20000, 40000 a/c, so 0.9600 infinitely
+ * slowly, and 0.982 in the second. The first two tell that to 0.2 %; a fracture energy that is off by 1 % makes it 1 %.
+ * */
 TEST(a_crack_takes_the_fracture_energy)
 {
     const band_case list[] = {{1.0, softened(2.0), false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
                               {1.0, softened(3.0), false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
-    check(list, sizeof list / sizeof *list);
+    const double slowly[] = {0.960, 0.982};
+    for (int k = 0; k < 2; k++)
+        assert_close(2.0 * check_case(&list[k], 1.0) - check_case(&list[k], 0.5), slowly[k], 0.004);
 }
 
 /* Found: 0.958, 0.917 of what was asked for: a crack of 11 spacings is short. */
@@ -222,6 +231,20 @@ static void at_finer_spacings(void **state)
                               {2.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
                               {1.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
                               {2.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
+    (void)state;
+    check(list, sizeof list / sizeof *list);
+}
+
+/* Rows that are turned, at two spacings. A strip has to be high enough that what is ahead of the crack is far below its
+ * strength: where the crack goes on it is under sqrt(2 beta a/(H (1 - nu^2))) of it, with beta = 4.2 of G E/(strength^2
+ * a) 0.46 if it is 44 spacings high, and 0.65 if it is 22, where cracks take 0.84 to 0.98 of what is asked however long
+ * they are. So the coarse strip is 44 spacings high here. Found: 1.030, 1.034; 1.032, 0.982. */
+static void of_turned_rows_at_finer_spacings(void **state)
+{
+    const band_case list[] = {{1.0, 4.2, false, {15.0, 0.0, true}, 1.5, 0.10, CORNERS, third},
+                              {1.0, 4.2, false, {30.0, 0.0, true}, 1.5, 0.10, CORNERS, third},
+                              {2.0, 4.2, false, {15.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
+                              {2.0, 4.2, false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -298,8 +321,9 @@ int main(int argc, char **argv)
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_regular_meshes), 1000);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_irregular_meshes), 1001);
         test_add(&(struct CMUnitTest)cmocka_unit_test(at_finer_spacings), 1002);
-        test_add(&(struct CMUnitTest)cmocka_unit_test(of_own_stress), 1003);
-        test_add(&(struct CMUnitTest)cmocka_unit_test(of_squares_in_two_directions), 1004);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_turned_rows_at_finer_spacings), 1003);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_own_stress), 1004);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_squares_in_two_directions), 1005);
     }
     return test_run();
 }
