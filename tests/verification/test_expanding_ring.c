@@ -180,6 +180,8 @@ static double by_cohesive_cracks(double rate)
 static double check_pieces(const ring_case *k, double *rate)
 {
     const double pieces = (double)pieces_of(k, rate), found = (double)k->around / k->length / pieces;
+    print_message("# r %.3f: %.0f pieces, S %.4f, between %.4f and %.4f\n", *rate, pieces, found,
+                  by_cohesive_cracks(*rate), by_energy(*rate));
     assert_true(found < by_energy(*rate) && found > by_cohesive_cracks(*rate));
     return pieces;
 }
@@ -218,8 +220,9 @@ static void of_many_rates(void **state)
         pieces[j] = check_pieces(&k, &rate[j]);
         expected[j] = 1.0 / by_energy(rate[j]);
     }
-    const double of_theory = slope(rate, expected, RATES * SEEDS);
-    assert_close(slope(rate, pieces, RATES * SEEDS), of_theory, 0.2 * of_theory);
+    const double of_theory = slope(rate, expected, RATES * SEEDS), found = slope(rate, pieces, RATES * SEEDS);
+    print_message("# slope %.4f, of theory %.4f\n", found, of_theory);
+    assert_close(found, of_theory, 0.2 * of_theory);
 }
 
 int main(int argc, char **argv)

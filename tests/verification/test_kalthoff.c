@@ -124,6 +124,7 @@ static double angle(double spacing, const strip_mesh *mesh)
     dem_lattice_free(&k.lattice);
     free(k.hit);
     free(k.bottom);
+    print_message("# %.2f degrees\n", found);
     assert_true(found > 58.0 && found < 70.0);
     return found;
 }
@@ -147,6 +148,7 @@ static void of_five_meshes(void **state)
         least = fmin(least, found);
         most = fmax(most, found);
     }
+    print_message("# spread %.2f degrees\n", most - least);
     assert_true(most - least < 4.0);
 }
 
