@@ -140,6 +140,7 @@ static void assert_same_state(const subject *s, const subject *other)
     assert_memory_equal(s->state.triangle, other->state.triangle, n_triangles);
     assert_memory_equal(s->state.node, other->state.node, (size_t)s->lattice.n_nodes);
     assert_int_equal(s->state.n_damaged, other->state.n_damaged);
+    assert_int_equal(element_state_n_failures(&s->state), element_state_n_failures(&other->state));
 }
 
 /* What is left of a spring in tension is the sum of its shares times what is left of the triangles that have them; each
