@@ -55,7 +55,8 @@ def material(dice, deck, name, members, modulus, density):
     if dice.chance(0.3) and any(one.takes_springs(name) for one in members):
         keys["springs"] = "independent"  # a smaller Poisson's ratio makes irregular triangles of them unstable
     else:
-        keys["poissons_ratio"] = dice.between(0.1, 0.42)
+        # with less, impacts stretch what hangs on single cells past the limit of their stiffness (docs/limits.md)
+        keys["poissons_ratio"] = dice.between(0.2, 0.42)
     return keys
 
 
@@ -108,38 +109,43 @@ def settle(members):
     return max(math.hypot(*one.place) + one.span() for one in members)
 
 
-def put(dice, one, lift, speed):
-    """Keys in metres come later; towards the middle of the crowd, more or less."""
+def put(dice, one, lift, speed, drop):
+    """Keys in metres come later; towards the middle of the crowd, more or less, which moves down at the speed `drop`."""
     turn, (x, y) = math.radians(one.body.keys["angle"]), one.body.middle
     away = [one.size * (y * math.sin(turn) - x * math.cos(turn)), -one.size * (x * math.sin(turn) + y * math.cos(turn))]
     distance = max(math.hypot(*one.place), 1.0)
     keys = {"position": [(one.place[0] + away[0]) / one.size, (one.place[1] + away[1] + lift) / one.size]}
     keys["velocity"] = [speed * (dice.between(-0.6, 0.2) * one.place[c] / distance + dice.between(-0.4, 0.4))
                         for c in (0, 1)]
+    keys["velocity"][1] -= drop
     if dice.chance(0.4):
         keys["spin"] = dice.between(-1.0, 1.0) * speed
     return keys
 
 
-def surroundings(dice, deck, radius, speed, t_end):
-    """Sets grounds, motions, and a gravity that makes no body much faster. Returns by how much the crowd is lifted."""
+def surroundings(dice, deck, members, radius, speed, t_end):
+    """Sets grounds, motions, and a gravity that makes no body much faster. Returns by how much the crowd is lifted, and
+    how fast it moves down."""
     if dice.chance(0.4):
         deck.gravity = [0.0, 0.0]
-        return 0.0
+        return 0.0, 0.0
     deck.grounds, clear = deck_grounds.grounds(dice, radius, dice.chance(0.5))
     weight = dice.log(0.01, 1.0) * speed / t_end
     deck.gravity = [weight * dice.between(-0.3, 0.3), -weight]
     is_moving = dice.chance(0.6)
     deck.motions = [deck_motions.motion(dice, deck.spacing, deck.sound, radius) if is_moving else {}
                     for _ in deck.grounds]
-    return 0.0 if clear is None else clear + radius + dice.between(0.01, 0.5)
+    if clear is None:
+        return 0.0, 0.0
+    lowest = min(one.place[1] - one.span() for one in members)
+    return clear - lowest + dice.between(0.01, 0.5), speed * dice.between(0.3, 1.0)
 
 
-def body_groups(dice, deck, members, lift, speed):
+def body_groups(dice, deck, members, lift, speed, drop):
     parts = []
     for one in members:
         a = one.size * deck.spacing
-        keys = {**one.body.keys, **put(dice, one, lift, speed)}
+        keys = {**one.body.keys, **put(dice, one, lift, speed, drop)}
         if "spin" in keys:
             keys["spin"] /= one.span() * deck.spacing
         parts.append(("body", deck_maker.scaled(keys, a)))
@@ -159,14 +165,14 @@ def random_crowd(seed):
     radius = settle(members)
     speed = deck.sound * dice.log(0.02, 0.05 if deck.solver["method"] == "verlet" else 0.15)
     t_end = dice.between(3.0, 5.0) * a / speed + dice.between(10.0, 40.0) * a / deck.sound
-    lift = surroundings(dice, deck, radius, speed, t_end)
+    lift, drop = surroundings(dice, deck, members, radius, speed, t_end)
     parts = [("run", {"title": f"crowd {seed}", "t_end": t_end, "gravity": deck.gravity})]
     materials = [material(dice, deck, f"matter{k + 1}", members, modulus, density) for k in range(n_materials)]
     deck.damping_time = max(keys.get("damping_time", 0.0) for keys in materials)
     rub(deck, materials)
     stiffen(deck, members)
     parts += [("material", keys) for keys in materials]
-    parts += body_groups(dice, deck, members, lift, speed)
+    parts += body_groups(dice, deck, members, lift, speed, drop)
     for ground, moving in zip(deck.grounds, deck.motions):
         ground.keys.update(deck_maker.laws(dice, False))
         keys = {"points": [x for point in ground.points for x in point], **ground.keys}

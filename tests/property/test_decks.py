@@ -131,7 +131,7 @@ def try_seed(program, deck, census):
 # What a deck is to have at least, on the average: a third to a half of what was found.
 LEAST = {"touching": 0.4, "impacts": 5.0, "vertex_impacts": 0.3, "early": 0.05, "closings": 0.3, "releases": 0.1,
          "slips": 0.03, "sticks": 0.1, "passings": 0.01}
-LEAST_OF_CROWDS = {"contacts of bodies": 0.5, "impacts": 1.0}
+LEAST_OF_CROWDS = {"contacts of bodies": 0.3, "touching": 0.05, "impacts": 4.0}
 
 
 def shortfalls(census, number, is_crowd):
