@@ -4,47 +4,34 @@
 #include "base/cores.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/threads.h"
 
 enum { MOST_PATH = 4096 };
 
-/* The first word of a file as a number; NAN if there is none. */
-static double read_number(const char *folder, const char *name)
-{
-    char path[MOST_PATH + 64], word[32] = "", *end;
-    (void)snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "r");
-    if (file == NULL) return (double)NAN;
-    const bool found = fscanf(file, "%31s", word) == 1;
-    (void)fclose(file);
-    const double value = strtod(word, &end);
-    return found && end != word && *end == '\0' ? value : (double)NAN;
-}
-
-/* What follows the first word. */
-static double read_second(const char *folder, const char *name)
+/* The numbers that a file begins with, up to two. NAN in the place of those that are none. */
+static void read_numbers(const char *folder, const char *name, double value[2])
 {
     char path[MOST_PATH + 64];
-    double value = (double)NAN;
+    value[0] = value[1] = (double)NAN;
     (void)snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "r");
-    if (file == NULL) return value;
-    if (fscanf(file, "%*s %lf", &value) != 1) value = (double)NAN;
+    if (file == NULL) return;
+    if (fscanf(file, "%lf %lf", &value[0], &value[1]) < 1) value[0] = (double)NAN;
     (void)fclose(file);
-    return value;
 }
 
 /* Quota of one group, in cores; infinite if it has none. */
 static double quota_of(const char *folder)
 {
-    const double second = read_number(folder, "cpu.max") / read_second(folder, "cpu.max");
-    const double first = read_number(folder, "cpu.cfs_quota_us") / read_number(folder, "cpu.cfs_period_us");
-    return second > 0.0 ? second : first > 0.0 ? first : INFINITY;
+    double both[2], quota[2], period[2];
+    read_numbers(folder, "cpu.max", both);
+    if (both[0] / both[1] > 0.0) return both[0] / both[1];
+    read_numbers(folder, "cpu.cfs_quota_us", quota);
+    read_numbers(folder, "cpu.cfs_period_us", period);
+    return quota[0] / period[0] > 0.0 ? quota[0] / period[0] : INFINITY;
 }
 
 /* The least quota of a group below `root` and of all groups that it is in. */
@@ -53,9 +40,8 @@ static double least_quota(const char *root, const char *group)
     char folder[MOST_PATH];
     double least = INFINITY;
     if (snprintf(folder, sizeof folder, "%s%s", root, group) >= MOST_PATH) return least;
-    for (size_t end = strlen(folder); end >= strlen(root); end--) {
-        if (folder[end] != '\0' && folder[end] != '/') continue;
-        folder[end] = '\0';
+    for (char *end = folder + strlen(folder); end != NULL && end >= folder + strlen(root); end = strrchr(folder, '/')) {
+        *end = '\0';
         least = fmin(least, quota_of(folder));
     }
     return least;
