@@ -249,9 +249,8 @@ double anchor_set_ratio(const anchor_set *s, const pair_rows *r, const anchor *a
     return anchor_ratio(a, &load);
 }
 
-bool anchor_set_add_force(const anchor_set *s, const pair_rows *r, dem_index i, const double *x, vec2 *force)
+void anchor_set_add_force(const anchor_set *s, const pair_rows *r, dem_index i, const double *x, vec2 *force)
 {
-    bool pulls = false;
     contact_push push;
     for (dem_index slot = s->now.n > 0 ? r->first[i] : -1; slot >= 0; slot = r->next[slot]) {
         const contact_pair *p = pair_rows_pair(r, slot);
@@ -259,9 +258,7 @@ bool anchor_set_add_force(const anchor_set *s, const pair_rows *r, dem_index i, 
         if (a == NULL || !contact_pair_push(p, x, &push)) continue;
         const friction_pattern pattern = friction_pattern_make(&push, x);
         *force = vec2_add(*force, vec2_scale(-anchor_set_ratio(s, r, a, x), pattern.at[pair_rows_which(slot)]));
-        pulls = true;
     }
-    return pulls;
 }
 
 void anchor_set_add_energy(const anchor_set *s, const pair_rows *r, const double *x, exact_sum *sum)

@@ -101,8 +101,8 @@ void anchor_set_add_stiffness(const anchor_set *s, void (*add)(void *to, dem_ind
 /** anchor_ratio() of one of the anchors, whose node is in the pairs r. */
 double anchor_set_ratio(const anchor_set *s, const pair_rows *r, const anchor *a, const double *x);
 
-/** Adds the friction of all pairs r in which node i is, at positions x, N.  \return whether there is any */
-bool anchor_set_add_force(const anchor_set *s, const pair_rows *r, dem_index i, const double *x, vec2 *force);
+/** Adds the friction of all pairs r in which node i is, at positions x, N. */
+void anchor_set_add_force(const anchor_set *s, const pair_rows *r, dem_index i, const double *x, vec2 *force);
 
 /** Adds the energy that the springs give back when they are relieved, J. */
 void anchor_set_add_energy(const anchor_set *s, const pair_rows *r, const double *x, exact_sum *sum);

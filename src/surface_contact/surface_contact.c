@@ -264,7 +264,7 @@ bool surface_contact_force(const surface_contact *c, dem_index i, const double *
         if (which >= CONTACT_PAIR_PUSHED || !contact_pair_push(pair_rows_pair(r, slot), x, &push)) continue;
         *force = vec2_add(*force, contact_push_on(&push, which));
     }
-    (void)anchor_set_add_force(&c->anchors, r, i, x, force);
+    anchor_set_add_force(&c->anchors, r, i, x, force);
     return surface_contact_acts(*force);
 }
 
@@ -273,7 +273,7 @@ bool surface_contact_force(const surface_contact *c, dem_index i, const double *
 vec2 surface_contact_friction(const surface_contact *c, dem_index i, const double *x)
 {
     vec2 force = {0.0, 0.0};
-    (void)anchor_set_add_force(&c->anchors, c->rows, i, x, &force);
+    anchor_set_add_force(&c->anchors, c->rows, i, x, &force);
     return force;
 }
 
