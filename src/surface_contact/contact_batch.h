@@ -9,7 +9,7 @@
 
 enum { CONTACT_BATCH_MOST = 32 };
 
-/* What is known of a pair that has been found, in the bits above its place in the list. */
+/* What is known of a pair that has been found, in the two bits below its place in the list. */
 enum { CONTACT_BATCH_BY_EDGE = 1, CONTACT_BATCH_NEAR_FIRST = 2 };
 
 typedef struct contact_batch {

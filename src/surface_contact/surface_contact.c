@@ -148,7 +148,9 @@ static dem_status renew_lists(surface_contact *c, const double *x)
     c->close.chosen = false;
     TRY(pair_list_follow(&c->candidates, x, fmin((close + c->near_margin) / margin, 1.0)));
     TRY(close_pairs_choose(&c->close, close, x));
-    return compact_pairs_take(&c->compact, c->close.list, c->close.n);
+    const dem_status status = compact_pairs_take(&c->compact, c->close.list, c->close.n);
+    c->close.chosen = status == DEM_OK;
+    return status;
 }
 
 /* One list that has found no memory must not be forgotten when the next one finds some. */

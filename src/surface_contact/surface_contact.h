@@ -39,7 +39,8 @@ typedef struct surface_contact {
     dem_status status;     /* of the last evaluation; DEM_ERROR_MEMORY stays until it is set back */
     bool is_evaluated;     /* the lists fit the state of the last evaluation */
     double nearest;        /* distance over thickness, in that evaluation no pair was nearer than this */
-    compact_pairs compact; /* the close pairs, and the forces of the last evaluation on their nodes */
+    compact_pairs compact; /* the close pairs, and the forces of the last evaluation on their nodes, until
+                              surface_contact_stiffening() puts its sums there */
 } surface_contact;
 
 /** What a step has done that it must not. */
