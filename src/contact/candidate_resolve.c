@@ -143,8 +143,22 @@ static dem_status pass_edge(contact_set *c, dem_index k, int q, bool backwards, 
     return impact_solve(c, next, (impact_target){1, {feature}}, now);
 }
 
+/* Whether the point of contact q, at rest, would go against its sign with the forces last solved for. */
+static bool slides_against_sign(const contact_set *c, dem_index k, int q, const contact_instant *now)
+{
+    const contact_frame f = contact_frame_at(&c->scene, &c->list[k], q, instant_state(now));
+    const double along = vec2_dot(contact_nodes_sum(&f.nodes, c->forces.a), f.tangent) - f.carried;
+    return c->list[k].closed[q].slide * along < 0.0;
+}
+
 /* A sliding contact that has turned back comes to rest: it is taken to stick, its group is stopped, and forces are
- * solved with it. If abs(T) <= mu N it goes on sticking; else it slides the way that T would have prevented. */
+ * solved with it. If abs(T) <= mu N it goes on sticking; else it slides the way that T would have prevented.
+ *
+ * Where other contacts of the group hold its nodes, N = N_s + beta (T - T_s) for all T that keep it closed, with N_s
+ * and T_s of sticking, and its point gets the acceleration gamma (T - T_s), gamma > 0. Let T_s > mu N_s. Sliding asks
+ * for T = mu N, so T - T_s = (mu N_s - T_s)/(1 - mu beta): with mu beta > 1 the point goes the wrong way, and the other
+ * way of sliding, T = -mu N, is wrong as well. But then N = N_s - beta T_s < 0 without friction: such a contact opens.
+ */
 static dem_status stop(contact_set *c, dem_index k, int q, contact_instant *now)
 {
     contact_point *point = &c->list[k].closed[q];
@@ -154,8 +168,11 @@ static dem_status stop(contact_set *c, dem_index k, int q, contact_instant *now)
     impact_group_stop(c, c->forces.group[k], now);
     contact_set_solve_forces(c, k, instant_state(now));
     const contact_force force = {point->force, point->friction};
-    if (candidate_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0)
+    if (candidate_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0) {
         point->slide = force.tangent > 0.0 ? -1 : 1;
+        contact_set_solve_forces(c, k, instant_state(now));
+        if (slides_against_sign(c, k, q, now)) return release(c, k, q, now);
+    }
     return enter(c, k, point->feature, DEM_EVENT_STICK, now);
 }
 

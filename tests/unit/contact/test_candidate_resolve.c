@@ -198,6 +198,43 @@ TEST(an_edge_slides_stops_and_slides_on_a_vertex)
     assert_int_equal(s.n_events, 4);
 }
 
+/* Node 0 slides under a smooth slope, along (4, 3)/5, with the ridge at 1/5 of edge 0-1, of masses 1 and 4: along t and
+ * n the point there has the mobility W = .64 (16, 12; 12, 9)/25 + .01 I, so beta = -W_nt/W_nn = -1.28. A wind of
+ * (1, .6) gives it the acceleration b = (.9424, .6768); -b/W is T = -2.87, N = .849, and sliding T = -mu N. So mu = 4
+ * holds it. With mu = 2 its acceleration would be -.0203 as it slides to the right with N = 1.81, and to the left N < 0:
+ * it opens, and goes away from ridge and slope. */
+TEST(an_edge_that_can_neither_stick_nor_slide_opens)
+{
+    const double slope_points[4] = {8.0, 6.0, -8.0, -6.0}, ridge_points[6] = {0.3, -4.0, 0.4, 0.0, 0.5, -4.0};
+    const double at[6] = {0.0, 0.0, 2.0, 0.0, 1.5, 0.3}, mass[3] = {1.0, 4.0, 1.0};
+    const dem_index corners[3] = {0, 1, 2};
+    for (int k = 0; k < 2; k++) {
+        const dem_obstacle obstacles[2] = {SIZED(dem_obstacle, .n_points = 3, .points = ridge_points,
+                                                 .friction = k == 0 ? 4.0 : 2.0, .friction_law = DEM_FRICTION_COULOMB),
+                                           SIZED(dem_obstacle, .n_points = 2, .points = slope_points)};
+        CLEANUP(scene_close) scene s;
+        scene_open(&s, 3, at, mass, 1, corners, obstacles, 2);
+        scene_put(&s, 1, 2.0, 0.0, -1e-6, 0.0);
+        s.acting.gravity[0] = 1.0;
+        s.acting.gravity[1] = 0.6;
+        const dem_index edge = scene_edge(&s, 0, 1);
+        assert_ok(contact_set_close(&s.c.set, edge, (contact_point){.feature = 0, .slide = 1}));
+        assert_ok(contact_set_close(&s.c.set, 0, (contact_point){.feature = 2, .slide = 1}));
+        assert_ok(scene_resolve(&s, 0.1));
+        assert_close(0.8 * scene_v(&s)[0] + 0.2 * scene_v(&s)[2], 0.0, 1e-20); /* it has been stopped */
+        const contact_candidate *on = &s.c.set.list[edge], *under = &s.c.set.list[0];
+        if (k == 0) {
+            check_event(&s, 0, DEM_EVENT_STICK, DEM_CONTACT_STICK);
+            assert_int_equal(s.n_events, 1);
+            assert_close(on->closed[0].force, (0.3072 * 0.9424 - 0.4196 * 0.6768) / 0.0065, 1e-12);
+        } else {
+            check_event(&s, 0, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
+            check_event(&s, 1, DEM_EVENT_RELEASE, DEM_CONTACT_FREE);
+            assert_int_equal(on->n_closed + under->n_closed, 0);
+        }
+    }
+}
+
 /* The body goes right along edge 1-2 with u: the ridge, closed with that, comes over node 1 to edge 0-1. */
 static void slide_on(scene *s, double bend, double u)
 {
