@@ -67,7 +67,13 @@ def rub(deck, materials):
         deck.contact["friction"] = dice.one_of([0.1, 0.3, 0.5, 1.0, dice.log(0.01, 2.0)])
     if dice.chance(0.15):
         materials[0]["friction"] = dice.between(0.0, 0.8)
-    deck.rubs = "friction" in deck.contact or "friction" in materials[0]
+
+
+def rubs(deck, materials, members):
+    """Whether surfaces have friction: bodies with each other, or rigid ones with the ground."""
+    is_rigid = any("rigid" in one.body.keys for one in members)
+    return ("friction" in deck.contact or "friction" in materials[0] or
+            is_rigid and any("friction" in ground.keys for ground in deck.grounds))
 
 
 def stiffen(deck, members):
@@ -177,6 +183,7 @@ def random_crowd(seed):
         ground.keys.update(deck_maker.laws(dice, False))
         keys = {"points": [x for point in ground.points for x in point], **ground.keys}
         parts.append(("obstacle", {**deck_maker.scaled(keys, a), **moving}))
+    deck.rubs = rubs(deck, materials, members)
     if dice.chance(0.15):
         deck.boundary = deck_maker.boundary(dice, deck, 1, members[0].body, modulus)
         parts.append(("boundary", deck.boundary))

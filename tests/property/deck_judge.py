@@ -291,7 +291,7 @@ def momentum_of_crowd(run, deck):
 
 
 def dissipation_of_crowd(run, deck):
-    """As of single bodies. But the way of friction between bodies is of second order in the steps: 4.2e-6 at most in
+    """As of single bodies. But the way of friction between surfaces is of second order in the steps: 4.2e-6 at most in
     1,000 crowds."""
     value, limit = dissipation_given_back(run, deck)
     return value, max(limit, 1e-5) if deck.rubs else limit

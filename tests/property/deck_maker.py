@@ -54,7 +54,7 @@ class Deck:
     boundary: dict = dataclasses.field(default_factory=dict)
     motions: list = dataclasses.field(default_factory=list)  # keys of each obstacle
     is_crowd: bool = False  # of several bodies that touch each other
-    rubs: bool = False  # with friction between bodies
+    rubs: bool = False  # with friction of surfaces, not only of nodes on obstacles
     damping_time: float = 0.0  # s, the longest of the materials of a crowd
 
 
