@@ -194,11 +194,11 @@ bool candidate_turns(const contact_scene *scene, const contact_candidate *candid
 }
 
 /* mu N - abs(T) plus the rounding of forces: without that a contact at the limit of friction could begin to slide and
- * stop without end. */
+ * stop without end. One that is pinned has no limit. */
 double candidate_grip(const contact_scene *scene, const contact_candidate *candidate, int q, const contact_frame *f,
                       const contact_force *force, const double *x)
 {
-    if (!contact_point_sticks(&candidate->closed[q])) return INFINITY;
+    if (!contact_point_sticks(&candidate->closed[q]) || candidate->closed[q].pinned) return INFINITY;
     const double limit = contact_point_friction(scene, candidate, candidate->closed[q].feature) * force->normal;
     return limit + contact_point_slack(scene, f, x) - fabs(force->tangent);
 }

@@ -151,8 +151,19 @@ static bool slides_against_sign(const contact_set *c, dem_index k, int q, const 
     return c->list[k].closed[q].slide * along < 0.0;
 }
 
+/* Whether a candidate has changed so often in this step that it is not to turn back again: within a step velocities
+ * have the error of its dense output, and where friction lacks less than that a contact which slides turns back at
+ * once. */
+static bool has_turned_enough(const contact_set *c, dem_index k)
+{
+    const contact_storm *storm = &c->list[k].storm;
+    const dem_index most = c->scene.rule.turns_in_step;
+    return most > 0 && storm->step == c->step && storm->in_step >= most;
+}
+
 /* A sliding contact that has turned back comes to rest: it is taken to stick, its group is stopped, and forces are
- * solved with it. If abs(T) <= mu N it goes on sticking; else it slides the way that T would have prevented.
+ * solved with it. If abs(T) <= mu N, or it has turned enough, it goes on sticking; else it slides the way that T would
+ * have prevented.
  *
  * Where other contacts of the group hold its nodes, N = N_s + beta (T - T_s) for all T that keep it closed, with N_s
  * and T_s of sticking, and its point gets the acceleration gamma (T - T_s), gamma > 0. Let T_s > mu N_s. Sliding asks
@@ -168,6 +179,7 @@ static dem_status stop(contact_set *c, dem_index k, int q, contact_instant *now)
     impact_group_stop(c, c->forces.group[k], now);
     contact_set_solve_forces(c, k, instant_state(now));
     const contact_force force = {point->force, point->friction};
+    point->pinned = has_turned_enough(c, k);
     if (candidate_grip(&c->scene, &c->list[k], q, &f, &force, now->x) < 0.0) {
         point->slide = force.tangent > 0.0 ? -1 : 1;
         contact_set_solve_forces(c, k, instant_state(now));

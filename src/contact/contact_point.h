@@ -20,6 +20,7 @@ typedef struct contact_point {
     dem_index feature;      /* the segment on which a node is, or the vertex on which an edge is */
     int slide;              /* the body slides along the tangent: 1, against it: -1; sticks: 0 */
     bool held;              /* one of two that hold a node at rest in a corner; there is no friction then */
+    bool pinned;            /* one that sticks does so until the step ends, whatever friction that takes */
     double place;           /* of a vertex on the edge where it sticks or may come to: 0 at its start, 1 at its end */
     double force, friction; /* N, along normal and tangent, at the last accepted step */
 } contact_point;

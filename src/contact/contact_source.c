@@ -142,6 +142,15 @@ static void forget_saved(contact_source *s)
     s->has_ledger = false;
 }
 
+/* Contacts stick no longer than their friction allows in a new step. */
+static void unpin(contact_set *c)
+{
+    const contact_forces *r = &c->forces;
+    for (dem_index g = 0; g < r->n_groups; g++)
+        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
+            for (int q = 0; q < c->list[k].n_closed; q++) c->list[k].closed[q].pinned = false;
+}
+
 static void contact_source_begin(void *self, const dense_output *step, double *state)
 {
     contact_source *s = self;
@@ -150,6 +159,7 @@ static void contact_source_begin(void *self, const dense_output *step, double *s
     s->state = state;
     s->idle = s->automaton->idle;
     s->automaton->set.step = step->t0;
+    unpin(&s->automaton->set);
     look_ahead(s);
 }
 

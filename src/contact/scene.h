@@ -15,6 +15,7 @@ typedef struct contact_rule {
     double storm_time;            /* s */
     dem_index max_impacts;        /* within storm_time at one candidate */
     dem_index most_in_step;       /* at one candidate in a step that can be taken again, shorter; else 0 */
+    dem_index turns_in_step;      /* changes of one candidate after which it does not turn back again in a step; or 0 */
     bool vertices;                /* whether edges touch vertices */
     state_layout layout;          /* of the states */
     int n_threads;                /* that look at free candidates at once; 0 counts as 1 */

@@ -38,6 +38,9 @@ static dem_status allocate(dem_simulation *s)
 /* Changes of one candidate in a step beyond which it is taken again, shorter (docs/algorithms.md, Refused states). */
 enum { most_changes_in_step = 50 };
 
+/* Changes of one candidate in a step after which a contact that turns back sticks until the step ends. */
+enum { turns_in_step = 20 };
+
 /* What contacts need of the options. A storm is more than max_impacts changes of one candidate within 1/omega_max, the
  * shortest time in which a lattice moves. */
 static contact_rule rule_of(const dem_simulation *s)
@@ -53,6 +56,7 @@ static contact_rule rule_of(const dem_simulation *s)
                           .storm_time = model->omega_max > 0.0 ? 1.0 / model->omega_max : 2.0 * o->max_step,
                           .max_impacts = o->max_impacts,
                           .most_in_step = can_shorten ? most_changes_in_step : 0,
+                          .turns_in_step = run_is_local(s) ? turns_in_step : 0,
                           .vertices = o->vertices != 0,
                           .layout = s->layout,
                           .n_threads = model->obstacles.is_asked ? 1 : o->threads};

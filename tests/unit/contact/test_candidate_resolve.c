@@ -128,6 +128,28 @@ TEST(a_sliding_node_turns_back_where_friction_cannot_hold_it)
     }
 }
 
+/* The same once it has changed twice in a step: it stays until the next step begins, with the force that this takes. */
+TEST(a_sliding_node_that_has_turned_back_often_sticks_until_the_step_ends)
+{
+    CLEANUP(scene_close) scene s;
+    rub(&s, 0.5);
+    s.c.set.scene.rule.turns_in_step = 2;
+    s.c.set.step = 7.0;
+    set_wind(&s, -0.6 * g);
+    for (int k = 0; k < 3; k++) {
+        s.c.set.list[0].closed[0].slide = 1;
+        scene_put(&s, 0, 0.5, 0.0, -1e-6, 0.0);
+        assert_ok(scene_resolve(&s, 0.1 * (k + 1)));
+        check_event(&s, k + 1, DEM_EVENT_STICK, k < 2 ? DEM_CONTACT_SLIP : DEM_CONTACT_STICK);
+    }
+    assert_close(s.c.set.list[0].closed[0].friction, 1.2 * g, 1e-14);
+    assert_int_equal(s.n_events, 4); /* nor does it slip at once */
+    s.c.set.step = 8.0;
+    s.c.set.list[0].closed[0].pinned = false;
+    assert_ok(scene_resolve(&s, 0.4));
+    check_event(&s, 4, DEM_EVENT_SLIP, DEM_CONTACT_SLIP);
+}
+
 /* What is not pressed any more goes, whatever else is due: no stick, no slip, and the velocity stays as it is. */
 TEST(release_comes_before_stick_and_slip)
 {
@@ -201,8 +223,8 @@ TEST(an_edge_slides_stops_and_slides_on_a_vertex)
 /* Node 0 slides under a smooth slope, along (4, 3)/5, with the ridge at 1/5 of edge 0-1, of masses 1 and 4: along t and
  * n the point there has the mobility W = .64 (16, 12; 12, 9)/25 + .01 I, so beta = -W_nt/W_nn = -1.28. A wind of
  * (1, .6) gives it the acceleration b = (.9424, .6768); -b/W is T = -2.87, N = .849, and sliding T = -mu N. So mu = 4
- * holds it. With mu = 2 its acceleration would be -.0203 as it slides to the right with N = 1.81, and to the left N < 0:
- * it opens, and goes away from ridge and slope. */
+ * holds it. With mu = 2 its acceleration would be -.0203 as it slides to the right with N = 1.81, and to the left
+ * N < 0: it opens, and goes away from ridge and slope. */
 TEST(an_edge_that_can_neither_stick_nor_slide_opens)
 {
     const double slope_points[4] = {8.0, 6.0, -8.0, -6.0}, ridge_points[6] = {0.3, -4.0, 0.4, 0.0, 0.5, -4.0};
