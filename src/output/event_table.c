@@ -6,6 +6,7 @@
 
 #include "base/status.h"
 #include "base/vec2.h"
+#include "output/hdf5_attribute.h"
 
 /* In the order in which event_table_record() fills a row. */
 static const table_column columns[] = {

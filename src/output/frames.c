@@ -18,6 +18,7 @@
 #include "output/frames.h"
 
 #include "base/status.h"
+#include "output/hdf5_attribute.h"
 #include "output/vtk_grid.h"
 
 #include <stdbool.h>

@@ -6,7 +6,7 @@
 
 #include <dem/trajectory.h>
 
-#include "output/hdf5_file.h"
+#include "output/hdf5_rows.h"
 
 /** The dataset of the flags of triangles, 1: broken, frame by frame. Files of older versions, and those of lattices
  *  without triangles, do not have it. */

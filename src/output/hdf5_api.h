@@ -6,4 +6,7 @@
 #define H5_USE_110_API
 #include <hdf5.h>
 
+/** Extents of a dataset, of ours at most. */
+enum { HDF5_MAX_RANK = 3 };
+
 #endif

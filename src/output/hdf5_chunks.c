@@ -9,13 +9,11 @@
 #include <stdlib.h>
 #include <zlib.h>
 
-enum { MAX_RANK = 3 };
-
 /* How the chunks of a dataset are stored. */
 typedef struct chunk_form {
     int rank, n_filters;
     int deflate; /* which filter unpacks; -1: none */
-    hsize_t extent[MAX_RANK];
+    hsize_t extent[HDF5_MAX_RANK];
     hsize_t bytes; /* of the numbers of a chunk */
 } chunk_form;
 
@@ -63,7 +61,7 @@ static chunk_form form_of(hid_t dataset)
     chunk_form f = {.deflate = -1, .extent = {1, 1, 1}};
     const hid_t layout = H5Dget_create_plist(dataset);
     if (H5Pget_layout(layout) == H5D_CHUNKED) {
-        f.rank = H5Pget_chunk(layout, MAX_RANK, f.extent);
+        f.rank = H5Pget_chunk(layout, HDF5_MAX_RANK, f.extent);
         f.n_filters = H5Pget_nfilters(layout);
         f.deflate = find_deflate(layout, f.n_filters);
     }
@@ -128,7 +126,7 @@ dem_status hdf5_chunks_check(const char *path, const char *name, hid_t dataset, 
                              const hsize_t *count, int rank)
 {
     const chunk_form f = form_of(dataset);
-    hsize_t at[MAX_RANK] = {0};
+    hsize_t at[HDF5_MAX_RANK] = {0};
     if (f.rank == 0) return DEM_OK;
     CHECK(f.rank == rank, DEM_ERROR_IO, "%s: %s: has chunks of rank %d, not %d", path, name, f.rank, rank);
     if (f.n_filters == 0 || count[0] == 0) return DEM_OK;
@@ -136,4 +134,15 @@ dem_status hdf5_chunks_check(const char *path, const char *name, hid_t dataset, 
     do TRY(check_chunk(path, name, dataset, &f, at));
     while (go_on(&f, start, count, at));
     return DEM_OK;
+}
+
+herr_t hdf5_chunks_read(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *count, int rank, void *buffer)
+{
+    const hid_t space = H5Dget_space(dataset);
+    const hid_t memory = H5Screate_simple(rank, count, NULL);
+    herr_t result = H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, count, NULL);
+    if (result >= 0) result = H5Dread(dataset, type, memory, space, H5P_DEFAULT, buffer);
+    (void)H5Sclose(memory);
+    (void)H5Sclose(space);
+    return result;
 }

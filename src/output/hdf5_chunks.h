@@ -21,4 +21,8 @@ hid_t hdf5_chunks_open(hid_t file, const char *name);
 dem_status hdf5_chunks_check(const char *path, const char *name, hid_t dataset, const hsize_t *start,
                              const hsize_t *count, int rank);
 
+/** Reads `count` [rank] numbers in each dimension from `start` [rank] on.
+ *  \return negative on failure */
+herr_t hdf5_chunks_read(hid_t dataset, hid_t type, const hsize_t *start, const hsize_t *count, int rank, void *buffer);
+
 #endif

@@ -164,8 +164,8 @@ static dem_status check_filters(const hdf5_file *file, const char *name, hid_t l
 /* The numbers of a chunk, which HDF5 reads as a whole; 0 where there are no chunks. */
 static hsize_t count_chunk(hid_t layout)
 {
-    hsize_t extent[HDF5_UNTRUSTED_RANK] = {1, 1, 1};
-    if (H5Pget_layout(layout) != H5D_CHUNKED || H5Pget_chunk(layout, HDF5_UNTRUSTED_RANK, extent) < 0) return 0;
+    hsize_t extent[HDF5_MAX_RANK] = {1, 1, 1};
+    if (H5Pget_layout(layout) != H5D_CHUNKED || H5Pget_chunk(layout, HDF5_MAX_RANK, extent) < 0) return 0;
     return extent[0] * extent[1] * extent[2]; /* below 2^32 bytes, says HDF5 */
 }
 
@@ -206,8 +206,8 @@ static void measure_extent(hid_t dataset, hdf5_untrusted_shape *out)
 {
     const hid_t space = H5Dget_space(dataset);
     const int rank = H5Sget_simple_extent_ndims(space);
-    const bool fits = H5Sget_simple_extent_type(space) == H5S_SIMPLE && rank >= 1 && rank <= HDF5_UNTRUSTED_RANK;
-    for (int d = 0; d < HDF5_UNTRUSTED_RANK; d++) out->extent[d] = 1;
+    const bool fits = H5Sget_simple_extent_type(space) == H5S_SIMPLE && rank >= 1 && rank <= HDF5_MAX_RANK;
+    for (int d = 0; d < HDF5_MAX_RANK; d++) out->extent[d] = 1;
     out->rank = fits && H5Sget_simple_extent_dims(space, out->extent, NULL) >= 0 ? rank : 0;
     (void)H5Sclose(space);
 }
@@ -217,7 +217,7 @@ static dem_status count_numbers(const hdf5_file *file, const char *name, const h
 {
     *n = 1;
     if (shape->extent[0] > most_rows) return hdf5_untrusted_refuse(file, name, "has more than 2^40 rows");
-    for (int d = 0; d < HDF5_UNTRUSTED_RANK; d++) {
+    for (int d = 0; d < HDF5_MAX_RANK; d++) {
         /* + 1, since an extent may be 0. */
         if (*n > most_numbers / (shape->extent[d] + 1))
             return hdf5_untrusted_refuse(file, name, "has more than 2^44 numbers");
@@ -265,8 +265,8 @@ static H5T_conv_ret_t on_conversion(H5T_conv_except_t exception, hid_t from, hid
 static dem_status read_rows(const hdf5_file *file, const char *name, hid_t dataset, hdf5_kind kind,
                             const hdf5_untrusted_rows *rows, void *data)
 {
-    const hsize_t start[HDF5_UNTRUSTED_RANK] = {rows->first};
-    hsize_t count[HDF5_UNTRUSTED_RANK] = {0, 1, 1};
+    const hsize_t start[HDF5_MAX_RANK] = {rows->first};
+    hsize_t count[HDF5_MAX_RANK] = {0, 1, 1};
     const hid_t space = H5Dget_space(dataset), transfer = H5Pcreate(H5P_DATASET_XFER);
     const int rank = H5Sget_simple_extent_dims(space, count, NULL);
     count[0] = rows->count;

@@ -6,17 +6,16 @@
 
 #include <stdbool.h>
 
-#include "output/hdf5_file.h"
+#include "output/hdf5_rows.h"
 
 enum {
-    HDF5_UNTRUSTED_RANK = 3,      /**< at most */
     HDF5_UNTRUSTED_PRINTABLE = 41 /**< bytes */
 };
 
 typedef struct hdf5_untrusted_shape {
-    hdf5_kind stored;                    /**< type of the numbers in the file, or the nearest one of ours */
-    int rank;                            /**< 1 to 3; 0: another shape, which is none of this library's */
-    hsize_t extent[HDF5_UNTRUSTED_RANK]; /**< 1 beyond the rank */
+    hdf5_kind stored;              /**< type of the numbers in the file, or the nearest one of ours */
+    int rank;                      /**< 1 to 3; 0: another shape, which is none of this library's */
+    hsize_t extent[HDF5_MAX_RANK]; /**< 1 beyond the rank */
 } hdf5_untrusted_shape;
 
 /** Rows of a dataset. */

@@ -8,6 +8,7 @@
 #include "base/grow.h"
 #include "base/status.h"
 #include "lattice/lattice.h"
+#include "output/hdf5_attribute.h"
 #include "output/hdf5_untrusted.h"
 #include "output/vtk_grid.h"
 

@@ -7,6 +7,7 @@
 
 #include "base/status.h"
 #include "elastic/springs.h"
+#include "output/hdf5_attribute.h"
 
 #include <stdio.h>
 #include <stdlib.h>

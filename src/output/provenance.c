@@ -6,6 +6,7 @@
 
 #include "base/grow.h"
 #include "base/status.h"
+#include "output/hdf5_attribute.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #ifndef DEM_OUTPUT_TABLE_H
 #define DEM_OUTPUT_TABLE_H
 
-#include "output/hdf5_file.h"
+#include "output/hdf5_rows.h"
 
 enum {
     TABLE_ROWS = 1024, /**< rows that the buffer takes; also rows of a chunk in the file */

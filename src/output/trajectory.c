@@ -13,6 +13,7 @@
 
 #include "base/status.h"
 #include "base/struct_size.h"
+#include "output/hdf5_attribute.h"
 #include "output/obstacle_file.h"
 #include "output/trajectory_parts.h"
 #include "output/vtk_grid.h"

@@ -16,6 +16,7 @@
 #include "output/trajectory_parts.h"
 
 #include "base/status.h"
+#include "output/hdf5_attribute.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -4,6 +4,7 @@
 #include "output/vtk_grid.h"
 
 #include "base/status.h"
+#include "output/hdf5_attribute.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -11,7 +11,7 @@
 
 #include "harness/cleanup_hdf5.h"
 #include "output/deflater.h"
-#include "output/hdf5_file.h"
+#include "output/hdf5_rows.h"
 #include "unit/scratch.h"
 
 enum { N = 500 };

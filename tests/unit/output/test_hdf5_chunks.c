@@ -3,6 +3,7 @@
  * refused. Memory checkers see what HDF5 reads beyond its own. */
 #include "unit/output/stored.h"
 
+#include "output/hdf5_attribute.h"
 #include "output/hdf5_untrusted.h"
 
 #include <zlib.h>

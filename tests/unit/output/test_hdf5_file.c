@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* hdf5_file.c: what is stored is looked at through HDF5 itself, failures through their messages. */
+/* hdf5_file.c, hdf5_rows.c, hdf5_attribute.c: what is stored is looked at through HDF5 itself, failures through their
+ * messages. */
 #include "verification/support.h"
 
 #include <stdio.h>
@@ -15,7 +16,7 @@
 
 #include "base/status.h"
 #include "harness/cleanup_hdf5.h"
-#include "output/hdf5_file.h"
+#include "output/hdf5_attribute.h"
 #include "unit/scratch.h"
 
 static const char *path, *other;

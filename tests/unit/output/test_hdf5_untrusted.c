@@ -4,6 +4,7 @@
 #include "unit/output/stored.h"
 
 #include "harness/cleanup_hdf5.h"
+#include "output/hdf5_attribute.h"
 #include "output/hdf5_untrusted.h"
 
 #define REFUSED(call, reason)                                                                                          \

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "harness/cleanup_hdf5.h"
-#include "output/hdf5_file.h"
+#include "output/hdf5_rows.h"
 #include "output/kept_datasets.h"
 #include "unit/scratch.h"
 

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include "output/hdf5_attribute.h"
 #include "output/obstacle_file.h"
 #include "unit/output/found.h"
 #include "ask.h"

@@ -2,6 +2,7 @@
 /* provenance.c: strings under names, in every file that they are written to. */
 #include "unit/output/stored.h"
 
+#include "output/hdf5_attribute.h"
 #include "output/provenance.h"
 
 static void put(provenance *all, const char *name, const char *text)

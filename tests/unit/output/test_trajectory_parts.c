@@ -17,7 +17,7 @@
 
 #include "base/checkpoint_entries.h"
 #include "harness/cleanup_hdf5.h"
-#include "output/hdf5_file.h"
+#include "output/hdf5_attribute.h"
 #include "ask.h"
 #include "unit/solids.h"
 #include "unit/scratch.h"

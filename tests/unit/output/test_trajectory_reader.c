@@ -12,7 +12,7 @@
 #include <dem/trajectory.h>
 
 #include "harness/cleanup_hdf5.h"
-#include "output/hdf5_file.h"
+#include "output/hdf5_rows.h"
 #include "harness/motion.h"
 #include "unit/solids.h"
 #include "unit/scratch.h"

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Datasets that grow row by row. Types in files are little-endian and times are not tracked, so that equal data makes
+ * equal files. Whole chunks of deflated rows go past HDF5's own filters (deflater.c). */
+#include "output/hdf5_rows.h"
+
+#include "base/status.h"
+#include "output/hdf5_chunks.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+
+enum { CHUNK_LIMIT = 1 << 26 }; /* rows; HDF5 takes chunks below 4 GiB */
+
+hid_t hdf5_file_type(hdf5_kind kind)
+{
+    switch (kind) {
+    case HDF5_F64:
+        return H5T_IEEE_F64LE;
+    case HDF5_F32:
+        return H5T_IEEE_F32LE;
+    case HDF5_I64:
+        return H5T_STD_I64LE;
+    case HDF5_I32:
+        return H5T_STD_I32LE;
+    case HDF5_I8:
+        return H5T_STD_I8LE;
+    default:
+        return H5T_STD_U8LE;
+    }
+}
+
+/* The type of numbers in memory: single precision and signed bytes are widened. */
+hid_t hdf5_memory_type(hdf5_kind kind)
+{
+    switch (kind) {
+    case HDF5_I64:
+    case HDF5_I8:
+        return H5T_NATIVE_INT64;
+    case HDF5_I32:
+        return H5T_NATIVE_INT32;
+    case HDF5_U8:
+        return H5T_NATIVE_UINT8;
+    default:
+        return H5T_NATIVE_DOUBLE;
+    }
+}
+
+/* Chunks of rows, without time stamps; shuffled and deflated if asked for. A negative number on failure. */
+static hid_t make_layout(const hdf5_rows *rows)
+{
+    const hsize_t chunk = rows->chunk < 1 ? 1 : rows->chunk > CHUNK_LIMIT ? CHUNK_LIMIT : rows->chunk;
+    const hsize_t extent[HDF5_MAX_RANK] = {chunk, rows->tail[0], rows->tail[1]};
+    const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+    herr_t result = H5Pset_chunk(layout, rows->rank, extent);
+    if (result >= 0) result = H5Pset_obj_track_times(layout, 0);
+    if (result >= 0 && rows->deflate > 0) result = H5Pset_shuffle(layout);
+    if (result >= 0 && rows->deflate > 0) result = H5Pset_deflate(layout, (unsigned)rows->deflate);
+    if (result >= 0) return layout;
+    (void)H5Pclose(layout);
+    return H5I_INVALID_HID;
+}
+
+/* Rank and extents of a dataset; 0 if it is none of ours. */
+static int measure(hid_t dataset, hsize_t extent[HDF5_MAX_RANK])
+{
+    const hid_t space = H5Dget_space(dataset);
+    const int rank = H5Sget_simple_extent_ndims(space);
+    const bool fits = rank > 0 && rank <= HDF5_MAX_RANK && H5Sget_simple_extent_dims(space, extent, NULL) >= 0;
+    (void)H5Sclose(space);
+    return fits ? rank : 0;
+}
+
+/* The first dimension may grow without limit; the others are fixed. */
+dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows)
+{
+    const hsize_t extent[HDF5_MAX_RANK] = {0, rows->tail[0], rows->tail[1]};
+    /* Only rows can be added. */
+    const hsize_t most[HDF5_MAX_RANK] = {H5S_UNLIMITED, rows->tail[0], rows->tail[1]};
+    const hid_t space = H5Screate_simple(rows->rank, extent, most);
+    const hid_t links = hdf5_parents(), layout = make_layout(rows);
+    const hid_t dataset =
+        H5Dcreate2(file->id, rows->name, hdf5_file_type(rows->kind), space, links, layout, H5P_DEFAULT);
+    const dem_status status = dataset < 0 ? hdf5_fail(file, rows->name, "cannot be created") : DEM_OK;
+    if (dataset >= 0) (void)H5Dclose(dataset);
+    if (layout >= 0) (void)H5Pclose(layout);
+    (void)H5Pclose(links);
+    (void)H5Sclose(space);
+    return status;
+}
+
+/* Numbers of a row. */
+static hsize_t width_of(const hdf5_rows *rows)
+{
+    return (rows->rank > 1 ? rows->tail[0] : 1) * (rows->rank > 2 ? rows->tail[1] : 1);
+}
+
+/* Whether the rows are all of a chunk, and in memory as they are stored but for their precision. */
+static bool is_chunk(const hdf5_rows *rows, hsize_t first, hsize_t count)
+{
+    const bool whole = count > 0 && count == rows->chunk && count <= CHUNK_LIMIT && first % count == 0;
+    return whole && rows->deflate > 0 && rows->kind != HDF5_I8 && H5Tequal(H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE) > 0;
+}
+
+/* A chunk at once, past HDF5's conversion, cache and filters. */
+static dem_status write_chunk(const hdf5_file *file, const hdf5_rows *rows, hid_t dataset, hsize_t first,
+                              const void *data)
+{
+    const hsize_t start[HDF5_MAX_RANK] = {first};
+    deflater *d = file->deflater;
+    const deflater_numbers numbers = {data, rows->chunk * width_of(rows), H5Tget_size(hdf5_file_type(rows->kind)),
+                                      rows->kind == HDF5_F32};
+    TRY(deflater_pack(d, numbers, rows->deflate));
+    if (H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, start, d->n_packed, d->packed) < 0)
+        return hdf5_fail(file, rows->name, "cannot be written");
+    return DEM_OK;
+}
+
+static dem_status write_slab(const hdf5_file *file, const hdf5_rows *rows, hid_t dataset, hdf5_span span,
+                             const void *data)
+{
+    const hsize_t start[HDF5_MAX_RANK] = {span.at}, block[HDF5_MAX_RANK] = {span.count, rows->tail[0], rows->tail[1]};
+    const hid_t memory = H5Screate_simple(rows->rank, block, NULL), space = H5Dget_space(dataset);
+    dem_status status = DEM_OK;
+    if (space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, start, NULL, block, NULL) < 0 ||
+        H5Dwrite(dataset, hdf5_memory_type(rows->kind), memory, space, H5P_DEFAULT, data) < 0)
+        status = hdf5_fail(file, rows->name, "cannot be written");
+    if (space >= 0) (void)H5Sclose(space);
+    (void)H5Sclose(memory);
+    return status;
+}
+
+/* Sets the number of rows to first + count, which also cuts off rows that a failed attempt has left, and fills the new
+ * ones. Closing the dataset may be what fails: its chunk cache is written then. */
+dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data)
+{
+    const hsize_t whole[HDF5_MAX_RANK] = {first + count, rows->tail[0], rows->tail[1]};
+    dem_status status = DEM_OK;
+    const hid_t dataset = kept_datasets_open(file->kept, file->id, rows->name);
+    if (dataset < 0 || H5Dset_extent(dataset, whole) < 0)
+        status = hdf5_fail(file, rows->name, "cannot be written");
+    else if (is_chunk(rows, first, count))
+        status = write_chunk(file, rows, dataset, first, data);
+    else if (count > 0)
+        status = write_slab(file, rows, dataset, (hdf5_span){0, count, first}, data);
+    if (dataset >= 0 && kept_datasets_leave(file->kept, dataset) < 0 && status == DEM_OK)
+        status = hdf5_fail(file, rows->name, "cannot be written");
+    return status;
+}
+
+dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data)
+{
+    const hsize_t start[HDF5_MAX_RANK] = {first}, block[HDF5_MAX_RANK] = {count, rows->tail[0], rows->tail[1]};
+    const hid_t dataset = hdf5_chunks_open(file->id, rows->name);
+    if (dataset < 0) return hdf5_fail(file, rows->name, "cannot be read");
+    dem_status status = hdf5_chunks_check(file->path, rows->name, dataset, start, block, rows->rank);
+    if (status == DEM_OK && hdf5_chunks_read(dataset, hdf5_memory_type(rows->kind), start, block, rows->rank, data) < 0)
+        status = hdf5_fail(file, rows->name, "cannot be read");
+    (void)H5Dclose(dataset);
+    return status;
+}
+
+/* A chunk at a time. Numbers pass through the types in memory, which hold those of every kind exactly. */
+dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span)
+{
+    /* The buffer holds one chunk of rows, of at most 8 bytes a number. */
+    const hsize_t step = rows->chunk > 1 ? rows->chunk : 1;
+    dem_status status = DEM_OK;
+    void *buffer = malloc((size_t)(step * width_of(rows)) * sizeof(double));
+    CHECK_MEMORY(buffer);
+    for (hsize_t done = 0; done < span.count && status == DEM_OK; done += step) {
+        const hsize_t count = span.count - done < step ? span.count - done : step;
+        status = hdf5_read(from, rows, span.first + done, count, buffer);
+        if (status == DEM_OK) status = hdf5_append(to, rows, span.at + done, count, buffer);
+    }
+    free(buffer);
+    return status;
+}
+
+/* All rows are one chunk, since nothing is added later. */
+dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data)
+{
+    rows.chunk = count;
+    TRY(hdf5_create(file, &rows));
+    return hdf5_append(file, &rows, 0, count, data);
+}
+
+/* A dataset of another shape counts as having no rows; hdf5_expect_rows() will refuse it. */
+dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *count)
+{
+    hsize_t extent[HDF5_MAX_RANK] = {0};
+    const hid_t dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+    if (dataset < 0) return hdf5_fail(file, name, "cannot be opened");
+    *count = measure(dataset, extent) > 0 ? extent[0] : 0;
+    (void)H5Dclose(dataset);
+    return DEM_OK;
+}
+
+/* The type must be exactly the one that this library writes. */
+dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_t count)
+{
+    hsize_t extent[HDF5_MAX_RANK] = {0};
+    const hid_t dataset = H5Dopen2(file->id, rows->name, H5P_DEFAULT);
+    if (dataset < 0) return hdf5_fail(file, rows->name, "cannot be opened");
+    const hid_t type = H5Dget_type(dataset);
+    bool alike = H5Tequal(type, hdf5_file_type(rows->kind)) > 0 && measure(dataset, extent) == rows->rank;
+    for (int d = 1; d < rows->rank && alike; d++) alike = extent[d] == rows->tail[d - 1];
+    (void)H5Tclose(type);
+    (void)H5Dclose(dataset);
+    CHECK(alike, DEM_ERROR_IO, "%s: %s: is of another type or shape", file->path, rows->name);
+    CHECK(extent[0] == count, DEM_ERROR_IO, "%s: %s: has %llu rows, %llu were written", file->path, rows->name,
+          (unsigned long long)extent[0], (unsigned long long)count);
+    return DEM_OK;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Datasets of numbers that grow row by row. */
+#ifndef DEM_OUTPUT_HDF5_ROWS_H
+#define DEM_OUTPUT_HDF5_ROWS_H
+
+#include "output/hdf5_file.h"
+
+/** Types of numbers in a file. In memory HDF5_F32 is double and HDF5_I8 is int64_t; the others are the same. */
+typedef enum hdf5_kind { HDF5_F64, HDF5_F32, HDF5_I64, HDF5_I32, HDF5_I8, HDF5_U8 } hdf5_kind;
+
+/** A dataset that grows in its first dimension. */
+typedef struct hdf5_rows {
+    const char *name;
+    hdf5_kind kind;
+    int rank;        /**< 1 to 3 */
+    hsize_t tail[2]; /**< [rank - 1] extents after the first, all > 0 */
+    hsize_t chunk;   /**< rows of a chunk; 0 counts as 1 */
+    int deflate;     /**< 0: stored plain; 1 to 9: shuffled and deflated */
+} hdf5_rows;
+
+/** Rows of a file, and where they go in another one. */
+typedef struct hdf5_span {
+    hsize_t first, count; /**< rows that are taken */
+    hsize_t at;           /**< where the first of them goes: the number of rows that are there already */
+} hdf5_span;
+
+/** The types of numbers in a file, and in memory. */
+hid_t hdf5_file_type(hdf5_kind kind);
+hid_t hdf5_memory_type(hdf5_kind kind);
+
+/** Makes a dataset without rows. */
+dem_status hdf5_create(const hdf5_file *file, const hdf5_rows *rows);
+
+/** Stores `count` rows from row `first` on; rows behind them are cut off. */
+dem_status hdf5_append(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, const void *data);
+
+/** Reads `count` existing rows from row `first` on. */
+dem_status hdf5_read(const hdf5_file *file, const hdf5_rows *rows, hsize_t first, hsize_t count, void *data);
+
+/** Copies rows of a dataset to the end of that in another file, a chunk at a time. */
+dem_status hdf5_copy(const hdf5_file *from, const hdf5_file *to, const hdf5_rows *rows, hdf5_span span);
+
+/** Makes a dataset with `count` rows in one chunk. */
+dem_status hdf5_write(const hdf5_file *file, hdf5_rows rows, hsize_t count, const void *data);
+
+dem_status hdf5_count_rows(const hdf5_file *file, const char *name, hsize_t *count);
+
+/** DEM_ERROR_IO unless the dataset has this kind of numbers, these extents and `count` rows. */
+dem_status hdf5_expect_rows(const hdf5_file *file, const hdf5_rows *rows, hsize_t count);
+
+#endif
