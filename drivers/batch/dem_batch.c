@@ -57,6 +57,7 @@ int main(int argc, char **argv)
     signals_catch();
     dem_hdf5_skip_exit();
     exit_code code = command_parse(&c, argc, argv);
+    if (c.action == COMMAND_RUN) signals_catch_end();
     if (code == EXIT_DONE) code = act(&c);
     command_free(&c);
     return streams_end("dem_batch", code);

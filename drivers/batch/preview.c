@@ -12,13 +12,14 @@
 #include "loading.h"
 #include "memory.h"
 #include "relaxation.h"
+#include "signals.h"
 #include "step_report.h"
 #include "surface_report.h"
 #include "wall_clock.h"
 
 enum { most_listed = 16 };            /* obstacles, bodies */
 enum { most_in_short = 2 };           /* bodies, of which the constants are listed without details */
-enum { most_measured = 1000 * 1000 }; /* nodes: a minute's work where lattices are regular */
+enum { most_measured = 1000 * 1000 }; /* nodes: 5 s of work where lattices are regular */
 
 static bool has_friction(const dem_obstacle *o)
 {
@@ -246,7 +247,8 @@ static void print_constants(run_log *log, const deck *d, const dem_model *model)
     FILE *out = log->out;
     const dem_index n_bodies = ask_sizes(model).n_bodies;
     const dem_index n = has_bodies_of_groups(d, n_bodies) ? (dem_index)d->n_bodies : n_bodies;
-    for (dem_index k = 0; k < n && k < most_listed; k++) print_body_constants(log, model, list_body(d, n_bodies, k));
+    for (dem_index k = 0; k < n && k < most_listed && signals_end() == NULL; k++)
+        print_body_constants(log, model, list_body(d, n_bodies, k));
     if (!log->verbose && n > most_in_short)
         (void)fprintf(out, "constants  of %lld more bodies: see --verbose\n", (long long)n - most_in_short);
     else if (n > most_listed)
@@ -263,17 +265,19 @@ static void print_frequency(FILE *out, const dem_model *model)
                       dem_model_omega_max(model) / omega);
 }
 
+/* A signal to end ends the measuring after what is being measured. */
 static void print_measured(run_log *log, const deck *d, const dem_model *model)
 {
     FILE *out = log->out;
     const double start = wall_clock();
     const dem_index n = ask_sizes(model).n_nodes;
+    if (!d->measure) return;
     if (n > most_measured) {
         (void)fprintf(out, "constants  not measured: %lld nodes, the limit is %d\n", (long long)n, (int)most_measured);
         return;
     }
     print_constants(log, d, model);
-    if (log->verbose) print_frequency(out, model);
+    if (log->verbose && signals_end() == NULL) print_frequency(out, model);
     if (log->verbose && wall_clock() - start > 1.0)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
 }

@@ -26,12 +26,16 @@ static void set(int number, void (*handler)(int))
 
 void signals_catch(void)
 {
-    set(SIGTERM, note_end);
-    set(SIGINT, note_end);
-    set(SIGXCPU, note_end);
     set(SIGUSR1, note_checkpoint);
     set(SIGPIPE, SIG_IGN);
     set(SIGXFSZ, SIG_IGN);
+}
+
+void signals_catch_end(void)
+{
+    set(SIGTERM, note_end);
+    set(SIGINT, note_end);
+    set(SIGXCPU, note_end);
 }
 
 const char *signals_end(void)

@@ -5,10 +5,12 @@
 
 #include <stdbool.h>
 
-/** From now on SIGTERM, SIGINT and SIGXCPU ask for the end, SIGUSR1 for a checkpoint; what whoever started the program
- *  wants ignored stays so. Without a reader of its log a run goes on all the same, and a limit on file sizes is a full
- *  disk. */
+/** From now on SIGUSR1 asks for a checkpoint. Without a reader of its log a run goes on all the same, and a limit on
+ *  file sizes is a full disk. What whoever started the program wants ignored stays so, here and below. */
 void signals_catch(void);
+
+/** From now on SIGTERM, SIGINT and SIGXCPU ask for the end. What only looks at a deck ends by them at once. */
+void signals_catch_end(void);
 
 /** The name of the signal that asked for the end; NULL: none has. */
 const char *signals_end(void);

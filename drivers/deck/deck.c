@@ -203,6 +203,7 @@ static bool set_scalars(deck *d, const schema_deck *groups)
     d->fields = fields_of(schema_value_of(output, "fields"));
     d->peak_every = (dem_index)schema_real(output, "peak_every");
     d->most_stressed = (dem_index)schema_real(output, "most_stressed");
+    d->measure = schema_real(output, "measure") != 0.0;
     d->title = strdup(schema_text(run, "title"));
     d->name = strdup(schema_text(output, "name"));
     return d->title != NULL && d->name != NULL;

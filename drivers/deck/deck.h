@@ -35,6 +35,7 @@ typedef struct deck {
     uint32_t fields;         /* DEM_FIELD_... */
     dem_index peak_every;    /* accepted steps between looks at peaks; 0: none */
     dem_index most_stressed; /* that are listed */
+    bool measure;            /* constants and frequencies for the log */
     /* What deck_build() makes. */
     char *echo, *physics; /* resolved: every key, paths absolute; only those that make the problem */
     char *course;         /* resolved: what a run that goes on from another must have in common with it */

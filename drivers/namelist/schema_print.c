@@ -89,7 +89,8 @@ static bool is_aside(const char *group, const char *key)
 {
     static const char *const all[][2] = {{"run", "title"},      {"run", "t_end"},      {"contact", "max_impacts"},
                                          {"solver", "kernel"},  {"solver", "threads"}, {"output", "name"},
-                                         {"output", "deflate"}, {"output", "closure"}, {"output", "most_stressed"}};
+                                         {"output", "deflate"}, {"output", "closure"}, {"output", "most_stressed"},
+                                         {"output", "measure"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         if (strcmp(group, all[k][0]) == 0 && strcmp(key, all[k][1]) == 0) return true;
     return false;

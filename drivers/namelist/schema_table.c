@@ -368,6 +368,8 @@ static const schema_key output_keys[] = {
      "Accepted steps from one look for the largest stresses and strains of the run to the next; 0: no looks.", NULL},
     {"most_stressed", SCHEMA_INTEGER, 1, 1, "-", "5", "[0, 1000]", NULL, false,
      "How many of the most stressed nodes and most strained springs of the run are listed.", NULL},
+    {"measure", SCHEMA_LOGICAL, 1, 1, "-", ".true.", ANY, NULL, false,
+     "Measure elastic constants for the log, with --verbose also the highest frequency, of up to 1e6 nodes.", NULL},
 };
 
 static const schema_key probe_keys[] = {

@@ -133,9 +133,9 @@ contains
     real(dp) :: frame_interval, history_interval, closure
     character(32) :: fields(9)
     integer :: deflate, peak_every, most_stressed
-    logical :: events, breaks, fragments
+    logical :: events, breaks, fragments, measure
     namelist /output/ name, frame_interval, history_interval, precision, deflate, events, breaks, fragments, closure, &
-      fields, peak_every, most_stressed
+      fields, peak_every, most_stressed, measure
     read (unit, nml=output, iostat=status, iomsg=message)
   end subroutine
 

@@ -11,9 +11,11 @@ import pathlib
 import pty
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 DEM_BATCH = INPUTS = None
@@ -234,6 +236,23 @@ class Check(Case):
         self.assertEqual(process.returncode, 0)
         given, _ = numbers("memory     at most # MB, # bytes a node", out)
         return given, 1024e-6 * used.ru_maxrss, out
+
+    def test_measuring_can_be_switched_off(self):
+        self.put(coarse())
+        out, without = (self.call(0, "--check", "--set", f"output.measure={value}", "deck.nml")
+                        for value in (".true.", ".false."))
+        measured = {line.split()[0] for line in out.splitlines()} - {line.split()[0] for line in without.splitlines()}
+        self.assertEqual(measured - {"measured"}, {"constants", "frequency"})
+        self.assertEqual(out.splitlines()[1], without.splitlines()[1], "the same problem")
+
+    def test_a_check_ends_by_a_signal_at_once(self):
+        self.put(changed(coarse(), spacing=1e-4))  # a second's work and more
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with subprocess.Popen([DEM_BATCH, "--check", "deck.nml"], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.DEVNULL) as process:
+                time.sleep(0.2)
+                process.send_signal(number)
+                self.assertEqual(process.wait(SECONDS), -number)
 
     def test_memory(self):
         """What is given out is about what becomes resident: less vectors in reserve, which stay untouched."""

@@ -33,7 +33,7 @@ TEST(what_is_ignored_stays_so)
 {
     struct sigaction now;
     assert_true(signal(SIGINT, SIG_IGN) != SIG_ERR);
-    signals_catch();
+    signals_catch_end();
     assert_int_equal(sigaction(SIGINT, NULL, &now), 0);
     assert_true(now.sa_handler == SIG_IGN);
 }
@@ -41,5 +41,6 @@ TEST(what_is_ignored_stays_so)
 int main(void)
 {
     signals_catch();
+    signals_catch_end();
     return test_run();
 }
