@@ -453,25 +453,37 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 
 /* ---- strains ---- */
 
-/* A spring belongs to the block of its lower node; where nodes are renumbered that of both has its threshold. */
-dem_status kernel_watch(kernel *k, const kernel_threshold *threshold)
+/* The nodes of a block; those behind the last block count as one. */
+static dem_index end_of_block(const layout *l, dem_index block)
+{
+    return block < l->n_blocks ? LAYOUT_LANES * (block + 1) : l->n_nodes;
+}
+
+/* The least thresholds of the springs of a block. A spring belongs to the block of its lower node; where nodes are
+ * renumbered, and behind the blocks, that of both has its threshold. */
+static sweep_limits least_of_block(const kernel *k, const kernel_threshold *threshold, dem_index block)
 {
     const layout *l = &k->model->layout;
     const springs *s = &k->model->springs;
-    k->limit = malloc(((size_t)l->n_blocks + 1) * sizeof *k->limit);
-    k->strained = calloc((size_t)l->n_blocks + EIGHT, 1);
+    const bool by_lower = l->order == NULL && block < l->n_blocks;
+    sweep_limits least = {(double)INFINITY, (double)INFINITY};
+    for (dem_index q = LAYOUT_LANES * block; q < end_of_block(l, block); q++)
+        for (dem_index i = layout_node(l, q), p = s->row[i]; p < s->row[i + 1]; p++) {
+            if (by_lower && s->neighbour[p] < i) continue;
+            least.stretch = fmin(least.stretch, (double)threshold[s->spring[p]].stretch);
+            least.squeeze = fmin(least.squeeze, (double)threshold[s->spring[p]].squeeze);
+        }
+    return least;
+}
+
+dem_status kernel_watch(kernel *k, const kernel_threshold *threshold)
+{
+    const dem_index n_blocks = k->model->layout.n_blocks;
+    k->limit = malloc(((size_t)n_blocks + 1) * sizeof *k->limit);
+    k->strained = calloc((size_t)n_blocks + EIGHT, 1);
     CHECK(k->limit && k->strained, DEM_ERROR_MEMORY, "out of memory for the strains of %lld blocks",
-          (long long)l->n_blocks);
-    for (dem_index block = 0; block < l->n_blocks; block++) {
-        sweep_limits *limit = &k->limit[block];
-        *limit = (sweep_limits){(double)INFINITY, (double)INFINITY};
-        for (dem_index q = LAYOUT_LANES * block; q < LAYOUT_LANES * (block + 1); q++)
-            for (dem_index i = layout_node(l, q), p = s->row[i]; p < s->row[i + 1]; p++) {
-                if (l->order == NULL && s->neighbour[p] < i) continue;
-                limit->stretch = fmin(limit->stretch, (double)threshold[s->spring[p]].stretch);
-                limit->squeeze = fmin(limit->squeeze, (double)threshold[s->spring[p]].squeeze);
-            }
-    }
+          (long long)n_blocks);
+    for (dem_index block = 0; block <= n_blocks; block++) k->limit[block] = least_of_block(k, threshold, block);
     return DEM_OK;
 }
 
@@ -512,6 +524,17 @@ static void visit_block(const kernel *k, const element_state *e, const double *x
     }
 }
 
+/* The nodes behind the last block. */
+static void visit_behind(const kernel *k, const element_state *e, const double *x, kernel_visitor *visit, void *context)
+{
+    const layout *l = &k->model->layout;
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) {
+        const dem_index i = layout_node(l, q);
+        if (has_strained(k, element_state_springs(element_state_at(e, i)), i, k->limit[l->n_blocks], x))
+            visit(context, i);
+    }
+}
+
 /* The first block from one on that has nodes with strained springs; the number of blocks if there is none. Most have
  * none: they are passed by eights, with zeros behind the last one. */
 static dem_index next_strained(const kernel *k, dem_index block)
@@ -533,7 +556,7 @@ void kernel_visit_strained(kernel *k, const element_state *e, const double *x, k
     k->watched = NULL;
     for (dem_index block = next_strained(k, 0); block < l->n_blocks; block = next_strained(k, block + 1))
         visit_block(k, e, x, block, visit, context);
-    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) visit(context, layout_node(l, q));
+    visit_behind(k, e, x, visit, context);
 }
 
 /* ---- the guard ---- */

@@ -19,13 +19,14 @@ typedef struct kernel {
     const array_ops *ops;
     dem_kernel kind; /* not DEM_KERNEL_AUTO */
     int n_threads;
-    double *rings;          /* [n_threads][ring_size] */
-    size_t ring_size;       /* doubles */
-    uint8_t *guarded;       /* [n_blocks] */
-    double *sums;           /* [n_threads] */
-    sweep_limits *limit;    /* [n_blocks] the least of the thresholds that are watched; NULL: none are */
-    uint8_t *strained;      /* [n_blocks] nodes with springs strained more, */
-    const double *watched;  /* at these positions, of a fused step; NULL: to be found */
+    double *rings;         /* [n_threads][ring_size] */
+    size_t ring_size;      /* doubles */
+    uint8_t *guarded;      /* [n_blocks] */
+    double *sums;          /* [n_threads] */
+    sweep_limits *limit;   /* [n_blocks + 1] the least of the thresholds that are watched, last that of the nodes behind
+                               all blocks; NULL: none are */
+    uint8_t *strained;     /* [n_blocks] nodes with springs strained more, */
+    const double *watched; /* at these positions, of a fused step; NULL: to be found */
     trimmed_layout trimmed; /* what sweeps read where something has broken or softened, */
     dem_index n_trimmed;    /* if elements have done so as often; -1: there is none */
     dem_index n_beside, beside_capacity;
