@@ -459,17 +459,22 @@ static dem_index end_of_block(const layout *l, dem_index block)
     return block < l->n_blocks ? LAYOUT_LANES * (block + 1) : l->n_nodes;
 }
 
-/* The least thresholds of the springs of a block. A spring belongs to the block of its lower node; where nodes are
- * renumbered, and behind the blocks, that of both has its threshold. */
+/* Whether the block of node i has the spring to j. A spring belongs to the block of its lower node; where nodes are
+ * renumbered, and behind the blocks, to that of both. */
+static bool belongs_to(const layout *l, dem_index block, dem_index i, dem_index j)
+{
+    return l->order != NULL || block >= l->n_blocks || j > i;
+}
+
+/* The least thresholds of the springs of a block. */
 static sweep_limits least_of_block(const kernel *k, const kernel_threshold *threshold, dem_index block)
 {
     const layout *l = &k->model->layout;
     const springs *s = &k->model->springs;
-    const bool by_lower = l->order == NULL && block < l->n_blocks;
     sweep_limits least = {(double)INFINITY, (double)INFINITY};
     for (dem_index q = LAYOUT_LANES * block; q < end_of_block(l, block); q++)
         for (dem_index i = layout_node(l, q), p = s->row[i]; p < s->row[i + 1]; p++) {
-            if (by_lower && s->neighbour[p] < i) continue;
+            if (!belongs_to(l, block, i, s->neighbour[p])) continue;
             least.stretch = fmin(least.stretch, (double)threshold[s->spring[p]].stretch);
             least.squeeze = fmin(least.squeeze, (double)threshold[s->spring[p]].squeeze);
         }
@@ -500,39 +505,34 @@ static void find_strained(kernel *k, const element_state *e, const double *x)
     THREADS_RUN(k->n_threads, t, k->sweep_strain(&s, share_of(k, t).first, share_of(k, t).last));
 }
 
-/* A layout that is not trimmed has broken springs, too, whose ends may be anywhere. */
-static bool has_strained(const kernel *k, springs_integrity left, dem_index i, sweep_limits limit, const double *x)
+/* Of place q. */
+static dem_index block_of(const layout *l, dem_index q)
 {
+    return q < LAYOUT_LANES * l->n_blocks ? q / LAYOUT_LANES : l->n_blocks;
+}
+
+/* The springs of the node at place q that belong to its block. */
+static void visit_place(const kernel *k, const element_state *e, const double *x, dem_index q, kernel_visitor *visit,
+                        void *context)
+{
+    const layout *l = &k->model->layout;
     const springs *s = &k->model->springs;
+    const dem_index i = layout_node(l, q), block = block_of(l, q);
+    const sweep_limits limit = k->limit[block];
+    const springs_integrity left = element_state_springs(element_state_at(e, i));
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
+        if (!belongs_to(l, block, i, s->neighbour[p])) continue;
         const double strain = springs_strain(s, i, p, x);
         const bool is_within = strain < limit.stretch - 1e-12 && -strain < limit.squeeze - 1e-12;
-        if (!is_within && !springs_is_broken(left, s->spring[p])) return true;
+        if (!is_within && !springs_is_broken(left, s->spring[p])) visit(context, i, p);
     }
-    return false;
 }
 
 static void visit_block(const kernel *k, const element_state *e, const double *x, dem_index block,
                         kernel_visitor *visit, void *context)
 {
-    const element_state *broken = is_trimmed(k, e) ? NULL : e;
-    for (unsigned lane = 0, nodes = k->strained[block]; nodes >> lane != 0; lane++) {
-        if (!(nodes >> lane & 1)) continue;
-        const dem_index i = layout_node(&k->model->layout, LAYOUT_LANES * block + lane);
-        const springs_integrity left = element_state_springs(element_state_at(broken, i));
-        if (left.pushed == NULL || has_strained(k, left, i, k->limit[block], x)) visit(context, i);
-    }
-}
-
-/* The nodes behind the last block. */
-static void visit_behind(const kernel *k, const element_state *e, const double *x, kernel_visitor *visit, void *context)
-{
-    const layout *l = &k->model->layout;
-    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) {
-        const dem_index i = layout_node(l, q);
-        if (has_strained(k, element_state_springs(element_state_at(e, i)), i, k->limit[l->n_blocks], x))
-            visit(context, i);
-    }
+    for (unsigned lane = 0, nodes = k->strained[block]; nodes >> lane != 0; lane++)
+        if (nodes >> lane & 1) visit_place(k, e, x, LAYOUT_LANES * block + lane, visit, context);
 }
 
 /* The first block from one on that has nodes with strained springs; the number of blocks if there is none. Most have
@@ -556,7 +556,7 @@ void kernel_visit_strained(kernel *k, const element_state *e, const double *x, k
     k->watched = NULL;
     for (dem_index block = next_strained(k, 0); block < l->n_blocks; block = next_strained(k, block + 1))
         visit_block(k, e, x, block, visit, context);
-    visit_behind(k, e, x, visit, context);
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) visit_place(k, e, x, q, visit, context);
 }
 
 /* ---- the guard ---- */

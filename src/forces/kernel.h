@@ -53,11 +53,12 @@ typedef struct kernel_threshold {
  *  \return DEM_ERROR_MEMORY */
 dem_status kernel_watch(kernel *k, const kernel_threshold *threshold);
 
-typedef void kernel_visitor(void *context, dem_index node);
+/** The spring in a slot of a node's row. */
+typedef void kernel_visitor(void *context, dem_index node, dem_index slot);
 
-/** Visits at least one end of each spring that is not broken and, at positions x [n][2], strained by more than its
- *  threshold; and other nodes near those, in some order. Strains are watched. If x is where a fused step has just
- *  ended, the step itself has found them: no other positions may stand there by now. */
+/** Visits each spring that is not broken and, at positions x [n][2], strained by more than its threshold, at one end or
+ *  at both; and others that are strained by more than those near them may be, in some order. Strains are watched. If x
+ *  is where a fused step has just ended, the step itself has found them: no other positions may stand there by now. */
 void kernel_visit_strained(kernel *k, const element_state *elements, const double *x, kernel_visitor *visit,
                            void *context);
 

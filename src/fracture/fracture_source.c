@@ -117,10 +117,23 @@ dem_status fracture_source_check_start(const fracture_source *s, const double *x
 static void begin_number(fracture_source *s)
 {
     const dem_lattice *l = &s->model->lattice;
-    if (++s->number != 0) return;
+    if (++s->number <= FRACTURE_SOURCE_NUMBERS) return;
     memset(s->asked, 0, (size_t)l->n_nodes * sizeof *s->asked);
     memset(s->seen, 0, (size_t)l->n_triangles * sizeof *s->seen);
     s->number = 1;
+}
+
+/* Ways in which triangles are looked at, which their marks have beside the number of the step. */
+enum { NOTED = 1, ITS_CORNERS = 2, WAYS = 4 };
+_Static_assert(WAYS *(FRACTURE_SOURCE_NUMBERS + 1) - 1 <= UINT8_MAX, "marks are bytes");
+
+/* Marks a triangle.  \return whether it is for the first time in the step */
+static bool is_first(fracture_source *s, dem_index triangle, unsigned way)
+{
+    const unsigned before = s->seen[triangle], step = WAYS * s->number,
+                   now = before / WAYS == s->number ? before : step;
+    s->seen[triangle] = (uint8_t)(now | way);
+    return !(now & way);
 }
 
 /* Whether a triangle may be near its limit by the stress at one of its corners: without confinement, which only lowers
@@ -137,10 +150,8 @@ static void look_at_triangles_of(fracture_source *s, dem_index i, const double *
     const element_state *e = s->elements;
     for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
         const dem_index t = e->at[p];
-        if (s->seen[t] == s->number || !may_break(s, t)) continue;
-        if (!may_be_near(utilisation_limits_of(e->lattice, e, t), stress)) continue;
-        s->seen[t] = s->number;
-        break_search_note(&s->search, t);
+        if (!may_break(s, t) || !may_be_near(utilisation_limits_of(e->lattice, e, t), stress)) continue;
+        if (is_first(s, t, NOTED)) break_search_note(&s->search, t);
     }
 }
 
@@ -150,9 +161,8 @@ static void look_at_own_stresses(fracture_source *s, dem_index i)
     const element_state *e = s->elements;
     for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
         const dem_index t = e->at[p];
-        if (s->seen[t] == s->number || !utilisation_by_own_stress(e->lattice, t) || !may_break(s, t)) continue;
-        s->seen[t] = s->number;
-        break_search_note(&s->search, t);
+        if (!utilisation_by_own_stress(e->lattice, t) || !may_break(s, t)) continue;
+        if (is_first(s, t, NOTED)) break_search_note(&s->search, t);
     }
 }
 
@@ -167,27 +177,48 @@ static void ask(fracture_source *s, dem_index i)
     if (may_be_near(s->filter.weakest, stress)) look_at_triangles_of(s, i, stress);
 }
 
-static void look_at_springs_of(fracture_source *s, dem_index i)
+/* The stress of a node is a mean of those of its triangles: a triangle whose own is far from what the weakest stands
+ * brings none of its corners near that. Own stresses are known once something has broken. */
+static bool may_bring_near(const fracture_source *s, dem_index triangle)
 {
-    const dem_lattice *l = &s->model->lattice;
-    const springs *own = &s->model->springs;
-    for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) {
-        const dem_index element = l->n_triangles + own->spring[p];
-        if (may_break(s, element)) break_search_note(&s->search, element);
-    }
+    double stress[3];
+    if (s->elements->share == NULL) return true;
+    node_stress_of_triangle(s->model, s->elements, triangle, s->step->y1, stress);
+    return may_be_near(s->filter.weakest, stress);
 }
 
-/* The kernel visits a node of each spring that is over its threshold. All that this may bring to its limit: springs at
- * the node, and triangles with a corner at one that holds the spring. The corners of these are neighbours of the node,
- * or have been noted otherwise (strain_filter.c). */
-static void look_near(void *self, dem_index i)
+static void ask_at_corners(fracture_source *s, dem_index triangle)
+{
+    if (s->elements->triangle[triangle] || !is_first(s, triangle, ITS_CORNERS)) return;
+    if (!may_bring_near(s, triangle)) return;
+    for (int c = 0; c < 3; c++) ask(s, s->model->lattice.triangles[3 * triangle + c]);
+}
+
+/* The corners of triangles that hold the second diagonal of a cell are neighbours of its ends. */
+static void ask_all_around(fracture_source *s, dem_index i)
+{
+    const springs *own = &s->model->springs;
+    ask(s, i);
+    for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) ask(s, own->neighbour[p]);
+}
+
+/* All that a spring over its threshold may bring to its limit: itself, and triangles with a corner at one that holds
+ * it. The corners of those are asked for, or have been noted otherwise (strain_filter.c). */
+static void look_near(void *self, dem_index i, dem_index slot)
 {
     fracture_source *s = self;
     const springs *own = &s->model->springs;
-    if (s->model->lattice.critical_stretch != NULL) look_at_springs_of(s, i);
+    const element_state *e = s->elements;
+    const dem_index element = s->model->lattice.n_triangles + own->spring[slot];
+    bool is_edge = false;
+    if (s->model->lattice.critical_stretch != NULL && may_break(s, element)) break_search_note(&s->search, element);
     if (s->model->lattice.strength == NULL) return;
-    ask(s, i);
-    for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) ask(s, own->neighbour[p]);
+    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++) {
+        if (!element_state_is_corner(e, e->at[p], own->neighbour[slot])) continue;
+        is_edge = true;
+        ask_at_corners(s, e->at[p]);
+    }
+    if (!is_edge) ask_all_around(s, i);
 }
 
 static void look(fracture_source *s)

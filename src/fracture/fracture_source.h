@@ -10,6 +10,9 @@
 #include "fracture/failing_elements.h"
 #include "fracture/strain_filter.h"
 
+/** Steps have as many numbers, from 1 on. */
+enum { FRACTURE_SOURCE_NUMBERS = 63 };
+
 typedef struct fracture_source {
     const dem_model *model;
     element_state *elements;
@@ -19,9 +22,9 @@ typedef struct fracture_source {
     const dense_output *step; /* the accepted one */
     strain_filter filter;
     break_search search;       /* when elements break or soften; */
-    uint8_t number;            /* of the step */
+    uint8_t number;            /* of the step, up to FRACTURE_SOURCE_NUMBERS */
     uint8_t *asked;            /* [n_nodes] the number of the step in which the stress at one was looked at last */
-    uint8_t *seen;             /* [n_triangles] the same of triangles near their limits */
+    uint8_t *seen;             /* [n_triangles] the same of triangles, with the ways in which it was */
     failing_elements *failing; /* those that do so next, or have done so last */
     bool jumped;               /* some have, and others may be over their limits at once */
     dem_index n_failed, capacity, broken_capacity;

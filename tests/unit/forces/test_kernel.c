@@ -623,13 +623,21 @@ TEST(a_number_that_is_not_finite_shows_in_the_sum)
 
 /* ---- strains ---- */
 
-static void note_node(void *context, dem_index node)
+/* Which springs of a model are visited. */
+typedef struct visited_springs {
+    const springs *springs;
+    unsigned char *visited; /* [n_springs] */
+} visited_springs;
+
+static void note_spring(void *context, dem_index node, dem_index slot)
 {
-    ((unsigned char *)context)[node] = 1;
+    const visited_springs *to = context;
+    assert_true(slot >= to->springs->row[node] && slot < to->springs->row[node + 1]);
+    to->visited[to->springs->spring[slot]] = 1;
 }
 
-/* Of all springs that are strained by more than their thresholds an end must have been visited.
- * \return how many springs have one that need not */
+/* All springs that are strained by more than their thresholds must have been visited, but for broken ones, of which
+ * none is.  \return how many have been that need not */
 static dem_index count_others(const scene *s, const forces *load, const kernel_threshold *threshold,
                               const unsigned char *visited)
 {
@@ -638,16 +646,17 @@ static dem_index count_others(const scene *s, const forces *load, const kernel_t
     for (dem_index j = 0; j < l->n_springs; j++) {
         const double strain = springs_strain_of(l, j, s->x);
         const bool is_over = strain > (double)threshold[j].stretch || -strain > (double)threshold[j].squeeze;
-        const bool has_been = visited[l->ends[2 * j]] || visited[l->ends[2 * j + 1]];
-        if (is_over && load->elements->integrity[j] > 0.0) assert_true(has_been);
-        n_others += has_been && !is_over;
+        const bool is_whole = load->elements->integrity[j] > 0.0;
+        if (is_over && is_whole) assert_true(visited[j]);
+        if (!is_whole) assert_false(visited[j]);
+        n_others += visited[j] && !is_over;
     }
     return n_others;
 }
 
 /* Visits where a fused step of no length ends, which has found what is strained. A second look at the positions would
  * call a function that is not there. */
-static void visit_after_step(kernel *k, const scene *s, const forces *load, kernel_visitor *visit, void *visited)
+static void visit_after_step(kernel *k, const scene *s, const forces *load, kernel_visitor *visit, void *context)
 {
     const dem_index n = 2 * s->model->lattice.n_nodes;
     CLEANUP(free_memory) double *none = calloc((size_t)n, sizeof *none), *x1 = copy_doubles(s->v, n);
@@ -657,23 +666,24 @@ static void visit_after_step(kernel *k, const scene *s, const forces *load, kern
     assert_non_null(none);
     (void)kernel_accelerate(k, load, &y);
     k->sweep_strain = NULL;
-    kernel_visit_strained(k, load->elements, x1, visit, visited);
+    kernel_visit_strained(k, load->elements, x1, visit, context);
 }
 
 /* Visits, and again after a fused step if one is possible.
  * \return how many are visited that need not be */
 static dem_index visit_strained(const scene *s, const forces *load, const trial *of, const kernel_threshold *threshold)
 {
-    const size_t n = (size_t)s->model->lattice.n_nodes;
+    const size_t n = (size_t)s->model->lattice.n_springs;
     CLEANUP(free_memory) unsigned char *visited = calloc(n, 1);
     CLEANUP(kernel_destroy) kernel k = open_kernel(s, load, of);
+    visited_springs to = {&s->model->springs, visited};
     assert_non_null(visited);
     assert_ok(kernel_watch(&k, threshold));
-    kernel_visit_strained(&k, load->elements, s->x, note_node, visited);
+    kernel_visit_strained(&k, load->elements, s->x, note_spring, &to);
     const dem_index n_others = count_others(s, load, threshold, visited);
     if (!kernel_can_fuse(&k, load)) return n_others;
     memset(visited, 0, n);
-    visit_after_step(&k, s, load, note_node, visited);
+    visit_after_step(&k, s, load, note_spring, &to);
     assert_int_equal(count_others(s, load, threshold, visited), n_others);
     return n_others;
 }

@@ -395,7 +395,7 @@ static double first_break(dem_simulation *s, uint8_t number, uint8_t look)
     return first;
 }
 
-/* After 2^8 of them numbers begin anew, and the mark 0 of what has never been looked at is not one of them. */
+/* After as many as there are numbers begin anew, and the mark 0 of what has never been looked at is not one of them. */
 TEST(numbers_of_steps_and_looks_may_begin_anew)
 {
     dem_options options = no_weight(1e-6);
@@ -411,7 +411,7 @@ TEST(numbers_of_steps_and_looks_may_begin_anew)
     }
     assert_true(isfinite(first));
     for (uint8_t k = 0; k < 4; k++) {
-        assert_close(first_break(run.simulation, (uint8_t)(UINT8_MAX - k), 1), first, 0.0);
+        assert_close(first_break(run.simulation, (uint8_t)(FRACTURE_SOURCE_NUMBERS - k), 1), first, 0.0);
         assert_close(first_break(run.simulation, 1, (uint8_t)(UINT8_MAX - k)), first, 0.0);
     }
 }
