@@ -14,7 +14,6 @@ class Dem(MesonPackage):
 
     version("main", branch="main")
 
-    variant("openmp", default=True, description="Evaluate forces in several threads")
     variant("cairo", default=True, description="Build dem_plot, and read PNG images as masks")
     variant("fortran", default=True, description="Build the Fortran module")
 
@@ -36,7 +35,6 @@ class Dem(MesonPackage):
     def meson_args(self):
         switch = lambda variant: "enabled" if self.spec.satisfies(f"+{variant}") else "disabled"
         return [
-            f"-Dopenmp={switch('openmp')}",
             f"-Dcairo={switch('cairo')}",
             f"-Dfortran={switch('fortran')}",
             "-Dtests=false",

@@ -334,8 +334,7 @@ static const schema_key solver_keys[] = {
     {"threads", SCHEMA_INTEGER, 1, 1, "-", "1", "[1, 1024]", NULL, false,
      "Threads that work at once, at most: as many as pay. Results are the same to the bit for any number.", NULL},
     {"thread_nodes", SCHEMA_INTEGER, 1, 1, "-", "0", "[0, 1e9]", NULL, false,
-     "Nodes that a thread has before there is another; 0: 100000, or 50000 with fixed steps, at most one a core.",
-     NULL},
+     "Nodes that a thread has before there is another; 0: 2500, and at most one thread a core.", NULL},
     {"checkpoint_steps", SCHEMA_INTEGER, 1, 1, "-", "256", "[0, 1e9]", NULL, true,
      "Steps between checkpoints, from which a stopped run goes on to the same bits; 0: none.", NULL},
 };

@@ -129,8 +129,8 @@ typedef struct dem_options {
                      dem_simulation_residual() is at most this. Looked at after every 16th step; needs damping to end.
                      Obstacles move on */
     dem_index thread_nodes; /**< default 0; else the nodes that a thread has to have before there is another one. By
-                               default 100000, or 50000 for methods with fixed steps, and no more threads than cores
-                               that this process may use, by affinity and by the quota of its control group */
+                               default 2500, and no more threads than cores that this process may use, by affinity and
+                               by the quota of its control group */
 } dem_options;
 
 static inline dem_options dem_options_default(void) /* inline: sizeof is the caller's */

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Quotas as Linux has them: in the second version of control groups `cpu.max` has "QUOTA PERIOD" or "max PERIOD", us;
- * in the first one cpu.cfs_quota_us and cpu.cfs_period_us are files of their own, and a quota of -1 is none. */
+ * in the first one cpu.cfs_quota_us and cpu.cfs_period_us are files of their own, and a quota of -1 is none. Affinity
+ * is the line "Cpus_allowed:" of a thread's status, a mask of hexadecimal digits. */
 #include "base/cores.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-
-#include "base/threads.h"
+#include <unistd.h>
 
 enum { MOST_PATH = 4096 };
 
@@ -73,8 +75,35 @@ double cores_quota(const char *groups, const char *root)
     return least;
 }
 
+/* Bits that are set in hexadecimal digits, whatever is between these. */
+static int count_bits(const char *mask)
+{
+    int n = 0;
+    for (; *mask != '\0'; mask++) {
+        const char digit[2] = {*mask, '\0'};
+        for (long bits = isxdigit((unsigned char)*mask) ? strtol(digit, NULL, 16) : 0; bits > 0; bits /= 2)
+            n += bits % 2 != 0;
+    }
+    return n;
+}
+
+int cores_affinity(const char *status)
+{
+    static const char key[] = "Cpus_allowed:";
+    char line[MOST_PATH];
+    int n = 0;
+    FILE *file = fopen(status, "r");
+    if (file == NULL) return 0;
+    while (n == 0 && fgets(line, sizeof line, file) != NULL)
+        if (strncmp(line, key, sizeof key - 1) == 0) n = count_bits(line + sizeof key - 1);
+    (void)fclose(file);
+    return n;
+}
+
 int cores_allowed(void)
 {
     const double quota = ceil(cores_quota("/proc/self/cgroup", "/sys/fs/cgroup"));
-    return quota < THREADS_MOST ? (int)quota : THREADS_MOST;
+    const int listed = cores_affinity("/proc/thread-self/status");
+    const int cores = listed > 0 ? listed : (int)sysconf(_SC_NPROCESSORS_ONLN);
+    return quota < cores ? (int)quota : cores;
 }

@@ -4,7 +4,7 @@
 #ifndef DEM_BASE_CORES_H
 #define DEM_BASE_CORES_H
 
-/** At least 1: what affinity and quota both allow. 1 in a build without OpenMP. */
+/** At least 1: what affinity and quota both allow. */
 int cores_allowed(void);
 
 /** The least quota of a control group and of those it is in, in cores.
@@ -12,5 +12,10 @@ int cores_allowed(void);
  *  \param root    where groups are mounted, as /sys/fs/cgroup
  *  \return infinite if there is none, or if it cannot be read */
 double cores_quota(const char *groups, const char *root);
+
+/** How many cores the affinity of a thread has.
+ *  \param status  a file such as /proc/self/status
+ *  \return 0 if it does not say */
+int cores_affinity(const char *status);
 
 #endif

@@ -9,7 +9,6 @@
 #include <stdlib.h>
 
 #include "base/status.h"
-#include "base/threads.h"
 #include "contact/automaton_step.h"
 #include "contact/contact_entry.h"
 #include "contact/impact_group.h"
@@ -93,20 +92,28 @@ dem_status contact_source_follow_surface(contact_source *s, const surface *to)
 
 /* ---- what is next ---- */
 
-enum { least_share = 32 }; /* free candidates for which a thread is worth its while */
+enum { CANDIDATE_NODES = 64 }; /* that take as long in a loop as a look at a free candidate */
 
 static bool is_free(const contact_source *s, dem_index k)
 {
     return s->automaton->set.list[k].n_closed == 0;
 }
 
-/* Finds when the free candidates of a thread's share touch. Each writes its own place only, so that the result does not
- * depend on the number of threads. */
-static void look_at_free(contact_source *s, int n_shares, int share)
+typedef struct looking {
+    const contact_source *source;
+    int n_shares;
+} looking;
+
+/* Finds when the free candidates of a share touch. Each writes its own place only, so that the result does not depend
+ * on the number of shares. */
+static void look_at_free(const void *context, int share, int thread)
 {
+    const looking *look = context;
+    const contact_source *s = look->source;
     automaton *c = s->automaton;
-    const dem_index n = automaton_n_active(c), end = threads_share(n, n_shares, share + 1);
-    for (dem_index a = threads_share(n, n_shares, share); a < end; a++) {
+    const dem_index n = automaton_n_active(c), end = team_share(n, look->n_shares, share + 1);
+    (void)thread;
+    for (dem_index a = team_share(n, look->n_shares, share); a < end; a++) {
         const dem_index k = automaton_active_candidate(c, a);
         if (is_free(s, k)) s->crossing[k] = automaton_crossing(c, s->step, k, s->step->t0);
     }
@@ -121,9 +128,9 @@ static void look_ahead(contact_source *s)
     const dense_output *step = s->step;
     event_heap_clear(&s->heap);
     automaton_begin_step(c, step, s->state);
-    const int most = c->set.scene.rule.n_threads,
-              n_threads = automaton_n_active(c) >= least_share * most && most > 1 ? most : 1;
-    THREADS_RUN(n_threads, t, look_at_free(s, n_threads, t));
+    team *const t = c->set.scene.rule.team;
+    const looking look = {s, team_shares(t, CANDIDATE_NODES * automaton_n_active(c))};
+    team_run(t, look.n_shares, look_at_free, &look);
     const dem_index *behind = &c->set.ledger.counts.behind, were_behind = *behind;
     for (dem_index a = 0; a < automaton_n_active(c); a++) {
         const dem_index k = automaton_active_candidate(c, a);

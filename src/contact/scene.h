@@ -4,6 +4,7 @@
 #define DEM_CONTACT_SCENE_H
 
 #include "base/state.h"
+#include "base/team.h"
 #include "forces/forces.h"
 
 typedef struct contact_rule {
@@ -18,7 +19,7 @@ typedef struct contact_rule {
     dem_index turns_in_step;      /* changes of one candidate after which it does not turn back again in a step; or 0 */
     bool vertices;                /* whether edges touch vertices */
     state_layout layout;          /* of the states */
-    int n_threads;                /* that look at free candidates at once; 0 counts as 1 */
+    team *team;                   /* whose threads look at free candidates; NULL: the caller */
 } contact_rule;
 
 /** What does not change during a run. */

@@ -16,7 +16,6 @@
 #include "base/grow.h"
 #include "base/instruction_set.h"
 #include "base/status.h"
-#include "base/threads.h"
 
 /* ---- which there are ---- */
 
@@ -100,9 +99,9 @@ static dem_status allocate(kernel *k)
     const size_t n = (size_t)l->n_nodes;
     /* Two numbers for each force; the forces of damping are behind those of the springs. */
     k->ring_size = 2 * (size_t)l->ring_length * (l->damped ? 2 : 1); /* a multiple of 16 */
-    k->rings = aligned_zeros((size_t)k->n_threads * k->ring_size);
+    k->rings = aligned_zeros((size_t)team_threads(k->team) * k->ring_size);
     k->guarded = calloc((size_t)l->n_blocks + 1, sizeof *k->guarded);
-    k->sums = calloc((size_t)k->n_threads, sizeof *k->sums);
+    k->sums = calloc((size_t)k->n_shares, sizeof *k->sums);
     if (l->order != NULL) k->packed = aligned_zeros(7 * n);
     CHECK(k->rings && k->guarded && k->sums && (k->packed || l->order == NULL), DEM_ERROR_MEMORY,
           "out of memory for the forces of %zu nodes", n);
@@ -110,14 +109,24 @@ static dem_status allocate(kernel *k)
     return DEM_OK;
 }
 
+/* Each share evaluates again what reaches into it from below. There are more shares than threads only where that is at
+ * most a thirtieth. */
+static int count_shares(const team *t, const layout *l)
+{
+    const int n = team_shares(t, l->n_nodes), threads = team_threads(t);
+    const dem_index large = l->n_blocks / (30 * (l->reach + 1));
+    return n <= threads || n <= large ? n : threads;
+}
+
 /* `auto` is replaced by what it stands for, so that kernel->kind says which instructions run. */
-dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads)
+dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, team *t)
 {
     TRY(dem_kernel_check(kind));
     if (kind == DEM_KERNEL_AUTO) kind = fastest();
     kernel k = {.model = model,
                 .kind = kind,
-                .n_threads = n_threads,
+                .team = t,
+                .n_shares = count_shares(t, &model->layout),
                 .n_trimmed = -1,
                 .sweep = rows[kind].sweep,
                 .sweep_guard = rows[kind].sweep_guard,
@@ -217,53 +226,73 @@ static const layout *layout_of(const kernel *k, const element_state *e)
 
 /* ---- evaluation ---- */
 
-/* Takes an array [n][2] into the layout's order. */
-static void pack_share(const kernel *k, int t, const double *from, double *to)
+/* A loop over nodes or blocks that is divided into shares. */
+typedef struct loop {
+    const kernel *kernel;
+    const sweep *sweep; /* over blocks; or */
+    const double *from; /* [n_nodes][2] to be put in another order */
+    double *to;
+} loop;
+
+static void run(const loop *l, team_work *work)
 {
-    const layout *l = &k->model->layout;
-    const dem_index end = threads_share(l->n_nodes, k->n_threads, t + 1);
-    for (dem_index q = threads_share(l->n_nodes, k->n_threads, t); q < end; q++)
-        vec2_put(to, q, vec2_at(from, l->order[q]));
+    team_run(l->kernel->team, l->kernel->n_shares, work, l);
+}
+
+/* Takes an array [n][2] into the layout's order. */
+static void pack_share(const void *context, int share, int thread)
+{
+    const loop *p = context;
+    const layout *l = &p->kernel->model->layout;
+    const dem_index end = team_share(l->n_nodes, p->kernel->n_shares, share + 1);
+    (void)thread;
+    for (dem_index q = team_share(l->n_nodes, p->kernel->n_shares, share); q < end; q++)
+        vec2_put(p->to, q, vec2_at(p->from, l->order[q]));
 }
 
 static void pack(const kernel *k, const double *from, double *to)
 {
-    THREADS_RUN(k->n_threads, t, pack_share(k, t, from, to));
+    run(&(loop){.kernel = k, .from = from, .to = to}, pack_share);
 }
 
-static void unpack_share(const kernel *k, int t, const double *from, double *to)
+static void unpack_share(const void *context, int share, int thread)
 {
-    const layout *l = &k->model->layout;
-    const dem_index end = threads_share(l->n_nodes, k->n_threads, t + 1);
-    for (dem_index q = threads_share(l->n_nodes, k->n_threads, t); q < end; q++)
-        vec2_put(to, l->order[q], vec2_at(from, q));
+    const loop *p = context;
+    const layout *l = &p->kernel->model->layout;
+    const dem_index end = team_share(l->n_nodes, p->kernel->n_shares, share + 1);
+    (void)thread;
+    for (dem_index q = team_share(l->n_nodes, p->kernel->n_shares, share); q < end; q++)
+        vec2_put(p->to, l->order[q], vec2_at(p->from, q));
 }
 
-/* The blocks of a thread. */
-typedef struct share {
-    dem_index first, last;
-} share;
+/* Consecutive blocks. */
+typedef struct stretch {
+    dem_index first, last; /* `last` is behind */
+} stretch;
 
-/* Consecutive blocks, for all threads the same number up to one. */
-static share share_of(const kernel *k, int t)
+/* Those of a share: for all shares the same number up to one. */
+static stretch stretch_of(const kernel *k, int share)
 {
     const dem_index n = k->model->layout.n_blocks;
-    return (share){threads_share(n, k->n_threads, t), threads_share(n, k->n_threads, t + 1)};
+    return (stretch){team_share(n, k->n_shares, share), team_share(n, k->n_shares, share + 1)};
 }
 
-/* A thread without blocks leaves a sum of 0. */
-static void sweep_share(kernel *k, int t, const sweep *s)
+/* A share without blocks leaves a sum of 0. */
+static void sweep_share(const void *context, int share, int thread)
 {
-    const share b = share_of(k, t);
-    k->sums[t] = b.first < b.last ? k->sweep(s, b.first, b.last, k->rings + (size_t)t * k->ring_size) : 0.0;
+    const loop *p = context;
+    const kernel *k = p->kernel;
+    const stretch b = stretch_of(k, share);
+    double *ring = k->rings + (size_t)thread * k->ring_size;
+    k->sums[share] = b.first < b.last ? k->sweep(p->sweep, b.first, b.last, ring) : 0.0;
 }
 
 /* The sum only tells whether all accelerations are finite: its bits are of no consequence. */
-static double sweep_blocks(kernel *k, const sweep *s)
+static double sweep_blocks(const kernel *k, const sweep *s)
 {
     double sum = 0.0;
-    THREADS_RUN(k->n_threads, t, sweep_share(k, t, s));
-    for (int t = 0; t < k->n_threads; t++) sum += k->sums[t];
+    run(&(loop){.kernel = k, .sweep = s}, sweep_share);
+    for (int share = 0; share < k->n_shares; share++) sum += k->sums[share];
     return sum;
 }
 
@@ -275,16 +304,19 @@ static void drift(const kernel *k, const sweep_fused_step *p, dem_index first, d
     k->ops->drift(p->x1 + at, p->v1 + at, start, p->h, vec2_row(last - first));
 }
 
-/* Drifts those ends of a thread's share of blocks that other threads read, and nodes in no block. It is done for all
- * threads before any of them sweeps. The sweep drifts the middle of a share by itself, just ahead of where it reads. */
-static void drift_ends(const kernel *k, int t, const sweep_fused_step *p)
+/* Drifts those ends of a share of blocks that other shares read, and nodes in no block. It is done for all shares
+ * before any of them is swept. The sweep drifts the middle of a share by itself, just ahead of where it reads. */
+static void drift_ends(const void *context, int share, int thread)
 {
+    const kernel *k = ((const loop *)context)->kernel;
+    const sweep_fused_step *p = ((const loop *)context)->sweep->fused_step;
     const layout *l = &k->model->layout;
-    const share b = share_of(k, t);
+    const stretch b = stretch_of(k, share);
+    (void)thread;
     const dem_index low = b.first + l->ahead < b.last ? b.first + l->ahead : b.last;
     const dem_index high = b.last - l->ahead > low ? b.last - l->ahead : low;
     drift(k, p, LAYOUT_LANES * b.first, LAYOUT_LANES * low);
-    drift(k, p, LAYOUT_LANES * high, t + 1 < k->n_threads ? LAYOUT_LANES * b.last : l->n_nodes);
+    drift(k, p, LAYOUT_LANES * high, share + 1 < k->n_shares ? LAYOUT_LANES * b.last : l->n_nodes);
 }
 
 /* Drifts a node again in a fused step, since the sweep has already added its kick to the velocity. */
@@ -429,7 +461,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
                .strained = k->strained,
                .fused_step = y->fused_step};
     k->watched = s.limit != NULL ? y->x : NULL;
-    if (y->fused_step != NULL) THREADS_RUN(k->n_threads, t, drift_ends(k, t, y->fused_step));
+    if (y->fused_step != NULL) run(&(loop){.kernel = k, .sweep = &s}, drift_ends);
     /* The sweep knows the layout's order only. `packed` has 1/m first, x from n on, v from 3 n on and a from 5 n on. */
     if (k->packed != NULL) {
         pack(k, y->x, k->packed + n);
@@ -442,7 +474,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     }
     /* From here on arrays are in the caller's order again. */
     double sum = sweep_blocks(k, &s);
-    if (k->packed != NULL) THREADS_RUN(k->n_threads, t, unpack_share(k, t, s.a, y->a));
+    if (k->packed != NULL) run(&(loop){.kernel = k, .from = s.a, .to = y->a}, unpack_share);
     sum += copy_velocities(y, k->packed != NULL ? 0 : LAYOUT_LANES * l->n_blocks, n);
     sum += accelerate_rest(k, f, y);
     if (f->elements != NULL && !isfinite(sum)) sum = sum_up(y, n);
@@ -492,6 +524,14 @@ dem_status kernel_watch(kernel *k, const kernel_threshold *threshold)
     return DEM_OK;
 }
 
+static void strain_share(const void *context, int share, int thread)
+{
+    const loop *p = context;
+    const stretch b = stretch_of(p->kernel, share);
+    (void)thread;
+    p->kernel->sweep_strain(p->sweep, b.first, b.last);
+}
+
 /* Which nodes have strained springs. */
 static void find_strained(kernel *k, const element_state *e, const double *x)
 {
@@ -502,7 +542,7 @@ static void find_strained(kernel *k, const element_state *e, const double *x)
                      .x = k->packed != NULL ? k->packed + l->n_nodes : x,
                      .limit = k->limit,
                      .strained = k->strained};
-    THREADS_RUN(k->n_threads, t, k->sweep_strain(&s, share_of(k, t).first, share_of(k, t).last));
+    run(&(loop){.kernel = k, .sweep = &s}, strain_share);
 }
 
 /* Of place q. */
@@ -561,6 +601,14 @@ void kernel_visit_strained(kernel *k, const element_state *e, const double *x, k
 
 /* ---- the guard ---- */
 
+static void guard_share(const void *context, int share, int thread)
+{
+    const loop *p = context;
+    const stretch b = stretch_of(p->kernel, share);
+    (void)thread;
+    p->kernel->sweep_guard(p->sweep, b.first, b.last);
+}
+
 /* What the guard adds at most to omega^2 at the node at place q, 1/s^2. */
 static double guard_bound(const kernel *k, const forces *f, const double *x, dem_index q)
 {
@@ -584,7 +632,7 @@ double kernel_stiffening(kernel *k, const forces *f, const double *x)
     const sweep s = {.layout = layout_of(k, f->elements),
                      .x = k->packed != NULL ? k->packed + l->n_nodes : x,
                      .guarded = k->guarded};
-    THREADS_RUN(k->n_threads, t, k->sweep_guard(&s, share_of(k, t).first, share_of(k, t).last));
+    run(&(loop){.kernel = k, .sweep = &s}, guard_share);
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
         added = fmax(added, guard_bound(k, f, x, q));
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) added = fmax(added, guard_bound(k, f, x, q));

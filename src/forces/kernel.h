@@ -7,6 +7,7 @@
 #include <stdbool.h>
 
 #include "base/array_ops.h"
+#include "base/team.h"
 #include "elastic/sweep.h"
 #include "elastic/trimmed_layout.h"
 #include "forces/forces.h"
@@ -18,11 +19,12 @@ typedef struct kernel {
     sweep_strain_function *sweep_strain;
     const array_ops *ops;
     dem_kernel kind; /* not DEM_KERNEL_AUTO */
-    int n_threads;
-    double *rings;         /* [n_threads][ring_size] */
+    team *team;
+    int n_shares;          /* of its loops */
+    double *rings;         /* [threads of the team][ring_size] */
     size_t ring_size;      /* doubles */
     uint8_t *guarded;      /* [n_blocks] */
-    double *sums;          /* [n_threads] */
+    double *sums;          /* [n_shares] */
     sweep_limits *limit;   /* [n_blocks + 1] the least of the thresholds that are watched, last that of the nodes behind
                                all blocks; NULL: none are */
     uint8_t *strained;     /* [n_blocks] nodes with springs strained more, */
@@ -34,9 +36,9 @@ typedef struct kernel {
     double *packed;    /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
 } kernel;
 
-/** Borrows the model.  \return DEM_ERROR_ARGUMENT for a kernel that this machine does not have; DEM_ERROR_MEMORY. Free
- *  with kernel_destroy(). */
-dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, int n_threads);
+/** Borrows the model, and the team that its loops run in.  \return DEM_ERROR_ARGUMENT for a kernel that this machine
+ *  does not have; DEM_ERROR_MEMORY. Free with kernel_destroy(). */
+dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, team *t);
 void kernel_destroy(kernel *k);
 
 /** Makes the sweep fit a state of elements, of which the n of `list` have broken or softened since the last call, some

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 
 #include "base/aligned.h"
-#include "base/threads.h"
 #include "model/node_stress.h"
 
 #ifndef DEM_X86_KERNELS
@@ -45,7 +44,8 @@ void stress_field_create(stress_field *out, const kernel *k)
                           .areas = row->areas,
                           .couplings = row->couplings,
                           .corners = row->corners,
-                          .n_threads = k->n_threads};
+                          .team = k->team,
+                          .n_shares = team_shares(k->team, k->model->lattice.n_nodes)};
 }
 
 void stress_field_destroy(stress_field *s)
@@ -98,23 +98,27 @@ static void add_areas(const taking *t, dem_index i)
     t->pass.stress[3 * i + 1] += spread;
 }
 
-static void springs_share(const taking *t, int share)
+static void springs_share(const void *context, int share, int thread)
 {
+    const taking *t = context;
     const dem_index n = t->s->model->lattice.n_springs, m = t->s->model->couplings.n;
-    const int n_threads = t->s->n_threads;
-    t->s->springs(&t->pass, threads_share(n, n_threads, share), threads_share(n, n_threads, share + 1));
-    t->s->couplings(&t->pass, threads_share(m, n_threads, share), threads_share(m, n_threads, share + 1));
+    const int n_shares = t->s->n_shares;
+    (void)thread;
+    t->s->springs(&t->pass, team_share(n, n_shares, share), team_share(n, n_shares, share + 1));
+    t->s->couplings(&t->pass, team_share(m, n_shares, share), team_share(m, n_shares, share + 1));
 }
 
 /* The nodes of some blocks, and the last share those behind. */
-static void nodes_share(const taking *t, int share)
+static void nodes_share(const void *context, int share, int thread)
 {
+    const taking *t = context;
     const stress_field *s = t->s;
     const dem_model *m = s->model;
     const dem_index n_blocks = blocks_of(s), n = m->lattice.n_nodes, groups = n / LAYOUT_LANES;
-    const dem_index first = threads_share(groups, s->n_threads, share);
-    const dem_index last = threads_share(groups, s->n_threads, share + 1);
-    const dem_index end = share + 1 < s->n_threads ? LAYOUT_LANES * last : n;
+    const dem_index first = team_share(groups, s->n_shares, share);
+    const dem_index last = team_share(groups, s->n_shares, share + 1);
+    const dem_index end = share + 1 < s->n_shares ? LAYOUT_LANES * last : n;
+    (void)thread;
     s->nodes(&t->pass, LAYOUT_LANES * first, end);
     if (first < n_blocks && t->areas) s->areas(&t->pass, first, last < n_blocks ? last : n_blocks);
     for (dem_index i = LAYOUT_LANES * first; i < end; i++) {
@@ -136,8 +140,8 @@ bool stress_field_take(stress_field *s, const element_state *elements, const dou
                       {&m->lattice, &m->stress, &m->layout, x, s->virial, s->coupled, stress, s->guarded},
                       may_add_areas(s, area_min)};
     if (has_memory) {
-        THREADS_RUN(s->n_threads, share, springs_share(&t, share));
-        THREADS_RUN(s->n_threads, share, nodes_share(&t, share));
+        team_run(s->team, s->n_shares, springs_share, &t);
+        team_run(s->team, s->n_shares, nodes_share, &t);
     }
     for (dem_index i = 0; i < m->lattice.n_nodes && !has_memory; i++)
         node_stress(m, elements, NODE_STRESS_CARRIED, i, x, stress + 3 * i);

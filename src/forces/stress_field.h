@@ -10,7 +10,8 @@
 typedef struct stress_field {
     const dem_model *model;
     stress_pass_function *springs, *nodes, *areas, *couplings, *corners;
-    int n_threads;
+    team *team;
+    int n_shares;     /* of its loops */
     double *virial;   /* [n_springs][4] as stress_pass has them, of the last state; NULL: none were wanted */
     double *coupled;  /* [couplings][4] likewise */
     uint8_t *guarded; /* [n_blocks] likewise */

@@ -13,7 +13,6 @@
 #include "base/aligned.h"
 #include "base/reduce.h"
 #include "base/status.h"
-#include "base/threads.h"
 #include "elastic/lane_slots.h"
 #include "elastic/rigid_nodes.h"
 
@@ -113,7 +112,8 @@ dem_status survey_create(survey *out, const kernel *k)
 {
     const survey_row *row = &rows[k->kind];
     survey s = {.model = k->model,
-                .n_threads = k->n_threads,
+                .team = k->team,
+                .n_shares = team_shares(k->team, k->model->lattice.n_nodes),
                 .measure_energies = row->energies,
                 .measure_motions = row->motions,
                 .measure_spins = row->spins};
@@ -312,18 +312,22 @@ static void skip_damaged(taking *t)
     }
 }
 
-static void pack_share(const survey *s, int share, const double *x)
+static void pack_share(const void *context, int share, int thread)
 {
+    const taking *t = context;
+    const survey *s = t->s;
     const layout *l = &s->model->layout;
-    const dem_index end = threads_share(l->n_nodes, s->n_threads, share + 1);
-    for (dem_index q = threads_share(l->n_nodes, s->n_threads, share); q < end; q++)
-        vec2_put(s->packed, q, vec2_at(x, l->order[q]));
+    const dem_index end = team_share(l->n_nodes, s->n_shares, share + 1);
+    (void)thread;
+    for (dem_index q = team_share(l->n_nodes, s->n_shares, share); q < end; q++)
+        vec2_put(s->packed, q, vec2_at(t->x, l->order[q]));
 }
 
 /* Chunks and runs go side by side, as what they read is mostly the same. */
-static void measure_share(const taking *t, int share)
+static void measure_share(const void *context, int share, int thread)
 {
-    survey *s = t->s;
+    const taking *t = context;
+    const survey *s = t->s;
     const dem_index n_blocks = s->model->layout.n_blocks, n = s->n_chunks > s->n_runs ? s->n_chunks : s->n_runs;
     const bool damaged = t->f->elements != NULL && t->f->elements->n_damaged > 0;
     const energy_pass energies = {.layout = &s->model->layout,
@@ -333,8 +337,9 @@ static void measure_share(const taking *t, int share)
                                   .least = s->least,
                                   .largest = s->largest};
     const motion_pass motions = {s->model->lattice.mass, t->x, t->v, {t->f->gravity[0], t->f->gravity[1]}};
-    const dem_index end = threads_share(n, s->n_threads, share + 1);
-    for (dem_index k = threads_share(n, s->n_threads, share); k < end; k++) {
+    const dem_index end = team_share(n, s->n_shares, share + 1);
+    (void)thread;
+    for (dem_index k = team_share(n, s->n_shares, share); k < end; k++) {
         const dem_index first = SURVEY_CHUNK * k,
                         last = first + SURVEY_CHUNK < n_blocks ? first + SURVEY_CHUNK : n_blocks;
         if (k < s->n_chunks) s->measure_energies(&energies, first, last, &s->chunks[k]);
@@ -427,8 +432,8 @@ void survey_take(survey *s, const forces *f, const double *x, const double *v)
                 .extremes = {.least = -1, .largest = -1},
                 .strain = {.area_min = 1.0}};
     skip_damaged(&t);
-    if (s->packed != NULL) THREADS_RUN(s->n_threads, share, pack_share(s, share, x));
-    THREADS_RUN(s->n_threads, share, measure_share(&t, share));
+    if (s->packed != NULL) team_run(s->team, s->n_shares, pack_share, &t);
+    team_run(s->team, s->n_shares, measure_share, &t);
     join_chunks(&t);
     const motion_sums all = join_runs(s);
     find_extremes(&t);
@@ -444,17 +449,27 @@ void survey_take(survey *s, const forces *f, const double *x, const double *v)
 
 /* ---- motion of bodies ---- */
 
-static void motions_share(survey *s, const motion_pass *nodes, int share)
+/* A pass over the nodes of bodies. */
+typedef struct body_pass {
+    const survey *s;
+    motion_pass nodes;
+    const dem_body_motion *motion; /* [n_bodies] about which angular momenta are taken */
+} body_pass;
+
+static void motions_share(const void *context, int share, int thread)
 {
-    const dem_index end = threads_share(s->n_runs, s->n_threads, share + 1);
-    for (dem_index k = threads_share(s->n_runs, s->n_threads, share); k < end; k++)
-        s->measure_motions(nodes, s->runs[k].first, s->runs[k].last, &s->moving[k]);
+    const body_pass *p = context;
+    const survey *s = p->s;
+    const dem_index end = team_share(s->n_runs, s->n_shares, share + 1);
+    (void)thread;
+    for (dem_index k = team_share(s->n_runs, s->n_shares, share); k < end; k++)
+        s->measure_motions(&p->nodes, s->runs[k].first, s->runs[k].last, &s->moving[k]);
 }
 
 void survey_take_motions(survey *s, const double *x, const double *v)
 {
-    const motion_pass nodes = {.mass = s->model->lattice.mass, .x = x, .v = v};
-    THREADS_RUN(s->n_threads, share, motions_share(s, &nodes, share));
+    const body_pass p = {.s = s, .nodes = {.mass = s->model->lattice.mass, .x = x, .v = v}};
+    team_run(s->team, s->n_shares, motions_share, &p);
     (void)join_runs(s);
 }
 
@@ -463,26 +478,29 @@ static vec2 mean_of(const twofold sum[2], double mass)
     return vec2_scale(1.0 / mass, (vec2){reduce_twofold(sum[0]), reduce_twofold(sum[1])});
 }
 
-static void spin_share(const survey *s, const motion_pass *p, const dem_body_motion *motion, int share)
+static void spin_share(const void *context, int share, int thread)
 {
-    const dem_index end = threads_share(s->n_runs, s->n_threads, share + 1);
-    for (dem_index k = threads_share(s->n_runs, s->n_threads, share); k < end; k++) {
-        const dem_body_motion *m = &motion[s->runs[k].body];
+    const body_pass *p = context;
+    const survey *s = p->s;
+    const dem_index end = team_share(s->n_runs, s->n_shares, share + 1);
+    (void)thread;
+    for (dem_index k = team_share(s->n_runs, s->n_shares, share); k < end; k++) {
+        const dem_body_motion *m = &p->motion[s->runs[k].body];
         const vec2 mean[2] = {vec2_at(m->centre, 0), vec2_at(m->velocity, 0)};
-        s->spins[k] = s->measure_spins(p, s->runs[k].first, s->runs[k].last, mean);
+        s->spins[k] = s->measure_spins(&p->nodes, s->runs[k].first, s->runs[k].last, mean);
     }
 }
 
 /* Centre of mass and its velocity come first, since the angular momentum is taken about them. */
 void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion *motion)
 {
-    const motion_pass nodes = {.mass = s->model->lattice.mass, .x = x, .v = v};
+    const body_pass p = {s, {.mass = s->model->lattice.mass, .x = x, .v = v}, motion};
     for (dem_index b = 0; b < s->model->n_bodies; b++) {
         motion[b] = (dem_body_motion){.mass = s->mass[b]};
         vec2_put(motion[b].centre, 0, mean_of(s->bodies[b].place, s->mass[b]));
         vec2_put(motion[b].velocity, 0, mean_of(s->bodies[b].momentum, s->mass[b]));
     }
-    THREADS_RUN(s->n_threads, share, spin_share(s, &nodes, motion, share));
+    team_run(s->team, s->n_shares, spin_share, &p);
     for (dem_index b = 0; b < s->model->n_bodies; b++) s->bodies[b].spin = (twofold){0};
     for (dem_index k = 0; k < s->n_runs; k++) twofold_join(&s->bodies[s->runs[k].body].spin, s->spins[k]);
     for (dem_index b = 0; b < s->model->n_bodies; b++)

@@ -25,7 +25,8 @@ typedef struct survey {
     energy_pass_function *measure_energies;
     motion_pass_function *measure_motions;
     motion_spin_function *measure_spins;
-    int n_threads;
+    team *team;
+    int n_shares;            /* of its loops */
     int32_t *place;          /* [n_nodes] of each node in the layout, and */
     double *packed;          /* [n_nodes][2] positions in its order; both NULL: that of the nodes */
     uint8_t *skipped;        /* [n_blocks] as energy_pass has them, as the next three are */

@@ -13,10 +13,10 @@
 /* `force_context` was the last member when sizes began to be honoured: what is added comes after it. */
 static const struct_kind kind = {"dem_options", STRUCT_SIZE_WITH(dem_options, force_context), sizeof(dem_options)};
 
-static const double adaptive_share = 0.5; /* of 1/omega_max: longest step */
-static const double fixed_share = 0.125;  /* of the stability bound: steps of methods that do not choose theirs */
-static const double window_share = 0.1;   /* of 1/omega_max: default window, by the table in docs/algorithms.md */
-static const dem_index adaptive_nodes = 100000, fixed_nodes = 50000; /* of a thread: docs/performance.md */
+static const double adaptive_share = 0.5;   /* of 1/omega_max: longest step */
+static const double fixed_share = 0.125;    /* of the stability bound: steps of methods that do not choose theirs */
+static const double window_share = 0.1;     /* of 1/omega_max: default window, by the table in docs/algorithms.md */
+static const dem_index thread_nodes = 2500; /* of a thread: docs/performance.md */
 
 dem_status options_read(dem_options *ours, const dem_options *theirs)
 {
@@ -102,13 +102,14 @@ static double damping_rate(const dem_options *o, const dem_model *m)
 }
 
 /* As many threads as pay, up to those that were asked for: a step of few nodes ends before another thread has begun. */
-static void fill_threads(dem_options *o, dem_index n_nodes, bool adaptive)
+static void fill_threads(dem_options *o, dem_index n_nodes)
 {
-    const dem_index nodes = o->thread_nodes > 0 ? o->thread_nodes : adaptive ? adaptive_nodes : fixed_nodes;
+    const dem_index nodes = o->thread_nodes > 0 ? o->thread_nodes : thread_nodes;
     const dem_index pay = n_nodes / nodes > 1 ? n_nodes / nodes : 1;
     int most = o->threads;
     if (most > 1 && o->thread_nodes == 0 && cores_allowed() < most) most = cores_allowed();
     o->threads = (int32_t)(pay < most ? pay : most);
+    o->thread_nodes = nodes;
 }
 
 dem_status options_fill(dem_options *o, const dem_model *model, const boundary_conditions *b)
@@ -136,7 +137,7 @@ dem_status options_fill(dem_options *o, const dem_model *model, const boundary_c
     if (o->window < 0.0 && o->contact == DEM_CONTACT_EXACT && model->omega_max > 0.0)
         o->window = window_share * fmin(1.0 / model->omega_max, 2.0 * o->max_step);
     o->window = fmax(o->window, 0.0);
-    fill_threads(o, model->lattice.n_nodes, method.adaptive);
+    fill_threads(o, model->lattice.n_nodes);
     if (o->contact_stiffness == 0.0) o->contact_stiffness = 1.0;
     if (o->v_scale == 0.0) o->v_scale = default_v_scale(o, model, b);
     CHECK(o->v_scale > 0.0, DEM_ERROR_ARGUMENT, "nothing sets a scale of speed: the option v_scale is needed, in m/s");

@@ -6,6 +6,7 @@
 
 #include "base/reduce.h"
 #include "base/state.h"
+#include "base/team.h"
 #include "contact/contact_source.h"
 #include "events/event_queue.h"
 #include "forces/held_forces.h"
@@ -40,6 +41,7 @@ struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
     state_layout layout; /* of y */
+    team *team;          /* for loops over nodes; NULL: they run in the caller alone */
     boundary_conditions boundaries;
     external_force *external;  /* NULL: none */
     surface_contact *surfaces; /* contact of bodies with each other; NULL: none */

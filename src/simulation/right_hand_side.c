@@ -134,6 +134,6 @@ ode_problem right_hand_side_problem(dem_simulation *s)
         .max_step = o->max_step,
         .fixed_step = o->fixed_step,
         .ops = s->kernel.ops,
-        .n_threads = s->kernel.n_threads,
+        .team = s->team,
     };
 }

@@ -59,7 +59,7 @@ static contact_rule rule_of(const dem_simulation *s)
                           .turns_in_step = run_is_local(s) ? turns_in_step : 0,
                           .vertices = o->vertices != 0,
                           .layout = s->layout,
-                          .n_threads = model->obstacles.is_asked ? 1 : o->threads};
+                          .team = model->obstacles.is_asked ? NULL : s->team};
 }
 
 static forces forces_of(const dem_simulation *s)
@@ -102,6 +102,17 @@ static dem_status set_up_queue(dem_simulation *s)
                                                    .controlled = !(o->fixed_step > 0.0)});
 }
 
+/* Nodes of a share: to claim it takes less than a hundredth of any loop over them. */
+enum { SHARE_NODES = 2000 };
+
+/* Where fewer threads can be created than are worth it, the options say how many work. */
+static void create_team(dem_simulation *s)
+{
+    dem_options *o = &s->options;
+    s->team = team_create(o->threads, o->thread_nodes < SHARE_NODES ? o->thread_nodes : SHARE_NODES);
+    o->threads = team_threads(s->team);
+}
+
 static dem_status set_up(dem_simulation *s)
 {
     const dem_model *model = s->model;
@@ -120,7 +131,8 @@ static dem_status set_up(dem_simulation *s)
     memcpy(s->y + state_velocities(&s->layout), model->lattice.velocity, block);
     (void)boundary_conditions_give_velocities(&s->boundaries, model->lattice.mass, 0.0,
                                               s->y + state_velocities(&s->layout));
-    TRY(kernel_create(&s->kernel, model, o->kernel, o->threads));
+    create_team(s);
+    TRY(kernel_create(&s->kernel, model, o->kernel, s->team));
     s->options.kernel = s->kernel.kind;
     TRY(survey_create(s->survey, &s->kernel));
     stress_field_create(s->field, &s->kernel);
@@ -217,6 +229,7 @@ void dem_simulation_destroy(dem_simulation *s)
     free(s->poses);
     dem_checkpoint_destroy(s->checkpoint);
     dem_checkpoint_destroy(s->rollback);
+    team_destroy(s->team);
     free(s);
 }
 

@@ -143,7 +143,7 @@ static dem_status allocate(arkode_integrator *I)
     N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
     CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
-    I->space = nvector_space_create(n, I->problem.ops, I->problem.n_threads, most_vectors + I->table.stages);
+    I->space = nvector_space_create(n, I->problem.ops, I->problem.team, most_vectors + I->table.stages);
     bool complete = I->space != NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors && complete; k++) {
         *vectors[k] = nvector_create(I->space, I->sundials);

@@ -13,9 +13,8 @@
 
 #include "base/aligned.h"
 #include "base/reduce.h"
-#include "base/threads.h"
 
-enum { most_terms = 32, n_sampled = 16 };
+enum { most_terms = 32, n_sampled = 16, NODE_LENGTH = 4 /* numbers of a node */ };
 
 /* Numbers with a count of the vectors that refer to them; with none it is in the list of the free ones. */
 typedef struct buffer {
@@ -34,8 +33,9 @@ typedef struct content {
 struct nvector_space {
     dem_index length;
     const array_ops *ops;
-    int n_threads;
-    array_ops_sum *sums; /* [n_threads] */
+    team *team;
+    int n_shares;        /* of its loops */
+    array_ops_sum *sums; /* [n_shares] */
     buffer *buffers;     /* the first free one */
     content *contents;
 };
@@ -146,40 +146,51 @@ static double *apart_from(N_Vector z, const double *const *in, int n)
     return nvector_fresh(z);
 }
 
-/* A thread's part of the pass; cuts are at the same components for every vector. */
-static void combine_share(const nvector_space *s, int t, double *out, int n, const double *c, const double *const *in)
+typedef struct combination {
+    const nvector_space *space;
+    double *out;
+    int n;
+    double factor[most_terms];
+    const double *in[most_terms];
+} combination;
+
+/* A share of the pass; cuts are at the same components for every vector. */
+static void combine_share(const void *context, int share, int thread)
 {
-    const dem_index first = threads_share(s->length, s->n_threads, t);
+    const combination *c = context;
+    const nvector_space *s = c->space;
+    const dem_index first = team_share(s->length, s->n_shares, share);
     const double *from[most_terms];
-    for (int k = 0; k < n; k++) from[k] = in[k] + first;
-    s->ops->combine(out + first, n, c, from, threads_share(s->length, s->n_threads, t + 1) - first);
+    (void)thread;
+    for (int k = 0; k < c->n; k++) from[k] = c->in[k] + first;
+    s->ops->combine(c->out + first, c->n, c->factor, from, team_share(s->length, s->n_shares, share + 1) - first);
 }
 
 /* z = sum of c_k x_k, without the terms that are 0 (many in a Butcher table); a sum of one vector with the factor 1 is
  * shared instead of copied.  \return -1 if there are more terms than there is room for */
 static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
 {
-    double factor[most_terms];
-    const double *in[most_terms];
-    const nvector_space *s = content_of(z)->space;
-    int m = 0, last = 0;
+    combination sum;
+    int last = 0;
+    sum.space = content_of(z)->space;
+    sum.n = 0;
     for (int k = 0; k < n; k++) {
         if (c[k] == 0.0) continue;
-        if (m == most_terms) return -1;
+        if (sum.n == most_terms) return -1;
         last = k;
-        factor[m] = c[k];
-        in[m++] = nvector_values(x[k]);
+        sum.factor[sum.n] = c[k];
+        sum.in[sum.n++] = nvector_values(x[k]);
     }
-    if (m == 0) {
+    if (sum.n == 0) {
         fill(0.0, z);
         return 0;
     }
-    if (m == 1 && factor[0] == 1.0) {
+    if (sum.n == 1 && sum.factor[0] == 1.0) {
         nvector_share(x[last], z);
         return 0;
     }
-    double *out = apart_from(z, in, m);
-    THREADS_RUN(s->n_threads, t, combine_share(s, t, out, m, factor, in));
+    sum.out = apart_from(z, sum.in, sum.n);
+    team_run(sum.space->team, sum.space->n_shares, combine_share, &sum);
     return 0;
 }
 
@@ -202,20 +213,30 @@ static double scale_of(double size)
     return scale;
 }
 
-/* A thread's part of the sum, into its own place. */
-static void square_share(const nvector_space *s, int t, const double *x, const double *w, double scale)
+typedef struct squares {
+    const nvector_space *space;
+    const double *x, *w;
+    double scale;
+} squares;
+
+/* A share of the sum, into its own place. */
+static void square_share(const void *context, int share, int thread)
 {
-    const dem_index first = threads_share(s->length, s->n_threads, t);
-    s->sums[t] = (array_ops_sum){0};
-    s->ops->square(&s->sums[t], x + first, w + first, scale, threads_share(s->length, s->n_threads, t + 1) - first);
+    const squares *p = context;
+    const nvector_space *s = p->space;
+    const dem_index first = team_share(s->length, s->n_shares, share);
+    const dem_index n = team_share(s->length, s->n_shares, share + 1) - first;
+    (void)thread;
+    s->sums[share] = (array_ops_sum){0};
+    s->ops->square(&s->sums[share], p->x + first, p->w + first, p->scale, n);
 }
 
-/* The sum of (scale x_k w_k)^2. It is one of integers: no order and no shares of threads change it. */
+/* The sum of (scale x_k w_k)^2. It is one of integers: no order and no shares change it. */
 static array_ops_sum square(const nvector_space *s, const double *x, const double *w, double scale)
 {
     array_ops_sum sum = {0};
-    THREADS_RUN(s->n_threads, t, square_share(s, t, x, w, scale));
-    for (int t = 0; t < s->n_threads; t++) array_ops_add(&sum, &s->sums[t]);
+    team_run(s->team, s->n_shares, square_share, &(squares){s, x, w, scale});
+    for (int share = 0; share < s->n_shares; share++) array_ops_add(&sum, &s->sums[share]);
     return sum;
 }
 
@@ -333,12 +354,13 @@ N_Vector nvector_create(nvector_space *s, SUNContext context)
     return v;
 }
 
-nvector_space *nvector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors)
+nvector_space *nvector_space_create(dem_index length, const array_ops *operations, team *t, int n_vectors)
 {
     nvector_space *s = calloc(1, sizeof *s);
     if (s == NULL) return NULL;
-    *s = (nvector_space){.length = length, .ops = operations, .n_threads = n_threads};
-    s->sums = calloc((size_t)n_threads, sizeof *s->sums);
+    *s = (nvector_space){
+        .length = length, .ops = operations, .team = t, .n_shares = team_shares(t, length / NODE_LENGTH)};
+    s->sums = calloc((size_t)s->n_shares, sizeof *s->sums);
     /* The buffer that no content came with: it keeps one free when all vectors have theirs. */
     bool complete = s->sums != NULL && add_buffer(s);
     for (int k = 0; k < n_vectors && complete; k++) complete = add_content(s);

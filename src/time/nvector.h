@@ -8,12 +8,13 @@
 #include <sundials/sundials_nvector.h>
 
 #include "base/array_ops.h"
+#include "base/team.h"
 
 typedef struct nvector_space nvector_space;
 
-/** Borrows the operations. Reserves memory for n_vectors vectors, clones included, as N_VClone() of SUNDIALS 6 crashes
- *  when it gets none. NULL without memory. Free with nvector_space_free(), after its vectors. */
-nvector_space *nvector_space_create(dem_index length, const array_ops *operations, int n_threads, int n_vectors);
+/** Borrows the operations and the team. Reserves memory for n_vectors vectors, clones included, as N_VClone() of
+ *  SUNDIALS 6 crashes when it gets none. NULL without memory. Free with nvector_space_free(), after its vectors. */
+nvector_space *nvector_space_create(dem_index length, const array_ops *operations, team *t, int n_vectors);
 void nvector_space_free(nvector_space *s);
 
 /** A vector of the space with undefined numbers; NULL without memory. For N_VDestroy(). */

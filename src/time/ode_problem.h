@@ -6,6 +6,7 @@
 #define DEM_TIME_ODE_PROBLEM_H
 
 #include "base/array_ops.h"
+#include "base/team.h"
 #include "time/dense_output.h"
 
 /** A step of Verlet's method from y0 with derivative f0 to y1 with f1. Of the derivatives only the accelerations are
@@ -41,7 +42,7 @@ typedef struct ode_problem {
     double max_step;                       /* s */
     double fixed_step;                     /* s; > 0: steps of this length without error control */
     const array_ops *ops;                  /* arithmetic on the states */
-    int n_threads;
+    team *team;                            /* whose threads do it; NULL: the caller */
 } ode_problem;
 
 /** Where an integrator begins anew. */

@@ -15,7 +15,6 @@
 
 #include "base/aligned.h"
 #include "base/status.h"
-#include "base/threads.h"
 
 /* Both ends of the step stand in one block with two derivatives; going on swaps pointers, so that the derivative at the
  * end of a step is that at the start of the next without another evaluation. */
@@ -138,19 +137,13 @@ static int evaluate(verlet_integrator *V, double t, const double *y, double *f)
     return V->problem.derivative(t, y, u, a, V->problem.context);
 }
 
-/* A run of components of the positions, and with it the same run of the velocities: what one thread takes. */
+/* A run of components of the positions, and with it the same run of the velocities. */
 typedef struct stretch {
     dem_index at, size;
 } stretch;
 
-static stretch share_of(const verlet_integrator *V, int t)
-{
-    const dem_index n = state_velocities(&V->problem.layout), at = threads_share(n, V->problem.n_threads, t);
-    return (stretch){at, threads_share(n, V->problem.n_threads, t + 1) - at};
-}
-
 /* x1 = x0 + h (v0 + h/2 a0), and v1 = v0 + h a0, the extrapolated velocity. */
-static void drift_stretch(verlet_integrator *V, double h, stretch s)
+static void drift_stretch(const verlet_integrator *V, double h, stretch s)
 {
     const dem_index n = state_velocities(&V->problem.layout);
     const double *const start[3] = {V->y0 + s.at, V->y0 + n + s.at, V->f0 + n + s.at};
@@ -158,10 +151,37 @@ static void drift_stretch(verlet_integrator *V, double h, stretch s)
 }
 
 /* v1 += h/2 (a1 - a0): of the extrapolated v0 + h a0 this makes v' + h/2 a1. */
-static void kick_stretch(verlet_integrator *V, double h, stretch s)
+static void kick_stretch(const verlet_integrator *V, double h, stretch s)
 {
     const dem_index at = state_velocities(&V->problem.layout) + s.at;
     V->problem.ops->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
+}
+
+/* Drift or kick of all nodes in shares. */
+typedef struct part {
+    const verlet_integrator *V;
+    double h;
+    int n_shares;
+} part;
+
+static stretch stretch_of(const part *p, int share)
+{
+    const dem_index n = state_velocities(&p->V->problem.layout), at = team_share(n, p->n_shares, share);
+    return (stretch){at, team_share(n, p->n_shares, share + 1) - at};
+}
+
+static void drift_share(const void *context, int share, int thread)
+{
+    const part *p = context;
+    (void)thread;
+    drift_stretch(p->V, p->h, stretch_of(p, share));
+}
+
+static void kick_share(const void *context, int share, int thread)
+{
+    const part *p = context;
+    (void)thread;
+    kick_stretch(p->V, p->h, stretch_of(p, share));
 }
 
 /* The same where motions are prescribed. A component whose x' in the derivative differs from its extrapolated velocity
@@ -199,12 +219,14 @@ static int kick_drift_kick(verlet_integrator *V, double h)
     V->t1 = V->t + h;
     const int flag = take_fused_step(V, h);
     if (flag >= 0) return flag;
-    THREADS_RUN(V->problem.n_threads, t, drift_stretch(V, h, share_of(V, t)));
+    team *const t = V->problem.team;
+    const part p = {V, h, team_shares(t, V->problem.layout.n_nodes)};
+    team_run(t, p.n_shares, drift_share, &p);
     if (evaluate(V, V->t1, V->y1, V->f1) != 0) return -1;
     if (V->problem.prescribes)
         kick_free(V, h);
     else
-        THREADS_RUN(V->problem.n_threads, t, kick_stretch(V, h, share_of(V, t)));
+        team_run(t, p.n_shares, kick_share, &p);
     return 0;
 }
 

@@ -4,6 +4,8 @@
  *
  *      bench_plate NODES                                      a table
  *      bench_plate NODES METHOD KERNEL THREADS STEPS [FILE]   one run of fixed steps, its state at the end into FILE
+ *      bench_plate NODES threads METHOD THREADS THREAD_NODES TURNS
+ *                                                             wall time of a run in threads beside one without
  *      bench_plate NODES lammps FILE                          the same plate as a data file of LAMMPS
  *
  * A run prints: nodes, springs, step in s, evaluations, CPU and wall time in s, total energy at start and end in J. */
@@ -70,7 +72,7 @@ static double time_kernel(const dem_model *model, dem_kernel kind)
     memcpy(state, model->lattice.position, 2 * (size_t)n * sizeof *state);
     const kernel_state y = {.x = state, .v = state, .a = a};
     kernel k;
-    ask(kernel_create(&k, model, kind, 1));
+    ask(kernel_create(&k, model, kind, NULL));
     for (int turn = 0; turn < 7; turn++) {
         const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
         for (long r = 0; r < rounds; r++) must(isfinite(kernel_accelerate(&k, &acting, &y)), "not finite");
@@ -88,6 +90,7 @@ typedef struct plan {
     dem_method method;
     dem_kernel kernel;
     int threads;
+    dem_index thread_nodes;
     dem_index steps;
     const char *file; /* NULL: none */
 } plan;
@@ -103,18 +106,25 @@ static double energy_of(const dem_simulation *simulation)
 }
 
 /* Fehlberg's pair as it comes; else steps of a tenth of sqrt(m/k), as LAMMPS takes. */
-static result take(const dem_model *model, const plan *p)
+static dem_simulation *start(const dem_model *model, const plan *p)
 {
     const double tenth = 0.1 * plate_period(spacing);
     dem_options options = dem_options_default();
     dem_simulation *simulation;
-    result r = {0};
     options.gravity[1] = 0.0;
     options.method = p->method;
     options.kernel = p->kernel;
     options.threads = p->threads;
+    options.thread_nodes = p->thread_nodes;
     if (p->method == DEM_METHOD_VERLET) options.fixed_step = tenth;
     ask(dem_simulation_create(&simulation, model, &options));
+    return simulation;
+}
+
+static result take(const dem_model *model, const plan *p)
+{
+    dem_simulation *simulation = start(model, p);
+    result r = {0};
     r.step = ask_options(simulation).max_step;
     r.energy[0] = energy_of(simulation);
     const double cpu = seconds(CLOCK_PROCESS_CPUTIME_ID), wall = seconds(CLOCK_MONOTONIC);
@@ -133,7 +143,7 @@ static double time_run(const dem_model *model, dem_method method)
     const double n_springs = (double)model->lattice.n_springs;
     dem_method_traits traits = {.struct_size = sizeof traits};
     ask(dem_method_describe(&traits, method));
-    const plan p = {method, DEM_KERNEL_AUTO, 1, (dem_index)(3e7 / n_springs / traits.evaluations) + 2, NULL};
+    const plan p = {method, DEM_KERNEL_AUTO, 1, 0, (dem_index)(3e7 / n_springs / traits.evaluations) + 2, NULL};
     double least = INFINITY;
     for (int turn = 0; turn < 5; turn++) {
         const result r = take(model, &p);
@@ -157,6 +167,67 @@ static void print_table(dem_index nodes)
     }
 }
 
+/* ---- threads ---- */
+
+enum { MOST_TURNS = 1000 };
+
+typedef struct run {
+    dem_simulation *simulation;
+    double t, ns[MOST_TURNS]; /* s; wall time of a spring and evaluation by turns */
+} run;
+
+static void go_on(run *r, const dem_model *model, dem_index steps, int turn)
+{
+    const dem_index evaluations = ask_counts(r->simulation).evaluations;
+    const double wall = seconds(CLOCK_MONOTONIC);
+    r->t += (double)steps * ask_options(r->simulation).max_step;
+    ask(dem_simulation_advance(r->simulation, r->t));
+    r->ns[turn] = 1e9 * (seconds(CLOCK_MONOTONIC) - wall) / (double)model->lattice.n_springs /
+                  (double)(ask_counts(r->simulation).evaluations - evaluations);
+}
+
+static double sum(const double *values, size_t n)
+{
+    double all = 0.0;
+    for (size_t k = 0; k < n; k++) all += values[k];
+    return all;
+}
+
+/* A run alone and one in threads go on in turn for some twenty ms. The first turn does not count. */
+static void print_threads(const dem_model *model, const plan *p, int turns)
+{
+    static run alone, together;
+    plan one = *p;
+    double ratio[MOST_TURNS];
+    must(turns > 0 && turns < MOST_TURNS, "TURNS is out of range");
+    one.threads = 1;
+    alone.simulation = start(model, &one);
+    together.simulation = start(model, p);
+    for (int k = 0; k <= turns; k++) {
+        go_on(&alone, model, p->steps, k);
+        go_on(&together, model, p->steps, k);
+        ratio[k] = together.ns[k] / alone.ns[k];
+    }
+    const size_t n = (size_t)turns;
+    const double of_all = sum(together.ns + 1, n) / sum(alone.ns + 1, n);
+    (void)printf("%lld nodes: 1 thread %.2f ns, %d threads %.2f ns, ratio %.2f", (long long)model->lattice.n_nodes,
+                 median(alone.ns + 1, n), ask_options(together.simulation).threads, median(together.ns + 1, n),
+                 median(ratio + 1, n));
+    (void)printf(" (%.2f to %.2f), of all %.2f\n", ratio[1 + turns / 10], ratio[turns - turns / 10], of_all);
+    dem_simulation_destroy(alone.simulation);
+    dem_simulation_destroy(together.simulation);
+}
+
+static void compare_threads(dem_index nodes, char **argv)
+{
+    plan p = {.kernel = DEM_KERNEL_AUTO, .threads = atoi(argv[1]), .thread_nodes = (dem_index)atof(argv[2])};
+    ask(dem_method_find(&p.method, argv[0]));
+    dem_model *model = compile(nodes, false);
+    p.steps = (dem_index)(2e7 / (double)model->lattice.n_springs / (p.method == DEM_METHOD_VERLET ? 2.0 : 20.0)) + 1;
+    print_threads(model, &p, atoi(argv[3]));
+    dem_model_destroy(model);
+}
+
 static void write_lammps(dem_index nodes, const char *path)
 {
     dem_lattice plate = make_plate(nodes, false);
@@ -172,6 +243,11 @@ int main(int argc, char **argv)
     if (argc == 2) print_table(nodes);
     if (argc == 4) write_lammps(nodes, argv[3]);
     if (argc < 6) return 0;
+    if (strcmp(argv[2], "threads") == 0) {
+        must(argc == 7, "NODES threads METHOD THREADS THREAD_NODES TURNS");
+        compare_threads(nodes, argv + 3);
+        return 0;
+    }
     plan p = {.threads = atoi(argv[4]), .steps = atoll(argv[5]), .file = argc == 7 ? argv[6] : NULL};
     ask(dem_method_find(&p.method, argv[2]));
     ask(dem_kernel_find(&p.kernel, argv[3]));

@@ -79,8 +79,7 @@ class Case(unittest.TestCase):
     def start(self, *arguments, outdir="."):
         (self.folder / outdir).mkdir(exist_ok=True)
         return subprocess.Popen([DEM_BATCH, "a.nml", "--outdir", outdir, *arguments], cwd=self.folder, text=True,
-                                env={**os.environ, "OMP_WAIT_POLICY": "passive"}, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def call(self, code, *arguments, outdir=".", stderr=""):
         process = self.start(*arguments, outdir=outdir)

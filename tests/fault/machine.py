@@ -18,7 +18,7 @@ import outputs
 SECONDS = 120  # more than any of these runs takes
 DONE, INVALID, NUMERICS, IO, MEMORY, TAKEN, AGAIN = 0, 3, 4, 5, 6, 7, 75
 NOT_CAUGHT = 127
-RAW = re.compile(r"HDF5-DIAG|HDF5: infinite|\[ARKODE|\[ERROR\]|Assertion|libgomp")  # not our words
+RAW = re.compile(r"HDF5-DIAG|HDF5: infinite|\[ARKODE|\[ERROR\]|Assertion")  # not our words
 
 
 @dataclasses.dataclass(frozen=True)

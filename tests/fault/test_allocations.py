@@ -20,7 +20,7 @@ from decks import OPTIONS, TINY
 SEED = 20261121
 SHARE = 0.0001  # of the allocations, by default
 CODES = (machine.DONE, machine.NUMERICS, machine.IO, machine.MEMORY)
-LIBRARIES = ("libhdf5", "libsundials", "libgsl", "libgomp", "libc.so")
+LIBRARIES = ("libhdf5", "libsundials", "libgsl", "libc.so")
 
 
 class Trials:

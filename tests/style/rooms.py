@@ -12,7 +12,7 @@ ROOMS = [  # pattern, files that may have it
                                                  "src/time/nvector.h"}),
     (r"#include <immintrin", {"src/elastic/lanes_avx2.h", "src/elastic/lanes_avx512.h", "src/surface_contact/contact_batch.c",
                              "src/surface_contact/way_box.c"}),
-    (r"_Pragma|#pragma|_OPENMP", {"src/base/inline.h", "src/base/threads.h"}),
+    (r"_Pragma|#pragma", {"src/base/inline.h"}),
     (r"\bpthread_create\b|#include <(semaphore|stdatomic)", {"src/base/team.c"}),
     (r'#include [<"]hdf5\.h', {"src/output/hdf5_api.h"}),
     (r'#include [<"]gsl/', {"drivers/body/area.c", "drivers/body/copies.c", "drivers/body/pores.c", "drivers/deck/profile.c",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* cores.c: quotas of control groups of both versions, as files say them. */
+/* cores.c: quotas of control groups of both versions, and affinity, as files say them. */
 #include "base/cores.h"
 
 #include <math.h>
@@ -55,6 +55,18 @@ TEST(groups_of_the_first_version_have_a_folder_for_each_set_of_controllers)
     assert_true(quota_of(&f, "5:memory:/\n4:cpu,cpuacct:/\n") == 3.0);
     folder_sweep(&f);
     assert_int_equal(rmdir(folder_at(&f, "cpu,cpuacct")), 0);
+}
+
+TEST(affinity_is_the_number_of_bits_in_a_mask)
+{
+    CLEANUP(folder_close) scratch_folder f;
+    folder_open(&f);
+    (void)folder_file(&f, "status");
+    assert_int_equal(cores_affinity(folder_at(&f, "status")), 0);
+    put(&f, "status", "Name:\tdem\nCpus_allowed:\tff,0000a001\nCpus_allowed_list:\t0,13,15,32-39\n");
+    assert_int_equal(cores_affinity(folder_at(&f, "status")), 11);
+    put(&f, "status", "Name:\tdem\n");
+    assert_int_equal(cores_affinity(folder_at(&f, "status")), 0);
 }
 
 TEST(what_cannot_be_read_is_no_quota)

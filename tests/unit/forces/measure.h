@@ -4,6 +4,7 @@
 #define DEM_TEST_FORCES_MEASURE_H
 
 #include "forces/diagnostics.h"
+#include "unit/free_team.h"
 #include "verification/support.h"
 
 enum { MEASURE_BODIES = 8 };
@@ -17,10 +18,11 @@ typedef struct measures {
 static inline measures measure_with(const forces *f, const double *x, const double *v, dem_kernel kind, int n_threads)
 {
     measures m;
+    CLEANUP(free_team) team *t = team_create(n_threads, 1);
     CLEANUP(kernel_destroy) kernel k;
     CLEANUP(survey_destroy) survey s;
     assert_true(f->model->n_bodies <= MEASURE_BODIES);
-    assert_ok(kernel_create(&k, f->model, kind, n_threads));
+    assert_ok(kernel_create(&k, f->model, kind, t));
     assert_ok(survey_create(&s, &k));
     survey_take(&s, f, x, v);
     m.energy = diagnostics_energy(f, &s, x, v);

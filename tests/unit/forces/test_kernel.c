@@ -15,6 +15,7 @@ typedef struct scene {
     dem_model *model;
     double *x, *v, *a, *u;
     gsl_rng *random;
+    team *teams[4]; /* of up to so many threads */
 } scene;
 
 static const forces whole;
@@ -36,6 +37,7 @@ static scene make_scene(const dem_lattice *lattice, double share)
 {
     scene s = {.random = gsl_rng_alloc(gsl_rng_mt19937)};
     gsl_rng_set(s.random, 7);
+    for (int n = 0; n < 4; n++) s.teams[n] = team_create(n, 1);
     assert_ok(dem_model_create(&s.model, lattice, NULL, 0));
     const dem_index n = 2 * lattice->n_nodes;
     s.x = copy_doubles(lattice->x, n);
@@ -57,6 +59,7 @@ static void free_scene(scene *s)
     free(s->v);
     free(s->a);
     free(s->u);
+    for (int n = 0; n < 4; n++) team_destroy(s->teams[n]);
 }
 
 /* A kernel and its number of threads, and whether what is broken is trimmed from its layout. */
@@ -69,7 +72,7 @@ typedef struct trial {
 static kernel open_kernel(const scene *s, const forces *load, const trial *of)
 {
     kernel k;
-    assert_ok(kernel_create(&k, s->model, of->kind, of->n_threads));
+    assert_ok(kernel_create(&k, s->model, of->kind, s->teams[of->n_threads]));
     if (of->trims) kernel_follow(&k, load->elements, NULL, 0);
     return k;
 }
@@ -86,7 +89,7 @@ static void check_evaluations(scene *s, const forces *load, kernel *k)
             const vec2 a = forces_acceleration(load, i, s->x, s->v);
             if (a.x != s->a[2 * i] || a.y != s->a[2 * i + 1])
                 fail_msg("%s, %d threads, node %lld of %lld: (%.17g, %.17g) instead of (%.17g, %.17g)",
-                         dem_kernel_name(k->kind), k->n_threads, (long long)i, (long long)n, s->a[2 * i],
+                         dem_kernel_name(k->kind), team_threads(k->team), (long long)i, (long long)n, s->a[2 * i],
                          s->a[2 * i + 1], a.x, a.y);
         }
     }
@@ -126,7 +129,7 @@ static bool can_fuse(const scene *s, const forces *load)
     forces acting = *load;
     acting.model = s->model;
     CLEANUP(kernel_destroy) kernel k;
-    assert_ok(kernel_create(&k, s->model, DEM_KERNEL_AUTO, 1));
+    assert_ok(kernel_create(&k, s->model, DEM_KERNEL_AUTO, NULL));
     const bool may = kernel_can_fuse(&k, &acting);
     return may;
 }
@@ -346,7 +349,7 @@ TEST(the_ends_of_a_broken_spring_may_meet)
         const forces f = {.model = s.model, .elements = &broken};
         const kernel_state y = {.x = s.x, .v = s.v, .a = s.a};
         vec2_put(s.x, lattice.ends[2 * k], vec2_at(s.x, lattice.ends[2 * k + 1]));
-        assert_ok(kernel_create(&sweeps, s.model, DEM_KERNEL_AUTO, 1));
+        assert_ok(kernel_create(&sweeps, s.model, DEM_KERNEL_AUTO, NULL));
         assert_true(!isfinite(kernel_accelerate(&sweeps, &f, &y)));
         element_state_break_spring(&broken, k);
         assert_true(isfinite(kernel_accelerate(&sweeps, &f, &y)));
@@ -375,7 +378,7 @@ static void check_breaking(const dem_lattice *lattice)
     assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
     CLEANUP(kernel_destroy) kernel k;
     const forces f = {.model = s.model, .gravity = {0.5, -9.81}, .elements = &broken};
-    assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 2));
+    assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, s.teams[2]));
     kernel_follow(&k, &broken, NULL, 0);
     for (int round = 0; round < 16; round++) {
         dem_index list[12], n = 0, other = -1;
@@ -610,7 +613,7 @@ TEST(a_number_that_is_not_finite_shows_in_the_sum)
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; kind <= DEM_KERNEL_AVX512; kind++) {
         CLEANUP(kernel_destroy) kernel k;
         if (dem_kernel_check(kind) != DEM_OK) continue;
-        assert_ok(kernel_create(&k, s.model, kind, 2));
+        assert_ok(kernel_create(&k, s.model, kind, s.teams[2]));
         const kernel_state y = {.x = s.x, .v = s.v, .u = s.u, .a = s.a};
         for (dem_index i = 0; i < lattice.n_nodes; i++) {
             double *const number = i % 3 == 0 ? &s.v[2 * i] : &s.x[2 * i], kept = *number;
@@ -781,7 +784,7 @@ TEST(the_guard_stiffens_what_it_squeezes)
         CLEANUP(free_scene) scene s = make_scene(&lattice, 0.0);
         CLEANUP(kernel_destroy) kernel k;
         const double omega = dem_model_omega_max(s.model);
-        assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
+        assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, NULL));
         assert_close(kernel_stiffening(&k, &whole, rest), 1.0, 0.0);
         assert_close(kernel_stiffening(&k, &whole, x), sqrt(1.0 + added / (omega * omega)), 1e-12);
     }
@@ -809,10 +812,10 @@ TEST(the_choice_left_open_is_the_last_that_runs)
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.05, 0.05, &rubber);
     CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
     kernel k;
-    assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, 1));
+    assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, NULL));
     assert_ok(dem_kernel_check(k.kind));
     assert_true(k.kind != DEM_KERNEL_AUTO);
     assert_true(k.kind == DEM_KERNEL_AVX512 || dem_kernel_check(k.kind + 1) == DEM_ERROR_ARGUMENT);
     kernel_destroy(&k);
-    assert_int_equal(kernel_create(&k, s.model, (dem_kernel)99, 1), DEM_ERROR_ARGUMENT);
+    assert_int_equal(kernel_create(&k, s.model, (dem_kernel)99, NULL), DEM_ERROR_ARGUMENT);
 }

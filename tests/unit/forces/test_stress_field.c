@@ -6,6 +6,7 @@
 #include "forces/stress_field.h"
 #include "model/node_stress.h"
 #include "unit/forces/scenes.h"
+#include "unit/free_team.h"
 
 static void check_strains(const scene *s, const element_state *e, const stress_field *field)
 {
@@ -57,8 +58,9 @@ static void check_field(const scene *s, const element_state *e)
 {
     for (dem_kernel kind = DEM_KERNEL_PORTABLE; dem_kernel_name(kind) != NULL; kind++)
         for (int n = 1; n <= 3 && dem_kernel_check(kind) == DEM_OK; n++) {
+            CLEANUP(free_team) team *t = team_create(n, 1);
             CLEANUP(kernel_destroy) kernel k;
-            assert_ok(kernel_create(&k, s->model, kind, n));
+            assert_ok(kernel_create(&k, s->model, kind, t));
             check_kernel(s, e, &k);
         }
 }

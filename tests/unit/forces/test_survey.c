@@ -131,9 +131,10 @@ static void check_against(const forces *f, const scene *s, const measures *m)
 static void check_motions(const forces *f, const scene *s, const dem_body_motion *expected)
 {
     dem_body_motion body[MEASURE_BODIES];
+    CLEANUP(free_team) team *t = team_create(2, 1);
     CLEANUP(kernel_destroy) kernel k;
     CLEANUP(survey_destroy) survey own;
-    assert_ok(kernel_create(&k, f->model, DEM_KERNEL_AUTO, 2));
+    assert_ok(kernel_create(&k, f->model, DEM_KERNEL_AUTO, t));
     assert_ok(survey_create(&own, &k));
     survey_take_motions(&own, s->x, s->v);
     survey_bodies(&own, s->x, s->v, body);

@@ -174,6 +174,7 @@ TEST(what_is_given_counts)
     options.rest_speed = 0.1;
     options.window = 2e-6;
     options.contact_stiffness = 3.0;
+    options.thread_nodes = 70;
     const dem_options asked = options;
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_memory_equal(&options, &asked, sizeof options);

@@ -91,7 +91,6 @@ static integrator make(world *w, int (*derivative)(double, const double *, doubl
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .derivative = derivative,
                                  .context = w,
                                  .method = method,
@@ -190,7 +189,6 @@ static int steps_with_errors(double position, double velocity)
     world w = {.fails_after = 1e9};
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .derivative = swing,
                                  .context = &w,
                                  .position_error = position,
@@ -219,7 +217,6 @@ TEST(an_unknown_method_is_refused)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .derivative = fall,
                                  .method = (dem_method)77,
                                  .position_error = 1.0,
@@ -295,7 +292,6 @@ static integrator make_fall(world *w, const double *y)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .derivative = fall,
                                  .begin_roots = begin_roots,
                                  .root_function = root_function,
@@ -457,7 +453,6 @@ TEST(the_node_whose_error_no_step_mends_is_named)
     world w = {.fails_after = 1e9};
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 3, .n_rows = 3},
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .derivative = rattle_middle,
                                  .context = &w,
                                  .method = DEM_METHOD_FEHLBERG45,

@@ -47,7 +47,6 @@ TEST(every_method_finds_the_bounces_of_a_ball)
         int bounces = 0;
         const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                      .ops = &array_ops_portable,
-                                     .n_threads = 1,
                                      .derivative = fall,
                                      .begin_roots = begin_roots,
                                      .root_function = root_function,
@@ -88,7 +87,6 @@ TEST(steps_are_settled_and_states_changed_where_they_are)
         int bounces = 0;
         const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                      .ops = &array_ops_portable,
-                                     .n_threads = 1,
                                      .derivative = fall,
                                      .begin_roots = begin_roots,
                                      .root_function = root_function,
@@ -156,7 +154,6 @@ static void swing(dem_method method, state_layout l, double y[most_numbers])
 {
     const ode_problem problem = {.layout = l,
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .derivative = oscillate,
                                  .context = &l,
                                  .method = method,
@@ -195,7 +192,6 @@ TEST(what_cannot_be_made_is_reported)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .derivative = fall,
                                  .max_step = 1.0,
                                  .method = (dem_method)99};

@@ -11,6 +11,7 @@ enum { n = 1003, n_vectors = 5 };
 
 typedef struct bench {
     SUNContext sundials;
+    team *team;
     nvector_space *space;
     N_Vector v[n_vectors];
 } bench;
@@ -28,7 +29,8 @@ static bench make_bench(int n_threads)
 #else
     assert_int_equal(SUNContext_Create(NULL, &b.sundials), 0);
 #endif
-    b.space = nvector_space_create(n, &array_ops_portable, n_threads, n_vectors - 1);
+    b.team = team_create(n_threads, 1);
+    b.space = nvector_space_create(n, &array_ops_portable, b.team, n_vectors - 1);
     assert_non_null(b.space);
     for (int p = 0; p < n_vectors; p++) {
         b.v[p] = p == 0 ? nvector_create(b.space, b.sundials) : N_VClone(b.v[0]);
@@ -43,6 +45,7 @@ static void free_bench(bench *b)
 {
     for (int p = 0; p < n_vectors; p++) N_VDestroy(b->v[p]);
     nvector_space_free(b->space);
+    team_destroy(b->team);
     (void)SUNContext_Free(&b->sundials);
 }
 

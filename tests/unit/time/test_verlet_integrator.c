@@ -65,7 +65,6 @@ static integrator make(world *w, double h, bool rooted, const double *y)
 {
     const ode_problem problem = {.layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .prescribes = !isnan(w->pulled),
                                  .derivative = move,
                                  .begin_roots = rooted ? begin_roots : NULL,
@@ -159,7 +158,6 @@ TEST(a_step_in_one_pass_is_that_in_parts)
             const ode_problem problem = {.method = DEM_METHOD_VERLET,
                                          .layout = {.dim = 2, .n_nodes = 1, .n_rows = 2},
                                          .ops = &array_ops_portable,
-                                         .n_threads = 1,
                                          .derivative = move_with_book,
                                          .fused_step = fused ? fused_from_above : NULL,
                                          .context = &worlds[fused],
@@ -440,7 +438,6 @@ TEST(without_a_fixed_step_it_is_refused)
     const ode_problem problem = {.method = DEM_METHOD_VERLET,
                                  .layout = {.dim = 2, .n_nodes = 1, .n_rows = 1},
                                  .ops = &array_ops_portable,
-                                 .n_threads = 1,
                                  .derivative = move,
                                  .max_step = 1.0};
     const double y0[4] = {0.0};
