@@ -70,10 +70,10 @@ static void list_surfaces(const contact_set *c, dem_index k, impact_target hit, 
 }
 
 /* Of the segments that are hit, those on which a node with relative velocity v stays; a is its acceleration relative to
- * the walls. A node at rest stays on all that it presses. In a corner that both walls hold, a node counts as at rest if
- * it would get no further out than a hop before it comes back. That is decided along v, where `back` is its
- * deceleration. Otherwise it can stay on the one segment along which it moves, that of the smaller speed away from it,
- * if that speed counts as rest there. */
+ * the walls. A node at rest stays on all that it presses. In a corner it counts as at rest if it would get no further
+ * out than a hop before it comes back: on the wall along which it moves less it could be back at the other one without
+ * end. That is decided along v, where `back` is its deceleration. Otherwise it can stay on the one segment along which
+ * it moves, that of the smaller speed away from it, if that speed counts as rest there. */
 static impact_target lasting(const contact_set *c, dem_index k, impact_target hit, const hit_walls *walls, vec2 v,
                              const contact_instant *now)
 {
@@ -89,7 +89,8 @@ static impact_target lasting(const contact_set *c, dem_index k, impact_target hi
     for (int q = 0; q < hit.n; q++) away[q] = vec2_dot(v, wall[q].normal);
     const int holding = impact_law_holding(wall, hit.n, a, push);
     const double back = speed > 0.0 ? -vec2_dot(a, v) / speed : 0.0; /* deceleration of a node that leaves the corner */
-    if (speed == 0.0 || (holding == 3 && (back <= 0.0 || speed <= impact_rest_speed(c, at, back, &wall[0], false)))) {
+    const bool returns = hit.n == 2 && holding != 0 && speed <= impact_rest_speed(c, at, back, &wall[0], false);
+    if (speed == 0.0 || (holding == 3 && back <= 0.0) || returns) {
         for (int q = 0; q < hit.n; q++)
             if (holding & (1 << q)) held.feature[held.n++] = hit.feature[q];
         return held;

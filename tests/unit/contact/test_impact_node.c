@@ -90,6 +90,25 @@ TEST(a_node_that_is_laid_down_closes_without_an_impact)
     assert_int_equal(s.c.set.ledger.counts.closings, 1);
 }
 
+/* The paper's law with coefficient 0 stops a node that a wind drives from a floor on to a slope of 1 in 1000. What is
+ * left of its speed, 5e-5 m/s along the normal of the slope, is rest; then it stays on what it presses, the slope, and
+ * not on the floor, along which its speed is smaller: there the wind would drive it on to the slope again, without
+ * end. */
+TEST(a_node_that_comes_to_rest_in_a_bend_stays_on_the_side_that_it_presses)
+{
+    const double points[6] = {-8.0, 0.0, 0.0, 0.0, 8.0, 8e-3};
+    dem_obstacle bend = obstacle(3, points, 0.5, 0.0);
+    bend.friction_law = DEM_FRICTION_PAPER;
+    CLEANUP(scene_close) scene s;
+    open_node(&s, &bend, 1, 0.1, 0.0);
+    s.acting.gravity[0] = 5.0;
+    scene_put(&s, 0, penetration_tolerance, 0.0, 0.1, 0.0);
+    hit(&s, 0, 2, 1, 0);
+    scene_check(&s, 0, 0.0, 0.0, 0.0, 0.0);
+    assert_int_equal(s.c.set.list[0].n_closed, 1);
+    assert_int_equal(s.c.set.list[0].closed[0].feature, 1);
+}
+
 /* Floor and wall, plastic: driven into both it is held; without a wind the wall does not press and the node stays on
  * the floor alone. */
 TEST(a_corner_takes_both_velocities_and_holds_what_is_pressed_into_it)
