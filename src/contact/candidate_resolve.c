@@ -242,24 +242,39 @@ static dem_status settle_closed(contact_set *c, dem_index k, contact_instant *no
     return settle_other(c, k, now, changed);
 }
 
+/* Changes of a candidate at once: more go on without time advancing. Random decks have 3 at most. */
+enum { most_at_once = 50 };
+
+/* Counts begin anew after the storm time, in another step, and once time has advanced. */
+static void count_up(const contact_set *c, contact_storm *storm, double t)
+{
+    if (t - storm->start > c->scene.rule.storm_time) storm->start = t, storm->n = 0;
+    if (storm->step != c->step) storm->step = c->step, storm->in_step = 0;
+    if (t - storm->last > scene_instant(&c->scene, t)) storm->at_once = 0;
+    storm->last = t;
+    storm->n++, storm->in_step++, storm->at_once++;
+}
+
 /* Counts a change of a candidate. One with more than most_in_step of them in a step asks for a shorter step, as those
- * that follow each other so fast are often due to the error of a long one. One with more than max_impacts within
- * storm_time is an error in any case: it would go on without time advancing. */
+ * that follow each other so fast are often due to the error of a long one. One with more than most_at_once at once, or
+ * with more than max_impacts within storm_time, is an error in any case. */
 static dem_status count(const contact_set *c, contact_candidate *candidate, const contact_instant *now)
 {
     const contact_rule *rule = &c->scene.rule;
-    contact_storm *storm = &candidate->storm;
+    const contact_storm *storm = &candidate->storm;
     const char *kind = candidate_is_edge(candidate) ? "the edge from node" : "node";
     const vec2 place = vec2_at(now->x, candidate->node);
-    if (now->t - storm->start > rule->storm_time) storm->start = now->t, storm->n = 0;
-    if (storm->step != c->step) storm->step = c->step, storm->in_step = 0;
-    storm->n++, storm->in_step++;
+    count_up(c, &candidate->storm, now->t);
     CHECK(storm->n <= rule->max_impacts, DEM_ERROR_CONTACT,
           "%s %lld at (%g, %g) m had more than %lld contact events within %g s, at t = %.9g s", kind,
           (long long)candidate->node, place.x, place.y, (long long)rule->max_impacts, rule->storm_time, now->t);
     CHECK(rule->most_in_step == 0 || storm->in_step <= rule->most_in_step, DEM_ERROR_CONTACT,
           "%s %lld at (%g, %g) m had more than %lld contact events in a step, at t = %.9g s", kind,
           (long long)candidate->node, place.x, place.y, (long long)rule->most_in_step, now->t);
+    CHECK(storm->at_once <= most_at_once, DEM_ERROR_CONTACT,
+          "%s %lld at (%g, %g) m had more than %d contact events at once, at t = %.9g s: a larger 'rest_speed' may end "
+          "them",
+          kind, (long long)candidate->node, place.x, place.y, most_at_once, now->t);
     return DEM_OK;
 }
 

@@ -88,6 +88,7 @@ static void forget(contact_candidate *candidate)
     *candidate = candidate_reset(candidate);
     candidate->behind[0] = candidate->behind[1] = -1;
     candidate->is_new = false;
+    candidate->storm = (contact_storm){0};
 }
 
 static void restore(contact_candidate *candidate, const candidate_entry *e)

@@ -34,12 +34,14 @@ typedef struct contact_clearance {
     double distance;    /* m, the distance then */
 } contact_clearance;
 
-/** Counts a candidate's changes in a short time and in a step, which are limited. */
+/** Counts a candidate's changes in a short time, in a step and at once, which are limited. */
 typedef struct contact_storm {
     double start;      /* s */
     dem_index n;       /* changes since then */
     double step;       /* s, contact_set.step when it changed last */
     dem_index in_step; /* changes in that step */
+    double last;       /* s, when it changed last */
+    dem_index at_once; /* changes until then, none an instant after the one before */
 } contact_storm;
 
 /** A node, or an edge from node to other, that may touch. */

@@ -5,18 +5,15 @@
  * impact_group.c. */
 #include "contact/impact_target.h"
 
-#include <float.h>
-
-/* m. An event is located to 100 eps (t + h) s; the way in ten times that is allowed beyond twice the penetration
- * tolerance, and the furthest that a projection after a step has moved a node. */
+/* m. The way in an instant is allowed beyond twice the penetration tolerance, and the furthest that a projection after
+ * a step has moved a node. */
 double impact_target_depth(const contact_set *c, dem_index k, const contact_instant *now)
 {
     const contact_candidate *candidate = &c->list[k];
-    const double located = 1000.0 * DBL_EPSILON * (fabs(now->t) + c->scene.rule.max_step);
     const double speed = vec2_norm(vec2_at(now->v, candidate->node));
     const double other = candidate_is_edge(candidate) ? vec2_norm(vec2_at(now->v, candidate->other)) : 0.0;
     return 2.0 * c->scene.rule.penetration_tolerance + c->projected +
-           located * (fmax(speed, other) + surface_speed(&c->scene));
+           scene_instant(&c->scene, now->t) * (fmax(speed, other) + surface_speed(&c->scene));
 }
 
 /* A node that may hit several segments. */

@@ -3,6 +3,9 @@
 #ifndef DEM_CONTACT_SCENE_H
 #define DEM_CONTACT_SCENE_H
 
+#include <float.h>
+#include <math.h>
+
 #include "base/state.h"
 #include "base/team.h"
 #include "forces/forces.h"
@@ -33,6 +36,12 @@ typedef struct contact_scene {
 static inline double scene_margin(const contact_scene *scene)
 {
     return 10.0 * scene->rule.penetration_tolerance;
+}
+
+/** Time within which events count as one in time, s: ten times the 100 eps (t + h) to which one is located. */
+static inline double scene_instant(const contact_scene *scene, double t)
+{
+    return 1000.0 * DBL_EPSILON * (fabs(t) + scene->rule.max_step);
 }
 
 /** A state for which contacts are computed: the nodes' positions and velocities [n][2] at a time. */

@@ -434,6 +434,19 @@ TEST(too_many_changes_of_one_candidate_in_a_step_ask_for_a_shorter_one)
     assert_message_parts("node 0 * (0.5, 0) m * 2 contact events in a step * t = 4.2 s");
 }
 
+/* 50 changes are made at 0.5 s, where events are located to 1e-14 s. An instant later all begins anew. */
+TEST(too_many_changes_of_one_candidate_at_once_are_an_error)
+{
+    CLEANUP(scene_close) scene s;
+    open_scene(&s, 1, &half, 1);
+    for (int k = 0; k < 101; k++) {
+        s.n_events = s.n_impacts = 0;
+        scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0);
+        assert_int_equal(scene_resolve(&s, k < 50 ? 0.5 : 0.5 + 1e-11), k < 100 ? DEM_OK : DEM_ERROR_CONTACT);
+    }
+    assert_message_parts("node 0 * (0.5, 0) m * 50 contact events at once, at t = 0.5 s");
+}
+
 TEST(a_vertex_found_deep_inside_a_body_is_an_error)
 {
     CLEANUP(scene_close) scene s;
