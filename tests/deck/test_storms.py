@@ -48,6 +48,18 @@ SHAKEN_FLOOR = """&run t_end=1e-3, gravity=126,-530 /
 &solver {solver} /
 &output name='s' /
 """
+# A node that the paper's law stops in each bend of 0.03 degrees, and that forces press on along the next segment.
+DISC_IN_A_BEND = """&run t_end=8.19396940e-5, gravity=23438.5621,-141866.927 /
+&material name='m', youngs_modulus=549451084.7, density=6249.11777, thickness=0.0751481 /
+&body shape='disc', radius=0.0033424167935258474, spacing=0.0012481294226268271, material='m', clearance=0,
+  position=0.0018511125305814568,0.006687440814977532 /
+&obstacle points=-0.020054500761155086,0, -0.006016350228346525,0.003285495163281329,
+  0.008021800304462035,-0.0031900795367687915, 0.020054500761155086,0, profile='smooth', restitution=0.5,
+  resolution=0.0005277500200303969, friction_law='paper', friction=0 /
+&contact penetration_tolerance=4.0285940446212765e-10 /
+&solver method='verlet' /
+&output name='s' /
+"""
 
 
 def run(deck, method):
@@ -98,6 +110,10 @@ class Storms(unittest.TestCase):
                 self.assertLess(found["events"], 100)
                 for name in ("friction", "impact"):
                     self.assertAlmostEqual(found["energy"][name] / exact["energy"][name], 1, delta=error)
+
+    def test_a_node_stays_on_the_side_of_a_bend_that_it_presses(self):
+        for method in ("local", "exact"):
+            self.assertLess(self.check_end(DISC_IN_A_BEND, method)["events"], 10)
 
     def test_with_the_guard_it_does_not_fold(self):
         for bodies in ("none", "all"):
