@@ -7,6 +7,7 @@ import random
 
 import deck_bodies
 import deck_grounds
+import deck_laws
 import deck_motions
 
 METHODS = ["dopri45", "cashkarp45", "zonneveld34", "bs23", "heun12", "sayfyaburub34", "ark23", "ark34", "ark34b",
@@ -55,7 +56,15 @@ class Deck:
     motions: list = dataclasses.field(default_factory=list)  # keys of each obstacle
     is_crowd: bool = False  # of several bodies that touch each other
     rubs: bool = False  # with friction of surfaces, not only of nodes on obstacles
+    breaks: bool = False  # of a material that may break
+    is_rigid: bool = False  # has a body that is
+    rests: bool = False  # quasi-static
     damping_time: float = 0.0  # s, the longest of the materials of a crowd
+
+    def write(self, folder):
+        (folder / "deck.nml").write_text(self.text, encoding="ascii")
+        for name, text in self.files.items():
+            (folder / name).write_text(text, encoding="ascii")
 
 
 def spell(value):
@@ -263,5 +272,6 @@ def random_deck(seed, is_moving=False):
     parts += [("contact", deck.contact), ("solver", deck.solver), ("output", output(dice, t_end))]
     if dice.chance(0.2):
         parts += [("probe", keys) for keys in probes(dice, bodies[0], a)]
+    deck_laws.add(Dice, deck, parts, bodies, modulus, speed)
     deck.text = "\n".join(write(group, keys) for group, keys in parts)
     return deck

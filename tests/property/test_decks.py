@@ -17,6 +17,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 try:
+    import deck_clock
     import deck_crowd
     import deck_judge
     import deck_maker
@@ -33,7 +34,7 @@ class Census:
     """How many decks ended how, the worst of each measure with its deck, and what was covered."""
 
     def __init__(self):
-        self.ends = {"ran": 0, "refused": 0, "stopped at an overlap": 0}
+        self.ends = {"ran": 0, "refused": 0, "stopped at an overlap": 0, "not at rest": 0}
         self.worst = {}
         self.sums = {}
 
@@ -43,8 +44,11 @@ class Census:
             self.worst[name] = (value, share, seed)
 
     def count(self, result):
-        for name in ("impacts", "vertex_impacts", "early", "closings", "releases", "slips", "sticks", "passings"):
+        for name in ("impacts", "vertex_impacts", "early", "closings", "releases", "slips", "sticks", "passings",
+                     "breaks"):
             self.sums[name] = self.sums.get(name, 0) + result[name]
+        for name, is_so in (("broken", result["breaks"] > 0), ("rigid", len(result["rigid"]) > 0)):
+            self.sums[name] = self.sums.get(name, 0) + is_so
         self.sums["touching"] = self.sums.get("touching", 0) + (result["events"] > 0)
 
     def print(self, number, n_faulty):
@@ -56,15 +60,15 @@ class Census:
 
 
 def run_deck(program, deck, folder):
-    """Exit code, result or None, standard error."""
-    (folder / "deck.nml").write_text(deck.text, encoding="ascii")
-    for name, text in deck.files.items():
-        (folder / name).write_text(text, encoding="ascii")
+    """Exit code, result or None, standard error, seconds of the processor."""
+    deck.write(folder)
     (folder / "out").mkdir()
+    before = deck_clock.seconds_of_children()
     done = subprocess.run([program, "--outdir", "out", "deck.nml"], cwd=folder, stdin=subprocess.DEVNULL,
                           capture_output=True, text=True, timeout=SECONDS, check=False)
+    seconds = deck_clock.seconds_of_children() - before
     results = [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
-    return done.returncode, results[0] if len(results) == 1 else None, done.stderr
+    return done.returncode, results[0] if len(results) == 1 else None, done.stderr, seconds
 
 
 def judge_refusal(stderr, folder):
@@ -72,10 +76,13 @@ def judge_refusal(stderr, folder):
     return faults + [f"a refusal wrote {path.name}" for path in (folder / "out").iterdir()]
 
 
-def judge_run(deck, result, folder, census):
+def judge_run(deck, result, seconds, folder, census, clock):
     run = deck_judge.Run(folder / "out" / "deck.vtkhdf")
     census.count(result)
-    faults = [] if result["t"] == result["t_end"] else [f"ended at {result['t']} s of {result['t_end']} s"]
+    if deck_clock.is_of_steps(deck, run):
+        clock.note(deck, seconds, result, len(run.lattice["mass"]), len(run.times))
+    early = result["t"] != result["t_end"] and not deck.rests
+    faults = [f"ended at {result['t']} s of {result['t_end']} s"] if early else []
     if not deck_judge.is_finite(run):
         return faults + ["something is not finite"]
     census.sums["contacts of bodies"] = census.sums.get("contacts of bodies", 0) + (run.history["contact"].max() > 0.0)
@@ -90,23 +97,26 @@ def judge_run(deck, result, folder, census):
     return faults
 
 
-def judge(program, deck, folder, census):
+def judge(program, deck, folder, census, clock):
     """What is wrong with the deck's run."""
     try:
-        code, result, stderr = run_deck(program, deck, folder)
+        code, result, stderr, seconds = run_deck(program, deck, folder)
     except subprocess.TimeoutExpired:
         return [f"no end within {SECONDS} s"]
     if result is None or result["exit_code"] != code:
         return [f"exit code {code} without its result", stderr]
     if code == 0:
         census.ends["ran"] += 1
-        return judge_run(deck, result, folder, census)
+        return judge_run(deck, result, seconds, folder, census, clock)
     if code == 3:
         census.ends["refused"] += 1
         print(f"seed {deck.seed}: {stderr.strip()}")
         return judge_refusal(stderr, folder)
     if code == 4 and deck.contact.get("overlap") == "stop" and "overlap" in result:
         census.ends["stopped at an overlap"] += 1
+        return []
+    if code == 4 and deck.rests and "not at rest" in result["message"]:
+        census.ends["not at rest"] += 1
         return []
     return [f"exit code {code}", stderr]
 
@@ -115,22 +125,36 @@ def make(seed, options):
     return deck_crowd.random_crowd(seed) if options.crowds else deck_maker.random_deck(seed, options.moving)
 
 
-def try_seed(program, deck, census):
-    """Whether the deck is right; else it is printed."""
-    with tempfile.TemporaryDirectory(dir=MEMORY) as name:
-        faults = judge(program, deck, pathlib.Path(name), census)
-    if not faults:
-        return True
+def show(deck, faults):
     print(f"seed {deck.seed} is wrong: " + "; ".join(faults) + f"\n---- deck.nml\n{deck.text}")
     for name, text in deck.files.items():
         print(f"---- {name}\n{text}")
     print("----", flush=True)
-    return False
+
+
+def try_seed(program, deck, census, clock):
+    """Whether the deck is right; else it is printed."""
+    with tempfile.TemporaryDirectory(dir=MEMORY) as name:
+        faults = judge(program, deck, pathlib.Path(name), census, clock)
+    if faults:
+        show(deck, faults)
+    return not faults
+
+
+def try_times(clock, census):
+    """How many decks take over 3 times as long as the others for step, stage and node."""
+    n_slow = 0
+    for deck, times in clock.slow():
+        census.measure("times as slow", times, times / 3.0, deck.seed)
+        if times > 3.0:
+            show(deck, [f"takes {times:.3g} times what others do for step, stage and node, at most 3 is right"])
+            n_slow += 1
+    return n_slow
 
 
 # What a deck is to have at least, on the average: a third to a half of what was found.
 LEAST = {"touching": 0.4, "impacts": 5.0, "vertex_impacts": 0.3, "early": 0.05, "closings": 0.3, "releases": 0.1,
-         "slips": 0.03, "sticks": 0.1, "passings": 0.01}
+         "slips": 0.03, "sticks": 0.1, "passings": 0.01, "broken": 0.04, "rigid": 0.02}
 LEAST_OF_CROWDS = {"contacts of bodies": 0.3, "touching": 0.05, "impacts": 4.0}
 
 
@@ -152,9 +176,12 @@ def main():
     parser.add_argument("--moving", action="store_true", help="obstacles that move")
     parser.add_argument("--crowds", action="store_true", help="2 to 12 bodies that touch each other")
     options = parser.parse_args()
+    os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # threads that wait are no work
     program, census = os.path.abspath(options.program), Census()
+    clock = deck_clock.Clock(program)
     seeds = range(options.seed, options.seed + options.number)
-    n_faulty = sum(not try_seed(program, make(seed, options), census) for seed in seeds)
+    n_faulty = sum(not try_seed(program, make(seed, options), census, clock) for seed in seeds)
+    n_faulty += try_times(clock, census)
     census.print(options.number, n_faulty)
     missing = shortfalls(census, options.number, options.crowds)
     for line in missing:
