@@ -9,41 +9,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ask.h"
-
 static const double spacing = CLAMPED_STRIP_SPACING, nu = 1.0 / 3.0;
-enum { HIGH = 50, CUT = 40, MOST = 1600 }; /* spacings; places of the crack's tip */
+enum { CUT = 40, MOST = 1600 }; /* spacings; places of the crack's tip */
 
 typedef struct speed_case {
     bool by_stretch;
-    double g;    /* G over E limit^2 a */
-    double wide; /* spacings */
+    double g;          /* G over E limit^2 a */
+    double wide, high; /* spacings, the second of whole rows */
     double expected, tolerance;
 } speed_case;
 
 typedef struct running {
     support_run run;
-    const dem_lattice *lattice;
     double cut, end; /* m, where the crack starts, and the strip ends */
-    unsigned char *broken;
     dem_index n;
     double t[MOST], tip[MOST]; /* s, m: when the crack has come how far */
 } running;
 
 /* Until 70 % of the way from the cut to the end. */
-static dem_status note(void *context, const dem_simulation *s)
+static dem_status note(void *context, const dem_simulation *s, const dem_break *what)
 {
     running *p = context;
-    double tip = p->n > 0 ? p->tip[p->n - 1] : p->cut;
-    const double before = tip;
-    assert_ok(dem_simulation_broken(s, p->broken, NULL));
-    for (dem_index t = 0; t < p->lattice->n_triangles; t++)
-        if (p->broken[t]) tip = fmax(tip, clamped_strip_centre(p->lattice, t, 0));
-    if (tip == before) return DEM_OK;
+    (void)s;
+    if (what->x[0] <= (p->n > 0 ? p->tip[p->n - 1] : p->cut)) return DEM_OK;
     assert_true(p->n < MOST);
-    p->t[p->n] = ask_state(s).t;
-    p->tip[p->n++] = tip;
-    return tip - p->cut >= 0.7 * (p->end - p->cut) ? DEM_STOPPED : DEM_OK;
+    p->t[p->n] = what->t;
+    p->tip[p->n++] = what->x[0];
+    return what->x[0] - p->cut >= 0.7 * (p->end - p->cut) ? DEM_STOPPED : DEM_OK;
+}
+
+/* Between the first places past 20 and 70 % of the way. */
+static double between_ends(const running *p)
+{
+    dem_index first = 0;
+    while (p->tip[first] - p->cut < 0.2 * (p->end - p->cut)) first++;
+    return (p->tip[p->n - 1] - p->tip[first]) / (p->t[p->n - 1] - p->t[first]);
 }
 
 /* The slope of the tip over time from 20 % of its way on, least squares. */
@@ -62,10 +62,10 @@ static double slope(const running *p)
 }
 
 /* Over c_R. */
-static double speed(const speed_case *k)
+static double speed(const speed_case *k, double (*measure)(const running *))
 {
     const dem_material solid = clamped_strip_material(k->by_stretch, nu);
-    CLEANUP(dem_lattice_free) dem_lattice l = support_rectangle(k->wide * spacing, HIGH * spacing, spacing, &solid);
+    CLEANUP(dem_lattice_free) dem_lattice l = support_rectangle(k->wide * spacing, k->high * spacing, spacing, &solid);
     CLEANUP(clamped_strip_free) clamped_strip strip = clamped_strip_of(&l);
     running *p = calloc(1, sizeof *p);
     dem_boundary hold[2];
@@ -80,44 +80,40 @@ static double speed(const speed_case *k)
     options.n_boundaries = 2;
     options.boundaries = hold;
     support_open(&p->run, &l, NULL, 0, &options);
-    p->lattice = dem_model_lattice(p->run.model);
-    p->cut = strip.begin + CUT * spacing;
+    p->cut = strip.begin + (CUT + 0.25) * spacing;
     p->end = strip.end;
-    p->broken = calloc((size_t)l.n_triangles, 1);
-    assert_non_null(p->broken);
-    const dem_observer observer = {.struct_size = sizeof observer, .step = note, .context = p};
+    const dem_observer observer = {.struct_size = sizeof observer, .broken = note, .context = p};
     assert_ok(dem_simulation_observe(p->run.simulation, &observer));
-    clamped_strip_cut(&strip, p->run.simulation, p->lattice, strip.begin, p->cut);
+    clamped_strip_cut(&strip, p->run.simulation, &l, strip.begin, p->cut);
     assert_int_equal(dem_simulation_advance(p->run.simulation, k->wide * spacing / (0.3 * CLAMPED_STRIP_SPEED)),
                      DEM_STOPPED);
-    const double found = slope(p);
+    const double found = measure(p);
     support_close(&p->run);
-    free(p->broken);
     free(p);
     return found / (0.9194 * sqrt(3.0 / 8.0) * CLAMPED_STRIP_SPEED);
 }
 
-static void check(const speed_case *list, size_t n)
+static void check(const speed_case *list, size_t n, double (*measure)(const running *))
 {
     for (size_t j = 0; j < n; j++) {
-        const double found = speed(&list[j]);
+        const double found = speed(&list[j], measure);
         print_message("# %s, G = %.1f: %.4f\n", list[j].by_stretch ? "stretch" : "stress", list[j].g, found);
         assert_close(found, list[j].expected, list[j].tolerance);
         assert_true(found < 1.0);
     }
 }
 
-/* The speeds are those of another code, which measured them otherwise. Cracks are not at a steady speed here: they have
- * come 56 spacings, and run at 0.77 over the first 25 of them and at 0.85 over the next, under the smallest load. So
- * slopes by least squares and between the ends of the way differ by 0.01, and those over a way that begins and ends 4
- * spacings later by 0.006. Found: 0.844, 0.868, 0.892, 0.940. */
+/* The speeds are those of another code. Cracks are not at a steady speed here: they have come 56 spacings, and run at
+ * 0.77 over the first 25 of them and at 0.85 over the next, under the smallest load. So the strip is as high as that
+ * code's, 57 rows, and the speed is read between the same two places, as the slope of a line by least squares differs
+ * by up to 0.006, and that of a strip of 58 rows by up to 0.003. Found: 0.8401, 0.8621, 0.8958, 0.9414. */
 TEST(cracks_run_below_the_speed_of_rayleigh_waves)
 {
-    const speed_case list[] = {{true, 1.5, 120.0, 0.837, 0.01},
-                               {true, 2.0, 120.0, 0.865, 0.01},
-                               {true, 3.0, 120.0, 0.899, 0.01},
-                               {true, 5.0, 120.0, 0.946, 0.01}};
-    check(list, sizeof list / sizeof *list);
+    const speed_case list[] = {{true, 1.5, 120.0, 49.0, 0.837, 0.005},
+                               {true, 2.0, 120.0, 49.0, 0.865, 0.005},
+                               {true, 3.0, 120.0, 49.0, 0.899, 0.005},
+                               {true, 5.0, 120.0, 49.0, 0.946, 0.005}};
+    check(list, sizeof list / sizeof *list, between_ends);
 }
 
 /* Between 112 and 292 spacings. By stretch a tolerance of a hundredth, a way that begins elsewhere by 4
@@ -126,11 +122,11 @@ TEST(cracks_run_below_the_speed_of_rayleigh_waves)
  * tolerance is two standard errors. That other code has 0.735 and 0.821 in the shorter strip. */
 static void at_a_steady_speed(void **state)
 {
-    const speed_case list[] = {{true, 1.5, 400.0, 0.851, 0.005},  {true, 2.0, 400.0, 0.880, 0.005},
-                               {true, 3.0, 400.0, 0.908, 0.005},  {true, 5.0, 400.0, 0.958, 0.005},
-                               {false, 4.0, 400.0, 0.764, 0.030}, {false, 5.5, 400.0, 0.825, 0.015}};
+    const speed_case list[] = {{true, 1.5, 400.0, 50.0, 0.851, 0.005},  {true, 2.0, 400.0, 50.0, 0.880, 0.005},
+                               {true, 3.0, 400.0, 50.0, 0.908, 0.005},  {true, 5.0, 400.0, 50.0, 0.958, 0.005},
+                               {false, 4.0, 400.0, 50.0, 0.764, 0.030}, {false, 5.5, 400.0, 50.0, 0.825, 0.015}};
     (void)state;
-    check(list, sizeof list / sizeof *list);
+    check(list, sizeof list / sizeof *list, slope);
 }
 
 int main(int argc, char **argv)
