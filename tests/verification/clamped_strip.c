@@ -58,6 +58,15 @@ void clamped_strip_stretch(const clamped_strip *s, dem_lattice *l, double parted
     free(position);
 }
 
+double clamped_strip_long_step(const dem_lattice *l)
+{
+    dem_model *model;
+    assert_ok(dem_model_create(&model, l, NULL, 0));
+    const double step = 1.0 / dem_model_omega_max(model);
+    dem_model_destroy(model);
+    return step;
+}
+
 double clamped_strip_centre(const dem_lattice *l, dem_index triangle, int axis)
 {
     double sum = 0.0;

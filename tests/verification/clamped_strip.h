@@ -39,6 +39,9 @@ void clamped_strip_strengthen(const clamped_strip *s, dem_lattice *l);
 /** Prescribes both sides, which part at `speed`, m/s. Borrows the sides.  \param[out] pull  [2] */
 void clamped_strip_hold(const clamped_strip *s, double speed, dem_boundary *pull);
 
+/** s, half of the longest step of Verlet's method: for what comes to rest, or moves slowly. */
+double clamped_strip_long_step(const dem_lattice *l);
+
 /** The centre of a triangle, m. */
 double clamped_strip_centre(const dem_lattice *l, dem_index triangle, int axis);
 

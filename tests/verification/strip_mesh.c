@@ -25,8 +25,8 @@ dem_lattice strip_mesh_make(double width, double height, const strip_mesh *m)
     assert_ok(smoothing_apply(&out, &l, &s));
     assert_int_equal(out.n_off, 0);
     dem_lattice_move(&l, turn, straight);
-    if (m->jitter > 0.0) assert_ok(dem_lattice_jitter(&l, m->jitter * spacing, 1));
-    if (!m->rows) unstructured_make(&l, spacing, 1);
+    if (m->jitter > 0.0) assert_ok(dem_lattice_jitter(&l, m->jitter * spacing, m->seed));
+    if (!m->rows) unstructured_make(&l, spacing, m->seed);
     shape_free(&s);
     return l;
 }

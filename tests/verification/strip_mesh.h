@@ -8,6 +8,7 @@
 typedef struct strip_mesh {
     double angle, jitter; /* degrees, of the rows; spacings */
     bool rows;            /* false: none */
+    uint64_t seed;        /* of `jitter`, and of meshes without rows */
 } strip_mesh;
 
 /** A triangulation that is so many spacings of clamped_strip.h wide and high. Caller owns it. */

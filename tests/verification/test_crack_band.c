@@ -12,7 +12,7 @@
 #include "strip_mesh.h"
 
 static const double spacing = CLAMPED_STRIP_SPACING, c = CLAMPED_STRIP_SPEED, third = 1.0 / 3.0;
-enum { WIDE = 70, HIGH = 44, CRACK = 22, GONE = 12 }; /* spacings */
+enum { WIDE = 70, HIGH = 44, CRACK = 22, BESIDE = 8 }; /* spacings */
 
 /* Triangles that soften by the mean of their corners' stresses, or by their own, and squares, whose a is 1.075 of their
  * sides: the edge of the equilateral triangle that is half as large. Rows of squares are at 0 or at 45 degrees. */
@@ -21,7 +21,7 @@ typedef enum band_kind { CORNERS, OWN, SQUARES } band_kind;
 /* A lattice knows no length but its spacing: a body at half the spacing is one of twice as many spacings, which takes
  * twice as many strength^2 a/E for the same fracture energy. */
 typedef struct band_case {
-    double size;      /* by which WIDE, HIGH, CRACK, GONE and `toughness` are multiplied */
+    double size;      /* by which lengths and `toughness` are multiplied */
     double toughness; /* G E/(strength^2 a) that is asked for at size 1 */
     bool alone;       /* the fracture energy is given without a strength: triangles are brittle */
     strip_mesh mesh;
@@ -80,12 +80,13 @@ static dem_status note(void *context, const dem_simulation *s, const dem_break *
     return b->tip > b->further ? DEM_STOPPED : DEM_OK;
 }
 
+/* Degrees towards the upper side, of the straight line through what has broken, least squares. */
 static double direction(const band *b)
 {
     return atan((b->n * b->xy - b->x * b->y) / (b->n * b->xx - b->x * b->x)) / M_PI * 180.0;
 }
 
-static void pull(band *b, dem_lattice *l, support_run *run)
+static void pull(band *b, dem_lattice *l, double step, support_run *run)
 {
     dem_options options = dem_options_default();
     dem_boundary sides[2];
@@ -94,6 +95,7 @@ static void pull(band *b, dem_lattice *l, support_run *run)
     clamped_strip_stretch(&b->strip, l, b->start);
     options.gravity[1] = 0.0;
     options.method = DEM_METHOD_VERLET;
+    options.max_step = step;
     options.mass_damping = 2.0 * M_PI * c / b->strip.height;
     options.n_boundaries = 2;
     options.boundaries = sides;
@@ -151,7 +153,7 @@ static double energy_at_rest(const band_case *k, double parted, double crack)
     CLEANUP(dem_lattice_free) dem_lattice l = assemble(k, false);
     CLEANUP(support_close) support_run run;
     band b = {.strip = strip_of(k, &l), .start = parted};
-    pull(&b, &l, &run);
+    pull(&b, &l, 0.0, &run);
     cut(k, &b, run.simulation, &l, b.strip.begin + crack);
     assert_ok(dem_simulation_advance(run.simulation, 12.0 * b.strip.height / (M_PI * c)));
     const dem_energy e = ask_energy(run.simulation);
@@ -170,31 +172,59 @@ static double unit_of(const band_case *k, const clamped_strip *s)
     return CLAMPED_STRIP_MODULUS * pow(CLAMPED_STRIP_LIMIT, 4.0) * edge(k) * 8.0 * step / lost;
 }
 
-/* The load grows by the whole of itself in `slow` 10000 a/c of a strip of size 1.
- * \return what a crack took, over what was asked for */
-static double check_case(const band_case *k, double slow)
+/* Spacings, by which a crack grows: in a mesh without rows it wanders. */
+static double way(const band_case *k)
+{
+    return k->size * (k->mesh.rows ? 12.0 : 24.0);
+}
+
+/* In a mesh without rows what is far from a path stays whole, so that no time is lost with looking at it: within 15
+ * degrees of straight the path ends 6.4 spacings beside the middle. */
+static void strengthen(const band_case *k, const clamped_strip *s, dem_lattice *l)
+{
+    const double end = s->begin + (k->size * (CRACK + BESIDE) + way(k)) * spacing;
+    if (k->kind == SQUARES) clamped_strip_strengthen(s, l); /* teeth would break, too */
+    for (dem_index t = 0; !k->mesh.rows && t < l->n_triangles; t++)
+        if (fabs(clamped_strip_centre(l, t, 1) - s->middle) > BESIDE * k->size * spacing ||
+            clamped_strip_centre(l, t, 0) > end)
+            l->strength[t] *= 1e3;
+}
+
+/* What a crack took, over what was asked for, and where it went. */
+typedef struct grown {
+    double toughness, angle; /* degrees */
+} grown;
+
+/* The load grows by the whole of itself in `slow` 10000 a/c of a strip of size 1. */
+static grown grow(const band_case *k, double slow)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = assemble(k, true);
     CLEANUP(support_close) support_run run;
     band b = {.strip = strip_of(k, &l)};
-    if (k->kind == SQUARES) clamped_strip_strengthen(&b.strip, &l); /* teeth would break, too */
+    strengthen(k, &b.strip, &l);
     const double unit = unit_of(k, &b.strip), crack = b.strip.begin + k->size * CRACK * spacing;
     const double parted = b.strip.height * sqrt(asked(k) * unit),
                  last = slow * (k->alone ? 20000.0 : 10000.0) * k->size * spacing / c;
     b.tip = b.strip.begin;
     b.nearer = crack + 3.0 * k->size * spacing;
-    b.further = crack + GONE * k->size * spacing;
-    b.start = 0.9 * parted;
+    b.further = crack + way(k) * spacing;
+    b.start = (k->mesh.rows ? 0.9 : 0.96) * parted;
     b.speed = parted / last;
-    pull(&b, &l, &run);
+    pull(&b, &l, k->mesh.rows ? 0.0 : clamped_strip_long_step(&l), &run);
     cut(k, &b, run.simulation, &l, crack);
     assert_int_equal(dem_simulation_advance(run.simulation, last), DEM_STOPPED);
     const double found = b.gone * b.gone / (b.strip.height * b.strip.height) / unit;
-    assert_close(found, asked(k), k->tolerance * asked(k));
-    assert_true(fabs(direction(&b)) < k->most_angle);
     clamped_strip_free(&b.strip);
-    print_message("# %.2f for %.2f: %.4f\n", found, asked(k), found / asked(k));
-    return found / asked(k);
+    print_message("# %.2f for %.2f: %.4f; %.1f degrees\n", found, asked(k), found / asked(k), direction(&b));
+    return (grown){found / asked(k), direction(&b)};
+}
+
+static grown check_case(const band_case *k, double slow)
+{
+    const grown g = grow(k, slow);
+    assert_close(g.toughness, 1.0, k->tolerance);
+    assert_true(fabs(g.angle) < k->most_angle);
+    return g;
 }
 
 static void check(const band_case *list, size_t n)
@@ -208,18 +238,18 @@ static void check(const band_case *list, size_t n)
  * */
 TEST(a_crack_takes_the_fracture_energy)
 {
-    const band_case list[] = {{1.0, softened(2.0), false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {1.0, softened(3.0), false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
+    const band_case list[] = {{1.0, softened(2.0), false, {0.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(3.0), false, {30.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third}};
     const double slowly[] = {0.960, 0.982};
     for (int k = 0; k < 2; k++)
-        assert_close(2.0 * check_case(&list[k], 1.0) - check_case(&list[k], 0.5), slowly[k], 0.004);
+        assert_close(2.0 * check_case(&list[k], 1.0).toughness - check_case(&list[k], 0.5).toughness, slowly[k], 0.004);
 }
 
 /* Found: 0.958, 0.917 of what was asked for: a crack of 11 spacings is short. */
 TEST(a_crack_takes_the_fracture_energy_at_twice_the_spacing)
 {
-    const band_case list[] = {{0.5, 3.4, true, {0.0, 0.0, true}, 1.5, 0.10, CORNERS, third},
-                              {0.5, 8.4, false, {0.0, 0.0, true}, 1.5, 0.10, CORNERS, third}};
+    const band_case list[] = {{0.5, 3.4, true, {0.0, 0.0, true, 1}, 1.5, 0.10, CORNERS, third},
+                              {0.5, 8.4, false, {0.0, 0.0, true, 1}, 1.5, 0.10, CORNERS, third}};
     check(list, sizeof list / sizeof *list);
 }
 
@@ -227,10 +257,10 @@ TEST(a_crack_takes_the_fracture_energy_at_twice_the_spacing)
  * asked for; at rest a brittle crack of twice as many spacings needs 3.51 instead of 3.40, too (test_strip.c). */
 static void at_finer_spacings(void **state)
 {
-    const band_case list[] = {{1.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {2.0, 3.4, true, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {1.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {2.0, 8.4, false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
+    const band_case list[] = {{1.0, 3.4, true, {0.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {2.0, 3.4, true, {0.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {1.0, 8.4, false, {0.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {2.0, 8.4, false, {0.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -241,10 +271,10 @@ static void at_finer_spacings(void **state)
  * they are. So the coarse strip is 44 spacings high here. Found: 1.030, 1.034; 1.032, 0.982. */
 static void of_turned_rows_at_finer_spacings(void **state)
 {
-    const band_case list[] = {{1.0, 4.2, false, {15.0, 0.0, true}, 1.5, 0.10, CORNERS, third},
-                              {1.0, 4.2, false, {30.0, 0.0, true}, 1.5, 0.10, CORNERS, third},
-                              {2.0, 4.2, false, {15.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {2.0, 4.2, false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
+    const band_case list[] = {{1.0, 4.2, false, {15.0, 0.0, true, 1}, 1.5, 0.10, CORNERS, third},
+                              {1.0, 4.2, false, {30.0, 0.0, true, 1}, 1.5, 0.10, CORNERS, third},
+                              {2.0, 4.2, false, {15.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {2.0, 4.2, false, {30.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -253,39 +283,71 @@ static void of_turned_rows_at_finer_spacings(void **state)
  * were brittle is off straight by 1.9 degrees at q = 6, by 0.3 at 2. */
 static void of_regular_meshes(void **state)
 {
-    const band_case list[] = {{1.0, softened(2.0), false, {15.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {1.0, softened(2.0), false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {1.0, softened(3.0), false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {1.0, softened(6.0), false, {0.0, 0.0, true}, 1.5, 0.05, CORNERS, third},
-                              {1.0, softened(6.0), false, {15.0, 0.0, true}, 2.5, 0.05, CORNERS, third},
-                              {1.0, softened(6.0), false, {30.0, 0.0, true}, 1.5, 0.05, CORNERS, third}};
+    const band_case list[] = {{1.0, softened(2.0), false, {15.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(2.0), false, {30.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(3.0), false, {0.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(6.0), false, {0.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third},
+                              {1.0, softened(6.0), false, {15.0, 0.0, true, 1}, 2.5, 0.05, CORNERS, third},
+                              {1.0, softened(6.0), false, {30.0, 0.0, true, 1}, 1.5, 0.05, CORNERS, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
 
-/* Found: 5.26, 5.07 (5.21). */
-static void of_irregular_meshes(void **state)
+/* Found: 5.26 (5.21). */
+static void of_jitter(void **state)
 {
-    const band_case list[] = {{1.0, softened(3.0), false, {15.0, 0.25, true}, 1.5, 0.05, CORNERS, third},
-                              {1.0, softened(3.0), false, {0.0, 0.0, false}, 6.0, 0.05, CORNERS, third}};
+    const band_case k = {1.0, softened(3.0), false, {15.0, 0.25, true, 1}, 1.5, 0.05, CORNERS, third};
     (void)state;
-    check(list, sizeof list / sizeof *list);
+    (void)check_case(&k, 1.0);
+}
+
+/* Steps a quarter as long do the same to four digits for the first two seeds. */
+static grown check_without_rows(uint64_t seed)
+{
+    const band_case k = {1.0, softened(3.0), false, {0.0, 0.0, false, seed}, 15.0, 0.12, CORNERS, third};
+    return check_case(&k, 0.5);
+}
+
+/* Found: 1.035 of what was asked for, -2.5 degrees. */
+TEST(a_crack_in_a_mesh_without_rows_takes_about_the_fracture_energy)
+{
+    (void)check_without_rows(1);
+}
+
+/* Each wanders, by 4.8 degrees in the root of the mean square and by 11 at most, and to no side in the mean. Found:
+ * 0.948 to 1.096 of what was asked for, 28 of 32 within 5 %, in the mean 1.005 +- 0.007; 1.2 +- 0.8 degrees to the
+ * left. */
+static void of_meshes_without_rows(void **state)
+{
+    enum { SEEDS = 32 };
+    double toughness = 0.0, angle = 0.0, square = 0.0;
+    (void)state;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+        const grown g = check_without_rows(seed);
+        toughness += g.toughness / SEEDS;
+        angle += g.angle / SEEDS;
+        square += g.angle * g.angle / SEEDS;
+    }
+    const double error = sqrt((square - angle * angle) / (SEEDS - 1));
+    print_message("# mean %.4f, %.2f +- %.2f degrees\n", toughness, angle, error);
+    assert_close(toughness, 1.0, 0.05);
+    assert_true(fabs(angle) < 1.5 && error < 1.0);
 }
 
 /* Where their own stress lets triangles soften irregular meshes take what is asked to 13 %, and cracks keep to what is
  * left of rows. Found: 2.73 (3.08). */
 TEST(a_crack_takes_about_the_fracture_energy_by_the_stress_of_elements)
 {
-    const band_case list[] = {{1.0, softened_by_own(6.0), false, {0.0, 0.25, true}, 1.5, 0.13, OWN, third}};
+    const band_case list[] = {{1.0, softened_by_own(6.0), false, {0.0, 0.25, true, 1}, 1.5, 0.13, OWN, third}};
     check(list, sizeof list / sizeof *list);
 }
 
 /* Found: 2.87, 3.32 (3.08), 5.57 (5.96); 15.5, 9.2, 15.5 degrees off straight. */
 static void of_own_stress(void **state)
 {
-    const band_case list[] = {{1.0, softened_by_own(6.0), false, {15.0, 0.25, true}, 17.0, 0.13, OWN, third},
-                              {1.0, softened_by_own(6.0), false, {30.0, 0.25, true}, 17.0, 0.13, OWN, third},
-                              {1.0, softened_by_own(12.0), false, {15.0, 0.25, true}, 17.0, 0.13, OWN, third}};
+    const band_case list[] = {{1.0, softened_by_own(6.0), false, {15.0, 0.25, true, 1}, 17.0, 0.13, OWN, third},
+                              {1.0, softened_by_own(6.0), false, {30.0, 0.25, true, 1}, 17.0, 0.13, OWN, third},
+                              {1.0, softened_by_own(12.0), false, {15.0, 0.25, true, 1}, 17.0, 0.13, OWN, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -295,22 +357,22 @@ static void of_own_stress(void **state)
  * Found: 0.961 of what was asked for. */
 TEST(a_crack_through_squares_takes_about_the_fracture_energy)
 {
-    const band_case list[] = {{1.0, of_squares(3.0), false, {0.0, 0.0, true}, 1.5, 0.05, SQUARES, third}};
+    const band_case list[] = {{1.0, of_squares(3.0), false, {0.0, 0.0, true, 1}, 1.5, 0.05, SQUARES, third}};
     check(list, sizeof list / sizeof *list);
 }
 
 /* Found: 0.945, 1.059, 0.970, 0.893, 0.885, 0.949, 0.898, 0.980, 0.905. */
 static void of_squares_in_two_directions(void **state)
 {
-    const band_case list[] = {{1.0, of_squares(1.0), true, {0.0, 0.0, true}, 1.5, 0.07, SQUARES, third},
-                              {1.0, of_squares(1.0), true, {45.0, 0.0, true}, 1.5, 0.07, SQUARES, third},
-                              {1.0, of_squares(2.0), false, {0.0, 0.0, true}, 1.5, 0.05, SQUARES, third},
-                              {1.0, of_squares(2.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
-                              {1.0, of_squares(3.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third},
-                              {1.0, of_squares(3.0), false, {45.0, 0.0, true}, 1.5, 0.07, SQUARES, 0.2},
-                              {1.0, of_squares(3.0), false, {0.0, 0.0, true}, 1.5, 0.12, SQUARES, 0.45},
-                              {1.0, of_squares(6.0), false, {0.0, 0.0, true}, 1.5, 0.05, SQUARES, third},
-                              {1.0, of_squares(6.0), false, {45.0, 0.0, true}, 1.5, 0.12, SQUARES, third}};
+    const band_case list[] = {{1.0, of_squares(1.0), true, {0.0, 0.0, true, 1}, 1.5, 0.07, SQUARES, third},
+                              {1.0, of_squares(1.0), true, {45.0, 0.0, true, 1}, 1.5, 0.07, SQUARES, third},
+                              {1.0, of_squares(2.0), false, {0.0, 0.0, true, 1}, 1.5, 0.05, SQUARES, third},
+                              {1.0, of_squares(2.0), false, {45.0, 0.0, true, 1}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(3.0), false, {45.0, 0.0, true, 1}, 1.5, 0.12, SQUARES, third},
+                              {1.0, of_squares(3.0), false, {45.0, 0.0, true, 1}, 1.5, 0.07, SQUARES, 0.2},
+                              {1.0, of_squares(3.0), false, {0.0, 0.0, true, 1}, 1.5, 0.12, SQUARES, 0.45},
+                              {1.0, of_squares(6.0), false, {0.0, 0.0, true, 1}, 1.5, 0.05, SQUARES, third},
+                              {1.0, of_squares(6.0), false, {45.0, 0.0, true, 1}, 1.5, 0.12, SQUARES, third}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -319,11 +381,12 @@ int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "long") == 0) {
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_regular_meshes), 1000);
-        test_add(&(struct CMUnitTest)cmocka_unit_test(of_irregular_meshes), 1001);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_jitter), 1001);
         test_add(&(struct CMUnitTest)cmocka_unit_test(at_finer_spacings), 1002);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_turned_rows_at_finer_spacings), 1003);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_own_stress), 1004);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_squares_in_two_directions), 1005);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_meshes_without_rows), 1006);
     }
     return test_run();
 }

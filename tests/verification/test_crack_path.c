@@ -51,6 +51,7 @@ static void open_run(support_run *run, const path *p, dem_lattice *l, double par
     clamped_strip_stretch(&p->strip, l, parted);
     options.gravity[1] = 0.0;
     options.method = DEM_METHOD_VERLET;
+    if (speed == 0.0) options.max_step = clamped_strip_long_step(l); /* it comes to rest */
     options.mass_damping = 2.0 * M_PI * c / p->strip.height;
     options.n_boundaries = 2;
     options.boundaries = pull;
@@ -150,14 +151,19 @@ static double find_next(const path *p, const path_case *k, dem_index *n, dem_ind
 
 /* Drag and inertia let the strip that is pulled break at a G that is higher by 0.003 (found: 0.0024 to 0.0032). A law
  * that is off by a hundredth is off by two of G. */
-static double next_toughness(path *p, const path_case *k)
+static void check_by_itself(path *p, const path_case *k, double at_rest, dem_index next)
+{
+    const double by_itself = pull_until_break(p, k, at_rest, next);
+    assert_close(by_itself * by_itself / (at_rest * at_rest), 1.003, 0.002);
+}
+
+static double next_toughness(path *p, const path_case *k, bool twice)
 {
     const double unit = clamped_strip_unit(&p->strip, k->nu) * p->strip.height * p->strip.height;
     dem_index n, next[2] = {-1, -1};
     relax(p);
     const double at_rest = p->parted / find_next(p, k, &n, next);
-    const double by_itself = pull_until_break(p, k, at_rest, next[0]);
-    assert_close(by_itself * by_itself / (at_rest * at_rest), 1.003, 0.002);
+    if (twice) check_by_itself(p, k, at_rest, next[0]);
     assert_ok(dem_simulation_break(p->rest.simulation, next, n, NULL, 0));
     for (dem_index j = 0; j < n; j++) p->list[p->n++] = next[j];
     return at_rest * at_rest / unit;
@@ -179,35 +185,41 @@ static double direction(const path *p, dem_index n_cut)
     return atan((n * xy - x * y) / (n * xx - x * x)) / M_PI * 180.0;
 }
 
+/* `twice`: what breaks, and when, is found in both ways.  \return the mean toughness of a crack */
+static double grow(const path_case *k, bool twice)
+{
+    path p = {.n = 0};
+    double mean = 0.0;
+    open_path(&p, k);
+    const dem_index n_cut = p.n;
+    for (int b = 0; b < k->most; b++) mean += next_toughness(&p, k, twice) / k->most;
+    const double angle = direction(&p, n_cut);
+    close_path(&p);
+    print_message("# %.3f for %.3f, %.1f degrees\n", mean, k->beta, angle);
+    assert_close(mean, k->beta, k->tolerance * k->beta);
+    assert_true(fabs(angle) < 15.0);
+    return mean;
+}
+
 /* Expected are means over 30 breaks by an independent static code. */
 static void check(const path_case *list, size_t n)
 {
-    for (size_t j = 0; j < n; j++) {
-        const path_case *k = &list[j];
-        path p = {.n = 0};
-        double mean = 0.0;
-        open_path(&p, k);
-        const dem_index n_cut = p.n;
-        for (int b = 0; b < k->most; b++) mean += next_toughness(&p, k) / k->most;
-        assert_close(mean, k->beta, k->tolerance * k->beta);
-        assert_true(fabs(direction(&p, n_cut)) < 15.0);
-        close_path(&p);
-    }
+    for (size_t j = 0; j < n; j++) (void)grow(&list[j], true);
 }
 
 TEST(rows_that_are_turned_hardly_change_the_toughness)
 {
-    const path_case list[] = {{false, 1.0 / 3.0, {15.0, 0.0, true}, 6, 3.51, 0.02}};
+    const path_case list[] = {{false, 1.0 / 3.0, {15.0, 0.0, true, 1}, 6, 3.51, 0.02}};
     check(list, sizeof list / sizeof *list);
 }
 
 static void of_turned_rows(void **state)
 {
-    const path_case list[] = {{false, 1.0 / 3.0, {0.0, 0.0, true}, 30, 3.40, 0.02},
-                              {false, 1.0 / 3.0, {15.0, 0.0, true}, 30, 3.51, 0.02},
-                              {false, 1.0 / 3.0, {30.0, 0.0, true}, 30, 3.52, 0.02},
-                              {false, 0.0, {15.0, 0.0, true}, 30, 3.51, 0.05},
-                              {false, 0.45, {15.0, 0.0, true}, 30, 3.51, 0.05}};
+    const path_case list[] = {{false, 1.0 / 3.0, {0.0, 0.0, true, 1}, 30, 3.40, 0.02},
+                              {false, 1.0 / 3.0, {15.0, 0.0, true, 1}, 30, 3.51, 0.02},
+                              {false, 1.0 / 3.0, {30.0, 0.0, true, 1}, 30, 3.52, 0.02},
+                              {false, 0.0, {15.0, 0.0, true, 1}, 30, 3.51, 0.05},
+                              {false, 0.45, {15.0, 0.0, true, 1}, 30, 3.51, 0.05}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -215,9 +227,9 @@ static void of_turned_rows(void **state)
 /* By stretch directions differ; found: 1.324, 1.669, 2.924. */
 static void of_stretch(void **state)
 {
-    const path_case list[] = {{true, 1.0 / 3.0, {0.0, 0.0, true}, 30, 1.325, 0.02},
-                              {true, 1.0 / 3.0, {15.0, 0.0, true}, 30, 1.68, 0.02},
-                              {true, 1.0 / 3.0, {30.0, 0.0, true}, 30, 2.93, 0.02}};
+    const path_case list[] = {{true, 1.0 / 3.0, {0.0, 0.0, true, 1}, 30, 1.325, 0.02},
+                              {true, 1.0 / 3.0, {15.0, 0.0, true, 1}, 30, 1.68, 0.02},
+                              {true, 1.0 / 3.0, {30.0, 0.0, true, 1}, 30, 2.93, 0.02}};
     (void)state;
     check(list, sizeof list / sizeof *list);
 }
@@ -225,11 +237,24 @@ static void of_stretch(void **state)
 /* That code has 4.04, 3.77 and 3.68 for its meshes of these kinds. Found are 3.440, 3.502 and 3.508: that of rows. */
 static void of_irregular_meshes(void **state)
 {
-    const path_case list[] = {{false, 1.0 / 3.0, {0.0, 0.25, true}, 30, 3.5, 0.05},
-                              {false, 1.0 / 3.0, {15.0, 0.25, true}, 30, 3.5, 0.05},
-                              {false, 1.0 / 3.0, {0.0, 0.0, false}, 30, 3.5, 0.05}};
+    const path_case list[] = {{false, 1.0 / 3.0, {0.0, 0.25, true, 1}, 30, 3.5, 0.05},
+                              {false, 1.0 / 3.0, {15.0, 0.25, true, 1}, 30, 3.5, 0.05},
+                              {false, 1.0 / 3.0, {0.0, 0.0, false, 1}, 30, 3.5, 0.05}};
     (void)state;
     check(list, sizeof list / sizeof *list);
+}
+
+/* Found: 3.508, 3.735, 3.550, 3.551, 3.582; 7, -6, -8, -3, 2 degrees. */
+static void of_meshes_without_rows(void **state)
+{
+    enum { SEEDS = 5 };
+    double mean = 0.0;
+    (void)state;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
+        const path_case k = {false, 1.0 / 3.0, {0.0, 0.0, false, seed}, 30, 3.5, 0.10};
+        mean += grow(&k, false) / SEEDS;
+    }
+    assert_close(mean, 3.5, 0.05 * 3.5);
 }
 
 int main(int argc, char **argv)
@@ -238,6 +263,7 @@ int main(int argc, char **argv)
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_turned_rows), 1000);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_irregular_meshes), 1001);
         test_add(&(struct CMUnitTest)cmocka_unit_test(of_stretch), 1002);
+        test_add(&(struct CMUnitTest)cmocka_unit_test(of_meshes_without_rows), 1003);
     }
     return test_run();
 }

@@ -132,7 +132,7 @@ static double angle(double spacing, const strip_mesh *mesh)
 /* Found: 60.6, 59.8. */
 TEST(a_crack_beside_an_impact_goes_up_whatever_the_direction_of_the_rows)
 {
-    const strip_mesh meshes[] = {{0.0, 0.0, true}, {15.0, 0.0, true}};
+    const strip_mesh meshes[] = {{0.0, 0.0, true, 1}, {15.0, 0.0, true, 1}};
     for (size_t j = 0; j < sizeof meshes / sizeof *meshes; j++) angle(2e-3, &meshes[j]);
 }
 
@@ -140,7 +140,7 @@ TEST(a_crack_beside_an_impact_goes_up_whatever_the_direction_of_the_rows)
 static void of_five_meshes(void **state)
 {
     const strip_mesh meshes[] = {
-        {0.0, 0.0, true}, {15.0, 0.0, true}, {30.0, 0.0, true}, {0.0, 0.25, true}, {0.0, 0.0, false}};
+        {0.0, 0.0, true, 1}, {15.0, 0.0, true, 1}, {30.0, 0.0, true, 1}, {0.0, 0.25, true, 1}, {0.0, 0.0, false, 1}};
     double least = 90.0, most = 0.0;
     (void)state;
     for (size_t j = 0; j < sizeof meshes / sizeof *meshes; j++) {
