@@ -176,7 +176,6 @@ def main():
     parser.add_argument("--moving", action="store_true", help="obstacles that move")
     parser.add_argument("--crowds", action="store_true", help="2 to 12 bodies that touch each other")
     options = parser.parse_args()
-    os.environ.setdefault("OMP_WAIT_POLICY", "passive")  # threads that wait are no work
     program, census = os.path.abspath(options.program), Census()
     clock = deck_clock.Clock(program)
     seeds = range(options.seed, options.seed + options.number)
