@@ -4,11 +4,16 @@
 
 #include "unit/drivers/batch/logged.h"
 
+/* A deck of a quarter of a second, with what else it has: `name` and `title` stand beside it. */
+#define DECK(...)                                                                                                      \
+    {                                                                                                                  \
+        .path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .measure = true, __VA_ARGS__              \
+    }
+
 TEST(the_preview_tells_what_is_about_to_run)
 {
     char name[] = "drops/drop.nml", title[] = "A title";
-    const deck d = {
-        .path = name, .title = title, .hash = 0xabc, .t_end = 0.25, .frame_interval = 0.01, .measure = true};
+    const deck d = DECK(.hash = 0xabc);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, "there/drop.vtkhdf");
     read_log(l);
@@ -33,7 +38,7 @@ TEST(the_preview_warns_of_a_rest_speed_that_the_penetration_tolerance_keeps_up)
     static const double rest_speed[3] = {0.0, 9.9e-3, 1.01e-2};
     const double x[2] = {0.0, 1.0}, one = 1.0;
     char name[] = "a.nml", title[] = "";
-    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .measure = true};
+    const deck d = DECK(.hash = 0);
     for (int k = 0; k < 3; k++) {
         dem_options options = dem_options_default();
         CLEANUP(free_logged) logged *l = make_logged();
@@ -62,13 +67,7 @@ TEST(the_preview_tells_what_is_probed_and_where)
     dem_probe probes[3] = {{"foot", DEM_PROBE_NODE, {2, 0}, 1},
                            {"strut", DEM_PROBE_SPRING, {1, 0}, 30},
                            {"span", DEM_PROBE_GAUGE, {0, 2}, 1}};
-    const deck d = {.path = name,
-                    .title = title,
-                    .t_end = 0.25,
-                    .frame_interval = 0.01,
-                    .measure = true,
-                    .probes = probes,
-                    .n_probes = 3};
+    const deck d = DECK(.probes = probes, .n_probes = 3);
     CLEANUP(free_logged) logged *l = press(d.t_end);
     const dem_lattice *lattice = dem_model_lattice(l->run.model);
     const double *a = lattice->x + 2 * lattice->ends[2], *b = lattice->x + 2 * lattice->ends[3];
@@ -88,7 +87,7 @@ TEST(the_preview_tells_what_was_measured_of_each_body)
     const dem_material solid =
         SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.1, .density = 1000.0, .thickness = 0.5);
     char name[] = "a.nml", title[] = "";
-    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .measure = true};
+    const deck d = DECK(.hash = 0);
     const double x[2] = {9.0, 9.0}, one = 1.0;
     dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = make_logged();
@@ -117,13 +116,7 @@ TEST(the_preview_tells_the_constants_of_a_slice)
                                      .plane = DEM_PLANE_STRAIN, .density = 1000.0, .thickness = 1.0);
     char name[] = "a.nml", title[] = "";
     body_facts body = {.plane = DEM_PLANE_STRAIN};
-    const deck d = {.path = name,
-                    .title = title,
-                    .t_end = 0.25,
-                    .frame_interval = 0.01,
-                    .measure = true,
-                    .bodies = &body,
-                    .n_bodies = 1};
+    const deck d = DECK(.bodies = &body, .n_bodies = 1);
     dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = make_logged();
     options.v_scale = 1.0;
@@ -143,13 +136,7 @@ TEST(the_preview_tells_the_constants_of_copies_once)
     dem_material soft = solid;
     char name[] = "a.nml", title[] = "";
     body_facts bodies[2] = {{.further = 1}, {.further = 0}};
-    const deck d = {.path = name,
-                    .title = title,
-                    .t_end = 0.25,
-                    .frame_interval = 0.01,
-                    .measure = true,
-                    .bodies = bodies,
-                    .n_bodies = 2};
+    const deck d = DECK(.bodies = bodies, .n_bodies = 2);
     dem_options options = dem_options_default();
     CLEANUP(free_logged) logged *l = make_logged();
     options.v_scale = 1.0;
@@ -188,13 +175,7 @@ TEST(the_preview_tells_how_bodies_came_out)
          .geometry = {.smoothing = {.n_rim = 90, .n_off = 2, .n_cut = 1, .farthest = 0.125}},
          .loose = {.n = 1, .size = {3}}},
     };
-    const deck d = {.path = name,
-                    .title = title,
-                    .t_end = 0.25,
-                    .frame_interval = 0.01,
-                    .measure = true,
-                    .bodies = bodies,
-                    .n_bodies = 2};
+    const deck d = DECK(.bodies = bodies, .n_bodies = 2);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
@@ -227,13 +208,7 @@ TEST(a_long_list_of_bodies_is_cut)
     char name[] = "a.nml", title[] = "";
     body_facts bodies[17];
     for (int k = 0; k < 17; k++) bodies[k] = (body_facts){.mass = 1.0, .true_mass = 2.0};
-    const deck d = {.path = name,
-                    .title = title,
-                    .t_end = 0.25,
-                    .frame_interval = 0.01,
-                    .measure = true,
-                    .bodies = bodies,
-                    .n_bodies = 17};
+    const deck d = DECK(.bodies = bodies, .n_bodies = 17);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
@@ -245,7 +220,7 @@ TEST(a_long_list_of_bodies_is_cut)
 TEST(without_an_output_none_is_reported)
 {
     char name[] = "a.nml", title[] = "";
-    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .measure = true};
+    const deck d = DECK(.hash = 0);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
@@ -282,13 +257,7 @@ TEST(details_are_left_out_unless_they_are_wanted)
 {
     char name[] = "a.nml", title[] = "";
     body_facts body = {.mass = 2.5, .true_mass = 2.5};
-    const deck d = {.path = name,
-                    .title = title,
-                    .t_end = 0.25,
-                    .frame_interval = 0.01,
-                    .measure = true,
-                    .bodies = &body,
-                    .n_bodies = 1};
+    const deck d = DECK(.bodies = &body, .n_bodies = 1);
     for (int verbose = 0; verbose < 2; verbose++) {
         CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
         l->log.verbose = verbose;
@@ -303,7 +272,7 @@ TEST(details_are_left_out_unless_they_are_wanted)
 static void print_header(logged *l)
 {
     char name[] = "a.nml", title[] = "";
-    const deck d = {.path = name, .title = title, .t_end = 0.25, .frame_interval = 0.01, .measure = true};
+    const deck d = DECK(.hash = 0);
     preview_print(&l->log, &d, l->run.simulation, NULL);
     read_log(l);
 }
@@ -389,13 +358,7 @@ TEST(the_short_log_has_parts_and_no_masses_of_bodies)
 {
     char name[] = "a.nml", title[] = "";
     body_facts body = {.mass = 3.0, .true_mass = 4.0, .geometry = {.n_pores = 7}, .loose = {.n = 1, .size = {5}}};
-    const deck d = {.path = name,
-                    .title = title,
-                    .t_end = 0.25,
-                    .frame_interval = 0.01,
-                    .measure = true,
-                    .bodies = &body,
-                    .n_bodies = 1};
+    const deck d = DECK(.bodies = &body, .n_bodies = 1);
     CLEANUP(free_logged) logged *l = drop_node(false, d.t_end);
     l->log.verbose = false;
     preview_print(&l->log, &d, l->run.simulation, NULL);
