@@ -236,7 +236,7 @@ def dissipation_given_back(run, deck):
     of friction between bodies, and of a rigid one on its ground, is of second order in the steps: 4.2e-6 in 1,000
     crowds."""
     limit = 1e-7 * max(1.0, deck.solver.get("rtol", 1e-6) / 1e-5)
-    if deck.rubs or deck.is_rigid:
+    if deck.rubs:
         limit = max(limit, 1e-5)
     return given_back(run, deck), 1e-4 if deck.solver["method"] == "verlet" else limit
 

@@ -79,7 +79,7 @@ def rigid(dice, deck, parts, bodies):
     keys = of(parts, "body")[-1]
     keys["rigid"] = True
     keys.pop("clearance", None)  # it has to start outside of the contact thickness
-    deck.is_rigid = True
+    deck.rubs = True
     solver = of(parts, "solver")[0]
     if len(bodies) == 1 and "fixed_step" not in solver:
         solver.setdefault("max_step", dice.between(0.05, 0.2) * deck.spacing / deck.sound)

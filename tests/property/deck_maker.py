@@ -57,7 +57,6 @@ class Deck:
     is_crowd: bool = False  # of several bodies that touch each other
     rubs: bool = False  # with friction of surfaces, not only of nodes on obstacles
     breaks: bool = False  # of a material that may break
-    is_rigid: bool = False  # has a body that is
     rests: bool = False  # quasi-static
     damping_time: float = 0.0  # s, the longest of the materials of a crowd
 
