@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "wall_clock.h"
 
@@ -23,8 +24,10 @@ static const char usage[] =
     "  --verbose              log all details, too, where else there are about ten lines: bodies, loads, energies, "
     "...\n"
     "  --index N              take only the N-th deck, from 1: for job arrays\n"
+    "  --jobs N               do N decks at once, in processes; what they print comes in the order of the decks\n"
+    "  --json                 print results as lines of JSON on a terminal, too\n"
     "  --overwrite            rename output of another problem that is in the way to NAME.old\n"
-    "  --max-memory GB        refuse what takes more (default: the memory of the machine)\n"
+    "  --max-memory GB        refuse what takes more (default: the memory of the machine, over N of --jobs)\n"
     "  --max-steps N          refuse what takes more (default: 1e10)\n"
     "  --max-disk GB          refuse what takes more (default: what is free)\n"
     "  --max-wall SECONDS     end with a checkpoint, exit code 75; the same command goes on\n"
@@ -82,6 +85,15 @@ static bool parse_index(command *c, const char *number)
     return true;
 }
 
+static bool parse_jobs(command *c, const char *number)
+{
+    const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
+    if (n == 0 || n > 4 || number[n] != '\0' || (c->jobs = strtol(number, NULL, 10)) < 1)
+        return refuse("'--jobs' needs a number from 1 to 9999%s%s", number == NULL ? "" : ", got ",
+                      number == NULL ? "" : number);
+    return true;
+}
+
 static bool parse_seconds(double *out, const char *option, const char *text)
 {
     char *end = NULL;
@@ -119,6 +131,7 @@ static bool set_limit(double *limit, const char *option, const char *number, dou
 
 static bool parse_memory(command *c, const char *number)
 {
+    c->memory_given = true;
     return set_limit(&c->most.memory, "--max-memory", number, 1e9);
 }
 
@@ -135,10 +148,9 @@ static bool parse_disk(command *c, const char *number)
 static const struct {
     const char *word;
     bool (*parse)(command *c, const char *value);
-} options[] = {{"--outdir", parse_outdir},     {"--index", parse_index},
-               {"--set", parse_set},           {"--max-memory", parse_memory},
-               {"--max-steps", parse_steps},   {"--max-disk", parse_disk},
-               {"--max-wall", parse_max_wall}, {"--checkpoint-interval", parse_interval}};
+} options[] = {{"--outdir", parse_outdir}, {"--index", parse_index},       {"--jobs", parse_jobs},
+               {"--set", parse_set},       {"--max-memory", parse_memory}, {"--max-steps", parse_steps},
+               {"--max-disk", parse_disk}, {"--max-wall", parse_max_wall}, {"--checkpoint-interval", parse_interval}};
 
 /* ---- words ---- */
 
@@ -153,7 +165,10 @@ static bool parse_word(command *c, const char *word)
     const struct {
         const char *word;
         bool *set;
-    } flags[] = {{"--overwrite", &c->overwrite}, {"--resume-anyway", &c->resume_anyway}, {"--verbose", &c->verbose}};
+    } flags[] = {{"--overwrite", &c->overwrite},
+                 {"--resume-anyway", &c->resume_anyway},
+                 {"--verbose", &c->verbose},
+                 {"--json", &c->json}};
     for (size_t k = 0; k < sizeof flags / sizeof *flags; k++) {
         if (strcmp(word, flags[k].word) != 0) continue;
         *flags[k].set = true;
@@ -174,6 +189,8 @@ static bool parse_all(command *c, char **argv)
     }
     const bool needs_deck = c->action == COMMAND_RUN || c->action == COMMAND_CHECK || c->action == COMMAND_ECHO;
     if (needs_deck && c->n_decks == 0) return refuse("no deck");
+    c->json = c->json || !c->terminal;
+    if (!c->memory_given) c->most.memory /= (double)c->jobs;
     if (!needs_deck && c->n_decks > 0) return refuse("'%s' takes no deck, got '%s'", word_of(c->action), c->decks[0]);
     return true;
 }
@@ -184,6 +201,8 @@ exit_code command_parse(command *c, int argc, char **argv)
     *c = (command){.action = COMMAND_RUN,
                    .outdir = ".",
                    .most = limit_default(),
+                   .terminal = isatty(STDOUT_FILENO) == 1,
+                   .jobs = 1,
                    .checkpoint_interval = 600.0,
                    .max_wall = (double)INFINITY,
                    .wall_start = wall_clock()};

@@ -2,7 +2,7 @@
 /* The batch driver. Exit codes: README.md. */
 #include <dem/trajectory.h>
 
-#include "cases.h"
+#include "case_pool.h"
 #include "job.h"
 #include "preview.h"
 #include "schema.h"
@@ -10,17 +10,26 @@
 #include "streams.h"
 
 /* One after the other, whatever becomes of each, until one is stopped; the largest code is the worst. */
+static exit_code do_in_turn(const command *c, const cases *all)
+{
+    exit_code worst = EXIT_DONE;
+    for (size_t k = 0; k < all->n; k++) {
+        const exit_code code = worst == EXIT_STOPPED ? job_leave(c, all->paths[k]) : job_do(c, all->paths[k], NULL);
+        if (code > worst) worst = code;
+        (void)fflush(stdout);
+    }
+    return worst;
+}
+
 static exit_code do_all(const command *c)
 {
     outcome found = {0};
     cases all;
     exit_code worst = EXIT_DONE;
-    if (!cases_find(&all, c, &found)) worst = found.code;
-    for (size_t k = 0; k < all.n && found.code == EXIT_DONE; k++) {
-        const exit_code code = worst == EXIT_STOPPED ? job_leave(c, all.paths[k]) : job_do(c, all.paths[k]);
-        if (code > worst) worst = code;
-        (void)fflush(stdout);
-    }
+    if (!cases_find(&all, c, &found))
+        worst = found.code;
+    else
+        worst = c->jobs > 1 ? case_pool_do(c, &all) : do_in_turn(c, &all);
     cases_free(&all);
     return worst;
 }

@@ -296,7 +296,7 @@ static void conclude(job *j)
     if (j->claimed && j->outcome.code == EXIT_DONE) list_files(j);
     if (line == NULL)
         outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
-    else if (!j->log.terminal || j->log.verbose) /* it is for programs */
+    else if (j->command->json)
         (void)fputs(line, stdout);
     free(line);
 }
@@ -310,7 +310,7 @@ static bool is_done(job *j, const char *reason)
     char *line = result_read_done(path, hash);
     output_beside(path, j->path, ".lock");
     if (line != NULL && j->lock.file < 0) lock_clear(path);
-    if (line != NULL) (void)printf("%s: done already, %s\n%s", j->path, reason, line);
+    if (line != NULL) (void)printf("%s: done already, %s\n%s", j->path, reason, j->command->json ? line : "");
     j->reported = line != NULL;
     free(line);
     return j->reported;
@@ -575,9 +575,10 @@ static job new_job(const command *c, const char *path)
                  .wall_start = wall_clock()};
 }
 
-exit_code job_do(const command *c, const char *path)
+exit_code job_do(const command *c, const char *path, volatile double *part)
 {
     job j = new_job(c, path);
+    j.log.part = part;
     const bool good = read_deck(&j);
     if (good && c->action == COMMAND_ECHO) (void)fputs(j.deck.echo, stdout);
     if (good && c->action == COMMAND_CHECK) check(&j);

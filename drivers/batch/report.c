@@ -163,6 +163,7 @@ static void print_way(const report *r, const dem_simulation *simulation, const d
 static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
 {
     const double now = wall_clock(), spent = now - r->wall_start;
+    if (r->log->part != NULL) *r->log->part = fmin(1.0, state->t / r->t_end);
     if (!is_due(r, now, state->t)) return;
     const dem_counts counts = ask_counts(simulation);
     r->wall_shown = now;

@@ -3,6 +3,7 @@
 
 #include <signal.h>
 #include <stddef.h>
+#include <sys/select.h>
 
 static volatile sig_atomic_t end, wanted; /* end: the signal */
 
@@ -15,6 +16,11 @@ static void note_checkpoint(int number)
 {
     (void)number;
     wanted = 1;
+}
+
+static void note_child(int number)
+{
+    (void)number;
 }
 
 static void set(int number, void (*handler)(int))
@@ -52,9 +58,47 @@ const char *signals_end(void)
     }
 }
 
+int signals_end_number(void)
+{
+    return end;
+}
+
 bool signals_checkpoint(void)
 {
     const bool was = wanted != 0;
     wanted = 0;
     return was;
+}
+
+static void block_children(int how)
+{
+    sigset_t children;
+    (void)sigemptyset(&children);
+    (void)sigaddset(&children, SIGCHLD);
+    (void)sigprocmask(how, &children, NULL);
+}
+
+/* The signal is let in by signals_wait() only, so that none comes between a look for processes and the wait. */
+void signals_catch_children(void)
+{
+    const struct sigaction action = {.sa_handler = note_child};
+    (void)sigaction(SIGCHLD, &action, NULL);
+    block_children(SIG_BLOCK);
+}
+
+void signals_leave_children(void)
+{
+    const struct sigaction action = {.sa_handler = SIG_DFL};
+    (void)sigaction(SIGCHLD, &action, NULL);
+    block_children(SIG_UNBLOCK);
+}
+
+void signals_wait(double seconds)
+{
+    const struct timespec most = {.tv_sec = (time_t)seconds,
+                                  .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
+    sigset_t mask;
+    if (sigprocmask(SIG_SETMASK, NULL, &mask) != 0) return;
+    (void)sigdelset(&mask, SIGCHLD);
+    (void)pselect(0, NULL, NULL, NULL, &most, &mask);
 }

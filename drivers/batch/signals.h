@@ -12,10 +12,20 @@ void signals_catch(void);
 /** From now on SIGTERM, SIGINT and SIGXCPU ask for the end. What only looks at a deck ends by them at once. */
 void signals_catch_end(void);
 
-/** The name of the signal that asked for the end; NULL: none has. */
+/** The name of the signal that asked for the end, and its number; NULL and 0: none has. */
 const char *signals_end(void);
+int signals_end_number(void);
 
 /** Whether a checkpoint was asked for since the last call. */
 bool signals_checkpoint(void);
+
+/** From now on signals_wait() returns when a process that this one has begun ends. */
+void signals_catch_children(void);
+
+/** Called in such a process: there it is no more so. */
+void signals_leave_children(void);
+
+/** Waits for the end of a process, another signal, or until so many seconds have passed. */
+void signals_wait(double seconds);
 
 #endif

@@ -661,27 +661,42 @@ class Run(Case):
         times = [float(row) for row in found]
         self.assertEqual(times, sorted(times))
 
-    def test_the_same_run_on_a_terminal_rewrites_its_progress(self):
-        self.put(coarse(spacing="2.5e-3", t_end="2e-3"))
+    def on_terminal(self, *arguments, code=0):
+        """What is printed there."""
         try:
             parent, child = pty.openpty()
         except OSError:  # a bare root without /dev/pts
             self.skipTest("there is no terminal to be had here")
         output = b""
-        with subprocess.Popen([DEM_BATCH, "deck.nml"], cwd=self.folder, stdout=child, stderr=child) as process:
+        with subprocess.Popen([DEM_BATCH, *arguments], cwd=self.folder, stdout=child, stderr=child) as process:
             os.close(child)
             try:
                 while block := os.read(parent, 4096):
                     output += block
             except OSError:  # the other end is closed
                 pass
-            self.assertEqual(process.wait(SECONDS), 0)
+            self.assertEqual(process.wait(SECONDS), code)
         os.close(parent)
-        text = output.decode().replace("\r\n", "\n")
+        return output.decode().replace("\r\n", "\n")
+
+    def test_the_same_run_on_a_terminal_rewrites_its_progress(self):
+        self.put(coarse(spacing="2.5e-3", t_end="2e-3"))
+        text = self.on_terminal("deck.nml")
         self.assertIn("\ncontact    first at ", text)
         self.assertNotIn('{"deck":', text, "the result is for programs")
         self.assertEqual(text.count(" %  t "), text.count("\r"), "each line of progress goes back to its beginning")
         self.assertLessEqual(len(re.findall(r" s left *\n", text)), 1, "only the last one is ended")
+
+    def test_results_on_a_terminal_are_asked_for(self):
+        self.assertNotIn('{"deck":', self.on_terminal("--verbose", "deck.nml"))
+        self.assertIn('\n{"deck":', self.on_terminal("--json", "deck.nml"))
+
+    def test_several_at_once_on_a_terminal(self):
+        lines = self.on_terminal("--jobs", "2", "deck.nml", "none.nml", code=3).splitlines()
+        self.assertTrue(all(re.fullmatch(r" *\d+\.\d %  \d of 2 done, \d running", line) for line in lines
+                            if " running" in line))
+        self.assertIn("100.0 %  2 of 2 done, 0 running", lines)
+        self.assertIn("none.nml: error: No such file or directory", lines)
 
     def test_a_run_without_its_log_is_completed(self):
         closed, pipe = os.pipe()

@@ -8,9 +8,11 @@ import json
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 DEM_BATCH = None
@@ -134,6 +136,94 @@ class Sweeps(Case):
         self.assertEqual(self.call(3, "--check", "b.nml", "a.nml", stderr=fault).count("\ntime       "), 1)
         self.assertEqual(self.call(0, "--echo", "a.nml", "a.nml").count("&run\n"), 2)
         self.assertEqual(self.files(), set())
+
+
+class Jobs(Case):
+    """Twenty decks, two at once."""
+    NAMES = [f"r{k:02}" for k in range(20)]
+
+    def setUp(self):
+        super().setUp()
+        for k, name in enumerate(self.NAMES):
+            self.put(f"{name}.nml", named(name, BROKEN if k == 7 else DECK.replace("1050", str(1050 + k))))
+        self.decks = [f"{name}.nml" for name in self.NAMES]
+        self.fault = "r07.nml:2:6: error: unknown key 'tend' in &run (did you mean 't_end'?)\n"
+
+    def content(self, folder):
+        """Of the files of all cases: the bytes, but for times on the wall."""
+        found = {}
+        for path in sorted((self.folder / folder).iterdir()):
+            text = path.read_bytes()
+            text = re.sub(rb"2\d\d\d-\d\d-\d\dT\d\d:\d\d:\d\dZ", b"then", text)
+            found[path.name] = lasting(json.loads(text)) if path.suffix == ".json" else text
+        for result in found.values():
+            if isinstance(result, dict):
+                result["output"] = pathlib.Path(result["output"]).name
+        return found
+
+    def printed(self, out, folder):
+        """Without what depends on the wall's clock."""
+        return re.sub(r'\d+ steps/s.*|wall time .* s|"wall_\w*":[^,}]*|then', "", out.replace(folder + "/", ""))
+
+    def test_files_and_output_are_as_from_one_after_the_other(self):
+        one = self.call(3, "--outdir", "one", *self.decks, stderr=self.fault)
+        two = self.call(3, "--outdir", "two", "--jobs", "2", *self.decks, stderr=self.fault)
+        self.assertEqual(self.printed(two, "two"), self.printed(one, "one"))
+        self.assertEqual(len(self.content("two")), 4 * 19)
+        self.assertEqual(self.content("two"), self.content("one"))
+
+    def test_a_killed_case_holds_up_no_other(self):
+        self.put("r04.nml", named("r04", DECK.replace("2e-4", "0.2")))  # takes its time
+        self.call(3, "--outdir", "one", *self.decks, stderr=self.fault)
+        arguments = ["--outdir", "two", "--jobs", "2", *self.decks]
+        two = self.begin(*arguments)
+        os.kill(self.holder_of("two/r04.lock"), signal.SIGKILL)
+        out, err = two.communicate(timeout=SECONDS)
+        self.assertEqual(two.returncode, 75)
+        self.assertEqual(err, "r04.nml: error: its process ended by signal 9 (Killed); the same command goes on with "
+                              "it\n" + self.fault)
+        self.assertEqual([r["name"] for r in lines_of(out)],
+                         [None if k == 7 else name for k, name in enumerate(self.NAMES) if k != 4])
+        self.call(3, *arguments, stderr=self.fault)
+        self.assertEqual(self.content("two"), self.content("one"))
+
+    def test_the_end_is_asked_for_of_all(self):
+        decks = [*self.decks[:4], "--set", "run.t_end=10"]
+        all_cases = self.begin("--jobs", "2", *decks)
+        for name in self.NAMES[:2]:
+            self.holder_of(f"{name}.lock")
+        all_cases.send_signal(signal.SIGTERM)
+        out, err = all_cases.communicate(timeout=SECONDS)
+        self.assertEqual((all_cases.returncode, err), (75, ""))
+        self.assertEqual([r["message"] for r in lines_of(out)],
+                         ["r00.nml: stopped by SIGTERM", "r01.nml: stopped by SIGTERM", "r02.nml: not begun",
+                          "r03.nml: not begun"])
+
+    def test_how_many(self):
+        for number in ("0", "-1", "x", "10000"):
+            with self.subTest(number):
+                done = subprocess.run([DEM_BATCH, "--jobs", number, "a.nml"], cwd=self.folder, capture_output=True,
+                                      text=True, timeout=SECONDS, check=False)
+                self.assertEqual(done.returncode, 2)
+                self.assertEqual(done.stderr.splitlines()[0],
+                                 f"dem_batch: error: '--jobs' needs a number from 1 to 9999, got {number}")
+        self.assertEqual([r["name"] for r in self.results(0, "--jobs", "9", "a.nml")], ["a"])
+
+    def begin(self, *arguments):
+        process = subprocess.Popen([DEM_BATCH, *arguments], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        return process
+
+    def holder_of(self, lock):
+        """The process that writes the output, once it does."""
+        deadline = time.monotonic() + SECONDS
+        while time.monotonic() < deadline:
+            try:
+                return int((self.folder / lock).read_text(encoding="utf-8").split()[1])
+            except (OSError, IndexError):
+                time.sleep(0.005)
+        raise AssertionError(f"{lock} did not come")
 
 
 class Settings(Case):
