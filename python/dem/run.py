@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A run read back from its file."""
+from ctypes import byref, c_int64, c_ubyte
+
+import numpy as np
+
+from . import c_interface as c
+from .lattice import Lattice
+from .library import Record, check, library, make, numbers, pointer, view
+
+
+class Run:
+    """A finished run, or the part of one that goes on: frames and tables, as docs/output.md lists them."""
+
+    def __init__(self, path):
+        self.path = str(path)
+        self._handle = make(c.dem_reader, library.dem_reader_open, library.dem_reader_close, self.path.encode())
+        self._c = self._handle.pointer
+        n = c_int64()
+        arrays = library.dem_reader_arrays(self._c, byref(n))
+        self._arrays = {arrays[k].name.decode(): arrays[k] for k in range(n.value)}
+        columns = library.dem_reader_columns(self._c, byref(n))
+        self._tables = {}
+        for k in range(n.value):
+            self._tables.setdefault(columns[k].table.decode(), {})[columns[k].name.decode()] = columns[k]
+
+    def __repr__(self):
+        return f"Run('{self.path}', {len(self.times)} frames)"
+
+    @property
+    def times(self):
+        """Of the frames, s; a view."""
+        n = c_int64()
+        times = library.dem_reader_times(self._c, byref(n))
+        return view(times, (n.value,), self._handle)
+
+    @property
+    def lattice(self):
+        """At rest; its arrays are views."""
+        return Lattice.borrowed(library.dem_reader_lattice(self._c), self._handle)
+
+    @property
+    def arrays(self):
+        """Names of what frames show."""
+        return list(self._arrays)
+
+    @property
+    def tables(self):
+        """Names of the tables, and of their columns."""
+        return {name: list(columns) for name, columns in self._tables.items()}
+
+    def _frame(self, frame):
+        n = len(self.times)
+        if not -n <= frame < n:
+            raise IndexError(f"frame {frame} of {n}")
+        return frame % n
+
+    def positions(self, frame):
+        """[n_nodes][2] m. Frames count from 0, or from -1 backwards."""
+        x = np.empty((self.lattice.n_nodes, 2))
+        check(library.dem_reader_positions(self._c, self._frame(frame), pointer(x)))
+        return x
+
+    def array(self, name, frame=-1):
+        """What a frame shows of nodes or springs, [n] or [n][components]; tensors are xx yy zz xy yz xz."""
+        array, lattice = self._arrays[name], self.lattice
+        n = lattice.n_springs if array.of_springs else lattice.n_nodes
+        values = np.empty((n, array.components))
+        check(library.dem_reader_read(self._c, byref(array), self._frame(frame), pointer(values)))
+        return values[:, 0] if array.components == 1 else values
+
+    def broken_triangles(self, frame=-1):
+        """[n_triangles] bool"""
+        out = np.empty(self.lattice.n_triangles, np.uint8)
+        check(library.dem_reader_broken_triangles(self._c, self._frame(frame), pointer(out, c_ubyte)))
+        return out.astype(bool)
+
+    def table(self, name):
+        """Its columns by name: [rows], or [rows][items][components] without those that are one."""
+        columns = {}
+        for column, what in self._tables[name].items():
+            values = np.empty((what.n_rows, what.items, what.components))
+            check(library.dem_reader_read_column(self._c, byref(what), pointer(values)))
+            keep = tuple(k for k, n in ((1, what.items), (2, what.components)) if n == 1)
+            columns[column] = values.squeeze(keep) if keep else values
+        return columns
+
+    @property
+    def history(self):
+        """The table of all steps."""
+        return self.table("history")
+
+    @property
+    def events(self):
+        """The table of contact events."""
+        return self.table("events")
+
+    def pandas(self, name):
+        """A table as a DataFrame of pandas; of vectors each component is a column, 'velocity.0', ..."""
+        import pandas  # only who asks for it needs it
+        flat = {}
+        for column, values in self.table(name).items():
+            if values.ndim == 1:
+                flat[column] = values
+            else:
+                for index in np.ndindex(values.shape[1:]):
+                    flat[".".join([column, *map(str, index)])] = values[(slice(None), *index)]
+        return pandas.DataFrame(flat)
+
+    @property
+    def n_obstacles(self):
+        return library.dem_reader_n_obstacles(self._c)
+
+    def obstacle(self, number=0):
+        """As it was given: its laws and how it moves, by the names of dem_obstacle."""
+        return Record(self._obstacle(number))
+
+    def obstacle_points(self, number, t):
+        """Where an obstacle is at t, [n_points][2] m."""
+        obstacle = self._obstacle(number)
+        points = np.empty((obstacle.n_points, 2))
+        check(library.dem_obstacle_points(byref(obstacle), t, pointer(points)))
+        return points
+
+    def _obstacle(self, number):
+        obstacle = library.dem_reader_obstacle(self._c, number)
+        if not obstacle:
+            raise IndexError(f"obstacle {number} of {self.n_obstacles}")
+        return obstacle.contents
+
+    # ---- pictures, by matplotlib ----
+
+    def plot(self, frame=-1, colour="von_mises", ax=None):
+        """Draws a frame: triangles that are whole, coloured by an array of the nodes, and obstacles.
+        Returns the axes."""
+        from matplotlib import pyplot  # only who draws needs it
+        ax = pyplot.figure().add_subplot() if ax is None else ax
+        self._draw(ax, self._frame(frame), colour)
+        return ax
+
+    def _draw(self, ax, frame, colour):
+        x, lattice = self.positions(frame), self.lattice
+        for number in range(self.n_obstacles):
+            ax.plot(*self.obstacle_points(number, self.times[frame]).T, color="0.3", linewidth=2)
+        values = self.array(colour, frame)
+        if values.ndim != 1 or len(values) != lattice.n_nodes:
+            raise ValueError(f"'{colour}' is no number of nodes")
+        if lattice.n_triangles > 0:
+            whole = numbers(lattice.triangles, dtype=np.int64)[~self.broken_triangles(frame)]
+            ax.tripcolor(*x.T, whole, values, shading="gouraud")
+        else:
+            ax.scatter(*x.T, c=values, s=4)
+        ax.set_aspect("equal")
+        ax.set_title(f"{self.times[frame]:.4g} s, {colour}")
+
+    def animate(self, path=None, colour="von_mises", fps=15):
+        """A film of all frames, a FuncAnimation, which is saved to a file by its name."""
+        from matplotlib import animation, pyplot
+        figure = pyplot.figure()
+        ax = figure.add_subplot()
+        corners = [function(axis=0) for k in range(len(self.times)) for function in
+                   (self.positions(k).min, self.positions(k).max)]
+        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
+        margin = 0.1 * (high - low).max()
+
+        def draw(frame):
+            ax.clear()
+            self._draw(ax, frame, colour)
+            ax.set_xlim(low[0] - margin, high[0] + margin)
+            ax.set_ylim(low[1] - margin, high[1] + margin)
+
+        film = animation.FuncAnimation(figure, draw, frames=len(self.times), interval=1000.0 / fps)
+        if path is not None:
+            film.save(str(path), fps=fps)
+        return film
+
+
+def read(path):
+    """Opens NAME.vtkhdf."""
+    return Run(path)

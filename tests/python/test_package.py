@@ -1,0 +1,344 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The package dem: bodies, the time loop, callbacks, interrupts, threads, views, files.
+`test_package.py DEM_BATCH INPUTS`"""
+import gc
+import json
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import weakref
+
+import numpy as np
+
+import dem
+
+DEM_BATCH = INPUTS = None
+RUBBER = {"youngs_modulus": 1e7, "density": 1050.0, "thickness": 1.0}
+
+
+def disc(radius=0.02, spacing=5e-3, height=0.021, velocity=(0.0, -10.0)):
+    lattice = dem.Lattice.disc(radius, spacing).assemble(dem.Material(**RUBBER))
+    return lattice.move((0.0, height)).launch(velocity)
+
+
+def floor(**values):
+    return dem.Obstacle([(-1.0, 0.0), (1.0, 0.0)], **values)
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+
+class Lattices(Case):
+    def test_a_block_has_its_mass_and_its_constants(self):
+        block = dem.Lattice.rectangle(0.04, 0.04, 0.01).assemble(dem.Material(**RUBBER))
+        self.assertAlmostEqual(block.mass.sum(), 1050.0 * 0.04 * 5 * 0.01 * math.sqrt(0.75), delta=0.6)  # whole rows
+        with dem.Simulation(block) as simulation:
+            constants = simulation.constants()
+        self.assertAlmostEqual(constants.youngs_modulus / 1e7, 1.0, delta=1e-9)  # exact for a regular block
+        self.assertAlmostEqual(constants.poissons_ratio, 1.0 / 3.0, delta=1e-9)
+
+    def test_arrays_are_views_that_may_be_written_to(self):
+        block = dem.Lattice.rectangle(0.02, 0.02, 0.01)
+        x = block.x
+        x[:, 0] += 1.0
+        self.assertEqual(block.x.min(), x.min())
+        self.assertTrue(np.shares_memory(block.x, x))
+        self.assertIsNone(block.mass, "before it is assembled")
+        del block
+        gc.collect()
+        self.assertTrue(np.isfinite(x).all(), "a view keeps the memory")
+
+    def test_a_lattice_of_arrays_is_that_of_the_library(self):
+        made = disc()
+        again = dem.Lattice.of_arrays(made.x, triangles=dem.Lattice.disc(0.02, 5e-3).triangles)
+        again.assemble(dem.Material(**RUBBER))
+        self.assertTrue(np.array_equal(again.ends, made.ends))
+        self.assertTrue(np.array_equal(made.copy().stiffness, made.stiffness))
+
+    def test_what_is_wrong_is_said(self):
+        block = dem.Lattice.rectangle(0.02, 0.02, 0.01)
+        for fault, kind, message in (
+                (lambda: dem.Lattice.disc(-1.0, 0.1), dem.ArgumentError, "radius"),
+                (lambda: dem.Material(youngs=1.0), TypeError, "youngs_modulus"),
+                (lambda: dem.Material(plane="bent"), ValueError, "'stress', 'strain'"),
+                (lambda: block.trim([True]), ValueError, "shape"),
+                (lambda: setattr(block, "mass", [1.0, 2.0]), ValueError, "2 elements"),
+                (lambda: dem.Simulation(block), dem.ArgumentError, "masses"),
+                (lambda: dem.Lattice.read("none.vtkhdf"), dem.FileError, "none.vtkhdf"),
+                (lambda: dem.Simulation(disc(), floor(restitution=2.0)), dem.ModelError, "restitution")):
+            with self.subTest(message):
+                with self.assertRaises(kind) as caught:
+                    fault()
+                self.assertIn(message, str(caught.exception))
+
+    def test_cut_append_and_rigid_bodies(self):
+        ring = dem.Lattice.disc(0.03, 5e-3).cut(lambda x: np.hypot(*x) > 0.011)
+        self.assertGreater(np.hypot(*ring.x.T).min(), 0.011)
+        both = disc().append(disc(height=0.1).stiffen("y"))
+        self.assertEqual(set(both.body), {0, 1})
+        self.assertEqual(len(set(both.parts())), 2)
+
+
+class Runs(Case):
+    def test_a_run_is_that_of_dem_batch_to_the_bit(self):
+        subprocess.run([DEM_BATCH, "--set", "run.t_end=8e-3", str(INPUTS / "disc.nml")], cwd=self.folder, check=True,
+                       capture_output=True)
+        result = json.loads((self.folder / "disc.json").read_text(encoding="utf-8"))
+        written = dem.read(self.folder / "disc.vtkhdf")
+        law = written.obstacle()
+        ground = dem.Obstacle(written.obstacle_points(0, 0.0), restitution=law.restitution, friction=law.friction,
+                              friction_law=law.friction_law)
+        with dem.Simulation(dem.Lattice.read(self.folder / "disc.vtkhdf"), ground, bodies="all") as simulation:
+            simulation.advance(8e-3)
+            self.assertEqual(simulation.body().velocity[1], result["rising_speed"])
+            self.assertEqual(simulation.energy.elastic, result["energy"]["elastic"])
+            self.assertEqual(simulation.counts.steps, result["steps"])
+            self.assertEqual(simulation.counts.impacts, result["impacts"])
+            self.assertTrue(np.array_equal(simulation.x, written.positions(-1)))
+
+    def test_cuts_and_a_progress_bar_change_no_bit(self):
+        def end(cuts):
+            with dem.Simulation(disc(), floor()) as simulation:
+                for t in cuts:
+                    self.assertTrue(simulation.advance(t))
+                return simulation.x.tobytes() + simulation.v.tobytes()
+        self.assertEqual(end([3e-3]), end([1e-3, 1.1e-3, 2.9e-3, 3e-3]))
+
+    def test_a_node_falls_and_rebounds(self):
+        """v^2 = 2 g h, restitution 0.5: it rises to a quarter of the height."""
+        node = dem.Lattice.of_arrays([(0.0, 1.0)], mass=[1.0], flags=[2])
+        heights = []
+        with dem.Simulation(node, floor(restitution=0.5), spacing=1.0, max_step=1e-2, rtol=1e-10) as simulation:
+            simulation.observe(event=lambda s, event: heights.append((event.t, event.after[1])))
+            simulation.advance(0.9)
+        self.assertAlmostEqual(heights[0][0], math.sqrt(2.0 / 9.81), delta=1e-6)  # the penetration tolerance over v
+        self.assertAlmostEqual(heights[0][1], 0.5 * math.sqrt(2.0 * 9.81), delta=1e-5)
+
+    def test_a_force_and_a_boundary(self):
+        """A free body under a uniform force m a: x = a t^2/2. One that is held stays."""
+        block = dem.Lattice.rectangle(0.02, 0.02, 0.01).assemble(dem.Material(**RUBBER))
+        mass = block.mass.copy()
+
+        def push(t, nodes, x, v):
+            return np.outer(mass[nodes], (3.0, 0.0))
+
+        with dem.Simulation(block, gravity=(0.0, 0.0), force=push) as simulation:
+            start = simulation.body().centre[0]
+            simulation.advance(0.01)
+            self.assertAlmostEqual(simulation.body().centre[0] - start, 1.5e-4, delta=1e-10)
+        held = dem.Boundary("velocity", range(block.n_nodes), (0.0, 0.0))
+        with dem.Simulation(block, boundaries=held) as simulation:
+            simulation.advance(1e-3)
+            self.assertTrue(np.array_equal(simulation.x, block.x))
+            self.assertAlmostEqual(simulation.boundary().force[1], 9.81 * mass.sum(), delta=1e-9)
+
+    def test_it_goes_on_from_a_checkpoint_to_the_same_bits(self):
+        with dem.Simulation(disc(), floor()) as simulation:
+            simulation.advance(3e-3)
+            simulation.save(self.folder / "c")
+            simulation.advance(4e-3)
+            whole = simulation.x.tobytes()
+        with dem.Simulation(disc(), floor(), checkpoint=self.folder / "c") as simulation:
+            self.assertGreater(simulation.t, 0.0)
+            simulation.advance(4e-3)
+            self.assertEqual(simulation.x.tobytes(), whole)
+
+    def test_a_body_breaks_into_fragments(self):
+        brittle = dem.Lattice.rectangle(0.06, 0.03, 5e-3).assemble(dem.Material(**RUBBER, strength=3e5))
+        broken = []
+        with dem.Simulation(brittle.move((0.0, 1e-3)).launch((0.0, -15.0)), floor(), bodies="all") as simulation:
+            simulation.observe(broken=lambda s, what: broken.append(what.triangle))
+            simulation.advance(2e-3)
+            self.assertEqual(simulation.broken().sum(), len(broken))
+            self.assertEqual(simulation.fracture.triangles, len(broken))
+            self.assertGreater(len(broken), 0)
+            self.assertEqual(len(set(simulation.fragments())), simulation.fracture.fragments)
+
+
+class Callbacks(Case):
+    def test_an_exception_of_a_force_comes_out_as_itself(self):
+        class Own(Exception):
+            pass
+
+        def force(t, nodes, x, v):
+            if t > 1e-3:
+                raise Own("at last")
+            return np.zeros_like(x)
+
+        with dem.Simulation(disc(), floor(), force=force) as simulation:
+            with self.assertRaisesRegex(Own, "at last"):
+                simulation.advance(5e-3)
+            self.assertTrue(0.0 < simulation.t <= 1e-3, "the last good state")
+            self.assertTrue(np.isfinite(simulation.x).all())
+
+    def test_an_exception_of_an_observer_and_a_stop(self):
+        with dem.Simulation(disc(), floor()) as simulation:
+            seen = []
+
+            def frame(s):
+                seen.append(s.t)
+                if len(seen) == 3:
+                    return dem.STOP
+                if len(seen) == 5:
+                    raise KeyError("five")
+                return None
+
+            simulation.observe(frame=frame, interval=1e-4)
+            self.assertFalse(simulation.advance(1e-3))
+            self.assertAlmostEqual(simulation.t, 2e-4, delta=1e-12)
+            with self.assertRaises(KeyError):
+                simulation.advance(1e-3)
+            self.assertTrue(simulation.advance(1e-3))
+            np.testing.assert_allclose(seen, np.arange(11) * 1e-4, atol=1e-12)
+
+    def test_a_motion_by_a_function(self):
+        """A floor that rises with 1 m/s meets a body at rest."""
+        def rise(t, pose):
+            pose.place[1], pose.velocity[1] = t, 1.0
+
+        moving = floor(motion=rise, most_speed=1.0, most_acceleration=1.0)
+        with dem.Simulation(disc(height=0.021, velocity=(0.0, 0.0)), moving, gravity=(0.0, 0.0)) as simulation:
+            simulation.advance(2e-3)
+            self.assertAlmostEqual(simulation.obstacle().displacement[1], 2e-3, delta=1e-12)
+            self.assertGreater(simulation.body().velocity[1], 0.0)
+
+    def test_an_interrupt_stops_cleanly(self):
+        with dem.Simulation(disc(spacing=1e-3), floor()) as simulation:
+            timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                simulation.advance(1e3)
+            timer.join()
+            t = simulation.t
+            self.assertTrue(0.0 < t < 1e3)
+            simulation.advance(t + 1e-5)
+            self.assertEqual(simulation.t, t + 1e-5)
+
+
+class Threads(Case):
+    def test_two_simulations_in_two_threads(self):
+        def end():
+            with dem.Simulation(disc(), floor()) as simulation:
+                simulation.advance(4e-3)
+                return simulation.x.tobytes()
+
+        alone, found = end(), []
+        threads = [threading.Thread(target=lambda: found.append(end())) for _ in range(2)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, [alone, alone])
+
+    def test_the_interpreter_is_free_meanwhile(self):
+        """Another thread counts on while a simulation computes for some tenths of a second."""
+        counted, done = [0], threading.Event()
+
+        def count():
+            while not done.wait(1e-3):
+                counted[0] += 1
+
+        thread = threading.Thread(target=count)
+        with dem.Simulation(disc(spacing=5e-4), floor()) as simulation:
+            thread.start()
+            before = counted[0]
+            status = dem.library.library.dem_simulation_advance(simulation._c, 3e-4)
+            within = counted[0] - before
+            done.set()
+            thread.join()
+        self.assertEqual(status, 0)
+        self.assertGreater(within, 5)
+
+
+class Views(Case):
+    def test_a_view_outlives_its_simulation(self):
+        simulation = dem.Simulation(disc(), floor())
+        simulation.advance(1e-3)
+        x, rest = simulation.x, simulation.lattice.x
+        copied = x.copy()
+        handle = weakref.ref(simulation._handle)
+        simulation.close()
+        with self.assertRaisesRegex(ValueError, "closed"):
+            simulation.x
+        del simulation
+        gc.collect()
+        self.assertTrue(np.array_equal(x, copied))
+        self.assertTrue(np.isfinite(rest).all())
+        self.assertIsNotNone(handle())
+        del x, rest
+        gc.collect()
+        self.assertIsNone(handle(), "the last view has freed it")
+
+    def test_what_is_the_library_s_cannot_be_written_to(self):
+        with dem.Simulation(disc(), floor()) as simulation:
+            for array in (simulation.x, simulation.v, simulation.lattice.mass):
+                with self.assertRaises(ValueError):
+                    array[0] = 0.0
+            with self.assertRaisesRegex(ValueError, "copy"):
+                simulation.lattice.launch((1.0, 0.0))
+            simulation.set_motion(v=np.zeros_like(simulation.v))
+            self.assertEqual(simulation.energy.kinetic, 0.0)
+
+
+class Files(Case):
+    def test_a_run_read_back(self):
+        path = self.folder / "drop.vtkhdf"
+        with dem.Simulation(disc(), floor(friction=0.3)) as simulation:
+            with simulation.record(path, 5e-4, fields=["velocity", "von_mises", "strain"], events=True,
+                                   double_precision=True) as recording:
+                recording.note("title", "drop")
+                simulation.advance(4e-3)
+            x, v, stress, strains = simulation.x.copy(), simulation.v.copy(), simulation.stress(), simulation.strains()
+            counts, energy = simulation.counts, simulation.energy
+        run = dem.read(path)
+        np.testing.assert_allclose(run.times, np.arange(9) * 5e-4, atol=1e-12)
+        self.assertTrue(np.array_equal(run.positions(-1), x))
+        self.assertTrue(np.array_equal(run.array("velocity")[:, :2], v))
+        np.testing.assert_allclose(run.array("von_mises"), dem.von_mises(stress), rtol=1e-6)
+        self.assertTrue(np.array_equal(run.array("strain"), strains))
+        self.assertEqual(run.history["steps"].tolist(), list(range(len(run.history["t"]))))
+        self.assertLessEqual(run.history["t"][-1], 4e-3)  # the step in hand ends later
+        self.assertLessEqual(counts.steps - run.history["steps"][-1], 1)
+        self.assertTrue((np.diff(run.events["t"]) >= 0.0).all() and len(run.events["t"]) > 0)
+        self.assertAlmostEqual(run.table("frames")["kinetic_energy"][-1], energy.kinetic, delta=1e-12 * energy.kinetic)
+        self.assertEqual(run.obstacle_points(0, 0.0).tolist(), [[-1.0, 0.0], [1.0, 0.0]])
+        with self.assertRaises(IndexError):
+            run.positions(9)
+        with self.assertRaises(IndexError):
+            run.obstacle_points(1, 0.0)
+
+    def test_one_that_is_not_finished_stays_a_part(self):
+        with dem.Simulation(disc(), floor()) as simulation, self.assertRaises(RuntimeError):
+            with simulation.record(self.folder / "a.vtkhdf", 1e-4):
+                simulation.advance(1e-3)
+                raise RuntimeError
+        self.assertTrue((self.folder / "a.part.vtkhdf").exists())
+        self.assertFalse((self.folder / "a.vtkhdf").exists())
+
+    def test_pictures(self):
+        import matplotlib
+        matplotlib.use("Agg")
+        with dem.Simulation(disc(), floor()) as simulation, simulation.record(self.folder / "a.vtkhdf", 1e-3):
+            simulation.advance(3e-3)
+        run = dem.read(self.folder / "a.vtkhdf")
+        run.plot(1).figure.savefig(self.folder / "a.png")
+        run.animate(self.folder / "a.gif")
+        self.assertGreater((self.folder / "a.png").stat().st_size, 5000)
+        self.assertGreater((self.folder / "a.gif").stat().st_size, 5000)
+
+
+if __name__ == "__main__":
+    DEM_BATCH = pathlib.Path(sys.argv.pop(1)).resolve()
+    INPUTS = pathlib.Path(sys.argv.pop(1)).resolve()
+    unittest.main()
