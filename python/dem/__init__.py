@@ -12,6 +12,7 @@
 
 Units are SI. c_interface has the library's own functions, as its headers declare them."""
 from . import library
+from .deck import DeckError, deck, run
 from .lattice import Lattice, Material
 from .library import ArgumentError, ContactError, Error, FileError, IntegratorError, ModelError
 from .obstacle import Obstacle, box
@@ -20,5 +21,5 @@ from .simulation import STOP, Boundary, Simulation, von_mises
 
 __version__ = library.library.dem_version().decode()
 
-__all__ = ["ArgumentError", "Boundary", "ContactError", "Error", "FileError", "IntegratorError", "Lattice", "Material",
-           "ModelError", "Obstacle", "Run", "STOP", "Simulation", "box", "read", "von_mises"]
+__all__ = ["ArgumentError", "Boundary", "ContactError", "DeckError", "Error", "FileError", "IntegratorError", "Lattice",
+           "Material", "ModelError", "Obstacle", "Run", "STOP", "Simulation", "box", "deck", "read", "run", "von_mises"]

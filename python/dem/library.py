@@ -9,7 +9,7 @@ import numpy as np
 
 from . import c_interface as c
 
-NAME = "libdem.so.2"
+NAME = "libdem.so.2"  # with the generation of the library
 
 
 class Error(Exception):
@@ -50,7 +50,7 @@ ERRORS = {c.dem_status.DEM_ERROR_ARGUMENT: ArgumentError, c.dem_status.DEM_ERROR
 
 def find():
     """The path of the library: DEM_LIBRARY, else beside this file, else wherever the loader looks."""
-    beside = pathlib.Path(__file__).with_name("libdem.so")
+    beside = pathlib.Path(__file__).with_name(NAME)
     return os.environ.get("DEM_LIBRARY") or (str(beside) if beside.exists() else NAME)
 
 

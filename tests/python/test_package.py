@@ -166,6 +166,35 @@ class Runs(Case):
             self.assertEqual(len(set(simulation.fragments())), simulation.fracture.fragments)
 
 
+class Decks(Case):
+    DECK = {"run": {"t_end": 1e-3, "title": "it's a \"test\""},
+            "material": {"youngs_modulus": 1e7, "density": 1050, "thickness": 1},
+            "body": [{"shape": "disc", "radius": 0.02, "spacing": 5e-3, "position": (-0.03, 0.03)},
+                     {"shape": "rectangle", "size": (0.02, 0.02), "spacing": 5e-3, "velocity": [0, -5]}],
+            "obstacle": {"points": np.array([(-1.0, -0.001), (1.0, -0.001)]), "restitution": 0.5},
+            "output": {"name": "d", "events": True}}
+
+    def test_a_deck_is_written_run_and_read(self):
+        path = self.folder / "d.nml"
+        path.write_text(dem.deck(**self.DECK), encoding="utf-8")
+        run = dem.run(path, outdir=self.folder / "out")
+        self.assertEqual((run.result["status"], run.result["title"]), ("done", "it's a \"test\""))
+        self.assertEqual(run.result["steps"], run.history["steps"][-1] + 1)
+        self.assertEqual(len(run.times), 2)
+        again = dem.run(path, outdir=self.folder / "out")
+        self.assertEqual(again.result, run.result, "done already")
+        other = dem.run(path, {"obstacle.restitution": 0.25, "output.name": "e"}, outdir=self.folder / "out")
+        self.assertNotEqual(other.result["energy"], run.result["energy"])
+
+    def test_faults_are_those_of_the_program(self):
+        wrong = self.DECK | {"run": {"tend": 1.0}}
+        with self.assertRaisesRegex(dem.DeckError, "did you mean 't_end'") as caught:
+            dem.deck(**wrong)
+        self.assertEqual(caught.exception.code, 3)
+        with self.assertRaisesRegex(dem.DeckError, "No such file"):
+            dem.run(self.folder / "none.nml")
+
+
 class Callbacks(Case):
     def test_an_exception_of_a_force_comes_out_as_itself(self):
         class Own(Exception):
@@ -340,5 +369,6 @@ class Files(Case):
 
 if __name__ == "__main__":
     DEM_BATCH = pathlib.Path(sys.argv.pop(1)).resolve()
+    os.environ["DEM_BATCH"] = str(DEM_BATCH)
     INPUTS = pathlib.Path(sys.argv.pop(1)).resolve()
     unittest.main()
