@@ -47,3 +47,13 @@ void deck_numbers_translate(char *out, size_t size, const char *message, const s
     }
     out[used] = '\0';
 }
+
+const schema_instance *deck_numbers_body(const char *message, const schema_deck *groups)
+{
+    for (const char *p = message; *p != '\0'; p++) {
+        const char *word = word_at(message, p);
+        if (word == NULL || word[0] != 'b') continue;
+        return schema_get(groups, "body", copies_find(groups, (size_t)strtoull(p + strlen(word), NULL, 10)).group);
+    }
+    return schema_get(groups, "body", 0);
+}

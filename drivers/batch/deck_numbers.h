@@ -12,4 +12,7 @@
  *  \param[out] out  [size] */
 void deck_numbers_translate(char *out, size_t size, const char *message, const schema_deck *groups);
 
+/** The &body of the first body that a message of the library names, the first of the deck if it names none. */
+const schema_instance *deck_numbers_body(const char *message, const schema_deck *groups);
+
 #endif

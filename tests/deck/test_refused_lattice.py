@@ -5,7 +5,7 @@ our words, whatever HDF5 has to say of it. Skipped without the Python package h5
 import sys
 
 import refusal
-from refusal import FILE, edit, stderr_of
+from refusal import BASE, FILE, edit, stderr_of
 
 try:
     import h5py
@@ -172,6 +172,16 @@ FILES = [
     ("too few masses", changed(mass=[1.0, 1.0, 1.0]), "/lattice/mass: has 3 rows where the datasets before it have 4"),
     ("too many stiffnesses", changed(stiffness=6 * [1e3]),
      "/lattice/stiffness: has 6 rows where the datasets before it have 5"),
+    ("too few strengths", changed(strength=[1e6]), "/lattice/strength: has 1 rows where the datasets before it have 2"),
+    ("too many strengths", changed(strength=3 * [1e6]), "/lattice/strength: has 3 rows where the datasets before it have 2"),
+    ("strengths of springs", changed(critical_stretch=[0.1, 0.1]),
+     "/lattice/critical_stretch: has 2 rows where the datasets before it have 5"),
+    ("too few softenings", changed(strength=[1e6, 1e6], softening=[2.0]),
+     "/lattice/softening: has 1 rows where the datasets before it have 2"),
+    ("too few strengths under pressure", changed(strength=[1e6, 1e6], compressive_strength=[1e7]),
+     "/lattice/compressive_strength: has 1 rows where the datasets before it have 2"),
+    ("strengths without triangles", changed(triangles=None, strength=[1e6, 1e6]),
+     "/lattice/strength: is there without triangles"),
     ("no node", changed(x=numpy.zeros((0, 2)), mass=numpy.zeros(0), ends=None, rest_length=None, stiffness=None,
                         triangles=None), "/lattice/x: has no nodes"),
     ("end that is no node", changed(ends=[[0, 1], [1, 2], [2, 3], [3, 4], [0, 2]]),
@@ -212,6 +222,16 @@ BODIES = [
      "11:1 body 1 has 1 part " + NO_SPRING.format("2 nodes at (1, 0)")),
     ("triangle clockwise", changed(triangles=[[0, 2, 1], [0, 2, 3]]),
      "13:5 body 1: triangle 0 (nodes 0, 2, 1): area must be > 0, got -5e-05 m^2"),
+    ("strength negative", changed(strength=[1e6, -1e6]), "13:5 body 1: triangle 1: strength must be > 0, got -1e+06 Pa"),
+    ("strength NaN", changed(strength=[float("nan"), 1e6]), "13:5 body 1: triangle 0: strength must be > 0, got nan Pa"),
+    ("critical stretch negative", changed(critical_stretch=[0.1, 0.1, 0.1, 0.1, -0.1]),
+     "13:5 body 1: spring 4: critical stretch must be > 0, got -0.1"),
+    ("critical stretch NaN", changed(critical_stretch=[0.1, 0.1, 0.1, 0.1, float("nan")]),
+     "13:5 body 1: spring 4: critical stretch must be > 0, got nan"),
+    ("softening NaN", changed(strength=[1e6, 1e6], softening=[2.0, float("nan")]),
+     "13:5 body 1: triangle 1: softening must be >= 1, got nan"),
+    ("weaker under pressure", changed(strength=[1e6, 1e6], compressive_strength=[1e7, 1e5]),
+     "13:5 body 1: triangle 1: compressive strength must be at least its strength, 1e+06 Pa, got 100000 Pa"),
     ("spring between bodies", changed(body=[0, 0, 0, 2]), "13:5 body 1: spring 2 joins bodies 0 and 2"),
     ("masses too small", changed(mass=4 * [1e-308], stiffness=5 * [1e10]), "13:5 body 1: stiffness over mass is too large to compute with"),
 ]
@@ -246,6 +266,26 @@ class Lattice(refusal.Refusal):
             with self.subTest(name):
                 self.make(maker)
                 self.refuse(3, stderr_of([message]), "--check", "deck.nml")
+
+    def test_starts_beyond_a_limit(self):
+        """Whether bodies touch or not, what is said is about the file, that of the second of two bodies, too."""
+        wide = [[0.0, 0.0], [0.02, 0.0], [0.02, 0.01], [0.0, 0.01]]
+        remedy = "; larger limits, or a 'position' that strains it less, are needed in its file"
+        self.make(changed(position=wide, critical_stretch=5 * [0.1], thickness=[1.0, 1.0]))
+        message = " at (0, {}) m has the strain 1 at the start, beyond its critical stretch 0.1" + remedy
+        other = edit(BASE, "&output -> &body shape = 'file', file = 'part.h5', position = 0, 0.2 /\n&output")
+        for contact in ("", "&contact bodies = 'none' /\n", "&contact bodies = 'all', thickness = 1e-4 /\n"):
+            self.put(FILE + contact)
+            self.refuse(3, stderr_of(["13:5 spring 0 of body 1" + message.format("0.001")]), "--check", "deck.nml")
+            self.put(other + contact)
+            self.refuse(3, stderr_of(["23:23 spring 73 of body 2" + message.format("0.2")]), "--check", "deck.nml")
+
+        # Twice as wide: both triangles have the sum of r x f over 5e-5 m^3, f = 1000 N along one edge and half of 581 N
+        # along the other, 503960, 25990 and 51980 Pa.
+        self.make(changed(position=wide, strength=[1e5, 6e5], thickness=[1.0, 1.0]))
+        self.put(FILE)
+        self.refuse(3, stderr_of(["13:5 triangle 0 of body 1 at (0, 0.001) m has the stress 509545 Pa at the start, beyond its "
+                                  "strength 100000 Pa" + remedy]), "--check", "deck.nml")
 
     def test_rigid_bodies_need_triangles(self):
         rigid = edit(FILE, "velocity = 0, -1 -> rigid = .true.")

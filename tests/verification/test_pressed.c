@@ -418,8 +418,8 @@ TEST(a_start_beyond_the_compressive_strength_is_refused)
     const dem_options options = no_weight(1e-6, DEM_CONTACT_LOCAL);
     dem_simulation *simulation = NULL;
     assert_int_equal(dem_simulation_create(&simulation, model, &options), DEM_ERROR_MODEL);
-    assert_message_parts(
-        "triangle 0 at (-0.99, 0) m is at * times what it stands at the start, by its strength 1e+06 Pa and its "
-        "compressive strength 8e+06 Pa");
+    assert_message_parts("triangle 0 of body 0 at (-0.99, 0) m is at * times what it stands at the start, by its "
+                         "strength 1e+06 Pa and its "
+                         "compressive strength 8e+06 Pa");
     dem_model_destroy(model);
 }

@@ -507,7 +507,8 @@ TEST(a_start_beyond_the_strength_is_refused)
     const dem_options options = no_weight(1e-6);
     dem_simulation *simulation = NULL;
     assert_int_equal(dem_simulation_create(&simulation, model, &options), DEM_ERROR_MODEL);
-    assert_message_parts("spring 0 at (0, 0) m has the strain 0.2 at the start, beyond its critical stretch 0.1");
+    assert_message_parts(
+        "spring 0 of body 0 at (0, 0) m has the strain 0.2 at the start, beyond its critical stretch 0.1");
     dem_model_destroy(model);
 }
 

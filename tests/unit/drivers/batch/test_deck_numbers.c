@@ -34,3 +34,12 @@ TEST(what_is_too_long_is_cut)
     expect("of obstacle 99 and more", "of obst", 8);
     expect("body 8 and more", "body 2 ", 8);
 }
+
+TEST(a_message_is_about_the_group_of_the_first_body_that_it_names)
+{
+    CLEANUP(drop_resolved)
+    resolved r = resolve_clean("&run t_end = 1 /\n" BODY " /\n" BODY ", copies = 4, 2, pitch = 3, 3 /\n" BODY " /");
+    assert_ptr_equal(deck_numbers_body("triangle 7 of body 8 at", &r.deck), schema_get(&r.deck, "body", 1));
+    assert_ptr_equal(deck_numbers_body("obstacle 1, body 9 and body 0", &r.deck), schema_get(&r.deck, "body", 2));
+    assert_ptr_equal(deck_numbers_body("nobody 9", &r.deck), schema_get(&r.deck, "body", 0));
+}
