@@ -55,17 +55,25 @@ static void print_load(FILE *out, const fracture_report_load *load)
                   held ? "boundary" : "obstacle", (long long)(held ? load->boundary : load->obstacle));
 }
 
+/* What was taken over what cracks of this length take. */
+static void print_share(FILE *out, double taken, double crack_energy)
+{
+    if (crack_energy > 0.0) (void)fprintf(out, ", %.3g of their fracture energy", taken / crack_energy);
+}
+
 void fracture_report_print(FILE *out, const fracture_report *r, const dem_simulation *simulation)
 {
     const dem_model_size size = ask_sizes(dem_simulation_model(simulation));
     const dem_fracture broken = ask_fracture(simulation);
+    const double taken = ask_energy(simulation).fracture;
     if (r->breaks == 0) return;
     (void)fprintf(out,
                   "fracture   %lld of %lld triangles and %lld of %lld springs are broken, which took %.4g J for %.4g m "
-                  "of cracks; the first at %.4e s, (%g, %g) m",
+                  "of cracks",
                   (long long)broken.triangles, (long long)size.n_triangles, (long long)broken.springs,
-                  (long long)size.n_springs, ask_energy(simulation).fracture, broken.crack_length, r->first_t,
-                  r->first_x[0], r->first_x[1]);
+                  (long long)size.n_springs, taken, broken.crack_length);
+    print_share(out, taken, ask_crack_energy(simulation));
+    (void)fprintf(out, "; the first at %.4e s, (%g, %g) m", r->first_t, r->first_x[0], r->first_x[1]);
     print_load(out, &r->load);
     (void)fprintf(
         out, "\nfragments  %lld; the largest has %.3g of the mass, single nodes %.3g; half is in those up to %.4g kg\n",

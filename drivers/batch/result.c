@@ -214,6 +214,7 @@ static void write_broken(json *j, const fracture_report *first, const dem_simula
     json_real(j, "debris", broken.debris);
     json_real(j, "median_fragment", broken.median);
     json_real(j, "crack_length", broken.crack_length);
+    json_real(j, "crack_energy", ask_crack_energy(simulation));
     json_integer(j, "buried", broken.buried);
     write_first_buried(j, &broken);
 }

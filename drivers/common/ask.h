@@ -69,6 +69,13 @@ static inline dem_fracture ask_fracture(const dem_simulation *simulation)
     ASK(dem_fracture, dem_simulation_fracture(simulation, &out));
 }
 
+/** 0, as where it is not known, when memory runs out. */
+static inline double ask_crack_energy(const dem_simulation *simulation)
+{
+    double energy = 0.0;
+    return dem_simulation_crack_energy(simulation, &energy) == DEM_OK ? energy : 0.0;
+}
+
 static inline dem_pair ask_pair(const dem_simulation *simulation, dem_index pair)
 {
     ASK(dem_pair, dem_simulation_pair(simulation, pair, &out));

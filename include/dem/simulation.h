@@ -456,6 +456,13 @@ DEM_API dem_status dem_simulation_fragments(const dem_simulation *simulation, de
 /** \return also DEM_ERROR_MEMORY */
 DEM_API dem_status dem_simulation_fracture(const dem_simulation *simulation, dem_fracture *out);
 
+/** What cracks take by the fracture energies of what is broken, which those of brittle triangles have from their
+ *  strength (docs/fracture.md): the sum over broken triangles of fracture energy times `crack_length` times thickness.
+ *  Beside it `fracture` of dem_energy is what has been taken. Of squares it is that of isotropic ones.
+ *  \param[out] energy  J, >= 0; 0 where a triangle is broken that has no strength, or where the lattice has no moduli
+ *  \return also DEM_ERROR_MEMORY */
+DEM_API dem_status dem_simulation_crack_energy(const dem_simulation *simulation, double *energy);
+
 /** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
  *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
  *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.

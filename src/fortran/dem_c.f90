@@ -844,6 +844,12 @@ module dem_c
       type(dem_fracture), intent(inout) :: out
     end function
 
+    integer(dem_status) function dem_simulation_crack_energy(simulation, energy) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(out) :: energy
+    end function
+
     integer(dem_status) function dem_simulation_stress(simulation, stress) bind(c)
       import
       type(c_ptr), value :: simulation

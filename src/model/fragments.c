@@ -2,12 +2,12 @@
 /* The pieces that springs join which are not broken, and numbers of the whole of them. */
 #include "model/fragments.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "base/status.h"
 #include "base/union_find.h"
 #include "elastic/springs.h"
+#include "model/crack_energy.h"
 
 /* ---- which nodes belong together ---- */
 
@@ -60,15 +60,6 @@ static void measure(dem_fracture *out, const dem_lattice *l, const dem_index *fr
     for (dem_index i = 0; i < l->n_nodes; i++)
         if (nodes[i] == 1) out->debris += mass[i];
     weigh(out, mass, l->n_nodes);
-}
-
-/* What a triangle adds to a crack along a row of equilateral ones of its area: half of their side. */
-static double crack_length(const dem_lattice *l, dem_index triangle)
-{
-    const dem_index *corner = &l->triangles[3 * triangle];
-    const double *a = &l->x[2 * corner[0]], *b = &l->x[2 * corner[1]], *c = &l->x[2 * corner[2]];
-    const double area = 0.5 * fabs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-    return sqrt(area / sqrt(3.0));
 }
 
 static void count(dem_fracture *out, const dem_lattice *l, const element_state *elements)

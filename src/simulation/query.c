@@ -13,6 +13,7 @@
 #include "base/struct_size.h"
 #include "contact/obstacle_load.h"
 #include "forces/diagnostics.h"
+#include "model/crack_energy.h"
 #include "model/fragments.h"
 #include "model/node_stress.h"
 #include "simulation/body_contact.h"
@@ -276,6 +277,12 @@ dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
     seen.buried_t = buried->t;
     state_copy_row(&s->layout, seen.buried_x, buried->x);
     return GIVE(dem_fracture, out, &seen);
+}
+
+dem_status dem_simulation_crack_energy(const dem_simulation *s, double *energy)
+{
+    TRY(check_given("dem_simulation_crack_energy", s, energy));
+    return crack_energy(&s->model->lattice, elements_of(s), energy);
 }
 
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)

@@ -305,7 +305,7 @@ static dem_simulation *drop_pair(dem_model **model, dem_contact_method contact, 
 static void look_at_all(const dem_simulation *s)
 {
     dem_state now = {.struct_size = sizeof now};
-    double strain, force, stress[6], of_contact[4], pressure[2], damage[2];
+    double strain, force, stress[6], of_contact[4], pressure[2], damage[2], of_cracks;
     assert_ok(dem_simulation_state(s, &now));
     for (dem_index k = 0; k < now.n_contacts; k++) (void)ask_contact(s, k);
     (void)ask_energy(s);
@@ -336,6 +336,7 @@ static void look_at_all(const dem_simulation *s)
     assert_ok(dem_simulation_fragments(s, &n_fragments, fragment));
     free(fragment);
     assert_int_equal(ask_fracture(s).fragments, n_fragments);
+    assert_ok(dem_simulation_crack_energy(s, &of_cracks));
 }
 
 static dem_status only_look(void *context, const dem_simulation *simulation)

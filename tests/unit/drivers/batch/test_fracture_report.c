@@ -67,6 +67,34 @@ TEST(the_lines_have_the_first_break_and_the_fragments)
     free(text);
 }
 
+/* Of six triangles that are strained by 1 % one had 3/2 E A h (1 %)^2, 64.95 J, and takes 3.4 strength^2 a/E over the
+ * half of its side and the thickness, 17 kJ. */
+TEST(what_was_taken_is_a_share_of_the_fracture_energy)
+{
+    static const dem_material material = {.struct_size = sizeof material,
+                                          .youngs_modulus = 1e6,
+                                          .poissons_ratio = 1.0 / 3.0,
+                                          .density = 1e3,
+                                          .thickness = 1.0,
+                                          .strength = 1e5};
+    const dem_index first[1] = {0};
+    const fracture_report report = {.breaks = 1};
+    const dem_options options = dem_options_default();
+    double x[14];
+    CLEANUP(dem_lattice_free) dem_lattice hexagon = dem_lattice_empty();
+    assert_ok(dem_lattice_disc(&hexagon, 1.1, 1.0));
+    assert_ok(dem_lattice_assemble(&hexagon, &material));
+    assert_int_equal(hexagon.n_nodes, 7);
+    for (int c = 0; c < 14; c++) x[c] = 1.01 * hexagon.x[c];
+    support_start(&hexagon, x, NULL);
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &hexagon, NULL, 0, &options);
+    assert_ok(dem_simulation_break(run.simulation, first, 1, NULL, 0));
+    char *text = print(&report, run.simulation);
+    assert_non_null(strstr(text, ", which took 64.95 J for 0.5 m of cracks, 0.00382 of their fracture energy; the"));
+    free(text);
+}
+
 /* A square around the middle node of six triangles, which comes to the surface with the first of them that breaks. */
 TEST(a_node_that_was_buried_has_a_line)
 {
