@@ -66,6 +66,52 @@ TEST(solids_have_the_highest_frequency_that_gsl_finds)
     }
 }
 
+/* Takes every third triangle or so away, but the last ones of a node. */
+static void break_some(dem_lattice *l, uint64_t seed)
+{
+    dem_index *left = calloc((size_t)l->n_nodes, sizeof *left), n = 0;
+    assert_non_null(left);
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++) left[l->triangles[k]]++;
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        const dem_index *c = &l->triangles[3 * t];
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        if ((seed >> 33) % 3 == 0 && left[c[0]] > 1 && left[c[1]] > 1 && left[c[2]] > 1) {
+            for (int q = 0; q < 3; q++) left[c[q]]--;
+            continue;
+        }
+        for (int q = 0; q < 3; q++) l->triangles[3 * n + q] = c[q];
+        n++;
+    }
+    assert_true(n < l->n_triangles * 4 / 5);
+    l->n_triangles = n;
+    free(left);
+}
+
+/* Masses stay where triangles break, and what is left is stiff as if it had been cut before. */
+TEST(what_is_broken_leaves_the_bound_of_the_whole)
+{
+    static const double ratios[4] = {-0.3, 0.0, 1.0 / 3.0, 0.45};
+    for (int k = 0; k < 16; k++) {
+        const dem_material solid = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = ratios[k / 4],
+                                         .density = 1050.0, .thickness = 1.0, .springs = DEM_SPRINGS_COUPLED);
+        CLEANUP(dem_lattice_free) dem_lattice whole = dem_lattice_empty(), broken = dem_lattice_empty();
+        double omega;
+        for (int which = 0; which < 2; which++) {
+            dem_lattice *l = which == 0 ? &whole : &broken;
+            assert_ok(dem_lattice_rectangle(l, 0.05, 0.04, 5e-3));
+            if (k % 4 > 0) assert_ok(dem_lattice_jitter(l, 1.25e-3, (uint64_t)k));
+            if (which == 1) break_some(l, (uint64_t)k + 1);
+            assert_ok(dem_lattice_assemble(l, &solid));
+        }
+        assert_int_equal(broken.n_nodes, whole.n_nodes);
+        for (dem_index i = 0; i < whole.n_nodes; i++) broken.mass[i] = whole.mass[i];
+        CLEANUP(free_model) dem_model *first = support_model(&whole, NULL, 0);
+        CLEANUP(free_model) dem_model *second = support_model(&broken, NULL, 0);
+        assert_ok(dem_model_omega(second, &omega));
+        assert_true(omega < dem_model_omega_max(first));
+    }
+}
+
 TEST(without_springs_or_with_all_nodes_fixed_it_is_zero)
 {
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, mass[2] = {1.0, 1.0};
