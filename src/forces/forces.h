@@ -90,8 +90,9 @@ static inline unsigned forces_held(const forces *f, dem_index i)
 }
 
 /** Goes through the nodes on which the force on one node depends: the other ends of its springs, then the other corners
- *  of its triangles, of elements that are whole, then the nodes of its contact pairs, itself included. Couplings add
- *  none, as every edge of a coupled triangle is a spring. Some nodes come more than once. */
+ *  of its triangles, of elements that are whole, then the nodes of its contact pairs, itself included. Corners are left
+ *  out where all of them are other ends already, and couplings add none, as every edge of a coupled triangle is a
+ *  spring. Some nodes come more than once. */
 typedef struct forces_neighbours {
     const forces *f;
     const element_state *state;      /* NULL: the elements of the node are whole */
@@ -106,12 +107,13 @@ static inline forces_neighbours forces_neighbours_of(const forces *f, dem_index 
 {
     const springs *s = &f->model->springs;
     const dem_index *t = f->model->triangles.row + i;
+    const element_state *state = element_state_at(f->elements, i);
     return (forces_neighbours){.f = f,
-                               .state = element_state_at(f->elements, i),
+                               .state = state,
                                .other = s->neighbour + s->row[i],
                                .others = s->neighbour + s->row[i + 1],
                                .corner = 2 * t[0],
-                               .corners = 2 * t[1],
+                               .corners = 2 * t[state == NULL && f->model->edges_are_springs ? 0 : 1],
                                .surface = surface_contact_neighbours(f->surfaces, i)};
 }
 

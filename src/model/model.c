@@ -233,6 +233,15 @@ static void compile_scales(dem_model *m)
     m->mass = reduce_sum(&mass);
 }
 
+/* Each edge of a triangle goes from one of its corners to the next. */
+static bool edges_are_springs(const springs *s, const triangles *t)
+{
+    for (dem_index i = 0; i < t->n_nodes; i++)
+        for (dem_index p = t->row[i]; p < t->row[i + 1]; p++)
+            if (springs_between(s, i, t->next[p]) < 0) return false;
+    return true;
+}
+
 /* Appending to an empty lattice copies the caller's arrays. */
 static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
@@ -243,6 +252,7 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     TRY(rigid_bodies_compile(&m->rigid, &m->lattice));
     TRY(springs_compile(&m->springs, &m->lattice));
     TRY(triangles_compile(&m->triangles, &m->lattice));
+    m->edges_are_springs = edges_are_springs(&m->springs, &m->triangles);
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
     TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
     TRY(surface_compile(&m->surface, &m->lattice, SURFACE_TOUCHING));

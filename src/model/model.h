@@ -16,6 +16,7 @@ struct dem_model {
     dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
     springs springs;
     triangles triangles;
+    bool edges_are_springs; /* whether triangles have springs along all of their edges */
     couplings couplings;
     surface surface;    /* nodes and edges that may touch obstacles at events */
     rigid_bodies rigid; /* which have neither springs nor triangles nor surface here */

@@ -298,25 +298,41 @@ static bool matters(body *b, dem_index i, dem_index other)
     return before.x != after.x || before.y != after.y;
 }
 
+static void check_neighbours(body *b)
+{
+    dem_index n_pairs = 0;
+    drive(b);
+    for (dem_index i = 0; i < b->n; i++)
+        for (dem_index j = 0; j < b->n; j++) {
+            if (i == j) continue;
+            assert_int_equal(matters(b, i, j), has_neighbour(&b->f, i, j));
+            assert_int_equal(has_neighbour(&b->f, i, j), has_neighbour(&b->f, j, i));
+            n_pairs += has_neighbour(&b->f, i, j);
+        }
+    assert_true(n_pairs > 100);
+}
+
 TEST(the_neighbours_of_a_node_are_all_that_matter_to_it)
 {
     for (int broken = 0; broken < 2; broken++) {
         CLEANUP(close_body) body b;
-        dem_index n_pairs = 0;
         open_body(&b, 1e-4);
         if (broken) break_some(&b);
         if (broken) break_off(&b);
-        drive(&b);
-        for (dem_index i = 0; i < b.n; i++)
-            for (dem_index j = 0; j < b.n; j++) {
-                if (i == j) continue;
-                assert_int_equal(matters(&b, i, j), has_neighbour(&b.f, i, j));
-                assert_int_equal(has_neighbour(&b.f, i, j), has_neighbour(&b.f, j, i));
-                n_pairs += has_neighbour(&b.f, i, j);
-            }
-        assert_true(n_pairs > 100);
+        check_neighbours(&b);
         for (dem_index j = 0; j < b.n && broken; j++) assert_false(has_neighbour(&b.f, 0, j));
     }
+}
+
+/* Corners of a triangle without a spring between them act on each other by their triangle alone. */
+TEST(corners_of_triangles_are_neighbours_where_springs_are_missing)
+{
+    CLEANUP(close_body) body b, without;
+    open_body(&b, 1e-4);
+    break_some(&b);
+    open_without(&without, 1e-4, &b.state);
+    assert_true(b.model->edges_are_springs && !without.model->edges_are_springs);
+    check_neighbours(&without);
 }
 
 /* ---- what is broken ---- */
