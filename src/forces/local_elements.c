@@ -6,16 +6,18 @@
  * computed there; but where triangles have a guard alone, it is first seen whether any of them is near its onset. */
 #include "forces/local_elements.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/grow.h"
+#include "base/inline.h"
 #include "base/status.h"
 
 void local_elements_destroy(local_elements *e)
 {
-    void *const arrays[LOCAL_ELEMENTS_ARRAYS] = {e->places,      e->bonds,   e->pushed,  e->pulled,
-                                                 e->rest_length, e->fx,      e->fy,      e->pulls,
-                                                 e->corners,     e->guarded, e->coupled, e->pushes};
+    void *const arrays[LOCAL_ELEMENTS_ARRAYS] = {e->places,  e->bonds,   e->pushed, e->pulled, e->rest_length,
+                                                 e->fx,      e->fy,      e->both,   e->pulls,  e->corners,
+                                                 e->guarded, e->coupled, e->pushes, e->known};
     for (int k = 0; k < LOCAL_ELEMENTS_ARRAYS; k++) free(arrays[k]);
     *e = (local_elements){0};
 }
@@ -45,13 +47,14 @@ static slot_counts count_slots(const dem_model *model, const local_nodes *nodes)
 #define ROOM(array, n) grow_array((void **)&e->array, room++, n, sizeof *e->array)
 
 /* No list has more entries than there are slots. */
-static dem_status reserve(local_elements *e, dem_index n_nodes, slot_counts n)
+static dem_status reserve(local_elements *e, const local_nodes *nodes, slot_counts n)
 {
     dem_index *room = e->room;
-    CHECK(ROOM(places, n_nodes + 1) && ROOM(bonds, n.springs) && ROOM(pushed, n.springs) && ROOM(pulled, n.springs) &&
-              ROOM(rest_length, n.springs) && ROOM(fx, n.springs) && ROOM(fy, n.springs) && ROOM(pulls, n.springs) &&
-              ROOM(corners, n.triangles) && ROOM(guarded, n.triangles) && ROOM(coupled, n.couplings) &&
-              ROOM(pushes, n.couplings),
+    CHECK(ROOM(places, local_nodes_n_moving(nodes) + 1) && ROOM(bonds, n.springs) && ROOM(pushed, n.springs) &&
+              ROOM(pulled, n.springs) && ROOM(rest_length, n.springs) && ROOM(fx, n.springs) && ROOM(fy, n.springs) &&
+              ROOM(both, 4 * n.springs) && ROOM(pulls, n.springs) && ROOM(corners, n.triangles) &&
+              ROOM(guarded, n.triangles) && ROOM(coupled, n.couplings) && ROOM(pushes, n.couplings) &&
+              ROOM(known, 2 * nodes->n),
           DEM_ERROR_MEMORY, "out of memory for what is near an event");
     return DEM_OK;
 }
@@ -60,17 +63,12 @@ static dem_status reserve(local_elements *e, dem_index n_nodes, slot_counts n)
 
 /* ---- lists ---- */
 
-/* Where the lists of a node begin, and so where they end so far. */
-static local_places *end_of_lists(local_elements *e, dem_index j)
-{
-    return &e->places[j + 1];
-}
-
-static void add_bond(local_elements *e, dem_index j, int32_t other, dem_index p)
+/* How long the lists are so far: those of the present node end there. */
+static void add_bond(local_elements *e, local_places *to, dem_index j, int32_t other, dem_index p)
 {
     const springs *s = &e->forces->model->springs;
     const springs_integrity integrity = element_state_springs(e->forces->elements);
-    const dem_index k = end_of_lists(e, j)->bonds++;
+    const dem_index k = to->bonds++;
     e->bonds[k] = (local_bond){(int32_t)j, other};
     e->pushed[k] = springs_left(integrity, s->spring[p], 0.0) * s->stiffness[p];
     e->pulled[k] = springs_left(integrity, s->spring[p], 1.0) * s->stiffness[p];
@@ -87,42 +85,39 @@ static dem_index find_bond(const local_elements *e, dem_index first, dem_index s
 
 /* All neighbours of a node that moves are local nodes, but for those behind springs that are broken. One with a lower
  * number has listed the spring. */
-static void add_springs(local_elements *e, const local_nodes *nodes, dem_index j)
+static void add_springs(local_elements *e, local_places *to, const local_nodes *nodes, dem_index j)
 {
     const springs *s = &e->forces->model->springs;
     const springs_integrity integrity = element_state_springs(e->forces->elements);
-    local_places *to = end_of_lists(e, j);
     const dem_index i = nodes->list[j];
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const int32_t other = nodes->number[s->neighbour[p]];
         if (springs_is_broken(integrity, s->spring[p])) continue;
-        if (other > j) add_bond(e, j, other, p);
+        if (other > j) add_bond(e, to, j, other, p);
         if (!e->by_node) continue;
         const dem_index bond = other > j ? to->bonds - 1 : find_bond(e, other, j);
         e->pulls[to->pulls++] = (int32_t)(2 * bond + (other < j));
     }
 }
 
-static void add_triangles(local_elements *e, const local_nodes *nodes, dem_index j)
+/* Without an area term triangles only have to be known to be off. */
+static void add_triangles(local_elements *e, local_places *to, const local_nodes *nodes, dem_index j)
 {
     const triangles *t = &e->forces->model->triangles;
     const triangles_integrity integrity = element_state_triangles(e->forces->elements);
-    local_places *to = end_of_lists(e, j);
     const dem_index i = nodes->list[j];
-    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const local_corners own = {nodes->number[t->next[p]], nodes->number[t->last[p]]};
-        const bool broken = triangles_broken(t, integrity, p);
-        e->corners[to->corners++] = broken ? (local_corners){-1, -1} : own;
-        if (broken || t->area_stiffness != NULL || own.next < j || own.last < j) continue;
-        e->guarded[to->guarded++] =
-            (local_guarded){{(int32_t)j, own.next, own.last}, TRIANGLES_GUARD_ONSET * t->rest_area[p]};
+    to->corners += t->row[i + 1] - t->row[i];
+    for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness == NULL; p++) {
+        const int32_t next = nodes->number[t->next[p]], last = nodes->number[t->last[p]];
+        if (next < j || last < j || triangles_broken(t, integrity, p)) continue;
+        e->guarded[to->guarded++] = (local_guarded){{(int32_t)j, next, last}, TRIANGLES_GUARD_ONSET * t->rest_area[p]};
     }
 }
 
-static void add_coupled(local_elements *e, const local_nodes *nodes, dem_index j, dem_index k)
+static void add_coupled(local_elements *e, local_places *to, const local_nodes *nodes, dem_index k)
 {
     const couplings *c = &e->forces->model->couplings;
-    local_coupled *new = &e->coupled[end_of_lists(e, j)->coupled++];
+    local_coupled *new = &e->coupled[to->coupled++];
     new->own = c->list[k];
     new->left = couplings_left(c, element_state_triangles(e->forces->elements), k);
     for (int q = 0; q < 3; q++) new->own.corner[q] = nodes->number[c->list[k].corner[q]];
@@ -136,11 +131,10 @@ static dem_index find_coupled(const local_elements *e, dem_index first, dem_inde
     return k;
 }
 
-static void add_couplings(local_elements *e, const local_nodes *nodes, dem_index j)
+static void add_couplings(local_elements *e, local_places *to, const local_nodes *nodes, dem_index j)
 {
     const couplings *c = &e->forces->model->couplings;
     const triangles_integrity integrity = element_state_triangles(e->forces->elements);
-    local_places *to = end_of_lists(e, j);
     const dem_index i = nodes->list[j];
     for (dem_index p = c->row[i]; p < c->row[i + 1]; p++) {
         const coupled_triangle *own = &c->list[c->slot[p] / 3];
@@ -148,7 +142,7 @@ static void add_couplings(local_elements *e, const local_nodes *nodes, dem_index
         if (couplings_broken(c, integrity, c->slot[p] / 3)) continue;
         for (int q = 0; q < 3; q++)
             if (nodes->number[own->corner[q]] < first) first = nodes->number[own->corner[q]];
-        if (first == j) add_coupled(e, nodes, j, c->slot[p] / 3);
+        if (first == j) add_coupled(e, to, nodes, c->slot[p] / 3);
         const dem_index k = first == j ? to->coupled - 1 : find_coupled(e, first, own->triangle);
         e->pushes[to->pushes++] = (int32_t)(3 * k + c->slot[p] % 3);
     }
@@ -156,27 +150,44 @@ static void add_couplings(local_elements *e, const local_nodes *nodes, dem_index
 
 dem_status local_elements_list(local_elements *e, const local_nodes *nodes, bool by_node)
 {
-    const dem_index n = local_nodes_n_moving(nodes);
+    local_places to = {0};
     e->by_node = by_node;
-    TRY(reserve(e, n, count_slots(e->forces->model, nodes)));
-    e->places[0] = (local_places){0};
-    for (dem_index j = 0; j < n; j++) {
-        e->places[j + 1] = e->places[j];
-        add_springs(e, nodes, j);
-        if (by_node) add_triangles(e, nodes, j);
-        if (by_node && e->forces->model->couplings.n > 0) add_couplings(e, nodes, j);
+    e->have_corners = false;
+    e->n_known = e->n_slack = 0;
+    e->leeway = (double)INFINITY;
+    TRY(reserve(e, nodes, count_slots(e->forces->model, nodes)));
+    e->places[0] = to;
+    for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++) {
+        add_springs(e, &to, nodes, j);
+        if (by_node) add_triangles(e, &to, nodes, j);
+        if (by_node && e->forces->model->couplings.n > 0) add_couplings(e, &to, nodes, j);
+        e->places[j + 1] = to;
     }
     return DEM_OK;
+}
+
+/* The other corners of the triangles at all nodes that are accelerated. */
+static void list_corners(local_elements *e, const local_nodes *nodes)
+{
+    const triangles *t = &e->forces->model->triangles;
+    const triangles_integrity integrity = element_state_triangles(e->forces->elements);
+    local_corners *to = e->corners;
+    for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++)
+        for (dem_index p = t->row[nodes->list[j]]; p < t->row[nodes->list[j] + 1]; p++)
+            *to++ = triangles_broken(t, integrity, p)
+                        ? (local_corners){-1, -1}
+                        : (local_corners){nodes->number[t->next[p]], nodes->number[t->last[p]]};
+    e->have_corners = true;
 }
 
 /* ---- forces ---- */
 
 /* Forces (1) of the first n bonds. The pull is the tension over the length: times the vector between the ends it is the
- * force on the first one. */
-static void pull(local_elements *e, dem_index n, const double *x)
+ * force on the first one. `by_node` is a constant wherever this is called. */
+INLINE void pull(local_elements *e, dem_index n, const double *x, bool by_node)
 {
     const double *restrict pushed = e->pushed, *restrict pulled = e->pulled, *restrict rest_length = e->rest_length;
-    double *restrict fx = e->fx, *restrict fy = e->fy;
+    double *restrict fx = e->fx, *restrict fy = e->fy, *restrict both = e->both;
     for (dem_index k = 0; k < n; k++) {
         const vec2 d = vec2_sub(vec2_at(x, e->bonds[k].second), vec2_at(x, e->bonds[k].first));
         fx[k] = d.x;
@@ -185,9 +196,17 @@ static void pull(local_elements *e, dem_index n, const double *x)
     for (dem_index k = 0; k < n; k++) {
         const double length = sqrt(fx[k] * fx[k] + fy[k] * fy[k]), in_tension = pulled[k], under_pressure = pushed[k];
         const double stiffness = length > rest_length[k] ? in_tension : under_pressure;
-        const double factor = springs_pull(stiffness, rest_length[k], length);
-        fx[k] = factor * fx[k];
-        fy[k] = factor * fy[k];
+        const double factor = springs_pull(stiffness, rest_length[k], length), x_part = factor * fx[k];
+        const double y_part = factor * fy[k];
+        if (by_node) {
+            both[4 * k] = x_part;
+            both[4 * k + 1] = y_part;
+            both[4 * k + 2] = -x_part;
+            both[4 * k + 3] = -y_part;
+        } else {
+            fx[k] = x_part;
+            fy[k] = y_part;
+        }
     }
 }
 
@@ -212,27 +231,74 @@ static void push_coupled(local_elements *e, dem_index n, const double *x)
     }
 }
 
-/* Whether triangles push nothing: the first n guards are off, by more than the areas of one triangle at its corners may
- * differ by rounding. */
-static bool are_slack(const local_elements *e, dem_index n, const double *x)
+/* ---- guards ---- */
+
+/* A guard is off for certain where the area is larger than its onset by more than the areas of one triangle at its
+ * corners may differ by rounding. */
+static const double margin = 1.01;
+
+/* How far each coordinate of the corners of a triangle may go without its guard coming on; < 0: it may be on. Where all
+ * go by d, its area changes by at most S d + 4 d^2, with S the sum of the sizes of the components of two edges; that is
+ * at most 2 S d for d <= S/4. */
+static double leeway_of(const local_guarded *g, const double *x)
 {
-    const double margin = 1.01;
-    bool slack = e->forces->model->triangles.area_stiffness == NULL;
-    for (dem_index k = 0; k < n && slack; k++) {
-        const local_guarded *g = &e->guarded[k];
-        slack = vec2_triangle_area(vec2_at(x, g->corner[0]), vec2_at(x, g->corner[1]), vec2_at(x, g->corner[2])) >
-                margin * g->onset;
-    }
-    return slack;
+    const vec2 from = vec2_at(x, g->corner[0]);
+    const vec2 u = vec2_sub(vec2_at(x, g->corner[1]), from), w = vec2_sub(vec2_at(x, g->corner[2]), from);
+    const double spare = 0.5 * vec2_cross(u, w) - margin * g->onset;
+    const double size = fabs(u.x) + fabs(u.y) + fabs(w.x) + fabs(w.y);
+    return spare >= 0.0 ? fmin(0.5 * spare / size, 0.25 * size) : -1.0;
 }
+
+/* The leeway of all triangles that are asked for so far; nodes are known where they were when they were first. */
+static void find_leeway(local_elements *e, dem_index n_nodes, dem_index n, const double *x)
+{
+    for (; e->n_known < n_nodes; e->n_known++) vec2_put(e->known, e->n_known, vec2_at(x, e->n_known));
+    for (; e->n_slack < n; e->n_slack++) e->leeway = fmin(e->leeway, leeway_of(&e->guarded[e->n_slack], e->known));
+}
+
+/* Whether no one of n coordinates has gone further than the leeway: no difference has a sign. Where one is not a number
+ * springs pull by none either. */
+static bool are_near(const local_elements *e, dem_index n, const double *x)
+{
+    const double *restrict known = e->known, leeway = e->leeway;
+    uint64_t signs = 0;
+    for (dem_index k = 0; k < n; k++) {
+        const double left = leeway - fabs(x[k] - known[k]);
+        uint64_t bits;
+        memcpy(&bits, &left, sizeof bits);
+        signs |= bits;
+    }
+    return signs >> 63 == 0;
+}
+
+/* Whether the first n guards are off, each by itself. */
+static bool are_off(const local_elements *e, dem_index n, const double *x)
+{
+    bool off = true;
+    for (dem_index k = 0; k < n && off; k++) {
+        const local_guarded *g = &e->guarded[k];
+        off = vec2_triangle_area(vec2_at(x, g->corner[0]), vec2_at(x, g->corner[1]), vec2_at(x, g->corner[2])) >
+              margin * g->onset;
+    }
+    return off;
+}
+
+/* Whether triangles push nothing at the nodes of a ring or nearer. */
+static bool are_slack(local_elements *e, const local_nodes *nodes, int ring, const double *x)
+{
+    const dem_index n = e->places[nodes->end[ring]].guarded, n_nodes = nodes->end[ring + 1];
+    if (e->forces->model->triangles.area_stiffness != NULL) return false;
+    find_leeway(e, n_nodes, n, x);
+    return are_near(e, 2 * n_nodes, x) || are_off(e, n, x);
+}
+
+/* ---- sums ---- */
 
 static vec2 force_of_springs(const local_elements *e, dem_index j)
 {
     vec2 force = {0.0, 0.0};
-    for (dem_index p = e->places[j].pulls; p < e->places[j + 1].pulls; p++) {
-        const dem_index k = e->pulls[p] >> 1;
-        force = vec2_along(force, e->pulls[p] & 1 ? -1.0 : 1.0, (vec2){e->fx[k], e->fy[k]});
-    }
+    for (dem_index p = e->places[j].pulls; p < e->places[j + 1].pulls; p++)
+        force = vec2_add(force, vec2_at(e->both, e->pulls[p]));
     for (dem_index p = e->places[j].pushes; p < e->places[j + 1].pushes; p++)
         force = vec2_add(force, e->coupled[e->pushes[p] / 3].force[e->pushes[p] % 3]);
     return force;
@@ -257,13 +323,15 @@ void local_elements_push(local_elements *e, const local_nodes *nodes, int ring, 
 {
     const dem_index n = nodes->end[ring];
     const local_places *end = &e->places[n];
-    pull(e, end->bonds, x);
     if (!e->by_node) {
+        pull(e, end->bonds, x, false);
         add_up_bonds(e, end->bonds, nodes->end[ring + 1], f);
         return;
     }
+    pull(e, end->bonds, x, true);
     push_coupled(e, end->coupled, x);
-    const bool slack = are_slack(e, end->guarded, x);
+    const bool slack = are_slack(e, nodes, ring, x);
+    if (!slack && !e->have_corners) list_corners(e, nodes);
     for (dem_index j = 0; j < n; j++) {
         const bool none = e->places[j].corners == e->places[j + 1].corners;
         vec2 force = force_of_springs(e, j), further = {0.0, 0.0};

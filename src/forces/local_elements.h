@@ -34,7 +34,7 @@ typedef struct local_places {
     dem_index bonds, pulls, corners, guarded, coupled, pushes;
 } local_places;
 
-enum { LOCAL_ELEMENTS_ARRAYS = 12 };
+enum { LOCAL_ELEMENTS_ARRAYS = 14 };
 
 typedef struct local_elements {
     const forces *forces;
@@ -43,11 +43,16 @@ typedef struct local_elements {
     local_bond *bonds;                     /* each is listed at its first node */
     double *pushed, *pulled, *rest_length; /* of bonds: stiffness under pressure and in tension, N; m */
     double *fx, *fy;                       /* of bonds: force on the first node, N: scratch */
-    int32_t *pulls;         /* of nodes, in the order of forces_of_elements(): 2 bond, + 1 on its second node */
-    local_corners *corners; /* of nodes, in that order, too */
+    double *both;   /* [bonds][2][2] where sums go by node: force on the first node, and on the second: scratch */
+    int32_t *pulls; /* of nodes, in the order of forces_of_elements(): 2 bond, + 1 on its second node */
+    local_corners *corners; /* of nodes, in that order, too; */
+    bool have_corners;      /* whether they are listed: where no guard is on nobody asks for them */
     local_guarded *guarded; /* each is listed at the corner with the lowest number, as the following are */
     local_coupled *coupled;
-    int32_t *pushes;                       /* of nodes, in that order: 3 coupled + corner */
+    int32_t *pushes;            /* of nodes, in that order: 3 coupled + corner */
+    double *known;              /* [n_known][2] where nodes were at first, m: */
+    dem_index n_known, n_slack; /* of so many of the guarded triangles it is known that they are off */
+    double leeway;              /* as long as no coordinate is further from these than this, m; < 0: it is not known */
     dem_index room[LOCAL_ELEMENTS_ARRAYS]; /* of the arrays */
 } local_elements;
 
