@@ -24,7 +24,7 @@ enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stage
 dem_status local_correction_create(local_correction *out, const state_layout *l, const local_forces *f,
                                    const constraints *c, const local_correction_rule *rule)
 {
-    local_correction p = {.rule = *rule};
+    local_correction p = {.rule = *rule, .arrays = array_ops_fastest()};
     TRY(butcher_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
     while (p.table.c[p.last] != 1.0) p.last++;
     TRY(neighbourhood_create(&p.near, l, f, c, 1 + (f->couple_velocities ? p.table.stages : p.table.stages / 2)));
@@ -288,29 +288,41 @@ dem_status local_correction_open(local_correction *p, const dense_output *step, 
 
 /* ---- the change ---- */
 
-/* change[stage] = change[0] + h sum of weights rates over the stages before, of nodes first to last - 1. */
+/* How many numbers of a change may be other than 0 at a stage: those of the nodes that accelerate otherwise at the
+ * stages before it. The event itself moves ring 0 alone, which is among them. */
+static dem_index n_changed_at(const local_correction *p, int stage)
+{
+    const int before = stage == END ? p->table.stages - 1 : stage - 1;
+    return components(p, p->near.nodes.end[reach(p, before)]);
+}
+
+/* change[stage] = change[0] + h sum of weights rates over the stages before, of numbers first to last - 1. */
 static void combine(const local_correction *p, int stage, double *const rates[], double *const change[],
                     dem_index first, dem_index last)
 {
     const double *weights = stage == END ? p->table.b : p->table.a + stage * p->table.stages;
-    const dem_index begin = components(p, first), end = components(p, last);
-    double *restrict to = change[stage];
-    memcpy(to + begin, change[0] + begin, (size_t)(end - begin) * sizeof *to);
+    const double *in[1 + LOCAL_CORRECTION_STAGES] = {change[0] + first};
+    double by[1 + LOCAL_CORRECTION_STAGES] = {1.0};
+    int n = 1;
     for (int q = 0; q < stage && q < p->table.stages; q++) {
-        const double *restrict rate = rates[q], weight = p->h * weights[q];
-        for (dem_index k = begin; k < end && weight != 0.0; k++) to[k] += weight * rate[k];
+        if (weights[q] == 0.0) continue;
+        in[n] = rates[q] + first;
+        by[n++] = p->h * weights[q];
     }
+    p->arrays->combine(change[stage] + first, n, by, in, last - first);
 }
 
 /* dx_q and dv_q of the nodes that move, and of the quadratures, which are integrated as the nodes are. */
 static void advance(local_correction *p, int stage)
 {
-    const dem_index n = p->near.nodes.n;
-    combine(p, stage, p->dv, p->dx, 0, n_moving(p));
-    combine(p, stage, p->da, p->dv, 0, n_moving(p));
-    if (p->n_quadratures == 0) return;
-    combine(p, stage, p->dv, p->dx, n, n + p->n_quadratures);
-    combine(p, stage, p->da, p->dv, n, n + p->n_quadratures);
+    const dem_index n_moves = components(p, n_moving(p)), n_changes = n_changed_at(p, stage);
+    const dem_index first = components(p, p->near.nodes.n), last = components(p, p->near.nodes.n + p->n_quadratures);
+    double *const *const rates[] = {p->dv, p->da}, *const *const changes[] = {p->dx, p->dv};
+    for (int k = 0; k < 2; k++) {
+        combine(p, stage, rates[k], changes[k], 0, n_changes);
+        memset(changes[k][stage] + n_changes, 0, (size_t)(n_moves - n_changes) * sizeof(double));
+        if (last > first) combine(p, stage, rates[k], changes[k], first, last);
+    }
 }
 
 /* The first n numbers of a state with the change; behind n_changed the change is 0. */
@@ -346,7 +358,8 @@ static dem_status change_stage(local_correction *p, const dense_output *step, in
     if (needs_state(p)) neighbourhood_put(&p->near, &s, n, y);
     put_time(p, step, at, y);
     neighbourhood_accelerate(&p->near, ring, &s, p->changed[2]);
-    for (dem_index k = 0; k < moving; k++) p->da[stage][k] = k < accelerated ? p->changed[2][k] - p->a[at][k] : 0.0;
+    for (dem_index k = 0; k < accelerated; k++) p->da[stage][k] = p->changed[2][k] - p->a[at][k];
+    memset(p->da[stage] + accelerated, 0, (size_t)(moving - accelerated) * sizeof(double));
     hold_prescribed(p, stage);
     return add_rates(p, stage, 1.0, (constraint_state){s.t, y});
 }
