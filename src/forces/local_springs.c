@@ -2,7 +2,7 @@
 /* Accelerations of the nodes near an event, as the functions of local_forces.h. Springs and triangles are listed by
  * local numbers, once for an event (local_elements.c); where springs are damped nothing is listed, and each node is
  * evaluated in a state of all nodes. Both have the bits of forces.h but where undamped springs are all that acts
- * between nodes (`plain`): their forces are summed up spring by spring, in another order. Contacts with obstacles near
+ * between nodes: their forces are summed up spring by spring, in another order. Contacts with obstacles near
  * the event are not here but in contact/contact_constraints.c; the step over the neighbourhood is in
  * events/local_correction.c. */
 #include "forces/local_springs.h"
@@ -52,12 +52,12 @@ static dem_status local_springs_add_neighbours(const void *self, local_nodes *no
 
 /* ---- lists ---- */
 
-/* Whether springs are all that acts between the nodes: what acts at all, and no node is near another surface. */
-static bool are_plain(const forces *f, const local_nodes *nodes)
+/* Whether no node is near another surface. */
+static bool are_apart(const forces *f, const local_nodes *nodes)
 {
     for (dem_index j = 0; f->surfaces != NULL && j < nodes->n; j++)
         if (surface_contact_has(f->surfaces, nodes->list[j])) return false;
-    return forces_are_plain(f);
+    return true;
 }
 
 /* Makes room for the accelerations of all nodes, if there are rigid bodies. */
@@ -75,21 +75,24 @@ static dem_status local_springs_gather(void *self, const local_nodes *nodes)
 {
     local_springs *b = self;
     TRY(reserve_rigid(b));
-    b->plain = are_plain(b->forces, nodes);
-    return forces_couple_velocities(b->forces) ? DEM_OK : local_elements_list(&b->elements, nodes, !b->plain);
+    const bool apart = are_apart(b->forces, nodes);
+    b->alone = apart && !forces_push(b->forces);
+    if (forces_couple_velocities(b->forces)) return DEM_OK;
+    return local_elements_list(&b->elements, nodes, !(apart && forces_are_plain(b->forces)));
 }
 
 /* ---- accelerations ---- */
 
-/* By lists, which read the positions of the local nodes. Beside plain springs nothing has to be asked for. */
+/* By lists, which read the positions of the local nodes. Where elements are all that acts between nodes, nothing else
+ * has to be asked for. */
 static void accelerate_listed(local_springs *b, const local_nodes *nodes, int ring, const local_state *s, double *a)
 {
     const forces *f = b->forces;
     const dem_index n = nodes->end[ring];
     local_elements_push(&b->elements, nodes, ring, s->x, a);
-    for (dem_index j = 0; j < n && b->plain; j++)
+    for (dem_index j = 0; j < n && b->alone; j++)
         vec2_put(a, j, forces_acceleration_by(f, nodes->list[j], vec2_at(a, j), vec2_at(s->v, j)));
-    for (dem_index j = 0; j < n && !b->plain; j++) {
+    for (dem_index j = 0; j < n && !b->alone; j++) {
         const dem_index i = nodes->list[j];
         const vec2 own = forces_acceleration_of(f, i, vec2_at(a, j), vec2_at(s->v, j), s->y + b->velocities);
         vec2_put(a, j, forces_with_surfaces(f, i, own, s->y));

@@ -11,7 +11,7 @@ typedef struct local_springs {
     const forces *forces;
     local_elements elements; /* near the nodes gathered last */
     dem_index velocities;    /* where they begin in a state */
-    bool plain;              /* springs are all that acts between these */
+    bool alone;              /* elements are all that acts between these, and nothing is given */
     double *rigid;           /* [n_nodes][2] m/s^2, scratch; NULL until rigid bodies need it */
 } local_springs;
 

@@ -168,6 +168,69 @@ TEST(all_else_has_the_bits_of_the_model)
     }
 }
 
+/* ---- guards that come on ---- */
+
+/* Moves the corners of a triangle by a distance in each coordinate, such that its area falls the fastest. */
+static void squeeze(rig *r, const dem_index corner[3], double by)
+{
+    const vec2 at[3] = {vec2_at(r->y, corner[0]), vec2_at(r->y, corner[1]), vec2_at(r->y, corner[2])};
+    for (int c = 0; c < 3; c++) {
+        const vec2 across = vec2_sub(at[(c + 2) % 3], at[(c + 1) % 3]);
+        r->y[2 * corner[c]] += copysign(by, across.y);
+        r->y[2 * corner[c] + 1] -= copysign(by, across.x);
+    }
+    for (dem_index j = 0; j < r->nodes.n; j++)
+        state_copy_row(&r->layout, r->x + 2 * j, state_x(&r->layout, r->y, r->nodes.list[j]));
+}
+
+static void check_bits(rig *r)
+{
+    const local_state s = {0.0, r->x, r->v, r->y};
+    r->near.accelerate(r->near.self, &r->nodes, RINGS - 1, &s, r->a);
+    for (dem_index j = 0; j < r->nodes.end[RINGS - 1]; j++) {
+        const vec2 a = forces_acceleration(&r->acting, r->nodes.list[j], r->y, r->y + state_velocities(&r->layout));
+        assert_close(r->a[2 * j], a.x, 0.0);
+        assert_close(r->a[2 * j + 1], a.y, 0.0);
+    }
+}
+
+/* How far nodes may go without a look at each triangle is known from where they were first: all corners of one go the
+ * shortest way, in thousandths of the spacing, until its guard pushes. */
+TEST(a_guard_pushes_from_its_onset_on)
+{
+    const double step = 5e-6;
+    CLEANUP(close_rig) rig r;
+    open_rig(&r, others[1]);
+    gather(&r, r.layout.n_nodes / 2);
+    const triangles *t = &r.model->triangles;
+    const dem_index p = t->row[r.nodes.list[0]], corner[3] = {r.nodes.list[0], t->next[p], t->last[p]};
+    double share = 1.0;
+    while (share > 0.9 * TRIANGLES_GUARD_ONSET) {
+        check_bits(&r);
+        squeeze(&r, corner, step);
+        share = vec2_triangle_area(vec2_at(r.y, corner[0]), vec2_at(r.y, corner[1]), vec2_at(r.y, corner[2])) /
+                t->rest_area[p];
+    }
+    check_bits(&r);
+}
+
+/* ---- what is given ---- */
+
+TEST(given_forces_act_beside_those_of_elements)
+{
+    CLEANUP(close_rig) rig r;
+    CLEANUP(boundary_conditions_free) boundary_conditions given;
+    open_rig(&r, others[0]);
+    const dem_index pushed[1] = {r.layout.n_nodes / 2};
+    const dem_boundary list[1] = {
+        SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = pushed, .value = {40.0, -20.0})};
+    assert_ok(boundary_conditions_compile(&given, list, 1, &r.model->lattice, 0));
+    r.acting.boundaries = &given;
+    check_accelerations(&r, 0.0);
+}
+
+/* ---- nodes ---- */
+
 /* Every node has its number, in the nearest ring; those gathered before are forgotten. */
 TEST(nodes_have_their_numbers_in_rings)
 {
