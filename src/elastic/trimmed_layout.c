@@ -229,25 +229,38 @@ static unsigned lane_bits(int lane)
     return (unsigned)one_lane << 2 * lane;
 }
 
-/* The mask of an entry without the lanes of which nothing is left. `next` counts the items of each lane. */
-static unsigned whole_lanes(const trimmed_layout *l, unsigned mask, const dem_index *next)
+/* What is left of the items of an entry. */
+typedef struct remains {
+    unsigned mask;       /* its lanes without those of which nothing is left; of these: */
+    bool weaker, softer; /* some are not whole; and have less in tension than under pressure */
+} remains;
+
+/* `next` counts the items of each lane, and goes on by those of these lanes. */
+static remains pass_lanes(const trimmed_layout *l, unsigned mask, dem_index *next)
 {
-    unsigned kept = 0;
-    for (int lane = 0; lane < LAYOUT_LANES; lane++)
-        if ((mask & lane_bits(lane)) && l->left[lane * l->most + next[lane]] > 0.0) kept |= lane_bits(lane);
-    return kept;
+    remains r = {0, false, false};
+    for (int lane = 0; lane < LAYOUT_LANES; lane++) {
+        if (!(mask & lane_bits(lane))) continue;
+        const dem_index item = lane * l->most + next[lane]++;
+        const double left = l->left[item], pulled = l->pulled[item];
+        if (!(left > 0.0)) continue;
+        r.mask |= lane_bits(lane);
+        r.weaker = r.weaker || left != 1.0 || pulled != 1.0;
+        r.softer = r.softer || pulled != left;
+    }
+    return r;
 }
 
 /* Of a set as wide as its layout has it: the stiffness, and the viscosity where there is one, of what is left of the
  * items of these lanes; and behind it the stiffness in tension, or of coupled triangles what is left of the couplings.
  * Those of other lanes do not count: they are as in the whole body, so that more sets are equal. */
-static void fill_set(const trimmed_layout *l, const trimming *t, unsigned mask, const dem_index *next, double *values)
+static void fill_set(const trimmed_layout *l, const trimming *t, unsigned mask, const dem_index *passed, double *values)
 {
     double *own = t->stiffness >= 0 ? values + t->stiffness * LAYOUT_LANES : NULL;
     double *behind = values + t->width * LAYOUT_LANES;
     for (int q = 0; q < LAYOUT_LANES; q++) behind[q] = own != NULL ? own[q] : 1.0;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const dem_index item = lane * l->most + next[lane];
+        const dem_index item = lane * l->most + passed[lane] - 1;
         const int q = layout_lane(lane);
         if (!(mask & lane_bits(lane))) continue;
         behind[q] *= l->pulled[item];
@@ -256,32 +269,15 @@ static void fill_set(const trimmed_layout *l, const trimming *t, unsigned mask, 
     }
 }
 
-/* What is left of the items of these lanes. */
-typedef struct remains {
-    bool weaker, softer; /* some are not whole; and have less in tension than under pressure */
-} remains;
-
-static remains look_at_lanes(const trimmed_layout *l, unsigned mask, const dem_index *next)
-{
-    remains r = {false, false};
-    for (int lane = 0; lane < LAYOUT_LANES; lane++) {
-        const dem_index item = lane * l->most + next[lane];
-        if (!(mask & lane_bits(lane))) continue;
-        r.weaker = r.weaker || l->left[item] != 1.0 || l->pulled[item] != 1.0;
-        r.softer = r.softer || l->pulled[item] != l->left[item];
-    }
-    return r;
-}
-
-/* A set of its own for an entry of which something has softened, or a spring has lost a triangle. */
-static dem_status find_set(trimmed_layout *l, const trimming *t, const dem_index *next, layout_entry *e)
+/* A set of its own for an entry of which something has softened, or a spring has lost a triangle. `passed` counts the
+ * items of each lane up to those of the entry. */
+static dem_status find_set(trimmed_layout *l, const trimming *t, const dem_index *passed, remains r, layout_entry *e)
 {
     double values[(LANE_ITEM_WIDTH + 1) * LAYOUT_LANES];
-    const remains r = look_at_lanes(l, e->mask, next);
     intern_span span;
     if (t->sets == NULL || !r.weaker) return DEM_OK;
     memcpy(values, (const double *)t->whole_sets->items + e->set, (size_t)(t->width * LAYOUT_LANES) * sizeof *values);
-    fill_set(l, t, e->mask, next, values);
+    fill_set(l, t, r.mask, passed, values);
     TRY(intern_find(t->sets, values, (t->width + r.softer) * LAYOUT_LANES, &span));
     e->set = span.first;
     e->soft = r.softer;
@@ -310,12 +306,12 @@ static dem_status trim_part(trimmed_layout *l, const trimming *t, dem_index bloc
         memcpy(e, (const layout_entry *)t->whole->entries.items + p, (size_t)t->n_entries * sizeof *e);
         const unsigned mask = e->mask;
         const int32_t set = e->set;
-        e->mask = (uint16_t)whole_lanes(l, mask, next);
-        TRY(find_set(l, t, next, e));
+        const remains r = pass_lanes(l, mask, next);
+        e->mask = (uint16_t)r.mask;
+        TRY(find_set(l, t, next, r, e));
         changed = changed || e->mask != mask || e->set != set;
         if (e->kind != LAYOUT_GATHERED && (e->mask != every_lane || e->soft)) e->kind = LAYOUT_MASKED;
         if (e->mask != 0) TRY(add_entries(l, e, t->n_entries));
-        for (int lane = 0; lane < LAYOUT_LANES; lane++) next[lane] += (mask & lane_bits(lane)) != 0;
     }
     t->part->span[block] = span;
     return changed ? intern_find(&t->part->entries, l->entries, l->n_entries, &t->part->span[block]) : DEM_OK;
