@@ -3,7 +3,25 @@
 #ifndef DEM_BASE_SORTED_H
 #define DEM_BASE_SORTED_H
 
+#include <stdlib.h>
+
 #include <dem/dem.h>
+
+static inline int sorted_compare(const void *a, const void *b)
+{
+    const dem_index first = *(const dem_index *)a, second = *(const dem_index *)b;
+    return (first > second) - (first < second);
+}
+
+/** Puts a list [n] in ascending order, each number once.  \return how many there are */
+static inline dem_index sorted_make(dem_index *list, dem_index n)
+{
+    dem_index kept = 0;
+    if (n > 0) qsort(list, (size_t)n, sizeof *list, sorted_compare);
+    for (dem_index k = 0; k < n; k++)
+        if (kept == 0 || list[k] != list[kept - 1]) list[kept++] = list[k];
+    return kept;
+}
 
 /** Where a number is in a list [n], which has each number once; -1: nowhere. */
 static inline dem_index sorted_find(const dem_index *list, dem_index n, dem_index number)

@@ -82,22 +82,6 @@ void failing_elements_add(failing_elements *f, const element_state *s, dem_index
 
 /* ---- in order ---- */
 
-static int compare(const void *a, const void *b)
-{
-    const dem_index first = *(const dem_index *)a, second = *(const dem_index *)b;
-    return (first > second) - (first < second);
-}
-
-/* Ascending, each number once.  \return how many there are */
-static dem_index sort(dem_index *list, dem_index n)
-{
-    dem_index kept = 0;
-    if (n > 0) qsort(list, (size_t)n, sizeof *list, compare);
-    for (dem_index k = 0; k < n; k++)
-        if (kept == 0 || list[k] != list[kept - 1]) list[kept++] = list[k];
-    return kept;
-}
-
 /* Whether a triangle breaks for its own part. */
 static bool breaks_alone(const failing_elements *f, const element_state *s, dem_index triangle)
 {
@@ -127,13 +111,13 @@ static void find_nodes(failing_elements *f, const element_state *s)
             for (int end = 0; end < 2; end++)
                 append(f, &f->nodes, &f->n_nodes, &f->node_capacity, l->ends[2 * s->spring[p] + end]);
     }
-    f->n_nodes = sort(f->nodes, f->n_nodes);
+    f->n_nodes = sorted_make(f->nodes, f->n_nodes);
 }
 
 void failing_elements_complete(failing_elements *f, const element_state *s)
 {
-    f->n = sort(f->list, f->n);
-    f->n_forced = sort(f->forced, f->n_forced);
+    f->n = sorted_make(f->list, f->n);
+    f->n_forced = sorted_make(f->forced, f->n_forced);
     find_nodes(f, s);
     if (!grow_array((void **)&f->breaks, &f->breaks_capacity, f->n, sizeof *f->breaks)) {
         f->status = status_fail(DEM_ERROR_MEMORY, "out of memory for elements that break");

@@ -7,52 +7,53 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/grow.h"
 #include "base/reduce.h"
+#include "base/sorted.h"
 #include "base/status.h"
 #include "elastic/triangles.h"
 
 /* In units of a triangle's area: a node that only touches an edge is not inside. */
 static const double touching = 1e-9;
 
-/* Lists the boundary nodes once; the grid is filled anew at each look. */
-static dem_status list_nodes(overlap *o, const mesh_boundary *boundary)
+dem_status overlap_reserve(overlap *o, const mesh_boundary *boundary)
 {
-    const dem_index n = boundary->lattice->n_nodes;
-    unsigned char *flags = calloc((size_t)n, 1);
-    CHECK_MEMORY(flags);
-    mesh_boundary_mark(boundary, flags, 1);
-    for (dem_index i = 0; i < n; i++) o->n += flags[i];
-    o->nodes = malloc(((size_t)o->n + 1) * sizeof *o->nodes);
-    for (dem_index i = 0, k = 0; i < n && o->nodes != NULL; i++)
-        if (flags[i]) o->nodes[k++] = i;
-    free(flags);
-    CHECK_MEMORY(o->nodes);
+    CHECK(grow_array((void **)&o->nodes, &o->capacity, 2 * boundary->n, sizeof *o->nodes) &&
+              grow_array((void **)&o->next, &o->next_room, 2 * boundary->n, sizeof *o->next),
+          DEM_ERROR_MEMORY, "out of memory for %lld edges of the boundary", (long long)boundary->n);
     return DEM_OK;
 }
 
-static dem_status create(overlap *out, const mesh_boundary *boundary, dem_index n_whole)
+/* The ends of the edges, in the room that there is. A node that has lost all of its triangles is on no boundary any
+ * more. */
+static void list_nodes(overlap *o, const mesh_boundary *boundary)
 {
-    overlap o = {.found = {.node = -1, .triangle = -1}, .n_cells = n_whole};
-    *out = o;
-    if (n_whole == 0) return DEM_OK;
-    dem_status status = list_nodes(&o, boundary);
-    o.first = malloc((size_t)o.n_cells * sizeof *o.first);
-    o.next = malloc(((size_t)o.n + 1) * sizeof *o.next);
-    if (status == DEM_OK && (o.first == NULL || o.next == NULL))
-        status = status_fail(DEM_ERROR_MEMORY, "out of memory");
-    if (status == DEM_OK)
-        *out = o;
-    else
-        overlap_destroy(&o);
-    return status;
+    for (dem_index k = 0; k < boundary->n; k++) {
+        o->nodes[2 * k] = boundary->list[k].lower;
+        o->nodes[2 * k + 1] = boundary->list[k].upper;
+    }
+    o->n = sorted_make(o->nodes, 2 * boundary->n);
+}
+
+static dem_status create(overlap *o, const mesh_boundary *boundary)
+{
+    o->n_cells = boundary->lattice->n_triangles;
+    if (o->n_cells == 0) return DEM_OK;
+    TRY(overlap_reserve(o, boundary));
+    o->first = malloc((size_t)o->n_cells * sizeof *o->first);
+    CHECK_MEMORY(o->first);
+    list_nodes(o, boundary);
+    return DEM_OK;
 }
 
 dem_status overlap_create(overlap *out, const dem_lattice *lattice)
 {
     mesh_boundary boundary;
+    *out = (overlap){.found = {.node = -1, .triangle = -1}};
     TRY(mesh_boundary_create(&boundary, lattice, NULL));
-    const dem_status status = create(out, &boundary, lattice->n_triangles);
+    const dem_status status = create(out, &boundary);
     mesh_boundary_free(&boundary);
+    if (status != DEM_OK) overlap_destroy(out);
     return status;
 }
 
@@ -61,8 +62,7 @@ void overlap_destroy(overlap *o)
     free(o->nodes);
     free(o->first);
     free(o->next);
-    o->nodes = NULL;
-    o->first = o->next = NULL;
+    *o = (overlap){.found = o->found};
 }
 
 /* ---- cells ---- */
@@ -163,24 +163,29 @@ static void look_in(overlap *o, const dem_lattice *lattice, dem_index k, double 
                 if (is_inside(corner, o->nodes[p], x)) note(o, o->nodes[p], k, t, x);
 }
 
-/* A node that has lost all of its triangles is on no boundary any more. */
-dem_status overlap_break(overlap *o, const mesh_boundary *boundary, const unsigned char *broken)
+/* ---- looks ---- */
+
+void overlap_break(overlap *o, const mesh_boundary *boundary, const unsigned char *broken)
 {
-    dem_index n_whole = 0;
-    overlap next;
-    for (dem_index t = 0; t < boundary->lattice->n_triangles; t++) n_whole += broken == NULL || !broken[t];
-    TRY(create(&next, boundary, n_whole));
-    next.found = o->found;
-    next.broken = broken;
-    overlap_destroy(o);
-    *o = next;
-    return DEM_OK;
+    o->boundary = boundary;
+    o->broken = broken;
+}
+
+/* Cells, for which there is room, are as many as triangles that are whole. */
+static void renew(overlap *o)
+{
+    const dem_lattice *l = o->boundary->lattice;
+    list_nodes(o, o->boundary);
+    o->n_cells = 0;
+    for (dem_index t = 0; t < l->n_triangles; t++) o->n_cells += o->broken == NULL || !o->broken[t];
+    o->boundary = NULL;
 }
 
 /* The grid is filled anew, since nodes move; `most` keeps the largest number found so far. */
 void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double *x)
 {
     o->found.now = 0;
+    if (o->boundary != NULL) renew(o);
     if (o->n == 0) return;
     fill_cells(o, x);
     for (dem_index k = 0; k < lattice->n_triangles; k++)

@@ -19,12 +19,6 @@
 static const char of_triangles[] = "broken triangles", of_springs[] = "broken springs", of_energy[] = "fracture",
                   of_levels[] = "softened triangles", of_burials[] = "nodes buried";
 
-/* Triangles that are broken now; NULL: none. */
-static const unsigned char *broken_now(const dem_simulation *s)
-{
-    return element_state_triangles(s->forces.elements).broken;
-}
-
 /* ---- what depends on it ---- */
 
 static dem_status break_surfaces(dem_simulation *s, const mesh_boundary *boundary, const unsigned char *broken,
@@ -39,17 +33,11 @@ static dem_status follow_state(dem_simulation *s, const double *y)
     return y != NULL ? body_contact_follow(s, y) : DEM_OK;
 }
 
-/* What surfaces and overlaps had before. Without memory for that overlaps still must not keep flags that are freed. */
+/* What surfaces had before. */
 static dem_status go_back(dem_simulation *s, const double *y)
 {
-    mesh_boundary before;
-    s->overlap.broken = broken_now(s);
     if (s->surfaces != NULL) surface_contact_mend(s->surfaces);
-    TRY(mesh_boundary_create(&before, &s->model->lattice, broken_now(s)));
-    dem_status status = follow_state(s, y);
-    if (status == DEM_OK) status = overlap_break(&s->overlap, &before, broken_now(s));
-    mesh_boundary_free(&before);
-    return status;
+    return follow_state(s, y);
 }
 
 /* After a failure all is as it was, unless there is no memory to go back either.  \param outline  NULL: as it is */
@@ -58,7 +46,7 @@ static dem_status follow(dem_simulation *s, const element_state *next, const mes
 {
     dem_status status = break_surfaces(s, boundary, next->triangle, y);
     if (status == DEM_OK) status = follow_state(s, y);
-    if (status == DEM_OK) status = overlap_break(&s->overlap, boundary, next->triangle);
+    if (status == DEM_OK) status = overlap_reserve(&s->overlap, boundary);
     if (status == DEM_OK && outline != NULL) status = contact_source_follow_surface(&s->contact_events, outline);
     return status == DEM_OK ? DEM_OK : status_first(status, go_back(s, y));
 }
@@ -103,6 +91,7 @@ static dem_status renew_outline(dem_simulation *s, const element_state *next, co
     if (s->surfaces != NULL) surface_contact_keep(s->surfaces);
     s->outline = outline;
     s->boundary = boundary;
+    overlap_break(&s->overlap, &s->boundary, next->triangle);
     s->n_outside = next->n_broken;
     return DEM_OK;
 }

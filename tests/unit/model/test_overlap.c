@@ -88,7 +88,8 @@ TEST(broken_triangles_do_not_count)
     for (dem_index k = 0; k < l.n_triangles; k++)
         if (!broken[k]) memcpy(corners + 3 * whole.n_triangles++, l.triangles + 3 * k, 3 * sizeof *corners);
     assert_ok(mesh_boundary_create(&boundary, &l, broken));
-    assert_ok(overlap_break(&o, &boundary, broken));
+    assert_ok(overlap_reserve(&o, &boundary));
+    overlap_break(&o, &boundary, broken);
     assert_ok(mesh_edges_contact_flags(l.flags, &whole));
     check_counts(&o, &l, &whole);
 }
