@@ -168,9 +168,9 @@ static dem_status take(event_queue *q, const due_event *due)
 }
 
 /* Computes the acceleration of node i at the end of the step again, from the new positions of the node and its
- * neighbours: that of its group if closed contacts hold it, else that of its forces. Prescribed components keep what is
- * given. x' is the velocity again, but where some component of the node is prescribed. */
-static void renew(event_queue *q, dem_index i)
+ * neighbours, unless it is known: that of its group if closed contacts hold it, else that of its forces. Prescribed
+ * components keep what is given. x' is the velocity again, but where some component of the node is prescribed. */
+static void renew(event_queue *q, dem_index i, const double *known)
 {
     const state_layout *l = &q->layout;
     const constraints *c = q->constraints;
@@ -178,6 +178,8 @@ static void renew(event_queue *q, dem_index i)
     double *u = q->changed.f1 + state_row(l, i), *a = u + state_velocities(l), now[STATE_DIM_MOST];
     if (constraints_group_at(c, i) >= 0)
         state_copy_row(l, now, *c->a + state_row(l, i));
+    else if (known != NULL)
+        state_copy_row(l, now, known);
     else
         q->forces->accelerate_one(q->forces->self, i, q->changed.y1, now);
     for (int d = 0; d < l->dim; d++)
@@ -208,6 +210,21 @@ static dem_status renew_rates(event_queue *q)
     return DEM_OK;
 }
 
+static dem_status count(void *context, dem_index node)
+{
+    (void)node;
+    ++*(dem_index *)context;
+    return DEM_OK;
+}
+
+/* Whether constraints hold a node: then the state at the end is not that in which accelerations are known. */
+static bool holds_any(const event_queue *q)
+{
+    dem_index n = 0;
+    if (q->constraints != NULL) (void)q->constraints->each_held(q->constraints->self, count, &n);
+    return n > 0;
+}
+
 /* Computes the derivative at the end of the step again where nodes have changed, at the neighbours of these nodes,
  * whose accelerations depend on them, and at all that constraints hold, since the rates of the quadratures have their
  * forces: it is that of the state to the bit, but for the power of damping and boundaries. The next step can therefore
@@ -223,7 +240,11 @@ static dem_status renew_end(event_queue *q)
     TRY(f->add_neighbours(f->self, nodes, 0, n_changed));
     if (q->constraints != NULL) TRY(q->constraints->each_held(q->constraints->self, local_nodes_add_to, nodes));
     for (dem_index j = n_changed; j < nodes->n; j++) TRY(changed_motion_keep(&q->changed, nodes->list[j]));
-    for (dem_index j = 0; j < nodes->n; j++) renew(q, nodes->list[j]);
+    const bool moved = holds_any(q);
+    for (dem_index j = 0; j < nodes->n; j++) {
+        const dem_index i = nodes->list[j];
+        renew(q, i, moved ? NULL : changed_motion_known(&q->changed, i));
+    }
     return renew_rates(q);
 }
 

@@ -459,6 +459,17 @@ static dem_index find_felt(const local_correction *p)
     return p->near.nodes.end[ring + 1];
 }
 
+/* Accelerations at the end of the step, where they are those of the state there to the bit: the last stage of the
+ * change has evaluated them. Those of the frame have changed without being evaluated. */
+static void note_end(const local_correction *p, changed_motion *tr)
+{
+    const local_forces *f = p->near.forces;
+    const local_nodes *nodes = &p->near.nodes;
+    const dem_index n_known = p->near.n_groups == 0 && f->are_exact(f->self) ? n_moving(p) : 0;
+    for (dem_index j = 0; j < n_known; j++) changed_motion_know(tr, nodes->list[j], p->changed[2] + components(p, j));
+    for (dem_index j = n_known; j < nodes->n; j++) changed_motion_doubt(tr, nodes->list[j]);
+}
+
 /* `state` is what the source has made of the state at t*: its difference from x_0, v_0 is the jump d_0. The contacts
  * are those after the event. The stages of the change go on to the end of the step, where contact forces are left as
  * solved for the end. */
@@ -484,6 +495,7 @@ dem_status local_correction_close(local_correction *p, const dense_output *step,
         find_motion(p, step, p->rows[b], &motion);
         TRY(leave(p, tr, p->near.nodes.n + b, p->rows[b], &motion));
     }
+    note_end(p, tr);
     *error = squared_error(p);
     p->near.n_felt = find_felt(p);
     return DEM_OK;

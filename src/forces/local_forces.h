@@ -32,6 +32,8 @@ typedef struct local_forces {
     /** Computes the accelerations a [n][dim] of the nodes of a ring or nearer, in a state that is filled as far as the
      *  next ring. */
     void (*accelerate)(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a);
+    /** Whether these have the bits of accelerate_one() for the nodes that were gathered last. */
+    bool (*are_exact)(const void *self);
     /** Evaluates the external force, if there is one, on these nodes, as accelerate() does: add_power() takes its last
      *  values. */
     void (*evaluate_external)(void *self, const local_nodes *nodes, int ring, const local_state *s);

@@ -76,7 +76,7 @@ static dem_status local_springs_gather(void *self, const local_nodes *nodes)
     local_springs *b = self;
     TRY(reserve_rigid(b));
     const bool apart = are_apart(b->forces, nodes);
-    b->alone = apart && !forces_push(b->forces);
+    b->alone = apart && !forces_push(b->forces) && !forces_couple_velocities(b->forces);
     if (forces_couple_velocities(b->forces)) return DEM_OK;
     return local_elements_list(&b->elements, nodes, !(apart && forces_are_plain(b->forces)));
 }
@@ -153,6 +153,14 @@ static void local_springs_accelerate(void *self, const local_nodes *nodes, int r
     move_rigid_bodies(b, nodes, ring, s->y, a);
 }
 
+/* What rounds otherwise, or might, is left out. */
+static bool local_springs_are_exact(const void *self)
+{
+    const local_springs *b = self;
+    const forces *f = b->forces;
+    return b->alone && b->elements.by_node && f->external == NULL && f->model->rigid.n == 0;
+}
+
 /* A single node, with the bits of the sweep over all nodes. */
 static void local_springs_accelerate_one(const void *self, dem_index node, const double *y, double *a)
 {
@@ -193,6 +201,7 @@ local_forces local_springs_forces(local_springs *b)
                           .begin_step = local_springs_begin_step,
                           .add_neighbours = local_springs_add_neighbours,
                           .accelerate_one = local_springs_accelerate_one,
+                          .are_exact = local_springs_are_exact,
                           .gather = local_springs_gather,
                           .accelerate = local_springs_accelerate,
                           .evaluate_external = local_springs_evaluate_external,

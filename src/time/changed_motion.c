@@ -66,6 +66,7 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node)
           "out of memory for the contact events of a step");
     changed_motion_node *e = &tr->list[tr->n++];
     e->node = node;
+    e->is_known = false;
     state_copy_row(l, e->x, tr->y1 + at);
     state_copy_row(l, e->v, tr->y1 + v);
     state_copy_row(l, e->u, tr->f1 + at);

@@ -34,6 +34,8 @@ typedef struct changed_motion_node {
     dem_index node;
     motion_polynomial motion; /* from the last event that has changed it */
     double x[STATE_DIM_MOST], v[STATE_DIM_MOST], u[STATE_DIM_MOST], a[STATE_DIM_MOST];
+    bool is_known;              /* whether its forces have been evaluated in the state at the end, as it is now: */
+    double now[STATE_DIM_MOST]; /* its acceleration by them */
 } changed_motion_node;
 
 typedef struct changed_motion {
@@ -71,6 +73,27 @@ dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_p
 /** Copies the end of the step of a node for changed_motion_undo(), before the caller changes it there without changing
  *  the motion inside the step. */
 dem_status changed_motion_keep(changed_motion *tr, dem_index node);
+
+/** Notes the acceleration of a node whose motion has changed, in the state that the end of the step has now; or that it
+ *  is another one now, of any node. */
+static inline void changed_motion_know(changed_motion *tr, dem_index node, const double *a)
+{
+    changed_motion_node *e = &tr->list[tr->place[node]];
+    e->is_known = true;
+    state_copy_row(&tr->layout, e->now, a);
+}
+
+static inline void changed_motion_doubt(changed_motion *tr, dem_index node)
+{
+    if (tr->place[node] >= 0) tr->list[tr->place[node]].is_known = false;
+}
+
+/** What has been noted; NULL: nothing. */
+static inline const double *changed_motion_known(const changed_motion *tr, dem_index node)
+{
+    const dem_index place = tr->place[node];
+    return place >= 0 && tr->list[place].is_known ? tr->list[place].now : NULL;
+}
 
 /** Adds a change to the state at the end and its derivative. */
 void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_change *jump);

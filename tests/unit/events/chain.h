@@ -82,6 +82,12 @@ static inline void chain_accelerate(void *self, const local_nodes *nodes, int ri
     }
 }
 
+static inline bool chain_are_exact(const void *self)
+{
+    (void)self;
+    return true;
+}
+
 static inline void chain_evaluate_external(void *self, const local_nodes *nodes, int ring, const local_state *s)
 {
     (void)self;
@@ -143,6 +149,7 @@ static inline void chain_open(chain *s, int dim, const int *axes, dem_index held
                                .accelerate_one = chain_accelerate_one,
                                .gather = chain_gather,
                                .accelerate = chain_accelerate,
+                               .are_exact = chain_are_exact,
                                .evaluate_external = chain_evaluate_external};
     for (dem_index i = 0; i < CHAIN_NODES; i++)
         for (int c = 0; c < dim; c++) {
