@@ -157,7 +157,7 @@ static dem_status take(event_queue *q, const due_event *due)
     const neighbourhood_seeds seeds = {q->seeds, n_seeds, due->source->changes_forces};
     TRY(local_correction_open(&q->correction, q->step, seeds, q->now, q->state));
     TRY(resolve(q, due, &at));
-    if (due->source->changes_forces) TRY(neighbourhood_list_forces(&q->correction.near));
+    if (due->source->changes_forces) TRY(q->forces->renew(q->forces->self, &q->correction.near.nodes));
     TRY(local_correction_close(&q->correction, q->step, &q->changed, q->state, &error));
     CHECK(isfinite(error), DEM_ERROR_INTEGRATOR, "the motion near node %lld after a %s event at t = %.9g s overflows",
           (long long)q->correction.near.nodes.list[0], due->source->name, q->now);

@@ -64,11 +64,6 @@ static dem_status close_ring(neighbourhood *b, int ring)
     return DEM_OK;
 }
 
-dem_status neighbourhood_list_forces(neighbourhood *b)
-{
-    return b->forces->gather(b->forces->self, &b->nodes);
-}
-
 /* Rings 0 to n_rings; then the forces list what acts between the nodes found. Before an event closed contacts at the
  * seeds are stopped, which changes velocities. */
 dem_status neighbourhood_gather(neighbourhood *b, neighbourhood_seeds seeds)
@@ -85,7 +80,7 @@ dem_status neighbourhood_gather(neighbourhood *b, neighbourhood_seeds seeds)
         TRY(f->add_neighbours(f->self, nodes, local_nodes_begin(nodes, ring - 1), nodes->end[ring - 1]));
         TRY(close_ring(b, ring));
     }
-    return neighbourhood_list_forces(b);
+    return f->gather(f->self, nodes);
 }
 
 /* An event opens and closes contacts only of nodes that are in the neighbourhood already, so nodes and rings stay; only

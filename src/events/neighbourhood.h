@@ -49,9 +49,6 @@ static inline bool neighbourhood_is_short(const neighbourhood *b)
 /** Finds the groups again, after an event has changed them. */
 dem_status neighbourhood_regroup(neighbourhood *b);
 
-/** Lists what acts between the nodes again, after an event has changed it. */
-dem_status neighbourhood_list_forces(neighbourhood *b);
-
 /** Puts the first n nodes of a local state into the state y of all. */
 void neighbourhood_put(const neighbourhood *b, const local_state *s, dem_index n, double *y);
 

@@ -52,7 +52,7 @@ static dem_status reserve(local_elements *e, const local_nodes *nodes, slot_coun
     dem_index *room = e->room;
     CHECK(ROOM(places, local_nodes_n_moving(nodes) + 1) && ROOM(bonds, n.springs) && ROOM(pushed, n.springs) &&
               ROOM(pulled, n.springs) && ROOM(rest_length, n.springs) && ROOM(fx, n.springs) && ROOM(fy, n.springs) &&
-              ROOM(both, 4 * n.springs) && ROOM(pulls, n.springs) && ROOM(corners, n.triangles) &&
+              ROOM(both, 4 * n.springs + 4) && ROOM(pulls, n.springs) && ROOM(corners, n.triangles) &&
               ROOM(guarded, n.triangles) && ROOM(coupled, n.couplings) && ROOM(pushes, n.couplings) &&
               ROOM(known, 2 * nodes->n),
           DEM_ERROR_MEMORY, "out of memory for what is near an event");
@@ -163,6 +163,51 @@ dem_status local_elements_list(local_elements *e, const local_nodes *nodes, bool
         if (by_node && e->forces->model->couplings.n > 0) add_couplings(e, &to, nodes, j);
         e->places[j + 1] = to;
     }
+    return DEM_OK;
+}
+
+/* ---- lists after a break ---- */
+
+/* A pull of nothing, behind all bonds: it changes no sum that begins with 0. */
+static int32_t no_pull(local_elements *e, dem_index n)
+{
+    const dem_index pull = 2 * e->places[n].bonds;
+    vec2_put(e->both, pull, (vec2){0.0, 0.0});
+    return (int32_t)pull;
+}
+
+/* Of a spring that is whole still. Its other end is a local node. */
+static int32_t pull_of(local_elements *e, dem_index j, dem_index other, dem_index p)
+{
+    const springs *s = &e->forces->model->springs;
+    const springs_integrity integrity = element_state_springs(e->forces->elements);
+    const dem_index k = other > j ? find_bond(e, j, other) : find_bond(e, other, j);
+    e->pushed[k] = springs_left(integrity, s->spring[p], 0.0) * s->stiffness[p];
+    e->pulled[k] = springs_left(integrity, s->spring[p], 1.0) * s->stiffness[p];
+    return (int32_t)(2 * k + (other < j));
+}
+
+/* Those of springs that have broken since leave, and the rest stays in order. */
+static void renew_pulls(local_elements *e, const local_nodes *nodes, dem_index j, int32_t none)
+{
+    const springs *s = &e->forces->model->springs;
+    const springs_integrity integrity = element_state_springs(e->forces->elements);
+    const dem_index i = nodes->list[j];
+    dem_index to = e->places[j].pulls;
+    for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
+        if (!springs_is_broken(integrity, s->spring[p]))
+            e->pulls[to++] = pull_of(e, j, nodes->number[s->neighbour[p]], p);
+    while (to < e->places[j + 1].pulls) e->pulls[to++] = none;
+}
+
+/* Guards of what has broken still count where it is asked whether all are off: if they are not, each triangle is asked
+ * by itself. */
+dem_status local_elements_renew(local_elements *e, const local_nodes *nodes)
+{
+    if (!e->by_node || e->forces->model->couplings.n > 0) return local_elements_list(e, nodes, e->by_node);
+    const int32_t none = no_pull(e, local_nodes_n_moving(nodes));
+    for (dem_index j = 0; j < nodes->end[0]; j++) renew_pulls(e, nodes, j, none);
+    e->have_corners = false;
     return DEM_OK;
 }
 

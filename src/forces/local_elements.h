@@ -60,6 +60,10 @@ typedef struct local_elements {
  *  forces_of_elements(); otherwise there are no elements but springs
  *  \return DEM_ERROR_MEMORY: nothing is listed. Free with local_elements_destroy(). */
 dem_status local_elements_list(local_elements *e, const local_nodes *nodes, bool by_node);
+
+/** Lists anew what acts between the nodes of ring 0, where elements have broken or softened since.
+ *  \return DEM_ERROR_MEMORY: nothing is listed */
+dem_status local_elements_renew(local_elements *e, const local_nodes *nodes);
 void local_elements_destroy(local_elements *e);
 
 /** Forces, N, of the elements on the nodes of a ring or nearer, f [n][2], at local positions x [n][2] of one ring more,

@@ -29,6 +29,8 @@ typedef struct local_forces {
     void (*accelerate_one)(const void *self, dem_index node, const double *y, double *a);
     /** Lists what acts between the nodes, for the calls of accelerate() that follow. */
     dem_status (*gather)(void *self, const local_nodes *nodes);
+    /** The same after elements between the nodes of ring 0 have changed. */
+    dem_status (*renew)(void *self, const local_nodes *nodes);
     /** Computes the accelerations a [n][dim] of the nodes of a ring or nearer, in a state that is filled as far as the
      *  next ring. */
     void (*accelerate)(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a);

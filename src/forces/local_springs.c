@@ -81,6 +81,12 @@ static dem_status local_springs_gather(void *self, const local_nodes *nodes)
     return local_elements_list(&b->elements, nodes, !(apart && forces_are_plain(b->forces)));
 }
 
+static dem_status local_springs_renew(void *self, const local_nodes *nodes)
+{
+    local_springs *b = self;
+    return forces_couple_velocities(b->forces) ? DEM_OK : local_elements_renew(&b->elements, nodes);
+}
+
 /* ---- accelerations ---- */
 
 /* By lists, which read the positions of the local nodes. Where elements are all that acts between nodes, nothing else
@@ -203,6 +209,7 @@ local_forces local_springs_forces(local_springs *b)
                           .accelerate_one = local_springs_accelerate_one,
                           .are_exact = local_springs_are_exact,
                           .gather = local_springs_gather,
+                          .renew = local_springs_renew,
                           .accelerate = local_springs_accelerate,
                           .evaluate_external = local_springs_evaluate_external,
                           .add_power = local_springs_add_power,

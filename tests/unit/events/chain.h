@@ -148,6 +148,7 @@ static inline void chain_open(chain *s, int dim, const int *axes, dem_index held
                                .add_neighbours = chain_add_neighbours,
                                .accelerate_one = chain_accelerate_one,
                                .gather = chain_gather,
+                               .renew = chain_gather,
                                .accelerate = chain_accelerate,
                                .are_exact = chain_are_exact,
                                .evaluate_external = chain_evaluate_external};
