@@ -14,6 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array_ops.h"
 #include "base/status.h"
 
 enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stages */
@@ -24,7 +25,7 @@ enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stage
 dem_status local_correction_create(local_correction *out, const state_layout *l, const local_forces *f,
                                    const constraints *c, const local_correction_rule *rule)
 {
-    local_correction p = {.rule = *rule, .arrays = array_ops_fastest()};
+    local_correction p = {.rule = *rule};
     TRY(butcher_load(&p.table, rule->order > 2 ? DEM_METHOD_FEHLBERG45 : DEM_METHOD_HEUN12));
     while (p.table.c[p.last] != 1.0) p.last++;
     TRY(neighbourhood_create(&p.near, l, f, c, 1 + (f->couple_velocities ? p.table.stages : p.table.stages / 2)));
@@ -296,7 +297,9 @@ static dem_index n_changed_at(const local_correction *p, int stage)
     return components(p, p->near.nodes.end[reach(p, before)]);
 }
 
-/* change[stage] = change[0] + h sum of weights rates over the stages before, of numbers first to last - 1. */
+/* change[stage] = change[0] + h sum of weights rates over the stages before, of numbers first to last - 1. In narrow
+ * vectors: what is read has just been written in such, and a wider load would wait until several of them are in the
+ * cache. */
 static void combine(const local_correction *p, int stage, double *const rates[], double *const change[],
                     dem_index first, dem_index last)
 {
@@ -309,7 +312,7 @@ static void combine(const local_correction *p, int stage, double *const rates[],
         in[n] = rates[q] + first;
         by[n++] = p->h * weights[q];
     }
-    p->arrays->combine(change[stage] + first, n, by, in, last - first);
+    array_ops_portable.combine(change[stage] + first, n, by, in, last - first);
 }
 
 /* dx_q and dv_q of the nodes that move, and of the quadratures, which are integrated as the nodes are. */

@@ -9,7 +9,6 @@
 #ifndef DEM_EVENTS_LOCAL_CORRECTION_H
 #define DEM_EVENTS_LOCAL_CORRECTION_H
 
-#include "base/array_ops.h"
 #include "events/neighbourhood.h"
 #include "time/butcher.h"
 #include "time/dense_output.h"
@@ -26,7 +25,6 @@ typedef struct local_correction {
     neighbourhood near; /* the change spreads over all its rings but the last */
     local_correction_rule rule;
     butcher_table table;
-    const array_ops *arrays;
     int last;                /* stage at the end of the step */
     double t, h;             /* s, of the event; from it to the end of the step */
     bool parabolic;          /* the step is interpolated by parabolas, and so is the change */
