@@ -23,6 +23,7 @@ typedef struct sweep_limits {
 /** What a sweep reads and writes; nodes in the order of the layout. */
 typedef struct sweep {
     const layout *layout;
+    bool goes_on;               /* whether the ring is that of a sweep of the same positions up to the first block */
     const double *inverse_mass; /* [n_nodes] 1/kg; 0: fixed */
     vec2 gravity;               /* m/s^2 */
     double mass_damping;        /* 1/s */

@@ -397,11 +397,12 @@ INLINE dem_index pass_rows(pass *p, dem_index block, laws acting)
 
 /* ---- all blocks ---- */
 
-/* Blocks below the first are evaluated only, for the springs that reach into this share from below. Nodes collect their
- * forces a block later than these are computed, when what was stored has reached the cache. */
+/* Blocks below the first are evaluated only, for the springs that reach into this share from below, unless the pass
+ * goes on and the ring has their forces. Nodes collect their forces a block later than these are computed, when what
+ * was stored has reached the cache. */
 INLINE double run(const sweep *s, dem_index first, dem_index last, laws acting, double *ring)
 {
-    const dem_index reach = s->layout->reach;
+    const dem_index reach = s->goes_on ? 0 : s->layout->reach;
     pass p = begin_pass(s, first, last, ring);
     for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
         block = pass_rows(&p, block, acting);

@@ -219,7 +219,13 @@ static bool is_trimmed(const kernel *k, const element_state *e)
     return e != NULL && element_state_n_failures(e) == k->n_trimmed;
 }
 
-static const layout *layout_of(const kernel *k, const element_state *e)
+bool kernel_is_trimmed(kernel *k, const element_state *e)
+{
+    forget_mended(k, e);
+    return e == NULL || e->n_damaged == 0 || is_trimmed(k, e);
+}
+
+const layout *kernel_layout(const kernel *k, const element_state *e)
 {
     return is_trimmed(k, e) ? &k->trimmed.layout : &k->model->layout;
 }
@@ -448,7 +454,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
     const layout *l = &k->model->layout;
     const dem_index n = l->n_nodes;
     forget_mended(k, f->elements);
-    sweep s = {.layout = layout_of(k, f->elements),
+    sweep s = {.layout = kernel_layout(k, f->elements),
                .inverse_mass = k->model->inverse_mass,
                .gravity = {f->gravity[0], f->gravity[1]},
                .mass_damping = f->mass_damping,
@@ -538,7 +544,7 @@ static void find_strained(kernel *k, const element_state *e, const double *x)
     const layout *l = &k->model->layout;
     if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
     forget_mended(k, e);
-    const sweep s = {.layout = layout_of(k, e),
+    const sweep s = {.layout = kernel_layout(k, e),
                      .x = k->packed != NULL ? k->packed + l->n_nodes : x,
                      .limit = k->limit,
                      .strained = k->strained};
@@ -629,7 +635,7 @@ double kernel_stiffening(kernel *k, const forces *f, const double *x)
     if (k->model->triangles.row[l->n_nodes] == 0 || !(omega > 0.0)) return 1.0;
     if (k->packed != NULL) pack(k, x, k->packed + l->n_nodes);
     /* Positions are all that is needed to find the nodes on which the guard acts. */
-    const sweep s = {.layout = layout_of(k, f->elements),
+    const sweep s = {.layout = kernel_layout(k, f->elements),
                      .x = k->packed != NULL ? k->packed + l->n_nodes : x,
                      .guarded = k->guarded};
     run(&(loop){.kernel = k, .sweep = &s}, guard_share);

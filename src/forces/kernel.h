@@ -72,6 +72,11 @@ typedef struct kernel_state {
     const sweep_fused_step *fused_step; /* NULL: none. Else x and v are its x1 and v1, which are filled as well */
 } kernel_state;
 
+/** Whether the sweep evaluates all blocks as their elements are, so that no nodes are evaluated one by one since an
+ *  element beside them is not whole; and the layout that it reads. */
+bool kernel_is_trimmed(kernel *k, const element_state *elements);
+const layout *kernel_layout(const kernel *k, const element_state *elements);
+
 /** Whether accelerations depend on nothing but positions, so that a fused step is possible. */
 bool kernel_can_fuse(const kernel *k, const forces *f);
 

@@ -10,6 +10,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
+#include "forces/band.h"
 #include "simulation/body_contact.h"
 
 /* The message for a derivative that is not finite: the first node whose velocity or acceleration is not, and where it
@@ -27,21 +28,28 @@ static dem_status name_culprit(const dem_simulation *s, double t, const double *
     return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
 }
 
-/* Rates of the quadratures, behind the accelerations of the nodes: forces of closed contacts on each obstacle, N;
+/* Rates of the quadratures, behind the accelerations of the nodes, as long as nothing acts that they are of: only the
+ * time goes on. */
+static void begin_rates(const state_layout *l, double *a)
+{
+    for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
+    a[state_total_index(l, STATE_TIME)] = 1.0;
+}
+
+/* Rates of the quadratures: forces of closed contacts on each obstacle, N;
  * powers of friction, of moving obstacles, of damping, and of boundary conditions and external forces, W; and 1, the
  * rate of the time. */
 static void fill_rates(dem_simulation *s, double t, const double *y, double *a, double work)
 {
     const state_layout *l = &s->layout;
     const double *v = y + state_velocities(l);
-    for (dem_index k = state_row(l, l->n_nodes); k < state_velocities(l); k++) a[k] = 0.0;
+    begin_rates(l, a);
     automaton_add_rates(&s->automaton, t, y, a);
     if (s->rigid != NULL) rigid_contact_add_rates(s->rigid, l, v, a);
     if (forces_have_friction(&s->forces))
         a[state_total_index(l, STATE_FRICTION)] += reduce_rounded_sum(forces_evaluated_friction_power(&s->forces, v));
     a[state_total_index(l, STATE_DAMPING)] = reduce_rounded_sum(forces_damping_power(&s->forces, y, v));
     a[state_total_index(l, STATE_WORK)] = reduce_rounded_sum(work);
-    a[state_total_index(l, STATE_TIME)] = 1.0;
 }
 
 /* Judges accelerations by their sum. Where the contact of bodies has failed, that has its own message.
@@ -91,6 +99,30 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     return judge(s, step->t1, y.x, y.a, sum);
 }
 
+/* Whether springs, triangles and weight are all that acts, and no contact is closed: then no node depends on others
+ * than its neighbours, and no rate on the whole state. */
+static bool has_bands(void *context)
+{
+    dem_simulation *s = context;
+    return !reduce_any(!band_is_possible(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0);
+}
+
+static double band_derivative(const ode_band *b, void *context)
+{
+    dem_simulation *s = context;
+    const state_layout *l = &s->layout;
+    const bool is_last = b->end == l->n_rows;
+    if (is_last) begin_rates(l, b->a);
+    return band_accelerate(&s->kernel, &s->forces,
+                           &(band){.first = b->first,
+                                   .end = is_last ? l->n_nodes : b->end,
+                                   .goes_on = b->goes_on,
+                                   .x = b->x,
+                                   .v = b->v,
+                                   .a = b->a,
+                                   .scratch = b->scratch});
+}
+
 /* The three functions that follow are callbacks of the integrator; `exact` contacts need the first two. */
 static void begin_roots(double t, const double *y, void *context)
 {
@@ -123,6 +155,10 @@ ode_problem right_hand_side_problem(dem_simulation *s)
         .layout = s->layout,
         .prescribes = boundary_conditions_move(&s->boundaries),
         .derivative = derivative,
+        .band_rows = s->boundaries.n == 0 ? band_nodes(&s->kernel) : 0,
+        .band_scratch = band_scratch(&s->kernel),
+        .has_bands = has_bands,
+        .band_derivative = band_derivative,
         .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
         .begin_roots = rooted ? begin_roots : NULL,
         .root_function = rooted ? root_function : NULL,

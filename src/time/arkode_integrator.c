@@ -3,7 +3,8 @@
  * steps; what is read off between the ends of a step is our own quintic (dense_output.c), and tables come from
  * butcher.c. Nothing is left to ARKODE's defaults, which differ between its versions. The bits of a run must not depend
  * on how it is cut into calls. Therefore this file keeps the accepted step itself, from (y0, f0) to (y1, f1), and
- * decides which derivative ARKODE may have without an evaluation. Differences between SUNDIALS 6 and 7 are in
+ * decides which derivative ARKODE may have without an evaluation. The stages of large bodies are deferred until their
+ * step is complete (deferral.c). Differences between SUNDIALS 6 and 7 are in
  * arkode_compat.h. What is integrated is in ode_problem.h; nothing here knows of forces or contacts. */
 #include "time/arkode_integrator.h"
 
@@ -16,7 +17,7 @@
 #include "base/status.h"
 #include "time/arkode_compat.h"
 #include "time/butcher.h"
-#include "time/nvector.h"
+#include "time/deferral.h"
 
 enum {
     max_retries = 10, /* of a step whose derivative is not finite */
@@ -36,6 +37,7 @@ typedef struct arkode_integrator {
     arkode_controller controller;
     arkode_errors errors;
     nvector_space *space;
+    deferral *deferral;      /* NULL: stages are evaluated when ARKODE asks for them */
     N_Vector y;              /* what ARKODE returns */
     N_Vector y0, y1, f0, f1; /* the accepted step for the dense output; y0 is the last accepted state */
     N_Vector weights;        /* of the error, the same at all times */
@@ -47,28 +49,45 @@ typedef struct arkode_integrator {
     double asked;            /* s, first step given to ARKODE after a restart; 0: its own */
     bool knows_f0;           /* f0 is that of y0, */
     bool gives_f0;           /* and what ARKODE is given when it asks for it */
-    bool refused;            /* the last derivative cannot be computed for any step */
+    bool failed;             /* a derivative has failed in this attempt, */
+    bool refused;            /* and cannot be computed for any step */
     dem_counts counts;
     char message[256]; /* ARKODE's last error */
 } arkode_integrator;
 
 /* ---- callbacks ---- */
 
+/* The derivative, at once. Any failure is reported as one that ARKODE cannot recover from: arkode_integrator_step()
+ * decides about another attempt itself. */
+static int evaluate(double t, N_Vector y, N_Vector f, void *self)
+{
+    arkode_integrator *I = self;
+    I->counts.evaluations++;
+    const double *values = nvector_values(y);
+    double *u = nvector_fresh(f), *a = u + state_velocities(&I->problem.layout);
+    const int flag = I->problem.derivative(t, values, u, a, I->problem.context);
+    I->failed = flag != 0;
+    I->refused = flag > 1;
+    return flag == 0 ? 0 : -1;
+}
+
 /* ARKODE's right-hand side. After a restart from a state whose derivative is known ARKODE asks for that derivative
- * again: it is recognised by its time and its very buffer, and shared without an evaluation. Any failure is reported as
- * one that ARKODE cannot recover from: arkode_integrator_step() decides about another attempt itself. */
+ * again: it is recognised by its time and its very buffer, and shared without an evaluation. */
 static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
     arkode_integrator *I = user;
+    if (deferral_take_derivative(I->deferral, t, y, f)) return 0;
     if (I->gives_f0 && t == I->t && nvector_values(y) == nvector_values(I->y0)) {
         nvector_share(I->f0, f);
         return 0;
     }
-    I->counts.evaluations++;
-    double *u = nvector_fresh(f), *a = u + state_velocities(&I->problem.layout);
-    const int flag = I->problem.derivative(t, nvector_values(y), u, a, I->problem.context);
-    I->refused = flag > 1;
-    return flag == 0 ? 0 : -1;
+    return evaluate(t, y, f, I);
+}
+
+static void count_evaluations(int n, void *self)
+{
+    arkode_integrator *I = self;
+    I->counts.evaluations += n;
 }
 
 /* Fetches both ends of the step that ARKODE has just accepted, and their derivatives. At the ends ARKODE's cubic
@@ -169,6 +188,23 @@ static void fill_weights(arkode_integrator *I)
     for (dem_index k = v; k < v + n_real; k++) w[k] = share / I->problem.velocity_error;
 }
 
+/* Whether the last stage is the end of the step, whose derivative is kept then. */
+static bool ends_in_stage(const butcher_table *t)
+{
+    bool same = true;
+    for (int k = 0; k < t->stages; k++) same = same && t->a[(t->stages - 1) * t->stages + k] == t->b[k];
+    return same;
+}
+
+/* Without error control ARKODE asks for no norm. */
+static void defer_stages(arkode_integrator *I)
+{
+    if (I->problem.fixed_step > 0.0 || ends_in_stage(&I->table)) return;
+    I->deferral =
+        deferral_create(&(deferral_owner){&I->problem, I->space, evaluate, count_evaluations, I}, I->table.stages - 1);
+    if (I->deferral != NULL) deferral_set_weights(I->deferral, I->weights);
+}
+
 /* The state from which the next step goes; its derivative is not known. The root function is above 0 there: what has
  * happened up to it has been resolved. */
 static void start_from(arkode_integrator *I, double t, const double *y)
@@ -240,6 +276,7 @@ static dem_status set_up(arkode_integrator *I, double t, const double *y)
           "a method without error estimate needs a fixed step");
     TRY(allocate(I));
     fill_weights(I);
+    defer_stages(I);
     start_from(I, t, y);
     I->arkode = ERKStepCreate(call_derivative, t, I->y, I->sundials);
     CHECK(I->arkode != NULL, DEM_ERROR_MEMORY, "out of memory for ARKODE");
@@ -270,6 +307,7 @@ static void arkode_integrator_destroy(void *self)
     N_Vector const vectors[] = {I->y, I->y0, I->y1, I->f0, I->f1, I->weights};
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++)
         if (vectors[k] != NULL) N_VDestroy(vectors[k]);
+    deferral_free(I->deferral);
     nvector_space_free(I->space);
     if (I->sundials != NULL) SUNContext_Free(&I->sundials);
     free(I);
@@ -431,13 +469,13 @@ static dem_status arkode_integrator_step(void *self, dense_output *step, bool *r
     go_on(I);
     if (I->problem.begin_roots != NULL) I->problem.begin_roots(I->t, nvector_values(I->y0), I->problem.context);
     double reached, h = 0.0;
-    int flag = ARK_RHSFUNC_FAIL;
+    int flag = ARK_SUCCESS;
     for (int attempt = 0; attempt <= max_retries; attempt++) {
-        I->holds_step = false;
+        I->holds_step = I->failed = false;
         if (I->problem.fixed_step > 0.0)
             (void)ARKodeSetFixedStep(I->arkode, ode_problem_fixed_step(&I->problem, nvector_values(I->y0), false));
         flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
-        if (flag != ARK_RHSFUNC_FAIL && flag != ARK_FIRST_RHSFUNC_ERR) break;
+        if (!I->failed) break;
         if (I->problem.fixed_step > 0.0 || attempt == max_retries || I->refused)
             return DEM_ERROR_INTEGRATOR; /* message: derivative's */
         TRY(retry(I, &h));

@@ -4,11 +4,11 @@
  * and changes few of them. Linear combinations are one pass over all operands, shared out among threads. The norm of
  * the error is an exact sum of squares, so that the steps, and with them all results, do not depend on the number of
  * threads. A space has one buffer more than vectors, hence one is always free: no operation can fail for want of
- * memory. The loops with vector instructions are in src/base/array_ops.h. */
+ * memory. Sums may be deferred (deferral.c): who reads what is due has it carried out first, and who writes what a
+ * deferred operation needs, too. The loops with vector instructions are in src/base/array_ops.h. */
 #include "time/nvector.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <stdlib.h>
 
 #include "base/aligned.h"
@@ -27,6 +27,7 @@ typedef struct buffer {
 typedef struct content {
     nvector_space *space;
     buffer *buffer;
+    nvector_use use;      /* by deferred operations */
     struct content *next; /* of the free ones */
 } content;
 
@@ -38,6 +39,7 @@ struct nvector_space {
     array_ops_sum *sums; /* [n_shares] */
     buffer *buffers;     /* the first free one */
     content *contents;
+    const nvector_deferral *deferral; /* NULL: nothing is deferred */
 };
 
 static content *content_of(N_Vector v)
@@ -90,9 +92,41 @@ static buffer *take(nvector_space *s)
     return b;
 }
 
+/* ---- what is deferred ---- */
+
+void nvector_space_defer(nvector_space *s, const nvector_deferral *d)
+{
+    s->deferral = d;
+}
+
+void nvector_set_use(N_Vector v, nvector_use use)
+{
+    content_of(v)->use = use;
+}
+
+nvector_use nvector_get_use(N_Vector v)
+{
+    return content_of(v)->use;
+}
+
+static void begin_to_read(N_Vector v)
+{
+    const content *c = content_of(v);
+    if (c->use == NVECTOR_DUE) c->space->deferral->before_read(c->space->deferral->self);
+}
+
+static void begin_to_write(N_Vector v)
+{
+    const content *c = content_of(v);
+    if (c->use != NVECTOR_FREE) c->space->deferral->before_write(c->space->deferral->self);
+}
+
+/* ---- numbers ---- */
+
 /* Numbers that no other vector has, undefined unless the vector was their only user. Others keep the old ones. */
 double *nvector_fresh(N_Vector v)
 {
+    begin_to_write(v);
     content *c = content_of(v);
     if (c->buffer->users > 1) {
         leave(c->space, c->buffer);
@@ -103,18 +137,23 @@ double *nvector_fresh(N_Vector v)
 
 const double *nvector_values(N_Vector v)
 {
+    begin_to_read(v);
     return content_of(v)->buffer->values;
 }
 
 /* The same numbers as nvector_values(), to be changed for all vectors that share them. */
 double *nvector_shared(N_Vector v)
 {
+    begin_to_read(v);
+    begin_to_write(v);
     return content_of(v)->buffer->values;
 }
 
 /* `b->users++` comes before leave(): both vectors may have the same buffer already. */
 void nvector_share(N_Vector from, N_Vector to)
 {
+    begin_to_read(from);
+    begin_to_write(to);
     content *c = content_of(to);
     buffer *b = content_of(from)->buffer;
     b->users++;
@@ -166,19 +205,20 @@ static void combine_share(const void *context, int share, int thread)
     s->ops->combine(c->out + first, c->n, c->factor, from, team_share(s->length, s->n_shares, share + 1) - first);
 }
 
-/* z = sum of c_k x_k, without the terms that are 0 (many in a Butcher table); a sum of one vector with the factor 1 is
- * shared instead of copied.  \return -1 if there are more terms than there is room for */
-static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
+/* Leaves out the terms that are 0 (many in a Butcher table); a sum of one vector with the factor 1 is shared instead of
+ * copied. */
+int nvector_combine(int n, const double *factor, N_Vector *x, N_Vector z)
 {
     combination sum;
     int last = 0;
+    begin_to_write(z);
     sum.space = content_of(z)->space;
     sum.n = 0;
     for (int k = 0; k < n; k++) {
-        if (c[k] == 0.0) continue;
+        if (factor[k] == 0.0) continue;
         if (sum.n == most_terms) return -1;
         last = k;
-        sum.factor[sum.n] = c[k];
+        sum.factor[sum.n] = factor[k];
         sum.in[sum.n++] = nvector_values(x[k]);
     }
     if (sum.n == 0) {
@@ -192,6 +232,14 @@ static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
     sum.out = apart_from(z, sum.in, sum.n);
     team_run(sum.space->team, sum.space->n_shares, combine_share, &sum);
     return 0;
+}
+
+static int combine(int n, sunrealtype *c, N_Vector *x, N_Vector z)
+{
+    const nvector_deferral *d = content_of(z)->space->deferral;
+    int status;
+    if (d != NULL && d->take_sum(d->self, n, c, x, z, &status)) return status;
+    return nvector_combine(n, c, x, z);
 }
 
 static void add(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
@@ -240,24 +288,34 @@ static array_ops_sum square(const nvector_space *s, const double *x, const doubl
     return sum;
 }
 
-/* sqrt(sum of (x_k w_k)^2/n), infinity if a term is not finite. The squares are added as integers in units of 2^-60,
- * which hold for sizes up to 32 times a scale. The scale is guessed from a sample of terms, and taken again from the
- * largest square of the sum until both agree. The result is that of the scale of the largest term, whatever the sample
- * was. */
+/* The squares are added as integers in units of 2^-60, which hold for sizes up to 32 times a scale. */
+bool nvector_norm_of_sum(const nvector_space *s, const array_ops_sum *part, double *scale, double *norm)
+{
+    const array_ops_sum sum = reduce_squares(*part);
+    *norm = INFINITY;
+    if (!isfinite(sum.largest)) return true;
+    const double right = scale_of(sqrt(sum.largest) / *scale);
+    const bool holds = right == *scale;
+    if (holds) *norm = sqrt(array_ops_value(&sum) / (double)reduce_count(s->length)) / *scale;
+    *scale = right;
+    return holds;
+}
+
+/* sqrt(sum of (x_k w_k)^2/n), infinity if a term is not finite. The scale is guessed from a sample of terms, and taken
+ * again from the largest square of the sum until both agree. The result is that of the scale of the largest term,
+ * whatever the sample was. */
 static sunrealtype norm(N_Vector x, N_Vector w)
 {
     const nvector_space *s = content_of(x)->space;
+    double largest = 0.0, result;
+    if (content_of(x)->use == NVECTOR_DUE && s->deferral->take_norm(s->deferral->self, x, w, &result)) return result;
     const double *values = nvector_values(x), *weights = nvector_values(w);
-    double largest = 0.0, scale = 1.0;
     for (dem_index k = 0; k < s->length; k += s->length / n_sampled + 1)
         largest = fmax(largest, fabs(values[k] * weights[k]));
-    largest = reduce_max(largest);
+    double scale = scale_of(reduce_max(largest));
     for (;;) {
-        scale = scale_of(largest);
-        const array_ops_sum sum = reduce_squares(square(s, values, weights, scale));
-        if (!isfinite(sum.largest)) return INFINITY;
-        largest = sqrt(sum.largest) / scale;
-        if (scale_of(largest) == scale) return sqrt(array_ops_value(&sum) / (double)reduce_count(s->length)) / scale;
+        const array_ops_sum sum = square(s, values, weights, scale);
+        if (nvector_norm_of_sum(s, &sum, &scale, &result)) return result;
     }
 }
 
@@ -315,6 +373,7 @@ static N_Vector clone(N_Vector v)
 
 static void destroy(N_Vector v)
 {
+    begin_to_write(v);
     content *c = content_of(v);
     leave(c->space, c->buffer);
     c->next = c->space->contents;
@@ -349,6 +408,7 @@ N_Vector nvector_create(nvector_space *s, SUNContext context)
     content *c = s->contents;
     s->contents = c->next;
     c->buffer = take(s);
+    c->use = NVECTOR_FREE;
     v->content = c;
     set_operations(v->ops);
     return v;

@@ -17,6 +17,18 @@ typedef struct ode_fused_step {
     double *y1, *f1;
 } ode_fused_step;
 
+/** Consecutive rows of a state whose derivative is evaluated while no more is known of the state than the bands beside
+ *  it: bands are so long that positions further away have no part in it. x, v and a are where row 0 of the state would
+ *  be, but hold, of x, this band and those beside it, and of v and a this band alone. */
+typedef struct ode_band {
+    double t;             /* s */
+    dem_index first, end; /* rows; `end` is behind. What stands behind the nodes belongs to the last band */
+    bool goes_on;         /* the scratch was last used for the band before it, of the same state */
+    const double *x, *v;
+    double *a; /* filled */
+    double *scratch;
+} ode_band;
+
 typedef struct ode_problem {
     state_layout layout; /* of y; what stands behind the nodes is integrated along, and has no part in the error */
     bool prescribes;     /* whether some x' are given, so that they are not v */
@@ -28,6 +40,14 @@ typedef struct ode_problem {
      *  its end are given: with the bits of kick, drift, derivative and kick in turn. Returns as `derivative`, or -1 if
      *  it cannot from this state. NULL: it never can. */
     int (*fused_step)(const ode_fused_step *step, void *context);
+    dem_index band_rows; /* rows of a band, but the last: a multiple of a cache line; 0: there are no bands */
+    size_t band_scratch; /* numbers, 0 at the start */
+    /** Whether derivatives near the present state may be evaluated by bands, with x' = v. NULL: never, as without
+     *  bands. */
+    bool (*has_bands)(void *context);
+    /** The accelerations of a band, as `derivative` has them.  \return a sum that is not finite if one of them is not,
+     *  or if they are not to be had by bands */
+    double (*band_derivative)(const ode_band *band, void *context);
     /** Called with the state from which a step goes, before root_function() in the step. */
     void (*begin_roots)(double t, const double *y, void *context);
     /** Value at `end` of a step: 1 at its start, and 0 or less after the first event in it. NULL, with begin_roots():

@@ -28,7 +28,7 @@ ROOMS = [  # pattern, files that may have it
 # Rooms that know no number of dimensions, so no vectors of two components; and their files that still do. Of forces the
 # tables of functions are free, and what they are filled with is not.
 DIMENSION_FREE = {"base", "time", "forces", "events", "simulation", "output"}
-TWO_DIMENSIONAL = {"src/base/box.h", "src/base/vec2.h", "src/forces/boundary_conditions.c", "src/forces/boundary_conditions.h", "src/forces/diagnostics.c",
+TWO_DIMENSIONAL = {"src/base/box.h", "src/base/vec2.h", "src/forces/band.c", "src/forces/boundary_conditions.c", "src/forces/boundary_conditions.h", "src/forces/diagnostics.c",
                    "src/forces/forces.c", "src/forces/forces.h", "src/forces/kernel.c", "src/forces/local_elements.c", "src/forces/local_elements.h", "src/forces/local_springs.c", "src/forces/rigid_motion.c", "src/forces/survey.c", "src/simulation/options.c",
                    "src/output/event_table.c", "src/output/probe.c"}
 MAX_FILE, MAX_FUNCTION, MAX_PARAMETERS, MAX_LINE = 600, 60, 6, 120

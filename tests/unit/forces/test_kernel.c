@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* kernel.c and the sweeps: every kernel with 1, 2 and 3 threads against forces_acceleration(), which sums up row by
- * row. They are to be equal, so that no tolerance is needed: 0 and -0 count as equal. */
+/* kernel.c, band.c and the sweeps: every kernel with 1, 2 and 3 threads, and band by band, against
+ * forces_acceleration(), which sums up row by row. They are to be equal, so that no tolerance is needed: 0 and -0 count
+ * as equal. */
 #include "verification/support.h"
 
 #include <gsl/gsl_rng.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "forces/kernel.h"
+#include "base/aligned.h"
+#include "forces/band.h"
 #include "harness/cleanup_gsl.h"
 #include "unit/elastic/look.h"
 
@@ -124,6 +126,35 @@ static void check_fused_step(scene *s, const forces *load, const trial *of)
     }
 }
 
+/* Positions in bands further away than the next, and velocities in others than this one, are no numbers. In the second
+ * round no band goes on with the scratch of the one before. */
+static void check_bands(scene *s, const forces *load, const trial *of)
+{
+    const dem_index n = s->model->lattice.n_nodes;
+    CLEANUP(kernel_destroy) kernel k = open_kernel(s, load, of);
+    const dem_index rows = band_nodes(&k);
+    CLEANUP(free_memory) double *x = copy_doubles(s->x, 2 * n), *v = copy_doubles(s->v, 2 * n);
+    CLEANUP(free_memory) double *scratch = aligned_zeros(band_scratch(&k));
+    if (rows == 0 || !band_is_possible(&k, load)) return;
+    for (dem_index c = 0; c < 2 * n; c++) s->a[c] = NAN;
+    for (int round = 0; round < 2; round++)
+        for (dem_index first = 0; first < n; first += rows) {
+            const dem_index end = first + rows < n ? first + rows : n;
+            for (dem_index c = 0; c < 2 * n; c++) {
+                x[c] = c / 2 < first - rows || c / 2 >= end + rows ? (double)NAN : s->x[c];
+                v[c] = c / 2 < first || c / 2 >= end ? (double)NAN : s->v[c];
+            }
+            for (size_t c = 0; round > 0 && c < k.ring_size; c++) scratch[c] = NAN;
+            const band b = {first, end, first > 0 && round == 0, x, v, s->a, scratch};
+            assert_true(isfinite(band_accelerate(&k, load, &b)));
+            for (dem_index i = first; i < end; i++) {
+                const vec2 a = forces_acceleration(load, i, s->x, s->v);
+                assert_close(s->a[2 * i], a.x, 0.0);
+                assert_close(s->a[2 * i + 1], a.y, 0.0);
+            }
+        }
+}
+
 static bool can_fuse(const scene *s, const forces *load)
 {
     forces acting = *load;
@@ -160,6 +191,7 @@ static void check_load(scene *s, const forces *load)
             if (dem_kernel_check(kind) != DEM_OK) continue;
             check_kernel(s, &acting, &of);
             if (can_fuse(s, load)) check_fused_step(s, &acting, &of);
+            if (of.n_threads == 1) check_bands(s, &acting, &of);
             check_stiffening(s, &acting, &of);
         }
 }
@@ -274,6 +306,34 @@ TEST(surfaces_in_contact_agree)
                                      &(const surface_contact_rule){.within_bodies = true, .stiffness = 1.0}));
     check_load(&s, &load);
     assert_true(surface_contact_evaluate(load.surfaces, s.x) && load.surfaces->compact.n_nodes > 4);
+    surface_contact_destroy(load.surfaces);
+}
+
+/* Rows of 22 nodes reach into the third block behind, lanes one further. What reads more than neighbours' positions is
+ * not done by bands, nor are nodes beside what is broken that are evaluated one by one. */
+TEST(bands_are_as_long_as_neighbours_are_apart)
+{
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.2101, 0.2, &rubber);
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
+    CLEANUP(element_state_destroy) element_state broken;
+    CLEANUP(kernel_destroy) kernel k;
+    forces load = {.model = s.model};
+    assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, NULL));
+    assert_int_equal(band_nodes(&k), 8 * (3 + 1));
+    assert_true(band_is_possible(&k, &load));
+    load.mass_damping = 3.0;
+    assert_false(band_is_possible(&k, &load));
+    load.mass_damping = 0.0;
+    assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
+    load.elements = &broken;
+    assert_true(band_is_possible(&k, &load));
+    element_state_break(&broken, 3);
+    assert_false(band_is_possible(&k, &load));
+    kernel_follow(&k, &broken, NULL, 0);
+    assert_true(band_is_possible(&k, &load));
+    assert_ok(surface_contact_create(&load.surfaces, &s.model->lattice,
+                                     &(const surface_contact_rule){.within_bodies = true, .stiffness = 1.0}));
+    assert_false(band_is_possible(&k, &load));
     surface_contact_destroy(load.surfaces);
 }
 

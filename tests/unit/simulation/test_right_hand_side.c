@@ -168,6 +168,59 @@ TEST(steps_in_one_pass_are_those_in_parts)
     }
 }
 
+/* A rectangle with the guard in the air over the slope; its steps are taken by bands. */
+static dem_model *make_large_falling(void)
+{
+    const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.2, .density = 1050.0,
+                                      .thickness = 1.0, .guard = 0.02);
+    const dem_obstacle slope = SIZED(dem_obstacle, .n_points = 3, .points = slope_points, .restitution = 0.98);
+    const double down[2] = {0.5, -4.0}, up[2] = {-0.3, 0.0763};
+    dem_lattice lattice = dem_lattice_empty();
+    assert_ok(dem_lattice_rectangle(&lattice, 0.16, 0.12, 1.5e-3));
+    assert_ok(dem_lattice_assemble(&lattice, &rubber));
+    dem_lattice_move(&lattice, 0.0, up);
+    assert_ok(dem_lattice_launch(&lattice, down));
+    dem_model *model = support_model(&lattice, &slope, 1);
+    dem_lattice_free(&lattice);
+    return model;
+}
+
+static bool has_bands(dem_simulation *s)
+{
+    const ode_problem problem = right_hand_side_problem(s);
+    return problem.band_rows > 0 && problem.has_bands(s);
+}
+
+/* A force of nothing on a node inside, as above: then stages are evaluated one by one. Some contacts are closed on the
+ * way, so that steps by bands and by stages follow each other. */
+TEST(steps_by_bands_are_those_by_stages)
+{
+    CLEANUP(free_model) dem_model *model = make_large_falling();
+    dem_index inside = 0;
+    while (dem_model_lattice(model)->flags[inside] & DEM_NODE_CONTACT) inside++;
+    const dem_boundary nothing = SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = &inside);
+    for (int contact = DEM_CONTACT_LOCAL; contact <= DEM_CONTACT_EXACT; contact++) {
+        dem_options options = dem_options_default();
+        options.contact = (dem_contact_method)contact;
+        CLEANUP(free_simulation) dem_simulation *by_bands = simulate(model, &options);
+        options.boundaries = &nothing;
+        options.n_boundaries = 1;
+        CLEANUP(free_simulation) dem_simulation *by_stages = simulate(model, &options);
+        assert_true(by_bands->layout.n_nodes > 8000 && has_bands(by_bands) && !has_bands(by_stages));
+        int closed = 0;
+        for (int k = 1; k <= 10; k++) {
+            assert_ok(dem_simulation_advance(by_bands, 8e-5 * k));
+            assert_ok(dem_simulation_advance(by_stages, 8e-5 * k));
+            const dem_counts a = ask_counts(by_bands), b = ask_counts(by_stages);
+            closed += !has_bands(by_bands);
+            assert_memory_equal(&a, &b, sizeof a);
+            assert_memory_equal(by_bands->y, by_stages->y, (size_t)state_size(&by_bands->layout) * sizeof(double));
+        }
+        assert_true(ask_counts(by_bands).impacts > 3);
+        assert_true(closed > 0 && closed < 10);
+    }
+}
+
 TEST(nodes_that_coincide_end_the_run_with_the_node_named)
 {
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, start[4] = {0.5, 0.25, 0.5, 0.25}, mass[2] = {1.0, 1.0};
