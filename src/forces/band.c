@@ -20,9 +20,15 @@ size_t band_scratch(const kernel *k)
     return k->ring_size + (size_t)blocks_of_band(&k->model->layout);
 }
 
-bool band_is_possible(kernel *k, const forces *f)
+bool band_is_possible(kernel *k, const forces *f, const double *x, int n_stages)
 {
-    return kernel_can_fuse(k, f) && f->surfaces == NULL && kernel_is_trimmed(k, f->elements);
+    return kernel_can_fuse(k, f) && kernel_is_trimmed(k, f->elements) &&
+           (f->surfaces == NULL || surface_contact_begin_stages(f->surfaces, x, n_stages));
+}
+
+bool band_was_possible(const forces *f, int n_stages)
+{
+    return f->surfaces == NULL || surface_contact_stayed_apart(f->surfaces, n_stages);
 }
 
 static double accelerate_row(const forces *f, const band *b, dem_index i)
@@ -55,6 +61,8 @@ double band_accelerate(const kernel *k, const forces *f, const band *b)
                      .v = b->v,
                      .a = b->a,
                      .guarded = guarded - first};
+    if (f->surfaces != NULL && b->is_own)
+        surface_contact_take_stage(f->surfaces, b->stage, (const dem_index[2]){b->first, b->end}, b->x);
     double sum = first < last ? k->sweep(&s, first, last, b->scratch) : 0.0;
     for (dem_index block = first; block < last; block++)
         if (guarded[block - first] != 0) sum += accelerate_guarded(f, b, block, guarded[block - first]);

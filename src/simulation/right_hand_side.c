@@ -101,10 +101,17 @@ static int take_fused_step(const ode_fused_step *step, void *context)
 
 /* Whether springs, triangles and weight are all that acts, and no contact is closed: then no node depends on others
  * than its neighbours, and no rate on the whole state. */
-static bool has_bands(void *context)
+static bool has_bands(int n_stages, void *context)
 {
     dem_simulation *s = context;
-    return !reduce_any(!band_is_possible(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0);
+    if (reduce_any(s->automaton.set.forces.n_groups > 0)) return false;
+    return !reduce_any(!band_is_possible(&s->kernel, &s->forces, s->y, n_stages));
+}
+
+static bool bands_hold(int n_stages, void *context)
+{
+    const dem_simulation *s = context;
+    return !reduce_any(!band_was_possible(&s->forces, n_stages));
 }
 
 static double band_derivative(const ode_band *b, void *context)
@@ -117,6 +124,8 @@ static double band_derivative(const ode_band *b, void *context)
                            &(band){.first = b->first,
                                    .end = is_last ? l->n_nodes : b->end,
                                    .goes_on = b->goes_on,
+                                   .stage = b->stage,
+                                   .is_own = b->is_own,
                                    .x = b->x,
                                    .v = b->v,
                                    .a = b->a,
@@ -158,6 +167,7 @@ ode_problem right_hand_side_problem(dem_simulation *s)
         .band_rows = s->boundaries.n == 0 ? band_nodes(&s->kernel) : 0,
         .band_scratch = band_scratch(&s->kernel),
         .has_bands = has_bands,
+        .bands_hold = bands_hold,
         .band_derivative = band_derivative,
         .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
         .begin_roots = rooted ? begin_roots : NULL,

@@ -88,6 +88,7 @@ void surface_contact_destroy(surface_contact *c)
     contact_surface_free_outline(&c->before);
     contact_surface_free(&c->surface);
     compact_pairs_destroy(&c->compact);
+    surface_stages_destroy(&c->stages);
     free(c->is_near);
     free(c);
 }
@@ -254,6 +255,31 @@ bool surface_contact_evaluate(surface_contact *c, const double *x)
     add_friction(c, x);
     c->is_evaluated = true;
     return true;
+}
+
+/* Without close pairs nothing pushes for as long as they hold. If half of their margin is gone they are chosen anew, as
+ * a step by bands is in vain when they do not last. */
+bool surface_contact_begin_stages(surface_contact *c, const double *x, int n_stages)
+{
+    if (!c->close.chosen || !surface_ways_within(&c->close.ways, 0.5 * c->close.margin, x)) {
+        c->rows = &c->candidates.pairs;
+        c->is_evaluated = false;
+        if (note_status(c, renew_lists(c, x)) != DEM_OK) return false;
+    }
+    return c->close.n == 0 && surface_stages_begin(&c->stages, &c->close.ways, n_stages);
+}
+
+void surface_contact_take_stage(surface_contact *c, int stage, const dem_index range[2], const double *x)
+{
+    surface_stages_take(&c->stages, &c->close.ways, stage, range, x);
+}
+
+bool surface_contact_stayed_apart(const surface_contact *c, int n_stages)
+{
+    bool apart = true;
+    for (int k = 0; k < n_stages && apart; k++)
+        apart = surface_stages_within(&c->stages, &c->close.ways, k, c->close.margin);
+    return apart;
 }
 
 bool surface_contact_force(const surface_contact *c, dem_index i, const double *x, vec2 *force)

@@ -11,6 +11,7 @@
 #include "surface_contact/close_pairs.h"
 #include "surface_contact/contact_batch.h"
 #include "surface_contact/pair_list.h"
+#include "surface_contact/surface_stages.h"
 
 typedef struct surface_contact_rule {
     bool within_bodies;          /* whether a body touches itself */
@@ -41,6 +42,7 @@ typedef struct surface_contact {
     double nearest;        /* distance over thickness, in that evaluation no pair was nearer than this */
     compact_pairs compact; /* the close pairs, and the forces of the last evaluation on their nodes, until
                               surface_contact_stiffening() puts its sums there */
+    surface_stages stages; /* of a step whose stages are evaluated band by band */
 } surface_contact;
 
 /** What a step has done that it must not. */
@@ -84,6 +86,14 @@ static inline bool surface_contact_acts(vec2 force)
 {
     return force.x != 0.0 || force.y != 0.0;
 }
+
+/** Begins a step from positions x [n][2] in which nothing is to push at any of so many stages. They come range by range
+ *  of the nodes, as surface_stages_take() has them; surface_contact_stayed_apart() tells in the end whether nothing has
+ *  pushed.
+ *  \return false if something may push at the start already, or there is no memory */
+bool surface_contact_begin_stages(surface_contact *c, const double *x, int n_stages);
+void surface_contact_take_stage(surface_contact *c, int stage, const dem_index range[2], const double *x);
+bool surface_contact_stayed_apart(const surface_contact *c, int n_stages);
 
 /** Force on node i, N, with the bits of surface_contact_evaluate().  \return whether anything acts */
 bool surface_contact_force(const surface_contact *c, dem_index i, const double *x, vec2 *force);

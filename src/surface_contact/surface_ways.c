@@ -134,13 +134,13 @@ dem_status surface_ways_note(surface_ways *w, double reach, const double *x)
 
 /* ---- ways ---- */
 
-/* The box of all ways. */
-static box look_at_ways(const surface_ways *w, const double *x)
+/* The box of all ways, to the twos at these places of x. */
+static box look_at_ways(const surface_ways *w, const double *x, const dem_index *at)
 {
     box all = box_empty();
     for (int g = 0; g < w->n_groups; g++) {
         const dem_index begin = w->begin[g];
-        w->boxes[g] = way_box_of(x, w->at + begin, w->places + 4 * begin, w->begin[g + 1] - begin);
+        w->boxes[g] = way_box_of(x, at + begin, w->places + 4 * begin, w->begin[g + 1] - begin);
         all = box_join(all, w->boxes[g]);
     }
     return all;
@@ -148,7 +148,12 @@ static box look_at_ways(const surface_ways *w, const double *x)
 
 bool surface_ways_within(const surface_ways *w, double most, const double *x)
 {
-    const double all = box_diagonal(look_at_ways(w, x));
+    return surface_ways_within_at(w, most, x, w->at);
+}
+
+bool surface_ways_within_at(const surface_ways *w, double most, const double *x, const dem_index *at)
+{
+    const double all = box_diagonal(look_at_ways(w, x, at));
     if (all <= most) return true;
     bool within = all - w->between <= most;
     for (int g = 0; g < w->n_groups && within; g++) within = box_diagonal(w->boxes[g]) <= most;

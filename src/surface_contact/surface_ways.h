@@ -39,4 +39,7 @@ dem_status surface_ways_note(surface_ways *w, double reach, const double *x);
  *  such a node are no numbers either. */
 bool surface_ways_within(const surface_ways *w, double most, const double *x);
 
+/** The same where x has the twos alone, in their order: at[k] is where two k is. */
+bool surface_ways_within_at(const surface_ways *w, double most, const double *x, const dem_index *at);
+
 #endif

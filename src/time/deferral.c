@@ -31,6 +31,7 @@ struct deferral {
     deferral_owner owner;
     nvector_deferral seen; /* by the space */
     stage_wave *wave;
+    int n_stages; /* of its steps */
     N_Vector weights;
     deferred_call calls[MOST_CALLS];
     int n_calls;
@@ -191,7 +192,7 @@ static bool describe_call(int n, const double *factor, N_Vector *x, N_Vector z, 
 static bool begins_step(const deferral *d, const deferred_call *c)
 {
     return c->n == 2 && (c->factor[0] == 1.0 || c->factor[1] == 1.0) && c->x[0] != c->result && c->x[1] != c->result &&
-           d->owner.problem->has_bands(d->owner.problem->context);
+           d->owner.problem->has_bands(d->n_stages, d->owner.problem->context);
 }
 
 static bool take_sum(void *self, int n, const double *factor, N_Vector *x, N_Vector z, int *status)
@@ -236,6 +237,7 @@ deferral *deferral_create(const deferral_owner *owner, int n_stages)
     deferral *d = calloc(1, sizeof *d);
     if (d == NULL) return NULL;
     d->owner = *owner;
+    d->n_stages = n_stages;
     d->scale = 1.0;
     d->seen = (nvector_deferral){d, take_sum, take_norm, before_read, before_write};
     d->wave = stage_wave_create(owner->problem, n_stages);

@@ -23,6 +23,8 @@ typedef struct ode_fused_step {
 typedef struct ode_band {
     double t;             /* s */
     dem_index first, end; /* rows; `end` is behind. What stands behind the nodes belongs to the last band */
+    int stage;            /* of the step */
+    bool is_own;          /* no other thread has this band as its own, too, but it may evaluate it */
     bool goes_on;         /* the scratch was last used for the band before it, of the same state */
     const double *x, *v;
     double *a; /* filled */
@@ -42,9 +44,12 @@ typedef struct ode_problem {
     int (*fused_step)(const ode_fused_step *step, void *context);
     dem_index band_rows; /* rows of a band, but the last: a multiple of a cache line; 0: there are no bands */
     size_t band_scratch; /* numbers, 0 at the start */
-    /** Whether derivatives near the present state may be evaluated by bands, with x' = v. NULL: never, as without
-     *  bands. */
-    bool (*has_bands)(void *context);
+    /** Begins a step from the present state with so many stages besides it: whether their derivatives may be evaluated
+     *  by bands, with x' = v. NULL: never, as without bands. */
+    bool (*has_bands)(int n_stages, void *context);
+    /** Called when all bands have been evaluated: whether they have the bits of `derivative`, which may depend on more
+     *  than a band shows. If not the step is evaluated anew, by that. */
+    bool (*bands_hold)(int n_stages, void *context);
     /** The accelerations of a band, as `derivative` has them.  \return a sum that is not finite if one of them is not,
      *  or if they are not to be had by bands */
     double (*band_derivative)(const ode_band *band, void *context);

@@ -168,7 +168,8 @@ static void evaluate(wave_pass *p, int stage, dem_index b)
     const ode_band band = {.t = p->program->t[stage],
                            .first = begin / dim,
                            .end = band_end(w, b) / dim,
-                           .goes_on = b > first_band(p, w->n_stages - 1 - stage),
+                           .stage = stage,
+                           .is_own = b >= p->first && b<p->last, .goes_on = b> first_band(p, w->n_stages - 1 - stage),
                            .x = r->x - r->x_begins,
                            .v = r->v + slot - begin,
                            .a = r->a + slot - begin,
@@ -219,7 +220,7 @@ bool stage_wave_run(stage_wave *w, const stage_program *program, array_ops_sum *
         array_ops_add(squares, &w->squares[k]);
         sum += w->sums[k];
     }
-    return isfinite(sum) && isfinite(squares->largest);
+    return isfinite(sum) && isfinite(squares->largest) && w->problem->bands_hold(w->n_stages, w->problem->context);
 }
 
 /* ---- set-up ---- */

@@ -43,7 +43,8 @@ typedef struct stage_wave stage_wave;
 stage_wave *stage_wave_create(const ode_problem *problem, int n_stages);
 void stage_wave_free(stage_wave *w);
 
-/** Takes the step.  \return false if something is not finite; the end is undefined then */
+/** Takes the step.  \return false if something is not finite, or was not to be had by bands; the end is undefined
+ *  then */
 bool stage_wave_run(stage_wave *w, const stage_program *program, array_ops_sum *squares);
 
 #endif

@@ -135,7 +135,7 @@ static void check_bands(scene *s, const forces *load, const trial *of)
     const dem_index rows = band_nodes(&k);
     CLEANUP(free_memory) double *x = copy_doubles(s->x, 2 * n), *v = copy_doubles(s->v, 2 * n);
     CLEANUP(free_memory) double *scratch = aligned_zeros(band_scratch(&k));
-    if (rows == 0 || !band_is_possible(&k, load)) return;
+    if (rows == 0 || !band_is_possible(&k, load, s->x, 2)) return;
     for (dem_index c = 0; c < 2 * n; c++) s->a[c] = NAN;
     for (int round = 0; round < 2; round++)
         for (dem_index first = 0; first < n; first += rows) {
@@ -145,7 +145,15 @@ static void check_bands(scene *s, const forces *load, const trial *of)
                 v[c] = c / 2 < first || c / 2 >= end ? (double)NAN : s->v[c];
             }
             for (size_t c = 0; round > 0 && c < k.ring_size; c++) scratch[c] = NAN;
-            const band b = {first, end, first > 0 && round == 0, x, v, s->a, scratch};
+            const band b = {.first = first,
+                            .end = end,
+                            .goes_on = first > 0 && round == 0,
+                            .stage = round,
+                            .is_own = true,
+                            .x = x,
+                            .v = v,
+                            .a = s->a,
+                            .scratch = scratch};
             assert_true(isfinite(band_accelerate(&k, load, &b)));
             for (dem_index i = first; i < end; i++) {
                 const vec2 a = forces_acceleration(load, i, s->x, s->v);
@@ -153,6 +161,7 @@ static void check_bands(scene *s, const forces *load, const trial *of)
                 assert_close(s->a[2 * i + 1], a.y, 0.0);
             }
         }
+    assert_true(band_was_possible(load, 2));
 }
 
 static bool can_fuse(const scene *s, const forces *load)
@@ -306,6 +315,7 @@ TEST(surfaces_in_contact_agree)
                                      &(const surface_contact_rule){.within_bodies = true, .stiffness = 1.0}));
     check_load(&s, &load);
     assert_true(surface_contact_evaluate(load.surfaces, s.x) && load.surfaces->compact.n_nodes > 4);
+    assert_false(surface_contact_begin_stages(load.surfaces, s.x, 1));
     surface_contact_destroy(load.surfaces);
 }
 
@@ -320,20 +330,46 @@ TEST(bands_are_as_long_as_neighbours_are_apart)
     forces load = {.model = s.model};
     assert_ok(kernel_create(&k, s.model, DEM_KERNEL_AUTO, NULL));
     assert_int_equal(band_nodes(&k), 8 * (3 + 1));
-    assert_true(band_is_possible(&k, &load));
+    assert_true(band_is_possible(&k, &load, s.x, 2));
     load.mass_damping = 3.0;
-    assert_false(band_is_possible(&k, &load));
+    assert_false(band_is_possible(&k, &load, s.x, 2));
     load.mass_damping = 0.0;
     assert_ok(element_state_create(&broken, &s.model->lattice, &s.model->springs));
     load.elements = &broken;
-    assert_true(band_is_possible(&k, &load));
+    assert_true(band_is_possible(&k, &load, s.x, 2));
     element_state_break(&broken, 3);
-    assert_false(band_is_possible(&k, &load));
+    assert_false(band_is_possible(&k, &load, s.x, 2));
     kernel_follow(&k, &broken, NULL, 0);
-    assert_true(band_is_possible(&k, &load));
+    assert_true(band_is_possible(&k, &load, s.x, 2));
+}
+
+/* Two blocks three spacings apart, of which one moves on as a whole, and then one node alone. */
+TEST(surfaces_that_stay_apart_have_bands)
+{
+    const dem_material law = law_of(3);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.11, 0.07, &law), other = make_solid(0.11, 0.09, &law);
+    const dem_index n_first = lattice.n_nodes;
+    dem_lattice_move(&other, 0.0, (const double[2]){0.14, 0.0});
+    assert_ok(dem_lattice_append(&lattice, &other));
+    CLEANUP(free_scene) scene s = make_scene(&lattice, 0.01);
+    const dem_index all[2] = {0, lattice.n_nodes};
+    forces load = {.model = s.model, .gravity = {0.5, -9.81}};
     assert_ok(surface_contact_create(&load.surfaces, &s.model->lattice,
                                      &(const surface_contact_rule){.within_bodies = true, .stiffness = 1.0}));
-    assert_false(band_is_possible(&k, &load));
+    assert_true(surface_contact_evaluate(load.surfaces, s.x));
+    assert_int_equal(load.surfaces->close.n, 0);
+    check_load(&s, &load);
+    assert_true(surface_contact_begin_stages(load.surfaces, s.x, 2)); /* chosen anew if others have been looked at */
+    surface_contact_take_stage(load.surfaces, 0, all, s.x);
+    surface_contact_take_stage(load.surfaces, 1, all, s.x);
+    assert_true(surface_contact_stayed_apart(load.surfaces, 2));
+    for (dem_index i = 0; i < 2 * n_first; i++) s.x[i] -= i % 2 == 0 ? 1e-4 : 0.0;
+    surface_contact_take_stage(load.surfaces, 1, all, s.x);
+    assert_true(surface_contact_stayed_apart(load.surfaces, 2));
+    s.x[2 * load.surfaces->surface.nodes[0]] += 3e-2;
+    surface_contact_take_stage(load.surfaces, 1, all, s.x);
+    assert_true(surface_contact_stayed_apart(load.surfaces, 1));
+    assert_false(surface_contact_stayed_apart(load.surfaces, 2));
     surface_contact_destroy(load.surfaces);
 }
 

@@ -49,10 +49,10 @@ static double swing_band(const ode_band *p, void *context)
     return b->failures_left > 0 ? (double)INFINITY : 0.0;
 }
 
-static bool has_bands(void *context)
+static bool has_bands(int n_stages, void *context)
 {
     (void)context;
-    return true;
+    return n_stages == 2;
 }
 
 static void count(int n, void *context)
@@ -72,6 +72,7 @@ static void begin(bench *b, bool defers)
     b->problem = (ode_problem){.layout = state_layout_of(2, n_nodes, 0, false),
                                .band_rows = band,
                                .has_bands = has_bands,
+                               .bands_hold = has_bands,
                                .band_derivative = swing_band,
                                .context = b,
                                .ops = array_ops_fastest()};

@@ -22,11 +22,13 @@ typedef struct chain {
     double fails_after; /* s: derivatives later than this fail, */
     int failures_left;  /* as often as this */
     int refuses_every;  /* bands are not to be had every so many times; 0: they always are */
-    int asked;          /* times for bands */
-    int wholes;         /* derivatives of whole states */
-    atomic_int bands;   /* evaluated, */
-    atomic_int faults;  /* with the scratch of others */
-    double root_at;     /* s: where the root function is 0 */
+    int doubts_every;   /* and do not hold in the end every so many times */
+    int n_stages, judged;
+    int asked;         /* times for bands */
+    int wholes;        /* derivatives of whole states */
+    atomic_int bands;  /* evaluated, */
+    atomic_int faults; /* with the scratch of others */
+    double root_at;    /* s: where the root function is 0 */
 } chain;
 
 static double pull(const chain *c, const double *x, dem_index i, dem_index j, int d)
@@ -82,11 +84,20 @@ static double swing_band(const ode_band *b, void *context)
     return is_due(c, b->t) ? (double)NAN : 0.0;
 }
 
-static bool has_bands(void *context)
+static bool has_bands(int n_stages, void *context)
 {
     chain *c = context;
+    c->n_stages = n_stages;
     c->asked++;
     return c->refuses_every == 0 || c->asked % c->refuses_every != 0;
+}
+
+static bool bands_hold(int n_stages, void *context)
+{
+    chain *c = context;
+    assert_int_equal(n_stages, c->n_stages);
+    c->judged++;
+    return c->doubts_every == 0 || c->judged % c->doubts_every != 0;
 }
 
 static double root_function(const dense_output *step, void *context)
@@ -143,6 +154,7 @@ static integrator start(chain *c, team *t, const setting *s, bool by_bands)
                                  .band_rows = by_bands ? c->band : 0,
                                  .band_scratch = 1,
                                  .has_bands = by_bands ? has_bands : NULL,
+                                 .bands_hold = bands_hold,
                                  .band_derivative = swing_band,
                                  .begin_roots = s->rooted ? begin_roots : NULL,
                                  .root_function = s->rooted ? root_function : NULL,
@@ -212,18 +224,21 @@ static dem_status step(race *r)
     return DEM_OK;
 }
 
-/* All accepted steps are waves but for the derivative at their end, and for every `refuses_every`-th one. */
+/* All accepted steps are waves but for the derivative at their end, and where bands are not to be had. */
 static void run(const chain *c, const setting *s, int steps)
 {
     CLEANUP(end) race r = {0};
     dem_method_traits traits = {.struct_size = sizeof traits};
     begin(&r, c, s);
     for (int k = 0; k < steps; k++) assert_ok(step(&r));
-    const int refused = c->refuses_every > 0 ? r.chains[0].asked / c->refuses_every : 0;
+    const chain *by_bands = &r.chains[0];
+    const int refused = (c->refuses_every > 0 ? by_bands->asked / c->refuses_every : 0) +
+                        (c->doubts_every > 0 ? by_bands->judged / c->doubts_every : 0);
     assert_ok(dem_method_describe(&traits, s->method));
     assert_int_equal(integrator_counts(&r.i[0]).evaluations - r.chains[0].wholes,
                      (steps - refused) * (traits.evaluations - 1));
     assert_true(atomic_load(&r.chains[0].bands) > 0);
+    assert_true(by_bands->judged >= steps - refused);
     assert_int_equal(atomic_load(&r.chains[0].faults), 0);
     assert_int_equal(atomic_load(&r.chains[1].bands), 0);
 }
@@ -317,6 +332,8 @@ TEST(a_run_may_have_waves_at_times)
 {
     chain c = make_chain(8100, 80);
     c.refuses_every = 3;
+    run(&c, &usual, 9);
+    c.doubts_every = 4;
     run(&c, &usual, 9);
 }
 
