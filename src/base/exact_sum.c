@@ -7,6 +7,7 @@
 #include "base/exact_sum.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum {
     limb_bits = 32,
@@ -17,18 +18,34 @@ enum {
 static const int64_t limb_size = 0x100000000, limb_mask = 0xffffffff;
 
 /* Moves what exceeds 32 bits from each limb to the next one. A limb may be negative before: the mask takes it modulo
- * 2^32, and the exact division makes the carry negative. Afterwards every limb but the last is in [0, 2^32), and the
- * last has the sign of the sum. */
+ * 2^32, and the exact division makes the carry negative. Afterwards every limb but the last that is used is in
+ * [0, 2^32), and the last has the sign of the sum; it has no more than 32 bits either, unless there is none behind. */
 void exact_sum_carry(exact_sum *s)
 {
     int64_t carry = 0;
-    for (int k = 0; k < EXACT_SUM_LIMBS - 1; k++) {
+    for (int k = s->low; k < s->high; k++) {
         const int64_t here = s->limb[k] + carry;
-        s->limb[k] = here & limb_mask;
+        const bool fits = k == EXACT_SUM_LIMBS - 1 || llabs(here) <= limb_mask;
+        const bool is_last = k == s->high - 1;
+        if (is_last && !fits) s->high++;
+        s->limb[k] = is_last && fits ? here : here & limb_mask;
         carry = (here - s->limb[k]) / limb_size;
     }
-    s->limb[EXACT_SUM_LIMBS - 1] += carry;
     s->n_terms = 0;
+}
+
+/* Both take their carries first, so that each limb has room for the other's. */
+void exact_sum_join(exact_sum *s, const exact_sum *other)
+{
+    exact_sum more = *other;
+    exact_sum_carry(s);
+    exact_sum_carry(&more);
+    for (int k = more.low; k < more.high; k++) s->limb[k] += more.limb[k];
+    if (more.high > 0 && (s->high == 0 || more.low < s->low)) s->low = more.low;
+    if (more.high > s->high) s->high = more.high;
+    s->n_terms = 1;
+    for (int k = 0; k < 2; k++) s->has_infinity[k] = s->has_infinity[k] || more.has_infinity[k];
+    s->has_nan = s->has_nan || more.has_nan;
 }
 
 /* Terms that are not finite are only noted. exact_sum_value() combines them as additions of doubles would. */
@@ -75,8 +92,8 @@ void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n)
 /* Number of bits up to the highest that is set; 0 for a sum of 0. */
 static int length_of(const exact_sum *s)
 {
-    int k = EXACT_SUM_LIMBS - 1, length = 0;
-    while (k > 0 && s->limb[k] == 0) k--;
+    int k = s->high - 1, length = 0;
+    while (k > s->low && s->limb[k] == 0) k--;
     for (int64_t rest = s->limb[k]; rest > 0; rest >>= 1) length++;
     return limb_bits * k + length;
 }
@@ -102,7 +119,7 @@ static int64_t mantissa_at(const exact_sum *s, int low)
 static bool any_below(const exact_sum *s, int place)
 {
     const int whole = place / limb_bits;
-    for (int k = 0; k < whole; k++)
+    for (int k = s->low; k < whole; k++)
         if (s->limb[k] != 0) return true;
     return (s->limb[whole] & (((int64_t)1 << place % limb_bits) - 1)) != 0;
 }
@@ -126,8 +143,9 @@ double exact_sum_value(const exact_sum *s)
     if (s->has_nan || (s->has_infinity[0] && s->has_infinity[1])) return (double)NAN;
     if (s->has_infinity[0] || s->has_infinity[1]) return s->has_infinity[0] ? (double)INFINITY : -(double)INFINITY;
     exact_sum_carry(&rest);
-    const bool negative = rest.limb[EXACT_SUM_LIMBS - 1] < 0;
-    for (int k = 0; negative && k < EXACT_SUM_LIMBS; k++) rest.limb[k] = -rest.limb[k];
+    if (rest.high == 0) return 0.0;
+    const bool negative = rest.limb[rest.high - 1] < 0;
+    for (int k = rest.low; negative && k < rest.high; k++) rest.limb[k] = -rest.limb[k];
     if (negative) exact_sum_carry(&rest);
     return negative ? -magnitude(&rest) : magnitude(&rest);
 }

@@ -16,14 +16,17 @@ enum {
     EXACT_SUM_MOST = 1024 /* terms between two carries: each adds less than 2^52 to a limb, which has room for 2^63 */
 };
 
-/** What has been added so far; {0} is the empty sum. */
+/** What has been added so far; {0} is the empty sum. Terms of like size touch few limbs, and to carry, join or read the
+ *  sum costs as much as these are. */
 typedef struct exact_sum {
     int64_t limb[EXACT_SUM_LIMBS]; /* limb[k] is in units of 2^(32 k - 1074); its carry is taken later */
     int n_terms;                   /* since carries were taken */
+    int low, high;                 /* the limbs from place `low` to before `high` may differ from 0 */
     bool has_infinity[2], has_nan; /* whether infinity, minus infinity, NAN is among the terms */
 } exact_sum;
 
-/** Takes the carries from limb to limb. exact_sum_add() does so often enough. */
+/** Takes the carries from limb to limb; the limb at `high` - 1 then has the sign of the sum. exact_sum_add() does so
+ *  often enough. */
 void exact_sum_carry(exact_sum *s);
 
 /** Notes a term that is not finite. */
@@ -43,8 +46,11 @@ static inline void exact_sum_add(exact_sum *s, double term)
     const int place = exponent > 0 ? exponent - 1 : 0, shift = place % 32;
     const int64_t low = (int64_t)(mantissa << shift & 0xffffffff), high = (int64_t)(mantissa >> (32 - shift));
     const int64_t sign = bits >> 63 != 0 ? -1 : 1;
-    s->limb[place / 32] += sign * low;
-    s->limb[place / 32 + 1] += sign * high;
+    const int at = place / 32;
+    s->limb[at] += sign * low;
+    s->limb[at + 1] += sign * high;
+    if (at < s->low || s->high == 0) s->low = at;
+    if (at + 2 > s->high) s->high = at + 2;
     if (++s->n_terms == EXACT_SUM_MOST) exact_sum_carry(s);
 }
 
@@ -54,6 +60,9 @@ void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n);
 
 /** The same for up to EXACT_SUM_BLOCK terms. The array must have room for a whole block; its contents are lost. */
 void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n);
+
+/** Adds the terms of another sum. */
+void exact_sum_join(exact_sum *s, const exact_sum *other);
 
 /** How many terms the block from term `first` of n on has. */
 static inline int exact_sum_block(int64_t first, int64_t n)
