@@ -70,7 +70,8 @@ static due_event next_of(const event_queue *q)
 static void look_ahead(event_queue *q)
 {
     q->now = q->step->t0;
-    q->error = q->ahead = 0.0;
+    q->error = q->ahead = (exact_sum){0};
+    q->exceeded = false;
     q->settled = false;
     for (dem_index k = 0; k < q->sources->n; k++)
         q->sources->list[k].begin(q->sources->list[k].self, q->step, q->state);
@@ -161,8 +162,9 @@ static dem_status take(event_queue *q, const due_event *due)
     TRY(local_correction_close(&q->correction, q->step, &q->changed, q->state, &error));
     CHECK(isfinite(error), DEM_ERROR_INTEGRATOR, "the motion near node %lld after a %s event at t = %.9g s overflows",
           (long long)q->correction.near.nodes.list[0], due->source->name, q->now);
-    q->error += error;
-    q->ahead += error * growth((q->step->t1 - q->step->t0) / q->correction.h);
+    exact_sum_add(&q->error, error);
+    exact_sum_add(&q->ahead, error * growth((q->step->t1 - q->step->t0) / q->correction.h));
+    q->exceeded = error > q->most;
     for (dem_index k = 0; k < q->sources->n; k++) q->sources->list[k].follow(q->sources->list[k].self, &at);
     return DEM_OK;
 }
@@ -257,23 +259,25 @@ static dem_status settle_end(event_queue *q)
     return renew_end(q);
 }
 
-/* The errors of several events are independent: their squares are summed. */
+/* The errors of several events are independent: their squares are summed. The sums are exact, so that the order of
+ * events at different places decides about no step. */
 double event_queue_error(const event_queue *q)
 {
-    return isfinite(q->most) ? sqrt(reduce_rounded_sum(q->error) / q->most) : 0.0;
+    return isfinite(q->most) ? sqrt(reduce_sum(&q->error) / q->most) : 0.0;
 }
 
 /* The length for which the events' error, as it would be at the start of a step, is 1: the error is taken to go with
  * its fourth power, which is slower than it does, and so on the safe side. */
 double event_queue_reach(const event_queue *q)
 {
-    const double error = isfinite(q->most) ? sqrt(reduce_rounded_sum(q->ahead) / q->most) : 0.0;
+    const double error = isfinite(q->most) ? sqrt(reduce_sum(&q->ahead) / q->most) : 0.0;
     return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
 }
 
 /* Resolves the events up to t, or goes back to t. A step without events (quiet) has nothing to take back. Resolution
- * ends at t, or when the error exceeds what is allowed: the caller then rejects the step. A failure is reported with
- * its time, so that among several processes the earliest would count. */
+ * ends at t, or with an event whose error alone exceeds what is allowed: the caller then rejects the step. That the sum
+ * exceeds it does not end it, as the sum of a part of the events depends on their order where that is of no account. A
+ * failure is reported with its time, so that among several processes the earliest would count. */
 dem_status event_queue_show(event_queue *q, double t)
 {
     const bool goes_back = t < q->now;
@@ -284,8 +288,7 @@ dem_status event_queue_show(event_queue *q, double t)
     }
     dem_status status = DEM_OK;
     due_event due;
-    while (status == DEM_OK && (due = next_of(q)).source != NULL && due.t <= t && q->error <= q->most)
-        status = take(q, &due);
+    while (status == DEM_OK && (due = next_of(q)).source != NULL && due.t <= t && !q->exceeded) status = take(q, &due);
     TRY(reduce_status(status, q->now));
     q->now = t;
     if (t < q->step->t1) return DEM_OK;

@@ -5,6 +5,7 @@
 #ifndef DEM_EVENTS_EVENT_QUEUE_H
 #define DEM_EVENTS_EVENT_QUEUE_H
 
+#include "base/exact_sum.h"
 #include "events/local_correction.h"
 #include "events/source_list.h"
 
@@ -21,9 +22,10 @@ typedef struct event_queue {
     double now;               /* s, events until here are resolved */
     bool settled;             /* the end of the step is put right: contacts, derivative */
     bool quiet;               /* nothing happens in the step */
-    double error;             /* of all local corrections, squared */
-    double ahead;             /* what it would be if the events had come right at the start of the step, squared */
-    double most;              /* of `error`; beyond it the step is rejected, and no further event resolved */
+    exact_sum error;          /* of all local corrections, squared */
+    exact_sum ahead;          /* what it would be if the events had come right at the start of the step, squared */
+    double most;              /* of `error`; beyond it the step is rejected */
+    bool exceeded;            /* by one event alone, after which no other is resolved */
     dem_index seed_capacity;
     dem_index *seeds; /* [seed_capacity] nodes that an event changes at once */
     dem_index n_events, capacity;

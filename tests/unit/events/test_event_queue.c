@@ -915,6 +915,34 @@ TEST(an_error_beyond_what_is_allowed_ends_the_step)
     }
 }
 
+/* The pair has three events in a long step, of which the second has the largest error. With a tolerance a little above
+ * that all are resolved, though the first two are beyond it together; with one a little below it the second is the
+ * last. Errors are independent, so that of one is what the sum of squares gains by it. */
+TEST(the_sum_of_errors_does_not_end_a_step_but_one_error_does)
+{
+    const double h = 0.29, lax = 1e6; /* s; m, m/s */
+    double own[3] = {0.0}, sum = 0.0;
+    for (int k = 0; k < 3; k++) {
+        const double one = k == 0 ? lax : lax * sqrt(own[1]) * (k == 1 ? 1.0 + 1e-9 : 1.0 - 1e-9);
+        CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
+        CLEANUP(close_rig) rig r;
+        open_pair(&r, &lattice, (const double[2]){one, one});
+        swing(&r, &lattice, h);
+        for (double t = 0.0; k == 0 && t < h; t += h / 4096.0) {
+            const dem_index before = r.q.n_events;
+            show(&r, t);
+            const double error = event_queue_error(&r.q);
+            assert_true(r.q.n_events <= before + 1 && r.q.n_events <= 3);
+            if (r.q.n_events > before) own[before] = error * error - sum;
+            sum = error * error;
+        }
+        show(&r, h);
+        assert_int_equal(r.q.n_events, k < 2 ? 3 : 2);
+        assert_true(k == 0 || event_queue_error(&r.q) > 1.0);
+    }
+    assert_true(own[0] > 1e-3 * own[1] && own[2] < own[1] && own[2] > 0.0);
+}
+
 /* Hit at a fifth of the step, the pair could go on for as long with an error (5/4)^6 times as large; where that is
  * too much the next step has to be shorter. */
 TEST(what_events_have_done_bounds_the_next_step)
