@@ -22,13 +22,20 @@ static inline double random_next(uint64_t *state)
     return (double)(int64_t)random_mix(*state += random_stride) / 9223372036854775808.0;
 }
 
+/** A state for random_next() that belongs to number k of a stream of a seed: who draws how many numbers depends on no
+ *  order. */
+static inline uint64_t random_state_of(uint64_t seed, uint64_t stream, uint64_t k)
+{
+    const uint64_t of_seed = random_mix(seed + random_stride);
+    return random_mix((of_seed ^ stream) + random_stride) ^ k;
+}
+
 /** Number k of a stream of a seed, in (0, 1), without those before it: who draws which number depends on no order. Of
  *  52 bits, so that neither 0 nor 1 comes out. */
 static inline double random_at(uint64_t seed, uint64_t stream, uint64_t k)
 {
-    const uint64_t of_seed = random_mix(seed + random_stride),
-                   of_stream = random_mix((of_seed ^ stream) + random_stride);
-    return ((double)(random_mix((of_stream ^ k) + random_stride) >> 12) + 0.5) / 4503599627370496.0;
+    const uint64_t state = random_state_of(seed, stream, k);
+    return ((double)(random_mix(state + random_stride) >> 12) + 0.5) / 4503599627370496.0;
 }
 
 #endif

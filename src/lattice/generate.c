@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/random.h"
 #include "base/status.h"
@@ -162,12 +163,18 @@ static dem_status check_size(double width, double height, double spacing, double
 
 /* ---- nodes moved at random ---- */
 
-/* Uniform in a disc: points of the square around it are drawn until one is in the disc. */
-static vec2 random_shift(uint64_t *state, double radius)
+static const uint64_t jitter_stream = UINT64_MAX; /* of numbers: bodies' strengths have those from 0 on */
+
+/* Uniform in a disc: points of the square around it are drawn until one is in the disc. The numbers are the node's
+ * own. */
+static vec2 random_shift(uint64_t seed, dem_index node, double radius)
 {
+    uint64_t state = random_state_of(seed, jitter_stream, (uint64_t)node);
     vec2 place;
-    do place = (vec2){random_next(state), random_next(state)};
-    while (vec2_dot(place, place) > 1.0);
+    do {
+        place.x = random_next(&state);
+        place.y = random_next(&state);
+    } while (vec2_dot(place, place) > 1.0);
     return vec2_scale(radius, place);
 }
 
@@ -188,22 +195,29 @@ static dem_status check_areas(const dem_lattice *l)
     return DEM_OK;
 }
 
-/* Moves the corners of triangles that have kept less than `least_area` of their area half way back, until there are
- * none. It ends, since the shifts of such corners go to 0 and their areas to what they were. */
-static void move_back(const dem_lattice *l, double *x)
+/* Marks the corners of triangles that have kept less than `least_area` of their area.  \return whether there are any */
+static bool mark_squeezed(const dem_lattice *l, const double *x, unsigned char *marked)
 {
-    for (bool again = true; again;) {
-        again = false;
-        for (dem_index t = 0; t < l->n_triangles; t++) {
-            const dem_index *corner = l->triangles + 3 * t;
-            if (area_of(x, corner) >= least_area * area_of(l->x, corner)) continue;
-            again = true;
-            for (int c = 0; c < 3; c++) {
-                const vec2 before = vec2_at(l->x, corner[c]), shift = vec2_sub(vec2_at(x, corner[c]), before);
-                vec2_put(x, corner[c], vec2_along(before, 0.5, shift));
-            }
-        }
+    bool any = false;
+    memset(marked, 0, (size_t)l->n_nodes);
+    for (dem_index t = 0; t < l->n_triangles; t++) {
+        const dem_index *corner = l->triangles + 3 * t;
+        if (area_of(x, corner) >= least_area * area_of(l->x, corner)) continue;
+        any = true;
+        for (int c = 0; c < 3; c++) marked[corner[c]] = 1;
     }
+    return any;
+}
+
+/* Moves the corners of such triangles half way back, all of them at once, until there are none: the order of triangles
+ * does not matter. It ends, since the shifts of such corners go to 0 and their areas to what they were. */
+static void move_back(const dem_lattice *l, double *x, unsigned char *marked)
+{
+    while (mark_squeezed(l, x, marked))
+        for (dem_index i = 0; i < l->n_nodes; i++) {
+            const vec2 before = vec2_at(l->x, i), shift = vec2_sub(vec2_at(x, i), before);
+            if (marked[i] != 0) vec2_put(x, i, vec2_along(before, 0.5, shift));
+        }
 }
 
 /* ---- public ---- */
@@ -280,8 +294,7 @@ dem_status dem_lattice_cut(dem_lattice *lattice, bool (*keep)(void *context, con
     return status;
 }
 
-/* A shift is drawn for every node and dropped for those on the boundary, so that the shift of a node depends on its
- * number and the seed alone. */
+/* The shift of a node depends on its number and the seed alone, but for triangles that it would squeeze. */
 dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed)
 {
     TRY(lattice_check(lattice));
@@ -295,12 +308,11 @@ dem_status dem_lattice_jitter(dem_lattice *lattice, double radius, uint64_t seed
     dem_status status = rim != NULL && x != NULL ? mesh_edges_contact_flags(rim, lattice)
                                                  : status_fail(DEM_ERROR_MEMORY, "out of memory");
     for (dem_index i = 0; status == DEM_OK && i < lattice->n_nodes; i++) {
-        /* Drawn in any case, so that the generator advances alike for all nodes. */
-        const vec2 shift = random_shift(&seed, radius), none = {0.0, 0.0};
-        vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), rim[i] != 0 ? none : shift));
+        const vec2 shift = rim[i] != 0 ? (vec2){0.0, 0.0} : random_shift(seed, i, radius);
+        vec2_put(x, i, vec2_add(vec2_at(lattice->x, i), shift));
     }
     if (status == DEM_OK) {
-        move_back(lattice, x);
+        move_back(lattice, x, rim);
         double *const old = lattice->x;
         lattice->x = x;
         x = old;

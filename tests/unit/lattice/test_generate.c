@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* generate.c and mesh_edges.c: shapes, holes in them, nodes moved at random. */
 #include "unit/solids.h"
+#include "base/random.h"
 #include "harness/message.h"
 
 #include <stdbool.h>
@@ -290,6 +291,36 @@ TEST(no_triangle_keeps_less_than_a_tenth_of_its_area)
     assert_int_equal(dem_lattice_jitter(&lattice, 2.0 * spacing, 3), DEM_OK);
     for (dem_index t = 0; t < lattice.n_triangles; t++) least = fmin(least, area_of(&lattice, t) / before);
     assert_true(least >= 0.1 && least < 0.5);
+}
+
+/* Drawn here from the last node to the first: a process that has some of the nodes needs no draw of another's. */
+TEST(the_shift_of_a_node_is_drawn_by_its_number_alone)
+{
+    const double radius = 0.2 * spacing;
+    CLEANUP(dem_lattice_free)
+    dem_lattice lattice = make_rectangle(0.04, 0.03, spacing), before = make_rectangle(0.04, 0.03, spacing);
+    assert_int_equal(dem_lattice_jitter(&lattice, radius, 5), DEM_OK);
+    for (dem_index i = lattice.n_nodes - 1; i >= 0; i--) {
+        if (!is_inside(&before, i)) continue;
+        uint64_t state = random_state_of(5, UINT64_MAX, (uint64_t)i);
+        double shift[2];
+        do
+            for (int c = 0; c < 2; c++) shift[c] = random_next(&state);
+        while (shift[0] * shift[0] + shift[1] * shift[1] > 1.0);
+        for (int c = 0; c < 2; c++) assert_close(lattice.x[2 * i + c], before.x[2 * i + c] + radius * shift[c], 0.0);
+    }
+}
+
+/* Two spacings: most triangles have to get their area back. */
+TEST(jitter_does_not_depend_on_the_order_of_triangles)
+{
+    CLEANUP(dem_lattice_free)
+    dem_lattice one = make_rectangle(0.04, 0.03, spacing), other = make_rectangle(0.04, 0.03, spacing);
+    for (dem_index t = 0; t < one.n_triangles; t++)
+        memcpy(other.triangles + 3 * t, one.triangles + 3 * (one.n_triangles - 1 - t), 3 * sizeof *one.triangles);
+    assert_int_equal(dem_lattice_jitter(&one, 2.0 * spacing, 3), DEM_OK);
+    assert_int_equal(dem_lattice_jitter(&other, 2.0 * spacing, 3), DEM_OK);
+    assert_memory_equal(one.x, other.x, 2 * (size_t)one.n_nodes * sizeof *one.x);
 }
 
 TEST(jitter_refuses_what_it_cannot_move)
