@@ -267,7 +267,7 @@ typedef struct dem_counts {
     dem_index steps;              /**< accepted by the integrator */
     dem_index rejected;           /**< by its error test */
     dem_index evaluations;        /**< of the right-hand side (4) */
-    dem_index events;             /**< times of contact events */
+    dem_index events;             /**< resolved: each with DEM_CONTACT_LOCAL, with DEM_CONTACT_EXACT their times */
     dem_index impacts;            /**< of nodes on segments and of edges on vertices */
     dem_index vertex_impacts;     /**< of edges on vertices */
     dem_index early;              /**< of all impacts, those taken together with another one within the window */

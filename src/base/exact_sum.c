@@ -48,6 +48,19 @@ void exact_sum_join(exact_sum *s, const exact_sum *other)
     s->has_nan = s->has_nan || more.has_nan;
 }
 
+/* Only limbs that are used are touched, for lists of sums of which most are empty. */
+void exact_sum_copy(exact_sum *to, const exact_sum *from)
+{
+    for (int k = to->low; k < to->high; k++) to->limb[k] = 0;
+    for (int k = from->low; k < from->high; k++) to->limb[k] = from->limb[k];
+    to->n_terms = from->n_terms;
+    to->low = from->low;
+    to->high = from->high;
+    to->has_infinity[0] = from->has_infinity[0];
+    to->has_infinity[1] = from->has_infinity[1];
+    to->has_nan = from->has_nan;
+}
+
 /* Terms that are not finite are only noted. exact_sum_value() combines them as additions of doubles would. */
 void exact_sum_add_special(exact_sum *s, double term)
 {

@@ -64,6 +64,17 @@ void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n);
 /** Adds the terms of another sum. */
 void exact_sum_join(exact_sum *s, const exact_sum *other);
 
+/** Makes a sum equal to another one. */
+void exact_sum_copy(exact_sum *to, const exact_sum *from);
+
+/** The sum of one term. */
+static inline exact_sum exact_sum_of(double term)
+{
+    exact_sum s = {0};
+    exact_sum_add(&s, term);
+    return s;
+}
+
 /** How many terms the block from term `first` of n on has. */
 static inline int exact_sum_block(int64_t first, int64_t n)
 {

@@ -33,9 +33,12 @@ static dem_status reserve(automaton *c, dem_index n)
 
 dem_status automaton_create(automaton *out, const forces *acting, const contact_rule *rule)
 {
+    const size_t n_rates = 4 * (size_t)acting->model->obstacles.n + 2;
     *out = (automaton){0};
     TRY(contact_set_create(&out->set, acting, rule));
-    const dem_status status = reserve(out, out->set.n);
+    out->rates = calloc(n_rates, sizeof *out->rates);
+    dem_status status = reserve(out, out->set.n);
+    if (out->rates == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory for the forces of obstacles");
     if (status != DEM_OK) automaton_destroy(out);
     return status;
 }
@@ -43,6 +46,7 @@ dem_status automaton_create(automaton *out, const forces *acting, const contact_
 void automaton_destroy(automaton *c)
 {
     free(c->units);
+    free(c->rates);
     broad_phase_destroy(&c->broad_phase);
     contact_set_destroy(&c->set);
 }
@@ -253,41 +257,55 @@ dem_status automaton_restore(automaton *c, double t, const double *y)
     return DEM_OK;
 }
 
-static void add_to_row(double *array, dem_index row, vec2 change)
+static void add_pair(exact_sum sum[2], vec2 term)
 {
-    vec2_put(array, row, vec2_add(vec2_at(array, row), change));
+    exact_sum_add(&sum[0], term.x);
+    exact_sum_add(&sum[1], term.y);
 }
 
-/* Adds the rates of one candidate's closed contacts: N for impulses, W for the work of friction and of obstacles. */
-static void add_rates_of(const contact_set *s, dem_index k, scene_state state, double *a)
+/* Adds the rates of one candidate's closed contacts: N for impulses, all of them and then those of friction; W for the
+ * work of friction and of obstacles. */
+static void add_rates_of(const automaton *c, dem_index k, scene_state state)
 {
-    const state_layout *l = scene_layout(&s->scene);
-    for (int q = 0; q < s->list[k].n_closed; q++) {
-        const contact_contribution of = contact_set_contribution(s, k, q, state);
-        add_to_row(a, state_impulse(l, of.obstacle), of.force);
-        add_to_row(a, state_friction_impulse(l, of.obstacle), of.friction);
-        a[state_total_index(l, STATE_FRICTION)] += of.power;
-        if (state_has_total(l, STATE_OBSTACLE)) a[state_total_index(l, STATE_OBSTACLE)] += of.work;
+    const dem_index n = c->set.scene.model->obstacles.n;
+    for (int q = 0; q < c->set.list[k].n_closed; q++) {
+        const contact_contribution of = contact_set_contribution(&c->set, k, q, state);
+        add_pair(&c->rates[2 * of.obstacle], of.force);
+        add_pair(&c->rates[2 * (n + of.obstacle)], of.friction);
+        exact_sum_add(&c->rates[4 * n], of.power);
+        if (state_has_total(scene_layout(&c->set.scene), STATE_OBSTACLE)) exact_sum_add(&c->rates[4 * n + 1], of.work);
     }
 }
 
-/* Rates of contacts are sums over the contacts of the whole model. */
-static void reduce_rates(const state_layout *l, double *a)
+/* Adds a sum over the contacts of the whole model to a rate, and empties it. Most obstacles of many have no contact. */
+static void take_rate(exact_sum *sum, double *rate)
 {
-    const dem_index work = state_total_index(l, STATE_OBSTACLE);
-    for (dem_index k = state_row(l, state_impulse(l, 0)); k <= state_total_index(l, STATE_FRICTION); k++)
-        a[k] = reduce_rounded_sum(a[k]);
-    if (state_has_total(l, STATE_OBSTACLE)) a[work] = reduce_rounded_sum(a[work]);
+    static const exact_sum none;
+    *rate += reduce_sum(sum);
+    exact_sum_copy(sum, &none);
 }
 
+static void take_rates(const automaton *c, double *a)
+{
+    const state_layout *l = scene_layout(&c->set.scene);
+    const dem_index n = c->set.scene.model->obstacles.n;
+    for (dem_index k = 0; k < 2 * n; k++) {
+        take_rate(&c->rates[k], &a[state_row(l, state_impulse(l, k / 2)) + k % 2]);
+        take_rate(&c->rates[2 * n + k], &a[state_row(l, state_friction_impulse(l, k / 2)) + k % 2]);
+    }
+    take_rate(&c->rates[4 * n], &a[state_total_index(l, STATE_FRICTION)]);
+    if (state_has_total(l, STATE_OBSTACLE)) take_rate(&c->rates[4 * n + 1], &a[state_total_index(l, STATE_OBSTACLE)]);
+}
+
+/* The sums are exact, so that the order of groups does not matter. Where nothing is closed there is nothing to add. */
 void automaton_add_rates(const automaton *c, double t, const double *y, double *a)
 {
     const scene_state state = automaton_state(c, t, y);
     const contact_forces *r = &c->set.forces;
+    if (!reduce_any(r->n_groups > 0)) return;
     for (dem_index g = 0; g < r->n_groups; g++)
-        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
-            add_rates_of(&c->set, k, state, a);
-    reduce_rates(scene_layout(&c->set.scene), a);
+        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k]) add_rates_of(c, k, state);
+    take_rates(c, a);
 }
 
 /* Forces are those stored at the last accepted step or event; frames are those of the positions given. */

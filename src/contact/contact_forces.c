@@ -101,13 +101,13 @@ static dem_status reserve(contact_forces *r, dem_index group)
     return DEM_OK;
 }
 
-/* Where a group is, or would be, in the ascending list of all: by bisection. */
+/* Where a group is, or would be, in the list of all, which ascends by what their first candidates are: by bisection. */
 static dem_index place_of(const contact_forces *r, dem_index group)
 {
     dem_index low = 0, high = r->n_groups;
     while (low < high) {
         const dem_index middle = low + (high - low) / 2;
-        if (r->groups[middle] < group)
+        if (candidate_is_before(&r->candidates[r->order[r->groups[middle]]], &r->candidates[r->order[group]]))
             low = middle + 1;
         else
             high = middle;
@@ -115,7 +115,8 @@ static dem_index place_of(const contact_forces *r, dem_index group)
     return low;
 }
 
-/* Groups are solved in the order of the list, which must not depend on the order of events: it is kept sorted. */
+/* Groups are solved in the order of the list, which must not depend on the order of events, nor on where a surface
+ * begins: it is kept sorted. */
 static void list_group(contact_forces *r, dem_index group)
 {
     const dem_index at = place_of(r, group);

@@ -30,7 +30,8 @@ typedef struct contact_forces {
     dem_index n_candidates;
     dem_index *order, *rank; /* [n_candidates] along the boundaries; where a candidate comes in it */
     dem_index n_groups;
-    dem_index *groups;         /* [n_groups] ascending: the number of a group is the rank of its first candidate */
+    dem_index *groups;         /* [n_groups] the rank of the first candidate of each, in their order by
+                                  candidate_is_before() */
     dem_index *group, *next;   /* [n_candidates] of a closed candidate, else -1; the next of its group by rank, or -1 */
     dem_index *at_node;        /* [n_nodes] the group that has closed contacts at a node, or -1 */
     dem_index *ranks;          /* [n_candidates] scratch: candidates whose groups are found again */

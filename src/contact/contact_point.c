@@ -11,6 +11,18 @@
 /* beta in units of 1/max_step: how fast a closed contact that the integrator's error has opened is drawn back. */
 static const double draw_back = 0.1;
 
+/* Two edges between the same nodes, one for each side, differ in where they start. */
+bool candidate_is_before(const contact_candidate *a, const contact_candidate *b)
+{
+    if (!candidate_is_edge(a) || !candidate_is_edge(b))
+        return candidate_is_edge(a) == candidate_is_edge(b) ? a->node < b->node : !candidate_is_edge(a);
+    const bool forth = a->node < a->other, back = b->node < b->other;
+    const dem_index low[2] = {forth ? a->node : a->other, back ? b->node : b->other};
+    const dem_index high[2] = {forth ? a->other : a->node, back ? b->other : b->node};
+    if (low[0] != low[1]) return low[0] < low[1];
+    return high[0] != high[1] ? high[0] < high[1] : a->node < b->node;
+}
+
 double contact_point_friction(const contact_scene *scene, const contact_candidate *candidate, dem_index feature)
 {
     return contact_law_friction(contact_point_law(scene, candidate, feature));

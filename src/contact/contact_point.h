@@ -83,6 +83,10 @@ static inline contact_key candidate_key(const contact_candidate *candidate)
     return (contact_key){candidate->node, candidate->other};
 }
 
+/** An order of candidates by what they are, wherever they stand in a list: nodes before edges, both by the numbers of
+ *  their nodes, the lower one first. */
+bool candidate_is_before(const contact_candidate *a, const contact_candidate *b);
+
 static inline bool contact_key_equal(contact_key a, contact_key b)
 {
     return a.node == b.node && a.other == b.other;

@@ -323,7 +323,7 @@ void contact_set_move(contact_set *c, dem_index i, vec2 shift, double *x)
 {
     const double before = forces_node_energy(c->scene.forces, i, x);
     vec2_put(x, i, vec2_add(vec2_at(x, i), shift));
-    c->ledger.projection += forces_node_energy(c->scene.forces, i, x) - before;
+    exact_sum_add(&c->ledger.projection, forces_node_energy(c->scene.forces, i, x) - before);
 }
 
 void contact_set_store_forces(contact_set *c, dem_index k)
@@ -459,7 +459,7 @@ void contact_set_add_impulse(contact_set *c, dem_index obstacle, vec2 impulse, v
     const bool smooth = law.friction == 0.0 && law.friction_law == DEM_FRICTION_COULOMB;
     const vec2 along = smooth ? impulse : vec2_scale(vec2_dot(impulse, normal), normal);
     ledger_add_impulse(&c->ledger, obstacle, impulse, vec2_sub(impulse, along));
-    c->ledger.work += vec2_dot(impulse, carried);
+    exact_sum_add(&c->ledger.work, vec2_dot(impulse, carried));
 }
 
 void contact_set_enter_impact(contact_set *c, dem_event *event, double energy, vec2 impulse, contact_instant *now)
@@ -467,6 +467,6 @@ void contact_set_enter_impact(contact_set *c, dem_event *event, double energy, v
     event->impulse[0] = impulse.x;
     event->impulse[1] = impulse.y;
     event->energy = energy;
-    c->ledger.impact += energy;
+    exact_sum_add(&c->ledger.impact, energy);
     ledger_enter(&c->ledger, event, now);
 }

@@ -183,7 +183,7 @@ static void part(contact_candidate *candidate, candidate_impact *impact)
 void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
-    c->ledger.impact += contact_set_stop(c, group, now);
+    exact_sum_add(&c->ledger.impact, contact_set_stop(c, group, now));
     for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
         for (int q = 0; q < candidate->n_closed; q++) {
@@ -215,7 +215,7 @@ static void settle_velocities(contact_set *c, contact_instant *now)
     for (dem_index p = 0; p < c->n_involved; p++) {
         const dem_index k = c->involved[p], group = r->group[k];
         if (group < 0 || contact_forces_first(r, group) != k) continue;
-        c->ledger.impact += contact_set_stop(c, group, now);
+        exact_sum_add(&c->ledger.impact, contact_set_stop(c, group, now));
         for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
             contact_impact *impact = c->impacts[m].of;
             for (int q = 0; q < c->list[m].n_closed; q++)

@@ -6,8 +6,8 @@
 #include "contact/ledger.h"
 
 #include <stdlib.h>
-#include <string.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 
 /* Both arrays of impulses are one block. */
@@ -28,20 +28,36 @@ void ledger_destroy(contact_ledger *b)
     *b = (contact_ledger){0};
 }
 
-/* The block is copied, and stays its own. */
+/* The block is copied, and stays its own. Most obstacles of many have given no impulse. */
 void ledger_copy(contact_ledger *to, const contact_ledger *from, dem_index n_obstacles)
 {
-    double *const impulse = to->impulse, *const friction_impulse = to->friction_impulse;
-    memcpy(impulse, from->impulse, 4 * (size_t)n_obstacles * sizeof *impulse);
-    *to = *from;
-    to->impulse = impulse;
-    to->friction_impulse = friction_impulse;
+    exact_sum_copy(&to->impact, &from->impact);
+    exact_sum_copy(&to->projection, &from->projection);
+    exact_sum_copy(&to->work, &from->work);
+    for (dem_index k = 0; k < 4 * n_obstacles; k++) exact_sum_copy(&to->impulse[k], &from->impulse[k]);
+    to->counts = from->counts;
+}
+
+void ledger_list_impulses(const contact_ledger *b, dem_index n_obstacles, double *list)
+{
+    for (dem_index k = 0; k < 4 * n_obstacles; k++) list[k] = reduce_sum(&b->impulse[k]);
+}
+
+void ledger_begin_impulses(contact_ledger *b, dem_index n_obstacles, const double *list)
+{
+    for (dem_index k = 0; k < 4 * n_obstacles; k++) b->impulse[k] = exact_sum_of(list[k]);
+}
+
+static void add(exact_sum sum[2], vec2 term)
+{
+    exact_sum_add(&sum[0], term.x);
+    exact_sum_add(&sum[1], term.y);
 }
 
 void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential)
 {
-    vec2_put(b->impulse, obstacle, vec2_add(vec2_at(b->impulse, obstacle), impulse));
-    vec2_put(b->friction_impulse, obstacle, vec2_add(vec2_at(b->friction_impulse, obstacle), tangential));
+    add(&b->impulse[2 * obstacle], impulse);
+    add(&b->friction_impulse[2 * obstacle], tangential);
 }
 
 /* Closings are counted where they are made, as an impact may close a contact without an event of that kind. */

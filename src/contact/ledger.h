@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sums over contact events: energies, impulses given by the obstacles, counts. */
+/* Sums over contact events: energies, impulses given by the obstacles, counts. They are exact, and so do not depend on
+ * the order of events. */
 #ifndef DEM_CONTACT_LEDGER_H
 #define DEM_CONTACT_LEDGER_H
 
+#include "base/exact_sum.h"
 #include "contact/contact_point.h"
 #include "events/event_listener.h"
 
 typedef struct contact_ledger {
-    double impact, projection;          /* J, taken by impacts, put in by projection */
-    double work;                        /* J, put in by moving obstacles at impacts */
-    double *impulse, *friction_impulse; /* [n_obstacles][2] N s, given to the bodies by impacts */
-    dem_counts counts;                  /* those of contacts */
+    exact_sum impact, projection;          /* J, taken by impacts, put in by projection */
+    exact_sum work;                        /* J, put in by moving obstacles at impacts */
+    exact_sum *impulse, *friction_impulse; /* [n_obstacles][2] N s, given to the bodies by impacts */
+    dem_counts counts;                     /* those of contacts */
 } contact_ledger;
 
 /** The state that events change, as views into y = (x, v), and the listener to call. */
@@ -34,6 +36,12 @@ void ledger_copy(contact_ledger *to, const contact_ledger *from, dem_index n_obs
 
 /** Adds an impulse (N s) to an obstacle's: `tangential` is the part of it along the surface. */
 void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential);
+
+/** The impulses of all obstacles, and then those of friction, rounded. \param[out] list  [2 n_obstacles][2] N s */
+void ledger_list_impulses(const contact_ledger *b, dem_index n_obstacles, double *list);
+
+/** Begins the sums of impulses anew with such a list. */
+void ledger_begin_impulses(contact_ledger *b, dem_index n_obstacles, const double *list);
 
 /** Counts the event and calls the listener. */
 void ledger_enter(contact_ledger *b, const dem_event *event, contact_instant *now);

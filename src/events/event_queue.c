@@ -79,7 +79,7 @@ static void look_ahead(event_queue *q)
 
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state)
 {
-    q->n_events = q->n_stops = 0;
+    q->n_events = q->n_taken = 0;
     changed_motion_start(&q->changed, step->t1, y1, f1);
     step->changed = &q->changed;
     q->step = step;
@@ -91,10 +91,10 @@ void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f
 /* Sources are undone from the last to the first, each of them all events of the step at once. */
 void event_queue_undo(event_queue *q)
 {
-    if (q->n_stops == 0) return;
+    if (q->n_taken == 0) return;
     for (dem_index k = q->sources->n - 1; k >= 0; k--) q->sources->list[k].undo(q->sources->list[k].self);
     changed_motion_undo(&q->changed);
-    q->n_events = q->n_stops = 0;
+    q->n_events = q->n_taken = 0;
 }
 
 /* ---- events ---- */
@@ -145,14 +145,14 @@ static dem_status resolve(event_queue *q, const due_event *due, const event_plac
  * - open the correction, before anything changes: it needs the motion and the forces without the event;
  * - let the sources prepare, and the one whose event it is resolve it in the state at that time;
  * - close the correction: integrate the change to the end of the step, and add it to the dense output;
- * - let the sources find the next events of what has moved. Events at the same time count as one stop. */
+ * - let the sources find the next events of what has moved. */
 static dem_status take(event_queue *q, const due_event *due)
 {
     const event_place at = {q->step, due->t, &q->correction.near, q->state};
     dem_index n_seeds;
     double error;
-    if (q->n_stops == 0) TRY(q->forces->begin_step(q->forces->self, q->step->y0, q->changed.y1));
-    q->n_stops += q->n_stops == 0 || due->t > q->now;
+    if (q->n_taken == 0) TRY(q->forces->begin_step(q->forces->self, q->step->y0, q->changed.y1));
+    q->n_taken++;
     q->now = due->t;
     TRY(find_seeds(q, due, &n_seeds));
     const neighbourhood_seeds seeds = {q->seeds, n_seeds, due->source->changes_forces};
@@ -254,6 +254,7 @@ static dem_status renew_end(event_queue *q)
  * the corrections have left in them; then the derivative is computed again. */
 static dem_status settle_end(event_queue *q)
 {
+    changed_motion_end_rows(&q->changed);
     if (q->constraints != NULL) q->constraints->settle(q->constraints->self, &q->changed);
     q->settled = true;
     return renew_end(q);
@@ -292,6 +293,6 @@ dem_status event_queue_show(event_queue *q, double t)
     TRY(reduce_status(status, q->now));
     q->now = t;
     if (t < q->step->t1) return DEM_OK;
-    q->quiet = !reduce_any(q->n_stops > 0);
+    q->quiet = !reduce_any(q->n_taken > 0);
     return q->quiet || q->settled ? DEM_OK : settle_end(q);
 }

@@ -30,7 +30,7 @@ typedef struct event_queue {
     dem_index *seeds; /* [seed_capacity] nodes that an event changes at once */
     dem_index n_events, capacity;
     dem_event *events; /* [n_events] */
-    dem_index n_stops; /* times at which something happened */
+    dem_index n_taken; /* events resolved in the step; those at the same time count each */
 } event_queue;
 
 /** What a queue works with, all borrowed. */

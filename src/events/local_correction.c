@@ -411,15 +411,24 @@ static void add_change_of_node(const local_correction *p, dem_index j, motion_po
     (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
 }
 
-/* Adds the change of a node, or of a row of the quadratures, to the dense output and to the end of the step. */
-static dem_status leave(const local_correction *p, changed_motion *tr, dem_index j, dem_index place,
-                        motion_polynomial *motion)
+/* Adds the change of a node to the dense output and to the end of the step. */
+static dem_status leave(const local_correction *p, changed_motion *tr, dem_index j)
 {
     const motion_change end = jump_at(p, END, j);
-    add_change_of_node(p, j, motion);
-    TRY(changed_motion_set(tr, place, motion));
-    changed_motion_move_end(tr, place, &end);
+    const dem_index node = p->near.nodes.list[j];
+    add_change_of_node(p, j, &p->motions[j]);
+    TRY(changed_motion_set(tr, node, &p->motions[j]));
+    changed_motion_move_end(tr, node, &end);
     return DEM_OK;
+}
+
+/* The change of the b-th row of the quadratures, beside those that other events have made. */
+static dem_status leave_quadrature(const local_correction *p, changed_motion *tr, dem_index b)
+{
+    const dem_index j = p->near.nodes.n + b;
+    changed_motion_part part = {p->rows[b], {.from = p->t, .dim = p->near.layout.dim}, jump_at(p, END, j)};
+    add_change_of_node(p, j, &part.motion);
+    return changed_motion_add(tr, &part);
 }
 
 /* The squared error of the change, the difference of both solutions of the pair,
@@ -492,12 +501,8 @@ dem_status local_correction_close(local_correction *p, const dense_output *step,
         if (stage > 0) advance(p, at);
         TRY(change_stage(p, step, at, state));
     }
-    for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j, list[j], &p->motions[j]));
-    for (dem_index b = 0; b < p->n_quadratures; b++) {
-        motion_polynomial motion;
-        find_motion(p, step, p->rows[b], &motion);
-        TRY(leave(p, tr, p->near.nodes.n + b, p->rows[b], &motion));
-    }
+    for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j));
+    for (dem_index b = 0; b < p->n_quadratures; b++) TRY(leave_quadrature(p, tr, b));
     note_end(p, tr);
     *error = squared_error(p);
     p->near.n_felt = find_felt(p);

@@ -41,14 +41,24 @@ static sizes sizes_of(const dem_simulation *s)
                    m->obstacles.n_vertices, m->obstacles.n,       s->automaton.set.n,     state_velocities(&s->layout)};
 }
 
+/* Exact sums are rounded in a checkpoint, and go on from there in every run. */
+static dem_status pass_impulses(contact_ledger *ledger, dem_index n_obstacles, const checkpoint_entries_way *way)
+{
+    double *list = calloc(4 * (size_t)n_obstacles + 1, sizeof *list);
+    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the impulses of a checkpoint");
+    ledger_list_impulses(ledger, n_obstacles, list);
+    const dem_status status = checkpoint_entries_pass(way, "impulses", list, 4 * (size_t)n_obstacles * sizeof *list);
+    if (status == DEM_OK && way->from != NULL) ledger_begin_impulses(ledger, n_obstacles, list);
+    free(list);
+    return status;
+}
+
 /* Puts the entries into a checkpoint, or gets them from it: one list for both ways, so that they cannot differ. */
 static dem_status pass(dem_simulation *s, const checkpoint_entries_way *way, numbers *n, dem_counts *counts)
 {
-    contact_ledger *ledger = &s->automaton.set.ledger;
-    const size_t n_impulses = 4 * (size_t)s->model->obstacles.n;
     TRY(checkpoint_entries_pass(way, "numbers", n, sizeof *n));
     TRY(checkpoint_entries_pass(way, "counts", counts, sizeof *counts));
-    TRY(checkpoint_entries_pass(way, "impulses", ledger->impulse, n_impulses * sizeof *ledger->impulse));
+    TRY(pass_impulses(&s->automaton.set.ledger, s->model->obstacles.n, way));
     return checkpoint_entries_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
 }
 
@@ -95,9 +105,9 @@ dem_status checkpoint_take(dem_simulation *s, dem_checkpoint *checkpoint)
     numbers n = {s->t,
                  s->step,
                  integrator_next_step(&s->integrator),
-                 ledger->impact,
-                 ledger->projection,
-                 ledger->work,
+                 reduce_sum(&ledger->impact),
+                 reduce_sum(&ledger->projection),
+                 reduce_sum(&ledger->work),
                  s->automaton.set.projected,
                  s->events,
                  s->unlooked,
@@ -208,9 +218,9 @@ dem_status checkpoint_restore(dem_simulation *s, const dem_checkpoint *checkpoin
     const double *y = NULL;
     numbers n;
     TRY(reduce_status(get(s, checkpoint, &n, &y), 0.0));
-    c->ledger.impact = n.impact;
-    c->ledger.projection = n.projection;
-    c->ledger.work = n.work;
+    c->ledger.impact = exact_sum_of(n.impact);
+    c->ledger.projection = exact_sum_of(n.projection);
+    c->ledger.work = exact_sum_of(n.work);
     c->projected = n.projected;
     s->automaton.idle = n.idle;
     s->t = n.t;

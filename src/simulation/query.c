@@ -162,13 +162,13 @@ static dem_energy energy_of(const dem_simulation *s)
     const state_layout *l = &s->layout;
     measure_energy(s);
     dem_energy e = m->energy;
-    e.impact = reduce_rounded_sum(ledger->impact);
+    e.impact = reduce_sum(&ledger->impact);
     e.fracture = s->fracture;
     e.friction += state_total_of(l, y, STATE_FRICTION);
     e.damping = state_total_of(l, y, STATE_DAMPING);
-    e.projection = reduce_rounded_sum(ledger->projection);
+    e.projection = reduce_sum(&ledger->projection);
     e.boundary = state_total_of(l, y, STATE_WORK);
-    e.obstacle = reduce_rounded_sum(ledger->work);
+    e.obstacle = reduce_sum(&ledger->work);
     if (state_has_total(l, STATE_OBSTACLE)) e.obstacle += state_total_of(l, y, STATE_OBSTACLE);
     e.ledger =
         e.motion + e.gravity + e.impact + e.friction + e.damping + e.fracture - e.projection - e.boundary - e.obstacle;
@@ -363,7 +363,7 @@ dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
     counts.evaluations = of_integrator.evaluations;
     counts.retries = of_integrator.retries;
     counts.crossings = s->crossings;
-    counts.events = s->events + (s->in_hand ? reduce_count(s->queue.n_stops) : 0);
+    counts.events = s->events + (s->in_hand ? reduce_count(s->queue.n_taken) : 0);
     return GIVE(dem_counts, out, &counts);
 }
 
@@ -414,8 +414,8 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
     dem_obstacle_load load = diagnostics_reaction(closed, n_closed, obstacle, s->rigid);
     add_motion(s, obstacle, &load);
     for (int k = 0; k < 2; k++) {
-        load.impulse[k] = reduce_rounded_sum(ledger->impulse[2 * obstacle + k]) + lasting[k];
-        load.friction_impulse[k] = reduce_rounded_sum(ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];
+        load.impulse[k] = reduce_sum(&ledger->impulse[2 * obstacle + k]) + lasting[k];
+        load.friction_impulse[k] = reduce_sum(&ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];
     }
     return GIVE(dem_obstacle_load, out, &load);
 }

@@ -93,7 +93,7 @@ dem_status set_motion_take_seen(dem_simulation *s, dem_state *seen)
 
 dem_status set_motion_begin_anew(dem_simulation *s)
 {
-    s->events += s->in_hand ? reduce_count(s->queue.n_stops) : 0;
+    s->events += s->in_hand ? reduce_count(s->queue.n_taken) : 0;
     s->t = s->seen_t;
     s->path = (dense_output){0};
     s->in_hand = s->at_event = s->started = s->has_checkpoint = false;

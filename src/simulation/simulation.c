@@ -336,14 +336,14 @@ static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
     if (moved) return integrator_restart(&s->integrator, s->t, s->y);
-    const bool changed = s->queue.n_stops > 0 || s->model->rigid.n > 0;
+    const bool changed = s->queue.n_taken > 0 || s->model->rigid.n > 0;
     return reduce_any(changed) ? integrator_resume(&s->integrator) : DEM_OK;
 }
 
 /* Events compute the derivative at the end again node by node, and not that of a rigid body. */
 static bool events_moved_rigid(const dem_simulation *s)
 {
-    return reduce_any(s->model->rigid.n > 0 && s->queue.n_stops > 0);
+    return reduce_any(s->model->rigid.n > 0 && s->queue.n_taken > 0);
 }
 
 /* Reports the events left in the step, takes the queue to its end, as observers may have left it at an earlier time,
@@ -360,7 +360,7 @@ static dem_status commit_step(dem_simulation *s)
     const bool moved = settle_step(s), paused = pausing_end_step(s, broken);
     TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
-    s->events += reduce_count(s->queue.n_stops) + s->at_break;
+    s->events += reduce_count(s->queue.n_taken) + s->at_break;
     TRY(go_on_changed(s, moved || failed || paused || s->outgrown || events_moved_rigid(s)));
     dem_status reported = report_own_breaks(s, s->n_broken);
     reported = status_first(reported, release_orphans(s));

@@ -7,6 +7,7 @@
 
 #include <stdlib.h>
 
+#include "base/exact_sum.h"
 #include "base/grow.h"
 #include "base/status.h"
 
@@ -23,6 +24,7 @@ void changed_motion_destroy(changed_motion *tr)
 {
     free(tr->place);
     free(tr->list);
+    free(tr->parts);
     *tr = (changed_motion){0};
 }
 
@@ -30,7 +32,7 @@ void changed_motion_destroy(changed_motion *tr)
 static void forget(changed_motion *tr)
 {
     for (dem_index k = 0; k < tr->n; k++) tr->place[tr->list[k].node] = -1;
-    tr->n = 0;
+    tr->n = tr->n_parts = 0;
 }
 
 void changed_motion_start(changed_motion *tr, double end, double *y1, double *f1)
@@ -75,14 +77,19 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node)
 }
 
 /* The first change of a node keeps its end and gives it a place; a later one only replaces the polynomial, which then
- * holds from the later event on. Times before that are not asked for again: events are resolved in the order of
- * time. */
+ * holds from the later event on. Times before that are not asked for again: events near each other are resolved in the
+ * order of time. */
+static dem_status take_place(changed_motion *tr, dem_index node)
+{
+    if (changed_motion_has(tr, node)) return DEM_OK;
+    TRY(changed_motion_keep(tr, node));
+    tr->place[node] = tr->n - 1;
+    return DEM_OK;
+}
+
 dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_polynomial *motion)
 {
-    if (!changed_motion_has(tr, node)) {
-        TRY(changed_motion_keep(tr, node));
-        tr->place[node] = tr->n - 1;
-    }
+    TRY(take_place(tr, node));
     motion_polynomial_copy(&tr->list[tr->place[node]].motion, motion);
     return DEM_OK;
 }
@@ -108,7 +115,7 @@ void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_ch
     add_to_row(l, tr->f1 + v, jump->a);
 }
 
-/* ---- polynomials ---- */
+/* ---- values ---- */
 
 /* s of a time: 0 at the event from which the polynomial goes, 1 at the end of the step. An event right at the end has s
  * = 0. */
@@ -130,6 +137,68 @@ void changed_motion_velocity(const changed_motion *tr, double t, dem_index node,
     const motion_polynomial *m = changed_motion_of(tr, node);
     motion_polynomial_at(m, share(tr, m, t), x, out);
 }
+
+/* ---- rows of quadratures ---- */
+
+dem_status changed_motion_add(changed_motion *tr, const changed_motion_part *part)
+{
+    CHECK(grow_array((void **)&tr->parts, &tr->part_capacity, tr->n_parts + 1, sizeof *tr->parts), DEM_ERROR_MEMORY,
+          "out of memory for the contact events of a step");
+    TRY(take_place(tr, part->row));
+    tr->parts[tr->n_parts++] = *part;
+    return DEM_OK;
+}
+
+/* Rounded once, with all parts in it. */
+static void add_sum(exact_sum *sum, double *to)
+{
+    exact_sum_add(sum, *to);
+    *to = exact_sum_value(sum);
+}
+
+void changed_motion_row_at(const changed_motion *tr, double t, dem_index row, double *x, double *v)
+{
+    exact_sum sums[2][STATE_DIM_MOST] = {0};
+    for (dem_index k = 0; k < tr->n_parts; k++) {
+        double at[2][STATE_DIM_MOST];
+        if (tr->parts[k].row != row) continue;
+        motion_polynomial_at(&tr->parts[k].motion, share(tr, &tr->parts[k].motion, t), at[0], at[1]);
+        for (int d = 0; d < tr->layout.dim; d++)
+            for (int q = 0; q < 2; q++) exact_sum_add(&sums[q][d], at[q][d]);
+    }
+    for (int d = 0; d < tr->layout.dim; d++) {
+        if (x != NULL) add_sum(&sums[0][d], &x[d]);
+        if (v != NULL) add_sum(&sums[1][d], &v[d]);
+    }
+}
+
+/* x' is the velocity. */
+static void end_row(changed_motion *tr, dem_index row)
+{
+    const state_layout *l = &tr->layout;
+    const dem_index at = state_row(l, row), v = state_velocities(l) + at;
+    exact_sum sums[3][STATE_DIM_MOST] = {0};
+    for (dem_index k = 0; k < tr->n_parts; k++)
+        for (int d = 0; d < l->dim && tr->parts[k].row == row; d++) {
+            exact_sum_add(&sums[0][d], tr->parts[k].end.x[d]);
+            exact_sum_add(&sums[1][d], tr->parts[k].end.v[d]);
+            exact_sum_add(&sums[2][d], tr->parts[k].end.a[d]);
+        }
+    for (int d = 0; d < l->dim; d++) {
+        add_sum(&sums[0][d], &tr->y1[at + d]);
+        add_sum(&sums[1][d], &tr->y1[v + d]);
+        add_sum(&sums[2][d], &tr->f1[v + d]);
+        tr->f1[at + d] = tr->y1[v + d];
+    }
+}
+
+void changed_motion_end_rows(changed_motion *tr)
+{
+    for (dem_index k = 0; k < tr->n; k++)
+        if (tr->list[k].node >= tr->layout.n_nodes && tr->place[tr->list[k].node] == k) end_row(tr, tr->list[k].node);
+}
+
+/* ---- polynomials in powers of s ---- */
 
 /* Rewrites c(s + r u) in powers of u, with r = 1 - s: first Taylor's shift by repeated Horner steps, c_j += s c_(j+1),
  * then each power k is scaled by r^k. Position and velocity are shifted side by side. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How events inside a step have changed the motion of nodes: for each of these nodes a polynomial, from the last event
- * that has changed it to the end of the step, and what the end of the step was before. All changes can be taken back.
- * Rows of quadratures count as nodes here: an event changes them too. */
+ * that has changed it to the end of the step, and what the end of the step was before. Quadratures are changed by
+ * events everywhere: what these add to a row of them is kept one by one, and summed exactly when it is asked for, so
+ * that the order of events does not matter. All changes can be taken back. */
 #ifndef DEM_TIME_CHANGED_MOTION_H
 #define DEM_TIME_CHANGED_MOTION_H
 
@@ -29,14 +30,21 @@ typedef struct motion_change {
     double x[STATE_DIM_MOST], v[STATE_DIM_MOST], a[STATE_DIM_MOST];
 } motion_change;
 
-/** A node that has been changed, and its end of the step before that. */
+/** A node, or a row of quadratures, that has been changed, and its end of the step before that. */
 typedef struct changed_motion_node {
     dem_index node;
-    motion_polynomial motion; /* from the last event that has changed it */
+    motion_polynomial motion; /* of a node, from the last event that has changed it */
     double x[STATE_DIM_MOST], v[STATE_DIM_MOST], u[STATE_DIM_MOST], a[STATE_DIM_MOST];
     bool is_known;              /* whether its forces have been evaluated in the state at the end, as it is now: */
     double now[STATE_DIM_MOST]; /* its acceleration by them */
 } changed_motion_node;
+
+/** What an event adds to a row of quadratures, from its time on and in the end. */
+typedef struct changed_motion_part {
+    dem_index row;
+    motion_polynomial motion;
+    motion_change end;
+} changed_motion_part;
 
 typedef struct changed_motion {
     state_layout layout;
@@ -45,6 +53,8 @@ typedef struct changed_motion {
     dem_index *place; /* [n_rows] of a node, or a quadrature, in the list, -1: its motion has not changed */
     dem_index n, capacity;
     changed_motion_node *list; /* [n] those whose motion has changed, and those that are kept */
+    dem_index n_parts, part_capacity;
+    changed_motion_part *parts; /* [n_parts] */
 } changed_motion;
 
 /** Free with changed_motion_destroy(). */
@@ -97,6 +107,16 @@ static inline const double *changed_motion_known(const changed_motion *tr, dem_i
 
 /** Adds a change to the state at the end and its derivative. */
 void changed_motion_move_end(changed_motion *tr, dem_index node, const motion_change *jump);
+
+/** Adds to the motion of a row of quadratures. Its end changes with changed_motion_end_rows(). */
+dem_status changed_motion_add(changed_motion *tr, const changed_motion_part *part);
+
+/** Adds all that has been added to a row to its position and velocity [dim] at t, either of which may be NULL; t is not
+ *  before the last event. */
+void changed_motion_row_at(const changed_motion *tr, double t, dem_index row, double *x, double *v);
+
+/** Adds it to the state at the end and its derivative, when there are no more events. */
+void changed_motion_end_rows(changed_motion *tr);
 
 /** Position and velocity [dim] at t of a node whose motion has changed; t is not before its last change. */
 void changed_motion_position(const changed_motion *tr, double t, dem_index node, double *out);

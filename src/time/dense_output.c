@@ -87,10 +87,16 @@ static inline double velocity(bool parabolic, const ends *e, const basis *b, dem
            b->slope * defect(e, k, h) / h;
 }
 
-/* Whether an event inside the step has changed the motion of the row, so that a polynomial of its own counts. */
-static bool turned(const dense_output *p, dem_index i)
+/* Whether an event inside the step has changed the motion of the row. */
+static bool has_changed(const dense_output *p, dem_index i)
 {
     return p->changed != NULL && changed_motion_has(p->changed, i);
+}
+
+/* If that is a node, a polynomial of its own counts; a quadrature has what events add to it. */
+static bool turned(const dense_output *p, dem_index i)
+{
+    return i < p->layout.n_nodes && has_changed(p, i);
 }
 
 /* The third component, of three-dimensional states only; x or v may be NULL. Kept apart from the pair of the other
@@ -103,13 +109,10 @@ static void interpolate_third(const dense_output *p, double t, dem_index k, doub
     if (v != NULL) *v = velocity(p->parabolic, &e, &b, k);
 }
 
-void dense_output_position_inside(const dense_output *p, double t, dem_index i, double *out)
+/* As if no event inside had changed it. */
+static void position_without(const dense_output *p, double t, dem_index i, double *out)
 {
     const dem_index k = state_row(&p->layout, i);
-    if (turned(p, i)) {
-        changed_motion_position(p->changed, t, i, out);
-        return;
-    }
     if (t == p->t0) {
         state_copy_row(&p->layout, out, p->y0 + k);
         return;
@@ -122,13 +125,9 @@ void dense_output_position_inside(const dense_output *p, double t, dem_index i, 
     if (p->layout.dim > 2) interpolate_third(p, t, k + 2, &out[2], NULL);
 }
 
-void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, double *out)
+static void velocity_without(const dense_output *p, double t, dem_index i, double *out)
 {
     const dem_index k = state_row(&p->layout, i);
-    if (turned(p, i)) {
-        changed_motion_velocity(p->changed, t, i, out);
-        return;
-    }
     if (t == p->t0) {
         state_copy_row(&p->layout, out, state_v(&p->layout, p->y0, i));
         return;
@@ -139,6 +138,26 @@ void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, 
     out[0] = first;
     out[1] = second;
     if (p->layout.dim > 2) interpolate_third(p, t, k + 2, NULL, &out[2]);
+}
+
+void dense_output_position_inside(const dense_output *p, double t, dem_index i, double *out)
+{
+    if (turned(p, i)) {
+        changed_motion_position(p->changed, t, i, out);
+        return;
+    }
+    position_without(p, t, i, out);
+    if (has_changed(p, i)) changed_motion_row_at(p->changed, t, i, out, NULL);
+}
+
+void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, double *out)
+{
+    if (turned(p, i)) {
+        changed_motion_velocity(p->changed, t, i, out);
+        return;
+    }
+    velocity_without(p, t, i, out);
+    if (has_changed(p, i)) changed_motion_row_at(p->changed, t, i, NULL, out);
 }
 
 /* Interpolates all components of x and v, those of the quadratures too, as if no event inside had changed them. */
@@ -171,9 +190,13 @@ void dense_output_state(const dense_output *p, double t, double *y)
     else
         interpolate(p, t, y);
     for (dem_index i = 0; i < p->layout.n_rows && p->changed != NULL && t != p->t1; i++) {
-        if (!changed_motion_has(p->changed, i)) continue;
-        changed_motion_position(p->changed, t, i, y + state_row(&p->layout, i));
-        changed_motion_velocity(p->changed, t, i, y + state_velocities(&p->layout) + state_row(&p->layout, i));
+        if (!has_changed(p, i)) continue;
+        double *x = y + state_row(&p->layout, i), *v = x + state_velocities(&p->layout);
+        if (turned(p, i)) {
+            changed_motion_position(p->changed, t, i, x);
+            changed_motion_velocity(p->changed, t, i, v);
+        } else
+            changed_motion_row_at(p->changed, t, i, x, v);
     }
 }
 

@@ -284,7 +284,7 @@ dem_status __wrap_event_queue_show(event_queue *q, double t)
 {
     const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
     const dem_status status = __real_event_queue_show(q, t);
-    if (q->n_stops > 0) spent.take += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    if (q->n_taken > 0) spent.take += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
     return status;
 }
 

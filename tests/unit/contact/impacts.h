@@ -23,6 +23,12 @@ static inline dem_obstacle obstacle(dem_index n_points, const double *points, do
                           .friction_law = DEM_FRICTION_COULOMB};
 }
 
+/** Vector k of a list of sums. */
+static inline vec2 ledger_vector(const exact_sum *sums, dem_index k)
+{
+    return (vec2){exact_sum_value(&sums[2 * k]), exact_sum_value(&sums[2 * k + 1])};
+}
+
 static inline contact_instant moment(scene *s, event_listener *listener)
 {
     *listener = (event_listener){scene_note, s};

@@ -73,8 +73,8 @@ TEST(another_obstacle_stops_a_sliding_node)
     scene_check(&s, 0, 2.0, 0.0, -1.5, 0.0);
     assert_int_equal(s.c.set.list[0].n_closed, 1);
     assert_int_equal(s.c.set.list[0].closed[0].feature, 0);
-    assert_close(s.c.set.ledger.impulse[2], -2.0 * 4.5, 1e-14);
-    assert_close(s.c.set.ledger.impulse[1], 0.0, 1e-14);
+    assert_close(exact_sum_value(&s.c.set.ledger.impulse[2]), -2.0 * 4.5, 1e-14);
+    assert_close(exact_sum_value(&s.c.set.ledger.impulse[1]), 0.0, 1e-14);
 }
 
 /* ---- slip and stick ---- */

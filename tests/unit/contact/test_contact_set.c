@@ -403,11 +403,11 @@ TEST(a_move_enters_the_energy_that_it_puts_in)
 {
     CLEANUP(scene_close) scene s;
     open_stretched(&s);
-    s.c.set.ledger.projection = 1.0;
+    s.c.set.ledger.projection = exact_sum_of(1.0);
     contact_set_move(&s.c.set, 1, (vec2){0.0, -0.25}, s.y);
     assert_close(s.y[2], 0.0, 0.0);
     assert_close(s.y[3], 1.25, 0.0);
-    assert_close(s.c.set.ledger.projection, 1.0 - 5.0 - 9.375, 1e-13);
+    assert_close(exact_sum_value(&s.c.set.ledger.projection), 1.0 - 5.0 - 9.375, 1e-13);
 }
 
 /* The spring, stretched to 1.5 m, pulls node 0 up with 50 N against its 30 N of weight, and nothing holds it down; a

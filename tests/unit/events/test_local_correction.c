@@ -334,6 +334,7 @@ static void finish(step *s, dem_index candidate, vec2 shift, vec2 jump)
     memcpy(was, s->y1, size);
     apply(s, gsl_odeiv2_step_rkf45, of_the_change, s->correction.t, s->dense.t1 - s->correction.t, change, estimate);
     assert_ok(local_correction_close(&s->correction, &s->dense, &s->changed, s->state, &error));
+    changed_motion_end_rows(&s->changed);
     check_change(s, was, change, 1.0 + vec2_norm(jump));
     const int n_last = check_rings(s, ring, was, change, turned);
     assert_true(n_last > 0 || s->correction.h < 0.5 * s->h || vec2_norm(jump) == 0.0);
@@ -454,6 +455,7 @@ TEST(prescribed_nodes_keep_their_parabolas)
     assert_true(local_nodes_have(&s.correction.near.nodes, next, 1));
     vec2_put(s.state, s.n_all + i, vec2_add(vec2_at(s.state, s.n_all + i), (vec2){0.0, 7.0}));
     assert_ok(local_correction_close(&s.correction, &s.dense, &s.changed, s.state, &error));
+    changed_motion_end_rows(&s.changed);
     const motion_polynomial *m = changed_motion_of(&s.changed, next);
     motion_polynomial_restart(&expected, s.correction.t, s.dense.t1);
     for (int q = 0; q < MOTION_TERMS; q++) {
@@ -586,6 +588,7 @@ TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
     y[11] = 0.0;
     assert_ok(contact_set_close(&c.set, 0, look_point(0, 1, 0.0)));
     assert_ok(local_correction_close(&near, &p, &tr, y, &error));
+    changed_motion_end_rows(&tr);
     assert_close(error, 0.0, 1e-25);
     assert_close(y1[0], v * h - 0.5 * mu * g * tau * tau, 1e-15);
     assert_close(y1[1], 0.0, 1e-15);
@@ -640,6 +643,7 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     assert_ok(open_at(&s.correction, &s.c, &s.dense, look_candidate(&s.c, hit), at, s.state));
     s.state[2 * (s.n + hit) + 1] += 5.0;
     assert_ok(local_correction_close(&s.correction, &s.dense, &s.changed, s.state, &error));
+    changed_motion_end_rows(&s.changed);
     triplets_reach(&l, at, s.first);
     s.first[2 * (s.n + hit) + 1] += 5.0;
     triplets_reach(&l, at_inside - at, s.first);
@@ -690,6 +694,7 @@ static void kick_chain(chain_correction *s, int dim, const int *axes, int order)
     double *v = c->state + state_velocities(&c->layout) + state_row(&c->layout, seed);
     for (int d = 0; d < dim; d++) v[d] += kick[axes[d]];
     assert_ok(local_correction_close(&p, &c->step, &s->changed, c->state, &error));
+    changed_motion_end_rows(&s->changed);
     assert_true(error > 0.0);
     dense_output_state(&c->step, 0.75 * chain_step, s->middle);
     local_correction_destroy(&p);
@@ -751,6 +756,7 @@ static void break_chain(chain_correction *s, int order, bool by_forces, double e
     assert_int_equal(neighbourhood_is_short(&p.near), by_forces);
     c->broken = 7;
     assert_ok(local_correction_close(&p, &c->step, &s->changed, c->state, &error));
+    changed_motion_end_rows(&s->changed);
     s->felt = ring_of(&p.near.nodes, p.near.n_felt);
     local_correction_destroy(&p);
     changed_motion_destroy(&s->changed);

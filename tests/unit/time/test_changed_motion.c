@@ -287,6 +287,51 @@ TEST_IN_BOTH(a_jump_at_the_end_changes_the_state_and_its_derivative)
     changed_motion_destroy(&s.changed);
 }
 
+/* ---- rows of quadratures ---- */
+
+/* What 40 events add to the only row, from the first to the last or the other way: sums of doubles would differ. */
+static void add_parts(step *s, bool backwards)
+{
+    enum { EVENTS = 40 };
+    for (int e = 0; e < EVENTS; e++) {
+        const int k = backwards ? EVENTS - 1 - e : e;
+        changed_motion_part part = {.row = 0, .motion = {.from = 0.01 * k, .dim = dim}};
+        for (int c = 0; c < dim; c++) {
+            part.motion.c[c][1][0] = part.end.x[c] = sin(k + c);
+            part.motion.c[c][0][1] = part.end.v[c] = exp(0.1 * k) * cos(k + c);
+            part.end.a[c] = 1.0 / (1.0 + k + c);
+        }
+        part.motion.c[0][1][0] = part.motion.c[0][0][1] = part.end.v[0] = 0.0; /* nothing to one of them */
+        assert_ok(changed_motion_add(&s->changed, &part));
+    }
+}
+
+TEST_IN_BOTH(what_events_add_to_a_row_does_not_depend_on_their_order)
+{
+    double x[2][dim_most] = {{1.0 / 3.0}}, v[2][dim_most] = {{1.0 / 3.0}};
+    step s[2];
+    for (int way = 0; way < 2; way++) {
+        const state_layout layout = {.dim = dim, .n_nodes = 0, .n_rows = n_nodes};
+        open_step(&s[way], 1.0);
+        s[way].changed.layout = layout;
+        x[way][0] = v[way][0] = 1.0 / 3.0;
+        add_parts(&s[way], way == 1);
+        changed_motion_row_at(&s[way].changed, 0.9, 0, x[way], v[way]);
+        changed_motion_end_rows(&s[way].changed);
+    }
+    assert_memory_equal(x[0], x[1], sizeof x[0]);
+    assert_memory_equal(v[0], v[1], sizeof v[0]);
+    assert_memory_equal(s[0].y1, s[1].y1, sizeof s[0].y1);
+    assert_memory_equal(s[0].f1, s[1].f1, sizeof s[0].f1);
+    assert_close(x[0][0], 1.0 / 3.0, 0.0); /* to which nothing is added */
+    assert_close(s[0].y1[dim * n_nodes], 1.0 / (3.0 + dim * n_nodes), 0.0);
+    assert_true(v[0][1] != 0.0 && x[0][1] != 0.0);
+    for (int c = 0; c < dim; c++) assert_close(s[0].f1[c], s[0].y1[dim * n_nodes + c], 0.0);
+    changed_motion_undo(&s[0].changed);
+    for (int k = 0; k < n_state; k++) assert_close(s[0].y1[k], 1.0 / (3.0 + k), 0.0);
+    for (int way = 0; way < 2; way++) changed_motion_destroy(&s[way].changed);
+}
+
 /* Jumps that are lost and won in rounding: adding and taking away would not do. */
 TEST_IN_BOTH(undoing_brings_every_bit_back)
 {
