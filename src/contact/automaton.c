@@ -92,10 +92,10 @@ static dem_status settle_around(contact_set *c, dem_index k, contact_instant *no
     return candidate_is_edge(candidate) ? settle_node(c, candidate->other, now, changed) : DEM_OK;
 }
 
-/* Makes the changes that are due, of all candidates or around one, until a round changes nothing. `idle` counts events
- * in a row at which the first round found nothing to change: more than most_in_step of them ask for a shorter step, or
- * else more than max_impacts are an error, as the run would stand still. */
-static dem_status settle_until_done(automaton *c, dem_index around, contact_instant *now)
+/* Makes the changes that are due, of all candidates, until a round changes nothing. `idle` counts events in a row at
+ * which the first round found nothing to change: more than most_in_step of them ask for a shorter step, or else more
+ * than max_impacts are an error, as the run would stand still. */
+static dem_status settle_until_done(automaton *c, contact_instant *now)
 {
     contact_set *s = &c->set;
     const contact_rule *rule = &s->scene.rule;
@@ -104,18 +104,30 @@ static dem_status settle_until_done(automaton *c, dem_index around, contact_inst
     c->solved = NAN;
     for (c->idle++; changed; c->idle = changed ? 0 : c->idle) {
         changed = false;
-        TRY(around < 0 ? reduce_status(settle_all(s, now, &changed), 0.0) : settle_around(s, around, now, &changed));
-        if (around < 0) changed = reduce_any(changed);
+        TRY(reduce_status(settle_all(s, now, &changed), 0.0));
+        changed = reduce_any(changed);
     }
     CHECK(c->idle <= most, DEM_ERROR_CONTACT, "more than %lld contact events in a row changed nothing, at t = %.9g s",
           (long long)most, now->t);
     return DEM_OK;
 }
 
+/* The same of candidate k and those around it. */
+static dem_status settle_around_until_done(automaton *c, dem_index k, contact_instant *now)
+{
+    bool changed = true, any = false;
+    c->solved = NAN;
+    for (; changed; any = any || changed) {
+        changed = false;
+        TRY(settle_around(&c->set, k, now, &changed));
+    }
+    return any ? DEM_OK : candidate_count_idle(&c->set, k, now);
+}
+
 dem_status automaton_resolve_near(automaton *c, dem_index k, double t, double *y, const event_listener *listener)
 {
     contact_instant now = {t, y, y + state_velocities(scene_layout(&c->set.scene)), listener, DEM_OK};
-    TRY(settle_until_done(c, k, &now));
+    TRY(settle_around_until_done(c, k, &now));
     return now.listener_status;
 }
 
@@ -140,7 +152,7 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     contact_set *s = &c->set;
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     const dem_index impacts = s->ledger.counts.impacts;
-    TRY(settle_until_done(c, -1, &now));
+    TRY(settle_until_done(c, &now));
     if (s->scene.rule.window > 0.0 && reduce_any(s->ledger.counts.impacts > impacts)) early_reflection(s, &now);
     project_nodes(s, t, now.x);
     contact_set_solve_all(s, instant_state(&now));

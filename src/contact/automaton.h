@@ -15,7 +15,7 @@ typedef struct automaton {
     bool quiet;         /* and all root functions were > 0 in that state: no change is due */
     double way;         /* m, bound of how far any candidate goes in the step checked last */
     bool all;           /* by that, inactive candidates may touch: all have to be checked */
-    dem_index idle;     /* events in a row that changed nothing */
+    dem_index idle;     /* events of the whole body in a row that changed nothing */
     exact_sum *rates;   /* [4 n_obstacles + 2] scratch of automaton_add_rates(), empty sums between its calls */
     dem_index capacity; /* active candidates that there is room for in: */
     double *units;      /* [n_active][CANDIDATE_ROOTS] root functions of the active candidates at the start of a step */

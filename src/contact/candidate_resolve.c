@@ -252,6 +252,7 @@ static void count_up(const contact_set *c, contact_storm *storm, double t)
     if (storm->step != c->step) storm->step = c->step, storm->in_step = 0;
     if (t - storm->last > scene_instant(&c->scene, t)) storm->at_once = 0;
     storm->last = t;
+    storm->idle = 0;
     storm->n++, storm->in_step++, storm->at_once++;
 }
 
@@ -275,6 +276,22 @@ static dem_status count(const contact_set *c, contact_candidate *candidate, cons
           "%s %lld at (%g, %g) m had more than %d contact events at once, at t = %.9g s: a larger 'rest_speed' may end "
           "them",
           kind, (long long)candidate->node, place.x, place.y, most_at_once, now->t);
+    return DEM_OK;
+}
+
+/* More than most_in_step of them ask for a shorter step, or else more than max_impacts are an error, as the run would
+ * stand still. Each candidate counts its own, as events elsewhere have nothing to do with it. */
+dem_status candidate_count_idle(contact_set *c, dem_index k, const contact_instant *now)
+{
+    const contact_rule *rule = &c->scene.rule;
+    const dem_index most = rule->most_in_step > 0 ? rule->most_in_step : rule->max_impacts;
+    contact_candidate *candidate = &c->list[k];
+    contact_storm *storm = &candidate->storm;
+    if (storm->idle_step != c->step) storm->idle_step = c->step, storm->idle = 0;
+    CHECK(++storm->idle <= most, DEM_ERROR_CONTACT,
+          "%s %lld had more than %lld contact events in a row that changed nothing, at t = %.9g s",
+          candidate_is_edge(candidate) ? "the edge from node" : "node", (long long)candidate->node, (long long)most,
+          now->t);
     return DEM_OK;
 }
 

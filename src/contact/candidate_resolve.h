@@ -10,6 +10,10 @@
  *  \return DEM_ERROR_CONTACT on a storm, or for what is found deep inside */
 dem_status candidate_resolve(contact_set *c, dem_index k, contact_instant *now, bool *changed);
 
+/** Counts an event of a candidate at which neither it nor what is around it had anything to change.
+ *  \return DEM_ERROR_CONTACT if there are too many in a step */
+dem_status candidate_count_idle(contact_set *c, dem_index k, const contact_instant *now);
+
 /** Resolves a candidate with this gap that touches: an impact, unless it has gone round a free end. */
 dem_status candidate_resolve_touch(contact_set *c, dem_index k, const contact_gap *gap, contact_instant *now);
 

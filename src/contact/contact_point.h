@@ -34,7 +34,8 @@ typedef struct contact_clearance {
     double distance;    /* m, the distance then */
 } contact_clearance;
 
-/** Counts a candidate's changes in a short time, in a step and at once, which are limited. */
+/** Counts a candidate's changes in a short time, in a step and at once, and its events without a change, which are
+ *  limited. */
 typedef struct contact_storm {
     double start;      /* s */
     dem_index n;       /* changes since then */
@@ -42,6 +43,8 @@ typedef struct contact_storm {
     dem_index in_step; /* changes in that step */
     double last;       /* s, when it changed last */
     dem_index at_once; /* changes until then, none an instant after the one before */
+    double idle_step;  /* s, contact_set.step when an event last had nothing to change */
+    dem_index idle;    /* such events in that step since it changed last */
 } contact_storm;
 
 /** A node, or an edge from node to other, that may touch. */

@@ -164,7 +164,6 @@ static void contact_source_begin(void *self, const dense_output *step, double *s
     forget_saved(s);
     s->step = step;
     s->state = state;
-    s->idle = s->automaton->idle;
     s->automaton->set.step = step->t0;
     unpin(&s->automaton->set);
     look_ahead(s);
@@ -297,7 +296,6 @@ static void contact_source_undo(void *self)
     put_back(s);
     ledger_copy(&c->set.ledger, &s->ledger, c->set.scene.model->obstacles.n);
     (void)contact_set_regroup_some(&c->set, s->saved, s->n_saved);
-    c->idle = s->idle;
     forget_saved(s);
 }
 

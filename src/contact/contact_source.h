@@ -19,7 +19,6 @@ typedef struct contact_source {
     contact_candidate *before; /* [n_saved] as they were before the step */
     bool has_ledger;           /* whether `ledger` is set: there has been an event */
     contact_ledger ledger;     /* as it was before the step */
-    dem_index idle;            /* before the step, the automaton's events in a row that changed nothing */
 } contact_source;
 
 /** Borrows the automaton. Free with contact_source_destroy().  \return DEM_ERROR_MEMORY */

@@ -415,6 +415,33 @@ TEST(events_that_change_nothing_end_the_run_after_a_while)
     assert_message_parts("4 contact events * t = 0.7 s");
 }
 
+static dem_status resolve_near(scene *s, dem_index k, double t)
+{
+    const event_listener listener = {scene_note, s};
+    return automaton_resolve_near(&s->c, k, t, s->y, &listener);
+}
+
+/* Two nodes in the air, by turns. A change, or another step, lets a node begin anew. */
+TEST(each_candidate_counts_its_own_events_that_change_nothing)
+{
+    CLEANUP(scene_close) scene s;
+    open_scene(&s, 2, &half, 1);
+    s.c.set.scene.rule.max_impacts = 3;
+    scene_put(&s, 0, 0.5, 1.0, 0.0, -1.0);
+    scene_put(&s, 1, -0.5, 1.0, 0.0, -1.0);
+    for (int n = 0; n < 3; n++)
+        for (dem_index k = 0; k < 2; k++) assert_ok(resolve_near(&s, k, 0.1));
+    assert_int_equal(resolve_near(&s, 1, 0.1), DEM_ERROR_CONTACT);
+    assert_message_parts("node 1 * 3 contact events in a row * nothing * t = 0.1 s");
+    scene_put(&s, 0, 0.5, -penetration_tolerance, 0.0, -1.0);
+    assert_ok(resolve_near(&s, 0, 0.2));
+    assert_int_equal(s.n_impacts, 1);
+    for (int n = 0; n < 3; n++) assert_ok(resolve_near(&s, 0, 0.2));
+    assert_int_equal(resolve_near(&s, 0, 0.2), DEM_ERROR_CONTACT);
+    s.c.set.step = 0.25;
+    for (int n = 0; n < 3; n++) assert_ok(resolve_near(&s, 1, 0.3));
+}
+
 /* ---- the window ---- */
 
 /* After an impact what would arrive within 0.1 s is reflected where it is; what comes later, or goes away, is not.

@@ -135,7 +135,7 @@ typedef struct snapshot {
     double y1[most_state], f1[most_state], state[most_state], impulse[4], energy[3];
     contact_candidate candidates[most_nodes];
     dem_counts counts;
-    dem_index n_groups, idle, n_events, n_taken;
+    dem_index n_groups, n_events, n_taken;
     dem_event events[64];
 } snapshot;
 
@@ -153,7 +153,6 @@ static snapshot take_snapshot(rig *r, double t)
     look_copy(&r->c, 0, r->n, s.candidates);
     s.counts = r->c.set.ledger.counts;
     s.n_groups = r->c.set.forces.n_groups;
-    s.idle = r->c.idle;
     s.n_taken = r->q.n_taken;
     s.n_events = r->q.n_events;
     assert_true(s.n_events <= 64);
