@@ -15,6 +15,20 @@
 
 /* ---- set-up ---- */
 
+/* The order of candidates that change at the same time: nodes first, then edges, by the numbers of their nodes. Where
+ * they stand on the surface does not matter, which may be another one, or a part of it. */
+static bool comes_before(const void *self, dem_index a, dem_index b)
+{
+    const contact_candidate *list = ((const automaton *)self)->set.list;
+    const contact_key one = candidate_key(&list[a]), other = candidate_key(&list[b]);
+    if (one.other < 0 || other.other < 0)
+        return one.other < other.other || (one.other == other.other && one.node < other.node);
+    const bool forth = one.node < one.other, back = other.node < other.other;
+    const dem_index low[2] = {forth ? one.node : one.other, back ? other.node : other.other};
+    const dem_index high[2] = {forth ? one.other : one.node, back ? other.other : other.node};
+    return low[0] < low[1] || (low[0] == low[1] && high[0] < high[1]);
+}
+
 /* Lists for n candidates. Saved ones that are candidates no more still need room, besides the n that there are. */
 static dem_status allocate(contact_source *s, dem_index n)
 {
@@ -26,7 +40,7 @@ static dem_status allocate(contact_source *s, dem_index n)
     s->heap = (event_heap){0};
     CHECK(s->crossing && s->kept && s->saved && s->before, DEM_ERROR_MEMORY,
           "out of memory for %lld contact candidates", (long long)n);
-    return event_heap_create(&s->heap, n);
+    return event_heap_create(&s->heap, n, (event_key_order){comes_before, s->automaton});
 }
 
 static void free_lists(contact_source *s)
@@ -40,7 +54,7 @@ static void free_lists(contact_source *s)
 
 dem_status contact_source_create(contact_source *out, automaton *c)
 {
-    *out = (contact_source){.automaton = c};
+    *out = (contact_source){.automaton = c, .taken = -1};
     dem_status status = allocate(out, c->set.n);
     if (status == DEM_OK) status = ledger_create(&out->ledger, c->set.scene.model->obstacles.n);
     if (status != DEM_OK) contact_source_destroy(out);
@@ -62,8 +76,8 @@ static void carry_over(const contact_source *from, const contact_key *due, conta
 {
     const contact_set *c = &to->automaton->set;
     for (dem_index p = 0; p < from->heap.n; p++) {
-        const dem_index k = contact_set_find(c, due[p]);
-        if (k >= 0) event_heap_set(&to->heap, k, from->heap.due[from->heap.keys[p]]);
+        const dem_index was = from->heap.keys[p], k = contact_set_find(c, due[p]);
+        if (k >= 0) event_heap_set(&to->heap, k, from->heap.due[was], from->heap.generation[was]);
     }
     for (dem_index m = 0; m < to->n_saved; m++) {
         const dem_index k = contact_set_find(c, candidate_key(&from->before[m]));
@@ -136,7 +150,8 @@ static void look_ahead(contact_source *s)
         const dem_index k = automaton_active_candidate(c, a);
         const bool known = is_free(s, k) && s->crossing[k] > step->t0 && *behind == were_behind;
         const double due = known ? s->crossing[k] : automaton_next_change(c, step, k, step->t0, s->state);
-        if (isfinite(due)) event_heap_set(&s->heap, k, due); /* the heap was cleared: most candidates need no entry */
+        if (isfinite(due))
+            event_heap_set(&s->heap, k, due, 0); /* the heap was cleared: most candidates need no entry */
     }
 }
 
@@ -169,11 +184,11 @@ static void contact_source_begin(void *self, const dense_output *step, double *s
     look_ahead(s);
 }
 
-static double contact_source_next(const void *self, dem_index *key)
+static event_due contact_source_next(const void *self)
 {
-    const contact_source *s = self;
-    *key = event_heap_first(&s->heap);
-    return *key >= 0 ? s->heap.due[*key] : (double)INFINITY;
+    const event_heap *h = &((const contact_source *)self)->heap;
+    const dem_index key = event_heap_first(h);
+    return key >= 0 ? (event_due){h->due[key], h->generation[key], key} : (event_due){(double)INFINITY, 0, -1};
 }
 
 static dem_index contact_source_seeds(const void *self, dem_index key, dem_index *nodes, dem_index capacity)
@@ -239,13 +254,17 @@ static dem_status contact_source_resolve(void *self, dem_index key, const event_
                                          const event_listener *listener)
 {
     contact_source *s = self;
+    s->taken = key;
     return automaton_resolve_near(s->automaton, key, at->t, at->state, listener);
 }
 
-/* The next change of a candidate after an event; infinity takes it off the heap. */
+/* The next change of a candidate after an event; infinity takes it off the heap. One that was due at the same time
+ * before keeps its generation, unless it is the one that has changed. */
 static void look_again(contact_source *s, const event_place *at, dem_index k)
 {
-    event_heap_set(&s->heap, k, automaton_next_change(s->automaton, at->step, k, at->t, at->state));
+    const double due = automaton_next_change(s->automaton, at->step, k, at->t, at->state);
+    const dem_index before = k == s->taken ? -1 : event_heap_generation(&s->heap, k, at->t);
+    event_heap_set(&s->heap, k, due, due > at->t ? 0 : (before >= 0 ? before : at->generation + 1));
 }
 
 /* Bound of how far candidates go in the step, m: nodes near the event may be faster after it than the fastest was
@@ -271,6 +290,7 @@ static void contact_source_follow(void *self, const event_place *at)
     for (dem_index g = 0; g < at->near->n_groups; g++)
         automaton_solve_group(s->automaton, at->step, at->near->groups[g].group, at->state);
     each_candidate(s, at, look_again);
+    s->taken = -1;
 }
 
 /* Puts the copies back, and leaves out what is a candidate no more. */

@@ -12,6 +12,7 @@ typedef struct contact_source {
     const dense_output *step; /* the accepted one */
     double *state;            /* [4 n] scratch, the queue's */
     event_heap heap;          /* candidates by the time of their next change */
+    dem_index taken;          /* the one whose change is under way, or -1 */
     double *crossing;         /* [n candidates] s, when a free one touches, while a step is begun */
     bool *kept;               /* [n candidates] whether one is among `saved` */
     dem_index n_saved;

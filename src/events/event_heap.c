@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A binary heap of keys by the time at which each is due. Beside the heap it keeps the place of every key, so that a
- * time can be changed in O(log n), which happens to all candidates near an event. Ties go to the lower key: the order
- * of events must not depend on how the heap came about (docs/algorithms.md, The queue). What a key stands for is the
- * source's own affair. */
+ * time can be changed in O(log n), which happens to all candidates near an event. Ties are decided: the order of events
+ * must not depend on how the heap came about (docs/algorithms.md, The queue). What a key stands for is the source's own
+ * affair. */
 #include "events/event_heap.h"
 
 #include <math.h>
@@ -11,14 +11,17 @@
 
 #include "base/status.h"
 
-dem_status event_heap_create(event_heap *out, dem_index n_keys)
+dem_status event_heap_create(event_heap *out, dem_index n_keys, event_key_order order)
 {
     const size_t n = (size_t)n_keys + 1;
     CHECK(n_keys < INT32_MAX, DEM_ERROR_MODEL, "%lld keys of events are more than the library takes",
           (long long)n_keys);
-    event_heap h = {
-        .keys = malloc(n * sizeof *h.keys), .place = malloc(n * sizeof *h.place), .due = malloc(n * sizeof *h.due)};
-    if (h.keys == NULL || h.place == NULL || h.due == NULL) {
+    event_heap h = {.order = order,
+                    .keys = malloc(n * sizeof *h.keys),
+                    .place = malloc(n * sizeof *h.place),
+                    .generation = malloc(n * sizeof *h.generation),
+                    .due = malloc(n * sizeof *h.due)};
+    if (h.keys == NULL || h.place == NULL || h.generation == NULL || h.due == NULL) {
         event_heap_destroy(&h);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for the events of %lld keys", (long long)n_keys);
     }
@@ -31,6 +34,7 @@ void event_heap_destroy(event_heap *h)
 {
     free(h->keys);
     free(h->place);
+    free(h->generation);
     free(h->due);
     *h = (event_heap){0};
 }
@@ -44,7 +48,9 @@ void event_heap_clear(event_heap *h)
 /* The order of the heap. No two keys are equal in it, so the first one is always the same. */
 static bool is_before(const event_heap *h, dem_index a, dem_index b)
 {
-    return h->due[a] < h->due[b] || (h->due[a] == h->due[b] && a < b);
+    if (h->due[a] != h->due[b]) return h->due[a] < h->due[b];
+    if (h->generation[a] != h->generation[b]) return h->generation[a] < h->generation[b];
+    return h->order.before(h->order.self, a, b);
 }
 
 /* Puts a key into a place of the heap. */
@@ -85,7 +91,7 @@ static void take_out(event_heap *h, dem_index p)
 }
 
 /* A new key begins at the end of the heap; one that is there begins where it is. `due` infinite removes it. */
-void event_heap_set(event_heap *h, dem_index key, double due)
+void event_heap_set(event_heap *h, dem_index key, double due, dem_index generation)
 {
     const dem_index p = h->place[key];
     if (!isfinite(due)) {
@@ -93,6 +99,7 @@ void event_heap_set(event_heap *h, dem_index key, double due)
         return;
     }
     h->due[key] = due;
+    h->generation[key] = (int32_t)generation;
     rise(h, p >= 0 ? p : h->n++, key);
     sink(h, h->place[key], key);
 }

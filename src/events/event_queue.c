@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Resolves the events inside an accepted step one by one, in the order of (time, kind, key), and corrects the rest of
- * the step after each (docs/algorithms.md, Local correction). The step's end y1, f1 changes with every event; at the
- * end closed contacts are put right and the accelerations near events are computed again, so that the next step starts
- * from the derivative of its very state. Going back in time means to undo all events of the step and to resolve the
- * first of them again: sources and corrections are deterministic, so the bits are the same. What an event is, and what
- * it does to a velocity, is in the sources (src/contact); how its change spreads is in local_correction.c. */
+/* Resolves the events inside an accepted step one by one, in the order of (time, generation, kind, key), and corrects
+ * the rest of the step after each (docs/algorithms.md, Local correction). The step's end y1, f1 changes with every
+ * event; at the end closed contacts are put right and the accelerations near events are computed again, so that the
+ * next step starts from the derivative of its very state. Going back in time means to undo all events of the step and
+ * to resolve the first of them again: sources and corrections are deterministic, so the bits are the same. What an
+ * event is, and what it does to a velocity, is in the sources (src/contact); how its change spreads is in
+ * local_correction.c. */
 #include "events/event_queue.h"
 
 #include <math.h>
@@ -47,21 +48,21 @@ void event_queue_destroy(event_queue *q)
 
 /* ---- the next event ---- */
 
-/* The next event; of several sources due at the same time that of the first. */
+/* The next event, and whose it is. */
 typedef struct due_event {
     const event_source *source; /* NULL: there is none */
-    double t;                   /* s */
-    dem_index key;
+    event_due at;
 } due_event;
 
-/* Of events at the same time that of the first source comes first, as only an earlier one replaces it. */
+/* Of equal ones that of the first source comes first, as only an earlier one replaces it. */
 static due_event next_of(const event_queue *q)
 {
-    due_event first = {.t = (double)INFINITY};
+    due_event first = {.at = {.t = (double)INFINITY}};
     for (dem_index kind = 0; kind < q->sources->n; kind++) {
-        due_event due = {.source = &q->sources->list[kind]};
-        due.t = due.source->next(due.source->self, &due.key);
-        if (due.t < first.t) first = due;
+        const event_source *source = &q->sources->list[kind];
+        const event_due due = source->next(source->self);
+        const bool at_once = due.t == first.at.t && due.generation < first.at.generation;
+        if (due.t < first.at.t || (at_once && first.source != NULL)) first = (due_event){source, due};
     }
     return first;
 }
@@ -124,11 +125,11 @@ static double growth(double ratio)
 static dem_status find_seeds(event_queue *q, const due_event *due, dem_index *n)
 {
     const event_source *source = due->source;
-    *n = source->seeds(source->self, due->key, q->seeds, q->seed_capacity);
+    *n = source->seeds(source->self, due->at.key, q->seeds, q->seed_capacity);
     if (*n <= q->seed_capacity) return DEM_OK;
     CHECK(grow_array((void **)&q->seeds, &q->seed_capacity, *n, sizeof *q->seeds), DEM_ERROR_MEMORY,
           "out of memory for what is near an event");
-    *n = source->seeds(source->self, due->key, q->seeds, q->seed_capacity);
+    *n = source->seeds(source->self, due->at.key, q->seeds, q->seed_capacity);
     return DEM_OK;
 }
 
@@ -137,7 +138,7 @@ static dem_status resolve(event_queue *q, const due_event *due, const event_plac
 {
     const event_listener listener = {note_event, q};
     for (dem_index k = 0; k < q->sources->n; k++) q->sources->list[k].prepare(q->sources->list[k].self, at);
-    return due->source->resolve(due->source->self, due->key, at, &listener);
+    return due->source->resolve(due->source->self, due->at.key, at, &listener);
 }
 
 /* Resolves an event and corrects the rest of the step for it:
@@ -148,12 +149,12 @@ static dem_status resolve(event_queue *q, const due_event *due, const event_plac
  * - let the sources find the next events of what has moved. */
 static dem_status take(event_queue *q, const due_event *due)
 {
-    const event_place at = {q->step, due->t, &q->correction.near, q->state};
+    const event_place at = {q->step, due->at.t, due->at.generation, &q->correction.near, q->state};
     dem_index n_seeds;
     double error;
     if (q->n_taken == 0) TRY(q->forces->begin_step(q->forces->self, q->step->y0, q->changed.y1));
     q->n_taken++;
-    q->now = due->t;
+    q->now = due->at.t;
     TRY(find_seeds(q, due, &n_seeds));
     const neighbourhood_seeds seeds = {q->seeds, n_seeds, due->source->changes_forces};
     TRY(local_correction_open(&q->correction, q->step, seeds, q->now, q->state));
@@ -289,7 +290,8 @@ dem_status event_queue_show(event_queue *q, double t)
     }
     dem_status status = DEM_OK;
     due_event due;
-    while (status == DEM_OK && (due = next_of(q)).source != NULL && due.t <= t && !q->exceeded) status = take(q, &due);
+    while (status == DEM_OK && (due = next_of(q)).source != NULL && due.at.t <= t && !q->exceeded)
+        status = take(q, &due);
     TRY(reduce_status(status, q->now));
     q->now = t;
     if (t < q->step->t1) return DEM_OK;

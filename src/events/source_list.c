@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The list of the sources of events, in the order in which they were added. That order is the kind of an event, the
- * second part of the key (time, kind, number) by which the queue orders events: it must be the same in every run. Which
- * sources there are is decided in src/simulation/setup.c. */
+ * third part of the key (time, generation, kind, number) by which the queue orders events: it must be the same in every
+ * run. Which sources there are is decided in src/simulation/setup.c. */
 #include "events/source_list.h"
 
 #include <stdlib.h>

@@ -246,15 +246,17 @@ static void fracture_source_begin(void *self, const dense_output *step, double *
     begin_number(s);
     break_search_begin(&s->search, step, state);
     s->jumped = false;
+    s->looked = (double)NAN;
     note_start(s);
     look(s);
 }
 
-static double fracture_source_next(const void *self, dem_index *key)
+static event_due fracture_source_next(const void *self)
 {
     const fracture_source *s = self;
-    *key = s->search.due.n > 0 ? s->search.due.list[0].element : -1;
-    return due_elements_first(&s->search.due);
+    const due_elements *due = &s->search.due;
+    if (due->n == 0) return (event_due){(double)INFINITY, 0, -1};
+    return (event_due){due->list[0].t, due->list[0].t == s->looked ? s->generation : 0, due->list[0].element};
 }
 
 /* ---- what breaks ---- */
@@ -386,6 +388,8 @@ static void fracture_source_follow(void *self, const event_place *at)
     const local_nodes *nodes = &at->near->nodes;
     const element_state *e = s->elements;
     const springs *all = &s->model->springs;
+    s->looked = at->t;
+    s->generation = at->generation + 1;
     break_search_renew(&s->search, nodes->list, nodes->n);
     for (dem_index j = 0; j < at->near->n_felt; j++) {
         const dem_index i = nodes->list[j];
@@ -413,9 +417,8 @@ void fracture_source_undo(void *self)
 
 double fracture_source_first(fracture_source *s, const dense_output *step, double *state)
 {
-    dem_index key;
     fracture_source_begin(s, step, state);
-    return fracture_source_next(s, &key);
+    return due_elements_first(&s->search.due);
 }
 
 static void find_over_limit(fracture_source *s, const double *y)

@@ -27,6 +27,8 @@ typedef struct fracture_source {
     uint8_t *seen;             /* [n_triangles] the same of triangles, with the ways in which it was */
     failing_elements *failing; /* those that do so next, or have done so last */
     bool jumped;               /* some have, and others may be over their limits at once */
+    double looked;             /* s, of the last event in the step, NAN: there was none; what is due at this time */
+    dem_index generation;      /* has come of it, and is of this generation (event_source.h) */
     dem_index n_failed, capacity, broken_capacity;
     dem_index *failed;   /* [n_failed] what has broken or softened in the step so far, in this order; */
     dem_index *broken;   /* [breaks.n] what has broken of it, */

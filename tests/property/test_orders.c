@@ -29,7 +29,9 @@ static long n_not_first;
 
 static bool comes_before(const event_heap *h, dem_index a, dem_index b)
 {
-    return h->due[a] < h->due[b] || (h->due[a] == h->due[b] && a < b);
+    if (h->due[a] != h->due[b]) return h->due[a] < h->due[b];
+    if (h->generation[a] != h->generation[b]) return h->generation[a] < h->generation[b];
+    return h->order.before(h->order.self, a, b);
 }
 
 static double distance(dem_index a, dem_index b)
@@ -48,18 +50,17 @@ static bool is_independent(const event_heap *h, dem_index key)
     return true;
 }
 
-static double next_of_any(const void *self, dem_index *key)
+static event_due next_of_any(const void *self)
 {
     const event_heap *h = &contacts->heap;
-    dem_index n = 0;
+    dem_index n = 0, key = event_heap_first(h);
     (void)self;
-    *key = event_heap_first(h);
     for (dem_index p = 0; p < h->n; p++) {
         if (!is_independent(h, h->keys[p])) continue;
-        if (gsl_rng_uniform_int(dice, (unsigned long)++n) == 0) *key = h->keys[p];
+        if (gsl_rng_uniform_int(dice, (unsigned long)++n) == 0) key = h->keys[p];
     }
-    n_not_first += *key != event_heap_first(h);
-    return *key >= 0 ? h->due[*key] : (double)INFINITY;
+    n_not_first += key != event_heap_first(h);
+    return key >= 0 ? (event_due){h->due[key], h->generation[key], key} : (event_due){.t = (double)INFINITY};
 }
 
 /* ---- scenes ---- */

@@ -100,7 +100,7 @@ static inline void look_enter_backwards(contact_source *s, dem_index n)
     assert_non_null(due);
     memcpy(due, s->heap.due, (size_t)n * sizeof *due);
     event_heap_clear(&s->heap);
-    for (dem_index k = n - 1; k >= 0; k--) event_heap_set(&s->heap, k, due[k]);
+    for (dem_index k = n - 1; k >= 0; k--) event_heap_set(&s->heap, k, due[k], 0);
 }
 
 #endif

@@ -241,6 +241,7 @@ typedef struct kicks {
     double t[n_kicks];                                  /* s */
     double shift[STATE_DIM_MOST], jump[STATE_DIM_MOST]; /* m, m/s */
     bool done[n_kicks];
+    dem_index generation; /* of all */
 } kicks;
 
 static void kicks_undo(void *self)
@@ -256,15 +257,12 @@ static void kicks_begin(void *self, const dense_output *step, double *state)
     kicks_undo(self);
 }
 
-static double kicks_next(const void *self, dem_index *key)
+static event_due kicks_next(const void *self)
 {
     const kicks *s = self;
-    double first = (double)INFINITY;
-    for (int k = 0; k < n_kicks; k++) {
-        if (s->done[k] || s->t[k] >= first) continue;
-        first = s->t[k];
-        *key = k;
-    }
+    event_due first = {.t = (double)INFINITY};
+    for (int k = 0; k < n_kicks; k++)
+        if (!s->done[k] && s->t[k] < first.t) first = (event_due){s->t[k], s->generation, k};
     return first;
 }
 
@@ -346,6 +344,22 @@ TEST(events_of_sources_come_in_the_order_of_time_kind_and_key)
     assert_close(r.y1[2 * (r.n_all + 2) + 1], 3.0 * jumps.jump[1] - g * h,
                  1e-14);                                                      /* rounding of velocities of order 1 */
     assert_close(r.y1[2 * 2 + 1], heights[2] + way - 0.5 * g * h * h, 1e-15); /* and of lengths of order 0.1 */
+}
+
+/* At one time the first generation of all sources comes before the second of any. */
+TEST(a_generation_comes_before_the_next_whatever_the_source)
+{
+    const double heights[3] = {0.02, 0.05, 0.05}, h = 0.1, t = 0.08;
+    const dem_index nodes[7] = {0, 2, 2, 2, 1, 1, 1};
+    kicks later = {.node = 1, .t = {t, t, t}, .generation = 1}, sooner = {.node = 2, .t = {t, t, t}};
+    CLEANUP(close_rig) rig r;
+    open_masses(&r, 3, heights, 0.5, 0.0);
+    assert_ok(source_list_add(&r.sources, kicks_events(&later)));
+    assert_ok(source_list_add(&r.sources, kicks_events(&sooner)));
+    fall(&r, 0.0, h);
+    show(&r, h);
+    assert_int_equal(r.q.n_events, 7);
+    for (int k = 0; k < 7; k++) assert_int_equal(r.q.events[k].node, nodes[k]);
 }
 
 /* The kick keeps mass 1 off the floor: contact looks at it anew, and back in time finds the impact of before. */
@@ -565,11 +579,10 @@ static void exposure_begin(void *self, const dense_output *step, double *state)
     assert_false(((exposure *)self)->done);
 }
 
-static double exposure_next(const void *self, dem_index *key)
+static event_due exposure_next(const void *self)
 {
     const exposure *s = self;
-    *key = 0;
-    return s->done ? (double)INFINITY : s->t;
+    return (event_due){.t = s->done ? (double)INFINITY : s->t};
 }
 
 static dem_index exposure_seeds(const void *self, dem_index key, dem_index *nodes, dem_index capacity)
