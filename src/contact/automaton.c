@@ -316,7 +316,7 @@ void automaton_add_rates(const automaton *c, double t, const double *y, double *
     const contact_forces *r = &c->set.forces;
     if (!reduce_any(r->n_groups > 0)) return;
     for (dem_index g = 0; g < r->n_groups; g++)
-        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k]) add_rates_of(c, k, state);
+        for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) add_rates_of(c, k, state);
     take_rates(c, a);
 }
 

@@ -168,7 +168,7 @@ static bool has_opened(const contact_set *c, dem_index group, const contact_inst
 {
     const contact_forces *r = &c->forces;
     const bool nodes_too = surface_acceleration(&c->scene) > 0.0;
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+    for (dem_index m = group; m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
         for (int q = 0; q < candidate->n_closed && (nodes_too || candidate_is_edge(candidate)); q++)
             if (fabs(contact_frame_at(&c->scene, candidate, q, instant_state(now)).gap) >

@@ -19,7 +19,7 @@ static dem_status contact_each_node(const void *self, dem_index group, dem_statu
 {
     const contact_set *c = &((const automaton *)self)->set;
     const contact_forces *r = &c->forces;
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+    for (dem_index m = group; m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
         TRY(add(context, candidate->node));
         if (candidate_is_edge(candidate)) TRY(add(context, candidate->other));
@@ -58,7 +58,7 @@ static dem_status contact_add_rates(const void *self, dem_index group, constrain
 {
     const contact_set *c = &((const automaton *)self)->set;
     const contact_forces *r = &c->forces;
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+    for (dem_index m = group; m >= 0; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++) {
             const contact_contribution of = contact_set_contribution(c, m, q, state_of(c, at));
             TRY(add_contribution(c, &of, to));
@@ -78,7 +78,7 @@ static void contact_add_all_rates(const void *self, constraint_state at, double 
 static bool has_moved(const contact_set *c, const changed_motion *changed, dem_index group)
 {
     const contact_forces *r = &c->forces;
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+    for (dem_index m = group; m >= 0; m = r->next[m])
         if (changed_motion_has(changed, r->candidates[m].node)) return true;
     return false;
 }

@@ -43,26 +43,6 @@ static void join(contact_forces *r, dem_index a, dem_index b)
         r->root[ra] = rb;
 }
 
-/* Every candidate in the order of the boundaries: a node before the edge that starts there. Edges are listed along each
- * boundary one after another; nodes without an edge come last. */
-static void sort_candidates(contact_forces *r)
-{
-    dem_index n = 0, n_nodes = 0;
-    dem_index *candidate_of = r->root; /* of a node, -1: none or done */
-    for (dem_index i = 0; i < r->scene->model->lattice.n_nodes; i++) candidate_of[i] = -1;
-    for (; n_nodes < r->n_candidates && !candidate_is_edge(&r->candidates[n_nodes]); n_nodes++)
-        candidate_of[r->candidates[n_nodes].node] = n_nodes;
-    for (dem_index k = n_nodes; k < r->n_candidates; k++) {
-        const dem_index a = r->candidates[k].node;
-        if (candidate_of[a] >= 0) r->order[n++] = candidate_of[a];
-        candidate_of[a] = -1;
-        r->order[n++] = k;
-    }
-    for (dem_index k = 0; k < n_nodes; k++)
-        if (candidate_of[r->candidates[k].node] >= 0) r->order[n++] = k;
-    for (dem_index p = 0; p < n; p++) r->rank[r->order[p]] = p;
-}
-
 /* Half bandwidth of a group's system if all its contacts stuck, with two rows each: the largest distance between rows
  * that share a node. `first` is where a node comes up first; the first pass clears it, the second counts rows. */
 static dem_index group_width(contact_forces *r, dem_index group, dem_index *n_rows)
@@ -70,7 +50,7 @@ static dem_index group_width(contact_forces *r, dem_index group, dem_index *n_ro
     dem_index width = 0;
     *n_rows = 0;
     for (int pass = 0; pass < 2; pass++)
-        for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+        for (dem_index k = group; k >= 0; k = r->next[k]) {
             const contact_candidate *s = &r->candidates[k];
             const dem_index nodes[2] = {s->node, candidate_is_edge(s) ? s->other : s->node};
             if (pass == 1) *n_rows += 2 * s->n_closed;
@@ -107,7 +87,7 @@ static dem_index place_of(const contact_forces *r, dem_index group)
     dem_index low = 0, high = r->n_groups;
     while (low < high) {
         const dem_index middle = low + (high - low) / 2;
-        if (candidate_is_before(&r->candidates[r->order[r->groups[middle]]], &r->candidates[r->order[group]]))
+        if (candidate_is_before(&r->candidates[r->groups[middle]], &r->candidates[group]))
             low = middle + 1;
         else
             high = middle;
@@ -142,7 +122,7 @@ static dem_index collect(contact_forces *r, dem_index k, dem_index n)
 {
     if (r->candidates[k].n_closed == 0 || r->group[k] == collected) return n;
     r->group[k] = collected;
-    r->ranks[n] = r->rank[k];
+    r->members[n] = k;
     return n + 1;
 }
 
@@ -151,7 +131,7 @@ static dem_index dissolve(contact_forces *r, dem_index group, dem_index n)
 {
     if (group < 0) return n;
     delist_group(r, group);
-    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+    for (dem_index k = group; k >= 0; k = r->next[k]) {
         r->group[k] = -1;
         set_at_nodes(r, k, -1);
         n = collect(r, k, n);
@@ -164,49 +144,43 @@ static dem_index dissolve(contact_forces *r, dem_index group, dem_index n)
 static void join_nodes(contact_forces *r, dem_index n)
 {
     for (dem_index p = 0; p < n; p++) {
-        const contact_candidate *s = &r->candidates[r->order[r->ranks[p]]];
+        const contact_candidate *s = &r->candidates[r->members[p]];
         r->root[s->node] = s->node;
         if (candidate_is_edge(s)) r->root[s->other] = s->other;
     }
     for (dem_index p = 0; p < n; p++) {
-        const contact_candidate *s = &r->candidates[r->order[r->ranks[p]]];
+        const contact_candidate *s = &r->candidates[r->members[p]];
         if (candidate_is_edge(s)) join(r, s->node, s->other);
     }
 }
 
-/* Makes groups of the collected candidates. They are put to the front of their group's list from the last to the first,
- * so that the list ascends. The rank of its first candidate, the lowest, is the number of the group. */
+/* Makes groups of the collected candidates. They are put to the front of their group's list from the last of the walk
+ * to the first, so that the list goes along it. The first member is the number of the group. */
 static void make_groups(contact_forces *r, dem_index n)
 {
-    for (dem_index p = 0; p < n; p++) r->first[root_of(r, r->candidates[r->order[r->ranks[p]]].node)] = -1;
+    const dem_index *walk = r->walk.list;
+    for (dem_index p = 0; p < n; p++) r->first[root_of(r, r->candidates[walk[p]].node)] = -1;
     for (dem_index p = n - 1; p >= 0; p--) {
-        const dem_index k = r->order[r->ranks[p]];
-        dem_index *first = &r->first[root_of(r, r->candidates[k].node)];
-        r->next[k] = *first;
-        *first = k;
+        dem_index *first = &r->first[root_of(r, r->candidates[walk[p]].node)];
+        r->next[walk[p]] = *first;
+        *first = walk[p];
     }
     for (dem_index p = 0; p < n; p++) {
-        const dem_index k = r->order[r->ranks[p]], first = r->first[root_of(r, r->candidates[k].node)];
-        r->group[k] = r->rank[first];
+        const dem_index k = walk[p];
+        r->group[k] = r->first[root_of(r, r->candidates[k].node)];
         set_at_nodes(r, k, r->group[k]);
-        if (k == first) list_group(r, r->group[k]);
+        if (k == r->group[k]) list_group(r, k);
     }
-}
-
-static int by_rank(const void *a, const void *b)
-{
-    const dem_index x = *(const dem_index *)a, y = *(const dem_index *)b;
-    return (x > y) - (x < y);
 }
 
 /* Finds the groups of the n candidates that were collected. */
 static dem_status group_collected(contact_forces *r, dem_index n)
 {
-    if (n > 1) qsort(r->ranks, (size_t)n, sizeof *r->ranks, by_rank);
+    group_walk_take(&r->walk, r->members, n);
     join_nodes(r, n);
     make_groups(r, n);
     for (dem_index p = 0; p < n; p++)
-        if (r->group[r->order[r->ranks[p]]] == r->ranks[p]) TRY(reserve(r, r->ranks[p]));
+        if (r->group[r->members[p]] == r->members[p]) TRY(reserve(r, r->members[p]));
     return DEM_OK;
 }
 
@@ -334,7 +308,7 @@ static double along(const contact_forces *r, vec2 wall, vec2 direction)
 static dem_index set_rows(contact_forces *r, dem_index group, aim to, scene_state state, const double *u)
 {
     dem_index n = 0;
-    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+    for (dem_index k = group; k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(r->scene, candidate, q, state);
@@ -432,13 +406,13 @@ static void solve(contact_forces *r, dem_index group, aim to, scene_state state,
 /* Whether a group is one node: the most frequent case, which needs no system. */
 static bool alone(const contact_forces *r, dem_index group)
 {
-    const dem_index first = contact_forces_first(r, group);
+    const dem_index first = group;
     return r->next[first] < 0 && !candidate_is_edge(&r->candidates[first]);
 }
 
 static inline void hold(contact_forces *r, dem_index group, const scene_state *state, double *a)
 {
-    const dem_index k = contact_forces_first(r, group);
+    const dem_index k = group;
     if (!alone(r, group))
         solve(r, group, FORCE, *state, a);
     else if (r->candidates[k].n_closed == 2)
@@ -465,12 +439,12 @@ static void set_free(contact_forces *r, dem_index node, scene_state state)
 /* Free accelerations are computed for the nodes of the group only, once each; `first` marks those that are done. */
 void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
 {
-    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+    for (dem_index k = group; k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
         r->first[candidate->node] = -1;
         if (candidate_is_edge(candidate)) r->first[candidate->other] = -1;
     }
-    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+    for (dem_index k = group; k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
         set_free(r, candidate->node, state);
         if (candidate_is_edge(candidate)) set_free(r, candidate->other, state);
@@ -500,7 +474,7 @@ static void stop_node(contact_forces *r, dem_index k, scene_state state, double 
 void contact_forces_stop(contact_forces *r, dem_index group, scene_state state, double *v)
 {
     if (alone(r, group))
-        stop_node(r, contact_forces_first(r, group), state, v);
+        stop_node(r, group, state, v);
     else
         solve(r, group, IMPULSE, state, v);
 }
@@ -508,7 +482,7 @@ void contact_forces_stop(contact_forces *r, dem_index group, scene_state state, 
 /* Displacements start from 0; those of nodes that are not in the group are not set. */
 const double *contact_forces_shift(contact_forces *r, dem_index group, scene_state state)
 {
-    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+    for (dem_index k = group; k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
         vec2_put(r->a, candidate->node, (vec2){0.0, 0.0});
         if (candidate_is_edge(candidate)) vec2_put(r->a, candidate->other, (vec2){0.0, 0.0});
@@ -522,24 +496,26 @@ dem_status contact_forces_create(contact_forces *out, const contact_scene *scene
 {
     const size_t n = (size_t)n_candidates + 1, n_nodes = (size_t)scene->model->lattice.n_nodes;
     contact_forces r = {.scene = scene, .candidates = candidates, .n_candidates = n_candidates};
-    r.order = malloc(n * sizeof *r.order);
-    r.rank = malloc(n * sizeof *r.rank);
     r.groups = malloc(n * sizeof *r.groups);
     r.group = malloc(n * sizeof *r.group);
     r.next = malloc(n * sizeof *r.next);
     r.at_node = malloc(n_nodes * sizeof *r.at_node);
-    r.ranks = malloc(n * sizeof *r.ranks);
+    r.members = malloc(n * sizeof *r.members);
     r.force = calloc(n, sizeof *r.force);
     r.root = malloc(n_nodes * sizeof *r.root);
     r.first = malloc(n_nodes * sizeof *r.first);
     r.a = calloc(2 * n_nodes, sizeof *r.a);
     r.rows = malloc(4 * n * sizeof *r.rows);
-    const bool grouped = r.order && r.rank && r.groups && r.group && r.next && r.at_node && r.ranks;
+    const bool grouped = r.groups && r.group && r.next && r.at_node && r.members;
     if (!(grouped && r.force && r.root && r.first && r.a && r.rows)) {
         contact_forces_destroy(&r);
         return status_fail(DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)n_candidates);
     }
-    sort_candidates(&r);
+    const dem_status status = group_walk_create(&r.walk, candidates, n_candidates, (dem_index *[]){r.first, r.root});
+    if (status != DEM_OK) {
+        contact_forces_destroy(&r);
+        return status;
+    }
     for (dem_index k = 0; k < n_candidates; k++) r.group[k] = -1;
     for (size_t i = 0; i < n_nodes; i++) r.at_node[i] = -1;
     *out = r;
@@ -548,13 +524,12 @@ dem_status contact_forces_create(contact_forces *out, const contact_scene *scene
 
 void contact_forces_destroy(contact_forces *r)
 {
-    free(r->order);
-    free(r->rank);
     free(r->groups);
     free(r->group);
     free(r->next);
     free(r->at_node);
-    free(r->ranks);
+    free(r->members);
+    group_walk_destroy(&r->walk);
     free(r->force);
     free(r->root);
     free(r->first);

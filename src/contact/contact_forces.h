@@ -6,7 +6,7 @@
 #ifndef DEM_CONTACT_CONTACT_FORCES_H
 #define DEM_CONTACT_CONTACT_FORCES_H
 
-#include "contact/contact_point.h"
+#include "contact/group_walk.h"
 
 /** Force of a closed contact on the body, N. */
 typedef struct contact_force {
@@ -28,13 +28,13 @@ typedef struct contact_forces {
     const contact_scene *scene;
     const contact_candidate *candidates; /* [n_candidates] nodes first, then edges */
     dem_index n_candidates;
-    dem_index *order, *rank; /* [n_candidates] along the boundaries; where a candidate comes in it */
     dem_index n_groups;
-    dem_index *groups;         /* [n_groups] the rank of the first candidate of each, in their order by
-                                  candidate_is_before() */
-    dem_index *group, *next;   /* [n_candidates] of a closed candidate, else -1; the next of its group by rank, or -1 */
+    dem_index *groups;         /* [n_groups] by their first candidates, in the order of candidate_is_before(); from it
+                                  next[] leads along the boundary through all of a group, which are closed */
+    dem_index *group, *next;   /* [n_candidates] of a closed candidate, else -1; the next of its group, or -1 */
     dem_index *at_node;        /* [n_nodes] the group that has closed contacts at a node, or -1 */
-    dem_index *ranks;          /* [n_candidates] scratch: candidates whose groups are found again */
+    dem_index *members;        /* [n_candidates] scratch: candidates whose groups are found again, */
+    group_walk walk;           /* and their order */
     contact_force (*force)[2]; /* [n_candidates] of each closed contact, as last solved for */
     dem_index *root, *first;   /* [n_nodes] scratch: union-find; first row that touches the node */
     double *a;                 /* [n_nodes][2] accelerations of the nodes of the group last solved for, or its shifts */
@@ -47,12 +47,6 @@ typedef struct contact_forces {
 dem_status contact_forces_create(contact_forces *out, const contact_scene *scene, const contact_candidate *candidates,
                                  dem_index n_candidates);
 void contact_forces_destroy(contact_forces *r);
-
-/** The candidates of a group, all closed, in the order of the boundaries: first this one, then next[] until -1. */
-static inline dem_index contact_forces_first(const contact_forces *r, dem_index group)
-{
-    return r->order[group];
-}
 
 /** Finds all groups.  \return DEM_ERROR_MEMORY */
 dem_status contact_forces_regroup(contact_forces *r);

@@ -352,8 +352,7 @@ void contact_set_store_all(contact_set *c)
     if (external_force_failed(c->scene.forces->external) || surface_failed(&c->scene)) return;
     const contact_forces *r = &c->forces;
     for (dem_index g = 0; g < r->n_groups; g++)
-        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
-            contact_set_store_forces(c, k);
+        for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) contact_set_store_forces(c, k);
 }
 
 /* What the stop gave to a contact: its impulse, and the energy -J.(v + v')/2 that this takes, J. */
@@ -372,11 +371,11 @@ double contact_set_stop(contact_set *c, dem_index group, const contact_instant *
     contact_forces *r = &c->forces;
     const scene_state state = instant_state(now);
     double energy = 0.0;
-    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k])
+    for (dem_index k = group; k >= 0; k = r->next[k])
         for (int q = 0; q < c->list[k].n_closed; q++)
             c->impacts[k].of[q].unstopped = contact_frame_at(&c->scene, &c->list[k], q, state).velocity;
     contact_forces_stop(r, group, state, now->v);
-    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k])
+    for (dem_index k = group; k >= 0; k = r->next[k])
         for (int q = 0; q < c->list[k].n_closed; q++) energy += note_stop(c, k, q, state);
     return energy;
 }

@@ -15,18 +15,10 @@
 
 /* ---- set-up ---- */
 
-/* The order of candidates that change at the same time: nodes first, then edges, by the numbers of their nodes. Where
- * they stand on the surface does not matter, which may be another one, or a part of it. */
 static bool comes_before(const void *self, dem_index a, dem_index b)
 {
     const contact_candidate *list = ((const automaton *)self)->set.list;
-    const contact_key one = candidate_key(&list[a]), other = candidate_key(&list[b]);
-    if (one.other < 0 || other.other < 0)
-        return one.other < other.other || (one.other == other.other && one.node < other.node);
-    const bool forth = one.node < one.other, back = other.node < other.other;
-    const dem_index low[2] = {forth ? one.node : one.other, back ? other.node : other.other};
-    const dem_index high[2] = {forth ? one.other : one.node, back ? other.other : other.node};
-    return low[0] < low[1] || (low[0] == low[1] && high[0] < high[1]);
+    return candidate_is_before(&list[a], &list[b]);
 }
 
 /* Lists for n candidates. Saved ones that are candidates no more still need room, besides the n that there are. */
@@ -169,7 +161,7 @@ static void unpin(contact_set *c)
 {
     const contact_forces *r = &c->forces;
     for (dem_index g = 0; g < r->n_groups; g++)
-        for (dem_index k = contact_forces_first(r, r->groups[g]); k >= 0; k = r->next[k])
+        for (dem_index k = r->groups[g]; k >= 0; k = r->next[k])
             for (int q = 0; q < c->list[k].n_closed; q++) c->list[k].closed[q].pinned = false;
 }
 

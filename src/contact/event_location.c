@@ -220,7 +220,7 @@ void event_location_place(const contact_candidate *candidate, const dense_output
 /* Neighbours of an edge are read by its gap, not by its forces; the time is read by forces that depend on it. */
 void event_location_state(const contact_forces *r, dem_index group, const dense_output *p, double t, double *state)
 {
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+    for (dem_index m = group; m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &r->candidates[m];
         put_around(r->scene->forces, p, t, candidate->node, state);
         if (!candidate_is_edge(candidate)) continue;

@@ -25,7 +25,7 @@ double impact_group_project(contact_set *c, dem_index group, contact_instant *no
     contact_forces *r = &c->forces;
     double furthest = 0.0;
     const double *shift = contact_forces_shift(r, group, instant_state(now));
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+    for (dem_index m = group; m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
         const dem_index nodes[2] = {candidate->node, candidate->other};
         for (int e = 0; e < (candidate_is_edge(candidate) ? 2 : 1); e++) {
@@ -44,7 +44,7 @@ static double prepare(contact_set *c, dem_index group, const contact_instant *no
     const contact_forces *r = &c->forces;
     double scale = 0.0;
     c->n_involved = 0;
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+    for (dem_index m = group; m >= 0; m = r->next[m]) {
         contact_candidate *candidate = &c->list[m];
         c->involved[c->n_involved++] = m;
         c->impacts[m].n = candidate->n_closed;
@@ -91,7 +91,7 @@ static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant
         (void)resolve_approach(c, k, q, tolerance, false, now); /* it is the first */
     for (int s = 0; s < most_sweeps && approached; s++) {
         approached = false;
-        for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+        for (dem_index m = group; m >= 0; m = r->next[m])
             for (int q = 0; q < c->list[m].n_closed; q++)
                 approached |= resolve_approach(c, m, q, tolerance, 2 * s >= most_sweeps, now);
     }
@@ -105,8 +105,8 @@ static bool sweep(contact_set *c, dem_index k, double tolerance, contact_instant
 static void judge(contact_set *c, dem_index group, double tolerance, const contact_instant *now)
 {
     const contact_forces *r = &c->forces;
-    const bool shared = r->next[contact_forces_first(r, group)] >= 0;
-    for (dem_index k = contact_forces_first(r, group); k >= 0; k = r->next[k]) {
+    const bool shared = r->next[group] >= 0;
+    for (dem_index k = group; k >= 0; k = r->next[k]) {
         for (int q = 0; q < c->list[k].n_closed; q++) {
             contact_point *point = &c->list[k].closed[q];
             contact_impact *impact = &c->impacts[k].of[q];
@@ -135,13 +135,13 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
     bool any = false;
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+    for (dem_index m = group; m >= 0; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++) {
             contact_impact *impact = &c->impacts[m].of[q];
             impact->plastic = impact->approached && impact->rests;
             any |= impact->plastic;
         }
-    for (dem_index m = contact_forces_first(r, group); m >= 0 && any; m = r->next[m])
+    for (dem_index m = group; m >= 0 && any; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++) {
             contact_impact *impact = &c->impacts[m].of[q];
             const contact_frame f = contact_frame_at(&c->scene, &c->list[m], q, instant_state(now));
@@ -158,7 +158,7 @@ static bool take_back(contact_set *c, dem_index group, contact_instant *now)
 static void keep_approaching(contact_set *c, dem_index group)
 {
     const contact_forces *r = &c->forces;
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m])
+    for (dem_index m = group; m >= 0; m = r->next[m])
         for (int q = 0; q < c->list[m].n_closed; q++)
             if (c->impacts[m].of[q].approached) c->impacts[m].of[q].opens = false;
 }
@@ -184,7 +184,7 @@ void impact_group_stop(contact_set *c, dem_index group, contact_instant *now)
 {
     const contact_forces *r = &c->forces;
     exact_sum_add(&c->ledger.impact, contact_set_stop(c, group, now));
-    for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+    for (dem_index m = group; m >= 0; m = r->next[m]) {
         const contact_candidate *candidate = &c->list[m];
         for (int q = 0; q < candidate->n_closed; q++) {
             const contact_frame f = contact_frame_at(&c->scene, candidate, q, instant_state(now));
@@ -214,9 +214,9 @@ static void settle_velocities(contact_set *c, contact_instant *now)
     const contact_forces *r = &c->forces;
     for (dem_index p = 0; p < c->n_involved; p++) {
         const dem_index k = c->involved[p], group = r->group[k];
-        if (group < 0 || contact_forces_first(r, group) != k) continue;
+        if (group < 0 || group != k) continue;
         exact_sum_add(&c->ledger.impact, contact_set_stop(c, group, now));
-        for (dem_index m = contact_forces_first(r, group); m >= 0; m = r->next[m]) {
+        for (dem_index m = group; m >= 0; m = r->next[m]) {
             contact_impact *impact = c->impacts[m].of;
             for (int q = 0; q < c->list[m].n_closed; q++)
                 impact[q].impulse = vec2_add(impact[q].impulse, impact[q].stop);

@@ -61,12 +61,19 @@ static inline void bench_mass(bench *b, dem_index node, double mass)
     b->inverse_mass[node] = 1.0 / mass;
 }
 
-/** An edge from node a to b; returns its candidate. */
+/** An edge from node a to b, after the one that ends at a and before the one that starts at b; returns its candidate.
+ *  */
 static inline dem_index bench_edge(bench *b, dem_index from, dem_index to)
 {
+    contact_candidate edge = {.node = from, .other = to, .previous = -1, .next = -1, .behind = {-1, -1}};
     assert_true(b->n_candidates < BENCH_CANDIDATES);
-    b->candidates[b->n_candidates] =
-        (contact_candidate){.node = from, .other = to, .previous = -1, .next = -1, .behind = {-1, -1}};
+    for (dem_index k = 0; k < b->n_candidates; k++) {
+        contact_candidate *beside = &b->candidates[k];
+        if (!candidate_is_edge(beside)) continue;
+        if (beside->other == from) edge.previous = beside->node, beside->next = to;
+        if (beside->node == to) edge.next = beside->other, beside->previous = from;
+    }
+    b->candidates[b->n_candidates] = edge;
     return b->n_candidates++;
 }
 

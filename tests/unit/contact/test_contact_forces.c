@@ -37,7 +37,7 @@ static void open_row(bench *b, dem_index n)
 static void check_group(const contact_forces *r, dem_index group, dem_index n, const dem_index *members)
 {
     assert_true(group < r->n_groups);
-    dem_index k = contact_forces_first(r, r->groups[group]);
+    dem_index k = r->groups[group];
     for (dem_index p = 0; p < n; p++, k = r->next[k]) {
         assert_int_equal(k, members[p]);
         assert_int_equal(r->group[k], r->groups[group]);
@@ -48,7 +48,7 @@ static void check_group(const contact_forces *r, dem_index group, dem_index n, c
 static dem_index n_candidates(const contact_forces *r, dem_index group)
 {
     dem_index n = 0;
-    for (dem_index k = contact_forces_first(r, r->groups[group]); k >= 0; k = r->next[k]) n++;
+    for (dem_index k = r->groups[group]; k >= 0; k = r->next[k]) n++;
     return n;
 }
 
@@ -802,7 +802,7 @@ static double left_after_shift(const mix *w, double size)
     memcpy(x, b.x, sizeof x);
     for (dem_index g = 0; g < r.n_groups; g++) {
         const double *shift = contact_forces_shift(&r, r.groups[g], (scene_state){0.0, b.x, b.v});
-        for (dem_index k = contact_forces_first(&r, r.groups[g]); k >= 0; k = r.next[k]) {
+        for (dem_index k = r.groups[g]; k >= 0; k = r.next[k]) {
             const contact_candidate *s = &b.candidates[k];
             vec2_put(x, s->node, vec2_add(vec2_at(b.x, s->node), vec2_at(shift, s->node)));
             if (candidate_is_edge(s)) vec2_put(x, s->other, vec2_add(vec2_at(b.x, s->other), vec2_at(shift, s->other)));
