@@ -152,11 +152,11 @@ static double magnitude(const exact_sum *s)
  * carried again, so that the rounding sees a magnitude: rounding to nearest is symmetric. */
 double exact_sum_value(const exact_sum *s)
 {
-    exact_sum rest = *s;
     if (s->has_nan || (s->has_infinity[0] && s->has_infinity[1])) return (double)NAN;
     if (s->has_infinity[0] || s->has_infinity[1]) return s->has_infinity[0] ? (double)INFINITY : -(double)INFINITY;
+    if (s->high == 0) return 0.0;
+    exact_sum rest = *s;
     exact_sum_carry(&rest);
-    if (rest.high == 0) return 0.0;
     const bool negative = rest.limb[rest.high - 1] < 0;
     for (int k = rest.low; negative && k < rest.high; k++) rest.limb[k] = -rest.limb[k];
     if (negative) exact_sum_carry(&rest);

@@ -43,6 +43,7 @@ static inline void exact_sum_add(exact_sum *s, double term)
         return;
     }
     const uint64_t fraction = bits & 0xfffffffffffff, mantissa = exponent > 0 ? fraction | 1ULL << 52 : fraction;
+    if (mantissa == 0) return; /* it would take the lowest limbs, and the sum all those from there on */
     const int place = exponent > 0 ? exponent - 1 : 0, shift = place % 32;
     const int64_t low = (int64_t)(mantissa << shift & 0xffffffff), high = (int64_t)(mantissa >> (32 - shift));
     const int64_t sign = bits >> 63 != 0 ? -1 : 1;

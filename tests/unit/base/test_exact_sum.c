@@ -147,6 +147,20 @@ TEST(a_sum_that_is_zero_is_plus_zero)
     assert_same(sum_of(opposite, 2), 0.0);
 }
 
+/* They would take the lowest limbs, and every carry all those from there on. */
+TEST(zeros_take_no_limbs)
+{
+    exact_sum s = {0};
+    exact_sum_add(&s, 0.0);
+    exact_sum_add(&s, -0.0);
+    assert_int_equal(s.high, 0);
+    exact_sum_add(&s, 1.0);
+    const int low = s.low;
+    exact_sum_add(&s, 0.0);
+    assert_true(s.low == low && low > 0);
+    assert_same(exact_sum_value(&s), 1.0);
+}
+
 /* More of the largest mantissa than limbs have room for without carries, at every place in a limb: a power of two times
  * a term is a double. */
 TEST(limbs_do_not_overflow)
