@@ -42,8 +42,8 @@ static dem_status allocate(fracture_source *s)
     return watch(s);
 }
 
-dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements, double *taken,
-                                  dem_index most, kernel *by)
+dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements,
+                                  exact_sum *taken, dem_index most, kernel *by)
 {
     fracture_source s = {.model = model, .elements = elements, .taken = taken, .kernel = by};
     s.most = most >= 0 ? most : utilisation_n_elements(&model->lattice);
@@ -333,7 +333,7 @@ static dem_status break_failing(fracture_source *s, double t, const double *x)
     TRY(check_number(s, t));
     TRY(note_failing(s, t, x));
     s->jumped = f->n > 0;
-    *s->taken += failing_elements_fail(f, s->model, s->elements, x, &s->breaks);
+    exact_sum_add(s->taken, failing_elements_fail(f, s->model, s->elements, x, &s->breaks));
     return DEM_OK;
 }
 

@@ -17,7 +17,7 @@ typedef struct fracture_source {
     const dem_model *model;
     element_state *elements;
     kernel *kernel;           /* watches strains */
-    double *taken;            /* J, by all that has broken or softened: the ledger's */
+    exact_sum *taken;         /* J, by all that has broken or softened: the ledger's */
     dem_index most;           /* elements that may break in a step; for more it is rejected */
     const dense_output *step; /* the accepted one */
     strain_filter filter;
@@ -30,18 +30,18 @@ typedef struct fracture_source {
     double looked;             /* s, of the last event in the step, NAN: there was none; what is due at this time */
     dem_index generation;      /* has come of it, and is of this generation (event_source.h) */
     dem_index n_failed, capacity, broken_capacity;
-    dem_index *failed;   /* [n_failed] what has broken or softened in the step so far, in this order; */
-    dem_index *broken;   /* [breaks.n] what has broken of it, */
-    break_list breaks;   /* the same, as it is reported */
-    dem_index n_damaged; /* nodes beside broken elements before the step */
-    double taken_before; /* J */
+    dem_index *failed;      /* [n_failed] what has broken or softened in the step so far, in this order; */
+    dem_index *broken;      /* [breaks.n] what has broken of it, */
+    break_list breaks;      /* the same, as it is reported */
+    dem_index n_damaged;    /* nodes beside broken elements before the step */
+    exact_sum taken_before; /* J */
 } fracture_source;
 
 /** Borrows all four.  \param most  elements that may break in a step, or -1 for any number
  *  \param by  the kernel of the same model, by which strained springs are found from now on
  *  \return DEM_ERROR_MEMORY. Free with fracture_source_destroy() */
-dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements, double *taken,
-                                  dem_index most, kernel *by);
+dem_status fracture_source_create(fracture_source *out, const dem_model *model, element_state *elements,
+                                  exact_sum *taken, dem_index most, kernel *by);
 void fracture_source_destroy(fracture_source *s);
 
 /** \return DEM_ERROR_MODEL if an element is beyond its limit at positions x [n][2] */

@@ -166,7 +166,7 @@ dem_status breaking_follow(dem_simulation *s, const double *y)
     TRY(body_contact_follow(s, y));
     const double before = s->surfaces != NULL ? set_motion_energy(s, y) : 0.0;
     TRY(renew_outline(s, &s->elements, y));
-    if (s->surfaces != NULL) s->fracture += before - set_motion_energy(s, y);
+    if (s->surfaces != NULL) exact_sum_add(&s->fracture, before - set_motion_energy(s, y));
     return DEM_OK;
 }
 
@@ -303,7 +303,7 @@ dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, de
         return status;
     }
     break_list_find_split(&s->given, n_given, s->model, &s->elements);
-    s->fracture += before - set_motion_energy(s, s->frame);
+    exact_sum_add(&s->fracture, before - set_motion_energy(s, s->frame));
     (void)pausing_begin(s, s->seen_t, s->frame);
     return set_motion_begin_anew(s);
 }
@@ -343,7 +343,8 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
         status = dem_checkpoint_put(checkpoint, of_triangles, elements->triangle, (size_t)l->n_triangles);
     if (status == DEM_OK && l->softening != NULL) status = save_levels(elements, checkpoint);
     if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, of_burials, burials, sizeof *burials);
-    return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &s->fracture, sizeof s->fracture) : status;
+    const double taken = reduce_sum(&s->fracture); /* rounded: every run goes on from there */
+    return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &taken, sizeof taken) : status;
 }
 
 /* What a checkpoint has of elements. */
@@ -439,13 +440,15 @@ dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
     element_flags flags = {NULL, NULL, NULL};
     element_state next = {0};
     size_t size;
+    double taken;
     TRY(get_burials(s, checkpoint));
     if (dem_checkpoint_find(checkpoint, of_energy, &size) == NULL) return DEM_OK;
     TRY(find_flags(checkpoint, of_triangles, l->n_triangles, &flags.triangle));
     TRY(find_flags(checkpoint, of_springs, l->n_springs, &flags.spring));
     TRY(find_levels(s, checkpoint, &flags.level));
-    TRY(dem_checkpoint_get(checkpoint, of_energy, &s->fracture, sizeof s->fracture));
-    CHECK(isfinite(s->fracture), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");
+    TRY(dem_checkpoint_get(checkpoint, of_energy, &taken, sizeof taken));
+    s->fracture = exact_sum_of(taken);
+    CHECK(isfinite(taken), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");
     if (is_the_same(s, &flags)) return DEM_OK;
     const dem_status status = break_flagged(s, &next, &flags);
     if (status == DEM_OK) return renew(s, &next, NULL);

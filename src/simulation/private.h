@@ -60,7 +60,7 @@ struct dem_simulation {
     mesh_boundary boundary;        /* of those that are whole, if so many are broken: */
     dem_index n_outside;           /* 0: there is none yet */
     surface *outline;              /* that may touch obstacles; NULL: the model's, or there are none */
-    double fracture;               /* J, taken by breaking */
+    exact_sum fracture;            /* J, taken by breaking */
     fracture_source breaks;        /* inside steps; empty: nothing breaks by itself */
     break_list given;              /* what the program has broken, of which observers know nothing yet */
     local_springs local_springs;

@@ -163,7 +163,7 @@ static dem_energy energy_of(const dem_simulation *s)
     measure_energy(s);
     dem_energy e = m->energy;
     e.impact = reduce_sum(&ledger->impact);
-    e.fracture = s->fracture;
+    e.fracture = reduce_sum(&s->fracture);
     e.friction += state_total_of(l, y, STATE_FRICTION);
     e.damping = state_total_of(l, y, STATE_DAMPING);
     e.projection = reduce_sum(&ledger->projection);
