@@ -192,7 +192,7 @@ TEST(steps_are_bounded_by_stiffness_and_mass)
                 if (m == 1 && l % 2 == 1) continue; /* squares would warp */
                 (void)snprintf(text, sizeof text, HEAD "%s&material %s /\n" BLOCK "%s /\n", methods[s],
                                materials[m].keys, lattices[l]);
-                expect_steps(text, (l < 2 ? 1.0 : 2.0) * materials[m].most);
+                expect_steps(text, (l < 2 ? 1.0 : 2.2) * materials[m].most); /* one squeezed triangle decides */
             }
 }
 
