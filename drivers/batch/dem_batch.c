@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The batch driver. Exit codes: README.md. */
+/* The batch driver. Exit codes: docs/cluster.md. */
 #include <dem/trajectory.h>
 
 #include "case_pool.h"

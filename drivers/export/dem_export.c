@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs for other programs. Exit codes: README.md. */
+/* Runs for other programs. Exit codes: docs/cluster.md. */
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

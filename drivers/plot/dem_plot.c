@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pictures of runs. Exit codes: README.md. */
+/* Pictures of runs. Exit codes: docs/cluster.md. */
 #include <stdio.h>
 
 #include <dem/reader.h>

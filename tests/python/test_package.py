@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The package dem: bodies, the time loop, callbacks, interrupts, threads, views, files.
 `test_package.py DEM_BATCH INPUTS`"""
+import contextlib
 import gc
+import io
 import json
 import math
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -106,6 +109,21 @@ class Runs(Case):
             self.assertEqual(simulation.counts.steps, result["steps"])
             self.assertEqual(simulation.counts.impacts, result["impacts"])
             self.assertTrue(np.array_equal(simulation.x, written.positions(-1)))
+
+    def test_the_lines_of_the_readme_are_a_deck(self):
+        """Its speed is that of dem_batch, to the bit."""
+        lines = re.search(r"```python\n(.*?)```", (INPUTS.parent / "README.md").read_text(encoding="utf-8"), re.S)[1]
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out):
+            exec(lines, {})
+        deck = dem.deck(run={"t_end": 20e-3}, contact={"bodies": "none"},
+                        material={"youngs_modulus": 1e7, "density": 1050, "thickness": 1},
+                        body={"shape": "disc", "radius": 0.065, "spacing": 5e-3, "outline": "lattice",
+                              "position": (0, 0.1), "velocity": (0, -10)},
+                        obstacle={"points": [(-0.3, 0.1), (0.3, -0.1)]}, output={"name": "disc"})
+        (self.folder / "disc.nml").write_text(deck, encoding="utf-8")
+        run = dem.run(self.folder / "disc.nml", outdir=self.folder)
+        self.assertEqual(out.getvalue(), f"{run.result['rising_speed']} m/s\n")
 
     def test_cuts_and_a_progress_bar_change_no_bit(self):
         def end(cuts):
