@@ -3,6 +3,7 @@
  * and whether it is of the right type, is not known here. */
 #include "namelist.h"
 #include "scan.h"
+#include "utf8.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -64,7 +65,7 @@ static bool clean(char *text, size_t size, namelist_errors *errors)
     size_t n_lines = 0;     /* that have such */
     bool good = true;       /* this line, so far */
     for (size_t k = 0; k < size;) {
-        const size_t n = scan_plain_length(text + k);
+        const size_t n = utf8_plain_length(text + k);
         const bool beyond = place.column > MAX_LINE && text[k] != '\n';
         if (good && n == 0 && n_lines++ == 0) {
             byte = (unsigned char)text[k];

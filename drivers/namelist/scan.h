@@ -12,9 +12,6 @@ typedef struct scanner {
     int line, column; /* of text[at], from 1; columns count characters */
 } scanner;
 
-/* Length of the UTF-8 character at `text`, 0 if there is none or if it has no place in a text file: control characters
- * other than tab and end of line. */
-size_t scan_plain_length(const char *text);
 void scan_drop_broken(char *text); /* removes what is not UTF-8 */
 
 bool scan_is_blank(char c); /* ends of lines too */

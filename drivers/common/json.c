@@ -5,13 +5,13 @@
 #include <math.h>
 
 #include "decimal.h"
-#include "scan.h"
+#include "utf8.h"
 
 static void write_string(FILE *out, const char *text)
 {
     (void)fputc('"', out);
     while (*text != '\0') {
-        const size_t n = scan_plain_length(text);
+        const size_t n = utf8_plain_length(text);
         const unsigned char c = (unsigned char)*text;
         if (c == '"' || c == '\\')
             (void)fprintf(out, "\\%c", c);
