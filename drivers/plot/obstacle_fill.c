@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ARC = 32 }; /* points far away, from behind the end to behind the beginning */
+enum { ARC = OBSTACLE_FILL_MORE - 2 }; /* points far away, from behind the end to behind the beginning */
 
 static bool is_closed(const dem_obstacle *obstacle)
 {
@@ -83,4 +83,17 @@ bool obstacle_fill_outline(const dem_obstacle *obstacle, box view, obstacle_fill
     else if (turning(obstacle) > 0.0)
         put_around(obstacle, far, out);
     return true;
+}
+
+bool obstacle_fill_at(const dem_obstacle *obstacle, double t, box view, obstacle_fill *out)
+{
+    double *points = malloc(2 * (size_t)obstacle->n_points * sizeof *points);
+    dem_obstacle moved = *obstacle;
+    if (points == NULL) return false;
+    *out = (obstacle_fill){0};
+    moved.points = points;
+    const bool known = dem_obstacle_points(obstacle, t, points) == DEM_OK;
+    const bool good = !known || obstacle_fill_outline(&moved, view, out);
+    free(points);
+    return good;
 }

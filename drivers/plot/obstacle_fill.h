@@ -7,6 +7,8 @@
 
 #include "box.h"
 
+enum { OBSTACLE_FILL_MORE = 34 }; /* points that an outline has at most beside those of the obstacle */
+
 typedef struct obstacle_fill {
     size_t n;
     double *xy; /* [n][2] m */
@@ -16,5 +18,8 @@ typedef struct obstacle_fill {
  *  memory. Caller owns out->xy.
  *  \param view  what is looked at, m */
 bool obstacle_fill_outline(const dem_obstacle *obstacle, box view, obstacle_fill *out);
+
+/** The same where it is at t, s; without points where the run has no place of one that a program moved. */
+bool obstacle_fill_at(const dem_obstacle *obstacle, double t, box view, obstacle_fill *out);
 
 #endif

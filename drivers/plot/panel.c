@@ -73,15 +73,9 @@ static bool gather_triangles(const panel *p, const snapshot *s, const panel_look
     return true;
 }
 
-/* Node values fill triangles; what has none, or is without values, is drawn as springs. */
-static bool fills_triangles(const snapshot *s)
-{
-    return s->shown->source != NULL && !s->shown->source->of_springs && s->lattice->n_triangles > 0;
-}
-
 static bool draw_vectors(const panel *p, const snapshot *s, const panel_look *look, canvas *c)
 {
-    const bool filled = fills_triangles(s);
+    const bool filled = quantity_fills_triangles(s->shown, s->lattice);
     shape_batch h;
     char attributes[80];
     if (!(filled ? gather_triangles : gather_springs)(p, s, look, &h)) return false;
@@ -102,7 +96,7 @@ static void bin(const panel *p, const snapshot *s, const panel_look *look, raste
     const panel fine = {p->view, {0.0, 0.0, r->width, r->height}};
     const int thick = (int)fmax(1.0, round(FINE * look->thick));
     double xy[6];
-    if (fills_triangles(s)) {
+    if (quantity_fills_triangles(s->shown, s->lattice)) {
         for (dem_index k = 0; k < l->n_triangles; k++) {
             const dem_index *corner = l->triangles + 3 * k;
             const double value[] = {s->value[corner[0]], s->value[corner[1]], s->value[corner[2]]};
@@ -136,26 +130,12 @@ static bool draw_pixels(const panel *p, const snapshot *s, const panel_look *loo
 
 /* ---- all of it ---- */
 
-/* The outline of an obstacle where it is at t; none of one that a program moved, if the run has no place of it then. */
-static bool fill_moved(const dem_obstacle *obstacle, double t, box view, obstacle_fill *out)
-{
-    double *points = malloc(2 * (size_t)obstacle->n_points * sizeof *points);
-    dem_obstacle moved = *obstacle;
-    if (points == NULL) return false;
-    *out = (obstacle_fill){0};
-    moved.points = points;
-    const bool known = dem_obstacle_points(obstacle, t, points) == DEM_OK;
-    const bool good = !known || obstacle_fill_outline(&moved, view, out);
-    free(points);
-    return good;
-}
-
 static bool draw_ground(const panel *p, const snapshot *s, canvas *c)
 {
     const dem_index n = dem_reader_n_obstacles(s->reader);
     for (dem_index k = 0; k < n; k++) {
         obstacle_fill solid;
-        if (!fill_moved(dem_reader_obstacle(s->reader, k), s->t, p->view, &solid)) return false;
+        if (!obstacle_fill_at(dem_reader_obstacle(s->reader, k), s->t, p->view, &solid)) return false;
         for (size_t i = 0; i < solid.n; i++) place(p, solid.xy + 2 * i, solid.xy + 2 * i);
         if (solid.n > 0) c->fills(c, canvas_dark, solid.n, 1, solid.xy);
         free(solid.xy);

@@ -5,6 +5,7 @@
 
 #include "canvas.h"
 #include "outcome.h"
+#include "part_file.h"
 
 typedef enum picture_format { PICTURE_NONE, PICTURE_PNG, PICTURE_SVG, PICTURE_PDF } picture_format;
 
@@ -12,10 +13,8 @@ typedef enum picture_format { PICTURE_NONE, PICTURE_PNG, PICTURE_SVG, PICTURE_PD
 picture_format picture_format_of(const char *path);
 
 typedef struct picture {
-    canvas *face;     /* to draw on */
-    const char *path; /* its name, the caller's */
-    char *part;       /* what is written until it is whole: PATH.part */
-    void *file;
+    canvas *face; /* to draw on */
+    part_file place;
 } picture;
 
 /** Width and height in pixels. False after a fault, which is reported; then nothing is to be closed. */

@@ -35,6 +35,8 @@ static const struct {
 
 enum { KNOWN = sizeof known / sizeof *known };
 
+_Static_assert((int)KNOWN == (int)QUANTITY_KNOWN, "as the header has it");
+
 static const char none[] = "none";
 
 bool quantity_is_known(const char *name)
@@ -57,23 +59,32 @@ void quantity_list(FILE *out)
     (void)fputs(none, out);
 }
 
+bool quantity_at(quantity *q, const dem_reader *reader, size_t k)
+{
+    const dem_reader_array *source = dem_reader_array_find(reader, known[k].array);
+    *q = (quantity){known[k].name, known[k].label, source, known[k].part, known[k].scale};
+    return source != NULL;
+}
+
 bool quantity_find(quantity *q, const dem_reader *reader, const char *name, outcome *o)
 {
     *q = (quantity){.name = none, .label = ""};
     if (name != NULL && strcmp(name, none) == 0) return true;
     for (size_t k = 0; k < KNOWN; k++) {
         if (name != NULL && strcmp(name, known[k].name) != 0) continue;
-        const dem_reader_array *source = dem_reader_array_find(reader, known[k].array);
-        if (source != NULL) {
-            *q = (quantity){known[k].name, known[k].label, source, known[k].part, known[k].scale};
-            return true;
-        }
+        if (quantity_at(q, reader, k)) return true;
+        *q = (quantity){.name = none, .label = ""};
         if (name == NULL) continue;
         outcome_fail(o, EXIT_INVALID, "dem_plot", "the file has no '%s' to colour by: 'fields' in &output names it",
                      known[k].array);
         return false;
     }
     return true;
+}
+
+bool quantity_fills_triangles(const quantity *q, const dem_lattice *lattice)
+{
+    return q->source != NULL && !q->source->of_springs && lattice->n_triangles > 0;
 }
 
 size_t quantity_count(const quantity *q, const dem_lattice *lattice)

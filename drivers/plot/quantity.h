@@ -18,6 +18,11 @@ typedef struct quantity {
     palette_kind scale;
 } quantity;
 
+enum { QUANTITY_KNOWN = 18 };
+
+/** The k-th that has a name, k < QUANTITY_KNOWN; false if the trajectory does not have it. */
+bool quantity_at(quantity *q, const dem_reader *reader, size_t k);
+
 /** By its name; NULL: the first of strain, force, von_mises and speed that the trajectory has, or none. False after a
  *  fault, which is reported. */
 bool quantity_find(quantity *q, const dem_reader *reader, const char *name, outcome *o);
@@ -30,6 +35,10 @@ bool quantity_is_unordered(const char *name);
 
 /** Prints all names, with commas between. */
 void quantity_list(FILE *out);
+
+/** Whether it is drawn as triangles: the values of nodes fill them. Where there are none, and without values of nodes,
+ *  springs are drawn. */
+bool quantity_fills_triangles(const quantity *q, const dem_lattice *lattice);
 
 /** How many numbers it has in a frame: of springs, or of nodes; 0 of none. */
 size_t quantity_count(const quantity *q, const dem_lattice *lattice);

@@ -87,16 +87,6 @@ static bool set_times(show *s, outcome *o)
 
 /* ---- what they have in common ---- */
 
-static colour_range range_of(const show *s, colour_range_extent reach)
-{
-    const request *asked = s->asked;
-    if (s->shown.scale == PALETTE_PIECES) return (colour_range){.hi = PALETTE_SIZE - 1}; /* places in the palette */
-    const bool both_sides = s->shown.scale == PALETTE_DIVERGING;
-    if (!asked->has_range) return colour_range_around(reach, both_sides);
-    const double lo = isinf(asked->lo) ? (both_sides ? -asked->hi : 0.0) : asked->lo;
-    return colour_range_given(lo, asked->hi, reach);
-}
-
 static bool survey(show *s, outcome *o)
 {
     colour_range_extent reach = colour_range_extent_none();
@@ -107,7 +97,7 @@ static bool survey(show *s, outcome *o)
         reach = colour_range_extent_join(reach, s->now.reach);
         s->hash = snapshot_hash(&s->now, s->hash);
     }
-    s->look.range = range_of(s, reach);
+    s->look.range = choice_range(s->asked, s->shown.scale, reach);
     return true;
 }
 
@@ -118,8 +108,7 @@ static bool open_show(show *s, const dem_reader *reader, const request *asked, o
     if (!snapshot_create(&s->now, reader, &s->shown, o)) return false;
     if (asked->has_cracks && !snapshot_follow_cracks(&s->now, o)) return false;
     if (!survey(s, o)) return false;
-    const palette_kind kind = palette_between(s->shown.scale, s->look.range.lo, s->look.range.hi);
-    s->colours = s->shown.source != NULL ? palette_make(kind) : palette_plain(canvas_grey);
+    s->colours = choice_palette(&s->shown, s->look.range);
     s->look.colours = &s->colours;
     s->look.is_binned = s->now.lattice->n_springs > PANEL_BINNED_FROM;
     return true;
@@ -154,19 +143,10 @@ static uint64_t add_motion(uint64_t hash, const dem_obstacle *obstacle)
     return hash;
 }
 
-/* The bodies in all frames, and what is near them of the obstacles. */
-static box view_of_all(const show *s)
-{
-    box view = strip_view(s->bodies);
-    for (dem_index k = 0; k < dem_reader_n_obstacles(s->reader); k++)
-        view = strip_view_with(view, s->bodies, dem_reader_obstacle(s->reader, k));
-    return view;
-}
-
 /* n panels to a picture; the hash takes in what all of them share. */
 static strip plan(show *s, size_t n)
 {
-    const box view = s->asked->has_zoom ? s->asked->zoom : view_of_all(s);
+    const box view = s->asked->has_zoom ? s->asked->zoom : strip_view_of_all(s->bodies, s->reader);
     const strip planned = strip_plan(n, view, s->asked->width, s->asked->columns);
     const panel first = strip_panel(&planned, 0);
     s->look.thick = panel_thickness(panel_scale(&first) * snapshot_spacing(&s->now));

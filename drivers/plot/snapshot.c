@@ -6,11 +6,13 @@
 
 #include "digest.h"
 
-static void find_bare(snapshot *s)
+dem_index snapshot_bare(const dem_lattice *l, unsigned char *is_bare)
 {
-    const dem_lattice *l = s->lattice;
-    memset(s->is_bare, 1, (size_t)l->n_nodes);
-    for (dem_index k = 0; k < 2 * l->n_springs; k++) s->is_bare[l->ends[k]] = 0;
+    dem_index n = 0;
+    memset(is_bare, 1, (size_t)l->n_nodes);
+    for (dem_index k = 0; k < 2 * l->n_springs; k++) is_bare[l->ends[k]] = 0;
+    for (dem_index k = 0; k < l->n_nodes; k++) n += is_bare[k];
+    return n;
 }
 
 static bool fail_memory(outcome *o)
@@ -40,7 +42,7 @@ bool snapshot_create(snapshot *s, const dem_reader *reader, const quantity *show
     s->breaks = dem_reader_array_find(reader, "broken");
     if (s->x != NULL && s->value != NULL && s->work != NULL && s->is_bare != NULL && s->broken_springs != NULL &&
         s->broken_triangles != NULL && (!shows_pieces(s) || pieces_create(&s->pieces, l)))
-        return find_bare(s), true;
+        return (void)snapshot_bare(l, s->is_bare), true;
     return fail_memory(o);
 }
 

@@ -51,6 +51,10 @@ double snapshot_spacing(const snapshot *s);
 /** The hash of its frame, time, places, values and of what is broken, after `hash`. */
 uint64_t snapshot_hash(const snapshot *s, uint64_t hash);
 
+/** How many nodes no spring holds.
+ *  \param[out] is_bare  [n_nodes] 1 of these, else 0 */
+dem_index snapshot_bare(const dem_lattice *l, unsigned char *is_bare);
+
 /** The number that colours a spring, or a triangle: its own, or the mean of its nodes'. 0 without a quantity. */
 double snapshot_spring_value(const snapshot *s, dem_index spring);
 double snapshot_triangle_value(const snapshot *s, dem_index triangle);

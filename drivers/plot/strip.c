@@ -128,3 +128,11 @@ box strip_view_with(box view, box bodies, const dem_obstacle *obstacle)
     }
     return view;
 }
+
+box strip_view_of_all(box bodies, const dem_reader *reader)
+{
+    box view = strip_view(bodies);
+    for (dem_index k = 0; k < dem_reader_n_obstacles(reader); k++)
+        view = strip_view_with(view, bodies, dem_reader_obstacle(reader, k));
+    return view;
+}

@@ -36,4 +36,7 @@ box strip_view(box bodies);
 /** A view with what of an obstacle lies near the bodies. */
 box strip_view_with(box view, box bodies, const dem_obstacle *obstacle);
 
+/** A view of the bodies, in all frames, with what of all obstacles lies near them. */
+box strip_view_of_all(box bodies, const dem_reader *reader);
+
 #endif

@@ -5,27 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "chart.h"
 #include "digest.h"
 #include "picture.h"
 
-enum { CHARTS = 5, ARRAYS = 64, VECTORS = 4, NAME = 32 };
-
-typedef struct timeline {
-    const dem_reader *reader;
-    outcome *o;
-    size_t n; /* rows */
-    double *t;
-    int n_arrays, n_charts;
-    double *array[ARRAYS]; /* all that has to be freed */
-    char name[CHARTS][CHART_LINES][NAME];
-    chart chart[CHARTS];
-    uint64_t hash;
-} timeline;
+enum { VECTORS = 4 };
 
 static double *keep(timeline *of, size_t numbers)
 {
-    double *made = of->n_arrays < ARRAYS ? malloc((numbers + 1) * sizeof *made) : NULL;
+    double *made = of->n_arrays < TIMELINE_ARRAYS ? malloc((numbers + 1) * sizeof *made) : NULL;
     if (made == NULL)
         outcome_fail(of->o, EXIT_MEMORY, "dem_plot", "out of memory");
     else
@@ -142,7 +129,7 @@ static void add_vectors(timeline *of, const char *column, const char *label, con
     const double *size = sizes_of(of, vector, width);
     for (size_t k = 0; k < width / 2 && k < VECTORS && size != NULL; k++) {
         char *name = of->name[of->n_charts - 1][k];
-        (void)snprintf(name, NAME, "%s %zu", each, k + 1);
+        (void)snprintf(name, TIMELINE_NAME, "%s %zu", each, k + 1);
         add_line(to, name, (int)k + 1, size + k, width / 2);
     }
 }
@@ -172,12 +159,12 @@ static void add_steps(timeline *of)
     add_line(to, "", 0, h, width);
 }
 
-static bool collect(timeline *of, const request *asked)
+static bool collect(timeline *of, const char *path)
 {
     size_t width;
     const dem_reader_column *column = dem_reader_column_find(of->reader, "history", "t");
     of->n = column != NULL ? (size_t)column->n_rows : 0;
-    if (of->n == 0) return outcome_fail(of->o, EXIT_INVALID, "dem_plot", "%s: has no history", asked->input), false;
+    if (of->n == 0) return outcome_fail(of->o, EXIT_INVALID, "dem_plot", "%s: has no history", path), false;
     of->t = read_column(of, "t", &width);
     add_energies(of);
     add_vectors(of, "obstacle_reaction", "reaction", "obstacle");
@@ -185,6 +172,22 @@ static bool collect(timeline *of, const request *asked)
     add_contacts(of);
     add_steps(of);
     return of->o->code == EXIT_DONE;
+}
+
+timeline *timeline_open(const dem_reader *reader, const char *path, outcome *o)
+{
+    timeline *of = calloc(1, sizeof *of);
+    if (of == NULL) return outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory"), NULL;
+    *of = (timeline){.reader = reader, .o = o, .hash = DIGEST_BEGIN};
+    if (collect(of, path)) return of;
+    timeline_close(of);
+    return NULL;
+}
+
+void timeline_close(timeline *of)
+{
+    for (int k = 0; of != NULL && k < of->n_arrays; k++) free(of->array[k]);
+    free(of);
 }
 
 /* ---- the picture ---- */
@@ -225,11 +228,8 @@ static bool draw(timeline *of, const request *asked, FILE *log)
 
 bool timeline_draw(const dem_reader *reader, const request *asked, FILE *log, outcome *o)
 {
-    timeline *of = calloc(1, sizeof *of);
-    if (of == NULL) return outcome_fail(o, EXIT_MEMORY, "dem_plot", "out of memory"), false;
-    *of = (timeline){.reader = reader, .o = o, .hash = DIGEST_BEGIN};
-    const bool done = collect(of, asked) && draw(of, asked, log);
-    for (int k = 0; k < of->n_arrays; k++) free(of->array[k]);
-    free(of);
+    timeline *of = timeline_open(reader, asked->input, o);
+    const bool done = of != NULL && draw(of, asked, log);
+    timeline_close(of);
     return done;
 }

@@ -106,3 +106,19 @@ TEST(outside_of_a_closed_container)
     const probe probes[] = {{1, 1, false}, {2.5, 1, true}, {-0.5, 1, true}, {1, 2.9, true}, {-0.9, -0.9, true}};
     EXPECT(points, probes);
 }
+
+/* Ground that sinks by 1 m/s. */
+TEST(one_that_moves_is_where_it_is_then)
+{
+    static const double points[] = {-2.0, 0.0, 4.0, 0.0};
+    const dem_obstacle ground = {
+        .struct_size = sizeof(dem_obstacle), .n_points = 2, .points = points, .velocity = {0.0, -1.0}};
+    for (int t = 0; t < 2; t++) {
+        obstacle_fill g;
+        assert_true(obstacle_fill_at(&ground, t, view, &g));
+        assert_in_range(g.n, 3, 2 + OBSTACLE_FILL_MORE);
+        assert_int_equal(is_solid(&g, 1.0, -0.5), t == 0);
+        assert_true(is_solid(&g, 1.0, -1.5));
+        free(g.xy);
+    }
+}

@@ -89,4 +89,21 @@ TEST(what_the_file_lacks_is_refused)
     assert_false(quantity_find(&q, f->reader, "contact_pressure", &o));
 }
 
+/* By their number: the first is the default, and each is what its name finds. */
+TEST(all_that_have_a_name_can_be_asked_for)
+{
+    trajectory_fixture *f = *test_state;
+    int found = 0;
+    for (size_t k = 0; k < QUANTITY_KNOWN; k++) {
+        quantity q, same;
+        outcome o = {0};
+        if (!quantity_at(&q, f->reader, k)) continue;
+        assert_true(quantity_find(&same, f->reader, q.name, &o));
+        assert_ptr_equal(q.source, same.source);
+        assert_int_equal(q.part, same.part);
+        if (found++ == 0) assert_string_equal(q.name, "strain");
+    }
+    assert_in_range(found, 8, QUANTITY_KNOWN - 1);
+}
+
 TEST_GROUP(trajectory_fixture_begin, trajectory_fixture_end);
