@@ -5,6 +5,7 @@
 #include <dem/reader.h>
 
 #include "commit.h"
+#include "page.h"
 #include "request.h"
 #include "show.h"
 #include "sizes.h"
@@ -21,6 +22,8 @@ static void draw(const request *asked, outcome *o)
         (void)timeline_draw(reader, asked, stdout, o);
     else if (asked->action == REQUEST_SIZES)
         (void)sizes_draw(reader, asked, stdout, o);
+    else if (asked->action == REQUEST_PAGE)
+        (void)page_draw(reader, asked, stdout, o);
     else if (asked->action == REQUEST_ANIMATION)
         (void)show_animation(reader, asked, stdout, o);
     else

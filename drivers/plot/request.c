@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "picture.h"
 #include "quantity.h"
@@ -14,6 +15,8 @@ static const char usage[] =
     "       dem_plot RUN.vtkhdf --animate FOLDER [OPTION]...                 a numbered PNG of every frame\n"
     "       dem_plot RUN.vtkhdf --history -o FILE.png|.svg|.pdf [OPTION]...  energies, reaction, contacts, steps\n"
     "       dem_plot RUN.vtkhdf --fragments -o FILE.png|.svg|.pdf [OPTION]... sizes of fragments\n"
+    "       dem_plot RUN.vtkhdf --html FILE.html [OPTION]...                 a page for a browser: all of it, to look "
+    "at\n"
     "       dem_plot --version | --help\n"
     "options:\n"
     "  --frames LIST          0,5,10 or 0:20:5; -1 is the last (default: six about the greatest compression)\n"
@@ -25,6 +28,7 @@ static const char usage[] =
     "  --zoom X0:X1,Y0:Y1     show this, m (default: all that is in the frames, and the obstacles near it)\n"
     "  --width PIXELS         of the picture, 400 to 20000 (default: 1200)\n"
     "  --columns N            of the strip (default: what fits)\n"
+    "  --max-size MB          of a page, 0.1 to 1000 (default: 20): above it quantities, then frames are left out\n"
     "  --hash                 print the hash of the data plotted\n"
     "files: a picture takes the place of an older one of its name\n"
     "film of the numbered ones:\n"
@@ -38,6 +42,8 @@ void request_help(FILE *out)
     quantity_list(out);
     (void)fputc('\n', out);
 }
+
+static const double default_max_size = 20e6; /* bytes */
 
 __attribute__((format(printf, 1, 2))) static bool refuse(const char *format, ...)
 {
@@ -53,8 +59,10 @@ __attribute__((format(printf, 1, 2))) static bool refuse(const char *format, ...
 /* What is drawn, unless something else is asked for as well. */
 static bool choose_action(request *r, request_action wanted)
 {
-    static const char *const words[] = {
-        [REQUEST_ANIMATION] = "--animate", [REQUEST_HISTORY] = "--history", [REQUEST_SIZES] = "--fragments"};
+    static const char *const words[] = {[REQUEST_ANIMATION] = "--animate",
+                                        [REQUEST_HISTORY] = "--history",
+                                        [REQUEST_SIZES] = "--fragments",
+                                        [REQUEST_PAGE] = "--html"};
     const request_action before = r->action;
     r->action = wanted;
     if (before == REQUEST_STRIP || before == wanted) return true;
@@ -86,6 +94,29 @@ static bool parse_animate(request *r, const char *text)
 {
     r->folder = text;
     return choose_action(r, REQUEST_ANIMATION);
+}
+
+static bool ends_in(const char *text, const char *ending)
+{
+    const size_t n = strlen(text), m = strlen(ending);
+    return n > m && strcasecmp(text + n - m, ending) == 0;
+}
+
+static bool parse_html(request *r, const char *text)
+{
+    r->page = text;
+    if (!ends_in(text, ".html") && !ends_in(text, ".htm"))
+        return refuse("'--html' needs a name in .html, got '%s'", text);
+    return choose_action(r, REQUEST_PAGE);
+}
+
+static bool parse_max_size(request *r, const char *text)
+{
+    double megabytes;
+    if (!read_numbers(text, "", &megabytes) || !(megabytes >= 0.1 && megabytes <= 1000.0))
+        return refuse("'--max-size' needs 0.1 to 1000 MB, got '%s'", text);
+    r->max_size = 1e6 * megabytes;
+    return true;
 }
 
 static bool parse_frames(request *r, const char *text)
@@ -153,11 +184,17 @@ static bool parse_columns(request *r, const char *text)
 static const struct {
     const char *word, *what;
     bool (*parse)(request *r, const char *value);
-} options[] = {{"-o", "a file", parse_output},          {"--animate", "a folder", parse_animate},
-               {"--frames", "a list", parse_frames},    {"--times", "a list", parse_times},
-               {"--color", "a name", parse_color},      {"--range", "limits", parse_range},
-               {"--zoom", "a rectangle", parse_zoom},   {"--width", "a number", parse_width},
-               {"--columns", "a number", parse_columns}};
+} options[] = {{"-o", "a file", parse_output},
+               {"--animate", "a folder", parse_animate},
+               {"--frames", "a list", parse_frames},
+               {"--times", "a list", parse_times},
+               {"--color", "a name", parse_color},
+               {"--range", "limits", parse_range},
+               {"--zoom", "a rectangle", parse_zoom},
+               {"--width", "a number", parse_width},
+               {"--columns", "a number", parse_columns},
+               {"--html", "a file", parse_html},
+               {"--max-size", "a number", parse_max_size}};
 
 /* ---- words ---- */
 
@@ -175,13 +212,23 @@ static bool parse_word(request *r, const char *word)
     return true;
 }
 
+/* What makes no difference to a page, or only to one. */
+static bool check_page(const request *r)
+{
+    if (r->action != REQUEST_PAGE) return r->max_size == 0.0 || refuse("'--max-size' is for '--html'");
+    if (r->output != NULL) return refuse("'-o' does not go with '--html'");
+    const char *without = r->has_cracks ? "--cracks" : r->prints_hash ? "--hash" : r->columns > 0 ? "--columns" : NULL;
+    return without == NULL || refuse("'%s' does not go with '--html'", without);
+}
+
 static bool check(const request *r)
 {
     if (r->action == REQUEST_HELP || r->action == REQUEST_VERSION) return true;
     if (r->input == NULL) return refuse("no run: dem_plot --help");
     if (r->output != NULL && r->folder != NULL) return refuse("'-o' does not go with '--animate'");
-    if (r->output == NULL && r->folder == NULL)
-        return refuse("where to? -o FILE.png, .svg or .pdf, or --animate FOLDER");
+    if (!check_page(r)) return false;
+    if (r->output == NULL && r->folder == NULL && r->page == NULL)
+        return refuse("where to? -o FILE.png, .svg or .pdf, --animate FOLDER, or --html FILE.html");
     if (r->has_range && r->color != NULL && quantity_is_unordered(r->color))
         return refuse("'--range' does not go with '--color %s', whose colours have no order", r->color);
     if (r->frames != NULL && r->times != NULL) return refuse("'--frames' does not go with '--times'");
@@ -197,7 +244,9 @@ static bool parse_all(request *r, char **argv)
         if (k < n && (word[1] == NULL || word[1][0] == '\0')) return refuse("'%s' needs %s", *word, options[k].what);
         if (!(k < n ? options[k].parse(r, *++word) : parse_word(r, *word))) return false;
     }
-    return check(r);
+    if (!check(r)) return false;
+    if (r->max_size == 0.0) r->max_size = default_max_size;
+    return true;
 }
 
 exit_code request_parse(request *r, char **argv)

@@ -14,6 +14,7 @@ typedef enum request_action {
     REQUEST_ANIMATION,
     REQUEST_HISTORY,
     REQUEST_SIZES,
+    REQUEST_PAGE,
     REQUEST_HELP,
     REQUEST_VERSION
 } request_action;
@@ -22,8 +23,10 @@ typedef enum request_action {
 typedef struct request {
     request_action action;
     const char *input;
-    const char *output;         /* a file; NULL for an animation */
+    const char *output;         /* a file; NULL for an animation and a page */
     const char *folder;         /* of an animation */
+    const char *page;           /* a file */
+    double max_size;            /* of a page, bytes */
     const char *frames, *times; /* NULL: as it is by default */
     const char *color;          /* NULL: what there is */
     bool has_range, has_zoom, has_cracks, prints_hash;

@@ -49,6 +49,12 @@ TEST(options_are_read)
     assert_int_equal(r.action, REQUEST_HISTORY);
     assert_int_equal(parse(&r, "a --fragments -o b.svg"), EXIT_DONE);
     assert_int_equal(r.action, REQUEST_SIZES);
+    assert_int_equal(parse(&r, "a --html b.html --color speed --frames 0:9"), EXIT_DONE);
+    assert_int_equal(r.action, REQUEST_PAGE);
+    assert_string_equal(r.page, "b.html");
+    assert_close(r.max_size, 20e6, 0.0);
+    assert_int_equal(parse(&r, "--max-size 0.5 --html b.HTM a"), EXIT_DONE);
+    assert_close(r.max_size, 5e5, 0.0);
     assert_false(r.has_cracks);
     assert_int_equal(parse(&r, "a --cracks --color fragment -o b.svg"), EXIT_DONE);
     assert_true(r.has_cracks);
@@ -84,6 +90,19 @@ TEST(what_makes_no_sense_is_refused)
                                         "a --animate f --fragments",
                                         "a --fragments --history -o b.svg",
                                         "a -o b.svg --color fragment --range 1",
+                                        "a --html",
+                                        "a --html b.svg",
+                                        "a --html .html",
+                                        "a --html b.html -o c.svg",
+                                        "a --html b.html --history",
+                                        "a --animate f --html b.html",
+                                        "a --html b.html --cracks",
+                                        "a --html b.html --hash",
+                                        "a --html b.html --columns 2",
+                                        "a --html b.html --max-size 0.09",
+                                        "a --html b.html --max-size 1001",
+                                        "a --html b.html --max-size x",
+                                        "a -o b.svg --max-size 3",
                                         "a -o b.svg --frobnicate"};
     for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
         request r;
