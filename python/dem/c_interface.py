@@ -610,7 +610,7 @@ class dem_counts(SizedStructure):
     steps: accepted by the integrator
     rejected: by its error test
     evaluations: of the right-hand side (equation 4)
-    events: times of contact events
+    events: resolved: each with DEM_CONTACT_LOCAL, with DEM_CONTACT_EXACT their times
     impacts: of nodes on segments and of edges on vertices
     vertex_impacts: of edges on vertices
     early: of all impacts, those taken together with another one within the window
@@ -1253,6 +1253,14 @@ FUNCTIONS = {  # name: (result, arguments, text)
     "dem_simulation_fracture": (c_int, [POINTER(dem_simulation), POINTER(dem_fracture)],
         """dem_simulation_fracture(simulation, out)
 
+        Returns also DEM_ERROR_MEMORY"""),
+    "dem_simulation_crack_energy": (c_int, [POINTER(dem_simulation), POINTER(c_double)],
+        """dem_simulation_crack_energy(simulation, energy)
+        What cracks take by the fracture energies of what is broken, which those of brittle triangles have from their
+        strength (docs/fracture.md): the sum over broken triangles of fracture energy times `crack_length` times
+        thickness. Beside it `fracture` of dem_energy is what has been taken. Of squares it is that of isotropic
+        ones.
+        energy J, >= 0; 0 where a triangle is broken that has no strength, or where the lattice has no moduli
         Returns also DEM_ERROR_MEMORY"""),
     "dem_simulation_stress": (c_int, [POINTER(dem_simulation), POINTER(c_double)],
         """dem_simulation_stress(simulation, stress)
