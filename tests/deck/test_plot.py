@@ -292,7 +292,7 @@ class Decks(unittest.TestCase):
         (self.folder / "brittle.nml").write_text(
             "&run t_end = 6e-4 /\n"
             "&material youngs_modulus = 1e9, density = 2500, fracture = 'stress', strength = 4e6 /\n"
-            "&body shape = 'disc', radius = 0.03, spacing = 4e-3, jitter = 0.2, velocity = 0, -8, clearance = 1e-4 /\n"
+            "&body shape = 'disc', radius = 0.03, spacing = 4e-3, jitter = 0.2, velocity = 0, -16, clearance = 1e-4 /\n"
             "&obstacle points = -0.3, -0.02, 0, 0, 0.3, -0.03, restitution = 0, friction = 0.3 /\n"
             "&output name = 'brittle', frame_interval = 1e-4, fields = 'velocity' /\n", encoding="utf-8")
         self.batch("brittle.nml", "--overwrite")
