@@ -3,6 +3,7 @@
 """Pages of runs in headless Chromium, against dem_plot's pictures and what h5py reads from the same files:
 `test_page.py DEM_BATCH DEM_PLOT INPUTS`."""
 import base64
+import functools
 import io
 import json
 import pathlib
@@ -22,10 +23,10 @@ except ImportError as error:
     print(f"skipped: the Python packages h5py, numpy and matplotlib are needed ({error})")
     sys.exit(77)
 
+import plots
 from browser import Browser
 
 DEM_BATCH, DEM_PLOT, INPUTS = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-SECONDS = 60
 SVG = "{http://www.w3.org/2000/svg}"
 TITLE = "Less </script><b> & \"quotes\" <!-- é"
 
@@ -44,20 +45,9 @@ FAILS = """
 &obstacle points = -0.3, -0.02, 0, 0.02, 0.3, -0.02 /
 &output name = 'fails', frame_interval = 5e-7 /
 """
-POINT = """
-&run t_end = 0.4 /
-&body shape = 'file', file = 'point.h5', position = 0, 0.5, velocity = 1, 0 /
-&obstacle points = -1, 0, 9, 0, restitution = 0.8 /
-&solver spacing = 1, max_step = 0.01, v_scale = 1 /
-&output name = 'point', frame_interval = 0.1 /
-"""
 
 
-def run_plot(*words, expect=0):
-    result = subprocess.run([DEM_PLOT, *map(str, words)], capture_output=True, text=True, timeout=SECONDS, check=False)
-    if result.returncode != expect:
-        raise AssertionError(f"{words}: exit code {result.returncode} instead of {expect}: {result.stderr}")
-    return result
+run_plot = functools.partial(plots.run_plot, DEM_PLOT)
 
 
 def rgb(image):
@@ -82,7 +72,7 @@ class Pages(unittest.TestCase):
         cls.made = {}
         with h5py.File(cls.folder / "point.h5", "w") as file:
             file["lattice/x"], file["lattice/mass"] = [[0.0, 0.0]], [2.0]
-        for name, text, code in (("breaks", BREAKS, 0), ("fails", FAILS, 4), ("point", POINT, 0)):
+        for name, text, code in (("breaks", BREAKS, 0), ("fails", FAILS, 4), ("point", plots.POINT, 0)):
             (cls.folder / f"{name}.nml").write_text(text, encoding="utf-8")
             cls.batch(f"{name}.nml", expect=code)
         cls.batch(INPUTS / "rectangle.nml", "--set", "body.spacing=6e-3", "--set", "run.t_end=6e-3", "--set", "output.frame_interval=4e-4")
@@ -91,7 +81,7 @@ class Pages(unittest.TestCase):
 
     @classmethod
     def batch(cls, *words, expect=0):
-        result = subprocess.run([DEM_BATCH, *words], cwd=cls.folder, capture_output=True, text=True, timeout=SECONDS, check=False)
+        result = subprocess.run([DEM_BATCH, *words], cwd=cls.folder, capture_output=True, text=True, timeout=plots.SECONDS, check=False)
         if result.returncode != expect:
             raise AssertionError(f"{words}: exit code {result.returncode}: {result.stderr}")
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Pictures of the shipped decks against what h5py reads from the same files: `test_plot.py DEM_BATCH DEM_PLOT INPUTS`."""
+import functools
 import pathlib
 import re
 import struct
@@ -18,9 +19,10 @@ except ImportError as error:
     print(f"skipped: the Python packages h5py, numpy and matplotlib are needed ({error})")
     sys.exit(77)
 
+import plots
+
 DEM_BATCH, DEM_PLOT, INPUTS = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 SVG = "{http://www.w3.org/2000/svg}"
-SECONDS = 120
 
 # More than 50,000 springs; t_end is short, so it is at rest but for its fall.
 FINE = """
@@ -31,20 +33,9 @@ FINE = """
 &obstacle points = -0.3, -0.02, 0.3, -0.02 /
 &output name = 'fine', frame_interval = 1e-5 /
 """
-POINT = """
-&run t_end = 0.4 /
-&body shape = 'file', file = 'point.h5', position = 0, 0.5, velocity = 1, 0 /
-&obstacle points = -1, 0, 9, 0, restitution = 0.8 /
-&solver spacing = 1, max_step = 0.01, v_scale = 1 /
-&output name = 'point', frame_interval = 0.1 /
-"""
 
 
-def run_plot(*words, expect=0):
-    result = subprocess.run([DEM_PLOT, *map(str, words)], capture_output=True, text=True, timeout=SECONDS, check=False)
-    if result.returncode != expect:
-        raise AssertionError(f"{words}: exit code {result.returncode} instead of {expect}: {result.stderr}")
-    return result
+run_plot = functools.partial(plots.run_plot, DEM_PLOT)
 
 
 def numbers(text):
@@ -119,7 +110,7 @@ class Decks(unittest.TestCase):
         cls.batch(INPUTS / "every_key.nml")
         with h5py.File(cls.folder / "point.h5", "w") as file:
             file["lattice/x"], file["lattice/mass"] = [[0.0, 0.0]], [2.0]
-        for name, text in (("fine", FINE), ("point", POINT)):
+        for name, text in (("fine", FINE), ("point", plots.POINT)):
             (cls.folder / f"{name}.nml").write_text(text, encoding="utf-8")
             cls.batch(cls.folder / f"{name}.nml")
 
@@ -129,7 +120,7 @@ class Decks(unittest.TestCase):
 
     @classmethod
     def batch(cls, *words):
-        subprocess.run([DEM_BATCH, *words], cwd=cls.folder, check=True, stdout=subprocess.DEVNULL, timeout=SECONDS)
+        subprocess.run([DEM_BATCH, *words], cwd=cls.folder, check=True, stdout=subprocess.DEVNULL, timeout=plots.SECONDS)
 
     def at(self, name):
         return self.folder / f"{name}.vtkhdf"
