@@ -193,6 +193,35 @@ TEST(a_run_goes_on_from_a_checkpoint_to_the_same_bits)
     }
 }
 
+/* Checkpoints of versions without fracture have no entry of it, as those of a body that cannot break. */
+TEST(a_checkpoint_without_fracture_is_of_a_whole_body)
+{
+    CLEANUP(dem_lattice_free) dem_lattice block = support_rectangle(0.05, 0.052, 0.005, &rubber);
+    dem_options options = free_fall(1e-6);
+    options.checkpoint_steps = 7;
+    CLEANUP(support_close) support_run run;
+    support_open(&run, &block, NULL, 0, &options);
+    (void)support_at(&run, t_end);
+    const dem_checkpoint *last = dem_simulation_checkpoint(run.simulation);
+    size_t size;
+    assert_non_null(last);
+    assert_null(dem_checkpoint_find(last, "fracture", &size));
+
+    CLEANUP(dem_lattice_free) dem_lattice brittle = support_rectangle(0.05, 0.052, 0.005, &rubber);
+    brittle.strength = malloc((size_t)brittle.n_triangles * sizeof *brittle.strength);
+    assert_non_null(brittle.strength);
+    for (dem_index k = 0; k < brittle.n_triangles; k++) brittle.strength[k] = 1e9; /* Pa, 100 E: nothing breaks */
+    CLEANUP(free_model) dem_model *model = support_model(&brittle, NULL, 0);
+    CLEANUP(free_simulation) dem_simulation *resumed = NULL;
+    assert_ok(dem_simulation_resume(&resumed, model, &options, last));
+    assert_ok(dem_simulation_advance(resumed, 2.0 * t_end));
+    motion s = support_at(&run, 2.0 * t_end), same;
+    motion_see(resumed, &same);
+    assert_memory_equal(s.x, same.x, 2 * (size_t)block.n_nodes * sizeof *s.x);
+    assert_int_equal(ask_fracture(resumed).triangles, 0);
+    assert_int_equal(ask_fracture(resumed).fragments, 1);
+}
+
 /* ---- surfaces ---- */
 
 /* The lowest row of triangles breaks off a block: its upper nodes, which were inside, come to lie on the floor. */
