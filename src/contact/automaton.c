@@ -269,12 +269,6 @@ dem_status automaton_restore(automaton *c, double t, const double *y)
     return DEM_OK;
 }
 
-static void add_pair(exact_sum sum[2], vec2 term)
-{
-    exact_sum_add(&sum[0], term.x);
-    exact_sum_add(&sum[1], term.y);
-}
-
 /* Adds the rates of one candidate's closed contacts: N for impulses, all of them and then those of friction; W for the
  * work of friction and of obstacles. */
 static void add_rates_of(const automaton *c, dem_index k, scene_state state)
@@ -282,8 +276,8 @@ static void add_rates_of(const automaton *c, dem_index k, scene_state state)
     const dem_index n = c->set.scene.model->obstacles.n;
     for (int q = 0; q < c->set.list[k].n_closed; q++) {
         const contact_contribution of = contact_set_contribution(&c->set, k, q, state);
-        add_pair(&c->rates[2 * of.obstacle], of.force);
-        add_pair(&c->rates[2 * (n + of.obstacle)], of.friction);
+        ledger_add_vector(&c->rates[2 * of.obstacle], of.force);
+        ledger_add_vector(&c->rates[2 * (n + of.obstacle)], of.friction);
         exact_sum_add(&c->rates[4 * n], of.power);
         if (state_has_total(scene_layout(&c->set.scene), STATE_OBSTACLE)) exact_sum_add(&c->rates[4 * n + 1], of.work);
     }

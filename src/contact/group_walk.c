@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "base/sorted.h"
 #include "base/status.h"
 
 /* Of a candidate in a walk: an edge that nothing leads to so far, one that another leads to, what has been passed. */
@@ -77,29 +78,19 @@ static void join(group_walk *w, const dem_index *members, dem_index n)
 
 /* ---- where walks begin ---- */
 
-static walk_head head_of(const group_walk *w, dem_index k)
-{
-    const contact_candidate *s = &w->candidates[k];
-    const bool forth = s->node < s->other;
-    return (walk_head){forth ? s->node : s->other, forth ? s->other : s->node, s->node, k};
-}
-
 static int by_nodes(const void *a, const void *b)
 {
-    const walk_head *one = a, *other = b;
-    if (one->low != other->low) return one->low < other->low ? -1 : 1;
-    if (one->high != other->high) return one->high < other->high ? -1 : 1;
-    return (one->from > other->from) - (one->from < other->from);
+    const contact_candidate *one = *(const contact_candidate *const *)a, *other = *(const contact_candidate *const *)b;
+    return candidate_is_before(other, one) - candidate_is_before(one, other);
 }
 
 /* Marks the edges from k on as passed, round to it again in a ring.  \return the lowest of them */
-static walk_head pass(group_walk *w, dem_index k)
+static const contact_candidate *pass(group_walk *w, dem_index k)
 {
-    walk_head lowest = head_of(w, k);
+    const contact_candidate *lowest = &w->candidates[k];
     for (; k >= 0 && w->state[k] != PASSED; k = w->after[k]) {
-        const walk_head here = head_of(w, k);
         w->state[k] = PASSED;
-        if (by_nodes(&here, &lowest) < 0) lowest = here;
+        if (candidate_is_before(&w->candidates[k], lowest)) lowest = &w->candidates[k];
     }
     return lowest;
 }
@@ -111,7 +102,7 @@ static dem_index find_heads(group_walk *w, const dem_index *members, dem_index n
     for (dem_index p = 0; p < n; p++) {
         const dem_index k = members[p];
         if (!candidate_is_edge(&w->candidates[k]) || w->state[k] != UNREACHED) continue;
-        w->heads[n_heads++] = head_of(w, k);
+        w->heads[n_heads++] = &w->candidates[k];
         (void)pass(w, k);
     }
     for (dem_index p = 0; p < n; p++)
@@ -144,22 +135,16 @@ static dem_index walk_from(group_walk *w, dem_index head, dem_index n)
     return list_node(w, w->candidates[last].other, n);
 }
 
-static int by_number(const void *a, const void *b)
-{
-    const dem_index x = *(const dem_index *)a, y = *(const dem_index *)b;
-    return (x > y) - (x < y);
-}
-
 void group_walk_take(group_walk *w, const dem_index *members, dem_index n)
 {
     dem_index n_listed = 0;
     enter(w, members, n);
     join(w, members, n);
     const dem_index n_heads = find_heads(w, members, n);
-    for (dem_index h = 0; h < n_heads; h++) n_listed = walk_from(w, w->heads[h].k, n_listed);
+    for (dem_index h = 0; h < n_heads; h++) n_listed = walk_from(w, w->heads[h] - w->candidates, n_listed);
     const dem_index n_along = n_listed;
     for (dem_index p = 0; p < n; p++)
         if (!candidate_is_edge(&w->candidates[members[p]]))
             n_listed = list_node(w, w->candidates[members[p]].node, n_listed);
-    if (n_listed - n_along > 1) qsort(w->list + n_along, (size_t)(n_listed - n_along), sizeof *w->list, by_number);
+    (void)sorted_make(w->list + n_along, n_listed - n_along);
 }

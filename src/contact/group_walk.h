@@ -9,19 +9,13 @@
 
 #include "contact/contact_point.h"
 
-/** Where a walk begins. */
-typedef struct walk_head {
-    dem_index low, high, from; /* nodes of the edge, and the one where it starts */
-    dem_index k;
-} walk_head;
-
 typedef struct group_walk {
     const contact_candidate *candidates;
-    dem_index *list;     /* [n_candidates] of which the first n of group_walk_take() are set */
-    dem_index *after;    /* [n_candidates] scratch: the edge that goes on where this one ends, or -1 */
-    dem_index *beside;   /* [n_candidates] scratch: the next edge that starts at the same node, or -1 */
-    uint8_t *state;      /* [n_candidates] scratch */
-    walk_head *heads;    /* [n_candidates] scratch */
+    dem_index *list;                 /* [n_candidates] of which the first n of group_walk_take() are set */
+    dem_index *after;                /* [n_candidates] scratch: the edge that goes on where this one ends, or -1 */
+    dem_index *beside;               /* [n_candidates] scratch: the next edge that starts at the same node, or -1 */
+    uint8_t *state;                  /* [n_candidates] scratch */
+    const contact_candidate **heads; /* [n_candidates] scratch: where walks begin */
     dem_index *starting; /* [n_nodes] scratch of the caller's: the first edge that starts at a node, or -1 */
     dem_index *of_node;  /* [n_nodes] likewise: the candidate of a node, if it is to be listed, or -1 */
 } group_walk;

@@ -48,16 +48,10 @@ void ledger_begin_impulses(contact_ledger *b, dem_index n_obstacles, const doubl
     for (dem_index k = 0; k < 4 * n_obstacles; k++) b->impulse[k] = exact_sum_of(list[k]);
 }
 
-static void add(exact_sum sum[2], vec2 term)
-{
-    exact_sum_add(&sum[0], term.x);
-    exact_sum_add(&sum[1], term.y);
-}
-
 void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential)
 {
-    add(&b->impulse[2 * obstacle], impulse);
-    add(&b->friction_impulse[2 * obstacle], tangential);
+    ledger_add_vector(&b->impulse[2 * obstacle], impulse);
+    ledger_add_vector(&b->friction_impulse[2 * obstacle], tangential);
 }
 
 /* Closings are counted where they are made, as an impact may close a contact without an event of that kind. */

@@ -34,6 +34,13 @@ void ledger_destroy(contact_ledger *b);
 /** Makes `to`, which has been created for as many obstacles, equal to `from`. */
 void ledger_copy(contact_ledger *to, const contact_ledger *from, dem_index n_obstacles);
 
+/** Adds a vector to the sums of both components. */
+static inline void ledger_add_vector(exact_sum sum[2], vec2 term)
+{
+    exact_sum_add(&sum[0], term.x);
+    exact_sum_add(&sum[1], term.y);
+}
+
 /** Adds an impulse (N s) to an obstacle's: `tangential` is the part of it along the surface. */
 void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential);
 
