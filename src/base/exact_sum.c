@@ -34,20 +34,6 @@ void exact_sum_carry(exact_sum *s)
     s->n_terms = 0;
 }
 
-/* Both take their carries first, so that each limb has room for the other's. */
-void exact_sum_join(exact_sum *s, const exact_sum *other)
-{
-    exact_sum more = *other;
-    exact_sum_carry(s);
-    exact_sum_carry(&more);
-    for (int k = more.low; k < more.high; k++) s->limb[k] += more.limb[k];
-    if (more.high > 0 && (s->high == 0 || more.low < s->low)) s->low = more.low;
-    if (more.high > s->high) s->high = more.high;
-    s->n_terms = 1;
-    for (int k = 0; k < 2; k++) s->has_infinity[k] = s->has_infinity[k] || more.has_infinity[k];
-    s->has_nan = s->has_nan || more.has_nan;
-}
-
 /* Only limbs that are used are touched, for lists of sums of which most are empty. */
 void exact_sum_copy(exact_sum *to, const exact_sum *from)
 {

@@ -16,7 +16,7 @@ enum {
     EXACT_SUM_MOST = 1024 /* terms between two carries: each adds less than 2^52 to a limb, which has room for 2^63 */
 };
 
-/** What has been added so far; {0} is the empty sum. Terms of like size touch few limbs, and to carry, join or read the
+/** What has been added so far; {0} is the empty sum. Terms of like size touch few limbs, and to carry or read the
  *  sum costs as much as these are. */
 typedef struct exact_sum {
     int64_t limb[EXACT_SUM_LIMBS]; /* limb[k] is in units of 2^(32 k - 1074); its carry is taken later */
@@ -61,9 +61,6 @@ void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n);
 
 /** The same for up to EXACT_SUM_BLOCK terms. The array must have room for a whole block; its contents are lost. */
 void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n);
-
-/** Adds the terms of another sum. */
-void exact_sum_join(exact_sum *s, const exact_sum *other);
 
 /** Makes a sum equal to another one. */
 void exact_sum_copy(exact_sum *to, const exact_sum *from);
