@@ -11,18 +11,16 @@
 
 #include "ask.h"
 #include "checkpoint_file.h"
-#include "copies.h"
 #include "decimal.h"
 #include "deck.h"
-#include "deck_numbers.h"
 #include "estimate.h"
 #include "lock.h"
 #include "output.h"
 #include "preview.h"
+#include "refusal.h"
 #include "relaxation.h"
 #include "report.h"
 #include "result.h"
-#include "rigid_keys.h"
 #include "signals.h"
 #include "step_report.h"
 #include "wall_clock.h"
@@ -381,47 +379,14 @@ static dem_status build(job *j)
     return dem_simulation_create(&j->simulation, j->model, &j->options);
 }
 
-/* Where the bodies of the deck are those of the model, they get the numbers of the deck. */
-static bool report_refused(job *j, bool known, const char *reason, namelist_place place, const char *remedy)
-{
-    char message[OUTCOME_MESSAGE];
-    namelist_errors errors = {0};
-    if (known) deck_numbers_translate(message, sizeof message, reason, &j->deck.groups);
-    namelist_errors_add(&errors, place, "%s%s%s", known ? message : reason,
-                        known ? "" : " (bodies are counted from 0 here)", remedy);
-    report_errors(j, EXIT_INVALID, &errors);
-    return false;
-}
-
-/* Whether the model would be simulated if its bodies did not touch. */
-static bool goes_without_contact(const job *j)
-{
-    dem_options options = j->options;
-    dem_simulation *simulation = NULL;
-    options.bodies = DEM_BODIES_NONE;
-    const bool goes = dem_simulation_create(&simulation, j->model, &options) == DEM_OK;
-    dem_simulation_destroy(simulation);
-    return goes;
-}
-
-/* What the library refuses of a model is the contact of bodies, which rigid ones cannot do without, or what is beyond
- * its limit at the start, which lattice files bring along. It counts bodies from 0. */
 static bool builds(job *j)
 {
-    const schema_deck *groups = &j->deck.groups;
-    char reason[OUTCOME_MESSAGE];
+    namelist_errors errors = {0};
     const dem_status status = build(j);
     if (status != DEM_ERROR_MODEL || j->model == NULL) return passes(j, status, j->deck.path);
-    (void)snprintf(reason, sizeof reason, "%s", dem_status_message());
-    const bool known = ask_sizes(j->model).n_bodies == (dem_index)copies_total(groups);
-    if (rigid_keys_node(dem_model_lattice(j->model)) >= 0)
-        return report_refused(j, known, reason, schema_place(schema_get(groups, "contact", 0), "bodies"), "");
-    if (j->options.bodies != DEM_BODIES_NONE && goes_without_contact(j))
-        return report_refused(j, known, reason, schema_place(schema_get(groups, "contact", 0), "bodies"),
-                              "; bodies = 'none' in &contact lets bodies overlap");
-    const schema_instance *body = known ? deck_numbers_body(reason, groups) : schema_get(groups, "body", 0);
-    return report_refused(j, known, reason, schema_place(body, "file"),
-                          "; larger limits, or a 'position' that strains it less, are needed in its file");
+    refusal_explain(&errors, &j->deck.groups, j->model, &j->options);
+    report_errors(j, EXIT_INVALID, &errors);
+    return false;
 }
 
 /* Only now: what is refused leaves no folder behind. */
