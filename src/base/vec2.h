@@ -73,6 +73,12 @@ static inline double vec2_triangle_area(vec2 a, vec2 b, vec2 c)
     return 0.5 * vec2_cross(vec2_sub(b, a), vec2_sub(c, a));
 }
 
+/** The same of the points of these numbers among x [n][2]. */
+static inline double vec2_area_of(const double *x, const dem_index corner[3])
+{
+    return vec2_triangle_area(vec2_at(x, corner[0]), vec2_at(x, corner[1]), vec2_at(x, corner[2]));
+}
+
 /** Whether the segments ab and cd cross: each has the ends of the other on both sides. */
 static inline bool vec2_segments_cross(vec2 a, vec2 b, vec2 c, vec2 d)
 {

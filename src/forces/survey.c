@@ -289,9 +289,8 @@ static void measure_idle_triangles(taking *t)
         if (t->f->elements != NULL && t->f->elements->triangle[k]) continue;
         const dem_index *c = &l->triangles[3 * k];
         /* From the lattice's rest positions, as triangles_compile() has it: the ratio is exactly 1 at rest. */
-        const double rest_area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
-        const double ratio =
-            vec2_triangle_area(vec2_at(t->x, c[0]), vec2_at(t->x, c[1]), vec2_at(t->x, c[2])) / rest_area;
+        const double rest_area = vec2_area_of(l->x, c);
+        const double ratio = vec2_area_of(t->x, c) / rest_area;
         if (ratio < t->strain.area_min) t->strain.area_min = ratio;
         t->strain.guarded += ratio < TRIANGLES_GUARD_ONSET && l->guard != NULL && l->guard[k] > 0.0;
         t->strain.inverted += ratio <= 0.0;

@@ -16,8 +16,7 @@
 
 static double area_of(const dem_lattice *l, dem_index t)
 {
-    const dem_index *c = &l->triangles[3 * t];
-    return fabs(vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2])));
+    return vec2_area_of(l->x, &l->triangles[3 * t]);
 }
 
 double crack_length(const dem_lattice *lattice, dem_index triangle)

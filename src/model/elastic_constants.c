@@ -13,6 +13,7 @@
 #include "base/struct_size.h"
 #include "lattice/lattice.h"
 #include "lattice/mesh_edges.h"
+#include "model/spring_share.h"
 #include "model/tangent_stiffness.h"
 
 /* Residual over the forces of the uniformly strained body. The error of C is of second order: found to be 5e-8 for a
@@ -65,11 +66,7 @@ static dem_status measure(loading *l)
     const dem_lattice *lattice = &l->model->lattice;
     dem_index n = 0;
     for (dem_index k = 0; k < lattice->n_triangles; k++) {
-        const dem_index *c = &lattice->triangles[3 * k];
-        const double h = lattice->thickness != NULL ? lattice->thickness[k] : 1.0;
-        if (is_of_body(l, c[0]))
-            l->volume +=
-                h * vec2_triangle_area(vec2_at(lattice->x, c[0]), vec2_at(lattice->x, c[1]), vec2_at(lattice->x, c[2]));
+        if (is_of_body(l, lattice->triangles[3 * k])) l->volume += spring_share_volume(lattice, k);
     }
     l->volume = reduce_rounded_sum(l->volume);
     CHECK(l->volume > 0.0, DEM_ERROR_MODEL, "the body has no triangles, whose volume its constants refer to");

@@ -96,7 +96,7 @@ static dem_status check_triangles(const dem_lattice *l)
 {
     for (dem_index k = 0; k < l->n_triangles; k++) {
         const dem_index *c = &l->triangles[3 * k];
-        const double area = vec2_triangle_area(vec2_at(l->x, c[0]), vec2_at(l->x, c[1]), vec2_at(l->x, c[2]));
+        const double area = vec2_area_of(l->x, c);
         CHECK(area > 0.0, DEM_ERROR_MODEL, "triangle %lld (nodes %lld, %lld, %lld): area must be > 0, got %g m^2",
               (long long)k, (long long)c[0], (long long)c[1], (long long)c[2], area);
         CHECK(l->guard == NULL || (isfinite(l->guard[k]) && l->guard[k] >= 0.0), DEM_ERROR_MODEL,

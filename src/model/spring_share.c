@@ -16,10 +16,7 @@ static double one_or(const double *array, dem_index k)
 
 double spring_share_volume(const dem_lattice *lattice, dem_index triangle)
 {
-    const dem_index *c = &lattice->triangles[3 * triangle];
-    const double *x = lattice->x;
-    return one_or(lattice->thickness, triangle) *
-           vec2_triangle_area(vec2_at(x, c[0]), vec2_at(x, c[1]), vec2_at(x, c[2]));
+    return one_or(lattice->thickness, triangle) * vec2_area_of(lattice->x, &lattice->triangles[3 * triangle]);
 }
 
 /* A spring that is no edge of the triangle is a diagonal of cells, which have no couplings. */
