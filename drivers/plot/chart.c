@@ -9,11 +9,12 @@
 
 static const double letters = 14.0, beside = 150.0, before = 74.0, below = 42.0; /* pixels around the axes */
 
-/* Okabe and Ito, but for the yellow, which is pale on white. */
+/* Okabe and Ito, but for the yellow, which is pale on white; behind them as many as make up all energies. */
 colour chart_ink(int k)
 {
-    static const colour inks[] = {{26, 26, 26},    {0, 114, 178},  {213, 94, 0},  {0, 158, 115},
-                                  {204, 121, 167}, {86, 180, 233}, {230, 159, 0}, {110, 110, 110}};
+    static const colour inks[] = {{26, 26, 26},   {0, 114, 178}, {213, 94, 0},    {0, 158, 115},  {204, 121, 167},
+                                  {86, 180, 233}, {230, 159, 0}, {110, 110, 110}, {102, 51, 153}, {128, 84, 42},
+                                  {140, 150, 0},  {0, 80, 80},   {170, 0, 70}};
     return inks[k % (int)(sizeof inks / sizeof *inks)];
 }
 
