@@ -447,8 +447,8 @@ dem_status breaking_restore(dem_simulation *s, const dem_checkpoint *checkpoint)
     TRY(find_flags(checkpoint, of_springs, l->n_springs, &flags.spring));
     TRY(find_levels(s, checkpoint, &flags.level));
     TRY(dem_checkpoint_get(checkpoint, of_energy, &taken, sizeof taken));
-    s->fracture = exact_sum_of(taken);
     CHECK(isfinite(taken), DEM_ERROR_IO, "the energy of fracture in the checkpoint is not finite");
+    s->fracture = exact_sum_of(taken);
     if (is_the_same(s, &flags)) return DEM_OK;
     const dem_status status = break_flagged(s, &next, &flags);
     if (status == DEM_OK) return renew(s, &next, NULL);

@@ -165,11 +165,13 @@ static void evaluate(wave_pass *p, int stage, dem_index b)
     const stage_wave *w = p->wave;
     const stage_room *r = &p->rooms[stage];
     const dem_index begin = band_begin(w, b), slot = slot_of(w, stage, b), dim = w->problem->layout.dim;
+    const bool is_own = has_band(p, b, 0), goes_on = first_band(p, w->n_stages - 1 - stage) < b;
     const ode_band band = {.t = p->program->t[stage],
                            .first = begin / dim,
                            .end = band_end(w, b) / dim,
                            .stage = stage,
-                           .is_own = b >= p->first && b<p->last, .goes_on = b> first_band(p, w->n_stages - 1 - stage),
+                           .is_own = is_own,
+                           .goes_on = goes_on,
                            .x = r->x - r->x_begins,
                            .v = r->v + slot - begin,
                            .a = r->a + slot - begin,
