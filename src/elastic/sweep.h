@@ -6,6 +6,8 @@
 #ifndef DEM_ELASTIC_SWEEP_H
 #define DEM_ELASTIC_SWEEP_H
 
+#include <math.h>
+
 #include "elastic/layout.h"
 
 /** A step of Verlet, (5), from x0, v0 with accelerations a0 to x1, v1; arrays [n_nodes][2]. */
@@ -19,6 +21,19 @@ typedef struct sweep_fused_step {
 typedef struct sweep_limits {
     double stretch, squeeze; /* in tension, and under pressure */
 } sweep_limits;
+
+/** What an acceleration, m/s^2, adds to the sum over all, from which sweep_largest() bounds each of them. */
+static inline double sweep_term(vec2 a)
+{
+    const double x = a.x * a.x, y = a.y * a.y;
+    return x * x + y * y;
+}
+
+/** No acceleration in a sum is larger, m/s^2:  |a|^4 = (x^2 + y^2)^2 <= 2 (x^4 + y^4). */
+static inline double sweep_largest(double sum)
+{
+    return sqrt(sqrt(2.0 * sum));
+}
 
 /** What a sweep reads and writes; nodes in the order of the layout. */
 typedef struct sweep {
@@ -43,7 +58,8 @@ typedef struct sweep {
 
 /** Sweeps the blocks `first` to `last` - 1. Strains may be asked after in a fused step.
  *  \param ring  [layout->ring_length][2], twice that where springs are damped: scratch of one thread
- *  \return the sum of the accelerations, and of the velocities if wanted: not finite if one of them is not */
+ *  \return the sum of sweep_term() of the accelerations: not finite if one of them is not, or one of the velocities, if
+ *  these are wanted */
 typedef double sweep_function(const sweep *s, dem_index first, dem_index last, double *ring);
 
 sweep_function sweep_portable, sweep_avx2, sweep_avx512;

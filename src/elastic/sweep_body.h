@@ -303,12 +303,13 @@ INLINE void complete(pass *p, dem_index block, laws acting, pairs force)
     const dem_index at = 2 * LAYOUT_LANES * block;
     const pairs a = accelerate(p, block, acting, force);
     pairs_store(s->a + at, a);
-    p->sum = pairs_add(p->sum, a);
+    const pairs square = pairs_mul(a, a);
+    p->sum = pairs_add(p->sum, pairs_mul(square, square));
     if (acting.fused) kick(p, s->fused_step, block, a);
     if (s->u == NULL) return;
     const pairs v = pairs_load(s->v + at);
     pairs_store(s->u + at, v);
-    p->sum = pairs_add(p->sum, v);
+    p->sum = pairs_add(p->sum, pairs_mul(pairs_both(0.0, 0.0), v));
 }
 
 /* ---- rows of a lattice ---- */

@@ -35,7 +35,7 @@ static double accelerate_row(const forces *f, const band *b, dem_index i)
 {
     const vec2 a = forces_body_acceleration(f, i, b->x, b->v);
     vec2_put(b->a, i, a);
-    return a.x + a.y;
+    return sweep_term(a);
 }
 
 /* The nodes of a block on which the guard acts. */

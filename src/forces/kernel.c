@@ -293,7 +293,7 @@ static void sweep_share(const void *context, int share, int thread)
     k->sums[share] = b.first < b.last ? k->sweep(p->sweep, b.first, b.last, ring) : 0.0;
 }
 
-/* The sum only tells whether all accelerations are finite: its bits are of no consequence. */
+/* The sum tells whether all accelerations are finite, and bounds them: its bits are of no consequence. */
 static double sweep_blocks(const kernel *k, const sweep *s)
 {
     double sum = 0.0;
@@ -339,7 +339,7 @@ static double put_row(const kernel *k, const kernel_state *y, dem_index i, vec2 
     vec2_put(y->a, i, a);
     const dem_index at = vec2_row(i);
     if (p != NULL) k->ops->kick(p->v1 + at, p->a0 + at, y->a + at, p->h, vec2_row(1));
-    return a.x + a.y;
+    return sweep_term(a);
 }
 
 static double accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
@@ -348,11 +348,11 @@ static double accelerate_row(const kernel *k, const forces *f, const kernel_stat
     return put_row(k, y, i, forces_body_acceleration(f, i, y->x, y->v));
 }
 
-/* u = v, for the nodes for which the sweep does not do it. */
+/* u = v, for the nodes for which the sweep does not do it.  \return 0 if all are finite */
 static double copy_velocities(const kernel_state *y, dem_index first, dem_index last)
 {
     double sum = 0.0;
-    for (dem_index c = vec2_row(first); c < vec2_row(last) && y->u != NULL; c++) sum += y->u[c] = y->v[c];
+    for (dem_index c = vec2_row(first); c < vec2_row(last) && y->u != NULL; c++) sum += 0.0 * (y->u[c] = y->v[c]);
     return sum;
 }
 
@@ -361,7 +361,8 @@ static double copy_velocities(const kernel_state *y, dem_index first, dem_index 
 static double sum_up(const kernel_state *y, dem_index n)
 {
     double sum = 0.0;
-    for (dem_index c = 0; c < vec2_row(n); c++) sum += y->u != NULL ? y->a[c] + y->u[c] : y->a[c];
+    for (dem_index i = 0; i < n; i++) sum += sweep_term(vec2_at(y->a, i));
+    for (dem_index c = 0; c < vec2_row(n) && y->u != NULL; c++) sum += 0.0 * y->u[c];
     return sum;
 }
 
@@ -433,7 +434,7 @@ static double push(const forces *f, const kernel_state *y)
     for (dem_index i = 0; i < c->n_nodes; i++) {
         const vec2 a = forces_with(f, i, vec2_at(y->a, i), vec2_at(c->value, i));
         vec2_put(y->a, i, a);
-        sum += a.x + a.y;
+        sum += sweep_term(a);
     }
     return sum;
 }

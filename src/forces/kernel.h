@@ -81,7 +81,8 @@ const layout *kernel_layout(const kernel *k, const element_state *elements);
 bool kernel_can_fuse(const kernel *k, const forces *f);
 
 /** Fills u and a. With a fused step it also fills x1 and v1, with the bits of a drift before and a kick after.
- *  \return a sum over u and a that is not finite if a component is not */
+ *  \return a sum that is not finite if a component of u or a is not; where no body is rigid it bounds the accelerations
+ *  a by sweep_largest() */
 double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y);
 
 /** Bound of the highest frequency at positions x in units of that about the rest shape, >= 1: omega_max^2 and the most
