@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "surface_contact/contact_potential.h"
 #include "surface_contact/surface_start.h"
+#include "time/butcher.h"
 
 dem_status body_contact_create(dem_simulation *s)
 {
@@ -30,6 +31,9 @@ dem_status body_contact_create(dem_simulation *s)
     if (o->bodies == DEM_BODIES_NONE) return DEM_OK;
     TRY(surface_contact_create(&s->surfaces, &s->model->lattice, &rule));
     TRY(rigid_contact_create(&s->rigid, s->model, &s->surfaces->surface));
+    step_reach reach;
+    TRY(butcher_reach(&reach, o->method));
+    approach_bound_create(&s->surfaces->bound, reach, o->fixed_step > 0.0 ? o->fixed_step : o->max_step);
     return body_contact_check_start(s, s->model->lattice.position);
 }
 
@@ -43,15 +47,42 @@ dem_status body_contact_check_start(dem_simulation *s, const double *x)
 
 dem_status body_contact_follow(dem_simulation *s, const double *y)
 {
+    body_contact_begin_anew(s);
     return s->surfaces != NULL ? surface_contact_follow(s->surfaces, y) : DEM_OK;
 }
 
 /* ---- evaluations ---- */
 
+/* Motions of rigid bodies and prescribed ones do not follow from the accelerations that are taken. */
+static bool is_free(const dem_simulation *s)
+{
+    return s->rigid == NULL && s->boundaries.n == 0;
+}
+
 void body_contact_begin_step(dem_simulation *s)
 {
-    if (s->surfaces != NULL) s->surfaces->status = DEM_OK;
+    const double *y = integrator_state(&s->integrator);
     if (s->rigid != NULL) s->rigid->status = DEM_OK;
+    if (s->surfaces == NULL) return;
+    s->surfaces->status = DEM_OK;
+    if (is_free(s)) surface_contact_bound_step(s->surfaces, y, y + state_velocities(&s->layout));
+}
+
+/* Those at closed contacts have been changed since. */
+void body_contact_take_accelerations(dem_simulation *s, double sum)
+{
+    const bool is_known = s->automaton.set.forces.n_groups == 0;
+    if (s->surfaces != NULL) approach_bound_take(&s->surfaces->bound, is_known ? sweep_largest(sum) : INFINITY);
+}
+
+void body_contact_end_step(dem_simulation *s)
+{
+    if (s->surfaces != NULL) approach_bound_end_step(&s->surfaces->bound, s->step);
+}
+
+void body_contact_begin_anew(dem_simulation *s)
+{
+    if (s->surfaces != NULL) approach_bound_forget(&s->surfaces->bound);
 }
 
 dem_status body_contact_failure(const dem_simulation *s)

@@ -13,11 +13,19 @@ dem_status body_contact_create(dem_simulation *s);
 /** Refuses positions x in which surfaces cross or nearly touch; the lists fit x afterwards. \return DEM_ERROR_MODEL */
 dem_status body_contact_check_start(dem_simulation *s, const double *x);
 
-/** Makes the lists fit the state y. */
+/** Makes the lists fit the state y, which need not be where the last step has ended. */
 dem_status body_contact_follow(dem_simulation *s, const double *y);
 
-/** Sets the status of evaluations back before a step is taken. */
+/** Called before a step is taken, and before it is taken again: sets the status of evaluations back. */
 void body_contact_begin_step(dem_simulation *s);
+
+/** Takes what all nodes were evaluated to.  \param sum  of sweep_term() of all accelerations */
+void body_contact_take_accelerations(dem_simulation *s, double sum);
+
+/** Called when a step has become the state; then, if that has changed or its derivative has, or the integrator starts
+ *  anew. */
+void body_contact_end_step(dem_simulation *s);
+void body_contact_begin_anew(dem_simulation *s);
 
 /** Why the forces could not be evaluated: DEM_ERROR_MEMORY if they once could not since, else the status of the last
  *  evaluation. */

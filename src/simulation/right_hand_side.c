@@ -52,7 +52,7 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     a[state_total_index(l, STATE_WORK)] = reduce_rounded_sum(work);
 }
 
-/* Judges accelerations by their sum. Where the contact of bodies has failed, that has its own message.
+/* Judges accelerations by the sum of their terms. Where the contact of bodies has failed, that has its own message.
  *   \return 0; 1 if something is not finite; 2 if what no shorter step mends: the external force has failed, or there
  *   was no memory for the contact of bodies */
 static int judge(const dem_simulation *s, double t, const double *y, const double *a, double sum)
@@ -75,6 +75,7 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
     const double *v = y + n;
     const kernel_state nodes = {.x = y, .v = v, .u = u, .a = a};
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &nodes);
+    body_contact_take_accelerations(s, sum);
     for (dem_index k = n_real; k < n && u != NULL; k++) u[k] = v[k];
     automaton_constrain(&s->automaton, t, y, a);
     if (isfinite(sum)) rigid_motion_accelerate(&s->model->rigid, y, v, a);
@@ -94,6 +95,7 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
     if (reduce_any(!kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0)) return -1;
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &y);
+    body_contact_take_accelerations(s, sum);
     automaton_constrain(&s->automaton, step->t1, y.x, y.a);
     fill_rates(s, step->t1, y.x, y.a, 0.0);
     return judge(s, step->t1, y.x, y.a, sum);

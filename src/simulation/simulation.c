@@ -262,6 +262,7 @@ static dem_status go_on(dem_simulation *s, dem_status status)
 {
     TRY(stop_if_force_failed(s, DEM_OK));
     s->has_rollback = false;
+    body_contact_begin_anew(s);
     status = status_first(status, integrator_restart(&s->integrator, s->t, s->y));
     return status == DEM_ERROR_CONTACT ? status : status_first(status, report_step(s));
 }
@@ -335,9 +336,10 @@ static dem_status release_orphans(dem_simulation *s)
 static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
+    const bool changed = reduce_any(s->queue.n_taken > 0 || s->model->rigid.n > 0);
+    if (moved || changed) body_contact_begin_anew(s);
     if (moved) return integrator_restart(&s->integrator, s->t, s->y);
-    const bool changed = s->queue.n_taken > 0 || s->model->rigid.n > 0;
-    return reduce_any(changed) ? integrator_resume(&s->integrator) : DEM_OK;
+    return changed ? integrator_resume(&s->integrator) : DEM_OK;
 }
 
 /* Events compute the derivative at the end again node by node, and not that of a rigid body. */
@@ -358,6 +360,7 @@ static dem_status commit_step(dem_simulation *s)
     const bool broken = reduce_any(fracture_source_has_broken(&s->breaks));
     const bool failed = reduce_any(fracture_source_has_failed(&s->breaks));
     const bool moved = settle_step(s), paused = pausing_end_step(s, broken);
+    body_contact_end_step(s);
     TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
     s->events += reduce_count(s->queue.n_taken) + s->at_break;

@@ -144,6 +144,7 @@ void surface_contact_mend(surface_contact *c)
  * still have the margins of both to spare. */
 static dem_status renew_lists(surface_contact *c, const double *x)
 {
+    approach_bound_lose(&c->bound);
     const double margin = c->candidates.margin, most = fmax(0.5 * (margin - c->near_margin), 0.0);
     const double close = fmin(usual_close_margin * c->surface.mean_length, most);
     c->close.chosen = false;
@@ -161,11 +162,51 @@ static dem_status note_status(surface_contact *c, dem_status status)
     return status;
 }
 
-dem_status surface_contact_follow(surface_contact *c, const double *x)
+/* What single nodes are evaluated with, for a state that is not evaluated yet. */
+static void count_all(surface_contact *c)
 {
     c->rows = &c->candidates.pairs;
     c->is_evaluated = false;
+}
+
+dem_status surface_contact_follow(surface_contact *c, const double *x)
+{
+    count_all(c);
     return note_status(c, close_pairs_hold(&c->close, x) ? DEM_OK : renew_lists(c, x));
+}
+
+/* ---- looks that are not needed ---- */
+
+/* The lists are chosen anew where half of their margin is gone, so that the bound holds for some steps. They know then
+ * whether any pair is close. */
+static bool notes_bound(surface_contact *c, const double *x, double *left)
+{
+    if (!c->close.chosen || c->close.n > 0) return false;
+    *left = c->close.margin - surface_ways_longest(&c->close.ways, x);
+    if (*left >= 0.5 * c->close.margin) return true;
+    count_all(c);
+    if (note_status(c, renew_lists(c, x)) != DEM_OK || c->close.n > 0) return false;
+    *left = c->close.margin;
+    return true;
+}
+
+void surface_contact_bound_step(surface_contact *c, const double *x, const double *v)
+{
+    double left;
+    if (approach_bound_begin_step(&c->bound) && notes_bound(c, x, &left))
+        approach_bound_note(&c->bound, left, surface_ways_spread(&c->close.ways, v));
+}
+
+/* Whether there are no close pairs, and none since they were chosen. */
+static bool is_apart(surface_contact *c)
+{
+    return c->close.chosen && c->close.n == 0 && approach_bound_holds(&c->bound);
+}
+
+static dem_status follow_if_near(surface_contact *c, const double *x)
+{
+    count_all(c);
+    return is_apart(c) ? DEM_OK : surface_contact_follow(c, x);
 }
 
 /* ---- forces ---- */
@@ -241,7 +282,7 @@ static void add_friction(surface_contact *c, const double *x)
 
 bool surface_contact_evaluate(surface_contact *c, const double *x)
 {
-    if (surface_contact_follow(c, x) != DEM_OK) return false;
+    if (follow_if_near(c, x) != DEM_OK) return false;
     compact_pairs_clear_forces(&c->compact);
     if (note_status(c, anchor_set_begin(&c->anchors, c->close.n)) != DEM_OK) return false;
     contact_batch batch;
@@ -262,10 +303,10 @@ bool surface_contact_evaluate(surface_contact *c, const double *x)
 bool surface_contact_begin_stages(surface_contact *c, const double *x, int n_stages)
 {
     if (!c->close.chosen || !surface_ways_within(&c->close.ways, 0.5 * c->close.margin, x)) {
-        c->rows = &c->candidates.pairs;
-        c->is_evaluated = false;
+        count_all(c);
         if (note_status(c, renew_lists(c, x)) != DEM_OK) return false;
     }
+    approach_bound_forget(&c->bound);
     return c->close.n == 0 && surface_stages_begin(&c->stages, &c->close.ways, n_stages);
 }
 

@@ -8,6 +8,7 @@
 #define DEM_SURFACE_CONTACT_SURFACE_CONTACT_H
 
 #include "surface_contact/anchor_set.h"
+#include "surface_contact/approach_bound.h"
 #include "surface_contact/close_pairs.h"
 #include "surface_contact/contact_batch.h"
 #include "surface_contact/pair_list.h"
@@ -42,6 +43,7 @@ typedef struct surface_contact {
     double nearest;        /* distance over thickness, in that evaluation no pair was nearer than this */
     compact_pairs compact; /* the close pairs, and the forces of the last evaluation on their nodes, until
                               surface_contact_stiffening() puts its sums there */
+    approach_bound bound;  /* of where no pair is close */
     surface_stages stages; /* of a step whose stages are evaluated band by band */
 } surface_contact;
 
@@ -77,6 +79,11 @@ void surface_contact_mend(surface_contact *c);
 /** Makes the lists fit the positions x [n][2] of a state; all candidates count from now on.
  *  \return what pair_list_follow() returns */
 dem_status surface_contact_follow(surface_contact *c, const double *x);
+
+/** Begins a step from the state x, v [n][2], in which accelerations are bounded by what approach_bound_take() of
+ *  `bound` gets: evaluations may do without a look at the surfaces then, to the same bits. Without this call none
+ *  does. */
+void surface_contact_bound_step(surface_contact *c, const double *x, const double *v);
 
 /** Evaluates the forces on all nodes, into `compact`, and follows the state. Where the force is 0 nothing acts.
  *  \return false if that fails: `status` says why */

@@ -84,14 +84,23 @@ static dem_status list_twos(surface_ways *w)
 
 /* ---- the state noted ---- */
 
-/* Boxes of positions are those of ways from the origin. */
+/* The box of values at twos: that of ways from the origin, of some twos at a time. */
+static box box_of_values(const double *x, const dem_index *at, dem_index n)
+{
+    enum { SOME = 256 };
+    static const double origin[4 * SOME] = {0};
+    box all = box_empty();
+    for (dem_index k = 0; k < n; k += SOME)
+        all = box_join(all, way_box_of(x, at + k, origin, n - k < SOME ? n - k : SOME));
+    return all;
+}
+
 static void look_at_positions(surface_ways *w, const double *x)
 {
     for (int g = 0; g < w->n_groups; g++) {
         const dem_index begin = w->begin[g], n = w->begin[g + 1] - begin;
         double *places = w->places + 4 * begin;
-        memset(places, 0, 4 * (size_t)n * sizeof *places);
-        w->boxes[g] = way_box_of(x, w->at + begin, places, n);
+        w->boxes[g] = box_of_values(x, w->at + begin, n);
         for (dem_index k = 0; k < n; k++) memcpy(places + 4 * k, x + w->at[begin + k], 4 * sizeof *places);
     }
 }
@@ -146,6 +155,17 @@ static box look_at_ways(const surface_ways *w, const double *x, const dem_index 
     return all;
 }
 
+/* Of the ways in `boxes`, whose box is `all`: how much nearer near groups and those within a group have come, or more
+ * than others by what was between them. */
+static double longest_of(const surface_ways *w, double all)
+{
+    double longest = all - w->between;
+    for (int g = 0; g < w->n_groups; g++) longest = fmax(longest, box_diagonal(w->boxes[g]));
+    for (int k = 0; k < w->n_near; k++)
+        longest = fmax(longest, box_diagonal(box_join(w->boxes[w->near[2 * k]], w->boxes[w->near[2 * k + 1]])));
+    return longest;
+}
+
 bool surface_ways_within(const surface_ways *w, double most, const double *x)
 {
     return surface_ways_within_at(w, most, x, w->at);
@@ -154,10 +174,16 @@ bool surface_ways_within(const surface_ways *w, double most, const double *x)
 bool surface_ways_within_at(const surface_ways *w, double most, const double *x, const dem_index *at)
 {
     const double all = box_diagonal(look_at_ways(w, x, at));
-    if (all <= most) return true;
-    bool within = all - w->between <= most;
-    for (int g = 0; g < w->n_groups && within; g++) within = box_diagonal(w->boxes[g]) <= most;
-    for (int k = 0; k < w->n_near && within; k++)
-        within = box_diagonal(box_join(w->boxes[w->near[2 * k]], w->boxes[w->near[2 * k + 1]])) <= most;
-    return within;
+    return all <= most || longest_of(w, all) <= most;
+}
+
+double surface_ways_longest(const surface_ways *w, const double *x)
+{
+    const double all = box_diagonal(look_at_ways(w, x, w->at));
+    return fmin(all, longest_of(w, all));
+}
+
+double surface_ways_spread(const surface_ways *w, const double *v)
+{
+    return box_diagonal(box_of_values(v, w->at, w->begin[w->n_groups]));
 }

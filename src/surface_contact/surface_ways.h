@@ -39,6 +39,12 @@ dem_status surface_ways_note(surface_ways *w, double reach, const double *x);
  *  such a node are no numbers either. */
 bool surface_ways_within(const surface_ways *w, double most, const double *x);
 
+/** The least of all `most` for which this is so, m. */
+double surface_ways_longest(const surface_ways *w, const double *x);
+
+/** By how much values at these nodes, as velocities v [n][2], differ at most: the diagonal of their box. */
+double surface_ways_spread(const surface_ways *w, const double *v);
+
 /** The same where x has the twos alone, in their order: at[k] is where two k is. */
 bool surface_ways_within_at(const surface_ways *w, double most, const double *x, const dem_index *at);
 

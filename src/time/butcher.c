@@ -128,6 +128,34 @@ dem_status butcher_load(butcher_table *out, dem_method method)
     return DEM_OK;
 }
 
+/* ---- reach ---- */
+
+/* Sums of |a_ij|, and of |a_ij| |a_jk|, for the weights of stage i or of the end. */
+static void add_reach(step_reach *reach, butcher_table *t, const double *weight)
+{
+    double position = 0.0, time = 0.0;
+    for (int j = 0; j < t->stages; j++) {
+        time += weight[j];
+        for (int k = 0; k < j; k++) position += fabs(weight[j]) * fabs(*entry(t, j, k));
+    }
+    reach->time = fmax(reach->time, fabs(time));
+    reach->position = fmax(reach->position, position);
+}
+
+/* Verlet: x1 = x0 + h v0 + h^2/2 a0, v1 = v0 + h/2 (a0 + a1). */
+dem_status butcher_reach(step_reach *out, dem_method method)
+{
+    butcher_table table;
+    *out = (step_reach){.time = 1.0, .position = 0.5, .velocity = 1.0};
+    if (method == DEM_METHOD_VERLET) return DEM_OK;
+    TRY(butcher_load(&table, method));
+    *out = (step_reach){0};
+    for (int i = 0; i < table.stages; i++) add_reach(out, &table, entry(&table, i, 0));
+    add_reach(out, &table, table.b);
+    for (int j = 0; j < table.stages; j++) out->velocity += fabs(table.b[j]);
+    return DEM_OK;
+}
+
 /* ---- stability ---- */
 
 /* |R(i z)|, the factor by which one step multiplies the amplitude of y' = i omega y, with z = omega h. The stages are

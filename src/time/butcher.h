@@ -5,6 +5,8 @@
 
 #include <dem/dem.h>
 
+#include "base/step_reach.h"
+
 enum { BUTCHER_STAGES = 17 }; /* of the largest table */
 
 /** Butcher's table of an explicit method:  k_i = f(t + c_i h, y + h sum of a_ij k_j),  y' = y + h sum of b_i k_i. */
@@ -19,5 +21,8 @@ typedef struct butcher_table {
  *  \return DEM_ERROR_ARGUMENT for an unknown method, one that this SUNDIALS does not have, and Verlet's, which has no
  *  table */
 dem_status butcher_load(butcher_table *out, dem_method method);
+
+/** How far a step of any method reaches, Verlet's included.  \return DEM_ERROR_ARGUMENT as butcher_load() */
+dem_status butcher_reach(step_reach *out, dem_method method);
 
 #endif

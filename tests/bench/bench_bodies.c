@@ -6,8 +6,8 @@
  *      bench_bodies NODES GAP STEPS METHOD TURNS
  *
  * Prints nodes, surface edges, steps, evaluations, searches for pairs, and how many pairs were evaluated at the end;
- * then, each in microseconds of a call and as its part of the run: the forces, the bound of their stiffness, the check
- * of a step, and all of them. */
+ * then, each in microseconds of a call and as its part of the run: the forces, the bound of their stiffness, that of
+ * how near surfaces may come without a look, the check of a step, and all of them. */
 #include <math.h>
 #include <string.h>
 
@@ -19,7 +19,7 @@ static const double spacing = 5e-3, speed = 2.5;
 
 /* ---- times ---- */
 
-enum { EVALUATE, STIFFENING, CHECK_STEP, STEPS, KINDS, MOST = 20000 };
+enum { EVALUATE, STIFFENING, BOUND_STEP, CHECK_STEP, STEPS, KINDS, MOST = 20000 };
 
 /* The least time, s, of each call of a kind, in the order of calls; of the kind STEPS from one step to the next. */
 typedef struct call_times {
@@ -73,11 +73,13 @@ static double time_clock(void)
 bool __real_surface_contact_evaluate(surface_contact *c, const double *x);
 double __real_surface_contact_stiffening(surface_contact *c, const double *inverse_mass, double harmless,
                                          const double *x, bool is_known);
+void __real_surface_contact_bound_step(surface_contact *c, const double *x, const double *v);
 surface_contact_fault __real_surface_contact_check_step(const surface_contact *c, const double *x0, const double *x1,
                                                         surface_crossing *crossing);
 bool __wrap_surface_contact_evaluate(surface_contact *c, const double *x);
 double __wrap_surface_contact_stiffening(surface_contact *c, const double *inverse_mass, double harmless,
                                          const double *x, bool is_known);
+void __wrap_surface_contact_bound_step(surface_contact *c, const double *x, const double *v);
 surface_contact_fault __wrap_surface_contact_check_step(const surface_contact *c, const double *x0, const double *x1,
                                                         surface_crossing *crossing);
 
@@ -95,6 +97,13 @@ double __wrap_surface_contact_stiffening(surface_contact *c, const double *inver
     const double start = now(), added = __real_surface_contact_stiffening(c, inverse_mass, harmless, x, is_known);
     book(STIFFENING, start);
     return added;
+}
+
+void __wrap_surface_contact_bound_step(surface_contact *c, const double *x, const double *v)
+{
+    const double start = now();
+    __real_surface_contact_bound_step(c, x, v);
+    book(BOUND_STEP, start);
 }
 
 surface_contact_fault __wrap_surface_contact_check_step(const surface_contact *c, const double *x0, const double *x1,
@@ -136,7 +145,7 @@ static void run(const dem_model *model, const dem_options *options, double steps
 
 int main(int argc, char **argv)
 {
-    static const char *const names[STEPS] = {"forces", "stiffness", "check"};
+    static const char *const names[STEPS] = {"forces", "stiffness", "bound", "check"};
     must(argc == 6, "NODES GAP STEPS METHOD TURNS");
     dem_model *model = make_blocks((dem_index)atof(argv[1]), atof(argv[2]));
     dem_options options = dem_options_default();

@@ -80,7 +80,9 @@ TEST(nothing_has_come_nearer_than_is_said)
         for (dem_index i = 0; i < s.lattice.n_nodes; i++)
             vec2_put(s.x, i, vec2_add(vec2_at(s.x, i), random_way(rng, shape)));
         const bool within = surface_ways_within(&s.ways, 0.2, s.x), right = are_within(&s, 0.2);
+        const double longest = surface_ways_longest(&s.ways, s.x);
         assert_true(right || !within);
+        assert_true(surface_ways_within(&s.ways, longest, s.x) && !surface_ways_within(&s.ways, 0.999 * longest, s.x));
         n_within += within;
         n_not += !within;
         n_nearer += !right;
@@ -107,4 +109,19 @@ TEST(bodies_far_apart_may_move_until_they_are_in_reach)
     assert_false(surface_ways_within(&s.ways, 0.1, s.x));
     move_body(&s, 0, (vec2){0.15, 0.0});
     assert_true(surface_ways_within(&s.ways, 0.1, s.x));
+}
+
+/* The box of vectors in all directions is larger than the largest difference by a square's diagonal at most. */
+TEST(no_two_nodes_differ_by_more_than_the_spread)
+{
+    CLEANUP(free_rng) gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    CLEANUP(close_scene) scene s;
+    open_scene(&s, rng, 5, 12.0);
+    const contact_surface *c = &s.surface;
+    for (dem_index i = 0; i < s.lattice.n_nodes; i++) vec2_put(s.x, i, random_way(rng, 4.0));
+    double largest = 0.0;
+    for (dem_index k = 0; k < c->n_nodes; k++)
+        for (dem_index m = 0; m < k; m++) largest = fmax(largest, distance(s.x, c->nodes[k], c->nodes[m]));
+    const double spread = surface_ways_spread(&s.ways, s.x);
+    assert_true(spread >= largest && spread <= sqrt(2.0) * largest);
 }

@@ -97,3 +97,27 @@ TEST(the_stability_bounds_are_those_known)
     }
     assert_close(dem_method_growth(DEM_METHOD_FEHLBERG45, 0.1) - 1.0, 9.1e-10, 0.1e-10);
 }
+
+/* By hand. Classical: rows 1/2, 1/2, 1 and the end, 1/3 1/2 + 1/3 1/2 + 1/6 = 1/2. Heun's: a stage at the end, and
+ * weights of 1/2. Verlet's is that of a parabola. Fehlberg's sixth stage reaches furthest. */
+TEST(steps_reach_as_far_as_their_tables_say)
+{
+    static const struct {
+        dem_method method;
+        step_reach expected;
+    } known[] = {
+        {DEM_METHOD_RK4, {1.0, 0.5, 1.0}}, {DEM_METHOD_HEUN12, {1.0, 0.5, 1.0}}, {DEM_METHOD_VERLET, {1.0, 0.5, 1.0}}};
+    step_reach found;
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        assert_ok(butcher_reach(&found, known[k].method));
+        assert_close(found.time, known[k].expected.time, 1e-15);
+        assert_close(found.position, known[k].expected.position, 1e-15);
+        assert_close(found.velocity, known[k].expected.velocity, 1e-15);
+    }
+    const double fourth = 16428.0 / 2197.0, fifth = 439.0 / 216.0 + 8.0 + 3680.0 / 513.0 + 845.0 / 4104.0;
+    const double sixth = 2.0 / 4.0 + 3544.0 / 2565.0 * 3.0 / 8.0 + 1859.0 / 4104.0 * fourth + 11.0 / 40.0 * fifth;
+    assert_ok(butcher_reach(&found, DEM_METHOD_FEHLBERG45));
+    assert_close(found.time, 1.0, 1e-15);
+    assert_close(found.position, sixth, 1e-13);
+    assert_int_equal(butcher_reach(&found, (dem_method)-1), DEM_ERROR_ARGUMENT);
+}
