@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Recipe of dem for Spack: docs/linking.md."""
+"""Recipe of dem for Spack: docs/install.md."""
 
 from spack_repo.builtin.build_systems.meson import MesonPackage
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The decks on Gmsh's meshes, of docs/tutorial.md, against mechanics: `test_meshes.py DEM_BATCH INPUTS`."""
+"""The decks on Gmsh's meshes, of docs/studies.md, against mechanics: `test_meshes.py DEM_BATCH INPUTS`."""
 import json
 import math
 import os

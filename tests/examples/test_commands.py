@@ -6,8 +6,9 @@ A page of Markdown has its commands in blocks, ```sh and ```python, which are ru
 page has them under EXAMPLES. The folder has what the pages take for given: decks that are run in no time, lists of
 decks, a parameter file, and the variables of a batch system. The paper's bodies are coarse there, so that they take no
 time either, but for README's. A block that needs a program or package which this machine lacks is left out; build
-scripts are too. Blocks without a language are looked at for lines of a log, which one of the page's commands prints,
-and for parts of decks, which stand in inputs/. The deck that a man page shows is run."""
+scripts are too. A block ```text has lines that the block before it prints, in their order; '...' stands for the rest of
+a line. Blocks without a language are looked at for lines of a log, which one of the page's commands prints, and for
+parts of decks, which stand in inputs/. The deck that a man page shows is run."""
 import importlib.util
 import os
 import pathlib
@@ -61,12 +62,15 @@ def make_folder(folder):
     (folder / "build/drivers").mkdir(parents=True)
     for program in PROGRAMS:
         (folder / "build/drivers" / program.name).symlink_to(program)
+    (folder / "build/src").symlink_to(PROGRAMS[0].parent.parent / "src")
+    for name in ("include", "python"):
+        (folder / name).symlink_to(ROOT / name)
 
 
 def blocks_of_markdown(text):
     for language, block in re.findall(r"(?ms)^ *```(\w+)\n(.*?)^ *```", text):
-        if language in ("sh", "python") and not block.startswith("rule "):  # of Snakemake
-            yield language, re.sub(r"(?m)^\.ci/(build && |test\n)", "", block)
+        if language in ("sh", "python", "text") and not block.startswith("rule "):  # of Snakemake
+            yield language, re.sub(r"(?m)^\.ci/(build && |(build|test)\n)", "", block)
 
 
 def same_words(a, b):
@@ -74,6 +78,21 @@ def same_words(a, b):
     numbers = [re.findall(r"[+-]?\d+(?:\.\d+)?(?:e[+-]\d+)?", line) for line in (a, b)]
     words = [re.sub(r"[+-]?\d+(?:\.\d+)?(?:e[+-]\d+)?", "#", line) for line in (a, b)]
     return words[0] == words[1] and all(abs(float(x) - float(y)) <= 1e-3 * abs(float(x)) for x, y in zip(*numbers))
+
+
+def shows(shown, line):
+    """Whether a line is the one that a page shows; '...' is for its rest."""
+    if shown.endswith("..."):
+        words = shown.split()[:-1]
+        return same_words(" ".join(words), " ".join(line.split()[:len(words)]))
+    return same_words(shown, line)
+
+
+def check_shown(block, printed):
+    lines = iter(printed.splitlines())
+    for shown in block.splitlines():
+        if not any(shows(shown, line) for line in lines):
+            sys.exit(f"in its place no command prints\n{shown}\nbut\n{printed}")
 
 
 def plain_blocks(text):
@@ -123,18 +142,24 @@ with tempfile.TemporaryDirectory() as name:
     for deck in RUNS.get(PAGE.name.removesuffix(".in"), ()):
         run("sh", f"dem_batch {deck}.nml\n", here)
     content = PAGE.read_text(encoding="utf-8")
-    n_run, printed = 0, []
+    n_run, printed, last = 0, [], None
     for kind, code in blocks_of_markdown(content) if PAGE.suffix == ".md" else blocks_of_manual(content):
         if not code.strip():
+            continue
+        if kind == "text":
+            if last is not None:
+                check_shown(code, last)
             continue
         needed = lacks(kind, code)
         if needed is not None:
             print(f"left out, for want of {needed}:\n{code}")
+            last = None
             continue
         done = run(kind, code, here)
         if done.returncode != 0:
             sys.exit(f"exit code {done.returncode} of\n{code}\n{done.stdout}\n{done.stderr}")
         n_run += 1
+        last = done.stdout
         printed += re.findall(LOG, done.stdout)
     check_decks(content)
     for line in re.findall(LOG, "".join(plain_blocks(content))):
