@@ -75,7 +75,8 @@ class Pages:
 
     def table(self, code):
         rows = [(names, " ".join(self.prose(comment).split()).replace("|", "\\|")) for names, comment in meanings(code)]
-        return [] if not rows else ["| member | meaning |", "|---|---|", *(f"| `{names}` | {text} |" for names, text in rows)]
+        head = ["| member | meaning |", "|---|---|"] if rows else []
+        return head + [f"| `{names}` | {text} |" for names, text in rows]
 
     def page(self, header):
         text = self.texts[header]

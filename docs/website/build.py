@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Builds the website of docs/ by MkDocs Material: `build.py SOURCE_ROOT OUT`. Warnings are errors, such as links to what is
-not there. README.md is its first page, the headers are pages under api/, notebooks are read as text and code."""
+"""Builds the website of docs/ by MkDocs Material: `build.py SOURCE_ROOT OUT`. Warnings are errors, such as links to what
+is not there. README.md is its first page, the headers are pages under api/, notebooks are read as text and code."""
 import importlib.util
 import json
 import os
@@ -30,13 +30,18 @@ def outside_code(change, text):
     return "".join(change(text[a:b]) if k % 2 == 0 else text[a:b] for k, (a, b) in enumerate(zip(ends, ends[1:])))
 
 
+def equation(found):
+    """MathML, which browsers show without a script. In a span, or Markdown would take it for a block."""
+    return f"<span>{convert(found[2], display='block' if found[1] == '$$' else 'inline')}</span>"
+
+
 def with_equations(text):
-    """$...$ becomes MathML, which browsers show without a script."""
-    return outside_code(lambda part: re.sub(r"\$([^$\n]+)\$", lambda found: convert(found[1]), part), text)
+    """$...$, and $$...$$ in a line of its own."""
+    return outside_code(lambda part: re.sub(r"(\$\$?)([^$\n]+)\1", equation, part), text)
 
 
 def with_links(text, prefix):
-    """Links that leave docs/: decks are in the website, headers have pages. `prefix` leads to the top of the website."""
+    """Links that leave docs/: decks are in the website, headers have pages. `prefix` leads to its top."""
     text = re.sub(r"\]\((?:\.\./)+inputs/", f"]({prefix}inputs/", text)
     text = re.sub(r"\]\((?:\.\./)+include/dem/(\w+)\.h\)", rf"]({prefix}api/\1.md)", text)
     return re.sub(r"\.ipynb\)", ".md)", text)
