@@ -187,21 +187,26 @@ INLINE vector magnitudes(vector x)
     return (vector)((vector_bits)x & 0x7fffffffffffffff);
 }
 
-INLINE double total(vector x)
+/* The sum of every second component, from the first or the second one on. */
+INLINE double total(vector x, int from)
 {
     double sum = 0.0;
-    for (int q = 0; q < width; q++) sum += x[q];
+    for (int q = from; q < width; q += 2) sum += x[q];
     return sum;
 }
 
-/* The sum of |terms|, a bound for their sum. It is rounded, so it depends on the instruction set; the exact sum does
+/* Sums of |terms|, bounds for their sums. They are rounded, so they depend on the instruction set; the exact sum does
  * not, since split() is free of error for any bound that is large enough. */
-static double magnitude(const double *terms, int n)
+static void magnitude(double size[2], const double *terms, int n)
 {
-    vector sum = {0.0};
-    for (int k = 0; k < n; k += ARRAY_OPS_LANES)
-        for (int q = 0; q < ARRAY_OPS_LANES; q += width) sum += magnitudes(vector_at(terms + k + q, width));
-    return total(sum);
+    vector sum[2] = {{0.0}, {0.0}};
+    for (int k = 0; k < n; k += ARRAY_OPS_LANES) {
+        UNROLLED for (int q = 0; q < ARRAY_OPS_LANES / width; q++)
+        {
+            sum[q % 2] += magnitudes(vector_at(terms + k + q * width, width));
+        }
+    }
+    for (int c = 0; c < 2; c++) size[c] = total(sum[0] + sum[1], c);
 }
 
 /* The largest power of 2 that is not above a number > 0: its exponent bits without the mantissa. For a subnormal number
@@ -225,27 +230,62 @@ INLINE vector extract(vector *sum, vector terms)
     return terms - (*sum - before);
 }
 
-/* Error-free extraction. Let p be the power of 2 with p <= size < 2p; the magnitudes of the terms add up to less than
- * 2p. `high` begins half-way between 8p and 16p, so it stays in that interval and its last place is u = 2^-49 p: at
- * most 2^-50 p is left of a term. At most 128 terms are in a lane, and what is left of them adds up to at most 2^-43 p.
- * `low` begins half-way between 2^-42 p and 2^-41 p and takes that up in the same way. What a lane has collected is a
- * multiple of u of at most 53 bits, and so are the sums over the lanes: parts[0] and parts[1] are exact, and
- *     sum of the terms = parts[0] + parts[1] + sum of what is left in their place.
- * Where p is so small that u would be below the smallest subnormal number, every addition is exact and nothing is
- * left. */
-static double split(double parts[2], double *terms, int n, double size)
+/* Sums by turns of two, so that an addition need not wait for the one before, and the bits of what is left of all
+ * terms. */
+typedef struct extraction {
+    vector high[2], low[2];
+    vector_bits left;
+} extraction;
+
+/* \param keep  whether what is left of the terms takes their place */
+INLINE void extract_all(extraction *e, double *terms, int n, bool keep)
 {
-    const double p = power_of(size), from_high = 12.0 * p, from_low = 0x1.8p-42 * p;
-    vector high = from_high + (vector){0.0}, low = from_low + (vector){0.0}, left = {0.0};
-    for (int k = 0; k < n; k += ARRAY_OPS_LANES)
-        for (int q = 0; q < ARRAY_OPS_LANES; q += width) {
-            const vector rest = extract(&low, extract(&high, vector_at(terms + k + q, width)));
-            memcpy(terms + k + q, &rest, sizeof rest);
-            left += magnitudes(rest);
+    for (int k = 0; k < n; k += ARRAY_OPS_LANES) {
+        UNROLLED for (int q = 0; q < ARRAY_OPS_LANES / width; q++)
+        {
+            double *here = terms + k + q * width;
+            const vector rest = extract(&e->low[q % 2], extract(&e->high[q % 2], vector_at(here, width)));
+            if (keep) memcpy(here, &rest, sizeof rest);
+            e->left |= (vector_bits)rest;
         }
-    parts[0] = total(high - from_high);
-    parts[1] = total(low - from_low);
-    return total(left);
+    }
+}
+
+/* Whether anything but zeros is left. */
+INLINE bool is_left(vector_bits left)
+{
+    int64_t bits = 0;
+    for (int q = 0; q < width; q++) bits |= left[q];
+    return (bits & 0x7fffffffffffffff) != 0;
+}
+
+/* Error-free extraction, of the terms at even and at odd places each by itself. Let p be the power of 2 with p <= size
+ * < 2p; the magnitudes of the terms add up to less than 2p. `high` begins half-way between 8p and 16p, so it stays in
+ * that interval and its last place is u = 2^-49 p: at most 2^-50 p is left of a term. At most 128 terms are in a lane,
+ * and what is left of them adds up to at most 2^-43 p. `low` begins half-way between 2^-42 p and 2^-41 p and takes that
+ * up in the same way. What a lane has collected is a multiple of u of at most 53 bits, and so are the sums over the
+ * lanes, which are the parts: these are exact, and
+ *     sum of the terms = sum of the parts + sum of what is left in their place.
+ * Where p is so small that u would be below the smallest subnormal number, every addition is exact and nothing is left.
+ * Seldom is anything left: then the same is done once more, and kept. */
+static bool split(double parts[4], double *terms, int n, const double size[2])
+{
+    vector highs, lows;
+    for (int q = 0; q < width; q++) {
+        const double p = power_of(size[q % 2]);
+        highs[q] = 12.0 * p;
+        lows[q] = 0x1.8p-42 * p;
+    }
+    extraction e = {{highs, highs}, {lows, lows}, {0}};
+    extract_all(&e, terms, n, false);
+    for (int c = 0; c < 2; c++) {
+        parts[c] = total((e.high[0] - highs) + (e.high[1] - highs), c);
+        parts[2 + c] = total((e.low[0] - lows) + (e.low[1] - lows), c);
+    }
+    const bool left = is_left(e.left);
+    e = (extraction){{highs, highs}, {lows, lows}, {0}};
+    if (left) extract_all(&e, terms, n, true);
+    return left;
 }
 
 const array_ops ARRAY_OPS = {combine, square, drift, kick, stretch, magnitude, split};

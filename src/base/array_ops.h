@@ -16,7 +16,7 @@ typedef struct array_ops_sum {
 
 #define ARRAY_OPS_LARGEST 1024.0
 
-enum { ARRAY_OPS_LANES = 16, ARRAY_OPS_TERMS = 256 };
+enum { ARRAY_OPS_LANES = 16, ARRAY_OPS_TERMS = 512 };
 #define ARRAY_OPS_LARGEST_SIZE 0x1p1018
 
 typedef struct array_ops {
@@ -30,14 +30,17 @@ typedef struct array_ops {
     void (*kick)(double *v1, const double *a0, const double *a1, double h, dem_index size);
     /** Replaces n squared lengths by strains: (length - reference)/reference. */
     void (*stretch)(double *lengths, const double *reference, int n);
-    /** Sum of |terms|; n is a multiple of ARRAY_OPS_LANES. NAN or infinite if a term is. */
-    double (*magnitude)(const double *terms, int n);
-    /** Splits n terms without an error into parts[0], parts[1] and a remainder in place of each term: sum of terms =
-     *  parts[0] + parts[1] + sum of remainders, and a remainder is below 2^-94 of `size`.
-     *  \param n     a multiple of ARRAY_OPS_LANES, at most ARRAY_OPS_TERMS
-     *  \param size  what magnitude() has given, at most ARRAY_OPS_LARGEST_SIZE
-     *  \return the sum of |remainders| */
-    double (*split)(double parts[2], double *terms, int n, double size);
+    /** Sums of |terms| at even and at odd places; n is a multiple of ARRAY_OPS_LANES. NAN or infinite if a term is. */
+    void (*magnitude)(double size[2], const double *terms, int n);
+    /** Splits n terms without an error into four parts and remainders: the sum of the terms at even places is parts[0]
+     *  + parts[2] + the sum of their remainders, that of the others has parts[1] and parts[3]. A remainder is below
+     *  2^-94 of its size.
+     *  \param terms  become remainders, if any of these is not 0
+     *  \param n      a multiple of ARRAY_OPS_LANES, at most ARRAY_OPS_TERMS
+     *  \param size   what magnitude() has given or more, at most ARRAY_OPS_LARGEST_SIZE. If both are the sum of that,
+     *                parts[0] + parts[1] is exact, and so is parts[2] + parts[3].
+     *  \return whether any remainder is not 0 */
+    bool (*split)(double parts[4], double *terms, int n, const double size[2]);
 } array_ops;
 
 #ifdef DEM_X86_KERNELS

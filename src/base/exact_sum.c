@@ -34,6 +34,19 @@ void exact_sum_carry(exact_sum *s)
     s->n_terms = 0;
 }
 
+/* Both take their carries first, so that each limb has room for the other's. */
+void exact_sum_join(exact_sum *s, exact_sum *other)
+{
+    exact_sum_carry(s);
+    exact_sum_carry(other);
+    for (int k = other->low; k < other->high; k++) s->limb[k] += other->limb[k];
+    if (other->high > 0 && (s->high == 0 || other->low < s->low)) s->low = other->low;
+    if (other->high > s->high) s->high = other->high;
+    s->n_terms = 1;
+    for (int k = 0; k < 2; k++) s->has_infinity[k] = s->has_infinity[k] || other->has_infinity[k];
+    s->has_nan = s->has_nan || other->has_nan;
+}
+
 /* Only limbs that are used are touched, for lists of sums of which most are empty. */
 void exact_sum_copy(exact_sum *to, const exact_sum *from)
 {
@@ -58,21 +71,55 @@ void exact_sum_add_special(exact_sum *s, double term)
 
 /* ---- many terms ---- */
 
-/* Adds a block of terms. Each round splits two leading parts off all terms at once (split() in array_ops.c) and adds
- * these two numbers to the accumulator instead of n. `size` bounds what is left of the terms and falls by a factor of
- * 2^87 or more in a round: usual terms take one or two rounds, terms as far apart as doubles can be some twenty. The
- * loop ends when nothing is left. Terms too large for the splitting, or not finite, are added one by one. */
-void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
+/* Adds what is left of terms one by one. */
+static void take_each(exact_sum *even, exact_sum *odd, const double *terms, int n)
+{
+    for (int k = 0; k < n; k++) exact_sum_add(k % 2 == 0 ? even : odd, terms[k]);
+}
+
+typedef struct term_sizes {
+    double size[2]; /* bounds for the sums of the terms at even and at odd places */
+} term_sizes;
+
+static term_sizes sizes_of(const array_ops *ops, const double *terms, int n, bool together)
+{
+    term_sizes s;
+    ops->magnitude(s.size, terms, n);
+    if (together) s.size[0] = s.size[1] = s.size[0] + s.size[1];
+    return s;
+}
+
+/* Adds a block of terms. Each round splits leading parts off all terms at once (split() in array_ops.c) and adds these
+ * few numbers to the accumulator instead of n. The sizes bound what is left of the terms and fall by a factor of 2^85
+ * or more in a round: usual terms take one or two rounds, terms as far apart as doubles can be some twenty. The loop
+ * ends when nothing is left. Terms too large for the splitting, or not finite, are added one by one. Those at even
+ * places and those at odd ones are of two sums, or of one. */
+static inline void take(exact_sum *even, exact_sum *odd, double terms[EXACT_SUM_BLOCK], int n)
 {
     const array_ops *ops = array_ops_fastest();
     while (n % ARRAY_OPS_LANES != 0) terms[n++] = 0.0;
-    double size = ops->magnitude(terms, n), parts[2];
-    while (size > 0.0 && size <= ARRAY_OPS_LARGEST_SIZE) {
-        size = ops->split(parts, terms, n, size);
-        exact_sum_add(s, parts[0]);
-        exact_sum_add(s, parts[1]);
+    double parts[4];
+    term_sizes of = sizes_of(ops, terms, n, even == odd);
+    bool left = of.size[0] + of.size[1] != 0.0;
+    while (left && of.size[0] + of.size[1] <= ARRAY_OPS_LARGEST_SIZE) {
+        left = ops->split(parts, terms, n, of.size);
+        for (int k = 0; k < 4; k += 2) {
+            exact_sum_add(even, even == odd ? parts[k] + parts[k + 1] : parts[k]);
+            if (even != odd) exact_sum_add(odd, parts[k + 1]);
+        }
+        if (left) of = sizes_of(ops, terms, n, even == odd);
     }
-    for (int k = 0; k < n && size != 0.0; k++) exact_sum_add(s, terms[k]);
+    if (left) take_each(even, odd, terms, n);
+}
+
+void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n)
+{
+    take(s, s, terms, n);
+}
+
+void exact_sum_take_pairs(exact_sum s[2], double terms[EXACT_SUM_BLOCK], int n)
+{
+    take(&s[0], &s[1], terms, n);
 }
 
 /* The terms are copied block by block, because exact_sum_take() destroys what it is given. */

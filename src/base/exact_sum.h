@@ -16,8 +16,8 @@ enum {
     EXACT_SUM_MOST = 1024 /* terms between two carries: each adds less than 2^52 to a limb, which has room for 2^63 */
 };
 
-/** What has been added so far; {0} is the empty sum. Terms of like size touch few limbs, and to carry or read the
- *  sum costs as much as these are. */
+/** What has been added so far; {0} is the empty sum. Terms of like size touch few limbs, and to carry, join or
+ *  read the sum costs as much as these are. */
 typedef struct exact_sum {
     int64_t limb[EXACT_SUM_LIMBS]; /* limb[k] is in units of 2^(32 k - 1074); its carry is taken later */
     int n_terms;                   /* since carries were taken */
@@ -62,8 +62,22 @@ void exact_sum_add_array(exact_sum *s, const double *terms, int64_t n);
 /** The same for up to EXACT_SUM_BLOCK terms. The array must have room for a whole block; its contents are lost. */
 void exact_sum_take(exact_sum *s, double terms[EXACT_SUM_BLOCK], int n);
 
+/** Adds n/2 pairs of terms, one after another, the first of each to s[0] and the second to s[1]. */
+void exact_sum_take_pairs(exact_sum s[2], double terms[EXACT_SUM_BLOCK], int n);
+
+/** Adds the terms of another sum, which keeps them; its carries are taken. */
+void exact_sum_join(exact_sum *s, exact_sum *other);
+
 /** Makes a sum equal to another one. */
 void exact_sum_copy(exact_sum *to, const exact_sum *from);
+
+/** Empties a sum, as fast as few of its limbs are used. */
+static inline void exact_sum_clear(exact_sum *s)
+{
+    for (int k = s->low; k < s->high; k++) s->limb[k] = 0;
+    s->n_terms = s->low = s->high = 0;
+    s->has_infinity[0] = s->has_infinity[1] = s->has_nan = false;
+}
 
 /** The sum of one term. */
 static inline exact_sum exact_sum_of(double term)

@@ -169,20 +169,24 @@ TEST(verlets_step_is_drift_and_kick)
 static void assert_splits_without_error(const double *terms, int n)
 {
     for (int t = 0; t < n_tables; t++) {
-        exact_sum lost = {0};
-        double parts[2], largest = 0.0;
+        exact_sum lost[2] = {{.n_terms = 0}};
+        double size[2], parts[4], largest = 0.0;
         if (dem_kernel_check(kinds[t]) != DEM_OK) continue;
         memcpy(other, terms, (size_t)n * sizeof *terms);
-        const double size = tables[t]->magnitude(other, n), left = tables[t]->split(parts, other, n, size);
+        tables[t]->magnitude(size, other, n);
+        size[0] = size[1] = size[0] + size[1];
+        const bool left = tables[t]->split(parts, other, n, size);
         for (int k = 0; k < n; k++) {
-            exact_sum_add(&lost, terms[k]);
-            exact_sum_add(&lost, -other[k]);
-            largest = fmax(largest, fabs(other[k]));
+            const double rest = left ? other[k] : 0.0;
+            exact_sum_add(&lost[k % 2], terms[k]);
+            exact_sum_add(&lost[k % 2], -rest);
+            largest = fmax(largest, fabs(rest));
         }
-        for (int q = 0; q < 2; q++) exact_sum_add(&lost, -parts[q]);
-        assert_close(exact_sum_value(&lost), 0.0, 0.0);
-        assert_true(largest <= 0x1p-94 * size);
-        assert_true((left == 0.0) == (largest == 0.0) && left >= largest);
+        for (int q = 0; q < 4; q++) exact_sum_add(&lost[q % 2], -parts[q]);
+        for (int q = 0; q < 2; q++) assert_close(exact_sum_value(&lost[q]), 0.0, 0.0);
+        for (int q = 0; q < 4; q += 2) assert_close((parts[q] + parts[q + 1] - parts[q]) - parts[q + 1], 0.0, 0.0);
+        assert_true(largest <= 0x1p-94 * size[0]);
+        assert_true(left == (largest > 0.0));
     }
 }
 
@@ -211,6 +215,19 @@ TEST(full_blocks_of_equal_terms_are_split_without_an_error)
 }
 
 /* Halves of the last places of both parts, on top of the largest term, decide which way each of them is rounded. */
+/* Those at odd places are 2^-80 of the others, and nothing is left of either. */
+TEST(terms_of_two_sizes_are_split_by_their_places)
+{
+    for (int t = 0; t < n_tables; t++) {
+        double size[2], parts[4];
+        if (dem_kernel_check(kinds[t]) != DEM_OK) continue;
+        for (int k = 0; k < ARRAY_OPS_TERMS; k++) out[k] = ldexp(1.0 + in[0][k], k % 2 == 0 ? 0 : -80);
+        tables[t]->magnitude(size, out, ARRAY_OPS_TERMS);
+        assert_false(tables[t]->split(parts, out, ARRAY_OPS_TERMS, size));
+        assert_true(parts[1] < 0x1p-60 * parts[0] && parts[1] > 0.0);
+    }
+}
+
 TEST(what_lies_half_way_between_is_split_without_an_error)
 {
     for (int low = -110; low < -40; low++) {

@@ -202,12 +202,10 @@ TEST(terms_that_are_not_finite_count_in_any_order)
 /* The same number, not only the same rounded one: nothing is left of one without the other. */
 static void assert_same_sum(exact_sum actual, exact_sum expected)
 {
-    exact_sum rest = expected, other = actual;
+    exact_sum rest = expected;
     exact_sum_carry(&rest);
-    exact_sum_carry(&other);
-    for (int k = 0; k < EXACT_SUM_LIMBS; k++) rest.limb[k] -= other.limb[k];
-    rest.low = 0;
-    rest.high = EXACT_SUM_LIMBS;
+    for (int k = 0; k < EXACT_SUM_LIMBS; k++) rest.limb[k] = -rest.limb[k];
+    exact_sum_join(&rest, &actual);
     assert_same(exact_sum_value(&rest), 0.0);
     assert_same(exact_sum_value(&actual), exact_sum_value(&expected));
 }
@@ -276,4 +274,60 @@ TEST(blocks_that_overflow_are_added_one_by_one)
     terms[0] = NAN;
     exact_sum_add_array(&none, terms, most);
     assert_true(isnan(exact_sum_value(&none)));
+}
+
+TEST(pairs_are_added_to_two_sums)
+{
+    for (int n = 2; n <= EXACT_SUM_BLOCK; n += 14) {
+        exact_sum pairs[2] = {{.n_terms = 0}}, apart[2] = {{.n_terms = 0}};
+        double block[EXACT_SUM_BLOCK];
+        fill(140 + (uint64_t)n, n, -90, 20);
+        for (int k = 0; k < n; k++) exact_sum_add(&apart[k % 2], terms[k]);
+        memcpy(block, terms, (size_t)n * sizeof *block);
+        exact_sum_take_pairs(pairs, block, n);
+        for (int c = 0; c < 2; c++) assert_same_sum(pairs[c], apart[c]);
+    }
+}
+
+/* ---- sums of sums ---- */
+
+enum { PARTS = 7 };
+
+/* Every term goes into one of some sums, as nodes are shared out among processes, and these are joined in any order. */
+static void assert_shares_are_like_one_sum(uint64_t *state, int n)
+{
+    exact_sum parts[PARTS], joined = {0}, whole = {0};
+    const int n_parts = 1 + (int)(draw(state) % PARTS), first = (int)(draw(state) % n_parts);
+    memset(parts, 0, sizeof parts);
+    for (int k = 0; k < n; k++) exact_sum_add(&whole, terms[k]);
+    shuffle((uint64_t)draw(state), n);
+    for (int k = 0; k < n; k++) exact_sum_add(&parts[draw(state) % n_parts], terms[k]);
+    for (int q = 0; q < n_parts; q++) exact_sum_join(&joined, &parts[(first + q) % n_parts]);
+    assert_same_sum(joined, whole);
+}
+
+TEST(a_sum_does_not_depend_on_how_its_terms_are_shared_out)
+{
+    static const int ranges[][2] = {{-1126, 918}, {-60, -50}, {-20, 20}, {-1126, -1074}};
+    static const int lengths[] = {3, 20, most};
+    uint64_t state = 100;
+    for (size_t r = 0; r < sizeof ranges / sizeof ranges[0]; r++)
+        for (int split = 0; split < 60; split++) {
+            const int n = lengths[split % 3];
+            fill(110 + r, n, ranges[r][0], ranges[r][1]);
+            assert_shares_are_like_one_sum(&state, n);
+        }
+}
+
+TEST(joined_sums_have_room_for_many_more)
+{
+    exact_sum s = {0}, part = {0}, none = {0};
+    for (int k = 0; k < EXACT_SUM_MOST - 1; k++) exact_sum_add(&part, -DBL_MAX);
+    for (int k = 0; k < 5 * EXACT_SUM_MOST; k++) exact_sum_join(&s, &part);
+    for (int k = 0; k < 5 * EXACT_SUM_MOST * (EXACT_SUM_MOST - 1); k++) exact_sum_add(&s, DBL_MAX);
+    exact_sum_join(&s, &none);
+    assert_same(exact_sum_value(&s), 0.0);
+    exact_sum_add(&part, INFINITY);
+    exact_sum_join(&s, &part);
+    assert_same(exact_sum_value(&s), INFINITY);
 }
