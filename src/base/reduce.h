@@ -12,7 +12,6 @@
 
 #include "base/array_ops.h"
 #include "base/exact_sum.h"
-#include "base/twofold.h"
 
 static inline double reduce_min(double own)
 {
@@ -39,12 +38,6 @@ static inline dem_index reduce_count(dem_index own)
 static inline double reduce_sum(const exact_sum *own)
 {
     return exact_sum_value(own);
-}
-
-/** The same of sums with twice the digits of a double. */
-static inline double reduce_twofold(twofold own)
-{
-    return twofold_value(own);
 }
 
 /** The same of sums of squares. */

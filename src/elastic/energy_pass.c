@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The pass over eight nodes at a time, as the sweep of the forces goes (sweep_body.h); compiled once for each
- * instruction set, whose vectors LANES names. The blocks of each call are summed up in registers with twice the digits
- * of a double, so that sums do not depend on how nodes are numbered, as far as their terms do not. */
+ * instruction set, whose vectors LANES names. */
 #include LANES
 
 #include "elastic/energy_pass.h"
 #include "elastic/lane_operands.h"
-#include "elastic/lanes_twofold.h"
+#include "elastic/lanes_terms.h"
 
 /* What is summed up and compared over some blocks. */
 typedef struct running {
-    lanes_twofold elastic, area;
+    exact_terms *elastic, *area;
     lanes least, largest, area_min;
 } running;
 
@@ -49,7 +48,7 @@ INLINE void take_strains(running *r, lanes strain, lanes energy, unsigned taken)
     }
     r->least = lanes_min(low, r->least);
     r->largest = lanes_max(high, r->largest);
-    lanes_twofold_add(&r->elastic, energy);
+    lanes_terms_add(r->elastic, energy);
 }
 
 /* E d0 e^2/2 with the strain e = (|d| - d0)/d0 */
@@ -87,7 +86,7 @@ INLINE void measure_couplings(const place *p, running *r)
         for (int c = 0; c < 3; c++) {
             const lanes coupling = lanes_load(set + (3 + c) * LAYOUT_LANES);
             const lanes term = lanes_mul(lanes_mul(coupling, stretch[c]), stretch[(c + 2) % 3]);
-            lanes_twofold_add(&r->elastic, taken == ALL_LANES ? term : lanes_where(taken, term, lanes_all(0.0)));
+            lanes_terms_add(r->elastic, taken == ALL_LANES ? term : lanes_where(taken, term, lanes_all(0.0)));
         }
     }
 }
@@ -125,7 +124,7 @@ INLINE void measure_areas(place *p, running *r)
         if (!p->l->stiff) continue;
         const lanes more = lanes_sub(J, lanes_all(1.0)), kappa = lanes_load(sets + e->set + 2 * LAYOUT_LANES);
         const lanes energy = lanes_mul(lanes_mul(lanes_mul(lanes_mul(lanes_all(0.5), rest), kappa), more), more);
-        lanes_twofold_add(&r->area, taken == ALL_LANES ? energy : lanes_where(taken, energy, lanes_all(0.0)));
+        lanes_terms_add(r->area, taken == ALL_LANES ? energy : lanes_where(taken, energy, lanes_all(0.0)));
     }
 }
 
@@ -151,8 +150,10 @@ INLINE double extreme_of(lanes values, bool largest)
 
 void ENERGY_PASS(const energy_pass *p, dem_index first, dem_index last, energy_sums *out)
 {
-    running r = {
-        .elastic = lanes_twofold_none(), .area = lanes_twofold_none(), .area_min = lanes_all((double)INFINITY)};
+    exact_terms elastic, area;
+    running r = {.elastic = &elastic, .area = &area, .area_min = lanes_all((double)INFINITY)};
+    exact_terms_begin(&elastic, &out->elastic);
+    exact_terms_begin(&area, &out->area);
     for (dem_index from = first; from < last; from += ENERGY_PASS_GROUP) {
         const dem_index end = from + ENERGY_PASS_GROUP < last ? from + ENERGY_PASS_GROUP : last;
         r.least = lanes_all((double)INFINITY);
@@ -161,7 +162,7 @@ void ENERGY_PASS(const energy_pass *p, dem_index first, dem_index last, energy_s
         p->least[from / ENERGY_PASS_GROUP] = extreme_of(r.least, false);
         p->largest[from / ENERGY_PASS_GROUP] = extreme_of(r.largest, true);
     }
-    *out = (energy_sums){.area_min = extreme_of(r.area_min, false)};
-    lanes_twofold_join(&r.elastic, &out->elastic);
-    lanes_twofold_join(&r.area, &out->area);
+    out->area_min = extreme_of(r.area_min, false);
+    exact_terms_end(&elastic);
+    exact_terms_end(&area);
 }

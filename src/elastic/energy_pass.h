@@ -6,7 +6,7 @@
 #ifndef DEM_ELASTIC_ENERGY_PASS_H
 #define DEM_ELASTIC_ENERGY_PASS_H
 
-#include "base/twofold.h"
+#include "base/exact_sum.h"
 #include "elastic/layout.h"
 
 enum { ENERGY_PASS_GROUP = 4 }; /* blocks that have extremes in common */
@@ -22,11 +22,11 @@ typedef struct energy_pass {
 } energy_pass;
 
 typedef struct energy_sums {
-    twofold elastic, area; /* J, of springs with their couplings, and of area terms */
-    double area_min;       /* area over rest area; infinity: there are no triangles */
+    exact_sum elastic, area; /* J, of springs with their couplings, and of area terms */
+    double area_min;         /* area over rest area; infinity: there are no triangles */
 } energy_sums;
 
-/** Measures the blocks `first` to `last` - 1; `first` is a multiple of ENERGY_PASS_GROUP. */
+/** Measures the blocks `first` to `last` - 1, and adds their energies; `first` is a multiple of ENERGY_PASS_GROUP. */
 typedef void energy_pass_function(const energy_pass *p, dem_index first, dem_index last, energy_sums *out);
 
 energy_pass_function energy_pass_portable, energy_pass_avx2, energy_pass_avx512;

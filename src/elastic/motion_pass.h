@@ -4,7 +4,7 @@
 #ifndef DEM_ELASTIC_MOTION_PASS_H
 #define DEM_ELASTIC_MOTION_PASS_H
 
-#include "base/twofold.h"
+#include "base/exact_sum.h"
 #include "base/vec2.h"
 
 typedef struct motion_pass {
@@ -15,18 +15,19 @@ typedef struct motion_pass {
 
 /** Sums over nodes. */
 typedef struct motion_sums {
-    twofold kinetic, weight;       /* J: m v^2/2, -m g.x */
-    twofold place[2], momentum[2]; /* m x, m v */
-    twofold spin;                  /* 0: it takes a pass of its own */
+    exact_sum kinetic, weight;       /* J: m v^2/2, -m g.x */
+    exact_sum place[2], momentum[2]; /* m x, m v */
+    exact_sum spin;                  /* m (x - x_c) x (v - v_c), which takes a pass of its own */
 } motion_sums;
 
-/** Measures the nodes `first` to `last` - 1. */
+/** Adds the nodes `first` to `last` - 1 to all but the spin. */
 typedef void motion_pass_function(const motion_pass *p, dem_index first, dem_index last, motion_sums *out);
 
 motion_pass_function motion_pass_portable, motion_pass_avx2, motion_pass_avx512;
 
-/** Sum of m (x - x_c) x (v - v_c).  \param mean  x_c, v_c */
-typedef twofold motion_spin_function(const motion_pass *p, dem_index first, dem_index last, const vec2 mean[2]);
+/** Adds to the spin alone.  \param mean  x_c, v_c */
+typedef void motion_spin_function(const motion_pass *p, dem_index first, dem_index last, const vec2 mean[2],
+                                  motion_sums *out);
 
 motion_spin_function motion_pass_spin_portable, motion_pass_spin_avx2, motion_pass_spin_avx512;
 

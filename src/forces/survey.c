@@ -53,15 +53,11 @@ static dem_index cut(const dem_lattice *l, survey_run *runs)
 }
 
 /* The masses of bodies never change. */
-static dem_status weigh(survey *s)
+static void weigh(survey *s)
 {
     const dem_lattice *l = &s->model->lattice;
-    twofold *sum = calloc((size_t)s->model->n_bodies + 1, sizeof *sum);
-    CHECK_MEMORY(sum);
-    for (dem_index i = 0; i < l->n_nodes; i++) twofold_add(&sum[l->body[i]], l->mass[i]);
-    for (dem_index b = 0; b < s->model->n_bodies; b++) s->mass[b] = reduce_twofold(sum[b]);
-    free(sum);
-    return DEM_OK;
+    for (dem_index i = 0; i < l->n_nodes; i++) exact_sum_add(&s->bodies[l->body[i]].kinetic, l->mass[i]);
+    for (dem_index b = 0; b < s->model->n_bodies; b++) s->mass[b] = reduce_sum(&s->bodies[b].kinetic);
 }
 
 static dem_status find_places(survey *s)
@@ -87,11 +83,10 @@ static dem_status allocate(survey *s)
     s->chunks = calloc((size_t)s->n_chunks + 1, sizeof *s->chunks);
     s->runs = malloc(runs * sizeof *s->runs);
     s->moving = calloc(runs, sizeof *s->moving);
-    s->spins = calloc(runs, sizeof *s->spins);
     s->bodies = calloc(bodies, sizeof *s->bodies);
     s->mass = calloc(bodies, sizeof *s->mass);
-    CHECK(s->skipped && s->folded && s->least && s->largest && s->chunks && s->runs && s->moving && s->spins &&
-              s->bodies && s->mass,
+    CHECK(s->skipped && s->folded && s->least && s->largest && s->chunks && s->runs && s->moving && s->bodies &&
+              s->mass,
           DEM_ERROR_MEMORY, "out of memory for the energies of %lld nodes", (long long)s->model->lattice.n_nodes);
     return DEM_OK;
 }
@@ -104,7 +99,7 @@ static dem_status set_up(survey *s)
     s->n_runs = cut(&s->model->lattice, NULL);
     TRY(allocate(s));
     (void)cut(&s->model->lattice, s->runs);
-    TRY(weigh(s));
+    weigh(s);
     return find_places(s);
 }
 
@@ -136,7 +131,6 @@ void survey_destroy(survey *s)
     free(s->chunks);
     free(s->runs);
     free(s->moving);
-    free(s->spins);
     free(s->bodies);
     free(s->mass);
     *s = (survey){0};
@@ -190,7 +184,7 @@ typedef struct taking {
     const double *x, *v;
     springs_integrity springs;
     triangles_integrity triangles;
-    twofold elastic, area, guard;
+    exact_sum elastic, area, guard;
     extreme_strains extremes;
     dem_strain strain;
 } taking;
@@ -205,7 +199,7 @@ static void add_spring(taking *t, dem_index k, double stiffness, double rest_len
     if (springs_is_broken(t->springs, k)) return;
     const double left = springs_left(t->springs, k, strain);
     measure_spring(&t->s->model->lattice, k, strain, &t->extremes);
-    twofold_add(&t->elastic, left * springs_energy_of(stiffness, rest_length, strain));
+    exact_sum_add(&t->elastic, left * springs_energy_of(stiffness, rest_length, strain));
 }
 
 /* Those to nodes at higher places. */
@@ -235,7 +229,7 @@ static void add_couplings(taking *t, dem_index i)
         if (!lane_slots_is_lowest(c, t->s->place, p, i) || couplings_broken(c, t->triangles, k)) continue;
         const coupled_edges e = couplings_edges(&c->list[k], t->x);
         for (int q = 0; q < 3; q++)
-            twofold_add(&t->elastic, couplings_left(c, t->triangles, k) * couplings_energy_term(&c->list[k], &e, q));
+            exact_sum_add(&t->elastic, couplings_left(c, t->triangles, k) * couplings_energy_term(&c->list[k], &e, q));
     }
 }
 
@@ -249,10 +243,10 @@ static void add_triangles(taking *t, dem_index i, bool passed)
         if (place_of(t, all->next[p]) < own || place_of(t, all->last[p]) < own) continue;
         if (triangles_broken(all, t->triangles, p)) continue;
         const triangles_energies e = triangles_energies_at(all, t->triangles, i, p, t->x);
-        if (!passed) twofold_add(&t->area, e.area);
+        if (!passed) exact_sum_add(&t->area, e.area);
         if (!passed && e.ratio < t->strain.area_min) t->strain.area_min = e.ratio;
         if (e.ratio >= TRIANGLES_GUARD_ONSET) continue;
-        twofold_add(&t->guard, e.guard);
+        exact_sum_add(&t->guard, e.guard);
         t->strain.guarded += all->guard[p] > 0.0;
         t->strain.inverted += e.ratio <= 0.0;
     }
@@ -322,6 +316,29 @@ static void pack_share(const void *context, int share, int thread)
         vec2_put(s->packed, q, vec2_at(t->x, l->order[q]));
 }
 
+static void measure_chunk(const survey *s, const energy_pass *p, dem_index first, dem_index last, energy_sums *out)
+{
+    exact_sum_clear(&out->elastic);
+    exact_sum_clear(&out->area);
+    s->measure_energies(p, first, last, out);
+}
+
+static void clear_motions(motion_sums *m)
+{
+    exact_sum_clear(&m->kinetic);
+    exact_sum_clear(&m->weight);
+    for (int c = 0; c < 2; c++) {
+        exact_sum_clear(&m->place[c]);
+        exact_sum_clear(&m->momentum[c]);
+    }
+}
+
+static void measure_run(const survey *s, const motion_pass *p, dem_index k)
+{
+    clear_motions(&s->moving[k]);
+    s->measure_motions(p, s->runs[k].first, s->runs[k].last, &s->moving[k]);
+}
+
 /* Chunks and runs go side by side, as what they read is mostly the same. */
 static void measure_share(const void *context, int share, int thread)
 {
@@ -341,37 +358,44 @@ static void measure_share(const void *context, int share, int thread)
     for (dem_index k = team_share(n, s->n_shares, share); k < end; k++) {
         const dem_index first = SURVEY_CHUNK * k,
                         last = first + SURVEY_CHUNK < n_blocks ? first + SURVEY_CHUNK : n_blocks;
-        if (k < s->n_chunks) s->measure_energies(&energies, first, last, &s->chunks[k]);
-        if (k < s->n_runs) s->measure_motions(&motions, s->runs[k].first, s->runs[k].last, &s->moving[k]);
+        if (k < s->n_chunks) measure_chunk(s, &energies, first, last, &s->chunks[k]);
+        if (k < s->n_runs) measure_run(s, &motions, k);
     }
 }
 
-static void join_motions(motion_sums *to, const motion_sums *more)
+/* Sums of bodies. */
+static void join_runs(survey *s)
 {
-    twofold_join(&to->kinetic, more->kinetic);
-    twofold_join(&to->weight, more->weight);
-    for (int c = 0; c < 2; c++) {
-        twofold_join(&to->place[c], more->place[c]);
-        twofold_join(&to->momentum[c], more->momentum[c]);
+    for (dem_index b = 0; b < s->model->n_bodies; b++) clear_motions(&s->bodies[b]);
+    for (dem_index k = 0; k < s->n_runs; k++) {
+        motion_sums *body = &s->bodies[s->runs[k].body], *own = &s->moving[k];
+        exact_sum_join(&body->kinetic, &own->kinetic);
+        exact_sum_join(&body->weight, &own->weight);
+        for (int c = 0; c < 2; c++) {
+            exact_sum_join(&body->place[c], &own->place[c]);
+            exact_sum_join(&body->momentum[c], &own->momentum[c]);
+        }
     }
 }
 
-/* Sums of bodies, and of all. */
-static motion_sums join_runs(survey *s)
+/* Energies of all bodies, J. */
+static void join_bodies(survey *s)
 {
-    motion_sums all = {0};
-    memset(s->bodies, 0, (size_t)s->model->n_bodies * sizeof *s->bodies);
-    for (dem_index k = 0; k < s->n_runs; k++) join_motions(&s->bodies[s->runs[k].body], &s->moving[k]);
-    for (dem_index b = 0; b < s->model->n_bodies; b++) join_motions(&all, &s->bodies[b]);
-    return all;
+    exact_sum kinetic = {0}, weight = {0};
+    for (dem_index b = 0; b < s->model->n_bodies; b++) {
+        exact_sum_join(&kinetic, &s->bodies[b].kinetic);
+        exact_sum_join(&weight, &s->bodies[b].weight);
+    }
+    s->energies.kinetic = reduce_sum(&kinetic);
+    s->energies.weight = reduce_sum(&weight);
 }
 
 static void join_chunks(taking *t)
 {
     for (dem_index k = 0; k < t->s->n_chunks; k++) {
-        const energy_sums *own = &t->s->chunks[k];
-        twofold_join(&t->elastic, own->elastic);
-        twofold_join(&t->area, own->area);
+        energy_sums *own = &t->s->chunks[k];
+        exact_sum_join(&t->elastic, &own->elastic);
+        exact_sum_join(&t->area, &own->area);
         if (own->area_min < t->strain.area_min) t->strain.area_min = own->area_min;
     }
 }
@@ -434,16 +458,15 @@ void survey_take(survey *s, const forces *f, const double *x, const double *v)
     if (s->packed != NULL) team_run(s->team, s->n_shares, pack_share, &t);
     team_run(s->team, s->n_shares, measure_share, &t);
     join_chunks(&t);
-    const motion_sums all = join_runs(s);
+    join_runs(s);
+    join_bodies(s);
     find_extremes(&t);
     add_rest(&t);
     measure_idle_triangles(&t);
     s->strain = reduce(&t);
-    s->energies = (survey_energies){.kinetic = reduce_twofold(all.kinetic),
-                                    .elastic = reduce_twofold(t.elastic),
-                                    .area = reduce_twofold(t.area),
-                                    .guard = reduce_twofold(t.guard),
-                                    .weight = reduce_twofold(all.weight)};
+    s->energies.elastic = reduce_sum(&t.elastic);
+    s->energies.area = reduce_sum(&t.area);
+    s->energies.guard = reduce_sum(&t.guard);
 }
 
 /* ---- motion of bodies ---- */
@@ -461,20 +484,19 @@ static void motions_share(const void *context, int share, int thread)
     const survey *s = p->s;
     const dem_index end = team_share(s->n_runs, s->n_shares, share + 1);
     (void)thread;
-    for (dem_index k = team_share(s->n_runs, s->n_shares, share); k < end; k++)
-        s->measure_motions(&p->nodes, s->runs[k].first, s->runs[k].last, &s->moving[k]);
+    for (dem_index k = team_share(s->n_runs, s->n_shares, share); k < end; k++) measure_run(s, &p->nodes, k);
 }
 
 void survey_take_motions(survey *s, const double *x, const double *v)
 {
     const body_pass p = {.s = s, .nodes = {.mass = s->model->lattice.mass, .x = x, .v = v}};
     team_run(s->team, s->n_shares, motions_share, &p);
-    (void)join_runs(s);
+    join_runs(s);
 }
 
-static vec2 mean_of(const twofold sum[2], double mass)
+static vec2 mean_of(const exact_sum sum[2], double mass)
 {
-    return vec2_scale(1.0 / mass, (vec2){reduce_twofold(sum[0]), reduce_twofold(sum[1])});
+    return vec2_scale(1.0 / mass, (vec2){reduce_sum(&sum[0]), reduce_sum(&sum[1])});
 }
 
 static void spin_share(const void *context, int share, int thread)
@@ -486,7 +508,8 @@ static void spin_share(const void *context, int share, int thread)
     for (dem_index k = team_share(s->n_runs, s->n_shares, share); k < end; k++) {
         const dem_body_motion *m = &p->motion[s->runs[k].body];
         const vec2 mean[2] = {vec2_at(m->centre, 0), vec2_at(m->velocity, 0)};
-        s->spins[k] = s->measure_spins(&p->nodes, s->runs[k].first, s->runs[k].last, mean);
+        exact_sum_clear(&s->moving[k].spin);
+        s->measure_spins(&p->nodes, s->runs[k].first, s->runs[k].last, mean, &s->moving[k]);
     }
 }
 
@@ -500,8 +523,7 @@ void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion 
         vec2_put(motion[b].velocity, 0, mean_of(s->bodies[b].momentum, s->mass[b]));
     }
     team_run(s->team, s->n_shares, spin_share, &p);
-    for (dem_index b = 0; b < s->model->n_bodies; b++) s->bodies[b].spin = (twofold){0};
-    for (dem_index k = 0; k < s->n_runs; k++) twofold_join(&s->bodies[s->runs[k].body].spin, s->spins[k]);
-    for (dem_index b = 0; b < s->model->n_bodies; b++)
-        motion[b].angular_momentum[2] = reduce_twofold(s->bodies[b].spin);
+    for (dem_index b = 0; b < s->model->n_bodies; b++) exact_sum_clear(&s->bodies[b].spin);
+    for (dem_index k = 0; k < s->n_runs; k++) exact_sum_join(&s->bodies[s->runs[k].body].spin, &s->moving[k].spin);
+    for (dem_index b = 0; b < s->model->n_bodies; b++) motion[b].angular_momentum[2] = reduce_sum(&s->bodies[b].spin);
 }

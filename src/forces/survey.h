@@ -36,14 +36,13 @@ typedef struct survey {
     energy_sums *chunks; /* [n_chunks] of SURVEY_CHUNK blocks each */
     survey_run *runs;    /* [n_runs] */
     motion_sums *moving; /* [n_runs] */
-    twofold *spins;      /* [n_runs] */
     motion_sums *bodies; /* [n_bodies] of the last survey, as the next two are */
     survey_energies energies;
     dem_strain strain; /* as dem_simulation_strain() tells it */
     double *mass;      /* [n_bodies] kg */
 } survey;
 
-enum { SURVEY_CHUNK = 64 }; /* a multiple of ENERGY_PASS_GROUP */
+enum { SURVEY_CHUNK = 128 }; /* a multiple of ENERGY_PASS_GROUP */
 
 /** Borrows the kernel's model.  \param k  whose instructions and threads are used
  *  \return DEM_ERROR_MEMORY. Free with survey_destroy(). */

@@ -3,8 +3,8 @@
  * set, whose vectors LANES names; with the plain loops the compiler fills vectors by itself. */
 #include LANES
 
+#include "base/inline.h"
 #include "elastic/lane_operands.h"
-#include "elastic/lanes_twofold.h"
 #include "model/stress_pass.h"
 
 typedef double four __attribute__((vector_size(32)));
