@@ -9,7 +9,6 @@
 #include <stdlib.h>
 
 #include "base/array_ops.h"
-#include "base/exact_sum.h"
 #include "base/status.h"
 #include "elastic/rigid_nodes.h"
 
@@ -169,20 +168,19 @@ static double strain_rate(const springs *s, dem_index i, dem_index p, const doub
     return vec2_dot(d, dv) / (s->rest_length[p] * vec2_norm(d));
 }
 
-/* Sum of c e'^2 d0 over springs, W: the force c e' times the rate e' d0 at which the length changes. A spring is taken
- * from the row of its lower node. A rounded sum, since this is evaluated as often as the forces are. */
-double springs_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v)
+/* c e'^2 d0 of each spring: the force c e' times the rate e' d0 at which the length changes. A spring is taken from the
+ * row of its lower node. */
+void springs_add_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v,
+                               exact_terms *power)
 {
-    double power = 0.0;
-    if (s->viscosity == NULL) return power;
+    if (s->viscosity == NULL) return;
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const double left = springs_left(integrity, s->spring[p], 1.0);
             if (s->neighbour[p] < i || left == 0.0) continue;
             const double rate = strain_rate(s, i, p, x, v);
-            power += left * s->viscosity[p] * rate * rate * s->rest_length[p];
+            exact_terms_add(power, left * s->viscosity[p] * rate * rate * s->rest_length[p]);
         }
-    return power;
 }
 
 /* c/d0 n n^T with n = d/|d|, so that no root is needed. */

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "base/exact_terms.h"
 #include "base/vec2.h"
 
 typedef struct springs {
@@ -147,8 +148,9 @@ void springs_strains(const dem_lattice *lattice, springs_integrity integrity, co
 /** Force (1) along every spring, > 0 in tension; 0 of one that is broken.  \param[out] force  [n_springs] N */
 void springs_forces(const dem_lattice *lattice, springs_integrity integrity, const double *x, double *force);
 
-/** Power taken by the springs' damping, W, >= 0: sum of viscosity * strain rate^2 * rest length; 0 undamped. */
-double springs_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v);
+/** Adds the powers that the springs' damping takes, W, >= 0: viscosity * strain rate^2 * rest length; none undamped. */
+void springs_add_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v,
+                               exact_terms *power);
 
 /** S_i = sum of c/d0 n n^T over the springs of node i, with n their directions at x and c their `strength`, stiffness
  *  or viscosity. It bounds the matrix A of the springs: u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/ramp.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "base/struct_size.h"
 
@@ -75,13 +76,13 @@ vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double
     return force;
 }
 
-/* Power of a force on its nodes, W: r F.(sum of share v), since all nodes have the same direction of force. */
-static double push_power(const boundary_conditions *all, const boundary_condition *b, double t, const double *v)
+/* Powers of a force on its nodes, W. */
+static void add_push_power(const boundary_conditions *all, const boundary_condition *b, double t, const double *v,
+                           exact_terms *power)
 {
-    /* The shares are summed up first, and the direction and size of the force enter once. */
-    vec2 sum = {0.0, 0.0};
-    for (dem_index k = 0; k < b->n_nodes; k++) sum = vec2_along(sum, b->share[k], vec2_at(v, b->nodes[k]));
-    return boundary_condition_ramp(b, load_clock_time(&all->clock, t)) * vec2_dot(b->value, sum);
+    const vec2 force = boundary_conditions_push(all, b, t);
+    for (dem_index k = 0; k < b->n_nodes; k++)
+        exact_terms_add(power, b->share[k] * vec2_dot(force, vec2_at(v, b->nodes[k])));
 }
 
 /* The prescribed vector in the components that the condition names, the free one in the others. */
@@ -92,55 +93,52 @@ static vec2 with_components(const boundary_condition *b, vec2 free, vec2 prescri
 }
 
 /* Puts prescribed components into velocities f and accelerations a. To change the free acceleration to the prescribed
- * one takes the reaction R = m (a - a_free) on each node.
- * \return the power of the reactions, the sum of R.v, W */
-static double prescribe(const boundary_conditions *all, const boundary_condition *b, const double *mass, double t,
-                        double *f, double *a)
+ * one takes the reaction R = m (a - a_free) on each node, whose power R.v is added. */
+static void prescribe(const boundary_conditions *all, const boundary_condition *b, const double *mass, double t,
+                      const boundary_derivative *to)
 {
     const vec2 velocity = velocity_at(all, b, t), acceleration = boundary_conditions_acceleration(all, b, t);
-    double power = 0.0;
     for (dem_index k = 0; k < b->n_nodes; k++) {
         const dem_index i = b->nodes[k];
-        const vec2 before = vec2_at(a, i), u = with_components(b, vec2_at(f, i), velocity),
+        const vec2 before = vec2_at(to->a, i), u = with_components(b, vec2_at(to->f, i), velocity),
                    now = with_components(b, before, acceleration);
-        vec2_put(f, i, u);
-        vec2_put(a, i, now);
-        power += mass[i] * (now.x - before.x) * u.x;
-        power += mass[i] * (now.y - before.y) * u.y;
+        vec2_put(to->f, i, u);
+        vec2_put(to->a, i, now);
+        exact_terms_add(to->power, mass[i] * (now.x - before.x) * u.x);
+        exact_terms_add(to->power, mass[i] * (now.y - before.y) * u.y);
     }
-    return power;
 }
 
 /* `a` comes in free of the conditions. No component is prescribed twice (check_node), so the order does not matter. */
-double boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
-                                     double *f, double *a)
+void boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
+                                   const boundary_derivative *to)
 {
-    double power = 0.0;
-    for (dem_index k = 0; k < b->n; k++)
-        power += b->list[k].kind == DEM_BOUNDARY_FORCE ? push_power(b, &b->list[k], t, v)
-                                                       : prescribe(b, &b->list[k], mass, t, f, a);
-    return power;
+    for (dem_index k = 0; k < b->n; k++) {
+        if (b->list[k].kind == DEM_BOUNDARY_FORCE)
+            add_push_power(b, &b->list[k], t, v, to->power);
+        else
+            prescribe(b, &b->list[k], mass, t, to);
+    }
 }
 
 /* Velocities have to agree with the conditions: at the start, with a ramp, they are 0. */
-static double give(const boundary_conditions *all, const boundary_condition *b, const double *mass, double t, double *v)
+static void give(const boundary_conditions *all, const boundary_condition *b, const double *mass, double t, double *v,
+                 exact_sum *energy)
 {
     const vec2 velocity = velocity_at(all, b, t);
-    double energy = 0.0;
     for (dem_index k = 0; k < b->n_nodes; k++) {
         const vec2 before = vec2_at(v, b->nodes[k]), now = with_components(b, before, velocity);
-        energy += 0.5 * mass[b->nodes[k]] * (vec2_dot(now, now) - vec2_dot(before, before));
+        exact_sum_add(energy, 0.5 * mass[b->nodes[k]] * (vec2_dot(now, now) - vec2_dot(before, before)));
         vec2_put(v, b->nodes[k], now);
     }
-    return energy;
 }
 
 double boundary_conditions_give_velocities(const boundary_conditions *b, const double *mass, double t, double *v)
 {
-    double energy = 0.0;
+    exact_sum energy = {0};
     for (dem_index k = 0; k < b->n; k++)
-        if (b->list[k].kind != DEM_BOUNDARY_FORCE) energy += give(b, &b->list[k], mass, t, v);
-    return energy;
+        if (b->list[k].kind != DEM_BOUNDARY_FORCE) give(b, &b->list[k], mass, t, v, &energy);
+    return reduce_sum(&energy);
 }
 
 bool boundary_conditions_move(const boundary_conditions *b)

@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 
+#include "base/exact_terms.h"
 #include "base/vec2.h"
 #include "forces/load_clock.h"
 
@@ -63,10 +64,15 @@ vec2 boundary_conditions_push(const boundary_conditions *all, const boundary_con
 /** Force on node i at t, N. */
 vec2 boundary_conditions_force(const boundary_conditions *b, dem_index i, double t);
 
-/** Puts the prescribed components into the derivative of a state: velocities f, accelerations a, [n_nodes][2].
- *  \return the power that the boundary conditions put in, W: that of the reactions and that of the forces given */
-double boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
-                                     double *f, double *a);
+/** The derivative of a state, and what conditions put into that. */
+typedef struct boundary_derivative {
+    double *f, *a;      /* [n_nodes][2] velocities, accelerations */
+    exact_terms *power; /* W: that of the reactions and of forces given */
+} boundary_derivative;
+
+/** Puts the prescribed components into the derivative, and adds the powers that the conditions put in at each node. */
+void boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
+                                   const boundary_derivative *to);
 
 /** Puts the prescribed velocities at t into v [n_nodes][2].  \return the kinetic energy that this adds, J */
 double boundary_conditions_give_velocities(const boundary_conditions *b, const double *mass, double t, double *v);

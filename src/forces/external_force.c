@@ -80,16 +80,13 @@ void external_force_of_node(external_force *c, double t, dem_index node, const d
     external_force_ask(c, &(dem_force_query){.t = t, .n = 1, .nodes = &node, .x = x, .v = v}, force);
 }
 
-/* Sum of f.v over all nodes, W, of the forces evaluated last; a rounded sum in the order of nodes. */
-double external_force_power(const external_force *c, const double *v)
+void external_force_add_power(const external_force *c, const double *v, exact_terms *power)
 {
-    double power = 0.0;
     for (dem_index i = 0; i < c->n_nodes; i++) {
         double of_node = 0.0;
         for (dem_index k = c->dim * i; k < c->dim * (i + 1); k++) of_node += c->value[k] * v[k];
-        power += of_node;
+        exact_terms_add(power, of_node);
     }
-    return power;
 }
 
 /* Clears the failure, so that a program may go on after it has mended its function. */

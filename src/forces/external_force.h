@@ -8,6 +8,8 @@
 
 #include <dem/dem.h>
 
+#include "base/exact_terms.h"
+
 typedef struct external_force {
     dem_force force;
     void *context;
@@ -34,8 +36,8 @@ void external_force_evaluate(external_force *c, const dem_force_query *query);
 void external_force_of_node(external_force *c, double t, dem_index node, const double *x, const double *v,
                             double *force);
 
-/** Power of the forces in `value`, those on all nodes, W, with velocities v [n_nodes][dim]. */
-double external_force_power(const external_force *c, const double *v);
+/** Adds the powers of the forces in `value`, those on all nodes, W, with velocities v [n_nodes][dim]. */
+void external_force_add_power(const external_force *c, const double *v, exact_terms *power);
 
 /** Whether an evaluation has failed; no force (NULL) never fails. */
 static inline bool external_force_failed(const external_force *c)

@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Power of the forces on the nodes, which the energy ledger integrates: taken by damping, put in by boundary conditions
  * and the external force (docs/method.md, Damping and The ledger). Of one node it is each force times its velocity; of
- * all nodes it is summed spring by spring and condition by condition. The forces themselves are inline in forces.h. */
+ * all nodes it is summed spring by spring and condition by condition, exactly. The forces themselves are inline in
+ * forces.h. */
 #include "forces/forces.h"
+
+#include "base/reduce.h"
 
 /* The rare case of a node with broken elements, kept out of line so that the usual one stays short. */
 vec2 forces_of_damaged(const forces *f, dem_index i, const double *x, const double *v)
@@ -14,8 +17,15 @@ vec2 forces_of_damaged(const forces *f, dem_index i, const double *x, const doub
 double forces_prescribe(const forces *f, double t, const double *v, double *u, double *a)
 {
     const double *mass = f->model->lattice.mass;
-    const double work = f->boundaries != NULL ? boundary_conditions_prescribe(f->boundaries, mass, t, v, u, a) : 0.0;
-    return f->external != NULL ? work + external_force_power(f->external, v) : work;
+    exact_sum work = {0};
+    exact_terms terms;
+    if (f->boundaries == NULL && f->external == NULL) return 0.0;
+    exact_terms_begin(&terms, &work);
+    if (f->boundaries != NULL)
+        boundary_conditions_prescribe(f->boundaries, mass, t, v, &(boundary_derivative){u, a, &terms});
+    if (f->external != NULL) external_force_add_power(f->external, v, &terms);
+    exact_terms_end(&terms);
+    return reduce_sum(&work);
 }
 
 /* Damping takes alpha m v^2 and -F.v of the viscous forces F on this node; over both ends of a spring the latter adds
@@ -42,18 +52,28 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
     return power;
 }
 
-/* Sum of c e'^2 d0 over springs, and of alpha m v^2 over the nodes that move, W. */
-double forces_damping_power(const forces *f, const double *x, const double *v)
+/* alpha m v^2 of each node that moves. */
+static void add_drag(const forces *f, const double *v, exact_terms *power)
 {
     const dem_model *model = f->model;
-    double twice_kinetic = 0.0; /* of the nodes that move */
-    if (!forces_are_damped(f)) return 0.0;
+    if (f->mass_damping == 0.0) return;
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const vec2 vi = vec2_at(v, i);
-        if (model->inverse_mass[i] > 0.0) twice_kinetic += model->lattice.mass[i] * vec2_dot(vi, vi);
+        if (model->inverse_mass[i] > 0.0)
+            exact_terms_add(power, f->mass_damping * model->lattice.mass[i] * vec2_dot(vi, vi));
     }
-    return springs_damping_power(&model->springs, element_state_springs(f->elements), x, v) +
-           f->mass_damping * twice_kinetic;
+}
+
+double forces_damping_power(const forces *f, const double *x, const double *v)
+{
+    exact_sum power = {0};
+    exact_terms terms;
+    if (!forces_are_damped(f)) return 0.0;
+    exact_terms_begin(&terms, &power);
+    springs_add_damping_power(&f->model->springs, element_state_springs(f->elements), x, v, &terms);
+    add_drag(f, v, &terms);
+    exact_terms_end(&terms);
+    return reduce_sum(&power);
 }
 
 double forces_friction_power(const forces *f, const double *x, const double *v)

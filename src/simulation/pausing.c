@@ -7,7 +7,6 @@
 
 #include <math.h>
 
-#include "base/reduce.h"
 #include "base/status.h"
 #include "simulation/query.h"
 
@@ -24,8 +23,8 @@ typedef struct numbers {
 static void give_velocities(dem_simulation *s, double t, double *y)
 {
     double *v = y + state_velocities(&s->layout);
-    const double work = boundary_conditions_give_velocities(&s->boundaries, s->model->lattice.mass, t, v);
-    v[state_total_index(&s->layout, STATE_WORK)] += reduce_rounded_sum(work);
+    v[state_total_index(&s->layout, STATE_WORK)] +=
+        boundary_conditions_give_velocities(&s->boundaries, s->model->lattice.mass, t, v);
 }
 
 bool pausing_begin(dem_simulation *s, double t, double *y)

@@ -54,7 +54,7 @@ static void derive(const step *s, automaton *c, double t, const double *y, doubl
     memcpy(f, v, (size_t)n * sizeof *f);
     for (dem_index i = 0; i < s->n; i++) vec2_put(a, i, forces_acceleration(&s->acting, i, y, v));
     automaton_constrain(c, 0.0, y, a);
-    const double work = boundary_conditions_prescribe(&s->b, s->model->lattice.mass, t, v, f, a);
+    const double work = forces_prescribe(&s->acting, t, v, f, a);
     for (dem_index k = 2 * s->n; k < n; k++) a[k] = 0.0;
     automaton_add_rates(c, 0.0, y, a);
     a[state_total_index(l, STATE_DAMPING)] = forces_damping_power(&s->acting, y, v);

@@ -94,7 +94,12 @@ TEST_IN_BOTH(power_is_force_times_velocity)
         right(i, 2.0, x + dim * i, v + dim * i, force);
         for (int k = 0; k < dim; k++) power += force[k] * v[dim * i + k];
     }
-    assert_close(external_force_power(c, v), power, 1e-15 * power);
+    exact_sum sum = {0};
+    exact_terms terms;
+    exact_terms_begin(&terms, &sum);
+    external_force_add_power(c, v, &terms);
+    exact_terms_end(&terms);
+    assert_close(exact_sum_value(&sum), power, 1e-15 * power);
     external_force_destroy(c);
 }
 
