@@ -33,12 +33,10 @@ static dem_status reserve(automaton *c, dem_index n)
 
 dem_status automaton_create(automaton *out, const forces *acting, const contact_rule *rule)
 {
-    const size_t n_rates = 4 * (size_t)acting->model->obstacles.n + 2;
     *out = (automaton){0};
     TRY(contact_set_create(&out->set, acting, rule));
-    out->rates = calloc(n_rates, sizeof *out->rates);
-    dem_status status = reserve(out, out->set.n);
-    if (out->rates == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory for the forces of obstacles");
+    dem_status status = rate_sums_create(&out->rates, acting->model->lattice.dim, acting->model->obstacles.n);
+    if (status == DEM_OK) status = reserve(out, out->set.n);
     if (status != DEM_OK) automaton_destroy(out);
     return status;
 }
@@ -46,7 +44,7 @@ dem_status automaton_create(automaton *out, const forces *acting, const contact_
 void automaton_destroy(automaton *c)
 {
     free(c->units);
-    free(c->rates);
+    rate_sums_free(&c->rates);
     broad_phase_destroy(&c->broad_phase);
     contact_set_destroy(&c->set);
 }
@@ -273,34 +271,16 @@ dem_status automaton_restore(automaton *c, double t, const double *y)
  * work of friction and of obstacles. */
 static void add_rates_of(const automaton *c, dem_index k, scene_state state)
 {
-    const dem_index n = c->set.scene.model->obstacles.n;
+    const state_layout *l = scene_layout(&c->set.scene);
     for (int q = 0; q < c->set.list[k].n_closed; q++) {
         const contact_contribution of = contact_set_contribution(&c->set, k, q, state);
-        ledger_add_vector(&c->rates[2 * of.obstacle], of.force);
-        ledger_add_vector(&c->rates[2 * (n + of.obstacle)], of.friction);
-        exact_sum_add(&c->rates[4 * n], of.power);
-        if (state_has_total(scene_layout(&c->set.scene), STATE_OBSTACLE)) exact_sum_add(&c->rates[4 * n + 1], of.work);
+        rate_sums_add_row(&c->rates, l, state_impulse(l, of.obstacle), (const double[]){of.force.x, of.force.y});
+        rate_sums_add_row(&c->rates, l, state_friction_impulse(l, of.obstacle),
+                          (const double[]){of.friction.x, of.friction.y});
+        rate_sums_add(&c->rates, l, state_total_index(l, STATE_FRICTION), of.power);
+        if (state_has_total(l, STATE_OBSTACLE))
+            rate_sums_add(&c->rates, l, state_total_index(l, STATE_OBSTACLE), of.work);
     }
-}
-
-/* Adds a sum over the contacts of the whole model to a rate, and empties it. Most obstacles of many have no contact. */
-static void take_rate(exact_sum *sum, double *rate)
-{
-    static const exact_sum none;
-    *rate += reduce_sum(sum);
-    exact_sum_copy(sum, &none);
-}
-
-static void take_rates(const automaton *c, double *a)
-{
-    const state_layout *l = scene_layout(&c->set.scene);
-    const dem_index n = c->set.scene.model->obstacles.n;
-    for (dem_index k = 0; k < 2 * n; k++) {
-        take_rate(&c->rates[k], &a[state_row(l, state_impulse(l, k / 2)) + k % 2]);
-        take_rate(&c->rates[2 * n + k], &a[state_row(l, state_friction_impulse(l, k / 2)) + k % 2]);
-    }
-    take_rate(&c->rates[4 * n], &a[state_total_index(l, STATE_FRICTION)]);
-    if (state_has_total(l, STATE_OBSTACLE)) take_rate(&c->rates[4 * n + 1], &a[state_total_index(l, STATE_OBSTACLE)]);
 }
 
 /* The sums are exact, so that the order of groups does not matter. Where nothing is closed there is nothing to add. */
@@ -311,7 +291,7 @@ void automaton_add_rates(const automaton *c, double t, const double *y, double *
     if (!reduce_any(r->n_groups > 0)) return;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) add_rates_of(c, k, state);
-    take_rates(c, a);
+    rate_sums_take(&c->rates, scene_layout(&c->set.scene), a);
 }
 
 /* Forces are those stored at the last accepted step or event; frames are those of the positions given. */

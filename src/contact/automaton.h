@@ -6,6 +6,7 @@
 #ifndef DEM_CONTACT_AUTOMATON_H
 #define DEM_CONTACT_AUTOMATON_H
 
+#include "base/rate_sums.h"
 #include "contact/broad_phase.h"
 
 typedef struct automaton {
@@ -16,7 +17,7 @@ typedef struct automaton {
     double way;         /* m, bound of how far any candidate goes in the step checked last */
     bool all;           /* by that, inactive candidates may touch: all have to be checked */
     dem_index idle;     /* events of the whole body in a row that changed nothing */
-    exact_sum *rates;   /* [4 n_obstacles + 2] scratch of automaton_add_rates(), empty sums between its calls */
+    rate_sums rates;    /* scratch of automaton_add_rates() */
     dem_index capacity; /* active candidates that there is room for in: */
     double *units;      /* [n_active][CANDIDATE_ROOTS] root functions of the active candidates at the start of a step */
 } automaton;

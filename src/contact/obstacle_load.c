@@ -14,11 +14,11 @@ static vec2 force_of(const dem_contact *c)
 void obstacle_load_add_motion(dem_obstacle_load *load, const pose *at, dem_index obstacle, const dem_contact *list,
                               dem_index n)
 {
-    double power = 0.0;
+    exact_sum power = {0};
     for (dem_index k = 0; k < n; k++)
         if (list[k].obstacle == obstacle)
-            power += vec2_dot(force_of(&list[k]), pose_velocity(at, vec2_at(list[k].x, 0)));
+            exact_sum_add(&power, vec2_dot(force_of(&list[k]), pose_velocity(at, vec2_at(list[k].x, 0))));
     vec2_put(load->displacement, 0, vec2_sub(at->centre, at->origin));
     load->angle = at->angle;
-    load->power = reduce_rounded_sum(power);
+    load->power = reduce_sum(&power);
 }

@@ -208,8 +208,7 @@ static dem_status renew_rates(event_queue *q)
         a[work] = 0.0;
     }
     if (c != NULL) c->add_all_rates(c->self, (constraint_state){q->step->t1, q->changed.y1}, a);
-    if (f->friction_power != NULL)
-        a[state_total_index(l, STATE_FRICTION)] += reduce_rounded_sum(f->friction_power(f->self, q->changed.y1));
+    if (f->friction_power != NULL) a[state_total_index(l, STATE_FRICTION)] += f->friction_power(f->self, q->changed.y1);
     return DEM_OK;
 }
 

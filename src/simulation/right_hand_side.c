@@ -47,7 +47,7 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     automaton_add_rates(&s->automaton, t, y, a);
     if (s->rigid != NULL) rigid_contact_add_rates(s->rigid, l, v, a);
     if (forces_have_friction(&s->forces))
-        a[state_total_index(l, STATE_FRICTION)] += reduce_rounded_sum(forces_evaluated_friction_power(&s->forces, v));
+        a[state_total_index(l, STATE_FRICTION)] += forces_evaluated_friction_power(&s->forces, v);
     a[state_total_index(l, STATE_DAMPING)] = forces_damping_power(&s->forces, y, v);
     a[state_total_index(l, STATE_WORK)] = work;
 }

@@ -191,11 +191,9 @@ void anchor_set_end(anchor_set *s, const double *x)
     }
 }
 
-double anchor_set_held_power(const anchor_set *s, const double *v)
+void anchor_set_add_held_power(const anchor_set *s, const double *v, exact_sum *power)
 {
-    double sum = 0.0;
-    for (dem_index k = 0; k < s->n_held; k++) sum -= friction_pattern_dot(&s->held[k].friction, v);
-    return sum;
+    for (dem_index k = 0; k < s->n_held; k++) exact_sum_add(power, -friction_pattern_dot(&s->held[k].friction, v));
 }
 
 static double size_of(const friction_pattern *p)

@@ -89,8 +89,8 @@ void anchor_set_hold(anchor_set *s, const contact_push *push, const double *x);
 /** Ends it: from now on `held` has the friction of all pairs. */
 void anchor_set_end(anchor_set *s, const double *x);
 
-/** Power that the springs take in that state, at velocities v [n_nodes][2], W: stored and lost. */
-double anchor_set_held_power(const anchor_set *s, const double *v);
+/** Adds the powers that the springs take in that state, at velocities v [n_nodes][2], W: stored and lost. */
+void anchor_set_add_held_power(const anchor_set *s, const double *v, exact_sum *power);
 
 /** Adds bounds of what the springs add to the stiffness at each node, N/m, after the last step: with g the gradient of
  *  the way and |g| the sum of the sizes |g_i|, k (g.u)^2 is at most k |g| sum |g_i| u_i^2. */

@@ -12,6 +12,7 @@ static dem_status set_up(rigid_contact *c, const contact_surface *of)
 {
     const rigid_bodies *bodies = &c->model->rigid;
     TRY(obstacle_surface_compile(&c->obstacles, &c->model->obstacles));
+    TRY(rate_sums_create(&c->rates, 2, c->model->obstacles.n));
     c->list = calloc((size_t)bodies->n, sizeof *c->list);
     CHECK_MEMORY(c->list);
     while (c->n < bodies->n) {
@@ -41,6 +42,7 @@ void rigid_contact_destroy(rigid_contact *c)
     if (c == NULL) return;
     for (dem_index k = 0; k < c->n; k++) rigid_pairs_free(&c->list[k]);
     free(c->list);
+    rate_sums_free(&c->rates);
     obstacle_surface_free(&c->obstacles);
     free(c);
 }
@@ -100,47 +102,62 @@ double rigid_contact_accelerate(const rigid_contact *c, dem_index k, double *a)
 double rigid_contact_power(const rigid_contact *c, dem_index obstacle)
 {
     const obstacle_surface *o = &c->obstacles;
-    double sum = 0.0;
+    exact_sum sum = {0};
     for (dem_index b = 0; b < c->n; b++)
         for (dem_index q = 0; q < c->list[b].n_near; q++) {
             const dem_index v = c->list[b].near[q];
             if (o->obstacle[v] == obstacle)
-                sum += vec2_dot(rigid_contact_force(&c->list[b], q), obstacle_surface_velocity(o, v));
+                exact_sum_add(&sum, vec2_dot(rigid_contact_force(&c->list[b], q), obstacle_surface_velocity(o, v)));
         }
-    return reduce_rounded_sum(sum);
+    return reduce_sum(&sum);
+}
+
+static void add_row(const rigid_contact *c, const state_layout *l, dem_index row, vec2 term)
+{
+    rate_sums_add_row(&c->rates, l, row, (const double[]){term.x, term.y});
 }
 
 /* What obstacles do to one body. */
-static void add_rates_of(const rigid_contact *c, const rigid_pairs *p, const state_layout *l, double *a)
+static void add_rates_of(const rigid_contact *c, const rigid_pairs *p, const state_layout *l)
 {
     const obstacle_surface *o = &c->obstacles;
-    const bool moves = state_has_total(l, STATE_OBSTACLE);
     for (dem_index q = 0; q < p->n_near; q++) {
-        const dem_index v = p->near[q], impulse = state_impulse(l, o->obstacle[v]);
+        const dem_index v = p->near[q];
         const vec2 force = rigid_contact_force(p, q);
-        vec2_put(a, impulse, vec2_add(vec2_at(a, impulse), force));
-        if (moves) a[state_total_index(l, STATE_OBSTACLE)] += vec2_dot(force, obstacle_surface_velocity(o, v));
+        add_row(c, l, state_impulse(l, o->obstacle[v]), force);
+        if (state_has_total(l, STATE_OBSTACLE))
+            rate_sums_add(&c->rates, l, state_total_index(l, STATE_OBSTACLE),
+                          vec2_dot(force, obstacle_surface_velocity(o, v)));
     }
 }
 
-/* What friction does to one body, as a part of that, and what it takes. */
-static void add_friction_of(const rigid_contact *c, const rigid_pairs *p, const state_layout *l, const double *v,
-                            double *a)
+/* What friction does to one body, as a part of that, and what it takes: the powers on the body's nodes and on the
+ * vertices of obstacles. */
+static void add_friction_of(const rigid_contact *c, const rigid_pairs *p, const state_layout *l, const double *v)
 {
+    const obstacle_surface *o = &c->obstacles;
+    const dem_index power = state_total_index(l, STATE_FRICTION);
+    for (dem_index k = 0; k < p->n_nodes; k++)
+        rate_sums_add(&c->rates, l, power, -vec2_dot(vec2_at(p->friction, k), vec2_at(v, p->nodes[k])));
     for (dem_index q = 0; q < p->n_near; q++) {
-        const dem_index impulse = state_friction_impulse(l, c->obstacles.obstacle[p->near[q]]);
-        const vec2 on_vertex = vec2_at(p->friction, rigid_pairs_place(p, p->near[q]));
-        vec2_put(a, impulse, vec2_sub(vec2_at(a, impulse), on_vertex));
+        const dem_index vertex = p->near[q];
+        const vec2 on_vertex = vec2_at(p->friction, rigid_pairs_place(p, vertex));
+        add_row(c, l, state_friction_impulse(l, o->obstacle[vertex]), vec2_scale(-1.0, on_vertex));
+        rate_sums_add(&c->rates, l, power, -vec2_dot(on_vertex, obstacle_surface_velocity(o, vertex)));
     }
-    a[state_total_index(l, STATE_FRICTION)] += rigid_pairs_friction_power(p, v);
 }
 
+/* Away from obstacles there is nothing to add. */
 void rigid_contact_add_rates(const rigid_contact *c, const state_layout *l, const double *v, double *a)
 {
+    dem_index n_near = 0;
+    for (dem_index b = 0; b < c->n; b++) n_near += c->list[b].n_near;
+    if (!reduce_any(n_near > 0)) return;
     for (dem_index b = 0; b < c->n; b++) {
-        add_rates_of(c, &c->list[b], l, a);
-        if (rigid_contact_has_friction(c)) add_friction_of(c, &c->list[b], l, v, a);
+        add_rates_of(c, &c->list[b], l);
+        if (rigid_contact_has_friction(c)) add_friction_of(c, &c->list[b], l, v);
     }
+    rate_sums_take(&c->rates, l, a);
 }
 
 /* ---- friction ---- */

@@ -5,7 +5,7 @@
 #ifndef DEM_SURFACE_CONTACT_RIGID_CONTACT_H
 #define DEM_SURFACE_CONTACT_RIGID_CONTACT_H
 
-#include "base/state.h"
+#include "base/rate_sums.h"
 #include "surface_contact/rigid_pairs.h"
 
 typedef struct rigid_contact {
@@ -13,6 +13,7 @@ typedef struct rigid_contact {
     obstacle_surface obstacles;
     dem_index n;       /* rigid bodies of the model */
     rigid_pairs *list; /* [n] in the same order */
+    rate_sums rates;   /* scratch of rigid_contact_add_rates() */
     dem_status status; /* of the last evaluation; DEM_ERROR_MEMORY stays until it is set back */
 } rigid_contact;
 

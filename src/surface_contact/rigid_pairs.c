@@ -345,16 +345,6 @@ dem_status rigid_pairs_push(rigid_pairs *p)
     return DEM_OK;
 }
 
-double rigid_pairs_friction_power(const rigid_pairs *p, const double *v)
-{
-    double sum = 0.0;
-    for (dem_index k = 0; k < p->n_nodes; k++) sum -= vec2_dot(vec2_at(p->friction, k), vec2_at(v, p->nodes[k]));
-    for (dem_index q = 0; q < p->n_near; q++)
-        sum -= vec2_dot(vec2_at(p->friction, rigid_pairs_place(p, p->near[q])),
-                        obstacle_surface_velocity(p->obstacles, p->near[q]));
-    return sum;
-}
-
 void rigid_pairs_add_energy(const rigid_pairs *p, exact_sum *sum)
 {
     for (dem_index k = 0; k < p->pairs.n; k++) exact_sum_add(sum, contact_pair_energy(&p->pairs.list[k], p->places));

@@ -57,10 +57,6 @@ static inline bool rigid_pairs_have_friction(const rigid_pairs *p)
     return anchor_set_has_friction(&p->anchors);
 }
 
-/** Power that friction takes at velocities v [n][2] of the lattice's nodes, W, stored and lost, with the forces of
- *  rigid_pairs_push(). */
-double rigid_pairs_friction_power(const rigid_pairs *p, const double *v);
-
 /** Renews the anchors for positions x [n][2] that a step has reached.  \return DEM_ERROR_MEMORY */
 dem_status rigid_pairs_settle(rigid_pairs *p, const double *x);
 

@@ -356,15 +356,20 @@ double surface_contact_stored(const surface_contact *c, const double *x)
 double surface_contact_friction_power(const surface_contact *c, const double *x, const double *v)
 {
     const contact_surface *s = &c->surface;
-    double sum = 0.0;
+    exact_sum power = {0};
+    exact_terms terms;
+    exact_terms_begin(&terms, &power);
     for (dem_index k = 0; k < s->n_nodes; k++)
-        sum -= vec2_dot(surface_contact_friction(c, s->nodes[k], x), vec2_at(v, s->nodes[k]));
-    return sum;
+        exact_terms_add(&terms, -vec2_dot(surface_contact_friction(c, s->nodes[k], x), vec2_at(v, s->nodes[k])));
+    exact_terms_end(&terms);
+    return reduce_sum(&power);
 }
 
 double surface_contact_evaluated_power(const surface_contact *c, const double *v)
 {
-    return anchor_set_held_power(&c->anchors, v);
+    exact_sum power = {0};
+    anchor_set_add_held_power(&c->anchors, v, &power);
+    return reduce_sum(&power);
 }
 
 dem_status surface_contact_settle(surface_contact *c, const double *x)

@@ -7,6 +7,7 @@
 #ifndef DEM_SURFACE_CONTACT_SURFACE_CONTACT_H
 #define DEM_SURFACE_CONTACT_SURFACE_CONTACT_H
 
+#include "base/exact_terms.h"
 #include "surface_contact/anchor_set.h"
 #include "surface_contact/approach_bound.h"
 #include "surface_contact/close_pairs.h"

@@ -157,7 +157,7 @@ static inline void scene_add_rates(const scene *s, double rate[6])
     double y[4 * (SCENE_NODES + more)] = {0.0}, a[2 * (SCENE_NODES + more)] = {0.0};
     automaton c = s->c;
     state_layout *l = &c.set.scene.rule.layout;
-    *l = (state_layout){.dim = 2, .n_nodes = n, .n_obstacles = 1, .n_rows = n + more};
+    *l = (state_layout){.dim = 2, .n_nodes = n, .n_obstacles = 1, .n_totals = STATE_OBSTACLE, .n_rows = n + more};
     memcpy(y, s->y, size);
     memcpy(y + state_velocities(l), s->y + 2 * n, size);
     memcpy(a + state_row(l, state_impulse(l, 0)), rate, 6 * sizeof *rate);
