@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A superaccumulator: the sum is an integer of 68 limbs of 32 bits in units of 2^-1074, wide enough for every double,
- * so that no addition rounds and the order of the terms does not matter (docs/algorithms.md, Exact and rounded sums).
+ * so that no addition rounds and the order of the terms does not matter (docs/algorithms.md, Exact sums).
  * This file has the carries between limbs, a fast path for many terms, and the one rounding at the end. The addition of
  * a single term is inline in exact_sum.h; the splitting of terms in vectors is in array_ops.c. Sums over several
  * processes do not belong here but in reduce.h. */

@@ -31,4 +31,15 @@ static inline void exact_terms_add(exact_terms *t, double term)
     if (t->n == EXACT_SUM_BLOCK) exact_terms_end(t);
 }
 
+/** The exact sum of n products, each of which is rounded. */
+static inline exact_sum exact_terms_product(const double *a, const double *b, int64_t n)
+{
+    exact_sum sum = {0};
+    exact_terms terms;
+    exact_terms_begin(&terms, &sum);
+    for (int64_t k = 0; k < n; k++) exact_terms_add(&terms, a[k] * b[k]);
+    exact_terms_end(&terms);
+    return sum;
+}
+
 #endif

@@ -46,13 +46,6 @@ static inline array_ops_sum reduce_squares(array_ops_sum own)
     return own;
 }
 
-/** The sum of what each rank has added up in doubles: its last digits depend on which rank has which terms, and in one
- *  process on their order. */
-static inline double reduce_rounded_sum(double own)
-{
-    return own;
-}
-
 /** The least value, and the number `of` the item that has it (< 0: the rank has no item). Of equal values the one with
  *  the lowest key counts. */
 static inline void reduce_least(double *value, dem_index *of, dem_index key)

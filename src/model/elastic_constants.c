@@ -8,6 +8,7 @@
  * measured is the material, not the shape: pores are held at their rims. */
 #include <stdlib.h>
 
+#include "base/exact_terms.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "base/struct_size.h"
@@ -64,20 +65,20 @@ static dem_status find_inside(loading *l)
 static dem_status measure(loading *l)
 {
     const dem_lattice *lattice = &l->model->lattice;
+    exact_sum volume = {0}, mass = {0}, places[2] = {{.n_terms = 0}};
     dem_index n = 0;
-    for (dem_index k = 0; k < lattice->n_triangles; k++) {
-        if (is_of_body(l, lattice->triangles[3 * k])) l->volume += spring_share_volume(lattice, k);
-    }
-    l->volume = reduce_rounded_sum(l->volume);
+    for (dem_index k = 0; k < lattice->n_triangles; k++)
+        if (is_of_body(l, lattice->triangles[3 * k])) exact_sum_add(&volume, spring_share_volume(lattice, k));
+    l->volume = reduce_sum(&volume);
     CHECK(l->volume > 0.0, DEM_ERROR_MODEL, "the body has no triangles, whose volume its constants refer to");
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         if (!is_of_body(l, i)) continue;
-        l->mass += lattice->mass[i];
-        l->centre = vec2_add(l->centre, vec2_at(lattice->x, i));
+        exact_sum_add(&mass, lattice->mass[i]);
+        for (int c = 0; c < 2; c++) exact_sum_add(&places[c], lattice->x[2 * i + c]);
         n++;
     }
-    l->mass = reduce_rounded_sum(l->mass);
-    l->centre = (vec2){reduce_rounded_sum(l->centre.x), reduce_rounded_sum(l->centre.y)};
+    l->mass = reduce_sum(&mass);
+    l->centre = (vec2){reduce_sum(&places[0]), reduce_sum(&places[1])};
     l->centre = vec2_scale(1.0 / (double)reduce_count(n), l->centre);
     return DEM_OK;
 }
@@ -98,15 +99,13 @@ static vec2 strained(int which, vec2 d)
 static dem_status load(loading *l, int which)
 {
     const dem_lattice *lattice = &l->model->lattice;
-    double *u = l->u[which], *force = l->force[which], largest = 0.0;
+    double *u = l->u[which], *force = l->force[which];
     for (dem_index i = 0; i < lattice->n_nodes; i++)
         if (is_of_body(l, i)) vec2_put(u, i, strained(which, vec2_sub(vec2_at(lattice->x, i), l->centre)));
     tangent_apply(l->model, lattice->x, u, force);
-    for (dem_index k = 0; k < 2 * lattice->n_nodes; k++) {
-        largest += force[k] * force[k];
-        force[k] = -force[k];
-    }
-    TRY(tangent_solve(l->model, lattice->x, l->held, accepted * sqrt(reduce_rounded_sum(largest)), force));
+    const exact_sum square = exact_terms_product(force, force, 2 * lattice->n_nodes);
+    for (dem_index k = 0; k < 2 * lattice->n_nodes; k++) force[k] = -force[k];
+    TRY(tangent_solve(l->model, lattice->x, l->held, accepted * sqrt(reduce_sum(&square)), force));
     for (dem_index k = 0; k < 2 * lattice->n_nodes; k++) u[k] += force[k];
     tangent_apply(l->model, lattice->x, u, force);
     return DEM_OK;
@@ -116,9 +115,8 @@ static dem_status load(loading *l, int which)
  * products. */
 static double stiffness_of(const loading *l, const double *u, const double *force)
 {
-    double sum = 0.0;
-    for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) sum += u[k] * force[k];
-    return reduce_rounded_sum(sum) / l->volume;
+    const exact_sum sum = exact_terms_product(u, force, 2 * l->model->lattice.n_nodes);
+    return reduce_sum(&sum) / l->volume;
 }
 
 /* ---- what follows from C ---- */

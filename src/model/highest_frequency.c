@@ -6,6 +6,7 @@
  * rigorous upper bound, which limits steps, is cheaper and not here: frequency_bound() in model.c. */
 #include <stdlib.h>
 
+#include "base/exact_terms.h"
 #include "base/random.h"
 #include "base/reduce.h"
 #include "base/status.h"
@@ -73,20 +74,18 @@ static double last_component(const lanczos *l, double theta)
 
 /* ---- the iteration ---- */
 
-/* A rounded sum in the order of nodes. */
 static double product(const lanczos *l, const double *a, const double *b)
 {
-    double sum = 0.0;
-    for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) sum += a[k] * b[k];
-    return reduce_rounded_sum(sum);
+    const exact_sum sum = exact_terms_product(a, b, 2 * l->model->lattice.n_nodes);
+    return reduce_sum(&sum);
 }
 
 /* A random unit vector, so that every mode is in it; 0 where a node is fixed. The seed is constant: every run finds the
- * same bits. */
+ * same bits. Each number is drawn without those before it, so that who has which nodes does not matter. */
 static void start(lanczos *l)
 {
-    uint64_t state = 1;
     for (dem_index k = 0; k < 2 * l->model->lattice.n_nodes; k++) {
+        uint64_t state = 1 + (uint64_t)k * random_stride;
         const double value = random_next(&state);
         l->vector[k] = l->model->inverse_mass[k / 2] > 0.0 ? value : 0.0;
     }

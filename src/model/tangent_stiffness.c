@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Products with the tangent stiffness K, and conjugate gradients, preconditioned by a diagonal, for K u = f on the
  * nodes that are not held. K is never stored: a row is computed from springs and triangles when it is needed. Sums are
- * in the order of nodes. The derivatives themselves are in elastic/springs.c and elastic/triangles.c; time integration
+ * exact. The derivatives themselves are in elastic/springs.c and elastic/triangles.c; time integration
  * does not use K. */
 #include "model/tangent_stiffness.h"
 
 #include <stdlib.h>
 
+#include "base/exact_terms.h"
 #include "base/reduce.h"
 #include "base/status.h"
 #include "lattice/lattice.h"
@@ -29,20 +30,27 @@ typedef struct solver {
 
 static double product(const solver *s, const double *a, const double *b)
 {
-    double sum = 0.0;
-    for (dem_index k = 0; k < s->n_free; k++) sum += vec2_dot(vec2_at(a, s->free[k]), vec2_at(b, s->free[k]));
-    return reduce_rounded_sum(sum);
+    exact_sum sum = {0};
+    exact_terms terms;
+    exact_terms_begin(&terms, &sum);
+    for (dem_index k = 0; k < s->n_free; k++)
+        exact_terms_add(&terms, vec2_dot(vec2_at(a, s->free[k]), vec2_at(b, s->free[k])));
+    exact_terms_end(&terms);
+    return reduce_sum(&sum);
 }
 
 /* r.z with the preconditioned residual z = r times the scales. */
 static double scaled_product(const solver *s)
 {
-    double sum = 0.0;
+    exact_sum sum = {0};
+    exact_terms terms;
+    exact_terms_begin(&terms, &sum);
     for (dem_index k = 0; k < s->n_free; k++) {
         const vec2 r = vec2_at(s->rest, s->free[k]);
-        sum += s->scale[k] * vec2_dot(r, r);
+        exact_terms_add(&terms, s->scale[k] * vec2_dot(r, r));
     }
-    return reduce_rounded_sum(sum);
+    exact_terms_end(&terms);
+    return reduce_sum(&sum);
 }
 
 /* u += step p and r -= step K p. */
@@ -105,7 +113,6 @@ static void fill(solver *s, const unsigned char *held, double *u)
     }
 }
 
-/* A rounded solution: the bits depend on the order of nodes, and so do constants derived from it. */
 dem_status tangent_solve(const dem_model *model, const double *x, const unsigned char *held, double residual, double *u)
 {
     const dem_index n = model->lattice.n_nodes;
