@@ -8,6 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/exact_sum.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "base/vec2.h"
 #include "lattice/cell.h"
@@ -53,13 +55,15 @@ static double fracture_energy(const dem_lattice *l, dem_index t, bool cell)
 
 static double sum(const dem_lattice *l, const element_state *elements, const unsigned char *half)
 {
-    double energy = 0.0;
+    exact_sum energy = {0};
+    bool lacks = false;
     for (dem_index t = 0; t < l->n_triangles; t++) {
         if (!elements->triangle[t]) continue;
-        if (!has_energy(l, t)) return 0.0;
-        energy += fracture_energy(l, t, half[t]) * crack_length(l, t) * thickness_of(l, t);
+        lacks = lacks || !has_energy(l, t);
+        if (lacks) break;
+        exact_sum_add(&energy, fracture_energy(l, t, half[t]) * crack_length(l, t) * thickness_of(l, t));
     }
-    return energy;
+    return reduce_any(lacks) ? 0.0 : reduce_sum(&energy);
 }
 
 dem_status crack_energy(const dem_lattice *lattice, const element_state *elements, double *energy)

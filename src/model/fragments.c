@@ -4,6 +4,8 @@
 
 #include <stdlib.h>
 
+#include "base/exact_sum.h"
+#include "base/reduce.h"
 #include "base/status.h"
 #include "base/union_find.h"
 #include "elastic/springs.h"
@@ -29,65 +31,92 @@ dem_index fragments_find(const dem_lattice *lattice, const double *integrity, de
 
 /* ---- how much is broken, and into what ---- */
 
+/* [n_nodes] each. */
+typedef struct fragment_room {
+    dem_index *sorted, *next; /* nodes fragment by fragment, and behind the last of each, at its lowest node */
+    double *mass;             /* of fragments, at their lowest nodes */
+} fragment_room;
+
 static int compare(const void *a, const void *b)
 {
     const double first = *(const double *)a, second = *(const double *)b;
     return (first > second) - (first < second);
 }
 
-/* From the masses of fragments, each at its lowest node, and 0 at the others. They are sorted, so that the sums have
- * the same bits however nodes are numbered. */
-static void weigh(dem_fracture *out, double *mass, dem_index n)
+/* From the masses of fragments, each at its lowest node, and 0 at the others. They are sorted, so that what is added up
+ * until the median has the same bits however nodes are numbered. */
+static void weigh(dem_fracture *out, double *mass, dem_index n, double debris)
 {
-    double sum = 0.0, part = 0.0;
+    exact_sum sum = {0};
+    double part = 0.0;
     qsort(mass, (size_t)n, sizeof *mass, compare);
-    for (dem_index k = 0; k < n; k++) sum += mass[k];
-    for (dem_index k = 0; k < n && part < 0.5 * sum; k++) {
+    exact_sum_add_array(&sum, mass, n);
+    const double all = exact_sum_value(&sum);
+    for (dem_index k = 0; k < n && part < 0.5 * all; k++) {
         part += mass[k];
         out->median = mass[k];
     }
-    out->largest = sum > 0.0 ? mass[n - 1] / sum : 0.0;
-    out->debris = sum > 0.0 ? out->debris / sum : 0.0;
+    out->largest = all > 0.0 ? mass[n - 1] / all : 0.0;
+    out->debris = all > 0.0 ? debris / all : 0.0;
 }
 
-/* `mass` is 0, and so is `nodes`: how many nodes a fragment has. All are [n_nodes]. */
-static void measure(dem_fracture *out, const dem_lattice *l, const dem_index *fragment, double *mass, dem_index *nodes)
+/* A counting sort; `next` is 0 before. */
+static void sort_nodes(dem_index *sorted, dem_index *next, const dem_index *fragment, dem_index n)
 {
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        mass[fragment[i]] += l->mass[i];
-        nodes[fragment[i]]++;
+    dem_index end = 0;
+    for (dem_index i = 0; i < n; i++) next[fragment[i]]++;
+    for (dem_index i = 0; i < n; i++) {
+        const dem_index count = next[i];
+        next[i] = end;
+        end += count;
     }
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if (nodes[i] == 1) out->debris += mass[i];
-    weigh(out, mass, l->n_nodes);
+    for (dem_index i = 0; i < n; i++) sorted[next[fragment[i]]++] = i;
+}
+
+/* One exact sum at a time, as there may be as many fragments as nodes. All room is 0. */
+static void measure(dem_fracture *out, const dem_lattice *l, const dem_index *fragment, fragment_room *room)
+{
+    exact_sum debris = {0}, sum = {0};
+    sort_nodes(room->sorted, room->next, fragment, l->n_nodes);
+    for (dem_index first = 0, p = 0; p < l->n_nodes; first = p) {
+        const dem_index lowest = room->sorted[first];
+        exact_sum_clear(&sum);
+        while (p < room->next[lowest]) exact_sum_add(&sum, l->mass[room->sorted[p++]]);
+        room->mass[lowest] = exact_sum_value(&sum);
+        if (p - first == 1) exact_sum_add(&debris, room->mass[lowest]);
+    }
+    weigh(out, room->mass, l->n_nodes, exact_sum_value(&debris));
 }
 
 static void count(dem_fracture *out, const dem_lattice *l, const element_state *elements)
 {
+    exact_sum length = {0};
     for (dem_index k = 0; k < l->n_springs; k++) out->springs += springs_is_broken(element_state_springs(elements), k);
     for (dem_index k = 0; elements != NULL && k < l->n_triangles; k++) {
         if (!elements->triangle[k]) continue;
         out->triangles++;
-        out->crack_length += crack_length(l, k);
+        exact_sum_add(&length, crack_length(l, k));
     }
+    out->crack_length = reduce_sum(&length);
 }
 
 dem_status fragments_measure(const dem_lattice *l, const element_state *elements, dem_fracture *out)
 {
     const size_t n = (size_t)l->n_nodes;
-    dem_index *fragment = calloc(n, sizeof *fragment), *nodes = calloc(n, sizeof *nodes);
-    double *mass = calloc(n, sizeof *mass);
+    dem_index *fragment = calloc(n, sizeof *fragment);
+    fragment_room room = {calloc(n, sizeof *room.sorted), calloc(n, sizeof *room.next), calloc(n, sizeof *room.mass)};
     dem_fracture own = {.struct_size = sizeof own};
-    const bool good = fragment != NULL && nodes != NULL && mass != NULL;
+    const bool good = fragment != NULL && room.sorted != NULL && room.next != NULL && room.mass != NULL;
     if (good) {
         own.fragments = fragments_find(l, element_state_springs(elements).pushed, fragment);
-        measure(&own, l, fragment, mass, nodes);
+        measure(&own, l, fragment, &room);
         count(&own, l, elements);
         *out = own;
     }
     free(fragment);
-    free(nodes);
-    free(mass);
+    free(room.sorted);
+    free(room.next);
+    free(room.mass);
     CHECK(good, DEM_ERROR_MEMORY, "out of memory for the fragments of %zu nodes", n);
     return DEM_OK;
 }
