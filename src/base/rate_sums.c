@@ -22,11 +22,11 @@ void rate_sums_free(rate_sums *s)
     s->list = NULL;
 }
 
-void rate_sums_take(const rate_sums *s, const state_layout *l, double *a)
+void rate_sums_take(const ranks *r, const rate_sums *s, const state_layout *l, double *a)
 {
     const dem_index first = state_row(l, state_impulse(l, 0)), n = l->dim * state_n_quadratures(l);
     for (dem_index k = 0; k < n; k++) {
-        a[first + k] += reduce_sum(&s->list[k]);
+        a[first + k] += reduce_sum(r, &s->list[k]);
         exact_sum_clear(&s->list[k]);
     }
 }

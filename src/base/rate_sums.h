@@ -5,6 +5,7 @@
 #define DEM_BASE_RATE_SUMS_H
 
 #include "base/exact_sum.h"
+#include "base/ranks.h"
 #include "base/state.h"
 
 typedef struct rate_sums {
@@ -27,7 +28,7 @@ static inline void rate_sums_add_row(const rate_sums *s, const state_layout *l, 
     for (int d = 0; d < l->dim; d++) rate_sums_add(s, l, state_row(l, row) + d, terms[d]);
 }
 
-/** Adds the sums to the rates among the accelerations a, and empties them. */
-void rate_sums_take(const rate_sums *s, const state_layout *l, double *a);
+/** Adds the sums of all ranks to the rates among the accelerations a, and empties them. */
+void rate_sums_take(const ranks *r, const rate_sums *s, const state_layout *l, double *a);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reductions: every number and decision that concerns the whole model, although it is computed node by node. A run is
- * one process, so each function returns what it is given. If nodes were shared out among processes (ranks), this would
- * be the only place where they exchange numbers. The rules that this needs hold today:
+/* Reductions: every number and decision that concerns the whole model, although it is computed node by node. Each takes
+ * what a rank has of its own and returns what all of them have, the same on all to the bit, whatever the shares. The
+ * rules that this needs:
  *   - every rank makes the same calls in the same order, so none stands in a loop over own nodes, candidates or events,
  *     nor behind a condition that is not the same for all;
  *   - what is the same for all anyway (options, obstacles, time, counts of steps) is not reduced;
@@ -12,42 +12,30 @@
 
 #include "base/array_ops.h"
 #include "base/exact_sum.h"
+#include "base/ranks.h"
 
-static inline double reduce_min(double own)
-{
-    return own;
-}
+double reduce_min(const ranks *r, double own);
 
-static inline double reduce_max(double own)
-{
-    return own;
-}
-
-static inline bool reduce_any(bool own)
-{
-    return own;
-}
+/** NAN is larger than any number. */
+double reduce_max(const ranks *r, double own);
+bool reduce_any(const ranks *r, bool own);
 
 /** The sum of counts; each item is counted by one rank. */
-static inline dem_index reduce_count(dem_index own)
-{
-    return own;
-}
+dem_index reduce_count(const ranks *r, dem_index own);
 
 /** The sum of all terms of all ranks, rounded once: its bits do not depend on which rank has which terms. */
-static inline double reduce_sum(const exact_sum *own)
-{
-    return exact_sum_value(own);
-}
+double reduce_sum(const ranks *r, const exact_sum *own);
 
 /** The same of sums of squares. */
-static inline array_ops_sum reduce_squares(array_ops_sum own)
-{
-    return own;
-}
+array_ops_sum reduce_squares(const ranks *r, array_ops_sum own);
+
+/** DEM_OK if all ranks have that. Otherwise the status and message of the failing rank with the lowest key, and of
+ *  equal keys of the lowest rank. The key says when a single process would have failed: the time of an event, or 0
+ *  where there is no order. A rank that is out of memory need not call this, since that ends the run. */
+dem_status reduce_status(const ranks *r, dem_status own, double key);
 
 /** The least value, and the number `of` the item that has it (< 0: the rank has no item). Of equal values the one with
- *  the lowest key counts. */
+ *  the lowest key counts. The numbers of items are a rank's own, so that there is no such call with more than one. */
 static inline void reduce_least(double *value, dem_index *of, dem_index key)
 {
     (void)value;
@@ -61,15 +49,6 @@ static inline void reduce_largest(double *value, dem_index *of, dem_index key)
     (void)value;
     (void)of;
     (void)key;
-}
-
-/** DEM_OK if all ranks have that. Otherwise the status and message of the failing rank with the lowest key, and of
- *  equal keys of the lowest rank. The key says when a single process would have failed: the time of an event, or 0
- *  where there is no order. A rank that is out of memory need not call this, since that ends the run. */
-static inline dem_status reduce_status(dem_status own, double key)
-{
-    (void)key;
-    return own;
 }
 
 #endif

@@ -29,8 +29,7 @@ typedef enum state_total {
 
 typedef struct state_layout {
     int dim;               /* components of a row, 2 or 3 */
-    dem_index n_nodes;     /* of the lattice */
-    dem_index n_ghosts;    /* copies of nodes that are integrated elsewhere, behind the nodes: none as yet */
+    dem_index n_nodes;     /* of the model, ghosts of other ranks included (domain/domain.h) */
     dem_index n_obstacles; /* whose impulses are integrated along */
     int n_totals;          /* STATE_TOTALS, or without the last where no obstacle moves */
     dem_index n_rows;      /* all: of nodes, ghosts, padding and quadratures */
@@ -55,7 +54,7 @@ static inline state_layout state_layout_of(int dim, dem_index n_nodes, dem_index
                       .n_nodes = n_nodes,
                       .n_obstacles = n_obstacles,
                       .n_totals = obstacles_move ? STATE_TOTALS : STATE_OBSTACLE};
-    l.n_rows = l.n_nodes + l.n_ghosts + state_n_quadratures(&l);
+    l.n_rows = l.n_nodes + state_n_quadratures(&l);
     while (l.dim * l.n_rows % line != 0) l.n_rows++;
     return l;
 }

@@ -7,8 +7,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* It stays until the next failure of the thread. A longer message is cut. */
-static _Thread_local char last_message[512];
+/* It stays until the next failure of the thread. */
+static _Thread_local char last_message[STATUS_MESSAGE_SIZE];
 
 const char *dem_version(void)
 {

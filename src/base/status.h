@@ -30,6 +30,9 @@ static inline dem_status status_first(dem_status status, dem_status next)
  *  \return DEM_ERROR_ARGUMENT */
 dem_status status_check_number(const char *what, dem_index number, dem_index n);
 
+/** A message with the zero at its end, bytes; a longer one is cut. */
+enum { STATUS_MESSAGE_SIZE = 512 };
+
 /** Stores a message for this thread, as printf would write it, and returns `status`. */
 dem_status status_fail(dem_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

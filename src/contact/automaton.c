@@ -102,8 +102,8 @@ static dem_status settle_until_done(automaton *c, contact_instant *now)
     c->solved = NAN;
     for (c->idle++; changed; c->idle = changed ? 0 : c->idle) {
         changed = false;
-        TRY(reduce_status(settle_all(s, now, &changed), 0.0));
-        changed = reduce_any(changed);
+        TRY(reduce_status(s->scene.model->ranks, settle_all(s, now, &changed), 0.0));
+        changed = reduce_any(s->scene.model->ranks, changed);
     }
     CHECK(c->idle <= most, DEM_ERROR_CONTACT, "more than %lld contact events in a row changed nothing, at t = %.9g s",
           (long long)most, now->t);
@@ -151,7 +151,8 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     const dem_index impacts = s->ledger.counts.impacts;
     TRY(settle_until_done(c, &now));
-    if (s->scene.rule.window > 0.0 && reduce_any(s->ledger.counts.impacts > impacts)) early_reflection(s, &now);
+    if (s->scene.rule.window > 0.0 && reduce_any(s->scene.model->ranks, s->ledger.counts.impacts > impacts))
+        early_reflection(s, &now);
     project_nodes(s, t, now.x);
     contact_set_solve_all(s, instant_state(&now));
     contact_set_store_all(s);
@@ -235,7 +236,7 @@ dem_status automaton_start(automaton *c, double t, double *y, const event_listen
     contact_set *s = &c->set;
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     contact_set_look_at_new(s, instant_state(&now));
-    TRY(reduce_status(touch_all(s, &now), 0.0));
+    TRY(reduce_status(s->scene.model->ranks, touch_all(s, &now), 0.0));
     const dem_status status = automaton_resolve(c, t, y, listener);
     return now.listener_status != DEM_OK ? now.listener_status : status;
 }
@@ -288,10 +289,10 @@ void automaton_add_rates(const automaton *c, double t, const double *y, double *
 {
     const scene_state state = automaton_state(c, t, y);
     const contact_forces *r = &c->set.forces;
-    if (!reduce_any(r->n_groups > 0)) return;
+    if (!reduce_any(c->set.scene.model->ranks, r->n_groups > 0)) return;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) add_rates_of(c, k, state);
-    rate_sums_take(&c->rates, scene_layout(&c->set.scene), a);
+    rate_sums_take(c->set.scene.model->ranks, &c->rates, scene_layout(&c->set.scene), a);
 }
 
 /* Forces are those stored at the last accepted step or event; frames are those of the positions given. */

@@ -154,7 +154,7 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
     automaton_begin_step(c, p, state);
     for (dem_index a = 0; a < automaton_n_active(c); a++)
         first = fmin(first, automaton_next_change(c, p, automaton_active_candidate(c, a), p->t0, state));
-    first = reduce_min(first);
+    first = reduce_min(s->scene.model->ranks, first);
     if (isfinite(first) || p->end < p->t1) c->solved = NAN;
     if (!(first < last)) return false;
     p->end = first;
@@ -192,8 +192,8 @@ bool automaton_project(automaton *c, double t, double *y)
         impact_group_stop(s, group, &now);
         any = true;
     }
-    s->projected = reduce_max(s->projected);
-    any = reduce_any(any);
+    s->projected = reduce_max(s->scene.model->ranks, s->projected);
+    any = reduce_any(s->scene.model->ranks, any);
     if (any) c->solved = NAN;
     return any;
 }

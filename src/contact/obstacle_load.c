@@ -3,7 +3,7 @@
  * power F.w of its lasting contacts, of which the ledger has the integral (contact_set.c). */
 #include "contact/obstacle_load.h"
 
-#include "base/reduce.h"
+#include "base/exact_sum.h"
 
 static vec2 force_of(const dem_contact *c)
 {
@@ -20,5 +20,5 @@ void obstacle_load_add_motion(dem_obstacle_load *load, const pose *at, dem_index
             exact_sum_add(&power, vec2_dot(force_of(&list[k]), pose_velocity(at, vec2_at(list[k].x, 0))));
     vec2_put(load->displacement, 0, vec2_sub(at->centre, at->origin));
     load->angle = at->angle;
-    load->power = reduce_sum(&power);
+    load->power = exact_sum_value(&power);
 }

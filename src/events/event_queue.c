@@ -24,7 +24,8 @@ dem_status event_queue_create(event_queue *out, const event_queue_parts *parts)
     const state_layout *l = parts->layout;
     const local_forces *f = parts->forces;
     const constraints *c = parts->constraints;
-    *out = (event_queue){.layout = *l,
+    *out = (event_queue){.ranks = parts->ranks,
+                         .layout = *l,
                          .forces = f,
                          .constraints = c,
                          .sources = parts->sources,
@@ -264,14 +265,14 @@ static dem_status settle_end(event_queue *q)
  * events at different places decides about no step. */
 double event_queue_error(const event_queue *q)
 {
-    return isfinite(q->most) ? sqrt(reduce_sum(&q->error) / q->most) : 0.0;
+    return isfinite(q->most) ? sqrt(reduce_sum(q->ranks, &q->error) / q->most) : 0.0;
 }
 
 /* The length for which the events' error, as it would be at the start of a step, is 1: the error is taken to go with
  * its fourth power, which is slower than it does, and so on the safe side. */
 double event_queue_reach(const event_queue *q)
 {
-    const double error = isfinite(q->most) ? sqrt(reduce_sum(&q->ahead) / q->most) : 0.0;
+    const double error = isfinite(q->most) ? sqrt(reduce_sum(q->ranks, &q->ahead) / q->most) : 0.0;
     return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
 }
 
@@ -291,9 +292,9 @@ dem_status event_queue_show(event_queue *q, double t)
     due_event due;
     while (status == DEM_OK && (due = next_of(q)).source != NULL && due.at.t <= t && !q->exceeded)
         status = take(q, &due);
-    TRY(reduce_status(status, q->now));
+    TRY(reduce_status(q->ranks, status, q->now));
     q->now = t;
     if (t < q->step->t1) return DEM_OK;
-    q->quiet = !reduce_any(q->n_taken > 0);
+    q->quiet = !reduce_any(q->ranks, q->n_taken > 0);
     return q->quiet || q->settled ? DEM_OK : settle_end(q);
 }

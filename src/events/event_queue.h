@@ -6,10 +6,12 @@
 #define DEM_EVENTS_EVENT_QUEUE_H
 
 #include "base/exact_sum.h"
+#include "base/ranks.h"
 #include "events/local_correction.h"
 #include "events/source_list.h"
 
 typedef struct event_queue {
+    const ranks *ranks;
     state_layout layout;
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */
@@ -35,6 +37,7 @@ typedef struct event_queue {
 
 /** What a queue works with, all borrowed. */
 typedef struct event_queue_parts {
+    const ranks *ranks; /* that take the steps */
     const state_layout *layout;
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */

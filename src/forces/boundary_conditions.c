@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/exact_sum.h"
 #include "base/ramp.h"
-#include "base/reduce.h"
 #include "base/status.h"
 #include "base/struct_size.h"
 
@@ -138,7 +138,7 @@ double boundary_conditions_give_velocities(const boundary_conditions *b, const d
     exact_sum energy = {0};
     for (dem_index k = 0; k < b->n; k++)
         if (b->list[k].kind != DEM_BOUNDARY_FORCE) give(b, &b->list[k], mass, t, v, &energy);
-    return reduce_sum(&energy);
+    return exact_sum_value(&energy);
 }
 
 bool boundary_conditions_move(const boundary_conditions *b)

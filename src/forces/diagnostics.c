@@ -15,9 +15,9 @@ static void add(exact_sum sum[2], vec2 term)
     exact_sum_add(&sum[1], term.y);
 }
 
-static vec2 sum_of(const exact_sum sum[2])
+static vec2 sum_of(const ranks *r, const exact_sum sum[2])
 {
-    return (vec2){reduce_sum(&sum[0]), reduce_sum(&sum[1])};
+    return (vec2){reduce_sum(r, &sum[0]), reduce_sum(r, &sum[1])};
 }
 
 /* In springs of friction of bodies with each other and of rigid bodies with obstacles, J. */
@@ -90,20 +90,20 @@ static reaction_sums sum_reaction(const reaction_parts *p, vec2 about)
  * the size of their forces, and M the moment about P, the line of F goes through P + (M/F^2) (F_y, -F_x): there F alone
  * has the moment of all contacts. Taking M about P rather than the origin avoids a loss of digits far from the
  * origin. */
-dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle,
+dem_obstacle_load diagnostics_reaction(const ranks *r, const dem_contact *list, dem_index n, dem_index obstacle,
                                        const rigid_contact *rigid)
 {
     const reaction_parts parts = {list, n, obstacle, rigid};
     const reaction_sums first = sum_reaction(&parts, (vec2){0.0, 0.0});
     dem_obstacle_load load = {0};
     for (dem_index k = 0; k < n; k++) load.n_contacts += list[k].obstacle == obstacle;
-    load.n_contacts = reduce_count(load.n_contacts);
-    const double weight = reduce_sum(&first.weights);
-    const vec2 sum = sum_of(first.resultant), places = sum_of(first.places);
+    load.n_contacts = reduce_count(r, load.n_contacts);
+    const double weight = reduce_sum(r, &first.weights);
+    const vec2 sum = sum_of(r, first.resultant), places = sum_of(r, first.places);
     const vec2 mean = weight > 0.0 ? vec2_scale(1.0 / weight, places) : places;
     const reaction_sums about_mean = sum_reaction(&parts, mean);
     /* Without a resultant there is no line of action, and the mean place is given. */
-    const double square = vec2_dot(sum, sum), moment = reduce_sum(&about_mean.moments);
+    const double square = vec2_dot(sum, sum), moment = reduce_sum(r, &about_mean.moments);
     const vec2 arm = square > 0.0 ? vec2_scale(moment / square, (vec2){sum.y, -sum.x}) : (vec2){0.0, 0.0};
     vec2_put(load.reaction, 0, sum);
     vec2_put(load.point, 0, vec2_add(mean, arm));
@@ -130,6 +130,7 @@ static vec2 free_acceleration(const forces *f, dem_index i, const double *extern
 dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition *b, const double *external,
                                        const double *x, const double *v)
 {
+    const ranks *r = f->model->ranks;
     dem_boundary_load out = {0}; /* no third components */
     exact_sum resultant[2] = {0}, ways[2] = {0};
     for (dem_index k = 0; k < b->n_nodes; k++) {
@@ -139,8 +140,8 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
                            ? vec2_scale(b->share[k], boundary_conditions_push(f->boundaries, b, v[f->clock]))
                            : held_force(f, b, i, free_acceleration(f, i, external, x, v), v[f->clock]));
     }
-    vec2_put(out.force, 0, sum_of(resultant));
-    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)reduce_count(b->n_nodes), sum_of(ways)));
+    vec2_put(out.force, 0, sum_of(r, resultant));
+    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)reduce_count(r, b->n_nodes), sum_of(r, ways)));
     return out;
 }
 
@@ -168,7 +169,7 @@ double diagnostics_residual(const forces *f, const double *x, const double *v, c
         const vec2 without_drag = vec2_along(vec2_at(a, i), f->mass_damping, vec2_at(v, i));
         if (model->inverse_mass[i] > 0.0) largest = fmax(largest, model->lattice.mass[i] * vec2_norm(without_drag));
     }
-    largest = reduce_max(largest);
-    const double scale = reduce_max(largest_force(f, x));
+    largest = reduce_max(model->ranks, largest);
+    const double scale = reduce_max(model->ranks, largest_force(f, x));
     return largest > 0.0 ? largest / scale : 0.0;
 }

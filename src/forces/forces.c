@@ -25,7 +25,7 @@ double forces_prescribe(const forces *f, double t, const double *v, double *u, d
         boundary_conditions_prescribe(f->boundaries, mass, t, v, &(boundary_derivative){u, a, &terms});
     if (f->external != NULL) external_force_add_power(f->external, v, &terms);
     exact_terms_end(&terms);
-    return reduce_sum(&work);
+    return reduce_sum(f->model->ranks, &work);
 }
 
 /* Damping takes alpha m v^2 and -F.v of the viscous forces F on this node; over both ends of a spring the latter adds
@@ -73,7 +73,7 @@ double forces_damping_power(const forces *f, const double *x, const double *v)
     springs_add_damping_power(&f->model->springs, element_state_springs(f->elements), x, v, &terms);
     add_drag(f, v, &terms);
     exact_terms_end(&terms);
-    return reduce_sum(&power);
+    return reduce_sum(f->model->ranks, &power);
 }
 
 double forces_friction_power(const forces *f, const double *x, const double *v)

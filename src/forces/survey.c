@@ -57,7 +57,7 @@ static void weigh(survey *s)
 {
     const dem_lattice *l = &s->model->lattice;
     for (dem_index i = 0; i < l->n_nodes; i++) exact_sum_add(&s->bodies[l->body[i]].kinetic, l->mass[i]);
-    for (dem_index b = 0; b < s->model->n_bodies; b++) s->mass[b] = reduce_sum(&s->bodies[b].kinetic);
+    for (dem_index b = 0; b < s->model->n_bodies; b++) s->mass[b] = reduce_sum(s->model->ranks, &s->bodies[b].kinetic);
 }
 
 static dem_status find_places(survey *s)
@@ -386,8 +386,8 @@ static void join_bodies(survey *s)
         exact_sum_join(&kinetic, &s->bodies[b].kinetic);
         exact_sum_join(&weight, &s->bodies[b].weight);
     }
-    s->energies.kinetic = reduce_sum(&kinetic);
-    s->energies.weight = reduce_sum(&weight);
+    s->energies.kinetic = reduce_sum(s->model->ranks, &kinetic);
+    s->energies.weight = reduce_sum(s->model->ranks, &weight);
 }
 
 static void join_chunks(taking *t)
@@ -439,9 +439,9 @@ static dem_strain reduce(taking *t)
                         .max = e->max,
                         .spring_min = e->least,
                         .spring_max = e->largest,
-                        .area_min = reduce_min(t->strain.area_min),
-                        .guarded = reduce_count(t->strain.guarded),
-                        .inverted = reduce_count(t->strain.inverted)};
+                        .area_min = reduce_min(t->s->model->ranks, t->strain.area_min),
+                        .guarded = reduce_count(t->s->model->ranks, t->strain.guarded),
+                        .inverted = reduce_count(t->s->model->ranks, t->strain.inverted)};
 }
 
 void survey_take(survey *s, const forces *f, const double *x, const double *v)
@@ -464,9 +464,9 @@ void survey_take(survey *s, const forces *f, const double *x, const double *v)
     add_rest(&t);
     measure_idle_triangles(&t);
     s->strain = reduce(&t);
-    s->energies.elastic = reduce_sum(&t.elastic);
-    s->energies.area = reduce_sum(&t.area);
-    s->energies.guard = reduce_sum(&t.guard);
+    s->energies.elastic = reduce_sum(s->model->ranks, &t.elastic);
+    s->energies.area = reduce_sum(s->model->ranks, &t.area);
+    s->energies.guard = reduce_sum(s->model->ranks, &t.guard);
 }
 
 /* ---- motion of bodies ---- */
@@ -494,9 +494,9 @@ void survey_take_motions(survey *s, const double *x, const double *v)
     join_runs(s);
 }
 
-static vec2 mean_of(const exact_sum sum[2], double mass)
+static vec2 mean_of(const ranks *r, const exact_sum sum[2], double mass)
 {
-    return vec2_scale(1.0 / mass, (vec2){reduce_sum(&sum[0]), reduce_sum(&sum[1])});
+    return vec2_scale(1.0 / mass, (vec2){reduce_sum(r, &sum[0]), reduce_sum(r, &sum[1])});
 }
 
 static void spin_share(const void *context, int share, int thread)
@@ -519,11 +519,12 @@ void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion 
     const body_pass p = {s, {.mass = s->model->lattice.mass, .x = x, .v = v}, motion};
     for (dem_index b = 0; b < s->model->n_bodies; b++) {
         motion[b] = (dem_body_motion){.mass = s->mass[b]};
-        vec2_put(motion[b].centre, 0, mean_of(s->bodies[b].place, s->mass[b]));
-        vec2_put(motion[b].velocity, 0, mean_of(s->bodies[b].momentum, s->mass[b]));
+        vec2_put(motion[b].centre, 0, mean_of(s->model->ranks, s->bodies[b].place, s->mass[b]));
+        vec2_put(motion[b].velocity, 0, mean_of(s->model->ranks, s->bodies[b].momentum, s->mass[b]));
     }
     team_run(s->team, s->n_shares, spin_share, &p);
     for (dem_index b = 0; b < s->model->n_bodies; b++) exact_sum_clear(&s->bodies[b].spin);
     for (dem_index k = 0; k < s->n_runs; k++) exact_sum_join(&s->bodies[s->runs[k].body].spin, &s->moving[k].spin);
-    for (dem_index b = 0; b < s->model->n_bodies; b++) motion[b].angular_momentum[2] = reduce_sum(&s->bodies[b].spin);
+    for (dem_index b = 0; b < s->model->n_bodies; b++)
+        motion[b].angular_momentum[2] = reduce_sum(s->model->ranks, &s->bodies[b].spin);
 }

@@ -9,7 +9,6 @@
 #include <stdlib.h>
 
 #include "base/exact_sum.h"
-#include "base/reduce.h"
 #include "base/status.h"
 #include "base/vec2.h"
 #include "lattice/cell.h"
@@ -63,7 +62,7 @@ static double sum(const dem_lattice *l, const element_state *elements, const uns
         if (lacks) break;
         exact_sum_add(&energy, fracture_energy(l, t, half[t]) * crack_length(l, t) * thickness_of(l, t));
     }
-    return reduce_any(lacks) ? 0.0 : reduce_sum(&energy);
+    return lacks ? 0.0 : exact_sum_value(&energy);
 }
 
 dem_status crack_energy(const dem_lattice *lattice, const element_state *elements, double *energy)

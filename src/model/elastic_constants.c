@@ -69,7 +69,7 @@ static dem_status measure(loading *l)
     dem_index n = 0;
     for (dem_index k = 0; k < lattice->n_triangles; k++)
         if (is_of_body(l, lattice->triangles[3 * k])) exact_sum_add(&volume, spring_share_volume(lattice, k));
-    l->volume = reduce_sum(&volume);
+    l->volume = reduce_sum(l->model->ranks, &volume);
     CHECK(l->volume > 0.0, DEM_ERROR_MODEL, "the body has no triangles, whose volume its constants refer to");
     for (dem_index i = 0; i < lattice->n_nodes; i++) {
         if (!is_of_body(l, i)) continue;
@@ -77,9 +77,9 @@ static dem_status measure(loading *l)
         for (int c = 0; c < 2; c++) exact_sum_add(&places[c], lattice->x[2 * i + c]);
         n++;
     }
-    l->mass = reduce_sum(&mass);
-    l->centre = (vec2){reduce_sum(&places[0]), reduce_sum(&places[1])};
-    l->centre = vec2_scale(1.0 / (double)reduce_count(n), l->centre);
+    l->mass = reduce_sum(l->model->ranks, &mass);
+    l->centre = (vec2){reduce_sum(l->model->ranks, &places[0]), reduce_sum(l->model->ranks, &places[1])};
+    l->centre = vec2_scale(1.0 / (double)reduce_count(l->model->ranks, n), l->centre);
     return DEM_OK;
 }
 
@@ -105,7 +105,7 @@ static dem_status load(loading *l, int which)
     tangent_apply(l->model, lattice->x, u, force);
     const exact_sum square = exact_terms_product(force, force, 2 * lattice->n_nodes);
     for (dem_index k = 0; k < 2 * lattice->n_nodes; k++) force[k] = -force[k];
-    TRY(tangent_solve(l->model, lattice->x, l->held, accepted * sqrt(reduce_sum(&square)), force));
+    TRY(tangent_solve(l->model, lattice->x, l->held, accepted * sqrt(reduce_sum(l->model->ranks, &square)), force));
     for (dem_index k = 0; k < 2 * lattice->n_nodes; k++) u[k] += force[k];
     tangent_apply(l->model, lattice->x, u, force);
     return DEM_OK;
@@ -116,7 +116,7 @@ static dem_status load(loading *l, int which)
 static double stiffness_of(const loading *l, const double *u, const double *force)
 {
     const exact_sum sum = exact_terms_product(u, force, 2 * l->model->lattice.n_nodes);
-    return reduce_sum(&sum) / l->volume;
+    return reduce_sum(l->model->ranks, &sum) / l->volume;
 }
 
 /* ---- what follows from C ---- */

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include "base/exact_sum.h"
-#include "base/reduce.h"
 #include "base/status.h"
 #include "base/union_find.h"
 #include "elastic/springs.h"
@@ -97,7 +96,7 @@ static void count(dem_fracture *out, const dem_lattice *l, const element_state *
         out->triangles++;
         exact_sum_add(&length, crack_length(l, k));
     }
-    out->crack_length = reduce_sum(&length);
+    out->crack_length = exact_sum_value(&length);
 }
 
 dem_status fragments_measure(const dem_lattice *l, const element_state *elements, dem_fracture *out)

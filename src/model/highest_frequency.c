@@ -77,7 +77,7 @@ static double last_component(const lanczos *l, double theta)
 static double product(const lanczos *l, const double *a, const double *b)
 {
     const exact_sum sum = exact_terms_product(a, b, 2 * l->model->lattice.n_nodes);
-    return reduce_sum(&sum);
+    return reduce_sum(l->model->ranks, &sum);
 }
 
 /* A random unit vector, so that every mode is in it; 0 where a node is fixed. The seed is constant: every run finds the

@@ -134,7 +134,7 @@ static dem_status check_bodies(const dem_model *m)
     const dem_lattice *l = &m->lattice;
     dem_index loose = -1, empty = -1;
     for (dem_index i = 0; i < l->n_nodes; i++) size[l->body[i]]++;
-    for (dem_index b = 0; b < m->n_bodies; b++) size[b] = reduce_count(size[b]);
+    for (dem_index b = 0; b < m->n_bodies; b++) size[b] = reduce_count(m->ranks, size[b]);
     for (dem_index i = l->n_nodes - 1; i >= 0; i--)
         if (m->springs.row[i] == m->springs.row[i + 1] && size[l->body[i]] > 1 && !rigid_bodies_at(&m->rigid, i))
             loose = i;
@@ -224,13 +224,13 @@ static void compile_scales(dem_model *m)
     double shortest = INFINITY;
     for (dem_index k = 0; k < l->n_springs; k++) shortest = fmin(shortest, l->rest_length[k]);
     /* A lattice without springs has the spacing 0. */
-    shortest = reduce_min(shortest);
+    shortest = reduce_min(m->ranks, shortest);
     m->spacing = isfinite(shortest) ? shortest : 0.0;
-    m->omega_max = reduce_max(m->omega_max);
-    m->n_bodies = (dem_index)reduce_max((double)m->n_bodies);
+    m->omega_max = reduce_max(m->ranks, m->omega_max);
+    m->n_bodies = (dem_index)reduce_max(m->ranks, (double)m->n_bodies);
     exact_sum mass = {0};
     exact_sum_add_array(&mass, l->mass, l->n_nodes);
-    m->mass = reduce_sum(&mass);
+    m->mass = reduce_sum(m->ranks, &mass);
 }
 
 /* Each edge of a triangle goes from one of its corners to the next. */
@@ -279,11 +279,11 @@ static dem_status compile_spans(dem_model *m)
 /* A failure of one part is reduced before the sums, at which all processes would meet (base/reduce.h). */
 static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
-    TRY(reduce_status(compile_parts(m, lattice, list, n), 0.0));
+    TRY(reduce_status(m->ranks, compile_parts(m, lattice, list, n), 0.0));
     compile_scales(m);
     CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
-    TRY(reduce_status(check_bodies(m), 0.0));
-    return reduce_status(compile_spans(m), 0.0);
+    TRY(reduce_status(m->ranks, check_bodies(m), 0.0));
+    return reduce_status(m->ranks, compile_spans(m), 0.0);
 }
 
 /* ---- public ---- */
@@ -292,6 +292,7 @@ static dem_status create(dem_model **out, const dem_lattice *lattice, const dem_
 {
     dem_model *model = calloc(1, sizeof *model);
     CHECK_MEMORY(model);
+    model->ranks = &ranks_alone;
     const dem_status status = compile(model, lattice, obstacles, n);
     if (status == DEM_OK)
         *out = model;

@@ -3,6 +3,7 @@
 #ifndef DEM_MODEL_MODEL_H
 #define DEM_MODEL_MODEL_H
 
+#include "base/ranks.h"
 #include "elastic/couplings.h"
 #include "elastic/layout.h"
 #include "elastic/springs.h"
@@ -13,6 +14,7 @@
 #include "obstacle/obstacle.h"
 
 struct dem_model {
+    const ranks *ranks;  /* that share it */
     dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
     springs springs;
     triangles triangles;

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 
 #include "base/grow.h"
-#include "base/reduce.h"
 #include "base/sorted.h"
 #include "base/status.h"
 #include "elastic/triangles.h"
@@ -190,6 +189,5 @@ void overlap_look(overlap *o, const dem_lattice *lattice, double t, const double
     fill_cells(o, x);
     for (dem_index k = 0; k < lattice->n_triangles; k++)
         if (o->broken == NULL || !o->broken[k]) look_in(o, lattice, k, t, x);
-    o->found.now = reduce_count(o->found.now);
     if (o->found.now > o->found.most) o->found.most = o->found.now;
 }

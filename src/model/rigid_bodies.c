@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-#include "base/reduce.h"
+#include "base/exact_sum.h"
 #include "base/status.h"
 
 /* Of the flags of a node, those that all nodes of a body have in common. */
@@ -42,14 +42,14 @@ static double sum_products(const rigid_body *b, bool crossed, vector_list first,
         }
         exact_sum_take(&sum, terms, n);
     }
-    return reduce_sum(&sum);
+    return exact_sum_value(&sum);
 }
 
 static double sum_masses(const rigid_body *b)
 {
     exact_sum sum = {0};
     exact_sum_add_array(&sum, b->masses, b->n_nodes);
-    return reduce_sum(&sum);
+    return exact_sum_value(&sum);
 }
 
 /* Mean of vectors by mass. */
@@ -66,7 +66,7 @@ static vec2 mean_of(const rigid_body *b, vector_list vectors)
         }
         for (int c = 0; c < 2; c++) exact_sum_take(&sum[c], terms[c], n);
     }
-    return (vec2){reduce_sum(&sum[0]) / b->mass, reduce_sum(&sum[1]) / b->mass};
+    return (vec2){exact_sum_value(&sum[0]) / b->mass, exact_sum_value(&sum[1]) / b->mass};
 }
 
 vec2 rigid_body_mean(const rigid_body *b, const double *vectors)

@@ -36,7 +36,7 @@ static double product(const solver *s, const double *a, const double *b)
     for (dem_index k = 0; k < s->n_free; k++)
         exact_terms_add(&terms, vec2_dot(vec2_at(a, s->free[k]), vec2_at(b, s->free[k])));
     exact_terms_end(&terms);
-    return reduce_sum(&sum);
+    return reduce_sum(s->model->ranks, &sum);
 }
 
 /* r.z with the preconditioned residual z = r times the scales. */
@@ -50,7 +50,7 @@ static double scaled_product(const solver *s)
         exact_terms_add(&terms, s->scale[k] * vec2_dot(r, r));
     }
     exact_terms_end(&terms);
-    return reduce_sum(&sum);
+    return reduce_sum(s->model->ranks, &sum);
 }
 
 /* u += step p and r -= step K p. */
@@ -77,7 +77,7 @@ static void turn(const solver *s, double ratio)
  * are enough. p.K p <= 0 shows that K is not positive definite: the lattice is not stable. */
 static dem_status iterate(const solver *s, double residual, double *u)
 {
-    const dem_index most = 20 * reduce_count(s->n_free) + 1000;
+    const dem_index most = 20 * reduce_count(s->model->ranks, s->n_free) + 1000;
     double size = scaled_product(s), previous = 0.0;
     for (dem_index k = 0; product(s, s->rest, s->rest) > residual * residual; k++) {
         CHECK(k < most, DEM_ERROR_MODEL, "the shape of %lld free nodes is not found in %lld iterations",

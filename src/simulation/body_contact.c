@@ -174,7 +174,7 @@ static dem_status settle(dem_simulation *s, const double *y)
 dem_status body_contact_settle(dem_simulation *s, const double *y)
 {
     const bool has_friction = surface_contact_has_friction(s->surfaces) || rigid_contact_has_friction(s->rigid);
-    return has_friction ? reduce_status(settle(s, y), 0.0) : DEM_OK;
+    return has_friction ? reduce_status(s->model->ranks, settle(s, y), 0.0) : DEM_OK;
 }
 
 void body_contact_forget(dem_simulation *s)
@@ -286,14 +286,14 @@ dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x)
     if (s->surfaces == NULL) return (dem_surfaces){.gap_min = INFINITY, .gap_share = INFINITY};
     const contact_surface *of = &s->surfaces->surface;
     const surface_gaps gaps = surface_contact_gaps(s->surfaces, x);
-    const double nearest = reduce_min(gaps.least_share);
-    return (dem_surfaces){.gap_min = reduce_min(gaps.least),
+    const double nearest = reduce_min(s->model->ranks, gaps.least_share);
+    return (dem_surfaces){.gap_min = reduce_min(s->model->ranks, gaps.least),
                           .gap_share = nearest,
                           .thickness_min = of->least.thickness,
                           .thickness_max = of->most.thickness,
-                          .pushing = reduce_count(gaps.pushing),
-                          .n_edges = reduce_count(of->surface.n_edges),
-                          .left_out = reduce_count(s->surfaces->n_left_out),
+                          .pushing = reduce_count(s->model->ranks, gaps.pushing),
+                          .n_edges = reduce_count(s->model->ranks, of->surface.n_edges),
+                          .left_out = reduce_count(s->model->ranks, s->surfaces->n_left_out),
                           .modulus_min = of->least.modulus,
                           .modulus_max = of->most.modulus,
                           .pressure_share = nearest < 1.0 ? contact_potential_pressure(nearest) : 0.0,

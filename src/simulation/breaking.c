@@ -136,7 +136,7 @@ dem_status breaking_create(dem_simulation *s)
     if (l->own_stress != NULL) TRY(element_state_prepare(&s->elements)); /* which needs the shares of springs */
     s->forces.elements = &s->elements;
     TRY(fracture_source_create(&s->breaks, s->model, &s->elements, &s->fracture, most_in_step(s), &s->kernel));
-    TRY(reduce_status(fracture_source_check_start(&s->breaks, s->y), 0.0));
+    TRY(reduce_status(s->model->ranks, fracture_source_check_start(&s->breaks, s->y), 0.0));
     return source_list_add(&s->sources, fracture_source_events(&s->breaks));
 }
 
@@ -145,7 +145,7 @@ void breaking_check_step(dem_simulation *s)
 {
     s->at_break = false;
     if (!run_may_break(s)) return;
-    const double first = reduce_min(fracture_source_first(&s->breaks, &s->path, s->frame));
+    const double first = reduce_min(s->model->ranks, fracture_source_first(&s->breaks, &s->path, s->frame));
     s->at_break = first < s->path.end || (first == s->path.end && !s->at_event);
     if (!s->at_break) return;
     s->path.end = first;
@@ -290,14 +290,15 @@ dem_status dem_simulation_break(dem_simulation *s, const dem_index *triangle, de
     TRY(check_list("springs", spring, n_springs));
     if (n_triangles == 0 && n_springs == 0) return DEM_OK;
     TRY(set_motion_take_seen(s, &seen));
-    TRY(reduce_status(body_contact_follow(s, s->frame), 0.0));
+    TRY(reduce_status(s->model->ranks, body_contact_follow(s, s->frame), 0.0));
     const dem_index n_given = s->given.n;
-    dem_status status = reduce_status(break_all(s, &next, triangle, n_triangles, spring, n_springs), 0.0);
-    const bool all_broken = status == DEM_OK && !reduce_any(s->given.n > n_given);
+    dem_status status =
+        reduce_status(s->model->ranks, break_all(s, &next, triangle, n_triangles, spring, n_springs), 0.0);
+    const bool all_broken = status == DEM_OK && !reduce_any(s->model->ranks, s->given.n > n_given);
     if (status != DEM_OK || all_broken) element_state_destroy(&next);
     if (all_broken) return DEM_OK;
     const double before = status == DEM_OK ? set_motion_energy(s, s->frame) : 0.0;
-    if (status == DEM_OK) status = reduce_status(renew(s, &next, s->frame), 0.0);
+    if (status == DEM_OK) status = reduce_status(s->model->ranks, renew(s, &next, s->frame), 0.0);
     if (status != DEM_OK) {
         s->given.n = n_given;
         return status;
@@ -343,7 +344,7 @@ dem_status breaking_save(const dem_simulation *s, dem_checkpoint *checkpoint)
         status = dem_checkpoint_put(checkpoint, of_triangles, elements->triangle, (size_t)l->n_triangles);
     if (status == DEM_OK && l->softening != NULL) status = save_levels(elements, checkpoint);
     if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, of_burials, burials, sizeof *burials);
-    const double taken = reduce_sum(&s->fracture); /* rounded: every run goes on from there */
+    const double taken = reduce_sum(s->model->ranks, &s->fracture); /* rounded: every run goes on from there */
     return status == DEM_OK ? dem_checkpoint_put(checkpoint, of_energy, &taken, sizeof taken) : status;
 }
 

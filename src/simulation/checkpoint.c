@@ -42,11 +42,13 @@ static sizes sizes_of(const dem_simulation *s)
 }
 
 /* Exact sums are rounded in a checkpoint, and go on from there in every run. */
-static dem_status pass_impulses(contact_ledger *ledger, dem_index n_obstacles, const checkpoint_entries_way *way)
+static dem_status pass_impulses(dem_simulation *s, const checkpoint_entries_way *way)
 {
+    contact_ledger *ledger = &s->automaton.set.ledger;
+    const dem_index n_obstacles = s->model->obstacles.n;
     double *list = calloc(4 * (size_t)n_obstacles + 1, sizeof *list);
     CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the impulses of a checkpoint");
-    ledger_list_impulses(ledger, n_obstacles, list);
+    ledger_list_impulses(ledger, s->model->ranks, n_obstacles, list);
     const dem_status status = checkpoint_entries_pass(way, "impulses", list, 4 * (size_t)n_obstacles * sizeof *list);
     if (status == DEM_OK && way->from != NULL) ledger_begin_impulses(ledger, n_obstacles, list);
     free(list);
@@ -58,7 +60,7 @@ static dem_status pass(dem_simulation *s, const checkpoint_entries_way *way, num
 {
     TRY(checkpoint_entries_pass(way, "numbers", n, sizeof *n));
     TRY(checkpoint_entries_pass(way, "counts", counts, sizeof *counts));
-    TRY(pass_impulses(&s->automaton.set.ledger, s->model->obstacles.n, way));
+    TRY(pass_impulses(s, way));
     return checkpoint_entries_pass(way, "overlap", &s->overlap.found, sizeof s->overlap.found);
 }
 
@@ -105,9 +107,9 @@ dem_status checkpoint_take(dem_simulation *s, dem_checkpoint *checkpoint)
     numbers n = {s->t,
                  s->step,
                  integrator_next_step(&s->integrator),
-                 reduce_sum(&ledger->impact),
-                 reduce_sum(&ledger->projection),
-                 reduce_sum(&ledger->work),
+                 reduce_sum(s->model->ranks, &ledger->impact),
+                 reduce_sum(s->model->ranks, &ledger->projection),
+                 reduce_sum(s->model->ranks, &ledger->work),
                  s->automaton.set.projected,
                  s->events,
                  s->unlooked,
@@ -217,7 +219,7 @@ dem_status checkpoint_restore(dem_simulation *s, const dem_checkpoint *checkpoin
     contact_set *c = &s->automaton.set;
     const double *y = NULL;
     numbers n;
-    TRY(reduce_status(get(s, checkpoint, &n, &y), 0.0));
+    TRY(reduce_status(s->model->ranks, get(s, checkpoint, &n, &y), 0.0));
     c->ledger.impact = exact_sum_of(n.impact);
     c->ledger.projection = exact_sum_of(n.projection);
     c->ledger.work = exact_sum_of(n.work);

@@ -7,7 +7,6 @@
 
 #include <math.h>
 
-#include "base/reduce.h"
 #include "base/status.h"
 #include "base/struct_size.h"
 
@@ -80,7 +79,7 @@ dem_status observers_step(const observers *a, const dem_simulation *simulation)
         const dem_observer *o = &a->members[k].observer;
         if (o->step != NULL) status = status_first(status, o->step(o->context, simulation));
     }
-    return reduce_status(status, 0.0);
+    return status;
 }
 
 dem_status observers_checkpoint(const observers *a, const dem_simulation *simulation, dem_checkpoint *checkpoint)
@@ -90,7 +89,7 @@ dem_status observers_checkpoint(const observers *a, const dem_simulation *simula
         const dem_observer *o = &a->members[k].observer;
         if (o->checkpoint != NULL) status = status_first(status, o->checkpoint(o->context, simulation, checkpoint));
     }
-    return reduce_status(status, 0.0);
+    return status;
 }
 
 int observers_due(const observers *a, double end, double t_end, double *t)
@@ -112,5 +111,5 @@ dem_status observers_frame(observers *a, int k, const dem_simulation *simulation
 {
     const dem_observer *o = &a->members[k].observer;
     a->members[k].next_frame++;
-    return reduce_status(o->frame(o->context, simulation), 0.0);
+    return o->frame(o->context, simulation);
 }

@@ -26,7 +26,7 @@ dem_status observers_add(observers *a, const dem_observer *observer, double show
 bool observers_want_events(const observers *a);
 bool observers_want_breaks(const observers *a);
 
-/** Call every observer; the first status other than DEM_OK is returned. */
+/** Call every observer of this rank; the first status other than DEM_OK is returned. */
 dem_status observers_event(const observers *a, const dem_simulation *simulation, const dem_event *event);
 dem_status observers_broken(const observers *a, const dem_simulation *simulation, const dem_break *what);
 dem_status observers_step(const observers *a, const dem_simulation *simulation);

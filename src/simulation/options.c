@@ -89,8 +89,8 @@ static double default_v_scale(const dem_options *o, const dem_model *model, cons
         drop = fmin(drop, dem_model_gap(model, &l->position[vec2_row(model->surface.nodes[k])]));
     for (dem_index k = 0; k < model->rigid.n_nodes; k++)
         drop = fmin(drop, fmax(o->spacing, dem_model_gap(model, &l->position[vec2_row(model->rigid.nodes[k])])));
-    speed = reduce_max(speed);
-    drop = reduce_min(drop);
+    speed = reduce_max(model->ranks, speed);
+    drop = reduce_min(model->ranks, drop);
     const double g = hypot(o->gravity[0], o->gravity[1]);
     return isfinite(drop) && drop > 0.0 ? fmax(speed, sqrt(2.0 * g * drop)) : speed;
 }
@@ -98,7 +98,7 @@ static double default_v_scale(const dem_options *o, const dem_model *model, cons
 /* Largest rate at which damping slows anything, 1/s. */
 static double damping_rate(const dem_options *o, const dem_model *m)
 {
-    return reduce_max(springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass)) + o->mass_damping;
+    return reduce_max(m->ranks, springs_damping_bound(&m->springs, m->lattice.x, m->inverse_mass)) + o->mass_damping;
 }
 
 /* As many threads as pay, up to those that were asked for: a step of few nodes ends before another thread has begun. */

@@ -103,7 +103,7 @@ struct dem_simulation {
 /* Whether a function of the caller has failed: the external force, or the motion of an obstacle. */
 static inline bool run_force_failed(const dem_simulation *s)
 {
-    return reduce_any(external_force_failed(s->external) || surface_failed(&s->automaton.set.scene));
+    return reduce_any(s->model->ranks, external_force_failed(s->external) || surface_failed(&s->automaton.set.scene));
 }
 
 /* The status and message of that failure, which is over then. */

@@ -162,13 +162,13 @@ static dem_energy energy_of(const dem_simulation *s)
     const state_layout *l = &s->layout;
     measure_energy(s);
     dem_energy e = m->energy;
-    e.impact = reduce_sum(&ledger->impact);
-    e.fracture = reduce_sum(&s->fracture);
+    e.impact = reduce_sum(s->model->ranks, &ledger->impact);
+    e.fracture = reduce_sum(s->model->ranks, &s->fracture);
     e.friction += state_total_of(l, y, STATE_FRICTION);
     e.damping = state_total_of(l, y, STATE_DAMPING);
-    e.projection = reduce_sum(&ledger->projection);
+    e.projection = reduce_sum(s->model->ranks, &ledger->projection);
     e.boundary = state_total_of(l, y, STATE_WORK);
-    e.obstacle = reduce_sum(&ledger->work);
+    e.obstacle = reduce_sum(s->model->ranks, &ledger->work);
     if (state_has_total(l, STATE_OBSTACLE)) e.obstacle += state_total_of(l, y, STATE_OBSTACLE);
     e.ledger =
         e.motion + e.gravity + e.impact + e.friction + e.damping + e.fracture - e.projection - e.boundary - e.obstacle;
@@ -272,7 +272,7 @@ dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
     TRY(check_given("dem_simulation_fracture", s, out));
     const contact_burials *buried = &s->automaton.set.burials;
     TRY(fragments_measure(&s->model->lattice, elements_of(s), &seen));
-    seen.buried = reduce_count(buried->n);
+    seen.buried = reduce_count(s->model->ranks, buried->n);
     seen.buried_node = buried->n > 0 ? buried->node : -1;
     seen.buried_t = buried->t;
     state_copy_row(&s->layout, seen.buried_x, buried->x);
@@ -349,7 +349,7 @@ static dem_counts contact_counts(const dem_simulation *s)
 {
     dem_counts c = contact_of(s)->set.ledger.counts;
     dem_index *const own[] = {&c.impacts, &c.vertex_impacts, &c.releases, &c.slips, &c.sticks, &c.passings, &c.behind};
-    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++) *own[k] = reduce_count(*own[k]);
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++) *own[k] = reduce_count(s->model->ranks, *own[k]);
     return c;
 }
 
@@ -363,7 +363,7 @@ dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
     counts.evaluations = of_integrator.evaluations;
     counts.retries = of_integrator.retries;
     counts.crossings = s->crossings;
-    counts.events = s->events + (s->in_hand ? reduce_count(s->queue.n_taken) : 0);
+    counts.events = s->events + (s->in_hand ? reduce_count(s->model->ranks, s->queue.n_taken) : 0);
     return GIVE(dem_counts, out, &counts);
 }
 
@@ -411,11 +411,12 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
     const double *lasting = state_v(l, seen_of(s), state_impulse(l, obstacle));
     const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
     TRY(measure_rigid(s));
-    dem_obstacle_load load = diagnostics_reaction(closed, n_closed, obstacle, s->rigid);
+    dem_obstacle_load load = diagnostics_reaction(s->model->ranks, closed, n_closed, obstacle, s->rigid);
     add_motion(s, obstacle, &load);
     for (int k = 0; k < 2; k++) {
-        load.impulse[k] = reduce_sum(&ledger->impulse[2 * obstacle + k]) + lasting[k];
-        load.friction_impulse[k] = reduce_sum(&ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];
+        load.impulse[k] = reduce_sum(s->model->ranks, &ledger->impulse[2 * obstacle + k]) + lasting[k];
+        load.friction_impulse[k] =
+            reduce_sum(s->model->ranks, &ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];
     }
     return GIVE(dem_obstacle_load, out, &load);
 }

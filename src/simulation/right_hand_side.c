@@ -59,7 +59,7 @@ static int judge(const dem_simulation *s, double t, const double *y, const doubl
 {
     const dem_status of_contact = body_contact_failure(s);
     if (run_force_failed(s) || of_contact == DEM_ERROR_MEMORY) return 2;
-    if (!reduce_any(!isfinite(sum))) return 0;
+    if (!reduce_any(s->model->ranks, !isfinite(sum))) return 0;
     if (of_contact == DEM_OK) (void)name_culprit(s, t, y, a);
     return 1;
 }
@@ -93,7 +93,8 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     const sweep_fused_step nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
-    if (reduce_any(!kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0)) return -1;
+    if (reduce_any(s->model->ranks, !kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0))
+        return -1;
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &y);
     body_contact_take_accelerations(s, sum);
     automaton_constrain(&s->automaton, step->t1, y.x, y.a);
@@ -106,14 +107,14 @@ static int take_fused_step(const ode_fused_step *step, void *context)
 static bool has_bands(int n_stages, void *context)
 {
     dem_simulation *s = context;
-    if (reduce_any(s->automaton.set.forces.n_groups > 0)) return false;
-    return !reduce_any(!band_is_possible(&s->kernel, &s->forces, s->y, n_stages));
+    if (reduce_any(s->model->ranks, s->automaton.set.forces.n_groups > 0)) return false;
+    return !reduce_any(s->model->ranks, !band_is_possible(&s->kernel, &s->forces, s->y, n_stages));
 }
 
 static bool bands_hold(int n_stages, void *context)
 {
     const dem_simulation *s = context;
-    return !reduce_any(!band_was_possible(&s->forces, n_stages));
+    return !reduce_any(s->model->ranks, !band_was_possible(&s->forces, n_stages));
 }
 
 static double band_derivative(const ode_band *b, void *context)
@@ -144,7 +145,7 @@ static void begin_roots(double t, const double *y, void *context)
 static double root_function(const dense_output *step, void *context)
 {
     dem_simulation *s = context;
-    return reduce_min(automaton_root_function(&s->automaton, step, s->frame));
+    return reduce_min(s->model->ranks, automaton_root_function(&s->automaton, step, s->frame));
 }
 
 /* Where the folding guard acts, triangles are stiffer than at rest, and surfaces in contact are: by how much, for fixed
@@ -152,7 +153,8 @@ static double root_function(const dense_output *step, void *context)
 static double stiffening(const double *y, bool is_known, void *context)
 {
     dem_simulation *s = context;
-    return reduce_max(body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y, is_known));
+    return reduce_max(s->model->ranks,
+                      body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y, is_known));
 }
 
 /* Root functions are watched with `exact` only, and where there is something to touch. What counts as an error of 1 is

@@ -79,7 +79,7 @@ static void put(dem_simulation *s, const double *x, const double *v, double *y)
 /* Refused positions leave the lists of surfaces as they were before. */
 static dem_status check_surfaces(dem_simulation *s, const double *x)
 {
-    const dem_status status = reduce_status(body_contact_check_start(s, x), 0.0);
+    const dem_status status = reduce_status(s->model->ranks, body_contact_check_start(s, x), 0.0);
     return status == DEM_OK ? DEM_OK : status_first(status, body_contact_follow(s, s->seen));
 }
 
@@ -93,7 +93,7 @@ dem_status set_motion_take_seen(dem_simulation *s, dem_state *seen)
 
 dem_status set_motion_begin_anew(dem_simulation *s)
 {
-    s->events += s->in_hand ? reduce_count(s->queue.n_taken) : 0;
+    s->events += s->in_hand ? reduce_count(s->model->ranks, s->queue.n_taken) : 0;
     s->t = s->seen_t;
     s->path = (dense_output){0};
     s->in_hand = s->at_event = s->started = s->has_checkpoint = false;
@@ -110,12 +110,12 @@ dem_status dem_simulation_set_motion(dem_simulation *s, const double *x, const d
     CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: simulation is NULL");
     CHECK(!s->advancing, DEM_ERROR_ARGUMENT, "dem_simulation_set_motion: an advance is under way");
     TRY(set_motion_take_seen(s, &seen));
-    TRY(reduce_status(check(s, "place", x, seen.x), 0.0));
-    TRY(reduce_status(check(s, "velocity", v, seen.v), 0.0));
-    TRY(reduce_status(check_rigid(s, x != NULL ? x : seen.x, v != NULL ? v : seen.v), 0.0));
-    if (x != NULL) TRY(reduce_status(automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
+    TRY(reduce_status(s->model->ranks, check(s, "place", x, seen.x), 0.0));
+    TRY(reduce_status(s->model->ranks, check(s, "velocity", v, seen.v), 0.0));
+    TRY(reduce_status(s->model->ranks, check_rigid(s, x != NULL ? x : seen.x, v != NULL ? v : seen.v), 0.0));
+    if (x != NULL) TRY(reduce_status(s->model->ranks, automaton_check_start(&s->automaton, s->seen_t, x), 0.0));
     if (x != NULL) TRY(check_surfaces(s, x));
-    if (run_force_failed(s)) return reduce_status(run_force_failure(s), 0.0);
+    if (run_force_failed(s)) return reduce_status(s->model->ranks, run_force_failure(s), 0.0);
     body_contact_forget(s); /* what it has stored is lost to friction, and not part of the change */
     put(s, x, v, s->frame);
     return set_motion_begin_anew(s);

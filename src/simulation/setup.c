@@ -94,7 +94,8 @@ static dem_status set_up_queue(dem_simulation *s)
     s->local_forces = local_springs_forces(&s->local_springs);
     s->closed_contacts = contact_constraints_of(&s->automaton);
     return event_queue_create(&s->queue,
-                              &(event_queue_parts){.layout = &s->layout,
+                              &(event_queue_parts){.ranks = s->model->ranks,
+                                                   .layout = &s->layout,
                                                    .forces = &s->local_forces,
                                                    .constraints = &s->closed_contacts,
                                                    .sources = &s->sources,
@@ -138,7 +139,7 @@ static dem_status set_up(dem_simulation *s)
     stress_field_create(s->field, &s->kernel);
     const contact_rule rule = rule_of(s);
     TRY(automaton_create(&s->automaton, &s->forces, &rule));
-    TRY(reduce_status(automaton_check_start(&s->automaton, 0.0, s->y), 0.0));
+    TRY(reduce_status(s->model->ranks, automaton_check_start(&s->automaton, 0.0, s->y), 0.0));
     TRY(set_up_sources(s));
     if (run_is_local(s)) TRY(set_up_queue(s));
     const ode_problem problem = right_hand_side_problem(s);
@@ -160,7 +161,7 @@ static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
     TRY(checkpoint_restore(s, checkpoint));
     query_at(s, s->t, s->y);
     const dem_status status = query_ask(s);
-    if (run_force_failed(s)) return reduce_status(run_force_failure(s), 0.0);
+    if (run_force_failed(s)) return reduce_status(s->model->ranks, run_force_failure(s), 0.0);
     TRY(status);
     s->started = s->has_checkpoint = true;
     return checkpoint_entries_copy(s->checkpoint, checkpoint);
@@ -179,7 +180,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
     s->options = own;
     s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n,
                                 model->obstacles.bounds.speed > 0.0);
-    dem_status status = reduce_status(set_up(s), 0.0);
+    dem_status status = reduce_status(s->model->ranks, set_up(s), 0.0);
     if (status == DEM_OK && checkpoint != NULL) status = resume(s, checkpoint);
     if (status == DEM_OK)
         *out = s;

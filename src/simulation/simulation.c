@@ -89,7 +89,7 @@ static dem_status report_events(dem_simulation *s, double t)
         if (run_force_failed(s)) return reported;
         status = status_first(status, reported);
     }
-    return reduce_status(status, 0.0);
+    return reduce_status(s->model->ranks, status, 0.0);
 }
 
 /* What has broken at the end of a step that a break has ended, or by the program, is reported with that state. */
@@ -102,7 +102,7 @@ static dem_status report_breaks(dem_simulation *s, const break_list *breaks, dem
         const dem_break what = break_list_at(breaks, k);
         status = status_first(status, observers_broken(&s->observers, s, &what));
     }
-    return reduce_status(status, 0.0);
+    return reduce_status(s->model->ranks, status, 0.0);
 }
 
 /* Which fragments have come of what has broken by itself, before anybody goes back to the instants of these breaks. */
@@ -121,7 +121,7 @@ static dem_status report_own_breaks(dem_simulation *s, dem_index from)
 static dem_status report_step(dem_simulation *s)
 {
     TRY(show_state(s));
-    return observers_step(&s->observers, s);
+    return reduce_status(s->model->ranks, observers_step(&s->observers, s), 0.0);
 }
 
 /* Shows the frames up to the end of the step and t_end in the order of time; events before a frame come before it. */
@@ -131,7 +131,7 @@ static dem_status report_frames(dem_simulation *s, double t_end)
     for (int k = 0; (k = observers_due(&s->observers, s->path.end, t_end, &t)) >= 0;) {
         TRY(report_events(s, t));
         TRY(show_inside(s, t));
-        TRY(observers_frame(&s->observers, k, s));
+        TRY(reduce_status(s->model->ranks, observers_frame(&s->observers, k, s), 0.0));
     }
     return DEM_OK;
 }
@@ -170,7 +170,7 @@ static dem_status roll_back(dem_simulation *s)
         status = integrator_restart(&s->integrator, s->t, s->y);
     s->has_rollback = false;
     status = status_first(status, body_contact_follow(s, s->y));
-    status = status_first(status, reduce_status(run_force_failure(s), 0.0));
+    status = status_first(status, reduce_status(s->model->ranks, run_force_failure(s), 0.0));
     query_at(s, s->t, s->y);
     query_ask_poses(s);
     if (run_force_failed(s)) {
@@ -319,14 +319,15 @@ static dem_status resolve_event(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
     s->events++;
-    return go_on(s, reduce_status(automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
+    return go_on(
+        s, reduce_status(s->model->ranks, automaton_resolve(&s->automaton, s->t, s->y, &listener), 0.0)); /* (8), (9) */
 }
 
 /* Contacts of edges that have broken away in the step end with it. */
 static dem_status release_orphans(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
-    return reduce_status(automaton_release_orphans(&s->automaton, s->t, s->y, &listener), 0.0);
+    return reduce_status(s->model->ranks, automaton_release_orphans(&s->automaton, s->t, s->y, &listener), 0.0);
 }
 
 /* Lets the integrator go on from the end of the step. If contacts were put back or surfaces have met (`moved`), the
@@ -336,7 +337,7 @@ static dem_status release_orphans(dem_simulation *s)
 static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
-    const bool changed = reduce_any(s->queue.n_taken > 0 || s->model->rigid.n > 0);
+    const bool changed = reduce_any(s->model->ranks, s->queue.n_taken > 0 || s->model->rigid.n > 0);
     if (moved || changed) body_contact_begin_anew(s);
     if (moved) return integrator_restart(&s->integrator, s->t, s->y);
     return changed ? integrator_resume(&s->integrator) : DEM_OK;
@@ -345,7 +346,7 @@ static dem_status go_on_changed(dem_simulation *s, bool moved)
 /* Events compute the derivative at the end again node by node, and not that of a rigid body. */
 static bool events_moved_rigid(const dem_simulation *s)
 {
-    return reduce_any(s->model->rigid.n > 0 && s->queue.n_taken > 0);
+    return reduce_any(s->model->ranks, s->model->rigid.n > 0 && s->queue.n_taken > 0);
 }
 
 /* Reports the events left in the step, takes the queue to its end, as observers may have left it at an earlier time,
@@ -355,15 +356,15 @@ static dem_status commit_step(dem_simulation *s)
     TRY(report_events(s, s->path.t1));
     if (run_is_local(s)) TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
     if (s->at_event) TRY(take_rollback(s));
-    TRY(reduce_status(breaking_end_step(s), 0.0));
+    TRY(reduce_status(s->model->ranks, breaking_end_step(s), 0.0));
     /* From here on the end of the step is the state: y and t. */
-    const bool broken = reduce_any(fracture_source_has_broken(&s->breaks));
-    const bool failed = reduce_any(fracture_source_has_failed(&s->breaks));
+    const bool broken = reduce_any(s->model->ranks, fracture_source_has_broken(&s->breaks));
+    const bool failed = reduce_any(s->model->ranks, fracture_source_has_failed(&s->breaks));
     const bool moved = settle_step(s), paused = pausing_end_step(s, broken);
     body_contact_end_step(s);
     TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
-    s->events += reduce_count(s->queue.n_taken) + s->at_break;
+    s->events += reduce_count(s->model->ranks, s->queue.n_taken) + s->at_break;
     TRY(go_on_changed(s, moved || failed || paused || s->outgrown || events_moved_rigid(s)));
     dem_status reported = report_own_breaks(s, s->n_broken);
     reported = status_first(reported, release_orphans(s));
@@ -375,13 +376,14 @@ static dem_status commit_step(dem_simulation *s)
 static dem_status start(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
-    TRY(reduce_status(breaking_begin(s), 0.0));
+    TRY(reduce_status(s->model->ranks, breaking_begin(s), 0.0));
     TRY(body_contact_settle(s, s->y));
     const dem_status given = report_breaks(s, &s->given, 0), own = report_own_breaks(s, 0);
     s->given.n = 0;
     TRY(status_first(given, own));
     TRY(take_rollback(s));
-    const dem_status status = go_on(s, reduce_status(automaton_start(&s->automaton, s->t, s->y, &listener), 0.0));
+    const dem_status status =
+        go_on(s, reduce_status(s->model->ranks, automaton_start(&s->automaton, s->t, s->y, &listener), 0.0));
     s->started = !run_force_failed(s);
     return status;
 }
@@ -402,7 +404,7 @@ static dem_status take_checkpoint(dem_simulation *s)
     TRY(checkpoint_restore(s, s->checkpoint));
     s->has_checkpoint = true;
     TRY(show_state(s));
-    return observers_checkpoint(&s->observers, s, s->checkpoint);
+    return reduce_status(s->model->ranks, observers_checkpoint(&s->observers, s, s->checkpoint), 0.0);
 }
 
 /* Steps until t_end falls into the step in hand; then shows the state there. The next advance may find the step in

@@ -109,7 +109,7 @@ double rigid_contact_power(const rigid_contact *c, dem_index obstacle)
             if (o->obstacle[v] == obstacle)
                 exact_sum_add(&sum, vec2_dot(rigid_contact_force(&c->list[b], q), obstacle_surface_velocity(o, v)));
         }
-    return reduce_sum(&sum);
+    return reduce_sum(c->model->ranks, &sum);
 }
 
 static void add_row(const rigid_contact *c, const state_layout *l, dem_index row, vec2 term)
@@ -152,12 +152,12 @@ void rigid_contact_add_rates(const rigid_contact *c, const state_layout *l, cons
 {
     dem_index n_near = 0;
     for (dem_index b = 0; b < c->n; b++) n_near += c->list[b].n_near;
-    if (!reduce_any(n_near > 0)) return;
+    if (!reduce_any(c->model->ranks, n_near > 0)) return;
     for (dem_index b = 0; b < c->n; b++) {
         add_rates_of(c, &c->list[b], l);
         if (rigid_contact_has_friction(c)) add_friction_of(c, &c->list[b], l, v);
     }
-    rate_sums_take(&c->rates, l, a);
+    rate_sums_take(c->model->ranks, &c->rates, l, a);
 }
 
 /* ---- friction ---- */
@@ -182,7 +182,7 @@ double rigid_contact_stored(rigid_contact *c, double t, const double *x)
     if (follow(c, t, x) != DEM_OK) return (double)NAN;
     for (dem_index k = 0; k < c->n; k++)
         anchor_set_add_energy(&c->list[k].anchors, &c->list[k].pairs, c->list[k].places, &sum);
-    return reduce_sum(&sum);
+    return reduce_sum(c->model->ranks, &sum);
 }
 
 /* ---- energy and stiffness ---- */
@@ -192,7 +192,7 @@ double rigid_contact_energy(rigid_contact *c, double t, const double *x)
     exact_sum sum = {0};
     if (follow(c, t, x) != DEM_OK) return (double)NAN;
     for (dem_index k = 0; k < c->n; k++) rigid_pairs_add_energy(&c->list[k], &sum);
-    return reduce_sum(&sum);
+    return reduce_sum(c->model->ranks, &sum);
 }
 
 double rigid_contact_stiffening(rigid_contact *c, double t, const double *x)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "base/grow.h"
-#include "base/reduce.h"
+#include "base/exact_sum.h"
 #include "base/sorted.h"
 #include "base/status.h"
 
@@ -350,7 +350,7 @@ double surface_contact_stored(const surface_contact *c, const double *x)
 {
     exact_sum sum = {0};
     anchor_set_add_energy(&c->anchors, c->rows, x, &sum);
-    return reduce_sum(&sum);
+    return exact_sum_value(&sum);
 }
 
 double surface_contact_friction_power(const surface_contact *c, const double *x, const double *v)
@@ -362,14 +362,14 @@ double surface_contact_friction_power(const surface_contact *c, const double *x,
     for (dem_index k = 0; k < s->n_nodes; k++)
         exact_terms_add(&terms, -vec2_dot(surface_contact_friction(c, s->nodes[k], x), vec2_at(v, s->nodes[k])));
     exact_terms_end(&terms);
-    return reduce_sum(&power);
+    return exact_sum_value(&power);
 }
 
 double surface_contact_evaluated_power(const surface_contact *c, const double *v)
 {
     exact_sum power = {0};
     anchor_set_add_held_power(&c->anchors, v, &power);
-    return reduce_sum(&power);
+    return exact_sum_value(&power);
 }
 
 dem_status surface_contact_settle(surface_contact *c, const double *x)
@@ -390,7 +390,7 @@ double surface_contact_energy(const surface_contact *c, const double *x)
 {
     exact_sum sum = {0};
     for (dem_index k = 0; k < c->rows->n; k++) exact_sum_add(&sum, contact_pair_energy(&c->rows->list[k], x));
-    return reduce_sum(&sum);
+    return exact_sum_value(&sum);
 }
 
 double surface_contact_node_energy(const surface_contact *c, dem_index i, const double *x)

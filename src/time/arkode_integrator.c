@@ -63,6 +63,7 @@ static int evaluate(double t, N_Vector y, N_Vector f, void *self)
 {
     arkode_integrator *I = self;
     I->counts.evaluations++;
+    if (I->problem.domain != NULL) ode_problem_fill_ghosts(&I->problem, nvector_shared(y));
     const double *values = nvector_values(y);
     double *u = nvector_fresh(f), *a = u + state_velocities(&I->problem.layout);
     const int flag = I->problem.derivative(t, values, u, a, I->problem.context);
@@ -162,7 +163,12 @@ static dem_status allocate(arkode_integrator *I)
     N_Vector *const vectors[] = {&I->y, &I->y0, &I->y1, &I->f0, &I->f1, &I->weights};
     CHECK(SUNContext_Create(SUN_COMM_NULL, &I->sundials) == 0, DEM_ERROR_MEMORY, "SUNDIALS gives no context");
     CHECK(arkode_listen_first(I->sundials, &I->errors) == 0, DEM_ERROR_MEMORY, "out of memory for SUNDIALS");
-    I->space = nvector_space_create(n, I->problem.ops, I->problem.team, most_vectors + I->table.stages);
+    I->space = nvector_space_create(&(nvector_shape){.ranks = ode_problem_ranks(&I->problem),
+                                                     .length = n,
+                                                     .n_whole = state_size(ode_problem_whole(&I->problem)),
+                                                     .ops = I->problem.ops,
+                                                     .team = I->problem.team},
+                                    most_vectors + I->table.stages);
     bool complete = I->space != NULL;
     for (size_t k = 0; k < sizeof vectors / sizeof *vectors && complete; k++) {
         *vectors[k] = nvector_create(I->space, I->sundials);
@@ -173,19 +179,22 @@ static dem_status allocate(arkode_integrator *I)
     return DEM_OK;
 }
 
-/* ARKODE's norm is the mean over all N = 2 dim n_rows entries, sqrt(sum of (w_k e_k)^2/N). The quadratures and the
- * padding have no part in the error, so the weights of the nodes are
+/* ARKODE's norm is the mean over all N = 2 dim n_rows entries of the whole state, sqrt(sum of (w_k e_k)^2/N). The
+ * quadratures, the padding and the ghosts have no part in the error, so the weights of the nodes are
  *   share/position_error and share/velocity_error, with share^2 = n_rows/n_nodes,
- * which makes the norm the mean over the 2 dim n_nodes entries of the nodes. */
+ * which makes the norm the mean over the 2 dim n_nodes entries of all nodes. */
 static void fill_weights(arkode_integrator *I)
 {
-    const state_layout *l = &I->problem.layout;
-    const dem_index v = state_velocities(l), n_real = state_row(l, l->n_nodes);
-    const double share = sqrt((double)l->n_rows / (double)l->n_nodes);
+    const state_layout *l = &I->problem.layout, *whole = ode_problem_whole(&I->problem);
+    const dem_index v = state_velocities(l);
+    const double share = sqrt((double)whole->n_rows / (double)whole->n_nodes);
     double *w = nvector_fresh(I->weights);
     for (dem_index k = 0; k < state_size(l); k++) w[k] = no_weight;
-    for (dem_index k = 0; k < n_real; k++) w[k] = share / I->problem.position_error;
-    for (dem_index k = v; k < v + n_real; k++) w[k] = share / I->problem.velocity_error;
+    for (dem_index k = 0; k < state_row(l, l->n_nodes); k++) {
+        if (!ode_problem_is_own(&I->problem, k / l->dim)) continue;
+        w[k] = share / I->problem.position_error;
+        w[v + k] = share / I->problem.velocity_error;
+    }
 }
 
 /* Whether the last stage is the end of the step, whose derivative is kept then. */

@@ -32,9 +32,7 @@ typedef struct content {
 } content;
 
 struct nvector_space {
-    dem_index length;
-    const array_ops *ops;
-    team *team;
+    nvector_shape shape;
     int n_shares;        /* of its loops */
     array_ops_sum *sums; /* [n_shares] */
     buffer *buffers;     /* the first free one */
@@ -52,7 +50,7 @@ static content *content_of(N_Vector v)
 static bool add_buffer(nvector_space *s)
 {
     buffer *b = calloc(1, sizeof *b);
-    if (b != NULL) b->values = aligned_reals((size_t)s->length);
+    if (b != NULL) b->values = aligned_reals((size_t)s->shape.length);
     if (b == NULL || b->values == NULL) {
         free(b);
         return false;
@@ -167,7 +165,7 @@ static void fill(double value, N_Vector z)
 {
     const content *c = content_of(z);
     double *to = nvector_fresh(z);
-    for (dem_index k = 0; k < c->space->length; k++) to[k] = value;
+    for (dem_index k = 0; k < c->space->shape.length; k++) to[k] = value;
 }
 
 /* Numbers of z to write that are not those of an operand, which are read until the result is complete. An operand in a
@@ -198,11 +196,12 @@ static void combine_share(const void *context, int share, int thread)
 {
     const combination *c = context;
     const nvector_space *s = c->space;
-    const dem_index first = team_share(s->length, s->n_shares, share);
+    const dem_index first = team_share(s->shape.length, s->n_shares, share);
     const double *from[most_terms];
     (void)thread;
     for (int k = 0; k < c->n; k++) from[k] = c->in[k] + first;
-    s->ops->combine(c->out + first, c->n, c->factor, from, team_share(s->length, s->n_shares, share + 1) - first);
+    s->shape.ops->combine(c->out + first, c->n, c->factor, from,
+                          team_share(s->shape.length, s->n_shares, share + 1) - first);
 }
 
 /* Leaves out the terms that are 0 (many in a Butcher table); a sum of one vector with the factor 1 is shared instead of
@@ -230,7 +229,7 @@ int nvector_combine(int n, const double *factor, N_Vector *x, N_Vector z)
         return 0;
     }
     sum.out = apart_from(z, sum.in, sum.n);
-    team_run(sum.space->team, sum.space->n_shares, combine_share, &sum);
+    team_run(sum.space->shape.team, sum.space->n_shares, combine_share, &sum);
     return 0;
 }
 
@@ -272,18 +271,18 @@ static void square_share(const void *context, int share, int thread)
 {
     const squares *p = context;
     const nvector_space *s = p->space;
-    const dem_index first = team_share(s->length, s->n_shares, share);
-    const dem_index n = team_share(s->length, s->n_shares, share + 1) - first;
+    const dem_index first = team_share(s->shape.length, s->n_shares, share);
+    const dem_index n = team_share(s->shape.length, s->n_shares, share + 1) - first;
     (void)thread;
     s->sums[share] = (array_ops_sum){0};
-    s->ops->square(&s->sums[share], p->x + first, p->w + first, p->scale, n);
+    s->shape.ops->square(&s->sums[share], p->x + first, p->w + first, p->scale, n);
 }
 
 /* The sum of (scale x_k w_k)^2. It is one of integers: no order and no shares change it. */
 static array_ops_sum square(const nvector_space *s, const double *x, const double *w, double scale)
 {
     array_ops_sum sum = {0};
-    team_run(s->team, s->n_shares, square_share, &(squares){s, x, w, scale});
+    team_run(s->shape.team, s->n_shares, square_share, &(squares){s, x, w, scale});
     for (int share = 0; share < s->n_shares; share++) array_ops_add(&sum, &s->sums[share]);
     return sum;
 }
@@ -291,12 +290,12 @@ static array_ops_sum square(const nvector_space *s, const double *x, const doubl
 /* The squares are added as integers in units of 2^-60, which hold for sizes up to 32 times a scale. */
 bool nvector_norm_of_sum(const nvector_space *s, const array_ops_sum *part, double *scale, double *norm)
 {
-    const array_ops_sum sum = reduce_squares(*part);
+    const array_ops_sum sum = reduce_squares(s->shape.ranks, *part);
     *norm = INFINITY;
     if (!isfinite(sum.largest)) return true;
     const double right = scale_of(sqrt(sum.largest) / *scale);
     const bool holds = right == *scale;
-    if (holds) *norm = sqrt(array_ops_value(&sum) / (double)reduce_count(s->length)) / *scale;
+    if (holds) *norm = sqrt(array_ops_value(&sum) / (double)s->shape.n_whole) / *scale;
     *scale = right;
     return holds;
 }
@@ -310,9 +309,9 @@ static sunrealtype norm(N_Vector x, N_Vector w)
     double largest = 0.0, result;
     if (content_of(x)->use == NVECTOR_DUE && s->deferral->take_norm(s->deferral->self, x, w, &result)) return result;
     const double *values = nvector_values(x), *weights = nvector_values(w);
-    for (dem_index k = 0; k < s->length; k += s->length / n_sampled + 1)
+    for (dem_index k = 0; k < s->shape.length; k += s->shape.length / n_sampled + 1)
         largest = fmax(largest, fabs(values[k] * weights[k]));
-    double scale = scale_of(reduce_max(largest));
+    double scale = scale_of(reduce_max(s->shape.ranks, largest));
     for (;;) {
         const array_ops_sum sum = square(s, values, weights, scale);
         if (nvector_norm_of_sum(s, &sum, &scale, &result)) return result;
@@ -325,7 +324,7 @@ static sunrealtype largest(N_Vector x)
 {
     const double *a = nvector_values(x);
     double most = 0.0;
-    for (dem_index k = 0; k < content_of(x)->space->length; k++) most = fmax(most, fabs(a[k]));
+    for (dem_index k = 0; k < content_of(x)->space->shape.length; k++) most = fmax(most, fabs(a[k]));
     return most;
 }
 
@@ -333,28 +332,28 @@ static void divide(N_Vector x, N_Vector y, N_Vector z)
 {
     const double *a = nvector_values(x), *b = nvector_values(y);
     double *to = nvector_fresh(z);
-    for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = a[k] / b[k];
+    for (dem_index k = 0; k < content_of(z)->space->shape.length; k++) to[k] = a[k] / b[k];
 }
 
 static void take_size(N_Vector x, N_Vector z)
 {
     const double *a = nvector_values(x);
     double *to = nvector_fresh(z);
-    for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = fabs(a[k]);
+    for (dem_index k = 0; k < content_of(z)->space->shape.length; k++) to[k] = fabs(a[k]);
 }
 
 static void invert(N_Vector x, N_Vector z)
 {
     const double *a = nvector_values(x);
     double *to = nvector_fresh(z);
-    for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = 1.0 / a[k];
+    for (dem_index k = 0; k < content_of(z)->space->shape.length; k++) to[k] = 1.0 / a[k];
 }
 
 static void add_constant(N_Vector x, sunrealtype c, N_Vector z)
 {
     const double *a = nvector_values(x);
     double *to = nvector_fresh(z);
-    for (dem_index k = 0; k < content_of(z)->space->length; k++) to[k] = a[k] + c;
+    for (dem_index k = 0; k < content_of(z)->space->shape.length; k++) to[k] = a[k] + c;
 }
 
 /* ---- making and freeing ---- */
@@ -414,12 +413,11 @@ N_Vector nvector_create(nvector_space *s, SUNContext context)
     return v;
 }
 
-nvector_space *nvector_space_create(dem_index length, const array_ops *operations, team *t, int n_vectors)
+nvector_space *nvector_space_create(const nvector_shape *shape, int n_vectors)
 {
     nvector_space *s = calloc(1, sizeof *s);
     if (s == NULL) return NULL;
-    *s = (nvector_space){
-        .length = length, .ops = operations, .team = t, .n_shares = team_shares(t, length / NODE_LENGTH)};
+    *s = (nvector_space){.shape = *shape, .n_shares = team_shares(shape->team, shape->length / NODE_LENGTH)};
     s->sums = calloc((size_t)s->n_shares, sizeof *s->sums);
     /* The buffer that no content came with: it keeps one free when all vectors have theirs. */
     bool complete = s->sums != NULL && add_buffer(s);

@@ -10,6 +10,7 @@
 #include <sundials/sundials_nvector.h>
 
 #include "base/array_ops.h"
+#include "base/ranks.h"
 #include "base/team.h"
 
 typedef struct nvector_space nvector_space;
@@ -30,9 +31,18 @@ typedef struct nvector_deferral {
     void (*before_write)(void *self);
 } nvector_deferral;
 
-/** Borrows the operations and the team. Reserves memory for n_vectors vectors, clones included, as N_VClone() of
+/** What the vectors of a space are like, and what they are computed with. */
+typedef struct nvector_shape {
+    const ranks *ranks; /* that have vectors like these, each of a part of the numbers */
+    dem_index length;   /* numbers of a vector */
+    dem_index n_whole;  /* of how many numbers a norm is the mean: `length` where there is one rank */
+    const array_ops *ops;
+    team *team;
+} nvector_shape;
+
+/** Borrows what the shape refers to. Reserves memory for n_vectors vectors, clones included, as N_VClone() of
  *  SUNDIALS 6 crashes when it gets none. NULL without memory. Free with nvector_space_free(), after its vectors. */
-nvector_space *nvector_space_create(dem_index length, const array_ops *operations, team *t, int n_vectors);
+nvector_space *nvector_space_create(const nvector_shape *shape, int n_vectors);
 void nvector_space_free(nvector_space *s);
 
 /** A vector of the space with undefined numbers; NULL without memory. For N_VDestroy(). */

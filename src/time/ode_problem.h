@@ -6,6 +6,7 @@
 #define DEM_TIME_ODE_PROBLEM_H
 
 #include "base/array_ops.h"
+#include "base/ranks.h"
 #include "base/team.h"
 #include "time/dense_output.h"
 
@@ -31,9 +32,19 @@ typedef struct ode_band {
     double *scratch;
 } ode_band;
 
+/** The nodes of a problem that ranks integrate together, each some of them and the ghosts of others. */
+typedef struct ode_domain {
+    const ranks *ranks;
+    state_layout whole;          /* of a state with all nodes */
+    const unsigned char *is_own; /* [n_nodes] 0: a ghost, whose error is that of another rank */
+    /** Puts into y what other ranks have of it. Called before every derivative. */
+    void (*fill_ghosts)(double *y, void *context);
+} ode_domain;
+
 typedef struct ode_problem {
-    state_layout layout; /* of y; what stands behind the nodes is integrated along, and has no part in the error */
-    bool prescribes;     /* whether some x' are given, so that they are not v */
+    state_layout layout;      /* of y; what stands behind the nodes is integrated along, and has no part in the error */
+    const ode_domain *domain; /* NULL: all nodes are here */
+    bool prescribes;          /* whether some x' are given, so that they are not v */
     /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An integrator that knows v may
      *  leave u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or
      *  2 if nothing may. */
@@ -76,6 +87,30 @@ typedef struct integrator_start {
     const double *y;     /* [2 dim n_rows] */
     dem_counts counts;   /* of which steps, rejections, evaluations and retries are read */
 } integrator_start;
+
+/** The ranks that integrate the nodes. */
+static inline const ranks *ode_problem_ranks(const ode_problem *p)
+{
+    return p->domain != NULL ? p->domain->ranks : &ranks_alone;
+}
+
+/** The layout of a state with all nodes. */
+static inline const state_layout *ode_problem_whole(const ode_problem *p)
+{
+    return p->domain != NULL ? &p->domain->whole : &p->layout;
+}
+
+/** Whether node i is integrated here. */
+static inline bool ode_problem_is_own(const ode_problem *p, dem_index i)
+{
+    return p->domain == NULL || p->domain->is_own[i];
+}
+
+/** Puts into y what the derivative needs of other ranks. */
+static inline void ode_problem_fill_ghosts(const ode_problem *p, double *y)
+{
+    if (p->domain != NULL) p->domain->fill_ghosts(y, p->context);
+}
 
 /** Length of a fixed step from y, s: halved until its product with the highest frequency is no larger than about the
  *  rest shape.

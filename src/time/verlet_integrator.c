@@ -130,8 +130,9 @@ static double *verlet_integrator_state(const void *self)
 }
 
 /* The derivative; x' is asked for only where motions are prescribed, as it is v otherwise. */
-static int evaluate(verlet_integrator *V, double t, const double *y, double *f)
+static int evaluate(verlet_integrator *V, double t, double *y, double *f)
 {
+    ode_problem_fill_ghosts(&V->problem, y);
     double *u = V->problem.prescribes ? f : NULL, *a = f + state_velocities(&V->problem.layout);
     V->counts.evaluations++;
     return V->problem.derivative(t, y, u, a, V->problem.context);

@@ -76,7 +76,9 @@ static void begin(bench *b, bool defers)
                                .band_derivative = swing_band,
                                .context = b,
                                .ops = array_ops_fastest()};
-    b->space = nvector_space_create(state_size(&b->problem.layout), b->problem.ops, NULL, n_vectors);
+    const dem_index length = state_size(&b->problem.layout);
+    b->space = nvector_space_create(
+        &(nvector_shape){.ranks = &ranks_alone, .length = length, .n_whole = length, .ops = b->problem.ops}, n_vectors);
     assert_non_null(b->space);
     for (int k = 0; k < n_vectors; k++) {
         b->v[k] = nvector_create(b->space, b->sundials);

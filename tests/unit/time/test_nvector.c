@@ -30,7 +30,9 @@ static bench make_bench(int n_threads)
     assert_int_equal(SUNContext_Create(NULL, &b.sundials), 0);
 #endif
     b.team = team_create(n_threads, 1);
-    b.space = nvector_space_create(n, &array_ops_portable, b.team, n_vectors - 1);
+    b.space = nvector_space_create(
+        &(nvector_shape){.ranks = &ranks_alone, .length = n, .n_whole = n, .ops = &array_ops_portable, .team = b.team},
+        n_vectors - 1);
     assert_non_null(b.space);
     for (int p = 0; p < n_vectors; p++) {
         b.v[p] = p == 0 ? nvector_create(b.space, b.sundials) : N_VClone(b.v[0]);

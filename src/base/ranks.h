@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ranks: processes that share a model, each of which has the nodes of a domain, as one of them sees the others. All
+ * that they say to each other is said through this table of functions. They are *collective*: every rank calls the same one
+ * in the same order, and each waits for what it needs of the others. A process alone has a table of its own. */
+#ifndef DEM_BASE_RANKS_H
+#define DEM_BASE_RANKS_H
+
+#include <stddef.h>
+
+/** Joins a packet to another one of the same kind: commutative and associative to the bit, so that no order of ranks
+ *  has a part in the result. */
+typedef void ranks_join(void *packet, const void *other);
+
+/** What goes to one rank, or comes from it. */
+typedef struct ranks_message {
+    int rank;
+    size_t size; /* bytes */
+    void *bytes; /* [size] */
+} ranks_message;
+
+typedef struct ranks {
+    void *self;     /* what the functions work on */
+    int rank, size; /* this one, 0 <= rank < size, and how many there are */
+    /** Joins the packets of all ranks: each gets the result in its packet, at most RANKS_PACKET_MOST bytes. */
+    void (*reduce)(void *self, void *packet, size_t size, ranks_join *join);
+    /** Sends n messages and receives as many, one to and one from each of n other ranks, in ascending order. */
+    void (*exchange)(void *self, int n, const ranks_message *sent, const ranks_message *received);
+} ranks;
+
+enum { RANKS_PACKET_MOST = 1024 };
+
+/** Of a process alone. */
+extern const ranks ranks_alone;
+
+#endif

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How packets of ranks are joined (base/ranks.h). Sums are of integers, and the others choose one of two by a total
+ * order, so that each is commutative and associative to the bit. */
+#include "base/reduce.h"
+
+#include <string.h>
+
+#include "base/status.h"
+
+static void join_min(void *packet, const void *other)
+{
+    double *const own = packet;
+    const double theirs = *(const double *)other;
+    if (theirs < *own) *own = theirs;
+}
+
+double reduce_min(const ranks *r, double own)
+{
+    r->reduce(r->self, &own, sizeof own, join_min);
+    return own;
+}
+
+static void join_max(void *packet, const void *other)
+{
+    double *const own = packet;
+    const double theirs = *(const double *)other;
+    if (!(theirs <= *own) && *own == *own) *own = theirs;
+}
+
+double reduce_max(const ranks *r, double own)
+{
+    r->reduce(r->self, &own, sizeof own, join_max);
+    return own;
+}
+
+static void join_any(void *packet, const void *other)
+{
+    bool *const own = packet;
+    *own = *own || *(const bool *)other;
+}
+
+bool reduce_any(const ranks *r, bool own)
+{
+    r->reduce(r->self, &own, sizeof own, join_any);
+    return own;
+}
+
+static void join_count(void *packet, const void *other)
+{
+    *(dem_index *)packet += *(const dem_index *)other;
+}
+
+dem_index reduce_count(const ranks *r, dem_index own)
+{
+    r->reduce(r->self, &own, sizeof own, join_count);
+    return own;
+}
+
+static void join_sum(void *packet, const void *other)
+{
+    exact_sum more = *(const exact_sum *)other;
+    exact_sum_join(packet, &more);
+}
+
+double reduce_sum(const ranks *r, const exact_sum *own)
+{
+    if (r->size == 1) return exact_sum_value(own); /* a copy would take longer than most sums */
+    exact_sum all = *own;
+    r->reduce(r->self, &all, sizeof all, join_sum);
+    return exact_sum_value(&all);
+}
+
+static void join_squares(void *packet, const void *other)
+{
+    array_ops_add(packet, other);
+}
+
+array_ops_sum reduce_squares(const ranks *r, array_ops_sum own)
+{
+    r->reduce(r->self, &own, sizeof own, join_squares);
+    return own;
+}
+
+/* ---- failures ---- */
+
+/* One that has not failed has no rank. */
+typedef struct failure {
+    dem_status status;
+    int rank;
+    double key;
+} failure;
+
+static bool is_before(const failure *a, const failure *b)
+{
+    if (a->status == DEM_OK || b->status == DEM_OK) return a->status != DEM_OK && b->status == DEM_OK;
+    return a->key != b->key ? a->key < b->key : a->rank < b->rank;
+}
+
+static void join_failures(void *packet, const void *other)
+{
+    if (is_before(other, packet)) *(failure *)packet = *(const failure *)other;
+}
+
+/* Of all texts but one nothing is left, not even a first character. */
+static void join_texts(void *packet, const void *other)
+{
+    if (*(const char *)packet == '\0') memcpy(packet, other, STATUS_MESSAGE_SIZE);
+}
+
+dem_status reduce_status(const ranks *r, dem_status own, double key)
+{
+    failure first = {own, r->rank, key};
+    r->reduce(r->self, &first, sizeof first, join_failures);
+    if (r->size == 1 || first.status == DEM_OK) return first.status;
+    char text[STATUS_MESSAGE_SIZE] = "";
+    if (first.rank == r->rank) (void)strcpy(text, dem_status_message());
+    r->reduce(r->self, text, sizeof text, join_texts);
+    return status_fail(first.status, "%s", text);
+}
