@@ -262,28 +262,13 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     return compile_omega(m);
 }
 
-/* Nodes usually stand body by body, so that what goes through the nodes of each body goes through all of them once. */
-static dem_status compile_spans(dem_model *m)
-{
-    const dem_lattice *l = &m->lattice;
-    CHECK_MEMORY(m->body_span = lattice_zeros(m->n_bodies, 2 * sizeof *m->body_span));
-    for (dem_index b = 0; b < m->n_bodies; b++) m->body_span[2 * b] = -1;
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        dem_index *span = &m->body_span[2 * l->body[i]];
-        if (span[0] < 0) span[0] = i;
-        span[1] = i;
-    }
-    return DEM_OK;
-}
-
 /* A failure of one part is reduced before the sums, at which all processes would meet (base/reduce.h). */
 static dem_status compile(dem_model *m, const dem_lattice *lattice, const dem_obstacle *list, dem_index n)
 {
     TRY(reduce_status(m->ranks, compile_parts(m, lattice, list, n), 0.0));
     compile_scales(m);
     CHECK(isfinite(m->omega_max), DEM_ERROR_MODEL, "stiffness over mass is too large to compute with");
-    TRY(reduce_status(m->ranks, check_bodies(m), 0.0));
-    return reduce_status(m->ranks, compile_spans(m), 0.0);
+    return reduce_status(m->ranks, check_bodies(m), 0.0);
 }
 
 /* ---- public ---- */
@@ -330,7 +315,6 @@ void dem_model_destroy(dem_model *model)
     obstacles_free(&model->obstacles);
     rigid_bodies_free(&model->rigid);
     free(model->inverse_mass);
-    free(model->body_span);
     free(model);
 }
 

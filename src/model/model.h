@@ -27,10 +27,9 @@ struct dem_model {
     obstacle_set obstacles;
     double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
     dem_index n_bodies;
-    dem_index *body_span; /* [n_bodies][2] first and last node of each body; others may stand between them */
-    double spacing;       /* m */
-    double omega_max;     /* rad/s */
-    double mass;          /* kg */
+    double spacing;   /* m */
+    double omega_max; /* rad/s */
+    double mass;      /* kg */
 };
 
 #endif
