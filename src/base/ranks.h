@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ranks: processes that share a model, each of which has the nodes of a domain, as one of them sees the others. All
- * that they say to each other is said through this table of functions. They are *collective*: every rank calls the same one
- * in the same order, and each waits for what it needs of the others. A process alone has a table of its own. */
+ * that they say to each other is said through this table of functions. These are *collective*: every rank calls the
+ * same ones in the same order, and each waits for what it needs of the others. A process alone has a table of its
+ * own. */
 #ifndef DEM_BASE_RANKS_H
 #define DEM_BASE_RANKS_H
 

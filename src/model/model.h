@@ -4,6 +4,7 @@
 #define DEM_MODEL_MODEL_H
 
 #include "base/ranks.h"
+#include "domain/domain.h"
 #include "elastic/couplings.h"
 #include "elastic/layout.h"
 #include "elastic/springs.h"
@@ -15,6 +16,7 @@
 
 struct dem_model {
     const ranks *ranks;  /* that share it */
+    domain *domain;      /* of this one; NULL: all nodes are here */
     dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
     springs springs;
     triangles triangles;
@@ -25,7 +27,7 @@ struct dem_model {
     stress_map stress;
     layout layout; /* of springs and triangles, for sweeps over all nodes */
     obstacle_set obstacles;
-    double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed */
+    double *inverse_mass; /* [n_nodes] 1/kg; 0 where the node is fixed, or a ghost */
     dem_index n_bodies;
     double spacing;   /* m */
     double omega_max; /* rad/s */

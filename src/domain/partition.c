@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Recursive coordinate bisection: the nodes of some ranks are cut in two across the longer side of their bounding box,
+ * and the ranks with them, until each has its own. Of nodes at the same coordinate the lower numbers come first, so
+ * that the result depends on rest positions and the number of ranks alone. */
+#include "domain/partition.h"
+
+#include <stdlib.h>
+
+#include "base/box.h"
+#include "base/status.h"
+
+/* A node as it is sorted. */
+typedef struct place {
+    double coordinate;
+    dem_index node;
+} place;
+
+static int compare(const void *a, const void *b)
+{
+    const place *p = a, *q = b;
+    if (p->coordinate != q->coordinate) return p->coordinate < q->coordinate ? -1 : 1;
+    return (p->node > q->node) - (p->node < q->node);
+}
+
+/* Consecutive ranks, and the nodes that they are to have. */
+typedef struct section {
+    place *places; /* [n] */
+    dem_index n;
+    int first, n_ranks;
+} section;
+
+static void sort_along(const section *s, const dem_lattice *l)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (dem_index k = 0; k < s->n; k++)
+        for (int c = 0; c < 2; c++) {
+            const double x = l->x[2 * s->places[k].node + c];
+            low[c] = fmin(low[c], x);
+            high[c] = fmax(high[c], x);
+        }
+    const int along = high[1] - low[1] > high[0] - low[0];
+    for (dem_index k = 0; k < s->n; k++) s->places[k].coordinate = l->x[2 * s->places[k].node + along];
+    qsort(s->places, (size_t)s->n, sizeof *s->places, compare);
+}
+
+/* The depth is that of halving the number of ranks. */
+static void bisect(const section *s, const dem_lattice *l, int32_t *owner)
+{
+    if (s->n_ranks == 1) {
+        for (dem_index k = 0; k < s->n; k++) owner[s->places[k].node] = s->first;
+        return;
+    }
+    const int half = s->n_ranks / 2;
+    const dem_index cut = s->n * half / s->n_ranks;
+    sort_along(s, l);
+    bisect(&(section){s->places, cut, s->first, half}, l, owner);
+    bisect(&(section){s->places + cut, s->n - cut, s->first + half, s->n_ranks - half}, l, owner);
+}
+
+dem_status partition_bisect(const dem_lattice *lattice, int n, int32_t *owner)
+{
+    CHECK(n <= lattice->n_nodes, DEM_ERROR_MODEL, "%d ranks are more than the %lld nodes that they are to share", n,
+          (long long)lattice->n_nodes);
+    place *places = malloc((size_t)lattice->n_nodes * sizeof *places);
+    CHECK_MEMORY(places);
+    for (dem_index i = 0; i < lattice->n_nodes; i++) places[i].node = i;
+    bisect(&(section){places, lattice->n_nodes, 0, n}, lattice, owner);
+    free(places);
+    return DEM_OK;
+}

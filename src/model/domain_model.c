@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A domain's model is compiled from the lattice of its nodes, as any other is, but for what depends on more than the
+ * neighbours of its own nodes: that is taken from the model of the whole. These are its scales; the boundary, as a side
+ * whose other triangle belongs to another rank only is none; and the shares of springs in stresses, as a side opposite
+ * to an own node may have its other triangle elsewhere. Orders of nodes, springs and triangles are those of the whole,
+ * so that sums over a row have the same bits. A ghost has the inverse mass 0: its row is not complete, and what it does
+ * comes from its owner. */
+#include "model/domain_model.h"
+
+#include <stdlib.h>
+
+#include "base/reduce.h"
+#include "base/status.h"
+#include "lattice/lattice.h"
+
+/* The numbers in the domain of what the whole lattice has; -1: it is not there. */
+typedef struct places {
+    dem_index *node, *spring, *triangle;
+} places;
+
+static void free_places(places *p)
+{
+    free(p->node);
+    free(p->spring);
+    free(p->triangle);
+}
+
+/* Numbers the tuples of which the domain has all corners, as dem_lattice_select() keeps them. */
+static void number_tuples(const dem_index *corner, int arity, dem_index n, const dem_index *node, dem_index *number)
+{
+    dem_index kept = 0;
+    for (dem_index k = 0; k < n; k++) {
+        bool is_there = true;
+        for (int c = 0; c < arity; c++) is_there = is_there && node[corner[arity * k + c]] >= 0;
+        number[k] = is_there ? kept++ : -1;
+    }
+}
+
+static dem_status find_places(places *p, const domain *d, const dem_lattice *whole)
+{
+    p->node = lattice_zeros(whole->n_nodes, sizeof *p->node);
+    p->spring = lattice_zeros(whole->n_springs, sizeof *p->spring);
+    p->triangle = lattice_zeros(whole->n_triangles, sizeof *p->triangle);
+    CHECK(p->node && p->spring && p->triangle, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
+          (long long)d->n_nodes);
+    for (dem_index i = 0; i < whole->n_nodes; i++) p->node[i] = -1;
+    for (dem_index i = 0; i < d->n_nodes; i++) p->node[d->number[i]] = i;
+    number_tuples(whole->ends, 2, whole->n_springs, p->node, p->spring);
+    number_tuples(whole->triangles, 3, whole->n_triangles, p->node, p->triangle);
+    return DEM_OK;
+}
+
+static dem_status cut_lattice(dem_model *m, const dem_lattice *whole, const places *p)
+{
+    m->lattice = dem_lattice_empty();
+    TRY(dem_lattice_append(&m->lattice, whole));
+    bool *keep = lattice_zeros(whole->n_nodes, sizeof *keep);
+    CHECK_MEMORY(keep);
+    for (dem_index i = 0; i < whole->n_nodes; i++) keep[i] = p->node[i] >= 0;
+    const dem_status status = dem_lattice_select(&m->lattice, keep);
+    free(keep);
+    return status;
+}
+
+/* The sides of the whole's boundary whose triangles are in the domain. */
+static dem_status cut_surface(dem_model *m, const dem_lattice *whole, const places *p)
+{
+    mesh_boundary boundary;
+    TRY(mesh_boundary_create(&boundary, whole, NULL));
+    dem_index kept = 0;
+    for (dem_index k = 0; k < boundary.n; k++) {
+        const mesh_boundary_edge *e = &boundary.list[k];
+        if (p->triangle[e->triangle] < 0) continue;
+        boundary.list[kept++] = (mesh_boundary_edge){p->node[e->lower], p->node[e->upper], p->triangle[e->triangle]};
+    }
+    boundary.n = kept;
+    const dem_status status = surface_compile_boundary(&m->surface, &m->lattice, &boundary, SURFACE_TOUCHING);
+    mesh_boundary_free(&boundary);
+    return status;
+}
+
+/* The rows of own nodes; those of ghosts are empty. */
+static dem_status cut_stress(dem_model *m, const stress_map *whole, const places *p)
+{
+    const domain *d = m->domain;
+    stress_map map = {.couplings = &m->couplings};
+    dem_index n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        if (d->is_own[i]) n += whole->row[d->number[i] + 1] - whole->row[d->number[i]];
+    map.row = lattice_zeros(d->n_nodes + 1, sizeof *map.row);
+    map.volume = lattice_zeros(d->n_nodes, sizeof *map.volume);
+    map.spring = lattice_zeros(n, sizeof *map.spring);
+    map.share = lattice_zeros(n, sizeof *map.share);
+    m->stress = map;
+    CHECK(map.row && map.volume && map.spring && map.share, DEM_ERROR_MEMORY,
+          "out of memory for the stresses of %lld nodes", (long long)d->n_nodes);
+    n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++) {
+        const dem_index of = d->number[i];
+        map.volume[i] = whole->volume[of];
+        for (dem_index q = whole->row[of]; d->is_own[i] && q < whole->row[of + 1]; q++) {
+            map.spring[n] = p->spring[whole->spring[q]];
+            map.share[n++] = whole->share[q];
+        }
+        map.row[i + 1] = n;
+    }
+    return DEM_OK;
+}
+
+static dem_status cut_nodes(dem_model *m, const dem_model *whole)
+{
+    const domain *d = m->domain;
+    m->inverse_mass = lattice_zeros(d->n_nodes, sizeof *m->inverse_mass);
+    CHECK_MEMORY(m->inverse_mass);
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        m->inverse_mass[i] = d->is_own[i] ? whole->inverse_mass[d->number[i]] : 0.0;
+    return DEM_OK;
+}
+
+static void take_scales(dem_model *m, const dem_model *whole)
+{
+    m->edges_are_springs = whole->edges_are_springs;
+    m->n_bodies = whole->n_bodies;
+    m->spacing = whole->spacing;
+    m->omega_max = whole->omega_max;
+    m->mass = whole->mass;
+}
+
+static dem_status cut(dem_model *m, const dem_model *whole, const places *p)
+{
+    TRY(cut_lattice(m, &whole->lattice, p));
+    TRY(springs_compile(&m->springs, &m->lattice));
+    TRY(triangles_compile(&m->triangles, &m->lattice));
+    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
+    TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
+    TRY(cut_surface(m, &whole->lattice, p));
+    TRY(cut_stress(m, &whole->stress, p));
+    TRY(cut_nodes(m, whole));
+    take_scales(m, whole);
+    return DEM_OK;
+}
+
+static dem_status create(dem_model *m, const dem_model *whole, const int32_t *owner)
+{
+    places p = {0};
+    CHECK_MEMORY(m->domain = calloc(1, sizeof *m->domain));
+    TRY(domain_create(m->domain, &whole->lattice, owner, m->ranks->rank));
+    dem_status status = find_places(&p, m->domain, &whole->lattice);
+    if (status == DEM_OK) status = cut(m, whole, &p);
+    free_places(&p);
+    return status;
+}
+
+/* What events are of, which ranks cannot share yet, and rigid bodies. */
+static dem_status check(const ranks *r, const dem_model *whole)
+{
+    const dem_lattice *l = &whole->lattice;
+    CHECK(whole->obstacles.n == 0, DEM_ERROR_MODEL, "%d ranks cannot share a model with obstacles yet", r->size);
+    CHECK(whole->rigid.n == 0, DEM_ERROR_MODEL, "%d ranks cannot share a model with rigid bodies yet", r->size);
+    CHECK(l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL, DEM_ERROR_MODEL,
+          "%d ranks cannot share a model that may break yet", r->size);
+    return DEM_OK;
+}
+
+dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole, const int32_t *owner)
+{
+    TRY(check(r, whole));
+    dem_model *m = calloc(1, sizeof *m);
+    CHECK_MEMORY(m);
+    m->ranks = r;
+    const dem_status status = reduce_status(r, create(m, whole, owner), 0.0);
+    if (status == DEM_OK)
+        *out = m;
+    else
+        dem_model_destroy(m);
+    return status;
+}

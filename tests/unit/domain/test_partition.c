@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* partition.c on rows and squares of nodes, whose sections are known, and on a disc. */
+#include "unit/domain/shared_lattice.h"
+
+TEST(ranks_get_the_same_number_of_nodes_but_for_one)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    for (int n = 1; n <= 9; n++) {
+        CLEANUP(free_memory) int32_t *owner = shared_owners(&l, n);
+        dem_index count[9] = {0};
+        for (dem_index i = 0; i < l.n_nodes; i++) {
+            assert_in_range(owner[i], 0, n - 1);
+            count[owner[i]]++;
+        }
+        for (int k = 0; k < n; k++) assert_in_range(count[k], l.n_nodes / n, l.n_nodes / n + 1);
+    }
+}
+
+/* Four nodes at the corners of a rectangle that is wider than high: cut upright, then across. */
+TEST(the_longer_side_is_cut_and_lower_coordinates_come_first)
+{
+    double x[] = {3.0, 1.0, 0.0, 1.0, 3.0, 0.0, 0.0, 0.0};
+    const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 4, .x = x);
+    int32_t owner[4];
+    assert_ok(partition_bisect(&l, 4, owner));
+    const int32_t expected[4] = {3, 1, 2, 0};
+    assert_memory_equal(owner, expected, sizeof owner);
+}
+
+TEST(ties_go_by_number)
+{
+    double x[10] = {0.0}; /* all at one place */
+    const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 5, .x = x);
+    int32_t owner[5];
+    assert_ok(partition_bisect(&l, 2, owner));
+    const int32_t expected[5] = {0, 0, 1, 1, 1};
+    assert_memory_equal(owner, expected, sizeof owner);
+}
+
+TEST(more_ranks_than_nodes_are_refused)
+{
+    double x[4] = {0.0, 0.0, 1.0, 0.0};
+    const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 2, .x = x);
+    int32_t owner[2];
+    assert_int_equal(partition_bisect(&l, 3, owner), DEM_ERROR_MODEL);
+    assert_string_equal(dem_status_message(), "3 ranks are more than the 2 nodes that they are to share");
+}

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* domain_model.c: a rank's model has of its own nodes what the model of the whole has. */
+#include "unit/domain/shared_lattice.h"
+
+#include <string.h>
+
+#include "harness/rank_threads.h"
+#include "model/domain_model.h"
+
+enum { N_RANKS = 5, TEXT = 200 };
+
+/* Ranks work one after the other here, as creating a model is all that they do together. */
+typedef struct shared {
+    const dem_model *whole;
+    const int32_t *owner;
+    dem_model *models[N_RANKS];
+    dem_status status[N_RANKS];
+    char messages[N_RANKS][TEXT];
+} shared;
+
+static void create(const ranks *r, void *context)
+{
+    shared *s = context;
+    s->status[r->rank] = domain_model_create(&s->models[r->rank], r, s->whole, s->owner);
+    if (s->status[r->rank] != DEM_OK) (void)strncpy(s->messages[r->rank], dem_status_message(), TEXT - 1);
+}
+
+static void destroy(shared *s)
+{
+    for (int k = 0; k < N_RANKS; k++) dem_model_destroy(s->models[k]);
+}
+
+static void assert_same_rows(const dem_model *m, const dem_model *whole)
+{
+    const domain *d = m->domain;
+    for (dem_index i = 0; i < d->n_nodes; i++) {
+        const dem_index of = d->number[i], from = whole->springs.row[of], row = m->springs.row[i];
+        assert_true(m->inverse_mass[i] == (d->is_own[i] ? whole->inverse_mass[of] : 0.0));
+        assert_true(m->stress.volume[i] == whole->stress.volume[of]);
+        if (!d->is_own[i]) continue;
+        assert_int_equal(m->springs.row[i + 1] - row, whole->springs.row[of + 1] - from);
+        for (dem_index p = 0; p < m->springs.row[i + 1] - row; p++) {
+            assert_int_equal(d->number[m->springs.neighbour[row + p]], whole->springs.neighbour[from + p]);
+            assert_true(m->springs.stiffness[row + p] == whole->springs.stiffness[from + p]);
+            assert_true(m->springs.rest_length[row + p] == whole->springs.rest_length[from + p]);
+        }
+    }
+}
+
+/* At positions that are not the rest ones. */
+static void assert_same_stresses(const dem_model *m, const dem_model *whole, const double *x)
+{
+    const domain *d = m->domain;
+    CLEANUP(free_memory) double *own = malloc(2 * (size_t)d->n_nodes * sizeof *own);
+    for (dem_index i = 0; i < d->n_nodes; i++) memcpy(own + 2 * i, x + 2 * d->number[i], 2 * sizeof *x);
+    for (dem_index i = 0; i < d->n_nodes; i++) {
+        double here[3], there[3];
+        if (!d->is_own[i]) continue;
+        stress_of_node(&m->stress, &m->lattice, &m->triangles, i, own, here);
+        stress_of_node(&whole->stress, &whole->lattice, &whole->triangles, d->number[i], x, there);
+        assert_memory_equal(here, there, sizeof here);
+    }
+}
+
+/* The edge of the whole surface from node to node; -1: none. */
+static dem_index find_edge(const surface *s, dem_index from, dem_index to)
+{
+    for (dem_index k = 0; k < s->n_edges; k++)
+        if (s->ends[2 * k] == from && s->ends[2 * k + 1] == to) return k;
+    return -1;
+}
+
+/* Where the domain ends there is no boundary, and no edge between own nodes is missing. */
+static void assert_same_surface(const dem_model *m, const dem_model *whole)
+{
+    const domain *d = m->domain;
+    dem_index n_own = 0, n_whole = 0;
+    for (dem_index k = 0; k < m->surface.n_edges; k++) {
+        const dem_index a = m->surface.ends[2 * k], b = m->surface.ends[2 * k + 1];
+        assert_true(find_edge(&whole->surface, d->number[a], d->number[b]) >= 0);
+        n_own += d->is_own[a];
+    }
+    for (dem_index k = 0; k < whole->surface.n_edges; k++)
+        n_whole += domain_own_node(d, whole->surface.ends[2 * k]) >= 0;
+    assert_int_equal(n_own, n_whole);
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        assert_int_equal(m->lattice.flags[i], whole->lattice.flags[d->number[i]]);
+}
+
+TEST(own_nodes_have_what_they_have_in_the_whole)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
+    CLEANUP(free_memory) double *x = malloc(2 * (size_t)l.n_nodes * sizeof *x);
+    for (dem_index k = 0; k < 2 * l.n_nodes; k++) x[k] = l.x[k] * (1.0 + 0.01 * sin((double)k));
+    shared s = {.whole = whole, .owner = owner};
+    rank_threads_run(N_RANKS, create, &s);
+    for (int k = 0; k < N_RANKS; k++) {
+        const dem_model *m = s.models[k];
+        assert_int_equal(s.status[k], DEM_OK);
+        assert_same_rows(m, whole);
+        assert_same_stresses(m, whole, x);
+        assert_same_surface(m, whole);
+        assert_true(m->omega_max == whole->omega_max && m->spacing == whole->spacing && m->mass == whole->mass);
+        assert_int_equal(m->n_bodies, whole->n_bodies);
+    }
+    destroy(&s);
+}
+
+static void assert_refused(const dem_lattice *l, const dem_obstacle *o, dem_index n, const char *message)
+{
+    CLEANUP(free_memory) int32_t *owner = shared_owners(l, N_RANKS);
+    CLEANUP(free_model) dem_model *whole = support_model(l, o, n);
+    shared s = {.whole = whole, .owner = owner};
+    rank_threads_run(N_RANKS, create, &s);
+    for (int k = 0; k < N_RANKS; k++) {
+        assert_int_equal(s.status[k], DEM_ERROR_MODEL);
+        assert_string_equal(s.messages[k], message);
+    }
+}
+
+TEST(what_ranks_cannot_share_is_refused)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    const double points[] = {-1.0, -1.0, 1.0, -1.0};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 1.0);
+    assert_refused(&l, &floor, 1, "5 ranks cannot share a model with obstacles yet");
+    l.strength = malloc((size_t)l.n_triangles * sizeof *l.strength);
+    for (dem_index k = 0; k < l.n_triangles; k++) l.strength[k] = 1e5;
+    assert_refused(&l, NULL, 0, "5 ranks cannot share a model that may break yet");
+}
+
+/* One rank alone has no node: all hear of it. */
+TEST(a_failure_of_one_rank_is_that_of_all)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS - 1);
+    CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
+    shared s = {.whole = whole, .owner = owner};
+    rank_threads_run(N_RANKS, create, &s);
+    for (int k = 0; k < N_RANKS; k++) {
+        assert_null(s.models[k]);
+        assert_string_equal(s.messages[k], "rank 4 has no node of its own");
+    }
+}
