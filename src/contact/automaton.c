@@ -289,7 +289,8 @@ void automaton_add_rates(const automaton *c, double t, const double *y, double *
 {
     const scene_state state = automaton_state(c, t, y);
     const contact_forces *r = &c->set.forces;
-    if (!reduce_any(c->set.scene.model->ranks, r->n_groups > 0)) return;
+    const dem_model *model = c->set.scene.model;
+    if (model->obstacles.n == 0 || !reduce_any(model->ranks, r->n_groups > 0)) return;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) add_rates_of(c, k, state);
     rate_sums_take(c->set.scene.model->ranks, &c->rates, scene_layout(&c->set.scene), a);

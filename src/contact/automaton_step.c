@@ -185,6 +185,7 @@ bool automaton_project(automaton *c, double t, double *y)
     contact_set *s = &c->set;
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), NULL, DEM_OK};
     bool any = false;
+    if (s->scene.model->obstacles.n == 0) return false;
     for (dem_index g = 0; g < s->forces.n_groups; g++) {
         const dem_index group = s->forces.groups[g];
         if (!has_opened(s, group, &now)) continue;

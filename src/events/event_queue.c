@@ -265,14 +265,14 @@ static dem_status settle_end(event_queue *q)
  * events at different places decides about no step. */
 double event_queue_error(const event_queue *q)
 {
-    return isfinite(q->most) ? sqrt(reduce_sum(q->ranks, &q->error) / q->most) : 0.0;
+    return isfinite(q->most) && !q->quiet ? sqrt(reduce_sum(q->ranks, &q->error) / q->most) : 0.0;
 }
 
 /* The length for which the events' error, as it would be at the start of a step, is 1: the error is taken to go with
  * its fourth power, which is slower than it does, and so on the safe side. */
 double event_queue_reach(const event_queue *q)
 {
-    const double error = isfinite(q->most) ? sqrt(reduce_sum(q->ranks, &q->ahead) / q->most) : 0.0;
+    const double error = isfinite(q->most) && !q->quiet ? sqrt(reduce_sum(q->ranks, &q->ahead) / q->most) : 0.0;
     return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
 }
 

@@ -183,64 +183,74 @@ static dem_status check_one(const dem_boundary *b, dem_index k)
     return DEM_OK;
 }
 
+/* What conditions are compiled for. */
+typedef struct bodies {
+    const dem_lattice *lattice;
+    const domain *domain; /* NULL: the lattice is whole */
+    bool touches;         /* whether there are obstacles */
+} bodies;
+
 /* Whether condition k may have its p-th node. `held` has for each node the components that are prescribed so far, and
  * in the bit NAMED whether condition k has named the node already. A node with a prescribed motion must not touch
  * obstacles: a contact could not change its velocity. */
-static dem_status check_node(const dem_boundary *b, dem_index k, dem_index p, const dem_lattice *l, bool touches,
-                             unsigned char *held)
+static dem_status check_node(const bodies *of, const dem_boundary *b, dem_index k, dem_index p, unsigned char *held)
 {
     enum { NAMED = 4 };
+    const dem_lattice *l = of->lattice;
+    const dem_index n_nodes = of->domain != NULL ? of->domain->n_whole : l->n_nodes;
     const long long number = (long long)k, node = (long long)b->nodes[p];
-    CHECK(node >= 0 && node < l->n_nodes, DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is not in 0 to %lld", number,
-          node, (long long)(l->n_nodes - 1));
-    CHECK(!(held[node] & NAMED), DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is named twice", number, node);
+    CHECK(node >= 0 && node < n_nodes, DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is not in 0 to %lld", number, node,
+          (long long)(n_nodes - 1));
+    const dem_index i = domain_own_node(of->domain, b->nodes[p]);
+    if (i < 0) return DEM_OK; /* another rank looks at it */
+    CHECK(!(held[i] & NAMED), DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is named twice", number, node);
     CHECK(b->share == NULL || isfinite(b->share[p]), DEM_ERROR_ARGUMENT,
           "boundary %lld: the share of node %lld is not finite", number, node);
     /* What follows concerns prescribed motions only: forces may act on any node, several on one. */
-    held[node] |= NAMED;
+    held[i] |= NAMED;
     if (b->kind == DEM_BOUNDARY_FORCE) return DEM_OK;
-    CHECK(!(l->flags[node] & DEM_NODE_FIXED), DEM_ERROR_MODEL, "boundary %lld: node %lld is fixed already", number,
-          node);
-    CHECK(!(l->flags[node] & DEM_NODE_RIGID), DEM_ERROR_MODEL,
+    CHECK(!(l->flags[i] & DEM_NODE_FIXED), DEM_ERROR_MODEL, "boundary %lld: node %lld is fixed already", number, node);
+    CHECK(!(l->flags[i] & DEM_NODE_RIGID), DEM_ERROR_MODEL,
           "boundary %lld: node %lld is of a rigid body, whose motion cannot be prescribed; a guide can", number, node);
-    CHECK(!(held[node] & b->components), DEM_ERROR_MODEL,
+    CHECK(!(held[i] & b->components), DEM_ERROR_MODEL,
           "boundary %lld: the motion of node %lld is prescribed by another one already", number, node);
-    CHECK(!touches || !(l->flags[node] & DEM_NODE_CONTACT), DEM_ERROR_MODEL,
+    CHECK(!of->touches || !(l->flags[i] & DEM_NODE_CONTACT), DEM_ERROR_MODEL,
           "boundary %lld: node %lld may touch obstacles, so its motion cannot be prescribed; "
           "dem_lattice_exclude() takes it from contact",
           number, node);
-    held[node] |= (unsigned char)b->components;
+    held[i] |= (unsigned char)b->components;
     return DEM_OK;
 }
 
 /* The marks of a condition are removed before the next one is checked. */
-static dem_status check_all(const dem_boundary *list, dem_index n, const dem_lattice *l, bool touches,
-                            unsigned char *held)
+static dem_status check_all(const bodies *of, const dem_boundary *list, dem_index n, unsigned char *held)
 {
     for (dem_index k = 0; k < n; k++) {
         TRY(check_one(&list[k], k));
-        for (dem_index p = 0; p < list[k].n_nodes; p++) TRY(check_node(&list[k], k, p, l, touches, held));
-        for (dem_index p = 0; p < list[k].n_nodes; p++) held[list[k].nodes[p]] &= BOTH;
+        for (dem_index p = 0; p < list[k].n_nodes; p++) TRY(check_node(of, &list[k], k, p, held));
+        for (dem_index p = 0; p < list[k].n_nodes; p++) {
+            const dem_index i = domain_own_node(of->domain, list[k].nodes[p]);
+            if (i >= 0) held[i] &= BOTH;
+        }
     }
     return DEM_OK;
 }
 
-/* A force without shares is shared equally. */
-static dem_status copy(boundary_condition *out, const dem_boundary *from)
+/* A force without shares is shared equally among all of its nodes, wherever they are. */
+static dem_status copy(boundary_condition *out, const dem_boundary *from, const domain *d)
 {
     const size_t n = (size_t)from->n_nodes;
-    *out = (boundary_condition){.kind = from->kind,
-                                .components = from->components,
-                                .value = vec2_at(from->value, 0),
-                                .ramp = from->ramp,
-                                .n_nodes = from->n_nodes};
+    *out = (boundary_condition){
+        .kind = from->kind, .components = from->components, .value = vec2_at(from->value, 0), .ramp = from->ramp};
     out->nodes = malloc(n * sizeof *out->nodes);
     CHECK_MEMORY(out->nodes);
-    memcpy(out->nodes, from->nodes, n * sizeof *out->nodes);
-    if (from->kind != DEM_BOUNDARY_FORCE) return DEM_OK;
-    out->share = malloc(n * sizeof *out->share);
-    CHECK_MEMORY(out->share);
-    for (size_t p = 0; p < n; p++) out->share[p] = from->share != NULL ? from->share[p] : 1.0 / (double)n;
+    if (from->kind == DEM_BOUNDARY_FORCE) CHECK_MEMORY(out->share = malloc(n * sizeof *out->share));
+    for (size_t p = 0; p < n; p++) {
+        const dem_index i = domain_own_node(d, from->nodes[p]);
+        if (i < 0) continue;
+        if (out->share != NULL) out->share[out->n_nodes] = from->share != NULL ? from->share[p] : 1.0 / (double)n;
+        out->nodes[out->n_nodes++] = i;
+    }
     return DEM_OK;
 }
 
@@ -266,27 +276,26 @@ static dem_status list_pushes(boundary_conditions *b, dem_index n_nodes)
 }
 
 /* Conditions are counted before they are copied, so that a failure half-way leaves no memory behind. */
-static dem_status compile(boundary_conditions *b, const dem_boundary *list, dem_index n, dem_index n_nodes)
+static dem_status compile(boundary_conditions *b, const bodies *of, const dem_boundary *list, dem_index n)
 {
     b->list = calloc((size_t)n, sizeof *b->list);
     CHECK_MEMORY(b->list);
     while (b->n < n) {
         b->n++;
-        TRY(copy(&b->list[b->n - 1], &list[b->n - 1]));
+        TRY(copy(&b->list[b->n - 1], &list[b->n - 1], of->domain));
     }
-    return list_pushes(b, n_nodes);
+    return list_pushes(b, of->lattice->n_nodes);
 }
 
 /* *out is empty until everything is in order, so that a failure leaves nothing to free. */
-static dem_status make(boundary_conditions *out, const dem_boundary *list, dem_index n, const dem_lattice *lattice,
-                       bool touches)
+static dem_status make(boundary_conditions *out, const bodies *of, const dem_boundary *list, dem_index n)
 {
     boundary_conditions b = {0};
     /* Kept after the checks: the right-hand side asks for the prescribed components of each node. */
-    b.held = calloc((size_t)lattice->n_nodes, sizeof *b.held);
+    b.held = calloc((size_t)of->lattice->n_nodes, sizeof *b.held);
     CHECK_MEMORY(b.held);
-    dem_status status = check_all(list, n, lattice, touches, b.held);
-    if (status == DEM_OK) status = compile(&b, list, n, lattice->n_nodes);
+    dem_status status = check_all(of, list, n, b.held);
+    if (status == DEM_OK) status = compile(&b, of, list, n);
     if (status == DEM_OK)
         *out = b;
     else
@@ -298,7 +307,7 @@ static dem_status make(boundary_conditions *out, const dem_boundary *list, dem_i
 static const struct_kind kind = {"dem_boundary", STRUCT_SIZE_WITH(dem_boundary, ramp), sizeof(dem_boundary)};
 
 dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
-                                       const dem_lattice *lattice, dem_index n_obstacles)
+                                       const dem_lattice *lattice, const domain *d, dem_index n_obstacles)
 {
     void *own;
     *out = (boundary_conditions){0};
@@ -306,7 +315,7 @@ dem_status boundary_conditions_compile(boundary_conditions *out, const dem_bound
           list != NULL ? "given" : "NULL");
     if (n == 0) return DEM_OK;
     TRY(struct_size_read_array(&kind, &own, list, n));
-    const dem_status status = make(out, own, n, lattice, n_obstacles > 0);
+    const dem_status status = make(out, &(bodies){lattice, d, n_obstacles > 0}, own, n);
     free(own);
     return status;
 }

@@ -8,6 +8,7 @@
 
 #include "base/exact_terms.h"
 #include "base/vec2.h"
+#include "domain/domain.h"
 #include "forces/load_clock.h"
 
 /** A condition as the caller gave it, with arrays of its own. */
@@ -36,12 +37,13 @@ typedef struct boundary_conditions {
     load_clock clock;                 /* of the ramps */
 } boundary_conditions;
 
-/** Validates and copies. Free with boundary_conditions_free().
+/** Validates and copies. Of a domain (else NULL), nodes are given by their numbers in the whole lattice, and what is
+ *  compiled has its own ones only. Free with boundary_conditions_free().
  *  \return DEM_ERROR_ARGUMENT; or DEM_ERROR_MODEL for a node that is fixed, whose component is prescribed twice, or
  *  that may
  *          touch one of `n_obstacles` obstacles */
 dem_status boundary_conditions_compile(boundary_conditions *out, const dem_boundary *list, dem_index n,
-                                       const dem_lattice *lattice, dem_index n_obstacles);
+                                       const dem_lattice *lattice, const domain *d, dem_index n_obstacles);
 void boundary_conditions_free(boundary_conditions *b);
 
 /* Of one condition, t is the time of the ramps; of all conditions, that of the motion. */

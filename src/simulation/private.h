@@ -8,6 +8,7 @@
 #include "base/state.h"
 #include "base/team.h"
 #include "contact/contact_source.h"
+#include "domain/halo.h"
 #include "events/event_queue.h"
 #include "forces/held_forces.h"
 #include "forces/kernel.h"
@@ -41,6 +42,8 @@ struct dem_simulation {
     const dem_model *model;
     dem_options options; /* every default replaced */
     state_layout layout; /* of y */
+    ode_domain shared;   /* of a model that ranks share */
+    halo halo;           /* likewise, of its ghosts */
     team *team;          /* for loops over nodes; NULL: they run in the caller alone */
     boundary_conditions boundaries;
     external_force *external;  /* NULL: none */
@@ -103,6 +106,7 @@ struct dem_simulation {
 /* Whether a function of the caller has failed: the external force, or the motion of an obstacle. */
 static inline bool run_force_failed(const dem_simulation *s)
 {
+    if (s->external == NULL && !s->model->obstacles.is_asked) return false;
     return reduce_any(s->model->ranks, external_force_failed(s->external) || surface_failed(&s->automaton.set.scene));
 }
 

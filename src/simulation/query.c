@@ -129,10 +129,18 @@ static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
 
 /* ---- what a getter is asked with ---- */
 
-static dem_status check_given(const char *function, const dem_simulation *s, const void *out)
+static dem_status check_pointers(const char *function, const dem_simulation *s, const void *out)
 {
     CHECK(s != NULL && out != NULL, DEM_ERROR_ARGUMENT, "%s: %s is NULL", function,
           s == NULL ? "simulation" : "where to write");
+    return DEM_OK;
+}
+
+/* Of a model that ranks share ghosts of the state as seen are not known, nor are sums. */
+static dem_status check_given(const char *function, const dem_simulation *s, const void *out)
+{
+    TRY(check_pointers(function, s, out));
+    CHECK(s->model->domain == NULL, DEM_ERROR_ARGUMENT, "%s: not known yet of a model that ranks share", function);
     return DEM_OK;
 }
 
@@ -142,7 +150,7 @@ static dem_status check_given(const char *function, const dem_simulation *s, con
 
 dem_status dem_simulation_state(const dem_simulation *s, dem_state *out)
 {
-    TRY(check_given("dem_simulation_state", s, out));
+    TRY(check_pointers("dem_simulation_state", s, out));
     dem_index n_contacts;
     (void)contacts_of(s, &n_contacts);
     const dem_state seen = {.t = s->seen_t,
@@ -355,7 +363,7 @@ static dem_counts contact_counts(const dem_simulation *s)
 
 dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 {
-    TRY(check_given("dem_simulation_counts", s, out));
+    TRY(check_pointers("dem_simulation_counts", s, out));
     const dem_counts of_integrator = integrator_counts(&s->integrator);
     dem_counts counts = contact_counts(s);
     counts.steps = of_integrator.steps;
@@ -442,29 +450,29 @@ double query_residual(const dem_simulation *s)
 
 double dem_simulation_residual(const dem_simulation *s)
 {
-    if (check_given("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
+    if (check_pointers("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
     return s->seen == s->y ? query_residual(s) : (double)INFINITY;
 }
 
 double dem_simulation_ramp_time(const dem_simulation *s)
 {
-    if (check_given("dem_simulation_ramp_time", s, s) != DEM_OK) return (double)NAN;
+    if (check_pointers("dem_simulation_ramp_time", s, s) != DEM_OK) return (double)NAN;
     return load_clock_time(&s->boundaries.clock, s->seen_t);
 }
 
 const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *s)
 {
-    if (check_given("dem_simulation_checkpoint", s, s) != DEM_OK) return NULL;
+    if (check_pointers("dem_simulation_checkpoint", s, s) != DEM_OK) return NULL;
     return s->has_checkpoint ? s->checkpoint : NULL;
 }
 
 const dem_model *dem_simulation_model(const dem_simulation *s)
 {
-    return check_given("dem_simulation_model", s, s) == DEM_OK ? s->model : NULL;
+    return check_pointers("dem_simulation_model", s, s) == DEM_OK ? s->model : NULL;
 }
 
 dem_status dem_simulation_options(const dem_simulation *s, dem_options *out)
 {
-    TRY(check_given("dem_simulation_options", s, out));
+    TRY(check_pointers("dem_simulation_options", s, out));
     return GIVE(dem_options, out, &s->options);
 }

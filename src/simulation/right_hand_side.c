@@ -13,19 +13,27 @@
 #include "forces/band.h"
 #include "simulation/body_contact.h"
 
-/* The message for a derivative that is not finite: the first node whose velocity or acceleration is not, and where it
- * is. */
+/* The first node whose velocity or acceleration is not finite; -1: none. */
+static dem_index find_culprit(const state_layout *l, const double *y, const double *a)
+{
+    const double *v = y + state_velocities(l);
+    for (dem_index k = 0; k < state_row(l, l->n_nodes); k++)
+        if (!isfinite(v[k]) || !isfinite(a[k])) return k / l->dim;
+    return -1;
+}
+
+/* The message for a derivative that is not finite: the first node, of all ranks, and where it is. */
 static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
-    const state_layout *l = &s->layout;
-    const double *v = y + state_velocities(l);
-    for (dem_index k = 0; k < state_row(l, l->n_nodes); k++) {
-        const dem_index i = k / l->dim;
-        const double *x = state_x(l, y, i);
-        CHECK(isfinite(v[k]) && isfinite(a[k]), DEM_ERROR_INTEGRATOR,
-              "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s", (long long)i, x[0], x[1], t);
-    }
-    return status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
+    const dem_index i = find_culprit(&s->layout, y, a);
+    if (i < 0) return reduce_status(s->model->ranks, DEM_OK, 0.0);
+    const double *x = state_x(&s->layout, y, i);
+    const dem_index number = domain_number(s->model->domain, i);
+    return reduce_status(s->model->ranks,
+                         status_fail(DEM_ERROR_INTEGRATOR,
+                                     "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s",
+                                     (long long)number, x[0], x[1], t),
+                         (double)number);
 }
 
 /* Rates of the quadratures, behind the accelerations of the nodes, as long as nothing acts that they are of: only the
@@ -60,8 +68,16 @@ static int judge(const dem_simulation *s, double t, const double *y, const doubl
     const dem_status of_contact = body_contact_failure(s);
     if (run_force_failed(s) || of_contact == DEM_ERROR_MEMORY) return 2;
     if (!reduce_any(s->model->ranks, !isfinite(sum))) return 0;
-    if (of_contact == DEM_OK) (void)name_culprit(s, t, y, a);
+    if (of_contact == DEM_OK && name_culprit(s, t, y, a) == DEM_OK)
+        (void)status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
     return 1;
+}
+
+void right_hand_side_fill_ghosts(double *y, void *context)
+{
+    dem_simulation *s = context;
+    double *const arrays[] = {y, y + state_velocities(&s->layout)};
+    halo_exchange(&s->halo, arrays, forces_couple_velocities(&s->forces) ? 2 : 1);
 }
 
 /* f = (u, a) of y = (x, v): u = v, m a = F(x, v) + m g + what closed contacts hold, (3) and (4); prescribed components
@@ -157,26 +173,28 @@ static double stiffening(const double *y, bool is_known, void *context)
                       body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y, is_known));
 }
 
-/* Root functions are watched with `exact` only, and where there is something to touch. What counts as an error of 1 is
- * rtol times the spacing for a position, and rtol v_scale for a velocity (docs/method.md, Integration in time). */
+/* Steps of bands, and fused ones, compute what is next to ghosts before these are known: ranks that share a model take
+ * none. Root functions are watched with `exact` only, and where there is something to touch. What counts as an error of
+ * 1 is rtol times the spacing for a position, and rtol v_scale for a velocity (docs/method.md, Integration in time). */
 ode_problem right_hand_side_problem(dem_simulation *s)
 {
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
-    const bool rooted = model->obstacles.n > 0 && !run_is_local(s);
+    const bool rooted = model->obstacles.n > 0 && !run_is_local(s), shared = model->domain != NULL;
     return (ode_problem){
         .layout = s->layout,
+        .domain = shared ? &s->shared : NULL,
         .prescribes = boundary_conditions_move(&s->boundaries),
         .derivative = derivative,
         .band_rows = s->boundaries.n == 0 ? band_nodes(&s->kernel) : 0,
         .band_scratch = band_scratch(&s->kernel),
-        .has_bands = has_bands,
+        .has_bands = shared ? NULL : has_bands,
         .bands_hold = bands_hold,
         .band_derivative = band_derivative,
-        .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
+        .fused_step = s->boundaries.n == 0 && !shared ? take_fused_step : NULL,
         .begin_roots = rooted ? begin_roots : NULL,
         .root_function = rooted ? root_function : NULL,
-        .stiffening = stiffening,
+        .stiffening = model->lattice.guard != NULL || s->surfaces != NULL || s->rigid != NULL ? stiffening : NULL,
         .context = s,
         .method = o->method,
         .position_error = o->rtol * o->spacing,

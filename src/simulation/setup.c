@@ -114,13 +114,40 @@ static void create_team(dem_simulation *s)
     o->threads = team_threads(s->team);
 }
 
+/* What ranks that share a model cannot do yet. */
+static dem_status check_shared(const dem_simulation *s)
+{
+    const dem_options *o = &s->options;
+    if (s->model->domain == NULL) return DEM_OK;
+    CHECK(o->bodies == DEM_BODIES_NONE, DEM_ERROR_ARGUMENT, "bodies that ranks share do not touch each other yet");
+    CHECK(o->force == NULL, DEM_ERROR_ARGUMENT, "there is no external force on a model that ranks share yet");
+    CHECK(o->checkpoint_steps == 0, DEM_ERROR_ARGUMENT, "there are no checkpoints of a model that ranks share yet");
+    return DEM_OK;
+}
+
+/* Positions and velocities are exchanged. */
+static dem_status set_up_domain(dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    const bool obstacles_move = model->obstacles.bounds.speed > 0.0;
+    s->shared = (ode_domain){
+        .ranks = model->ranks,
+        .whole = state_layout_of(s->layout.dim, model->domain->n_whole, model->obstacles.n, obstacles_move),
+        .is_own = model->domain->is_own,
+        .fill_ghosts = right_hand_side_fill_ghosts};
+    return halo_create(&s->halo, model->ranks, model->domain, s->layout.dim, 2);
+}
+
 static dem_status set_up(dem_simulation *s)
 {
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
     const size_t block = (size_t)state_row(&s->layout, model->lattice.n_nodes) * sizeof *s->y;
-    TRY(boundary_conditions_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice,
-                                    model->obstacles.n));
+    TRY(check_shared(s));
+    TRY(reduce_status(model->ranks,
+                      boundary_conditions_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice,
+                                                  model->domain, model->obstacles.n),
+                      0.0));
     s->options.boundaries = NULL;
     TRY(external_force_create(&s->external, o, s->layout.dim, model->lattice.n_nodes));
     TRY(held_forces_create(&s->held_forces, &s->boundaries, s->external, &s->layout));
@@ -132,6 +159,7 @@ static dem_status set_up(dem_simulation *s)
     memcpy(s->y + state_velocities(&s->layout), model->lattice.velocity, block);
     (void)boundary_conditions_give_velocities(&s->boundaries, model->lattice.mass, 0.0,
                                               s->y + state_velocities(&s->layout));
+    if (model->domain != NULL) TRY(set_up_domain(s));
     create_team(s);
     TRY(kernel_create(&s->kernel, model, o->kernel, s->team));
     s->options.kernel = s->kernel.kind;
@@ -148,7 +176,7 @@ static dem_status set_up(dem_simulation *s)
     free(s->initial);
     s->initial = NULL;
     TRY(dem_checkpoint_create(&s->checkpoint));
-    TRY(overlap_create(&s->overlap, &model->lattice));
+    if (model->domain == NULL) TRY(overlap_create(&s->overlap, &model->lattice));
     overlap_look(&s->overlap, &model->lattice, s->t, s->y);
     query_at(s, 0.0, s->y);
     return DEM_OK;
@@ -198,6 +226,8 @@ dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, c
                                  const dem_checkpoint *checkpoint)
 {
     CHECK(checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_resume: checkpoint is NULL");
+    CHECK(model == NULL || model->domain == NULL, DEM_ERROR_ARGUMENT,
+          "there are no checkpoints of a model that ranks share yet");
     return create(out, model, options, checkpoint);
 }
 
@@ -218,6 +248,7 @@ void dem_simulation_destroy(dem_simulation *s)
     surface_load_free(&s->pushing);
     external_force_destroy(s->external);
     held_forces_destroy(&s->held_forces);
+    halo_destroy(&s->halo);
     overlap_destroy(&s->overlap);
     free(s->initial);
     free(s->frame);

@@ -469,6 +469,15 @@ static double *arkode_integrator_state(const void *self)
     return nvector_shared(I->y0);
 }
 
+/* ARKODE evaluates the derivative at the start of a step after its length is given: what that depends on of other ranks
+ * is not known yet. */
+static double fixed_step(arkode_integrator *I)
+{
+    const ode_problem *p = &I->problem;
+    if (p->domain != NULL && p->stiffening != NULL) ode_problem_fill_ghosts(p, nvector_shared(I->y0));
+    return ode_problem_fixed_step(p, nvector_values(I->y0), false);
+}
+
 /* One accepted step. The time that ARKODE is to reach lies far beyond it: no step is ever shortened for a frame or for
  * t_end. Failures of the derivative are tried again with shorter steps, unless the steps are fixed or no step may mend
  * it; their message is the derivative's own. */
@@ -481,8 +490,7 @@ static dem_status arkode_integrator_step(void *self, dense_output *step, bool *r
     int flag = ARK_SUCCESS;
     for (int attempt = 0; attempt <= max_retries; attempt++) {
         I->holds_step = I->failed = false;
-        if (I->problem.fixed_step > 0.0)
-            (void)ARKodeSetFixedStep(I->arkode, ode_problem_fixed_step(&I->problem, nvector_values(I->y0), false));
+        if (I->problem.fixed_step > 0.0) (void)ARKodeSetFixedStep(I->arkode, fixed_step(I));
         flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
         if (!I->failed) break;
         if (I->problem.fixed_step > 0.0 || attempt == max_retries || I->refused)

@@ -248,7 +248,7 @@ static powers powers_of(const dem_lattice *l, const dem_index *number)
     for (dem_index i = 0; i < n; i += 7) nodes[n + list[HELD].n_nodes++] = number != NULL ? number[i] : i;
     CLEANUP(free_model) dem_model *model = support_model(l, NULL, 0);
     CLEANUP(boundary_conditions_free) boundary_conditions given;
-    assert_ok(boundary_conditions_compile(&given, list, N_BOUNDARIES, dem_model_lattice(model), 0));
+    assert_ok(boundary_conditions_compile(&given, list, N_BOUNDARIES, dem_model_lattice(model), NULL, 0));
     const forces f = {.model = model, .mass_damping = 5.0, .boundaries = &given};
     memcpy(v, l->velocity, 2 * (size_t)n * sizeof *v);
     memcpy(u, v, 2 * (size_t)n * sizeof *u);

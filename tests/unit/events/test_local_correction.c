@@ -144,7 +144,7 @@ static void make_boundaries(step *s)
     memcpy(flags, lattice.flags, (size_t)s->n);
     flags[driven] = 0;
     lattice.flags = flags;
-    assert_ok(boundary_conditions_compile(&s->b, list, 2, &lattice, 1));
+    assert_ok(boundary_conditions_compile(&s->b, list, 2, &lattice, NULL, 1));
     free(flags);
 }
 

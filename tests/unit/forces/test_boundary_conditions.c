@@ -13,7 +13,7 @@ static const dem_lattice lattice = {.dim = 2, .n_nodes = n_nodes, .flags = flags
 
 static void compiled(boundary_conditions *out, const dem_boundary *list, dem_index n)
 {
-    assert_int_equal(boundary_conditions_compile(out, list, n, &lattice, 1), DEM_OK);
+    assert_int_equal(boundary_conditions_compile(out, list, n, &lattice, NULL, 1), DEM_OK);
 }
 
 /* The ramp rises from 0 to 1 as its symmetric polynomial does, and stays there. */
@@ -127,7 +127,7 @@ TEST(the_speed_of_a_displacement_is_that_of_its_middle)
 static void refused(dem_boundary one, dem_status status, const char *message)
 {
     boundary_conditions b;
-    assert_int_equal(boundary_conditions_compile(&b, &one, 1, &lattice, 1), status);
+    assert_int_equal(boundary_conditions_compile(&b, &one, 1, &lattice, NULL, 1), status);
     assert_message_parts(message);
     assert_null(b.list);
 }
@@ -173,6 +173,6 @@ TEST(a_component_is_prescribed_once)
     compiled(&b, list, 2);
     boundary_conditions_free(&b);
     list[1].components = DEM_COMPONENT_X | DEM_COMPONENT_Y;
-    assert_int_equal(boundary_conditions_compile(&b, list, 2, &lattice, 1), DEM_ERROR_MODEL);
+    assert_int_equal(boundary_conditions_compile(&b, list, 2, &lattice, NULL, 1), DEM_ERROR_MODEL);
     assert_message_parts("boundary 1 * motion * node 1 * prescribed * another one already");
 }

@@ -100,7 +100,7 @@ static void drive(body *b)
                                   SIZED(dem_boundary, .kind = DEM_BOUNDARY_VELOCITY, .components = DEM_COMPONENT_Y,
                                         .n_nodes = 1, .nodes = moved, .value = {0.0, 2.0}, .ramp = 2.0)};
     const dem_options options = {.force = wind};
-    assert_ok(boundary_conditions_compile(&b->boundaries, list, 2, &b->model->lattice, 0));
+    assert_ok(boundary_conditions_compile(&b->boundaries, list, 2, &b->model->lattice, NULL, 0));
     assert_ok(external_force_create(&b->external, &options, 2, b->n));
     b->f.mass_damping = 30.0;
     b->f.boundaries = &b->boundaries;

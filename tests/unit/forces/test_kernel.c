@@ -664,7 +664,7 @@ TEST(fixed_and_pushed_nodes_agree)
     assert_non_null(lattice.flags);
     for (dem_index i = 0; i < lattice.n_nodes; i += 7) lattice.flags[i] = DEM_NODE_FIXED;
     CLEANUP(free_scene) scene s = make_scene(&lattice, 0.1);
-    assert_ok(boundary_conditions_compile(&pushes, list, 2, &s.model->lattice, 0));
+    assert_ok(boundary_conditions_compile(&pushes, list, 2, &s.model->lattice, NULL, 0));
     const forces load = {
         .gravity = {0.0, -9.81}, .mass_damping = 1.0, .boundaries = &pushes, .clock = lattice.n_nodes - 1};
     check_load(&s, &load);

@@ -274,7 +274,7 @@ TEST(given_forces_act_beside_those_of_elements)
     const dem_index pushed[1] = {r.layout.n_nodes / 2};
     const dem_boundary list[1] = {
         SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 1, .nodes = pushed, .value = {40.0, -20.0})};
-    assert_ok(boundary_conditions_compile(&given, list, 1, &r.model->lattice, 0));
+    assert_ok(boundary_conditions_compile(&given, list, 1, &r.model->lattice, NULL, 0));
     r.acting.boundaries = &given;
     check_accelerations(&r, 0.0);
 }

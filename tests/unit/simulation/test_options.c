@@ -286,7 +286,7 @@ TEST(the_scale_of_speed_is_the_largest_at_hand)
     assert_ok(options_fill(&options, model, &no_boundaries));
     assert_close(options.v_scale, 1e-3 * 0.5 * dem_model_omega_max(model) * dem_model_spacing(model), 1e-15);
     options = dem_options_default();
-    assert_ok(boundary_conditions_compile(&b, &driven, 1, dem_model_lattice(model), 0));
+    assert_ok(boundary_conditions_compile(&b, &driven, 1, dem_model_lattice(model), NULL, 0));
     assert_ok(options_fill(&options, model, &b));
     assert_close(options.v_scale, 70.0, 0.0);
 }

@@ -1,0 +1,391 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ranks that share a model, as threads: positions, velocities, times, lengths of steps and their counts have the bits
+ * of the whole model in one process, whatever the shares. Bodies are free, damped, driven, folded nearly flat;
+ * triangles single and coupled, and squares. */
+#include <stdio.h>
+#include <string.h>
+
+#include "support.h"
+
+#include "domain/partition.h"
+#include "harness/rank_threads.h"
+#include "model/domain_model.h"
+
+enum { MOST_RANKS = 7, N_BODIES = 4, N_METHODS = 4, N_STOPS = 2, TEXT = 256 };
+
+static const double spacing = 5e-3;
+static const dem_method methods[N_METHODS] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_DOPRI45, DEM_METHOD_RK4,
+                                              DEM_METHOD_VERLET};
+
+/* ---- bodies ---- */
+
+typedef struct scene {
+    dem_model *model;
+    dem_options options;
+    dem_boundary boundaries[3];
+    dem_index *held, *pushed; /* nodes */
+} scene;
+
+/* They swing and shear, and one is so fast that its triangles fold and steps are rejected. */
+static void set_off(dem_lattice *l, double speed)
+{
+    CLEANUP(free_memory) double *v = calloc(2 * (size_t)l->n_nodes, sizeof *v);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const double x = l->x[2 * i] / 0.05, y = l->x[2 * i + 1] / 0.05;
+        v[2 * i] = speed * (0.3 + sin(3.0 * y) + 0.5 * sin(40.0 * x));
+        v[2 * i + 1] = speed * (cos(2.0 * x) - 0.7 * sin(5.0 * x * y));
+    }
+    support_start(l, NULL, v);
+}
+
+static dem_lattice make_lattice(int body)
+{
+    dem_material solid = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1050.0,
+                               .thickness = 1.0, .guard = 0.02);
+    dem_lattice l = dem_lattice_empty();
+    if (body == 1) solid.damping_time = 2e-5;
+    if (body == 2) solid.springs = DEM_SPRINGS_COUPLED;
+    if (body == 3) {
+        assert_ok(dem_lattice_squares(&l, 0.09, 0.06, spacing));
+        assert_ok(dem_lattice_assemble_squares(&l, &solid, 0.45));
+    } else {
+        assert_ok(dem_lattice_disc(&l, 0.04, spacing));
+        assert_ok(dem_lattice_jitter(&l, 0.2 * spacing, 7));
+        assert_ok(dem_lattice_assemble(&l, &solid));
+    }
+    set_off(&l, body == 0 ? 60.0 : 2.0);
+    return l;
+}
+
+static dem_index *list_where(const dem_lattice *l, int coordinate, double sign, dem_index *n)
+{
+    dem_index *list = malloc((size_t)l->n_nodes * sizeof *list);
+    *n = 0;
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (sign * l->x[2 * i + coordinate] > 0.032) list[(*n)++] = i;
+    return list;
+}
+
+/* The driven body, 2, is held on its left and pulled down there, and pushed on top; nodes feel two forces. */
+static void drive(scene *s)
+{
+    const dem_lattice *l = dem_model_lattice(s->model);
+    dem_index n_held, n_pushed;
+    s->held = list_where(l, 0, -1.0, &n_held);
+    s->pushed = list_where(l, 1, 1.0, &n_pushed);
+    s->boundaries[0] = (dem_boundary)SIZED(dem_boundary, .kind = DEM_BOUNDARY_DISPLACEMENT,
+                                           .components = DEM_COMPONENT_X | DEM_COMPONENT_Y, .n_nodes = n_held,
+                                           .nodes = s->held, .value = {1e-3, -2e-3, 0.0}, .ramp = 1e-3);
+    s->boundaries[1] = (dem_boundary)SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = n_pushed,
+                                           .nodes = s->pushed, .value = {3e3, -2e3, 0.0}, .ramp = 1e-3);
+    s->boundaries[2] = s->boundaries[1];
+    s->boundaries[2].value[0] = -700.0;
+    s->boundaries[2].ramp = 0.0;
+    s->options.boundaries = s->boundaries;
+    s->options.n_boundaries = 3;
+}
+
+static void open_scene(scene *s, int body, dem_method method)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = make_lattice(body);
+    *s = (scene){.model = support_model(&l, NULL, 0), .options = dem_options_default()};
+    s->options.method = method;
+    s->options.checkpoint_steps = 0;
+    if (body == 0) s->options.rtol = 1e-9;
+    if (body == 1) s->options.mass_damping = 300.0;
+    if (body == 2) drive(s);
+}
+
+static void close_scene(scene *s)
+{
+    dem_model_destroy(s->model);
+    free(s->held);
+    free(s->pushed);
+}
+
+/* ---- runs ---- */
+
+/* At each stop. */
+typedef struct outcome {
+    double t[N_STOPS], step[N_STOPS];
+    dem_counts counts[N_STOPS];
+    double *x[N_STOPS], *v[N_STOPS]; /* [n_nodes][2] of the whole */
+    char failure[TEXT];              /* empty: none */
+} outcome;
+
+static void make_outcome(outcome *o, dem_index n)
+{
+    memset(o, 0, sizeof *o);
+    for (int k = 0; k < N_STOPS; k++) {
+        o->x[k] = calloc(2 * (size_t)n, sizeof(double));
+        o->v[k] = calloc(2 * (size_t)n, sizeof(double));
+    }
+}
+
+static void free_outcome(outcome *o)
+{
+    for (int k = 0; k < N_STOPS; k++) {
+        free(o->x[k]);
+        free(o->v[k]);
+    }
+}
+
+/* Ranks write the rows of their own nodes. */
+static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int stop)
+{
+    dem_state state = {.struct_size = sizeof state};
+    o->counts[stop].struct_size = sizeof o->counts[stop];
+    if (dem_simulation_state(s, &state) != DEM_OK || dem_simulation_counts(s, &o->counts[stop]) != DEM_OK)
+        return DEM_ERROR_ARGUMENT;
+    o->t[stop] = state.t;
+    o->step[stop] = state.step;
+    const dem_index n = dem_simulation_model(s)->lattice.n_nodes;
+    for (dem_index i = 0; i < n; i++) {
+        if (d != NULL && !d->is_own[i]) continue;
+        memcpy(o->x[stop] + 2 * domain_number(d, i), state.x + 2 * i, 2 * sizeof *state.x);
+        memcpy(o->v[stop] + 2 * domain_number(d, i), state.v + 2 * i, 2 * sizeof *state.v);
+    }
+    return DEM_OK;
+}
+
+static dem_status run(const dem_model *model, const dem_options *options, outcome *o)
+{
+    dem_simulation *s = NULL;
+    dem_status status = dem_simulation_create(&s, model, options);
+    for (int k = 0; k < N_STOPS && status == DEM_OK; k++) {
+        status = dem_simulation_advance(s, 1.5e-4 * (k + 1));
+        if (status == DEM_OK) status = look(s, model->domain, o, k);
+    }
+    dem_simulation_destroy(s);
+    return status;
+}
+
+/* Of all ranks. */
+typedef struct shared_run {
+    const scene *scene;
+    const int32_t *owner;
+    outcome *outcomes;         /* [ranks] whose x and v are one */
+    rank_threads_counts calls; /* of one rank */
+} shared_run;
+
+static void run_rank(const ranks *r, void *context)
+{
+    shared_run *c = context;
+    dem_model *model = NULL;
+    outcome *o = &c->outcomes[r->rank];
+    dem_status status = domain_model_create(&model, r, c->scene->model, c->owner);
+    if (status == DEM_OK) status = run(model, &c->scene->options, o);
+    if (status != DEM_OK) (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
+    dem_model_destroy(model);
+    if (r->rank == 0) c->calls = rank_threads_count(r);
+}
+
+static void assert_same_outcome(const outcome *one, const outcome *whole, dem_index n)
+{
+    for (int k = 0; k < N_STOPS; k++) {
+        assert_true(one->t[k] == whole->t[k]);
+        assert_true(one->step[k] == whole->step[k]);
+        assert_memory_equal(&one->counts[k], &whole->counts[k], sizeof one->counts[k]);
+        assert_memory_equal(one->x[k], whole->x[k], 2 * (size_t)n * sizeof(double));
+        assert_memory_equal(one->v[k], whole->v[k], 2 * (size_t)n * sizeof(double));
+    }
+}
+
+/* Tiles of about four spacings, dealt out in turn: every domain has many ends and corners. */
+static void scatter(const dem_lattice *l, int n_ranks, int32_t *owner)
+{
+    for (dem_index i = 0; i < l->n_nodes; i++) {
+        const int column = (int)floor(l->x[2 * i] / (4.1 * spacing)) + 100;
+        const int row = (int)floor(l->x[2 * i + 1] / (4.1 * spacing)) + 100;
+        owner[i] = (column + 3 * row) % n_ranks;
+    }
+}
+
+static void share(const scene *s, int n_ranks, const int32_t *owner, const outcome *whole)
+{
+    const dem_index n = dem_model_lattice(s->model)->n_nodes;
+    outcome all[MOST_RANKS];
+    make_outcome(&all[0], n);
+    for (int k = 1; k < n_ranks; k++) all[k] = all[0];
+    shared_run c = {.scene = s, .owner = owner, .outcomes = all};
+    rank_threads_run(n_ranks, run_rank, &c);
+    for (int k = 0; k < n_ranks; k++) {
+        assert_string_equal(all[k].failure, "");
+        assert_same_outcome(&all[k], whole, n);
+    }
+    /* One exchange for each evaluation; a fixed step of ARKODE's asks the guard for its length before the first. */
+    const dem_counts *counts = &whole->counts[N_STOPS - 1];
+    const bool asks = s->options.method == DEM_METHOD_RK4;
+    assert_int_equal(c.calls.exchanges, counts->evaluations + (asks ? counts->steps : 0));
+    free_outcome(&all[0]);
+}
+
+/* Both ways to share a body out among ranks. */
+static void check(int body, dem_method method)
+{
+    static const int numbers[] = {1, 2, 3, 4, 7};
+    scene s;
+    outcome whole;
+    open_scene(&s, body, method);
+    const dem_lattice *l = dem_model_lattice(s.model);
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+    make_outcome(&whole, l->n_nodes);
+    assert_ok(run(s.model, &s.options, &whole));
+    if (body == 0 && method == DEM_METHOD_FEHLBERG45) assert_true(whole.counts[N_STOPS - 1].rejected > 0);
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+        assert_ok(partition_bisect(l, numbers[k], owner));
+        share(&s, numbers[k], owner, &whole);
+        scatter(l, numbers[k], owner);
+        share(&s, numbers[k], owner, &whole);
+    }
+    free_outcome(&whole);
+    close_scene(&s);
+}
+
+/* ---- failures ---- */
+
+/* What each rank says. */
+typedef struct refusal {
+    const scene *scene;
+    const int32_t *owner;
+    dem_status status[MOST_RANKS];
+    char messages[MOST_RANKS][TEXT];
+    int stops; /* the rank whose observer stops the run; -1: none */
+    dem_index n_steps[MOST_RANKS];
+} refusal;
+
+typedef struct watcher {
+    bool stops;
+    dem_index *n_steps;
+} watcher;
+
+static dem_status count_step(void *context, const dem_simulation *s)
+{
+    const watcher *w = context;
+    (void)s;
+    return ++*w->n_steps == 3 && w->stops ? DEM_STOPPED : DEM_OK;
+}
+
+static dem_status try_run(const dem_model *model, refusal *c, int rank)
+{
+    dem_simulation *s = NULL;
+    watcher w = {c->stops == rank, &c->n_steps[rank]};
+    const dem_observer observer = SIZED(dem_observer, .context = &w, .step = count_step);
+    dem_status status = dem_simulation_create(&s, model, &c->scene->options);
+    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
+    if (status == DEM_OK) status = dem_simulation_advance(s, 2e-4);
+    dem_simulation_destroy(s);
+    return status;
+}
+
+static void try_rank(const ranks *r, void *context)
+{
+    refusal *c = context;
+    dem_model *model = NULL;
+    dem_status status = domain_model_create(&model, r, c->scene->model, c->owner);
+    if (status == DEM_OK) status = try_run(model, c, r->rank);
+    c->status[r->rank] = status;
+    (void)snprintf(c->messages[r->rank], TEXT, "%s", status != DEM_OK ? dem_status_message() : "");
+    dem_model_destroy(model);
+}
+
+/* On four ranks. */
+static refusal refuse(const scene *s, int stops)
+{
+    const dem_lattice *l = dem_model_lattice(s->model);
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+    assert_ok(partition_bisect(l, 4, owner));
+    refusal c = {.scene = s, .owner = owner, .stops = stops};
+    rank_threads_run(4, try_rank, &c);
+    c.owner = NULL;
+    return c;
+}
+
+/* Two neighbours at one place have no direction of their force: every rank gives up as one process does. */
+TEST(a_force_that_is_not_finite_ends_the_run_of_all_ranks)
+{
+    scene s;
+    open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    assert_ok(dem_lattice_append(&l, dem_model_lattice(s.model)));
+    memcpy(l.position + 2 * l.ends[0], l.position + 2 * l.ends[1], 2 * sizeof *l.position);
+    close_scene(&s);
+    s = (scene){.model = support_model(&l, NULL, 0), .options = dem_options_default()};
+    s.options.checkpoint_steps = 0;
+    refusal whole = {.scene = &s, .stops = -1};
+    const dem_status expected = try_run(s.model, &whole, 0);
+    char message[TEXT];
+    (void)snprintf(message, TEXT, "%s", dem_status_message());
+    assert_int_equal(expected, DEM_ERROR_INTEGRATOR);
+    const refusal c = refuse(&s, -1);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(c.status[k], expected);
+        assert_string_equal(c.messages[k], message);
+    }
+    close_scene(&s);
+}
+
+/* A boundary names a node of one rank twice. */
+TEST(what_one_rank_refuses_is_refused_by_all)
+{
+    const dem_index twice[] = {0, 9, 0};
+    scene s;
+    open_scene(&s, 0, DEM_METHOD_VERLET);
+    s.boundaries[0] = (dem_boundary)SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = twice);
+    s.options.boundaries = s.boundaries;
+    s.options.n_boundaries = 1;
+    const refusal c = refuse(&s, -1);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(c.status[k], DEM_ERROR_ARGUMENT);
+        assert_string_equal(c.messages[k], "boundary 0: node 0 is named twice");
+    }
+    close_scene(&s);
+}
+
+TEST(an_observer_of_one_rank_stops_all)
+{
+    scene s;
+    open_scene(&s, 0, DEM_METHOD_DOPRI45);
+    const refusal c = refuse(&s, 2);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(c.status[k], DEM_STOPPED);
+        assert_int_equal(c.n_steps[k], 3);
+    }
+    close_scene(&s);
+}
+
+TEST(what_ranks_cannot_do_yet_is_refused)
+{
+    scene s;
+    open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
+    s.options.checkpoint_steps = 10;
+    const refusal no_checkpoint = refuse(&s, -1);
+    assert_string_equal(no_checkpoint.messages[3], "there are no checkpoints of a model that ranks share yet");
+    s.options.checkpoint_steps = 0;
+    s.options.bodies = DEM_BODIES_ALL;
+    const refusal no_touch = refuse(&s, -1);
+    assert_string_equal(no_touch.messages[1], "bodies that ranks share do not touch each other yet");
+    close_scene(&s);
+}
+
+/* ---- the same bits ---- */
+
+TEST(free_bodies_that_fold_have_the_bits_of_one_process)
+{
+    for (int m = 0; m < N_METHODS; m++) check(0, methods[m]);
+}
+
+TEST(damped_bodies_have_the_bits_of_one_process)
+{
+    for (int m = 0; m < N_METHODS; m++) check(1, methods[m]);
+}
+
+TEST(driven_bodies_have_the_bits_of_one_process)
+{
+    for (int m = 0; m < N_METHODS; m++) check(2, methods[m]);
+}
+
+TEST(squares_have_the_bits_of_one_process)
+{
+    for (int m = 0; m < N_METHODS; m++) check(3, methods[m]);
+}
