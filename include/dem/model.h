@@ -85,7 +85,7 @@ DEM_API dem_status dem_obstacle_velocity(const dem_obstacle *obstacle, double t,
 DEM_API dem_status dem_obstacle_check(const dem_obstacle *obstacle, dem_index segments[2]);
 
 /** Springs in CSR: row i holds the neighbours of node i in ascending order. Those of rigid bodies carry nothing and are
- *  left out: row[n_nodes] is twice the number of the others. Views into the model. */
+ *  left out: row[n_nodes] is twice the number of the others. Views into the model, valid as long as it is. */
 typedef struct dem_csr {
     size_t struct_size; /**< to be set to sizeof(dem_csr) */
     dem_index n_nodes;
@@ -107,6 +107,9 @@ DEM_API dem_status dem_model_create(dem_model **out, const dem_lattice *lattice,
 /** Accepts NULL. Destroy its simulations first. */
 DEM_API void dem_model_destroy(dem_model *model);
 
+/** The arrays are made at the first call, for all later ones, too, and take some 200 bytes a node of a lattice of triangles.
+ *  Several threads may ask at once.
+ *  \return DEM_ERROR_MEMORY */
 DEM_API dem_status dem_model_csr(const dem_model *model, dem_csr *out);
 
 /** The lattice as the model holds it; a view, not to be freed or changed. */

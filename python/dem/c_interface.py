@@ -301,7 +301,7 @@ class dem_motion_field(Structure):
 
 class dem_csr(SizedStructure):
     """Springs in CSR: row i holds the neighbours of node i in ascending order. Those of rigid bodies carry nothing and
-    are left out: row[n_nodes] is twice the number of the others. Views into the model.
+    are left out: row[n_nodes] is twice the number of the others. Views into the model, valid as long as it is.
     struct_size: to be set to sizeof(dem_csr)
     row: [n_nodes + 1] slots row[i] .. row[i+1]-1 belong to node i
     neighbour: [row[n_nodes]] node j
@@ -1107,7 +1107,10 @@ FUNCTIONS = {  # name: (result, arguments, text)
         """dem_model_destroy(model)
         Accepts NULL. Destroy its simulations first."""),
     "dem_model_csr": (c_int, [POINTER(dem_model), POINTER(dem_csr)],
-        """dem_model_csr(model, out)"""),
+        """dem_model_csr(model, out)
+        The arrays are made at the first call, for all later ones, too, and take some 200 bytes a node of a lattice
+        of triangles. Several threads may ask at once.
+        Returns DEM_ERROR_MEMORY"""),
     "dem_model_lattice": (POINTER(dem_lattice), [POINTER(dem_model)],
         """dem_model_lattice(model)
         The lattice as the model holds it; a view, not to be freed or changed."""),

@@ -149,14 +149,14 @@ static void list_springs(builder *b, dem_index block)
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
         const dem_index n = lane_slots_springs(s, b->place, layout_node(b->l, LAYOUT_LANES * block + lane), b->slot);
         for (dem_index k = 0; k < n; k++) {
-            const dem_index p = b->slot[k];
+            const dem_index p = b->slot[k], m = s->spring[p];
             const int32_t j = place_of(b, s->neighbour[p]);
-            b->groups.items[lane * b->groups.most + k] =
-                (lane_item){.at = j,
-                            .base = j - lane,
-                            .last = j - lane,
-                            .element = s->spring[p],
-                            .set = {s->stiffness[p], s->rest_length[p], s->viscosity != NULL ? s->viscosity[p] : 0.0}};
+            b->groups.items[lane * b->groups.most + k] = (lane_item){
+                .at = j,
+                .base = j - lane,
+                .last = j - lane,
+                .element = m,
+                .set = {s->stiffness_of[m], s->rest_length_of[m], s->viscosity_of != NULL ? s->viscosity_of[m] : 0.0}};
         }
         b->groups.n[lane] = n;
     }
@@ -318,13 +318,11 @@ static void list_corners(builder *b, dem_index block)
             const int32_t next = place_of(b, t->next[p]), last = place_of(b, t->last[p]);
             look_ahead(b->l, block, next);
             look_ahead(b->l, block, last);
-            const double onset = t->guard[p] > 0.0 ? TRIANGLES_GUARD_ONSET * t->rest_area[p] : -INFINITY;
-            b->groups.items[lane * b->groups.most + p - t->row[i]] =
-                (lane_item){.at = next,
-                            .to = last,
-                            .base = next - lane,
-                            .last = last - lane,
-                            .set = {t->rest_area[p], onset, t->area_stiffness != NULL ? t->area_stiffness[p] : 0.0}};
+            const double rest_area = triangles_rest_area(t, i, p);
+            const double onset = triangles_guard(t, p) > 0.0 ? TRIANGLES_GUARD_ONSET * rest_area : -INFINITY;
+            const double kappa = t->area_stiffness_of != NULL ? t->area_stiffness_of[t->triangle[p]] : 0.0;
+            b->groups.items[lane * b->groups.most + p - t->row[i]] = (lane_item){
+                .at = next, .to = last, .base = next - lane, .last = last - lane, .set = {rest_area, onset, kappa}};
         }
     }
 }
@@ -432,18 +430,15 @@ static dem_status allocate(builder *b)
     return choose_order(b);
 }
 
-/* Places are of 32 bits, which halves the memory of entries; larger lattices are refused. */
+/* Places are of 32 bits, which halves the memory of entries; springs_compile() has refused larger lattices. */
 dem_status layout_compile(layout *out, const springs *s, const triangles *t, const couplings *c)
 {
     layout l = {.n_nodes = s->n_nodes,
                 .n_blocks = s->n_nodes / LAYOUT_LANES,
-                .damped = s->viscosity != NULL,
-                .stiff = t->area_stiffness != NULL,
+                .damped = s->viscosity_of != NULL,
+                .stiff = t->area_stiffness_of != NULL,
                 .coupled = c->n > 0};
     builder b = {.l = &l, .s = s, .t = t, .c = c};
-    CHECK(s->n_nodes < INT32_MAX / 2 && s->n_springs < INT32_MAX / 2, DEM_ERROR_MODEL,
-          "%lld nodes and %lld springs are more than the library takes", (long long)s->n_nodes,
-          (long long)s->n_springs);
     l.bonds.unit = l.areas.unit = l.couples.unit = sizeof(double); /* the unit of the entries is set in allocate() */
     dem_status status = allocate(&b);
     if (status == DEM_OK) status = lay_blocks(&b);

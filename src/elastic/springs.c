@@ -22,26 +22,23 @@ static void count_rows(springs *s, const dem_lattice *lattice)
 
 /* Neighbours come out ascending without a sort: the ends are visited in the order of the nodes j they are at, and each
  * j is appended to the row of its partner i. */
-static void fill_rows(springs *s, const dem_lattice *lattice, const dem_index *by_node, dem_index *next)
+static void fill_rows(springs *s, const dem_lattice *lattice, const int32_t *by_node, int32_t *next)
 {
     for (dem_index q = 0; q < s->row[s->n_nodes]; q++) {
         const dem_index k = by_node[q] / 2, end = by_node[q] % 2;
         const dem_index j = lattice->ends[2 * k + end], i = lattice->ends[2 * k + 1 - end], p = next[i]++;
-        s->neighbour[p] = j;
-        s->spring[p] = k;
-        s->stiffness[p] = lattice->stiffness[k];
-        s->rest_length[p] = lattice->rest_length[k];
-        if (s->viscosity != NULL) s->viscosity[p] = lattice->viscosity[k];
+        s->neighbour[p] = (int32_t)j;
+        s->spring[p] = (int32_t)k;
     }
 }
 
 /* Lists spring ends, e = 2k + end, by the node they are at: a counting sort, which keeps the order of equal ones.
  * `next` is where each row goes on being filled, and is reset for fill_rows(). */
-static void sort_ends(const springs *s, const dem_lattice *lattice, dem_index *by_node, dem_index *next)
+static void sort_ends(const springs *s, const dem_lattice *lattice, int32_t *by_node, int32_t *next)
 {
     for (dem_index i = 0; i < s->n_nodes; i++) next[i] = s->row[i];
     for (dem_index e = 0; e < 2 * lattice->n_springs; e++)
-        if (!rigid_nodes_have(lattice, lattice->ends[e])) by_node[next[lattice->ends[e]]++] = e;
+        if (!rigid_nodes_have(lattice, lattice->ends[e])) by_node[next[lattice->ends[e]]++] = (int32_t)e;
     for (dem_index i = 0; i < s->n_nodes; i++) next[i] = s->row[i];
 }
 
@@ -56,27 +53,31 @@ static dem_status refuse_duplicates(const springs *s)
     return DEM_OK;
 }
 
-static dem_status allocate(springs *s, bool damped)
+static dem_status allocate(springs *s)
 {
     const size_t n = (size_t)s->n_nodes, slots = 2 * (size_t)s->n_springs + 1;
+    CHECK(s->n_nodes < INT32_MAX / 2 && s->n_springs < INT32_MAX / 2, DEM_ERROR_MODEL,
+          "%lld nodes and %lld springs are more than the library takes", (long long)s->n_nodes,
+          (long long)s->n_springs);
     s->row = calloc(n + 1, sizeof *s->row);
     s->neighbour = malloc(slots * sizeof *s->neighbour);
     s->spring = malloc(slots * sizeof *s->spring);
-    s->stiffness = malloc(slots * sizeof *s->stiffness);
-    s->rest_length = malloc(slots * sizeof *s->rest_length);
-    if (damped) s->viscosity = malloc(slots * sizeof *s->viscosity);
-    CHECK(s->row && s->neighbour && s->spring && s->stiffness && s->rest_length && (s->viscosity || !damped),
-          DEM_ERROR_MEMORY, "out of memory for %lld springs", (long long)s->n_springs);
+    CHECK(s->row && s->neighbour && s->spring, DEM_ERROR_MEMORY, "out of memory for %lld springs",
+          (long long)s->n_springs);
     return DEM_OK;
 }
 
 /* Count, sort the ends by node, fill the rows: linear in the number of springs. */
 dem_status springs_compile(springs *out, const dem_lattice *lattice)
 {
-    springs s = {.n_nodes = lattice->n_nodes, .n_springs = lattice->n_springs};
-    dem_index *next = malloc((size_t)s.n_nodes * sizeof *next);
-    dem_index *by_node = malloc((2 * (size_t)s.n_springs + 1) * sizeof *by_node);
-    dem_status status = allocate(&s, lattice->viscosity != NULL);
+    springs s = {.n_nodes = lattice->n_nodes,
+                 .n_springs = lattice->n_springs,
+                 .stiffness_of = lattice->stiffness,
+                 .rest_length_of = lattice->rest_length,
+                 .viscosity_of = lattice->viscosity};
+    int32_t *next = malloc((size_t)s.n_nodes * sizeof *next);
+    int32_t *by_node = malloc((2 * (size_t)s.n_springs + 1) * sizeof *by_node);
+    dem_status status = allocate(&s);
     if (status == DEM_OK && !(next && by_node)) status = status_fail(DEM_ERROR_MEMORY, "out of memory");
     if (status != DEM_OK) goto out;
     count_rows(&s, lattice);
@@ -98,9 +99,6 @@ void springs_free(springs *s)
     free(s->row);
     free(s->neighbour);
     free(s->spring);
-    free(s->stiffness);
-    free(s->rest_length);
-    free(s->viscosity);
     *s = (springs){0};
 }
 
@@ -114,9 +112,10 @@ vec2 springs_tangent(const springs *s, dem_index i, const double *x, const doubl
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
         const vec2 w = vec2_sub(vec2_at(u, s->neighbour[p]), vec2_at(u, i));
-        const double square = vec2_dot(d, d), length = sqrt(square), rest = s->rest_length[p];
-        const double pull = s->stiffness[p] * (length - rest) / (rest * length); /* tension over length */
-        const double along = (s->stiffness[p] / rest - pull) * vec2_dot(d, w) / square;
+        const double square = vec2_dot(d, d), length = sqrt(square), rest = s->rest_length_of[s->spring[p]];
+        const double stiffness = s->stiffness_of[s->spring[p]];
+        const double pull = stiffness * (length - rest) / (rest * length); /* tension over length */
+        const double along = (stiffness / rest - pull) * vec2_dot(d, w) / square;
         out = vec2_along(vec2_along(out, -pull, w), -along, d);
     }
     return out;
@@ -127,9 +126,10 @@ double springs_node_energy(const springs *s, springs_integrity integrity, dem_in
 {
     double sum = 0.0;
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-        if (springs_is_broken(integrity, s->spring[p])) continue;
-        const double strain = springs_strain(s, i, p, x), left = springs_left(integrity, s->spring[p], strain);
-        sum += springs_energy_of(left * s->stiffness[p], s->rest_length[p], strain);
+        const dem_index k = s->spring[p];
+        if (springs_is_broken(integrity, k)) continue;
+        const double strain = springs_strain(s, i, p, x), left = springs_left(integrity, k, strain);
+        sum += springs_energy_of(left * s->stiffness_of[k], s->rest_length_of[k], strain);
     }
     return sum;
 }
@@ -165,7 +165,7 @@ static double strain_rate(const springs *s, dem_index i, dem_index p, const doub
 {
     const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
     const vec2 dv = vec2_sub(vec2_at(v, s->neighbour[p]), vec2_at(v, i));
-    return vec2_dot(d, dv) / (s->rest_length[p] * vec2_norm(d));
+    return vec2_dot(d, dv) / (s->rest_length_of[s->spring[p]] * vec2_norm(d));
 }
 
 /* c e'^2 d0 of each spring: the force c e' times the rate e' d0 at which the length changes. A spring is taken from the
@@ -173,13 +173,14 @@ static double strain_rate(const springs *s, dem_index i, dem_index p, const doub
 void springs_add_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v,
                                exact_terms *power)
 {
-    if (s->viscosity == NULL) return;
+    if (s->viscosity_of == NULL) return;
     for (dem_index i = 0; i < s->n_nodes; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-            const double left = springs_left(integrity, s->spring[p], 1.0);
+            const dem_index k = s->spring[p];
+            const double left = springs_left(integrity, k, 1.0);
             if (s->neighbour[p] < i || left == 0.0) continue;
             const double rate = strain_rate(s, i, p, x, v);
-            exact_terms_add(power, left * s->viscosity[p] * rate * rate * s->rest_length[p]);
+            exact_terms_add(power, left * s->viscosity_of[k] * rate * rate * s->rest_length_of[k]);
         }
 }
 
@@ -189,7 +190,7 @@ sym2 springs_block(const springs *s, const double *strength, dem_index i, const 
     sym2 block = {0.0, 0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i));
-        block = sym2_along(block, strength[p] / s->rest_length[p] / vec2_dot(d, d), d);
+        block = sym2_along(block, strength[s->spring[p]] / s->rest_length_of[s->spring[p]] / vec2_dot(d, d), d);
     }
     return block;
 }
@@ -198,8 +199,8 @@ sym2 springs_block(const springs *s, const double *strength, dem_index i, const 
 double springs_damping_bound(const springs *s, const double *x, const double *inverse_mass)
 {
     double bound = 0.0;
-    for (dem_index i = 0; s->viscosity != NULL && i < s->n_nodes; i++) {
-        const double own = 2.0 * sym2_largest(springs_block(s, s->viscosity, i, x)) * inverse_mass[i];
+    for (dem_index i = 0; s->viscosity_of != NULL && i < s->n_nodes; i++) {
+        const double own = 2.0 * sym2_largest(springs_block(s, s->viscosity_of, i, x)) * inverse_mass[i];
         if (!isfinite(own)) return (double)INFINITY; /* fmax() would drop a NAN */
         bound = fmax(bound, own);
     }

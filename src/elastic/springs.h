@@ -8,18 +8,20 @@
 #include "base/exact_terms.h"
 #include "base/vec2.h"
 
+/** Numbers have 32 bits, and what springs have is the lattice's, which is borrowed: rows are a good part of a model. */
 typedef struct springs {
     dem_index n_nodes, n_springs;
-    dem_index *row;       /* [n_nodes + 1] */
-    dem_index *neighbour; /* [2 n_springs] ascending within a row */
-    dem_index *spring;    /* [2 n_springs] index in the lattice */
-    double *stiffness;    /* [2 n_springs] E_ij, N */
-    double *rest_length;  /* [2 n_springs] d0_ij, m */
-    double *viscosity;    /* [2 n_springs] N s; NULL: undamped */
+    int32_t *row;                 /* [n_nodes + 1] */
+    int32_t *neighbour;           /* [row[n_nodes]] ascending within a row */
+    int32_t *spring;              /* [row[n_nodes]] index in the lattice */
+    const double *stiffness_of;   /* [n_springs] E_ij, N */
+    const double *rest_length_of; /* [n_springs] d0_ij, m */
+    const double *viscosity_of;   /* [n_springs] N s; NULL: undamped */
 } springs;
 
 /** Compiles the springs of a lattice whose node numbers are known to be valid; those of rigid bodies are left out. A
- *  pair of nodes joined twice is an error that names both springs. Free with springs_free(). */
+ *  pair of nodes joined twice is an error that names both springs, and so are 2^30 springs or nodes. Borrows the arrays
+ *  of the lattice. Free with springs_free(). */
 dem_status springs_compile(springs *out, const dem_lattice *lattice);
 void springs_free(springs *s);
 
@@ -73,8 +75,9 @@ static inline vec2 springs_force(const springs *s, springs_integrity integrity, 
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         if (springs_is_broken(integrity, s->spring[p])) continue;
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi);
-        const double length = vec2_norm(d), left = springs_left(integrity, s->spring[p], length - s->rest_length[p]);
-        force = vec2_along(force, springs_pull(left * s->stiffness[p], s->rest_length[p], length), d);
+        const dem_index k = s->spring[p];
+        const double length = vec2_norm(d), left = springs_left(integrity, k, length - s->rest_length_of[k]);
+        force = vec2_along(force, springs_pull(left * s->stiffness_of[k], s->rest_length_of[k], length), d);
     }
     return force;
 }
@@ -86,10 +89,12 @@ static inline vec2 springs_damping(const springs *s, springs_integrity integrity
     const vec2 xi = vec2_at(x, i), vi = vec2_at(v, i);
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
-        const double left = springs_left(integrity, s->spring[p], 1.0);
+        const dem_index k = s->spring[p];
+        const double left = springs_left(integrity, k, 1.0);
         if (left == 0.0) continue;
         const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi), dv = vec2_sub(vec2_at(v, s->neighbour[p]), vi);
-        force = vec2_along(force, left * s->viscosity[p] * vec2_dot(d, dv) / (s->rest_length[p] * vec2_dot(d, d)), d);
+        force =
+            vec2_along(force, left * s->viscosity_of[k] * vec2_dot(d, dv) / (s->rest_length_of[k] * vec2_dot(d, d)), d);
     }
     return force;
 }
@@ -104,7 +109,7 @@ static inline double springs_strain_at(double rest_length, double length)
 static inline double springs_strain(const springs *s, dem_index i, dem_index p, const double *x)
 {
     const double length = vec2_norm(vec2_sub(vec2_at(x, s->neighbour[p]), vec2_at(x, i)));
-    return springs_strain_at(s->rest_length[p], length);
+    return springs_strain_at(s->rest_length_of[s->spring[p]], length);
 }
 
 /** Strain of spring k of a lattice. */

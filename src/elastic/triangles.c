@@ -30,18 +30,20 @@ triangles_law triangles_guard_law(double area_ratio)
     return (triangles_law){w + beyond * (w1 + 0.5 * beyond * w2), w1 + beyond * w2, w2};
 }
 
-/* Signed area, m^2, of the triangle in slot p of row i. Each corner computes it from its own rotation of the
- * corners. */
-static double area_at(const triangles *t, dem_index i, dem_index p, const double *x)
+/* Area A and rest area A0 of a triangle. */
+typedef struct areas {
+    double now, at_rest;
+} areas;
+
+static areas areas_at(const triangles *t, dem_index i, dem_index p, const double *x)
 {
-    return vec2_triangle_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
+    return (areas){triangles_area(t, i, p, x), triangles_rest_area(t, i, p)};
 }
 
-/* Whether nothing resists a change of area at an area A of the triangle in slot p: it has no area term, and the guard
- * does not act. */
-static bool is_slack(const triangles *t, dem_index p, double A)
+/* Whether nothing resists a change of area of a triangle: it has no area term, and the guard does not act. */
+static bool is_slack(const triangles *t, areas A)
 {
-    return t->area_stiffness == NULL && !(A < TRIANGLES_GUARD_ONSET * t->rest_area[p]);
+    return t->area_stiffness_of == NULL && !(A.now < TRIANGLES_GUARD_ONSET * A.at_rest);
 }
 
 /* dA/dx_i = (z x (x_last - x_next))/2: the side opposite to node i, turned by 90 degrees towards it, and halved. */
@@ -59,39 +61,39 @@ static vec2 gradient(const triangles *t, dem_index p, const double *x)
 /* kappa, N/m, of the triangle in slot p, at an area ratio. */
 static double area_stiffness_at(const triangles *t, triangles_integrity integrity, dem_index p, double J)
 {
-    const double kappa = t->area_stiffness[p];
+    const double kappa = t->area_stiffness_of[t->triangle[p]];
     return integrity.left != NULL ? triangles_area_left(t, integrity, p, J > 1.0) * kappa : kappa;
 }
 
 /* dW/dA = kappa (J - 1) + g w'(J), N/m: what area term and guard together resist a change of area with. */
-static double slope_at(const triangles *t, triangles_integrity integrity, dem_index p, double A)
+static double slope_at(const triangles *t, triangles_integrity integrity, dem_index p, areas A)
 {
-    const double A0 = t->rest_area[p], J = A / A0;
-    double slope = t->area_stiffness != NULL ? area_stiffness_at(t, integrity, p, J) * (J - 1.0) : 0.0;
-    if (A < TRIANGLES_GUARD_ONSET * A0) slope += t->guard[p] * triangles_guard_law(A / A0).slope;
+    const double J = A.now / A.at_rest;
+    double slope = t->area_stiffness_of != NULL ? area_stiffness_at(t, integrity, p, J) * (J - 1.0) : 0.0;
+    if (A.now < TRIANGLES_GUARD_ONSET * A.at_rest) slope += triangles_guard(t, p) * triangles_guard_law(J).slope;
     return slope;
 }
 
 /* A0 d^2W/dA^2 = kappa + g w''(J), N/m. */
-static double curvature_at(const triangles *t, dem_index p, double A)
+static double curvature_at(const triangles *t, dem_index p, areas A)
 {
-    const double curvature = t->guard[p] * triangles_guard_law(A / t->rest_area[p]).curvature;
-    return t->area_stiffness != NULL ? t->area_stiffness[p] + curvature : curvature;
+    const double curvature = triangles_guard(t, p) * triangles_guard_law(A.now / A.at_rest).curvature;
+    return t->area_stiffness_of != NULL ? t->area_stiffness_of[t->triangle[p]] + curvature : curvature;
 }
 
 /* -dW/dA dA/dx_i. A triangle at its rest area is skipped. */
-static inline vec2 add_force(const triangles *t, triangles_integrity integrity, dem_index p, const vec2 corner[3],
-                             vec2 force)
+static inline vec2 add_force(const triangles *t, triangles_integrity integrity, dem_index p, areas A,
+                             const vec2 corner[3], vec2 force)
 {
-    const double A = vec2_triangle_area(corner[0], corner[1], corner[2]);
-    const double slope = is_slack(t, p, A) ? 0.0 : slope_at(t, integrity, p, A);
+    const double slope = is_slack(t, A) ? 0.0 : slope_at(t, integrity, p, A);
     return slope != 0.0 ? vec2_along(force, -slope, gradient_between(corner[1], corner[2])) : force;
 }
 
-vec2 triangles_add_force(const triangles *t, triangles_integrity integrity, dem_index p, const vec2 corner[3],
-                         vec2 force)
+vec2 triangles_add_force(const triangles *t, triangles_integrity integrity, dem_index p, double rest_area,
+                         const vec2 corner[3], vec2 force)
 {
-    return add_force(t, integrity, p, corner, force);
+    const areas A = {vec2_triangle_area(corner[0], corner[1], corner[2]), rest_area};
+    return add_force(t, integrity, p, A, corner, force);
 }
 
 vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_index i, const double *x)
@@ -99,7 +101,9 @@ vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_inde
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         const vec2 corner[3] = {vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p])};
-        if (!triangles_broken(t, integrity, p)) force = add_force(t, integrity, p, corner, force);
+        const double A = vec2_triangle_area(corner[0], corner[1], corner[2]);
+        if (triangles_are_slack(t, A) || triangles_broken(t, integrity, p)) continue;
+        force = add_force(t, integrity, p, (areas){A, triangles_rest_area(t, i, p)}, corner, force);
     }
     return force;
 }
@@ -107,16 +111,16 @@ vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_inde
 /* For an energy of the area alone r x f is A dW/dA times the unit tensor, since dA = A tr(e) under a strain e. */
 double triangles_virial(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p, const double *x)
 {
-    const double A = area_at(t, i, p, x);
-    return is_slack(t, p, A) ? 0.0 : A * slope_at(t, integrity, p, A);
+    const areas A = areas_at(t, i, p, x);
+    return is_slack(t, A) ? 0.0 : A.now * slope_at(t, integrity, p, A);
 }
 
 double triangles_node_virial(const triangles *t, dem_index i, const double *x, double divisor)
 {
     double sum = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const double A = area_at(t, i, p, x);
-        if (!is_slack(t, p, A)) sum += A * slope_at(t, TRIANGLES_WHOLE, p, A) / divisor;
+        const areas A = areas_at(t, i, p, x);
+        if (!is_slack(t, A)) sum += A.now * slope_at(t, TRIANGLES_WHOLE, p, A) / divisor;
     }
     return sum;
 }
@@ -131,8 +135,9 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
                    c = vec2_sub(vec2_at(x, t->last[p]), vec2_at(x, i));
         const vec2 ub = vec2_sub(vec2_at(u, t->next[p]), vec2_at(u, i)),
                    uc = vec2_sub(vec2_at(u, t->last[p]), vec2_at(u, i));
-        const double A = 0.5 * vec2_cross(b, c), change = 0.5 * (vec2_cross(ub, c) + vec2_cross(b, uc));
-        out = vec2_along(out, curvature_at(t, p, A) * change / t->rest_area[p], gradient(t, p, x));
+        const areas A = {0.5 * vec2_cross(b, c), triangles_rest_area(t, i, p)};
+        const double change = 0.5 * (vec2_cross(ub, c) + vec2_cross(b, uc));
+        out = vec2_along(out, curvature_at(t, p, A) * change / A.at_rest, gradient(t, p, x));
         out = vec2_along(out, slope_at(t, TRIANGLES_WHOLE, p, A), gradient(t, p, u));
     }
     return out;
@@ -142,9 +147,9 @@ vec2 triangles_tangent(const triangles *t, dem_index i, const double *x, const d
 triangles_energies triangles_energies_at(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p,
                                          const double *x)
 {
-    const double A0 = t->rest_area[p], J = area_at(t, i, p, x) / A0;
-    const double kappa = t->area_stiffness != NULL ? area_stiffness_at(t, integrity, p, J) : 0.0;
-    const double guard = J >= TRIANGLES_GUARD_ONSET ? 0.0 : A0 * t->guard[p] * triangles_guard_law(J).energy;
+    const double A0 = triangles_rest_area(t, i, p), J = triangles_area(t, i, p, x) / A0;
+    const double kappa = t->area_stiffness_of != NULL ? area_stiffness_at(t, integrity, p, J) : 0.0;
+    const double guard = J >= TRIANGLES_GUARD_ONSET ? 0.0 : A0 * triangles_guard(t, p) * triangles_guard_law(J).energy;
     return (triangles_energies){J, 0.5 * A0 * kappa * (J - 1.0) * (J - 1.0), guard};
 }
 
@@ -165,8 +170,10 @@ double triangles_node_energy(const triangles *t, triangles_integrity integrity, 
 sym2 triangles_block(const triangles *t, dem_index i, const double *x)
 {
     sym2 block = {0.0, 0.0, 0.0};
-    for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness != NULL; p++)
-        block = sym2_along(block, fmax(t->area_stiffness[p], 0.0) / t->rest_area[p], gradient(t, p, x));
+    for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness_of != NULL; p++) {
+        const double kappa = fmax(t->area_stiffness_of[t->triangle[p]], 0.0);
+        block = sym2_along(block, kappa / triangles_rest_area(t, i, p), gradient(t, p, x));
+    }
     return block;
 }
 
@@ -177,11 +184,11 @@ double triangles_guard_bound(const triangles *t, triangles_integrity integrity, 
     const double turn = 0.8660254037844386;
     double bound = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const double A = area_at(t, i, p, x), A0 = t->rest_area[p];
-        if (!(A < TRIANGLES_GUARD_ONSET * A0) || triangles_broken(t, integrity, p)) continue;
-        const triangles_law l = triangles_guard_law(A / A0);
+        const areas A = areas_at(t, i, p, x);
+        if (!(A.now < TRIANGLES_GUARD_ONSET * A.at_rest) || triangles_broken(t, integrity, p)) continue;
+        const triangles_law l = triangles_guard_law(A.now / A.at_rest);
         const vec2 dA = gradient(t, p, x);
-        bound += t->guard[p] * (3.0 * l.curvature * vec2_dot(dA, dA) / A0 + turn * fabs(l.slope));
+        bound += triangles_guard(t, p) * (3.0 * l.curvature * vec2_dot(dA, dA) / A.at_rest + turn * fabs(l.slope));
     }
     return bound;
 }
@@ -196,23 +203,21 @@ static bool acts(const dem_lattice *lattice, dem_index k)
            (lattice->area_stiffness != NULL && lattice->area_stiffness[k] != 0.0);
 }
 
-static dem_status allocate(triangles *t, dem_index slots, bool stiff)
+static dem_status allocate(triangles *t, dem_index slots)
 {
     const size_t n = (size_t)slots + 1;
+    CHECK(slots < INT32_MAX / 2, DEM_ERROR_MODEL, "%lld triangles are more than the library takes",
+          (long long)(slots / 3));
     t->row = calloc((size_t)t->n_nodes + 1, sizeof *t->row);
     t->next = malloc(n * sizeof *t->next);
     t->last = malloc(n * sizeof *t->last);
     t->triangle = malloc(n * sizeof *t->triangle);
-    t->rest_area = malloc(n * sizeof *t->rest_area);
-    t->guard = malloc(n * sizeof *t->guard);
-    if (stiff) t->area_stiffness = malloc(n * sizeof *t->area_stiffness);
-    CHECK(t->row && t->next && t->last && t->triangle && t->rest_area && t->guard && (t->area_stiffness || !stiff),
-          DEM_ERROR_MEMORY, "out of memory for %lld triangles", (long long)(slots / 3));
+    CHECK(t->row && t->next && t->last && t->triangle, DEM_ERROR_MEMORY, "out of memory for %lld triangles",
+          (long long)(slots / 3));
     return DEM_OK;
 }
 
-/* The corners next and last follow corner c counter-clockwise. The rest area is computed from each corner separately,
- * with the arithmetic of area_at(), so that J is exactly 1 at rest from every corner. */
+/* The corners next and last follow corner c counter-clockwise. */
 static void fill(triangles *t, const dem_lattice *lattice)
 {
     for (dem_index k = 0; k < lattice->n_triangles; k++)
@@ -222,12 +227,10 @@ static void fill(triangles *t, const dem_lattice *lattice)
         const dem_index *corner = &lattice->triangles[3 * k];
         for (int c = 0; c < 3 && acts(lattice, k); c++) {
             const dem_index p = --t->row[corner[c] + 1];
-            t->next[p] = corner[(c + 1) % 3];
-            t->last[p] = corner[(c + 2) % 3];
-            t->triangle[p] = k;
-            t->rest_area[p] = area_at(t, corner[c], p, lattice->x);
-            t->guard[p] = lattice->guard != NULL ? lattice->guard[k] : 0.0;
-            if (t->area_stiffness != NULL) t->area_stiffness[p] = lattice->area_stiffness[k];
+            t->next[p] = (int32_t)corner[(c + 1) % 3];
+            t->last[p] = (int32_t)corner[(c + 2) % 3];
+            t->triangle[p] = (int32_t)k;
+            t->largest_onset = fmax(t->largest_onset, TRIANGLES_GUARD_ONSET * triangles_rest_area(t, corner[c], p));
         }
     }
 }
@@ -236,16 +239,19 @@ static void fill(triangles *t, const dem_lattice *lattice)
 static void shift_rows(triangles *t, dem_index slots)
 {
     for (dem_index i = 0; i < t->n_nodes; i++) t->row[i] = t->row[i + 1];
-    t->row[t->n_nodes] = slots;
+    t->row[t->n_nodes] = (int32_t)slots;
 }
 
 /* Three slots for each triangle that has an energy, one at each of its corners. */
 dem_status triangles_compile(triangles *out, const dem_lattice *lattice)
 {
-    triangles t = {.n_nodes = lattice->n_nodes};
+    triangles t = {.n_nodes = lattice->n_nodes,
+                   .x = lattice->x,
+                   .guard_of = lattice->guard,
+                   .area_stiffness_of = lattice->area_stiffness};
     dem_index slots = 0;
     for (dem_index k = 0; k < lattice->n_triangles; k++) slots += acts(lattice, k) ? 3 : 0;
-    const dem_status status = allocate(&t, slots, lattice->area_stiffness != NULL);
+    const dem_status status = allocate(&t, slots);
     if (status != DEM_OK) {
         triangles_free(&t);
         return status;
@@ -262,8 +268,5 @@ void triangles_free(triangles *t)
     free(t->next);
     free(t->last);
     free(t->triangle);
-    free(t->rest_area);
-    free(t->guard);
-    free(t->area_stiffness);
     *t = (triangles){0};
 }

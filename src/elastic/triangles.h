@@ -31,21 +31,49 @@ static inline double triangles_left(triangles_integrity q, dem_index k)
     return q.left != NULL ? q.left[k] : 1.0;
 }
 
-/** Triangles by node: slot p of row i is a triangle (i, next[p], last[p]), counter-clockwise. */
+/** Triangles by node: slot p of row i is a triangle (i, next[p], last[p]), counter-clockwise. Numbers have 32 bits, and
+ *  what triangles have is the lattice's, which is borrowed. */
 typedef struct triangles {
     dem_index n_nodes;
-    dem_index *row; /* [n_nodes + 1]; every row empty where no triangle has area stiffness or guard */
-    dem_index *next, *last;
-    dem_index *triangle;    /* index in the lattice */
-    double *rest_area;      /* m^2 */
-    double *guard;          /* strength g, N/m */
-    double *area_stiffness; /* kappa, N/m; NULL: none */
+    int32_t *row; /* [n_nodes + 1]; every row empty where no triangle has area stiffness or guard */
+    int32_t *next, *last;
+    int32_t *triangle;               /* index in the lattice */
+    const double *x;                 /* [n_nodes][2] rest positions, m */
+    const double *guard_of;          /* [n_triangles] strength g, N/m; NULL: none */
+    const double *area_stiffness_of; /* [n_triangles] kappa, N/m; NULL: none */
+    double largest_onset;            /* m^2; no guard acts on a triangle that is larger */
 } triangles;
 
 /** Compiles the triangles that have area stiffness or guard. Node numbers and areas of the lattice are known to be
- *  valid. Free with triangles_free(). */
+ *  valid; borrows its arrays. Free with triangles_free().  \return DEM_ERROR_MEMORY; DEM_ERROR_MODEL for 2^31/6
+ *  triangles */
 dem_status triangles_compile(triangles *out, const dem_lattice *lattice);
 void triangles_free(triangles *t);
+
+/** Signed area, m^2, of the triangle in slot p of row i. Each corner computes it from its own rotation of the
+ *  corners. */
+static inline double triangles_area(const triangles *t, dem_index i, dem_index p, const double *x)
+{
+    return vec2_triangle_area(vec2_at(x, i), vec2_at(x, t->next[p]), vec2_at(x, t->last[p]));
+}
+
+/** The same at rest: so at rest their ratio is exactly 1 from every corner. */
+static inline double triangles_rest_area(const triangles *t, dem_index i, dem_index p)
+{
+    return triangles_area(t, i, p, t->x);
+}
+
+/** The guard's strength g, N/m, of the triangle in slot p. */
+static inline double triangles_guard(const triangles *t, dem_index p)
+{
+    return t->guard_of != NULL ? t->guard_of[t->triangle[p]] : 0.0;
+}
+
+/** Whether it is known without the rest area that nothing resists a change of area of a triangle. */
+static inline bool triangles_are_slack(const triangles *t, double area)
+{
+    return t->area_stiffness_of == NULL && area >= t->largest_onset;
+}
 
 /** Whether the triangle in slot p is broken. */
 static inline bool triangles_broken(const triangles *t, triangles_integrity q, dem_index p)
@@ -59,7 +87,7 @@ static inline bool triangles_broken(const triangles *t, triangles_integrity q, d
 static inline double triangles_area_left(const triangles *t, triangles_integrity q, dem_index p, bool larger)
 {
     const dem_index k = t->triangle[p];
-    const bool goes_along = t->area_stiffness[p] < 0.0 && triangles_are_coupled(q.coupling, k);
+    const bool goes_along = t->area_stiffness_of[k] < 0.0 && triangles_are_coupled(q.coupling, k);
     return larger || goes_along ? triangles_left(q, k) : 1.0;
 }
 
@@ -67,9 +95,10 @@ static inline double triangles_area_left(const triangles *t, triangles_integrity
 vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_index i, const double *x);
 
 /** Adds to a force, N, that of the triangle in slot p, which is not broken, whose corners are at these places: first
- *  that of the row's node, on which it is, then the next and the last one. */
-vec2 triangles_add_force(const triangles *t, triangles_integrity integrity, dem_index p, const vec2 corner[3],
-                         vec2 force);
+ *  that of the row's node, on which it is, then the next and the last one.
+ *  \param rest_area  that of triangles_rest_area() */
+vec2 triangles_add_force(const triangles *t, triangles_integrity integrity, dem_index p, double rest_area,
+                         const vec2 corner[3], vec2 force);
 
 /** r x f of the triangle in slot p of row i, J, which is not broken: A dW/dA of its energy W, which depends on its area
  *  A alone, times the unit tensor. */

@@ -172,7 +172,7 @@ static void fill_terms(trimmed_layout *l, const trimmed_elements *e, dem_index b
 static void put_corner(trimmed_layout *l, const trimmed_elements *e, int lane, dem_index k, dem_index p)
 {
     const triangles *t = l->triangles;
-    if (t->area_stiffness == NULL || triangles_broken(t, e->triangles, p))
+    if (t->area_stiffness_of == NULL || triangles_broken(t, e->triangles, p))
         put_term(l, lane, k, triangles_broken(t, e->triangles, p));
     else
         put(l, lane, k, triangles_area_left(t, e->triangles, p, false), triangles_area_left(t, e->triangles, p, true));
@@ -180,7 +180,7 @@ static void put_corner(trimmed_layout *l, const trimmed_elements *e, int lane, d
 
 static void fill_corners(trimmed_layout *l, const trimmed_elements *e, dem_index block)
 {
-    const dem_index *row = l->triangles->row;
+    const int32_t *row = l->triangles->row;
     for (int lane = 0; lane < LAYOUT_LANES; lane++) {
         const dem_index i = node_of(l, block, lane);
         for (dem_index p = row[i]; p < row[i + 1]; p++) put_corner(l, e, lane, p - row[i], p);

@@ -53,7 +53,7 @@ static inline bool forces_are_driven(const forces *f)
 /** Whether the force on a node depends on the velocities of its neighbours. */
 static inline bool forces_couple_velocities(const forces *f)
 {
-    return f->model->springs.viscosity != NULL;
+    return f->model->springs.viscosity_of != NULL;
 }
 
 /** Whether bodies have friction with each other. */
@@ -95,18 +95,18 @@ static inline unsigned forces_held(const forces *f, dem_index i)
  *  spring. Some nodes come more than once. */
 typedef struct forces_neighbours {
     const forces *f;
-    const element_state *state;      /* NULL: the elements of the node are whole */
-    const dem_index *other, *others; /* ends of springs that are to come, and where they end */
-    dem_index corner, corners;       /* the same of corners, two to each slot of a triangle */
-    surface_neighbours surface;      /* the same of contact pairs */
-    dem_index node;                  /* the present one */
+    const element_state *state;    /* NULL: the elements of the node are whole */
+    const int32_t *other, *others; /* ends of springs that are to come, and where they end */
+    dem_index corner, corners;     /* the same of corners, two to each slot of a triangle */
+    surface_neighbours surface;    /* the same of contact pairs */
+    dem_index node;                /* the present one */
 } forces_neighbours;
 
 /* Begins; forces_next_neighbour() gives the first one. */
 static inline forces_neighbours forces_neighbours_of(const forces *f, dem_index i)
 {
     const springs *s = &f->model->springs;
-    const dem_index *t = f->model->triangles.row + i;
+    const int32_t *t = f->model->triangles.row + i;
     const element_state *state = element_state_at(f->elements, i);
     return (forces_neighbours){.f = f,
                                .state = state,
@@ -145,7 +145,7 @@ static inline vec2 forces_of_whole_elements(const forces *f, const element_state
     vec2 bonds = springs_force(s, element_state_springs(state), i, x);
     if (f->model->couplings.n > 0)
         bonds = couplings_add_force(&f->model->couplings, element_state_triangles(state), i, x, bonds);
-    if (s->viscosity != NULL) bonds = vec2_add(bonds, springs_damping(s, element_state_springs(state), i, x, v));
+    if (s->viscosity_of != NULL) bonds = vec2_add(bonds, springs_damping(s, element_state_springs(state), i, x, v));
     if (t->row[i] == t->row[i + 1]) return bonds;
     return vec2_add(bonds, triangles_force(t, element_state_triangles(state), i, x));
 }

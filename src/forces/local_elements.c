@@ -68,11 +68,11 @@ static void add_bond(local_elements *e, local_places *to, dem_index j, int32_t o
 {
     const springs *s = &e->forces->model->springs;
     const springs_integrity integrity = element_state_springs(e->forces->elements);
-    const dem_index k = to->bonds++;
+    const dem_index k = to->bonds++, spring = s->spring[p];
     e->bonds[k] = (local_bond){(int32_t)j, other};
-    e->pushed[k] = springs_left(integrity, s->spring[p], 0.0) * s->stiffness[p];
-    e->pulled[k] = springs_left(integrity, s->spring[p], 1.0) * s->stiffness[p];
-    e->rest_length[k] = s->rest_length[p];
+    e->pushed[k] = springs_left(integrity, spring, 0.0) * s->stiffness_of[spring];
+    e->pulled[k] = springs_left(integrity, spring, 1.0) * s->stiffness_of[spring];
+    e->rest_length[k] = s->rest_length_of[spring];
 }
 
 /* The bond that is listed at a node with this one as its second. */
@@ -107,10 +107,11 @@ static void add_triangles(local_elements *e, local_places *to, const local_nodes
     const triangles_integrity integrity = element_state_triangles(e->forces->elements);
     const dem_index i = nodes->list[j];
     to->corners += t->row[i + 1] - t->row[i];
-    for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness == NULL; p++) {
+    for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness_of == NULL; p++) {
         const int32_t next = nodes->number[t->next[p]], last = nodes->number[t->last[p]];
         if (next < j || last < j || triangles_broken(t, integrity, p)) continue;
-        e->guarded[to->guarded++] = (local_guarded){{(int32_t)j, next, last}, TRIANGLES_GUARD_ONSET * t->rest_area[p]};
+        e->guarded[to->guarded++] =
+            (local_guarded){{(int32_t)j, next, last}, TRIANGLES_GUARD_ONSET * triangles_rest_area(t, i, p)};
     }
 }
 
@@ -181,9 +182,9 @@ static int32_t pull_of(local_elements *e, dem_index j, dem_index other, dem_inde
 {
     const springs *s = &e->forces->model->springs;
     const springs_integrity integrity = element_state_springs(e->forces->elements);
-    const dem_index k = other > j ? find_bond(e, j, other) : find_bond(e, other, j);
-    e->pushed[k] = springs_left(integrity, s->spring[p], 0.0) * s->stiffness[p];
-    e->pulled[k] = springs_left(integrity, s->spring[p], 1.0) * s->stiffness[p];
+    const dem_index k = other > j ? find_bond(e, j, other) : find_bond(e, other, j), spring = s->spring[p];
+    e->pushed[k] = springs_left(integrity, spring, 0.0) * s->stiffness_of[spring];
+    e->pulled[k] = springs_left(integrity, spring, 1.0) * s->stiffness_of[spring];
     return (int32_t)(2 * k + (other < j));
 }
 
@@ -218,10 +219,11 @@ static void list_corners(local_elements *e, const local_nodes *nodes)
     const triangles_integrity integrity = element_state_triangles(e->forces->elements);
     local_corners *to = e->corners;
     for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++)
-        for (dem_index p = t->row[nodes->list[j]]; p < t->row[nodes->list[j] + 1]; p++)
+        for (dem_index i = nodes->list[j], p = t->row[i]; p < t->row[i + 1]; p++)
             *to++ = triangles_broken(t, integrity, p)
-                        ? (local_corners){-1, -1}
-                        : (local_corners){nodes->number[t->next[p]], nodes->number[t->last[p]]};
+                        ? (local_corners){-1, -1, 0.0}
+                        : (local_corners){nodes->number[t->next[p]], nodes->number[t->last[p]],
+                                          triangles_rest_area(t, i, p)};
     e->have_corners = true;
 }
 
@@ -332,7 +334,7 @@ static bool are_off(const local_elements *e, dem_index n, const double *x)
 static bool are_slack(local_elements *e, const local_nodes *nodes, int ring, const double *x)
 {
     const dem_index n = e->places[nodes->end[ring]].guarded, n_nodes = nodes->end[ring + 1];
-    if (e->forces->model->triangles.area_stiffness != NULL) return false;
+    if (e->forces->model->triangles.area_stiffness_of != NULL) return false;
     find_leeway(e, n_nodes, n, x);
     return are_near(e, 2 * n_nodes, x) || are_off(e, n, x);
 }
@@ -358,7 +360,7 @@ static vec2 force_of_triangles(const local_elements *e, dem_index j, dem_index i
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++, own++) {
         if (own->next < 0) continue;
         const vec2 corner[3] = {vec2_at(x, j), vec2_at(x, own->next), vec2_at(x, own->last)};
-        force = triangles_add_force(t, integrity, p, corner, force);
+        force = triangles_add_force(t, integrity, p, own->rest_area, corner, force);
     }
     return force;
 }

@@ -14,6 +14,7 @@ typedef struct local_bond {
 /** The other two corners of a triangle at a local node, counter-clockwise; -1: it is broken. */
 typedef struct local_corners {
     int32_t next, last;
+    double rest_area; /* m^2 */
 } local_corners;
 
 /** A triangle that has a guard and no area term. */

@@ -194,12 +194,13 @@ static dem_index place_of(const taking *t, dem_index node)
     return lane_slots_place(t->s->place, node);
 }
 
-static void add_spring(taking *t, dem_index k, double stiffness, double rest_length, double strain)
+static void add_spring(taking *t, dem_index k, double strain)
 {
+    const dem_lattice *l = &t->s->model->lattice;
     if (springs_is_broken(t->springs, k)) return;
     const double left = springs_left(t->springs, k, strain);
-    measure_spring(&t->s->model->lattice, k, strain, &t->extremes);
-    exact_sum_add(&t->elastic, left * springs_energy_of(stiffness, rest_length, strain));
+    measure_spring(l, k, strain, &t->extremes);
+    exact_sum_add(&t->elastic, left * springs_energy_of(l->stiffness[k], l->rest_length[k], strain));
 }
 
 /* Those to nodes at higher places. */
@@ -207,8 +208,7 @@ static void add_springs(taking *t, dem_index i)
 {
     const springs *s = &t->s->model->springs;
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
-        if (place_of(t, s->neighbour[p]) > place_of(t, i))
-            add_spring(t, s->spring[p], s->stiffness[p], s->rest_length[p], springs_strain(s, i, p, t->x));
+        if (place_of(t, s->neighbour[p]) > place_of(t, i)) add_spring(t, s->spring[p], springs_strain(s, i, p, t->x));
 }
 
 /* Of rigid bodies. */
@@ -217,8 +217,7 @@ static void add_rigid_springs(taking *t)
     const dem_lattice *l = &t->s->model->lattice;
     if (t->s->model->rigid.n == 0) return;
     for (dem_index k = 0; k < l->n_springs; k++)
-        if (rigid_nodes_have(l, l->ends[2 * k]))
-            add_spring(t, k, l->stiffness[k], l->rest_length[k], springs_strain_of(l, k, t->x));
+        if (rigid_nodes_have(l, l->ends[2 * k])) add_spring(t, k, springs_strain_of(l, k, t->x));
 }
 
 static void add_couplings(taking *t, dem_index i)
@@ -247,7 +246,7 @@ static void add_triangles(taking *t, dem_index i, bool passed)
         if (!passed && e.ratio < t->strain.area_min) t->strain.area_min = e.ratio;
         if (e.ratio >= TRIANGLES_GUARD_ONSET) continue;
         exact_sum_add(&t->guard, e.guard);
-        t->strain.guarded += all->guard[p] > 0.0;
+        t->strain.guarded += triangles_guard(all, p) > 0.0;
         t->strain.inverted += e.ratio <= 0.0;
     }
 }

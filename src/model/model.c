@@ -193,7 +193,7 @@ static double frequency_bound(const dem_model *m, const sym2 *coupled)
     const double *x = m->lattice.x;
     double squared = 0.0;
     for (dem_index i = 0; i < m->lattice.n_nodes; i++) {
-        const sym2 bonds = springs_block(&m->springs, m->springs.stiffness, i, x);
+        const sym2 bonds = springs_block(&m->springs, m->springs.stiffness_of, i, x);
         const sym2 areas = triangles_block(&m->triangles, i, x);
         const sym2 own = {2.0 * bonds.xx + 3.0 * areas.xx, 2.0 * bonds.xy + 3.0 * areas.xy,
                           2.0 * bonds.yy + 3.0 * areas.yy};
@@ -251,6 +251,7 @@ static dem_status compile_parts(dem_model *m, const dem_lattice *lattice, const 
     TRY(fill_defaults(&m->lattice));
     TRY(rigid_bodies_compile(&m->rigid, &m->lattice));
     TRY(springs_compile(&m->springs, &m->lattice));
+    TRY(csr_view_create(&m->csr, &m->springs));
     TRY(triangles_compile(&m->triangles, &m->lattice));
     m->edges_are_springs = edges_are_springs(&m->springs, &m->triangles);
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
@@ -306,6 +307,7 @@ void dem_model_destroy(dem_model *model)
 {
     if (model == NULL) return;
     dem_lattice_free(&model->lattice);
+    csr_view_free(model->csr);
     springs_free(&model->springs);
     triangles_free(&model->triangles);
     couplings_free(&model->couplings);
@@ -320,13 +322,11 @@ void dem_model_destroy(dem_model *model)
     free(model);
 }
 
-/* Views of arrays that belong to the model. */
 dem_status dem_model_csr(const dem_model *model, dem_csr *out)
 {
     CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_csr: %s is NULL", model ? "out" : "model");
-    const springs *s = &model->springs;
-    const dem_csr own = {sizeof own, s->n_nodes,   s->row,         s->neighbour,
-                         s->spring,  s->stiffness, s->rest_length, s->viscosity};
+    dem_csr own;
+    TRY(csr_view_show(model->csr, &own));
     return struct_size_write(&STRUCT_KIND(dem_csr), out, &own);
 }
 

@@ -9,6 +9,7 @@
 #include "elastic/layout.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
+#include "model/csr_view.h"
 #include "model/rigid_bodies.h"
 #include "model/stress.h"
 #include "model/surface.h"
@@ -19,6 +20,7 @@ struct dem_model {
     domain *domain;      /* of this one; NULL: all nodes are here */
     dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
     springs springs;
+    csr_view *csr; /* of the springs, for programs */
     triangles triangles;
     bool edges_are_springs; /* whether triangles have springs along all of their edges */
     couplings couplings;

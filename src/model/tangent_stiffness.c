@@ -101,7 +101,7 @@ static dem_status iterate(const solver *s, double residual, double *u)
 static void fill(solver *s, const unsigned char *held, double *u)
 {
     for (dem_index i = 0; i < s->model->lattice.n_nodes; i++) {
-        const sym2 bonds = springs_block(&s->model->springs, s->model->springs.stiffness, i, s->x);
+        const sym2 bonds = springs_block(&s->model->springs, s->model->springs.stiffness_of, i, s->x);
         const sym2 areas = triangles_block(&s->model->triangles, i, s->x);
         const double trace = bonds.xx + bonds.yy + areas.xx + areas.yy;
         if (!held[i]) {

@@ -17,7 +17,7 @@ typedef struct bench {
     contact_scene scene;
     double mass[BENCH_NODES], inverse_mass[BENCH_NODES], x[2 * BENCH_NODES], v[2 * BENCH_NODES];
     int32_t body[BENCH_NODES];
-    dem_index none[BENCH_NODES + 1]; /* rows of no springs and no triangles */
+    int32_t none[BENCH_NODES + 1]; /* rows of no springs and no triangles */
     dem_obstacle list[BENCH_OBSTACLES];
     motion_law laws[BENCH_OBSTACLES]; /* at rest */
     segment segments[BENCH_FEATURES];

@@ -38,11 +38,10 @@ static dem_lattice make_net(void)
     return lattice;
 }
 
-static springs compile_net(void)
+static springs compile(const dem_lattice *lattice)
 {
     springs s;
-    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
-    assert_ok(springs_compile(&s, &lattice));
+    assert_ok(springs_compile(&s, lattice));
     return s;
 }
 
@@ -51,14 +50,6 @@ static dem_lattice make_pair(const double x[4], double rest_length, double stiff
     const dem_index ends[2] = {0, 1};
     dem_lattice lattice = support_lattice(2, x, masses, 1, ends, rest_length, stiffness, NULL);
     return lattice;
-}
-
-static springs compile_pair(const double x[4], double rest_length, double stiffness)
-{
-    springs s;
-    CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(x, rest_length, stiffness);
-    assert_ok(springs_compile(&s, &lattice));
-    return s;
 }
 
 /* Positions away from rest, or velocities, the same in every run. */
@@ -95,23 +86,24 @@ TEST(strain_force_and_virial_are_those_of_each_spring)
 
 TEST(rows_list_the_neighbours_in_ascending_order)
 {
-    static const dem_index row[n_nodes + 1] = {0, 3, 6, 8, 9, 12};
-    static const dem_index neighbour[2 * n_springs] = {1, 3, 4, 0, 2, 4, 1, 4, 0, 0, 1, 2};
-    static const dem_index spring[2 * n_springs] = {4, 1, 0, 4, 3, 2, 3, 5, 1, 0, 2, 5};
-    springs s = compile_net();
+    static const int32_t row[n_nodes + 1] = {0, 3, 6, 8, 9, 12};
+    static const int32_t neighbour[2 * n_springs] = {1, 3, 4, 0, 2, 4, 1, 4, 0, 0, 1, 2};
+    static const int32_t spring[2 * n_springs] = {4, 1, 0, 4, 3, 2, 3, 5, 1, 0, 2, 5};
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
+    springs s = compile(&lattice);
     assert_int_equal(s.n_nodes, n_nodes);
     assert_int_equal(s.n_springs, n_springs);
     assert_memory_equal(s.row, row, sizeof row);
     assert_memory_equal(s.neighbour, neighbour, sizeof neighbour);
     assert_memory_equal(s.spring, spring, sizeof spring);
-    for (dem_index p = 0; p < 2 * n_springs; p++) {
-        assert_close(s.rest_length[p], 0.5 + 0.1 * (double)spring[p], 0.0);
-        assert_close(s.stiffness[p], 100.0 + 7.0 * (double)spring[p], 0.0);
-        assert_close(s.viscosity[p], viscosity_of(spring[p]), 0.0);
+    for (dem_index k = 0; k < n_springs; k++) {
+        assert_close(s.rest_length_of[k], 0.5 + 0.1 * (double)k, 0.0);
+        assert_close(s.stiffness_of[k], 100.0 + 7.0 * (double)k, 0.0);
+        assert_close(s.viscosity_of[k], viscosity_of(k), 0.0);
     }
     springs_free(&s);
     assert_null(s.row);
-    assert_null(s.viscosity);
+    assert_null(s.viscosity_of);
 }
 
 TEST(two_springs_between_the_same_nodes_are_named)
@@ -138,7 +130,7 @@ TEST(nodes_without_springs_feel_nothing)
         assert_true(force.x == 0.0 && force.y == 0.0);
     }
     assert_close(energy_springs(&lattice, SPRINGS_WHOLE, corners), 0.0, 0.0);
-    assert_close(sym2_largest(springs_block(&s, s.stiffness, 0, corners)), 0.0, 0.0);
+    assert_close(sym2_largest(springs_block(&s, s.stiffness_of, 0, corners)), 0.0, 0.0);
 }
 
 /* ---- force and energy ---- */
@@ -149,7 +141,7 @@ TEST(a_stretched_spring_pulls_with_stiffness_times_strain)
 {
     const double x[4] = {1.0, -1.0, 4.0, 3.0};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(x, 2.0, 100.0);
-    CLEANUP(springs_free) springs s = compile_pair(x, 2.0, 100.0);
+    CLEANUP(springs_free) springs s = compile(&lattice);
     const vec2 first = springs_force(&s, SPRINGS_WHOLE, 0, x), second = springs_force(&s, SPRINGS_WHOLE, 1, x);
     assert_close(first.x, 90.0, 1e-13);
     assert_close(first.y, 120.0, 1e-13);
@@ -162,7 +154,8 @@ TEST(a_stretched_spring_pulls_with_stiffness_times_strain)
 TEST(a_compressed_spring_pushes)
 {
     const double x[4] = {0.0, 0.0, 0.0, 1.5};
-    CLEANUP(springs_free) springs s = compile_pair(x, 2.0, 100.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(x, 2.0, 100.0);
+    CLEANUP(springs_free) springs s = compile(&lattice);
     assert_close(springs_force(&s, SPRINGS_WHOLE, 0, x).y, -25.0, 0.0);
     assert_close(springs_force(&s, SPRINGS_WHOLE, 1, x).y, 25.0, 0.0);
     assert_close(springs_strain(&s, 1, 1, x), -0.25, 0.0);
@@ -175,7 +168,7 @@ TEST(the_force_is_minus_the_gradient_of_the_energy)
     const double step = 1e-5;
     double x[2 * n_nodes];
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
-    CLEANUP(springs_free) springs s = compile_net();
+    CLEANUP(springs_free) springs s = compile(&lattice);
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 1);
     for (dem_index i = 0; i < n_nodes; i++) {
@@ -201,7 +194,7 @@ TEST(springs_exert_no_force_and_no_torque_on_the_whole)
     double x[2 * n_nodes], torque = 0.0, energy = 0.0;
     vec2 total = {0.0, 0.0};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
-    CLEANUP(springs_free) springs s = compile_net();
+    CLEANUP(springs_free) springs s = compile(&lattice);
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 2);
     for (dem_index i = 0; i < n_nodes; i++) {
@@ -221,7 +214,7 @@ TEST(nodes_that_coincide_give_a_force_that_is_no_number)
 {
     const double apart[4] = {0.0, 0.0, 1.0, 0.0}, together[4] = {0.3, 0.7, 0.3, 0.7};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(apart, 1.0, 10.0);
-    CLEANUP(springs_free) springs s = compile_pair(apart, 1.0, 10.0);
+    CLEANUP(springs_free) springs s = compile(&lattice);
     assert_true(isnan(springs_force(&s, SPRINGS_WHOLE, 0, together).x) != 0);
     assert_true(isnan(springs_force(&s, SPRINGS_WHOLE, 1, together).y) != 0);
     assert_close(energy_springs(&lattice, SPRINGS_WHOLE, together), 5.0, 0.0);
@@ -242,22 +235,20 @@ static double damping_power(const springs *s, const double *x, const double *v)
 TEST(springs_without_viscosities_stay_without)
 {
     const double x[4] = {0.0, 0.0, 1.0, 0.0}, v[4] = {0.0, 0.0, 1.0, 0.0}, inverse_mass[2] = {1.0, 1.0};
-    CLEANUP(springs_free) springs s = compile_pair(x, 1.0, 10.0);
-    assert_null(s.viscosity);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(x, 1.0, 10.0);
+    CLEANUP(springs_free) springs s = compile(&lattice);
+    assert_null(s.viscosity_of);
     assert_close(damping_power(&s, x, v), 0.0, 0.0);
     assert_close(springs_damping_bound(&s, x, inverse_mass), 0.0, 0.0);
 }
 
-static springs compile_damped_pair(const double x[4], double rest_length, double viscosity)
+static dem_lattice make_damped_pair(const double x[4], double rest_length, double viscosity)
 {
-    springs s;
-    const dem_index ends[2] = {0, 1};
-    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(2, x, masses, 1, ends, rest_length, 100.0, NULL);
+    dem_lattice lattice = make_pair(x, rest_length, 100.0);
     lattice.viscosity = malloc(sizeof *lattice.viscosity);
     assert_non_null(lattice.viscosity);
     lattice.viscosity[0] = viscosity;
-    assert_ok(springs_compile(&s, &lattice));
-    return s;
+    return lattice;
 }
 
 /* c = 6 N s, d0 = 2 m, d = 5 m along (3, 4)/5. The ends part with (7, -1) m/s, along the spring (21 - 4)/5 = 3.4 m/s:
@@ -265,7 +256,8 @@ static springs compile_damped_pair(const double x[4], double rest_length, double
 TEST(a_lengthening_spring_pulls_with_viscosity_times_strain_rate)
 {
     const double x[4] = {1.0, -1.0, 4.0, 3.0}, v[4] = {-2.0, 5.0, 5.0, 4.0};
-    CLEANUP(springs_free) springs s = compile_damped_pair(x, 2.0, 6.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_damped_pair(x, 2.0, 6.0);
+    CLEANUP(springs_free) springs s = compile(&lattice);
     const vec2 first = springs_damping(&s, SPRINGS_WHOLE, 0, x, v),
                second = springs_damping(&s, SPRINGS_WHOLE, 1, x, v);
     assert_close(first.x, 6.12, 1e-14);
@@ -279,7 +271,8 @@ TEST(damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power)
 {
     double x[2 * n_nodes], v[2 * n_nodes] = {0}, torque = 0.0, given = 0.0;
     vec2 total = {0.0, 0.0};
-    CLEANUP(springs_free) springs s = compile_net();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
+    CLEANUP(springs_free) springs s = compile(&lattice);
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 3);
     stir(v, n_nodes, 1.0, 4);
@@ -300,7 +293,8 @@ TEST(damping_has_no_force_and_no_torque_on_the_whole_and_takes_its_power)
 TEST(a_rigid_motion_is_not_damped)
 {
     double x[2 * n_nodes], v[2 * n_nodes];
-    CLEANUP(springs_free) springs s = compile_net();
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
+    CLEANUP(springs_free) springs s = compile(&lattice);
     memcpy(x, corners, sizeof x);
     stir(x, n_nodes, 0.2, 5);
     for (dem_index i = 0; i < n_nodes; i++) vec2_put(v, i, (vec2){0.7 - 3.0 * x[2 * i + 1], -0.2 + 3.0 * x[2 * i]});
@@ -318,9 +312,10 @@ TEST(a_rigid_motion_is_not_damped)
 TEST(the_block_of_a_pair_is_its_stiffness_along_it)
 {
     const double x[4] = {0.0, 0.0, 1.2, 1.6};
-    CLEANUP(springs_free) springs s = compile_pair(x, 2.0, 100.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_pair(x, 2.0, 100.0);
+    CLEANUP(springs_free) springs s = compile(&lattice);
     for (dem_index i = 0; i < 2; i++) {
-        const sym2 block = springs_block(&s, s.stiffness, i, x);
+        const sym2 block = springs_block(&s, s.stiffness_of, i, x);
         assert_close(block.xx, 50.0 * 0.36, 1e-13);
         assert_close(block.xy, 50.0 * 0.48, 1e-13);
         assert_close(block.yy, 50.0 * 0.64, 1e-13);
@@ -333,7 +328,8 @@ TEST(the_block_of_a_pair_is_its_stiffness_along_it)
 TEST(the_damping_bound_of_a_pair_is_twice_its_damping_over_the_mass)
 {
     const double x[4] = {0.0, 0.0, 1.2, 1.6}, both[2] = {1.0, 0.5}, held[2] = {0.0, 0.5};
-    CLEANUP(springs_free) springs s = compile_damped_pair(x, 2.0, 6.0);
+    CLEANUP(dem_lattice_free) dem_lattice lattice = make_damped_pair(x, 2.0, 6.0);
+    CLEANUP(springs_free) springs s = compile(&lattice);
     assert_close(springs_damping_bound(&s, x, both), 6.0, 1e-14);
     assert_close(springs_damping_bound(&s, x, held), 3.0, 1e-14);
 }
@@ -402,7 +398,7 @@ TEST(the_damping_bound_of_a_net_is_above_the_highest_rate)
 {
     double inverse_mass[n_nodes];
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_net();
-    CLEANUP(springs_free) springs s = compile_net();
+    CLEANUP(springs_free) springs s = compile(&lattice);
     for (int i = 0; i < n_nodes; i++) inverse_mass[i] = 1.0 / masses[i];
     const double bound = springs_damping_bound(&s, corners, inverse_mass), rate = highest_damping_rate(&s, &lattice);
     assert_true(bound >= rate * (1.0 - 1e-13));

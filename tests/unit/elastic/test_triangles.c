@@ -114,27 +114,17 @@ enum { n_nodes = 5, n_triangles = 4 };
 
 /* A square of 1 m with its centre: four triangles of 0.25 m^2. */
 static const double corners[2 * n_nodes] = {0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.5, 0.5};
-static const double masses[n_nodes] = {1.0, 1.0, 1.0, 1.0, 1.0};
 static const dem_index fan[3 * n_triangles] = {0, 1, 4, 4, 1, 2, 3, 4, 2, 0, 4, 3};
 
 static triangles compile_fan(const double *guard, const double *area_stiffness)
 {
     triangles t;
-    CLEANUP(dem_lattice_free) dem_lattice lattice = support_lattice(n_nodes, corners, masses, 0, NULL, 0.0, 0.0, NULL);
-    lattice.n_triangles = n_triangles;
-    lattice.triangles = malloc(sizeof fan);
-    assert_non_null(lattice.triangles);
-    memcpy(lattice.triangles, fan, sizeof fan);
-    if (guard != NULL) {
-        lattice.guard = malloc(n_triangles * sizeof *guard);
-        assert_non_null(lattice.guard);
-        memcpy(lattice.guard, guard, n_triangles * sizeof *guard);
-    }
-    if (area_stiffness != NULL) {
-        lattice.area_stiffness = malloc(n_triangles * sizeof *area_stiffness);
-        assert_non_null(lattice.area_stiffness);
-        memcpy(lattice.area_stiffness, area_stiffness, n_triangles * sizeof *area_stiffness);
-    }
+    const dem_lattice lattice = {.n_nodes = n_nodes,
+                                 .n_triangles = n_triangles,
+                                 .x = (double *)corners,
+                                 .triangles = (dem_index *)fan,
+                                 .guard = (double *)guard,
+                                 .area_stiffness = (double *)area_stiffness};
     assert_ok(triangles_compile(&t, &lattice));
     return t;
 }
@@ -151,17 +141,16 @@ static double energy_of(const triangles *t, const double *x)
 TEST(rows_hold_the_guarded_triangles_of_each_node_in_order)
 {
     const double some[n_triangles] = {2.0, 0.0, 5.0, 7.0};
-    static const dem_index row[n_nodes + 1] = {0, 2, 3, 4, 6, 9};
-    static const dem_index next[9] = {1, 4, 4, 3, 4, 0, 0, 2, 3}, last[9] = {4, 3, 0, 4, 2, 4, 1, 3, 0};
+    static const int32_t row[n_nodes + 1] = {0, 2, 3, 4, 6, 9};
+    static const int32_t next[9] = {1, 4, 4, 3, 4, 0, 0, 2, 3}, last[9] = {4, 3, 0, 4, 2, 4, 1, 3, 0};
     static const double strength[9] = {2.0, 7.0, 2.0, 5.0, 5.0, 7.0, 2.0, 5.0, 7.0};
     triangles t = compile_fan(some, NULL);
     assert_memory_equal(t.row, row, sizeof row);
     assert_memory_equal(t.next, next, sizeof next);
     assert_memory_equal(t.last, last, sizeof last);
-    for (int p = 0; p < 9; p++) {
-        assert_close(t.guard[p], strength[p], 0.0);
-        assert_close(t.rest_area[p], 0.25, 0.0);
-    }
+    for (int p = 0; p < 9; p++) assert_close(triangles_guard(&t, p), strength[p], 0.0);
+    for (dem_index i = 0; i < n_nodes; i++)
+        for (dem_index p = row[i]; p < row[i + 1]; p++) assert_close(triangles_rest_area(&t, i, p), 0.25, 0.0);
     triangles_free(&t);
     assert_null(t.row);
 }
@@ -169,14 +158,14 @@ TEST(rows_hold_the_guarded_triangles_of_each_node_in_order)
 TEST(rows_hold_triangles_with_area_stiffness_or_guard)
 {
     const double some[n_triangles] = {0.0, 0.0, 0.0, 7.0}, stiff[n_triangles] = {0.0, -3.0, 0.0, 0.0};
-    static const dem_index row[n_nodes + 1] = {0, 1, 2, 3, 4, 6}, next[6] = {4, 2, 4, 0, 1, 3};
+    static const int32_t row[n_nodes + 1] = {0, 1, 2, 3, 4, 6}, next[6] = {4, 2, 4, 0, 1, 3};
     static const double guard[6] = {7.0, 0.0, 0.0, 7.0, 0.0, 7.0}, kappa[6] = {0.0, -3.0, -3.0, 0.0, -3.0, 0.0};
     CLEANUP(triangles_free) triangles t = compile_fan(some, stiff);
     assert_memory_equal(t.row, row, sizeof row);
     assert_memory_equal(t.next, next, sizeof next);
     for (int p = 0; p < 6; p++) {
-        assert_close(t.guard[p], guard[p], 0.0);
-        assert_close(t.area_stiffness[p], kappa[p], 0.0);
+        assert_close(triangles_guard(&t, p), guard[p], 0.0);
+        assert_close(t.area_stiffness_of[t.triangle[p]], kappa[p], 0.0);
     }
 }
 

@@ -214,7 +214,7 @@ TEST(a_guard_pushes_from_its_onset_on)
         check_last_ring(&r, 0.0);
         squeeze(&r, corner, step);
         share = vec2_triangle_area(vec2_at(r.y, corner[0]), vec2_at(r.y, corner[1]), vec2_at(r.y, corner[2])) /
-                t->rest_area[p];
+                triangles_rest_area(t, corner[0], p);
     }
     check_last_ring(&r, 0.0);
 }

@@ -27,7 +27,7 @@ static dem_lattice make_jittered(double nu)
 /* u.(2 S + 3 T + C) u of node i. */
 static double bound_of(const dem_model *m, const sym2 *coupled, dem_index i, vec2 u)
 {
-    const sym2 S = springs_block(&m->springs, m->springs.stiffness, i, m->lattice.x);
+    const sym2 S = springs_block(&m->springs, m->springs.stiffness_of, i, m->lattice.x);
     const sym2 T = triangles_block(&m->triangles, i, m->lattice.x), *C = &coupled[i];
     const double xx = 2.0 * S.xx + 3.0 * T.xx + C->xx, xy = 2.0 * S.xy + 3.0 * T.xy + C->xy;
     return xx * u.x * u.x + 2.0 * xy * u.x * u.y + (2.0 * S.yy + 3.0 * T.yy + C->yy) * u.y * u.y;
@@ -98,7 +98,7 @@ TEST(nearly_equilateral_triangles_add_nothing)
     assert_non_null(coupled);
     assert_ok(coupled_bound_add(&m->lattice, &m->springs, &m->couplings, coupled));
     for (dem_index i = 0; i < lattice.n_nodes; i++) {
-        const sym2 S = springs_block(&m->springs, m->springs.stiffness, i, lattice.x);
+        const sym2 S = springs_block(&m->springs, m->springs.stiffness_of, i, lattice.x);
         /* 0.1 % from the 1024th root, 1e-6 from the jitter */
         assert_close(sym2_largest(coupled[i]) / sym2_largest(S), 0.0, 0.003);
     }

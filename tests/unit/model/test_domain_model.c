@@ -41,8 +41,9 @@ static void assert_same_rows(const dem_model *m, const dem_model *whole)
         assert_int_equal(m->springs.row[i + 1] - row, whole->springs.row[of + 1] - from);
         for (dem_index p = 0; p < m->springs.row[i + 1] - row; p++) {
             assert_int_equal(d->number[m->springs.neighbour[row + p]], whole->springs.neighbour[from + p]);
-            assert_true(m->springs.stiffness[row + p] == whole->springs.stiffness[from + p]);
-            assert_true(m->springs.rest_length[row + p] == whole->springs.rest_length[from + p]);
+            const dem_index own = m->springs.spring[row + p], there = whole->springs.spring[from + p];
+            assert_true(m->springs.stiffness_of[own] == whole->springs.stiffness_of[there]);
+            assert_true(m->springs.rest_length_of[own] == whole->springs.rest_length_of[there]);
         }
     }
 }

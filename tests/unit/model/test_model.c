@@ -442,6 +442,8 @@ TEST(sizes_and_csr_tell_what_is_there)
         assert_close(csr.rest_length[p], plain.rest_length[spring[p]], 0.0);
         assert_close(csr.viscosity[p], plain.viscosity[spring[p]], 0.0);
     }
+    const dem_csr again = ask_csr(model);
+    assert_memory_equal(&again, &csr, sizeof csr); /* the same arrays */
 }
 
 /* Springs 0-1 (k = 10 N/m) and 1-2 (20 N/m) at a right angle: node 0 of 1 kg has 2 * 10, node 1 of 2 kg 2 * 20/2,
