@@ -107,8 +107,8 @@ DEM_API dem_status dem_model_create(dem_model **out, const dem_lattice *lattice,
 /** Accepts NULL. Destroy its simulations first. */
 DEM_API void dem_model_destroy(dem_model *model);
 
-/** The arrays are made at the first call, for all later ones, too, and take some 200 bytes a node of a lattice of triangles.
- *  Several threads may ask at once.
+/** The arrays are made at the first call, for all later ones, too, and take some 200 bytes a node of a lattice of
+ *  triangles. Several threads may ask at once.
  *  \return DEM_ERROR_MEMORY */
 DEM_API dem_status dem_model_csr(const dem_model *model, dem_csr *out);
 

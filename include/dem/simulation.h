@@ -466,10 +466,13 @@ DEM_API dem_status dem_simulation_crack_energy(const dem_simulation *simulation,
 /** Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That is the
  *  Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles; of neither
  *  damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no triangle.
- *  \param[out] stress  [n_nodes][dim (dim + 1)/2] Pa, > 0 in tension: xx, yy, xy */
+ *  What a model needs for stresses is made when they are first asked for.
+ *  \param[out] stress  [n_nodes][dim (dim + 1)/2] Pa, > 0 in tension: xx, yy, xy
+ *  \return DEM_ERROR_MEMORY */
 DEM_API dem_status dem_simulation_stress(const dem_simulation *simulation, double *stress);
 
-/** The same of one node.  \param node  0 <= node < n_nodes  \param[out] stress  [dim (dim + 1)/2] */
+/** The same of one node.  \param node  0 <= node < n_nodes  \param[out] stress  [dim (dim + 1)/2]
+ *  \return DEM_ERROR_MEMORY */
 DEM_API dem_status dem_simulation_stress_at(const dem_simulation *simulation, dem_index node, double *stress);
 
 DEM_API dem_status dem_simulation_overlap(const dem_simulation *simulation, dem_overlap *out);

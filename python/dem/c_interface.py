@@ -1270,13 +1270,15 @@ FUNCTIONS = {  # name: (result, arguments, text)
         Virial stress of every node in the axes of space: its share of r x f over its share of the rest volume. That
         is the Kirchhoff stress: Cauchy's times the ratio of the volumes now and at rest. Of springs and triangles;
         of neither damping nor motion. Exact where the strain is uniform, on boundaries too; 0 at a node in no
-        triangle.
-        stress [n_nodes][dim (dim + 1)/2] Pa, > 0 in tension: xx, yy, xy"""),
+        triangle. What a model needs for stresses is made when they are first asked for.
+        stress [n_nodes][dim (dim + 1)/2] Pa, > 0 in tension: xx, yy, xy
+        Returns DEM_ERROR_MEMORY"""),
     "dem_simulation_stress_at": (c_int, [POINTER(dem_simulation), c_int64, POINTER(c_double)],
         """dem_simulation_stress_at(simulation, node, stress)
         The same of one node.
         node 0 <= node < n_nodes
-        stress [dim (dim + 1)/2]"""),
+        stress [dim (dim + 1)/2]
+        Returns DEM_ERROR_MEMORY"""),
     "dem_simulation_overlap": (c_int, [POINTER(dem_simulation), POINTER(dem_overlap)],
         """dem_simulation_overlap(simulation, out)"""),
     "dem_simulation_surfaces": (c_int, [POINTER(dem_simulation), POINTER(dem_surfaces)],

@@ -22,7 +22,8 @@ typedef struct stress_field {
 void stress_field_create(stress_field *out, const kernel *k);
 void stress_field_destroy(stress_field *s);
 
-/** Stresses at positions x [n_nodes][2]. Without memory for r x f of the springs each node computes that of its own.
+/** Stresses at positions x [n_nodes][2], with the model's map prepared. Without memory for r x f of the springs each
+ *  node computes that of its own.
  *  \param elements     NULL: all are whole
  *  \param area_min     the smallest area of whole triangles over that at rest, if it is known: spares looking for those
  *                      that the guard acts on; 0: it is not

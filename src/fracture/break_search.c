@@ -71,12 +71,12 @@ static void place(break_search *s, dem_index node)
 static void place_around(break_search *s, dem_index i)
 {
     const element_state *e = s->elements;
-    const stress_map *map = &s->model->stress;
+    const stress_rows *r = s->model->stress.rows;
     place(s, i);
     for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
         for (int c = 0; c < 3; c++) place(s, e->lattice->triangles[3 * e->at[p] + c]);
-    for (dem_index p = map->row[i]; p < map->row[i + 1]; p++)
-        for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * map->spring[p] + end]);
+    for (dem_index p = r->row[i]; p < r->row[i + 1]; p++)
+        for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * r->spring[p] + end]);
 }
 
 /* Numbers are so short that marks begin anew with them from time to time, which costs less than wider marks would. */

@@ -10,6 +10,7 @@
 dem_status stress_cache_create(stress_cache *out, const dem_model *model, const element_state *elements, dem_index room)
 {
     stress_cache c = {.model = model, .elements = elements, .n = 64};
+    TRY(stress_prepare(&model->stress));
     while (c.n < room) c.n *= 2;
     c.slots = calloc((size_t)c.n, sizeof *c.slots);
     CHECK(c.slots != NULL, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes", (long long)c.n);

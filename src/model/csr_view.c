@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "model/csr_view.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 
+#include "base/on_demand.h"
 #include "base/status.h"
 
 struct csr_view {
     const springs *springs;
-    pthread_mutex_t lock;
-    dem_index *numbers; /* rows, neighbours and springs, one behind the other; NULL: not asked for yet */
+    on_demand made;
+    dem_index *numbers; /* rows, neighbours and springs, one behind the other */
     double *strengths;  /* stiffnesses, rest lengths and viscosities likewise */
 };
 
@@ -18,18 +18,18 @@ dem_status csr_view_create(csr_view **out, const springs *s)
     csr_view *v = calloc(1, sizeof *v);
     CHECK_MEMORY(v);
     v->springs = s;
-    if (pthread_mutex_init(&v->lock, NULL) != 0) {
+    const dem_status status = on_demand_create(&v->made);
+    if (status == DEM_OK)
+        *out = v;
+    else
         free(v);
-        return status_fail(DEM_ERROR_MEMORY, "out of memory");
-    }
-    *out = v;
-    return DEM_OK;
+    return status;
 }
 
 void csr_view_free(csr_view *v)
 {
     if (v == NULL) return;
-    (void)pthread_mutex_destroy(&v->lock);
+    on_demand_destroy(&v->made);
     free(v->numbers);
     free(v->strengths);
     free(v);
@@ -45,8 +45,9 @@ static void copy_by_slot(double *to, const double *from, const springs *s)
     for (dem_index p = 0; p < s->row[s->n_nodes]; p++) to[p] = from[s->spring[p]];
 }
 
-static dem_status make(csr_view *v)
+static dem_status make(void *self)
 {
+    csr_view *v = self;
     const springs *s = v->springs;
     const dem_index rows = s->n_nodes + 1, slots = s->row[s->n_nodes];
     dem_index *numbers = malloc((size_t)(rows + 2 * slots) * sizeof *numbers);
@@ -71,10 +72,7 @@ dem_status csr_view_show(csr_view *v, dem_csr *out)
 {
     const springs *s = v->springs;
     const dem_index rows = s->n_nodes + 1, slots = s->row[s->n_nodes];
-    (void)pthread_mutex_lock(&v->lock);
-    const dem_status status = v->numbers == NULL ? make(v) : DEM_OK;
-    (void)pthread_mutex_unlock(&v->lock);
-    if (status != DEM_OK) return status;
+    TRY(on_demand_make(&v->made, make, v));
     *out = (dem_csr){sizeof *out,
                      s->n_nodes,
                      v->numbers,

@@ -83,26 +83,22 @@ static dem_status cut_surface(dem_model *m, const dem_lattice *whole, const plac
 static dem_status cut_stress(dem_model *m, const stress_map *whole, const places *p)
 {
     const domain *d = m->domain;
-    stress_map map = {.couplings = &m->couplings};
+    const stress_rows *from = whole->rows;
     dem_index n = 0;
+    TRY(stress_prepare(whole));
     for (dem_index i = 0; i < d->n_nodes; i++)
-        if (d->is_own[i]) n += whole->row[d->number[i] + 1] - whole->row[d->number[i]];
-    map.row = lattice_zeros(d->n_nodes + 1, sizeof *map.row);
-    map.volume = lattice_zeros(d->n_nodes, sizeof *map.volume);
-    map.spring = lattice_zeros(n, sizeof *map.spring);
-    map.share = lattice_zeros(n, sizeof *map.share);
-    m->stress = map;
-    CHECK(map.row && map.volume && map.spring && map.share, DEM_ERROR_MEMORY,
-          "out of memory for the stresses of %lld nodes", (long long)d->n_nodes);
+        if (d->is_own[i]) n += from->row[d->number[i] + 1] - from->row[d->number[i]];
+    TRY(stress_create(&m->stress, d->n_nodes, n, &m->couplings));
+    stress_rows *to = m->stress.rows;
     n = 0;
     for (dem_index i = 0; i < d->n_nodes; i++) {
         const dem_index of = d->number[i];
-        map.volume[i] = whole->volume[of];
-        for (dem_index q = whole->row[of]; d->is_own[i] && q < whole->row[of + 1]; q++) {
-            map.spring[n] = p->spring[whole->spring[q]];
-            map.share[n++] = whole->share[q];
+        m->stress.volume[i] = whole->volume[of];
+        for (dem_index q = from->row[of]; d->is_own[i] && q < from->row[of + 1]; q++) {
+            to->spring[n] = (int32_t)p->spring[from->spring[q]];
+            to->share[n++] = from->share[q];
         }
-        map.row[i + 1] = n;
+        to->row[i + 1] = (int32_t)n;
     }
     return DEM_OK;
 }

@@ -3,8 +3,9 @@
  *     S = (1/V) (sum over its springs of w r x f + sum of r x f of its couplings + A dW/dA I),
  * and that of a node the mean of its triangles' by volume. A spring's r x f goes to the triangles that hold it, with
  * the shares w of model/spring_holders.c. A spring outside of all triangles gives half to each of its ends. The file
- * compiles the shares into rows by node, once; the stress itself is then a sum over a row. Largest stresses over time
- * are in simulation/peaks.c; forces are not computed from stresses anywhere. */
+ * puts the shares into rows by node when stresses are first asked for, once for all simulations of a model; the stress
+ * itself is then a sum over a row. Largest stresses over time are in simulation/peaks.c; forces are not computed from
+ * stresses anywhere. */
 #include "model/stress.h"
 
 #include <stdbool.h>
@@ -19,103 +20,171 @@
 
 /* Goes through the same shares twice: first it counts, then it writes. */
 typedef struct draft {
-    const dem_lattice *lattice;
+    stress_rows *rows;
     spring_holders holders;
-    dem_index *next; /* [n_nodes] slot to be written; while counting, number of slots */
+    int32_t *next;   /* [n_nodes] slot to be written; while counting, number of slots */
+    int32_t *last;   /* [n_nodes] the last spring that a node has got a share of; -1: none */
     dem_index loose; /* ends of springs in no triangle that have been visited */
     bool writes;
-    stress_map *map;
 } draft;
 
-/* Gives a share of a spring to a node. The first pass only counts; the second one writes. */
+/* Gives a share of a spring to a node. What a node has of one spring from two triangles is added up: such shares come
+ * one after the other, since all triangles of a spring are visited in one go. */
 static void give(draft *d, dem_index node, dem_index spring, double share)
 {
-    const dem_index p = d->next[node]++;
+    const bool again = d->last[node] == spring;
+    const int32_t p = again ? d->next[node] - 1 : d->next[node]++;
+    d->last[node] = (int32_t)spring;
     if (!d->writes) return;
-    d->map->spring[p] = spring;
-    d->map->share[p] = share;
+    d->rows->spring[p] = (int32_t)spring;
+    d->rows->share[p] = again ? d->rows->share[p] + share : share;
 }
 
 /* From each triangle a third of its share goes to every corner; of a spring in no triangle half goes to each end. */
 static void give_share(void *context, dem_index spring, dem_index triangle, double share)
 {
     draft *d = context;
-    const dem_lattice *l = d->lattice;
+    const dem_lattice *l = d->rows->lattice;
     if (triangle < 0) give(d, l->ends[2 * spring + (d->loose++ & 1)], spring, share);
     for (int c = 0; c < 3 && triangle >= 0; c++) give(d, l->triangles[3 * triangle + c], spring, share / 3.0);
 }
 
-/* From counts to rows, and to the slots that are written first. */
-static void lay_rows(draft *d)
+static void forget_last(draft *d)
 {
-    dem_index *row = d->map->row;
-    for (dem_index i = 0; i < d->lattice->n_nodes; i++) {
+    for (dem_index i = 0; i < d->rows->lattice->n_nodes; i++) d->last[i] = -1;
+}
+
+/* From counts to rows, and to the slots that are written first. */
+static dem_status lay_rows(draft *d)
+{
+    const dem_lattice *l = d->rows->lattice;
+    int32_t *row = d->rows->row;
+    dem_index total = 0;
+    for (dem_index i = 0; i < l->n_nodes; i++) total += d->next[i];
+    CHECK(total < INT32_MAX, DEM_ERROR_MODEL, "the stresses of %lld nodes are more than the library takes",
+          (long long)l->n_nodes);
+    for (dem_index i = 0; i < l->n_nodes; i++) {
         row[i + 1] = row[i] + d->next[i];
         d->next[i] = row[i];
     }
-}
-
-/* Adds up what a node has of one spring from two triangles. Such shares are next to each other in its row, since
- * all triangles of a spring are visited in one go. */
-static void merge(stress_map *map, dem_index n_nodes)
-{
-    dem_index kept = 0;
-    for (dem_index i = 0, p = 0; i < n_nodes; i++) {
-        const dem_index end = map->row[i + 1], start = kept;
-        for (; p < end; p++) {
-            if (kept > start && map->spring[kept - 1] == map->spring[p]) {
-                map->share[kept - 1] += map->share[p];
-                continue;
-            }
-            map->spring[kept] = map->spring[p];
-            map->share[kept++] = map->share[p];
-        }
-        map->row[i + 1] = kept;
-    }
-}
-
-/* The volume of a node is a third of that of its triangles at rest. Shares over volumes make the sum of a row a
- * stress. */
-static void divide_by_volumes(stress_map *map, const dem_lattice *l)
-{
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
-        map->volume[l->triangles[k]] += spring_share_volume(l, k / 3) / 3.0;
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        for (dem_index p = map->row[i]; p < map->row[i + 1]; p++)
-            map->share[p] = map->volume[i] > 0.0 ? map->share[p] / map->volume[i] : 0.0;
-}
-
-/* Count, lay out the rows, write, merge. All sums that follow are in the order of these rows. */
-static dem_status compile(draft *d, const springs *s)
-{
-    const dem_lattice *l = d->lattice;
-    stress_map *map = d->map;
-    TRY(spring_holders_create(&d->holders, l, s));
-    d->next = lattice_zeros(l->n_nodes, sizeof *d->next);
-    map->row = lattice_zeros(l->n_nodes + 1, sizeof *map->row);
-    map->volume = lattice_zeros(l->n_nodes, sizeof *map->volume);
-    CHECK(d->next && map->row && map->volume, DEM_ERROR_MEMORY, "out of memory");
-    spring_holders_count(&d->holders, give_share, d);
-    lay_rows(d);
-    map->spring = lattice_zeros(map->row[l->n_nodes], sizeof *map->spring);
-    map->share = lattice_zeros(map->row[l->n_nodes], sizeof *map->share);
-    CHECK(map->spring && map->share, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes",
-          (long long)l->n_nodes);
-    d->writes = true;
-    spring_holders_visit(&d->holders, give_share, d);
-    merge(map, l->n_nodes);
-    divide_by_volumes(map, l);
     return DEM_OK;
 }
 
+/* Shares over volumes make the sum of a row a stress. */
+static void divide_by_volumes(stress_rows *r)
+{
+    for (dem_index i = 0; i < r->lattice->n_nodes; i++)
+        for (dem_index p = r->row[i]; p < r->row[i + 1]; p++)
+            r->share[p] = r->volume[i] > 0.0 ? r->share[p] / r->volume[i] : 0.0;
+}
+
+static dem_status allocate_shares(stress_rows *r, dem_index n_nodes, dem_index n)
+{
+    r->spring = malloc(((size_t)n + 1) * sizeof *r->spring);
+    r->share = malloc(((size_t)n + 1) * sizeof *r->share);
+    CHECK(r->spring && r->share, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes", (long long)n_nodes);
+    return DEM_OK;
+}
+
+/* Count, lay out the rows, write. All sums that follow are in the order of these rows. */
+static dem_status fill(draft *d)
+{
+    stress_rows *r = d->rows;
+    const dem_lattice *l = r->lattice;
+    TRY(spring_holders_create(&d->holders, l, r->springs));
+    d->next = lattice_zeros(l->n_nodes, sizeof *d->next);
+    d->last = lattice_zeros(l->n_nodes, sizeof *d->last);
+    r->row = lattice_zeros(l->n_nodes + 1, sizeof *r->row);
+    CHECK(d->next && d->last && r->row, DEM_ERROR_MEMORY, "out of memory");
+    forget_last(d);
+    spring_holders_count(&d->holders, give_share, d);
+    TRY(lay_rows(d));
+    TRY(allocate_shares(r, l->n_nodes, r->row[l->n_nodes]));
+    forget_last(d);
+    d->writes = true;
+    spring_holders_visit(&d->holders, give_share, d);
+    divide_by_volumes(r);
+    return DEM_OK;
+}
+
+static void free_arrays(stress_rows *r)
+{
+    free(r->row);
+    free(r->spring);
+    free(r->share);
+    r->row = r->spring = NULL;
+    r->share = NULL;
+}
+
 /* Holders and counters are needed only while the shares are found. */
+static dem_status make_rows(void *self)
+{
+    draft d = {.rows = self};
+    const dem_status status = fill(&d);
+    spring_holders_free(&d.holders);
+    free(d.next);
+    free(d.last);
+    if (status != DEM_OK) free_arrays(d.rows);
+    return status;
+}
+
+dem_status stress_prepare(const stress_map *map)
+{
+    return on_demand_make(&map->rows->made, make_rows, map->rows);
+}
+
+/* The volume of a node is a third of that of its triangles at rest. */
+static dem_status find_volumes(stress_map *map, const dem_lattice *l)
+{
+    map->volume = lattice_zeros(l->n_nodes, sizeof *map->volume);
+    CHECK(map->volume, DEM_ERROR_MEMORY, "out of memory for the volumes of %lld nodes", (long long)l->n_nodes);
+    for (dem_index k = 0; k < 3 * l->n_triangles; k++)
+        map->volume[l->triangles[k]] += spring_share_volume(l, k / 3) / 3.0;
+    return DEM_OK;
+}
+
+static dem_status create_rows(stress_map *map, const dem_lattice *lattice, const springs *s)
+{
+    stress_rows *r = calloc(1, sizeof *r);
+    CHECK_MEMORY(r);
+    r->lattice = lattice;
+    r->springs = s;
+    r->volume = map->volume;
+    const dem_status status = on_demand_create(&r->made);
+    if (status == DEM_OK)
+        map->rows = r;
+    else
+        free(r);
+    return status;
+}
+
 dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s, const couplings *c)
 {
     stress_map map = {.couplings = c};
-    draft d = {.lattice = lattice, .map = &map};
-    const dem_status status = compile(&d, s);
-    spring_holders_free(&d.holders);
-    free(d.next);
+    dem_status status = find_volumes(&map, lattice);
+    if (status == DEM_OK) status = create_rows(&map, lattice, s);
+    if (status == DEM_OK)
+        *out = map;
+    else
+        stress_free(&map);
+    return status;
+}
+
+static dem_status allocate(stress_map *map, dem_index n_nodes, dem_index n_shares)
+{
+    map->volume = lattice_zeros(n_nodes, sizeof *map->volume);
+    CHECK(map->volume, DEM_ERROR_MEMORY, "out of memory for the volumes of %lld nodes", (long long)n_nodes);
+    TRY(create_rows(map, NULL, NULL));
+    map->rows->row = lattice_zeros(n_nodes + 1, sizeof *map->rows->row);
+    CHECK(map->rows->row, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes", (long long)n_nodes);
+    map->rows->made.is_made = true;
+    return allocate_shares(map->rows, n_nodes, n_shares);
+}
+
+dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares, const couplings *c)
+{
+    stress_map map = {.couplings = c};
+    const dem_status status = allocate(&map, n_nodes, n_shares);
     if (status == DEM_OK)
         *out = map;
     else
@@ -125,10 +194,12 @@ dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const spr
 
 void stress_free(stress_map *map)
 {
-    free(map->row);
-    free(map->spring);
-    free(map->share);
     free(map->volume);
+    if (map->rows != NULL) {
+        on_demand_destroy(&map->rows->made);
+        free_arrays(map->rows);
+        free(map->rows);
+    }
     *map = (stress_map){0};
 }
 
@@ -150,13 +221,14 @@ static void add_couplings(const stress_map *map, dem_index i, const double *x, d
 void stress_of_node(const stress_map *map, const dem_lattice *lattice, const triangles *t, dem_index i, const double *x,
                     double stress[3])
 {
+    const stress_rows *r = map->rows;
     double xx = 0.0, yy = 0.0, xy = 0.0;
-    for (dem_index p = map->row[i]; p < map->row[i + 1]; p++) {
+    for (dem_index p = r->row[i]; p < r->row[i + 1]; p++) {
         double virial[3];
-        springs_virial(lattice, map->spring[p], x, virial);
-        xx += map->share[p] * virial[0];
-        yy += map->share[p] * virial[1];
-        xy += map->share[p] * virial[2];
+        springs_virial(lattice, r->spring[p], x, virial);
+        xx += r->share[p] * virial[0];
+        yy += r->share[p] * virial[1];
+        xy += r->share[p] * virial[2];
     }
     const double spread = triangles_node_virial(t, i, x, 3.0 * map->volume[i]); /* the same in all directions */
     stress[0] = xx + spread;

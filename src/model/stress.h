@@ -5,24 +5,42 @@
 #ifndef DEM_MODEL_STRESS_H
 #define DEM_MODEL_STRESS_H
 
+#include "base/on_demand.h"
 #include "elastic/couplings.h"
 #include "elastic/springs.h"
 #include "elastic/triangles.h"
 
-/** Which springs make up the stress of which node. */
+/** Which springs make up the stress of which node. The rows are made when stresses are first asked for. */
+typedef struct stress_rows {
+    on_demand made;
+    const dem_lattice *lattice; /* borrowed, as springs and volumes are */
+    const springs *springs;
+    const double *volume;
+    int32_t *row;    /* [n_nodes + 1] */
+    int32_t *spring; /* slots row[i] .. row[i + 1] - 1: springs of the lattice */
+    double *share;   /* of their r x f, over the node's volume, 1/m^3 */
+} stress_rows;
+
 typedef struct stress_map {
-    dem_index *row;    /* [n_nodes + 1] */
-    dem_index *spring; /* slots row[i] .. row[i + 1] - 1: springs of the lattice */
-    double *share;     /* of their r x f, over the node's volume, 1/m^3 */
-    double *volume;    /* [n_nodes] m^3, a third of the triangles at rest; 0 of a node in no triangle, without stress */
+    double *volume; /* [n_nodes] m^3, a third of the triangles at rest; 0 of a node in no triangle, without stress */
+    stress_rows *rows;
     const couplings *couplings; /* borrowed */
 } stress_map;
 
-/** Borrows the couplings. Free with stress_free(). */
+/** Borrows what it is given. Free with stress_free(). */
 dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const springs *s, const couplings *c);
 void stress_free(stress_map *map);
 
-/** Stress of node i at positions x [n][2], Pa: xx, yy, xy.  \param lattice, t  from which the map was compiled */
+/** A map of so many nodes with room for so many shares, which the caller fills in; the rows are made then.
+ *  \return DEM_ERROR_MEMORY. Free with stress_free(). */
+dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares, const couplings *c);
+
+/** Makes the rows unless they are there; from several threads at once, too.  \return DEM_ERROR_MEMORY;
+ *  DEM_ERROR_MODEL for 2^31 shares */
+dem_status stress_prepare(const stress_map *map);
+
+/** Stress of node i at positions x [n][2], Pa: xx, yy, xy, by a map that is prepared.
+ *  \param lattice, t  from which the map was compiled */
 void stress_of_node(const stress_map *map, const dem_lattice *lattice, const triangles *t, dem_index i, const double *x,
                     double stress[3]);
 

@@ -47,11 +47,11 @@ void STRESS_PASS_SPRINGS(const stress_pass *p, dem_index first, dem_index last)
 /* Four numbers at once, of which the last is of no use. */
 void STRESS_PASS_NODES(const stress_pass *p, dem_index first, dem_index last)
 {
-    const stress_map *map = p->map;
+    const stress_rows *r = p->map->rows;
     const four *virial = (const four *)p->virial;
     for (dem_index i = first; i < last; i++) {
         four sum = {0.0, 0.0, 0.0, 0.0};
-        for (dem_index k = map->row[i]; k < map->row[i + 1]; k++) sum += map->share[k] * virial[map->spring[k]];
+        for (dem_index k = r->row[i]; k < r->row[i + 1]; k++) sum += r->share[k] * virial[r->spring[k]];
         for (int c = 0; c < 3; c++) p->stress[3 * i + c] = sum[c];
     }
 }

@@ -346,7 +346,7 @@ static dem_status append_row(const frames *f, const hdf5_file *file, hdf5_rows r
 static dem_status append_arrays(const frames *f, const hdf5_file *file, const view *v)
 {
     /* Stresses are computed once for all arrays made of them. */
-    if (f->fields & ANY_STRESS) (void)dem_simulation_stress(v->simulation, f->stress);
+    if (f->fields & ANY_STRESS) TRY(dem_simulation_stress(v->simulation, f->stress));
     if (f->fields & DEM_FIELD_CONTACT) TRY(dem_simulation_contact_pressures(v->simulation, f->pressure));
     for (int k = 0; k < N_ARRAYS; k++) {
         const struct array *a = &arrays[k];

@@ -147,17 +147,18 @@ dem_status probe_create(const probe *p, const hdf5_file *file)
 /* ---- rows ---- */
 
 /* In the order of the columns: t, x, v, stress, von Mises stress. */
-static void record_node(probe *p, const dem_simulation *simulation, const dem_state *state)
+static dem_status record_node(probe *p, const dem_simulation *simulation, const dem_state *state)
 {
     const dem_index i = p->what.number[0];
     double stress[3];
-    (void)dem_simulation_stress_at(simulation, i, stress);
+    TRY(dem_simulation_stress_at(simulation, i, stress));
     const double von_mises = dem_stress_von_mises(stress);
     table_cell *cell = table_put_reals(table_add(&p->table), &state->t, 1);
     cell = table_put_reals(cell, state->x + 2 * i, 2);
     cell = table_put_reals(cell, state->v + 2 * i, 2);
     cell = table_put_reals(cell, stress, 3);
     (void)table_put_reals(cell, &von_mises, 1);
+    return DEM_OK;
 }
 
 /* In the order of the columns: t, strain, force. */
@@ -179,22 +180,22 @@ static void record_gauge(probe *p, const dem_state *state)
 
 /* Called after every accepted step; a row is due at the first call and at every `every`-th one. A call at the same
  * instant again, as a resumed run makes it, is no step. */
-void probe_record(probe *p, const dem_simulation *simulation)
+dem_status probe_record(probe *p, const dem_simulation *simulation)
 {
     dem_state state = {.struct_size = sizeof state};
     (void)dem_simulation_state(simulation, &state);
-    if (p->seen && state.t == p->last) return;
+    if (p->seen && state.t == p->last) return DEM_OK;
     p->seen = true;
     p->last = state.t;
     /* `left` is the number of steps to pass over before the next row. */
-    if (p->left-- > 0) return;
+    if (p->left-- > 0) return DEM_OK;
     p->left = p->what.every - 1;
-    if (p->what.kind == DEM_PROBE_NODE)
-        record_node(p, simulation, &state);
-    else if (p->what.kind == DEM_PROBE_SPRING)
+    if (p->what.kind == DEM_PROBE_NODE) return record_node(p, simulation, &state);
+    if (p->what.kind == DEM_PROBE_SPRING)
         record_spring(p, simulation, &state);
     else
         record_gauge(p, &state);
+    return DEM_OK;
 }
 
 /* Unused bytes are 0, since the checkpoint is made of bytes. */

@@ -37,8 +37,9 @@ void probe_free(probe *p);
 /** Makes the group: datasets without rows, with their units, and attributes that say what is probed. */
 dem_status probe_create(const probe *p, const hdf5_file *file);
 
-/** Appends the state as a row if one is due. The table's buffer must have room. */
-void probe_record(probe *p, const dem_simulation *simulation);
+/** Appends the state as a row if one is due. The table's buffer must have room.
+ *  \return DEM_ERROR_MEMORY */
+dem_status probe_record(probe *p, const dem_simulation *simulation);
 
 probe_progress probe_progress_of(const probe *p);
 

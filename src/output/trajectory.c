@@ -117,7 +117,7 @@ static dem_status on_step(void *context, const dem_simulation *simulation)
     CHECK(!t->finished, DEM_ERROR_ARGUMENT, "%s is finished and takes no more steps", path_of(t));
     if (r->history.table.buffered == TABLE_ROWS) TRY(flush(t));
     TRY(history_record(&r->history, simulation));
-    for (dem_index k = 0; k < r->options.n_probes; k++) probe_record(&r->probes[k], simulation);
+    for (dem_index k = 0; k < r->options.n_probes; k++) TRY(probe_record(&r->probes[k], simulation));
     return DEM_OK;
 }
 

@@ -258,6 +258,7 @@ static dem_status break_one(dem_simulation *s, element_state *elements, dem_inde
 static dem_status break_all(dem_simulation *s, element_state *elements, const dem_index *triangle,
                             dem_index n_triangles, const dem_index *spring, dem_index n_springs)
 {
+    TRY(stress_prepare(&s->model->stress)); /* breaks are noted with stresses */
     TRY(copy_elements(s, elements));
     for (dem_index k = 0; k < n_triangles; k++) {
         TRY(check_triangle(s, triangle[k]));

@@ -25,16 +25,17 @@ struct dem_peaks {
 
 /* The size of a node's stress is its von Mises stress; the components are kept with it. Most are below the peak by more
  * than squares are rounded, and take no root. */
-static void look_at_nodes(dem_peaks *p, const dem_simulation *simulation, double t)
+static dem_status look_at_nodes(dem_peaks *p, const dem_simulation *simulation, double t)
 {
     const double surely = 1.0 - 8.0 * DBL_EPSILON;
-    (void)dem_simulation_stress(simulation, p->stress);
+    TRY(dem_simulation_stress(simulation, p->stress));
     for (dem_index i = 0; i < p->n_nodes; i++) {
         const double *s = p->stress + 3 * i, square = stress_square(s), most = p->nodes[i].von_mises;
         if (square < surely * most * most) continue;
         const double size = sqrt(square);
         if (size > most) p->nodes[i] = (dem_node_peak){size, t, {s[0], s[1], s[2]}};
     }
+    return DEM_OK;
 }
 
 /* The size of a strain is its magnitude; the sign is kept: stretched or squeezed. */
@@ -54,7 +55,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     if (p->left-- > 0) return DEM_OK;
     p->left = p->every - 1;
     TRY(dem_simulation_state(simulation, &state));
-    look_at_nodes(p, simulation, state.t);
+    TRY(look_at_nodes(p, simulation, state.t));
     look_at_springs(p, simulation, state.t);
     return DEM_OK;
 }

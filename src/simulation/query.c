@@ -296,6 +296,7 @@ dem_status dem_simulation_crack_energy(const dem_simulation *s, double *energy)
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
     TRY(check_given("dem_simulation_stress", s, stress));
+    TRY(stress_prepare(&s->model->stress));
     const double *x = seen_of(s);
     const double area_min = s->measures->has_survey ? s->survey->strain.area_min : 0.0;
     s->measures->has_stress = stress_field_take(s->field, s->forces.elements, x, area_min, stress);
@@ -306,6 +307,7 @@ dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, dou
 {
     TRY(check_given("dem_simulation_stress_at", s, stress));
     TRY(status_check_number("node", node, s->model->lattice.n_nodes));
+    TRY(stress_prepare(&s->model->stress));
     node_stress(s->model, s->forces.elements, NODE_STRESS_CARRIED, node, seen_of(s), stress);
     return DEM_OK;
 }

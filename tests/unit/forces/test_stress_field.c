@@ -40,6 +40,7 @@ static void check_kernel(const scene *s, const element_state *e, const kernel *k
     CLEANUP(free_memory) double *stress = malloc(3 * (size_t)n * sizeof *stress);
     CLEANUP(stress_field_destroy) stress_field field;
     assert_non_null(stress);
+    assert_ok(stress_prepare(&s->model->stress));
     stress_field_create(&field, k);
     for (int round = 0; round < 3; round++) { /* what the one before has left does not matter */
         const double area_min = round == 1 ? smallest_area(s, e) : 0.0;

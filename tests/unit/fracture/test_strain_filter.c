@@ -53,6 +53,7 @@ static void open_subject(subject *s, double ratio, double jitter, int kind)
     s->lattice.own_stress = kind == OWN ? malloc((size_t)s->lattice.n_triangles) : NULL;
     for (dem_index t = 0; t < s->lattice.n_triangles && kind == OWN; t++) s->lattice.own_stress[t] = 1;
     s->model = support_model(&s->lattice, NULL, 0);
+    assert_ok(stress_prepare(&s->model->stress));
     assert_ok(element_state_create(&s->state, &s->model->lattice, &s->model->springs));
     assert_ok(strain_filter_create(&s->filter, s->model, &s->state, near_limit));
 }
@@ -179,6 +180,7 @@ TEST(a_body_without_strength_has_no_thresholds)
     dem_model *model = support_model(&block, NULL, 0);
     element_state state;
     strain_filter filter;
+    assert_ok(stress_prepare(&model->stress));
     assert_ok(element_state_create(&state, &model->lattice, &model->springs));
     assert_ok(strain_filter_create(&filter, model, &state, near_limit));
     for (dem_index k = 0; k < block.n_springs; k++) {

@@ -33,6 +33,7 @@ static void stretch(dem_springs rule, dem_index own_every, double *largest, doub
     for (dem_index t = 0; own_every > 0 && t < n; t += own_every) block.own_stress[t] = 1;
     for (dem_index k = 0; k < 2 * block.n_nodes; k++) x[k] = block.x[k] * (k % 2 ? 1.0 + 1e-5 : 1.0 - 0.2e-5);
     dem_model *model = support_model(&block, NULL, 0);
+    assert_ok(stress_prepare(&model->stress));
     assert_ok(element_state_create(&state, &model->lattice, &model->springs));
     *largest = *mean = 0.0;
     for (dem_index t = 0; t < n; t++) {

@@ -97,6 +97,7 @@ TEST(own_nodes_have_what_they_have_in_the_whole)
     for (dem_index k = 0; k < 2 * l.n_nodes; k++) x[k] = l.x[k] * (1.0 + 0.01 * sin((double)k));
     shared s = {.whole = whole, .owner = owner};
     rank_threads_run(N_RANKS, create, &s);
+    assert_ok(stress_prepare(&whole->stress));
     for (int k = 0; k < N_RANKS; k++) {
         const dem_model *m = s.models[k];
         assert_int_equal(s.status[k], DEM_OK);

@@ -32,7 +32,9 @@ TEST(it_is_the_stress_of_the_solid_without_the_broken_triangles)
         CLEANUP(element_state_destroy) element_state state;
         dem_index n_without = 0;
         assert_ok(dem_model_create(&model, &whole, NULL, 0));
+        assert_ok(stress_prepare(&model->stress));
         assert_ok(dem_model_create(&cut_model, &cut, NULL, 0));
+        assert_ok(stress_prepare(&cut_model->stress));
         assert_ok(element_state_create(&state, &model->lattice, &model->springs));
         CLEANUP(free_memory) double *x = calloc(2 * (size_t)whole.n_nodes, sizeof *x);
         CLEANUP(free_memory) double *cut_x = calloc(2 * (size_t)cut.n_nodes, sizeof *cut_x);
@@ -62,6 +64,7 @@ TEST(it_is_the_mean_of_its_triangles)
         CLEANUP(free_model) dem_model *model = NULL;
         CLEANUP(element_state_destroy) element_state state;
         assert_ok(dem_model_create(&model, &whole, NULL, 0));
+        assert_ok(stress_prepare(&model->stress));
         assert_ok(element_state_create(&state, &model->lattice, &model->springs));
         CLEANUP(free_memory) double *x = calloc(2 * (size_t)whole.n_nodes, sizeof *x);
         CLEANUP(free_memory) double *sum = calloc(4 * (size_t)whole.n_nodes, sizeof *sum);
@@ -102,6 +105,7 @@ TEST(softened_triangles_carry_what_is_left_in_tension)
         assert_true(soft.softening && x && sum);
         for (dem_index t = 0; t < soft.n_triangles; t++) soft.softening[t] = 3.0;
         assert_ok(dem_model_create(&model, &soft, NULL, 0));
+        assert_ok(stress_prepare(&model->stress));
         assert_ok(element_state_create(&state, &model->lattice, &model->springs));
         for (dem_index t = 0; t < soft.n_triangles; t++)
             for (int k = 0; k < 1 + (int)(t % 32); k++) element_state_soften(&state, t);
@@ -140,6 +144,7 @@ TEST(elsewhere_nothing_changes)
     CLEANUP(element_state_destroy) element_state state;
     dem_index n_changed = 0;
     assert_ok(dem_model_create(&model, &whole, NULL, 0));
+    assert_ok(stress_prepare(&model->stress));
     assert_ok(element_state_create(&state, &model->lattice, &model->springs));
     CLEANUP(free_memory) double *x = calloc(2 * (size_t)whole.n_nodes, sizeof *x);
     assert_non_null(x);
@@ -192,6 +197,7 @@ TEST(a_bar_that_no_triangle_holds_counts_as_before)
     CLEANUP(free_model) dem_model *model = NULL;
     CLEANUP(element_state_destroy) element_state state;
     assert_ok(dem_model_create(&model, &lattice, NULL, 0));
+    assert_ok(stress_prepare(&model->stress));
     assert_ok(element_state_create(&state, &model->lattice, &model->springs));
     node_stress(model, &state, NODE_STRESS_CARRIED, node, lattice.x, stress);
     assert_close(stress[0] * volume_at(&lattice, &state, node), 1e6, 1e-3);

@@ -33,6 +33,7 @@ static void deform(double *x, dem_index n, const double F[4])
 
 static void stress_at(const dem_model *m, dem_index i, const double *x, double stress[3])
 {
+    assert_ok(stress_prepare(&m->stress));
     stress_of_node(&m->stress, &m->lattice, &m->triangles, i, x, stress);
 }
 
@@ -116,11 +117,12 @@ TEST(every_spring_is_shared_out_whole)
 {
     CLEANUP(free_model) dem_model *model = make_jittered(0.0, 1.0 / 3.0, 0.2);
     const stress_map *map = &model->stress;
+    const stress_rows *r = map->rows;
+    assert_ok(stress_prepare(map));
     CLEANUP(free_memory) double *given = calloc((size_t)model->lattice.n_springs, sizeof *given);
     assert_non_null(given);
     for (dem_index i = 0; i < model->lattice.n_nodes; i++)
-        for (dem_index p = map->row[i]; p < map->row[i + 1]; p++)
-            given[map->spring[p]] += map->share[p] * map->volume[i];
+        for (dem_index p = r->row[i]; p < r->row[i + 1]; p++) given[r->spring[p]] += r->share[p] * map->volume[i];
     for (dem_index k = 0; k < model->lattice.n_springs; k++) assert_close(given[k], 1.0, 1e-14);
 }
 
@@ -129,10 +131,12 @@ TEST(a_row_has_every_spring_once)
 {
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_solid(0.03, 0.04, 2.5e-3);
     CLEANUP(free_model) dem_model *model = make_model(&lattice);
-    const stress_map *map = &model->stress;
+    const stress_rows *r = model->stress.rows;
     const dem_index inner = 13 + 12 + 6;
-    assert_int_equal(map->row[inner + 1] - map->row[inner], 12);
-    assert_int_equal(map->row[1], 3); /* a corner with one triangle */
+    assert_null(r->row); /* before they are asked for */
+    assert_ok(stress_prepare(&model->stress));
+    assert_int_equal(r->row[inner + 1] - r->row[inner], 12);
+    assert_int_equal(r->row[1], 3); /* a corner with one triangle */
 }
 
 /* sum V sigma = sum of r x f over the springs, summed here by pairs from the CSR; rounding of some 800 terms. */

@@ -37,7 +37,7 @@ static dem_status note(void *context, const dem_simulation *simulation)
     dem_simulation_forces(simulation, forces);
     dem_simulation_stress(simulation, stress);
     for (int k = 0; k < 2; k++) /* an instant counts once */
-        for (int p = 0; p < n_kinds; p++) probe_record(&j->probes[p], simulation);
+        for (int p = 0; p < n_kinds; p++) assert_ok(probe_record(&j->probes[p], simulation));
     j->t[j->n] = state.t;
     memcpy(j->node[j->n], state.x + 10, 2 * sizeof(double));
     memcpy(j->node[j->n] + 2, state.v + 10, 2 * sizeof(double));

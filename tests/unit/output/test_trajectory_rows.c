@@ -36,7 +36,7 @@ static shot *shoot(void)
     assert_ok(history_record(&s->rows.history, s->run.simulation));
     break_table_record(&s->rows.breaks, &(dem_break){.spring = -1});
     for (int k = 0; k < 2; k++) {
-        probe_record(&s->rows.probes[k], s->run.simulation);
+        assert_ok(probe_record(&s->rows.probes[k], s->run.simulation));
         event_table_record(&s->rows.events, &event);
     }
     assert_ok(trajectory_rows_flush(&s->rows, &s->stored.file));
