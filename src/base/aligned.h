@@ -4,6 +4,7 @@
 #ifndef DEM_BASE_ALIGNED_H
 #define DEM_BASE_ALIGNED_H
 
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,6 +23,15 @@ static inline double *aligned_zeros(size_t n)
 {
     double *array = aligned_reals(n);
     return array != NULL ? memset(array, 0, n * sizeof *array) : NULL;
+}
+
+/** The same in a block to be freed. Of a large block the system clears pages when they are touched, and those that
+ *  never are take no memory.  \return where the array begins in the block */
+static inline double *aligned_zeros_in(void **block, size_t n)
+{
+    *block = calloc(n + ALIGNED_TO / sizeof(double), sizeof(double));
+    const uintptr_t past = (uintptr_t)*block % ALIGNED_TO;
+    return *block != NULL ? (double *)((char *)*block + (past > 0 ? ALIGNED_TO - past : 0)) : NULL;
 }
 
 #endif

@@ -16,7 +16,7 @@ static void list_nodes(contact_set *c)
     for (dem_index k = 0; k < c->surface->n_nodes; k++) {
         c->list[k] = (contact_candidate){
             .node = c->surface->nodes[k], .other = -1, .previous = -1, .next = -1, .behind = {-1, -1}};
-        c->of_node[c->surface->nodes[k]] = k;
+        c->of_node[c->surface->nodes[k]] = (int32_t)k;
     }
 }
 

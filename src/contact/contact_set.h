@@ -43,7 +43,7 @@ typedef struct contact_set {
     contact_candidate *list; /* [n] its nodes, then its edges: no place depends on what has happened before */
     contact_forces forces;
     contact_ledger ledger;
-    dem_index *of_node; /* [n_nodes] candidate of a node, or -1 */
+    int32_t *of_node; /* [n_nodes] candidate of a node, or -1 */
     dem_index n_involved;
     dem_index *involved;       /* [n_involved] candidates that take part in the impact under way; room for all */
     candidate_impact *impacts; /* [n] scratch of the impact under way */

@@ -151,7 +151,7 @@ static void lay_rows(couplings *c)
 {
     for (dem_index k = 0; k < 3 * c->n; k++) c->row[c->list[k / 3].corner[k % 3] + 2]++;
     for (dem_index i = 0; i < c->n_nodes; i++) c->row[i + 2] += c->row[i + 1];
-    for (dem_index k = 0; k < 3 * c->n; k++) c->slot[c->row[c->list[k / 3].corner[k % 3] + 1]++] = k;
+    for (dem_index k = 0; k < 3 * c->n; k++) c->slot[c->row[c->list[k / 3].corner[k % 3] + 1]++] = (int32_t)k;
 }
 
 dem_status couplings_compile(couplings *out, const dem_lattice *lattice, const springs *s)

@@ -22,8 +22,8 @@ typedef struct coupled_triangle {
 typedef struct couplings {
     dem_index n_nodes, n;
     coupled_triangle *list; /* [n] */
-    dem_index *row;         /* [n_nodes + 1] */
-    dem_index *slot;        /* [3 n] 3 k + c: the node is corner c of triangle k of the list */
+    int32_t *row;           /* [n_nodes + 1] */
+    int32_t *slot;          /* [3 n] 3 k + c: the node is corner c of triangle k of the list */
 } couplings;
 
 /** Compiles the triangles that have a coupling. Node numbers are known to be valid.

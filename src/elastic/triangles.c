@@ -206,8 +206,6 @@ static bool acts(const dem_lattice *lattice, dem_index k)
 static dem_status allocate(triangles *t, dem_index slots)
 {
     const size_t n = (size_t)slots + 1;
-    CHECK(slots < INT32_MAX / 2, DEM_ERROR_MODEL, "%lld triangles are more than the library takes",
-          (long long)(slots / 3));
     t->row = calloc((size_t)t->n_nodes + 1, sizeof *t->row);
     t->next = malloc(n * sizeof *t->next);
     t->last = malloc(n * sizeof *t->last);
@@ -250,6 +248,8 @@ dem_status triangles_compile(triangles *out, const dem_lattice *lattice)
                    .guard_of = lattice->guard,
                    .area_stiffness_of = lattice->area_stiffness};
     dem_index slots = 0;
+    CHECK(lattice->n_triangles < INT32_MAX / 6, DEM_ERROR_MODEL, "%lld triangles are more than the library takes",
+          (long long)lattice->n_triangles);
     for (dem_index k = 0; k < lattice->n_triangles; k++) slots += acts(lattice, k) ? 3 : 0;
     const dem_status status = allocate(&t, slots);
     if (status != DEM_OK) {

@@ -70,7 +70,7 @@ static void list_by_node(surface *s, dem_index n_nodes)
     for (dem_index i = 0; i < n_nodes; i++) s->row[i + 1] += s->row[i];
     for (dem_index k = 2 * s->n_edges - 1; k >= 0; k--) s->at[--s->row[s->ends[k] + 1]] = k / 2;
     for (dem_index i = 0; i < n_nodes; i++) s->row[i] = s->row[i + 1];
-    s->row[n_nodes] = 2 * s->n_edges;
+    s->row[n_nodes] = (int32_t)(2 * s->n_edges);
 }
 
 /* Angle by which one turns clockwise at the end of edge e, from the way back along e to the way along edge f; in (0, 2

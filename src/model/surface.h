@@ -11,7 +11,7 @@ typedef struct surface {
     dem_index n_edges;
     dem_index *ends; /* [n_edges][2] from node to node, the body on the left; along each boundary one after another */
     dem_index *next, *previous; /* [n_edges] along the boundary, in the same fan of triangles where it pinches; or -1 */
-    dem_index *row;             /* [n_nodes + 1] */
+    int32_t *row;               /* [n_nodes + 1] */
     dem_index *at;              /* [2 n_edges] edges at node i: slots row[i] .. row[i+1]-1 */
 } surface;
 

@@ -83,7 +83,7 @@ static dem_status take_place(changed_motion *tr, dem_index node)
 {
     if (changed_motion_has(tr, node)) return DEM_OK;
     TRY(changed_motion_keep(tr, node));
-    tr->place[node] = tr->n - 1;
+    tr->place[node] = (int32_t)(tr->n - 1);
     return DEM_OK;
 }
 

@@ -48,9 +48,9 @@ typedef struct changed_motion_part {
 
 typedef struct changed_motion {
     state_layout layout;
-    double end;       /* s, of the step */
-    double *y1, *f1;  /* state there and its derivative, the integrator's */
-    dem_index *place; /* [n_rows] of a node, or a quadrature, in the list, -1: its motion has not changed */
+    double end;      /* s, of the step */
+    double *y1, *f1; /* state there and its derivative, the integrator's */
+    int32_t *place;  /* [n_rows] of a node, or a quadrature, in the list, -1: its motion has not changed */
     dem_index n, capacity;
     changed_motion_node *list; /* [n] those whose motion has changed, and those that are kept */
     dem_index n_parts, part_capacity;

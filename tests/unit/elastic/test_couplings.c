@@ -63,7 +63,7 @@ static double length_of(const double *x, dem_index i, dem_index j)
 
 TEST(rows_hold_the_coupled_triangles_of_each_node_in_order)
 {
-    static const dem_index row[n_nodes + 1] = {0, 2, 4, 5, 6, 9}, slot[9] = {0, 6, 1, 4, 5, 8, 2, 3, 7};
+    static const int32_t row[n_nodes + 1] = {0, 2, 4, 5, 6, 9}, slot[9] = {0, 6, 1, 4, 5, 8, 2, 3, 7};
     static const dem_index spring[9] = {0, 5, 4, 5, 1, 6, 4, 7, 3};
     CLEANUP(free_square) square s = make_square();
     assert_int_equal(s.couplings.n, 3);

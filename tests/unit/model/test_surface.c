@@ -91,7 +91,8 @@ static double swept(const surface *s, const double *x, dem_index first, dem_inde
 
 TEST(a_square_has_its_four_sides_in_the_order_of_a_walk)
 {
-    static const dem_index ends[8] = {0, 1, 1, 2, 2, 3, 3, 0}, row[5] = {0, 2, 4, 6, 8};
+    static const dem_index ends[8] = {0, 1, 1, 2, 2, 3, 3, 0};
+    static const int32_t row[5] = {0, 2, 4, 6, 8};
     static const dem_index at[8] = {0, 3, 0, 1, 1, 2, 2, 3};
     body b;
     surface s;
