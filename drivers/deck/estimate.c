@@ -15,7 +15,7 @@ static const double pi = 3.14159265358979323846, sqrt3 = 1.73205080756887729353;
 
 /* Bytes a node at the least: of a triangulation that is still to be cut, and of a run, whose share is that of what was
  * measured which a system really gives (docs/performance.md). */
-static const double of_cover = 16.0 + 2.0 * 24.0, of_verlet = 1000.0, of_pairs = 1200.0;
+static const double of_cover = 16.0 + 2.0 * 24.0, of_verlet = 500.0, of_pairs = 600.0;
 
 static const double giga = 1e9;
 static const double joined = 2.0; /* times the output are on disk while its parts are made into one file */

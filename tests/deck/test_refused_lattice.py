@@ -302,7 +302,7 @@ class Lattice(refusal.Refusal):
             for name, shape in (("x", (400000, 2)), ("mass", (400000,))):
                 file["lattice"].create_dataset(name, data=numpy.zeros(shape), chunks=(40000,) + shape[1:], compression=1)
         self.make(large)
-        self.refuse(6, stderr_of(["11:1 the run takes at least 0.48 GB of memory for its 4e+05 nodes; the limit is 0.1 GB, and "
+        self.refuse(6, stderr_of(["11:1 the run takes at least 0.24 GB of memory for its 4e+05 nodes; the limit is 0.1 GB, and "
                                   "--max-memory sets it"]), "--check", "--max-memory", "0.1", "deck.nml")
 
     def test_files_cut_short(self):
