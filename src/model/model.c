@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The model: validates a lattice and obstacles, copies them, and compiles what a run reads often: springs and triangles
- * in rows, the layout of the sweep, the surface, the stress map, obstacles. It is immutable afterwards and may be
- * shared by simulations and threads. The first fault is reported with node, place and numbers. How each part is
- * compiled is in its own file; what changes during a run belongs to the simulation (simulation/). */
+ * in rows, the layout of the sweep, the surface, obstacles. It is immutable afterwards, but for what is made when it is
+ * first asked for (base/on_demand.h), and may be shared by simulations and threads. The first fault is reported with
+ * node, place and numbers. How each part is compiled is in its own file; what changes during a run belongs to the
+ * simulation (simulation/). */
 #include "model/model.h"
 
 #include <stdlib.h>
