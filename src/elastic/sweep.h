@@ -19,7 +19,10 @@ typedef struct sweep_fused_step {
 
 /** Strains from none to these do not count, > 0; infinity: none does. */
 typedef struct sweep_limits {
-    double stretch, squeeze; /* in tension, and under pressure */
+    float stretch, squeeze; /* in tension, and under pressure */
+    double shortest,
+        longest; /* m: lengths with these strains of a block's springs, if all are as long at rest, to 1e-9;
+                                 longest < 0: they are not */
 } sweep_limits;
 
 /** What an acceleration, m/s^2, adds to the sum over all, from which sweep_largest() bounds each of them. */

@@ -42,19 +42,27 @@ INLINE unsigned nodes_of(unsigned chosen, unsigned mask)
     return nodes;
 }
 
-/* The same of the nodes whose springs, of these lengths, are longer or shorter than at rest by more than the limits. */
-INLINE unsigned strained_of(const double *set, lanes length, sweep_limits limit, unsigned mask)
+/* Most often none is chosen. */
+INLINE unsigned nodes_of_any(unsigned chosen, unsigned mask)
 {
-    const lanes rest = lanes_load(set + LAYOUT_LANES), longer = lanes_sub(length, rest);
-    const unsigned over = lanes_below(lanes_mul(lanes_all(limit.stretch), rest), longer) |
-                          lanes_below(longer, lanes_mul(lanes_all(-limit.squeeze), rest));
-    return over != 0 ? nodes_of(over, mask) : 0;
+    return chosen != 0 ? nodes_of(chosen, mask) : 0;
 }
 
-/* A strain within 1e-12 of a limit may count or not. */
-INLINE sweep_limits limits_of(const sweep *s, dem_index block)
+/* The lanes in which something is not between two numbers, by the least and the most of it. */
+INLINE unsigned beyond(double from, double to, lanes least, lanes most)
 {
-    return (sweep_limits){s->limit[block].stretch - 1e-12, s->limit[block].squeeze - 1e-12};
+    return lanes_below(least, lanes_all(from)) | lanes_below(lanes_all(to), most);
+}
+
+/* The lanes in which springs, of these lengths, are longer or shorter than at rest by more than the limits. A strain
+ * within 1e-12 of a limit may count or not. */
+INLINE unsigned over_limits(const double *set, lanes length, const sweep_limits *limit)
+{
+    if (limit->longest >= 0.0) return beyond(limit->shortest, limit->longest, length, length);
+    const double stretch = (double)limit->stretch - 1e-12, squeeze = (double)limit->squeeze - 1e-12;
+    const lanes rest = lanes_load(set + LAYOUT_LANES), longer = lanes_sub(length, rest);
+    return lanes_below(lanes_mul(lanes_all(stretch), rest), longer) |
+           lanes_below(longer, lanes_mul(lanes_all(-squeeze), rest));
 }
 
 /* Force (1) on the lower nodes, p d with p = E (|d| - d0)/(d0 |d|), of springs with a stiffness E and the rest lengths
@@ -81,8 +89,8 @@ INLINE pairs pull_soft(const double *set, bool damped, pairs d, lanes length)
 
 /* Forces of the springs of which the block has the lower nodes, into the ring; and behind all of them, those of
  * damping, c (d.v)/(d0 d^2) d. Lanes that take no part leave what nobody collects.
- * \return if it is watched, the nodes with a spring strained by more than the limit, a bit each */
-INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, sweep_limits limit, double *ring)
+ * \return if it is watched, the nodes with a spring strained by more than its limit, a bit each */
+INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, double *ring)
 {
     const bool damped = acting.damped;
     const layout *l = s->layout;
@@ -93,36 +101,29 @@ INLINE unsigned evaluate_springs(const sweep *s, dem_index block, laws acting, s
     const double *positions = s->x + 2 * row, *velocities = damped ? s->v + 2 * row : NULL;
     const pairs x = pairs_load(positions), v = damped ? pairs_load(velocities) : x;
     double *out = ring + 2 * at_row, *damping = ring + 2 * l->ring_length;
-    unsigned nodes = 0;
+    unsigned over = 0;
     for (const layout_entry *e = entries + span.first, *end = entries + span.end; e < end; e++) {
         const bool gathered = e->kind == LAYOUT_GATHERED;
         const double *set = sets + e->set;
         const pairs d = pairs_sub(lane_operands_fetch(l, s->x, positions, e->at, gathered), x);
         const lanes square = pairs_dot(d, d), length = lanes_sqrt(square);
         pairs_store(out + e->to, acting.softened && e->soft ? pull_soft(set, damped, d, length) : pull(set, d, length));
-        if (acting.watched) nodes |= strained_of(set, length, limit, e->mask);
+        if (acting.watched) over |= over_limits(set, length, &s->limit[block]) & lane_operands_taken(e);
         if (!damped) continue;
         const pairs dv = pairs_sub(lane_operands_fetch(l, s->v, velocities, e->at, gathered), v);
         const lanes rate = lanes_mul(lanes_load(set + 2 * LAYOUT_LANES), pairs_dot(d, dv));
         const lanes scale = lanes_div(rate, lanes_mul(lanes_load(set + LAYOUT_LANES), square));
         pairs_store(damping + 2 * at_row + e->to, pairs_scale(scale, d));
     }
-    if (at_row != 0) return nodes;
-    repeat(l, span, ring);
-    if (damped) repeat(l, span, damping);
-    return nodes;
-}
-
-/* Those of a block that is watched, by which springs are compared; else of none. */
-INLINE sweep_limits limits_watched(const sweep *s, dem_index block, laws acting)
-{
-    return acting.watched ? limits_of(s, block) : (sweep_limits){0.0, 0.0};
+    if (at_row == 0) repeat(l, span, ring);
+    if (at_row == 0 && damped) repeat(l, span, damping);
+    return nodes_of_any(over, all_lanes);
 }
 
 /* The blocks below the first are another share's. */
 INLINE void note_strained(const sweep *s, dem_index block, dem_index first, laws acting, unsigned nodes)
 {
-    if (acting.watched && block >= first) s->strained[block] = (uint8_t)nodes;
+    if (acting.watched && nodes != 0 && block >= first) s->strained[block] = (uint8_t)nodes;
 }
 
 /* What couplings add to the tensions of edges: `own` and `other` are the couplings at the ends of an edge, and `before`
@@ -349,6 +350,23 @@ INLINE bool do_the_same(const layout *l, dem_index a, dem_index b)
     return l->springs.span[a].first == l->springs.span[b].first && l->terms.span[a].first == l->terms.span[b].first;
 }
 
+/* The nodes of a block of rows with a spring strained by more than its limit. */
+INLINE unsigned strained_in_row(const sweep_limits *limit, const row_block *row, const lanes *length, int n)
+{
+    lanes least = length[0], most = length[0];
+    unsigned over = 0;
+    if (limit->longest < 0.0) {
+        UNROLLED for (int k = 0; k < n; k++) over |= over_limits(row->set[k], length[k], limit);
+        return nodes_of_any(over, all_lanes);
+    }
+    UNROLLED for (int k = 1; k < n; k++)
+    {
+        least = lanes_min(least, length[k]);
+        most = lanes_max(most, length[k]);
+    }
+    return nodes_of_any(beyond(limit->shortest, limit->longest, least, most), all_lanes);
+}
+
 /* Passes over blocks of rows from `block` on, of which the one before has been evaluated; entries are looked up where
  * they change. Roots are begun before the block before is completed, and divisions follow behind that, so that the
  * divider is busy meanwhile.
@@ -363,10 +381,8 @@ INLINE dem_index run_rows(pass *p, dem_index block, laws acting, row_block now, 
         const dem_index row = LAYOUT_LANES * block, at_row = row & (l->ring_rows - 1);
         const double *here = s->x + 2 * row, *forces = p->ring + 2 * ((row - LAYOUT_LANES) & (l->ring_rows - 1));
         const pairs x = pairs_load(here);
-        const sweep_limits limit = limits_watched(s, block, acting);
         pairs d[most_rows], force = pairs_both(0.0, 0.0);
         lanes length[most_rows];
-        unsigned strained = 0;
         drift_ahead(p, block, acting);
         UNROLLED for (int k = 0; k < n; k++) d[k] = pairs_sub(pairs_load(here + now.upper[k]), x);
         UNROLLED for (int k = 0; k < n; k++) length[k] = lanes_sqrt(pairs_dot(d[k], d[k]));
@@ -378,9 +394,9 @@ INLINE dem_index run_rows(pass *p, dem_index block, laws acting, row_block now, 
             double *stream = p->ring + now.own[k];
             pairs_store(stream + 2 * at_row, pull(now.set[k], d[k], length[k]));
             if (at_row == 0) repeat_first(l, stream);
-            if (acting.watched) strained |= strained_of(now.set[k], length[k], limit, all_lanes);
         }
-        note_strained(s, block, p->first, acting, strained);
+        if (acting.watched)
+            note_strained(s, block, p->first, acting, strained_in_row(&s->limit[block], &now, length, n));
         if (!same) before = now;
     }
     return block;
@@ -405,11 +421,12 @@ INLINE double run(const sweep *s, dem_index first, dem_index last, laws acting, 
 {
     const dem_index reach = s->goes_on ? 0 : s->layout->reach;
     pass p = begin_pass(s, first, last, ring);
+    for (dem_index block = first; block < last && acting.watched; block++) s->strained[block] = 0;
     for (dem_index block = first > reach ? first - reach : 0; block <= last; block++) {
         block = pass_rows(&p, block, acting);
         drift_ahead(&p, block, acting);
         if (block < last) {
-            const unsigned strained = evaluate_springs(s, block, acting, limits_watched(s, block, acting), ring);
+            const unsigned strained = evaluate_springs(s, block, acting, ring);
             note_strained(s, block, first, acting, strained);
         }
         if (acting.coupled && block < last) evaluate_couplings(s, block, acting, ring);
@@ -428,13 +445,14 @@ void SWEEP_GUARD(const sweep *s, dem_index first, dem_index last)
 }
 
 /* Squares of lengths are compared, without roots. */
-INLINE unsigned strained_nodes(const sweep *s, dem_index block, sweep_limits limit)
+INLINE unsigned strained_nodes(const sweep *s, dem_index block)
 {
     const layout *l = s->layout;
     const intern_span span = l->springs.span[block];
     const layout_entry *entries = l->springs.entries.items;
     const double *sets = l->bonds.items, *here = s->x + 2 * LAYOUT_LANES * block;
-    const double least = limit.squeeze < 1.0 ? 1.0 - limit.squeeze : 0.0, most = 1.0 + limit.stretch;
+    const double stretch = (double)s->limit[block].stretch - 1e-12, squeeze = (double)s->limit[block].squeeze - 1e-12;
+    const double least = squeeze < 1.0 ? 1.0 - squeeze : 0.0, most = 1.0 + stretch;
     const double low = least * least, high = most * most;
     const pairs x = pairs_load(here);
     unsigned nodes = 0;
@@ -444,7 +462,7 @@ INLINE unsigned strained_nodes(const sweep *s, dem_index block, sweep_limits lim
         const lanes at_rest = lanes_mul(rest, rest);
         const unsigned over = lanes_below(lanes_mul(lanes_all(high), at_rest), square) |
                               lanes_below(square, lanes_mul(lanes_all(low), at_rest));
-        if (over != 0) nodes |= nodes_of(over, e->mask);
+        nodes |= nodes_of_any(over, e->mask);
     }
     return nodes;
 }
@@ -452,9 +470,8 @@ INLINE unsigned strained_nodes(const sweep *s, dem_index block, sweep_limits lim
 void SWEEP_STRAIN(const sweep *s, dem_index first, dem_index last)
 {
     for (dem_index block = first; block < last; block++) {
-        const sweep_limits limit = limits_of(s, block);
-        const bool is_watched = fmin(limit.stretch, limit.squeeze) < (double)INFINITY;
-        s->strained[block] = is_watched ? (uint8_t)strained_nodes(s, block, limit) : 0;
+        const bool is_watched = fminf(s->limit[block].stretch, s->limit[block].squeeze) < INFINITY;
+        s->strained[block] = is_watched ? (uint8_t)strained_nodes(s, block) : 0;
     }
 }
 

@@ -505,18 +505,30 @@ static bool belongs_to(const layout *l, dem_index block, dem_index i, dem_index 
     return l->order != NULL || block >= l->n_blocks || j > i;
 }
 
+/* Lengths with the strains of the limits, for springs from a shortest to a longest length at rest. */
+static void find_lengths(sweep_limits *limit, double rest_min, double rest_max)
+{
+    const bool alike = rest_max <= (1.0 + 1e-9) * rest_min;
+    limit->shortest = rest_max * (1.0 - ((double)limit->squeeze - 1e-12));
+    limit->longest = alike ? rest_min * (1.0 + ((double)limit->stretch - 1e-12)) : -1.0;
+}
+
 /* The least thresholds of the springs of a block. */
 static sweep_limits least_of_block(const kernel *k, const kernel_threshold *threshold, dem_index block)
 {
     const layout *l = &k->model->layout;
     const springs *s = &k->model->springs;
-    sweep_limits least = {(double)INFINITY, (double)INFINITY};
+    sweep_limits least = {.stretch = INFINITY, .squeeze = INFINITY};
+    double rest_min = (double)INFINITY, rest_max = 0.0;
     for (dem_index q = LAYOUT_LANES * block; q < end_of_block(l, block); q++)
         for (dem_index i = layout_node(l, q), p = s->row[i]; p < s->row[i + 1]; p++) {
             if (!belongs_to(l, block, i, s->neighbour[p])) continue;
-            least.stretch = fmin(least.stretch, (double)threshold[s->spring[p]].stretch);
-            least.squeeze = fmin(least.squeeze, (double)threshold[s->spring[p]].squeeze);
+            least.stretch = fminf(least.stretch, threshold[s->spring[p]].stretch);
+            least.squeeze = fminf(least.squeeze, threshold[s->spring[p]].squeeze);
+            rest_min = fmin(rest_min, s->rest_length_of[s->spring[p]]);
+            rest_max = fmax(rest_max, s->rest_length_of[s->spring[p]]);
         }
+    find_lengths(&least, rest_min, rest_max);
     return least;
 }
 
@@ -558,6 +570,17 @@ static dem_index block_of(const layout *l, dem_index q)
     return q < LAYOUT_LANES * l->n_blocks ? q / LAYOUT_LANES : l->n_blocks;
 }
 
+typedef struct squares {
+    double least, most;
+} squares;
+
+/* Squares of lengths over those at rest that do not count; those within 1e-12 of a limit may. */
+static squares squares_of(sweep_limits limit)
+{
+    const double least = 1.0 - ((double)limit.squeeze - 1e-12), most = 1.0 + ((double)limit.stretch - 1e-12);
+    return (squares){least > 0.0 ? least * least : -1.0, most * most};
+}
+
 /* The springs of the node at place q that belong to its block. */
 static void visit_place(const kernel *k, const element_state *e, const double *x, dem_index q, kernel_visitor *visit,
                         void *context)
@@ -565,12 +588,14 @@ static void visit_place(const kernel *k, const element_state *e, const double *x
     const layout *l = &k->model->layout;
     const springs *s = &k->model->springs;
     const dem_index i = layout_node(l, q), block = block_of(l, q);
-    const sweep_limits limit = k->limit[block];
+    const squares within = squares_of(k->limit[block]);
     const springs_integrity left = element_state_springs(element_state_at(e, i));
+    const vec2 xi = vec2_at(x, i);
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
         if (!belongs_to(l, block, i, s->neighbour[p])) continue;
-        const double strain = springs_strain(s, i, p, x);
-        const bool is_within = strain < limit.stretch - 1e-12 && -strain < limit.squeeze - 1e-12;
+        const vec2 d = vec2_sub(vec2_at(x, s->neighbour[p]), xi);
+        const double square = vec2_dot(d, d), rest = s->rest_length_of[s->spring[p]];
+        const bool is_within = square < within.most * (rest * rest) && square > within.least * (rest * rest);
         if (!is_within && !springs_is_broken(left, s->spring[p])) visit(context, i, p);
     }
 }
