@@ -115,6 +115,14 @@ double triangles_virial(const triangles *t, triangles_integrity integrity, dem_i
     return is_slack(t, A) ? 0.0 : A.now * slope_at(t, integrity, p, A);
 }
 
+double triangles_virial_of(const dem_lattice *l, dem_index k, double rest_area, const double *x)
+{
+    const double A = vec2_area_of(x, &l->triangles[3 * k]), J = A / rest_area;
+    double slope = l->area_stiffness != NULL ? l->area_stiffness[k] * (J - 1.0) : 0.0;
+    if (l->guard != NULL && A < TRIANGLES_GUARD_ONSET * rest_area) slope += l->guard[k] * triangles_guard_law(J).slope;
+    return A * slope;
+}
+
 double triangles_node_virial(const triangles *t, dem_index i, const double *x, double divisor)
 {
     double sum = 0.0;

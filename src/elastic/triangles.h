@@ -104,6 +104,9 @@ vec2 triangles_add_force(const triangles *t, triangles_integrity integrity, dem_
  *  A alone, times the unit tensor. */
 double triangles_virial(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p, const double *x);
 
+/** The same of triangle k of a lattice, whose area at rest, m^2, is known. */
+double triangles_virial_of(const dem_lattice *lattice, dem_index k, double rest_area, const double *x);
+
 /** The sum of that over the row of node i, of triangles that are whole, each over the divisor. */
 double triangles_node_virial(const triangles *t, dem_index i, const double *x, double divisor);
 

@@ -139,13 +139,16 @@ static bool is_first(fracture_source *s, dem_index triangle, unsigned way)
     return !(now & way);
 }
 
+static const double nearly = 0.999 * BREAK_SEARCH_NEAR; /* so that the last digits do not matter */
+
 /* Whether a triangle may be near its limit by the stress at one of its corners: without confinement, which only lowers
  * it, its utilisation is a convex function of the mean of three stresses, and not larger than by each of them in the
- * mean. The last digits may differ. */
+ * mean. */
 static bool may_be_near(utilisation_limits limits, const double *stress)
 {
     limits.confinement = 0.0;
-    return !(utilisation_of_stress(limits, stress, stress, stress) < 0.999 * BREAK_SEARCH_NEAR);
+    if (utilisation_is_below(limits, stress, nearly)) return false;
+    return !(utilisation_of_stress(limits, stress, stress, stress) < nearly);
 }
 
 static void look_at_triangles_of(fracture_source *s, dem_index i, const double *stress)

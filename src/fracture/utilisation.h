@@ -5,6 +5,8 @@
 #ifndef DEM_FRACTURE_UTILISATION_H
 #define DEM_FRACTURE_UTILISATION_H
 
+#include <math.h>
+
 #include "model/element_state.h"
 #include "model/model.h"
 
@@ -21,6 +23,14 @@ utilisation_limits utilisation_limits_of(const dem_lattice *lattice, const eleme
  *  s1/tension, and where pressure is limited
  *      max(s1, 0)/tension - min(s3, 0)/pressure + confinement min(s1, 0)/pressure. */
 double utilisation_of_stress(utilisation_limits limits, const double a[3], const double b[3], const double c[3]);
+
+/** Whether the utilisation of a stress is below a bound > 0 by a bound of it that needs no root: a principal stress is
+ *  not larger than the mean of xx and yy and the sizes of half their difference and of xy. */
+static inline bool utilisation_is_below(utilisation_limits limits, const double stress[3], double bound)
+{
+    const double middle = 0.5 * (stress[0] + stress[1]), half = 0.5 * (stress[0] - stress[1]);
+    return isinf(limits.pressure) && middle + fabs(half) + fabs(stress[2]) < bound * limits.tension;
+}
 
 /** Whether it is not the mean of its corners' stresses that breaks a triangle, but its own. */
 static inline bool utilisation_by_own_stress(const dem_lattice *l, dem_index triangle)

@@ -83,27 +83,36 @@ static void of_whole_triangles(const dem_model *m, const element_state *s, node_
     for (int k = 0; k < 3; k++) stress[k] /= volume;
 }
 
-/* A triangle has a slot in the rows of each of its corners, from which the first is taken. */
+/* A triangle has a slot in the row of each of its corners, of which the first is taken. */
+static void add_couplings_of(const couplings *c, dem_index corner, dem_index triangle, const double *x, double sum[3])
+{
+    for (dem_index p = c->row[corner]; p < c->row[corner + 1]; p++) {
+        double virial[3];
+        if (c->list[c->slot[p] / 3].triangle != triangle) continue;
+        couplings_virial(c, p, x, virial);
+        for (int k = 0; k < 3; k++) sum[k] += virial[k];
+    }
+}
+
+/* Most of what is looked at where bodies may break, so without add_triangle()'s choices. */
 void node_stress_of_triangle(const dem_model *m, const element_state *s, dem_index triangle, const double *x,
                              double stress[3])
 {
-    const triangles *t = &m->triangles;
-    const couplings *c = &m->couplings;
-    const dem_index corner = m->lattice.triangles[3 * triangle];
-    const double volume = spring_share_volume(&m->lattice, triangle);
-    double virial[3], spread = 0.0;
-    stress[0] = stress[1] = stress[2] = 0.0;
-    add_triangle(m, s, NODE_STRESS_EFFECTIVE, triangle, x, stress);
-    for (dem_index p = c->n > 0 ? c->row[corner] : 0; c->n > 0 && p < c->row[corner + 1]; p++) {
-        if (c->list[c->slot[p] / 3].triangle != triangle) continue;
-        couplings_virial(c, p, x, virial);
-        for (int k = 0; k < 3; k++) stress[k] += virial[k];
+    const dem_lattice *l = &m->lattice;
+    const dem_index *corner = &l->triangles[3 * triangle];
+    const double rest_area = vec2_area_of(l->x, corner);
+    double sum[3] = {0.0, 0.0, 0.0};
+    for (int32_t p = s->row[triangle], end = s->row[triangle + 1]; p < end; p++) {
+        double virial[3];
+        springs_virial(l, s->spring[p], x, virial);
+        for (int k = 0; k < 3; k++) sum[k] += s->share[p] * virial[k];
     }
-    for (dem_index p = t->row[corner]; p < t->row[corner + 1]; p++)
-        if (t->triangle[p] == triangle) spread = triangles_virial(t, TRIANGLES_WHOLE, corner, p, x);
-    stress[0] += spread;
-    stress[1] += spread;
-    for (int k = 0; k < 3; k++) stress[k] /= volume;
+    if (m->couplings.n > 0) add_couplings_of(&m->couplings, corner[0], triangle, x, sum);
+    const double spread = triangles_virial_of(l, triangle, rest_area, x);
+    const double volume = l->thickness != NULL ? l->thickness[triangle] * rest_area : rest_area;
+    stress[0] = (sum[0] + spread) / volume;
+    stress[1] = (sum[1] + spread) / volume;
+    stress[2] = sum[2] / volume;
 }
 
 void node_stress(const dem_model *model, const element_state *state, node_stress_kind kind, dem_index i,
