@@ -2,6 +2,7 @@
 """What a run has written, judged with nothing of the program's but its files: energies, impulses and depths are
 computed here again from positions, velocities, masses and springs."""
 import math
+import re
 
 import h5py
 import numpy as np
@@ -131,11 +132,28 @@ def solid_of(deck, k, points):
     return np.concatenate([points, closing]) if len(closing) else points[:-1]
 
 
+def is_beyond(x, line):
+    """Whether any of the places is beyond an end of an open line, across the chord between both ends."""
+    chord = line[-1] - line[0]
+    along = (x - line[0]) @ chord / (chord @ chord)
+    return (along < 0.0).any() or (along > 1.0).any()
+
+
+def beyond_ends(run, deck, k, points):
+    """Nodes of rigid bodies that are beyond an end of obstacle k at some time: what passed round it is behind, and the
+    history counts no such nodes of rigid bodies (crowd 9063)."""
+    closed, body = np.array_equal(points[0], points[-1]), run.lattice["body"]
+    rigid = [b for b, group in enumerate(re.findall(r"(?ms)^&body$.*?^/$", deck.text)) if "rigid = .true." in group]
+    lines = [deck_motions.place(deck.motions[k], points, t) for t in run.times]
+    return [i for b in rigid for i in np.flatnonzero(body == b)
+            if not closed and any(is_beyond(x[body == b], line) for x, line in zip(run.x, lines))]
+
+
 def node_depth(run, deck):
     """How deep a boundary node is in an obstacle in any frame, m."""
-    nodes, deepest = np.unique(rim_of(run.lattice)), 0.0
+    rim, deepest = np.unique(rim_of(run.lattice)), 0.0
     for k, points in enumerate(run.obstacles):
-        solid = solid_of(deck, k, points)
+        solid, nodes = solid_of(deck, k, points), np.setdiff1d(rim, beyond_ends(run, deck, k, points))
         for t, x in zip(run.times, run.x):
             corners = deck_motions.place(deck.motions[k], solid, t)
             inside = x[nodes][is_inside(x[nodes], corners) != deck.grounds[k].is_room]
