@@ -5,8 +5,8 @@
  * sweep reads a layout of what is left (elastic/trimmed_layout.c), which kernel_follow() keeps up. The contact of
  * surfaces is added to what is there then, and last the external force. Each node's sum is that of
  * forces_own_acceleration() in the same order, so the bits depend neither on the instruction set nor on the number of
- * threads. The choice of the instruction set is here, too. The arithmetic of a block is in elastic/sweep_body.h, that
- * of a row in forces.h; contact forces are added elsewhere (contact/contact_forces.c). */
+ * threads. The arithmetic of a block is in elastic/sweep_body.h, that of a row in forces.h; contact forces are added
+ * elsewhere (contact/contact_forces.c). Which instruction sets there are is in kernel_functions.c. */
 #include "forces/kernel.h"
 
 #include <stdlib.h>
@@ -14,80 +14,10 @@
 
 #include "base/aligned.h"
 #include "base/grow.h"
-#include "base/instruction_set.h"
 #include "base/status.h"
-
-/* ---- which there are ---- */
-
-#ifndef DEM_X86_KERNELS
-#define sweep_avx2          sweep_portable
-#define sweep_avx512        sweep_portable
-#define sweep_guard_avx2    sweep_guard_portable
-#define sweep_guard_avx512  sweep_guard_portable
-#define sweep_strain_avx2   sweep_strain_portable
-#define sweep_strain_avx512 sweep_strain_portable
-#endif
-
-typedef struct kernel_row {
-    const char *name;
-    sweep_function *sweep;
-    sweep_guard_function *sweep_guard;
-    sweep_strain_function *sweep_strain;
-    const array_ops *ops;
-} kernel_row;
-
-/* By dem_kernel. A build without the instruction sets of x86 has the portable functions in their place. */
-static const kernel_row rows[] = {
-    [DEM_KERNEL_AUTO] = {"auto", NULL, NULL, NULL, NULL},
-    [DEM_KERNEL_PORTABLE] = {"portable", sweep_portable, sweep_guard_portable, sweep_strain_portable,
-                             &array_ops_portable},
-    [DEM_KERNEL_AVX2] = {"avx2", sweep_avx2, sweep_guard_avx2, sweep_strain_avx2, &array_ops_avx2},
-    [DEM_KERNEL_AVX512] = {"avx512", sweep_avx512, sweep_guard_avx512, sweep_strain_avx512, &array_ops_avx512},
-};
-enum { n_rows = sizeof rows / sizeof rows[0] };
+#include "forces/kernel_functions.h"
 
 enum { EIGHT = sizeof(uint64_t) };
-
-/* Whether this machine and this build have the instruction set. */
-static bool runs_here(dem_kernel kind)
-{
-    if (kind == DEM_KERNEL_AVX2) return instruction_set_avx2();
-    if (kind == DEM_KERNEL_AVX512) return instruction_set_avx512();
-    return kind == DEM_KERNEL_PORTABLE;
-}
-
-/* The kinds are numbered by speed, and the portable one runs everywhere. */
-static dem_kernel fastest(void)
-{
-    dem_kernel kind = DEM_KERNEL_AVX512;
-    while (!runs_here(kind)) kind--;
-    return kind;
-}
-
-/* Names are those of the key `kernel` in a deck; "auto" is one of them. */
-dem_status dem_kernel_find(dem_kernel *out, const char *name)
-{
-    CHECK(out != NULL && name != NULL, DEM_ERROR_ARGUMENT, "dem_kernel_find: %s is NULL", out == NULL ? "out" : "name");
-    for (int k = 0; k < n_rows; k++)
-        if (strcmp(rows[k].name, name) == 0) {
-            *out = (dem_kernel)k;
-            return DEM_OK;
-        }
-    return status_fail(DEM_ERROR_ARGUMENT, "no kernel is called '%s'", name);
-}
-
-const char *dem_kernel_name(dem_kernel kind)
-{
-    return (int)kind >= 0 && (int)kind < n_rows ? rows[kind].name : NULL;
-}
-
-dem_status dem_kernel_check(dem_kernel kind)
-{
-    CHECK(dem_kernel_name(kind) != NULL, DEM_ERROR_ARGUMENT, "unknown kernel %d", (int)kind);
-    CHECK(kind == DEM_KERNEL_AUTO || runs_here(kind), DEM_ERROR_ARGUMENT,
-          "this machine, or this build of the library, does not have the kernel '%s'", rows[kind].name);
-    return DEM_OK;
-}
 
 /* ---- set-up ---- */
 
@@ -122,16 +52,17 @@ static int count_shares(const team *t, const layout *l)
 dem_status kernel_create(kernel *out, const dem_model *model, dem_kernel kind, team *t)
 {
     TRY(dem_kernel_check(kind));
-    if (kind == DEM_KERNEL_AUTO) kind = fastest();
+    if (kind == DEM_KERNEL_AUTO) kind = kernel_functions_fastest();
+    const kernel_functions *of = kernel_functions_of(kind);
     kernel k = {.model = model,
                 .kind = kind,
                 .team = t,
                 .n_shares = count_shares(t, &model->layout),
                 .n_trimmed = -1,
-                .sweep = rows[kind].sweep,
-                .sweep_guard = rows[kind].sweep_guard,
-                .sweep_strain = rows[kind].sweep_strain,
-                .ops = rows[kind].ops};
+                .sweep = of->sweep,
+                .sweep_guard = of->sweep_guard,
+                .sweep_strain = of->sweep_strain,
+                .ops = of->ops};
     const dem_status status = allocate(&k);
     if (status == DEM_OK)
         *out = k;
