@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 
+#include "base/sorted.h"
 #include "base/status.h"
 
 /* A node at the end of the domain, and a rank on the other side. */
@@ -162,13 +163,6 @@ void domain_free(domain *d)
 dem_index domain_own_node(const domain *d, dem_index number)
 {
     if (d == NULL) return number;
-    dem_index low = 0, high = d->n_nodes;
-    while (low < high) {
-        const dem_index middle = low + (high - low) / 2;
-        if (d->number[middle] < number)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low < d->n_nodes && d->number[low] == number && d->is_own[low] ? low : -1;
+    const dem_index i = sorted_find(d->number, d->n_nodes, number);
+    return i >= 0 && d->is_own[i] ? i : -1;
 }

@@ -31,14 +31,9 @@ typedef struct section {
 
 static void sort_along(const section *s, const dem_lattice *l)
 {
-    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    for (dem_index k = 0; k < s->n; k++)
-        for (int c = 0; c < 2; c++) {
-            const double x = l->x[2 * s->places[k].node + c];
-            low[c] = fmin(low[c], x);
-            high[c] = fmax(high[c], x);
-        }
-    const int along = high[1] - low[1] > high[0] - low[0];
+    box all = box_empty();
+    for (dem_index k = 0; k < s->n; k++) all = box_with(all, vec2_at(l->x, s->places[k].node));
+    const int along = all.high.y - all.low.y > all.high.x - all.low.x;
     for (dem_index k = 0; k < s->n; k++) s->places[k].coordinate = l->x[2 * s->places[k].node + along];
     qsort(s->places, (size_t)s->n, sizeof *s->places, compare);
 }

@@ -55,14 +55,12 @@ static double fracture_energy(const dem_lattice *l, dem_index t, bool cell)
 static double sum(const dem_lattice *l, const element_state *elements, const unsigned char *half)
 {
     exact_sum energy = {0};
-    bool lacks = false;
     for (dem_index t = 0; t < l->n_triangles; t++) {
         if (!elements->triangle[t]) continue;
-        lacks = lacks || !has_energy(l, t);
-        if (lacks) break;
+        if (!has_energy(l, t)) return 0.0;
         exact_sum_add(&energy, fracture_energy(l, t, half[t]) * crack_length(l, t) * thickness_of(l, t));
     }
-    return lacks ? 0.0 : exact_sum_value(&energy);
+    return exact_sum_value(&energy);
 }
 
 dem_status crack_energy(const dem_lattice *lattice, const element_state *elements, double *energy)

@@ -126,6 +126,7 @@ static dem_status cut(dem_model *m, const dem_model *whole, const places *p)
 {
     TRY(cut_lattice(m, &whole->lattice, p));
     TRY(springs_compile(&m->springs, &m->lattice));
+    TRY(csr_view_create(&m->csr, &m->springs));
     TRY(triangles_compile(&m->triangles, &m->lattice));
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
     TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));

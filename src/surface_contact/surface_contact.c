@@ -162,8 +162,8 @@ static dem_status note_status(surface_contact *c, dem_status status)
     return status;
 }
 
-/* What single nodes are evaluated with, for a state that is not evaluated yet. */
-static void count_all(surface_contact *c)
+/* With these single nodes are evaluated, of a state that is not evaluated yet. */
+static void use_candidates(surface_contact *c)
 {
     c->rows = &c->candidates.pairs;
     c->is_evaluated = false;
@@ -171,20 +171,20 @@ static void count_all(surface_contact *c)
 
 dem_status surface_contact_follow(surface_contact *c, const double *x)
 {
-    count_all(c);
+    use_candidates(c);
     return note_status(c, close_pairs_hold(&c->close, x) ? DEM_OK : renew_lists(c, x));
 }
 
 /* ---- looks that are not needed ---- */
 
-/* The lists are chosen anew where half of their margin is gone, so that the bound holds for some steps. They know then
- * whether any pair is close. */
-static bool notes_bound(surface_contact *c, const double *x, double *left)
+/* How far nodes may move relative to each other from positions x on, m. The lists are chosen anew where half of their
+ * margin is gone, so that the bound holds for some steps.  \return false if a pair is close, or there is no memory */
+static bool find_way_left(surface_contact *c, const double *x, double *left)
 {
     if (!c->close.chosen || c->close.n > 0) return false;
     *left = c->close.margin - surface_ways_longest(&c->close.ways, x);
     if (*left >= 0.5 * c->close.margin) return true;
-    count_all(c);
+    use_candidates(c);
     if (note_status(c, renew_lists(c, x)) != DEM_OK || c->close.n > 0) return false;
     *left = c->close.margin;
     return true;
@@ -193,7 +193,7 @@ static bool notes_bound(surface_contact *c, const double *x, double *left)
 void surface_contact_bound_step(surface_contact *c, const double *x, const double *v)
 {
     double left;
-    if (approach_bound_begin_step(&c->bound) && notes_bound(c, x, &left))
+    if (approach_bound_begin_step(&c->bound) && find_way_left(c, x, &left))
         approach_bound_note(&c->bound, left, surface_ways_spread(&c->close.ways, v));
 }
 
@@ -205,7 +205,7 @@ static bool is_apart(surface_contact *c)
 
 static dem_status follow_if_near(surface_contact *c, const double *x)
 {
-    count_all(c);
+    use_candidates(c);
     return is_apart(c) ? DEM_OK : surface_contact_follow(c, x);
 }
 
@@ -303,7 +303,7 @@ bool surface_contact_evaluate(surface_contact *c, const double *x)
 bool surface_contact_begin_stages(surface_contact *c, const double *x, int n_stages)
 {
     if (!c->close.chosen || !surface_ways_within(&c->close.ways, 0.5 * c->close.margin, x)) {
-        count_all(c);
+        use_candidates(c);
         if (note_status(c, renew_lists(c, x)) != DEM_OK) return false;
     }
     approach_bound_forget(&c->bound);
