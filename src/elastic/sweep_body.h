@@ -367,36 +367,90 @@ INLINE unsigned strained_in_row(const sweep_limits *limit, const row_block *row,
     return nodes_of_any(beyond(limit->shortest, limit->longest, least, most), all_lanes);
 }
 
-/* Passes over blocks of rows from `block` on, of which the one before has been evaluated; entries are looked up where
- * they change. Roots are begun before the block before is completed, and divisions follow behind that, so that the
- * divider is busy meanwhile.
- * \return the first block that is something else */
-INLINE dem_index run_rows(pass *p, dem_index block, laws acting, row_block now, int n)
+/* Whether rows have a loop of their own. */
+INLINE bool has_rows(int n)
+{
+    return n == 3 || n == 4;
+}
+
+/* Vectors of the springs of a block of rows, and their lengths. */
+INLINE void measure_row(const double *here, const row_block *row, int n, pairs *d, lanes *length)
+{
+    const pairs x = pairs_load(here);
+    UNROLLED for (int k = 0; k < n; k++) d[k] = pairs_sub(pairs_load(here + row->upper[k]), x);
+    UNROLLED for (int k = 0; k < n; k++) length[k] = lanes_sqrt(pairs_dot(d[k], d[k]));
+}
+
+/* What nothing reads: compilers do not see that. */
+INLINE void clear_row(int n, pairs *d, lanes *length)
+{
+    UNROLLED for (int k = 0; k < n; k++) d[k] = pairs_both(0.0, 0.0);
+    UNROLLED for (int k = 0; k < n; k++) length[k] = lanes_all(0.0);
+}
+
+/* The row of a block in the ring, and where its forces stand there. */
+INLINE dem_index ring_row(const pass *p, dem_index block)
+{
+    return LAYOUT_LANES * block & (p->sweep->layout->ring_rows - 1);
+}
+
+INLINE const double *ring_at(const pass *p, dem_index block)
+{
+    return p->ring + 2 * ring_row(p, block);
+}
+
+/* Forces of springs with these vectors and lengths, into the ring. */
+INLINE void store_row(const pass *p, dem_index at_row, const row_block *row, int n, const pairs *d, const lanes *length)
+{
+    UNROLLED for (int k = 0; k < n; k++)
+    {
+        double *stream = p->ring + row->own[k];
+        pairs_store(stream + 2 * at_row, pull(row->set[k], d[k], length[k]));
+        if (at_row == 0) repeat_first(p->sweep->layout, stream);
+    }
+}
+
+/* The sum of forces on the nodes of a block of rows. */
+INLINE pairs sum_row(const double *here, const row_block *row, int n)
+{
+    pairs force = pairs_both(0.0, 0.0);
+    UNROLLED for (int k = 0; k < n; k++) force = pairs_sub(force, pairs_load(here + row->lower[k]));
+    UNROLLED for (int k = 0; k < n; k++) force = pairs_add(force, pairs_load(here + row->own[k]));
+    return force;
+}
+
+/* Passes over the blocks from `block` on; the one before is described by `before` and has been evaluated. Most are
+ * blocks of rows with n springs a node; the others, in which rows end, are done by their entries. What a block does is
+ * looked up where it changes. Roots are begun before the block before is completed, and divisions follow behind that,
+ * so that the divider is busy meanwhile.
+ * \return the first block that is not evaluated: one of rows with another number of springs, or that behind the last */
+INLINE dem_index run_rows(pass *p, dem_index block, laws acting, row_block before, int n)
 {
     const sweep *s = p->sweep;
-    const layout *l = s->layout;
-    for (row_block before = now; block < p->last; block++) {
-        const bool same = do_the_same(l, block, block - 1);
-        if (!same && describe_row(l, block, &now) != n) break;
-        const dem_index row = LAYOUT_LANES * block, at_row = row & (l->ring_rows - 1);
-        const double *here = s->x + 2 * row, *forces = p->ring + 2 * ((row - LAYOUT_LANES) & (l->ring_rows - 1));
-        const pairs x = pairs_load(here);
-        pairs d[most_rows], force = pairs_both(0.0, 0.0);
-        lanes length[most_rows];
-        drift_ahead(p, block, acting);
-        UNROLLED for (int k = 0; k < n; k++) d[k] = pairs_sub(pairs_load(here + now.upper[k]), x);
-        UNROLLED for (int k = 0; k < n; k++) length[k] = lanes_sqrt(pairs_dot(d[k], d[k]));
-        UNROLLED for (int k = 0; k < n; k++) force = pairs_sub(force, pairs_load(forces + before.lower[k]));
-        UNROLLED for (int k = 0; k < n; k++) force = pairs_add(force, pairs_load(forces + before.own[k]));
-        complete(p, block - 1, acting, force);
-        UNROLLED for (int k = 0; k < n; k++)
-        {
-            double *stream = p->ring + now.own[k];
-            pairs_store(stream + 2 * at_row, pull(now.set[k], d[k], length[k]));
-            if (at_row == 0) repeat_first(l, stream);
+    row_block now = before;
+    for (bool was_row = true, is_row = true; block < p->last; block++, was_row = is_row) {
+        const bool same = do_the_same(s->layout, block, block - 1);
+        if (!USUALLY(same)) {
+            const int k = describe_row(s->layout, block, &now);
+            if (has_rows(k) && k != n) return block;
+            is_row = k == n;
         }
-        if (acting.watched)
-            note_strained(s, block, p->first, acting, strained_in_row(&s->limit[block], &now, length, n));
+        pairs d[most_rows];
+        lanes length[most_rows];
+        unsigned strained = 0;
+        drift_ahead(p, block, acting);
+        if (USUALLY(is_row)) {
+            measure_row(s->x + 2 * LAYOUT_LANES * block, &now, n, d, length);
+        } else {
+            clear_row(n, d, length);
+            strained = evaluate_springs(s, block, acting, p->ring);
+        }
+        complete(p, block - 1, acting,
+                 USUALLY(was_row) ? sum_row(ring_at(p, block - 1), &before, n)
+                                  : force_on(s, block - 1, acting, p->ring));
+        if (USUALLY(is_row)) store_row(p, ring_row(p, block), &now, n, d, length);
+        if (is_row && acting.watched) strained = strained_in_row(&s->limit[block], &now, length, n);
+        note_strained(s, block, p->first, acting, strained);
         if (!same) before = now;
     }
     return block;
@@ -408,8 +462,8 @@ INLINE dem_index pass_rows(pass *p, dem_index block, laws acting)
     row_block before;
     if (acting.damped || acting.coupled || block <= p->first || block >= p->last) return block;
     const int n = describe_row(p->sweep->layout, block - 1, &before);
-    if (n == 3) return run_rows(p, block, acting, before, 3);
-    return n == 4 ? run_rows(p, block, acting, before, 4) : block;
+    if (!has_rows(n)) return block;
+    return n == 3 ? run_rows(p, block, acting, before, 3) : run_rows(p, block, acting, before, 4);
 }
 
 /* ---- all blocks ---- */
