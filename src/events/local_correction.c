@@ -195,7 +195,8 @@ static void fetch_stage(local_correction *p, int stage, dem_index n)
     const double s = p->table.c[stage];
     for (dem_index j = 0; j < n; j++) {
         const dem_index at = components(p, j);
-        motion_polynomial_at(&p->motions[j], s, p->x[stage] + at, p->v[stage] + at);
+        motion_polynomial_position(&p->motions[j], s, p->x[stage] + at);
+        motion_polynomial_velocity(&p->motions[j], s, p->v[stage] + at);
     }
 }
 
@@ -259,14 +260,12 @@ static void open_start(local_correction *p, const dense_output *step, double *y)
     put_time(p, step, 0, y);
 }
 
-/* The motion of a row after the event as if there were none, in powers of s from t* to the end of the step. */
-static void find_motion(const local_correction *p, const dense_output *step, dem_index place, motion_polynomial *out)
+/* The motions after the event as if there were none, in powers of s from t* to the end of the step. */
+static void find_motions(local_correction *p, const dense_output *step)
 {
-    if (changed_motion_has(step->changed, place))
-        motion_polynomial_copy(out, changed_motion_of(step->changed, place));
-    else
-        dense_output_motion(step, place, out);
-    motion_polynomial_restart(out, p->t, step->t1);
+    const local_nodes *nodes = &p->near.nodes;
+    dense_output_motions(step, nodes->n, nodes->list, p->motions);
+    for (dem_index j = 0; j < nodes->n; j++) motion_polynomial_restart(&p->motions[j], p->t, step->t1);
 }
 
 /* The stage at the end of the step needs no evaluation; the others do, the first at t* itself. */
@@ -279,7 +278,7 @@ dem_status local_correction_open(local_correction *p, const dense_output *step, 
     p->n_quadratures = 0;
     TRY(neighbourhood_gather(&p->near, seeds));
     TRY(reserve(p, p->near.nodes.n, 0));
-    for (dem_index j = 0; j < p->near.nodes.n; j++) find_motion(p, step, p->near.nodes.list[j], &p->motions[j]);
+    find_motions(p, step);
     TRY(open_end(p, step));
     for (int stage = 0; stage < p->table.stages; stage++)
         if (stage != p->last) TRY(open_stage(p, step, stage, state));
@@ -391,7 +390,7 @@ static void put_change_of_slope(const local_correction *p, dem_index j, const mo
     const double *a = p->a[0] + components(p, j), *da = p->da[0] + components(p, j);
     const double per_h = p->h > 0.0 ? 1.0 / p->h : 0.0;
     for (int c = 0; c < motion->dim; c++)
-        change[c] = held & ((unsigned)DEM_COMPONENT_X << c) ? 0.0 : a[c] + da[c] - per_h * motion->c[c][1][1];
+        change[c] = held & ((unsigned)DEM_COMPONENT_X << c) ? 0.0 : a[c] + da[c] - per_h * motion->v[1][c];
 }
 
 /* Adds a change to a motion: by a quintic or, where the step has parabolas, by parabolas. Heun's position at the end

@@ -90,11 +90,11 @@ static dem_status take_place(changed_motion *tr, dem_index node)
 dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_polynomial *motion)
 {
     TRY(take_place(tr, node));
-    motion_polynomial_copy(&tr->list[tr->place[node]].motion, motion);
+    tr->list[tr->place[node]].motion = *motion;
     return DEM_OK;
 }
 
-/* Sums go by way of two local numbers, so that the pair may be one vector instruction although the arrays may
+/* Sums go by way of two local numbers, so that the row_pair may be one vector instruction although the arrays may
  * overlap. */
 static inline void add_to_row(const state_layout *l, double *to, const double *change)
 {
@@ -126,16 +126,14 @@ static double share(const changed_motion *tr, const motion_polynomial *m, double
 
 void changed_motion_position(const changed_motion *tr, double t, dem_index node, double *out)
 {
-    double v[STATE_DIM_MOST];
     const motion_polynomial *m = changed_motion_of(tr, node);
-    motion_polynomial_at(m, share(tr, m, t), out, v);
+    motion_polynomial_position(m, share(tr, m, t), out);
 }
 
 void changed_motion_velocity(const changed_motion *tr, double t, dem_index node, double *out)
 {
-    double x[STATE_DIM_MOST];
     const motion_polynomial *m = changed_motion_of(tr, node);
-    motion_polynomial_at(m, share(tr, m, t), x, out);
+    motion_polynomial_velocity(m, share(tr, m, t), out);
 }
 
 /* ---- rows of quadratures ---- */
@@ -162,7 +160,8 @@ void changed_motion_row_at(const changed_motion *tr, double t, dem_index row, do
     for (dem_index k = 0; k < tr->n_parts; k++) {
         double at[2][STATE_DIM_MOST];
         if (tr->parts[k].row != row) continue;
-        motion_polynomial_at(&tr->parts[k].motion, share(tr, &tr->parts[k].motion, t), at[0], at[1]);
+        motion_polynomial_position(&tr->parts[k].motion, share(tr, &tr->parts[k].motion, t), at[0]);
+        motion_polynomial_velocity(&tr->parts[k].motion, share(tr, &tr->parts[k].motion, t), at[1]);
         for (int d = 0; d < tr->layout.dim; d++)
             for (int q = 0; q < 2; q++) exact_sum_add(&sums[q][d], at[q][d]);
     }
@@ -200,16 +199,16 @@ void changed_motion_end_rows(changed_motion *tr)
 
 /* ---- polynomials in powers of s ---- */
 
-/* Rewrites c(s + r u) in powers of u, with r = 1 - s: first Taylor's shift by repeated Horner steps, c_j += s c_(j+1),
- * then each power k is scaled by r^k. Position and velocity are shifted side by side. */
-static inline void shift(motion_component c, double s)
+/* Rewrites n terms c(s + r u) in powers of u, with r = 1 - s: first Taylor's shift by repeated Horner steps,
+ * c_j += s c_(j+1), then each power k is scaled by r^k. */
+INLINE void shift(double (*c)[STATE_DIM_MOST], int n, int d, double s)
 {
+    row_pair own[MOTION_TERMS];
     double power = 1.0 - s;
-    for (int k = 0; k < MOTION_TERMS; k++)
-        for (int j = MOTION_TERMS - 2; j >= k; j--)
-            for (int q = 0; q < 2; q++) c[j][q] += s * c[j + 1][q];
-    for (int k = 1; k < MOTION_TERMS; k++, power *= 1.0 - s)
-        for (int q = 0; q < 2; q++) c[k][q] *= power;
+    for (int k = 0; k < n; k++) own[k] = row_pair_at(c[k], d);
+    UNROLLED for (int k = 0; k < n; k++) UNROLLED for (int j = n - 2; j >= k; j--) own[j] += s * own[j + 1];
+    row_pair_put(c[0], d, own[0]);
+    for (int k = 1; k < n; k++, power *= 1.0 - s) row_pair_put(c[k], d, power * own[k]);
 }
 
 void motion_polynomial_restart(motion_polynomial *m, double from, double end)
@@ -217,8 +216,11 @@ void motion_polynomial_restart(motion_polynomial *m, double from, double end)
     const double length = end - m->from, s = length > 0.0 ? (from - m->from) / length : 0.0;
     m->from = from;
     if (s == 0.0) return;
-    for (int d = 0; d < 2; d++) shift(m->c[d], s);
-    if (m->dim > 2) shift(m->c[2], s);
+    shift(m->x, MOTION_TERMS, 0, s);
+    shift(m->v, MOTION_SLOPES, 0, s);
+    if (m->dim < 3) return;
+    shift(m->x, MOTION_TERMS, 2, s);
+    shift(m->v, MOTION_SLOPES, 2, s);
 }
 
 /* Adds the quintic Hermite polynomial through (x, v, a) at u = 0 and (x + dx, v + dv, a + da) at u = 1, in powers of u,
@@ -228,23 +230,25 @@ void motion_polynomial_restart(motion_polynomial *m, double from, double end)
  * and the terms (10 D - 4 V + A/2) u^3 + (-15 D + 7 V - A) u^4 + (6 D - 3 V + A/2) u^5 have just these value, slope and
  * second derivative at u = 1. The velocity's terms are the derivative's, (k + 1) c_(k+1)/h. With h = 0, an event at the
  * very end, only the jump of position and velocity is left. */
-static inline void add_quintic(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
+INLINE void add_quintic(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
 {
-    const double per_h = h > 0.0 ? 1.0 / h : 0.0, v0 = h * at->v[d], a0 = h * h * at->a[d];
-    const double D = by->x[d] - v0 - 0.5 * a0, V = h * by->v[d] - a0, A = h * h * by->a[d];
-    const double c[MOTION_TERMS] = {
-        at->x[d], v0, 0.5 * a0, 10.0 * D - 4.0 * V + 0.5 * A, -15.0 * D + 7.0 * V - A, 6.0 * D - 3.0 * V + 0.5 * A};
-    for (int k = 0; k < MOTION_TERMS; k++) {
-        m->c[d][k][0] += c[k];
-        m->c[d][k][1] += k + 1 < MOTION_TERMS ? per_h * (k + 1) * c[k + 1] : 0.0;
-    }
-    if (!(h > 0.0)) m->c[d][0][1] += at->v[d];
+    const double per_h = h > 0.0 ? 1.0 / h : 0.0;
+    const row_pair v0 = h * row_pair_at(at->v, d), a0 = h * h * row_pair_at(at->a, d);
+    const row_pair D = row_pair_at(by->x, d) - v0 - 0.5 * a0, V = h * row_pair_at(by->v, d) - a0,
+                   A = h * h * row_pair_at(by->a, d);
+    const row_pair c[MOTION_TERMS] = {
+        row_pair_at(at->x, d),      v0, 0.5 * a0, 10.0 * D - 4.0 * V + 0.5 * A, -15.0 * D + 7.0 * V - A,
+        6.0 * D - 3.0 * V + 0.5 * A};
+    for (int k = 0; k < MOTION_TERMS; k++) row_pair_put(m->x[k], d, row_pair_at(m->x[k], d) + c[k]);
+    for (int k = 0; k < MOTION_SLOPES; k++)
+        row_pair_put(m->v[k], d, row_pair_at(m->v[k], d) + per_h * (k + 1) * c[k + 1]);
+    if (!(h > 0.0)) row_pair_put(m->v[0], d, row_pair_at(m->v[0], d) + row_pair_at(at->v, d));
 }
 
 void motion_polynomial_add(motion_polynomial *m, double end, const motion_change *at, const motion_change *by)
 {
     const double h = end - m->from;
-    for (int d = 0; d < 2; d++) add_quintic(m, h, at, by, d);
+    add_quintic(m, h, at, by, 0);
     if (m->dim > 2) add_quintic(m, h, at, by, 2);
 }
 
@@ -255,8 +259,8 @@ static inline void add_parabola(motion_polynomial *m, double h, const motion_cha
     const double v0 = h * at->v[d], a0 = h * at->a[d];
     const double x[3] = {at->x[d], v0, by->x[d] - v0}, v[3] = {at->v[d], a0, by->v[d] - a0};
     for (int k = 0; k < 3; k++) {
-        m->c[d][k][0] += x[k];
-        m->c[d][k][1] += v[k];
+        m->x[k][d] += x[k];
+        m->v[k][d] += v[k];
     }
 }
 

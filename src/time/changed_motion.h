@@ -7,22 +7,18 @@
 #define DEM_TIME_CHANGED_MOTION_H
 
 #include <stdbool.h>
-#include <string.h>
 
+#include "base/row_pair.h"
 #include "base/state.h"
 
-enum { MOTION_TERMS = 6 };
+enum { MOTION_TERMS = 6, MOTION_SLOPES = MOTION_TERMS - 1 };
 
-/** Of one component of a motion: coefficients of powers of s for the position, m, and the velocity, m/s, side by side
- *  for vector instructions. */
-typedef double motion_component[MOTION_TERMS][2];
-
-/** Motion of a node from a time to the end of the step, in powers of s = (t - from)/(end - from). Code does
- *  two components in loops that compilers unroll, and the third where there is one. */
+/** Motion of a node from a time to the end of the step: coefficients of powers of s = (t - from)/(end - from). A
+ *  velocity has one less than a position, whose derivative it is. */
 typedef struct motion_polynomial {
     double from; /* s */
     int dim;
-    motion_component c[STATE_DIM_MOST]; /* [dim] */
+    double x[MOTION_TERMS][STATE_DIM_MOST], v[MOTION_SLOPES][STATE_DIM_MOST]; /* [][dim] m, m/s */
 } motion_polynomial;
 
 /** Change of a state at one node: of position, velocity and acceleration. */
@@ -122,30 +118,25 @@ void changed_motion_end_rows(changed_motion *tr);
 void changed_motion_position(const changed_motion *tr, double t, dem_index node, double *out);
 void changed_motion_velocity(const changed_motion *tr, double t, dem_index node, double *out);
 
-/** Position and velocity of one component at s, 0 to 1. */
-static inline void motion_component_at(const motion_component c, double s, double *x, double *v)
+/** Sums of n coefficients times powers of s. */
+INLINE void motion_terms_at(const double (*c)[STATE_DIM_MOST], int n, int dim, double s, double *out)
 {
-    double at[2] = {c[MOTION_TERMS - 1][0], c[MOTION_TERMS - 1][1]};
-    for (int k = MOTION_TERMS - 2; k >= 0; k--)
-        for (int q = 0; q < 2; q++) at[q] = c[k][q] + s * at[q];
-    *x = at[0];
-    *v = at[1];
+    for (int d = 0; d < dim; d += 2) {
+        row_pair at = row_pair_at(c[n - 1], d);
+        for (int k = n - 2; k >= 0; k--) at = row_pair_at(c[k], d) + s * at;
+        row_pair_put(out, d, at);
+    }
 }
 
 /** Position and velocity [dim] of a motion at s, 0 to 1. */
-static inline void motion_polynomial_at(const motion_polynomial *m, double s, double *x, double *v)
+static inline void motion_polynomial_position(const motion_polynomial *m, double s, double *x)
 {
-    for (int d = 0; d < 2; d++) motion_component_at(m->c[d], s, &x[d], &v[d]);
-    if (m->dim > 2) motion_component_at(m->c[2], s, &x[2], &v[2]);
+    motion_terms_at(m->x, MOTION_TERMS, m->dim, s, x);
 }
 
-/** Copies the components that there are. */
-static inline void motion_polynomial_copy(motion_polynomial *to, const motion_polynomial *from)
+static inline void motion_polynomial_velocity(const motion_polynomial *m, double s, double *v)
 {
-    to->from = from->from;
-    to->dim = from->dim;
-    memcpy(to->c, from->c, 2 * sizeof to->c[0]);
-    if (from->dim > 2) memcpy(to->c[2], from->c[2], sizeof to->c[2]);
+    motion_terms_at(m->v, MOTION_SLOPES, m->dim, s, v);
 }
 
 /** Writes the same motion from a later time on. */

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/row_pair.h"
+
 /* Coefficients at s = (t - t0)/h. Let w(s) be the cubic Hermite interpolant of the velocity,
  *   w(s) = v0 (1 - 3 s^2 + 2 s^3) + h a0 s (1 - s)^2 + v1 (3 s^2 - 2 s^3) - h a1 s^2 (1 - s),
  * and C the integral of w over s from 0 to 1. Then, with B = 10 s^3 - 15 s^4 + 6 s^5 and D = x1 - x0 - h C,
@@ -99,7 +101,7 @@ static bool turned(const dense_output *p, dem_index i)
     return i < p->layout.n_nodes && has_changed(p, i);
 }
 
-/* The third component, of three-dimensional states only; x or v may be NULL. Kept apart from the pair of the other
+/* The third component, of three-dimensional states only; x or v may be NULL. Kept apart from the row_pair of the other
  * two. */
 static void interpolate_third(const dense_output *p, double t, dem_index k, double *x, double *v)
 {
@@ -200,50 +202,83 @@ void dense_output_state(const dense_output *p, double t, double *y)
     }
 }
 
+/* h of the step, and what follows from it alone: 1/h, h/q. */
+typedef struct step_length {
+    double h, per_h, parts[MOTION_TERMS];
+} step_length;
+
+static step_length length_of(const dense_output *p)
+{
+    step_length l = {.h = p->t1 - p->t0, .per_h = 1.0 / (p->t1 - p->t0)};
+    for (int q = 1; q < MOTION_TERMS; q++) l.parts[q] = l.h / q;
+    return l;
+}
+
+/* defect() of two components of a row that begins at k. */
+INLINE row_pair defects(const ends *e, dem_index k, int d, double h)
+{
+    const row_pair x0 = row_pair_at(e->x0 + k, d), v0 = row_pair_at(e->v0 + k, d), a0 = row_pair_at(e->a0 + k, d);
+    const row_pair x1 = row_pair_at(e->x1 + k, d), v1 = row_pair_at(e->v1 + k, d), a1 = row_pair_at(e->a1 + k, d);
+    const row_pair gap = x1 - x0 - h * (0.5 * (v0 + v1) + h * (a0 - a1) / 12.0), size = row_pair_absolute(gap);
+    const double rounding = 4.0 * DBL_EPSILON;
+    const row_pair_bits counts = (size > rounding * row_pair_absolute(x0)) & (size > rounding * row_pair_absolute(x1));
+    return (row_pair)((row_pair_bits)gap & counts);
+}
+
 /* The same quintic in powers of s, as changed motions are kept. With jump = v1 - v0, a0 and a1 times h, and b = 30 D/h
  * from B' = 30 (s^2 - 2 s^3 + s^4):
  *   v = v0 + a0 s + (3 jump - 2 a0 - a1 + b) s^2 + (a0 + a1 - 2 jump - 2 b) s^3 + b s^4,
  *   x = x0 + h (integral of v), term by term: x_q = h v_(q-1)/q. */
-static inline void write_quintic(const ends *e, double h, dem_index k, motion_component c)
+INLINE void write_quintic(const ends *e, const step_length *l, dem_index k, int d, motion_polynomial *out)
 {
-    const double bump = 30.0 * (1.0 / h) * defect(e, k, h), jump = e->v1[k] - e->v0[k];
-    const double a0 = h * e->a0[k], a1 = h * e->a1[k];
-    const double v[MOTION_TERMS] = {e->v0[k], a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump,
-                                    bump,     0.0};
-    c[0][0] = e->x0[k];
-    for (int q = 0; q < MOTION_TERMS; q++) c[q][1] = v[q];
-    for (int q = 1; q < MOTION_TERMS; q++) c[q][0] = h / q * v[q - 1];
+    const row_pair bump = 30.0 * l->per_h * defects(e, k, d, l->h), v0 = row_pair_at(e->v0 + k, d);
+    const row_pair jump = row_pair_at(e->v1 + k, d) - v0, a0 = l->h * row_pair_at(e->a0 + k, d),
+                   a1 = l->h * row_pair_at(e->a1 + k, d);
+    const row_pair v[MOTION_SLOPES] = {v0, a0, 3.0 * jump - 2.0 * a0 - a1 + bump, a0 + a1 - 2.0 * jump - 2.0 * bump,
+                                       bump};
+    row_pair_put(out->x[0], d, row_pair_at(e->x0 + k, d));
+    for (int q = 0; q < MOTION_SLOPES; q++) row_pair_put(out->v[q], d, v[q]);
+    for (int q = 1; q < MOTION_TERMS; q++) row_pair_put(out->x[q], d, l->parts[q] * v[q - 1]);
 }
 
 /* The two parabolas in powers of s; see parabola(). The higher powers are 0. */
-static inline void write_parabolas(const ends *e, double h, dem_index k, motion_component c)
+static inline void write_parabolas(const ends *e, double h, dem_index k, int d, motion_polynomial *out)
 {
     const double v0 = e->v0[k], x[2] = {e->x0[k], h * v0}, v[2] = {v0, h * e->a0[k]};
-    const double last[2] = {e->x1[k] - x[0] - x[1], e->v1[k] - v[0] - v[1]};
     for (int q = 0; q < 2; q++) {
-        c[q][0] = x[q];
-        c[q][1] = v[q];
-        c[2][q] = last[q];
+        out->x[q][d] = x[q];
+        out->v[q][d] = v[q];
     }
-    for (int q = 3; q < MOTION_TERMS; q++) c[q][0] = c[q][1] = 0.0;
+    out->x[2][d] = e->x1[k] - x[0] - x[1];
+    out->v[2][d] = e->v1[k] - v[0] - v[1];
+    for (int q = 3; q < MOTION_TERMS; q++) out->x[q][d] = 0.0;
+    for (int q = 3; q < MOTION_SLOPES; q++) out->v[q][d] = 0.0;
 }
 
-static inline void write_component(const dense_output *p, dem_index k, motion_component c)
-{
-    const ends e = ends_of(p);
-    if (p->parabolic)
-        write_parabolas(&e, p->t1 - p->t0, k, c);
-    else
-        write_quintic(&e, p->t1 - p->t0, k, c);
-}
-
-void dense_output_motion(const dense_output *p, dem_index i, motion_polynomial *out)
+/* As if no event inside had changed it. */
+static void write_motion(const dense_output *p, const step_length *l, dem_index i, motion_polynomial *out)
 {
     const dem_index k = state_row(&p->layout, i);
+    const ends e = ends_of(p);
     out->from = p->t0;
     out->dim = p->layout.dim;
-    for (int d = 0; d < 2; d++) write_component(p, k + d, out->c[d]);
-    if (out->dim > 2) write_component(p, k + 2, out->c[2]);
+    if (!p->parabolic) {
+        write_quintic(&e, l, k, 0, out);
+        if (out->dim > 2) write_quintic(&e, l, k, 2, out);
+        return;
+    }
+    for (int d = 0; d < out->dim; d++) write_parabolas(&e, l->h, k + d, d, out);
+}
+
+void dense_output_motions(const dense_output *p, dem_index n, const dem_index *nodes, motion_polynomial *out)
+{
+    const step_length l = length_of(p);
+    for (dem_index j = 0; j < n; j++) {
+        if (turned(p, nodes[j]))
+            out[j] = *changed_motion_of(p->changed, nodes[j]);
+        else
+            write_motion(p, &l, nodes[j], &out[j]);
+    }
 }
 
 /* s. Time itself has a rounding of eps t, the interpolant one of eps h. */

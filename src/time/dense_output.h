@@ -44,8 +44,8 @@ static inline void dense_output_velocity(const dense_output *p, double t, dem_in
         dense_output_velocity_inside(p, t, i, out);
 }
 
-/** The motion of a node over the whole step, as if no event inside had changed it. */
-void dense_output_motion(const dense_output *p, dem_index i, motion_polynomial *out);
+/** The motions [n] of nodes: over the whole step, or from the last event inside that has changed it. */
+void dense_output_motions(const dense_output *p, dem_index n, const dem_index *nodes, motion_polynomial *out);
 
 /** The whole state at t into y [2 dim n_rows]. At t0 and t1 it is y0 and y1 to the bit, but for what an event right at
  *  t0 has changed there. */

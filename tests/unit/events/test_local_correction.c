@@ -417,11 +417,11 @@ static void check_parabolas(step *s)
         const motion_polynomial *m = changed_motion_of(&s->changed, i);
         for (int d = 0; d < 2; d++) {
             const double *x1 = s->y1 + 2 * i + d;
-            const double(*c)[2] = m->c[d];
-            assert_close(c[1][1] / s->correction.h, f[n + 2 * i + d], 1e-10 * s->model->omega_max);
-            assert_close(c[0][0] + c[1][0] + c[2][0], x1[0], 1e-16);
-            assert_close(c[0][1] + c[1][1] + c[2][1], x1[n], 1e-13);
-            for (int k = 3; k < MOTION_TERMS; k++) assert_true(c[k][0] == 0.0 && c[k][1] == 0.0);
+            assert_close(m->v[1][d] / s->correction.h, f[n + 2 * i + d], 1e-10 * s->model->omega_max);
+            assert_close(m->x[0][d] + m->x[1][d] + m->x[2][d], x1[0], 1e-16);
+            assert_close(m->v[0][d] + m->v[1][d] + m->v[2][d], x1[n], 1e-13);
+            for (int k = 3; k < MOTION_TERMS; k++) assert_true(m->x[k][d] == 0.0);
+            for (int k = 3; k < MOTION_SLOPES; k++) assert_true(m->v[k][d] == 0.0);
         }
     }
 }
@@ -449,7 +449,7 @@ TEST(prescribed_nodes_keep_their_parabolas)
     go(&s);
     const dem_index k = lower_node(&s, 0.0), i = look_node(&s.c, k), next = node_near(&s, 0.005, 0.0087);
     motion_polynomial expected;
-    dense_output_motion(&s.dense, next, &expected);
+    dense_output_motions(&s.dense, 1, &next, &expected);
     s.b.held[next] = DEM_COMPONENT_Y;
     begin(&s, k, 0.25);
     assert_true(local_nodes_have(&s.correction.near.nodes, next, 1));
@@ -458,9 +458,10 @@ TEST(prescribed_nodes_keep_their_parabolas)
     changed_motion_end_rows(&s.changed);
     const motion_polynomial *m = changed_motion_of(&s.changed, next);
     motion_polynomial_restart(&expected, s.correction.t, s.dense.t1);
-    for (int q = 0; q < MOTION_TERMS; q++) {
-        assert_true(m->c[1][q][0] == expected.c[1][q][0] && m->c[1][q][1] == expected.c[1][q][1]);
-        assert_true(q == 0 || q > 2 || m->c[0][q][1] != expected.c[0][q][1]); /* the other component is free */
+    for (int q = 0; q < MOTION_TERMS; q++) assert_true(m->x[q][1] == expected.x[q][1]);
+    for (int q = 0; q < MOTION_SLOPES; q++) {
+        assert_true(m->v[q][1] == expected.v[q][1]);
+        assert_true(q == 0 || q > 2 || m->v[q][0] != expected.v[q][0]); /* the other component is free */
     }
 }
 

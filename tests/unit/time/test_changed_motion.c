@@ -45,8 +45,8 @@ static motion_polynomial written_from(double from, double end)
     double scale = 1.0;
     for (int k = 0; k < MOTION_TERMS; scale *= (end - from) / ++k)
         for (int c = 0; c < dim; c++) {
-            m.c[c][k][0] = scale * derivative(motions[c], k, from);
-            m.c[c][k][1] = scale * derivative(motions[c], k + 1, from);
+            m.x[k][c] = scale * derivative(motions[c], k, from);
+            if (k < MOTION_SLOPES) m.v[k][c] = scale * derivative(motions[c], k + 1, from);
         }
     return m;
 }
@@ -103,8 +103,10 @@ TEST_IN_BOTH(the_same_motion_can_be_written_from_any_later_time_on)
         motion_polynomial_restart(&later, from, 1.5);
         assert_close(later.from, from, 0.0);
         for (int k = 0; k < MOTION_TERMS; k++)
-            for (int c = 0; c < dim; c++)
-                for (int q = 0; q < 2; q++) assert_close(later.c[c][k][q], expected.c[c][k][q], 1e-13);
+            for (int c = 0; c < dim; c++) {
+                assert_close(later.x[k][c], expected.x[k][c], 1e-13);
+                if (k < MOTION_SLOPES) assert_close(later.v[k][c], expected.v[k][c], 1e-13);
+            }
     }
 }
 
@@ -161,7 +163,8 @@ TEST_IN_BOTH(parabolas_go_through_what_they_are_given)
             for (int q = 0; q <= 2; q++) { /* with h = 2; in the middle x + h v/4 + (change)/4, the same of v with a */
                 const double s = 0.5 * q, x0 = at.x[c], v0 = at.v[c], hv = 2.0 * v0, ha = 2.0 * at.a[c];
                 double x[dim_most], v[dim_most];
-                motion_polynomial_at(&m, s, x, v);
+                motion_polynomial_position(&m, s, x);
+                motion_polynomial_velocity(&m, s, v);
                 assert_true(x[c] == n * (x0 + s * (hv + s * (by.x[c] - hv))));
                 assert_true(v[c] == n * (v0 + s * (ha + s * (by.v[c] - ha))));
             }
@@ -297,11 +300,11 @@ static void add_parts(step *s, bool backwards)
         const int k = backwards ? EVENTS - 1 - e : e;
         changed_motion_part part = {.row = 0, .motion = {.from = 0.01 * k, .dim = dim}};
         for (int c = 0; c < dim; c++) {
-            part.motion.c[c][1][0] = part.end.x[c] = sin(k + c);
-            part.motion.c[c][0][1] = part.end.v[c] = exp(0.1 * k) * cos(k + c);
+            part.motion.x[1][c] = part.end.x[c] = sin(k + c);
+            part.motion.v[0][c] = part.end.v[c] = exp(0.1 * k) * cos(k + c);
             part.end.a[c] = 1.0 / (1.0 + k + c);
         }
-        part.motion.c[0][1][0] = part.motion.c[0][0][1] = part.end.v[0] = 0.0; /* nothing to one of them */
+        part.motion.x[1][0] = part.motion.v[0][0] = part.end.v[0] = 0.0; /* nothing to one of them */
         assert_ok(changed_motion_add(&s->changed, &part));
     }
 }

@@ -146,13 +146,14 @@ TEST(the_motion_of_a_node_is_the_same_as_a_polynomial)
         const int dim = 2 + q / 2;
         make_step(&s, dim, &swing, 0.5, 1.75);
         s.dense.parabolic = q % 2 == 1;
-        dense_output_motion(&s.dense, 1, &m);
+        dense_output_motions(&s.dense, 1, &(dem_index){1}, &m);
         assert_int_equal(m.dim, dim);
         assert_close(m.from, 0.5, 0.0);
         for (double share = 0.05; share < 1.0; share += 0.1) {
             const node_motion expected = motion_at(&s.dense, 0.5 + 1.25 * share, 1);
             node_motion found;
-            motion_polynomial_at(&m, share, found.x, found.v);
+            motion_polynomial_position(&m, share, found.x);
+            motion_polynomial_velocity(&m, share, found.v);
             for (int d = 0; d < dim; d++) {
                 assert_close(found.x[d], expected.x[d], 2e-14);
                 assert_close(found.v[d], expected.v[d], 1e-13);

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Two components of a row at once, in C with the compiler's own vectors of two numbers: the first two, or the third
+ * beside a zero. Every operation rounds as it does for each number alone. */
+#ifndef DEM_BASE_ROW_PAIR_H
+#define DEM_BASE_ROW_PAIR_H
+
+#include <stdint.h>
+
+#include "base/inline.h"
+
+typedef double row_pair __attribute__((vector_size(16)));
+typedef int64_t row_pair_bits __attribute__((vector_size(16)));
+
+/** Components d and d + 1 of a row; from the third on there is one. */
+INLINE row_pair row_pair_at(const double *row, int d)
+{
+    return d < 2 ? (row_pair){row[d], row[d + 1]} : (row_pair){row[d], 0.0};
+}
+
+INLINE void row_pair_put(double *row, int d, row_pair a)
+{
+    row[d] = a[0];
+    if (d < 2) row[d + 1] = a[1];
+}
+
+INLINE row_pair row_pair_absolute(row_pair a)
+{
+    const row_pair_bits all_but_sign = {INT64_MAX, INT64_MAX};
+    return (row_pair)((row_pair_bits)a & all_but_sign);
+}
+
+#endif
