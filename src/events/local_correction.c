@@ -60,17 +60,31 @@ static dem_index components(const local_correction *p, dem_index n)
     return state_row(&p->near.layout, n);
 }
 
-/* The last ring on which accelerations change at a stage. dx_q has dv of the stages before, dv_q has da of them, and
- * da_q depends on dx_q of a node and its neighbours: so the change spreads by one ring in two stages. It begins with
- * ring 1, not 0, because a node may be put back on its surface, which its neighbours feel at once; but with ring 0
- * where an event changes the forces between the seeds alone. Where springs are damped, da_q depends on dv_q of the
- * neighbours too, and every stage brings a ring. At the end of the step accelerations change one ring beyond the last:
- * event_queue.c computes them again. */
-static int reach(const local_correction *p, int stage)
+/* How many rings around ring 0 accelerations change on at a stage. dx_q has dv of the stages before, dv_q has da of
+ * them, and da_q depends on dx_q of a node and its neighbours: so the change spreads by one ring in two stages. It
+ * begins with ring 1, not 0, because a node may be put back on its surface, which its neighbours feel at once; but with
+ * ring 0 where an event changes the forces between the seeds alone. Where springs are damped, da_q depends on dv_q of
+ * the neighbours too, and every stage brings a ring. */
+static int spread(const local_correction *p, int stage)
 {
     const int before = stage == END ? p->table.stages : stage, first = neighbourhood_is_short(&p->near) ? 0 : 1;
-    const int rings = first + (p->near.forces->couple_velocities ? before : before / 2);
+    return first + (p->near.forces->couple_velocities ? before : before / 2);
+}
+
+/* The last ring on which accelerations change at a stage. At the end of the step they change one ring beyond the last
+ * that moves: event_queue.c computes them again. */
+static int reach(const local_correction *p, int stage)
+{
+    const int rings = spread(p, stage);
     return rings < last_ring(p) ? rings : last_ring(p);
+}
+
+/* How many nodes have a dx_q that may be other than 0: one ring less than accelerate otherwise. */
+static dem_index n_moved_at(const local_correction *p, int stage)
+{
+    const int ring = spread(p, stage) - 1;
+    if (ring < 0) return 0;
+    return p->near.nodes.end[ring < last_ring(p) ? ring : last_ring(p)];
 }
 
 /* ---- memory ---- */
@@ -161,6 +175,7 @@ static dem_status add_rates(local_correction *p, int stage, double sign, constra
     const constraints *c = near->constraints;
     const state_layout *l = &near->layout;
     const int ring = reach(p, stage);
+    if (near->n_groups == 0 && !near->forces->have_power) return DEM_OK;
     double totals[STATE_TOTALS + STATE_DIM_MOST] = {0.0}; /* whole rows of them */
     signed_rates at_stage = {p, stage, sign};
     const constraint_rates rates = {&at_stage, add_rate, totals};
@@ -189,21 +204,21 @@ static void put_time(const local_correction *p, const dense_output *step, int st
                           y + state_velocities(&step->layout) + state_row(&step->layout, row));
 }
 
-/* Positions and velocities of the first n nodes at a stage, without the event: of their polynomials at s = c_q. */
-static void fetch_stage(local_correction *p, int stage, dem_index n)
-{
-    const double s = p->table.c[stage];
-    for (dem_index j = 0; j < n; j++) {
-        const dem_index at = components(p, j);
-        motion_polynomial_position(&p->motions[j], s, p->x[stage] + at);
-        motion_polynomial_velocity(&p->motions[j], s, p->v[stage] + at);
-    }
-}
-
-/* Whether anything reads the state of all nodes at a stage: forces other than those of springs, and the quadratures. */
+/* Whether anything reads the state of all nodes at a stage, or velocities: forces other than those of springs and
+ * triangles, and the quadratures. */
 static bool needs_state(const local_correction *p)
 {
     return p->near.forces->read_state || p->near.n_groups > 0 || p->near.forces->have_power;
+}
+
+/* Positions of the first n nodes at a stage, and velocities if anything reads them, without the event: of their
+ * polynomials at s = c_q. */
+static void fetch_stage(local_correction *p, int stage, dem_index n)
+{
+    const double s = p->table.c[stage];
+    for (dem_index j = 0; j < n; j++) motion_polynomial_position(&p->motions[j], s, p->x[stage] + components(p, j));
+    for (dem_index j = 0; j < n && needs_state(p); j++)
+        motion_polynomial_velocity(&p->motions[j], s, p->v[stage] + components(p, j));
 }
 
 /* Accelerations a_q and rates at a stage, without the event. Nodes are fetched one ring beyond those that are
@@ -217,6 +232,25 @@ static dem_status open_stage(local_correction *p, const dense_output *step, int 
     put_time(p, step, stage, y);
     neighbourhood_accelerate(&p->near, reach(p, stage), &s, p->a[stage]);
     return add_rates(p, stage, -1.0, (constraint_state){s.t, y});
+}
+
+/* Whether this waits until the event is resolved. */
+static bool evaluates_late(const local_correction *p, int stage)
+{
+    return p->opens_late && stage != p->last && stage != END;
+}
+
+/* The same where positions are all that matters, right before the stage is evaluated with the event. At the event
+ * itself x_0 is not quite that of the polynomials, see open_start(). */
+static void open_late(local_correction *p, const dense_output *step, int stage)
+{
+    const int ring = reach(p, stage);
+    double *x = stage > 0 ? p->x[stage] : p->changed[0];
+    const local_state s = {.t = stage_time(p, step, stage), .x = x};
+    if (stage > 0) fetch_stage(p, stage, p->near.nodes.end[ring + 1]);
+    for (dem_index j = 0; j < p->near.nodes.end[ring + 1] && stage == 0; j++)
+        state_copy_row(&p->near.layout, x + components(p, j), p->motions[j].x[0]);
+    p->near.forces->accelerate(p->near.forces->self, &p->near.nodes, ring, &s, p->a[stage]);
 }
 
 /* The end of the step, whose state and derivative are known: nothing is evaluated but the external force, whose power
@@ -251,7 +285,10 @@ static void open_start(local_correction *p, const dense_output *step, double *y)
 {
     const local_nodes *nodes = &p->near.nodes;
     const local_state s = {p->t, p->x[0], p->v[0], y};
-    fetch_stage(p, 0, nodes->n);
+    for (dem_index j = 0; j < nodes->n; j++) {
+        state_copy_row(&step->layout, p->x[0] + components(p, j), p->motions[j].x[0]);
+        state_copy_row(&step->layout, p->v[0] + components(p, j), p->motions[j].v[0]);
+    }
     for (dem_index j = 0; j < nodes->end[1]; j++) {
         dense_output_position(step, p->t, nodes->list[j], p->x[0] + components(p, j));
         dense_output_velocity(step, p->t, nodes->list[j], p->v[0] + components(p, j));
@@ -268,7 +305,8 @@ static void find_motions(local_correction *p, const dense_output *step)
     for (dem_index j = 0; j < nodes->n; j++) motion_polynomial_restart(&p->motions[j], p->t, step->t1);
 }
 
-/* The stage at the end of the step needs no evaluation; the others do, the first at t* itself. */
+/* The stage at the end of the step needs no evaluation; the others do, the first at t* itself. Where nothing but
+ * positions matters, and no element changes, they wait until the event is resolved. */
 dem_status local_correction_open(local_correction *p, const dense_output *step, neighbourhood_seeds seeds, double t,
                                  double *state)
 {
@@ -280,7 +318,8 @@ dem_status local_correction_open(local_correction *p, const dense_output *step, 
     TRY(reserve(p, p->near.nodes.n, 0));
     find_motions(p, step);
     TRY(open_end(p, step));
-    for (int stage = 0; stage < p->table.stages; stage++)
+    p->opens_late = p->near.forces->accelerate_moved != NULL && !needs_state(p) && !seeds.by_forces;
+    for (int stage = 0; stage < p->table.stages && !p->opens_late; stage++)
         if (stage != p->last) TRY(open_stage(p, step, stage, state));
     open_start(p, step, state);
     return DEM_OK;
@@ -288,8 +327,8 @@ dem_status local_correction_open(local_correction *p, const dense_output *step, 
 
 /* ---- the change ---- */
 
-/* How many numbers of a change may be other than 0 at a stage: those of the nodes that accelerate otherwise at the
- * stages before it. The event itself moves ring 0 alone, which is among them. */
+/* How many numbers of dv_q may be other than 0: those of the nodes that accelerate otherwise at the stages before. The
+ * event itself moves ring 0 alone, which is among them. */
 static dem_index n_changed_at(const local_correction *p, int stage)
 {
     const int before = stage == END ? p->table.stages - 1 : stage - 1;
@@ -319,12 +358,12 @@ static void advance(local_correction *p, int stage)
 {
     const dem_index n_moves = components(p, n_moving(p)), n_changes = n_changed_at(p, stage);
     const dem_index first = components(p, p->near.nodes.n), last = components(p, p->near.nodes.n + p->n_quadratures);
-    double *const *const rates[] = {p->dv, p->da}, *const *const changes[] = {p->dx, p->dv};
-    for (int k = 0; k < 2; k++) {
-        combine(p, stage, rates[k], changes[k], 0, n_changes);
-        memset(changes[k][stage] + n_changes, 0, (size_t)(n_moves - n_changes) * sizeof(double));
-        if (last > first) combine(p, stage, rates[k], changes[k], first, last);
-    }
+    combine(p, stage, p->dv, p->dx, 0, components(p, n_moved_at(p, stage)));
+    combine(p, stage, p->da, p->dv, 0, n_changes);
+    memset(p->dv[stage] + n_changes, 0, (size_t)(n_moves - n_changes) * sizeof(double));
+    if (last == first) return;
+    combine(p, stage, p->dv, p->dx, first, last);
+    combine(p, stage, p->da, p->dv, first, last);
 }
 
 /* The first n numbers of a state with the change; behind n_changed the change is 0. */
@@ -346,20 +385,34 @@ static void hold_prescribed(local_correction *p, int stage)
     }
 }
 
+/* Accelerations at a stage with the event. Where they have just been evaluated without it, only some nodes have moved
+ * since. */
+static void accelerate_changed(local_correction *p, int stage, const local_state *s)
+{
+    const local_forces *f = p->near.forces;
+    const int ring = reach(p, stage);
+    if (p->near.n_groups == 0 && evaluates_late(p, stage) && stage > 0)
+        f->accelerate_moved(f->self, &p->near.nodes, n_moved_at(p, stage), ring, s, p->changed[2]);
+    else
+        neighbourhood_accelerate(&p->near, ring, s, p->changed[2]);
+}
+
 /* da_q and the change of the rates at a stage, with the event: forces in the state x_q + dx_q, less a_q. Beyond reach()
  * of the stage da_q is 0, without being computed. */
 static dem_status change_stage(local_correction *p, const dense_output *step, int stage, double *y)
 {
     const int at = stage == END ? p->last : stage, ring = reach(p, stage);
     const dem_index n = p->near.nodes.end[ring + 1], n_changed = n < n_moving(p) ? n : n_moving(p);
-    const dem_index size = components(p, n), size_changed = components(p, n_changed);
-    const dem_index accelerated = components(p, p->near.nodes.end[ring]), moving = components(p, n_moving(p));
+    const dem_index size = components(p, n), accelerated = components(p, p->near.nodes.end[ring]);
+    const dem_index moving = components(p, n_moving(p));
     const local_state s = {stage_time(p, step, at), p->changed[0], p->changed[1], y};
-    add_change(p->x[at], p->dx[stage], size, size_changed, p->changed[0]);
-    add_change(p->v[at], p->dv[stage], size, size_changed, p->changed[1]);
-    if (needs_state(p)) neighbourhood_put(&p->near, &s, n, y);
+    add_change(p->x[at], p->dx[stage], size, components(p, n_moved_at(p, stage)), p->changed[0]);
+    if (needs_state(p)) {
+        add_change(p->v[at], p->dv[stage], size, components(p, n_changed), p->changed[1]);
+        neighbourhood_put(&p->near, &s, n, y);
+    }
     put_time(p, step, at, y);
-    neighbourhood_accelerate(&p->near, ring, &s, p->changed[2]);
+    accelerate_changed(p, stage, &s);
     for (dem_index k = 0; k < accelerated; k++) p->da[stage][k] = p->changed[2][k] - p->a[at][k];
     memset(p->da[stage] + accelerated, 0, (size_t)(moving - accelerated) * sizeof(double));
     hold_prescribed(p, stage);
@@ -498,6 +551,7 @@ dem_status local_correction_close(local_correction *p, const dense_output *step,
     for (int stage = 0; stage <= p->table.stages; stage++) {
         const int at = stage < p->table.stages ? stage : END;
         if (stage > 0) advance(p, at);
+        if (evaluates_late(p, at)) open_late(p, step, at);
         TRY(change_stage(p, step, at, state));
     }
     for (dem_index j = 0; j < n_moving(p); j++) TRY(leave(p, tr, j));

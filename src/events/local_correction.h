@@ -27,6 +27,7 @@ typedef struct local_correction {
     butcher_table table;
     int last;                /* stage at the end of the step */
     double t, h;             /* s, of the event; from it to the end of the step */
+    bool opens_late;         /* accelerations without the event are evaluated stage by stage with those with it */
     bool parabolic;          /* the step is interpolated by parabolas, and so is the change */
     dem_index n_quadratures; /* rows of the quadratures that change, behind the nodes of the neighbourhood */
     dem_index capacity;

@@ -160,14 +160,19 @@ static inline vec2 forces_of_elements(const forces *f, dem_index i, const double
     return forces_of_whole_elements(f, NULL, i, x, v);
 }
 
-/** Acceleration of node i with velocity v, m/s^2, by a given force on it, its weight (2) and the drag of its mass. A
- *  fixed node has none. */
-static inline vec2 forces_acceleration_by(const forces *f, dem_index i, vec2 force, vec2 v)
+/** Acceleration of node i, m/s^2, by a given force on it and its weight (2). A fixed node has none. */
+static inline vec2 forces_undamped_acceleration(const forces *f, dem_index i, vec2 force)
 {
     const double inverse_mass = f->model->inverse_mass[i];
     if (inverse_mass == 0.0) return (vec2){0.0, 0.0};
-    const vec2 a = vec2_along((vec2){f->gravity[0], f->gravity[1]}, inverse_mass, force);
-    return vec2_along(a, -f->mass_damping, v);
+    return vec2_along((vec2){f->gravity[0], f->gravity[1]}, inverse_mass, force);
+}
+
+/** The same with the drag of its mass at velocity v. */
+static inline vec2 forces_acceleration_by(const forces *f, dem_index i, vec2 force, vec2 v)
+{
+    if (f->model->inverse_mass[i] == 0.0) return (vec2){0.0, 0.0};
+    return vec2_along(forces_undamped_acceleration(f, i, force), -f->mass_damping, v);
 }
 
 /** The same by the force of its elements, with what boundary conditions give. */

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/grow.h"
-#include "base/inline.h"
+#include "base/row_pair.h"
 #include "base/status.h"
 
 void local_elements_destroy(local_elements *e)
@@ -236,9 +236,9 @@ INLINE void pull(local_elements *e, dem_index n, const double *x, bool by_node)
     const double *restrict pushed = e->pushed, *restrict pulled = e->pulled, *restrict rest_length = e->rest_length;
     double *restrict fx = e->fx, *restrict fy = e->fy, *restrict both = e->both;
     for (dem_index k = 0; k < n; k++) {
-        const vec2 d = vec2_sub(vec2_at(x, e->bonds[k].second), vec2_at(x, e->bonds[k].first));
-        fx[k] = d.x;
-        fy[k] = d.y;
+        const row_pair d = row_pair_at(x + 2 * e->bonds[k].second, 0) - row_pair_at(x + 2 * e->bonds[k].first, 0);
+        fx[k] = d[0];
+        fy[k] = d[1];
     }
     for (dem_index k = 0; k < n; k++) {
         const double length = sqrt(fx[k] * fx[k] + fy[k] * fy[k]), in_tension = pulled[k], under_pressure = pushed[k];
@@ -284,6 +284,12 @@ static void push_coupled(local_elements *e, dem_index n, const double *x)
  * corners may differ by rounding. */
 static const double margin = 1.01;
 
+/* The second where one is not a number; fmin() is a call. */
+static inline double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
 /* How far each coordinate of the corners of a triangle may go without its guard coming on; < 0: it may be on. Where all
  * go by d, its area changes by at most S d + 4 d^2, with S the sum of the sizes of the components of two edges; that is
  * at most 2 S d for d <= S/4. */
@@ -293,14 +299,14 @@ static double leeway_of(const local_guarded *g, const double *x)
     const vec2 u = vec2_sub(vec2_at(x, g->corner[1]), from), w = vec2_sub(vec2_at(x, g->corner[2]), from);
     const double spare = 0.5 * vec2_cross(u, w) - margin * g->onset;
     const double size = fabs(u.x) + fabs(u.y) + fabs(w.x) + fabs(w.y);
-    return spare >= 0.0 ? fmin(0.5 * spare / size, 0.25 * size) : -1.0;
+    return spare >= 0.0 ? smaller(0.5 * spare / size, 0.25 * size) : -1.0;
 }
 
 /* The leeway of all triangles that are asked for so far; nodes are known where they were when they were first. */
 static void find_leeway(local_elements *e, dem_index n_nodes, dem_index n, const double *x)
 {
     for (; e->n_known < n_nodes; e->n_known++) vec2_put(e->known, e->n_known, vec2_at(x, e->n_known));
-    for (; e->n_slack < n; e->n_slack++) e->leeway = fmin(e->leeway, leeway_of(&e->guarded[e->n_slack], e->known));
+    for (; e->n_slack < n; e->n_slack++) e->leeway = smaller(leeway_of(&e->guarded[e->n_slack], e->known), e->leeway);
 }
 
 /* Whether no one of n coordinates has gone further than the leeway: no difference has a sign. Where one is not a number
@@ -330,22 +336,26 @@ static bool are_off(const local_elements *e, dem_index n, const double *x)
     return off;
 }
 
-/* Whether triangles push nothing at the nodes of a ring or nearer. */
-static bool are_slack(local_elements *e, const local_nodes *nodes, int ring, const double *x)
+/* Whether triangles push nothing at the nodes of a ring or nearer, where the first n_moved nodes have moved since the
+ * last time. */
+static bool are_slack(local_elements *e, const local_nodes *nodes, dem_index n_moved, int ring, const double *x)
 {
     const dem_index n = e->places[nodes->end[ring]].guarded, n_nodes = nodes->end[ring + 1];
+    const dem_index n_other = e->were_near && n_moved < n_nodes ? n_moved : n_nodes;
     if (e->forces->model->triangles.area_stiffness_of != NULL) return false;
     find_leeway(e, n_nodes, n, x);
-    return are_near(e, 2 * n_nodes, x) || are_off(e, n, x);
+    e->were_near = are_near(e, 2 * n_other, x);
+    return e->were_near || are_off(e, n, x);
 }
 
 /* ---- sums ---- */
 
 static vec2 force_of_springs(const local_elements *e, dem_index j)
 {
-    vec2 force = {0.0, 0.0};
+    row_pair sum = {0.0, 0.0};
     for (dem_index p = e->places[j].pulls; p < e->places[j + 1].pulls; p++)
-        force = vec2_add(force, vec2_at(e->both, e->pulls[p]));
+        sum += row_pair_at(e->both + 2 * e->pulls[p], 0);
+    vec2 force = {sum[0], sum[1]};
     for (dem_index p = e->places[j].pushes; p < e->places[j + 1].pushes; p++)
         force = vec2_add(force, e->coupled[e->pushes[p] / 3].force[e->pushes[p] % 3]);
     return force;
@@ -366,23 +376,36 @@ static vec2 force_of_triangles(const local_elements *e, dem_index j, dem_index i
 }
 
 /* Where triangles act on a node, their force is added though it is 0, as forces_of_elements() does. */
-void local_elements_push(local_elements *e, const local_nodes *nodes, int ring, const double *x, double *f)
+static void add_up_by_node(local_elements *e, const local_nodes *nodes, dem_index n_moved, int ring, const double *x,
+                           double *f)
 {
-    const dem_index n = nodes->end[ring];
-    const local_places *end = &e->places[n];
-    if (!e->by_node) {
-        pull(e, end->bonds, x, false);
-        add_up_bonds(e, end->bonds, nodes->end[ring + 1], f);
-        return;
-    }
-    pull(e, end->bonds, x, true);
-    push_coupled(e, end->coupled, x);
-    const bool slack = are_slack(e, nodes, ring, x);
+    const bool slack = are_slack(e, nodes, n_moved, ring, x);
     if (!slack && !e->have_corners) list_corners(e, nodes);
-    for (dem_index j = 0; j < n; j++) {
+    for (dem_index j = 0; j < nodes->end[ring]; j++) {
         const bool none = e->places[j].corners == e->places[j + 1].corners;
         vec2 force = force_of_springs(e, j), further = {0.0, 0.0};
         if (!slack) further = force_of_triangles(e, j, nodes->list[j], x);
         vec2_put(f, j, none ? force : vec2_add(force, further));
     }
+}
+
+/* A spring or a coupled triangle is listed at the first of its nodes: where only the first n_moved nodes have moved the
+ * others pull as before. */
+void local_elements_push_moved(local_elements *e, const local_nodes *nodes, dem_index n_moved, int ring,
+                               const double *x, double *f)
+{
+    const dem_index n = nodes->end[ring], n_pulling = n_moved < n ? n_moved : n;
+    if (!e->by_node) {
+        pull(e, e->places[n].bonds, x, false);
+        add_up_bonds(e, e->places[n].bonds, nodes->end[ring + 1], f);
+        return;
+    }
+    pull(e, e->places[n_pulling].bonds, x, true);
+    push_coupled(e, e->places[n_pulling].coupled, x);
+    add_up_by_node(e, nodes, n_moved, ring, x, f);
+}
+
+void local_elements_push(local_elements *e, const local_nodes *nodes, int ring, const double *x, double *f)
+{
+    local_elements_push_moved(e, nodes, nodes->end[ring + 1], ring, x, f);
 }

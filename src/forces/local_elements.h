@@ -53,6 +53,7 @@ typedef struct local_elements {
     int32_t *pushes;            /* of nodes, in that order: 3 coupled + corner */
     double *known;              /* [n_known][2] where nodes were at first, m: */
     dem_index n_known, n_slack; /* of so many of the guarded triangles it is known that they are off */
+    bool were_near;             /* all of them when they were looked at last */
     double leeway;              /* as long as no coordinate is further from these than this, m; < 0: it is not known */
     dem_index room[LOCAL_ELEMENTS_ARRAYS]; /* of the arrays */
 } local_elements;
@@ -70,5 +71,9 @@ void local_elements_destroy(local_elements *e);
 /** Forces, N, of the elements on the nodes of a ring or nearer, f [n][2], at local positions x [n][2] of one ring more,
  *  for which f has room. */
 void local_elements_push(local_elements *e, const local_nodes *nodes, int ring, const double *x, double *f);
+
+/** The same right after it, at positions that only the first n_moved nodes have changed. */
+void local_elements_push_moved(local_elements *e, const local_nodes *nodes, dem_index n_moved, int ring,
+                               const double *x, double *f);
 
 #endif

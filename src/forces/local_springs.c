@@ -89,6 +89,17 @@ static dem_status local_springs_renew(void *self, const local_nodes *nodes)
 
 /* ---- accelerations ---- */
 
+/* Accelerations of n nodes by forces in a, where elements are all that acts between nodes. Velocities are read where
+ * masses are damped. */
+static void accelerate_alone(const forces *f, const local_nodes *nodes, dem_index n, const double *v, double *a)
+{
+    const bool damped = f->mass_damping > 0.0;
+    for (dem_index j = 0; j < n && !damped; j++)
+        vec2_put(a, j, forces_undamped_acceleration(f, nodes->list[j], vec2_at(a, j)));
+    for (dem_index j = 0; j < n && damped; j++)
+        vec2_put(a, j, forces_acceleration_by(f, nodes->list[j], vec2_at(a, j), vec2_at(v, j)));
+}
+
 /* By lists, which read the positions of the local nodes. Where elements are all that acts between nodes, nothing else
  * has to be asked for. */
 static void accelerate_listed(local_springs *b, const local_nodes *nodes, int ring, const local_state *s, double *a)
@@ -96,8 +107,7 @@ static void accelerate_listed(local_springs *b, const local_nodes *nodes, int ri
     const forces *f = b->forces;
     const dem_index n = nodes->end[ring];
     local_elements_push(&b->elements, nodes, ring, s->x, a);
-    for (dem_index j = 0; j < n && b->alone; j++)
-        vec2_put(a, j, forces_acceleration_by(f, nodes->list[j], vec2_at(a, j), vec2_at(s->v, j)));
+    if (b->alone) accelerate_alone(f, nodes, n, s->v, a);
     for (dem_index j = 0; j < n && !b->alone; j++) {
         const dem_index i = nodes->list[j];
         const vec2 own = forces_acceleration_of(f, i, vec2_at(a, j), vec2_at(s->v, j), s->y + b->velocities);
@@ -159,6 +169,14 @@ static void local_springs_accelerate(void *self, const local_nodes *nodes, int r
     move_rigid_bodies(b, nodes, ring, s->y, a);
 }
 
+static void local_springs_accelerate_moved(void *self, const local_nodes *nodes, dem_index n_moved, int ring,
+                                           const local_state *s, double *a)
+{
+    local_springs *b = self;
+    local_elements_push_moved(&b->elements, nodes, n_moved, ring, s->x, a);
+    accelerate_alone(b->forces, nodes, nodes->end[ring], s->v, a);
+}
+
 /* What rounds otherwise, or might, is left out. */
 static bool local_springs_are_exact(const void *self)
 {
@@ -211,6 +229,7 @@ local_forces local_springs_forces(local_springs *b)
                           .gather = local_springs_gather,
                           .renew = local_springs_renew,
                           .accelerate = local_springs_accelerate,
+                          .accelerate_moved = local_springs_accelerate_moved,
                           .evaluate_external = local_springs_evaluate_external,
                           .add_power = local_springs_add_power,
                           .friction_power = forces_have_friction(f) ? local_springs_friction_power : NULL};

@@ -90,7 +90,7 @@ static dem_status take_place(changed_motion *tr, dem_index node)
 dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_polynomial *motion)
 {
     TRY(take_place(tr, node));
-    tr->list[tr->place[node]].motion = *motion;
+    motion_polynomial_copy(&tr->list[tr->place[node]].motion, motion);
     return DEM_OK;
 }
 

@@ -139,6 +139,17 @@ static inline void motion_polynomial_velocity(const motion_polynomial *m, double
     motion_terms_at(m->v, MOTION_SLOPES, m->dim, s, v);
 }
 
+/** Copies the components that there are. */
+static inline void motion_polynomial_copy(motion_polynomial *to, const motion_polynomial *from)
+{
+    to->from = from->from;
+    to->dim = from->dim;
+    for (int d = 0; d < from->dim; d += 2) {
+        for (int k = 0; k < MOTION_TERMS; k++) row_pair_put(to->x[k], d, row_pair_at(from->x[k], d));
+        for (int k = 0; k < MOTION_SLOPES; k++) row_pair_put(to->v[k], d, row_pair_at(from->v[k], d));
+    }
+}
+
 /** Writes the same motion from a later time on. */
 void motion_polynomial_restart(motion_polynomial *m, double from, double end);
 

@@ -275,7 +275,7 @@ void dense_output_motions(const dense_output *p, dem_index n, const dem_index *n
     const step_length l = length_of(p);
     for (dem_index j = 0; j < n; j++) {
         if (turned(p, nodes[j]))
-            out[j] = *changed_motion_of(p->changed, nodes[j]);
+            motion_polynomial_copy(&out[j], changed_motion_of(p->changed, nodes[j]));
         else
             write_motion(p, &l, nodes[j], &out[j]);
     }

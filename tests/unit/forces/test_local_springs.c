@@ -4,6 +4,7 @@
 #include "verification/support.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "forces/local_springs.h"
 
@@ -217,6 +218,31 @@ TEST(a_guard_pushes_from_its_onset_on)
                 triangles_rest_area(t, corner[0], p);
     }
     check_last_ring(&r, 0.0);
+}
+
+/* ---- nodes that have moved ---- */
+
+/* After the first nodes have moved what the others do is as it was: a last time so far that guards push. */
+TEST(where_some_nodes_have_moved_the_others_are_not_evaluated_again)
+{
+    for (int k = 0; k < N_OTHERS - 1; k++) {
+        CLEANUP(close_rig) rig r;
+        open_rig(&r, others[k]);
+        gather(&r, r.layout.n_nodes / 2);
+        const local_state s = {0.0, r.x, r.v, r.y};
+        for (int ring = 0; ring < RINGS; ring++)
+            for (dem_index n = 1; n <= r.nodes.end[RINGS - 1]; n += 3) {
+                double expected[2 * 64];
+                r.near.accelerate(r.near.self, &r.nodes, ring, &s, r.a);
+                for (dem_index c = 0; c < 2 * n; c++) r.x[c] += (n < 16 ? 2e-5 : 3e-4) * sin((double)(7 * c + n));
+                r.near.accelerate_moved(r.near.self, &r.nodes, n, ring, &s, r.a);
+                const dem_index size = 2 * r.nodes.end[ring];
+                assert_true(size <= 128);
+                memcpy(expected, r.a, (size_t)size * sizeof *expected);
+                r.near.accelerate(r.near.self, &r.nodes, ring, &s, r.a);
+                assert_memory_equal(r.a, expected, (size_t)size * sizeof *expected);
+            }
+    }
 }
 
 /* ---- what breaks ---- */
