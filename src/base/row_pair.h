@@ -4,6 +4,7 @@
 #ifndef DEM_BASE_ROW_PAIR_H
 #define DEM_BASE_ROW_PAIR_H
 
+#include <math.h>
 #include <stdint.h>
 
 #include "base/inline.h"
@@ -27,6 +28,13 @@ INLINE row_pair row_pair_absolute(row_pair a)
 {
     const row_pair_bits all_but_sign = {INT64_MAX, INT64_MAX};
     return (row_pair)((row_pair_bits)a & all_but_sign);
+}
+
+INLINE row_pair row_pair_sqrt(row_pair a)
+{
+    double root[2];
+    for (int q = 0; q < 2; q++) root[q] = sqrt(a[q]);
+    return (row_pair){root[0], root[1]};
 }
 
 #endif

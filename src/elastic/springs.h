@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "base/exact_terms.h"
+#include "base/row_pair.h"
 #include "base/vec2.h"
 
 /** Numbers have 32 bits, and what springs have is the lattice's, which is borrowed: rows are a good part of a model. */
@@ -63,6 +64,12 @@ static inline double springs_rate(const dem_lattice *lattice, dem_index k)
 /** Tension over length of a spring, E_ij (d - d0)/(d0 d), N/m: times the vector between its ends it is the force
  *  (1). */
 static inline double springs_pull(double stiffness, double rest_length, double length)
+{
+    return stiffness * (length - rest_length) / (rest_length * length);
+}
+
+/** The same of two springs. */
+INLINE row_pair springs_pull_two(row_pair stiffness, row_pair rest_length, row_pair length)
 {
     return stiffness * (length - rest_length) / (rest_length * length);
 }

@@ -15,9 +15,9 @@
 
 void local_elements_destroy(local_elements *e)
 {
-    void *const arrays[LOCAL_ELEMENTS_ARRAYS] = {e->places,  e->bonds,   e->pushed, e->pulled, e->rest_length,
-                                                 e->fx,      e->fy,      e->both,   e->pulls,  e->corners,
-                                                 e->guarded, e->coupled, e->pushes, e->known};
+    void *const arrays[LOCAL_ELEMENTS_ARRAYS] = {e->places,      e->bonds,   e->pushed, e->pulled,
+                                                 e->rest_length, e->both,    e->pulls,  e->corners,
+                                                 e->guarded,     e->coupled, e->pushes, e->known};
     for (int k = 0; k < LOCAL_ELEMENTS_ARRAYS; k++) free(arrays[k]);
     *e = (local_elements){0};
 }
@@ -51,10 +51,9 @@ static dem_status reserve(local_elements *e, const local_nodes *nodes, slot_coun
 {
     dem_index *room = e->room;
     CHECK(ROOM(places, local_nodes_n_moving(nodes) + 1) && ROOM(bonds, n.springs) && ROOM(pushed, n.springs) &&
-              ROOM(pulled, n.springs) && ROOM(rest_length, n.springs) && ROOM(fx, n.springs) && ROOM(fy, n.springs) &&
-              ROOM(both, 4 * n.springs + 4) && ROOM(pulls, n.springs) && ROOM(corners, n.triangles) &&
-              ROOM(guarded, n.triangles) && ROOM(coupled, n.couplings) && ROOM(pushes, n.couplings) &&
-              ROOM(known, 2 * nodes->n),
+              ROOM(pulled, n.springs) && ROOM(rest_length, n.springs) && ROOM(both, 4 * n.springs + 4) &&
+              ROOM(pulls, n.springs) && ROOM(corners, n.triangles) && ROOM(guarded, n.triangles) &&
+              ROOM(coupled, n.couplings) && ROOM(pushes, n.couplings) && ROOM(known, 2 * nodes->n),
           DEM_ERROR_MEMORY, "out of memory for what is near an event");
     return DEM_OK;
 }
@@ -69,7 +68,7 @@ static void add_bond(local_elements *e, local_places *to, dem_index j, int32_t o
     const springs *s = &e->forces->model->springs;
     const springs_integrity integrity = element_state_springs(e->forces->elements);
     const dem_index k = to->bonds++, spring = s->spring[p];
-    e->bonds[k] = (local_bond){(int32_t)j, other};
+    e->bonds[k] = (local_bond){2 * (int32_t)j, 2 * other};
     e->pushed[k] = springs_left(integrity, spring, 0.0) * s->stiffness_of[spring];
     e->pulled[k] = springs_left(integrity, spring, 1.0) * s->stiffness_of[spring];
     e->rest_length[k] = s->rest_length_of[spring];
@@ -79,7 +78,7 @@ static void add_bond(local_elements *e, local_places *to, dem_index j, int32_t o
 static dem_index find_bond(const local_elements *e, dem_index first, dem_index second)
 {
     dem_index k = e->places[first].bonds;
-    while (e->bonds[k].second != second) k++;
+    while (e->bonds[k].second != 2 * second) k++;
     return k;
 }
 
@@ -96,7 +95,7 @@ static void add_springs(local_elements *e, local_places *to, const local_nodes *
         if (other > j) add_bond(e, to, j, other, p);
         if (!e->by_node) continue;
         const dem_index bond = other > j ? to->bonds - 1 : find_bond(e, other, j);
-        e->pulls[to->pulls++] = (int32_t)(2 * bond + (other < j));
+        e->pulls[to->pulls++] = (int32_t)(4 * bond + (other < j ? 2 : 0));
     }
 }
 
@@ -172,8 +171,8 @@ dem_status local_elements_list(local_elements *e, const local_nodes *nodes, bool
 /* A pull of nothing, behind all bonds: it changes no sum that begins with 0. */
 static int32_t no_pull(local_elements *e, dem_index n)
 {
-    const dem_index pull = 2 * e->places[n].bonds;
-    vec2_put(e->both, pull, (vec2){0.0, 0.0});
+    const dem_index pull = 4 * e->places[n].bonds;
+    e->both[pull] = e->both[pull + 1] = 0.0;
     return (int32_t)pull;
 }
 
@@ -185,7 +184,7 @@ static int32_t pull_of(local_elements *e, dem_index j, dem_index other, dem_inde
     const dem_index k = other > j ? find_bond(e, j, other) : find_bond(e, other, j), spring = s->spring[p];
     e->pushed[k] = springs_left(integrity, spring, 0.0) * s->stiffness_of[spring];
     e->pulled[k] = springs_left(integrity, spring, 1.0) * s->stiffness_of[spring];
-    return (int32_t)(2 * k + (other < j));
+    return (int32_t)(4 * k + (other < j ? 2 : 0));
 }
 
 /* Those of springs that have broken since leave, and the rest stays in order. */
@@ -229,32 +228,31 @@ static void list_corners(local_elements *e, const local_nodes *nodes)
 
 /* ---- forces ---- */
 
-/* Forces (1) of the first n bonds. The pull is the tension over the length: times the vector between the ends it is the
- * force on the first one. `by_node` is a constant wherever this is called. */
-INLINE void pull(local_elements *e, dem_index n, const double *x, bool by_node)
+/* Forces (1) of bonds k and `other`, which may be the same, on both of their ends. The pull is the tension over the
+ * length: times the vector between the ends it is the force on the first one. */
+INLINE void pull_two(local_elements *e, dem_index k, dem_index other, const double *x)
 {
-    const double *restrict pushed = e->pushed, *restrict pulled = e->pulled, *restrict rest_length = e->rest_length;
-    double *restrict fx = e->fx, *restrict fy = e->fy, *restrict both = e->both;
-    for (dem_index k = 0; k < n; k++) {
-        const row_pair d = row_pair_at(x + 2 * e->bonds[k].second, 0) - row_pair_at(x + 2 * e->bonds[k].first, 0);
-        fx[k] = d[0];
-        fy[k] = d[1];
-    }
-    for (dem_index k = 0; k < n; k++) {
-        const double length = sqrt(fx[k] * fx[k] + fy[k] * fy[k]), in_tension = pulled[k], under_pressure = pushed[k];
-        const double stiffness = length > rest_length[k] ? in_tension : under_pressure;
-        const double factor = springs_pull(stiffness, rest_length[k], length), x_part = factor * fx[k];
-        const double y_part = factor * fy[k];
-        if (by_node) {
-            both[4 * k] = x_part;
-            both[4 * k + 1] = y_part;
-            both[4 * k + 2] = -x_part;
-            both[4 * k + 3] = -y_part;
-        } else {
-            fx[k] = x_part;
-            fy[k] = y_part;
-        }
-    }
+    const local_bond *bond[2] = {&e->bonds[k], &e->bonds[other]};
+    const row_pair one = row_pair_at(x + bond[0]->second, 0) - row_pair_at(x + bond[0]->first, 0);
+    const row_pair two = row_pair_at(x + bond[1]->second, 0) - row_pair_at(x + bond[1]->first, 0);
+    const row_pair dx = {one[0], two[0]}, dy = {one[1], two[1]}, length = row_pair_sqrt(dx * dx + dy * dy);
+    const row_pair rest = {e->rest_length[k], e->rest_length[other]};
+    const row_pair pulled = {e->pulled[k], e->pulled[other]}, pushed = {e->pushed[k], e->pushed[other]};
+    const row_pair_bits tension = length > rest;
+    const row_pair stiffness = (row_pair)(((row_pair_bits)pulled & tension) | ((row_pair_bits)pushed & ~tension));
+    const row_pair factor = springs_pull_two(stiffness, rest, length);
+    const row_pair force = factor[0] * one, next = factor[1] * two;
+    row_pair_put(e->both + 4 * k, 0, force);
+    row_pair_put(e->both + 4 * k + 2, 0, -force);
+    row_pair_put(e->both + 4 * other, 0, next);
+    row_pair_put(e->both + 4 * other + 2, 0, -next);
+}
+
+/* Of the first n bonds. */
+static void pull(local_elements *e, dem_index n, const double *x)
+{
+    for (dem_index k = 0; k + 1 < n; k += 2) pull_two(e, k, k + 1, x);
+    if (n % 2 == 1) pull_two(e, n - 1, n - 1, x);
 }
 
 /* In the order of bonds. f has room for one ring more, in which the other ends collect sums that are not whole. */
@@ -262,10 +260,10 @@ static void add_up_bonds(const local_elements *e, dem_index n, dem_index n_nodes
 {
     memset(f, 0, 2 * (size_t)n_nodes * sizeof *f);
     for (dem_index k = 0; k < n; k++) {
-        const local_bond bond = e->bonds[k];
-        const vec2 force = {e->fx[k], e->fy[k]};
-        vec2_put(f, bond.first, vec2_add(vec2_at(f, bond.first), force));
-        vec2_put(f, bond.second, vec2_sub(vec2_at(f, bond.second), force));
+        double *first = f + e->bonds[k].first, *second = f + e->bonds[k].second;
+        const row_pair force = row_pair_at(e->both + 4 * k, 0);
+        row_pair_put(first, 0, row_pair_at(first, 0) + force);
+        row_pair_put(second, 0, row_pair_at(second, 0) - force);
     }
 }
 
@@ -350,11 +348,18 @@ static bool are_slack(local_elements *e, const local_nodes *nodes, dem_index n_m
 
 /* ---- sums ---- */
 
-static vec2 force_of_springs(const local_elements *e, dem_index j)
+static row_pair force_of_springs(const local_elements *e, dem_index j)
 {
+    const int32_t *pull = e->pulls + e->places[j].pulls, *const end = e->pulls + e->places[j + 1].pulls;
     row_pair sum = {0.0, 0.0};
-    for (dem_index p = e->places[j].pulls; p < e->places[j + 1].pulls; p++)
-        sum += row_pair_at(e->both + 2 * e->pulls[p], 0);
+    for (; pull < end; pull++) sum += row_pair_at(e->both + *pull, 0);
+    return sum;
+}
+
+/* Of springs and couplings. */
+static vec2 force_of_bonds(const local_elements *e, dem_index j)
+{
+    const row_pair sum = force_of_springs(e, j);
     vec2 force = {sum[0], sum[1]};
     for (dem_index p = e->places[j].pushes; p < e->places[j + 1].pushes; p++)
         force = vec2_add(force, e->coupled[e->pushes[p] / 3].force[e->pushes[p] % 3]);
@@ -375,16 +380,22 @@ static vec2 force_of_triangles(const local_elements *e, dem_index j, dem_index i
     return force;
 }
 
-/* Where triangles act on a node, their force is added though it is 0, as forces_of_elements() does. */
+/* Where triangles act on a node, their force is added though it may be 0, as forces_of_elements() does. A sum that
+ * begins with 0 does not become -0, and so stays as it is where all of them are 0. */
 static void add_up_by_node(local_elements *e, const local_nodes *nodes, dem_index n_moved, int ring, const double *x,
                            double *f)
 {
-    const bool slack = are_slack(e, nodes, n_moved, ring, x);
-    if (!slack && !e->have_corners) list_corners(e, nodes);
-    for (dem_index j = 0; j < nodes->end[ring]; j++) {
+    const dem_index n = nodes->end[ring];
+    if (are_slack(e, nodes, n_moved, ring, x)) {
+        const bool coupled = e->places[n].pushes > 0;
+        for (dem_index j = 0; j < n && !coupled; j++) row_pair_put(f + 2 * j, 0, force_of_springs(e, j));
+        for (dem_index j = 0; j < n && coupled; j++) vec2_put(f, j, force_of_bonds(e, j));
+        return;
+    }
+    if (!e->have_corners) list_corners(e, nodes);
+    for (dem_index j = 0; j < n; j++) {
         const bool none = e->places[j].corners == e->places[j + 1].corners;
-        vec2 force = force_of_springs(e, j), further = {0.0, 0.0};
-        if (!slack) further = force_of_triangles(e, j, nodes->list[j], x);
+        const vec2 force = force_of_bonds(e, j), further = force_of_triangles(e, j, nodes->list[j], x);
         vec2_put(f, j, none ? force : vec2_add(force, further));
     }
 }
@@ -396,11 +407,11 @@ void local_elements_push_moved(local_elements *e, const local_nodes *nodes, dem_
 {
     const dem_index n = nodes->end[ring], n_pulling = n_moved < n ? n_moved : n;
     if (!e->by_node) {
-        pull(e, e->places[n].bonds, x, false);
+        pull(e, e->places[n].bonds, x);
         add_up_bonds(e, e->places[n].bonds, nodes->end[ring + 1], f);
         return;
     }
-    pull(e, e->places[n_pulling].bonds, x, true);
+    pull(e, e->places[n_pulling].bonds, x);
     push_coupled(e, e->places[n_pulling].coupled, x);
     add_up_by_node(e, nodes, n_moved, ring, x, f);
 }

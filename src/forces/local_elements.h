@@ -6,7 +6,7 @@
 #include "forces/forces.h"
 #include "forces/local_nodes.h"
 
-/** A spring between two local nodes: first < second. */
+/** A spring between two local nodes, first < second: where their rows begin, twice their numbers. */
 typedef struct local_bond {
     int32_t first, second;
 } local_bond;
@@ -35,7 +35,7 @@ typedef struct local_places {
     dem_index bonds, pulls, corners, guarded, coupled, pushes;
 } local_places;
 
-enum { LOCAL_ELEMENTS_ARRAYS = 14 };
+enum { LOCAL_ELEMENTS_ARRAYS = 12 };
 
 typedef struct local_elements {
     const forces *forces;
@@ -43,9 +43,8 @@ typedef struct local_elements {
     local_places *places;                  /* [n + 1] of the n nodes that are accelerated, and of all of them */
     local_bond *bonds;                     /* each is listed at its first node */
     double *pushed, *pulled, *rest_length; /* of bonds: stiffness under pressure and in tension, N; m */
-    double *fx, *fy;                       /* of bonds: force on the first node, N: scratch */
-    double *both;   /* [bonds][2][2] where sums go by node: force on the first node, and on the second: scratch */
-    int32_t *pulls; /* of nodes, in the order of forces_of_elements(): 2 bond, + 1 on its second node */
+    double *both;                          /* [bonds][2][2] force on the first node, and on the second, N: scratch */
+    int32_t *pulls;         /* of nodes, in the order of forces_of_elements(): 4 bond, + 2 on its second node */
     local_corners *corners; /* of nodes, in that order, too; */
     bool have_corners;      /* whether they are listed: where no guard is on nobody asks for them */
     local_guarded *guarded; /* each is listed at the corner with the lowest number, as the following are */
