@@ -30,6 +30,13 @@ INLINE row_pair row_pair_absolute(row_pair a)
     return (row_pair)((row_pair_bits)a & all_but_sign);
 }
 
+/** A sum, and the squares of both added to it one after the other. */
+INLINE double row_pair_add_squares(double sum, row_pair a)
+{
+    const row_pair squares = a * a;
+    return sum + squares[0] + squares[1];
+}
+
 INLINE row_pair row_pair_sqrt(row_pair a)
 {
     double root[2];

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "base/array_ops.h"
+#include "base/row_pair.h"
 #include "base/status.h"
 
 enum { END = LOCAL_CORRECTION_STAGES }; /* the end of the step, behind the stages */
@@ -451,14 +452,14 @@ static void put_change_of_slope(const local_correction *p, dem_index j, const mo
  * would close this gap within the step: after an event from which the acceleration grows from 0 like j t its velocity
  * would be 5 j t^2 too small. That is ten times the true j t^2/2, so a contact that begins to slide would turn back at
  * once. */
-static void add_change_of_node(const local_correction *p, dem_index j, motion_polynomial *motion)
+static void add_change_of_node(const local_correction *p, dem_index j, const motion_change *end,
+                               motion_polynomial *motion)
 {
-    const motion_change end = jump_at(p, END, j);
     const state_layout *l = &p->near.layout;
     motion_change at = jump_at(p, 0, j), by;
-    state_subtract_rows(l, by.x, end.x, at.x);
-    state_subtract_rows(l, by.v, end.v, at.v);
-    state_subtract_rows(l, by.a, end.a, at.a);
+    state_subtract_rows(l, by.x, end->x, at.x);
+    state_subtract_rows(l, by.v, end->v, at.v);
+    state_subtract_rows(l, by.a, end->a, at.a);
     if (p->parabolic && j < p->near.nodes.end[reach(p, 0)]) put_change_of_slope(p, j, motion, at.a);
     (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
 }
@@ -468,7 +469,7 @@ static dem_status leave(const local_correction *p, changed_motion *tr, dem_index
 {
     const motion_change end = jump_at(p, END, j);
     const dem_index node = p->near.nodes.list[j];
-    add_change_of_node(p, j, &p->motions[j]);
+    add_change_of_node(p, j, &end, &p->motions[j]);
     TRY(changed_motion_set(tr, node, &p->motions[j]));
     changed_motion_move_end(tr, node, &end);
     return DEM_OK;
@@ -479,7 +480,7 @@ static dem_status leave_quadrature(const local_correction *p, changed_motion *tr
 {
     const dem_index j = p->near.nodes.n + b;
     changed_motion_part part = {p->rows[b], {.from = p->t, .dim = p->near.layout.dim}, jump_at(p, END, j)};
-    add_change_of_node(p, j, &part.motion);
+    add_change_of_node(p, j, &part.end, &part.motion);
     return changed_motion_add(tr, &part);
 }
 
@@ -492,15 +493,17 @@ static double squared_error(const local_correction *p)
     const double n_unknowns = 2.0 * (double)components(p, p->near.layout.n_nodes);
     double weights[LOCAL_CORRECTION_STAGES], x_sum = 0.0, v_sum = 0.0;
     for (int q = 0; q < p->table.stages; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
-    for (dem_index k = 0; k < components(p, n_moving(p)); k++) {
-        double x = 0.0, v = 0.0;
-        for (int q = 0; q < p->table.stages; q++) {
-            x += weights[q] * p->dv[q][k];
-            v += weights[q] * p->da[q][k];
+    for (dem_index j = 0; j < n_moving(p); j++)
+        for (int d = 0; d < p->near.layout.dim; d += 2) {
+            const dem_index at = components(p, j);
+            row_pair x = {0.0, 0.0}, v = {0.0, 0.0};
+            for (int q = 0; q < p->table.stages; q++) {
+                x += weights[q] * row_pair_at(p->dv[q] + at, d);
+                v += weights[q] * row_pair_at(p->da[q] + at, d);
+            }
+            x_sum = row_pair_add_squares(x_sum, x);
+            v_sum = row_pair_add_squares(v_sum, v);
         }
-        x_sum += x * x;
-        v_sum += v * v;
-    }
     const double x_scale = p->rule.position_error, v_scale = p->rule.velocity_error;
     return (x_sum / (x_scale * x_scale) + v_sum / (v_scale * v_scale)) / n_unknowns;
 }

@@ -69,9 +69,11 @@ static void add_bond(local_elements *e, local_places *to, dem_index j, int32_t o
     const springs_integrity integrity = element_state_springs(e->forces->elements);
     const dem_index k = to->bonds++, spring = s->spring[p];
     e->bonds[k] = (local_bond){2 * (int32_t)j, 2 * other};
-    e->pushed[k] = springs_left(integrity, spring, 0.0) * s->stiffness_of[spring];
-    e->pulled[k] = springs_left(integrity, spring, 1.0) * s->stiffness_of[spring];
     e->rest_length[k] = s->rest_length_of[spring];
+    e->pushed[k] = e->pulled[k] = s->stiffness_of[spring];
+    if (integrity.pushed == NULL) return;
+    e->pushed[k] *= springs_left(integrity, spring, 0.0);
+    e->pulled[k] *= springs_left(integrity, spring, 1.0);
 }
 
 /* The bond that is listed at a node with this one as its second. */
