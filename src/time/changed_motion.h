@@ -21,9 +21,12 @@ typedef struct motion_polynomial {
     double x[MOTION_TERMS][STATE_DIM_MOST], v[MOTION_SLOPES][STATE_DIM_MOST]; /* [][dim] m, m/s */
 } motion_polynomial;
 
-/** Change of a state at one node: of position, velocity and acceleration. */
+/** Change of a state at one node: of position, velocity and acceleration. Two components of each are written and read
+ *  together: without the alignment compilers write across the ends of rows, and to read a pair then has to wait. */
 typedef struct motion_change {
-    double x[STATE_DIM_MOST], v[STATE_DIM_MOST], a[STATE_DIM_MOST];
+    _Alignas(16) double x[STATE_DIM_MOST];
+    _Alignas(16) double v[STATE_DIM_MOST];
+    _Alignas(16) double a[STATE_DIM_MOST];
 } motion_change;
 
 /** A node, or a row of quadratures, that has been changed, and its end of the step before that. */
