@@ -209,7 +209,8 @@ static void put_time(const local_correction *p, const dense_output *step, int st
  * triangles, and the quadratures. */
 static bool needs_state(const local_correction *p)
 {
-    return p->near.forces->read_state || p->near.n_groups > 0 || p->near.forces->have_power;
+    const local_forces *f = p->near.forces;
+    return p->near.n_groups > 0 || f->have_power || (f->read_state != NULL && f->read_state(f->self));
 }
 
 /* Positions of the first n nodes at a stage, and velocities if anything reads them, without the event: of their

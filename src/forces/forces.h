@@ -134,6 +134,14 @@ static inline bool forces_next_neighbour(forces_neighbours *n)
     return surface_contact_next_neighbour(&n->surface, &n->node);
 }
 
+/** Whether these are the other ends of the springs of node i alone, all of which are whole. */
+static inline bool forces_neighbours_are_ends(const forces *f, dem_index i)
+{
+    const int32_t *t = f->model->triangles.row + i;
+    return element_state_at(f->elements, i) == NULL && (f->model->edges_are_springs || t[0] == t[1]) &&
+           !surface_contact_has(f->surfaces, i);
+}
+
 /* ---- accelerations ---- */
 
 /* Force of the elements that are whole. `state` is NULL if all are: as a constant, so that compilers drop the tests. */

@@ -18,8 +18,7 @@ typedef struct local_forces {
     void *self;
     bool couple_velocities;    /* the force on a node depends on the velocities of its neighbours */
     bool are_driven;           /* the forces depend on time, which they read from the state of all nodes */
-    bool read_state;           /* they read positions and velocities from the state of all nodes, too */
-    bool have_power;           /* add_power() may add something; without it and read_state they read no velocities */
+    bool have_power;           /* add_power() may add something */
     const unsigned char *held; /* [n_nodes] components of the motion that are prescribed; NULL: none are */
     /** Called before the first event of a step changes its motion from state y0 to state y1. */
     dem_status (*begin_step)(const void *self, const double *y0, const double *y1);
@@ -34,8 +33,11 @@ typedef struct local_forces {
     /** Computes the accelerations a [n][dim] of the nodes of a ring or nearer, in a state that is filled as far as the
      *  next ring. */
     void (*accelerate)(void *self, const local_nodes *nodes, int ring, const local_state *s, double *a);
-    /** The same right after it for another state, in which only the first n_moved nodes have moved, where there is neither
-     *  read_state nor have_power. NULL: it cannot be done. */
+    /** Whether these also read positions and velocities from the state of all nodes, of those that were gathered last.
+     *  Otherwise, and without have_power, they depend on positions alone. NULL: they do not. */
+    bool (*read_state)(const void *self);
+    /** The same right after it for another state, in which only the first n_moved nodes have moved, where it depends on
+     *  positions alone. NULL: it cannot be done. */
     void (*accelerate_moved)(void *self, const local_nodes *nodes, dem_index n_moved, int ring, const local_state *s,
                              double *a);
     /** Whether these have the bits of accelerate_one() for the nodes that were gathered last. */

@@ -40,13 +40,23 @@ static dem_status add_node(const forces *f, local_nodes *nodes, dem_index node)
     return DEM_OK;
 }
 
+/* Adds every node on which the force on one node depends. */
+static dem_status add_neighbours_of(const forces *f, local_nodes *nodes, dem_index i)
+{
+    const springs *s = &f->model->springs;
+    if (f->model->rigid.n == 0 && forces_neighbours_are_ends(f, i)) {
+        for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) TRY(local_nodes_add(nodes, s->neighbour[p]));
+        return DEM_OK;
+    }
+    for (forces_neighbours j = forces_neighbours_of(f, i); forces_next_neighbour(&j);) TRY(add_node(f, nodes, j.node));
+    return DEM_OK;
+}
+
 /* Adds every node on which the force on one of the nodes `first` to `last` - 1 depends: one ring. */
 static dem_status local_springs_add_neighbours(const void *self, local_nodes *nodes, dem_index first, dem_index last)
 {
     const forces *f = ((const local_springs *)self)->forces;
-    for (dem_index p = first; p < last; p++)
-        for (forces_neighbours j = forces_neighbours_of(f, nodes->list[p]); forces_next_neighbour(&j);)
-            TRY(add_node(f, nodes, j.node));
+    for (dem_index p = first; p < last; p++) TRY(add_neighbours_of(f, nodes, nodes->list[p]));
     return DEM_OK;
 }
 
@@ -76,6 +86,7 @@ static dem_status local_springs_gather(void *self, const local_nodes *nodes)
     local_springs *b = self;
     TRY(reserve_rigid(b));
     const bool apart = are_apart(b->forces, nodes);
+    b->reads_state = !apart || forces_couple_velocities(b->forces) || b->forces->model->rigid.n > 0;
     b->alone = apart && !forces_push(b->forces) && !forces_couple_velocities(b->forces);
     if (forces_couple_velocities(b->forces)) return DEM_OK;
     return local_elements_list(&b->elements, nodes, !(apart && forces_are_plain(b->forces)));
@@ -177,6 +188,11 @@ static void local_springs_accelerate_moved(void *self, const local_nodes *nodes,
     accelerate_alone(b->forces, nodes, nodes->end[ring], s->v, a);
 }
 
+static bool local_springs_read_state(const void *self)
+{
+    return ((const local_springs *)self)->reads_state;
+}
+
 /* What rounds otherwise, or might, is left out. */
 static bool local_springs_are_exact(const void *self)
 {
@@ -219,7 +235,7 @@ local_forces local_springs_forces(local_springs *b)
     return (local_forces){.self = b,
                           .couple_velocities = forces_couple_velocities(f),
                           .are_driven = forces_are_driven(f),
-                          .read_state = forces_couple_velocities(f) || f->surfaces != NULL || f->model->rigid.n > 0,
+                          .read_state = local_springs_read_state,
                           .have_power = forces_have_power(f),
                           .held = f->boundaries != NULL ? f->boundaries->held : NULL,
                           .begin_step = local_springs_begin_step,

@@ -12,6 +12,7 @@ typedef struct local_springs {
     local_elements elements; /* near the nodes gathered last */
     dem_index velocities;    /* where they begin in a state */
     bool alone;              /* elements are all that acts between these, and nothing is given */
+    bool reads_state;        /* accelerations of these depend on the state of all nodes, too */
     double *rigid;           /* [n_nodes][2] m/s^2, scratch; NULL until rigid bodies need it */
 } local_springs;
 
