@@ -193,10 +193,10 @@ bool automaton_project(automaton *c, double t, double *y)
         impact_group_stop(s, group, &now);
         any = true;
     }
+    if (!reduce_any(s->scene.model->ranks, any)) return false;
     s->projected = reduce_max(s->scene.model->ranks, s->projected);
-    any = reduce_any(s->scene.model->ranks, any);
-    if (any) c->solved = NAN;
-    return any;
+    c->solved = NAN;
+    return true;
 }
 
 /* After a whole step the forces are known from its last evaluation; after a cut one they are solved for. */

@@ -29,6 +29,7 @@ dem_status event_queue_create(event_queue *out, const event_queue_parts *parts)
                          .forces = f,
                          .constraints = c,
                          .sources = parts->sources,
+                         .happens = parts->happens,
                          .most = parts->controlled ? 1.0 : (double)INFINITY};
     dem_status status = changed_motion_create(&out->changed, l);
     if (status == DEM_OK) status = local_nodes_create(&out->renewed, l->n_nodes, 0);
@@ -86,7 +87,7 @@ void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f
     step->changed = &q->changed;
     q->step = step;
     q->state = state;
-    q->quiet = false;
+    q->quiet = !q->happens;
     look_ahead(q);
 }
 
@@ -276,15 +277,14 @@ double event_queue_reach(const event_queue *q)
     return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
 }
 
-/* Resolves the events up to t, or goes back to t. A step without events (quiet) has nothing to take back. Resolution
+/* Resolves the events up to t, or goes back to t. In a step without events (quiet) there is nothing to do. Resolution
  * ends at t, or with an event whose error alone exceeds what is allowed: the caller then rejects the step. That the sum
  * exceeds it does not end it, as the sum of a part of the events depends on their order where that is of no account. A
  * failure is reported with its time, so that among several processes the earliest would count. */
 dem_status event_queue_show(event_queue *q, double t)
 {
-    const bool goes_back = t < q->now;
-    if (goes_back && q->quiet) return DEM_OK;
-    if (goes_back) {
+    if (q->quiet) return DEM_OK;
+    if (t < q->now) {
         event_queue_undo(q);
         look_ahead(q);
     }
@@ -292,9 +292,10 @@ dem_status event_queue_show(event_queue *q, double t)
     due_event due;
     while (status == DEM_OK && (due = next_of(q)).source != NULL && due.at.t <= t && !q->exceeded)
         status = take(q, &due);
-    TRY(reduce_status(q->ranks, status, q->now));
+    const bool any = reduce_any(q->ranks, q->n_taken > 0 || status != DEM_OK);
+    if (any) TRY(reduce_status(q->ranks, status, q->now));
     q->now = t;
     if (t < q->step->t1) return DEM_OK;
-    q->quiet = !reduce_any(q->ranks, q->n_taken > 0);
+    q->quiet = !any;
     return q->quiet || q->settled ? DEM_OK : settle_end(q);
 }

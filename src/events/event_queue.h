@@ -23,7 +23,8 @@ typedef struct event_queue {
     double *state;            /* [2 dim n_rows] scratch, the caller's */
     double now;               /* s, events until here are resolved */
     bool settled;             /* the end of the step is put right: contacts, derivative */
-    bool quiet;               /* nothing happens in the step */
+    bool happens;             /* whether there may be events at all */
+    bool quiet;               /* nothing happens in the step, on any rank */
     exact_sum error;          /* of all local corrections, squared */
     exact_sum ahead;          /* what it would be if the events had come right at the start of the step, squared */
     double most;              /* of `error`; beyond it the step is rejected */
@@ -43,6 +44,7 @@ typedef struct event_queue_parts {
     const constraints *constraints; /* NULL: none */
     const source_list *sources;
     local_correction_rule rule;
+    bool happens;    /* whether there may be events of any source, on any rank */
     bool controlled; /* a step is rejected for an error above 1 */
 } event_queue_parts;
 

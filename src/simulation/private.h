@@ -134,4 +134,10 @@ static inline bool run_is_local(const dem_simulation *s)
     return s->options.contact == DEM_CONTACT_LOCAL;
 }
 
+/* Whether there were events inside the step in hand, on any rank; none with `exact`. */
+static inline bool run_had_events(const dem_simulation *s)
+{
+    return run_is_local(s) && !s->queue.quiet;
+}
+
 #endif

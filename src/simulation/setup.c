@@ -100,6 +100,7 @@ static dem_status set_up_queue(dem_simulation *s)
                                                    .constraints = &s->closed_contacts,
                                                    .sources = &s->sources,
                                                    .rule = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale},
+                                                   .happens = s->model->obstacles.n > 0 || run_may_break(s),
                                                    .controlled = !(o->fixed_step > 0.0)});
 }
 

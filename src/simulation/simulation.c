@@ -81,6 +81,7 @@ static dem_status report_one_break(dem_simulation *s)
 static dem_status report_events(dem_simulation *s, double t)
 {
     dem_status status = DEM_OK;
+    if (!run_had_events(s)) return DEM_OK;
     if (!observers_want_events(&s->observers)) s->n_reported = s->n_inside;
     if (!observers_want_breaks(&s->observers)) s->n_known = s->n_broken;
     while (fmin(next_event(s), next_break(s)) <= t) {
@@ -327,6 +328,7 @@ static dem_status resolve_event(dem_simulation *s)
 static dem_status release_orphans(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
+    if (s->model->obstacles.n == 0) return DEM_OK;
     return reduce_status(s->model->ranks, automaton_release_orphans(&s->automaton, s->t, s->y, &listener), 0.0);
 }
 
@@ -337,7 +339,7 @@ static dem_status release_orphans(dem_simulation *s)
 static dem_status go_on_changed(dem_simulation *s, bool moved)
 {
     if (run_is_local(s)) TRY(integrator_bound(&s->integrator, event_queue_reach(&s->queue)));
-    const bool changed = reduce_any(s->model->ranks, s->queue.n_taken > 0 || s->model->rigid.n > 0);
+    const bool changed = run_had_events(s) || s->model->rigid.n > 0;
     if (moved || changed) body_contact_begin_anew(s);
     if (moved) return integrator_restart(&s->integrator, s->t, s->y);
     return changed ? integrator_resume(&s->integrator) : DEM_OK;
@@ -346,7 +348,13 @@ static dem_status go_on_changed(dem_simulation *s, bool moved)
 /* Events compute the derivative at the end again node by node, and not that of a rigid body. */
 static bool events_moved_rigid(const dem_simulation *s)
 {
-    return reduce_any(s->model->ranks, s->model->rigid.n > 0 && s->queue.n_taken > 0);
+    return s->model->rigid.n > 0 && run_had_events(s);
+}
+
+/* Whether elements may have broken in the step, on any rank: as events, or with `exact` at its end. */
+static bool may_have_broken(const dem_simulation *s)
+{
+    return run_may_break(s) && (run_had_events(s) || !run_is_local(s));
 }
 
 /* Reports the events left in the step, takes the queue to its end, as observers may have left it at an earlier time,
@@ -356,15 +364,16 @@ static dem_status commit_step(dem_simulation *s)
     TRY(report_events(s, s->path.t1));
     if (run_is_local(s)) TRY(stop_if_force_failed(s, event_queue_show(&s->queue, s->path.t1)));
     if (s->at_event) TRY(take_rollback(s));
-    TRY(reduce_status(s->model->ranks, breaking_end_step(s), 0.0));
+    const bool breaks = may_have_broken(s);
+    if (breaks) TRY(reduce_status(s->model->ranks, breaking_end_step(s), 0.0));
     /* From here on the end of the step is the state: y and t. */
-    const bool broken = reduce_any(s->model->ranks, fracture_source_has_broken(&s->breaks));
-    const bool failed = reduce_any(s->model->ranks, fracture_source_has_failed(&s->breaks));
+    const bool broken = breaks && reduce_any(s->model->ranks, fracture_source_has_broken(&s->breaks));
+    const bool failed = breaks && reduce_any(s->model->ranks, fracture_source_has_failed(&s->breaks));
     const bool moved = settle_step(s), paused = pausing_end_step(s, broken);
     body_contact_end_step(s);
     TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
-    s->events += reduce_count(s->model->ranks, s->queue.n_taken) + s->at_break;
+    s->events += (run_had_events(s) ? reduce_count(s->model->ranks, s->queue.n_taken) : 0) + s->at_break;
     TRY(go_on_changed(s, moved || failed || paused || s->outgrown || events_moved_rigid(s)));
     dem_status reported = report_own_breaks(s, s->n_broken);
     reported = status_first(reported, release_orphans(s));

@@ -132,6 +132,7 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     assert_ok(contact_source_create(&source, &c));
     assert_ok(source_list_add(&sources, contact_source_events(&source)));
     assert_ok(event_queue_create(&q, &(event_queue_parts){.ranks = &ranks_alone,
+                                                          .happens = true,
                                                           .layout = &p->rule.layout,
                                                           .forces = &near,
                                                           .constraints = &closed,

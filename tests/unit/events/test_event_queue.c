@@ -67,6 +67,7 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
                                                              .constraints = &r->closed,
                                                              .sources = &r->sources,
                                                              .rule = {4, tolerance[0], tolerance[1]},
+                                                             .happens = true,
                                                              .controlled = error != NULL}));
 }
 
@@ -425,7 +426,8 @@ static void open_kicked_chain(kicked_chain *s, int dim, const int *axes, const c
                                                              .forces = &c->forces,
                                                              .constraints = held,
                                                              .sources = &s->list,
-                                                             .rule = {5, 1.0, 1.0}}));
+                                                             .rule = {5, 1.0, 1.0},
+                                                             .happens = true}));
     event_queue_start(&s->q, &c->step, c->y1, c->f1, c->state);
 }
 
