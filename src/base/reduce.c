@@ -23,8 +23,7 @@ double reduce_min(const ranks *r, double own)
 static void join_max(void *packet, const void *other)
 {
     double *const own = packet;
-    const double theirs = *(const double *)other;
-    if (!(theirs <= *own) && *own == *own) *own = theirs;
+    *own = reduce_larger(*own, *(const double *)other);
 }
 
 double reduce_max(const ranks *r, double own)

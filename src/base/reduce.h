@@ -18,6 +18,13 @@ double reduce_min(const ranks *r, double own);
 
 /** NAN is larger than any number. */
 double reduce_max(const ranks *r, double own);
+
+/** The larger of two as reduce_max() has it. */
+static inline double reduce_larger(double a, double b)
+{
+    return !(b <= a) && a == a ? b : a;
+}
+
 bool reduce_any(const ranks *r, bool own);
 
 /** The sum of counts; each item is counted by one rank. */

@@ -6,6 +6,7 @@
 
 #include "base/reduce.h"
 #include "base/state.h"
+#include "base/status.h"
 #include "base/team.h"
 #include "contact/contact_source.h"
 #include "domain/halo.h"
@@ -32,6 +33,14 @@ typedef struct run_measures {
     dem_surfaces surfaces;
 } run_measures;
 
+/* What observers of this rank have returned for steps, not DEM_OK, about which ranks tell each other at the end of the
+ * next attempt. */
+typedef struct run_stop {
+    dem_status status;
+    char message[STATUS_MESSAGE_SIZE];
+    bool is_known; /* that there is such a status on some rank */
+} run_stop;
+
 /** Flags say where a run is:
  *  - not `started`: the contacts of the initial motion, or of one that was set, have still to be taken up;
  *  - between steps: y is the state at t, which the integrator starts from next;
@@ -44,6 +53,8 @@ struct dem_simulation {
     state_layout layout; /* of y */
     ode_domain shared;   /* of a model that ranks share */
     halo halo;           /* likewise, of its ghosts */
+    run_stop stop;       /* what observers have asked for, where ranks share the model */
+    double culprit;      /* the first node here whose derivative was not finite, by its number in the whole */
     team *team;          /* for loops over nodes; NULL: they run in the caller alone */
     boundary_conditions boundaries;
     external_force *external;  /* NULL: none */
@@ -103,11 +114,18 @@ struct dem_simulation {
     observers observers;
 };
 
-/* Whether a function of the caller has failed: the external force, or the motion of an obstacle. */
+/* Whether a function of the caller has failed on this rank: the external force, or the motion of an obstacle. */
+static inline bool run_own_force_failed(const dem_simulation *s)
+{
+    if (s->external == NULL && !s->model->obstacles.is_asked) return false;
+    return external_force_failed(s->external) || surface_failed(&s->automaton.set.scene);
+}
+
+/* The same on any rank. */
 static inline bool run_force_failed(const dem_simulation *s)
 {
     if (s->external == NULL && !s->model->obstacles.is_asked) return false;
-    return reduce_any(s->model->ranks, external_force_failed(s->external) || surface_failed(&s->automaton.set.scene));
+    return reduce_any(s->model->ranks, run_own_force_failed(s));
 }
 
 /* The status and message of that failure, which is over then. */

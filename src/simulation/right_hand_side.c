@@ -22,18 +22,20 @@ static dem_index find_culprit(const state_layout *l, const double *y, const doub
     return -1;
 }
 
-/* The message for a derivative that is not finite: the first node, of all ranks, and where it is. */
-static dem_status name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
+/* Sets the message for a derivative that is not finite: which node it is, and where.  \return its number in the whole;
+ * infinity if there is none */
+static double name_culprit(const dem_simulation *s, double t, const double *y, const double *a)
 {
     const dem_index i = find_culprit(&s->layout, y, a);
-    if (i < 0) return reduce_status(s->model->ranks, DEM_OK, 0.0);
+    if (i < 0) {
+        (void)status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
+        return INFINITY;
+    }
     const double *x = state_x(&s->layout, y, i);
     const dem_index number = domain_number(s->model->domain, i);
-    return reduce_status(s->model->ranks,
-                         status_fail(DEM_ERROR_INTEGRATOR,
-                                     "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s",
-                                     (long long)number, x[0], x[1], t),
-                         (double)number);
+    (void)status_fail(DEM_ERROR_INTEGRATOR, "force or velocity of node %lld is not finite at (%g, %g) m, t = %.9g s",
+                      (long long)number, x[0], x[1], t);
+    return (double)number;
 }
 
 /* Rates of the quadratures, behind the accelerations of the nodes, as long as nothing acts that they are of: only the
@@ -60,25 +62,59 @@ static void fill_rates(dem_simulation *s, double t, const double *y, double *a, 
     a[state_total_index(l, STATE_WORK)] = work;
 }
 
-/* Judges accelerations by the sum of their terms. Where the contact of bodies has failed, that has its own message.
+/* Judges accelerations of this rank by the sum of their terms. Where the contact of bodies has failed, that has its own
+ * message.
  *   \return 0; 1 if something is not finite; 2 if what no shorter step mends: the external force has failed, or there
  *   was no memory for the contact of bodies */
-static int judge(const dem_simulation *s, double t, const double *y, const double *a, double sum)
+static int judge(dem_simulation *s, double t, const double *y, const double *a, double sum)
 {
     const dem_status of_contact = body_contact_failure(s);
-    if (run_force_failed(s) || of_contact == DEM_ERROR_MEMORY) return 2;
-    if (!reduce_any(s->model->ranks, !isfinite(sum))) return 0;
-    if (of_contact == DEM_OK && name_culprit(s, t, y, a) == DEM_OK)
-        (void)status_fail(DEM_ERROR_INTEGRATOR, "forces overflow at t = %.9g s", t);
+    if (run_own_force_failed(s) || of_contact == DEM_ERROR_MEMORY) return 2;
+    if (isfinite(sum)) return 0;
+    s->culprit = of_contact == DEM_OK ? name_culprit(s, t, y, a) : 0.0;
     return 1;
 }
 
-void right_hand_side_fill_ghosts(double *y, void *context)
+/* ---- ranks ---- */
+
+static void fill_ghosts(double *y, void *context)
 {
     dem_simulation *s = context;
     double *const arrays[] = {y, y + state_velocities(&s->layout)};
     halo_exchange(&s->halo, arrays, forces_couple_velocities(&s->forces) ? 2 : 1);
 }
+
+/* A rank whose derivative has failed evaluates no other until all ranks know: the message is still that. */
+static void name_failure(bool is_first, void *context)
+{
+    const dem_simulation *s = context;
+    (void)reduce_status(s->model->ranks, is_first ? DEM_ERROR_INTEGRATOR : DEM_OK, s->culprit);
+}
+
+static bool wants_stop(void *context)
+{
+    return ((const dem_simulation *)context)->stop.status != DEM_OK;
+}
+
+static void stop(void *context)
+{
+    ((dem_simulation *)context)->stop.is_known = true;
+}
+
+ode_domain right_hand_side_domain(const dem_simulation *s)
+{
+    const dem_model *model = s->model;
+    return (ode_domain){.ranks = model->ranks,
+                        .whole = state_layout_of(s->layout.dim, model->domain->n_whole, model->obstacles.n,
+                                                 state_has_total(&s->layout, STATE_OBSTACLE)),
+                        .is_own = model->domain->is_own,
+                        .fill_ghosts = fill_ghosts,
+                        .name_failure = name_failure,
+                        .wants_stop = wants_stop,
+                        .stop = stop};
+}
+
+/* ---- the derivative ---- */
 
 /* f = (u, a) of y = (x, v): u = v, m a = F(x, v) + m g + what closed contacts hold, (3) and (4); prescribed components
  * are given. Constraints follow the free accelerations, which they change. `sum` is finite only if all accelerations
@@ -169,8 +205,7 @@ static double root_function(const dense_output *step, void *context)
 static double stiffening(const double *y, bool is_known, void *context)
 {
     dem_simulation *s = context;
-    return reduce_max(s->model->ranks,
-                      body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y, is_known));
+    return body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y, is_known);
 }
 
 /* Steps of bands, and fused ones, compute what is next to ghosts before these are known: ranks that share a model take

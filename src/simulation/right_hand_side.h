@@ -9,8 +9,8 @@
 /** The problem of a simulation whose kernel and contacts are set up. Borrows the simulation. */
 ode_problem right_hand_side_problem(dem_simulation *s);
 
-/** Puts into a state of the simulation, `context`, what other ranks have of it: positions, and velocities where forces
- *  depend on those of neighbours. Collective. */
-void right_hand_side_fill_ghosts(double *y, void *context);
+/** What the integrator needs of the domain of a model that ranks share. Of ghosts positions are exchanged, and
+ *  velocities where forces depend on those of neighbours. */
+ode_domain right_hand_side_domain(const dem_simulation *s);
 
 #endif

@@ -130,12 +130,7 @@ static dem_status check_shared(const dem_simulation *s)
 static dem_status set_up_domain(dem_simulation *s)
 {
     const dem_model *model = s->model;
-    const bool obstacles_move = model->obstacles.bounds.speed > 0.0;
-    s->shared = (ode_domain){
-        .ranks = model->ranks,
-        .whole = state_layout_of(s->layout.dim, model->domain->n_whole, model->obstacles.n, obstacles_move),
-        .is_own = model->domain->is_own,
-        .fill_ghosts = right_hand_side_fill_ghosts};
+    s->shared = right_hand_side_domain(s);
     return halo_create(&s->halo, model->ranks, model->domain, s->layout.dim, 2);
 }
 

@@ -7,6 +7,8 @@
  * - commit_step: its end becomes the state. With `exact` contacts it ends at an event, which is resolved here (8)-(10).
  * If the user's force fails, the run goes back to the last state for which it was known (roll_back). The right-hand
  * side is in right_hand_side.c, what is seen of a run in query.c, checkpoints in checkpoint.c, set-up in setup.c. */
+#include <stdio.h>
+
 #include "base/reduce.h"
 #include "base/status.h"
 #include "contact/automaton_step.h"
@@ -118,11 +120,33 @@ static dem_status report_own_breaks(dem_simulation *s, dem_index from)
     return report_breaks(s, &s->breaks.breaks, from);
 }
 
+/* Notes what observers have returned for a step: ranks tell each other about it at the end of the next attempt. */
+static void note_stop(run_stop *stop, dem_status status)
+{
+    if (status == DEM_OK || stop->status != DEM_OK) return;
+    stop->status = status;
+    (void)snprintf(stop->message, sizeof stop->message, "%s", dem_status_message());
+}
+
+/* Whether observers of some rank have stopped the run at the last step. A step from there is then in hand already, with
+ * which the next advance goes on. */
+static dem_status take_stop(dem_simulation *s)
+{
+    const dem_status own = s->stop.status;
+    if (!s->stop.is_known) return DEM_OK;
+    if (own != DEM_OK) (void)status_fail(own, "%s", s->stop.message);
+    s->stop = (run_stop){0};
+    return reduce_status(s->model->ranks, own, 0.0);
+}
+
 /* Every accepted step, after its contacts have changed. */
 static dem_status report_step(dem_simulation *s)
 {
     TRY(show_state(s));
-    return reduce_status(s->model->ranks, observers_step(&s->observers, s), 0.0);
+    const dem_status status = observers_step(&s->observers, s);
+    if (s->model->domain == NULL) return status;
+    note_stop(&s->stop, status);
+    return DEM_OK;
 }
 
 /* Shows the frames up to the end of the step and t_end in the order of time; events before a frame come before it. */
@@ -423,7 +447,8 @@ static dem_status advance(dem_simulation *s, double t_end)
     if (!s->started) TRY(start(s));
     for (;;) {
         if (!s->in_hand && wants_checkpoint(s)) TRY(take_checkpoint(s));
-        if (!s->in_hand) TRY(take_step(s));
+        const dem_status taken = s->in_hand ? DEM_OK : take_step(s);
+        TRY(status_first(take_stop(s), taken));
         TRY(stop_if_force_failed(s, report_frames(s, t_end)));
         if (t_end < s->path.end) break;
         TRY(commit_step(s));

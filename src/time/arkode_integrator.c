@@ -18,6 +18,7 @@
 #include "time/arkode_compat.h"
 #include "time/butcher.h"
 #include "time/deferral.h"
+#include "time/shared_attempt.h"
 
 enum {
     max_retries = 10, /* of a step whose derivative is not finite */
@@ -51,6 +52,8 @@ typedef struct arkode_integrator {
     bool gives_f0;           /* and what ARKODE is given when it asks for it */
     bool failed;             /* a derivative has failed in this attempt, */
     bool refused;            /* and cannot be computed for any step */
+    attempt attempt;         /* at the present step, */
+    shared_attempt shared;   /* by ranks together, where they share the nodes */
     dem_counts counts;
     char message[256]; /* ARKODE's last error */
 } arkode_integrator;
@@ -63,10 +66,9 @@ static int evaluate(double t, N_Vector y, N_Vector f, void *self)
 {
     arkode_integrator *I = self;
     I->counts.evaluations++;
-    if (I->problem.domain != NULL) ode_problem_fill_ghosts(&I->problem, nvector_shared(y));
     const double *values = nvector_values(y);
-    double *u = nvector_fresh(f), *a = u + state_velocities(&I->problem.layout);
-    const int flag = I->problem.derivative(t, values, u, a, I->problem.context);
+    double *u = nvector_fresh(f);
+    const int flag = attempt_evaluate(&I->attempt, t, values, u, u + state_velocities(&I->problem.layout));
     I->failed = flag != 0;
     I->refused = flag > 1;
     return flag == 0 ? 0 : -1;
@@ -82,7 +84,9 @@ static int call_derivative(sunrealtype t, N_Vector y, N_Vector f, void *user)
         nvector_share(I->f0, f);
         return 0;
     }
-    return evaluate(t, y, f, I);
+    if (I->problem.domain == NULL) return evaluate(t, y, f, I);
+    I->counts.evaluations++;
+    return shared_attempt_evaluate(&I->shared, t, y, f);
 }
 
 static void count_evaluations(int n, void *self)
@@ -197,21 +201,25 @@ static void fill_weights(arkode_integrator *I)
     }
 }
 
-/* Whether the last stage is the end of the step, whose derivative is kept then. */
-static bool ends_in_stage(const butcher_table *t)
-{
-    bool same = true;
-    for (int k = 0; k < t->stages; k++) same = same && t->a[(t->stages - 1) * t->stages + k] == t->b[k];
-    return same;
-}
-
 /* Without error control ARKODE asks for no norm. */
 static void defer_stages(arkode_integrator *I)
 {
-    if (I->problem.fixed_step > 0.0 || ends_in_stage(&I->table)) return;
+    if (I->problem.fixed_step > 0.0 || butcher_ends_in_stage(&I->table)) return;
     I->deferral =
         deferral_create(&(deferral_owner){&I->problem, I->space, evaluate, count_evaluations, I}, I->table.stages - 1);
     if (I->deferral != NULL) deferral_set_weights(I->deferral, I->weights);
+}
+
+/* Ranks that share the nodes see whether an attempt succeeds by way of what ARKODE adds up. */
+static void watch_sums(arkode_integrator *I)
+{
+    if (I->problem.domain == NULL) return;
+    shared_attempt_create(&I->shared, &(shared_attempt_owner){.attempt = &I->attempt,
+                                                              .table = &I->table,
+                                                              .space = I->space,
+                                                              .y0 = I->y0,
+                                                              .f1 = I->f1,
+                                                              .weights = I->weights});
 }
 
 /* The state from which the next step goes; its derivative is not known. The root function is above 0 there: what has
@@ -221,8 +229,9 @@ static void start_from(arkode_integrator *I, double t, const double *y)
     if (y != nvector_values(I->y0)) memcpy(nvector_fresh(I->y0), y, (size_t)state_size(&I->problem.layout) * sizeof *y);
     nvector_share(I->y0, I->y);
     I->t = t;
-    I->at_end = I->holds_step = I->knows_f0 = I->gives_f0 = false;
+    I->at_end = I->holds_step = I->knows_f0 = I->gives_f0 = I->attempt.knows_stiffening = false;
     I->root = 1.0;
+    shared_attempt_forget(&I->shared);
 }
 
 /* Gives ARKODE the method. The order given with a table limits the degree of ARKODE's interpolant, and nothing else
@@ -286,6 +295,7 @@ static dem_status set_up(arkode_integrator *I, double t, const double *y)
     TRY(allocate(I));
     fill_weights(I);
     defer_stages(I);
+    watch_sums(I);
     start_from(I, t, y);
     I->arkode = ERKStepCreate(call_derivative, t, I->y, I->sundials);
     CHECK(I->arkode != NULL, DEM_ERROR_MEMORY, "out of memory for ARKODE");
@@ -341,7 +351,7 @@ static dem_status arkode_integrator_create(void **out, const ode_problem *proble
 static dem_status reset(arkode_integrator *I)
 {
     nvector_share(I->y0, I->y);
-    I->at_end = I->holds_step = false;
+    I->at_end = I->holds_step = I->attempt.knows_stiffening = false;
     I->gives_f0 = I->knows_f0;
     I->root = 1.0;
     CHECK(ARKodeReset(I->arkode, I->t, I->y) == ARK_SUCCESS, DEM_ERROR_INTEGRATOR,
@@ -428,6 +438,7 @@ static void go_on(arkode_integrator *I)
     nvector_share(I->f1, I->f0);
     I->t = I->t1;
     I->at_end = I->gives_f0 = false;
+    shared_attempt_go_on(&I->shared);
 }
 
 static void arkode_integrator_end(void *self, double **y1, double **f1)
@@ -460,7 +471,8 @@ static void arkode_integrator_settle(void *self, const dense_output *step)
     dense_output_state(step, step->end, nvector_fresh(I->y));
     nvector_share(I->y, I->y0);
     I->t = step->end;
-    I->at_end = I->knows_f0 = false;
+    I->at_end = I->knows_f0 = I->attempt.knows_stiffening = false;
+    shared_attempt_forget(&I->shared);
 }
 
 static double *arkode_integrator_state(const void *self)
@@ -470,12 +482,30 @@ static double *arkode_integrator_state(const void *self)
 }
 
 /* ARKODE evaluates the derivative at the start of a step after its length is given: what that depends on of other ranks
- * is not known yet. */
+ * is not known before the first. */
 static double fixed_step(arkode_integrator *I)
 {
     const ode_problem *p = &I->problem;
-    if (p->domain != NULL && p->stiffening != NULL) ode_problem_fill_ghosts(p, nvector_shared(I->y0));
-    return ode_problem_fixed_step(p, nvector_values(I->y0), false);
+    const bool asks = p->stiffening != NULL && !I->attempt.knows_stiffening;
+    if (p->domain != NULL && asks) ode_problem_fill_ghosts(p, nvector_shared(I->y0));
+    return attempt_fixed_step(&I->attempt, nvector_values(I->y0), false);
+}
+
+/* Begins with another attempt by a call of ARKODE. */
+static void begin_attempt(arkode_integrator *I)
+{
+    I->holds_step = I->failed = false;
+    attempt_begin(&I->attempt, &I->problem);
+    if (I->problem.domain != NULL) shared_attempt_begin(&I->shared, I->t);
+}
+
+/* What ARKODE's attempt has come to on other ranks. */
+static void take_failure(arkode_integrator *I)
+{
+    if (!I->shared.has_failed) return;
+    I->failed = true;
+    I->refused = I->shared.outcome.refused;
+    I->counts.evaluations -= I->shared.n_superfluous;
 }
 
 /* One accepted step. The time that ARKODE is to reach lies far beyond it: no step is ever shortened for a frame or for
@@ -488,12 +518,13 @@ static dem_status arkode_integrator_step(void *self, dense_output *step, bool *r
     if (I->problem.begin_roots != NULL) I->problem.begin_roots(I->t, nvector_values(I->y0), I->problem.context);
     double reached, h = 0.0;
     int flag = ARK_SUCCESS;
-    for (int attempt = 0; attempt <= max_retries; attempt++) {
-        I->holds_step = I->failed = false;
+    for (int tries = 0; tries <= max_retries; tries++) {
+        begin_attempt(I);
         if (I->problem.fixed_step > 0.0) (void)ARKodeSetFixedStep(I->arkode, fixed_step(I));
         flag = ARKodeEvolve(I->arkode, I->t + 1e6 * I->problem.max_step, I->y, &reached, ARK_ONE_STEP);
+        take_failure(I);
         if (!I->failed) break;
-        if (I->problem.fixed_step > 0.0 || attempt == max_retries || I->refused)
+        if (I->problem.fixed_step > 0.0 || tries == max_retries || I->refused)
             return DEM_ERROR_INTEGRATOR; /* message: derivative's */
         TRY(retry(I, &h));
     }

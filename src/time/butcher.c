@@ -143,6 +143,13 @@ static void add_reach(step_reach *reach, butcher_table *t, const double *weight)
 }
 
 /* Verlet: x1 = x0 + h v0 + h^2/2 a0, v1 = v0 + h/2 (a0 + a1). */
+bool butcher_ends_in_stage(const butcher_table *t)
+{
+    bool same = true;
+    for (int k = 0; k < t->stages; k++) same = same && t->a[(t->stages - 1) * t->stages + k] == t->b[k];
+    return same;
+}
+
 dem_status butcher_reach(step_reach *out, dem_method method)
 {
     butcher_table table;

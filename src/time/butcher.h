@@ -3,6 +3,8 @@
 #ifndef DEM_TIME_BUTCHER_H
 #define DEM_TIME_BUTCHER_H
 
+#include <stdbool.h>
+
 #include <dem/dem.h>
 
 #include "base/step_reach.h"
@@ -21,6 +23,9 @@ typedef struct butcher_table {
  *  \return DEM_ERROR_ARGUMENT for an unknown method, one that this SUNDIALS does not have, and Verlet's, which has no
  *  table */
 dem_status butcher_load(butcher_table *out, dem_method method);
+
+/** Whether the last stage is the end of the step, so that the next step has its derivative. */
+bool butcher_ends_in_stage(const butcher_table *t);
 
 /** How far a step of any method reaches, Verlet's included.  \return DEM_ERROR_ARGUMENT as butcher_load() */
 dem_status butcher_reach(step_reach *out, dem_method method);

@@ -160,7 +160,9 @@ static bool run_wave(deferral *d)
     p.weights = nvector_values(d->weights);
     nvector_set_use(end_of(d), NVECTOR_FREE);
     p.end = nvector_fresh(end_of(d));
-    if (reduce_any(ode_problem_ranks(d->owner.problem), !stage_wave_run(d->wave, &p, &squares))) return false;
+    const ranks *r = ode_problem_ranks(d->owner.problem);
+    if (reduce_any(r, !stage_wave_run(d->wave, &p, &squares))) return false;
+    squares = reduce_squares(r, squares);
     return nvector_norm_of_sum(d->owner.space, &squares, &d->scale, &d->norm) && d->norm <= 1.0;
 }
 

@@ -287,15 +287,19 @@ static array_ops_sum square(const nvector_space *s, const double *x, const doubl
     return sum;
 }
 
-/* The squares are added as integers in units of 2^-60, which hold for sizes up to 32 times a scale. */
-bool nvector_norm_of_sum(const nvector_space *s, const array_ops_sum *part, double *scale, double *norm)
+array_ops_sum nvector_squares(N_Vector x, N_Vector w, double scale)
 {
-    const array_ops_sum sum = reduce_squares(s->shape.ranks, *part);
+    return square(content_of(x)->space, nvector_values(x), nvector_values(w), scale);
+}
+
+/* The squares are added as integers in units of 2^-60, which hold for sizes up to 32 times a scale. */
+bool nvector_norm_of_sum(const nvector_space *s, const array_ops_sum *sum, double *scale, double *norm)
+{
     *norm = INFINITY;
-    if (!isfinite(sum.largest)) return true;
-    const double right = scale_of(sqrt(sum.largest) / *scale);
+    if (!isfinite(sum->largest)) return true;
+    const double right = scale_of(sqrt(sum->largest) / *scale);
     const bool holds = right == *scale;
-    if (holds) *norm = sqrt(array_ops_value(&sum) / (double)s->shape.n_whole) / *scale;
+    if (holds) *norm = sqrt(array_ops_value(sum) / (double)s->shape.n_whole) / *scale;
     *scale = right;
     return holds;
 }
@@ -307,13 +311,13 @@ static sunrealtype norm(N_Vector x, N_Vector w)
 {
     const nvector_space *s = content_of(x)->space;
     double largest = 0.0, result;
-    if (content_of(x)->use == NVECTOR_DUE && s->deferral->take_norm(s->deferral->self, x, w, &result)) return result;
+    if (s->deferral != NULL && s->deferral->take_norm(s->deferral->self, x, w, &result)) return result;
     const double *values = nvector_values(x), *weights = nvector_values(w);
     for (dem_index k = 0; k < s->shape.length; k += s->shape.length / n_sampled + 1)
         largest = fmax(largest, fabs(values[k] * weights[k]));
     double scale = scale_of(reduce_max(s->shape.ranks, largest));
     for (;;) {
-        const array_ops_sum sum = square(s, values, weights, scale);
+        const array_ops_sum sum = reduce_squares(s->shape.ranks, square(s, values, weights, scale));
         if (nvector_norm_of_sum(s, &sum, &scale, &result)) return result;
     }
 }

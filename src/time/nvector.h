@@ -18,15 +18,16 @@ typedef struct nvector_space nvector_space;
 /** What a deferred operation has to do with a vector: nothing, or it reads it, or is to write it. */
 typedef enum nvector_use { NVECTOR_FREE, NVECTOR_READ, NVECTOR_DUE } nvector_use;
 
-/** Who defers operations on the vectors of a space (deferral.h), as the space sees it; `self` is its own. */
+/** Who defers operations on the vectors of a space (deferral.h) or takes part in them, as the space sees it; `self` is
+ *  its own. */
 typedef struct nvector_deferral {
     void *self;
     /** Asked for every z = sum of factor_k x_k, k = 0 to n - 1: whether it is deferred, or has been carried out
      *  together with earlier ones. Then *status is 0, or -1 if one of them has failed. */
     bool (*take_sum)(void *self, int n, const double *factor, N_Vector *x, N_Vector z, int *status);
-    /** Asked for the norm of a vector that is due: whether it is known without its numbers. */
+    /** Asked for the norm of a vector: whether it is known without its numbers. */
     bool (*take_norm)(void *self, N_Vector x, N_Vector weights, double *norm);
-    /** Called before a vector that is due is read, and before one that is not free is written. */
+    /** Called before a vector that is due is read, and before one that is not free is written. NULL where none is. */
     void (*before_read)(void *self);
     void (*before_write)(void *self);
 } nvector_deferral;
@@ -56,7 +57,10 @@ nvector_use nvector_get_use(N_Vector v);
 /** z = sum of factor_k x_k, carried out at once.  \return -1 if there are more terms than there is room for */
 int nvector_combine(int n, const double *factor, N_Vector *x, N_Vector z);
 
-/** The norm of an error from its sum of squares, each that of scale times the term: infinity if one is not finite.
+/** The sum of squares of x_k w_k on this rank, each multiplied by the scale before. */
+array_ops_sum nvector_squares(N_Vector x, N_Vector w, double scale);
+
+/** The norm of a vector from such a sum of all ranks: infinity if a term is not finite.
  *  \param scale  a power of 2 by which it was added up; another one is put there if the sum does not hold
  *  \return whether it holds */
 bool nvector_norm_of_sum(const nvector_space *s, const array_ops_sum *sum, double *scale, double *norm);

@@ -39,6 +39,14 @@ typedef struct ode_domain {
     const unsigned char *is_own; /* [n_nodes] 0: a ghost, whose error is that of another rank */
     /** Puts into y what other ranks have of it. Called before every derivative. */
     void (*fill_ghosts)(double *y, void *context);
+    /** Sets the message of a derivative that has failed. Collective.
+     *  \param is_first  whether the last failure of this rank is one of those that a single process would have met
+     *  first */
+    void (*name_failure)(bool is_first, void *context);
+    /** Whether something on this rank asks for the run to stop; and called on all ranks if it is so on any, at the end
+     *  of the next attempt at a step. */
+    bool (*wants_stop)(void *context);
+    void (*stop)(void *context);
 } ode_domain;
 
 typedef struct ode_problem {
@@ -46,8 +54,8 @@ typedef struct ode_problem {
     const ode_domain *domain; /* NULL: all nodes are here */
     bool prescribes;          /* whether some x' are given, so that they are not v */
     /** Derivative of y at t: x' into u, unless it is NULL, and accelerations into a. An integrator that knows v may
-     *  leave u out if nothing is prescribed. Returns 0; 1 if something is not finite, which a shorter step may mend; or
-     *  2 if nothing may. */
+     *  leave u out if nothing is prescribed. Returns 0; 1 if something here is not finite, which a shorter step may
+     *  mend; or 2 if nothing may. Ranks need not agree. */
     int (*derivative)(double t, const double *y, double *u, double *a, void *context);
     /** Takes the step of all nodes at once, and fills the rates of the quadratures, whose positions and velocities at
      *  its end are given: with the bits of kick, drift, derivative and kick in turn. Returns as `derivative`, or -1 if
@@ -69,7 +77,7 @@ typedef struct ode_problem {
     /** Value at `end` of a step: 1 at its start, and 0 or less after the first event in it. NULL, with begin_roots():
      *  no events end a step. */
     double (*root_function)(const dense_output *step, void *context);
-    /** Bound of the highest frequency in units of that about the rest shape, >= 1. NULL: it is 1.
+    /** Bound of the highest frequency of the nodes here in units of that about the rest shape, >= 1. NULL: it is 1.
      *  \param is_known  the last call of derivative() was for just this state */
     double (*stiffening)(const double *y, bool is_known, void *context);
     void *context;
@@ -110,18 +118,6 @@ static inline bool ode_problem_is_own(const ode_problem *p, dem_index i)
 static inline void ode_problem_fill_ghosts(const ode_problem *p, double *y)
 {
     if (p->domain != NULL) p->domain->fill_ghosts(y, p->context);
-}
-
-/** Length of a fixed step from y, s: halved until its product with the highest frequency is no larger than about the
- *  rest shape.
- *  \param is_known  as for `stiffening` */
-static inline double ode_problem_fixed_step(const ode_problem *p, const double *y, bool is_known)
-{
-    enum { most_halvings = 30 }; /* positions that blow up have no bound; time must go on until they are reported */
-    double h = p->fixed_step;
-    const double stiffening = p->stiffening != NULL ? p->stiffening(y, is_known, p->context) : 1.0;
-    for (int k = 0; k < most_halvings && h * stiffening > p->fixed_step; k++) h *= 0.5;
-    return h;
 }
 
 #endif

@@ -15,6 +15,7 @@
 
 #include "base/aligned.h"
 #include "base/status.h"
+#include "time/attempt.h"
 
 /* Both ends of the step stand in one block with two derivatives; going on swaps pointers, so that the derivative at the
  * end of a step is that at the start of the next without another evaluation. Of derivatives the velocities are written
@@ -28,6 +29,7 @@ typedef struct verlet_integrator {
     bool has_f0;                       /* f0 is that of y0 */
     bool at_end;                       /* the dense output was handed out: y1 is the start of the next step */
     bool resumed;                      /* the caller has changed that with its derivative */
+    attempt attempt;                   /* at the present step */
     dem_counts counts;
 } verlet_integrator;
 
@@ -60,7 +62,7 @@ static dem_status verlet_integrator_restart(void *self, double t, const double *
     verlet_integrator *V = self;
     if (y != V->y0) memcpy(V->y0, y, (size_t)state_size(&V->problem.layout) * sizeof *y);
     V->t = t;
-    V->has_f0 = V->at_end = false;
+    V->has_f0 = V->at_end = V->attempt.knows_stiffening = false;
     return DEM_OK;
 }
 
@@ -120,6 +122,7 @@ static void verlet_integrator_settle(void *self, const dense_output *step)
         dense_output_state(step, step->end, V->state);
         swap(&V->y1, &V->state);
         V->t1 = step->end;
+        V->attempt.knows_stiffening = false;
     }
     go_on(V);
     V->has_f0 = step->end == step->t1;
@@ -134,10 +137,24 @@ static double *verlet_integrator_state(const void *self)
 /* The derivative; x' is asked for only where motions are prescribed, as it is v otherwise. */
 static int evaluate(verlet_integrator *V, double t, double *y, double *f)
 {
-    ode_problem_fill_ghosts(&V->problem, y);
     double *u = V->problem.prescribes ? f : NULL, *a = f + state_velocities(&V->problem.layout);
+    ode_problem_fill_ghosts(&V->problem, y);
     V->counts.evaluations++;
-    return V->problem.derivative(t, y, u, a, V->problem.context);
+    return attempt_evaluate(&V->attempt, t, y, u, a);
+}
+
+/* The end of an attempt by ranks: whether no derivative has failed on any. Where one has, f0 is what has not, unless it
+ * was evaluated in this attempt and has. */
+static bool is_good(verlet_integrator *V)
+{
+    if (V->problem.domain == NULL) return true;
+    attempt_end end = attempt_own_end(&V->attempt, V->y1);
+    attempt_tell(&V->attempt, &end);
+    if (end.failed == ATTEMPT_NONE) return true;
+    attempt_name_failure(&V->attempt, &end);
+    V->counts.evaluations -= V->attempt.n - (end.failed + 1);
+    V->has_f0 = end.failed == V->attempt.n - 1;
+    return false;
 }
 
 /* A run of components of the positions, and with it the same run of the velocities. */
@@ -279,9 +296,11 @@ static dem_status verlet_integrator_step(void *self, dense_output *step, bool *r
     verlet_integrator *V = self;
     go_on(V);
     if (V->problem.begin_roots != NULL) V->problem.begin_roots(V->t, V->y0, V->problem.context);
+    attempt_begin(&V->attempt, &V->problem);
     if (!V->has_f0 && evaluate(V, V->t, V->y0, V->f0) != 0) return DEM_ERROR_INTEGRATOR; /* message: derivative's */
     V->has_f0 = true;
-    if (kick_drift_kick(V, ode_problem_fixed_step(&V->problem, V->y0, !V->resumed)) != 0) return DEM_ERROR_INTEGRATOR;
+    if (kick_drift_kick(V, attempt_fixed_step(&V->attempt, V->y0, !V->resumed)) != 0) return DEM_ERROR_INTEGRATOR;
+    if (!is_good(V)) return DEM_ERROR_INTEGRATOR;
     V->resumed = false;
     *step = (dense_output){.layout = V->problem.layout,
                            .parabolic = true,
@@ -317,6 +336,7 @@ static dem_status verlet_integrator_resume(void *self)
 {
     verlet_integrator *V = self;
     V->resumed = true;
+    V->attempt.knows_stiffening = false;
     return DEM_OK;
 }
 

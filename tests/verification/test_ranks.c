@@ -213,10 +213,11 @@ static void share(const scene *s, int n_ranks, const int32_t *owner, const outco
         assert_string_equal(all[k].failure, "");
         assert_same_outcome(&all[k], whole, n);
     }
-    /* One exchange for each evaluation; a fixed step of ARKODE's asks the guard for its length before the first. */
+    /* One exchange for each evaluation. That at the end of a step of Fehlberg's is made even if the step is rejected;
+     * the first fixed step of ARKODE's asks the guard for its length before there is one. */
     const dem_counts *counts = &whole->counts[N_STOPS - 1];
-    const bool asks = s->options.method == DEM_METHOD_RK4;
-    assert_int_equal(c.calls.exchanges, counts->evaluations + (asks ? counts->steps : 0));
+    const dem_index ahead = s->options.method == DEM_METHOD_FEHLBERG45 ? counts->rejected : 0;
+    assert_int_equal(c.calls.exchanges, counts->evaluations + ahead + (s->options.method == DEM_METHOD_RK4));
     free_outcome(&all[0]);
 }
 
@@ -239,6 +240,101 @@ static void check(int body, dem_method method)
         share(&s, numbers[k], owner, &whole);
     }
     free_outcome(&whole);
+    close_scene(&s);
+}
+
+/* ---- how often ranks talk ---- */
+
+enum { MOST_STEPS = 2000 };
+
+/* One rank's run, and its calls up to the end of each step. */
+typedef struct talk {
+    const scene *scene;
+    const int32_t *owner;
+    const ranks *ranks;
+    double end; /* s */
+    rank_threads_counts calls[MOST_STEPS];
+    int n_steps;
+    dem_counts counts;
+    char failure[TEXT]; /* empty: none */
+} talk;
+
+static dem_status note_calls(void *context, const dem_simulation *s)
+{
+    talk *t = context;
+    (void)s;
+    if (t->n_steps < MOST_STEPS) t->calls[t->n_steps++] = rank_threads_count(t->ranks);
+    return DEM_OK;
+}
+
+static dem_status talk_through(talk *t, const dem_model *model)
+{
+    dem_simulation *s = NULL;
+    const dem_observer observer = SIZED(dem_observer, .context = t, .step = note_calls);
+    t->counts.struct_size = sizeof t->counts;
+    dem_status status = dem_simulation_create(&s, model, &t->scene->options);
+    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
+    if (status == DEM_OK) status = dem_simulation_advance(s, t->end);
+    if (status == DEM_OK) status = dem_simulation_counts(s, &t->counts);
+    dem_simulation_destroy(s);
+    return status;
+}
+
+static void talk_as_rank(const ranks *r, void *context)
+{
+    talk other = *(talk *)context, *t = r->rank == 0 ? context : &other;
+    dem_model *model = NULL;
+    t->ranks = r;
+    dem_status status = domain_model_create(&model, r, t->scene->model, t->owner);
+    if (status == DEM_OK) status = talk_through(t, model);
+    if (status != DEM_OK) (void)snprintf(t->failure, TEXT, "%s", dem_status_message());
+    dem_model_destroy(model);
+}
+
+/* On three ranks. */
+static void listen(talk *t, const scene *s, double end)
+{
+    const dem_lattice *l = dem_model_lattice(s->model);
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+    assert_ok(partition_bisect(l, 3, owner));
+    *t = (talk){.scene = s, .owner = owner, .end = end};
+    rank_threads_run(3, talk_as_rank, t);
+    t->owner = NULL;
+    assert_string_equal(t->failure, "");
+    assert_true(t->n_steps > 10);
+}
+
+/* From its second step on, as the first evaluates where it begins. */
+TEST(a_step_needs_one_reduction_and_an_exchange_for_each_evaluation)
+{
+    static const int n_exchanges[N_METHODS] = {6, 6, 4, 1};
+    for (int body = 0; body < N_BODIES; body += 3)
+        for (int m = 0; m < N_METHODS; m++) {
+            scene s;
+            talk t;
+            open_scene(&s, body, methods[m]);
+            listen(&t, &s, 1e-4);
+            assert_int_equal(t.counts.rejected, 0);
+            for (int k = 2; k < t.n_steps; k++) {
+                assert_int_equal(t.calls[k].exchanges - t.calls[k - 1].exchanges, n_exchanges[m]);
+                assert_int_equal(t.calls[k].reductions - t.calls[k - 1].reductions, 1);
+            }
+            close_scene(&s);
+        }
+}
+
+/* Where the error is more than 32 times what is allowed, its sum is taken anew. The first step evaluates where it
+ * begins, and asks for the norm of that state. */
+TEST(an_attempt_that_is_rejected_needs_two_reductions_at_most)
+{
+    scene s;
+    talk t;
+    open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
+    listen(&t, &s, 3e-4);
+    assert_true(t.counts.rejected > 0);
+    const dem_index n = t.n_steps - 1, least = n + t.counts.rejected;
+    assert_in_range(t.calls[n].reductions - t.calls[0].reductions, least, least + t.counts.rejected + 3);
+    assert_int_equal(t.calls[n].exchanges - t.calls[0].exchanges, 6 * least + 1);
     close_scene(&s);
 }
 

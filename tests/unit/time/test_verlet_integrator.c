@@ -7,6 +7,7 @@
 
 #include "base/status.h"
 #include "harness/message.h"
+#include "time/attempt.h"
 #include "time/integrator.h"
 #include "unit/time/floor_and_ceiling.h"
 
@@ -273,7 +274,7 @@ static double endless(const double *y, bool is_known, void *context)
 TEST(no_stiffening_stops_the_time)
 {
     const ode_problem problem = {.fixed_step = 0.1, .stiffening = endless};
-    assert_true(ode_problem_fixed_step(&problem, NULL, false) > 1e-12);
+    assert_true(attempt_fixed_step(&(attempt){.problem = &problem}, NULL, false) > 1e-12);
 }
 
 /* What the derivative gives in place of a velocity is taken over, at rest or not. */

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* ARKODE evaluates the stages, then adds up the end of the step and its error, whose norm decides, and then evaluates
+ * the derivative at the end. That is evaluated ahead here, before the norm, so that the squares of the error and all
+ * failures of the attempt travel in one reduction; ARKODE gets it when it asks. Of an attempt that is rejected it is in
+ * vain. ARKODE also asks for the norm of the state from which a step goes, to see whether rounding alone is more than
+ * what is allowed: the squares of the end of the last step have outcome that.
+ *
+ * The error is recognised as the one sum of several vectors without the state. With fixed steps there is none: then the
+ * reduction is made with the derivative at the end of the step. */
+#include "time/shared_attempt.h"
+
+#include <math.h>
+
+#include "base/status.h"
+
+static const ode_problem *problem_of(const shared_attempt *s)
+{
+    return s->owner.attempt->problem;
+}
+
+/* Begins with another attempt at the same step. */
+static void begin_again(shared_attempt *s)
+{
+    attempt_begin(s->owner.attempt, problem_of(s));
+    s->is_over = s->has_failed = s->has_f1 = false;
+    s->n_asked = s->n_stages = 0;
+    s->last = s->error = NULL;
+    s->scale[0] = 1.0; /* which holds for any error of a step that is accepted */
+    s->t1 = NAN;
+}
+
+void shared_attempt_begin(shared_attempt *s, double t0)
+{
+    begin_again(s);
+    s->t0 = t0;
+}
+
+static bool ends_in_stage(const shared_attempt *s)
+{
+    return butcher_ends_in_stage(s->owner.table);
+}
+
+/* ---- the end of an attempt ---- */
+
+static void evaluate(shared_attempt *s, double t, N_Vector y, N_Vector f)
+{
+    const ode_problem *p = problem_of(s);
+    double *values = nvector_shared(y), *u = nvector_fresh(f);
+    ode_problem_fill_ghosts(p, values);
+    (void)attempt_evaluate(s->owner.attempt, t, values, u, u + state_velocities(&p->layout));
+}
+
+/* Puts the sums of squares of this rank into the packet. */
+static void add_squares(const shared_attempt *s, attempt_end *end)
+{
+    if (s->error != NULL) end->error = nvector_squares(s->error, s->owner.weights, s->scale[0]);
+    end->state = nvector_squares(s->last, s->owner.weights, s->scale[1]);
+}
+
+/* Finds the norms of all ranks.  \return whether the scales hold; else there are better ones */
+static bool find_norms(shared_attempt *s, const attempt_end *end)
+{
+    const bool holds = nvector_norm_of_sum(s->owner.space, &end->error, &s->scale[0], &s->norm[0]);
+    return nvector_norm_of_sum(s->owner.space, &end->state, &s->scale[1], &s->norm[1]) && holds;
+}
+
+/* Ranks tell each other what they have.  \param y  the end of the step */
+static void tell(shared_attempt *s, const double *y)
+{
+    do {
+        s->outcome = attempt_own_end(s->owner.attempt, y);
+        add_squares(s, &s->outcome);
+        attempt_tell(s->owner.attempt, &s->outcome);
+    } while (!find_norms(s, &s->outcome));
+    s->is_over = true;
+}
+
+/* After a failure ARKODE ends its step, whatever was to come of it. */
+static int fail(shared_attempt *s)
+{
+    attempt_name_failure(s->owner.attempt, &s->outcome);
+    s->has_failed = true;
+    s->n_superfluous = s->n_asked - (s->outcome.failed + 1);
+    return -1;
+}
+
+/* A failure of the derivative at the end counts only if ARKODE asks for that. */
+static int end_with_error(shared_attempt *s)
+{
+    if (!ends_in_stage(s) && !isnan(s->t1)) {
+        evaluate(s, s->t1, s->last, s->owner.f1);
+        s->has_f1 = true;
+    }
+    tell(s, NULL);
+    return s->outcome.failed < s->n_asked ? fail(s) : 0;
+}
+
+/* ---- what ARKODE asks for ---- */
+
+static bool is_start(const shared_attempt *s, N_Vector y)
+{
+    return nvector_values(y) == nvector_values(s->owner.y0);
+}
+
+static bool take_sum(void *self, int n, const double *factor, N_Vector *x, N_Vector z, int *status)
+{
+    shared_attempt *s = self;
+    int n_terms = 0;
+    bool has_start = false;
+    for (int k = 0; k < n; k++) {
+        if (factor[k] == 0.0) continue;
+        n_terms++;
+        has_start = has_start || is_start(s, x[k]);
+    }
+    if (n_terms < 2) return false;
+    if (has_start) {
+        if (s->error != NULL) begin_again(s);
+        s->last = z;
+        return false;
+    }
+    *status = nvector_combine(n, factor, x, z);
+    s->error = z;
+    if (*status == 0) *status = end_with_error(s);
+    return true;
+}
+
+static bool take_norm(void *self, N_Vector x, N_Vector weights, double *norm)
+{
+    const shared_attempt *s = self;
+    (void)weights; /* there are no others */
+    if (x == s->error) {
+        *norm = s->norm[0];
+        return true;
+    }
+    *norm = s->norm_of_start;
+    return s->knows_start && is_start(s, x);
+}
+
+/* The derivative at the end of the step, which has been evaluated ahead. */
+static int give_f1(shared_attempt *s, N_Vector f)
+{
+    s->has_f1 = false;
+    nvector_share(s->owner.f1, f);
+    return s->outcome.failed != ATTEMPT_NONE ? fail(s) : 0;
+}
+
+/* Whether the derivative just evaluated is that at the end of the step, and has not been evaluated ahead. */
+static bool is_last(const shared_attempt *s)
+{
+    if (s->is_over) return true;
+    return problem_of(s)->fixed_step > 0.0 && s->n_stages == s->owner.table->stages - ends_in_stage(s);
+}
+
+/* Where a step begins without a derivative ARKODE has no length for it yet: a failure is known to all at once. */
+static int evaluate_start(shared_attempt *s, N_Vector y, N_Vector f)
+{
+    evaluate(s, s->t0, y, f);
+    s->last = y;
+    tell(s, nvector_values(y));
+    s->is_over = false;
+    s->norm_of_start = s->norm[1];
+    s->knows_start = true;
+    return s->outcome.failed != ATTEMPT_NONE ? fail(s) : 0;
+}
+
+int shared_attempt_evaluate(shared_attempt *s, double t, N_Vector y, N_Vector f)
+{
+    const butcher_table *table = s->owner.table;
+    s->n_asked++;
+    if (s->has_f1 && t == s->t1 && nvector_values(y) == nvector_values(s->last)) return give_f1(s, f);
+    if (t == s->t0 && is_start(s, y)) return evaluate_start(s, y, f);
+    s->n_stages++;
+    if (s->n_stages < table->stages && table->c[s->n_stages] == 1.0) s->t1 = t;
+    evaluate(s, t, y, f);
+    if (!is_last(s)) return 0;
+    tell(s, nvector_values(y));
+    return s->outcome.failed != ATTEMPT_NONE ? fail(s) : 0;
+}
+
+/* ---- from step to step ---- */
+
+void shared_attempt_create(shared_attempt *out, const shared_attempt_owner *owner)
+{
+    *out = (shared_attempt){.owner = *owner, .scale[1] = 1.0, .t1 = NAN};
+    out->seen = (nvector_deferral){.self = out, .take_sum = take_sum, .take_norm = take_norm};
+    nvector_space_defer(owner->space, &out->seen);
+}
+
+void shared_attempt_go_on(shared_attempt *s)
+{
+    s->norm_of_start = s->norm[1];
+    s->knows_start = s->is_over;
+}
+
+void shared_attempt_forget(shared_attempt *s)
+{
+    s->knows_start = false;
+}
