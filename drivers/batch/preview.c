@@ -284,7 +284,7 @@ static void print_measured(run_log *log, const deck *d, const dem_model *model)
 
 static void print_outline(FILE *out, size_t number, const body_facts *b)
 {
-    const smoothing *s = &b->geometry.smoothing;
+    const dem_shape_report *s = &b->geometry.report;
     if (s->n_rim == 0) return;
     (void)fprintf(out, "outline    body %zu: smooth, %lld nodes on it, least angle of a triangle %.1f degrees", number,
                   (long long)(s->n_rim - s->n_off), b->least_angle);

@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <dem/shape.h>
 #include <dem/trajectory.h>
 
 #include "angle.h"
 #include "body_checks.h"
 #include "copies.h"
-#include "least_angle.h"
 #include "material.h"
 #include "rigid_keys.h"
 #include "weibull_keys.h"
@@ -280,7 +280,8 @@ static dem_status make_mesh(builder *b)
     if (status == DEM_OK) status = settle_parts(b);
     if (status == DEM_OK) status = assemble(b);
     b->facts.true_mass = b->facts.geometry.mass;
-    b->facts.least_angle = least_angle_of(&b->lattice);
+    if (status == DEM_OK) status = dem_lattice_least_angle(&b->lattice, &b->facts.least_angle);
+    b->facts.least_angle /= angle_degree;
     return status;
 }
 

@@ -7,7 +7,6 @@
 #include "body_outline.h"
 #include "conditional_keys.h"
 #include "copies.h"
-#include "pores.h"
 
 static bool has_shape(const schema_instance *group, const char *name)
 {
@@ -81,14 +80,7 @@ void body_checks_drop_unused(schema_deck *groups)
 
 /* ---- checks: points ---- */
 
-/* Squares of lengths must be numbers that can be computed with. */
-static bool is_apart(const double *a, const double *b)
-{
-    const double x = b[0] - a[0], y = b[1] - a[1];
-    return isnormal(x * x + y * y);
-}
-
-/* Pairs, not too many of them, consecutive ones apart. */
+/* Pairs, and not too many of them. */
 static bool check_points(const schema_instance *group, namelist_errors *errors)
 {
     const schema_value *points = schema_value_of(group, "points");
@@ -98,40 +90,35 @@ static bool check_points(const schema_instance *group, namelist_errors *errors)
     if (points->count % 2 != 0)
         namelist_errors_add(errors, points->place, "'points' in &%s must be pairs of x and y, got %d values", name,
                             points->count);
-    else if (n > OUTLINE_MAX_POINTS)
+    else if (n > DEM_OUTLINE_MAX_POINTS)
         namelist_errors_add(errors, points->place, "'points' in &%s must be at most %d points, got %d", name,
-                            OUTLINE_MAX_POINTS, n);
-    if (points->count % 2 != 0 || n > OUTLINE_MAX_POINTS) return false;
-    for (int k = 1; k < n; k++) {
-        const double *a = points->reals + 2 * k - 2;
-        if (is_apart(a, a + 2)) continue;
-        namelist_errors_add(errors, points->place,
-                            "'points' in &%s: from point %d, (%g, %g) m, to the next, (%g, %g) m, is no length to "
-                            "compute with",
-                            name, k, a[0], a[1], a[2], a[3]);
-        return false;
-    }
-    return true;
+                            DEM_OUTLINE_MAX_POINTS, n);
+    return points->count % 2 == 0 && n <= DEM_OUTLINE_MAX_POINTS;
+}
+
+/* Of a library's status that is no success. */
+static bool report_points(const schema_instance *group, namelist_errors *errors)
+{
+    namelist_errors_add(errors, schema_place(group, "points"), "'points' in &%s: %s", group->group->name,
+                        dem_status_message());
+    return false;
+}
+
+static bool check_polyline(const schema_instance *group, namelist_errors *errors)
+{
+    const schema_value *points = schema_value_of(group, "points");
+    if (!schema_given(group, "points") || !check_points(group, errors)) return false;
+    return dem_points_check(points->reals, points->count / 2) == DEM_OK || report_points(group, errors);
 }
 
 static bool check_polygon(const schema_instance *group, namelist_errors *errors)
 {
-    size_t edge[2];
     if (!has_shape(group, "polygon") || !schema_given(group, "points") || !check_points(group, errors)) return false;
-    const outline o = body_outline(group);
-    const namelist_place place = schema_place(group, "points");
-    const char *name = group->group->name;
-    if (o.n_points < 3) {
-        namelist_errors_add(errors, place, "'points' in &%s must be at least 3 points, got %zu", name, o.n_points);
-    } else if (outline_crossing(&o, edge)) {
-        const double *p = o.points + 2 * edge[0], *q = o.points + 2 * edge[1];
-        namelist_errors_add(errors, place,
-                            "'points' in &%s: the polygon meets itself: edge %zu, from (%g, %g) m, and edge %zu, from "
-                            "(%g, %g) m",
-                            name, edge[0] + 1, p[0], p[1], edge[1] + 1, q[0], q[1]);
-    } else {
-        return true;
-    }
+    const dem_outline o = body_outline(group);
+    const dem_index n = dem_outline_corners(&o); /* without a last point that is the first */
+    if (n >= 3) return dem_outline_check(&o) == DEM_OK || report_points(group, errors);
+    namelist_errors_add(errors, schema_place(group, "points"), "'points' in &%s must be at least 3 points, got %lld",
+                        group->group->name, (long long)n);
     return false;
 }
 
@@ -169,8 +156,8 @@ static void check_spacing(const schema_instance *body, bool sound_polygon, namel
                             "'spacing' in &body must not exceed the ring's width, %g m, got %g m", width, spacing);
     if (sound_polygon) {
         double box[4];
-        const outline o = body_outline(body);
-        outline_box(&o, box);
+        const dem_outline o = body_outline(body);
+        if (dem_outline_box(&o, box) != DEM_OK) return;
         const double extent[2] = {box[2] - box[0], box[3] - box[1]};
         if (spacing > extent[0] || spacing > extent[1])
             body_checks_refuse_spacing(body, "polygon's extent", extent, errors);
@@ -214,9 +201,9 @@ static void check_pores(const schema_instance *group, namelist_errors *errors)
         namelist_errors_add(errors, schema_place(group, "radius"),
                             "'radius' in &pores must be the smallest, then the largest one, got %g, %g", radius[0],
                             radius[1]);
-    if (schema_real(group, "number") > PORES_MAX)
+    if (schema_real(group, "number") > DEM_PORES_MAX)
         namelist_errors_add(errors, schema_place(group, "number"), "'number' in &pores must be at most %d, got %.0f",
-                            PORES_MAX, schema_real(group, "number"));
+                            DEM_PORES_MAX, schema_real(group, "number"));
     if (number && porosity)
         namelist_errors_add(errors, schema_place(group, "porosity"), "'porosity' in &pores does not go with 'number'");
     else if (!number && !porosity && !faulty)
@@ -256,7 +243,7 @@ static void check_holes(const schema_deck *groups, const conditional_keys *table
         conditional_keys_check(group, table, errors);
         check_owner(groups, group, errors);
         check_ring(group, errors);
-        (void)(has_shape(group, "polyline") ? check_points(group, errors) : check_polygon(group, errors));
+        (void)(has_shape(group, "polyline") ? check_polyline(group, errors) : check_polygon(group, errors));
     }
 }
 
@@ -275,6 +262,6 @@ void body_checks_all(const schema_deck *groups, namelist_errors *errors)
     }
     for (size_t k = 0; k < schema_count(groups, "crack"); k++) {
         check_owner(groups, schema_get(groups, "crack", k), errors);
-        (void)check_points(schema_get(groups, "crack", k), errors);
+        (void)check_polyline(schema_get(groups, "crack", k), errors);
     }
 }

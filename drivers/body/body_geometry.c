@@ -6,14 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "area.h"
 #include "body_checks.h"
 #include "body_outline.h"
-#include "crack.h"
-#include "enclosed.h"
+#include "image_file.h"
 #include "material.h"
 #include "msh.h"
-#include "shape.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -30,9 +27,30 @@ typedef struct former {
     size_t number; /* from 1 */
     const char *folder;
     namelist_errors *errors;
+    char name[32];       /* "body 1" */
+    dem_shape shape;     /* of what is not a mesh; points at what follows */
+    dem_outline outline; /* of a body that is no image */
+    dem_image image;     /* its pixels are owned */
+    dem_outline *voids;  /* owned, with room for inclusions behind them */
+    double *pores;       /* owned, with room for DEM_PORES_MAX more while a &pores group is placed */
     dem_lattice lattice;
     body_geometry geometry;
 } former;
+
+static void former_free(former *f)
+{
+    free((void *)f->image.solid);
+    free(f->voids);
+    free(f->pores);
+}
+
+static size_t count_own(const former *f, const char *name)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < schema_count(f->groups, name); k++)
+        n += (size_t)schema_real(schema_get(f->groups, name, k), "body") == f->number;
+    return n;
+}
 
 /* The k-th group of a name if it is for this body, else NULL. */
 static const schema_instance *own(const former *f, const char *name, size_t k)
@@ -41,131 +59,141 @@ static const schema_instance *own(const former *f, const char *name, size_t k)
     return (size_t)schema_real(group, "body") == f->number ? group : NULL;
 }
 
-static dem_status add_void(shape *s, const schema_instance *group)
+/* Passes a status on; one that speaks of a fault is reported with the library's message and what a deck can do. */
+static dem_status report(const former *f, dem_status status, namelist_place place, const char *advice)
 {
-    outline hole;
-    return body_outline_place(&hole, group) && shape_add_void(s, &hole) ? DEM_OK : DEM_ERROR_MEMORY;
-}
-
-static dem_status report_pores(const former *f, const schema_instance *group, const pores_recipe *recipe,
-                               pores_status status, const pores *p)
-{
-    const bool wall_given = schema_given(group, "wall");
-    switch (status) {
-    case PORES_PLACED:
-        return DEM_OK;
-    case PORES_MEMORY:
-        return DEM_ERROR_MEMORY;
-    case PORES_CROWDED:
-        namelist_errors_add(f->errors, group->place,
-                            "pore %zu of %zu, of radius %g m, finds no place in body %zu with walls of %g m%s; "
-                            "take fewer or smaller ones, or a thinner 'wall'",
-                            p->n_placed + 1, p->n, p->list[p->n_placed].radius, f->number, recipe->wall,
-                            wall_given ? "" : ", the default");
-        return DEM_ERROR_MODEL;
-    case PORES_TOO_MANY:
-        namelist_errors_add(f->errors, schema_place(group, "porosity"),
-                            "'porosity' in &pores, %g, needs more than %d pores of such radii in body %zu",
-                            schema_real(group, "porosity"), PORES_MAX, f->number);
-        return DEM_ERROR_MODEL;
-    case PORES_RARE:
-    case PORES_UNSOUND:
-        namelist_errors_add(f->errors, schema_place(group, "mean"),
-                            "'mean' and 'deviation' in &pores, %g m and %g m, give next to no radius from %g m to %g m",
-                            recipe->mean, recipe->deviation, recipe->radius_min, recipe->radius_max);
-        return DEM_ERROR_MODEL;
-    }
-    return DEM_ERROR_MODEL;
-}
-
-static dem_status add_pores(former *f, shape *s, const schema_instance *group)
-{
-    const double *radius = schema_reals(group, "radius"), *wall = schema_reals(group, "wall");
-    pores_recipe recipe = {.number = (size_t)schema_real(group, "number"),
-                           .area = schema_real(group, "porosity") * f->geometry.area,
-                           .radius_min = radius[0],
-                           .radius_max = radius[1],
-                           .distribution = schema_is(group, "distribution", "normal")      ? PORES_NORMAL
-                                           : schema_is(group, "distribution", "lognormal") ? PORES_LOGNORMAL
-                                                                                           : PORES_UNIFORM,
-                           .mean = schema_real(group, "mean"),
-                           .deviation = schema_real(group, "deviation"),
-                           .wall = wall != NULL ? wall[0] : 2.0 * s->spacing,
-                           .seed = (unsigned long)schema_real(group, "seed")};
-    pores placed;
-    const pores_status drawn = shape_add_pores(s, &placed, &recipe);
-    const dem_status status = report_pores(f, group, &recipe, drawn, &placed);
-    f->geometry.n_pores += placed.n_placed;
-    for (size_t k = 0; k < placed.n_placed; k++)
-        f->geometry.pore_area += pi * placed.list[k].radius * placed.list[k].radius;
-    free(placed.list);
+    if (status != DEM_OK && status != DEM_ERROR_MEMORY)
+        namelist_errors_add(f->errors, place, "%s%s", dem_status_message(), advice);
     return status;
 }
 
-static dem_status read_mask(const former *f, shape *s)
+/* ---- pores ---- */
+
+static dem_status report_pores(const former *f, const schema_instance *group, const dem_pores *recipe,
+                               dem_status status, dem_index n_placed)
+{
+    const bool wall_given = schema_given(group, "wall");
+    if (status == DEM_ERROR_ARGUMENT) {
+        namelist_errors_add(f->errors, schema_place(group, "mean"),
+                            "'mean' and 'deviation' in &pores, %g m and %g m, give next to no radius from %g m to %g m",
+                            recipe->mean, recipe->deviation, recipe->radius_min, recipe->radius_max);
+    } else if (status == DEM_ERROR_MODEL && n_placed == DEM_PORES_MAX) {
+        namelist_errors_add(f->errors, schema_place(group, "porosity"),
+                            "'porosity' in &pores, %g, needs more than %d pores of such radii in body %zu",
+                            schema_real(group, "porosity"), DEM_PORES_MAX, f->number);
+    } else {
+        (void)report(f, status, group->place,
+                     wall_given ? "; take fewer or smaller ones, or a thinner 'wall'"
+                                : ", the default; take fewer or smaller ones, or a thinner 'wall'");
+    }
+    return status == DEM_ERROR_MEMORY ? status : DEM_ERROR_MODEL;
+}
+
+static dem_pores recipe_of(const former *f, const schema_instance *group)
+{
+    const double *radius = schema_reals(group, "radius"), *wall = schema_reals(group, "wall");
+    return (dem_pores){.struct_size = sizeof(dem_pores),
+                       .number = (dem_index)schema_real(group, "number"),
+                       .area = schema_real(group, "porosity") * f->geometry.area,
+                       .radius_min = radius[0],
+                       .radius_max = radius[1],
+                       .distribution = schema_is(group, "distribution", "normal")      ? DEM_PORE_RADII_NORMAL
+                                       : schema_is(group, "distribution", "lognormal") ? DEM_PORE_RADII_LOGNORMAL
+                                                                                       : DEM_PORE_RADII_UNIFORM,
+                       .mean = schema_real(group, "mean"),
+                       .deviation = schema_real(group, "deviation"),
+                       .wall = wall != NULL ? wall[0] : 2.0 * f->shape.spacing,
+                       .seed = (uint64_t)schema_real(group, "seed")};
+}
+
+/* Behind those that are there, among which they find their places. */
+static dem_status add_pores(former *f, const schema_instance *group)
+{
+    const dem_pores recipe = recipe_of(f, group);
+    const dem_index before = f->shape.n_pores, room = recipe.number > 0 ? recipe.number : DEM_PORES_MAX;
+    double *pores = realloc(f->pores, (size_t)(before + room) * 3 * sizeof *pores);
+    dem_index n = 0;
+    if (pores == NULL) return DEM_ERROR_MEMORY;
+    f->shape.pores = f->pores = pores;
+    const dem_status status = dem_shape_place_pores(&f->shape, &recipe, pores + 3 * before, room, &n);
+    if (status != DEM_OK) return report_pores(f, group, &recipe, status, n);
+    f->shape.n_pores += n;
+    f->geometry.n_pores += (size_t)n;
+    for (dem_index k = before; k < before + n; k++) f->geometry.pore_area += pi * pores[3 * k + 2] * pores[3 * k + 2];
+    return DEM_OK;
+}
+
+/* ---- shapes ---- */
+
+/* What is at least `threshold` times white is material, or, with `invert`, what is darker. */
+static bool make_solid(former *f, const image *picture)
+{
+    const double threshold = schema_real(f->body, "threshold") * picture->white;
+    const bool inverted = schema_real(f->body, "invert") != 0.0;
+    const size_t n = picture->width * picture->height;
+    unsigned char *solid = calloc(n, sizeof *solid);
+    for (size_t k = 0; solid != NULL && k < n; k++) solid[k] = (picture->grey[k] >= threshold) != inverted;
+    f->image = (dem_image){.struct_size = sizeof f->image,
+                           .width = (dem_index)picture->width,
+                           .height = (dem_index)picture->height,
+                           .pixel = schema_real(f->body, "scale"),
+                           .solid = solid};
+    return solid != NULL;
+}
+
+static dem_status read_image(former *f)
 {
     char *path = body_geometry_file(f->folder, f->body), fault[IMAGE_FAULT];
+    image picture;
     if (path == NULL) return DEM_ERROR_MEMORY;
-    const image_status status = mask_read(&s->mask, fault, path, schema_real(f->body, "scale"),
-                                          schema_real(f->body, "threshold"), schema_real(f->body, "invert") != 0.0);
+    const image_status status = image_file_read(&picture, fault, path);
     if (status == IMAGE_REFUSED)
         namelist_errors_add(f->errors, schema_place(f->body, "file"), "body %zu: %s:%s", f->number, path, fault);
     free(path);
     if (status != IMAGE_READ) return status == IMAGE_MEMORY ? DEM_ERROR_MEMORY : DEM_ERROR_MODEL;
-    s->outline.size[0] = (double)s->mask.width * s->mask.scale;
-    s->outline.size[1] = (double)s->mask.height * s->mask.scale;
-    s->outline.centre[1] = 0.5 * s->outline.size[1];
-    if (s->spacing <= s->outline.size[0] && s->spacing <= s->outline.size[1]) return DEM_OK;
-    body_checks_refuse_spacing(f->body, "image", s->outline.size, f->errors);
+    const bool good = make_solid(f, &picture);
+    image_free(&picture);
+    if (!good) return DEM_ERROR_MEMORY;
+    f->shape.image = &f->image;
+    const double size[2] = {(double)f->image.width * f->image.pixel, (double)f->image.height * f->image.pixel};
+    if (f->shape.spacing <= size[0] && f->shape.spacing <= size[1]) return DEM_OK;
+    body_checks_refuse_spacing(f->body, "image", size, f->errors);
     return DEM_ERROR_MODEL;
 }
 
-/* Outline or mask, voids, pores; the true area. */
-static dem_status make_shape(former *f, shape *s)
+static dem_status collect_voids(former *f)
 {
-    dem_status status = body_outline_copy(&s->outline, f->body) ? DEM_OK : DEM_ERROR_MEMORY;
-    s->spacing = f->geometry.spacing = schema_real(f->body, "spacing");
-    s->squares = body_geometry_has_squares(f->body);
-    /* Where areas underflow the lattice is left as it is, to be refused for that. */
-    s->smooth = schema_is(f->body, "outline", "smooth") && isnormal(s->spacing * s->spacing);
-    if (status == DEM_OK && has_shape(f->body, "mask")) status = read_mask(f, s);
-    for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "void"); k++)
-        if (own(f, "void", k) != NULL) status = add_void(s, own(f, "void", k));
-    if (status != DEM_OK) return status;
-    f->geometry.area = area_of(s);
-    if (f->geometry.area < 0.0) return DEM_ERROR_MEMORY;
+    f->voids = calloc(count_own(f, "void") + f->geometry.n_inclusions + 1, sizeof *f->voids);
+    if (f->voids == NULL) return DEM_ERROR_MEMORY;
+    for (size_t k = 0; k < schema_count(f->groups, "void"); k++)
+        if (own(f, "void", k) != NULL) f->voids[f->shape.n_voids++] = body_outline_placed(own(f, "void", k));
+    f->shape.voids = f->voids;
+    return DEM_OK;
+}
+
+/* Outline or image, voids, pores; the true area. */
+static dem_status make_shape(former *f)
+{
+    f->shape = (dem_shape){.struct_size = sizeof f->shape, .numbered = true, .name = f->name};
+    f->shape.spacing = f->geometry.spacing = schema_real(f->body, "spacing");
+    f->shape.grid = body_geometry_has_squares(f->body) ? DEM_GRID_SQUARES : DEM_GRID_TRIANGLES;
+    if (f->shape.grid == DEM_GRID_TRIANGLES && schema_is(f->body, "outline", "smooth")) f->shape.edge = DEM_EDGE_SMOOTH;
+    f->outline = body_outline(f->body);
+    dem_status status = DEM_OK;
+    if (has_shape(f->body, "mask"))
+        status = read_image(f);
+    else
+        f->shape.outline = &f->outline;
+    if (status == DEM_OK) status = collect_voids(f);
+    if (status == DEM_OK)
+        status = report(f, dem_shape_area(&f->shape, &f->geometry.area), schema_place(f->body, "shape"), "");
     for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "pores"); k++)
-        if (own(f, "pores", k) != NULL) status = add_pores(f, s, own(f, "pores", k));
+        if (own(f, "pores", k) != NULL) status = add_pores(f, own(f, "pores", k));
     f->geometry.area -= f->geometry.pore_area;
     return status;
 }
 
-/* A void that takes nothing is a fault where it is not in the body at all; one between nodes is only small. */
-static dem_status check_voids(const former *f, const shape *s)
-{
-    dem_status status = DEM_OK;
-    size_t v = 0; /* the voids of a shape begin with those of its groups */
-    for (size_t k = 0; k < schema_count(f->groups, "void"); k++) {
-        if (own(f, "void", k) == NULL) continue;
-        const outline *hole = &s->voids[v++];
-        const double *inside = hole->kind == OUTLINE_POLYGON ? hole->points : hole->centre;
-        if (shape_outline_has(s, inside) || shape_takes(s, hole, &f->lattice)) continue;
-        namelist_errors_add(f->errors, schema_place(own(f, "void", k), "centre"),
-                            "void takes no node of body %zu: its centre is in the body's own coordinates", f->number);
-        status = DEM_ERROR_MODEL;
-    }
-    return status;
-}
-
 /* ---- numbers ---- */
-
-/* Triangles have no strength yet; what is written there goes along with those that stay. Doubles hold them exactly. */
-static dem_status number_triangles(dem_lattice *lattice)
-{
-    lattice->strength = calloc((size_t)lattice->n_triangles + 1, sizeof *lattice->strength);
-    for (dem_index t = 0; lattice->strength != NULL && t < lattice->n_triangles; t++) lattice->strength[t] = (double)t;
-    return lattice->strength != NULL ? DEM_OK : DEM_ERROR_MEMORY;
-}
 
 dem_index *body_geometry_take_numbers(dem_lattice *lattice)
 {
@@ -179,22 +207,25 @@ dem_index *body_geometry_take_numbers(dem_lattice *lattice)
 
 /* ---- lattices ---- */
 
-static dem_status cut_lattice(former *f, const shape *s)
+static dem_status report_void(const former *f, dem_index idle)
 {
-    dem_status status = shape_mesh(&f->lattice, s);
-    if (status == DEM_ERROR_MODEL)
-        namelist_errors_add(f->errors, schema_place(f->body, "spacing"),
-                            "body %zu would have more nodes than 2^40 with the spacing %g m", f->number, s->spacing);
-    if (status == DEM_OK) status = number_triangles(&f->lattice);
-    if (status == DEM_OK) status = check_voids(f, s);
-    if (status != DEM_OK) return status;
-    const dem_index n = f->lattice.n_nodes;
-    status = s->smooth ? smoothing_apply(&f->geometry.smoothing, &f->lattice, s) : shape_cut(&f->lattice, s);
-    if (status == DEM_ERROR_MODEL)
-        namelist_errors_add(f->errors, f->body->place,
-                            "body %zu: its outline, voids and pores leave none of %lld nodes%s", f->number,
-                            (long long)n, body_geometry_hint(f->body));
-    return status;
+    dem_index v = 0;
+    for (size_t k = 0; k < schema_count(f->groups, "void"); k++)
+        if (own(f, "void", k) != NULL && v++ == idle)
+            namelist_errors_add(f->errors, schema_place(own(f, "void", k), "centre"),
+                                "void takes no node of body %zu: its centre is in the body's own coordinates",
+                                f->number);
+    return DEM_ERROR_MODEL;
+}
+
+static dem_status make_lattice(former *f)
+{
+    dem_shape_report *out = &f->geometry.report;
+    *out = (dem_shape_report){.struct_size = sizeof *out};
+    const dem_status status = dem_shape_lattice(&f->lattice, &f->shape, out);
+    if (status == DEM_ERROR_MODEL && out->idle_void >= 0) return report_void(f, out->idle_void);
+    if (status == DEM_ERROR_ARGUMENT) return report(f, status, schema_place(f->body, "spacing"), "");
+    return report(f, status, f->body->place, body_geometry_hint(f->body));
 }
 
 /* ---- meshes ---- */
@@ -204,6 +235,14 @@ static double area_of_triangle(const dem_lattice *lattice, dem_index t)
     const dem_index *node = lattice->triangles + 3 * t;
     const double *a = lattice->x + 2 * node[0], *b = lattice->x + 2 * node[1], *c = lattice->x + 2 * node[2];
     return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+
+/* As the library does it for shapes that are `numbered`. */
+static dem_status number_triangles(dem_lattice *lattice)
+{
+    lattice->strength = calloc((size_t)lattice->n_triangles + 1, sizeof *lattice->strength);
+    for (dem_index t = 0; lattice->strength != NULL && t < lattice->n_triangles; t++) lattice->strength[t] = (double)t;
+    return lattice->strength != NULL ? DEM_OK : DEM_ERROR_MEMORY;
 }
 
 static dem_status read_mesh(former *f)
@@ -263,26 +302,42 @@ void body_geometry_materials(dem_material *out, const schema_deck *groups, size_
         out[i].springs = DEM_SPRINGS_INDEPENDENT;
 }
 
-dem_status body_geometry_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
-                              namelist_errors *errors)
+/* \param inside  [n_triangles] room */
+static dem_status mark_inclusions(const former *f, dem_index *of, const dem_lattice *lattice, bool *inside)
 {
-    const former f = {.groups = groups, .body = schema_get(groups, "body", k), .number = k + 1};
+    const dem_index step = body_geometry_has_squares(f->body) ? 2 : 1;
     dem_index material = 0;
-    for (dem_index t = 0; t < lattice->n_triangles; t++) of[t] = 0;
-    for (size_t i = 0; i < schema_count(groups, "inclusion"); i++) {
-        const schema_instance *group = own(&f, "inclusion", i);
-        outline o;
+    for (size_t i = 0; i < schema_count(f->groups, "inclusion"); i++) {
+        const schema_instance *group = own(f, "inclusion", i);
+        dem_index n = 0;
         if (group == NULL) continue;
-        if (!body_outline_place(&o, group)) return DEM_ERROR_MEMORY;
-        const dem_index n = enclosed_triangles(of, lattice, &o, ++material, body_geometry_has_squares(f.body) ? 2 : 1);
-        outline_free(&o);
+        const dem_outline o = body_outline_placed(group);
+        const dem_status status = dem_lattice_inside(lattice, &o, step, inside, NULL);
+        if (status != DEM_OK) return report(f, status, group->place, "");
+        material++;
+        for (dem_index t = 0; t < lattice->n_triangles; t++) {
+            if (inside[t]) of[t] = material;
+            n += inside[t];
+        }
         if (n > 0) continue;
-        namelist_errors_add(errors, schema_place(group, "centre"),
+        namelist_errors_add(f->errors, schema_place(group, "centre"),
                             "inclusion has no triangle of body %zu: its centre is in the body's own coordinates",
-                            f.number);
+                            f->number);
         return DEM_ERROR_MODEL;
     }
     return DEM_OK;
+}
+
+dem_status body_geometry_mark(dem_index *of, const dem_lattice *lattice, const schema_deck *groups, size_t k,
+                              namelist_errors *errors)
+{
+    const former f = {.groups = groups, .body = schema_get(groups, "body", k), .number = k + 1, .errors = errors};
+    bool *inside = calloc((size_t)lattice->n_triangles + 1, sizeof *inside);
+    if (inside == NULL) return DEM_ERROR_MEMORY;
+    for (dem_index t = 0; t < lattice->n_triangles; t++) of[t] = 0;
+    const dem_status status = mark_inclusions(&f, of, lattice, inside);
+    free(inside);
+    return status;
 }
 
 static double weight_of(const dem_material *m)
@@ -291,20 +346,21 @@ static double weight_of(const dem_material *m)
 }
 
 /* The area of an inclusion is what is missing when it is a void; the last one goes before the others. */
-static dem_status weigh_shape(former *f, shape *s, const dem_material *materials)
+static dem_status weigh_shape(former *f, const dem_material *materials)
 {
     const double body = weight_of(&materials[0]);
-    double area = f->geometry.n_inclusions > 0 ? area_of(s) : 0.0;
     size_t material = f->geometry.n_inclusions;
+    double area = 0.0, without;
     f->geometry.mass = body * f->geometry.area;
-    for (size_t i = schema_count(f->groups, "inclusion"); area >= 0.0 && i-- > 0;) {
+    dem_status status = material > 0 ? dem_shape_area(&f->shape, &area) : DEM_OK;
+    for (size_t i = schema_count(f->groups, "inclusion"); status == DEM_OK && i-- > 0;) {
         if (own(f, "inclusion", i) == NULL) continue;
-        if (add_void(s, own(f, "inclusion", i)) != DEM_OK) return DEM_ERROR_MEMORY;
-        const double without = area_of(s);
-        if (without >= 0.0) f->geometry.mass += (weight_of(&materials[material--]) - body) * (area - without);
+        f->voids[f->shape.n_voids++] = body_outline_placed(own(f, "inclusion", i));
+        status = dem_shape_area(&f->shape, &without);
+        if (status == DEM_OK) f->geometry.mass += (weight_of(&materials[material--]) - body) * (area - without);
         area = without;
     }
-    return area < 0.0 ? DEM_ERROR_MEMORY : DEM_OK;
+    return report(f, status, f->body->place, "");
 }
 
 static dem_status weigh_mesh(former *f, const dem_material *materials)
@@ -319,58 +375,68 @@ static dem_status weigh_mesh(former *f, const dem_material *materials)
 }
 
 /* The true mass; the shape is not to be used after that. */
-static dem_status weigh(former *f, shape *s)
+static dem_status weigh(former *f)
 {
-    for (size_t i = 0; i < schema_count(f->groups, "inclusion"); i++)
-        f->geometry.n_inclusions += own(f, "inclusion", i) != NULL;
     dem_material *materials = calloc(f->geometry.n_inclusions + 1, sizeof *materials);
     if (materials == NULL) return DEM_ERROR_MEMORY;
     body_geometry_materials(materials, f->groups, f->number - 1);
-    const dem_status status = has_shape(f->body, "mesh") ? weigh_mesh(f, materials) : weigh_shape(f, s, materials);
+    const dem_status status = has_shape(f->body, "mesh") ? weigh_mesh(f, materials) : weigh_shape(f, materials);
     free(materials);
     return status;
 }
 
 /* ---- cracks ---- */
 
-static dem_status mark_crack(const former *f, bool *keep, const schema_instance *group, double shift)
+/* \param crossed  [n_triangles] room */
+static dem_status mark_crack(const former *f, bool *keep, bool *crossed, const schema_instance *group)
 {
     const schema_value *points = schema_value_of(group, "points");
-    const dem_index n = crack_mark(keep, &f->lattice, points->reals, (size_t)points->count / 2, shift);
-    if (n < 0) return DEM_ERROR_MEMORY;
-    if (n > 0) return DEM_OK;
+    const double aside = BODY_GEOMETRY_ASIDE * f->geometry.spacing;
+    const dem_status status = dem_lattice_crossed(&f->lattice, points->reals, points->count / 2, aside, crossed, NULL);
+    bool any = false;
+    if (status != DEM_OK) return report(f, status, points->place, "");
+    for (dem_index t = 0; t < f->lattice.n_triangles; t++) {
+        keep[t] = keep[t] && !crossed[t];
+        any = any || crossed[t];
+    }
+    if (any) return DEM_OK;
     namelist_errors_add(f->errors, points->place,
                         "crack crosses no triangle of body %zu: its points are in the body's own coordinates",
                         f->number);
     return DEM_ERROR_MODEL;
 }
 
-static bool has_cracks(const former *f)
+/* Of a cell of squares both triangles stay, or none. */
+static void keep_cells(bool *keep, dem_index n_triangles)
 {
-    for (size_t k = 0; k < schema_count(f->groups, "crack"); k++)
-        if (own(f, "crack", k) != NULL) return true;
-    return false;
+    for (dem_index t = 0; t + 1 < n_triangles; t += 2) keep[t] = keep[t + 1] = keep[t] && keep[t + 1];
+}
+
+/* \param keep, crossed  [n_triangles] room */
+static dem_status take_cracks(former *f, bool *keep, bool *crossed)
+{
+    const dem_index n = f->lattice.n_triangles;
+    dem_status status = DEM_OK;
+    memset(keep, 1, (size_t)n * sizeof *keep);
+    for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "crack"); k++)
+        if (own(f, "crack", k) != NULL) status = mark_crack(f, keep, crossed, own(f, "crack", k));
+    if (status != DEM_OK) return status;
+    if (body_geometry_has_squares(f->body)) keep_cells(keep, n);
+    status = dem_lattice_trim(&f->lattice, keep);
+    if (status == DEM_ERROR_MODEL)
+        namelist_errors_add(f->errors, f->body->place, "body %zu: its cracks leave none of %lld triangles", f->number,
+                            (long long)n);
+    f->geometry.n_cracked = n - f->lattice.n_triangles;
+    return status;
 }
 
 static dem_status crack(former *f)
 {
-    const double shift = CRACK_ASIDE * f->geometry.spacing;
-    const dem_index n = f->lattice.n_triangles;
-    bool *keep = malloc((size_t)n + 1);
-    dem_status status = DEM_OK;
-    if (keep == NULL) return DEM_ERROR_MEMORY;
-    memset(keep, 1, (size_t)n + 1);
-    for (size_t k = 0; status == DEM_OK && k < schema_count(f->groups, "crack"); k++)
-        if (own(f, "crack", k) != NULL) status = mark_crack(f, keep, own(f, "crack", k), shift);
-    if (body_geometry_has_squares(f->body)) shape_keep_cells(keep, n);
-    if (status == DEM_OK) {
-        status = dem_lattice_trim(&f->lattice, keep);
-        if (status == DEM_ERROR_MODEL)
-            namelist_errors_add(f->errors, f->body->place, "body %zu: its cracks leave none of %lld triangles",
-                                f->number, (long long)n);
-    }
-    f->geometry.n_cracked = n - f->lattice.n_triangles;
+    const size_t n = (size_t)f->lattice.n_triangles + 1;
+    bool *keep = malloc(n * sizeof *keep), *crossed = malloc(n * sizeof *crossed);
+    const dem_status status = keep != NULL && crossed != NULL ? take_cracks(f, keep, crossed) : DEM_ERROR_MEMORY;
     free(keep);
+    free(crossed);
     return status;
 }
 
@@ -402,20 +468,21 @@ dem_status body_geometry_triangulate(dem_lattice *lattice, body_geometry *out, c
 {
     former f = {
         .groups = groups, .body = schema_get(groups, "body", k), .number = k + 1, .folder = folder, .errors = errors};
-    shape s = {0};
+    (void)snprintf(f.name, sizeof f.name, "body %zu", f.number);
     f.lattice = dem_lattice_empty();
+    f.geometry.n_inclusions = count_own(&f, "inclusion");
     dem_status status = DEM_OK;
     if (has_shape(f.body, "mesh")) {
         status = read_mesh(&f);
     } else {
-        status = make_shape(&f, &s);
-        if (status == DEM_OK) status = cut_lattice(&f, &s);
+        status = make_shape(&f);
+        if (status == DEM_OK) status = make_lattice(&f);
     }
-    if (status == DEM_OK) status = weigh(&f, &s);
-    if (status == DEM_OK && has_cracks(&f)) status = crack(&f);
+    if (status == DEM_OK) status = weigh(&f);
+    if (status == DEM_OK && count_own(&f, "crack") > 0) status = crack(&f);
     if (status == DEM_OK) status = jitter(&f);
     if (status != DEM_OK) dem_lattice_free(&f.lattice);
-    shape_free(&s);
+    former_free(&f);
     *lattice = f.lattice;
     *out = f.geometry;
     return status;

@@ -5,9 +5,11 @@
 #define DEM_BODY_GEOMETRY_H
 
 #include <dem/dem.h>
+#include <dem/shape.h>
 
 #include "schema.h"
-#include "smoothing.h"
+
+#define BODY_GEOMETRY_ASIDE 1e-6 /* of the spacing: how far cracks run beside their points */
 
 /* What came out beside the triangulation. */
 typedef struct body_geometry {
@@ -17,8 +19,8 @@ typedef struct body_geometry {
     double mass;      /* kg, of that area: by the material of the body, and of its inclusions where they are */
     size_t n_pores;   /* random ones */
     size_t n_inclusions;
-    dem_index n_cracked; /* triangles that cracks took */
-    smoothing smoothing; /* of a smooth outline; else n_rim is 0 */
+    dem_index n_cracked;     /* triangles that cracks took */
+    dem_shape_report report; /* of a smooth outline; else n_rim is 0 */
 } body_geometry;
 
 /* Triangulates body k, from 0, of any shape but 'file'; there are no springs yet. Caller owns *lattice, which is empty

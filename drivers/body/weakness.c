@@ -8,8 +8,6 @@
 
 #include "body_geometry.h"
 #include "body_outline.h"
-#include "crack.h"
-#include "enclosed.h"
 
 /* The elements that one group touches, and what they are multiplied by, of all groups; 0: by nothing yet. */
 typedef struct work {
@@ -18,7 +16,6 @@ typedef struct work {
     namelist_errors *errors;
     bool squares;
     bool *triangles, *springs; /* [n_triangles], [n_springs] touched */
-    dem_index *enclosed;       /* [n_triangles] 1: in a shape */
     unsigned char *sides;      /* [n_nodes] 1: of a triangle in an inclusion, 2: of one beside it, 3: of both */
     double *of_triangles, *of_energies, *of_springs;
 } work;
@@ -27,7 +24,6 @@ static void work_free(work *w)
 {
     free(w->triangles);
     free(w->springs);
-    free(w->enclosed);
     free(w->sides);
     free(w->of_triangles);
     free(w->of_energies);
@@ -41,13 +37,11 @@ static dem_status work_create(work *w, const weakness_body *body, const dem_latt
     w->squares = body_geometry_has_squares(schema_get(body->groups, "body", body->k));
     w->triangles = calloc(n, sizeof *w->triangles);
     w->springs = calloc(m, sizeof *w->springs);
-    w->enclosed = calloc(n, sizeof *w->enclosed);
     w->sides = calloc((size_t)l->n_nodes + 1, 1);
     w->of_triangles = calloc(n, sizeof *w->of_triangles);
     w->of_energies = calloc(n, sizeof *w->of_energies);
     w->of_springs = calloc(m, sizeof *w->of_springs);
-    if (w->triangles && w->springs && w->enclosed && w->sides && w->of_triangles && w->of_energies && w->of_springs)
-        return DEM_OK;
+    if (w->triangles && w->springs && w->sides && w->of_triangles && w->of_energies && w->of_springs) return DEM_OK;
     work_free(w);
     return DEM_ERROR_MEMORY;
 }
@@ -67,42 +61,20 @@ static void touch_cells(work *w)
         w->triangles[t] = w->triangles[t + 1] = w->triangles[t] || w->triangles[t + 1];
 }
 
-static void invert(bool *flags, dem_index n)
-{
-    for (dem_index k = 0; k < n; k++) flags[k] = !flags[k];
-}
-
-/* What a crack would take away; cracks are marked by what they leave. */
-static dem_status touch_line(work *w, const schema_instance *group)
-{
-    const schema_value *points = schema_value_of(group, "points");
-    const size_t n = (size_t)points->count / 2;
-    const double shift = CRACK_ASIDE * w->body->spacing;
-    invert(w->triangles, w->lattice->n_triangles);
-    invert(w->springs, w->lattice->n_springs);
-    const bool good = crack_mark(w->triangles, w->lattice, points->reals, n, shift) >= 0 &&
-                      crack_mark_springs(w->springs, w->lattice, points->reals, n, shift) >= 0;
-    invert(w->triangles, w->lattice->n_triangles);
-    invert(w->springs, w->lattice->n_springs);
-    return good ? DEM_OK : DEM_ERROR_MEMORY;
-}
-
-static dem_status touch_shape(work *w, const schema_instance *group)
-{
-    outline o;
-    if (!body_outline_place(&o, group)) return DEM_ERROR_MEMORY;
-    memset(w->enclosed, 0, (size_t)w->lattice->n_triangles * sizeof *w->enclosed);
-    (void)enclosed_triangles(w->enclosed, w->lattice, &o, 1, w->squares ? 2 : 1);
-    for (dem_index t = 0; t < w->lattice->n_triangles; t++) w->triangles[t] = w->enclosed[t] > 0;
-    enclosed_springs(w->springs, w->lattice, &o);
-    outline_free(&o);
-    return DEM_OK;
-}
-
+/* What a crack would take away, or what lies in a shape. */
 static dem_status touch_group(work *w, const schema_instance *group)
 {
-    touch_nothing(w);
-    const dem_status status = schema_is(group, "shape", "polyline") ? touch_line(w, group) : touch_shape(w, group);
+    const schema_value *points = schema_value_of(group, "points");
+    dem_status status;
+    if (schema_is(group, "shape", "polyline")) {
+        status = dem_lattice_crossed(w->lattice, points->reals, points->count / 2,
+                                     BODY_GEOMETRY_ASIDE * w->body->spacing, w->triangles, w->springs);
+    } else {
+        const dem_outline o = body_outline_placed(group);
+        status = dem_lattice_inside(w->lattice, &o, w->squares ? 2 : 1, w->triangles, w->springs);
+    }
+    if (status != DEM_OK && status != DEM_ERROR_MEMORY)
+        namelist_errors_add(w->errors, group->place, "%s", dem_status_message());
     touch_cells(w);
     return status;
 }

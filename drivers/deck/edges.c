@@ -43,13 +43,26 @@ static bool is_outermost(const place *p, const double outwards[2], double slack)
     return true;
 }
 
+typedef struct side {
+    double a[2], b[2]; /* m */
+} side;
+
+/* From corner k of n to the next. What is no figure has been refused. */
+static side side_at(const dem_outline *o, dem_index k, dem_index n)
+{
+    side s = {{0.0, 0.0}, {0.0, 0.0}};
+    (void)dem_outline_corner(o, k, s.a);
+    (void)dem_outline_corner(o, (k + 1) % n, s.b);
+    return s;
+}
+
 /* Twice, m^2; > 0 where the sides run counter-clockwise. */
-static double area_of_sides(const outline *o)
+static double area_of_sides(const dem_outline *o, dem_index n)
 {
     double sum = 0.0;
-    for (size_t k = 0; k < outline_corners(o); k++) {
-        const outline_side side = outline_side_at(o, k);
-        sum += side.a[0] * side.b[1] - side.a[1] * side.b[0];
+    for (dem_index k = 0; k < n; k++) {
+        const side s = side_at(o, k, n);
+        sum += s.a[0] * s.b[1] - s.a[1] * s.b[0];
     }
     return sum;
 }
@@ -60,11 +73,12 @@ static bool is_straight(const place *p, dem_index end)
 {
     if (!schema_is(p->body, "shape", "polygon") && !schema_is(p->body, "shape", "rectangle")) return false;
     const double angle = angle_degree * schema_real(p->body, "angle"), slack = blur * schema_real(p->body, "spacing");
-    const outline o = body_outline(p->body);
-    const double c = cos(angle), s = sin(angle), sense = area_of_sides(&o) > 0.0 ? 1.0 : -1.0;
-    for (size_t k = 0; k < outline_corners(&o); k++) {
-        const outline_side side = outline_side_at(&o, k);
-        const double x = side.b[0] - side.a[0], y = side.b[1] - side.a[1], length = sense * hypot(x, y);
+    const dem_outline o = body_outline(p->body);
+    const dem_index n = dem_outline_corners(&o);
+    const double c = cos(angle), s = sin(angle), sense = area_of_sides(&o, n) > 0.0 ? 1.0 : -1.0;
+    for (dem_index k = 0; k < n; k++) {
+        const side e = side_at(&o, k, n);
+        const double x = e.b[0] - e.a[0], y = e.b[1] - e.a[1], length = sense * hypot(x, y);
         const double normal[2] = {y / length, -x / length};
         const double outwards[2] = {c * normal[0] - s * normal[1], s * normal[0] + c * normal[1]};
         if (fabs(ahead(p, end, outwards)) <= slack && is_outermost(p, outwards, slack)) return true;

@@ -6,10 +6,10 @@
 
 #include "file.h"
 #include "body_geometry.h"
-#include "mask.h"
+#include "image_file.h"
 #include "material.h"
 #include "ask.h"
-#include "outline.h"
+#include "body_outline.h"
 
 static const double pi = 3.14159265358979323846, sqrt3 = 1.73205080756887729353;
 
@@ -48,14 +48,13 @@ static double area_of(const schema_instance *group)
 static bool find_extent(double size[2], const schema_instance *body, const char *path)
 {
     const double *given = schema_reals(body, "size"), diameter = 2.0 * schema_real(body, "radius");
-    const schema_value *points = schema_value_of(body, "points");
     size[0] = given != NULL ? given[0] : diameter;
     size[1] = given != NULL ? given[1] : diameter;
-    if (schema_is(body, "shape", "mask")) return mask_measure(size, path, schema_real(body, "scale"));
+    if (schema_is(body, "shape", "mask")) return image_file_measure(size, path, schema_real(body, "scale"));
     if (schema_is(body, "shape", "polygon")) {
         double box[4];
-        const outline o = {.kind = OUTLINE_POLYGON, .n_points = (size_t)points->count / 2, .points = points->reals};
-        outline_box(&o, box);
+        const dem_outline o = body_outline(body);
+        if (dem_outline_box(&o, box) != DEM_OK) return false;
         for (int c = 0; c < 2; c++) size[c] = box[c + 2] - box[c];
     }
     return size[0] > 0.0;

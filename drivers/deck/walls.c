@@ -13,10 +13,10 @@ static bool has_outline(const schema_instance *body)
 }
 
 /* Without the hole of a ring: how far a void is from that is asked for apart. */
-static outline outer_edge(const schema_instance *body)
+static dem_outline outer_edge(const schema_instance *body)
 {
-    outline o = body_outline(body);
-    if (o.kind == OUTLINE_RING) o.kind = OUTLINE_DISC;
+    dem_outline o = body_outline(body);
+    if (o.kind == DEM_OUTLINE_RING) o.kind = DEM_OUTLINE_DISC;
     return o;
 }
 
@@ -52,14 +52,15 @@ double walls_thinnest(const schema_deck *groups, size_t k)
     if (k >= schema_count(groups, "body")) return least;
     const schema_instance *body = schema_get(groups, "body", k);
     if (!has_outline(body)) return least;
-    const outline o = outer_edge(body);
+    const dem_outline o = outer_edge(body);
     const double hole_radius = schema_real(body, "inner_radius");
+    double out; /* of the outer edge, m */
     if (schema_is(body, "shape", "ring")) least = o.radius - hole_radius;
     for (size_t i = 0; i < schema_count(groups, "void"); i++) {
         const schema_instance *hole = schema_get(groups, "void", i);
         if (!is_round_void(hole, k)) continue;
         const double *x = schema_reals(hole, "centre"), radius = schema_real(hole, "radius");
-        least = thinner(least, -outline_distance(&o, x[0], x[1]) - radius);
+        if (dem_outline_distance(&o, x, 1, &out) == DEM_OK) least = thinner(least, -out - radius);
         if (schema_is(body, "shape", "ring")) least = thinner(least, hypot(x[0], x[1]) - hole_radius - radius);
         least = thinnest_between(groups, k, i, least);
     }

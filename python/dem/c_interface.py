@@ -774,6 +774,119 @@ class dem_spring_peak(Structure):
     _fields_ = [("strain", c_double), ("t", c_double)]
 
 
+# ---- dem/shape.h
+
+
+class dem_outline_kind(IntEnum):
+    """Values of dem_outline_kind."""
+    DEM_OUTLINE_RECTANGLE = 0
+    DEM_OUTLINE_DISC = 1
+    DEM_OUTLINE_RING = 2
+    DEM_OUTLINE_POLYGON = 3
+
+DEM_OUTLINE_MAX_POINTS = 10000
+
+DEM_IMAGE_MAX_SIDE = 32768
+
+
+class dem_grid(IntEnum):
+    """What lattices are made of."""
+    DEM_GRID_TRIANGLES = 0
+    DEM_GRID_SQUARES = 1
+
+
+class dem_edge(IntEnum):
+    """What becomes of nodes near edges."""
+    DEM_EDGE_STEPPED = 0
+    DEM_EDGE_SMOOTH = 1
+
+DEM_PORES_MAX = 10000
+
+
+class dem_pore_radii(IntEnum):
+    """How radii of pores are distributed."""
+    DEM_PORE_RADII_UNIFORM = 0
+    DEM_PORE_RADII_LOGNORMAL = 1
+    DEM_PORE_RADII_NORMAL = 2
+
+
+class dem_outline(SizedStructure):
+    """A plane figure in its place. Members that its kind does not use are not looked at.
+    struct_size: to be set to sizeof(dem_outline), in each of an array
+    centre: m: of a rectangle, a disc, a ring; of a polygon how far its points are shifted
+    angle: radians: by which a rectangle is turned about its centre, a polygon about the origin of its points, before it
+        is shifted
+    size: m, > 0: width and height of a rectangle
+    radius: m, > 0: of a disc, or the outer one of a ring
+    inner_radius: m, > 0, < radius: of the hole of a ring
+    n_points: of a polygon, 3 to DEM_OUTLINE_MAX_POINTS; the last may be the first once more
+    points: [n_points][2], m, in either sense, consecutive ones distinct; the caller's, only read"""
+    _fields_ = [("struct_size", c_size_t), ("kind", c_int), ("centre", c_double * 2), ("angle", c_double),
+                ("size", c_double * 2), ("radius", c_double), ("inner_radius", c_double), ("n_points", c_int64),
+                ("points", POINTER(c_double))]
+
+
+class dem_image(SizedStructure):
+    """A body drawn in pixels. The origin is the middle of the lower edge.
+    struct_size: to be set to sizeof(dem_image)
+    height: width, height: pixels, 1 to DEM_IMAGE_MAX_SIDE
+    pixel: m, > 0: side of a pixel
+    solid: [height][width] not 0: material; the top row first; the caller's, only read"""
+    _fields_ = [("struct_size", c_size_t), ("width", c_int64), ("height", c_int64), ("pixel", c_double),
+                ("solid", POINTER(c_ubyte))]
+
+
+class dem_shape(SizedStructure):
+    """What is to be triangulated: an outline or an image, less voids and pores. All is in one system of coordinates.
+    struct_size: to be set to sizeof(dem_shape)
+    outline: the body's edge; NULL for an image
+    image: NULL for an outline
+    spacing: m, > 0: length of the sides of triangles or squares; not more than the width and the height of the body,
+        the radius of a disc, the wall of a ring
+    edge: smooth: neither with squares nor of an image
+    n_voids: >= 0
+    voids: [n_voids] that are not material; they may overlap, and stick out of the body
+    n_pores: >= 0
+    pores: [n_pores][3] x, y and radius > 0 of round voids, m: see dem_shape_place_pores()
+    numbered: true: `strength` of the lattice holds the numbers that its triangles had before anything was cut, and
+        keeps them at further cuts. They are for dem_weibull.number: what is drawn for a place then does not depend on
+        voids and cracks. To be taken out, and `strength` freed and set to NULL, before the lattice is assembled
+    name: by which messages call it, such as "body 1"; NULL: "the shape"
+    """
+    _fields_ = [("struct_size", c_size_t), ("outline", POINTER(dem_outline)), ("image", POINTER(dem_image)),
+                ("spacing", c_double), ("grid", c_int), ("edge", c_int), ("n_voids", c_int64),
+                ("voids", POINTER(dem_outline)), ("n_pores", c_int64), ("pores", POINTER(c_double)),
+                ("numbered", c_bool), ("name", c_char_p)]
+
+
+class dem_shape_report(SizedStructure):
+    """What came out beside the lattice.
+    struct_size: to be set to sizeof(dem_shape_report)
+    n_rim: of a smooth edge: nodes at it; else 0, as the next three
+    n_off: of these nodes, those that could not be moved on to an edge
+    n_cut: corners that no node is near, so that they are cut off
+    farthest: m, that the worst of the n_off nodes is off its edge
+    idle_void: after a failure too: the void, from 0, that takes nothing of the body; else -1"""
+    _fields_ = [("struct_size", c_size_t), ("n_rim", c_int64), ("n_off", c_int64), ("n_cut", c_int64),
+                ("farthest", c_double), ("idle_void", c_int64)]
+
+
+class dem_pores(SizedStructure):
+    """Round pores of random sizes at random places.
+    struct_size: to be set to sizeof(dem_pores)
+    number: 0 to DEM_PORES_MAX; 0: as many as the area needs
+    area: m^2, >= 0: of all pores where number is 0, such as a porosity times dem_shape_area(); they miss it by at most
+        half of the last one's
+    radius_min: m, > 0: no smaller one is drawn, and no larger one than the next
+    radius_max: m, >= radius_min
+    deviation: mean, deviation: m, > 0: of all numbers drawn, those beyond included; not of a uniform distribution
+    wall: m, >= 0: least material between two pores, and between a pore and an edge
+    seed: below 2^32 counts; 0 is as 4357"""
+    _fields_ = [("struct_size", c_size_t), ("number", c_int64), ("area", c_double), ("radius_min", c_double),
+                ("radius_max", c_double), ("distribution", c_int), ("mean", c_double), ("deviation", c_double),
+                ("wall", c_double), ("seed", c_uint64)]
+
+
 # ---- dem/dem.h
 
 
@@ -1367,6 +1480,85 @@ FUNCTIONS = {  # name: (result, arguments, text)
     "dem_peaks_most_strained_springs": (c_int64, [POINTER(dem_peaks), c_int64, POINTER(c_int64)],
         """dem_peaks_most_strained_springs(peaks, n, springs)
         The same of the springs and their strains."""),
+    "dem_points_check": (c_int, [POINTER(c_double), c_int64],
+        """dem_points_check(points, n)
+        Whether points make a polyline: finite ones, n >= 1, with lengths between them that can be computed with.
+        points [n][2] m
+        Returns DEM_ERROR_ARGUMENT, with points numbered from 1 in its message"""),
+    "dem_outline_check": (c_int, [POINTER(dem_outline)],
+        """dem_outline_check(outline)
+        Whether a figure is one: numbers in their ranges, and a polygon that does not meet itself.
+        Returns DEM_ERROR_ARGUMENT, with points and edges numbered from 1 in its message"""),
+    "dem_outline_box": (c_int, [POINTER(dem_outline), POINTER(c_double)],
+        """dem_outline_box(outline, box)
+        The box around a figure.
+        box [4] left, bottom, right, top, m"""),
+    "dem_outline_distance": (c_int, [POINTER(dem_outline), POINTER(c_double), c_int64, POINTER(c_double)],
+        """dem_outline_distance(outline, x, n, distance)
+        Signed distances of points from the edge, > 0 outside; of a polygon that meets itself they have no meaning.
+        x [n][2] m
+        distance [n] m"""),
+    "dem_outline_corners": (c_int64, [POINTER(dem_outline)],
+        """dem_outline_corners(outline)
+        Number of corners; 0 of discs and rings, and of what is no figure."""),
+    "dem_outline_corner": (c_int, [POINTER(dem_outline), c_int64, POINTER(c_double)],
+        """dem_outline_corner(outline, k, x)
+        Where a corner is, in the order of points; of a rectangle counter-clockwise from the lower left before it is
+        turned.
+        k from 0
+        x [2] m"""),
+    "dem_shape_lattice": (c_int, [POINTER(dem_lattice), POINTER(dem_shape), POINTER(dem_shape_report)],
+        """dem_shape_lattice(out, shape, report)
+        Triangulates a shape: nodes and triangles only, as dem_lattice_rectangle() does. Of an outline of triangles
+        that is not smooth the nodes are those of an equilateral grid: of a rectangle that is not turned it has rows
+        along its lower side and its height is rounded to whole ones, in a disc or a ring a node is at its centre,
+        others stand on their lowest points. Nodes on an edge belong to the body. Coordinates are mirror symmetric to
+        the bit where the shape is.
+        out from dem_lattice_empty(); overwritten, not freed; caller owns it
+        report may be NULL
+        Returns DEM_ERROR_ARGUMENT for a member outside its range, and where there would be more than 2^40 nodes;
+        DEM_ERROR_MODEL where a void lies wholly outside of the body, and where nothing is left of it;
+        DEM_ERROR_MEMORY"""),
+    "dem_shape_area": (c_int, [POINTER(dem_shape), POINTER(c_double)],
+        """dem_shape_area(shape, area)
+        True area of a shape without its lattice: exact to rounding where all edges are straight, to 1e-4 of the body
+        for others. Takes time of order (n_voids + n_pores)^2.
+        area m^2"""),
+    "dem_shape_place_pores": (c_int, [POINTER(dem_shape), POINTER(dem_pores), POINTER(c_double), c_int64,
+                                      POINTER(c_int64)],
+        """dem_shape_place_pores(shape, recipe, pores, capacity, n)
+        Draws radii and places the pores in the material of a shape, the largest first, each at the first admissible
+        of at most 100,000 random centres. The same recipe gives the same pores on every machine. They become part of
+        a shape as its `pores`, where those of further recipes are appended.
+        pores [capacity][3] x, y and radius, m, by falling radius
+        capacity number of rows; DEM_PORES_MAX are enough for any recipe, `number` of them where that is not 0
+        n how many there are; after DEM_ERROR_MODEL how many have found a place, DEM_PORES_MAX where the area needs
+        more than these
+        Returns DEM_ERROR_ARGUMENT for a number outside its range, where next to no radius lies between the smallest
+        and the largest, and where the capacity is too small; DEM_ERROR_MODEL where a pore finds no place or the area
+        needs more than DEM_PORES_MAX; DEM_ERROR_MEMORY"""),
+    "dem_lattice_inside": (c_int, [POINTER(dem_lattice), POINTER(dem_outline), c_int64, POINTER(c_bool),
+                                   POINTER(c_bool)],
+        """dem_lattice_inside(lattice, outline, step, triangles, springs)
+        Marks triangles whose centres lie in a figure or on its edge, and springs whose middles do, such as those of
+        an inclusion of another material.
+        step 1; 2: both triangles of a cell of squares go by their common centre
+        triangles [n_triangles]; may be NULL
+        springs [n_springs]; may be NULL"""),
+    "dem_lattice_crossed": (c_int, [POINTER(dem_lattice), POINTER(c_double), c_int64, c_double, POINTER(c_bool),
+                                    POINTER(c_bool)],
+        """dem_lattice_crossed(lattice, points, n_points, aside, triangles, springs)
+        Marks triangles and springs that a polyline crosses. A crack is what is left when these triangles are taken
+        out, by dem_lattice_trim(); of cells of squares both go.
+        points [n_points][2], m, n_points >= 2, consecutive ones distinct
+        aside m, >= 0: how far the polyline is shifted to its left, usually 1e-6 of the spacing: where it runs along
+        edges it then crosses the triangles on its left, and nodes on it belong to its right face
+        triangles [n_triangles]; may be NULL
+        springs [n_springs]; may be NULL"""),
+    "dem_lattice_least_angle": (c_int, [POINTER(dem_lattice), POINTER(c_double)],
+        """dem_lattice_least_angle(lattice, angle)
+        The least angle of all triangles, which tells how sound they are.
+        angle radians; 0 if a triangle is turned over, pi/2 without triangles"""),
     "dem_reader_open": (c_int, [POINTER(POINTER(dem_reader)), c_char_p],
         """dem_reader_open(out, path)
 

@@ -17,17 +17,18 @@ NUMBERS = {
 # What C leaves open: how many of a thing a pointer is for. Structs are one unless they are here; other names are to be
 # in one of both. "function.argument" goes before "argument".
 ONE = {"out", "omega", "energy", "size", "n", "n_nodes", "n_springs", "n_pieces", "n_parts", "n_fragments", "n_obstacles", "n_frames", "first", "count",
-       "obstacle", "by"}
+       "obstacle", "by", "angle", "dem_shape_area.area"}
 MANY = {
     "obstacles": "*", "materials": "*", "laws": "*", "of": "*", "keep": "*", "piece": "*", "part": "*", "fragment": "*", "n_edges": "*",
     "nodes": "*", "springs": "*", "triangle": "*", "node": "*", "spring": "*", "area": "*", "triangle_factor": "*", "spring_factor": "*", "strength_factor": "*", "energy_factor": "*", "stretch_factor": "*", "strain": "*", "force": "*", "name": "*", "path": "*", "text": "*",
     "table": "*", "values": "*", "stress": "3, *", "x": "2, *", "v": "2, *", "dem_model_gap.x": "*", "dem_obstacle_velocity.x": "*", "velocity": "*",
-    "dem_force.force": "2, *", "dem_simulation_contact_forces.force": "2, *", "pressure": "*", "direction": "2", "points": "2, *"}
+    "dem_force.force": "2, *", "dem_simulation_contact_forces.force": "2, *", "pressure": "*", "direction": "2", "points": "2, *", "distance": "*", "triangles": "*", "pores": "3, *"}
 MAY_BE_NULL = {
     "dem_lattice_pieces.piece", "dem_lattice_parts.part", "dem_lattice_assemble_mixed.of", "dem_lattice_weibull.of",
     "dem_lattice_weibull.triangle_factor", "dem_lattice_weibull.spring_factor", "dem_lattice_weaken.strength_factor",
     "dem_lattice_weaken.energy_factor", "dem_lattice_weaken.stretch_factor",
-    "dem_lattice_edge_shares.direction", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
+    "dem_lattice_edge_shares.direction", "dem_shape_lattice.report", "dem_lattice_inside.triangles",
+    "dem_lattice_inside.springs", "dem_lattice_crossed.triangles", "dem_lattice_crossed.springs", "dem_model_create.obstacles", "dem_simulation_set_motion.x",
     "dem_simulation_set_motion.v", "dem_obstacle_moves.by", "dem_simulation_break.triangle", "dem_simulation_break.spring",
     "dem_simulation_broken.triangle", "dem_simulation_broken.spring", "dem_simulation_damage.triangle",
     "dem_simulation_damage.node"}
@@ -69,10 +70,11 @@ class Writer:
         """Of what a pointer points to."""
         if item.shape:
             return "(" + ", ".join(map(str, reversed(item.shape))) + ")"
-        for name in (f"{function.name}.{item.name}", item.name):
-            if name in MANY:
+        full = f"{function.name}.{item.name}"
+        for name in (full, item.name):
+            if name in MANY and full not in ONE:
                 return f"({MANY[name]})"
-        if item.type not in self.structs and item.name not in ONE:
+        if item.type not in self.structs and not ONE & {full, item.name}:
             raise SystemExit(f"{function.name}: is '{item.name}' one or many? Say so in bindings.py")
         return ""
 

@@ -1072,6 +1072,171 @@ module dem_c
 
   end interface
 
+  ! ---- dem/shape.h ---------------------------------------------------------------------------------------------------
+
+  integer, parameter :: dem_outline_kind = c_int
+  enum, bind(c)
+    enumerator :: DEM_OUTLINE_RECTANGLE = 0, DEM_OUTLINE_DISC = 1, DEM_OUTLINE_RING = 2, DEM_OUTLINE_POLYGON = 3
+  end enum
+
+  enum, bind(c)
+    enumerator :: DEM_OUTLINE_MAX_POINTS = 10000
+  end enum
+
+  enum, bind(c)
+    enumerator :: DEM_IMAGE_MAX_SIDE = 32768
+  end enum
+
+  integer, parameter :: dem_grid = c_int
+  enum, bind(c)
+    enumerator :: DEM_GRID_TRIANGLES = 0, DEM_GRID_SQUARES = 1
+  end enum
+
+  integer, parameter :: dem_edge = c_int
+  enum, bind(c)
+    enumerator :: DEM_EDGE_STEPPED = 0, DEM_EDGE_SMOOTH = 1
+  end enum
+
+  enum, bind(c)
+    enumerator :: DEM_PORES_MAX = 10000
+  end enum
+
+  integer, parameter :: dem_pore_radii = c_int
+  enum, bind(c)
+    enumerator :: DEM_PORE_RADII_UNIFORM = 0, DEM_PORE_RADII_LOGNORMAL = 1, DEM_PORE_RADII_NORMAL = 2
+  end enum
+
+  type, bind(c) :: dem_outline
+    integer(c_size_t) :: struct_size = 88
+    integer(dem_outline_kind) :: kind = 0
+    real(c_double) :: centre(2) = 0, angle = 0, size(2) = 0, radius = 0, inner_radius = 0
+    integer(dem_index) :: n_points = 0
+    type(c_ptr) :: points = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_image
+    integer(c_size_t) :: struct_size = 40
+    integer(dem_index) :: width = 0, height = 0
+    real(c_double) :: pixel = 0
+    type(c_ptr) :: solid = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_shape
+    integer(c_size_t) :: struct_size = 88
+    type(c_ptr) :: outline = c_null_ptr, image = c_null_ptr
+    real(c_double) :: spacing = 0
+    integer(dem_grid) :: grid = 0
+    integer(dem_edge) :: edge = 0
+    integer(dem_index) :: n_voids = 0
+    type(c_ptr) :: voids = c_null_ptr
+    integer(dem_index) :: n_pores = 0
+    type(c_ptr) :: pores = c_null_ptr
+    logical(c_bool) :: numbered = .false.
+    type(c_ptr) :: name = c_null_ptr
+  end type
+
+  type, bind(c) :: dem_shape_report
+    integer(c_size_t) :: struct_size = 48
+    integer(dem_index) :: n_rim = 0, n_off = 0, n_cut = 0
+    real(c_double) :: farthest = 0
+    integer(dem_index) :: idle_void = 0
+  end type
+
+  type, bind(c) :: dem_pores
+    integer(c_size_t) :: struct_size = 80
+    integer(dem_index) :: number = 0
+    real(c_double) :: area = 0, radius_min = 0, radius_max = 0
+    integer(dem_pore_radii) :: distribution = 0
+    real(c_double) :: mean = 0, deviation = 0, wall = 0
+    integer(c_int64_t) :: seed = 0
+  end type
+
+  interface
+
+    integer(dem_status) function dem_points_check(points, n) bind(c)
+      import
+      real(c_double), intent(in) :: points(2, *)
+      integer(dem_index), value :: n
+    end function
+
+    integer(dem_status) function dem_outline_check(outline) bind(c)
+      import
+      type(dem_outline), intent(in) :: outline
+    end function
+
+    integer(dem_status) function dem_outline_box(outline, box) bind(c)
+      import
+      type(dem_outline), intent(in) :: outline
+      real(c_double), intent(out) :: box(4)
+    end function
+
+    integer(dem_status) function dem_outline_distance(outline, x, n, distance) bind(c)
+      import
+      type(dem_outline), intent(in) :: outline
+      real(c_double), intent(in) :: x(2, *)
+      integer(dem_index), value :: n
+      real(c_double), intent(out) :: distance(*)
+    end function
+
+    integer(dem_index) function dem_outline_corners(outline) bind(c)
+      import
+      type(dem_outline), intent(in) :: outline
+    end function
+
+    integer(dem_status) function dem_outline_corner(outline, k, x) bind(c)
+      import
+      type(dem_outline), intent(in) :: outline
+      integer(dem_index), value :: k
+      real(c_double), intent(out) :: x(2)
+    end function
+
+    integer(dem_status) function dem_shape_lattice(out, shape, report) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: out
+      type(dem_shape), intent(in) :: shape
+      type(dem_shape_report), intent(inout), optional :: report
+    end function
+
+    integer(dem_status) function dem_shape_area(shape, area) bind(c)
+      import
+      type(dem_shape), intent(in) :: shape
+      real(c_double), intent(out) :: area
+    end function
+
+    integer(dem_status) function dem_shape_place_pores(shape, recipe, pores, capacity, n) bind(c)
+      import
+      type(dem_shape), intent(in) :: shape
+      type(dem_pores), intent(in) :: recipe
+      real(c_double), intent(out) :: pores(3, *)
+      integer(dem_index), value :: capacity
+      integer(dem_index), intent(out) :: n
+    end function
+
+    integer(dem_status) function dem_lattice_inside(lattice, outline, step, triangles, springs) bind(c)
+      import
+      type(dem_lattice), intent(in) :: lattice
+      type(dem_outline), intent(in) :: outline
+      integer(dem_index), value :: step
+      logical(c_bool), intent(out), optional :: triangles(*), springs(*)
+    end function
+
+    integer(dem_status) function dem_lattice_crossed(lattice, points, n_points, aside, triangles, springs) bind(c)
+      import
+      type(dem_lattice), intent(in) :: lattice
+      real(c_double), intent(in) :: points(2, *)
+      integer(dem_index), value :: n_points
+      real(c_double), value :: aside
+      logical(c_bool), intent(out), optional :: triangles(*), springs(*)
+    end function
+
+    integer(dem_status) function dem_lattice_least_angle(lattice, angle) bind(c)
+      import
+      type(dem_lattice), intent(in) :: lattice
+      real(c_double), intent(out) :: angle
+    end function
+
+  end interface
+
   ! ---- dem/dem.h -----------------------------------------------------------------------------------------------------
 
   ! ---- dem/reader.h --------------------------------------------------------------------------------------------------

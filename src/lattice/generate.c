@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Generates triangulations: equilateral ones and square cells of simple shapes, holes cut into them, and nodes moved at
  * random (docs/method.md, Shapes). The coordinates are mirror symmetric to the bit, so that symmetric runs stay
- * symmetric. Springs and masses are not made here but in assemble.c; polygons, images and meshes come from the programs
- * (drivers/body), which cut them out of rectangles with dem_lattice_cut(). */
+ * symmetric. Springs and masses are not made here but in assemble.c; other shapes are cut out of such grids
+ * by src/shape, and meshes come from the programs (drivers/body). */
 #include <dem/dem.h>
 
 #include <math.h>

@@ -42,6 +42,7 @@ program calls
 
   call strings()
   call lattices()
+  call shapes()
   call models()
   call simulations()
   call checkpoints()
@@ -66,6 +67,40 @@ contains
     if (status == DEM_OK) return
     print '(a)', dem_status_message()
     error stop
+  end subroutine
+
+  subroutine shapes()
+    type(dem_outline), target :: ring = dem_outline(kind=DEM_OUTLINE_RING, radius=2, inner_radius=1)
+    type(dem_shape) :: shape
+    type(dem_pores) :: recipe = dem_pores(number=3, radius_min=0.1d0, radius_max=0.2d0, wall=0.1d0, seed=1)
+    type(dem_shape_report) :: report
+    type(dem_lattice) :: made
+    real(c_double), target :: pores(3, 3)
+    real(c_double) :: area, box(4), pi
+    logical(c_bool), allocatable :: inside(:)
+    integer(dem_index) :: n
+    pi = acos(-1d0)
+    shape%outline = c_loc(ring)
+    shape%spacing = 0.1d0
+    shape%edge = DEM_EDGE_SMOOTH
+    call succeed(dem_outline_box(ring, box))
+    call expect(maxval(abs(box - [-2, -2, 2, 2])) < 1d-15, 'the box of a ring')
+    call succeed(dem_shape_place_pores(shape, recipe, pores, 3_dem_index, n))
+    call expect(n == 3 .and. all(pores(3, :) >= 0.1d0), 'pores in columns')
+    shape%n_pores = n
+    shape%pores = c_loc(pores)
+    call succeed(dem_shape_area(shape, area))
+    call expect(abs(area/(3*pi - pi*sum(pores(3, :)**2)) - 1) < 1d-3, 'the area of a ring less its pores')
+    made = dem_lattice_empty()
+    call succeed(dem_shape_lattice(made, shape, report))
+    call expect(report%n_rim > 100 .and. report%idle_void == -1, 'its report')
+    allocate (inside(made%n_triangles))
+    call succeed(dem_lattice_inside(made, ring, 1_dem_index, inside))
+    call expect(logical(all(inside)), 'its triangles are inside of the ring')
+    ring%inner_radius = 3
+    call expect(dem_shape_lattice(made, shape) == DEM_ERROR_ARGUMENT, 'no ring')
+    call expect(index(dem_status_message(), 'inner radius') > 0, 'and why')
+    call dem_lattice_free(made)
   end subroutine
 
   subroutine strings()

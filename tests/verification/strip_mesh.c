@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "body/shape.h"
-#include "body/smoothing.h"
 #include "clamped_strip.h"
 #include "unstructured.h"
 
@@ -15,19 +13,15 @@ static const double spacing = CLAMPED_STRIP_SPACING;
 dem_lattice strip_mesh_make(double width, double height, const strip_mesh *m)
 {
     const double turn = m->angle / 180.0 * M_PI, straight[2] = {0.0, 0.0};
-    shape s = {.outline = {.kind = OUTLINE_RECTANGLE, .size = {width * spacing, height * spacing}},
-               .spacing = spacing,
-               .smooth = true};
+    const dem_outline strip = SIZED(dem_outline, .angle = -turn, .size = {width * spacing, height * spacing});
+    const dem_shape s = SIZED(dem_shape, .outline = &strip, .spacing = spacing, .edge = DEM_EDGE_SMOOTH);
     dem_lattice l = dem_lattice_empty();
-    smoothing out;
-    assert_true(outline_place(&s.outline, (const double[2]){cos(turn), -sin(turn)}, straight));
-    assert_ok(shape_mesh(&l, &s));
-    assert_ok(smoothing_apply(&out, &l, &s));
+    dem_shape_report out = {.struct_size = sizeof out};
+    assert_ok(dem_shape_lattice(&l, &s, &out));
     assert_int_equal(out.n_off, 0);
     dem_lattice_move(&l, turn, straight);
     if (m->jitter > 0.0) assert_ok(dem_lattice_jitter(&l, m->jitter * spacing, m->seed));
     if (!m->rows) unstructured_make(&l, spacing, m->seed);
-    shape_free(&s);
     return l;
 }
 

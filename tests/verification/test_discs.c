@@ -6,20 +6,17 @@
 
 #include <stdlib.h>
 
-#include "shape.h"
-#include "smoothing.h"
-
 static const double radius = 0.02, speed = 2.5; /* m, m/s */
 static const dem_material rubber = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 1.0 / 3.0,
                                          .density = 1050.0, .thickness = 1.0, .springs = DEM_SPRINGS_COUPLED);
 
 static dem_lattice make_disc(double spacing, bool smooth)
 {
-    const shape s = {.outline = {.kind = OUTLINE_DISC, .radius = radius}, .spacing = spacing, .smooth = smooth};
+    const dem_outline disc = SIZED(dem_outline, .kind = DEM_OUTLINE_DISC, .radius = radius);
+    const dem_shape s =
+        SIZED(dem_shape, .outline = &disc, .spacing = spacing, .edge = smooth ? DEM_EDGE_SMOOTH : DEM_EDGE_STEPPED);
     dem_lattice l = dem_lattice_empty();
-    smoothing out;
-    assert_ok(shape_mesh(&l, &s));
-    assert_ok(smooth ? smoothing_apply(&out, &l, &s) : shape_cut(&l, &s));
+    assert_ok(dem_shape_lattice(&l, &s, NULL));
     assert_ok(dem_lattice_assemble(&l, &rubber));
     return l;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies with smooth outlines (drivers/body/smoothing.h) against exact answers, and stepped ones beside them: area and
+/* Bodies with smooth outlines (src/shape/smoothing.c) against exact answers, and stepped ones beside them: area and
  * lowest bending frequency of a ring, the stress at a round hole. nu is 1/3, so that there is no area term. */
 #include "harness/cleanup_gsl.h"
 #include "holed_plate.h"
@@ -11,23 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "shape.h"
-#include "smoothing.h"
-
 static const dem_material sheet = SIZED(dem_material, .youngs_modulus = 1.0, .poissons_ratio = 1.0 / 3.0,
                                         .density = 1.0, .thickness = 1.0, .springs = DEM_SPRINGS_COUPLED);
 
-static dem_lattice make(const shape *s)
+static dem_lattice make(const dem_shape *s)
 {
     dem_lattice l = dem_lattice_empty();
-    smoothing out;
-    assert_ok(shape_mesh(&l, s));
-    if (s->smooth) {
-        assert_ok(smoothing_apply(&out, &l, s));
-        assert_int_equal(out.n_off, 0);
-    } else {
-        assert_ok(shape_cut(&l, s));
-    }
+    dem_shape_report out = {.struct_size = sizeof out};
+    assert_ok(dem_shape_lattice(&l, s, &out));
+    assert_int_equal(out.n_off, 0);
+    assert_true((out.n_rim > 0) == (s->edge == DEM_EDGE_SMOOTH));
     assert_ok(dem_lattice_assemble(&l, &sheet));
     return l;
 }
@@ -171,9 +164,10 @@ TEST(a_smooth_ring_has_its_mass_and_its_bending_frequency)
 {
     const double exact = exact_frequency(0.5), off[3] = {0.045, 0.012, 0.003};
     for (int k = 0; k < 3; k++) {
-        shape s = {.outline = {.kind = OUTLINE_RING, .radius = 1.0, .inner = 0.5}, .spacing = 0.1 / (1 << k)};
+        const dem_outline ring = SIZED(dem_outline, .kind = DEM_OUTLINE_RING, .radius = 1.0, .inner_radius = 0.5);
+        dem_shape s = SIZED(dem_shape, .outline = &ring, .spacing = 0.1 / (1 << k));
         CLEANUP(dem_lattice_free) dem_lattice stepped = make(&s);
-        s.smooth = true;
+        s.edge = DEM_EDGE_SMOOTH;
         CLEANUP(dem_lattice_free) dem_lattice smooth = make(&s);
         print_message("# spacing R/%d: frequency %.4f of the exact one, %.4f with stepped rims; mass %.4f, %.4f\n",
                       10 << k, lattice_frequency(&smooth) / exact, lattice_frequency(&stepped) / exact,
@@ -286,10 +280,10 @@ static errors compare(const dem_lattice *l, const double *stress, double spacing
 
 static errors measure(double spacing)
 {
-    CLEANUP(shape_free)
-    shape s = {
-        .outline = {.centre = {0.0, half}, .size = {2.0 * half, 2.0 * half}}, .spacing = spacing, .smooth = true};
-    assert_true(shape_add_void(&s, &(outline){.kind = OUTLINE_DISC, .centre = {0.0, half}, .radius = 1.0}));
+    const dem_outline plate = SIZED(dem_outline, .centre = {0.0, half}, .size = {2.0 * half, 2.0 * half});
+    const dem_outline hole = SIZED(dem_outline, .kind = DEM_OUTLINE_DISC, .centre = {0.0, half}, .radius = 1.0);
+    const dem_shape s =
+        SIZED(dem_shape, .outline = &plate, .spacing = spacing, .edge = DEM_EDGE_SMOOTH, .n_voids = 1, .voids = &hole);
     CLEANUP(dem_lattice_free) dem_lattice l = make(&s);
     CLEANUP(free_memory) double *load = make_load(&l), *stress = linear_lattice_stress(&l, load, 1e-7);
     return compare(&l, stress, spacing);

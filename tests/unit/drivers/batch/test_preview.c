@@ -172,7 +172,7 @@ TEST(the_preview_tells_how_bodies_came_out)
                        .springs = {.n = 40, .least = 0.01, .most = 0.03}}},
         {.mass = 1.0,
          .least_angle = 26.54,
-         .geometry = {.smoothing = {.n_rim = 90, .n_off = 2, .n_cut = 1, .farthest = 0.125}},
+         .geometry = {.report = {.n_rim = 90, .n_off = 2, .n_cut = 1, .farthest = 0.125}},
          .loose = {.n = 1, .size = {3}}},
     };
     const deck d = DECK(.bodies = bodies, .n_bodies = 2);

@@ -131,9 +131,9 @@ TEST(smooth_outlines_have_their_areas)
     CLEANUP(drop_formed)
     formed porous = build_good(BODY "'rectangle', size = 4, 2, outline = 'smooth', jitter = 0.2 /\n"
                                     "&pores number = 3, radius = 0.3, 0.3, wall = 0.2 /");
-    assert_int_equal(jagged.geometry.smoothing.n_rim, 0);
-    assert_true(good.geometry.smoothing.n_rim > 60);
-    assert_int_equal(porous.geometry.smoothing.n_off, 0);
+    assert_int_equal(jagged.geometry.report.n_rim, 0);
+    assert_true(good.geometry.report.n_rim > 60);
+    assert_int_equal(porous.geometry.report.n_off, 0);
     assert_close(area_of_all(&porous.lattice) / (8.0 - 0.27 * pi), 1.0, 5e-3);
 }
 
