@@ -93,6 +93,69 @@ class Lattices(Case):
         self.assertEqual(len(set(both.parts())), 2)
 
 
+class Shapes(Case):
+    PLATE = staticmethod(lambda **values: dem.Shape(dem.Outline.rectangle(0.2, 0.1), 5e-3, **values))
+
+    def test_areas_are_those_of_the_formulas(self):
+        hole = dem.Outline.disc(0.02, centre=(0.05, 0.0))
+        for shape, area in ((self.PLATE(), 0.02), (self.PLATE(voids=[hole]), 0.02 - math.pi * 4e-4),
+                            (dem.Shape(dem.Outline.ring(0.1, 0.05), 5e-3), 0.0075 * math.pi),
+                            (dem.Shape(dem.Outline.polygon([(0, 0), (0.2, 0), (0, 0.2)], angle=1.0), 5e-3), 0.02)):
+            self.assertAlmostEqual(shape.area / area, 1.0, delta=1e-4)
+
+    def test_a_smooth_lattice_has_its_mass_and_a_report(self):
+        ring = dem.Shape(dem.Outline.ring(0.1, 0.05, centre=(1.0, 0.0)), 5e-3, edge="smooth")
+        lattice = ring.lattice().assemble(dem.Material(**RUBBER, springs="coupled"))
+        self.assertAlmostEqual(lattice.mass.sum() / (1050.0 * 0.0075 * math.pi), 1.0, delta=5e-3)
+        self.assertAlmostEqual(lattice.x[:, 0].mean(), 1.0, delta=1e-3)
+        self.assertGreater(ring.report.n_rim, 100)
+        self.assertEqual(ring.report.n_off, 0)
+
+    def test_pores_add_up_and_are_left_out(self):
+        plate = self.PLATE().add_pores(4e-3, 6e-3, porosity=0.1, wall=2e-3).add_pores(2e-3, 2e-3, number=3, wall=2e-3)
+        self.assertAlmostEqual(plate.area / 0.02, 0.9 - 3 * math.pi * 4e-6 / 0.02, delta=3e-3)
+        lattice = plate.lattice()
+        for x, y, radius in plate.pores:
+            self.assertGreater(np.hypot(*(lattice.x - (x, y)).T).min(), radius - 1e-9)
+        np.testing.assert_array_equal(self.PLATE().add_pores(4e-3, 6e-3, porosity=0.1, wall=2e-3).pores,
+                                      plate.pores[:-3])
+
+    def test_an_image_an_inclusion_and_a_crack(self):
+        grey = np.full((20, 40), 200)
+        grey[:10, :20] = 10
+        lattice = dem.Shape.image(grey >= 128, 1e-3, 1e-3).lattice()
+        self.assertFalse(((lattice.x[:, 0] < -1e-3) & (lattice.x[:, 1] > 11e-3)).any())
+        corner = dem.inside(lattice, dem.Outline.rectangle(0.01, 0.01, centre=(0.01, 0.005)))
+        self.assertAlmostEqual(corner.mean(), 1.0 / 6.0, delta=0.03)
+        stiff = {**RUBBER, "youngs_modulus": 1e8}
+        lattice.copy().assemble(dem.Material(**RUBBER), dem.Material(**stiff), of=corner.astype(np.int64))
+        cut = dem.crossed(lattice, [(0.003, -1.0), (0.003, 1.0)], aside=1e-9)
+        self.assertGreater(cut.sum(), 20)
+        lattice.trim(~cut).assemble(dem.Material(**RUBBER))
+        self.assertEqual(len(set(lattice.parts())), 2)
+
+    def test_figures_have_distances_boxes_and_corners(self):
+        square = dem.Outline.rectangle(2.0, 2.0, centre=(5.0, 0.0), angle=math.pi / 4)
+        np.testing.assert_allclose(square.box, (5 - math.sqrt(2), -math.sqrt(2), 5 + math.sqrt(2), math.sqrt(2)))
+        np.testing.assert_allclose(square.distance([(5, 0), (8, 0)]), (-1.0, 3.0 - math.sqrt(2)))
+        np.testing.assert_allclose(square.corners[0], (5, -math.sqrt(2)), atol=1e-15)
+        self.assertEqual(dem.Outline.disc(1.0).corners.shape, (0, 2))
+
+    def test_what_is_no_shape_is_refused(self):
+        outside = dem.Outline.disc(0.01, centre=(9.0, 9.0))
+        for fault, kind, message in (
+                (lambda: dem.Outline.polygon([(0, 0), (2, 2), (2, 0), (0, 2)]), dem.ArgumentError, "meets itself"),
+                (lambda: dem.Outline.ring(1.0, 2.0), dem.ArgumentError, "inner radius"),
+                (lambda: dem.Shape(dem.Outline.disc(1.0), 2.0).lattice(), dem.ArgumentError, "spacing 2 m"),
+                (lambda: self.PLATE(voids=[outside]).lattice(), dem.ModelError, "void 0 takes no node"),
+                (lambda: self.PLATE().add_pores(0.04, 0.04, number=9), dem.ModelError, "finds no place"),
+                (lambda: self.PLATE(edge="round"), ValueError, "'stepped', 'smooth'")):
+            with self.subTest(message):
+                with self.assertRaises(kind) as caught:
+                    fault()
+                self.assertIn(message, str(caught.exception))
+
+
 class Runs(Case):
     def test_a_run_is_that_of_dem_batch_to_the_bit(self):
         subprocess.run([DEM_BATCH, "--set", "run.t_end=8e-3", str(INPUTS / "disc.nml")], cwd=self.folder, check=True,
