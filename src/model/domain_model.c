@@ -161,7 +161,7 @@ static dem_status check(const ranks *r, const dem_model *whole)
 
 dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole, const int32_t *owner)
 {
-    TRY(check(r, whole));
+    TRY(reduce_status(r, check(r, whole), 0.0));
     dem_model *m = calloc(1, sizeof *m);
     CHECK_MEMORY(m);
     m->ranks = r;

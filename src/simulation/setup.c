@@ -197,7 +197,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
     CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
           out == NULL ? "out" : (model == NULL ? "model" : "options"));
     dem_options own;
-    TRY(options_read(&own, options));
+    TRY(reduce_status(model->ranks, options_read(&own, options), 0.0));
     dem_simulation *s = calloc(1, sizeof *s);
     CHECK_MEMORY(s);
     s->model = model;
