@@ -119,6 +119,14 @@ DEM_API const dem_lattice *dem_model_lattice(const dem_model *model);
  *  \param obstacle  0 <= obstacle < n_obstacles; NULL, and a dem_status_message(), for any other */
 DEM_API const dem_obstacle *dem_model_obstacle(const dem_model *model, dem_index obstacle);
 
+/** Which nodes are here: node i of dem_model_lattice() and of dem_state. Views into the model.
+ *  \param[out] n_nodes  here, of a model that ranks share (dem/mpi.h) with the ghosts of other ranks
+ *  \param[out] number   [n_nodes] in the whole lattice, ascending; NULL: all nodes are here
+ *  \param[out] is_own   [n_nodes] 1: a node of this rank, 0: a ghost; each node is that of one rank. NULL: all are
+ *  \return DEM_ERROR_ARGUMENT for a NULL */
+DEM_API dem_status dem_model_part(const dem_model *model, dem_index *n_nodes, const dem_index **number,
+                                  const unsigned char **is_own);
+
 typedef struct dem_model_size {
     size_t struct_size; /**< to be set to sizeof(dem_model_size) */
     dem_index n_nodes, n_springs, n_triangles, n_bodies;

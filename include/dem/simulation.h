@@ -418,6 +418,13 @@ DEM_API const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *si
 
 /** What is seen of the motion now. */
 DEM_API dem_status dem_simulation_state(const dem_simulation *simulation, dem_state *out);
+
+/** The motion that is seen of all nodes, on rank 0 where ranks share the model (dem/mpi.h); then all ranks call it.
+ *  \param[out] x  [nodes of the whole lattice][dim] m; not looked at on other ranks than 0
+ *  \param[out] v  the same, m/s
+ *  \return also DEM_ERROR_MEMORY */
+DEM_API dem_status dem_simulation_gather(const dem_simulation *simulation, double *x, double *v);
+
 DEM_API dem_status dem_simulation_energy(const dem_simulation *simulation, dem_energy *out);
 DEM_API dem_status dem_simulation_strain(const dem_simulation *simulation, dem_strain *out);
 

@@ -1231,6 +1231,14 @@ FUNCTIONS = {  # name: (result, arguments, text)
         """dem_model_obstacle(model, obstacle)
         An obstacle as the model holds it; a view.
         obstacle 0 <= obstacle < n_obstacles; NULL, and a dem_status_message(), for any other"""),
+    "dem_model_part": (c_int, [POINTER(dem_model), POINTER(c_int64), POINTER(POINTER(c_int64)),
+                               POINTER(POINTER(c_ubyte))],
+        """dem_model_part(model, n_nodes, number, is_own)
+        Which nodes are here: node i of dem_model_lattice() and of dem_state. Views into the model.
+        n_nodes here, of a model that ranks share (dem/mpi.h) with the ghosts of other ranks
+        number [n_nodes] in the whole lattice, ascending; NULL: all nodes are here
+        is_own [n_nodes] 1: a node of this rank, 0: a ghost; each node is that of one rank. NULL: all are
+        Returns DEM_ERROR_ARGUMENT for a NULL"""),
     "dem_model_sizes": (c_int, [POINTER(dem_model), POINTER(dem_model_size)],
         """dem_model_sizes(model, out)"""),
     "dem_model_spacing": (c_double, [POINTER(dem_model)],
@@ -1329,6 +1337,13 @@ FUNCTIONS = {  # name: (result, arguments, text)
     "dem_simulation_state": (c_int, [POINTER(dem_simulation), POINTER(dem_state)],
         """dem_simulation_state(simulation, out)
         What is seen of the motion now."""),
+    "dem_simulation_gather": (c_int, [POINTER(dem_simulation), POINTER(c_double), POINTER(c_double)],
+        """dem_simulation_gather(simulation, x, v)
+        The motion that is seen of all nodes, on rank 0 where ranks share the model (dem/mpi.h); then all ranks call
+        it.
+        x [nodes of the whole lattice][dim] m; not looked at on other ranks than 0
+        v the same, m/s
+        Returns also DEM_ERROR_MEMORY"""),
     "dem_simulation_energy": (c_int, [POINTER(dem_simulation), POINTER(dem_energy)],
         """dem_simulation_energy(simulation, out)"""),
     "dem_simulation_strain": (c_int, [POINTER(dem_simulation), POINTER(dem_strain)],

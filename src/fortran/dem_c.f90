@@ -483,6 +483,13 @@ module dem_c
       integer(dem_index), value :: obstacle
     end function
 
+    integer(dem_status) function dem_model_part(model, n_nodes, number, is_own) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(dem_index), intent(out) :: n_nodes
+      type(c_ptr), intent(out) :: number, is_own
+    end function
+
     integer(dem_status) function dem_model_sizes(model, out) bind(c)
       import
       type(c_ptr), value :: model
@@ -780,6 +787,12 @@ module dem_c
       import
       type(c_ptr), value :: simulation
       type(dem_state), intent(inout) :: out
+    end function
+
+    integer(dem_status) function dem_simulation_gather(simulation, x, v) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      real(c_double), intent(out) :: x(2, *), v(2, *)
     end function
 
     integer(dem_status) function dem_simulation_energy(simulation, out) bind(c)

@@ -323,6 +323,18 @@ void dem_model_destroy(dem_model *model)
     free(model);
 }
 
+dem_status dem_model_part(const dem_model *model, dem_index *n_nodes, const dem_index **number,
+                          const unsigned char **is_own)
+{
+    CHECK(model != NULL && n_nodes != NULL && number != NULL && is_own != NULL, DEM_ERROR_ARGUMENT,
+          "dem_model_part: %s is NULL", model == NULL ? "model" : "where to write");
+    const domain *d = model->domain;
+    *n_nodes = model->lattice.n_nodes;
+    *number = d != NULL ? d->number : NULL;
+    *is_own = d != NULL ? d->is_own : NULL;
+    return DEM_OK;
+}
+
 dem_status dem_model_csr(const dem_model *model, dem_csr *out)
 {
     CHECK(model != NULL && out != NULL, DEM_ERROR_ARGUMENT, "dem_model_csr: %s is NULL", model ? "out" : "model");

@@ -12,6 +12,7 @@
 #include "base/status.h"
 #include "base/struct_size.h"
 #include "contact/obstacle_load.h"
+#include "domain/gather.h"
 #include "forces/diagnostics.h"
 #include "model/crack_energy.h"
 #include "model/fragments.h"
@@ -159,6 +160,29 @@ dem_status dem_simulation_state(const dem_simulation *s, dem_state *out)
                             .v = s->seen + state_velocities(&s->layout),
                             .n_contacts = n_contacts};
     return GIVE(dem_state, out, &seen);
+}
+
+static dem_status check_gathered(const dem_simulation *s, const double *x, const double *v)
+{
+    CHECK(s->model->ranks->rank != 0 || (x != NULL && v != NULL), DEM_ERROR_ARGUMENT,
+          "dem_simulation_gather: %s is NULL", x == NULL ? "x" : "v");
+    return DEM_OK;
+}
+
+dem_status dem_simulation_gather(const dem_simulation *s, double *x, double *v)
+{
+    CHECK(s != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_gather: simulation is NULL");
+    const dem_model *m = s->model;
+    TRY(reduce_status(m->ranks, check_gathered(s, x, v), 0.0));
+    const double *seen = seen_of(s), *velocities = s->seen + state_velocities(&s->layout);
+    const size_t size = (size_t)state_row(&s->layout, m->lattice.n_nodes) * sizeof *x;
+    if (m->domain != NULL) {
+        TRY(gather_rows(m->ranks, m->domain, s->layout.dim, seen, x));
+        return gather_rows(m->ranks, m->domain, s->layout.dim, velocities, v);
+    }
+    memcpy(x, seen, size);
+    memcpy(v, velocities, size);
+    return DEM_OK;
 }
 
 /* Mechanical energies are computed once; the others are sums that are there. */

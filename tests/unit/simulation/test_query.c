@@ -306,8 +306,12 @@ static void look_at_all(const dem_simulation *s)
 {
     dem_state now = {.struct_size = sizeof now};
     double strain, force, stress[6], of_contact[4], pressure[2], damage[2], of_cracks;
+    double place[4], velocity[4];
     assert_ok(dem_simulation_state(s, &now));
     for (dem_index k = 0; k < now.n_contacts; k++) (void)ask_contact(s, k);
+    assert_ok(dem_simulation_gather(s, place, velocity));
+    assert_memory_equal(place, now.x, sizeof place);
+    assert_memory_equal(velocity, now.v, sizeof velocity);
     (void)ask_energy(s);
     (void)ask_strain(s);
     assert_ok(dem_simulation_strains(s, &strain));

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* gather.c: rank 0 has all rows, each from the rank that owns it. */
+#include "unit/domain/shared_lattice.h"
+
+#include "domain/gather.h"
+#include "harness/rank_threads.h"
+
+enum { MOST_RANKS = 6, DIM = 3 };
+
+typedef struct gathering {
+    const dem_lattice *lattice;
+    const int32_t *owner;
+    double *whole; /* [n_nodes][DIM] of rank 0 */
+    dem_status status[MOST_RANKS];
+} gathering;
+
+static double value(dem_index k)
+{
+    return sin(1.0 + (double)k);
+}
+
+/* What is said of ghosts is not to be believed. */
+static void gather(const ranks *r, void *context)
+{
+    gathering *g = context;
+    domain d;
+    g->status[r->rank] = domain_create(&d, g->lattice, g->owner, r->rank);
+    if (g->status[r->rank] != DEM_OK) return;
+    double *rows = calloc(DIM * (size_t)d.n_nodes, sizeof *rows);
+    for (dem_index k = 0; k < DIM * d.n_nodes; k++)
+        rows[k] = d.is_own[k / DIM] ? value(DIM * d.number[k / DIM] + k % DIM) : (double)NAN;
+    g->status[r->rank] = gather_rows(r, &d, DIM, rows, r->rank == 0 ? g->whole : NULL);
+    free(rows);
+    domain_free(&d);
+}
+
+TEST(rank_0_gets_the_rows_of_all_nodes)
+{
+    for (int n_ranks = 1; n_ranks <= MOST_RANKS; n_ranks++) {
+        CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+        CLEANUP(free_memory) int32_t *owner = shared_owners(&l, n_ranks);
+        CLEANUP(free_memory) double *whole = calloc(DIM * (size_t)l.n_nodes, sizeof *whole);
+        gathering g = {.lattice = &l, .owner = owner, .whole = whole};
+        rank_threads_run(n_ranks, gather, &g);
+        for (int k = 0; k < n_ranks; k++) assert_int_equal(g.status[k], DEM_OK);
+        for (dem_index k = 0; k < DIM * l.n_nodes; k++) assert_true(whole[k] == value(k));
+    }
+}
