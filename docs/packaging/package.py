@@ -16,6 +16,7 @@ class Dem(MesonPackage):
 
     variant("cairo", default=True, description="Build dem_plot, and read PNG images as masks")
     variant("fortran", default=True, description="Build the Fortran module")
+    variant("mpi", default=False, description="Build libdem_mpi, by which processes share a model")
 
     depends_on("c", type="build")
     depends_on("fortran", type="build", when="+fortran")
@@ -29,6 +30,7 @@ class Dem(MesonPackage):
     depends_on("gsl")
     depends_on("zlib-api")
     depends_on("cairo +png +svg +pdf", when="+cairo")
+    depends_on("mpi", when="+mpi")
 
     conflicts("default_library=static", msg="libdem is a shared library")
 
@@ -37,5 +39,6 @@ class Dem(MesonPackage):
         return [
             f"-Dcairo={switch('cairo')}",
             f"-Dfortran={switch('fortran')}",
+            f"-Dmpi={switch('mpi')}",
             "-Dtests=false",
         ]

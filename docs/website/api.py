@@ -46,7 +46,7 @@ class Pages:
     def __init__(self, root):
         sys.path.insert(0, str(root / "src/fortran"))
         from headers import read_headers  # what there has to be
-        self.headers = read_headers(root / "include/dem")
+        self.headers = read_headers(root / "include/dem", with_mpi=True)
         self.texts = {header.name: (root / "include/dem" / header.name).read_text(encoding="utf-8")
                       for header in self.headers}
         self.places = {name: f"{pathlib.Path(header).stem}.md#{name}" for header, text in self.texts.items()

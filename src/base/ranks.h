@@ -26,6 +26,8 @@ typedef struct ranks {
     void (*reduce)(void *self, void *packet, size_t size, ranks_join *join);
     /** Sends n messages and receives as many, one to and one from each of n other ranks, in ascending order. */
     void (*exchange)(void *self, int n, const ranks_message *sent, const ranks_message *received);
+    /** Frees the table, of which nothing is used afterwards. NULL where nobody but its maker ends it. */
+    void (*end)(void *self);
 } ranks;
 
 enum { RANKS_PACKET_MOST = 1024 };

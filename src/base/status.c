@@ -59,3 +59,8 @@ dem_status status_fail(dem_status status, const char *format, ...)
     va_end(arguments);
     return status;
 }
+
+dem_status dem_private_fail(dem_status status, const char *message)
+{
+    return status_fail(status, "%s", message);
+}

@@ -36,4 +36,8 @@ enum { STATUS_MESSAGE_SIZE = 512 };
 /** Stores a message for this thread, as printf would write it, and returns `status`. */
 dem_status status_fail(dem_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/** The same of a message that is there, for libdem_mpi, which is a library of its own and has the same version. No
+ *  program may call this. */
+DEM_API dem_status dem_private_fail(dem_status status, const char *message);
+
 #endif

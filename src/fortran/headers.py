@@ -94,9 +94,9 @@ def read_constants(body):
     return constants
 
 
-def read_headers(folder):
-    """Every header of the folder, each after those that it includes."""
-    found = {path.name: Header(path) for path in sorted(folder.glob("*.h"))}
+def read_headers(folder, with_mpi=False):
+    """Every header of the folder, each after those that it includes. That with types of MPI's own is for C so far."""
+    found = {path.name: Header(path) for path in sorted(folder.glob("*.h")) if with_mpi or path.name != "mpi.h"}
     ordered = []
 
     def place(header):

@@ -320,6 +320,7 @@ void dem_model_destroy(dem_model *model)
     if (model->domain != NULL) domain_free(model->domain);
     free(model->domain);
     free(model->inverse_mass);
+    if (model->ends_ranks) model->ranks->end(model->ranks->self);
     free(model);
 }
 

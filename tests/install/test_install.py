@@ -110,7 +110,7 @@ class Installed(unittest.TestCase):
         self.assertEqual(self.flags("--libs"), [f"-L{self.lib}", "-ldem"])
 
     def test_every_header_stands_alone_in_c_and_cpp(self):
-        headers = sorted(path.name for path in self.include.glob("*.h"))
+        headers = sorted(path.name for path in self.include.glob("*.h") if path.name != "mpi.h")  # needs MPI's own
         self.assertIn("trajectory.h", headers)
         for header in headers:
             alone = self.work / "alone.c"
@@ -143,6 +143,22 @@ class Installed(unittest.TestCase):
         probe = self.work / "layout.c"
         probe.write_text("#include <dem/dem.h>\n#include <stdio.h>\nint main(void)\n{\n" + "\n".join(rows) + "\nreturn 0;\n}\n")
         self.assertEqual(run(self.compiled(probe, out="layout"), env=self.env), layout)
+
+    def test_ranks_see_the_motion_of_one_as_the_manual_says(self):
+        """Where the library was built with MPI."""
+        if not (self.include / "mpi.h").exists():
+            return
+        manual = (SOURCE / "docs/linking.md").read_text(encoding="utf-8").split("\n## Several processes\n")[1]
+        (self.work / "swing.c").write_text(re.search(r"(?s)```c\n(.*?)```", manual)[1])
+        command = re.search(r"mpicc swing.c .* -o swing", manual)[0]
+        env = {**self.env, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_rmaps_base_oversubscribe": "1", "PRTE_MCA_rmaps_default_mapping_policy": ":oversubscribe"}
+        run("sh", "-c", f"{command} -std=c11 -Wall -Wextra -Werror", env=env, cwd=self.work)
+        said = [run("mpirun", "-n", n, "./swing", env=env, cwd=self.work) for n in (1, 3)]
+        self.assertEqual(said[0], said[1])
+        self.assertGreater(len(said[0].splitlines()), 500)
+        self.assertIn("libmpi", run("ldd", self.lib / "libdem_mpi.so", env=self.env))
+        self.assertNotIn("libdem_mpi", run("ldd", self.lib / "libdem.so", env=self.env))
 
     @unittest.skipUnless(FORTRAN, "there is no Fortran compiler")
     def test_the_fortran_module_can_be_made_from_its_sources(self):

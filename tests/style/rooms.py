@@ -14,6 +14,7 @@ ROOMS = [  # pattern, files that may have it
                              "src/surface_contact/way_box.c"}),
     (r"_Pragma|#pragma", {"src/base/inline.h"}),
     (r"\bpthread_create\b|#include <(semaphore|stdatomic)", {"src/base/team.c"}),
+    (r'#include [<"]mpi\.h', {"src/mpi/mpi_ranks.h"}),
     (r'#include [<"]hdf5\.h', {"src/output/hdf5_api.h"}),
     (r'#include [<"]gsl/', {"drivers/body/copies.c", "drivers/deck/profile.c",
                           "drivers/batch/preview.c"}),

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** dem/mpi.h -- one model on several processes: the ranks of an MPI communicator share its nodes, and integrate them to
+ *  the bits of one process, whatever their number. Of the library libdem_mpi, which `pkg-config dem_mpi` knows; libdem
+ *  itself has no MPI.
+ *
+ *  Each rank has a model and a simulation of its part: its own nodes, and as ghosts those of other ranks that a spring
+ *  or a triangle joins to one of them (dem_model_part()). What goes on is *collective*: all ranks make the same calls
+ *  in the same order, with the same arguments, and wait for each other in them. These are
+ *
+ *      dem_model_create_mpi(), and dem_model_destroy() of such a model
+ *      dem_simulation_create(), dem_simulation_observe(), dem_simulation_advance(), dem_simulation_gather()
+ *      dem_simulation_state(), dem_simulation_counts()
+ *
+ *  A status of a collective function is that of all ranks, with the same dem_status_message(): what fails on one rank,
+ *  or is returned by an observer there, ends the call on all. Not so DEM_ERROR_MEMORY, and what is said of `out`,
+ *  `model` or `simulation` that is NULL: a rank that gets one of these alone should call MPI_Abort(), as the others may
+ *  wait for it. Boundaries name nodes of the whole lattice.
+ *
+ *  Ranks cannot share yet, and refuse: obstacles, bodies that touch, what may break, rigid bodies, external forces,
+ *  checkpoints (`checkpoint_steps` has to be 0), and all that is measured on a state but x, v, t, step and counts.
+ *
+ *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
+ *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A
+ *  failure inside MPI ends the program, as MPI does by itself. */
+#ifndef DEM_MPI_H
+#define DEM_MPI_H
+
+#include <dem/dem.h>
+#include <mpi.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Validates and compiles as dem_model_create() does, and shares the nodes out among the ranks of a communicator, in
+ *  compact domains of equal size. Each rank gets the model of its domain; lattice and communicator may be freed
+ *  afterwards. Collective. While it works every rank has the whole lattice.
+ *  \param lattice    the same on all ranks, as are obstacles and n_obstacles
+ *  \param obstacles  [n_obstacles] not possible yet
+ *  \return as dem_model_create(); DEM_ERROR_ARGUMENT if lattices differ, MPI is not initialised, or libdem has another
+ *  version than libdem_mpi; DEM_ERROR_MODEL for what ranks cannot share yet, and more ranks than nodes */
+DEM_API dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                        dem_index n_obstacles, MPI_Comm communicator);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

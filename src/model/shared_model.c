@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Every rank compiles the whole and cuts its part from it (model/domain_model.c). All have to have the same lattice:
+ * lists of what they send to each other, and so all that follows, are made of it. Whether they do is seen from a hash
+ * of its arrays, as the model holds them. */
+#include "model/shared_model.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "base/reduce.h"
+#include "base/status.h"
+#include "domain/partition.h"
+#include "model/domain_model.h"
+
+/* ---- whether all have the same ---- */
+
+/* Of numbers of 8 bytes, and what is left of bytes. */
+static uint64_t hash_on(uint64_t hash, const void *array, size_t size)
+{
+    uint64_t word;
+    if (array == NULL) return random_mix(hash);
+    for (size_t k = 0; k < size; k += sizeof word) {
+        word = 0;
+        memcpy(&word, (const char *)array + k, size - k < sizeof word ? size - k : sizeof word);
+        hash = random_mix(hash + random_stride + word);
+    }
+    return hash;
+}
+
+/* Of all that a model that is shared has: without limits, by which nothing breaks. */
+static uint64_t hash_of(const dem_lattice *l)
+{
+    const size_t n = (size_t)l->n_nodes, s = (size_t)l->n_springs, t = (size_t)l->n_triangles, real = sizeof(double);
+    const struct {
+        const void *array;
+        size_t size;
+    } all[] = {
+        {l->x, 2 * n * real},           {l->mass, n * real},         {l->ends, 2 * s * sizeof *l->ends},
+        {l->rest_length, s * real},     {l->stiffness, s * real},    {l->triangles, 3 * t * sizeof *l->triangles},
+        {l->viscosity, s * real},       {l->guard, t * real},        {l->area_stiffness, t * real},
+        {l->thickness, t * real},       {l->modulus, t * real},      {l->flags, n},
+        {l->body, n * sizeof *l->body}, {l->position, 2 * n * real}, {l->velocity, 2 * n * real},
+        {l->coupling, 3 * t * real}};
+    uint64_t hash = random_mix(n) ^ random_mix(s + 1) ^ random_mix(t + 2);
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) hash = hash_on(hash, all[k].array, all[k].size);
+    return hash;
+}
+
+typedef struct likeness {
+    uint64_t hash;
+    bool differs;
+} likeness;
+
+static void join_likenesses(void *packet, const void *other)
+{
+    likeness *const own = packet;
+    const likeness *theirs = other;
+    own->differs = own->differs || theirs->differs || own->hash != theirs->hash;
+}
+
+static dem_status check_same(const ranks *r, const dem_lattice *l)
+{
+    likeness all = {.hash = hash_of(l)};
+    r->reduce(r->self, &all, sizeof all, join_likenesses);
+    CHECK(!all.differs, DEM_ERROR_ARGUMENT, "the lattices of the %d ranks differ", r->size);
+    return DEM_OK;
+}
+
+/* ---- public ---- */
+
+/* What a rank does by itself. */
+static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_whole *of, int n_ranks)
+{
+    TRY(dem_model_create(whole, of->lattice, of->obstacles, of->n_obstacles));
+    *owner = malloc((size_t)of->lattice->n_nodes * sizeof **owner);
+    CHECK_MEMORY(*owner);
+    return partition_bisect(&(*whole)->lattice, n_ranks, *owner);
+}
+
+static dem_status share(dem_model **out, const ranks *r, const dem_model *whole, const int32_t *owner)
+{
+    TRY(check_same(r, &whole->lattice));
+    TRY(domain_model_create(out, r, whole, owner));
+    (*out)->ends_ranks = r->end != NULL;
+    return DEM_OK;
+}
+
+dem_status dem_private_share_model(dem_model **out, const dem_private_whole *whole, const ranks *r)
+{
+    dem_model *compiled = NULL;
+    int32_t *owner = NULL;
+    dem_status status = reduce_status(r, prepare(&compiled, &owner, whole, r->size), 0.0);
+    if (status == DEM_OK) status = share(out, r, compiled, owner);
+    dem_model_destroy(compiled);
+    free(owner);
+    return status;
+}

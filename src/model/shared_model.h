@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A model that ranks share, from the lattice that each of them has: what libdem_mpi, which is a library of its own and
+ * has the same version, asks of libdem. */
+#ifndef DEM_MODEL_SHARED_MODEL_H
+#define DEM_MODEL_SHARED_MODEL_H
+
+#include "model/model.h"
+
+/** A lattice and obstacles, as dem_model_create() takes them. */
+typedef struct dem_private_whole {
+    const dem_lattice *lattice;
+    const dem_obstacle *obstacles; /* [n_obstacles] */
+    dem_index n_obstacles;
+} dem_private_whole;
+
+/** Shares the nodes out among ranks, each of which gets the model of its part. Collective: whatever fails on one rank
+ *  is the failure of all. The model takes the ranks over and ends them when it is destroyed; after a failure they are
+ *  the caller's as before. No program may call this.
+ *  \param whole  the same on all ranks
+ *  \return as dem_model_create() and domain_model_create(); DEM_ERROR_ARGUMENT if the ranks' lattices differ, or ranks
+ *  are more than nodes */
+DEM_API dem_status dem_private_share_model(dem_model **out, const dem_private_whole *whole, const ranks *r);
+
+#endif

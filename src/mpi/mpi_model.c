@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The functions of dem/mpi.h. Of libdem's own functions only those are called that it exports, and of its structs none
+ * is looked into but the table of ranks, which is this library's. */
+#include <dem/mpi.h>
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/status.h"
+#include "model/shared_model.h"
+#include "mpi/mpi_ranks.h"
+
+/* What would leave nobody to talk to. */
+static dem_status check(dem_model *const *out, MPI_Comm communicator)
+{
+    char message[STATUS_MESSAGE_SIZE];
+    int is_initialised = 0;
+    (void)MPI_Initialized(&is_initialised);
+    if (!is_initialised)
+        return dem_private_fail(DEM_ERROR_ARGUMENT, "dem_model_create_mpi: MPI has not been initialised");
+    if (out == NULL || communicator == MPI_COMM_NULL)
+        return dem_private_fail(DEM_ERROR_ARGUMENT, out == NULL ? "dem_model_create_mpi: out is NULL"
+                                                                : "dem_model_create_mpi: no communicator");
+    if (strcmp(dem_version(), DEM_VERSION) == 0) return DEM_OK;
+    (void)snprintf(message, sizeof message, "libdem_mpi %s does not go with libdem %s", DEM_VERSION, dem_version());
+    return dem_private_fail(DEM_ERROR_ARGUMENT, message);
+}
+
+dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                dem_index n_obstacles, MPI_Comm communicator)
+{
+    TRY(check(out, communicator));
+    ranks *r = mpi_ranks_create(communicator);
+    if (r == NULL) return dem_private_fail(DEM_ERROR_MEMORY, "out of memory for the ranks of a communicator");
+    const dem_private_whole whole = {lattice, obstacles, n_obstacles};
+    const dem_status status = dem_private_share_model(out, &whole, r);
+    if (status != DEM_OK) r->end(r->self);
+    return status;
+}

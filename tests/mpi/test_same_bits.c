@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ranks that are processes: positions, velocities, times, lengths of steps and their counts have the bits of one
+ * process, which every rank computes beside it. `mpirun -n N test_same_bits`. */
+#include "mpi_body.h"
+
+enum { N_STOPS = 2, N_FRAMES = 3 };
+
+/* Of the whole. */
+typedef struct motion {
+    double t, step;
+    double *x, *v; /* [n][2] */
+} motion;
+
+typedef struct run {
+    dem_index n; /* nodes of the whole */
+    int n_seen;
+    motion seen[N_STOPS + N_FRAMES]; /* in frames and at stops */
+    dem_counts counts;
+} run;
+
+/* ---- a run, of one process or of ranks ---- */
+
+static void look(run *r, const dem_simulation *s)
+{
+    const size_t size = 2 * (size_t)r->n * sizeof(double);
+    motion *m = &r->seen[r->n_seen++];
+    dem_state state = {.struct_size = sizeof state};
+    INSIST(r->n_seen <= N_STOPS + N_FRAMES);
+    *m = (motion){.x = malloc(size), .v = malloc(size)};
+    INSIST(m->x != NULL && m->v != NULL);
+    INSIST(dem_simulation_state(s, &state) == DEM_OK && dem_simulation_gather(s, m->x, m->v) == DEM_OK);
+    m->t = state.t;
+    m->step = state.step;
+}
+
+static dem_status look_at_frame(void *context, const dem_simulation *s)
+{
+    look(context, s);
+    return DEM_OK;
+}
+
+static void finish(run *r, const dem_model *model, const dem_options *options)
+{
+    dem_simulation *s = NULL;
+    const dem_observer observer = {
+        .struct_size = sizeof observer, .context = r, .interval = 1.2e-4, .frame = look_at_frame};
+    INSIST(dem_simulation_create(&s, model, options) == DEM_OK && dem_simulation_observe(s, &observer) == DEM_OK);
+    for (int k = 1; k <= N_STOPS; k++) {
+        INSIST(dem_simulation_advance(s, 1.5e-4 * k) == DEM_OK);
+        look(r, s);
+    }
+    r->counts.struct_size = sizeof r->counts;
+    INSIST(dem_simulation_counts(s, &r->counts) == DEM_OK);
+    dem_simulation_destroy(s);
+}
+
+static void free_run(run *r)
+{
+    for (int k = 0; k < r->n_seen; k++) {
+        free(r->seen[k].x);
+        free(r->seen[k].v);
+    }
+}
+
+/* ---- comparison ---- */
+
+static void compare(const run *ranks, const run *one, int rank)
+{
+    const size_t size = 2 * (size_t)one->n * sizeof(double);
+    INSIST(ranks->n_seen == one->n_seen && one->n_seen == N_STOPS + N_FRAMES);
+    for (int k = 0; k < one->n_seen; k++) {
+        INSIST(ranks->seen[k].t == one->seen[k].t && ranks->seen[k].step == one->seen[k].step);
+        INSIST(rank != 0 || memcmp(ranks->seen[k].x, one->seen[k].x, size) == 0);
+        INSIST(rank != 0 || memcmp(ranks->seen[k].v, one->seen[k].v, size) == 0);
+    }
+    INSIST(memcmp(&ranks->counts, &one->counts, sizeof one->counts) == 0);
+    INSIST(one->counts.steps > 5);
+}
+
+/* Each node is the own one of one rank, which has it at its place. */
+static void check_part(const dem_model *model, const dem_lattice *whole)
+{
+    dem_index n, own = 0, all = 0;
+    const dem_index *number;
+    const unsigned char *is_own;
+    INSIST(dem_model_part(model, &n, &number, &is_own) == DEM_OK);
+    INSIST(n == dem_model_lattice(model)->n_nodes);
+    for (dem_index i = 0; i < n; i++) {
+        INSIST(dem_model_lattice(model)->x[2 * i] == whole->x[2 * number[i]]);
+        own += is_own[i];
+    }
+    (void)MPI_Allreduce(&own, &all, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+    INSIST(all == whole->n_nodes);
+}
+
+static void share(const dem_lattice *l, const dem_options *options, int rank)
+{
+    dem_model *model = NULL;
+    run one = {.n = l->n_nodes}, ranks = {.n = l->n_nodes};
+    INSIST(dem_model_create(&model, l, NULL, 0) == DEM_OK);
+    finish(&one, model, options);
+    dem_model_destroy(model);
+    INSIST(dem_model_create_mpi(&model, l, NULL, 0, MPI_COMM_WORLD) == DEM_OK);
+    check_part(model, l);
+    finish(&ranks, model, options);
+    dem_model_destroy(model);
+    compare(&ranks, &one, rank);
+    free_run(&one);
+    free_run(&ranks);
+}
+
+/* Free, and held at one end and pulled. */
+int main(int argc, char **argv)
+{
+    static const dem_method methods[] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
+    const team t = rank_test_begin(&argc, &argv);
+    for (int is_held = 0; is_held < 2; is_held++) {
+        dem_index n = 0;
+        dem_lattice l = mpi_body_make(is_held ? 1.0 : 20.0);
+        dem_index *held = mpi_body_left(&l, &n);
+        const dem_boundary pull = {.struct_size = sizeof pull,
+                                   .kind = DEM_BOUNDARY_DISPLACEMENT,
+                                   .components = DEM_COMPONENT_X | DEM_COMPONENT_Y,
+                                   .n_nodes = n,
+                                   .nodes = held,
+                                   .value = {-1e-3, 5e-4, 0.0},
+                                   .ramp = 2e-4};
+        for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
+            dem_options options = dem_options_default();
+            options.method = methods[k];
+            options.checkpoint_steps = 0;
+            options.n_boundaries = is_held;
+            options.boundaries = &pull;
+            share(&l, &options, t.rank);
+        }
+        free(held);
+        dem_lattice_free(&l);
+    }
+    (void)MPI_Finalize();
+    return 0;
+}
