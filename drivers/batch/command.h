@@ -25,6 +25,7 @@ typedef struct command {
     command_action action;
     const char *outdir; /* made when the first output is to be written */
     bool overwrite, resume_anyway, verbose;
+    bool serial;       /* by itself, though a launcher has started several processes */
     bool terminal;     /* standard output is one */
     bool json;         /* results go to standard output, too: as asked for, or where programs read it */
     long jobs;         /* cases at once, in processes of their own if more than one */

@@ -4,6 +4,7 @@
 
 #include "case_pool.h"
 #include "job.h"
+#include "launcher.h"
 #include "preview.h"
 #include "schema.h"
 #include "signals.h"
@@ -21,11 +22,27 @@ static exit_code do_in_turn(const command *c, const cases *all)
     return worst;
 }
 
+/* Several processes would each do all of it, and get in each other's way. */
+static bool is_alone(const command *c)
+{
+    const launcher l = launcher_find();
+    if (c->action != COMMAND_RUN || c->serial || l.processes == 1) return true;
+    if (l.reports)
+        (void)fprintf(
+            stderr,
+            "dem_batch: error: %s says that %ld processes were started, and a run is one process so far: start "
+            "it without mpirun or srun, or with --serial where each has an output of its own\n",
+            l.variable, l.processes);
+    launcher_let_report(&l);
+    return false;
+}
+
 static exit_code do_all(const command *c)
 {
     outcome found = {0};
     cases all;
     exit_code worst = EXIT_DONE;
+    if (!is_alone(c)) return EXIT_USAGE;
     if (!cases_find(&all, c, &found))
         worst = found.code;
     else

@@ -69,12 +69,13 @@ def deck(**groups):
 
 def run(path, settings=None, outdir=".", overwrite=False):
     """Runs a deck, a file, and returns its Run, whose `result` is what NAME.json has. A run that is done already is
-    read; one that was stopped goes on.
+    read; one that was stopped goes on. Of a script that mpirun has started several times each has to have an outdir, or
+    a deck, of its own.
     settings: keys and their values, {"solver.rtol": 1e-8, "obstacle(2).friction": 0.3}, which take the deck's place
     overwrite: renames the output of another problem that is in the way
     Raises DeckError for a deck that is refused, and for a run that fails."""
     words = [word for key, value in (settings or {}).items() for word in ("--set", f"{key}={_value(value)}")]
-    out = _call("--json", "--outdir", outdir, *(["--overwrite"] if overwrite else []), *words, path)
+    out = _call("--json", "--serial", "--outdir", outdir, *(["--overwrite"] if overwrite else []), *words, path)
     result = json.loads(next(line for line in reversed(out.splitlines()) if line.startswith("{")))
     done = Run(result["output"])
     done.result = result

@@ -170,6 +170,14 @@ class Options(Case):
                 self.assertEqual((done.returncode, done.stderr), (5, UNPRINTED))
         self.assertEqual(self.files(), set())
 
+    def test_one_of_several_processes_of_a_launcher_says_that_they_are_refused(self):
+        self.put(coarse())
+        for rank, line in (("0", r"dem_batch: error: PMI_SIZE says that 2 processes .* --serial .*\n"), ("1", "")):
+            done = subprocess.run([DEM_BATCH, "deck.nml"], cwd=self.folder, capture_output=True, text=True,
+                                  timeout=SECONDS, check=False, env={**os.environ, "PMI_SIZE": "2", "PMI_RANK": rank})
+            self.assertEqual((done.returncode, done.stdout, self.files()), (2, "", set()))
+            self.assertRegex(done.stderr, f"^{line}$")
+
 
 class Check(Case):
     def test_the_header_is_printed_and_nothing_written(self):

@@ -267,6 +267,15 @@ class Decks(Case):
         other = dem.run(path, {"obstacle.restitution": 0.25, "output.name": "e"}, outdir=self.folder / "out")
         self.assertNotEqual(other.result["energy"], run.result["energy"])
 
+    def test_each_of_several_processes_runs_its_own(self):
+        """As scripts with mpi4py are started, by mpirun."""
+        path = self.folder / "d.nml"
+        path.write_text(dem.deck(**self.DECK), encoding="utf-8")
+        os.environ["OMPI_COMM_WORLD_SIZE"] = "2"
+        self.addCleanup(os.environ.pop, "OMPI_COMM_WORLD_SIZE")
+        run = dem.run(path, outdir=self.folder / "1")
+        self.assertEqual(run.result["status"], "done")
+
     def test_faults_are_those_of_the_program(self):
         wrong = self.DECK | {"run": {"tend": 1.0}}
         with self.assertRaisesRegex(dem.DeckError, "did you mean 't_end'") as caught:
