@@ -42,6 +42,10 @@ extern "C" {
 DEM_API dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                         dem_index n_obstacles, MPI_Comm communicator);
 
+/** The same for Fortran, where a communicator is an integer: docs/fortran.md has its interface. */
+DEM_API dem_status dem_model_create_mpi_f(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                          dem_index n_obstacles, MPI_Fint communicator);
+
 #ifdef __cplusplus
 }
 #endif

@@ -37,3 +37,9 @@ dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, con
     if (status != DEM_OK) r->end(r->self);
     return status;
 }
+
+dem_status dem_model_create_mpi_f(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
+                                  dem_index n_obstacles, MPI_Fint communicator)
+{
+    return dem_model_create_mpi(out, lattice, obstacles, n_obstacles, MPI_Comm_f2c(communicator));
+}
