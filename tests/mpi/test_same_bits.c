@@ -109,7 +109,7 @@ static void share(const dem_lattice *l, const dem_options *options, int rank)
     free_run(&ranks);
 }
 
-/* Free, and held at one end and pulled. */
+/* Free, and held at one end and pulled; then every rank has two threads. */
 int main(int argc, char **argv)
 {
     static const dem_method methods[] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
@@ -131,6 +131,8 @@ int main(int argc, char **argv)
             options.checkpoint_steps = 0;
             options.n_boundaries = is_held;
             options.boundaries = &pull;
+            options.threads = is_held + 1;
+            options.thread_nodes = 20;
             share(&l, &options, t.rank);
         }
         free(held);
