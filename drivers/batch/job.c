@@ -264,7 +264,7 @@ static result describe(const job *j)
 /* What a run that is done has left. */
 static void list_files(job *j)
 {
-    static const char *const ends[] = {".vtkhdf", ".obstacle.vtkhdf", ".json", ".checkpoint"};
+    static const char *const ends[] = {".vtkhdf", ".body.vtkhdf", ".obstacle.vtkhdf", ".json", ".checkpoint"};
     char path[OUTPUT_PATH];
     const char *before = "files     ";
     for (size_t k = 0; k < sizeof ends / sizeof *ends; k++) {

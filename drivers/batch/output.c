@@ -196,8 +196,9 @@ static bool is_segment(const char *end)
 /* What is left of the name of a file of this output behind the output's name; NULL if it is none. */
 static const char *end_of(const char *file, const char *name)
 {
-    static const char *const ends[] = {suffix,  part_suffix,   ".obstacle.vtkhdf", ".obstacle.part.vtkhdf",
-                                       ".json", ".checkpoint", ".checkpoint.prev", ".checkpoint.damaged"};
+    static const char *const ends[] = {
+        suffix,  part_suffix,   ".obstacle.vtkhdf", ".obstacle.part.vtkhdf", ".body.vtkhdf", ".body.part.vtkhdf",
+        ".json", ".checkpoint", ".checkpoint.prev", ".checkpoint.damaged"};
     const size_t n = strlen(name);
     if (strncmp(file, name, n) != 0) return NULL;
     for (size_t k = 0; k < sizeof ends / sizeof *ends; k++)

@@ -105,10 +105,11 @@ static void check_name(const schema_instance *output, namelist_errors *errors)
     if (length == 0 || length > 100 || strchr(text, '/') != NULL || text[0] == '.' || text[0] == '-')
         namelist_errors_add(errors, name->place,
                             "'name' in &output must have 1 to 100 characters, no '/', and not begin with '.' or '-'");
-    else if (ends_with(text, ".obstacle") || ends_with(text, ".part") || ends_with_number(text))
+    else if (ends_with(text, ".obstacle") || ends_with(text, ".body") || ends_with(text, ".part") ||
+             ends_with_number(text))
         namelist_errors_add(errors, name->place,
-                            "'name' in &output must not end in '.obstacle', '.part' or a '.' and five digits or more: "
-                            "other files are called so");
+                            "'name' in &output must not end in '.obstacle', '.body', '.part' or a '.' and five digits "
+                            "or more: other files are called so");
 }
 
 static void check(const schema_deck *groups, namelist_errors *errors)

@@ -84,7 +84,8 @@ DEM_API bool dem_history_row_due(double interval, double before, double t);
 
 /** Starts `path`, which must end in ".vtkhdf". Until dem_trajectory_finish() the file is NAME.part.vtkhdf, closed after
  *  every frame (but see stays_open) so that it can be looked at while the run goes on.
- *  Writes the lattice group and the obstacle file NAME.obstacle.vtkhdf (none without obstacles).
+ *  Writes the lattice group, the obstacle file NAME.obstacle.vtkhdf (none without obstacles) and NAME.body.vtkhdf, by
+ *  which ParaView shows triangles (none without triangles or frames).
  *  The run starts anew: an older part is overwritten, and segments NAME.00001.vtkhdf, ... of an unfinished run are
  *  removed, from which only dem_trajectory_resume() goes on. A file of such a name that is no segment stays; it stops
  *  dem_trajectory_segment() when that comes to it. */

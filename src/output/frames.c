@@ -9,9 +9,14 @@
  *   PointData/id              [N]       constant: the offset is 0 in every frame
  *   Connectivity, Types, ...            constant: Steps/CellOffsets is 0 in every frame
  *   Steps/Values, NSteps      [T], T    the times, and how many frames count
- * The cells are springs, so that flags of the K triangles are outside of what VTK reads, where no offsets are needed:
- *   /fracture/triangles       [T K]     frame k has the rows k K to (k + 1) K - 1
- * They are written in every frame, as all arrays are: a segment has those of its own frames, whatever is in others, and
+ * The cells are springs. A grid has one kind of data for all its cells, so that the K triangles are a second grid, over
+ * the same points, data of these, and steps, by links:
+ *   /bodies/Points, ...                 links to /VTKHDF/Points, ...
+ *   /bodies/Connectivity, ...           constant
+ *   /bodies/CellData/vtkGhostType [T K] frame k has the rows k K to (k + 1) K - 1; what is broken is hidden by it
+ *   Steps/CellDataOffsets/vtkGhostType  [T] 0, K, 2 K, ...
+ *   /fracture/triangles       [T K]     the flags 0 and 1, for all who do not draw: no grid, no offsets
+ * Both are written in every frame, as all arrays are: a segment has those of its own frames, whatever is in others, and
  * zeros deflate to a 200th.
  * The table `arrays` is the one list of arrays: writing, copying and checking go through it. Cells and their types are
  * in vtk_grid.c; when a frame is written is decided in trajectory.c. */
@@ -36,8 +41,7 @@
 /* Fields for which the stresses of all nodes are needed. */
 enum { ANY_STRESS = DEM_FIELD_STRESS | DEM_FIELD_VON_MISES | DEM_FIELD_PRINCIPAL };
 
-/* What an array has a row of: nothing, each frame, each node, spring or triangle of a frame. Up to SPRINGS it indexes
- * `offsets`. */
+/* What an array has a row of: nothing, each frame, each node, spring or triangle of a frame. It indexes `offsets`. */
 enum of { NONE, ONE, NODES, SPRINGS, TRIANGLES };
 
 /* What is looked at while a frame is written. */
@@ -142,9 +146,18 @@ static void fill_broken_triangles(const frames *f, const view *v)
     (void)dem_simulation_broken(v->simulation, (unsigned char *)f->scratch, NULL);
 }
 
+/* What VTK does not draw. */
+static void fill_hidden(const frames *f, const view *v)
+{
+    enum { VTK_HIDDEN_CELL = 32 };
+    unsigned char *hidden = (unsigned char *)f->scratch;
+    fill_broken_triangles(f, v);
+    for (dem_index k = 0; k < f->n_triangles; k++) hidden[k] = hidden[k] != 0 ? VTK_HIDDEN_CELL : 0;
+}
+
 /* All arrays that change from frame to frame. `field` is the option that asks for one. */
 static const struct array {
-    const char *name, *offset; /* offset NULL: outside of the grid */
+    const char *name, *offset; /* offset NULL: outside of the grids */
     uint32_t field;            /* 0: always there */
     hdf5_kind kind;            /* HDF5_F32: as the options say */
     enum of of;
@@ -168,6 +181,8 @@ static const struct array {
     {IN("CellData", "broken"), 0, HDF5_U8, SPRINGS, 1, fill_broken},
     /* Triangles. */
     {FRAMES_BROKEN_TRIANGLES, NULL, 0, HDF5_U8, TRIANGLES, 1, fill_broken_triangles},
+    {FRAMES_BODIES "/CellData/vtkGhostType", STEPS "/CellDataOffsets/vtkGhostType", 0, HDF5_U8, TRIANGLES, 1,
+     fill_hidden},
 };
 enum { N_ARRAYS = sizeof arrays / sizeof arrays[0] };
 
@@ -186,23 +201,32 @@ static const struct energy {
 enum { N_ENERGIES = sizeof energies / sizeof energies[0] };
 
 /* Where the data of frame k begin. Arrays of one size begin at the same places, so that they share a dataset under the
- * name of each (a hard link): a frame of a small body is written in half the time. The entries up to SPRINGS stand in
- * the order of `enum of`. */
+ * name of each (a hard link): a frame of a small body is written in half the time. The entries before
+ * the last stand in the order of `enum of`. */
 static const struct offset {
     const char *name;
     int rank;
     enum of of;
 } offsets[] = {
-    {STEPS "/PartOffsets", 1, NONE},   {STEPS "/FieldDataOffsets/contacts", 1, ONE},
-    {STEPS "/PointOffsets", 1, NODES}, {STEPS "/CellDataOffsets/broken", 1, SPRINGS},
+    {STEPS "/PartOffsets", 1, NONE},
+    {STEPS "/FieldDataOffsets/contacts", 1, ONE},
+    {STEPS "/PointOffsets", 1, NODES},
+    {STEPS "/CellDataOffsets/broken", 1, SPRINGS},
+    {STEPS "/CellDataOffsets/vtkGhostType", 1, TRIANGLES},
     {STEPS "/CellOffsets", 2, NONE},
 };
 enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
 
-/* Whether the options ask for this array, and the lattice has what it is of: VTK wants cells even if there are none. */
+/* Whether the lattice has what an array is of: VTK wants springs as cells even if there are none. */
+static bool is_there(const frames *f, enum of of)
+{
+    return of != TRIANGLES || f->n_triangles > 0;
+}
+
+/* Whether the options ask for this array, too. */
 static bool is_wanted(const frames *f, const struct array *a)
 {
-    return (a->field == 0 || (f->fields & a->field) != 0) && (a->of != TRIANGLES || f->n_triangles > 0);
+    return (a->field == 0 || (f->fields & a->field) != 0) && is_there(f, a->of);
 }
 
 /* Rows of one frame. */
@@ -244,9 +268,10 @@ static dem_status share_offset(const hdf5_file *file, const char *name, enum of 
 }
 
 /* `id` and `body` are the same in all frames: their offset is always 0, as that of parts. */
-static dem_status create_offsets(const hdf5_file *file)
+static dem_status create_offsets(const frames *f, const hdf5_file *file)
 {
-    for (int o = 0; o < N_OFFSETS; o++) TRY(create_row(file, offsets[o].name, HDF5_I64, offsets[o].rank));
+    for (int o = 0; o < N_OFFSETS; o++)
+        if (is_there(f, offsets[o].of)) TRY(create_row(file, offsets[o].name, HDF5_I64, offsets[o].rank));
     TRY(share_offset(file, STEPS "/PointDataOffsets/id", NONE));
     TRY(share_offset(file, STEPS "/PointDataOffsets/body", NONE));
     return hdf5_link(file, STEPS "/ConnectivityIdOffsets", STEPS "/CellOffsets");
@@ -291,13 +316,36 @@ static dem_status write_nodes(const frames *f, const hdf5_file *file, const dem_
     return hdf5_write(file, body, n, lattice->body);
 }
 
-/* The grid, without its points: these move, and are an array of the frames. */
+/* What the grid of triangles has from that of springs. */
+static dem_status link_bodies(const hdf5_file *file)
+{
+    static const char *const shared[] = {"Points", "PointData", "FieldData", "Steps"};
+    for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
+        char name[32], target[32];
+        (void)snprintf(name, sizeof name, FRAMES_BODIES "/%s", shared[k]);
+        (void)snprintf(target, sizeof target, GRID "%s", shared[k]);
+        TRY(hdf5_link_name(file, name, target));
+    }
+    return DEM_OK;
+}
+
+/* The triangles as cells. */
+static dem_status create_bodies(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
+{
+    const grid g = {FRAMES_BODIES, f->n_nodes, f->n_triangles, 3, lattice->triangles};
+    if (f->n_triangles == 0) return DEM_OK;
+    TRY(vtk_grid_write(file, &g, f->deflate));
+    return link_bodies(file);
+}
+
+/* The grids, without their points: these move, and are an array of the frames. */
 dem_status frames_create(const frames *f, const hdf5_file *file, const dem_lattice *lattice)
 {
-    const grid g = {f->n_nodes, f->n_springs, lattice->ends};
+    const grid g = {"/VTKHDF", f->n_nodes, f->n_springs, 2, lattice->ends};
     TRY(vtk_grid_write(file, &g, f->deflate));
+    TRY(create_bodies(f, file, lattice));
     TRY(write_nodes(f, file, lattice));
-    TRY(create_offsets(file));
+    TRY(create_offsets(f, file));
     TRY(create_arrays(f, file));
     return create_rows(file);
 }
@@ -378,6 +426,7 @@ static dem_status append_offsets(const frames *f, const hdf5_file *file, hsize_t
 {
     for (int o = 0; o < N_OFFSETS; o++) {
         const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
+        if (!is_there(f, offsets[o].of)) continue;
         TRY(hdf5_append(file, &rows, n, 1, &(dem_index){(dem_index)n * count_of(f, offsets[o].of)}));
     }
     return DEM_OK;
@@ -400,7 +449,7 @@ static dem_status write_count(const hdf5_file *file, dem_index n)
 hsize_t frames_bytes(const frames *f)
 {
     /* All arrays in double. */
-    return 200 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs + (hsize_t)f->n_triangles;
+    return 200 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs + 2 * (hsize_t)f->n_triangles;
 }
 
 /* Positions are always written; the other arrays as the options say. The frame does not count itself: the caller raises
@@ -490,7 +539,7 @@ dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n)
     }
     for (int o = 0; o < N_OFFSETS; o++) {
         const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
-        TRY(hdf5_expect_rows(file, &rows, n));
+        if (is_there(f, offsets[o].of)) TRY(hdf5_expect_rows(file, &rows, n));
     }
     return hdf5_expect_attribute(file, STEPS, "NSteps", (dem_index)n);
 }

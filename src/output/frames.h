@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The group /VTKHDF of a trajectory: the lattice as a grid of lines, and what is shown on it at every frame; and beside
- * it which triangles are broken then. */
+/* The group /VTKHDF of a trajectory: the lattice as a grid of lines, and what is shown on it at every frame; the group
+ * /bodies, the same as a grid of triangles; and beside them which triangles are broken then. */
 #ifndef DEM_OUTPUT_FRAMES_H
 #define DEM_OUTPUT_FRAMES_H
 
@@ -11,6 +11,9 @@
 /** The dataset of the flags of triangles, 1: broken, frame by frame. Files of older versions, and those of lattices
  *  without triangles, do not have it. */
 #define FRAMES_BROKEN_TRIANGLES "/fracture/triangles"
+
+/** The grid of triangles, which body_file.c leads VTK to. Lattices without triangles do not have it. */
+#define FRAMES_BODIES "/bodies"
 
 /** The dataset of the first rows of frames in the table of fragments, and behind them of the number of its rows. */
 #define FRAMES_FRAGMENT_OFFSETS "/fragments/frame_offset"

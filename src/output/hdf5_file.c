@@ -112,11 +112,12 @@ typedef struct unread {
     dem_status status;
 } unread;
 
-/* Called for every link below the root. A number other than 0 ends the visit. */
+/* Called for every link below the root. A number other than 0 ends the visit. What a link by name leads to is read
+ * where it is. */
 static herr_t visit(hid_t root, const char *name, const H5L_info_t *info, void *context)
 {
     unread *u = context;
-    (void)info;
+    if (info->type != H5L_TYPE_HARD) return 0;
     const hid_t object = H5Oopen(root, name, H5P_DEFAULT);
     dem_status status = object < 0 ? DEM_ERROR_IO : DEM_OK;
     if (status == DEM_OK && H5Iget_type(object) == H5I_DATASET) status = read_dataset(object);
@@ -300,13 +301,30 @@ dem_status hdf5_close(hdf5_file *file, dem_status status)
     return status;
 }
 
+/* Ends what made a link. */
+static dem_status end_link(const hdf5_file *file, const char *name, hid_t links, herr_t made)
+{
+    const dem_status status = made >= 0 ? DEM_OK : hdf5_fail(file, name, "cannot be linked");
+    (void)H5Pclose(links);
+    return status;
+}
+
 dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target)
 {
     const hid_t links = hdf5_parents();
-    const bool linked = H5Lcreate_hard(file->id, target, file->id, name, links, H5P_DEFAULT) >= 0;
-    const dem_status status = linked ? DEM_OK : hdf5_fail(file, name, "cannot be linked");
-    (void)H5Pclose(links);
-    return status;
+    return end_link(file, name, links, H5Lcreate_hard(file->id, target, file->id, name, links, H5P_DEFAULT));
+}
+
+dem_status hdf5_link_name(const hdf5_file *file, const char *name, const char *target)
+{
+    const hid_t links = hdf5_parents();
+    return end_link(file, name, links, H5Lcreate_soft(target, file->id, name, links, H5P_DEFAULT));
+}
+
+dem_status hdf5_link_file(const hdf5_file *file, const char *name, const char *other, const char *target)
+{
+    const hid_t links = hdf5_parents();
+    return end_link(file, name, links, H5Lcreate_external(other, target, file->id, name, links, H5P_DEFAULT));
 }
 
 /* The order matters: sync, read back, rename, sync the folder (base/publish.c). */

@@ -57,6 +57,13 @@ hid_t hdf5_parents(void);
 /** Gives a dataset a second name. */
 dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target);
 
+/** A link by name, to what the file may get later. */
+dem_status hdf5_link_name(const hdf5_file *file, const char *name, const char *target);
+
+/** A link by name to an object of another file.
+ *  \param other  as seen from the folder of this file */
+dem_status hdf5_link_file(const hdf5_file *file, const char *name, const char *other, const char *target);
+
 /** Syncs the closed file `part`, reads all of it back, renames it to `path` and syncs the folder. HDF5 1.10 may report
  *  success on a full disk, so that only reading shows whether the file is whole. */
 dem_status hdf5_publish(const char *part, const char *path);

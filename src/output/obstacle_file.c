@@ -257,12 +257,12 @@ static void free_outline(outline *o)
 /* After a failure *out must not be used. */
 static dem_status allocate_outline(outline *out, const dem_model *model, dem_index n_points, dem_index n_segments)
 {
-    outline o = {.model = model, .grid = {n_points, n_segments, NULL}};
+    outline o = {.model = model, .grid = {"/VTKHDF", n_points, n_segments, 2, NULL}};
     o.flat = calloc((size_t)n_points, 2 * sizeof *o.flat);
     o.points = calloc((size_t)n_points, 3 * sizeof *o.points);
     o.ends = calloc((size_t)n_segments, 2 * sizeof *o.ends);
     o.owner = calloc((size_t)n_segments, sizeof *o.owner);
-    o.grid.ends = o.ends;
+    o.grid.corners = o.ends;
     *out = o;
     if (o.flat != NULL && o.points != NULL && o.ends != NULL && o.owner != NULL) return DEM_OK;
     free_outline(&o);

@@ -13,6 +13,7 @@
 
 #include "base/status.h"
 #include "base/struct_size.h"
+#include "output/body_file.h"
 #include "output/hdf5_attribute.h"
 #include "output/obstacle_file.h"
 #include "output/trajectory_parts.h"
@@ -304,8 +305,17 @@ static dem_status prepare(dem_trajectory **out, const char *path, const dem_simu
     return status;
 }
 
-/* Makes the part and the file of obstacles, and removes segments that are younger than where the run begins. Obstacles
- * are drawn at t = 0 for now; draw_moving() replaces the file at the end. */
+/* Leads ParaView to the triangles in a file of the run, if there are any. */
+static dem_status show_bodies(const dem_trajectory *t, const char *in)
+{
+    char *const *names = t->segments.names;
+    const frames *f = &t->rows.frames;
+    if (f->n_triangles == 0 || t->rows.options.frame_interval <= 0.0) return DEM_OK;
+    return body_file_publish(names[PARTS_BODY_PART], names[PARTS_BODY], in);
+}
+
+/* Makes the part and the files of obstacles and bodies, and removes segments that are younger than where the run
+ * begins. Obstacles are drawn at t = 0 for now; draw_moving() replaces the file at the end. */
 static dem_status start(dem_trajectory *t)
 {
     const trajectory_rows *r = &t->rows;
@@ -317,6 +327,7 @@ static dem_status start(dem_trajectory *t)
     if (size.n_obstacles > 0)
         status = obstacle_file_publish(s->names[PARTS_OBSTACLE_PART], s->names[PARTS_OBSTACLE], r->model,
                                        (obstacle_file_times){0, NULL}, r->options.deflate);
+    if (status == DEM_OK) status = show_bodies(t, part_of(t));
     if (status == DEM_OK) status = trajectory_parts_prune(&t->segments);
     if (status != DEM_OK) (void)unlink(part_of(t));
     return status;
@@ -443,7 +454,8 @@ static dem_status draw_moving(const dem_trajectory *t)
     return status;
 }
 
-/* Rows that are left, then the whole file, then the obstacles. The whole is published before the parts are removed. */
+/* Rows that are left, then the whole file, then what is beside it. The whole is published before the parts are
+ * removed. */
 dem_status dem_trajectory_finish(dem_trajectory *trajectory)
 {
     CHECK(trajectory != NULL, DEM_ERROR_ARGUMENT, "dem_trajectory_finish: trajectory is NULL");
@@ -452,6 +464,7 @@ dem_status dem_trajectory_finish(dem_trajectory *trajectory)
     TRY(close_part(trajectory));
     TRY(trajectory_parts_join(&trajectory->segments, &trajectory->rows));
     trajectory->finished = 1;
+    TRY(show_bodies(trajectory, path_of(trajectory)));
     return draw_moving(trajectory);
 }
 

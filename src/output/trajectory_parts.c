@@ -32,6 +32,8 @@ static const char *const endings[PARTS_NAMES] = {[PARTS_WHOLE] = ".vtkhdf",
                                                  [PARTS_PART] = ".part.vtkhdf",
                                                  [PARTS_OBSTACLE] = ".obstacle.vtkhdf",
                                                  [PARTS_OBSTACLE_PART] = ".obstacle.part.vtkhdf",
+                                                 [PARTS_BODY] = ".body.vtkhdf",
+                                                 [PARTS_BODY_PART] = ".body.part.vtkhdf",
                                                  [PARTS_HEAD] = ".vtkhdf.new",
                                                  [PARTS_REST] = ".part.vtkhdf.new"};
 

@@ -13,6 +13,8 @@ enum {
     PARTS_PART,
     PARTS_OBSTACLE,
     PARTS_OBSTACLE_PART,
+    PARTS_BODY,
+    PARTS_BODY_PART,
     PARTS_HEAD, /* temporary: the next segment, or the whole */
     PARTS_REST, /* temporary: the next part */
     PARTS_NAMES

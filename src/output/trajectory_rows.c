@@ -101,7 +101,7 @@ hsize_t trajectory_rows_create_bytes(const trajectory_rows *r)
 {
     dem_model_size size = {.struct_size = sizeof size};
     (void)dem_model_sizes(r->model, &size);
-    return 104 * (hsize_t)size.n_nodes + 65 * (hsize_t)size.n_springs + 56 * (hsize_t)size.n_triangles +
+    return 104 * (hsize_t)size.n_nodes + 65 * (hsize_t)size.n_springs + 89 * (hsize_t)size.n_triangles +
            32 * (hsize_t)size.n_segments + 4096 * (hsize_t)size.n_obstacles + provenance_bytes(&r->provenance);
 }
 

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A VTKHDF UnstructuredGrid of lines, without its points. */
+/* A VTKHDF UnstructuredGrid of lines or triangles, without its points. */
 #ifndef DEM_OUTPUT_VTK_GRID_H
 #define DEM_OUTPUT_VTK_GRID_H
 
 #include "output/hdf5_file.h"
 
-#define GRID  "/VTKHDF/"   /* the group; names within it follow */
+#define GRID  "/VTKHDF/"   /* the group that VTK reads; names within it follow */
 #define STEPS GRID "Steps" /* the group of times, and of where the data of each begin */
 
 typedef struct grid {
+    const char *group; /**< "/VTKHDF", or another that a file leads to under this name */
     dem_index n_points, n_cells;
-    const dem_index *ends; /**< [n_cells][2] */
+    int n_corners;            /**< of a cell; 2: lines, 3: triangles */
+    const dem_index *corners; /**< [n_cells][n_corners] */
 } grid;
 
 /** Writes version and type of the grid, counts, connectivity and types of the cells. Points are the caller's. */

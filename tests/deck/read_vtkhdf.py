@@ -4,7 +4,7 @@
 history and the table of events against the laws of momentum and energy.
 
 usage: read_vtkhdf.py RUN.vtkhdf [--expect-frames N] [--interval DT] [--bounces N] [--fields NAME,...] [--probes N]
-                      [--vtk VERSION]
+                      [--vtk VERSION] [--bodies-only]
 Exit code: 0 all equal, 1 a difference, 77 a Python package is missing."""
 import argparse
 import os
@@ -17,12 +17,14 @@ try:
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkIdList, vtkVersion
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
+    from vtkmodules.vtkFiltersGeometry import vtkDataSetSurfaceFilter
     from vtkmodules.vtkIOHDF import vtkHDFReader
 except ImportError as error:
     print(f"skipped: the Python packages vtk, h5py and numpy are needed ({error})")
     sys.exit(77)
 
-LINE = 3
+LINE, TRIANGLE, CORNERS = 3, 5, {3: 2, 5: 3}
+HIDDEN = 32
 IMPACT = 0
 NAMES = {"kind": "impact close release slip stick pass", "state": "free slip stick"}
 EVENT_SHAPES = {
@@ -77,14 +79,14 @@ class Grid:
         return self.reader.GetOutputDataObject(0)
 
 
-def cell_ends(grid):
-    ids, ends = vtkIdList(), []
+def cell_corners(grid, kind=LINE):
+    ids, corners = vtkIdList(), []
     for k in range(grid.GetNumberOfCells()):
-        if grid.GetCellType(k) != LINE:
-            sys.exit(f"cell {k} is of type {grid.GetCellType(k)}, not a line")
+        if grid.GetCellType(k) != kind:
+            sys.exit(f"cell {k} is of type {grid.GetCellType(k)}, not {kind}")
         grid.GetCellPoints(k, ids)
-        ends.append([ids.GetId(0), ids.GetId(1)])
-    return np.array(ends, dtype=np.int64).reshape(-1, 2)
+        corners.append([ids.GetId(c) for c in range(CORNERS[kind])])
+    return np.array(corners, dtype=np.int64).reshape(-1, CORNERS[kind])
 
 
 def points_of(grid):
@@ -106,7 +108,7 @@ def check_frame(file, grid, frame, n_frames):
     here = f"frame {frame}: "
     points = vtk_group["Points"][...].reshape(n_frames, -1, 3)[frame]
     same(here + "points", points_of(grid), points)
-    same(here + "connectivity", cell_ends(grid), lattice["ends"][...])
+    same(here + "connectivity", cell_corners(grid), lattice["ends"][...])
     fields = arrays(grid.GetFieldData())
     same(here + "time", fields.pop("Time"), vtk_group["Steps/Values"][frame:frame + 1])
     for kind, found in (("PointData", arrays(grid.GetPointData())), ("CellData", arrays(grid.GetCellData())),
@@ -435,8 +437,40 @@ def check_obstacles(path, obstacles):
     same("obstacle of each segment", arrays(grid.GetCellData())["obstacle"], owner)
     first = np.cumsum([0] + [len(p) for p in polylines])
     ends = np.concatenate([[[f + k, f + k + 1] for k in range(len(p) - 1)] for f, p in zip(first, polylines)])
-    same("obstacle segments", cell_ends(grid), ends)
+    same("obstacle segments", cell_corners(grid), ends)
     return grid.GetNumberOfCells()
+
+
+def drawn(grid):
+    """How many cells are left where VTK draws a surface."""
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(grid)
+    surface.Update()
+    return surface.GetOutput().GetNumberOfCells()
+
+
+def check_bodies(path, file):
+    """The triangles as cells, with the points and the data of the springs' grid; what is broken is not drawn."""
+    path = path.removesuffix(".vtkhdf") + ".body.vtkhdf"
+    if "triangles" not in file["lattice"]:
+        same("file of bodies without triangles", os.path.exists(path), False)
+        return 0
+    corners, times = file["lattice/triangles"][...], file["VTKHDF/Steps/Values"][...]
+    broken = file["fracture/triangles"][...].reshape(len(times), -1)
+    grid = Grid(path)
+    same("times of bodies", grid.times(), times)
+    for frame in [*range(1, len(times), 2), *range(0, len(times), 2)]:
+        here, found = f"bodies in frame {frame}: ", grid.at(times[frame])
+        same(here + "points", points_of(found), file["VTKHDF/Points"][...].reshape(len(times), -1, 3)[frame])
+        same(here + "corners", cell_corners(found, TRIANGLE), corners)
+        cells, points = arrays(found.GetCellData()), arrays(found.GetPointData())
+        same(here + "arrays of cells", sorted(cells), ["vtkGhostType"])
+        same(here + "hidden", cells["vtkGhostType"], HIDDEN * broken[frame])
+        same(here + "drawn", drawn(found), np.sum(broken[frame] == 0))
+        same(here + "arrays of points", sorted(points), sorted(file["VTKHDF/PointData"]))
+        for name, values in points.items():
+            same(here + name, values, frame_of(file["VTKHDF"], "PointData", name, frame, len(times)))
+    return np.sum(broken[-1])
 
 
 def main():
@@ -447,12 +481,18 @@ def main():
     parser.add_argument("--bounces", type=int)
     parser.add_argument("--fields")
     parser.add_argument("--probes", type=int, default=0)
+    parser.add_argument("--bodies-only", action="store_true", help="of a run that may break")
     parser.add_argument("--vtk", default=vtkVersion.GetVTKVersion())
     options = parser.parse_args()
     if vtkVersion.GetVTKVersion() != options.vtk:
         print(f"skipped: VTK {options.vtk} is needed, this is {vtkVersion.GetVTKVersion()}")
         sys.exit(77)
     with h5py.File(options.path, "r") as file:
+        n_broken = check_bodies(options.path, file)
+        if options.bodies_only:
+            same("whether something has broken", n_broken > 0, True)
+            print(f"{os.path.basename(options.path)}: {n_broken} triangles have broken and are not drawn")
+            return
         grid = Grid(options.path)
         times = grid.times()
         same("times", times, file["VTKHDF/Steps/Values"][...])

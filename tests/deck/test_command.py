@@ -46,7 +46,7 @@ HANG = """
 &output name = 'hang', frame_interval = 1 /
 """
 
-OUTPUT = {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json", "rectangle.checkpoint"}
+OUTPUT = {"rectangle.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.body.vtkhdf", "rectangle.json", "rectangle.checkpoint"}
 UNPRINTED = "dem_batch: error: standard output cannot be written\n"
 
 
@@ -415,7 +415,7 @@ class Run(Case):
         text = coarse(clearance="").replace("    clearance = ", "    ! ")
         self.put(re.sub(r"(?s)&obstacle.*?\n/\n", "", text))
         log = self.call(0, "deck.nml")
-        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.json", "rectangle.checkpoint"})
+        self.assertEqual(self.files(), {"rectangle.vtkhdf", "rectangle.body.vtkhdf", "rectangle.json", "rectangle.checkpoint"})
         self.assertEqual(re.findall(r"(?m)^contact    (.*)$", log), ["none: there are no obstacles"])
         self.assertFalse(re.search(r"(?m)^(rebound|stressed) ", log), "it falls freely: nothing strains it")
 
@@ -494,7 +494,7 @@ class Run(Case):
         self.assertEqual(short, ["deck", "lattice", "constants", "time", "output",
                                  "contact", "rebound", "normal", "stressed", "balance", "files"])
         self.assertTrue(set(short) - {"balance"} < set(long) and len(long) > 3 * len(short), long)
-        self.assertRegex(logs[0], r"\nfiles      out0/rectangle\.vtkhdf, out0/rectangle\.obstacle\.vtkhdf, out0/rectangle\.json, "
+        self.assertRegex(logs[0], r"\nfiles      out0/rectangle\.vtkhdf, out0/rectangle\.body\.vtkhdf, out0/rectangle\.obstacle\.vtkhdf, out0/rectangle\.json, "
                                   r"out0/rectangle\.checkpoint; wall time \d+\.\d\d s\n")
         start, now, taken, error = numbers("balance    # J at the start, # J now; impacts took # J; error # of the largest energy", logs[0])
         self.assertAlmostEqual(start, now + taken, delta=1e-3 * start)
@@ -658,7 +658,7 @@ class Run(Case):
         done = run("deck.nml", cwd=self.folder)
         self.assertEqual(done.returncode, 4)
         self.assertRegex(done.stderr, r"\Adeck\.nml: error: node \d+ at \(\S+, \S+\) m .* at t = \S+ s\n\Z")
-        self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.json",
+        self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.body.vtkhdf", "rectangle.json",
                                         "rectangle.checkpoint", "rectangle.00001.vtkhdf"})
 
     def test_progress_is_plain_lines_where_there_is_no_terminal(self):
@@ -806,7 +806,7 @@ class Run(Case):
                         break
                 process.kill()
             if process.returncode == -9:
-                self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.lock"})
+                self.assertEqual(self.files(), {"rectangle.part.vtkhdf", "rectangle.obstacle.vtkhdf", "rectangle.body.vtkhdf", "rectangle.lock"})
                 return
             (self.folder / "rectangle.vtkhdf").unlink()  # it was faster
         self.fail("the run always ends before it can be killed")

@@ -103,6 +103,15 @@ def check_touch():
         return code
 
 
-for code in [*(check_input(*deck) for deck in DECKS), check_bounce(), check_touch()]:
+def check_break():
+    text = pathlib.Path(INPUTS, "brittle_disc.nml").read_text(encoding="utf-8")
+    for old, new in (("spacing   = 2.5e-3", "spacing   = 6e-3"), ("t_end   = 4e-3", "t_end   = 1e-3")):
+        assert old in text, f"{old} is not in brittle_disc.nml"
+        text = text.replace(old, new, 1)
+    with tempfile.TemporaryDirectory() as folder:
+        return check("brittle_disc", text, folder, "--bodies-only")
+
+
+for code in [*(check_input(*deck) for deck in DECKS), check_bounce(), check_touch(), check_break()]:
     if code != 0:
         sys.exit(code)

@@ -53,7 +53,7 @@ BRITTLE = """
 &solver checkpoint_steps = 40 /
 &output name = 'a', frame_interval = 5e-5, precision = 'double', events = .true. /
 """
-FILES = {"a.vtkhdf", "a.obstacle.vtkhdf", "a.json", "a.checkpoint"}
+FILES = {"a.vtkhdf", "a.obstacle.vtkhdf", "a.body.vtkhdf", "a.json", "a.checkpoint"}
 WAY_OUT = "move it away, change 'name' in &output, or use --overwrite"
 OFTEN = ("--checkpoint-interval", "1e-9")  # every checkpoint goes to disk
 AT_ONCE = ("--max-wall", "1e-9")           # a checkpoint further with each command

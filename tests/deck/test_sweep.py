@@ -28,7 +28,7 @@ DECK = """
 """
 STORM = DECK.replace("'a'", "'storm'") + "&contact max_impacts = 1, window = 0 /\n"
 BROKEN = DECK.replace("t_end", "tend")
-FILES = {"a.vtkhdf", "a.obstacle.vtkhdf", "a.json", "a.checkpoint"}
+FILES = {"a.vtkhdf", "a.obstacle.vtkhdf", "a.body.vtkhdf", "a.json", "a.checkpoint"}
 
 
 def named(name, text=DECK):
@@ -169,7 +169,7 @@ class Jobs(Case):
         one = self.call(3, "--outdir", "one", *self.decks, stderr=self.fault)
         two = self.call(3, "--outdir", "two", "--jobs", "2", *self.decks, stderr=self.fault)
         self.assertEqual(self.printed(two, "two"), self.printed(one, "one"))
-        self.assertEqual(len(self.content("two")), 4 * 19)
+        self.assertEqual(len(self.content("two")), 5 * 19)
         self.assertEqual(self.content("two"), self.content("one"))
 
     def test_a_killed_case_holds_up_no_other(self):

@@ -246,7 +246,8 @@ static const double segment_share = 0.1; /* of that: a trial takes a tenth of a 
 static int remove_outputs(void **unused)
 {
     char segment[32];
-    static const char *const names[] = {"vtkhdf", "part.vtkhdf", "obstacle.vtkhdf", "checkpoint", "checkpoint.prev"};
+    static const char *const names[] = {"vtkhdf",      "part.vtkhdf", "obstacle.vtkhdf",
+                                        "body.vtkhdf", "checkpoint",  "checkpoint.prev"};
     (void)unused;
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
         (void)snprintf(segment, sizeof segment, "fault.%s", names[k]);

@@ -134,6 +134,7 @@ static void check_file(const deck *d, const char *name)
     trace_add_frames(&t, "lock.vtkhdf");
     (void)remove("lock.vtkhdf");
     (void)remove("lock.obstacle.vtkhdf");
+    (void)remove("lock.body.vtkhdf");
     store_check(name, t.hash);
 }
 

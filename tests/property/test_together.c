@@ -109,10 +109,12 @@ static void open_job(job *j, unsigned long seed, const char *folder)
 
 static void close_job(job *j)
 {
-    char obstacle[64];
-    (void)unlink(j->path);
-    name(j, ".obstacle.vtkhdf", obstacle);
-    (void)unlink(obstacle);
+    static const char *const endings[] = {".vtkhdf", ".obstacle.vtkhdf", ".body.vtkhdf"};
+    for (size_t k = 0; k < sizeof endings / sizeof *endings; k++) {
+        char path[64];
+        name(j, endings[k], path);
+        (void)unlink(path);
+    }
     dem_model_destroy(j->model);
     scene_free(&j->scene);
     free(j->state);

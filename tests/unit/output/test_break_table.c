@@ -12,7 +12,7 @@
 #include <dem/reader.h>
 #include <dem/trajectory.h>
 
-static const char *path, *part;
+static const char *path, *part, *beside;
 
 /* What was heard while the file was written. */
 enum { MOST = 1024 };
@@ -210,4 +210,4 @@ TEST(breaks_reach_the_file_with_a_full_buffer)
     dem_reader_close(reader);
 }
 
-SCRATCH_GROUP({&path, "run.vtkhdf"}, {&part, "run.part.vtkhdf"});
+SCRATCH_GROUP({&path, "run.vtkhdf"}, {&part, "run.part.vtkhdf"}, {&beside, "run.body.vtkhdf"});

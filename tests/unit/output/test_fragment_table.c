@@ -14,7 +14,7 @@
 #include <dem/reader.h>
 #include <dem/trajectory.h>
 
-static const char *path, *part;
+static const char *path, *part, *beside;
 
 /* The state at the end of a run, which is that of its last frame. */
 enum { MOST = 1024 };
@@ -289,4 +289,4 @@ TEST(tables_that_are_damaged_are_refused)
     assert_refused("fragments");
 }
 
-SCRATCH_GROUP({&path, "run.vtkhdf"}, {&part, "run.part.vtkhdf"});
+SCRATCH_GROUP({&path, "run.vtkhdf"}, {&part, "run.part.vtkhdf"}, {&beside, "run.body.vtkhdf"});

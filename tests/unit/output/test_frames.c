@@ -157,6 +157,30 @@ TEST(triangles_that_are_broken_are_marked_in_frames_of_their_own)
     put_away(f);
 }
 
+/* As VTK reads it: cells, what is hidden of them, and by links all that springs have. */
+TEST(triangles_are_the_cells_of_a_second_grid)
+{
+    static const char *const shared[] = {"Points", "PointData", "FieldData", "Steps"};
+    reader *f = shoot_breaking(open_block, DEM_FIELD_VELOCITY, 0, 3);
+    const hsize_t n = (hsize_t)f->frames.n_triangles;
+    const dem_index *triangles = dem_model_lattice(f->run.model)->triangles;
+    const double *corners = stored_values(&f->stored, "/bodies/Connectivity", 3 * n, 1, 8);
+    for (hsize_t k = 0; k < 3 * n; k++) assert_close(corners[k], (double)triangles[k], 0.0);
+    const double *hidden = stored_values(&f->stored, "/bodies/CellData/vtkGhostType", 2 * n, 1, 1);
+    for (hsize_t k = 0; k < 2 * n; k++) assert_close(hidden[k], n <= k && k < n + 3 ? 32.0 : 0.0, 0.0);
+    const double *offset = stored_values(&f->stored, "/bodies/Steps/CellDataOffsets/vtkGhostType", 2, 1, 8);
+    assert_true(offset[0] == 0.0 && offset[1] == (double)n);
+    for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
+        char name[32], expected[32], found[32];
+        (void)snprintf(name, sizeof name, "/bodies/%s", shared[k]);
+        (void)snprintf(expected, sizeof expected, "/VTKHDF/%s", shared[k]);
+        assert_true(H5Lget_val(f->stored.file.id, name, found, sizeof found, H5P_DEFAULT) >= 0);
+        assert_string_equal(found, expected);
+        assert_true(stored_has(&f->stored, expected));
+    }
+    put_away(f);
+}
+
 /* Half a metre of rubber. */
 static void open_plate(support_run *run)
 {
@@ -169,8 +193,10 @@ TEST(flags_of_whole_triangles_take_no_room)
 {
     reader *f = shoot_run(open_plate, 0, 0);
     CLEANUP(free_h5) const hid_t flags = H5Dopen2(f->stored.file.id, "/fracture/triangles", H5P_DEFAULT);
+    CLEANUP(free_h5) const hid_t hidden = H5Dopen2(f->stored.file.id, "/bodies/CellData/vtkGhostType", H5P_DEFAULT);
     assert_true(f->frames.n_triangles > 5000);
     assert_true(H5Dget_storage_size(flags) <= 2 * 60);
+    assert_true(H5Dget_storage_size(hidden) <= 2 * 60);
     put_away(f);
 }
 
@@ -188,6 +214,8 @@ TEST(a_body_without_triangles_has_no_flags_of_them)
 {
     reader *f = shoot_run(open_pair, 0, 0);
     assert_false(stored_has(&f->stored, "/fracture"));
+    assert_false(stored_has(&f->stored, "/bodies"));
+    assert_false(stored_has(&f->stored, "/VTKHDF/Steps/CellDataOffsets/vtkGhostType"));
     put_away(f);
 }
 

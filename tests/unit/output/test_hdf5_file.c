@@ -150,6 +150,28 @@ TEST_WITH(a_linked_dataset_has_the_same_rows_under_both_names, NULL, scratch_swe
     assert_message_has(": /c: cannot be linked (");
 }
 
+/* Where they lead to need not be there yet. Reading a file back does not follow them: the other file is no part of
+ * it. */
+TEST_WITH(links_by_name_lead_to_what_comes_later_and_to_another_file, NULL, scratch_sweep)
+{
+    const double value[3] = {1.0, -2.0, 3.0};
+    const hdf5_rows rows = {"/a/rows", HDF5_F64, 1, {0, 0}, 0, 0};
+    CLEANUP(finish) hdf5_file file = open_new();
+    assert_ok(hdf5_link_name(&file, "/b/same", "/a/rows"));
+    assert_ok(hdf5_link_file(&file, "/c/other", strrchr(other, '/') + 1, "/b/same"));
+    assert_ok(hdf5_write(&file, rows, 3, value));
+    expect_values(&file, "/b/same", value, 3);
+    finish(&file);
+    assert_ok(hdf5_publish(path, path));
+    assert_int_equal(rename(path, other), 0);
+    file = open_new();
+    assert_ok(hdf5_link_file(&file, "/c/other", strrchr(other, '/') + 1, "/b/same"));
+    expect_values(&file, "/c/other", value, 3);
+    assert_int_equal(hdf5_link_file(&file, "/c/other", "none.h5", "/a"), DEM_ERROR_IO);
+    assert_message_has(": /c/other: cannot be linked (");
+    assert_int_equal(unlink(other), 0);
+}
+
 TEST_WITH(numbers_are_stored_little_endian_in_their_own_width, NULL, scratch_sweep)
 {
     const double reals[2] = {0.1, -4.0};

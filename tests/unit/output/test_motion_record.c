@@ -58,6 +58,7 @@ TEST(a_motion_by_a_function_is_drawn_from_the_history)
     folder_open(&folder);
     const char *path = folder_file(&folder, "run.vtkhdf");
     (void)folder_file(&folder, "run.obstacle.vtkhdf");
+    (void)folder_file(&folder, "run.body.vtkhdf");
     write_run(path, &amplitude);
     dem_reader *reader = NULL;
     assert_ok(dem_reader_open(&reader, path));

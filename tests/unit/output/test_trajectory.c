@@ -21,7 +21,7 @@
 /* A block in a folder of its own, falling onto two obstacles. */
 typedef struct run {
     scratch_folder folder;
-    const char *path, *part, *obstacle;
+    const char *path, *part, *obstacle, *body;
     dem_model *model;
     dem_simulation *simulation;
     dem_trajectory *trajectory;
@@ -77,6 +77,7 @@ static void make_folder(run *r)
     r->path = folder_file(&r->folder, "run.vtkhdf");
     r->part = folder_file(&r->folder, "run.part.vtkhdf");
     r->obstacle = folder_file(&r->folder, "run.obstacle.vtkhdf");
+    r->body = folder_file(&r->folder, "run.body.vtkhdf");
 }
 
 static dem_trajectory_options every_frame(void)
@@ -402,6 +403,7 @@ TEST(a_body_of_one_node_has_points_and_no_cells)
     assert_int_equal(count_rows(r.path, "/VTKHDF/CellData/strain"), 0);
     assert_last_frame_is_the_state(&r, 3, 1e-8);
     assert_false(exists(r.obstacle));
+    assert_false(exists(r.body));
 }
 
 /* ---- history ---- */
@@ -609,6 +611,20 @@ TEST(obstacles_are_in_a_file_beside_the_run)
     assert_close(read_cell(r.part, "/obstacles/1/points", 2), 5.0, 0.0);
     free(connectivity.value);
     free(obstacle.value);
+}
+
+/* While it goes on, and when it is finished. */
+TEST(a_file_beside_the_run_shows_its_triangles)
+{
+    CLEANUP(end) run r = begin_usual();
+    const hsize_t n = (hsize_t)dem_model_lattice(r.model)->n_triangles;
+    assert_int_equal(count_rows(r.body, "/VTKHDF/Types"), n);
+    assert_int_equal(dem_simulation_advance(r.simulation, 2 * interval), DEM_OK);
+    assert_int_equal(count_rows(r.body, "/VTKHDF/CellData/vtkGhostType"), 3 * n);
+    assert_int_equal(dem_trajectory_finish(r.trajectory), DEM_OK);
+    assert_false(exists(r.part));
+    assert_int_equal(count_rows(r.body, "/VTKHDF/CellData/vtkGhostType"), 3 * n);
+    assert_int_equal(count_rows(r.body, "/VTKHDF/Points"), count_rows(r.path, "/VTKHDF/Points"));
 }
 
 TEST(notes_are_kept_and_replaced)

@@ -72,8 +72,10 @@ static void close_place(place *p)
     sweep(p, "run.vtkhdf");
     sweep(p, "run.part.vtkhdf");
     sweep(p, "run.obstacle.vtkhdf");
+    sweep(p, "run.body.vtkhdf");
     sweep(p, "quiet.vtkhdf");
     sweep(p, "quiet.obstacle.vtkhdf");
+    sweep(p, "quiet.body.vtkhdf");
     dem_model_destroy(p->model);
     folder_close(&p->folder);
 }
@@ -825,6 +827,7 @@ TEST(a_kill_between_two_names_loses_nothing)
     }
     assert_true(n > 12);
     sweep(&p, "run.obstacle.part.vtkhdf");
+    sweep(&p, "run.body.part.vtkhdf");
     for (int k = 1; k < 3; k++) dem_checkpoint_destroy(points[k].checkpoint);
     assert_int_equal(munmap(progress, sizeof *progress), 0);
     progress = &own_progress;

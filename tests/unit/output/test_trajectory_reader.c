@@ -87,6 +87,7 @@ static void make_folder(run *r)
     r->part = folder_file(&r->folder, "run.part.vtkhdf");
     r->segment = folder_file(&r->folder, "run.00001.vtkhdf");
     r->obstacle = folder_file(&r->folder, "run.obstacle.vtkhdf");
+    (void)folder_file(&r->folder, "run.body.vtkhdf");
 }
 
 static void start(run *r, dem_trajectory_options options)

@@ -25,7 +25,7 @@ static hdf5_file write_one(const grid *g, int deflate)
 TEST(cells_are_lines_between_points)
 {
     const dem_index ends[4] = {0, 1, 2, 1};
-    const grid g = {3, 2, ends};
+    const grid g = {"/VTKHDF", 3, 2, 2, ends};
     hdf5_file file = write_one(&g, 1);
     found_reals(&file, GRID "NumberOfPoints", (const double[]){3}, 1);
     found_reals(&file, GRID "NumberOfCells", (const double[]){2}, 1);
@@ -36,9 +36,23 @@ TEST(cells_are_lines_between_points)
     assert_ok(hdf5_close(&file, DEM_OK));
 }
 
+TEST(cells_are_triangles_in_any_group)
+{
+    const dem_index corners[6] = {0, 1, 2, 2, 1, 3};
+    const grid g = {"/others", 4, 2, 3, corners};
+    hdf5_file file = write_one(&g, 1);
+    found_reals(&file, "/others/NumberOfPoints", (const double[]){4}, 1);
+    found_reals(&file, "/others/NumberOfCells", (const double[]){2}, 1);
+    found_reals(&file, "/others/NumberOfConnectivityIds", (const double[]){6}, 1);
+    found_reals(&file, "/others/Connectivity", (const double[]){0, 1, 2, 2, 1, 3}, 6);
+    found_reals(&file, "/others/Offsets", (const double[]){0, 3, 6}, 3);
+    found_reals(&file, "/others/Types", (const double[]){5, 5}, 2); /* VTK's number of a triangle */
+    assert_ok(hdf5_close(&file, DEM_OK));
+}
+
 TEST(a_grid_may_have_no_cells)
 {
-    const grid g = {1, 0, NULL};
+    const grid g = {"/VTKHDF", 1, 0, 2, NULL};
     hdf5_file file = write_one(&g, 0);
     found_reals(&file, GRID "Connectivity", NULL, 0);
     found_reals(&file, GRID "Offsets", (const double[]){0}, 1);

@@ -682,7 +682,7 @@ TEST(one_fault_is_reported_once)
 
 TEST(names_and_numbers_of_the_output_are_checked)
 {
-    const char *expected = "4:9 * 'name' * &output * '.obstacle' * '.part' * '.' * five digits";
+    const char *expected = "4:9 * 'name' * &output * '.obstacle' * '.body' * '.part' * '.' * five digits";
     expect_errors(RUN RUBBER DISC("") "&output name = 'a.obstacle' /\n", expected);
     expect_errors(RUN RUBBER DISC("") "&output name = '.part' /\n",
                   "4:9 * 'name' * &output * 1 * 100 * characters * '/' * '.' * '-'");

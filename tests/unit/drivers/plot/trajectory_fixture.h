@@ -72,6 +72,7 @@ static inline trajectory_fixture trajectory_fixture_run(bool breaks)
     folder_open(&f.folder);
     f.path = folder_file(&f.folder, "run.vtkhdf");
     (void)folder_file(&f.folder, "run.obstacle.vtkhdf");
+    (void)folder_file(&f.folder, "run.body.vtkhdf");
     how.frame_interval = 2e-4;
     trajectory_fixture_ok(dem_model_create(&model, &block, &slope, 1));
     trajectory_fixture_ok(dem_simulation_create(&simulation, model, &options));
