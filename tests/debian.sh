@@ -3,6 +3,7 @@
 # README's two commands in a bare Debian: `tests/debian.sh RELEASE FOLDER [SUITE...]`, as root.
 # RELEASE is bookworm (12) or trixie (13). debootstrap makes the root in FOLDER, if it is not there yet; what the last
 # commit has is cloned into it. The suites are unit, verification and deck, or those named; `all` for every one.
+# On trixie ParaView is installed, too, which a test looks at a run with; bookworm's is too old.
 # Packages come from DEBIAN_ARCHIVE; proxies, PIP_CERT and PIP_INDEX_URL are handed on.
 set -eu
 
@@ -31,12 +32,16 @@ if [ -n "${PIP_CERT-}" ]; then cp "$PIP_CERT" "$root/root/certificates"; fi
 rm -rf "$root/root/dem"
 git clone -q "$(dirname "$0")/.." "$root/root/dem"
 
+paraview=
+[ "$release" != trixie ] || paraview="apt-get -q update &&
+    DEBIAN_FRONTEND=noninteractive apt-get -qy install --no-install-recommends paraview python3-paraview xvfb xauth &&"
+
 readme() { awk -v n="$1" '/^```/ { inside = /sh$/; next } inside && ++k == n' "$root/root/dem/README.md"; }
 
 chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 \
     ${http_proxy:+"http_proxy=$http_proxy"} ${https_proxy:+"https_proxy=$https_proxy"} \
     ${PIP_INDEX_URL:+"PIP_INDEX_URL=$PIP_INDEX_URL"} ${PIP_CERT:+PIP_CERT=/root/certificates} \
-    sh -c "cd /root/dem && $(readme 1) && $(readme 2) $suites"
+    sh -c "$paraview cd /root/dem && $(readme 1) && $(readme 2) $suites"
 awk -v place="Debian $(cat "$root/etc/debian_version")" '/^(Ok|Skipped):/ { n[$1] = $2 }
     END { print place ": README'\''s two commands, " n["Ok:"] " tests passed, " n["Skipped:"] " skipped" }' \
     "$root/root/dem/build/meson-logs/testlog.txt"
