@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the springs of a frame, coloured by strain, and the obstacles: `plot_pyvista.py RUN.vtkhdf OUT.png [FRAME]`.
-Frames count from 0, -1 is the last. It needs PyVista, and no display."""
+"""Draws the springs of a frame, coloured by strain, on the filled bodies, and the obstacles: `plot_pyvista.py RUN.vtkhdf
+OUT.png [FRAME]`. Frames count from 0, -1 is the last. It needs PyVista, and no display."""
 import os
 import sys
 
@@ -10,12 +10,18 @@ import pyvista
 if len(sys.argv) < 3:
     sys.exit(__doc__)
 path, out = sys.argv[1:3]
-reader = pyvista.get_reader(path).reader  # VTK's own: PyVista's has no times
-reader.UpdateInformation()
-frame = range(reader.GetNumberOfSteps())[int(sys.argv[3]) if len(sys.argv) > 3 else -1]
-reader.SetStep(frame)
-reader.Update()
-body = pyvista.wrap(reader.GetOutput())
+
+
+def read_frame(name, number):
+    reader = pyvista.get_reader(name).reader  # VTK's own: PyVista's has no times
+    reader.UpdateInformation()
+    reader.SetStep(range(reader.GetNumberOfSteps())[number])
+    reader.Update()
+    return pyvista.wrap(reader.GetOutput())
+
+
+frame = int(sys.argv[3]) if len(sys.argv) > 3 else -1
+body = read_frame(path, frame)
 limit = abs(body["peak_strain"]).max() if "peak_strain" in body.cell_data else abs(body["strain"]).max()
 whole = body.extract_cells(body["broken"] == 0)
 
@@ -23,6 +29,10 @@ plotter = pyvista.Plotter(off_screen=True, window_size=(1200, 900))
 plotter.set_background("white")
 plotter.add_mesh(whole, scalars="strain", cmap="coolwarm", clim=(-limit, limit), line_width=2.5,
                  scalar_bar_args={"title": "strain", "color": "black", "vertical": True, "position_x": 0.88, "position_y": 0.2})
+triangles = path.removesuffix(".vtkhdf") + ".body.vtkhdf"
+if os.path.exists(triangles):
+    filled = read_frame(triangles, frame)
+    plotter.add_mesh(filled.translate((0, 0, -1e-3 * body.length)), color="#f0f0f0", lighting=False)  # behind the springs
 obstacle = path.removesuffix(".vtkhdf") + ".obstacle.vtkhdf"
 if os.path.exists(obstacle):
     plotter.add_mesh(pyvista.read(obstacle), color="#333333", line_width=3)

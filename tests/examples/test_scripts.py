@@ -65,7 +65,10 @@ def seen_from(centre, half_height):
 
 
 def shown_by_pyvista(names):
-    whole, camera = names["whole"], names["plotter"].camera
+    whole, camera, filled = names["whole"], names["plotter"].camera, names["filled"]
+    with h5py.File(names["path"]) as file:
+        assert np.array_equal(filled.cells.reshape(-1, 4)[:, 1:], file["lattice/triangles"]), "no body is filled"
+    assert np.array_equal(filled.points, names["body"].points)
     ends = whole.cells.reshape(-1, 3)[:, 1:]
     return whole.points[ends][:, :, :2], whole["strain"], seen_from(camera.focal_point, camera.parallel_scale), 1.25
 
