@@ -10,7 +10,8 @@
  *                                                       the whole body: medians of turns
  *      bench_fracture softened NODES TURNS              the same with triangles softened, of nodes moved at random, of
  *                                                       which springs are coupled
- *      bench_fracture deaths NODES METHOD               a body that breaks where waves meet: time per broken triangle
+ *      bench_fracture deaths NODES METHOD [stretch]     a body that breaks where waves meet, by stress or by stretch:
+ *                                                       time per broken triangle
  *
  * CPU time. Rows of dead or softened triangles lie side by side across the body, as cracks do; those at random are each
  * of them chosen by itself. The time of a death is in parts: finding what breaks in a step, resolving it (with its
@@ -23,6 +24,7 @@
 #include "base/aligned.h"
 #include "events/event_queue.h"
 #include "forces/kernel.h"
+#include "fracture/break_search.h"
 #include "simulation/breaking.h"
 #include "ask.h"
 #include "bench.h"
@@ -34,12 +36,16 @@ enum { MOST = 400 };
 
 /* ---- bodies ---- */
 
-/* Strength in units of E v/c, with v = `speed` and c the speed of waves; 0: it does not break. Bodies that soften have
- * nodes moved at random. */
-static dem_lattice make_body(double nodes, double strength, bool softens)
+/* How bodies break: triangles by their strength, brittle or softening, or springs by their critical stretch. */
+typedef enum law { BRITTLE, SOFTENING, STRETCH } law;
+
+/* Strength in units of E v/c, and critical stretch in units of v/c, with v = `speed` and c the speed of waves; 0: it
+ * does not break. Bodies that soften have nodes moved at random. */
+static dem_lattice make_body(double nodes, double strength, law breaks)
 {
     const double c = sqrt(youngs_modulus / density), columns = sqrt(nodes * sqrt(3.0) / 2.0);
-    const double stress = strength * youngs_modulus * speed / c;
+    const double stretch = strength * speed / c, stress = stretch * youngs_modulus;
+    const bool softens = breaks == SOFTENING;
     const dem_material stone = {.struct_size = sizeof(dem_material),
                                 .youngs_modulus = youngs_modulus,
                                 .poissons_ratio = softens ? 0.22 : 1.0 / 3.0,
@@ -47,7 +53,8 @@ static dem_lattice make_body(double nodes, double strength, bool softens)
                                 .thickness = 1.0,
                                 .guard = 0.02,
                                 .springs = softens ? DEM_SPRINGS_COUPLED : DEM_SPRINGS_INDEPENDENT,
-                                .strength = stress,
+                                .strength = breaks == STRETCH ? 0.0 : stress,
+                                .critical_stretch = breaks == STRETCH ? stretch : 0.0,
                                 .fracture_energy = softens ? 8.0 * stress * stress * spacing / youngs_modulus : 0.0};
     dem_lattice l = dem_lattice_empty();
     ask(dem_lattice_rectangle(&l, columns * spacing, columns * spacing, spacing));
@@ -65,9 +72,9 @@ static dem_model *compile(dem_lattice l, const dem_obstacle *obstacles, dem_inde
 }
 
 /* A standing wave of twelve spacings. */
-static dem_model *make_waves(double nodes, double strength)
+static dem_model *make_waves(double nodes, double strength, law breaks)
 {
-    dem_lattice l = make_body(nodes, strength, false);
+    dem_lattice l = make_body(nodes, strength, breaks);
     l.velocity = calloc(2 * (size_t)l.n_nodes, sizeof *l.velocity);
     must(l.velocity != NULL, "out of memory");
     for (dem_index i = 0; i < l.n_nodes; i++) {
@@ -108,7 +115,7 @@ static double bytes_of(const dem_model *model, bool breaks)
 
 static void measure_memory(double nodes)
 {
-    dem_model *whole = make_waves(nodes, 0.0), *brittle = make_waves(nodes, 100.0);
+    dem_model *whole = make_waves(nodes, 0.0, BRITTLE), *brittle = make_waves(nodes, 100.0, BRITTLE);
     const double n = (double)whole->lattice.n_nodes, least = bytes_of(whole, false);
     (void)printf("%.0f nodes: may break %.1f bytes a node more, with a broken triangle %.1f, without strength %.1f\n",
                  n, (bytes_of(brittle, false) - least) / n, (bytes_of(brittle, true) - least) / n,
@@ -142,7 +149,7 @@ static void measure_whole(double nodes, const char *method, int steps, int turns
     static double times[KINDS][MOST];
     dem_model *models[KINDS];
     const dem_options options = options_of(method);
-    for (int k = 0; k < KINDS; k++) models[k] = make_waves(nodes, strength[k]);
+    for (int k = 0; k < KINDS; k++) models[k] = make_waves(nodes, strength[k], BRITTLE);
     for (int turn = 0; turn < turns; turn++)
         for (int k = 0; k < KINDS; k++)
             times[(turn + k) % KINDS][turn] = time_step(models[(turn + k) % KINDS], &options, steps);
@@ -232,7 +239,7 @@ static double time_forces(dem_simulation *s, double *a, int rounds)
 static void measure_damaged(double nodes, int turns, bool softens)
 {
     static double times[N_KINDS][MOST];
-    dem_model *model = softens ? compile(make_body(nodes, 1.0, true), NULL, 0) : make_waves(nodes, 0.0);
+    dem_model *model = softens ? compile(make_body(nodes, 1.0, SOFTENING), NULL, 0) : make_waves(nodes, 0.0, BRITTLE);
     const int n_kinds = softens ? N_KINDS : N_KINDS - 1, rounds = (int)(2e6 / nodes) + 1;
     double *a = aligned_zeros(2 * (size_t)model->lattice.n_nodes);
     dem_simulation *simulations[N_KINDS];
@@ -255,7 +262,7 @@ static void measure_damaged(double nodes, int turns, bool softens)
 /* ---- deaths ---- */
 
 typedef struct times {
-    double all, find, take, follow;        /* s */
+    double all, find, root, take, follow;  /* s; to find what breaks is to look and to search */
     double ready_to_take, ready_to_follow; /* of these, once */
     dem_index steps, n_broken, with_breaks;
 } times;
@@ -264,12 +271,18 @@ static times spent;
 
 void __real_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 dem_status __real_event_queue_show(event_queue *q, double t);
+void __real_break_search_find(break_search *s, double from);
 dem_status __real_breaking_end_step(dem_simulation *s);
+dem_status __real_trimmed_layout_create(trimmed_layout *out, const layout *whole, const springs *s, const triangles *t,
+                                        const couplings *c, bool softens);
 dem_status __real_element_state_prepare(element_state *s);
 dem_status __real_mesh_boundary_create(mesh_boundary *out, const dem_lattice *lattice, const unsigned char *broken);
 void __wrap_event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
 dem_status __wrap_event_queue_show(event_queue *q, double t);
+void __wrap_break_search_find(break_search *s, double from);
 dem_status __wrap_breaking_end_step(dem_simulation *s);
+dem_status __wrap_trimmed_layout_create(trimmed_layout *out, const layout *whole, const springs *s, const triangles *t,
+                                        const couplings *c, bool softens);
 dem_status __wrap_element_state_prepare(element_state *s);
 dem_status __wrap_mesh_boundary_create(mesh_boundary *out, const dem_lattice *lattice, const unsigned char *broken);
 
@@ -286,6 +299,18 @@ dem_status __wrap_event_queue_show(event_queue *q, double t)
     const dem_status status = __real_event_queue_show(q, t);
     if (q->n_taken > 0) spent.take += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
     return status;
+}
+
+/* From the start of a step nothing has broken in it. To ask for the time takes longer than to search for nothing. */
+void __wrap_break_search_find(break_search *s, double from)
+{
+    if (from != s->step->t0 || s->n == 0) {
+        __real_break_search_find(s, from);
+        return;
+    }
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    __real_break_search_find(s, from);
+    spent.root += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
 }
 
 /* It is part of taking the first break. */
@@ -307,10 +332,21 @@ dem_status __wrap_mesh_boundary_create(mesh_boundary *out, const dem_lattice *la
     return status;
 }
 
-dem_status __wrap_breaking_end_step(dem_simulation *s)
+/* So is the layout, of the whole body first. */
+dem_status __wrap_trimmed_layout_create(trimmed_layout *out, const layout *whole, const springs *s, const triangles *t,
+                                        const couplings *c, bool softens)
 {
     const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
-    spent.with_breaks += fracture_source_has_broken(&s->breaks);
+    const dem_status status = __real_trimmed_layout_create(out, whole, s, t, c, softens);
+    spent.ready_to_follow += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+    return status;
+}
+
+dem_status __wrap_breaking_end_step(dem_simulation *s)
+{
+    if (!fracture_source_has_broken(&s->breaks)) return __real_breaking_end_step(s);
+    const double start = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    spent.with_breaks++;
     const dem_status status = __real_breaking_end_step(s);
     spent.follow += seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
     return status;
@@ -343,25 +379,43 @@ static times take(const dem_model *model, const char *method, double t_end)
     return spent;
 }
 
-/* The waves go once through the body. */
-static void measure_deaths(double nodes, const char *method)
+enum { LOOK, ROOT, TAKE, FOLLOW, ALL, READY, PARTS };
+
+/* us of a run, by parts. */
+static void put_parts(const times *t, double by[PARTS][MOST], int turn)
 {
+    by[LOOK][turn] = 1e6 * (t->find - t->root);
+    by[ROOT][turn] = 1e6 * t->root;
+    by[TAKE][turn] = 1e6 * (t->take - t->ready_to_take);
+    by[FOLLOW][turn] = 1e6 * (t->follow - t->ready_to_follow);
+    by[ALL][turn] = 1e6 * t->all;
+    by[READY][turn] = 1e6 * (t->ready_to_take + t->ready_to_follow);
+}
+
+/* The waves go once through the body. Runs do the same, so that medians of each part are what it takes. */
+static void measure_deaths(double nodes, const char *method, law breaks)
+{
+    enum { TURNS = 9 };
+    static double by[PARTS][MOST], step[MOST];
     const double t_end = sqrt(nodes) * spacing / sqrt(youngs_modulus / density);
-    dem_model *brittle = make_waves(nodes, 1.0), *strong = make_waves(nodes, 100.0);
-    times least = {.all = INFINITY}, whole = {.all = INFINITY};
-    for (int turn = 0; turn < 3; turn++) {
-        const times b = take(brittle, method, t_end), w = take(strong, method, t_end);
-        if (b.all < least.all) least = b;
-        if (w.all < whole.all) whole = w;
+    dem_model *brittle = make_waves(nodes, 1.0, breaks), *strong = make_waves(nodes, 100.0, breaks);
+    times last, whole;
+    for (int turn = 0; turn < TURNS; turn++) {
+        last = take(brittle, method, t_end);
+        put_parts(&last, by, turn);
+        whole = take(strong, method, t_end);
+        step[turn] = 1e6 * whole.all / (double)whole.steps;
     }
-    must(least.n_broken > 0, "nothing has broken");
-    const double n = 1e-6 * (double)least.n_broken, step = whole.all / (double)whole.steps;
-    (void)printf("%lld nodes, %s: %lld deaths in %lld of %lld steps; us a death: find %.1f, take %.1f, follow %.1f, all"
-                 " %.1f, once %.0f us to be ready (of %.3f s; %lld steps of the strong body take %.3f s)\n",
-                 (long long)brittle->lattice.n_nodes, method, (long long)least.n_broken, (long long)least.with_breaks,
-                 (long long)least.steps, least.find / n, (least.take - least.ready_to_take) / n,
-                 (least.follow - least.ready_to_follow) / n, (least.all - step * (double)least.steps) / n,
-                 1e6 * (least.ready_to_take + least.ready_to_follow), least.all, (long long)whole.steps, whole.all);
+    must(last.n_broken > 0, "nothing has broken");
+    double part[PARTS];
+    for (int k = 0; k < PARTS; k++) part[k] = median(by[k], TURNS);
+    const double n = (double)last.n_broken, without = median(step, TURNS) * (double)last.steps;
+    (void)printf(
+        "%lld nodes, %s: %lld deaths in %lld of %lld steps; us a death: look %.1f, root %.1f, take %.1f, follow"
+        " %.1f, all %.1f, once %.0f us to be ready (of %.3f s; a step of the strong body takes %.1f us)\n",
+        (long long)brittle->lattice.n_nodes, method, (long long)last.n_broken, (long long)last.with_breaks,
+        (long long)last.steps, part[LOOK] / n, part[ROOT] / n, part[TAKE] / n, part[FOLLOW] / n,
+        (part[ALL] - without) / n, part[READY], 1e-6 * part[ALL], without / (double)last.steps);
     dem_model_destroy(brittle);
     dem_model_destroy(strong);
 }
@@ -376,6 +430,8 @@ int main(int argc, char **argv)
     const bool softens = strcmp(argv[1], "softened") == 0;
     if ((softens || strcmp(argv[1], "damaged") == 0) && argc == 4)
         measure_damaged(nodes, (int)fmin(MOST, atof(argv[3])), softens);
-    if (strcmp(argv[1], "deaths") == 0 && argc == 4) measure_deaths(nodes, argv[3]);
+    const bool by_stretch = argc == 5 && strcmp(argv[4], "stretch") == 0;
+    if (strcmp(argv[1], "deaths") == 0 && (argc == 4 || by_stretch))
+        measure_deaths(nodes, argv[3], by_stretch ? STRETCH : BRITTLE);
     return 0;
 }
