@@ -111,6 +111,14 @@ static void interpolate_third(const dense_output *p, double t, dem_index k, doub
     if (v != NULL) *v = velocity(p->parabolic, &e, &b, k);
 }
 
+/* Two components, in a loop for vector instructions. */
+static inline void put_pair(bool parabolic, const ends *e, const basis *b, dem_index k, double *out)
+{
+    double x[2];
+    for (int d = 0; d < 2; d++) x[d] = position(parabolic, e, b, k + d);
+    for (int d = 0; d < 2; d++) out[d] = x[d];
+}
+
 /* As if no event inside had changed it. */
 static void position_without(const dense_output *p, double t, dem_index i, double *out)
 {
@@ -121,9 +129,7 @@ static void position_without(const dense_output *p, double t, dem_index i, doubl
     }
     const basis b = basis_at(p, t);
     const ends e = ends_of(p);
-    const double first = position(p->parabolic, &e, &b, k), second = position(p->parabolic, &e, &b, k + 1);
-    out[0] = first;
-    out[1] = second;
+    put_pair(p->parabolic, &e, &b, k, out);
     if (p->layout.dim > 2) interpolate_third(p, t, k + 2, &out[2], NULL);
 }
 
@@ -150,6 +156,31 @@ void dense_output_position_inside(const dense_output *p, double t, dem_index i, 
     }
     position_without(p, t, i, out);
     if (has_changed(p, i)) changed_motion_row_at(p->changed, t, i, out, NULL);
+}
+
+/* Of two dimensions, inside the step. `parabolic` is a constant wherever this is called. */
+static inline void put_inside(bool parabolic, const dense_output *p, double t, const int32_t *list, int n, double *x)
+{
+    const ends e = ends_of(p);
+    const basis b = basis_at(p, t);
+    for (int j = 0; j < n; j++) {
+        double *out = x + 2 * (dem_index)list[j];
+        if (has_changed(p, list[j]))
+            changed_motion_position(p->changed, t, list[j], out);
+        else
+            put_pair(parabolic, &e, &b, 2 * (dem_index)list[j], out);
+    }
+}
+
+void dense_output_put_positions(const dense_output *p, double t, const int32_t *list, int n, double *x)
+{
+    if (n == 0) return;
+    if (p->layout.dim > 2 || t == p->t0 || t == p->t1)
+        for (int j = 0; j < n; j++) dense_output_position(p, t, list[j], x + state_row(&p->layout, list[j]));
+    else if (p->parabolic)
+        put_inside(true, p, t, list, n, x);
+    else
+        put_inside(false, p, t, list, n, x);
 }
 
 void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, double *out)

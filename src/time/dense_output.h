@@ -44,6 +44,10 @@ static inline void dense_output_velocity(const dense_output *p, double t, dem_in
         dense_output_velocity_inside(p, t, i, out);
 }
 
+/** Positions of the n nodes of a list at t, to the bits of dense_output_position(), into their rows of x [n_rows][dim]:
+ *  of many nodes in less time. */
+void dense_output_put_positions(const dense_output *p, double t, const int32_t *list, int n, double *x);
+
 /** The motions [n] of nodes: over the whole step, or from the last event inside that has changed it. */
 void dense_output_motions(const dense_output *p, dem_index n, const dem_index *nodes, motion_polynomial *out);
 

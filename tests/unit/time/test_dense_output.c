@@ -118,6 +118,27 @@ TEST(the_ends_are_the_states_to_the_bit)
     }
 }
 
+/* With quintics and with parabolas, in two and in three dimensions, at the ends and between them. */
+TEST(positions_of_a_list_are_those_of_its_nodes_to_the_bit)
+{
+    const int32_t list[n_nodes] = {1, 0};
+    for (int q = 0; q < 4; q++) {
+        step s;
+        const int dim = 2 + q % 2;
+        make_step(&s, dim, &swing, 0.4, 0.9);
+        s.dense.parabolic = q >= 2;
+        for (int k = 0; k <= 10; k++) {
+            const double t = k == 10 ? s.dense.t1 : s.dense.t0 + 0.05 * k;
+            double x[STATE_DIM_MOST * n_nodes], one[STATE_DIM_MOST];
+            dense_output_put_positions(&s.dense, t, list, n_nodes, x);
+            for (dem_index i = 0; i < n_nodes; i++) {
+                dense_output_position(&s.dense, t, i, one);
+                assert_memory_equal(x + dim * i, one, (size_t)dim * sizeof *one);
+            }
+        }
+    }
+}
+
 /* Rounding of a dozen terms of order 10. */
 TEST(motions_of_degree_5_are_exact_with_their_velocities)
 {
