@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* An element is at its limit for the first time between two samples of the step, where the root of 1 - utilisation is
- * found; or it never is at one of the samples, and counts as whole. */
+ * found; or it never is at one of the samples, and counts as whole. Samples are taken where they may matter alone, from
+ * the middle of the step on. */
 #include "fracture/break_search.h"
 
 #include <math.h>
@@ -12,7 +13,8 @@
 #include "base/status.h"
 #include "fracture/utilisation.h"
 
-enum { N_SAMPLES = 8, NEIGHBOURS = 64 }; /* NEIGHBOURS: stresses within a step are those about a tip */
+enum { N_SAMPLES = BREAK_SEARCH_SAMPLES };
+enum { NEIGHBOURS = 64 }; /* stresses within a step are those about a tip */
 
 /* Of stresses at the end of the step there is room for four rows of a square body: nodes are numbered row by row, and
  * looks go from row to row. */
@@ -25,6 +27,7 @@ dem_status break_search_create(break_search *out, const dem_model *model, const 
                             ? stress_cache_create(&s.end, model, elements, (dem_index)sqrt(16.0 * (double)n))
                             : status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
     if (status == DEM_OK) status = stress_cache_create(&s.within, model, elements, NEIGHBOURS);
+    if (status == DEM_OK) status = stress_nodes_create(&s.around, model, elements);
     if (status == DEM_OK)
         *out = s;
     else
@@ -36,6 +39,7 @@ void break_search_destroy(break_search *s)
 {
     stress_cache_destroy(&s->end);
     stress_cache_destroy(&s->within);
+    stress_nodes_destroy(&s->around);
     due_elements_destroy(&s->due);
     free(s->placed);
     free(s->list);
@@ -60,23 +64,44 @@ void break_search_renew(break_search *s, const dem_index *list, dem_index n)
 
 /* ---- utilisations ---- */
 
-static void place(break_search *s, dem_index node)
+/* Nodes that are placed next. */
+typedef struct nodes_to_place {
+    int n;
+    int32_t list[3 * STRESS_NODES_MOST];
+} nodes_to_place;
+
+static void place_node(void *self, dem_index node)
 {
-    if (s->placed[node] == s->look) return;
+    break_search *s = self;
+    const int32_t list[1] = {(int32_t)node};
+    if (s->placed[node] != s->look) dense_output_put_positions(s->step, s->t, list, 1, s->state);
     s->placed[node] = s->look;
-    dense_output_position(s->step, s->t, node, s->state + state_row(&s->step->layout, node));
 }
 
-/* The nodes on which the stress at node i depends: those of its triangles, and of all springs that these hold. */
-static void place_around(break_search *s, dem_index i)
+/* Lists the nodes on which the stress at node i depends, unless they have been placed; where they are many it places
+ * them. */
+static void list_around(break_search *s, dem_index i, nodes_to_place *next)
 {
-    const element_state *e = s->elements;
-    const stress_rows *r = s->model->stress.rows;
-    place(s, i);
-    for (dem_index p = e->at_row[i]; p < e->at_row[i + 1]; p++)
-        for (int c = 0; c < 3; c++) place(s, e->lattice->triangles[3 * e->at[p] + c]);
-    for (dem_index p = r->row[i]; p < r->row[i + 1]; p++)
-        for (int end = 0; end < 2; end++) place(s, e->lattice->ends[2 * r->spring[p] + end]);
+    const stress_nodes_slot *slot = stress_nodes_find(&s->around, i);
+    if (slot->n > STRESS_NODES_MOST) {
+        stress_nodes_visit(&s->around, i, place_node, s);
+        return;
+    }
+    for (int k = 0; k < slot->n; k++) {
+        next->list[next->n] = slot->list[k];
+        next->n += s->placed[slot->list[k]] != s->look;
+        s->placed[slot->list[k]] = s->look;
+    }
+}
+
+/* Places what the stresses at the corners of a triangle depend on, but for those that are known. */
+static void place_around(break_search *s, const dem_index *corner)
+{
+    nodes_to_place next;
+    next.n = 0;
+    for (int c = 0; c < 3; c++)
+        if (!stress_cache_has(&s->within, corner[c])) list_around(s, corner[c], &next);
+    dense_output_put_positions(s->step, s->t, next.list, next.n, s->state);
 }
 
 /* Numbers are so short that marks begin anew with them from time to time, which costs less than wider marks would. */
@@ -94,12 +119,10 @@ static double utilisation_by(break_search *s, stress_cache *by, dem_index elemen
 {
     const dem_lattice *l = &s->model->lattice;
     const bool within = by == &s->within, own = utilisation_by_own_stress(l, element);
+    const dem_index *corner = &l->triangles[3 * element];
     double stress[3][3];
-    for (int c = 0; c < 3; c++) {
-        const dem_index i = l->triangles[3 * element + c];
-        if (within && !stress_cache_has(by, i)) place_around(s, i);
-        if (!own) stress_cache_find(by, i, stress[c]);
-    }
+    if (within) place_around(s, corner);
+    for (int c = 0; c < 3 && !own; c++) stress_cache_find(by, corner[c], stress[c]);
     if (own) return utilisation_of(s->model, s->elements, element, within ? s->state : s->step->y1);
     return utilisation_of_stress(utilisation_limits_of(l, s->elements, element), stress[0], stress[1], stress[2]);
 }
@@ -111,7 +134,7 @@ static double utilisation_at(break_search *s, dem_index element, double t)
     const dem_index spring = element - l->n_triangles;
     go_to(s, t);
     if (spring < 0) return utilisation_by(s, &s->within, element);
-    for (int end = 0; end < 2; end++) place(s, l->ends[2 * spring + end]);
+    for (int end = 0; end < 2; end++) place_node(s, l->ends[2 * spring + end]);
     return utilisation_of(s->model, s->elements, element, s->state);
 }
 
@@ -138,17 +161,79 @@ void break_search_note(break_search *s, dem_index element)
 {
     const double end = utilisation_at_end(s, element);
     if (!(end >= BREAK_SEARCH_NEAR)) return;
-    if (grow_array((void **)&s->list, &s->capacity, s->n + 1, sizeof *s->list))
-        s->list[s->n++] = (break_candidate){.element = element, .end = end};
-    else
+    if (!grow_array((void **)&s->list, &s->capacity, s->n + 1, sizeof *s->list)) {
         s->due.status = status_fail(DEM_ERROR_MEMORY, "out of memory for elements that break");
+        return;
+    }
+    break_candidate *new = &s->list[s->n++];
+    new->element = element;
+    for (int k = 0; k < N_SAMPLES; k++) new->margin[k] = (double)NAN;
+    new->margin[N_SAMPLES] = 1.0 - end;
 }
 
-/* The root of 1 - utilisation between two times, above 0 before and not above 0 after. */
-static double root(break_search *s, const break_candidate *c)
+/* s. The first sample is at `from`, the last one at the end of the step. */
+static double sample_time(const break_search *s, double from, int k)
 {
+    return k == N_SAMPLES ? s->step->t1 : from + (s->step->t1 - from) * k / N_SAMPLES;
+}
+
+static double sample(break_search *s, break_candidate *c, double from, int k)
+{
+    if (isnan(c->margin[k])) c->margin[k] = 1.0 - utilisation_at(s, c->element, sample_time(s, from, k));
+    return c->margin[k];
+}
+
+/* Leaves out what is below its limit at the end of the step, and grows. */
+static void drop_growing(break_search *s, double from)
+{
+    dem_index n = 0;
+    for (dem_index j = 0; j < s->n; j++) {
+        break_candidate *c = &s->list[j];
+        const bool ends_below = c->margin[N_SAMPLES] > 0.0;
+        if (ends_below && !(sample(s, c, from, N_SAMPLES - 1) < c->margin[N_SAMPLES])) continue;
+        s->list[n++] = *c;
+    }
+    s->n = n;
+}
+
+/* Whether an element may be at its limit between two samples at which it is not: by how much it may be nearer than the
+ * straight line between them goes with the square of the time between them (see BREAK_SEARCH_NEAR), and as s (1 - s)
+ * within it. */
+static bool may_rise_between(const break_candidate *c, int first, int last)
+{
+    const double part = (double)(last - first) / N_SAMPLES, rise = 4.0 * (1.0 - BREAK_SEARCH_NEAR) * part * part;
+    const double from = c->margin[first], nearest = 0.5 - 0.5 * (c->margin[last] - from) / rise;
+    return nearest > 0.0 && nearest < 1.0 && from < rise * nearest * nearest;
+}
+
+/* The first sample at which an element is known to be at its limit; N_SAMPLES + 1: none. */
+static int first_over(const break_candidate *c)
+{
+    int k = 0;
+    while (k <= N_SAMPLES && !(c->margin[k] <= 0.0)) k++;
+    return k;
+}
+
+/* Takes the samples in the middle of intervals of two times `stride` where the limit may be reached in these. */
+static void halve(break_search *s, double from, int stride)
+{
+    for (int k = stride; k < N_SAMPLES; k += 2 * stride)
+        for (dem_index j = 0; j < s->n; j++) {
+            break_candidate *c = &s->list[j];
+            const int first = k - stride, last = k + stride, over = first_over(c);
+            if (over <= first || isnan(c->margin[first]) || isnan(c->margin[last])) continue;
+            if (over == last || may_rise_between(c, first, last)) (void)sample(s, c, from, k);
+        }
+}
+
+/* The root of 1 - utilisation, above 0 at the sample before and not above 0 at this one; what is at its limit from the
+ * start needs no search. */
+static double root(break_search *s, const break_candidate *c, double from, int over)
+{
+    if (over == 0) return from;
     const double width = dense_output_resolution(s->step);
-    bracket b = {c->before, c->after, c->above, c->below, 0, 0};
+    bracket b = {
+        sample_time(s, from, over - 1), sample_time(s, from, over), c->margin[over - 1], c->margin[over], 0, 0};
     while (b.after - b.before > width) {
         const double t = bracket_trial(&b, width), margin = 1.0 - utilisation_at(s, c->element, t);
         bracket_close(&b, t, margin, margin <= 0.0);
@@ -156,49 +241,14 @@ static double root(break_search *s, const break_candidate *c)
     return b.after;
 }
 
-/* Leaves out what is below its limit at the end of the step, and grows. */
-static void drop_growing(break_search *s, double from)
-{
-    const double last = s->step->t1 - (s->step->t1 - from) / N_SAMPLES;
-    dem_index n = 0;
-    for (dem_index k = 0; k < s->n; k++)
-        if (s->list[k].end >= 1.0 || utilisation_at(s, s->list[k].element, last) > s->list[k].end)
-            s->list[n++] = s->list[k];
-    s->n = n;
-}
-
-/* What is at its limit from the start needs no search. */
-static void look_at_start(break_search *s, break_candidate *c, double from)
-{
-    c->above = 1.0 - utilisation_at(s, c->element, from);
-    c->before = c->after = from;
-    c->found = c->above <= 0.0;
-}
-
-static void look_at_sample(break_search *s, break_candidate *c, double t, bool last)
-{
-    const double margin = 1.0 - (last ? c->end : utilisation_at(s, c->element, t));
-    c->found = margin <= 0.0;
-    if (c->found) {
-        c->after = t;
-        c->below = margin;
-    } else {
-        c->before = t;
-        c->above = margin;
-    }
-}
-
 void break_search_find(break_search *s, double from)
 {
-    const double rest = s->step->t1 - from;
     drop_growing(s, from);
-    for (dem_index j = 0; j < s->n; j++) look_at_start(s, &s->list[j], from);
-    for (int k = 1; k <= N_SAMPLES; k++)
-        for (dem_index j = 0; j < s->n; j++) {
-            const double t = k == N_SAMPLES ? s->step->t1 : from + rest * k / N_SAMPLES;
-            if (!s->list[j].found) look_at_sample(s, &s->list[j], t, k == N_SAMPLES);
-        }
-    for (dem_index j = 0; j < s->n; j++)
-        if (s->list[j].found) due_elements_set(&s->due, s->list[j].element, root(s, &s->list[j]));
+    for (dem_index j = 0; j < s->n; j++) (void)sample(s, &s->list[j], from, 0);
+    for (int stride = N_SAMPLES / 2; stride > 0; stride /= 2) halve(s, from, stride);
+    for (dem_index j = 0; j < s->n; j++) {
+        const int over = first_over(&s->list[j]);
+        if (over <= N_SAMPLES) due_elements_set(&s->due, s->list[j].element, root(s, &s->list[j], from, over));
+    }
     s->n = 0;
 }

@@ -6,15 +6,16 @@
 
 #include "fracture/due_elements.h"
 #include "fracture/stress_cache.h"
+#include "fracture/stress_nodes.h"
 #include "time/dense_output.h"
+
+enum { BREAK_SEARCH_SAMPLES = 8 };
 
 /** An element that is searched for a time. */
 typedef struct break_candidate {
     dem_index element;
-    double before, after; /* s, about the time, if it has been found */
-    double above, below;  /* 1 - utilisation at these */
-    double end;           /* utilisation at the end of the step */
-    bool found;
+    double margin[BREAK_SEARCH_SAMPLES + 1]; /* 1 - utilisation at the start, and then at samples, of which the last one
+                                                is the end of the step; not a number: not known */
 } break_candidate;
 
 typedef struct break_search {
@@ -24,6 +25,7 @@ typedef struct break_search {
     double *state;       /* [2 dim n_rows] scratch, not the search's: positions at the present time */
     stress_cache end;    /* stresses at the end of the step */
     stress_cache within; /* and at the present time; */
+    stress_nodes around; /* which nodes have to be placed for them */
     double t;            /* s, that is this one; not a number: none */
     uint8_t look;        /* its number */
     uint8_t *placed;     /* [n_nodes] the time at which a node was put into `state` last */
