@@ -111,7 +111,9 @@ vec2 triangles_force(const triangles *t, triangles_integrity integrity, dem_inde
 /* For an energy of the area alone r x f is A dW/dA times the unit tensor, since dA = A tr(e) under a strain e. */
 double triangles_virial(const triangles *t, triangles_integrity integrity, dem_index i, dem_index p, const double *x)
 {
-    const areas A = areas_at(t, i, p, x);
+    const double now = triangles_area(t, i, p, x);
+    if (triangles_are_slack(t, now)) return 0.0;
+    const areas A = {now, triangles_rest_area(t, i, p)};
     return is_slack(t, A) ? 0.0 : A.now * slope_at(t, integrity, p, A);
 }
 
@@ -127,7 +129,9 @@ double triangles_node_virial(const triangles *t, dem_index i, const double *x, d
 {
     double sum = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const areas A = areas_at(t, i, p, x);
+        const double now = triangles_area(t, i, p, x);
+        if (triangles_are_slack(t, now)) continue;
+        const areas A = {now, triangles_rest_area(t, i, p)};
         if (!is_slack(t, A)) sum += A.now * slope_at(t, TRIANGLES_WHOLE, p, A) / divisor;
     }
     return sum;

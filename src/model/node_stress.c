@@ -15,15 +15,32 @@ static double counted(const element_state *s, node_stress_kind kind, dem_index t
     return kind == NODE_STRESS_CARRIED && s->left != NULL ? s->left[triangle] : 1.0;
 }
 
-/* Adds w r x f of the springs that a triangle holds. A spring is pulled if the trace of its r x f is positive. */
-static void add_triangle(const dem_model *m, const element_state *s, node_stress_kind kind, dem_index triangle,
-                         const double *x, double sum[3])
+/* Adds w r x f of the springs that a triangle holds, all of it. In this order sums have the same bits wherever they are
+ * made. */
+static inline void add_springs(const dem_lattice *l, const element_state *s, dem_index triangle, const double *x,
+                               double sum[3])
+{
+    double xx = sum[0], yy = sum[1], xy = sum[2];
+    for (int32_t p = s->row[triangle], end = s->row[triangle + 1]; p < end; p++) {
+        double virial[3];
+        springs_virial(l, s->spring[p], x, virial);
+        xx += s->share[p] * virial[0];
+        yy += s->share[p] * virial[1];
+        xy += s->share[p] * virial[2];
+    }
+    sum[0] = xx;
+    sum[1] = yy;
+    sum[2] = xy;
+}
+
+/* The same of what is left of it. A spring is pulled if the trace of its r x f is positive. */
+static void add_carried(const dem_lattice *l, const element_state *s, dem_index triangle, const double *x,
+                        double sum[3])
 {
     for (dem_index p = s->row[triangle]; p < s->row[triangle + 1]; p++) {
         double virial[3];
-        springs_virial(&m->lattice, s->spring[p], x, virial);
-        const bool pulled = virial[0] + virial[1] > 0.0, carried = kind == NODE_STRESS_CARRIED && s->left != NULL;
-        const double share = carried ? element_state_share(s, triangle, p, pulled) : s->share[p];
+        springs_virial(l, s->spring[p], x, virial);
+        const double share = element_state_share(s, triangle, p, virial[0] + virial[1] > 0.0);
         for (int k = 0; k < 3; k++) sum[k] += share * virial[k];
     }
 }
@@ -73,7 +90,10 @@ static void of_whole_triangles(const dem_model *m, const element_state *s, node_
     stress[0] = stress[1] = stress[2] = 0.0;
     for (dem_index p = s->at_row[i]; p < s->at_row[i + 1]; p++) {
         if (s->triangle[s->at[p]]) continue;
-        add_triangle(m, s, kind, s->at[p], x, stress);
+        if (kind == NODE_STRESS_CARRIED && s->left != NULL)
+            add_carried(&m->lattice, s, s->at[p], x, stress);
+        else
+            add_springs(&m->lattice, s, s->at[p], x, stress);
         volume += spring_share_volume(&m->lattice, s->at[p]);
     }
     if (volume == 0.0) return;
@@ -94,7 +114,6 @@ static void add_couplings_of(const couplings *c, dem_index corner, dem_index tri
     }
 }
 
-/* Most of what is looked at where bodies may break, so without add_triangle()'s choices. */
 void node_stress_of_triangle(const dem_model *m, const element_state *s, dem_index triangle, const double *x,
                              double stress[3])
 {
@@ -102,11 +121,7 @@ void node_stress_of_triangle(const dem_model *m, const element_state *s, dem_ind
     const dem_index *corner = &l->triangles[3 * triangle];
     const double rest_area = vec2_area_of(l->x, corner);
     double sum[3] = {0.0, 0.0, 0.0};
-    for (int32_t p = s->row[triangle], end = s->row[triangle + 1]; p < end; p++) {
-        double virial[3];
-        springs_virial(l, s->spring[p], x, virial);
-        for (int k = 0; k < 3; k++) sum[k] += s->share[p] * virial[k];
-    }
+    add_springs(l, s, triangle, x, sum);
     if (m->couplings.n > 0) add_couplings_of(&m->couplings, corner[0], triangle, x, sum);
     const double spread = triangles_virial_of(l, triangle, rest_area, x);
     const double volume = l->thickness != NULL ? l->thickness[triangle] * rest_area : rest_area;
