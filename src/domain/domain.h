@@ -5,6 +5,8 @@
 #ifndef DEM_DOMAIN_DOMAIN_H
 #define DEM_DOMAIN_DOMAIN_H
 
+#include <stdbool.h>
+
 #include <dem/dem.h>
 
 /** Another rank that has ghosts of own nodes; it has own nodes that are ghosts here, too. */
@@ -32,6 +34,16 @@ void domain_free(domain *d);
 /** The number in the domain of an own node of this number in the whole lattice; -1: it is not an own one. NULL stands
  *  for the whole lattice. */
 dem_index domain_own_node(const domain *d, dem_index number);
+
+/** The nodes from `first` to *end - 1, of n, are all own ones, or all ghosts. NULL stands for the whole lattice.
+ *  \return whether they are own ones */
+static inline bool domain_run(const domain *d, dem_index first, dem_index n, dem_index *end)
+{
+    *end = n;
+    if (d == NULL) return true;
+    for (*end = first + 1; *end < n && d->is_own[*end] == d->is_own[first];) ++*end;
+    return d->is_own[first] != 0;
+}
 
 /** The number in the whole lattice of node i. */
 static inline dem_index domain_number(const domain *d, dem_index i)

@@ -170,11 +170,11 @@ static double strain_rate(const springs *s, dem_index i, dem_index p, const doub
 
 /* c e'^2 d0 of each spring: the force c e' times the rate e' d0 at which the length changes. A spring is taken from the
  * row of its lower node. */
-void springs_add_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v,
-                               exact_terms *power)
+void springs_add_damping_power(const springs *s, springs_integrity integrity, const dem_index range[2], const double *x,
+                               const double *v, exact_terms *power)
 {
     if (s->viscosity_of == NULL) return;
-    for (dem_index i = 0; i < s->n_nodes; i++)
+    for (dem_index i = range[0]; i < range[1]; i++)
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
             const dem_index k = s->spring[p];
             const double left = springs_left(integrity, k, 1.0);

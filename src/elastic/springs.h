@@ -160,9 +160,10 @@ void springs_strains(const dem_lattice *lattice, springs_integrity integrity, co
 /** Force (1) along every spring, > 0 in tension; 0 of one that is broken.  \param[out] force  [n_springs] N */
 void springs_forces(const dem_lattice *lattice, springs_integrity integrity, const double *x, double *force);
 
-/** Adds the powers that the springs' damping takes, W, >= 0: viscosity * strain rate^2 * rest length; none undamped. */
-void springs_add_damping_power(const springs *s, springs_integrity integrity, const double *x, const double *v,
-                               exact_terms *power);
+/** Adds the powers that the damping of springs takes, W, >= 0: viscosity * strain rate^2 * rest length; none undamped.
+ *  Springs are those from the nodes range[0] to range[1] - 1 to higher ones. */
+void springs_add_damping_power(const springs *s, springs_integrity integrity, const dem_index range[2], const double *x,
+                               const double *v, exact_terms *power);
 
 /** S_i = sum of c/d0 n n^T over the springs of node i, with n their directions at x and c their `strength`, stiffness
  *  or viscosity. It bounds the matrix A of the springs: u.A u = sum of c/d0 (n.(u_j - u_i))^2 <= 2 sum of u_i.S_i

@@ -133,12 +133,11 @@ static void give(const boundary_conditions *all, const boundary_condition *b, co
     }
 }
 
-double boundary_conditions_give_velocities(const boundary_conditions *b, const double *mass, double t, double *v)
+void boundary_conditions_give_velocities(const boundary_conditions *b, const double *mass, double t, double *v,
+                                         exact_sum *energy)
 {
-    exact_sum energy = {0};
     for (dem_index k = 0; k < b->n; k++)
-        if (b->list[k].kind != DEM_BOUNDARY_FORCE) give(b, &b->list[k], mass, t, v, &energy);
-    return exact_sum_value(&energy);
+        if (b->list[k].kind != DEM_BOUNDARY_FORCE) give(b, &b->list[k], mass, t, v, energy);
 }
 
 bool boundary_conditions_move(const boundary_conditions *b)

@@ -76,8 +76,10 @@ typedef struct boundary_derivative {
 void boundary_conditions_prescribe(const boundary_conditions *b, const double *mass, double t, const double *v,
                                    const boundary_derivative *to);
 
-/** Puts the prescribed velocities at t into v [n_nodes][2].  \return the kinetic energy that this adds, J */
-double boundary_conditions_give_velocities(const boundary_conditions *b, const double *mass, double t, double *v);
+/** Puts the prescribed velocities at t into v [n_nodes][2].
+ *  \param energy  the kinetic energy that this adds on this rank is added to it, J */
+void boundary_conditions_give_velocities(const boundary_conditions *b, const double *mass, double t, double *v,
+                                         exact_sum *energy);
 
 /** Whether one of the conditions prescribes motions. */
 bool boundary_conditions_move(const boundary_conditions *b);

@@ -64,13 +64,24 @@ static void add_drag(const forces *f, const double *v, exact_terms *power)
     }
 }
 
+/* Viscous forces of springs. Of those that several ranks have the one counts that has the lower node as its own. */
+static void add_springs(const forces *f, const double *x, const double *v, exact_terms *power)
+{
+    const dem_model *m = f->model;
+    const springs_integrity integrity = element_state_springs(f->elements);
+    for (dem_index i = 0, end; i < m->lattice.n_nodes; i = end) {
+        const bool is_own = domain_run(m->domain, i, m->lattice.n_nodes, &end);
+        if (is_own) springs_add_damping_power(&m->springs, integrity, (dem_index[]){i, end}, x, v, power);
+    }
+}
+
 double forces_damping_power(const forces *f, const double *x, const double *v)
 {
     exact_sum power = {0};
     exact_terms terms;
     if (!forces_are_damped(f)) return 0.0;
     exact_terms_begin(&terms, &power);
-    springs_add_damping_power(&f->model->springs, element_state_springs(f->elements), x, v, &terms);
+    add_springs(f, x, v, &terms);
     add_drag(f, v, &terms);
     exact_terms_end(&terms);
     return reduce_sum(f->model->ranks, &power);

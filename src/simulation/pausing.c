@@ -7,6 +7,7 @@
 
 #include <math.h>
 
+#include "base/reduce.h"
 #include "base/status.h"
 #include "simulation/query.h"
 
@@ -23,8 +24,9 @@ typedef struct numbers {
 static void give_velocities(dem_simulation *s, double t, double *y)
 {
     double *v = y + state_velocities(&s->layout);
-    v[state_total_index(&s->layout, STATE_WORK)] +=
-        boundary_conditions_give_velocities(&s->boundaries, s->model->lattice.mass, t, v);
+    exact_sum energy = {0};
+    boundary_conditions_give_velocities(&s->boundaries, s->model->lattice.mass, t, v, &energy);
+    v[state_total_index(&s->layout, STATE_WORK)] += reduce_sum(s->model->ranks, &energy);
 }
 
 bool pausing_begin(dem_simulation *s, double t, double *y)

@@ -139,6 +139,7 @@ static dem_status set_up(dem_simulation *s)
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
     const size_t block = (size_t)state_row(&s->layout, model->lattice.n_nodes) * sizeof *s->y;
+    exact_sum given = {0}; /* before the run: no work */
     TRY(check_shared(s));
     TRY(reduce_status(model->ranks,
                       boundary_conditions_compile(&s->boundaries, o->boundaries, o->n_boundaries, &model->lattice,
@@ -153,8 +154,8 @@ static dem_status set_up(dem_simulation *s)
     TRY(allocate(s));
     memcpy(s->y, model->lattice.position, block);
     memcpy(s->y + state_velocities(&s->layout), model->lattice.velocity, block);
-    (void)boundary_conditions_give_velocities(&s->boundaries, model->lattice.mass, 0.0,
-                                              s->y + state_velocities(&s->layout));
+    boundary_conditions_give_velocities(&s->boundaries, model->lattice.mass, 0.0, s->y + state_velocities(&s->layout),
+                                        &given);
     if (model->domain != NULL) TRY(set_up_domain(s));
     create_team(s);
     TRY(kernel_create(&s->kernel, model, o->kernel, s->team));

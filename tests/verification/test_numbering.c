@@ -253,7 +253,9 @@ static powers powers_of(const dem_lattice *l, const dem_index *number)
     memcpy(v, l->velocity, 2 * (size_t)n * sizeof *v);
     memcpy(u, v, 2 * (size_t)n * sizeof *u);
     powers p = {.damping = forces_damping_power(&f, l->position, v), .work = forces_prescribe(&f, 0.0, v, u, a)};
-    p.given = boundary_conditions_give_velocities(&given, l->mass, 0.0, v);
+    exact_sum energy = {0};
+    boundary_conditions_give_velocities(&given, l->mass, 0.0, v, &energy);
+    p.given = exact_sum_value(&energy);
     return p;
 }
 

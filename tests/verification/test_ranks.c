@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks that share a model, as threads: positions, velocities, times, lengths of steps and their counts have the bits
- * of the whole model in one process, whatever the shares. Bodies are free, damped, driven, folded nearly flat;
- * triangles single and coupled, and squares. */
+/* Ranks that share a model, as threads: positions, velocities, energies integrated along, times, lengths of steps and
+ * their counts have the bits of the whole model in one process, whatever the shares. Bodies are free, damped, driven,
+ * folded nearly flat; triangles single and coupled, and squares. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,6 +10,7 @@
 #include "domain/partition.h"
 #include "harness/rank_threads.h"
 #include "model/domain_model.h"
+#include "simulation/private.h"
 
 enum { MOST_RANKS = 7, N_BODIES = 4, N_METHODS = 4, N_STOPS = 2, TEXT = 256 };
 
@@ -108,6 +109,7 @@ static void close_scene(scene *s)
 /* At each stop. */
 typedef struct outcome {
     double t[N_STOPS], step[N_STOPS];
+    double taken[N_STOPS], given[N_STOPS]; /* J, by damping and from outside */
     dem_counts counts[N_STOPS];
     double *x[N_STOPS], *v[N_STOPS]; /* [n_nodes][2] of the whole */
     char failure[TEXT];              /* empty: none */
@@ -139,6 +141,8 @@ static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int
         return DEM_ERROR_ARGUMENT;
     o->t[stop] = state.t;
     o->step[stop] = state.step;
+    o->taken[stop] = state_total_of(&s->layout, s->seen, STATE_DAMPING);
+    o->given[stop] = state_total_of(&s->layout, s->seen, STATE_WORK);
     const dem_index n = dem_simulation_model(s)->lattice.n_nodes;
     for (dem_index i = 0; i < n; i++) {
         if (d != NULL && !d->is_own[i]) continue;
@@ -185,6 +189,8 @@ static void assert_same_outcome(const outcome *one, const outcome *whole, dem_in
     for (int k = 0; k < N_STOPS; k++) {
         assert_true(one->t[k] == whole->t[k]);
         assert_true(one->step[k] == whole->step[k]);
+        assert_true(one->taken[k] == whole->taken[k]);
+        assert_true(one->given[k] == whole->given[k]);
         assert_memory_equal(&one->counts[k], &whole->counts[k], sizeof one->counts[k]);
         assert_memory_equal(one->x[k], whole->x[k], 2 * (size_t)n * sizeof(double));
         assert_memory_equal(one->v[k], whole->v[k], 2 * (size_t)n * sizeof(double));
@@ -232,6 +238,7 @@ static void check(int body, dem_method method)
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     make_outcome(&whole, l->n_nodes);
     assert_ok(run(s.model, &s.options, &whole));
+    assert_true((whole.taken[0] != 0.0) == (body == 1) && (whole.given[0] != 0.0) == (body == 2));
     if (body == 0 && method == DEM_METHOD_FEHLBERG45) assert_true(whole.counts[N_STOPS - 1].rejected > 0);
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         assert_ok(partition_bisect(l, numbers[k], owner));

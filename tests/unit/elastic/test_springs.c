@@ -227,7 +227,7 @@ static double damping_power(const springs *s, const double *x, const double *v)
     exact_sum power = {0};
     exact_terms terms;
     exact_terms_begin(&terms, &power);
-    springs_add_damping_power(s, SPRINGS_WHOLE, x, v, &terms);
+    springs_add_damping_power(s, SPRINGS_WHOLE, (dem_index[]){0, s->n_nodes}, x, v, &terms);
     exact_terms_end(&terms);
     return exact_sum_value(&power);
 }
