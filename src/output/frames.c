@@ -201,8 +201,8 @@ static const struct energy {
 enum { N_ENERGIES = sizeof energies / sizeof energies[0] };
 
 /* Where the data of frame k begin. Arrays of one size begin at the same places, so that they share a dataset under the
- * name of each (a hard link): a frame of a small body is written in half the time. The entries before
- * the last stand in the order of `enum of`. */
+ * name of each (a hard link): a frame of a small body is written in half the time. The entries before the last stand in
+ * the order of `enum of`. */
 static const struct offset {
     const char *name;
     int rank;

@@ -101,8 +101,7 @@ static bool turned(const dense_output *p, dem_index i)
     return i < p->layout.n_nodes && has_changed(p, i);
 }
 
-/* The third component, of three-dimensional states only; x or v may be NULL. Kept apart from the row_pair of the other
- * two. */
+/* The third component, of three-dimensional states only; x or v may be NULL. Kept apart from the other two. */
 static void interpolate_third(const dense_output *p, double t, dem_index k, double *x, double *v)
 {
     const basis b = basis_at(p, t);

@@ -3,7 +3,7 @@
  * the derivative at the end. That is evaluated ahead here, before the norm, so that the squares of the error and all
  * failures of the attempt travel in one reduction; ARKODE gets it when it asks. Of an attempt that is rejected it is in
  * vain. ARKODE also asks for the norm of the state from which a step goes, to see whether rounding alone is more than
- * what is allowed: the squares of the end of the last step have outcome that.
+ * what is allowed: that is known from the squares at the end of the last step.
  *
  * The error is recognised as the one sum of several vectors without the state. With fixed steps there is none: then the
  * reduction is made with the derivative at the end of the step. */

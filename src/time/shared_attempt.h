@@ -19,8 +19,8 @@ typedef struct shared_attempt_owner {
 typedef struct shared_attempt {
     shared_attempt_owner owner;
     nvector_deferral seen;    /* by the space */
-    bool is_over;             /* the ranks have outcome each other */
-    attempt_end outcome;      /* this */
+    bool is_over;             /* the ranks know each other's ends: */
+    attempt_end outcome;      /* what all have */
     bool has_failed;          /* a derivative that ARKODE has asked for has failed on some rank */
     int n_asked;              /* derivatives that ARKODE has asked for in the attempt, */
     int n_stages;             /* those among them that are not at the start of the step */
