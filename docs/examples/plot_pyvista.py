@@ -31,7 +31,8 @@ plotter.add_mesh(whole, scalars="strain", cmap="coolwarm", clim=(-limit, limit),
                  scalar_bar_args={"title": "strain", "color": "black", "vertical": True, "position_x": 0.88, "position_y": 0.2})
 triangles = path.removesuffix(".vtkhdf") + ".body.vtkhdf"
 if os.path.exists(triangles):
-    filled = read_frame(triangles, frame)
+    # Without what has broken, which add_mesh() by itself would draw.
+    filled = read_frame(triangles, frame).extract_surface(algorithm="dataset_surface")
     plotter.add_mesh(filled.translate((0, 0, -1e-3 * body.length)), color="#f0f0f0", lighting=False)  # behind the springs
 obstacle = path.removesuffix(".vtkhdf") + ".obstacle.vtkhdf"
 if os.path.exists(obstacle):
