@@ -80,7 +80,7 @@ static void exchange(void *self, int n, const ranks_message *sent, const ranks_m
     for (int k = 0; k < n; k++) {
         const ranks_message *of = find_message(&m->place->calls[received[k].rank], m->table.rank);
         insist(of->size == received[k].size, "a message has another size than is expected");
-        memcpy(received[k].bytes, of->bytes, of->size);
+        if (of->size > 0) memcpy(received[k].bytes, of->bytes, of->size);
     }
     wait_for_all(m);
     m->counts.exchanges++;
