@@ -10,31 +10,32 @@
 #include "base/status.h"
 
 /* What one rank sends: an item is 8 bytes long, a number of a node or of a row. */
-typedef struct parcel {
+typedef struct rank_rows {
     dem_index n; /* nodes */
     void *items; /* [n] numbers of nodes, then [n][dim] of rows */
-} parcel;
+} rank_rows;
 
 typedef struct collection {
     const ranks *ranks;
     int dim;
-    parcel *parcels;                /* [ranks] of which rank 0 has all, another one its own */
+    rank_rows *rows;                /* [ranks] of which rank 0 has all, another one its own */
     ranks_message *sent, *received; /* [ranks] */
 } collection;
 
-static size_t size_of(const collection *c, const parcel *p)
+static size_t size_of(const collection *c, const rank_rows *p)
 {
     return (size_t)p->n * (1 + (size_t)c->dim) * sizeof(double);
 }
 
-/* Rank 0 talks to all others, and these to rank 0. */
-static void talk(const collection *c, void *(*bytes)(parcel *p), size_t (*size)(const collection *c, const parcel *p))
+/* Between rank 0 and each of the others. */
+static void exchange_with_root(const collection *c, void *(*bytes)(rank_rows *p),
+                               size_t (*size)(const collection *c, const rank_rows *p))
 {
     const ranks *r = c->ranks;
     const int n = r->rank == 0 ? r->size - 1 : 1;
     for (int k = 0; k < n; k++) {
         const int other = r->rank == 0 ? k + 1 : 0;
-        parcel *p = &c->parcels[r->rank == 0 ? other : r->rank];
+        rank_rows *p = &c->rows[r->rank == 0 ? other : r->rank];
         const ranks_message full = {other, size(c, p), bytes(p)}, empty = {other, 0, NULL};
         c->sent[k] = r->rank == 0 ? empty : full;
         c->received[k] = r->rank == 0 ? full : empty;
@@ -42,25 +43,25 @@ static void talk(const collection *c, void *(*bytes)(parcel *p), size_t (*size)(
     r->exchange(r->self, n, c->sent, c->received);
 }
 
-static void *count_of(parcel *p)
+static void *count_of(rank_rows *p)
 {
     return &p->n;
 }
 
-static size_t size_of_count(const collection *c, const parcel *p)
+static size_t size_of_count(const collection *c, const rank_rows *p)
 {
     (void)c;
     return sizeof p->n;
 }
 
-static void *items_of(parcel *p)
+static void *items_of(rank_rows *p)
 {
     return p->items;
 }
 
 static void pack(const collection *c, const domain *d, const double *from)
 {
-    parcel *p = &c->parcels[c->ranks->rank];
+    rank_rows *p = &c->rows[c->ranks->rank];
     const size_t row = (size_t)c->dim * sizeof *from;
     dem_index *number = p->items;
     char *to = (char *)(number + p->n);
@@ -76,28 +77,28 @@ static void unpack(const collection *c, double *whole)
 {
     const size_t row = (size_t)c->dim * sizeof *whole;
     for (int k = 0; k < c->ranks->size; k++) {
-        const dem_index *number = c->parcels[k].items;
-        const char *from = (const char *)(number + c->parcels[k].n);
-        for (dem_index q = 0; q < c->parcels[k].n; q++) memcpy(whole + c->dim * number[q], from + (size_t)q * row, row);
+        const dem_index *number = c->rows[k].items;
+        const char *from = (const char *)(number + c->rows[k].n);
+        for (dem_index q = 0; q < c->rows[k].n; q++) memcpy(whole + c->dim * number[q], from + (size_t)q * row, row);
     }
 }
 
 static dem_status allocate_lists(collection *c)
 {
     const size_t n = (size_t)c->ranks->size;
-    c->parcels = calloc(n, sizeof *c->parcels);
+    c->rows = calloc(n, sizeof *c->rows);
     c->sent = calloc(n, sizeof *c->sent);
     c->received = calloc(n, sizeof *c->received);
-    CHECK(c->parcels && c->sent && c->received, DEM_ERROR_MEMORY, "out of memory for %zu ranks", n);
+    CHECK(c->rows && c->sent && c->received, DEM_ERROR_MEMORY, "out of memory for %zu ranks", n);
     return DEM_OK;
 }
 
 static dem_status allocate_items(const collection *c)
 {
     for (int k = 0; k < c->ranks->size; k++) {
-        const size_t size = size_of(c, &c->parcels[k]);
-        c->parcels[k].items = malloc(size + 1);
-        CHECK(c->parcels[k].items, DEM_ERROR_MEMORY, "out of memory for %zu bytes of rank %d", size, k);
+        const size_t size = size_of(c, &c->rows[k]);
+        c->rows[k].items = malloc(size + 1);
+        CHECK(c->rows[k].items, DEM_ERROR_MEMORY, "out of memory for %zu bytes of rank %d", size, k);
     }
     return DEM_OK;
 }
@@ -106,11 +107,11 @@ static dem_status collect(collection *c, const domain *d, const double *from, do
 {
     const ranks *r = c->ranks;
     TRY(reduce_status(r, allocate_lists(c), 0.0));
-    for (dem_index i = 0; i < d->n_nodes; i++) c->parcels[r->rank].n += d->is_own[i];
-    talk(c, count_of, size_of_count);
+    for (dem_index i = 0; i < d->n_nodes; i++) c->rows[r->rank].n += d->is_own[i];
+    exchange_with_root(c, count_of, size_of_count);
     TRY(reduce_status(r, allocate_items(c), 0.0));
     pack(c, d, from);
-    talk(c, items_of, size_of);
+    exchange_with_root(c, items_of, size_of);
     if (r->rank == 0) unpack(c, whole);
     return DEM_OK;
 }
@@ -119,8 +120,8 @@ dem_status gather_rows(const ranks *r, const domain *d, int dim, const double *f
 {
     collection c = {.ranks = r, .dim = dim};
     const dem_status status = collect(&c, d, from, whole);
-    for (int k = 0; k < r->size && c.parcels != NULL; k++) free(c.parcels[k].items);
-    free(c.parcels);
+    for (int k = 0; k < r->size && c.rows != NULL; k++) free(c.rows[k].items);
+    free(c.rows);
     free(c.sent);
     free(c.received);
     return status;

@@ -129,10 +129,8 @@ double triangles_node_virial(const triangles *t, dem_index i, const double *x, d
 {
     double sum = 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
-        const double now = triangles_area(t, i, p, x);
-        if (triangles_are_slack(t, now)) continue;
-        const areas A = {now, triangles_rest_area(t, i, p)};
-        if (!is_slack(t, A)) sum += A.now * slope_at(t, TRIANGLES_WHOLE, p, A) / divisor;
+        const double virial = triangles_virial(t, TRIANGLES_WHOLE, i, p, x); /* most often 0 */
+        if (virial != 0.0) sum += virial / divisor;
     }
     return sum;
 }

@@ -17,7 +17,7 @@
 
 struct dem_model {
     const ranks *ranks;  /* that share it */
-    bool ends_ranks;     /* with it */
+    bool ends_ranks;     /* whether their table ends with the model */
     domain *domain;      /* of this one; NULL: all nodes are here */
     dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
     springs springs;

@@ -15,22 +15,12 @@ static double counted(const element_state *s, node_stress_kind kind, dem_index t
     return kind == NODE_STRESS_CARRIED && s->left != NULL ? s->left[triangle] : 1.0;
 }
 
-/* Adds w r x f of the springs that a triangle holds, all of it. In this order sums have the same bits wherever they are
- * made. */
+/* Adds w r x f of the springs that a triangle holds, all of it. */
 static inline void add_springs(const dem_lattice *l, const element_state *s, dem_index triangle, const double *x,
                                double sum[3])
 {
-    double xx = sum[0], yy = sum[1], xy = sum[2];
-    for (int32_t p = s->row[triangle], end = s->row[triangle + 1]; p < end; p++) {
-        double virial[3];
-        springs_virial(l, s->spring[p], x, virial);
-        xx += s->share[p] * virial[0];
-        yy += s->share[p] * virial[1];
-        xy += s->share[p] * virial[2];
-    }
-    sum[0] = xx;
-    sum[1] = yy;
-    sum[2] = xy;
+    const int32_t first = s->row[triangle], n = s->row[triangle + 1] - first;
+    springs_add_virials(l, n, s->spring + first, s->share + first, x, sum);
 }
 
 /* The same of what is left of it. A spring is pulled if the trace of its r x f is positive. */

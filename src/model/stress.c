@@ -222,18 +222,12 @@ void stress_of_node(const stress_map *map, const dem_lattice *lattice, const tri
                     double stress[3])
 {
     const stress_rows *r = map->rows;
-    double xx = 0.0, yy = 0.0, xy = 0.0;
-    for (dem_index p = r->row[i]; p < r->row[i + 1]; p++) {
-        double virial[3];
-        springs_virial(lattice, r->spring[p], x, virial);
-        xx += r->share[p] * virial[0];
-        yy += r->share[p] * virial[1];
-        xy += r->share[p] * virial[2];
-    }
+    const dem_index first = r->row[i], n = r->row[i + 1] - first;
+    stress[0] = stress[1] = stress[2] = 0.0;
+    springs_add_virials(lattice, n, r->spring + first, r->share + first, x, stress);
     const double spread = triangles_node_virial(t, i, x, 3.0 * map->volume[i]); /* the same in all directions */
-    stress[0] = xx + spread;
-    stress[1] = yy + spread;
-    stress[2] = xy;
+    stress[0] += spread;
+    stress[1] += spread;
     if (map->couplings->n > 0) add_couplings(map, i, x, stress);
 }
 
