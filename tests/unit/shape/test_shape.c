@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "harness/lattice_area.h"
 #include "shape/shape.h"
 
 static const dem_material rubber =
@@ -131,17 +132,6 @@ static dem_lattice make_lattice(const shape *s)
     return lattice;
 }
 
-static double area_of_all(const dem_lattice *lattice)
-{
-    double area = 0.0;
-    for (dem_index t = 0; t < lattice->n_triangles; t++) {
-        const dem_index *n = lattice->triangles + 3 * t;
-        const double *a = lattice->x + 2 * n[0], *b = lattice->x + 2 * n[1], *c = lattice->x + 2 * n[2];
-        area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-    }
-    return area;
-}
-
 static void expect_inside(const dem_lattice *lattice, const outline *o, double spacing)
 {
     for (dem_index i = 0; i < lattice->n_nodes; i++)
@@ -153,7 +143,7 @@ TEST(a_ring_is_hollow)
     const shape s = {.outline = {.kind = DEM_OUTLINE_RING, .radius = 2.0, .inner = 1.0}, .spacing = 0.05};
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_lattice(&s);
     expect_inside(&lattice, &s.outline, s.spacing);
-    assert_close(area_of_all(&lattice) / (3.0 * 3.14159265), 1.0, 0.1); /* rims are jagged by a spacing */
+    assert_close(lattice_area(&lattice) / (3.0 * 3.14159265), 1.0, 0.1); /* rims are jagged by a spacing */
 }
 
 /* Its lower edge stands on a row; its notch is free of triangles, whose middles are all inside. */
@@ -171,7 +161,7 @@ TEST(a_polygon_need_not_be_convex)
         for (int c = 0; c < 6; c++) middle[c % 2] += lattice.x[2 * lattice.triangles[3 * t + c / 2] + c % 2] / 3.0;
         assert_true(outline_distance(&s.outline, middle[0], middle[1]) < 0.0);
     }
-    assert_close(area_of_all(&lattice) / 13.0, 1.0, 0.07);
+    assert_close(lattice_area(&lattice) / 13.0, 1.0, 0.07);
 }
 
 /* Six pixels of 1 m, the lower left one is empty. */
@@ -188,7 +178,7 @@ TEST(a_mask_has_nodes_in_its_bright_pixels_only)
         assert_true(fabs(x) <= 1.5 + 1e-9 && y >= 0.0 && y <= 2.0 + 1e-9);
         assert_true(x >= -0.5 - 1e-9 || y >= 1.0 - 1e-9);
     }
-    assert_close(area_of_all(&lattice) / 5.0, 1.0, 0.03);
+    assert_close(lattice_area(&lattice) / 5.0, 1.0, 0.03);
     assert_false(shape_outline_has(&s, in_hole));
     assert_true(shape_outline_has(&s, in_body));
     expect_depth(&s, 1.0, 0.5, 0.5);
@@ -202,7 +192,7 @@ TEST(a_rectangle_of_squares_has_its_size)
     CLEANUP(dem_lattice_free) dem_lattice lattice = make_lattice(&s);
     assert_int_equal(lattice.n_nodes, 21 * 11);
     assert_int_equal(lattice.n_triangles, 2 * 20 * 10);
-    assert_close(area_of_all(&lattice), 2.0, 1e-12);
+    assert_close(lattice_area(&lattice), 2.0, 1e-12);
 }
 
 /* Whole cells: all four of their corners are inside, none in a void. */

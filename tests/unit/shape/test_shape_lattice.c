@@ -7,6 +7,7 @@
 
 #include <dem/shape.h>
 
+#include "harness/lattice_area.h"
 #include "harness/message.h"
 
 static const double pi = 3.14159265358979323846;
@@ -17,17 +18,6 @@ static const dem_outline ring = {
 static const double corners[] = {0.0, 0.0, 4.0, 0.0, 4.0, 3.0, 2.0, 1.0, 0.0, 3.0};
 static const dem_outline notched = {
     .struct_size = sizeof notched, .kind = DEM_OUTLINE_POLYGON, .n_points = 5, .points = corners};
-
-static double area_of(const dem_lattice *l)
-{
-    double area = 0.0;
-    for (dem_index t = 0; t < l->n_triangles; t++) {
-        const dem_index *n = l->triangles + 3 * t;
-        const double *a = l->x + 2 * n[0], *b = l->x + 2 * n[1], *c = l->x + 2 * n[2];
-        area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-    }
-    return area;
-}
 
 static dem_lattice make(const dem_shape *s)
 {
@@ -63,11 +53,11 @@ TEST(areas_are_those_of_the_formulas)
         for (int squares = 0; squares < 2; squares++) {
             s.grid = squares ? DEM_GRID_SQUARES : DEM_GRID_TRIANGLES;
             CLEANUP(dem_lattice_free) dem_lattice stepped = make(&s);
-            assert_close(area_of(&stepped), cases[k].area, cases[k].edge * s.spacing);
+            assert_close(lattice_area(&stepped), cases[k].area, cases[k].edge * s.spacing);
         }
         s.grid = DEM_GRID_TRIANGLES, s.edge = DEM_EDGE_SMOOTH;
         CLEANUP(dem_lattice_free) dem_lattice smooth = make(&s);
-        assert_close(area_of(&smooth), cases[k].area, 3e-3 * cases[k].area);
+        assert_close(lattice_area(&smooth), cases[k].area, 3e-3 * cases[k].area);
     }
 }
 
@@ -130,7 +120,7 @@ TEST(figures_need_not_be_upright_at_the_origin)
     const dem_shape of_far = SIZED(dem_shape, .outline = &far, .spacing = 0.25);
     const dem_shape of_disc = SIZED(dem_shape, .outline = &disc, .spacing = 0.25);
     CLEANUP(dem_lattice_free) dem_lattice a = make(&of_turned), b = make(&of_far), c = make(&of_disc);
-    assert_close(area_of(&a), 6.0, 0.02);
+    assert_close(lattice_area(&a), 6.0, 0.02);
     assert_int_equal(b.n_nodes, c.n_nodes);
     for (dem_index k = 0; k < 2 * b.n_nodes; k++) assert_close(b.x[k] - (k % 2 == 0 ? 8.0 : -4.0), c.x[k], 1e-15 * 8);
 }
@@ -142,7 +132,7 @@ TEST(a_shape_may_be_drawn_in_pixels)
     const dem_shape s = SIZED(dem_shape, .image = &image, .spacing = 0.05);
     CLEANUP(dem_lattice_free) dem_lattice l = make(&s);
     assert_close(true_area(&s), 20.0, 1e-13);
-    assert_close(area_of(&l), 20.0, 20.0 * s.spacing);
+    assert_close(lattice_area(&l), 20.0, 20.0 * s.spacing);
     for (dem_index i = 0; i < l.n_nodes; i++) assert_true(l.x[2 * i] < 1.0 + 1e-9 || l.x[2 * i + 1] > 2.0 - 1e-9);
 }
 

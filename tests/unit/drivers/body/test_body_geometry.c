@@ -8,6 +8,7 @@
 
 #include "body_checks.h"
 #include "body_geometry.h"
+#include "harness/lattice_area.h"
 #include "unit/scratch.h"
 
 #define RUN    "&run t_end = 1 /\n"
@@ -70,17 +71,6 @@ static double distance_to(const dem_lattice *lattice, double x, double y)
     return least;
 }
 
-static double area_of_all(const dem_lattice *lattice)
-{
-    double area = 0.0;
-    for (dem_index t = 0; t < lattice->n_triangles; t++) {
-        const dem_index *n = lattice->triangles + 3 * t;
-        const double *a = lattice->x + 2 * n[0], *b = lattice->x + 2 * n[1], *c = lattice->x + 2 * n[2];
-        area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-    }
-    return area;
-}
-
 /* ---- shapes ---- */
 
 static void expect_area(const char *text, double area, double off)
@@ -88,7 +78,7 @@ static void expect_area(const char *text, double area, double off)
     formed f = build_good(text);
     assert_close(f.geometry.area / area, 1.0, 1e-5);
     assert_close(f.geometry.spacing, 0.1, 0.0);
-    assert_close(area_of_all(&f.lattice) / area, 1.0, off); /* edges are jagged by up to a spacing */
+    assert_close(lattice_area(&f.lattice) / area, 1.0, off); /* edges are jagged by up to a spacing */
     dem_lattice_free(&f.lattice);
 }
 
@@ -134,7 +124,7 @@ TEST(smooth_outlines_have_their_areas)
     assert_int_equal(jagged.geometry.report.n_rim, 0);
     assert_true(good.geometry.report.n_rim > 60);
     assert_int_equal(porous.geometry.report.n_off, 0);
-    assert_close(area_of_all(&porous.lattice) / (8.0 - 0.27 * pi), 1.0, 5e-3);
+    assert_close(lattice_area(&porous.lattice) / (8.0 - 0.27 * pi), 1.0, 5e-3);
 }
 
 /* ---- pores ---- */
