@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "file.h"
+#include "base/file.h"
 
 enum { MOST_LIST = 64 << 20 }; /* bytes */
 

@@ -10,7 +10,7 @@
 #include <dem/checkpoint.h>
 
 #include "ask.h"
-#include "file.h"
+#include "base/file.h"
 #include "json.h"
 #include "output.h"
 #include "preview.h"

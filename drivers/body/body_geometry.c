@@ -10,7 +10,6 @@
 #include "body_outline.h"
 #include "image_file.h"
 #include "material.h"
-#include "msh.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -237,24 +236,17 @@ static double area_of_triangle(const dem_lattice *lattice, dem_index t)
     return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
 }
 
-/* As the library does it for shapes that are `numbered`. */
-static dem_status number_triangles(dem_lattice *lattice)
-{
-    lattice->strength = calloc((size_t)lattice->n_triangles + 1, sizeof *lattice->strength);
-    for (dem_index t = 0; lattice->strength != NULL && t < lattice->n_triangles; t++) lattice->strength[t] = (double)t;
-    return lattice->strength != NULL ? DEM_OK : DEM_ERROR_MEMORY;
-}
-
 static dem_status read_mesh(former *f)
 {
-    char *path = body_geometry_file(f->folder, f->body), fault[MSH_FAULT];
+    char *path = body_geometry_file(f->folder, f->body);
     if (path == NULL) return DEM_ERROR_MEMORY;
-    const dem_status status = msh_read(&f->lattice, fault, path);
-    if (status == DEM_ERROR_MODEL)
-        namelist_errors_add(f->errors, schema_place(f->body, "file"), "body %zu: %s:%s", f->number, path, fault);
+    const dem_mesh mesh = {
+        .struct_size = sizeof mesh, .path = path, .scale = schema_real(f->body, "scale"), .numbered = true};
+    const dem_status status = dem_mesh_lattice(&f->lattice, &mesh);
+    if (status == DEM_ERROR_MODEL || status == DEM_ERROR_IO)
+        namelist_errors_add(f->errors, schema_place(f->body, "file"), "body %zu: %s", f->number, dem_status_message());
     free(path);
     if (status != DEM_OK) return status;
-    for (dem_index k = 0; k < 2 * f->lattice.n_nodes; k++) f->lattice.x[k] *= schema_real(f->body, "scale");
     double least = (double)INFINITY;
     for (dem_index t = 0; t < f->lattice.n_triangles; t++) {
         const double area = area_of_triangle(&f->lattice, t);
@@ -262,7 +254,7 @@ static dem_status read_mesh(former *f)
         f->geometry.area += area;
     }
     f->geometry.spacing = sqrt(least / 0.43301270189221932); /* sqrt(3)/4 */
-    return number_triangles(&f->lattice);
+    return DEM_OK;
 }
 
 const char *body_geometry_hint(const schema_instance *body)

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-#include "text_reader.h"
+#include "base/text_reader.h"
 
 bool pgm_begins(const char *bytes, size_t size)
 {

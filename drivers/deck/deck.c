@@ -14,7 +14,7 @@
 #include "conditional_keys.h"
 #include "copies.h"
 #include "digest.h"
-#include "file.h"
+#include "base/file.h"
 #include "loading.h"
 #include "obstacles.h"
 #include "precision.h"

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "file.h"
+#include "base/file.h"
 #include "body_geometry.h"
 #include "image_file.h"
 #include "material.h"

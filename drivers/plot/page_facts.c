@@ -7,7 +7,7 @@
 #include <dem/trajectory.h>
 
 #include "choice.h"
-#include "file.h"
+#include "base/file.h"
 #include "json.h"
 #include "legend.h"
 #include "palette.h"

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** dem/shape.h -- triangulations of bodies by their shapes: rectangles, discs, rings, polygons and images, less voids
- *  and random pores; and what of a lattice lies in a figure or on a crack.
- *  A dem_shape becomes a lattice of nodes and triangles, which dem/lattice.h cuts further, assembles and moves. */
+ *  and random pores; those of meshes by Gmsh; and what of a lattice lies in a figure or on a crack.
+ *  A dem_shape or a dem_mesh becomes a lattice of nodes and triangles, which dem/lattice.h cuts further, assembles and
+ *  moves. */
 #ifndef DEM_SHAPE_H
 #define DEM_SHAPE_H
 
@@ -173,6 +174,28 @@ typedef struct dem_pores {
  *          more than DEM_PORES_MAX; DEM_ERROR_MEMORY */
 DEM_API dem_status dem_shape_place_pores(const dem_shape *shape, const dem_pores *recipe, double *pores,
                                          dem_index capacity, dem_index *n);
+
+/* ---- meshes ---------------------------------------------------------------------------------------------------- */
+
+/** A mesh by Gmsh: MSH 4.1, text, with triangles of 3 nodes in the plane z = 0; `gmsh -2 -format msh41` writes it.
+ *  Points and lines among its elements are passed over. */
+typedef struct dem_mesh {
+    size_t struct_size; /**< to be set to sizeof(dem_mesh) */
+    const char *path;   /**< of its file, a regular one of 1 GiB at most; NULL for a text */
+    const char *text;   /**< [size] what would be in the file, any bytes, without a zero at the end; NULL for a path */
+    dem_index size;     /**< bytes of the text, >= 0 */
+    double scale;       /**< m, > 0: length of 1 in its coordinates */
+    bool numbered;      /**< as in dem_shape */
+} dem_mesh;
+
+/** Reads a mesh: its nodes, but for those of no triangle, and its triangles, made counter-clockwise, both in the order
+ *  of the mesh. Nodes and triangles only, as of dem_shape_lattice().
+ *  \param[out] out  from dem_lattice_empty(); overwritten, not freed; caller owns it
+ *  \return DEM_ERROR_MODEL for what is no such mesh, without triangles, or with one that has no area or overlaps
+ *          another on its side of an edge: the message is "PATH:LINE: what is wrong", of a text "the mesh:LINE: ...",
+ *          with the end of a long path only; DEM_ERROR_IO where the file cannot be read; DEM_ERROR_ARGUMENT for a
+ *          member outside its range; DEM_ERROR_MEMORY */
+DEM_API dem_status dem_mesh_lattice(dem_lattice *out, const dem_mesh *mesh);
 
 /* ---- what of a lattice is where -------------------------------------------------------------------------------- */
 

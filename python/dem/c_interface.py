@@ -887,6 +887,19 @@ class dem_pores(SizedStructure):
                 ("wall", c_double), ("seed", c_uint64)]
 
 
+class dem_mesh(SizedStructure):
+    """A mesh by Gmsh: MSH 4.1, text, with triangles of 3 nodes in the plane z = 0; `gmsh -2 -format msh41` writes it.
+    Points and lines among its elements are passed over.
+    struct_size: to be set to sizeof(dem_mesh)
+    path: of its file, a regular one of 1 GiB at most; NULL for a text
+    text: [size] what would be in the file, any bytes, without a zero at the end; NULL for a path
+    size: bytes of the text, >= 0
+    scale: m, > 0: length of 1 in its coordinates
+    numbered: as in dem_shape"""
+    _fields_ = [("struct_size", c_size_t), ("path", c_char_p), ("text", c_char_p), ("size", c_int64),
+                ("scale", c_double), ("numbered", c_bool)]
+
+
 # ---- dem/dem.h
 
 
@@ -1552,6 +1565,15 @@ FUNCTIONS = {  # name: (result, arguments, text)
         Returns DEM_ERROR_ARGUMENT for a number outside its range, where next to no radius lies between the smallest
         and the largest, and where the capacity is too small; DEM_ERROR_MODEL where a pore finds no place or the area
         needs more than DEM_PORES_MAX; DEM_ERROR_MEMORY"""),
+    "dem_mesh_lattice": (c_int, [POINTER(dem_lattice), POINTER(dem_mesh)],
+        """dem_mesh_lattice(out, mesh)
+        Reads a mesh: its nodes, but for those of no triangle, and its triangles, made counter-clockwise, both in the
+        order of the mesh. Nodes and triangles only, as of dem_shape_lattice().
+        out from dem_lattice_empty(); overwritten, not freed; caller owns it
+        Returns DEM_ERROR_MODEL for what is no such mesh, without triangles, or with one that has no area or overlaps
+        another on its side of an edge: the message is "PATH:LINE: what is wrong", of a text "the mesh:LINE: ...",
+        with the end of a long path only; DEM_ERROR_IO where the file cannot be read; DEM_ERROR_ARGUMENT for a member
+        outside its range; DEM_ERROR_MEMORY"""),
     "dem_lattice_inside": (c_int, [POINTER(dem_lattice), POINTER(dem_outline), c_int64, POINTER(c_bool),
                                    POINTER(c_bool)],
         """dem_lattice_inside(lattice, outline, step, triangles, springs)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What bodies are made of: materials, and lattices of nodes, springs and triangles."""
 import ctypes
+import os
 from ctypes import byref, c_bool, c_double, c_int32, c_int64, c_ubyte, sizeof
 
 import numpy as np
@@ -101,6 +102,16 @@ class Lattice:
     def read(cls, path):
         """From the group /lattice of an HDF5 file, such as any that dem writes."""
         return cls._made(library.dem_lattice_read, str(path).encode())
+
+    @classmethod
+    def mesh(cls, file, scale=1.0):
+        """Of a mesh by Gmsh, MSH 4.1 as text: the path of its file, or the text itself as bytes.
+        scale: m, length of 1 in its coordinates"""
+        if isinstance(file, bytes):
+            made = c.dem_mesh(text=file, size=len(file), scale=scale)
+        else:
+            made = c.dem_mesh(path=os.fsencode(file), scale=scale)
+        return cls._made(library.dem_mesh_lattice, byref(made))
 
     @classmethod
     def of_arrays(cls, x, **arrays):

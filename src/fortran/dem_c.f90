@@ -1164,6 +1164,14 @@ module dem_c
     integer(c_int64_t) :: seed = 0
   end type
 
+  type, bind(c) :: dem_mesh
+    integer(c_size_t) :: struct_size = 48
+    type(c_ptr) :: path = c_null_ptr, text = c_null_ptr
+    integer(dem_index) :: size = 0
+    real(c_double) :: scale = 0
+    logical(c_bool) :: numbered = .false.
+  end type
+
   interface
 
     integer(dem_status) function dem_points_check(points, n) bind(c)
@@ -1223,6 +1231,12 @@ module dem_c
       real(c_double), intent(out) :: pores(3, *)
       integer(dem_index), value :: capacity
       integer(dem_index), intent(out) :: n
+    end function
+
+    integer(dem_status) function dem_mesh_lattice(out, mesh) bind(c)
+      import
+      type(dem_lattice), intent(inout) :: out
+      type(dem_mesh), intent(in) :: mesh
     end function
 
     integer(dem_status) function dem_lattice_inside(lattice, outline, step, triangles, springs) bind(c)

@@ -11,18 +11,9 @@
 #include "shape/pores.h"
 #include "shape/shape_input.h"
 #include "shape/smoothing.h"
+#include "shape/triangle_numbers.h"
 
 /* ---- lattice ---- */
-
-/* Triangles have no strength yet; what is written there goes along with those that stay. Doubles hold the numbers
- * exactly. */
-static dem_status number_triangles(dem_lattice *lattice)
-{
-    lattice->strength = lattice_zeros(lattice->n_triangles, sizeof *lattice->strength);
-    CHECK_MEMORY(lattice->strength);
-    for (dem_index t = 0; t < lattice->n_triangles; t++) lattice->strength[t] = (double)t;
-    return DEM_OK;
-}
 
 /* A void that takes nothing is an error where it is not in the body at all; one between nodes is only small. */
 static dem_status check_voids(const shape *s, const dem_shape *ours, const dem_lattice *lattice,
@@ -58,7 +49,7 @@ static dem_status triangulate(dem_lattice *lattice, const shape *s, const dem_sh
     dem_status status = shape_mesh(lattice, s);
     CHECK(status != DEM_ERROR_MODEL, DEM_ERROR_ARGUMENT, "%s would have more nodes than 2^40 with the spacing %g m",
           name, s->spacing);
-    if (status == DEM_OK && ours->numbered) status = number_triangles(lattice);
+    if (status == DEM_OK && ours->numbered) status = triangle_numbers_add(lattice);
     if (status == DEM_OK) status = check_voids(s, ours, lattice, report);
     if (status != DEM_OK) return status;
     const dem_index n = lattice->n_nodes;

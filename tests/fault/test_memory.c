@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <dem/trajectory.h>
 
@@ -71,6 +72,20 @@ static dem_status build_squares(void)
     return status;
 }
 
+static dem_status read_mesh(void)
+{
+    static const char text[] = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n"
+                               "0 1 0\n$EndNodes\n$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n";
+    const dem_mesh mesh = {.struct_size = sizeof(dem_mesh), .path = "fault.msh", .scale = 1.0, .numbered = true};
+    CLEANUP(dem_lattice_free) dem_lattice lattice = dem_lattice_empty();
+    FILE *file = fopen(mesh.path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    const dem_status status = dem_mesh_lattice(&lattice, &mesh);
+    assert_int_equal(unlink(mesh.path), 0);
+    return status;
+}
+
 static dem_status measure(const dem_model *model)
 {
     dem_constants constants = {.struct_size = sizeof constants};
@@ -129,6 +144,7 @@ static dem_status run(void)
     CLEANUP(free_simulation) dem_simulation *simulation = NULL;
     lattice = dem_lattice_empty();
     dem_status status = build_squares();
+    if (status == DEM_OK) status = read_mesh();
     if (status == DEM_OK) status = build(&lattice);
     if (status == DEM_OK) status = dem_model_create(&model, &lattice, &obstacle, 1);
     if (status == DEM_OK) status = measure(model);

@@ -43,6 +43,7 @@ program calls
   call strings()
   call lattices()
   call shapes()
+  call meshes()
   call models()
   call simulations()
   call checkpoints()
@@ -101,6 +102,33 @@ contains
     call expect(dem_shape_lattice(made, shape) == DEM_ERROR_ARGUMENT, 'no ring')
     call expect(index(dem_status_message(), 'inner radius') > 0, 'and why')
     call dem_lattice_free(made)
+  end subroutine
+
+  subroutine meshes()
+    character(*), parameter :: lines(*) = [character(14) :: '$MeshFormat', '4.1 0 8', '$EndMeshFormat', '$Nodes', &
+        '1 3 1 3', '2 1 0 3', '7', '8', '9', '0 0 0', '1 0 0', '0 1 0', '$EndNodes', '$Elements', '1 1 1 1', &
+        '2 1 2 1', '1 7 9 8', '$EndElements']
+    character(:), allocatable, target :: text
+    type(dem_mesh) :: mesh = dem_mesh(scale=0.5d0)
+    type(dem_lattice) :: made
+    real(c_double), pointer :: x(:, :)
+    real(c_double) :: apart
+    integer :: k
+    text = ''
+    do k = 1, size(lines)
+      text = text//trim(lines(k))//new_line('a')
+    end do
+    mesh%text = c_loc(text)
+    mesh%size = len(text)
+    made = dem_lattice_empty()
+    call succeed(dem_mesh_lattice(made, mesh))
+    call c_f_pointer(made%x, x, [2, 3])
+    apart = maxval(abs(x - reshape([0d0, 0d0, 0.5d0, 0d0, 0d0, 0.5d0], [2, 3])))
+    call expect(made%n_triangles == 1 .and. apart <= 0d0, 'a mesh')
+    call dem_lattice_free(made)
+    mesh%size = index(text, '8'//new_line('a')) ! in its second line
+    call expect(dem_mesh_lattice(made, mesh) == DEM_ERROR_MODEL, 'no mesh')
+    call expect(index(dem_status_message(), 'the mesh:2:') == 1, 'and in which line')
   end subroutine
 
   subroutine strings()

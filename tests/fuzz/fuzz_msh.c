@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Any bytes may come as a mesh. One that is accepted is a triangulation: its triangles are counter-clockwise and on
  * nodes that there are, and every node has one. */
-#include "msh.h"
+#include "shape/msh.h"
 
 #include <stdint.h>
 #include <stdlib.h>

@@ -156,6 +156,35 @@ class Shapes(Case):
                 self.assertIn(message, str(caught.exception))
 
 
+class Meshes(Case):
+    SOLID = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "thickness": 0.01, "springs": "coupled"}
+
+    def test_a_mesh_is_the_body_of_a_deck_to_the_bit(self):
+        """As dem_batch has written it."""
+        deck = dem.deck(run={"t_end": 1e-9}, material={"name": "steel", **self.SOLID}, output={"name": "ring"},
+                        body={"shape": "mesh", "file": str(INPUTS / "ring.msh"), "scale": 1e-3, "material": "steel"},
+                        obstacle={"points": [(-1, -1), (1, -1)]})
+        (self.folder / "ring.nml").write_text(deck, encoding="utf-8")
+        dem.run(self.folder / "ring.nml", outdir=self.folder)
+        written = dem.Lattice.read(self.folder / "ring.vtkhdf")
+        made = dem.Lattice.mesh(INPUTS / "ring.msh", 1e-3).assemble(dem.Material(**self.SOLID))
+        for name in ("x", "mass", "ends", "rest_length", "stiffness", "triangles", "coupling"):
+            np.testing.assert_array_equal(getattr(made, name), getattr(written, name), name)
+
+    def test_a_text_is_read_as_its_file_is(self):
+        text = (INPUTS / "ring.msh").read_bytes()
+        file, memory = dem.Lattice.mesh(INPUTS / "ring.msh"), dem.Lattice.mesh(text)
+        np.testing.assert_array_equal(file.x, memory.x)
+        np.testing.assert_array_equal(file.triangles, memory.triangles)
+        self.assertAlmostEqual(np.hypot(*file.x.T).max(), 50.0, delta=1e-6)  # mm
+        with self.assertRaisesRegex(dem.ModelError, "the mesh:2: MSH version 4.1"):
+            dem.Lattice.mesh(text.replace(b"4.1 0 8", b"2.2 0 8"))
+        with self.assertRaisesRegex(dem.FileError, "none.msh: No such file"):
+            dem.Lattice.mesh("none.msh")
+        with self.assertRaisesRegex(dem.ArgumentError, "scale"):
+            dem.Lattice.mesh(text, scale=-1.0)
+
+
 class Runs(Case):
     def test_a_run_is_that_of_dem_batch_to_the_bit(self):
         subprocess.run([DEM_BATCH, "--set", "run.t_end=8e-3", str(INPUTS / "disc.nml")], cwd=self.folder, check=True,

@@ -218,6 +218,21 @@ TEST(a_mesh_is_scaled_and_may_have_cracks)
     expect_fault(with_file(MESH, SQUARE, " /\n&crack points = 0.1, 0.8, 0.8, 0.1 /"), 0, 1, "cracks leave none of 2");
 }
 
+/* By what a program calls. */
+TEST(a_mesh_is_the_lattice_that_the_library_makes_of_it)
+{
+    formed f = build_good(with_file(MESH, SQUARE, " /"));
+    CLEANUP(dem_lattice_free) dem_lattice own = dem_lattice_empty();
+    const dem_mesh mesh = SIZED(dem_mesh, .text = SQUARE, .size = sizeof SQUARE - 1, .scale = 0.5, .numbered = true);
+    assert_int_equal(dem_mesh_lattice(&own, &mesh), DEM_OK);
+    assert_int_equal(f.lattice.n_nodes, own.n_nodes);
+    assert_int_equal(f.lattice.n_triangles, own.n_triangles);
+    assert_memory_equal(f.lattice.x, own.x, (size_t)own.n_nodes * 2 * sizeof *own.x);
+    assert_memory_equal(f.lattice.triangles, own.triangles, (size_t)own.n_triangles * 3 * sizeof *own.triangles);
+    assert_memory_equal(f.lattice.strength, own.strength, (size_t)own.n_triangles * sizeof *own.strength);
+    dem_lattice_free(&f.lattice);
+}
+
 TEST(cracks_are_for_their_body_and_must_meet_it)
 {
     formed whole = build_good(BLOCK DISC), f = build_good(BLOCK DISC "&crack body = 2, points = 0,0, 1,0 /");

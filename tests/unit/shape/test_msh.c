@@ -5,11 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "harness/message.h"
-#include "msh.h"
-#include "unit/scratch.h"
+#include "shape/msh.h"
 
 #define FORMAT "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" /* lines 1 to 3 */
 
@@ -141,21 +139,4 @@ TEST(no_beginning_of_a_mesh_is_harmful)
         assert_true(status == DEM_OK ? n == sizeof text - 2 : fault[0] != '\0');
         free(part);
     }
-}
-
-TEST(a_file_is_read_as_its_text_is)
-{
-    CLEANUP(folder_close) scratch_folder f;
-    char fault[MSH_FAULT] = "";
-    dem_lattice lattice = dem_lattice_empty();
-    folder_open(&f);
-    const char *path = folder_file(&f, "a.msh");
-    file_put(path, FORMAT NODES ELEMENTS, strlen(FORMAT NODES ELEMENTS));
-    assert_int_equal(msh_read(&lattice, fault, path), DEM_OK);
-    assert_int_equal(lattice.n_triangles, 2);
-    dem_lattice_free(&lattice);
-    assert_int_equal(unlink(path), 0);
-    assert_int_equal(msh_read(&lattice, fault, path), DEM_ERROR_MODEL);
-    assert_string_equal(fault, " No such file or directory");
-    assert_null(lattice.x);
 }

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "text_reader.h"
+#include "base/text_reader.h"
 
 static text_reader begin(const char *text, char comment)
 {

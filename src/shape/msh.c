@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "msh.h"
+#include "shape/msh.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "file.h"
-#include "text_reader.h"
-
-static const size_t most = (size_t)1 << 30; /* bytes of a file */
+#include "base/text_reader.h"
 
 enum { TYPE_LINE = 1, TYPE_TRIANGLE = 2, TYPE_POINT = 15 }; /* of elements */
 enum { NODE_BYTES = 8, ELEMENT_BYTES = 4 };                 /* "1\n0 0 0\n", "1 1\n" */
@@ -294,18 +291,5 @@ dem_status msh_parse(dem_lattice *out, char *fault, const char *text, size_t siz
     else
         (void)snprintf(fault, MSH_FAULT, "%zu: %s", w.last, w.fault);
     drop(&m);
-    return status;
-}
-
-dem_status msh_read(dem_lattice *out, char *fault, const char *path)
-{
-    char *text, why[FILE_WHY];
-    size_t size;
-    *out = dem_lattice_empty();
-    const file_status read = file_read(&text, &size, path, most, why);
-    if (read == FILE_REFUSED) (void)snprintf(fault, MSH_FAULT, " %s", why);
-    if (read != FILE_READ) return read == FILE_MEMORY ? DEM_ERROR_MEMORY : DEM_ERROR_MODEL;
-    const dem_status status = msh_parse(out, fault, text, size);
-    free(text);
     return status;
 }

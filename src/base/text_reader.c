@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "text_reader.h"
+#include "base/text_reader.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Words and numbers of a text between blanks, with the line in which reading stands and the first fault. */
-#ifndef DEM_TEXT_READER_H
-#define DEM_TEXT_READER_H
+#ifndef DEM_BASE_TEXT_READER_H
+#define DEM_BASE_TEXT_READER_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Gmsh meshes: MSH 4.1, text, triangles in the plane z = 0. */
-#ifndef DEM_MSH_H
-#define DEM_MSH_H
+#ifndef DEM_SHAPE_MSH_H
+#define DEM_SHAPE_MSH_H
 
 #include <stdbool.h>
 
@@ -17,8 +17,5 @@ enum { MSH_FAULT = 240 }; /* bytes of a fault */
  * \param text        [size]
  * \return DEM_ERROR_MEMORY, DEM_ERROR_MODEL */
 dem_status msh_parse(dem_lattice *out, char *fault, const char *text, size_t size);
-
-/* The same from a file. Also where it cannot be read it is DEM_ERROR_MODEL, and the fault begins with a blank. */
-dem_status msh_read(dem_lattice *out, char *fault, const char *path);
 
 #endif

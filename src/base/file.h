@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A file as bytes in memory. */
-#ifndef DEM_FILE_H
-#define DEM_FILE_H
+#ifndef DEM_BASE_FILE_H
+#define DEM_BASE_FILE_H
 
 #include <stddef.h>
 
