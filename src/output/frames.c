@@ -146,13 +146,18 @@ static void fill_broken_triangles(const frames *f, const view *v)
     (void)dem_simulation_broken(v->simulation, (unsigned char *)f->scratch, NULL);
 }
 
-/* What VTK does not draw. */
-static void fill_hidden(const frames *f, const view *v)
+/* From what is broken, in the scratch, to what VTK does not draw. */
+static void hide(const frames *f, dem_index n)
 {
     enum { VTK_HIDDEN_CELL = 32 };
     unsigned char *hidden = (unsigned char *)f->scratch;
+    for (dem_index k = 0; k < n; k++) hidden[k] = hidden[k] != 0 ? VTK_HIDDEN_CELL : 0;
+}
+
+static void fill_hidden(const frames *f, const view *v)
+{
     fill_broken_triangles(f, v);
-    for (dem_index k = 0; k < f->n_triangles; k++) hidden[k] = hidden[k] != 0 ? VTK_HIDDEN_CELL : 0;
+    hide(f, f->n_triangles);
 }
 
 /* All arrays that change from frame to frame. `field` is the option that asks for one. */
@@ -500,16 +505,43 @@ static hdf5_rows row_of(int k)
 }
 enum { N_ROWS = N_ENERGIES + 2 };
 
+/* Whether the file is of a version that did not write this array yet, which follows from FRAMES_BROKEN_TRIANGLES. */
+static bool is_older(const hdf5_file *file, const struct array *a)
+{
+    return a->fill == fill_hidden && !hdf5_has(file, a->name);
+}
+
+/* What is hidden, from a file that has only what is broken. */
+static dem_status copy_hidden(const frames *f, const hdf5_file *from, const hdf5_file *to, const struct array *a,
+                              hdf5_span span)
+{
+    const hdf5_rows rows = array_rows(f, a);
+    const hsize_t n = (hsize_t)count_of(f, a->of);
+    hdf5_rows flags = rows;
+    flags.name = FRAMES_BROKEN_TRIANGLES;
+    for (hsize_t k = 0; k < span.count; k++) {
+        TRY(hdf5_read(from, &flags, n * (span.first + k), n, f->scratch));
+        hide(f, (dem_index)n);
+        TRY(hdf5_append(to, &rows, n * (span.at + k), n, f->scratch));
+    }
+    return DEM_OK;
+}
+
+static dem_status copy_array(const frames *f, const hdf5_file *from, const hdf5_file *to, const struct array *a,
+                             hdf5_span span)
+{
+    const hdf5_rows rows = array_rows(f, a);
+    const hsize_t n = (hsize_t)count_of(f, a->of);
+    if (is_older(from, a)) return copy_hidden(f, from, to, a, span);
+    return hdf5_copy(from, to, &rows, (hdf5_span){n * span.first, n * span.count, n * span.at});
+}
+
 /* Data are copied, offsets are computed anew, since the frames begin elsewhere here. */
 dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span)
 {
     if (span.count == 0) return DEM_OK;
-    for (int k = 0; k < N_ARRAYS; k++) {
-        const hdf5_rows rows = array_rows(f, &arrays[k]);
-        const hsize_t n = (hsize_t)count_of(f, arrays[k].of);
-        if (is_wanted(f, &arrays[k]))
-            TRY(hdf5_copy(from, to, &rows, (hdf5_span){n * span.first, n * span.count, n * span.at}));
-    }
+    for (int k = 0; k < N_ARRAYS; k++)
+        if (is_wanted(f, &arrays[k])) TRY(copy_array(f, from, to, &arrays[k], span));
     for (int k = 0; k < N_ROWS; k++) {
         const hdf5_rows rows = row_of(k);
         TRY(hdf5_copy(from, to, &rows, span));
@@ -519,19 +551,15 @@ dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *
     return write_count(to, (dem_index)(span.at + span.count));
 }
 
-/* Values has the number of frames; every other dataset must agree. */
-dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n)
-{
-    TRY(hdf5_count_rows(file, STEPS "/Values", n));
-    return frames_verify(f, file, *n);
-}
-
-/* Checks the shape of every dataset that the frames need, by the same tables by which they are written. */
-dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n)
+/* Checks the shape of every dataset that the frames need, by the same tables by which they are written.
+ * \param older  the file may be of a version before some of them, which frames_copy() makes from others */
+static dem_status check(const frames *f, const hdf5_file *file, hsize_t n, bool older)
 {
     for (int k = 0; k < N_ARRAYS; k++) {
-        const hdf5_rows rows = array_rows(f, &arrays[k]);
-        if (is_wanted(f, &arrays[k])) TRY(hdf5_expect_rows(file, &rows, n * (hsize_t)count_of(f, arrays[k].of)));
+        const struct array *a = &arrays[k];
+        hdf5_rows rows = array_rows(f, a);
+        if (older && is_older(file, a)) rows.name = FRAMES_BROKEN_TRIANGLES;
+        if (is_wanted(f, a)) TRY(hdf5_expect_rows(file, &rows, n * (hsize_t)count_of(f, a->of)));
     }
     for (int k = 0; k < N_ROWS; k++) {
         const hdf5_rows rows = row_of(k);
@@ -539,7 +567,20 @@ dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n)
     }
     for (int o = 0; o < N_OFFSETS; o++) {
         const hdf5_rows rows = frame_rows(offsets[o].name, HDF5_I64, offsets[o].rank);
-        if (is_there(f, offsets[o].of)) TRY(hdf5_expect_rows(file, &rows, n));
+        const bool needed = is_there(f, offsets[o].of) && !(older && !hdf5_has(file, rows.name));
+        if (needed) TRY(hdf5_expect_rows(file, &rows, n));
     }
     return hdf5_expect_attribute(file, STEPS, "NSteps", (dem_index)n);
+}
+
+/* Values has the number of frames; every other dataset must agree. */
+dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n)
+{
+    TRY(hdf5_count_rows(file, STEPS "/Values", n));
+    return check(f, file, *n, true);
+}
+
+dem_status frames_verify(const frames *f, const hdf5_file *file, hsize_t n)
+{
+    return check(f, file, n, false);
 }

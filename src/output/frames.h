@@ -61,10 +61,12 @@ dem_status frames_write_constant(const frames *f, const hdf5_file *file, const f
 /** Turns stresses xx, yy, xy [n][3] into VTK's symmetric tensors xx, yy, zz, xy, yz, xz [n][6]; zz is 0. */
 void frames_spread_stress(double *out, dem_index n, const double *stress);
 
-/** Copies frames of another file; in this one they begin at frame span.at. */
+/** Copies frames of another file; in this one they begin at frame span.at. What a file of an older version does not
+ *  have is made from what is broken. */
 dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *to, hdf5_span span);
 
-/** The number of frames of a file; DEM_ERROR_IO unless every array has as many. */
+/** The number of frames of a file; DEM_ERROR_IO unless every array has as many, but for those that frames_copy()
+ *  makes. */
 dem_status frames_count(const frames *f, const hdf5_file *file, hsize_t *n);
 
 /** DEM_ERROR_IO unless every array has n frames. */

@@ -309,6 +309,11 @@ static dem_status end_link(const hdf5_file *file, const char *name, hid_t links,
     return status;
 }
 
+bool hdf5_has(const hdf5_file *file, const char *name)
+{
+    return H5Lexists(file->id, name, H5P_DEFAULT) > 0;
+}
+
 dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target)
 {
     const hid_t links = hdf5_parents();

@@ -5,6 +5,8 @@
 #ifndef DEM_OUTPUT_HDF5_FILE_H
 #define DEM_OUTPUT_HDF5_FILE_H
 
+#include <stdbool.h>
+
 #include <dem/dem.h>
 
 #include "output/deflater.h"
@@ -53,6 +55,9 @@ dem_status hdf5_fail(const hdf5_file *file, const char *name, const char *what);
 
 /** Property list for a new object by which missing groups on the way to it are made. */
 hid_t hdf5_parents(void);
+
+/** Whether there is an object of this name. */
+bool hdf5_has(const hdf5_file *file, const char *name);
 
 /** Gives a dataset a second name. */
 dem_status hdf5_link(const hdf5_file *file, const char *name, const char *target);

@@ -181,6 +181,37 @@ TEST(triangles_are_the_cells_of_a_second_grid)
     put_away(f);
 }
 
+static void drop(const reader *f, const char *name)
+{
+    assert_true(H5Ldelete(f->stored.file.id, name, H5P_DEFAULT) >= 0);
+}
+
+/* As before there was the second grid. */
+TEST(of_an_older_file_what_is_hidden_is_made_from_what_is_broken)
+{
+    static const char hidden[] = "/bodies/CellData/vtkGhostType";
+    reader *f = shoot_breaking(open_block, 0, 0, 3);
+    const hsize_t n = (hsize_t)f->frames.n_triangles;
+    stored copy;
+    hsize_t count = 0;
+    drop(f, "/bodies");
+    drop(f, "/VTKHDF/Steps/CellDataOffsets/vtkGhostType");
+    assert_int_equal(frames_verify(&f->frames, &f->stored.file, 2), DEM_ERROR_IO);
+    assert_ok(frames_count(&f->frames, &f->stored.file, &count));
+    assert_int_equal(count, 2);
+    stored_open(&copy);
+    assert_ok(frames_create(&f->frames, &copy.file, dem_model_lattice(f->run.model)));
+    assert_ok(frames_copy(&f->frames, &f->stored.file, &copy.file, (hdf5_span){1, 1, 0}));
+    assert_ok(frames_copy(&f->frames, &f->stored.file, &copy.file, (hdf5_span){0, 2, 1}));
+    assert_ok(frames_verify(&f->frames, &copy.file, 3));
+    const double *value = stored_values(&copy, hidden, 3 * n, 1, 1);
+    for (hsize_t k = 0; k < 3 * n; k++) assert_close(value[k], k / n != 1 && k % n < 3 ? 32.0 : 0.0, 0.0);
+    stored_close(&copy);
+    drop(f, "/fracture");
+    assert_int_equal(frames_count(&f->frames, &f->stored.file, &count), DEM_ERROR_IO);
+    put_away(f);
+}
+
 /* Half a metre of rubber. */
 static void open_plate(support_run *run)
 {

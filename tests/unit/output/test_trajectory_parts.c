@@ -386,6 +386,33 @@ TEST(a_run_that_was_cut_has_the_data_of_one_that_was_not)
     }
 }
 
+/* As a version before the grid of triangles would have written it. */
+static void make_old(const place *p, const char *name)
+{
+    static const char *const later[] = {"/bodies", "/VTKHDF/Steps/CellDataOffsets/vtkGhostType"};
+    hdf5_file file;
+    assert_ok(hdf5_open_write(&file, name_in(p, name), 0));
+    for (size_t k = 0; k < sizeof later / sizeof *later; k++)
+        assert_true(H5Ldelete(file.id, later[k], H5P_DEFAULT) >= 0);
+    assert_ok(hdf5_close(&file, DEM_OK));
+}
+
+/* From its segment, and from the whole of it. */
+TEST(a_run_of_before_there_was_a_grid_of_triangles_goes_on)
+{
+    CLEANUP(close_place) place p = open_place();
+    run_quietly(&p);
+    CLEANUP(drop_point) const point a = run(&p, "run.vtkhdf", NULL, (plan){40, 40, 70});
+    make_old(&p, "run.00001.vtkhdf");
+    sweep(&p, "run.body.vtkhdf");
+    CLEANUP(drop_point) const point b = run(&p, "run.vtkhdf", &a, (plan){0, 0, 0});
+    assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
+    assert_true(has(&p, "run.body.vtkhdf"));
+    make_old(&p, "run.vtkhdf");
+    CLEANUP(drop_point) const point c = run(&p, "run.vtkhdf", &a, (plan){0, 0, 0});
+    assert_same_data(&p, "quiet.vtkhdf", "run.vtkhdf");
+}
+
 /* ---- a segment ---- */
 
 static double first_time(const place *p, const char *name, const char *dataset)
