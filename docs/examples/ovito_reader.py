@@ -44,7 +44,7 @@ class DemReader(FileReaderInterface):
             whole = shown(frames["CellData/broken"], springs) == 0
             bonds = particles.create_bonds(count=whole.sum())
             bonds.create_property("Topology", data=lattice["ends"][...][whole])
-            for name in sorted(frames["CellData"].keys() - {"broken"}):
+            for name in sorted(frames["CellData"].keys() - {"broken", "vtkGhostType"}):
                 bonds.create_property(name, data=shown(frames["CellData"][name], springs)[whole])
             spacing = lattice["rest_length"][...].min() if springs else 1.0
             particles.vis.radius, bonds.vis.width = 0.15 * spacing, 0.15 * spacing

@@ -19,8 +19,6 @@ view = simple.CreateRenderView(ViewSize=[1200, 900], InteractionMode="2D", Orien
                                UseColorPaletteForBackground=0, Background=[1, 1, 1])
 bodies = simple.VTKHDFReader(registrationName="bodies", FileName=stem + ".body.vtkhdf")
 springs = simple.VTKHDFReader(registrationName="springs", FileName=path)
-whole = simple.Threshold(registrationName="springs that hold", Input=springs, Scalars=["CELLS", "broken"],
-                         ThresholdMethod="Below Lower Threshold", LowerThreshold=0.5)
 times = bodies.TimestepValues
 frame = range(len(times))[int(sys.argv[3]) if len(sys.argv) > 3 else -1]
 scene = simple.GetAnimationScene()
@@ -37,7 +35,7 @@ if "von_mises" in bodies.PointData.keys():
     bar = simple.GetScalarBar(colours, view)
     bar.Title, bar.ComponentTitle, bar.TitleColor, bar.LabelColor = "von Mises, Pa", "", [0, 0, 0], [0, 0, 0]
     shown.SetScalarBarVisibility(view, True)
-simple.Hide(whole, view)
+simple.Hide(springs, view)
 if os.path.exists(stem + ".obstacle.vtkhdf"):
     obstacles = simple.VTKHDFReader(registrationName="obstacles", FileName=stem + ".obstacle.vtkhdf")
     simple.Show(obstacles, view, Ambient=1, Diffuse=0, AmbientColor=[0.5] * 3, DiffuseColor=[0.5] * 3, LineWidth=4)

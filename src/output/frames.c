@@ -9,15 +9,16 @@
  *   PointData/id              [N]       constant: the offset is 0 in every frame
  *   Connectivity, Types, ...            constant: Steps/CellOffsets is 0 in every frame
  *   Steps/Values, NSteps      [T], T    the times, and how many frames count
- * The cells are springs. A grid has one kind of data for all its cells, so that the K triangles are a second grid, over
- * the same points, data of these, and steps, by links:
+ * The cells are M springs. A grid has one kind of data for all its cells, so that the K triangles are a second grid,
+ * over the same points, data of these, and times, by links:
+ *   CellData/vtkGhostType     [T M]     what is broken is hidden by it
  *   /bodies/Points, ...                 links to /VTKHDF/Points, ...
  *   /bodies/Connectivity, ...           constant
- *   /bodies/CellData/vtkGhostType [T K] frame k has the rows k K to (k + 1) K - 1; what is broken is hidden by it
- *   Steps/CellDataOffsets/vtkGhostType  [T] 0, K, 2 K, ...
+ *   /bodies/CellData/vtkGhostType [T K] frame k has the rows k K to (k + 1) K - 1
+ *   /bodies/Steps/Values, ...           links, too, but for NSteps, and CellDataOffsets, which are of its own cells
  *   /fracture/triangles       [T K]     the flags 0 and 1, for all who do not draw: no grid, no offsets
- * Both are written in every frame, as all arrays are: a segment has those of its own frames, whatever is in others, and
- * zeros deflate to a 200th.
+ * All are written in every frame, as other arrays are: a segment has those of its own frames, whatever is in others,
+ * and zeros deflate to a 200th.
  * The table `arrays` is the one list of arrays: writing, copying and checking go through it. Cells and their types are
  * in vtk_grid.c; when a frame is written is decided in trajectory.c. */
 #include "output/frames.h"
@@ -37,6 +38,8 @@
     {                                                                                                                  \
         IN("FieldData", name "_energy")                                                                                \
     }
+
+#define BODY_STEPS FRAMES_BODIES "/Steps"
 
 /* Fields for which the stresses of all nodes are needed. */
 enum { ANY_STRESS = DEM_FIELD_STRESS | DEM_FIELD_VON_MISES | DEM_FIELD_PRINCIPAL };
@@ -156,6 +159,12 @@ static void hide(const frames *f, dem_index n)
 
 static void fill_hidden(const frames *f, const view *v)
 {
+    fill_broken(f, v);
+    hide(f, f->n_springs);
+}
+
+static void fill_hidden_triangles(const frames *f, const view *v)
+{
     fill_broken_triangles(f, v);
     hide(f, f->n_triangles);
 }
@@ -184,10 +193,11 @@ static const struct array {
     {IN("CellData", "strain"), DEM_FIELD_STRAIN, HDF5_F32, SPRINGS, 1, fill_strain},
     {IN("CellData", "force"), DEM_FIELD_FORCE, HDF5_F32, SPRINGS, 1, fill_force},
     {IN("CellData", "broken"), 0, HDF5_U8, SPRINGS, 1, fill_broken},
+    {IN("CellData", FRAMES_HIDDEN), 0, HDF5_U8, SPRINGS, 1, fill_hidden},
     /* Triangles. */
     {FRAMES_BROKEN_TRIANGLES, NULL, 0, HDF5_U8, TRIANGLES, 1, fill_broken_triangles},
-    {FRAMES_BODIES "/CellData/vtkGhostType", STEPS "/CellDataOffsets/vtkGhostType", 0, HDF5_U8, TRIANGLES, 1,
-     fill_hidden},
+    {FRAMES_BODIES "/CellData/" FRAMES_HIDDEN, BODY_STEPS "/CellDataOffsets/" FRAMES_HIDDEN, 0, HDF5_U8, TRIANGLES, 1,
+     fill_hidden_triangles},
 };
 enum { N_ARRAYS = sizeof arrays / sizeof arrays[0] };
 
@@ -217,7 +227,7 @@ static const struct offset {
     {STEPS "/FieldDataOffsets/contacts", 1, ONE},
     {STEPS "/PointOffsets", 1, NODES},
     {STEPS "/CellDataOffsets/broken", 1, SPRINGS},
-    {STEPS "/CellDataOffsets/vtkGhostType", 1, TRIANGLES},
+    {BODY_STEPS "/CellDataOffsets/" FRAMES_HIDDEN, 1, TRIANGLES},
     {STEPS "/CellOffsets", 2, NONE},
 };
 enum { N_OFFSETS = sizeof offsets / sizeof offsets[0] };
@@ -294,8 +304,15 @@ static dem_status create_arrays(const frames *f, const hdf5_file *file)
     return DEM_OK;
 }
 
-/* NSteps, the number of frames, is an attribute that grows with them. */
-static dem_status create_rows(const hdf5_file *file)
+/* NSteps, the number of frames, is an attribute of each grid, and grows with them. It is written last: readers believe
+ * it, so a frame that is not whole is not seen. */
+static dem_status write_count(const frames *f, const hdf5_file *file, dem_index n)
+{
+    if (f->n_triangles > 0) TRY(hdf5_write_attribute(file, BODY_STEPS, "NSteps", HDF5_I64, 1, &n));
+    return hdf5_write_attribute(file, STEPS, "NSteps", HDF5_I64, 1, &n);
+}
+
+static dem_status create_rows(const frames *f, const hdf5_file *file)
 {
     for (int e = 0; e < N_ENERGIES; e++) {
         TRY(create_row(file, energies[e].name, HDF5_F64, 1));
@@ -303,7 +320,7 @@ static dem_status create_rows(const hdf5_file *file)
     }
     TRY(create_row(file, STEPS "/Values", HDF5_F64, 1));
     TRY(create_row(file, STEPS "/NumberOfParts", HDF5_I64, 1));
-    return hdf5_write_attribute(file, STEPS, "NSteps", HDF5_I64, 1, &(dem_index){0});
+    return write_count(f, file, 0);
 }
 
 /* The number and the body of each node, for readers that select or reorder points. */
@@ -324,9 +341,19 @@ static dem_status write_nodes(const frames *f, const hdf5_file *file, const dem_
 /* What the grid of triangles has from that of springs. */
 static dem_status link_bodies(const hdf5_file *file)
 {
-    static const char *const shared[] = {"Points", "PointData", "FieldData", "Steps"};
+    static const char *const shared[] = {"Points",
+                                         "PointData",
+                                         "FieldData",
+                                         "Steps/Values",
+                                         "Steps/NumberOfParts",
+                                         "Steps/PartOffsets",
+                                         "Steps/PointOffsets",
+                                         "Steps/CellOffsets",
+                                         "Steps/ConnectivityIdOffsets",
+                                         "Steps/PointDataOffsets",
+                                         "Steps/FieldDataOffsets"};
     for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
-        char name[32], target[32];
+        char name[48], target[48];
         (void)snprintf(name, sizeof name, FRAMES_BODIES "/%s", shared[k]);
         (void)snprintf(target, sizeof target, GRID "%s", shared[k]);
         TRY(hdf5_link_name(file, name, target));
@@ -352,7 +379,7 @@ dem_status frames_create(const frames *f, const hdf5_file *file, const dem_latti
     TRY(write_nodes(f, file, lattice));
     TRY(create_offsets(f, file));
     TRY(create_arrays(f, file));
-    return create_rows(file);
+    return create_rows(f, file);
 }
 
 /* The scratch holds the largest array: six components of each node, or one number of each spring or triangle. */
@@ -445,16 +472,10 @@ static dem_status append_steps(const frames *f, const hdf5_file *file, double t)
     return append_row(f, file, frame_rows(STEPS "/Values", HDF5_F64, 1), &t);
 }
 
-/* NSteps is written last: readers believe it, so a frame that is not whole is not seen. */
-static dem_status write_count(const hdf5_file *file, dem_index n)
-{
-    return hdf5_write_attribute(file, STEPS, "NSteps", HDF5_I64, 1, &n);
-}
-
 hsize_t frames_bytes(const frames *f)
 {
     /* All arrays in double. */
-    return 200 * (hsize_t)f->n_nodes + 17 * (hsize_t)f->n_springs + 2 * (hsize_t)f->n_triangles;
+    return 200 * (hsize_t)f->n_nodes + 18 * (hsize_t)f->n_springs + 2 * (hsize_t)f->n_triangles;
 }
 
 /* Positions are always written; the other arrays as the options say. The frame does not count itself: the caller raises
@@ -466,7 +487,7 @@ dem_status frames_append(const frames *f, const hdf5_file *file, const dem_simul
     TRY(append_arrays(f, file, &v));
     TRY(append_energies(f, file, &v));
     TRY(append_steps(f, file, v.state.t));
-    return write_count(file, f->n + 1);
+    return write_count(f, file, f->n + 1);
 }
 
 /* ---- the end ---- */
@@ -505,10 +526,17 @@ static hdf5_rows row_of(int k)
 }
 enum { N_ROWS = N_ENERGIES + 2 };
 
-/* Whether the file is of a version that did not write this array yet, which follows from FRAMES_BROKEN_TRIANGLES. */
+/* The flags of what is broken from which an array follows; NULL for one that does not. */
+static const char *flags_of(const struct array *a)
+{
+    if (a->fill == fill_hidden) return GRID "CellData/broken";
+    return a->fill == fill_hidden_triangles ? FRAMES_BROKEN_TRIANGLES : NULL;
+}
+
+/* Whether the file is of a version that did not write this array yet, which follows from another one. */
 static bool is_older(const hdf5_file *file, const struct array *a)
 {
-    return a->fill == fill_hidden && !hdf5_has(file, a->name);
+    return flags_of(a) != NULL && !hdf5_has(file, a->name);
 }
 
 /* What is hidden, from a file that has only what is broken. */
@@ -518,7 +546,7 @@ static dem_status copy_hidden(const frames *f, const hdf5_file *from, const hdf5
     const hdf5_rows rows = array_rows(f, a);
     const hsize_t n = (hsize_t)count_of(f, a->of);
     hdf5_rows flags = rows;
-    flags.name = FRAMES_BROKEN_TRIANGLES;
+    flags.name = flags_of(a);
     for (hsize_t k = 0; k < span.count; k++) {
         TRY(hdf5_read(from, &flags, n * (span.first + k), n, f->scratch));
         hide(f, (dem_index)n);
@@ -548,7 +576,7 @@ dem_status frames_copy(const frames *f, const hdf5_file *from, const hdf5_file *
     }
     /* The offsets of frames that come from another file. */
     for (hsize_t n = span.at; n < span.at + span.count; n++) TRY(append_offsets(f, to, n));
-    return write_count(to, (dem_index)(span.at + span.count));
+    return write_count(f, to, (dem_index)(span.at + span.count));
 }
 
 /* Checks the shape of every dataset that the frames need, by the same tables by which they are written.
@@ -558,7 +586,7 @@ static dem_status check(const frames *f, const hdf5_file *file, hsize_t n, bool 
     for (int k = 0; k < N_ARRAYS; k++) {
         const struct array *a = &arrays[k];
         hdf5_rows rows = array_rows(f, a);
-        if (older && is_older(file, a)) rows.name = FRAMES_BROKEN_TRIANGLES;
+        if (older && is_older(file, a)) rows.name = flags_of(a);
         if (is_wanted(f, a)) TRY(hdf5_expect_rows(file, &rows, n * (hsize_t)count_of(f, a->of)));
     }
     for (int k = 0; k < N_ROWS; k++) {
@@ -570,6 +598,7 @@ static dem_status check(const frames *f, const hdf5_file *file, hsize_t n, bool 
         const bool needed = is_there(f, offsets[o].of) && !(older && !hdf5_has(file, rows.name));
         if (needed) TRY(hdf5_expect_rows(file, &rows, n));
     }
+    if (!older && f->n_triangles > 0) TRY(hdf5_expect_attribute(file, BODY_STEPS, "NSteps", (dem_index)n));
     return hdf5_expect_attribute(file, STEPS, "NSteps", (dem_index)n);
 }
 

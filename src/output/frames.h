@@ -12,6 +12,9 @@
  *  without triangles, do not have it. */
 #define FRAMES_BROKEN_TRIANGLES "/fracture/triangles"
 
+/** The array of cells by which VTK does not draw some of them, of springs and of triangles. */
+#define FRAMES_HIDDEN "vtkGhostType"
+
 /** The grid of triangles, which body_file.c leads VTK to. Lattices without triangles do not have it. */
 #define FRAMES_BODIES "/bodies"
 

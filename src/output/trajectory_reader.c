@@ -207,14 +207,15 @@ static dem_status add_array(dem_reader *reader, const hdf5_file *file, int of_sp
     return DEM_OK;
 }
 
-/* All arrays of nodes, or of springs. */
+/* All arrays of nodes, or of springs, but for what only tells VTK which of these are broken. */
 static dem_status add_arrays(dem_reader *reader, const hdf5_file *file, int of_springs)
 {
     char group[PATH];
     names all;
     (void)snprintf(group, sizeof group, GRID "%s", set_of(of_springs));
     dem_status status = list_names(&all, file, group);
-    for (dem_index k = 0; k < all.n && status == DEM_OK; k++) status = add_array(reader, file, of_springs, all.list[k]);
+    for (dem_index k = 0; k < all.n && status == DEM_OK; k++)
+        if (strcmp(all.list[k], FRAMES_HIDDEN) != 0) status = add_array(reader, file, of_springs, all.list[k]);
     free(all.list);
     return status;
 }

@@ -24,7 +24,7 @@ except ImportError as error:
     sys.exit(77)
 
 LINE, TRIANGLE, CORNERS = 3, 5, {3: 2, 5: 3}
-HIDDEN = 32
+GHOSTS, HIDDEN = "vtkGhostType", 32
 IMPACT = 0
 NAMES = {"kind": "impact close release slip stick pass", "state": "free slip stick"}
 EVENT_SHAPES = {
@@ -103,6 +103,20 @@ def frame_of(vtk_group, kind, name, frame, n_frames):
     return data[offset:offset + rows]
 
 
+def drawn(grid):
+    """How many cells are left where VTK draws a surface."""
+    surface = vtkDataSetSurfaceFilter()
+    surface.SetInputData(grid)
+    surface.Update()
+    return surface.GetOutput().GetNumberOfCells()
+
+
+def check_hidden(here, grid, broken):
+    """What is broken is not drawn; the other cells are."""
+    same(here + "hidden", arrays(grid.GetCellData())[GHOSTS], HIDDEN * broken)
+    same(here + "drawn", drawn(grid), np.sum(broken == 0))
+
+
 def check_frame(file, grid, frame, n_frames):
     vtk_group, lattice = file["VTKHDF"], file["lattice"]
     here = f"frame {frame}: "
@@ -116,6 +130,7 @@ def check_frame(file, grid, frame, n_frames):
         same(f"{here}arrays of {kind}", sorted(found), sorted(vtk_group[kind]))
         for name in vtk_group[kind]:
             same(f"{here}{kind}/{name}", found[name], frame_of(vtk_group, kind, name, frame, n_frames))
+    check_hidden(here, grid, frame_of(vtk_group, "CellData", "broken", frame, n_frames))
     check_physics(here, lattice, points, vtk_group, frame, n_frames)
 
 
@@ -441,14 +456,6 @@ def check_obstacles(path, obstacles):
     return grid.GetNumberOfCells()
 
 
-def drawn(grid):
-    """How many cells are left where VTK draws a surface."""
-    surface = vtkDataSetSurfaceFilter()
-    surface.SetInputData(grid)
-    surface.Update()
-    return surface.GetOutput().GetNumberOfCells()
-
-
 def check_bodies(path, file):
     """The triangles as cells, with the points and the data of the springs' grid; what is broken is not drawn."""
     path = path.removesuffix(".vtkhdf") + ".body.vtkhdf"
@@ -464,13 +471,20 @@ def check_bodies(path, file):
         same(here + "points", points_of(found), file["VTKHDF/Points"][...].reshape(len(times), -1, 3)[frame])
         same(here + "corners", cell_corners(found, TRIANGLE), corners)
         cells, points = arrays(found.GetCellData()), arrays(found.GetPointData())
-        same(here + "arrays of cells", sorted(cells), ["vtkGhostType"])
-        same(here + "hidden", cells["vtkGhostType"], HIDDEN * broken[frame])
-        same(here + "drawn", drawn(found), np.sum(broken[frame] == 0))
+        same(here + "arrays of cells", sorted(cells), [GHOSTS])
+        check_hidden(here, found, broken[frame])
         same(here + "arrays of points", sorted(points), sorted(file["VTKHDF/PointData"]))
         for name, values in points.items():
             same(here + name, values, frame_of(file["VTKHDF"], "PointData", name, frame, len(times)))
     return np.sum(broken[-1])
+
+
+def check_springs(path, vtk_group):
+    """The springs of a run that breaks: what is broken is not drawn."""
+    grid = Grid(path)
+    for frame, t in enumerate(grid.times()):
+        check_hidden(f"springs in frame {frame}: ", grid.at(t),
+                     frame_of(vtk_group, "CellData", "broken", frame, len(grid.times())))
 
 
 def main():
@@ -491,6 +505,7 @@ def main():
         n_broken = check_bodies(options.path, file)
         if options.bodies_only:
             same("whether something has broken", n_broken > 0, True)
+            check_springs(options.path, file["VTKHDF"])
             print(f"{os.path.basename(options.path)}: {n_broken} triangles have broken and are not drawn")
             return
         grid = Grid(options.path)
@@ -515,7 +530,7 @@ def main():
             check_probe(probe, file)
         if options.fields is not None:
             vtk_group = file["VTKHDF"]
-            found = {*vtk_group["PointData"], *vtk_group["CellData"]} - {"id", "body", "broken"}
+            found = {*vtk_group["PointData"], *vtk_group["CellData"]} - {"id", "body", "broken", GHOSTS}
             same("fields", sorted(name for name in found if not name.startswith("peak_")),
                  sorted(options.fields.split(",")))
         if options.bounces is not None:

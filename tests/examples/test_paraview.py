@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """ParaView draws a run that breaks by docs/examples/plot_paraview.py: bodies are filled where triangles are whole, in the
 colours of their stress, and not where they are broken; obstacles are grey. A state that the script saves of one run shows
-another one. `test_paraview.py SCRIPT DEM_BATCH INPUTS PVPYTHON...`, the last with what gives it a display."""
+another one. Files that are opened by hand show no spring that is broken, and obstacles in one colour.
+`test_paraview.py SCRIPT DEM_BATCH INPUTS PVPYTHON...`, the last with what gives it a display."""
 import json
 import pathlib
 import subprocess
@@ -34,6 +35,25 @@ if version < (5, 12):
 script, note, sys.argv = sys.argv[1], sys.argv[2], sys.argv[2:]
 view = runpy.run_path(script, run_name="__main__")["view"]
 json.dump([*view.CameraFocalPoint[:2], view.CameraParallelScale, *view.ViewSize], open(note, "w"))
+"""
+
+# By hand: springs and obstacles as they come, and what the camera sees.
+OPEN = """
+import json, sys
+from paraview import simple
+name, frame, out, note = sys.argv[1:5]
+view = simple.CreateRenderView(ViewSize=[1200, 900], OrientationAxesVisibility=0, UseColorPaletteForBackground=0,
+                               Background=[0, 0, 0], InteractionMode="2D")
+springs, obstacles = (simple.VTKHDFReader(FileName=name + end) for end in (".vtkhdf", ".obstacle.vtkhdf"))
+scene = simple.GetAnimationScene()
+scene.UpdateAnimationUsingDataTimeSteps()
+scene.AnimationTime = springs.TimestepValues[int(frame)]
+shown = [simple.Show(source, view).ColorArrayName[1] for source in (springs, obstacles)]
+view.ResetCamera(*springs.GetDataInformation().GetBounds())
+simple.Render(view)
+simple.SaveScreenshot(out, view)
+json.dump({"camera": [*view.CameraFocalPoint[:2], view.CameraParallelScale, *view.ViewSize], "coloured by": shown},
+          open(note, "w"))
 """
 
 # A state that was saved, with files of these names from another folder.
@@ -70,7 +90,12 @@ def draw(folder, out):
     if not (folder / "camera.json").exists():
         print("skipped: ParaView", ".".join(words[-2:]), "is too old, 5.12 is needed")
         sys.exit(77)
-    x, y, scale, width, height = json.loads((folder / "camera.json").read_text(encoding="utf-8"))
+    return pixels_of(json.loads((folder / "camera.json").read_text(encoding="utf-8")))
+
+
+def pixels_of(camera):
+    """What takes places to pixels, from below."""
+    x, y, scale, width, height = camera
     return lambda at: ((at - [x, y]) * 0.5 * height / scale + [0.5 * width, 0.5 * height]).astype(int)
 
 
@@ -127,6 +152,34 @@ def check_picture(folder, image, to_pixels):
           f"{np.mean(empty):.3f} of {len(empty)} gaps empty, ground grey at {np.sum(grey)} of {len(grey)} places")
 
 
+def distance(at, ends):
+    """Of each place from the nearest of the lines [n, 2, 2]."""
+    along, to = ends[:, 1] - ends[:, 0], at[:, None] - ends[:, 0]
+    share = np.clip(np.sum(to * along, axis=2) / np.sum(along**2, axis=1), 0, 1)
+    return np.min(np.linalg.norm(to - share[:, :, None] * along, axis=2), axis=1)
+
+
+def check_by_hand(folder):
+    in_paraview(folder, OPEN, "brittle_disc", FRAME, "hand.png", "hand.json")
+    seen = json.loads((folder / "hand.json").read_text(encoding="utf-8"))
+    assert seen["coloured by"] == ["", ""], f"coloured by {seen['coloured by']}, and not in one colour"
+    with h5py.File(folder / "brittle_disc.vtkhdf") as file:
+        n, m = len(file["lattice/x"]), len(file["lattice/ends"])
+        ends = file["VTKHDF/Points"][FRAME * n:(FRAME + 1) * n, :2][file["lattice/ends"][...]]
+        broken = file["VTKHDF/CellData/broken"][FRAME * m:(FRAME + 1) * m] != 0
+        ground = file["obstacles/0/points"][...]
+    middle = ends.mean(axis=1)
+    image, to_pixels, size = picture(folder / "hand.png"), pixels_of(seen["camera"]), seen["camera"][2]
+    gaps = middle[broken]
+    others = np.concatenate([ends[~broken], np.stack([ground[:-1], ground[1:]], axis=1)])
+    gaps = gaps[distance(gaps, others) > 0.01 * size]  # where no other line is near
+    dark = np.max(colours_at(image, to_pixels(gaps))[0], axis=1) < 0.1
+    lines = np.max(colours_at(image, to_pixels(middle[~broken]))[0], axis=1) > 0.1
+    assert np.mean(lines) > 0.9, f"{np.mean(lines):.3f} of the whole springs are drawn"
+    assert len(dark) > 15 and np.mean(dark) > 0.95, f"{np.mean(dark):.3f} of {len(dark)} broken springs are not drawn"
+    print(f"by hand {np.mean(lines):.3f} of the whole springs are drawn, {np.mean(~dark):.3f} of {len(dark)} broken ones")
+
+
 def check_state(coarse, fine, image):
     """The state of the coarse run with the files of the fine one shows this, but for the limits of the colours."""
     draw(coarse, "run.pvsm")
@@ -145,4 +198,5 @@ with tempfile.TemporaryDirectory() as place:
     pixels = draw(one, "out.png")
     found = picture(one / "out.png")
     check_picture(one, found, pixels)
+    check_by_hand(one)
     check_state(other, one, found)

@@ -95,7 +95,8 @@ static const struct {
               {"CellData/force", DEM_FIELD_FORCE},
               {"Points", 0},
               {"PointData/id", 0},
-              {"CellData/broken", 0}};
+              {"CellData/broken", 0},
+              {"CellData/vtkGhostType", 0}};
 enum { n_arrays = sizeof arrays / sizeof arrays[0] };
 
 TEST(a_file_has_the_arrays_that_are_wanted_and_their_offsets)
@@ -136,6 +137,8 @@ TEST(springs_that_are_broken_are_marked)
         n_broken += expected[k];
     }
     assert_true(n_broken > 0 && n_broken < 9);
+    const double *hidden = stored_values(&f->stored, "/VTKHDF/CellData/vtkGhostType", 2 * n, 1, 1);
+    for (hsize_t k = 0; k < n; k++) assert_true(hidden[k] == 0.0 && hidden[n + k] == 32.0 * expected[k]);
     const double *force = stored_values(&f->stored, "/VTKHDF/CellData/force", 2 * n, 1, 0);
     for (hsize_t k = 0; k < n; k++)
         if (expected[k]) assert_close(force[n + k], 0.0, 0.0);
@@ -160,7 +163,8 @@ TEST(triangles_that_are_broken_are_marked_in_frames_of_their_own)
 /* As VTK reads it: cells, what is hidden of them, and by links all that springs have. */
 TEST(triangles_are_the_cells_of_a_second_grid)
 {
-    static const char *const shared[] = {"Points", "PointData", "FieldData", "Steps"};
+    static const char *const shared[] = {"Points",       "PointData",          "FieldData",
+                                         "Steps/Values", "Steps/PointOffsets", "Steps/PointDataOffsets"};
     reader *f = shoot_breaking(open_block, DEM_FIELD_VELOCITY, 0, 3);
     const hsize_t n = (hsize_t)f->frames.n_triangles;
     const dem_index *triangles = dem_model_lattice(f->run.model)->triangles;
@@ -171,7 +175,7 @@ TEST(triangles_are_the_cells_of_a_second_grid)
     const double *offset = stored_values(&f->stored, "/bodies/Steps/CellDataOffsets/vtkGhostType", 2, 1, 8);
     assert_true(offset[0] == 0.0 && offset[1] == (double)n);
     for (size_t k = 0; k < sizeof shared / sizeof *shared; k++) {
-        char name[32], expected[32], found[32];
+        char name[48], expected[48], found[48];
         (void)snprintf(name, sizeof name, "/bodies/%s", shared[k]);
         (void)snprintf(expected, sizeof expected, "/VTKHDF/%s", shared[k]);
         assert_true(H5Lget_val(f->stored.file.id, name, found, sizeof found, H5P_DEFAULT) >= 0);
@@ -186,30 +190,39 @@ static void drop(const reader *f, const char *name)
     assert_true(H5Ldelete(f->stored.file.id, name, H5P_DEFAULT) >= 0);
 }
 
-/* As before there was the second grid. */
+/* As before springs were hidden, and as before there was a second grid. */
 TEST(of_an_older_file_what_is_hidden_is_made_from_what_is_broken)
 {
-    static const char hidden[] = "/bodies/CellData/vtkGhostType";
-    reader *f = shoot_breaking(open_block, 0, 0, 3);
-    const hsize_t n = (hsize_t)f->frames.n_triangles;
-    stored copy;
-    hsize_t count = 0;
-    drop(f, "/bodies");
-    drop(f, "/VTKHDF/Steps/CellDataOffsets/vtkGhostType");
-    assert_int_equal(frames_verify(&f->frames, &f->stored.file, 2), DEM_ERROR_IO);
-    assert_ok(frames_count(&f->frames, &f->stored.file, &count));
-    assert_int_equal(count, 2);
-    stored_open(&copy);
-    assert_ok(frames_create(&f->frames, &copy.file, dem_model_lattice(f->run.model)));
-    assert_ok(frames_copy(&f->frames, &f->stored.file, &copy.file, (hdf5_span){1, 1, 0}));
-    assert_ok(frames_copy(&f->frames, &f->stored.file, &copy.file, (hdf5_span){0, 2, 1}));
-    assert_ok(frames_verify(&f->frames, &copy.file, 3));
-    const double *value = stored_values(&copy, hidden, 3 * n, 1, 1);
-    for (hsize_t k = 0; k < 3 * n; k++) assert_close(value[k], k / n != 1 && k % n < 3 ? 32.0 : 0.0, 0.0);
-    stored_close(&copy);
-    drop(f, "/fracture");
-    assert_int_equal(frames_count(&f->frames, &f->stored.file, &count), DEM_ERROR_IO);
-    put_away(f);
+    static const char springs[] = "/VTKHDF/CellData/vtkGhostType", triangles[] = "/bodies/CellData/vtkGhostType";
+    for (int age = 0; age < 2; age++) {
+        reader *f = shoot_breaking(open_block, 0, 0, 3);
+        const hsize_t n = (hsize_t)f->frames.n_triangles, m = (hsize_t)f->frames.n_springs;
+        double *expected = malloc(m * sizeof *expected);
+        stored copy;
+        hsize_t count = 0;
+        assert_non_null(expected);
+        memcpy(expected, stored_values(&f->stored, springs, 2 * m, 1, 1) + m, m * sizeof *expected);
+        drop(f, springs);
+        drop(f, "/VTKHDF/Steps/CellDataOffsets/vtkGhostType");
+        if (age > 0) drop(f, "/bodies");
+        assert_int_equal(frames_verify(&f->frames, &f->stored.file, 2), DEM_ERROR_IO);
+        assert_ok(frames_count(&f->frames, &f->stored.file, &count));
+        assert_int_equal(count, 2);
+        stored_open(&copy);
+        assert_ok(frames_create(&f->frames, &copy.file, dem_model_lattice(f->run.model)));
+        assert_ok(frames_copy(&f->frames, &f->stored.file, &copy.file, (hdf5_span){1, 1, 0}));
+        assert_ok(frames_copy(&f->frames, &f->stored.file, &copy.file, (hdf5_span){0, 2, 1}));
+        assert_ok(frames_verify(&f->frames, &copy.file, 3));
+        const double *hidden = stored_values(&copy, triangles, 3 * n, 1, 1);
+        for (hsize_t k = 0; k < 3 * n; k++) assert_close(hidden[k], k / n != 1 && k % n < 3 ? 32.0 : 0.0, 0.0);
+        hidden = stored_values(&copy, springs, 3 * m, 1, 1);
+        for (hsize_t k = 0; k < 3 * m; k++) assert_close(hidden[k], k / m != 1 ? expected[k % m] : 0.0, 0.0);
+        free(expected);
+        stored_close(&copy);
+        drop(f, age > 0 ? "/fracture" : "/VTKHDF/CellData/broken");
+        assert_int_equal(frames_count(&f->frames, &f->stored.file, &count), DEM_ERROR_IO);
+        put_away(f);
+    }
 }
 
 /* Half a metre of rubber. */
@@ -246,7 +259,7 @@ TEST(a_body_without_triangles_has_no_flags_of_them)
     reader *f = shoot_run(open_pair, 0, 0);
     assert_false(stored_has(&f->stored, "/fracture"));
     assert_false(stored_has(&f->stored, "/bodies"));
-    assert_false(stored_has(&f->stored, "/VTKHDF/Steps/CellDataOffsets/vtkGhostType"));
+    assert_true(stored_has(&f->stored, "/VTKHDF/Steps/CellDataOffsets/vtkGhostType")); /* of springs */
     put_away(f);
 }
 

@@ -261,6 +261,7 @@ TEST(offsets_tell_where_a_frame_begins)
                    {"PointDataOffsets/id", 0},
                    {"PointDataOffsets/body", 0},
                    {"CellDataOffsets/broken", size.n_springs},
+                   {"CellDataOffsets/vtkGhostType", size.n_springs},
                    {"FieldDataOffsets/friction_energy", 1},
                    {"FieldDataOffsets/damping_energy", 1},
                    {"FieldDataOffsets/contacts", 1}};

@@ -389,7 +389,8 @@ TEST(a_run_that_was_cut_has_the_data_of_one_that_was_not)
 /* As a version before the grid of triangles would have written it. */
 static void make_old(const place *p, const char *name)
 {
-    static const char *const later[] = {"/bodies", "/VTKHDF/Steps/CellDataOffsets/vtkGhostType"};
+    static const char *const later[] = {"/bodies", "/VTKHDF/CellData/vtkGhostType",
+                                        "/VTKHDF/Steps/CellDataOffsets/vtkGhostType"};
     hdf5_file file;
     assert_ok(hdf5_open_write(&file, name_in(p, name), 0));
     for (size_t k = 0; k < sizeof later / sizeof *later; k++)
