@@ -450,6 +450,7 @@ def check_obstacles(path, obstacles):
     same("obstacle points", points_of(grid)[:, :2], np.concatenate(polylines))
     owner = np.repeat(np.arange(len(polylines)), [len(p) - 1 for p in polylines])
     same("obstacle of each segment", arrays(grid.GetCellData())["obstacle"], owner)
+    same("whether they have a colour of their own", grid.GetCellData().GetScalars() is not None, False)
     first = np.cumsum([0] + [len(p) for p in polylines])
     ends = np.concatenate([[[f + k, f + k + 1] for k in range(len(p) - 1)] for f, p in zip(first, polylines)])
     same("obstacle segments", cell_corners(grid), ends)

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """ParaView draws a run that breaks by docs/examples/plot_paraview.py: bodies are filled where triangles are whole, in the
 colours of their stress, and not where they are broken; obstacles are grey. A state that the script saves of one run shows
-another one. Files that are opened by hand show no spring that is broken, and obstacles in one colour.
+another one, and docs/examples/run.pvsm a run of the name `run`. Files that are opened by hand show no spring that is
+broken, and obstacles in one colour.
 `test_paraview.py SCRIPT DEM_BATCH INPUTS PVPYTHON...`, the last with what gives it a display."""
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -35,6 +37,20 @@ if version < (5, 12):
 script, note, sys.argv = sys.argv[1], sys.argv[2], sys.argv[2:]
 view = runpy.run_path(script, run_name="__main__")["view"]
 json.dump([*view.CameraFocalPoint[:2], view.CameraParallelScale, *view.ViewSize], open(note, "w"))
+"""
+
+# The state that is ready, beside a run, as the script's camera sees it.
+READY = """
+import json, sys
+from paraview import simple
+state, folder, frame, camera, out = sys.argv[1:6]
+simple._DisableFirstRenderCameraReset()
+simple.LoadState(state, data_directory=folder, restrict_to_data_directory=True)
+view = simple.GetActiveView()
+x, y, view.CameraParallelScale, *view.ViewSize = json.load(open(camera))
+view.CameraFocalPoint, view.CameraPosition = [x, y, 0], [x, y, 1]
+simple.GetAnimationScene().AnimationTime = simple.FindSource("bodies").TimestepValues[int(frame)]
+simple.SaveScreenshot(out, view)
 """
 
 # By hand: springs and obstacles as they come, and what the camera sees.
@@ -180,6 +196,17 @@ def check_by_hand(folder):
     print(f"by hand {np.mean(lines):.3f} of the whole springs are drawn, {np.mean(~dark):.3f} of {len(dark)} broken ones")
 
 
+def show_ready_state(folder, place):
+    place.mkdir()
+    for ending in (".vtkhdf", ".obstacle.vtkhdf"):
+        shutil.copy(folder / f"brittle_disc{ending}", place / f"run{ending}")
+    with h5py.File(place / "run.body.vtkhdf", "w") as file:
+        file["VTKHDF"] = h5py.ExternalLink("run.vtkhdf", "/bodies")
+    state = SCRIPT.with_name("run.pvsm")
+    in_paraview(folder, READY, state, place, FRAME, "camera.json", "ready.png")
+    return picture(folder / "ready.png")
+
+
 def check_state(coarse, fine, image):
     """The state of the coarse run with the files of the fine one shows this, but for the limits of the colours."""
     draw(coarse, "run.pvsm")
@@ -199,4 +226,5 @@ with tempfile.TemporaryDirectory() as place:
     found = picture(one / "out.png")
     check_picture(one, found, pixels)
     check_by_hand(one)
+    check_picture(one, show_ready_state(one, pathlib.Path(place, "named")), pixels)
     check_state(other, one, found)
