@@ -9,7 +9,14 @@
  *
  *      dem_model_create_mpi(), and dem_model_destroy() of such a model
  *      dem_simulation_create(), dem_simulation_observe(), dem_simulation_advance(), dem_simulation_gather()
- *      dem_simulation_state(), dem_simulation_counts()
+ *      all that is asked of a motion: dem_simulation_state(), dem_simulation_energy() and what follows it in
+ *      dem/simulation.h, up to dem_simulation_residual()
+ *
+ *  What is measured is of all bodies, has the bits of one process, and is the same on all ranks: energies, strains,
+ *  bodies, boundaries, counts, residual. Springs and nodes are named by their numbers in the whole lattice there, and
+ *  in dem_simulation_stress_at() and dem_simulation_force_at(). Arrays are of the part, as dem_model_lattice() is:
+ *  stresses of own nodes, strains and forces of springs that have an own node; what they say of others counts for
+ *  nothing. So do dem_peaks.
  *
  *  A status of a collective function is that of all ranks, with the same dem_status_message(): what fails on one rank,
  *  or is returned by an observer there, ends the call on all. Not so DEM_ERROR_MEMORY, and what is said of `out`,
@@ -17,7 +24,7 @@
  *  wait for it. Boundaries name nodes of the whole lattice.
  *
  *  Ranks cannot share yet, and refuse: obstacles, bodies that touch, what may break, rigid bodies, external forces,
- *  checkpoints (`checkpoint_steps` has to be 0), and all that is measured on a state but x, v, t, step and counts.
+ *  checkpoints (`checkpoint_steps` has to be 0), trajectories, overlaps of bodies and their fragments.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A

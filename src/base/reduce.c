@@ -80,6 +80,25 @@ array_ops_sum reduce_squares(const ranks *r, array_ops_sum own)
     return own;
 }
 
+typedef struct report {
+    bool is_known;
+    double values[REDUCE_REPORT_MOST];
+} report;
+
+static void join_reports(void *packet, const void *other)
+{
+    if (!((const report *)packet)->is_known) *(report *)packet = *(const report *)other;
+}
+
+void reduce_report(const ranks *r, bool is_here, double *values, int n)
+{
+    report all = {.is_known = is_here};
+    if (r->size == 1) return;
+    for (int k = 0; k < n && is_here; k++) all.values[k] = values[k];
+    r->reduce(r->self, &all, sizeof all, join_reports);
+    for (int k = 0; k < n; k++) values[k] = all.values[k];
+}
+
 /* ---- failures ---- */
 
 /* One that has not failed has no rank. */

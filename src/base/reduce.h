@@ -36,26 +36,14 @@ double reduce_sum(const ranks *r, const exact_sum *own);
 /** The same of sums of squares. */
 array_ops_sum reduce_squares(const ranks *r, array_ops_sum own);
 
+enum { REDUCE_REPORT_MOST = 8 };
+
+/** Numbers that one rank has, and all get.  \param[in,out] values  [n] read where `is_here`, which it is on one rank */
+void reduce_report(const ranks *r, bool is_here, double *values, int n);
+
 /** DEM_OK if all ranks have that. Otherwise the status and message of the failing rank with the lowest key, and of
  *  equal keys of the lowest rank. The key says when a single process would have failed: the time of an event, or 0
  *  where there is no order. A rank that is out of memory need not call this, since that ends the run. */
 dem_status reduce_status(const ranks *r, dem_status own, double key);
-
-/** The least value, and the number `of` the item that has it (< 0: the rank has no item). Of equal values the one with
- *  the lowest key counts. The numbers of items are a rank's own, so that there is no such call with more than one. */
-static inline void reduce_least(double *value, dem_index *of, dem_index key)
-{
-    (void)value;
-    (void)of;
-    (void)key;
-}
-
-/** The same of the largest value. */
-static inline void reduce_largest(double *value, dem_index *of, dem_index key)
-{
-    (void)value;
-    (void)of;
-    (void)key;
-}
 
 #endif

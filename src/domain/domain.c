@@ -156,6 +156,7 @@ void domain_free(domain *d)
     }
     free(d->neighbours);
     free(d->number);
+    free(d->spring);
     free(d->is_own);
     *d = (domain){0};
 }

@@ -4,7 +4,7 @@
  * nodes behind the last block, nodes with elements that are not whole, triangles on which the guard acts, and springs
  * of rigid bodies, which no layout has. The pass finds how large the extreme strains are; which springs have them is
  * found by a second look at the few blocks where they occur. An element belongs to the lowest of its nodes, by their
- * places in the layout. */
+ * places in the layout, and is measured by the rank that owns that one. */
 #include "forces/survey.h"
 
 #include <stdlib.h>
@@ -41,13 +41,22 @@ static const survey_row rows[] = {
 
 enum { RUN_NODES = SURVEY_CHUNK * LAYOUT_LANES };
 
-/* Cuts the nodes into runs: first counts them, then lists them. */
-static dem_index cut(const dem_lattice *l, survey_run *runs)
+static bool is_own(const survey *s, dem_index node)
 {
+    return s->model->domain == NULL || s->model->domain->is_own[node];
+}
+
+/* Cuts the own nodes into runs: first counts them, then lists them. */
+static dem_index cut(const dem_model *m, survey_run *runs)
+{
+    const dem_lattice *l = &m->lattice;
     dem_index n = 0;
-    for (dem_index first = 0, last = 0; first < l->n_nodes; first = last, n++) {
-        while (last < l->n_nodes && l->body[last] == l->body[first] && last - first < RUN_NODES) last++;
+    for (dem_index first = 0, last = 0, end; first < l->n_nodes; first = last) {
+        const bool is_own = domain_run(m->domain, first, l->n_nodes, &end);
+        while (last < end && l->body[last] == l->body[first] && last - first < RUN_NODES) last++;
+        if (!is_own) continue;
         if (runs != NULL) runs[n] = (survey_run){first, last, l->body[first]};
+        n++;
     }
     return n;
 }
@@ -56,7 +65,8 @@ static dem_index cut(const dem_lattice *l, survey_run *runs)
 static void weigh(survey *s)
 {
     const dem_lattice *l = &s->model->lattice;
-    for (dem_index i = 0; i < l->n_nodes; i++) exact_sum_add(&s->bodies[l->body[i]].kinetic, l->mass[i]);
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (is_own(s, i)) exact_sum_add(&s->bodies[l->body[i]].kinetic, l->mass[i]);
     for (dem_index b = 0; b < s->model->n_bodies; b++) s->mass[b] = reduce_sum(s->model->ranks, &s->bodies[b].kinetic);
 }
 
@@ -91,15 +101,27 @@ static dem_status allocate(survey *s)
     return DEM_OK;
 }
 
+static dem_status find_ghosts(survey *s)
+{
+    const layout *l = &s->model->layout;
+    if (s->model->domain == NULL) return DEM_OK;
+    s->ghosts = calloc((size_t)l->n_blocks + 1, sizeof *s->ghosts);
+    CHECK_MEMORY(s->ghosts);
+    for (dem_index q = 0; q < LAYOUT_LANES * l->n_blocks; q++)
+        if (!is_own(s, layout_node(l, q))) s->ghosts[q / LAYOUT_LANES] |= (uint8_t)(1u << q % LAYOUT_LANES);
+    return DEM_OK;
+}
+
 static dem_status set_up(survey *s)
 {
     const dem_index n_blocks = s->model->layout.n_blocks;
     s->n_groups = (n_blocks + ENERGY_PASS_GROUP - 1) / ENERGY_PASS_GROUP;
     s->n_chunks = (n_blocks + SURVEY_CHUNK - 1) / SURVEY_CHUNK;
-    s->n_runs = cut(&s->model->lattice, NULL);
+    s->n_runs = cut(s->model, NULL);
     TRY(allocate(s));
-    (void)cut(&s->model->lattice, s->runs);
+    (void)cut(s->model, s->runs);
     weigh(s);
+    TRY(find_ghosts(s));
     return find_places(s);
 }
 
@@ -124,6 +146,7 @@ void survey_destroy(survey *s)
 {
     free(s->place);
     free(s->packed);
+    free(s->ghosts);
     free(s->skipped);
     free(s->folded);
     free(s->least);
@@ -150,10 +173,14 @@ static spring_ends ends_of(const dem_lattice *l, dem_index spring)
 }
 
 /* Of springs with equal strains the first one by its ends is named: this does not depend on the order of springs. */
+static bool ends_before(spring_ends a, spring_ends b)
+{
+    return a.low != b.low ? a.low < b.low : a.high < b.high;
+}
+
 static bool is_before(const dem_lattice *l, dem_index spring, dem_index other)
 {
-    const spring_ends a = ends_of(l, spring), b = ends_of(l, other);
-    return a.low != b.low ? a.low < b.low : a.high < b.high;
+    return ends_before(ends_of(l, spring), ends_of(l, other));
 }
 
 /* The extremes so far, and their springs; -1: none. */
@@ -253,6 +280,7 @@ static void add_triangles(taking *t, dem_index i, bool passed)
 
 static void add_node(taking *t, dem_index i)
 {
+    if (!is_own(t->s, i)) return;
     add_springs(t, i);
     if (t->s->model->couplings.n > 0) add_couplings(t, i);
     add_triangles(t, i, false);
@@ -272,6 +300,15 @@ static void add_rest(taking *t)
     add_rigid_springs(t);
 }
 
+/* Whether a triangle is measured here: the rank that owns its lowest corner does so. */
+static bool is_own_triangle(const survey *s, const dem_index *corner)
+{
+    dem_index lowest = corner[0];
+    for (int q = 1; q < 3; q++)
+        if (corner[q] < lowest) lowest = corner[q];
+    return is_own(s, lowest);
+}
+
 /* Triangles that neither area term nor guard acts on are in no layout: then all are looked at by the lattice's list. */
 static void measure_idle_triangles(taking *t)
 {
@@ -281,6 +318,7 @@ static void measure_idle_triangles(taking *t)
     for (dem_index k = 0; k < l->n_triangles; k++) {
         if (t->f->elements != NULL && t->f->elements->triangle[k]) continue;
         const dem_index *c = &l->triangles[3 * k];
+        if (!is_own_triangle(t->s, c)) continue;
         /* From the lattice's rest positions, as triangles_compile() has it: the ratio is exactly 1 at rest. */
         const double rest_area = vec2_area_of(l->x, c);
         const double ratio = vec2_area_of(t->x, c) / rest_area;
@@ -297,7 +335,8 @@ static void skip_damaged(taking *t)
     const element_state *e = t->f->elements;
     const dem_index end = LAYOUT_LANES * t->s->model->layout.n_blocks;
     if (e == NULL || e->n_damaged == 0) return;
-    memset(t->s->skipped, 0, (size_t)t->s->model->layout.n_blocks);
+    for (dem_index b = 0; b < t->s->model->layout.n_blocks; b++)
+        t->s->skipped[b] = t->s->ghosts != NULL ? t->s->ghosts[b] : 0;
     for (dem_index d = 0; d < e->n_damaged; d++) {
         const dem_index q = place_of(t, e->damaged[d]);
         if (q < end) t->s->skipped[q / LAYOUT_LANES] |= (uint8_t)(1u << q % LAYOUT_LANES);
@@ -347,7 +386,7 @@ static void measure_share(const void *context, int share, int thread)
     const bool damaged = t->f->elements != NULL && t->f->elements->n_damaged > 0;
     const energy_pass energies = {.layout = &s->model->layout,
                                   .x = s->packed != NULL ? s->packed : t->x,
-                                  .skipped = damaged ? s->skipped : NULL,
+                                  .skipped = damaged ? s->skipped : s->ghosts,
                                   .folded = s->folded,
                                   .least = s->least,
                                   .largest = s->largest};
@@ -407,7 +446,7 @@ static void look_at_group(taking *t, dem_index group)
     const dem_index first = LAYOUT_LANES * ENERGY_PASS_GROUP * group, end = LAYOUT_LANES * l->n_blocks;
     for (dem_index q = first; q < end && q < first + LAYOUT_LANES * ENERGY_PASS_GROUP; q++) {
         const dem_index i = layout_node(l, q);
-        if (element_state_at(t->f->elements, i) != NULL) continue;
+        if (!is_own(t->s, i) || element_state_at(t->f->elements, i) != NULL) continue;
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
             if (place_of(t, s->neighbour[p]) > q)
                 measure_spring(&t->s->model->lattice, s->spring[p], springs_strain(s, i, p, t->x), &t->extremes);
@@ -427,20 +466,63 @@ static void find_extremes(taking *t)
         if (s->least[g] == least || s->largest[g] == largest) look_at_group(t, g);
 }
 
-/* The key tells which of equal values counts if several processes have one. */
-static dem_strain reduce(taking *t)
+/* A strain that may be an extreme, and its spring in the whole lattice; -1: none. */
+typedef struct named_strain {
+    double strain;
+    spring_ends ends;
+    dem_index spring;
+} named_strain;
+
+/* What ranks tell each other of strains. */
+typedef struct strain_packet {
+    named_strain least, largest;
+    double area_min;
+    dem_index guarded, inverted;
+} strain_packet;
+
+static void keep(named_strain *own, const named_strain *theirs, bool beyond)
 {
-    const dem_lattice *l = &t->s->model->lattice;
-    extreme_strains *e = &t->extremes;
-    reduce_least(&e->min, &e->least, e->least < 0 ? -1 : ends_of(l, e->least).low);
-    reduce_largest(&e->max, &e->largest, e->largest < 0 ? -1 : ends_of(l, e->largest).low);
-    return (dem_strain){.min = e->min,
-                        .max = e->max,
-                        .spring_min = e->least,
-                        .spring_max = e->largest,
-                        .area_min = reduce_min(t->s->model->ranks, t->strain.area_min),
-                        .guarded = reduce_count(t->s->model->ranks, t->strain.guarded),
-                        .inverted = reduce_count(t->s->model->ranks, t->strain.inverted)};
+    const bool is_first = theirs->strain == own->strain && ends_before(theirs->ends, own->ends);
+    if (theirs->spring >= 0 && (own->spring < 0 || beyond || is_first)) *own = *theirs;
+}
+
+static void join_strains(void *packet, const void *other)
+{
+    strain_packet *own = packet;
+    const strain_packet *theirs = other;
+    keep(&own->least, &theirs->least, theirs->least.strain < own->least.strain);
+    keep(&own->largest, &theirs->largest, theirs->largest.strain > own->largest.strain);
+    if (theirs->area_min < own->area_min) own->area_min = theirs->area_min;
+    own->guarded += theirs->guarded;
+    own->inverted += theirs->inverted;
+}
+
+static named_strain name_strain(const dem_model *m, double strain, dem_index spring)
+{
+    const domain *d = m->domain;
+    if (spring < 0) return (named_strain){.strain = strain, .spring = -1};
+    const spring_ends ends = ends_of(&m->lattice, spring);
+    return (named_strain){
+        strain, {domain_number(d, ends.low), domain_number(d, ends.high)}, d != NULL ? d->spring[spring] : spring};
+}
+
+static dem_strain reduce(const taking *t)
+{
+    const dem_model *m = t->s->model;
+    const extreme_strains *e = &t->extremes;
+    strain_packet all = {.least = name_strain(m, e->min, e->least),
+                         .largest = name_strain(m, e->max, e->largest),
+                         .area_min = t->strain.area_min,
+                         .guarded = t->strain.guarded,
+                         .inverted = t->strain.inverted};
+    m->ranks->reduce(m->ranks->self, &all, sizeof all, join_strains);
+    return (dem_strain){.min = all.least.strain,
+                        .max = all.largest.strain,
+                        .spring_min = all.least.spring,
+                        .spring_max = all.largest.spring,
+                        .area_min = all.area_min,
+                        .guarded = all.guarded,
+                        .inverted = all.inverted};
 }
 
 void survey_take(survey *s, const forces *f, const double *x, const double *v)

@@ -29,6 +29,7 @@ typedef struct survey {
     int n_shares;            /* of its loops */
     int32_t *place;          /* [n_nodes] of each node in the layout, and */
     double *packed;          /* [n_nodes][2] positions in its order; both NULL: that of the nodes */
+    uint8_t *ghosts;         /* [n_blocks] nodes of other ranks, as `skipped`; NULL: there are none */
     uint8_t *skipped;        /* [n_blocks] as energy_pass has them, as the next three are */
     uint8_t *folded;         /* [n_blocks] */
     double *least, *largest; /* [n_groups] */
@@ -38,7 +39,7 @@ typedef struct survey {
     motion_sums *moving; /* [n_runs] */
     motion_sums *bodies; /* [n_bodies] of the last survey, as the next two are */
     survey_energies energies;
-    dem_strain strain; /* as dem_simulation_strain() tells it */
+    dem_strain strain; /* as dem_simulation_strain() tells it, of all ranks */
     double *mass;      /* [n_bodies] kg */
 } survey;
 
@@ -49,15 +50,16 @@ enum { SURVEY_CHUNK = 128 }; /* a multiple of ENERGY_PASS_GROUP */
 dem_status survey_create(survey *out, const kernel *k);
 void survey_destroy(survey *s);
 
-/** Measures a state.
+/** Measures a state. Collective.
  *  \param f     gravity, and what is left of elements
- *  \param x, v  [n_nodes][2] */
+ *  \param x, v  [n_nodes][2], ghosts among them */
 void survey_take(survey *s, const forces *f, const double *x, const double *v);
 
 /** Measures no more than survey_bodies() asks for. */
 void survey_take_motions(survey *s, const double *x, const double *v);
 
 /** Motion of every body in the state of the last survey: centre of mass, velocity of that, angular momentum about it.
+ *  Collective.
  *  \param x, v  of that state  \param[out] motion  [n_bodies] */
 void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion *motion);
 

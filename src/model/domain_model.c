@@ -113,6 +113,36 @@ static dem_status cut_nodes(dem_model *m, const dem_model *whole)
     return DEM_OK;
 }
 
+/* The numbers of springs in the whole lattice. */
+static dem_status list_springs(dem_model *m, const dem_lattice *whole, const places *p)
+{
+    domain *d = m->domain;
+    d->spring = malloc(((size_t)m->lattice.n_springs + 1) * sizeof *d->spring);
+    CHECK_MEMORY(d->spring);
+    d->n_springs = whole->n_springs;
+    for (dem_index k = 0; k < whole->n_springs; k++)
+        if (p->spring[k] >= 0) d->spring[p->spring[k]] = k;
+    return DEM_OK;
+}
+
+/* Nodes stand in the order of the whole's layout, so that all ranks and a process alone see an element from the same of
+ * its nodes, the lowest in this order: areas have other bits from another corner. */
+static dem_status cut_layout(dem_model *m, const layout *whole, const places *p)
+{
+    const domain *d = m->domain;
+    int32_t *order = NULL;
+    dem_index n = 0;
+    if (whole->order != NULL) {
+        order = malloc((size_t)d->n_nodes * sizeof *order);
+        CHECK_MEMORY(order);
+        for (dem_index q = 0; q < d->n_whole; q++)
+            if (p->node[whole->order[q]] >= 0) order[n++] = (int32_t)p->node[whole->order[q]];
+    }
+    const dem_status status = layout_compile_part(&m->layout, &m->springs, &m->triangles, &m->couplings, order);
+    free(order);
+    return status;
+}
+
 static void take_scales(dem_model *m, const dem_model *whole)
 {
     m->edges_are_springs = whole->edges_are_springs;
@@ -129,7 +159,8 @@ static dem_status cut(dem_model *m, const dem_model *whole, const places *p)
     TRY(csr_view_create(&m->csr, &m->springs));
     TRY(triangles_compile(&m->triangles, &m->lattice));
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
-    TRY(layout_compile(&m->layout, &m->springs, &m->triangles, &m->couplings));
+    TRY(list_springs(m, &whole->lattice, p));
+    TRY(cut_layout(m, &whole->layout, p));
     TRY(cut_surface(m, &whole->lattice, p));
     TRY(cut_stress(m, &whole->stress, p));
     TRY(cut_nodes(m, whole));

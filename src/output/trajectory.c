@@ -285,6 +285,17 @@ static dem_status check_options(const char *path, const dem_trajectory_options *
     return DEM_OK;
 }
 
+/* Files have the rows of all nodes. */
+static dem_status check_whole(const dem_simulation *simulation)
+{
+    dem_index n;
+    const dem_index *number;
+    const unsigned char *is_own;
+    TRY(dem_model_part(dem_simulation_model(simulation), &n, &number, &is_own));
+    CHECK(number == NULL, DEM_ERROR_ARGUMENT, "there is no trajectory of a model that ranks share yet");
+    return DEM_OK;
+}
+
 /* A trajectory in memory, without files yet. The caller's options may be of another version of the library. */
 static dem_status prepare(dem_trajectory **out, const char *path, const dem_simulation *simulation,
                           const dem_trajectory_options *options)
@@ -293,6 +304,7 @@ static dem_status prepare(dem_trajectory **out, const char *path, const dem_simu
           "a trajectory: an argument is NULL");
     dem_trajectory_options own = dem_trajectory_options_default();
     TRY(struct_size_read(&options_kind, &own, options));
+    TRY(check_whole(simulation));
     TRY(check_options(path, &own));
     dem_trajectory *t = calloc(1, sizeof *t);
     CHECK_MEMORY(t);

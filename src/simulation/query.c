@@ -2,13 +2,15 @@
 /* What observers and callers see of a run: the state at some time, and all that dem.h can be asked about it. A state
  * within the step in hand is interpolated, and results are computed, only when they are asked for, each once
  * (run_measures). To show contacts and ledger of an earlier time the event queue goes back, and on again when the run
- * goes on, to the same bits. What would call a function of the caller is not left until then: query_ask() does it
- * during the advance, which reports a failure. */
+ * goes on, to the same bits. Ranks that share a model exchange ghosts for what depends on more than a node of their
+ * own, and all ask for the same (dem/mpi.h). What would call a function of the caller is not left until then:
+ * query_ask() does it during the advance, which reports a failure. */
 #include "simulation/query.h"
 
 #include <string.h>
 
 #include "base/reduce.h"
+#include "base/sorted.h"
 #include "base/status.h"
 #include "base/struct_size.h"
 #include "contact/obstacle_load.h"
@@ -57,10 +59,20 @@ static const double *seen_of(const dem_simulation *s)
     return s->seen;
 }
 
+/* The state as seen, with what other ranks have of it. No motion depends on ghosts as they are left here. */
+static const double *all_seen_of(const dem_simulation *s)
+{
+    const double *y = seen_of(s);
+    if (s->model->domain == NULL || s->measures->has_ghosts) return y;
+    s->shared.fill_ghosts(y == s->y ? s->y : s->frame, (dem_simulation *)s);
+    s->measures->has_ghosts = true;
+    return y;
+}
+
 /* Who asks for one of these numbers mostly asks for the others, too: all are measured in one pass. */
 static const survey *survey_of(const dem_simulation *s)
 {
-    const double *y = seen_of(s);
+    const double *y = all_seen_of(s);
     if (!s->measures->has_survey) survey_take(s->survey, &s->forces, y, y + state_velocities(&s->layout));
     s->measures->has_survey = true;
     return s->survey;
@@ -137,8 +149,8 @@ static dem_status check_pointers(const char *function, const dem_simulation *s, 
     return DEM_OK;
 }
 
-/* Of a model that ranks share ghosts of the state as seen are not known, nor are sums. */
-static dem_status check_given(const char *function, const dem_simulation *s, const void *out)
+/* What is found by a search of all bodies. */
+static dem_status check_whole(const char *function, const dem_simulation *s, const void *out)
 {
     TRY(check_pointers(function, s, out));
     CHECK(s->model->domain == NULL, DEM_ERROR_ARGUMENT, "%s: not known yet of a model that ranks share", function);
@@ -209,20 +221,20 @@ static dem_energy energy_of(const dem_simulation *s)
 
 dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 {
-    TRY(check_given("dem_simulation_energy", s, out));
+    TRY(check_pointers("dem_simulation_energy", s, out));
     const dem_energy seen = energy_of(s);
     return GIVE(dem_energy, out, &seen);
 }
 
 dem_status dem_simulation_strain(const dem_simulation *s, dem_strain *out)
 {
-    TRY(check_given("dem_simulation_strain", s, out));
+    TRY(check_pointers("dem_simulation_strain", s, out));
     return GIVE(dem_strain, out, &survey_of(s)->strain);
 }
 
 dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, dem_contact *out)
 {
-    TRY(check_given("dem_simulation_contact", s, out));
+    TRY(check_pointers("dem_simulation_contact", s, out));
     dem_index n;
     const dem_contact *contacts = contacts_of(s, &n);
     TRY(status_check_number("contact", contact, n));
@@ -231,8 +243,8 @@ dem_status dem_simulation_contact(const dem_simulation *s, dem_index contact, de
 
 dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
 {
-    TRY(check_given("dem_simulation_strains", s, strain));
-    const double *x = seen_of(s);
+    TRY(check_pointers("dem_simulation_strains", s, strain));
+    const double *x = all_seen_of(s);
     if (s->measures->has_stress)
         stress_field_strains(s->field, s->forces.elements, strain);
     else
@@ -242,22 +254,42 @@ dem_status dem_simulation_strains(const dem_simulation *s, double *strain)
 
 dem_status dem_simulation_forces(const dem_simulation *s, double *force)
 {
-    TRY(check_given("dem_simulation_forces", s, force));
-    springs_forces(&s->model->lattice, element_state_springs(s->forces.elements), seen_of(s), force);
-    couplings_add_tensions(&s->model->couplings, element_state_triangles(s->forces.elements), seen_of(s), force);
+    TRY(check_pointers("dem_simulation_forces", s, force));
+    const double *x = all_seen_of(s);
+    springs_forces(&s->model->lattice, element_state_springs(s->forces.elements), x, force);
+    couplings_add_tensions(&s->model->couplings, element_state_triangles(s->forces.elements), x, force);
     return DEM_OK;
+}
+
+static double force_of(const dem_simulation *s, dem_index spring, const double *x)
+{
+    const dem_lattice *l = &s->model->lattice;
+    const springs_integrity integrity = element_state_springs(s->forces.elements);
+    const double strain = springs_is_broken(integrity, spring) ? 0.0 : springs_strain_of(l, spring, x);
+    const double own = strain * (springs_left(integrity, spring, strain) * l->stiffness[spring]);
+    return couplings_add_tension(&s->model->couplings, element_state_triangles(s->forces.elements), l->ends[2 * spring],
+                                 spring, x, own);
+}
+
+/* Of ranks the one reports it that owns the lower node. */
+static bool reports_spring(const dem_model *m, dem_index spring)
+{
+    const dem_index *ends = &m->lattice.ends[2 * spring];
+    return m->domain == NULL || m->domain->is_own[ends[0] < ends[1] ? ends[0] : ends[1]];
 }
 
 dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, double *out)
 {
-    TRY(check_given("dem_simulation_force_at", s, out));
+    TRY(check_pointers("dem_simulation_force_at", s, out));
     const dem_lattice *l = &s->model->lattice;
-    TRY(status_check_number("spring", spring, l->n_springs));
-    const springs_integrity integrity = element_state_springs(s->forces.elements);
-    const double *x = seen_of(s), strain = springs_is_broken(integrity, spring) ? 0.0 : springs_strain_of(l, spring, x);
-    const double own = strain * (springs_left(integrity, spring, strain) * l->stiffness[spring]);
-    *out = couplings_add_tension(&s->model->couplings, element_state_triangles(s->forces.elements), l->ends[2 * spring],
-                                 spring, x, own);
+    const domain *d = s->model->domain;
+    TRY(status_check_number("spring", spring, d != NULL ? d->n_springs : l->n_springs));
+    const double *x = all_seen_of(s);
+    const dem_index k = d != NULL ? sorted_find(d->spring, l->n_springs, spring) : spring;
+    const bool is_here = k >= 0 && reports_spring(s->model, k);
+    double force = is_here ? force_of(s, k, x) : 0.0;
+    reduce_report(s->model->ranks, is_here, &force, 1);
+    *out = force;
     return DEM_OK;
 }
 
@@ -270,7 +302,7 @@ static const element_state *elements_of(const dem_simulation *s)
 
 dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangle, unsigned char *spring)
 {
-    TRY(check_given("dem_simulation_broken", s, s));
+    TRY(check_pointers("dem_simulation_broken", s, s));
     const dem_lattice *l = &s->model->lattice;
     const element_state *elements = elements_of(s);
     for (dem_index k = 0; k < l->n_triangles && triangle != NULL; k++)
@@ -282,7 +314,7 @@ dem_status dem_simulation_broken(const dem_simulation *s, unsigned char *triangl
 
 dem_status dem_simulation_damage(const dem_simulation *s, double *triangle, double *node)
 {
-    TRY(check_given("dem_simulation_damage", s, s));
+    TRY(check_pointers("dem_simulation_damage", s, s));
     const dem_lattice *l = &s->model->lattice;
     const element_state *elements = elements_of(s);
     for (dem_index t = 0; t < l->n_triangles && triangle != NULL; t++) triangle[t] = element_state_damage(elements, t);
@@ -292,8 +324,8 @@ dem_status dem_simulation_damage(const dem_simulation *s, double *triangle, doub
 
 dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragments, dem_index *fragment)
 {
-    TRY(check_given("dem_simulation_fragments", s, n_fragments));
-    TRY(check_given("dem_simulation_fragments", s, fragment));
+    TRY(check_whole("dem_simulation_fragments", s, n_fragments));
+    TRY(check_whole("dem_simulation_fragments", s, fragment));
     *n_fragments = fragments_find(&s->model->lattice, element_state_springs(elements_of(s)).pushed, fragment);
     return DEM_OK;
 }
@@ -301,7 +333,7 @@ dem_status dem_simulation_fragments(const dem_simulation *s, dem_index *n_fragme
 dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
 {
     dem_fracture seen;
-    TRY(check_given("dem_simulation_fracture", s, out));
+    TRY(check_whole("dem_simulation_fracture", s, out));
     const contact_burials *buried = &s->automaton.set.burials;
     TRY(fragments_measure(&s->model->lattice, elements_of(s), &seen));
     seen.buried = reduce_count(s->model->ranks, buried->n);
@@ -313,15 +345,15 @@ dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
 
 dem_status dem_simulation_crack_energy(const dem_simulation *s, double *energy)
 {
-    TRY(check_given("dem_simulation_crack_energy", s, energy));
+    TRY(check_whole("dem_simulation_crack_energy", s, energy));
     return crack_energy(&s->model->lattice, elements_of(s), energy);
 }
 
 dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 {
-    TRY(check_given("dem_simulation_stress", s, stress));
+    TRY(check_pointers("dem_simulation_stress", s, stress));
     TRY(stress_prepare(&s->model->stress));
-    const double *x = seen_of(s);
+    const double *x = all_seen_of(s);
     const double area_min = s->measures->has_survey ? s->survey->strain.area_min : 0.0;
     s->measures->has_stress = stress_field_take(s->field, s->forces.elements, x, area_min, stress);
     return DEM_OK;
@@ -329,22 +361,28 @@ dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 
 dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
-    TRY(check_given("dem_simulation_stress_at", s, stress));
-    TRY(status_check_number("node", node, s->model->lattice.n_nodes));
+    TRY(check_pointers("dem_simulation_stress_at", s, stress));
+    const domain *d = s->model->domain;
+    double own[3] = {0};
+    TRY(status_check_number("node", node, d != NULL ? d->n_whole : s->model->lattice.n_nodes));
     TRY(stress_prepare(&s->model->stress));
-    node_stress(s->model, s->forces.elements, NODE_STRESS_CARRIED, node, seen_of(s), stress);
+    const double *x = all_seen_of(s);
+    const dem_index i = domain_own_node(d, node);
+    if (i >= 0) node_stress(s->model, s->forces.elements, NODE_STRESS_CARRIED, i, x, own);
+    reduce_report(s->model->ranks, i >= 0, own, 3);
+    memcpy(stress, own, sizeof own);
     return DEM_OK;
 }
 
 dem_status dem_simulation_overlap(const dem_simulation *s, dem_overlap *out)
 {
-    TRY(check_given("dem_simulation_overlap", s, out));
+    TRY(check_whole("dem_simulation_overlap", s, out));
     return GIVE(dem_overlap, out, &s->overlap.found);
 }
 
 dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 {
-    TRY(check_given("dem_simulation_surfaces", s, out));
+    TRY(check_pointers("dem_simulation_surfaces", s, out));
     run_measures *m = s->measures;
     if (!m->has_surfaces) m->surfaces = body_contact_surfaces(s, seen_of(s));
     m->has_surfaces = true;
@@ -354,7 +392,7 @@ dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 /* They are listed when the first of them is asked for. */
 dem_status dem_simulation_pair(const dem_simulation *s, dem_index pair, dem_pair *out)
 {
-    TRY(check_given("dem_simulation_pair", s, out));
+    TRY(check_pointers("dem_simulation_pair", s, out));
     const double *x = seen_of(s);
     if (!s->measures->has_pairs) TRY(body_contact_list((dem_simulation *)s, x));
     s->measures->has_pairs = true;
@@ -365,7 +403,7 @@ dem_status dem_simulation_pair(const dem_simulation *s, dem_index pair, dem_pair
 
 dem_status dem_simulation_contact_forces(const dem_simulation *s, double *force)
 {
-    TRY(check_given("dem_simulation_contact_forces", s, force));
+    TRY(check_pointers("dem_simulation_contact_forces", s, force));
     memset(force, 0, (size_t)(s->layout.dim * s->model->lattice.n_nodes) * sizeof *force);
     if (s->surfaces != NULL) surface_load_forces(s->surfaces, seen_of(s), force);
     return DEM_OK;
@@ -373,7 +411,7 @@ dem_status dem_simulation_contact_forces(const dem_simulation *s, double *force)
 
 dem_status dem_simulation_contact_pressures(const dem_simulation *s, double *pressure)
 {
-    TRY(check_given("dem_simulation_contact_pressures", s, pressure));
+    TRY(check_pointers("dem_simulation_contact_pressures", s, pressure));
     memset(pressure, 0, (size_t)s->model->lattice.n_nodes * sizeof *pressure);
     return s->surfaces != NULL ? surface_load_pressures(s->surfaces, seen_of(s), pressure) : DEM_OK;
 }
@@ -412,7 +450,7 @@ static void measure_bodies(const dem_simulation *s)
 
 dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body_motion *out)
 {
-    TRY(check_given("dem_simulation_body", s, out));
+    TRY(check_pointers("dem_simulation_body", s, out));
     TRY(status_check_number("body", body, s->model->n_bodies));
     if (!s->measures->has_bodies) measure_bodies(s);
     return GIVE(dem_body_motion, out, &s->bodies[body]);
@@ -436,7 +474,7 @@ static void add_motion(const dem_simulation *s, dem_index obstacle, dem_obstacle
 
 dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *out)
 {
-    TRY(check_given("dem_simulation_obstacle", s, out));
+    TRY(check_pointers("dem_simulation_obstacle", s, out));
     TRY(status_check_number("obstacle", obstacle, s->model->obstacles.n));
     const contact_ledger *ledger = &contact_of(s)->set.ledger;
     const state_layout *l = &s->layout;
@@ -457,10 +495,10 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
 
 dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_boundary_load *out)
 {
-    TRY(check_given("dem_simulation_boundary", s, out));
+    TRY(check_pointers("dem_simulation_boundary", s, out));
     TRY(status_check_number("boundary", k, s->boundaries.n));
     const boundary_condition *b = &s->boundaries.list[k];
-    const double *y = seen_of(s), *external = s->held_forces.force;
+    const double *y = all_seen_of(s), *external = s->held_forces.force;
     dem_boundary_load load = diagnostics_boundary(&s->forces, b, external, y, y + state_velocities(&s->layout));
     const bool known = b->kind == DEM_BOUNDARY_FORCE || external == NULL || s->measures->has_held_forces;
     if (!known) load.force[0] = load.force[1] = (double)NAN;
@@ -471,7 +509,9 @@ double query_residual(const dem_simulation *s)
 {
     const bool known = s->path.f1 != NULL && !s->at_event && s->path.end == s->path.t1;
     const dem_index v = state_velocities(&s->layout);
-    return known ? diagnostics_residual(&s->forces, s->path.y1, s->path.y1 + v, s->path.f1 + v) : (double)INFINITY;
+    if (!known) return (double)INFINITY;
+    const double *y = s->model->domain != NULL ? all_seen_of(s) : s->path.y1; /* whose ghosts are not all known */
+    return diagnostics_residual(&s->forces, y, y + v, s->path.f1 + v);
 }
 
 double dem_simulation_residual(const dem_simulation *s)

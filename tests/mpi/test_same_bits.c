@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks that are processes: positions, velocities, times, lengths of steps and their counts have the bits of one
- * process, which every rank computes beside it. `mpirun -n N test_same_bits`. */
+/* Ranks that are processes: positions, velocities, times, lengths of steps and their counts, energies, strains and the
+ * loads of boundaries have the bits of one process, which every rank computes beside it. `mpirun -n N
+ * test_same_bits`. */
 #include "mpi_body.h"
 
 enum { N_STOPS = 2, N_FRAMES = 3 };
@@ -9,10 +10,15 @@ enum { N_STOPS = 2, N_FRAMES = 3 };
 typedef struct motion {
     double t, step;
     double *x, *v; /* [n][2] */
+    dem_energy energy;
+    dem_strain strain;
+    dem_body_motion body;
+    dem_boundary_load load;
 } motion;
 
 typedef struct run {
     dem_index n; /* nodes of the whole */
+    bool is_held;
     int n_seen;
     motion seen[N_STOPS + N_FRAMES]; /* in frames and at stops */
     dem_counts counts;
@@ -29,6 +35,13 @@ static void look(run *r, const dem_simulation *s)
     *m = (motion){.x = malloc(size), .v = malloc(size)};
     INSIST(m->x != NULL && m->v != NULL);
     INSIST(dem_simulation_state(s, &state) == DEM_OK && dem_simulation_gather(s, m->x, m->v) == DEM_OK);
+    m->energy.struct_size = sizeof m->energy;
+    m->strain.struct_size = sizeof m->strain;
+    m->body.struct_size = sizeof m->body;
+    m->load.struct_size = sizeof m->load;
+    INSIST(dem_simulation_energy(s, &m->energy) == DEM_OK && dem_simulation_strain(s, &m->strain) == DEM_OK);
+    INSIST(dem_simulation_body(s, 0, &m->body) == DEM_OK);
+    if (r->is_held) INSIST(dem_simulation_boundary(s, 0, &m->load) == DEM_OK);
     m->t = state.t;
     m->step = state.step;
 }
@@ -69,6 +82,10 @@ static void compare(const run *ranks, const run *one, int rank)
     const size_t size = 2 * (size_t)one->n * sizeof(double);
     INSIST(ranks->n_seen == one->n_seen && one->n_seen == N_STOPS + N_FRAMES);
     for (int k = 0; k < one->n_seen; k++) {
+        const motion *a = &ranks->seen[k], *b = &one->seen[k];
+        INSIST(memcmp(&a->energy, &b->energy, sizeof a->energy) == 0);
+        INSIST(memcmp(&a->strain, &b->strain, sizeof a->strain) == 0);
+        INSIST(memcmp(&a->body, &b->body, sizeof a->body) == 0 && memcmp(&a->load, &b->load, sizeof a->load) == 0);
         INSIST(ranks->seen[k].t == one->seen[k].t && ranks->seen[k].step == one->seen[k].step);
         INSIST(rank != 0 || memcmp(ranks->seen[k].x, one->seen[k].x, size) == 0);
         INSIST(rank != 0 || memcmp(ranks->seen[k].v, one->seen[k].v, size) == 0);
@@ -96,7 +113,8 @@ static void check_part(const dem_model *model, const dem_lattice *whole)
 static void share(const dem_lattice *l, const dem_options *options, int rank)
 {
     dem_model *model = NULL;
-    run one = {.n = l->n_nodes}, ranks = {.n = l->n_nodes};
+    const bool is_held = options->n_boundaries > 0;
+    run one = {.n = l->n_nodes, .is_held = is_held}, ranks = one;
     INSIST(dem_model_create(&model, l, NULL, 0) == DEM_OK);
     finish(&one, model, options);
     dem_model_destroy(model);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ranks that share a model, as threads: positions, velocities, energies integrated along, times, lengths of steps and
- * their counts have the bits of the whole model in one process, whatever the shares. Bodies are free, damped, driven,
- * folded nearly flat; triangles single and coupled, and squares. */
+ * their counts, and all that is measured on a state, have the bits of the whole model in one process, whatever the
+ * shares. Bodies are free, damped, driven, folded nearly flat, two and far apart; triangles single and coupled, and
+ * squares. */
 #include <stdio.h>
 #include <string.h>
 
@@ -12,7 +13,7 @@
 #include "model/domain_model.h"
 #include "simulation/private.h"
 
-enum { MOST_RANKS = 7, N_BODIES = 4, N_METHODS = 4, N_STOPS = 2, TEXT = 256 };
+enum { MOST_RANKS = 7, N_BODIES = 4, STRIP = N_BODIES, N_METHODS = 4, N_STOPS = 2, TEXT = 256 };
 
 static const double spacing = 5e-3;
 static const dem_method methods[N_METHODS] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_DOPRI45, DEM_METHOD_RK4,
@@ -39,6 +40,15 @@ static void set_off(dem_lattice *l, double speed)
     support_start(l, NULL, v);
 }
 
+/* A second body beside the first. */
+static void add_copy(dem_lattice *l)
+{
+    CLEANUP(dem_lattice_free) dem_lattice other = dem_lattice_empty();
+    assert_ok(dem_lattice_append(&other, l));
+    dem_lattice_move(&other, 0.3, (const double[]){0.1, 0.02});
+    assert_ok(dem_lattice_append(l, &other));
+}
+
 static dem_lattice make_lattice(int body)
 {
     dem_material solid = SIZED(dem_material, .youngs_modulus = 1e7, .poissons_ratio = 0.3, .density = 1050.0,
@@ -49,11 +59,17 @@ static dem_lattice make_lattice(int body)
     if (body == 3) {
         assert_ok(dem_lattice_squares(&l, 0.09, 0.06, spacing));
         assert_ok(dem_lattice_assemble_squares(&l, &solid, 0.45));
+    } else if (body == STRIP) {
+        /* Rows are so long that a sweep takes the nodes in another order. */
+        assert_ok(dem_lattice_rectangle(&l, 1100 * spacing, 3 * spacing, spacing));
+        assert_ok(dem_lattice_jitter(&l, 0.2 * spacing, 7));
+        assert_ok(dem_lattice_assemble(&l, &solid));
     } else {
         assert_ok(dem_lattice_disc(&l, 0.04, spacing));
         assert_ok(dem_lattice_jitter(&l, 0.2 * spacing, 7));
         assert_ok(dem_lattice_assemble(&l, &solid));
     }
+    if (body == 1) add_copy(&l);
     set_off(&l, body == 0 ? 60.0 : 2.0);
     return l;
 }
@@ -104,20 +120,114 @@ static void close_scene(scene *s)
     free(s->pushed);
 }
 
+/* ---- measures ---- */
+
+enum { MEASURED_STEP = 4, N_LOOKS = N_STOPS + 1 };
+
+/* Of one state. */
+typedef struct measures {
+    dem_energy energy;
+    dem_strain strain;
+    dem_body_motion bodies[2];
+    dem_boundary_load loads[3];
+    dem_surfaces surfaces;
+    double residual, stress_at[3], force_at;
+    double *stress;           /* [n_nodes][3] of the whole, as the next two are */
+    double *strains, *forces; /* [n_springs] */
+} measures;
+
+/* Of each rank's arrays the rows of its own nodes, and of springs whose lower node is an own one. */
+static dem_status measure_arrays(const dem_simulation *s, const domain *d, measures *m)
+{
+    const dem_lattice *l = &dem_simulation_model(s)->lattice;
+    CLEANUP(free_memory) double *stress = malloc(3 * (size_t)l->n_nodes * sizeof *stress);
+    CLEANUP(free_memory) double *strains = malloc((size_t)l->n_springs * sizeof *strains);
+    CLEANUP(free_memory) double *tensions = malloc((size_t)l->n_springs * sizeof *tensions);
+    if (dem_simulation_stress(s, stress) != DEM_OK || dem_simulation_strains(s, strains) != DEM_OK ||
+        dem_simulation_forces(s, tensions) != DEM_OK)
+        return DEM_ERROR_ARGUMENT;
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        if (d == NULL || d->is_own[i]) memcpy(m->stress + 3 * domain_number(d, i), stress + 3 * i, 3 * sizeof *stress);
+    for (dem_index k = 0; k < l->n_springs; k++) {
+        const dem_index *ends = &l->ends[2 * k], lower = ends[0] < ends[1] ? ends[0] : ends[1];
+        if (d != NULL && !d->is_own[lower]) continue;
+        m->strains[d != NULL ? d->spring[k] : k] = strains[k];
+        m->forces[d != NULL ? d->spring[k] : k] = tensions[k];
+    }
+    return DEM_OK;
+}
+
+static dem_status measure(const dem_simulation *s, const dem_options *options, measures *m)
+{
+    const domain *d = dem_simulation_model(s)->domain;
+    dem_status status = DEM_OK;
+    m->energy.struct_size = sizeof m->energy;
+    m->strain.struct_size = sizeof m->strain;
+    m->surfaces.struct_size = sizeof m->surfaces;
+    m->residual = dem_simulation_residual(s);
+    if (dem_simulation_strain(s, &m->strain) != DEM_OK || dem_simulation_energy(s, &m->energy) != DEM_OK ||
+        dem_simulation_surfaces(s, &m->surfaces) != DEM_OK || dem_simulation_stress_at(s, 77, m->stress_at) != DEM_OK ||
+        dem_simulation_force_at(s, 123, &m->force_at) != DEM_OK)
+        return DEM_ERROR_ARGUMENT;
+    for (dem_index b = 0; b < dem_simulation_model(s)->n_bodies && status == DEM_OK; b++) {
+        m->bodies[b].struct_size = sizeof m->bodies[b];
+        status = dem_simulation_body(s, b, &m->bodies[b]);
+    }
+    for (dem_index k = 0; k < options->n_boundaries && status == DEM_OK; k++) {
+        m->loads[k].struct_size = sizeof m->loads[k];
+        status = dem_simulation_boundary(s, k, &m->loads[k]);
+    }
+    return status == DEM_OK ? measure_arrays(s, d, m) : status;
+}
+
+static void make_measures(measures *m, const dem_lattice *l)
+{
+    m->stress = calloc(3 * (size_t)l->n_nodes, sizeof *m->stress);
+    m->strains = calloc((size_t)l->n_springs, sizeof *m->strains);
+    m->forces = calloc((size_t)l->n_springs, sizeof *m->forces);
+}
+
+static void free_measures(measures *m)
+{
+    free(m->stress);
+    free(m->strains);
+    free(m->forces);
+}
+
+static void assert_same_measures(const measures *one, const measures *whole, const dem_lattice *l)
+{
+    assert_memory_equal(&one->energy, &whole->energy, sizeof one->energy);
+    assert_memory_equal(&one->strain, &whole->strain, sizeof one->strain);
+    assert_memory_equal(one->bodies, whole->bodies, sizeof one->bodies);
+    assert_memory_equal(one->loads, whole->loads, sizeof one->loads);
+    assert_memory_equal(&one->surfaces, &whole->surfaces, sizeof one->surfaces);
+    assert_memory_equal(&one->residual, &whole->residual, sizeof one->residual);
+    assert_memory_equal(one->stress_at, whole->stress_at, sizeof one->stress_at);
+    assert_memory_equal(&one->force_at, &whole->force_at, sizeof one->force_at);
+    assert_memory_equal(one->stress, whole->stress, 3 * (size_t)l->n_nodes * sizeof *one->stress);
+    assert_memory_equal(one->strains, whole->strains, (size_t)l->n_springs * sizeof *one->strains);
+    assert_memory_equal(one->forces, whole->forces, (size_t)l->n_springs * sizeof *one->forces);
+}
+
 /* ---- runs ---- */
 
-/* At each stop. */
+/* At each stop, and what is measured there and at the end of a step. */
 typedef struct outcome {
     double t[N_STOPS], step[N_STOPS];
     double taken[N_STOPS], given[N_STOPS]; /* J, by damping and from outside */
     dem_counts counts[N_STOPS];
     double *x[N_STOPS], *v[N_STOPS]; /* [n_nodes][2] of the whole */
-    char failure[TEXT];              /* empty: none */
+    measures measured[N_LOOKS];
+    int n_steps;
+    const dem_options *options;
+    char failure[TEXT]; /* empty: none */
 } outcome;
 
-static void make_outcome(outcome *o, dem_index n)
+static void make_outcome(outcome *o, const dem_lattice *l)
 {
+    const dem_index n = l->n_nodes;
     memset(o, 0, sizeof *o);
+    for (int k = 0; k < N_LOOKS; k++) make_measures(&o->measured[k], l);
     for (int k = 0; k < N_STOPS; k++) {
         o->x[k] = calloc(2 * (size_t)n, sizeof(double));
         o->v[k] = calloc(2 * (size_t)n, sizeof(double));
@@ -126,6 +236,7 @@ static void make_outcome(outcome *o, dem_index n)
 
 static void free_outcome(outcome *o)
 {
+    for (int k = 0; k < N_LOOKS; k++) free_measures(&o->measured[k]);
     for (int k = 0; k < N_STOPS; k++) {
         free(o->x[k]);
         free(o->v[k]);
@@ -149,13 +260,22 @@ static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int
         memcpy(o->x[stop] + 2 * domain_number(d, i), state.x + 2 * i, 2 * sizeof *state.x);
         memcpy(o->v[stop] + 2 * domain_number(d, i), state.v + 2 * i, 2 * sizeof *state.v);
     }
-    return DEM_OK;
+    return measure(s, o->options, &o->measured[stop]);
+}
+
+static dem_status measure_step(void *context, const dem_simulation *s)
+{
+    outcome *o = context;
+    return ++o->n_steps == MEASURED_STEP ? measure(s, o->options, &o->measured[N_STOPS]) : DEM_OK;
 }
 
 static dem_status run(const dem_model *model, const dem_options *options, outcome *o)
 {
     dem_simulation *s = NULL;
+    const dem_observer observer = SIZED(dem_observer, .context = o, .step = measure_step);
     dem_status status = dem_simulation_create(&s, model, options);
+    o->options = options;
+    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     for (int k = 0; k < N_STOPS && status == DEM_OK; k++) {
         status = dem_simulation_advance(s, 1.5e-4 * (k + 1));
         if (status == DEM_OK) status = look(s, model->domain, o, k);
@@ -184,8 +304,10 @@ static void run_rank(const ranks *r, void *context)
     if (r->rank == 0) c->calls = rank_threads_count(r);
 }
 
-static void assert_same_outcome(const outcome *one, const outcome *whole, dem_index n)
+static void assert_same_outcome(const outcome *one, const outcome *whole, const dem_lattice *l)
 {
+    const dem_index n = l->n_nodes;
+    for (int k = 0; k < N_LOOKS; k++) assert_same_measures(&one->measured[k], &whole->measured[k], l);
     for (int k = 0; k < N_STOPS; k++) {
         assert_true(one->t[k] == whole->t[k]);
         assert_true(one->step[k] == whole->step[k]);
@@ -209,38 +331,37 @@ static void scatter(const dem_lattice *l, int n_ranks, int32_t *owner)
 
 static void share(const scene *s, int n_ranks, const int32_t *owner, const outcome *whole)
 {
-    const dem_index n = dem_model_lattice(s->model)->n_nodes;
+    const dem_lattice *l = dem_model_lattice(s->model);
     outcome all[MOST_RANKS];
-    make_outcome(&all[0], n);
+    make_outcome(&all[0], l);
     for (int k = 1; k < n_ranks; k++) all[k] = all[0];
     shared_run c = {.scene = s, .owner = owner, .outcomes = all};
     rank_threads_run(n_ranks, run_rank, &c);
     for (int k = 0; k < n_ranks; k++) {
         assert_string_equal(all[k].failure, "");
-        assert_same_outcome(&all[k], whole, n);
+        assert_same_outcome(&all[k], whole, l);
     }
     /* One exchange for each evaluation. That at the end of a step of Fehlberg's is made even if the step is rejected;
-     * the first fixed step of ARKODE's asks the guard for its length before there is one. */
+     * the first fixed step of ARKODE's asks the guard for its length before there is one. Who measures needs one. */
     const dem_counts *counts = &whole->counts[N_STOPS - 1];
     const dem_index ahead = s->options.method == DEM_METHOD_FEHLBERG45 ? counts->rejected : 0;
-    assert_int_equal(c.calls.exchanges, counts->evaluations + ahead + (s->options.method == DEM_METHOD_RK4));
+    assert_int_equal(c.calls.exchanges, counts->evaluations + ahead + (s->options.method == DEM_METHOD_RK4) + N_LOOKS);
     free_outcome(&all[0]);
 }
 
 /* Both ways to share a body out among ranks. */
-static void check(int body, dem_method method)
+static void check_numbers(int body, dem_method method, const int *numbers, size_t n_numbers)
 {
-    static const int numbers[] = {1, 2, 3, 4, 7};
     scene s;
     outcome whole;
     open_scene(&s, body, method);
     const dem_lattice *l = dem_model_lattice(s.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
-    make_outcome(&whole, l->n_nodes);
+    make_outcome(&whole, l);
     assert_ok(run(s.model, &s.options, &whole));
     assert_true((whole.taken[0] != 0.0) == (body == 1) && (whole.given[0] != 0.0) == (body == 2));
     if (body == 0 && method == DEM_METHOD_FEHLBERG45) assert_true(whole.counts[N_STOPS - 1].rejected > 0);
-    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+    for (size_t k = 0; k < n_numbers; k++) {
         assert_ok(partition_bisect(l, numbers[k], owner));
         share(&s, numbers[k], owner, &whole);
         scatter(l, numbers[k], owner);
@@ -248,6 +369,12 @@ static void check(int body, dem_method method)
     }
     free_outcome(&whole);
     close_scene(&s);
+}
+
+static void check(int body, dem_method method)
+{
+    static const int numbers[] = {1, 2, 3, 4, 7};
+    check_numbers(body, method, numbers, sizeof numbers / sizeof numbers[0]);
 }
 
 /* ---- how often ranks talk ---- */
@@ -491,4 +618,14 @@ TEST(driven_bodies_have_the_bits_of_one_process)
 TEST(squares_have_the_bits_of_one_process)
 {
     for (int m = 0; m < N_METHODS; m++) check(3, methods[m]);
+}
+
+/* In one process the layout of this one has the nodes in another order, and that of a domain has to follow. */
+TEST(a_long_strip_has_the_bits_of_one_process)
+{
+    scene s;
+    open_scene(&s, STRIP, DEM_METHOD_VERLET);
+    assert_non_null(s.model->layout.order);
+    close_scene(&s);
+    check_numbers(STRIP, DEM_METHOD_VERLET, (const int[]){3}, 1);
 }
