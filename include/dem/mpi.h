@@ -8,8 +8,8 @@
  *  in the same order, with the same arguments, and wait for each other in them. These are
  *
  *      dem_model_create_mpi(), and dem_model_destroy() of such a model
- *      dem_simulation_create(), dem_simulation_observe(), dem_simulation_advance(), dem_simulation_gather()
- *      all that is asked of a motion: dem_simulation_state(), dem_simulation_energy() and what follows it in
+ *      dem_simulation_create(), dem_simulation_resume(), dem_simulation_observe(), dem_simulation_advance()
+ *      all that is asked of a motion: dem_simulation_state(), dem_simulation_gather(), and what follows them in
  *      dem/simulation.h, up to dem_simulation_residual()
  *
  *  What is measured is of all bodies, has the bits of one process, and is the same on all ranks: energies, strains,
@@ -18,13 +18,17 @@
  *  stresses of own nodes, strains and forces of springs that have an own node; what they say of others counts for
  *  nothing. So do dem_peaks.
  *
+ *  Rank 0 has the checkpoints, with the bytes of one process: dem_simulation_checkpoint() is NULL elsewhere, and of
+ *  what observers add to one elsewhere nothing is kept. Any number of ranks, or one process, goes on from it:
+ *  dem_simulation_resume() takes that of rank 0.
+ *
  *  A status of a collective function is that of all ranks, with the same dem_status_message(): what fails on one rank,
  *  or is returned by an observer there, ends the call on all. Not so DEM_ERROR_MEMORY, and what is said of `out`,
  *  `model` or `simulation` that is NULL: a rank that gets one of these alone should call MPI_Abort(), as the others may
  *  wait for it. Boundaries name nodes of the whole lattice.
  *
  *  Ranks cannot share yet, and refuse: obstacles, bodies that touch, what may break, rigid bodies, external forces,
- *  checkpoints (`checkpoint_steps` has to be 0), trajectories, overlaps of bodies and their fragments.
+ *  trajectories, overlaps of bodies and their fragments.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A

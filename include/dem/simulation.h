@@ -367,7 +367,8 @@ typedef struct dem_simulation dem_simulation;
 DEM_API dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options);
 
 /** Goes on from a checkpoint of a simulation of the same model and options, whose further motion is repeated to the
- *  bit.
+ *  bit. Where ranks share the model (dem/mpi.h) any number of them may go on.
+ *  \param checkpoint  there on rank 0, and not looked at elsewhere
  *  \return DEM_ERROR_IO if the checkpoint is of another model, or damaged */
 DEM_API dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
                                          const dem_checkpoint *checkpoint);
@@ -406,7 +407,7 @@ DEM_API dem_status dem_simulation_break(dem_simulation *simulation, const dem_in
                                         const dem_index *spring, dem_index n_springs);
 
 /** The last checkpoint, valid and unchanged until the next advance; NULL before the first, and after
- *  dem_simulation_set_motion(). */
+ *  dem_simulation_set_motion(). Where ranks share the model rank 0 has that of all nodes, and the others have none. */
 DEM_API const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *simulation);
 
 /* ---- what can be asked of the motion ---- */

@@ -1309,7 +1309,8 @@ FUNCTIONS = {  # name: (result, arguments, text)
                                       POINTER(dem_checkpoint)],
         """dem_simulation_resume(out, model, options, checkpoint)
         Goes on from a checkpoint of a simulation of the same model and options, whose further motion is repeated to
-        the bit.
+        the bit. Where ranks share the model (dem/mpi.h) any number of them may go on.
+        checkpoint there on rank 0, and not looked at elsewhere
         Returns DEM_ERROR_IO if the checkpoint is of another model, or damaged"""),
     "dem_simulation_destroy": (None, [POINTER(dem_simulation)],
         """dem_simulation_destroy(simulation)
@@ -1346,7 +1347,8 @@ FUNCTIONS = {  # name: (result, arguments, text)
     "dem_simulation_checkpoint": (POINTER(dem_checkpoint), [POINTER(dem_simulation)],
         """dem_simulation_checkpoint(simulation)
         The last checkpoint, valid and unchanged until the next advance; NULL before the first, and after
-        dem_simulation_set_motion()."""),
+        dem_simulation_set_motion(). Where ranks share the model rank 0 has that of all nodes, and the others have
+        none."""),
     "dem_simulation_state": (c_int, [POINTER(dem_simulation), POINTER(dem_state)],
         """dem_simulation_state(simulation, out)
         What is seen of the motion now."""),

@@ -20,6 +20,7 @@
 
 #include "base/grow.h"
 #include "base/publish.h"
+#include "base/reduce.h"
 #include "base/status.h"
 
 enum { FORMAT = 1, NAME = 32, UNIT = 8 };
@@ -151,6 +152,70 @@ dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *f
     for (dem_index k = 0; k < from->n; k++)
         TRY(dem_checkpoint_put(into, from->entries[k].name, from->entries[k].data, from->entries[k].size));
     return DEM_OK;
+}
+
+/* ---- ranks ---- */
+
+/* What rank 0 says of its next entry. */
+typedef struct notice {
+    bool is_known; /* by rank 0 alone, at first */
+    bool is_last;  /* there is none */
+    size_t size;
+    char name[NAME];
+} notice;
+
+static void join_notices(void *packet, const void *other)
+{
+    if (!((const notice *)packet)->is_known) *(notice *)packet = *(const notice *)other;
+}
+
+static notice notice_of(const dem_checkpoint *from, dem_index k)
+{
+    notice own = {.is_known = true, .is_last = k == from->n};
+    if (own.is_last) return own;
+    own.size = from->entries[k].size;
+    memcpy(own.name, from->entries[k].name, NAME);
+    return own;
+}
+
+/* Sends bytes from rank 0 to each of the others. */
+static dem_status send_bytes(const ranks *r, void *bytes, size_t size)
+{
+    const int n = r->rank == 0 ? r->size - 1 : 1;
+    ranks_message *sent = calloc((size_t)n + 1, sizeof *sent), *received = calloc((size_t)n + 1, sizeof *received);
+    const bool has_memory = sent != NULL && received != NULL && bytes != NULL;
+    dem_status status = has_memory ? DEM_OK : status_fail(DEM_ERROR_MEMORY, "out of memory for %zu bytes", size);
+    status = reduce_status(r, status, 0.0);
+    for (int k = 0; k < n && status == DEM_OK; k++) {
+        const int other = r->rank == 0 ? k + 1 : 0;
+        sent[k] = (ranks_message){other, r->rank == 0 ? size : 0, bytes};
+        received[k] = (ranks_message){other, r->rank == 0 ? 0 : size, bytes};
+    }
+    if (status == DEM_OK) r->exchange(r->self, n, sent, received);
+    free(sent);
+    free(received);
+    return status;
+}
+
+/* What rank 0 has may be empty; then there is nothing to send. */
+static dem_status share_entry(const ranks *r, const notice *of, void *data, dem_checkpoint *into)
+{
+    unsigned char *const bytes = r->rank == 0 ? data : malloc(of->size + 1);
+    dem_status status = send_bytes(r, bytes, of->size);
+    if (status == DEM_OK && r->rank != 0) status = dem_checkpoint_put(into, of->name, bytes, of->size);
+    if (r->rank != 0) free(bytes);
+    return reduce_status(r, status, 0.0);
+}
+
+dem_status checkpoint_entries_share(const ranks *r, const dem_checkpoint *from, dem_checkpoint *into)
+{
+    if (r->size == 1) return DEM_OK;
+    for (dem_index k = 0;; k++) {
+        notice next = r->rank == 0 ? notice_of(from, k) : (notice){.is_known = false};
+        r->reduce(r->self, &next, sizeof next, join_notices);
+        if (next.is_last) return DEM_OK;
+        TRY(share_entry(r, &next, r->rank == 0 ? from->entries[k].data : NULL, into));
+    }
 }
 
 /* ---- the file ---- */

@@ -5,8 +5,16 @@
 
 #include <dem/checkpoint.h>
 
+#include "base/ranks.h"
+
 /** Puts all entries of a checkpoint into another.  \return DEM_ERROR_MEMORY */
 dem_status checkpoint_entries_copy(dem_checkpoint *into, const dem_checkpoint *from);
+
+/** Puts all entries of rank 0's checkpoint into that of every other rank. Collective.
+ *  \param from  read on rank 0
+ *  \param into  written on the others
+ *  \return DEM_ERROR_MEMORY, on all ranks */
+dem_status checkpoint_entries_share(const ranks *r, const dem_checkpoint *from, dem_checkpoint *into);
 
 typedef struct checkpoint_entries_way {
     dem_checkpoint *into;       /* where to write; NULL: read from `from` */

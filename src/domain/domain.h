@@ -18,11 +18,12 @@ typedef struct domain_neighbour {
 } domain_neighbour;
 
 typedef struct domain {
-    dem_index n_nodes, n_whole; /* of the domain, and of the whole lattice */
-    dem_index *number;          /* [n_nodes] in the whole lattice, ascending */
-    dem_index n_springs;        /* of the whole lattice */
-    dem_index *spring;          /* [springs of the domain] their numbers in the whole lattice, ascending */
-    unsigned char *is_own;      /* [n_nodes] 0: a ghost */
+    dem_index n_nodes, n_whole;                 /* of the domain, and of the whole lattice */
+    dem_index *number;                          /* [n_nodes] in the whole lattice, ascending */
+    dem_index n_springs, n_triangles;           /* of the whole lattice, and */
+    dem_index n_surface_nodes, n_surface_edges; /* that may touch obstacles */
+    dem_index *spring;     /* [springs of the domain] their numbers in the whole lattice, ascending */
+    unsigned char *is_own; /* [n_nodes] 0: a ghost */
     int n_neighbours;
     domain_neighbour *neighbours; /* [n_neighbours] by rank */
 } domain;

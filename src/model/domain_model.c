@@ -119,7 +119,6 @@ static dem_status list_springs(dem_model *m, const dem_lattice *whole, const pla
     domain *d = m->domain;
     d->spring = malloc(((size_t)m->lattice.n_springs + 1) * sizeof *d->spring);
     CHECK_MEMORY(d->spring);
-    d->n_springs = whole->n_springs;
     for (dem_index k = 0; k < whole->n_springs; k++)
         if (p->spring[k] >= 0) d->spring[p->spring[k]] = k;
     return DEM_OK;
@@ -145,6 +144,10 @@ static dem_status cut_layout(dem_model *m, const layout *whole, const places *p)
 
 static void take_scales(dem_model *m, const dem_model *whole)
 {
+    m->domain->n_springs = whole->lattice.n_springs;
+    m->domain->n_triangles = whole->lattice.n_triangles;
+    m->domain->n_surface_nodes = whole->surface.n_nodes;
+    m->domain->n_surface_edges = whole->surface.n_edges;
     m->edges_are_springs = whole->edges_are_springs;
     m->n_bodies = whole->n_bodies;
     m->spacing = whole->spacing;

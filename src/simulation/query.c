@@ -529,7 +529,7 @@ double dem_simulation_ramp_time(const dem_simulation *s)
 const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *s)
 {
     if (check_pointers("dem_simulation_checkpoint", s, s) != DEM_OK) return NULL;
-    return s->has_checkpoint ? s->checkpoint : NULL;
+    return s->has_checkpoint && s->model->ranks->rank == 0 ? s->checkpoint : NULL;
 }
 
 const dem_model *dem_simulation_model(const dem_simulation *s)

@@ -18,6 +18,7 @@
 #include "simulation/options.h"
 #include "simulation/query.h"
 #include "simulation/right_hand_side.h"
+#include "simulation/shared_checkpoint.h"
 
 static dem_status allocate(dem_simulation *s)
 {
@@ -122,7 +123,6 @@ static dem_status check_shared(const dem_simulation *s)
     if (s->model->domain == NULL) return DEM_OK;
     CHECK(o->bodies == DEM_BODIES_NONE, DEM_ERROR_ARGUMENT, "bodies that ranks share do not touch each other yet");
     CHECK(o->force == NULL, DEM_ERROR_ARGUMENT, "there is no external force on a model that ranks share yet");
-    CHECK(o->checkpoint_steps == 0, DEM_ERROR_ARGUMENT, "there are no checkpoints of a model that ranks share yet");
     return DEM_OK;
 }
 
@@ -174,25 +174,40 @@ static dem_status set_up(dem_simulation *s)
     s->initial = NULL;
     TRY(dem_checkpoint_create(&s->checkpoint));
     if (model->domain == NULL) TRY(overlap_create(&s->overlap, &model->lattice));
+    if (model->domain != NULL) s->overlap.found.node = s->overlap.found.triangle = -1; /* not looked for */
     overlap_look(&s->overlap, &model->lattice, s->t, s->y);
     query_at(s, 0.0, s->y);
     return DEM_OK;
+}
+
+/* Of a model that ranks share rank 0 has the checkpoint. */
+static dem_status restore_part(dem_simulation *s, const dem_checkpoint *whole)
+{
+    dem_checkpoint *part = NULL;
+    TRY(dem_checkpoint_create(&part));
+    dem_status status = shared_checkpoint_scatter(s, whole, part);
+    if (status == DEM_OK) status = checkpoint_restore(s, part);
+    dem_checkpoint_destroy(part);
+    return status;
 }
 
 /* Goes on from a checkpoint: contacts have been taken up before, and no checkpoint is due at once, as the run has just
  * begun from one. The state is shown, which may ask the user's force. */
 static dem_status resume(dem_simulation *s, const dem_checkpoint *checkpoint)
 {
-    TRY(checkpoint_restore(s, checkpoint));
+    if (s->model->domain == NULL)
+        TRY(checkpoint_restore(s, checkpoint));
+    else
+        TRY(restore_part(s, checkpoint));
     query_at(s, s->t, s->y);
     const dem_status status = query_ask(s);
     if (run_force_failed(s)) return reduce_status(s->model->ranks, run_force_failure(s), 0.0);
     TRY(status);
     s->started = s->has_checkpoint = true;
-    return checkpoint_entries_copy(s->checkpoint, checkpoint);
+    return checkpoint != NULL ? checkpoint_entries_copy(s->checkpoint, checkpoint) : DEM_OK;
 }
 
-static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options,
+static dem_status create(dem_simulation **out, const dem_model *model, const dem_options *options, bool resumes,
                          const dem_checkpoint *checkpoint)
 {
     CHECK(out != NULL && model != NULL && options != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_create: %s is NULL",
@@ -206,7 +221,7 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
     s->layout = state_layout_of(model->lattice.dim, model->lattice.n_nodes, model->obstacles.n,
                                 model->obstacles.bounds.speed > 0.0);
     dem_status status = reduce_status(s->model->ranks, set_up(s), 0.0);
-    if (status == DEM_OK && checkpoint != NULL) status = resume(s, checkpoint);
+    if (status == DEM_OK && resumes) status = resume(s, checkpoint);
     if (status == DEM_OK)
         *out = s;
     else
@@ -216,16 +231,15 @@ static dem_status create(dem_simulation **out, const dem_model *model, const dem
 
 dem_status dem_simulation_create(dem_simulation **out, const dem_model *model, const dem_options *options)
 {
-    return create(out, model, options, NULL);
+    return create(out, model, options, false, NULL);
 }
 
 dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, const dem_options *options,
                                  const dem_checkpoint *checkpoint)
 {
-    CHECK(checkpoint != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_resume: checkpoint is NULL");
-    CHECK(model == NULL || model->domain == NULL, DEM_ERROR_ARGUMENT,
-          "there are no checkpoints of a model that ranks share yet");
-    return create(out, model, options, checkpoint);
+    const bool is_elsewhere = model != NULL && model->ranks->rank > 0;
+    CHECK(checkpoint != NULL || is_elsewhere, DEM_ERROR_ARGUMENT, "dem_simulation_resume: checkpoint is NULL");
+    return create(out, model, options, true, is_elsewhere ? NULL : checkpoint);
 }
 
 void dem_simulation_destroy(dem_simulation *s)

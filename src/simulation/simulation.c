@@ -17,6 +17,7 @@
 #include "simulation/checkpoint.h"
 #include "simulation/pausing.h"
 #include "simulation/query.h"
+#include "simulation/shared_checkpoint.h"
 
 enum {
     between_looks = 16,       /* accepted steps, for overlaps */
@@ -435,6 +436,7 @@ static dem_status take_checkpoint(dem_simulation *s)
     s->has_checkpoint = false;
     TRY(checkpoint_take(s, s->checkpoint));
     TRY(checkpoint_restore(s, s->checkpoint));
+    if (s->model->domain != NULL) TRY(shared_checkpoint_gather(s, s->checkpoint));
     s->has_checkpoint = true;
     TRY(show_state(s));
     return reduce_status(s->model->ranks, observers_checkpoint(&s->observers, s, s->checkpoint), 0.0);

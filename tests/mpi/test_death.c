@@ -28,7 +28,6 @@ int main(int argc, char **argv)
     dem_simulation *s = NULL;
     victim v = {.dies = t.rank == t.size - 1};
     const dem_observer observer = {.struct_size = sizeof observer, .context = &v, .step = die};
-    options.checkpoint_steps = 0;
     INSIST(dem_model_create_mpi(&model, &l, NULL, 0, MPI_COMM_WORLD) == DEM_OK);
     INSIST(dem_simulation_create(&s, model, &options) == DEM_OK && dem_simulation_observe(s, &observer) == DEM_OK);
     (void)dem_simulation_advance(s, 1.0);

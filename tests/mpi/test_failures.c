@@ -115,7 +115,6 @@ int main(int argc, char **argv)
     dem_lattice l = mpi_body_make(1.0);
     dem_options options = dem_options_default();
     dem_model *model = NULL;
-    options.checkpoint_steps = 0;
     refuse_lattices(&l, fails, t.size);
     INSIST(dem_model_create_mpi(&model, &l, NULL, 0, MPI_COMM_WORLD) == DEM_OK);
     refuse_options(model, options, fails);

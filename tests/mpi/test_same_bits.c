@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Ranks that are processes: positions, velocities, times, lengths of steps and their counts, energies, strains and the
- * loads of boundaries have the bits of one process, which every rank computes beside it. `mpirun -n N
- * test_same_bits`. */
+ * loads of boundaries have the bits of one process, which every rank computes beside it. They take checkpoints.
+ * `mpirun -n N test_same_bits`. */
 #include "mpi_body.h"
 
 enum { N_STOPS = 2, N_FRAMES = 3 };
@@ -146,7 +146,7 @@ int main(int argc, char **argv)
         for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
             dem_options options = dem_options_default();
             options.method = methods[k];
-            options.checkpoint_steps = 0;
+            options.checkpoint_steps = 6;
             options.n_boundaries = is_held;
             options.boundaries = &pull;
             options.threads = is_held + 1;

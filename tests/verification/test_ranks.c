@@ -8,6 +8,7 @@
 
 #include "support.h"
 
+#include "base/checkpoint_entries.h"
 #include "domain/partition.h"
 #include "harness/rank_threads.h"
 #include "model/domain_model.h"
@@ -220,6 +221,8 @@ typedef struct outcome {
     measures measured[N_LOOKS];
     int n_steps;
     const dem_options *options;
+    dem_checkpoint *kept; /* the one taken third; NULL: elsewhere than on rank 0 */
+    int n_checkpoints;
     char failure[TEXT]; /* empty: none */
 } outcome;
 
@@ -236,6 +239,7 @@ static void make_outcome(outcome *o, const dem_lattice *l)
 
 static void free_outcome(outcome *o)
 {
+    dem_checkpoint_destroy(o->kept);
     for (int k = 0; k < N_LOOKS; k++) free_measures(&o->measured[k]);
     for (int k = 0; k < N_STOPS; k++) {
         free(o->x[k]);
@@ -269,11 +273,25 @@ static dem_status measure_step(void *context, const dem_simulation *s)
     return ++o->n_steps == MEASURED_STEP ? measure(s, o->options, &o->measured[N_STOPS]) : DEM_OK;
 }
 
-static dem_status run(const dem_model *model, const dem_options *options, outcome *o)
+static dem_status keep_checkpoint(void *context, const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    outcome *o = context;
+    if (++o->n_checkpoints != 3 || dem_simulation_model(s)->ranks->rank > 0) return DEM_OK;
+    assert_ok(dem_checkpoint_create(&o->kept));
+    return checkpoint_entries_copy(o->kept, checkpoint);
+}
+
+/* \param from  a checkpoint, of rank 0; NULL: the run begins */
+static dem_status run(const dem_model *model, const dem_options *options, const dem_checkpoint *from, outcome *o)
 {
     dem_simulation *s = NULL;
-    const dem_observer observer = SIZED(dem_observer, .context = o, .step = measure_step);
-    dem_status status = dem_simulation_create(&s, model, options);
+    const dem_observer observer =
+        SIZED(dem_observer, .context = o, .step = measure_step, .checkpoint = keep_checkpoint);
+    dem_status status = DEM_OK;
+    if (from == NULL)
+        status = dem_simulation_create(&s, model, options);
+    else
+        status = dem_simulation_resume(&s, model, options, model->ranks->rank == 0 ? from : NULL);
     o->options = options;
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     for (int k = 0; k < N_STOPS && status == DEM_OK; k++) {
@@ -288,6 +306,7 @@ static dem_status run(const dem_model *model, const dem_options *options, outcom
 typedef struct shared_run {
     const scene *scene;
     const int32_t *owner;
+    const dem_checkpoint *from;
     outcome *outcomes;         /* [ranks] whose x and v are one */
     rank_threads_counts calls; /* of one rank */
 } shared_run;
@@ -298,16 +317,17 @@ static void run_rank(const ranks *r, void *context)
     dem_model *model = NULL;
     outcome *o = &c->outcomes[r->rank];
     dem_status status = domain_model_create(&model, r, c->scene->model, c->owner);
-    if (status == DEM_OK) status = run(model, &c->scene->options, o);
+    if (status == DEM_OK) status = run(model, &c->scene->options, c->from, o);
     if (status != DEM_OK) (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
     dem_model_destroy(model);
     if (r->rank == 0) c->calls = rank_threads_count(r);
 }
 
-static void assert_same_outcome(const outcome *one, const outcome *whole, const dem_lattice *l)
+static void assert_same_outcome(const outcome *one, const outcome *whole, const dem_lattice *l, bool is_resumed)
 {
     const dem_index n = l->n_nodes;
-    for (int k = 0; k < N_LOOKS; k++) assert_same_measures(&one->measured[k], &whole->measured[k], l);
+    for (int k = 0; k < (is_resumed ? N_STOPS : N_LOOKS); k++)
+        assert_same_measures(&one->measured[k], &whole->measured[k], l);
     for (int k = 0; k < N_STOPS; k++) {
         assert_true(one->t[k] == whole->t[k]);
         assert_true(one->step[k] == whole->step[k]);
@@ -329,23 +349,40 @@ static void scatter(const dem_lattice *l, int n_ranks, int32_t *owner)
     }
 }
 
-static void share(const scene *s, int n_ranks, const int32_t *owner, const outcome *whole)
+/* All entries of two checkpoints. */
+static void assert_same_checkpoint(const dem_checkpoint *one, const dem_checkpoint *other)
+{
+    static const char *const names[] = {"sizes",    "motions", "numbers",  "counts",
+                                        "impulses", "overlap", "contacts", "state"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        size_t size, expected;
+        const void *bytes = dem_checkpoint_find(one, names[k], &size);
+        const void *wanted = dem_checkpoint_find(other, names[k], &expected);
+        assert_true(bytes != NULL && wanted != NULL && size == expected);
+        assert_memory_equal(bytes, wanted, size);
+    }
+}
+
+static void share(const scene *s, int n_ranks, const int32_t *owner, const dem_checkpoint *from, const outcome *whole)
 {
     const dem_lattice *l = dem_model_lattice(s->model);
     outcome all[MOST_RANKS];
     make_outcome(&all[0], l);
     for (int k = 1; k < n_ranks; k++) all[k] = all[0];
-    shared_run c = {.scene = s, .owner = owner, .outcomes = all};
+    shared_run c = {.scene = s, .owner = owner, .from = from, .outcomes = all};
     rank_threads_run(n_ranks, run_rank, &c);
     for (int k = 0; k < n_ranks; k++) {
         assert_string_equal(all[k].failure, "");
-        assert_same_outcome(&all[k], whole, l);
+        assert_same_outcome(&all[k], whole, l, from != NULL);
     }
+    if (whole->kept != NULL && from == NULL) assert_same_checkpoint(all[0].kept, whole->kept);
     /* One exchange for each evaluation. That at the end of a step of Fehlberg's is made even if the step is rejected;
      * the first fixed step of ARKODE's asks the guard for its length before there is one. Who measures needs one. */
     const dem_counts *counts = &whole->counts[N_STOPS - 1];
     const dem_index ahead = s->options.method == DEM_METHOD_FEHLBERG45 ? counts->rejected : 0;
-    assert_int_equal(c.calls.exchanges, counts->evaluations + ahead + (s->options.method == DEM_METHOD_RK4) + N_LOOKS);
+    if (s->options.checkpoint_steps == 0)
+        assert_int_equal(c.calls.exchanges,
+                         counts->evaluations + ahead + (s->options.method == DEM_METHOD_RK4) + N_LOOKS);
     free_outcome(&all[0]);
 }
 
@@ -358,14 +395,14 @@ static void check_numbers(int body, dem_method method, const int *numbers, size_
     const dem_lattice *l = dem_model_lattice(s.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     make_outcome(&whole, l);
-    assert_ok(run(s.model, &s.options, &whole));
+    assert_ok(run(s.model, &s.options, NULL, &whole));
     assert_true((whole.taken[0] != 0.0) == (body == 1) && (whole.given[0] != 0.0) == (body == 2));
     if (body == 0 && method == DEM_METHOD_FEHLBERG45) assert_true(whole.counts[N_STOPS - 1].rejected > 0);
     for (size_t k = 0; k < n_numbers; k++) {
         assert_ok(partition_bisect(l, numbers[k], owner));
-        share(&s, numbers[k], owner, &whole);
+        share(&s, numbers[k], owner, NULL, &whole);
         scatter(l, numbers[k], owner);
-        share(&s, numbers[k], owner, &whole);
+        share(&s, numbers[k], owner, NULL, &whole);
     }
     free_outcome(&whole);
     close_scene(&s);
@@ -375,6 +412,31 @@ static void check(int body, dem_method method)
 {
     static const int numbers[] = {1, 2, 3, 4, 7};
     check_numbers(body, method, numbers, sizeof numbers / sizeof numbers[0]);
+}
+
+/* ---- checkpoints ---- */
+
+/* Those of three ranks are those of one process, and so is what comes of one on any number of ranks. */
+static void check_checkpoints(int body, dem_method method)
+{
+    static const int numbers[] = {1, 2, 3, 7};
+    scene s;
+    outcome whole;
+    open_scene(&s, body, method);
+    const dem_lattice *l = dem_model_lattice(s.model);
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+    s.options.checkpoint_steps = 4;
+    make_outcome(&whole, l);
+    assert_ok(run(s.model, &s.options, NULL, &whole));
+    assert_non_null(whole.kept);
+    scatter(l, 3, owner);
+    share(&s, 3, owner, NULL, &whole);
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+        assert_ok(partition_bisect(l, numbers[k], owner));
+        share(&s, numbers[k], owner, whole.kept, &whole);
+    }
+    free_outcome(&whole);
+    close_scene(&s);
 }
 
 /* ---- how often ranks talk ---- */
@@ -478,6 +540,7 @@ TEST(an_attempt_that_is_rejected_needs_two_reductions_at_most)
 typedef struct refusal {
     const scene *scene;
     const int32_t *owner;
+    const dem_checkpoint *from; /* NULL: the run begins */
     dem_status status[MOST_RANKS];
     char messages[MOST_RANKS][TEXT];
     int stops; /* the rank whose observer stops the run; -1: none */
@@ -501,7 +564,9 @@ static dem_status try_run(const dem_model *model, refusal *c, int rank)
     dem_simulation *s = NULL;
     watcher w = {c->stops == rank, &c->n_steps[rank]};
     const dem_observer observer = SIZED(dem_observer, .context = &w, .step = count_step);
-    dem_status status = dem_simulation_create(&s, model, &c->scene->options);
+    const dem_options *o = &c->scene->options;
+    dem_status status = c->from != NULL ? dem_simulation_resume(&s, model, o, rank == 0 ? c->from : NULL)
+                                        : dem_simulation_create(&s, model, o);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     if (status == DEM_OK) status = dem_simulation_advance(s, 2e-4);
     dem_simulation_destroy(s);
@@ -520,12 +585,12 @@ static void try_rank(const ranks *r, void *context)
 }
 
 /* On four ranks. */
-static refusal refuse(const scene *s, int stops)
+static refusal refuse(const scene *s, int stops, const dem_checkpoint *from)
 {
     const dem_lattice *l = dem_model_lattice(s->model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     assert_ok(partition_bisect(l, 4, owner));
-    refusal c = {.scene = s, .owner = owner, .stops = stops};
+    refusal c = {.scene = s, .owner = owner, .stops = stops, .from = from};
     rank_threads_run(4, try_rank, &c);
     c.owner = NULL;
     return c;
@@ -547,7 +612,7 @@ TEST(a_force_that_is_not_finite_ends_the_run_of_all_ranks)
     char message[TEXT];
     (void)snprintf(message, TEXT, "%s", dem_status_message());
     assert_int_equal(expected, DEM_ERROR_INTEGRATOR);
-    const refusal c = refuse(&s, -1);
+    const refusal c = refuse(&s, -1, NULL);
     for (int k = 0; k < 4; k++) {
         assert_int_equal(c.status[k], expected);
         assert_string_equal(c.messages[k], message);
@@ -564,7 +629,7 @@ TEST(what_one_rank_refuses_is_refused_by_all)
     s.boundaries[0] = (dem_boundary)SIZED(dem_boundary, .kind = DEM_BOUNDARY_FORCE, .n_nodes = 3, .nodes = twice);
     s.options.boundaries = s.boundaries;
     s.options.n_boundaries = 1;
-    const refusal c = refuse(&s, -1);
+    const refusal c = refuse(&s, -1, NULL);
     for (int k = 0; k < 4; k++) {
         assert_int_equal(c.status[k], DEM_ERROR_ARGUMENT);
         assert_string_equal(c.messages[k], "boundary 0: node 0 is named twice");
@@ -572,11 +637,32 @@ TEST(what_one_rank_refuses_is_refused_by_all)
     close_scene(&s);
 }
 
+/* Rank 0 has the checkpoint, of a body with more nodes. */
+TEST(a_checkpoint_of_another_model_is_refused_by_all)
+{
+    scene s, other;
+    outcome whole;
+    open_scene(&other, 1, DEM_METHOD_VERLET);
+    other.options.checkpoint_steps = 4;
+    make_outcome(&whole, dem_model_lattice(other.model));
+    assert_ok(run(other.model, &other.options, NULL, &whole));
+    open_scene(&s, 0, DEM_METHOD_VERLET);
+    const refusal c = refuse(&s, -1, whole.kept);
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(c.status[k], DEM_ERROR_IO);
+        assert_string_equal(c.messages[k], c.messages[0]);
+        assert_non_null(strstr(c.messages[k], "the checkpoint has "));
+    }
+    free_outcome(&whole);
+    close_scene(&other);
+    close_scene(&s);
+}
+
 TEST(an_observer_of_one_rank_stops_all)
 {
     scene s;
     open_scene(&s, 0, DEM_METHOD_DOPRI45);
-    const refusal c = refuse(&s, 2);
+    const refusal c = refuse(&s, 2, NULL);
     for (int k = 0; k < 4; k++) {
         assert_int_equal(c.status[k], DEM_STOPPED);
         assert_int_equal(c.n_steps[k], 3);
@@ -588,12 +674,8 @@ TEST(what_ranks_cannot_do_yet_is_refused)
 {
     scene s;
     open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
-    s.options.checkpoint_steps = 10;
-    const refusal no_checkpoint = refuse(&s, -1);
-    assert_string_equal(no_checkpoint.messages[3], "there are no checkpoints of a model that ranks share yet");
-    s.options.checkpoint_steps = 0;
     s.options.bodies = DEM_BODIES_ALL;
-    const refusal no_touch = refuse(&s, -1);
+    const refusal no_touch = refuse(&s, -1, NULL);
     assert_string_equal(no_touch.messages[1], "bodies that ranks share do not touch each other yet");
     close_scene(&s);
 }
@@ -628,4 +710,10 @@ TEST(a_long_strip_has_the_bits_of_one_process)
     assert_non_null(s.model->layout.order);
     close_scene(&s);
     check_numbers(STRIP, DEM_METHOD_VERLET, (const int[]){3}, 1);
+}
+
+TEST(checkpoints_are_those_of_one_process_and_any_number_of_ranks_goes_on)
+{
+    for (int m = 0; m < N_METHODS; m++) check_checkpoints(m == 0 ? 0 : 2, methods[m]);
+    check_checkpoints(1, DEM_METHOD_FEHLBERG45);
 }

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Of the entries of a checkpoint only the state differs from rank to rank: rows of nodes, and behind them quadratures,
+ * which all ranks have alike. */
+#include "simulation/shared_checkpoint.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/checkpoint_entries.h"
+#include "base/reduce.h"
+#include "base/status.h"
+#include "domain/gather.h"
+
+static const char entry[] = "state";
+
+/* Copies the quadratures from one state into another, whose nodes are others. */
+static void copy_quadratures(double *to, const state_layout *of, const double *from, const state_layout *before)
+{
+    const size_t size = (size_t)state_row(of, state_n_quadratures(of)) * sizeof *to;
+    const dem_index there = state_row(of, state_impulse(of, 0)), here = state_row(before, state_impulse(before, 0));
+    memcpy(to + there, from + here, size);
+    memcpy(to + state_velocities(of) + there, from + state_velocities(before) + here, size);
+}
+
+dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    const dem_model *m = s->model;
+    const state_layout *of = &s->shared.whole;
+    const bool is_root = m->ranks->rank == 0;
+    const size_t n = (size_t)state_size(of);
+    const double *v = s->y + state_velocities(&s->layout);
+    double *whole = is_root ? calloc(n, sizeof *whole) : NULL;
+    dem_status status = DEM_OK;
+    if (is_root && whole == NULL) status = status_fail(DEM_ERROR_MEMORY, "out of memory for a checkpoint");
+    status = reduce_status(m->ranks, status, 0.0);
+    if (status == DEM_OK) status = gather_rows(m->ranks, m->domain, of->dim, s->y, whole);
+    if (status == DEM_OK)
+        status = gather_rows(m->ranks, m->domain, of->dim, v, is_root ? whole + state_velocities(of) : NULL);
+    if (status == DEM_OK && is_root) {
+        copy_quadratures(whole, of, s->y, &s->layout);
+        status = dem_checkpoint_put(checkpoint, entry, whole, n * sizeof *whole);
+    }
+    free(whole);
+    return reduce_status(m->ranks, status, 0.0);
+}
+
+/* The rows of own nodes and ghosts. */
+static dem_status cut_state(const dem_simulation *s, dem_checkpoint *part)
+{
+    const domain *d = s->model->domain;
+    const state_layout *of = &s->shared.whole;
+    const size_t n = (size_t)state_size(&s->layout), expected = (size_t)state_size(of) * sizeof(double);
+    const size_t row = (size_t)of->dim * sizeof(double);
+    size_t size;
+    const double *whole = dem_checkpoint_find(part, entry, &size);
+    CHECK(whole != NULL && size == expected, DEM_ERROR_IO, "the checkpoint has %zu bytes of state, %zu are expected",
+          size, expected);
+    double *y = calloc(n, sizeof *y), *v = y + state_velocities(&s->layout);
+    CHECK(y != NULL, DEM_ERROR_MEMORY, "out of memory for a checkpoint");
+    for (dem_index i = 0; i < d->n_nodes; i++) {
+        memcpy(y + of->dim * i, whole + of->dim * d->number[i], row);
+        memcpy(v + of->dim * i, whole + state_velocities(of) + of->dim * d->number[i], row);
+    }
+    copy_quadratures(y, &s->layout, whole, of);
+    const dem_status status = dem_checkpoint_put(part, entry, y, n * sizeof *y);
+    free(y);
+    return status;
+}
+
+dem_status shared_checkpoint_scatter(const dem_simulation *s, const dem_checkpoint *whole, dem_checkpoint *part)
+{
+    const ranks *r = s->model->ranks;
+    TRY(reduce_status(r, r->rank == 0 ? checkpoint_entries_copy(part, whole) : DEM_OK, 0.0));
+    TRY(checkpoint_entries_share(r, whole, part));
+    return reduce_status(r, cut_state(s, part), 0.0);
+}
