@@ -30,7 +30,7 @@ typedef struct ranks {
     void (*end)(void *self);
 } ranks;
 
-enum { RANKS_PACKET_MOST = 1024 };
+enum { RANKS_PACKET_MOST = 8192 };
 
 /** Of a process alone. */
 extern const ranks ranks_alone;

@@ -69,6 +69,27 @@ double reduce_sum(const ranks *r, const exact_sum *own)
     return exact_sum_value(&all);
 }
 
+typedef struct several {
+    int n;
+    exact_sum sums[REDUCE_SUMS_MOST]; /* [n] are sent */
+} several;
+
+static void join_several(void *packet, const void *other)
+{
+    several *own = packet;
+    for (int k = 0; k < own->n; k++) join_sum(&own->sums[k], &((const several *)other)->sums[k]);
+}
+
+void reduce_sums(const ranks *r, const exact_sum *const *own, int n, double *values)
+{
+    several all = {.n = n};
+    if (r->size > 1) {
+        for (int k = 0; k < n; k++) all.sums[k] = *own[k];
+        r->reduce(r->self, &all, offsetof(several, sums) + (size_t)n * sizeof(exact_sum), join_several);
+    }
+    for (int k = 0; k < n; k++) values[k] = exact_sum_value(r->size > 1 ? &all.sums[k] : own[k]);
+}
+
 static void join_squares(void *packet, const void *other)
 {
     array_ops_add(packet, other);

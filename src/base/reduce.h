@@ -33,6 +33,11 @@ dem_index reduce_count(const ranks *r, dem_index own);
 /** The sum of all terms of all ranks, rounded once: its bits do not depend on which rank has which terms. */
 double reduce_sum(const ranks *r, const exact_sum *own);
 
+enum { REDUCE_SUMS_MOST = 8 };
+
+/** Several sums, n of them, at once.  \param own  [n]  \param[out] values  [n] */
+void reduce_sums(const ranks *r, const exact_sum *const *own, int n, double *values);
+
 /** The same of sums of squares. */
 array_ops_sum reduce_squares(const ranks *r, array_ops_sum own);
 

@@ -140,8 +140,11 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
                            ? vec2_scale(b->share[k], boundary_conditions_push(f->boundaries, b, v[f->clock]))
                            : held_force(f, b, i, free_acceleration(f, i, external, x, v), v[f->clock]));
     }
-    vec2_put(out.force, 0, sum_of(r, resultant));
-    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)reduce_count(r, b->n_nodes), sum_of(r, ways)));
+    const exact_sum *const sums[] = {&resultant[0], &resultant[1], &ways[0], &ways[1]};
+    double values[4];
+    reduce_sums(r, sums, 4, values);
+    vec2_put(out.force, 0, (vec2){values[0], values[1]});
+    vec2_put(out.displacement, 0, vec2_scale(1.0 / (double)reduce_count(r, b->n_nodes), (vec2){values[2], values[3]}));
     return out;
 }
 

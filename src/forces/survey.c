@@ -211,7 +211,7 @@ typedef struct taking {
     const double *x, *v;
     springs_integrity springs;
     triangles_integrity triangles;
-    exact_sum elastic, area, guard;
+    exact_sum kinetic, weight, elastic, area, guard;
     extreme_strains extremes;
     dem_strain strain;
 } taking;
@@ -416,16 +416,14 @@ static void join_runs(survey *s)
     }
 }
 
-/* Energies of all bodies, J. */
-static void join_bodies(survey *s)
+/* Energies of all bodies. */
+static void join_bodies(taking *t)
 {
-    exact_sum kinetic = {0}, weight = {0};
+    const survey *s = t->s;
     for (dem_index b = 0; b < s->model->n_bodies; b++) {
-        exact_sum_join(&kinetic, &s->bodies[b].kinetic);
-        exact_sum_join(&weight, &s->bodies[b].weight);
+        exact_sum_join(&t->kinetic, &s->bodies[b].kinetic);
+        exact_sum_join(&t->weight, &s->bodies[b].weight);
     }
-    s->energies.kinetic = reduce_sum(s->model->ranks, &kinetic);
-    s->energies.weight = reduce_sum(s->model->ranks, &weight);
 }
 
 static void join_chunks(taking *t)
@@ -525,6 +523,14 @@ static dem_strain reduce(const taking *t)
                         .inverted = all.inverted};
 }
 
+static survey_energies sum_energies(const taking *t)
+{
+    const exact_sum *const sums[] = {&t->kinetic, &t->elastic, &t->area, &t->guard, &t->weight};
+    double values[5];
+    reduce_sums(t->s->model->ranks, sums, 5, values);
+    return (survey_energies){values[0], values[1], values[2], values[3], values[4]};
+}
+
 void survey_take(survey *s, const forces *f, const double *x, const double *v)
 {
     taking t = {.s = s,
@@ -540,14 +546,12 @@ void survey_take(survey *s, const forces *f, const double *x, const double *v)
     team_run(s->team, s->n_shares, measure_share, &t);
     join_chunks(&t);
     join_runs(s);
-    join_bodies(s);
+    join_bodies(&t);
     find_extremes(&t);
     add_rest(&t);
     measure_idle_triangles(&t);
     s->strain = reduce(&t);
-    s->energies.elastic = reduce_sum(s->model->ranks, &t.elastic);
-    s->energies.area = reduce_sum(s->model->ranks, &t.area);
-    s->energies.guard = reduce_sum(s->model->ranks, &t.guard);
+    s->energies = sum_energies(&t);
 }
 
 /* ---- motion of bodies ---- */
@@ -575,9 +579,15 @@ void survey_take_motions(survey *s, const double *x, const double *v)
     join_runs(s);
 }
 
-static vec2 mean_of(const ranks *r, const exact_sum sum[2], double mass)
+/* Centre of mass of a body and its velocity. */
+static void find_means(const survey *s, dem_index body, dem_body_motion *motion)
 {
-    return vec2_scale(1.0 / mass, (vec2){reduce_sum(r, &sum[0]), reduce_sum(r, &sum[1])});
+    const motion_sums *m = &s->bodies[body];
+    const exact_sum *const sums[] = {&m->place[0], &m->place[1], &m->momentum[0], &m->momentum[1]};
+    double values[4];
+    reduce_sums(s->model->ranks, sums, 4, values);
+    vec2_put(motion->centre, 0, vec2_scale(1.0 / s->mass[body], (vec2){values[0], values[1]}));
+    vec2_put(motion->velocity, 0, vec2_scale(1.0 / s->mass[body], (vec2){values[2], values[3]}));
 }
 
 static void spin_share(const void *context, int share, int thread)
@@ -600,8 +610,7 @@ void survey_bodies(survey *s, const double *x, const double *v, dem_body_motion 
     const body_pass p = {s, {.mass = s->model->lattice.mass, .x = x, .v = v}, motion};
     for (dem_index b = 0; b < s->model->n_bodies; b++) {
         motion[b] = (dem_body_motion){.mass = s->mass[b]};
-        vec2_put(motion[b].centre, 0, mean_of(s->model->ranks, s->bodies[b].place, s->mass[b]));
-        vec2_put(motion[b].velocity, 0, mean_of(s->model->ranks, s->bodies[b].momentum, s->mass[b]));
+        find_means(s, b, &motion[b]);
     }
     team_run(s->team, s->n_shares, spin_share, &p);
     for (dem_index b = 0; b < s->model->n_bodies; b++) exact_sum_clear(&s->bodies[b].spin);
