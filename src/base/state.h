@@ -168,4 +168,19 @@ static inline double state_time(const state_layout *l, const double *y)
     return state_total_of(l, y, STATE_TIME);
 }
 
+/** Copies the quadratures of a state into another one, which may be of other nodes.
+ *  \param l, of_from  layouts of `to`, and of `from` */
+static inline void state_copy_quadratures(double *to, const state_layout *l, const double *from,
+                                          const state_layout *of_from)
+{
+    const dem_index n = state_row(l, state_n_quadratures(l)), v = state_velocities(l),
+                    from_v = state_velocities(of_from);
+    double *into = to + state_row(l, state_impulse(l, 0));
+    const double *out = from + state_row(of_from, state_impulse(of_from, 0));
+    for (dem_index k = 0; k < n; k++) {
+        into[k] = out[k];
+        into[v + k] = out[from_v + k];
+    }
+}
+
 #endif

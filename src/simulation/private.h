@@ -41,6 +41,8 @@ typedef struct run_stop {
     bool is_known; /* that there is such a status on some rank */
 } run_stop;
 
+typedef struct led_run led_run;
+
 /** Flags say where a run is:
  *  - not `started`: the contacts of the initial motion, or of one that was set, have still to be taken up;
  *  - between steps: y is the state at t, which the integrator starts from next;
@@ -49,13 +51,16 @@ typedef struct run_stop {
  *  What is seen (seen_t, seen) may be at any time of the step in hand. */
 struct dem_simulation {
     const dem_model *model;
-    dem_options options; /* every default replaced */
-    state_layout layout; /* of y */
-    ode_domain shared;   /* of a model that ranks share */
-    halo halo;           /* likewise, of its ghosts */
-    run_stop stop;       /* what observers have asked for, where ranks share the model */
-    double culprit;      /* the first node here whose derivative was not finite, by its number in the whole */
-    team *team;          /* for loops over nodes; NULL: they run in the caller alone */
+    dem_options options;          /* every default replaced */
+    state_layout layout;          /* of y */
+    ode_domain shared;            /* of a model that ranks share */
+    halo halo;                    /* likewise, of its ghosts */
+    run_stop stop;                /* what observers have asked for, where ranks share the model */
+    led_run *leads;               /* the run that ranks make for this one; NULL: it makes its own */
+    bool is_led;                  /* whether this is a part of such a run, */
+    struct dem_simulation *whole; /* and of which on rank 0; NULL: on others */
+    double culprit;               /* the first node here whose derivative was not finite, by its number in the whole */
+    team *team;                   /* for loops over nodes; NULL: they run in the caller alone */
     boundary_conditions boundaries;
     external_force *external;  /* NULL: none */
     surface_contact *surfaces; /* contact of bodies with each other; NULL: none */

@@ -20,6 +20,7 @@
 #include "model/fragments.h"
 #include "model/node_stress.h"
 #include "simulation/body_contact.h"
+#include "simulation/led_run.h"
 
 void query_at(dem_simulation *s, double t, const double *y)
 {
@@ -53,9 +54,13 @@ static const double *seen_of(const dem_simulation *s)
 {
     (void)contact_of(s);
     if (s->measures->has_state) return s->seen;
+    s->measures->has_state = true;
+    if (s->leads != NULL) {
+        led_run_gather((dem_simulation *)s);
+        return s->seen;
+    }
     dense_output_state(&s->path, s->seen_t, s->frame);
     rigid_motion_put_back(&s->model->rigid, run_keeps(s), s->frame, s->frame + state_velocities(&s->layout));
-    s->measures->has_state = true;
     return s->seen;
 }
 
@@ -135,7 +140,7 @@ static bool poses_are_known(const dem_simulation *s)
 static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
 {
     const run_measures *m = s->measures;
-    if (!m->has_contacts && poses_are_known(s)) list_contacts(s);
+    if (!m->has_contacts && poses_are_known(s) && s->leads == NULL) list_contacts(s); /* free bodies have none */
     *n = m->n_contacts;
     return m->contacts;
 }
@@ -206,13 +211,16 @@ static dem_energy energy_of(const dem_simulation *s)
     const state_layout *l = &s->layout;
     measure_energy(s);
     dem_energy e = m->energy;
-    e.impact = reduce_sum(s->model->ranks, &ledger->impact);
-    e.fracture = reduce_sum(s->model->ranks, &s->fracture);
+    const exact_sum *const sums[] = {&ledger->impact, &s->fracture, &ledger->projection, &ledger->work};
+    double values[4];
+    reduce_sums(s->model->ranks, sums, 4, values);
+    e.impact = values[0];
+    e.fracture = values[1];
     e.friction += state_total_of(l, y, STATE_FRICTION);
     e.damping = state_total_of(l, y, STATE_DAMPING);
-    e.projection = reduce_sum(s->model->ranks, &ledger->projection);
+    e.projection = values[2];
     e.boundary = state_total_of(l, y, STATE_WORK);
-    e.obstacle = reduce_sum(s->model->ranks, &ledger->work);
+    e.obstacle = values[3];
     if (state_has_total(l, STATE_OBSTACLE)) e.obstacle += state_total_of(l, y, STATE_OBSTACLE);
     e.ledger =
         e.motion + e.gravity + e.impact + e.friction + e.damping + e.fracture - e.projection - e.boundary - e.obstacle;
@@ -222,6 +230,7 @@ static dem_energy energy_of(const dem_simulation *s)
 dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 {
     TRY(check_pointers("dem_simulation_energy", s, out));
+    if (s->leads != NULL) return led_run_ask(s, ORDER_ENERGY, 0, out);
     const dem_energy seen = energy_of(s);
     return GIVE(dem_energy, out, &seen);
 }
@@ -229,6 +238,7 @@ dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 dem_status dem_simulation_strain(const dem_simulation *s, dem_strain *out)
 {
     TRY(check_pointers("dem_simulation_strain", s, out));
+    if (s->leads != NULL) return led_run_ask(s, ORDER_STRAIN, 0, out);
     return GIVE(dem_strain, out, &survey_of(s)->strain);
 }
 
@@ -281,6 +291,7 @@ static bool reports_spring(const dem_model *m, dem_index spring)
 dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, double *out)
 {
     TRY(check_pointers("dem_simulation_force_at", s, out));
+    if (s->leads != NULL) return led_run_ask(s, ORDER_FORCE_AT, spring, out);
     const dem_lattice *l = &s->model->lattice;
     const domain *d = s->model->domain;
     TRY(status_check_number("spring", spring, d != NULL ? d->n_springs : l->n_springs));
@@ -362,6 +373,7 @@ dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
     TRY(check_pointers("dem_simulation_stress_at", s, stress));
+    if (s->leads != NULL) return led_run_ask(s, ORDER_STRESS_AT, node, stress);
     const domain *d = s->model->domain;
     double own[3] = {0};
     TRY(status_check_number("node", node, d != NULL ? d->n_whole : s->model->lattice.n_nodes));
@@ -384,7 +396,7 @@ dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 {
     TRY(check_pointers("dem_simulation_surfaces", s, out));
     run_measures *m = s->measures;
-    if (!m->has_surfaces) m->surfaces = body_contact_surfaces(s, seen_of(s));
+    if (!m->has_surfaces) m->surfaces = body_contact_surfaces(s, s->surfaces != NULL ? seen_of(s) : NULL);
     m->has_surfaces = true;
     return GIVE(dem_surfaces, out, &m->surfaces);
 }
@@ -420,6 +432,7 @@ dem_status dem_simulation_contact_pressures(const dem_simulation *s, double *pre
 static dem_counts contact_counts(const dem_simulation *s)
 {
     dem_counts c = contact_of(s)->set.ledger.counts;
+    if (s->model->obstacles.n == 0) return c;
     dem_index *const own[] = {&c.impacts, &c.vertex_impacts, &c.releases, &c.slips, &c.sticks, &c.passings, &c.behind};
     for (size_t k = 0; k < sizeof own / sizeof own[0]; k++) *own[k] = reduce_count(s->model->ranks, *own[k]);
     return c;
@@ -428,6 +441,7 @@ static dem_counts contact_counts(const dem_simulation *s)
 dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 {
     TRY(check_pointers("dem_simulation_counts", s, out));
+    if (s->leads != NULL) return led_run_ask(s, ORDER_COUNTS, 0, out);
     const dem_counts of_integrator = integrator_counts(&s->integrator);
     dem_counts counts = contact_counts(s);
     counts.steps = of_integrator.steps;
@@ -451,6 +465,7 @@ static void measure_bodies(const dem_simulation *s)
 dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body_motion *out)
 {
     TRY(check_pointers("dem_simulation_body", s, out));
+    if (s->leads != NULL) return led_run_ask(s, ORDER_BODY, body, out);
     TRY(status_check_number("body", body, s->model->n_bodies));
     if (!s->measures->has_bodies) measure_bodies(s);
     return GIVE(dem_body_motion, out, &s->bodies[body]);
@@ -496,6 +511,7 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
 dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_boundary_load *out)
 {
     TRY(check_pointers("dem_simulation_boundary", s, out));
+    if (s->leads != NULL) return led_run_ask(s, ORDER_BOUNDARY, k, out);
     TRY(status_check_number("boundary", k, s->boundaries.n));
     const boundary_condition *b = &s->boundaries.list[k];
     const double *y = all_seen_of(s), *external = s->held_forces.force;
@@ -517,6 +533,8 @@ double query_residual(const dem_simulation *s)
 double dem_simulation_residual(const dem_simulation *s)
 {
     if (check_pointers("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
+    double of_parts = 0.0;
+    if (s->leads != NULL) return led_run_ask(s, ORDER_RESIDUAL, 0, &of_parts) == DEM_OK ? of_parts : (double)NAN;
     return s->seen == s->y ? query_residual(s) : (double)INFINITY;
 }
 

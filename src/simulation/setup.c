@@ -15,6 +15,7 @@
 #include "simulation/body_contact.h"
 #include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
+#include "simulation/led_run.h"
 #include "simulation/options.h"
 #include "simulation/query.h"
 #include "simulation/right_hand_side.h"
@@ -245,6 +246,7 @@ dem_status dem_simulation_resume(dem_simulation **out, const dem_model *model, c
 void dem_simulation_destroy(dem_simulation *s)
 {
     if (s == NULL) return;
+    led_run_destroy(s->leads);
     integrator_destroy(&s->integrator);
     kernel_destroy(&s->kernel);
     event_queue_destroy(&s->queue);

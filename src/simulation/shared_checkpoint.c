@@ -13,15 +13,6 @@
 
 static const char entry[] = "state";
 
-/* Copies the quadratures from one state into another, whose nodes are others. */
-static void copy_quadratures(double *to, const state_layout *of, const double *from, const state_layout *before)
-{
-    const size_t size = (size_t)state_row(of, state_n_quadratures(of)) * sizeof *to;
-    const dem_index there = state_row(of, state_impulse(of, 0)), here = state_row(before, state_impulse(before, 0));
-    memcpy(to + there, from + here, size);
-    memcpy(to + state_velocities(of) + there, from + state_velocities(before) + here, size);
-}
-
 dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *checkpoint)
 {
     const dem_model *m = s->model;
@@ -37,7 +28,7 @@ dem_status shared_checkpoint_gather(const dem_simulation *s, dem_checkpoint *che
     if (status == DEM_OK)
         status = gather_rows(m->ranks, m->domain, of->dim, v, is_root ? whole + state_velocities(of) : NULL);
     if (status == DEM_OK && is_root) {
-        copy_quadratures(whole, of, s->y, &s->layout);
+        state_copy_quadratures(whole, of, s->y, &s->layout);
         status = dem_checkpoint_put(checkpoint, entry, whole, n * sizeof *whole);
     }
     free(whole);
@@ -61,7 +52,7 @@ static dem_status cut_state(const dem_simulation *s, dem_checkpoint *part)
         memcpy(y + of->dim * i, whole + of->dim * d->number[i], row);
         memcpy(v + of->dim * i, whole + state_velocities(of) + of->dim * d->number[i], row);
     }
-    copy_quadratures(y, &s->layout, whole, of);
+    state_copy_quadratures(y, &s->layout, whole, of);
     const dem_status status = dem_checkpoint_put(part, entry, y, n * sizeof *y);
     free(y);
     return status;

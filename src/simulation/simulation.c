@@ -15,6 +15,7 @@
 #include "simulation/body_contact.h"
 #include "simulation/breaking.h"
 #include "simulation/checkpoint.h"
+#include "simulation/led_run.h"
 #include "simulation/pausing.h"
 #include "simulation/query.h"
 #include "simulation/shared_checkpoint.h"
@@ -145,7 +146,7 @@ static dem_status report_step(dem_simulation *s)
 {
     TRY(show_state(s));
     const dem_status status = observers_step(&s->observers, s);
-    if (s->model->domain == NULL) return status;
+    if (s->model->domain == NULL || s->is_led) return status; /* which all ranks have alike */
     note_stop(&s->stop, status);
     return DEM_OK;
 }
@@ -296,7 +297,10 @@ static dem_status go_on(dem_simulation *s, dem_status status)
 /* Overlaps of bodies are only reported, not resolved: a look now and then is enough. */
 static void look_for_overlaps(dem_simulation *s)
 {
-    overlap_look(&s->overlap, &s->model->lattice, s->t, s->y);
+    if (s->is_led)
+        led_run_look_for_overlaps(s);
+    else
+        overlap_look(&s->overlap, &s->model->lattice, s->t, s->y);
     s->unlooked = 0;
 }
 
@@ -459,6 +463,12 @@ static dem_status advance(dem_simulation *s, double t_end)
     return show_inside(s, t_end);
 }
 
+static dem_status end_led(dem_simulation *s, dem_status status)
+{
+    s->advancing = false;
+    return status;
+}
+
 /* A failed force ends the advance in any case, even if a later error has come first. */
 dem_status dem_simulation_advance(dem_simulation *s, double t_end)
 {
@@ -466,6 +476,7 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
     CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
           t_end, s->seen_t);
     s->advanced = s->advancing = true;
+    if (s->leads != NULL) return end_led(s, led_run_advance(s, t_end));
     const dem_status status = advance(s, t_end);
     s->advancing = false;
     return run_force_failed(s) ? roll_back(s) : status;

@@ -12,6 +12,7 @@
 #include "domain/partition.h"
 #include "harness/rank_threads.h"
 #include "model/domain_model.h"
+#include "simulation/led_run.h"
 #include "simulation/private.h"
 
 enum { MOST_RANKS = 7, N_BODIES = 4, STRIP = N_BODIES, N_METHODS = 4, N_STOPS = 2, TEXT = 256 };
@@ -281,8 +282,10 @@ static dem_status keep_checkpoint(void *context, const dem_simulation *s, dem_ch
     return checkpoint_entries_copy(o->kept, checkpoint);
 }
 
-/* \param from  a checkpoint, of rank 0; NULL: the run begins */
-static dem_status run(const dem_model *model, const dem_options *options, const dem_checkpoint *from, outcome *o)
+/* \param from   a checkpoint, of rank 0; NULL: the run begins
+   \param leads  ranks that make the run of rank 0, which has the whole; NULL: it makes its own */
+static dem_status run_led(const dem_model *model, const dem_options *options, const dem_checkpoint *from,
+                          const ranks *leads, outcome *o)
 {
     dem_simulation *s = NULL;
     const dem_observer observer =
@@ -293,6 +296,7 @@ static dem_status run(const dem_model *model, const dem_options *options, const 
     else
         status = dem_simulation_resume(&s, model, options, model->ranks->rank == 0 ? from : NULL);
     o->options = options;
+    if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, options, from);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     for (int k = 0; k < N_STOPS && status == DEM_OK; k++) {
         status = dem_simulation_advance(s, 1.5e-4 * (k + 1));
@@ -300,6 +304,11 @@ static dem_status run(const dem_model *model, const dem_options *options, const 
     }
     dem_simulation_destroy(s);
     return status;
+}
+
+static dem_status run(const dem_model *model, const dem_options *options, const dem_checkpoint *from, outcome *o)
+{
+    return run_led(model, options, from, NULL, o);
 }
 
 /* Of all ranks. */
@@ -434,6 +443,51 @@ static void check_checkpoints(int body, dem_method method)
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         assert_ok(partition_bisect(l, numbers[k], owner));
         share(&s, numbers[k], owner, whole.kept, &whole);
+    }
+    free_outcome(&whole);
+    close_scene(&s);
+}
+
+/* ---- a run that rank 0 leads ---- */
+
+static void lead_as_rank(const ranks *r, void *context)
+{
+    const shared_run *c = context;
+    outcome *o = &c->outcomes[0];
+    if (r->rank > 0) {
+        assert_int_equal(dem_private_follow(r), 75);
+        return;
+    }
+    if (run_led(c->scene->model, &c->scene->options, c->from, r, o) != DEM_OK)
+        (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
+    dem_private_dismiss(r, 75);
+}
+
+static void lead(const scene *s, int n_ranks, const dem_checkpoint *from, const outcome *whole)
+{
+    const dem_lattice *l = dem_model_lattice(s->model);
+    outcome led;
+    make_outcome(&led, l);
+    shared_run c = {.scene = s, .from = from, .outcomes = &led};
+    rank_threads_run(n_ranks, lead_as_rank, &c);
+    assert_string_equal(led.failure, "");
+    assert_same_outcome(&led, whole, l, from != NULL);
+    if (from == NULL) assert_same_checkpoint(led.kept, whole->kept);
+    free_outcome(&led);
+}
+
+static void check_led(int body, dem_method method)
+{
+    static const int numbers[] = {1, 2, 5};
+    scene s;
+    outcome whole;
+    open_scene(&s, body, method);
+    s.options.checkpoint_steps = 4;
+    make_outcome(&whole, dem_model_lattice(s.model));
+    assert_ok(run(s.model, &s.options, NULL, &whole));
+    for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+        lead(&s, numbers[k], NULL, &whole);
+        lead(&s, numbers[k], whole.kept, &whole);
     }
     free_outcome(&whole);
     close_scene(&s);
@@ -716,4 +770,11 @@ TEST(checkpoints_are_those_of_one_process_and_any_number_of_ranks_goes_on)
 {
     for (int m = 0; m < N_METHODS; m++) check_checkpoints(m == 0 ? 0 : 2, methods[m]);
     check_checkpoints(1, DEM_METHOD_FEHLBERG45);
+}
+
+/* Rank 0 has a simulation of the whole, which shows what all ranks do. */
+TEST(a_run_that_rank_0_leads_has_the_bits_of_one_process)
+{
+    check_led(1, DEM_METHOD_FEHLBERG45);
+    check_led(2, DEM_METHOD_VERLET);
 }

@@ -1,0 +1,332 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* While a part is advanced its observers on rank 0 call those of the whole, and on other ranks they take orders until
+ * the leader lets them go on. Of the whole's state only what is asked for is gathered. What an observer returns is the
+ * status of all ranks, so that a run stops at once, as that of a process alone. */
+#include "simulation/led_run.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/checkpoint_entries.h"
+#include "base/reduce.h"
+#include "base/status.h"
+#include "domain/gather.h"
+#include "model/shared_model.h"
+#include "simulation/shared_problem.h"
+
+/* A frame of one of the whole's observers. */
+typedef struct frame_relay {
+    led_run *run;
+    int observer;
+} frame_relay;
+
+/* What each rank has of it. */
+struct led_run {
+    ranks ranks;           /* which do not end with the model */
+    dem_simulation *whole; /* NULL: this rank follows */
+    dem_model *model;      /* of the part */
+    dem_simulation *part;  /* NULL: there is none */
+    bool is_observed;
+    frame_relay frames[OBSERVERS_MOST];
+};
+
+/* ---- parts ---- */
+
+static void drop(led_run *l)
+{
+    dem_simulation_destroy(l->part);
+    dem_model_destroy(l->model);
+    l->part = NULL;
+    l->model = NULL;
+    l->is_observed = false;
+}
+
+static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
+{
+    const dem_private_whole whole = {.lattice = &p->lattice};
+    TRY(dem_private_share_model(&l->model, &whole, &l->ranks));
+    if (resumes)
+        TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
+    else
+        TRY(dem_simulation_create(&l->part, l->model, &p->options));
+    l->part->is_led = true;
+    l->part->whole = l->whole;
+    return DEM_OK;
+}
+
+/* Rank 0 has put the problem into the entries. */
+static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, const dem_checkpoint *checkpoint)
+{
+    shared_problem p = {.boundaries = NULL};
+    TRY(checkpoint_entries_share(&l->ranks, entries, entries));
+    dem_status status = reduce_status(&l->ranks, shared_problem_get(&p, entries), 0.0);
+    if (status == DEM_OK) status = create_part(l, &p, resumes, checkpoint);
+    shared_problem_free(&p);
+    if (status != DEM_OK) drop(l);
+    return status;
+}
+
+/* ---- the leader's observers ---- */
+
+/* The whole shows what its part does; what is known of that is asked for anew. */
+static void show(const led_run *l)
+{
+    dem_simulation *whole = l->whole;
+    whole->t = l->part->t;
+    whole->step = l->part->step;
+    whole->seen_t = l->part->seen_t;
+    whole->seen = whole->frame;
+    *whole->measures = (run_measures){.has_events = true};
+}
+
+static dem_status release(const led_run *l, dem_status status)
+{
+    (void)order_pass(&l->ranks, (order){.kind = ORDER_GO_ON, .number = (dem_index)status});
+    return status;
+}
+
+static dem_status lead_step(void *context, const dem_simulation *part)
+{
+    const led_run *l = context;
+    (void)part;
+    show(l);
+    return release(l, observers_step(&l->whole->observers, l->whole));
+}
+
+static dem_status lead_frame(void *context, const dem_simulation *part)
+{
+    const frame_relay *f = context;
+    (void)part;
+    show(f->run);
+    return release(f->run, observers_frame(&f->run->whole->observers, f->observer, f->run->whole));
+}
+
+/* The whole's is that of the part, which has gathered all nodes, but for overlaps, which only the whole looks for. */
+static dem_status take_checkpoint(dem_simulation *whole, const dem_checkpoint *from)
+{
+    whole->has_checkpoint = false;
+    TRY(checkpoint_entries_copy(whole->checkpoint, from));
+    TRY(dem_checkpoint_put(whole->checkpoint, "overlap", &whole->overlap.found, sizeof whole->overlap.found));
+    whole->has_checkpoint = true;
+    return observers_checkpoint(&whole->observers, whole, whole->checkpoint);
+}
+
+static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem_checkpoint *checkpoint)
+{
+    const led_run *l = context;
+    (void)part;
+    show(l);
+    return release(l, take_checkpoint(l->whole, checkpoint));
+}
+
+/* ---- followers ---- */
+
+static order serve(led_run *l);
+
+/* An observer of the leader's, seen from a follower. */
+static dem_status follow_observer(led_run *l)
+{
+    const order last = serve(l);
+    return last.number == DEM_OK ? DEM_OK : status_fail((dem_status)last.number, "rank 0 has ended the run");
+}
+
+static dem_status follow_step(void *context, const dem_simulation *part)
+{
+    (void)part;
+    return follow_observer(context);
+}
+
+static dem_status follow_frame(void *context, const dem_simulation *part)
+{
+    (void)part;
+    return follow_observer(((const frame_relay *)context)->run);
+}
+
+static dem_status follow_checkpoint(void *context, const dem_simulation *part, dem_checkpoint *checkpoint)
+{
+    (void)part;
+    (void)checkpoint;
+    return follow_observer(context);
+}
+
+/* ---- what all ranks do ---- */
+
+static dem_status observe(led_run *l, const order *o)
+{
+    const bool leads = l->whole != NULL;
+    const dem_observer steps = {.struct_size = sizeof steps,
+                                .step = leads ? lead_step : follow_step,
+                                .checkpoint = leads ? lead_checkpoint : follow_checkpoint,
+                                .context = l};
+    for (int k = 0; k < OBSERVERS_MOST; k++) {
+        l->frames[k] = (frame_relay){l, k};
+        const dem_observer frame = {.struct_size = sizeof frame,
+                                    .interval = o->intervals[k],
+                                    .frame = leads ? lead_frame : follow_frame,
+                                    .context = &l->frames[k]};
+        if (o->intervals[k] > 0.0) TRY(dem_simulation_observe(l->part, &frame));
+    }
+    l->is_observed = true;
+    return dem_simulation_observe(l->part, &steps);
+}
+
+/* Rows of all nodes to rank 0, whose quadratures are those of all. */
+static dem_status gather(const led_run *l)
+{
+    const dem_simulation *whole = l->whole;
+    double *x = whole != NULL ? whole->frame : NULL;
+    TRY(dem_simulation_gather(l->part, x, x != NULL ? x + state_velocities(&whole->layout) : NULL));
+    if (whole != NULL) state_copy_quadratures(x, &whole->layout, l->part->seen, &l->part->layout);
+    return DEM_OK;
+}
+
+/* The largest struct that an answer fills, and its size first. */
+typedef union answer {
+    size_t struct_size;
+    dem_energy energy;
+    dem_strain strain;
+    dem_counts counts;
+    dem_body_motion body;
+    dem_boundary_load load;
+    double numbers[6];
+} answer;
+
+static void create_follower(led_run *l, bool resumes)
+{
+    dem_checkpoint *entries = NULL;
+    if (reduce_status(&l->ranks, dem_checkpoint_create(&entries), 0.0) == DEM_OK)
+        (void)create(l, entries, resumes, NULL);
+    dem_checkpoint_destroy(entries);
+}
+
+static void obey(led_run *l, const order *o)
+{
+    answer ignored = {.struct_size = sizeof ignored};
+    switch (o->kind) {
+    case ORDER_CREATE:
+        create_follower(l, o->number != 0);
+        break;
+    case ORDER_OBSERVE:
+        (void)observe(l, o);
+        break;
+    case ORDER_ADVANCE:
+        (void)dem_simulation_advance(l->part, o->t);
+        break;
+    case ORDER_GATHER:
+        (void)gather(l);
+        break;
+    case ORDER_DROP:
+        drop(l);
+        break;
+    default:
+        (void)order_answer(l->part, o, &ignored);
+        break;
+    }
+}
+
+/* Takes orders until one lets this rank go on, or ends its work. */
+static order serve(led_run *l)
+{
+    for (;;) {
+        const order o = order_pass(&l->ranks, (order){.kind = ORDER_GO_ON});
+        if (o.kind == ORDER_GO_ON || o.kind == ORDER_END) return o;
+        obey(l, &o);
+    }
+}
+
+/* ---- of a simulation ---- */
+
+static dem_status attach(led_run *l)
+{
+    const observers *a = &l->whole->observers;
+    order o = {.kind = ORDER_OBSERVE};
+    for (int k = 0; k < a->n; k++)
+        if (a->members[k].observer.frame != NULL) o.intervals[k] = a->members[k].observer.interval;
+    o = order_pass(&l->ranks, o);
+    return observe(l, &o);
+}
+
+dem_status led_run_advance(dem_simulation *whole, double t_end)
+{
+    led_run *l = whole->leads;
+    if (!l->is_observed) TRY(attach(l));
+    (void)order_pass(&l->ranks, (order){.kind = ORDER_ADVANCE, .t = t_end});
+    const dem_status status = dem_simulation_advance(l->part, t_end);
+    show(l);
+    return status;
+}
+
+dem_status led_run_ask(const dem_simulation *whole, order_kind what, dem_index number, void *out)
+{
+    const led_run *l = whole->leads;
+    const order o = order_pass(&l->ranks, (order){.kind = what, .number = number});
+    return order_answer(l->part, &o, out);
+}
+
+void led_run_gather(dem_simulation *whole)
+{
+    const led_run *l = whole->leads;
+    (void)order_pass(&l->ranks, (order){.kind = ORDER_GATHER});
+    (void)gather(l);
+}
+
+void led_run_look_for_overlaps(dem_simulation *part)
+{
+    dem_simulation *whole = part->whole;
+    const dem_model *m = part->model;
+    double *x = whole != NULL ? whole->frame : NULL;
+    if (gather_rows(m->ranks, m->domain, part->layout.dim, part->y, x) != DEM_OK || whole == NULL) return;
+    whole->measures->has_state = false;
+    overlap_look(&whole->overlap, &whole->model->lattice, part->t, x);
+}
+
+void led_run_destroy(led_run *l)
+{
+    if (l == NULL) return;
+    (void)order_pass(&l->ranks, (order){.kind = ORDER_DROP});
+    drop(l);
+    free(l);
+}
+
+static dem_status lead(led_run *l, dem_checkpoint *entries, const dem_options *options,
+                       const dem_checkpoint *checkpoint)
+{
+    TRY(shared_problem_put(entries, &l->whole->model->lattice, options));
+    (void)order_pass(&l->ranks, (order){.kind = ORDER_CREATE, .number = checkpoint != NULL});
+    TRY(reduce_status(&l->ranks, DEM_OK, 0.0));
+    return create(l, entries, checkpoint != NULL, checkpoint);
+}
+
+dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_options *options,
+                            const dem_checkpoint *checkpoint)
+{
+    dem_checkpoint *entries = NULL;
+    led_run *l = calloc(1, sizeof *l);
+    CHECK_MEMORY(l);
+    *l = (led_run){.ranks = *r, .whole = whole};
+    l->ranks.end = NULL;
+    dem_status status = dem_checkpoint_create(&entries);
+    if (status == DEM_OK) status = lead(l, entries, options, checkpoint);
+    dem_checkpoint_destroy(entries);
+    if (status == DEM_OK) {
+        whole->leads = l;
+        show(l);
+    } else {
+        free(l);
+    }
+    return status;
+}
+
+dem_index dem_private_follow(const ranks *r)
+{
+    led_run l = {.ranks = *r};
+    l.ranks.end = NULL;
+    const order last = serve(&l);
+    drop(&l);
+    return last.number;
+}
+
+void dem_private_dismiss(const ranks *r, dem_index number)
+{
+    (void)order_pass(r, (order){.kind = ORDER_END, .number = number});
+}

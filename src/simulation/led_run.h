@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run that ranks make for a simulation of the whole, which rank 0 alone has: the *leader*. Whoever uses that sees no
+ * ranks: observers are called, and asked and answered, on rank 0, while the *followers*, the other ranks, take part in
+ * what the leader asks for. Rank 0 has the memory of the whole, besides its part. */
+#ifndef DEM_SIMULATION_LED_RUN_H
+#define DEM_SIMULATION_LED_RUN_H
+
+#include "simulation/order.h"
+#include "simulation/private.h"
+
+/** Makes a simulation that has not been advanced the leader of one that all ranks have a part of. On rank 0, while the
+ *  others are in dem_private_follow(). No program may call this.
+ *  \param r           outlives the simulation
+ *  \param options     with which the simulation was created
+ *  \param checkpoint  from which it was resumed; NULL: it was not
+ *  \return as domain_model_create() and dem_simulation_create(); then it leads nobody, and may be destroyed */
+DEM_API dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_options *options,
+                                    const dem_checkpoint *checkpoint);
+
+/** Takes part in the runs of the leader, on the other ranks, until it dismisses them.  \return its number */
+DEM_API dem_index dem_private_follow(const ranks *r);
+
+/** Dismisses the followers. On rank 0, when it leads none of its simulations any more. */
+DEM_API void dem_private_dismiss(const ranks *r, dem_index number);
+
+/** Advances, as dem_simulation_advance() does, all parts. */
+dem_status led_run_advance(dem_simulation *whole, double t_end);
+
+/** Asks all parts, and writes what they answer. */
+dem_status led_run_ask(const dem_simulation *whole, order_kind what, dem_index number, void *out);
+
+/** Puts the state that is seen into `frame`. */
+void led_run_gather(dem_simulation *whole);
+
+/** Looks for overlaps in the whole, in the midst of an advance of all parts. */
+void led_run_look_for_overlaps(dem_simulation *part);
+
+/** Ends what the simulation leads. */
+void led_run_destroy(led_run *l);
+
+#endif
