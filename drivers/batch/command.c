@@ -33,6 +33,7 @@ static const char usage[] =
     "  --max-wall SECONDS     end with a checkpoint, exit code 75; the same command goes on\n"
     "  --checkpoint-interval SECONDS  on the wall, between checkpoints (default: 600; the first after 30)\n"
     "  --resume-anyway        go on from a checkpoint of another version: not to the same bits\n"
+    "  --mpi                  run as ranks of MPI; under mpirun or srun with several processes this is so anyway\n"
     "  --serial               run under mpirun or srun: each process by itself, with an output of its own\n"
     "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT and SIGXCPU end as --max-wall does\n"
     "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"
@@ -170,6 +171,7 @@ static bool parse_word(command *c, const char *word)
                  {"--resume-anyway", &c->resume_anyway},
                  {"--verbose", &c->verbose},
                  {"--serial", &c->serial},
+                 {"--mpi", &c->mpi},
                  {"--json", &c->json}};
     for (size_t k = 0; k < sizeof flags / sizeof *flags; k++) {
         if (strcmp(word, flags[k].word) != 0) continue;

@@ -25,12 +25,14 @@ typedef struct command {
     command_action action;
     const char *outdir; /* made when the first output is to be written */
     bool overwrite, resume_anyway, verbose;
-    bool serial;       /* by itself, though a launcher has started several processes */
-    bool terminal;     /* standard output is one */
-    bool json;         /* results go to standard output, too: as asked for, or where programs read it */
-    long jobs;         /* cases at once, in processes of their own if more than one */
-    limits most;       /* of each case; disk infinite: what is free */
-    bool memory_given; /* else the cases that are done at once share the machine's */
+    bool serial;                    /* by itself, though a launcher has started several processes */
+    bool mpi;                       /* by ranks, whatever the environment says of a launcher */
+    const struct rank_group *ranks; /* that make each run; NULL: this process alone does */
+    bool terminal;                  /* standard output is one */
+    bool json;                      /* results go to standard output, too: as asked for, or where programs read it */
+    long jobs;                      /* cases at once, in processes of their own if more than one */
+    limits most;                    /* of each case; disk infinite: what is free */
+    bool memory_given;              /* else the cases that are done at once share the machine's */
     double checkpoint_interval, max_wall; /* s on the wall */
     double wall_start;                    /* s, of the whole command */
     long index;                           /* of the only deck, from 1; 0: all of them */

@@ -6,6 +6,7 @@
 #include "job.h"
 #include "launcher.h"
 #include "preview.h"
+#include "rank_group.h"
 #include "schema.h"
 #include "signals.h"
 #include "streams.h"
@@ -22,33 +23,52 @@ static exit_code do_in_turn(const command *c, const cases *all)
     return worst;
 }
 
-/* Several processes would each do all of it, and get in each other's way. */
-static bool is_alone(const command *c)
-{
-    const launcher l = launcher_find();
-    if (c->action != COMMAND_RUN || c->serial || l.processes == 1) return true;
-    if (l.reports)
-        (void)fprintf(
-            stderr,
-            "dem_batch: error: %s says that %ld processes were started, and a run is one process so far: start "
-            "it without mpirun or srun, or with --serial where each has an output of its own\n",
-            l.variable, l.processes);
-    launcher_let_report(&l);
-    return false;
-}
-
-static exit_code do_all(const command *c)
+static exit_code do_cases(const command *c)
 {
     outcome found = {0};
     cases all;
     exit_code worst = EXIT_DONE;
-    if (!is_alone(c)) return EXIT_USAGE;
     if (!cases_find(&all, c, &found))
         worst = found.code;
     else
         worst = c->jobs > 1 ? case_pool_do(c, &all) : do_in_turn(c, &all);
     cases_free(&all);
     return worst;
+}
+
+/* Without MPI several processes would each do all of it, and get in each other's way. */
+static exit_code refuse_copies(const launcher *l, const char *why)
+{
+    if (l->reports)
+        (void)fprintf(stderr,
+                      "dem_batch: error: %s says that %ld processes were started, which cannot be ranks (%s): start it "
+                      "without mpirun or srun, or with --serial where each has an output of its own\n",
+                      l->variable != NULL ? l->variable : "--mpi", l->processes, why);
+    launcher_let_report(l);
+    return EXIT_USAGE;
+}
+
+/* Rank 0 does what is asked for, and the others help. */
+static exit_code do_as_ranks(const command *c, const launcher *l)
+{
+    char why[RANK_GROUP_REASON];
+    rank_group group;
+    command own = *c;
+    exit_code code = EXIT_DONE;
+    if (c->jobs > 1) return refuse_copies(l, "with --jobs a process does cases by itself");
+    if (!launcher_knows_all(l) && !c->mpi)
+        return refuse_copies(l, "their number is not known; --mpi tells that they are");
+    if (!rank_group_begin(&group, why)) return refuse_copies(l, why);
+    own.ranks = &group;
+    if (group.rank == 0) code = do_cases(&own);
+    return (exit_code)rank_group_end(&group, (int)code);
+}
+
+static exit_code do_all(const command *c)
+{
+    const launcher l = launcher_find();
+    const bool is_alone = c->action != COMMAND_RUN || c->serial || (l.processes == 1 && !c->mpi);
+    return is_alone ? do_cases(c) : do_as_ranks(c, &l);
 }
 
 static exit_code act(const command *c)

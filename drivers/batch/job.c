@@ -17,6 +17,7 @@
 #include "lock.h"
 #include "output.h"
 #include "preview.h"
+#include "rank_group.h"
 #include "refusal.h"
 #include "relaxation.h"
 #include "report.h"
@@ -118,6 +119,13 @@ static dem_status begin(job *j)
     return status == DEM_OK ? dem_trajectory_create(&j->trajectory, j->path, j->simulation, &options) : status;
 }
 
+/* Where there are ranks they make the run. */
+static dem_status share(const job *j, const dem_checkpoint *checkpoint)
+{
+    const rank_group *ranks = j->command->ranks;
+    return ranks != NULL ? rank_group_lead(ranks, j->simulation, &j->options, checkpoint) : DEM_OK;
+}
+
 /* The counterpart of begin() and of the simulation's creation. */
 static dem_status resume(job *j)
 {
@@ -125,6 +133,7 @@ static dem_status resume(job *j)
     dem_simulation_destroy(j->simulation);
     j->simulation = NULL;
     dem_status status = dem_simulation_resume(&j->simulation, j->model, &j->options, checkpoint);
+    if (status == DEM_OK) status = share(j, checkpoint);
     if (status == DEM_OK && j->deck.peak_every > 0)
         status = dem_peaks_resume(&j->peaks, j->model, j->deck.peak_every, checkpoint);
     const dem_trajectory_options options = frames_of(j);
@@ -376,12 +385,18 @@ static dem_status build(job *j)
     if (status != DEM_OK) return status;
     j->options = d->options;
     if (d->residual > 0.0 && j->options.mass_damping == 0.0) j->options.mass_damping = relaxation_damping(j->model);
-    return dem_simulation_create(&j->simulation, j->model, &j->options);
+    status = dem_simulation_create(&j->simulation, j->model, &j->options);
+    return status == DEM_OK ? share(j, NULL) : status;
 }
 
 static bool builds(job *j)
 {
     namelist_errors errors = {0};
+    const rank_group *ranks = j->command->ranks;
+    if (ranks != NULL && !rank_group_can_share(ranks, &j->deck, &errors)) {
+        report_errors(j, EXIT_INVALID, &errors);
+        return false;
+    }
     const dem_status status = build(j);
     if (status != DEM_ERROR_MODEL || j->model == NULL) return passes(j, status, j->deck.path);
     refusal_explain(&errors, &j->deck.groups, j->model, &j->options);
@@ -480,6 +495,7 @@ static bool begin_anew(job *j)
     j->peaks = NULL;
     j->simulation = NULL;
     if (!passes(j, dem_simulation_create(&j->simulation, j->model, &j->options), j->path)) return false;
+    if (!passes(j, share(j, NULL), j->path)) return false;
     report_end(&j->report); /* of a resumption that has failed */
     start_log(j);
     return passes(j, begin(j), j->path);

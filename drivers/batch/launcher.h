@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whether mpirun, mpiexec or srun has started several processes of this program: copies, as a run is one process so
- * far, and would write one output. */
+/* Whether mpirun, mpiexec or srun has started several processes of this program: ranks, or copies, which would write
+ * one output. */
 #ifndef DEM_LAUNCHER_H
 #define DEM_LAUNCHER_H
 
@@ -15,6 +15,9 @@ typedef struct launcher {
 
 /** Of launchers within each other, as mpirun in a job of Slurm's, that of MPI decides. */
 launcher launcher_find(void);
+
+/** Whether the environment tells all processes how many there are, so that all of them know of each other. */
+bool launcher_knows_all(const launcher *l);
 
 /** Launchers end all processes when one of them fails: those that do not report let the one that does be the first, and
  *  wait for two seconds. */

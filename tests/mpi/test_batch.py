@@ -1,15 +1,44 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What dem_batch does under mpirun: `test_batch.py MPIRUN DEM_BATCH INPUTS_FOLDER`."""
+"""What dem_batch does under mpirun: `test_batch.py MPIRUN DEM_BATCH INPUTS_FOLDER COMPARE [NAMES]`. Files of ranks are
+those of one process."""
+import json
+import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
-MPIRUN = DEM_BATCH = DECK = None
+MPIRUN = DEM_BATCH = DECK = COMPARE = None
 SECONDS = 60
 SHORT = ["--set", "run.t_end=1e-4", "--set", "body.spacing=1e-2"]
+# Two bodies, of which one is damped by its springs, one pulled and one held; they overlap, which nothing undoes.
+FREE = """
+&run t_end = 4e-4 /
+&material youngs_modulus = 1e7, poissons_ratio = 0.3, density = 1050, damping_time = 1e-5 /
+&body shape = 'disc', radius = 0.05, spacing = 6e-3, velocity = 1, 2, spin = 30 /
+&body shape = 'rectangle', size = 0.1, 0.04, spacing = 5e-3, position = 0.07, 0, velocity = -5, 0 /
+&boundary body = 1, where = 'side', side = 'left', kind = 'force', force = 1000, 0, ramp = 1e-3 /
+&boundary body = 2, where = 'side', side = 'right', kind = 'velocity', velocity = 0, 1 /
+&contact bodies = 'none' /
+&solver checkpoint_steps = 20 /
+&output name = 'free', frame_interval = 1e-4, peak_every = 3,
+    fields = 'displacement', 'velocity', 'stress', 'strain', 'force', 'fragment' /
+&probe name = 'middle', body = 1, place = 0, 0 /
+"""
+PLATE = """
+&run t_end = 2e-4, residual = 0.1, gravity = 0, 0 /
+&material youngs_modulus = 210e9, poissons_ratio = 0.3, density = 7850 /
+&body shape = 'rectangle', size = 0.2, 0.1, spacing = 8e-3 /
+&boundary where = 'side', side = 'left' /
+&boundary where = 'side', side = 'right', kind = 'traction', traction = 1e6, 0, ramp = 5e-5 /
+&contact bodies = 'none' /
+&solver method = 'verlet', checkpoint_steps = 50 /
+&output name = 'free', frame_interval = 1 /
+"""
 
 
 class UnderMpirun(unittest.TestCase):
@@ -18,16 +47,31 @@ class UnderMpirun(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
-    def run_on(self, n, *command):
+    def run_on(self, n, *command, **settings):
         done = subprocess.run([MPIRUN, "-n", str(n), *command], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True, timeout=SECONDS, check=False)
+                              capture_output=True, text=True, timeout=SECONDS, check=False, **settings)
         said = [line for line in done.stderr.splitlines() if line.startswith("dem_batch")]
         return done.returncode, said, sorted(path.name for path in self.folder.iterdir())
 
-    def test_copies_of_a_run_are_refused_in_one_line(self):
-        code, said, files = self.run_on(3, DEM_BATCH, DECK)
-        self.assertEqual((code, files, len(said)), (2, [], 1), said)
+    def test_without_mpi_copies_are_refused_in_one_line(self):
+        library = self.folder / "broken"
+        library.mkdir()
+        (library / "libdem_mpi.so.2").write_text("no library", encoding="ascii")
+        code, said, files = self.run_on(3, DEM_BATCH, DECK, env={**os.environ, "LD_LIBRARY_PATH": str(library)})
+        self.assertEqual((code, files, len(said)), (2, ["broken"], 1), said)
         self.assertRegex(said[0], "3 processes.*without mpirun or srun, or with --serial")
+
+    def test_jobs_are_refused_in_one_line(self):
+        code, said, files = self.run_on(2, DEM_BATCH, "--jobs", "2", DECK)
+        self.assertEqual((code, files, len(said)), (2, [], 1), said)
+        self.assertRegex(said[0], "2 processes.*--jobs")
+
+    def test_what_ranks_cannot_share_is_refused_before_anything_is_written(self):
+        done = subprocess.run([MPIRUN, "-n", "3", DEM_BATCH, DECK], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=SECONDS, check=False)
+        said = [line for line in done.stderr.splitlines() if "error: 3 ranks" in line]
+        self.assertEqual((done.returncode, len(said), list(self.folder.iterdir())), (3, 1, []), done.stderr)
+        self.assertRegex(said[0], "rectangle.nml:[0-9]+:[0-9]+: error: 3 ranks cannot share obstacles")
 
     def test_one_process_is_a_run(self):
         code, said, files = self.run_on(1, DEM_BATCH, *SHORT, DECK)
@@ -45,9 +89,90 @@ class UnderMpirun(unittest.TestCase):
         self.assertEqual(self.run_on(2, DEM_BATCH, "--version"), (0, [], []))
 
 
+class FreeBodies(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "free.nml").write_text(FREE, encoding="ascii")
+        (self.folder / "plate.nml").write_text(PLATE, encoding="ascii")
+
+    def command(self, n, outdir, *more, deck="free.nml"):
+        launcher = [] if n == 0 else [MPIRUN, "-n", str(n)]
+        return [*launcher, DEM_BATCH, *([] if n == 0 else ["--mpi"]), "--outdir", outdir, *more, deck]
+
+    def run_on(self, n, outdir, *more, deck="free.nml"):
+        done = subprocess.run(self.command(n, outdir, *more, deck=deck), cwd=self.folder, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=SECONDS, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def result(self, outdir):
+        found = json.loads((self.folder / outdir / "free.json").read_text(encoding="utf-8"))
+        changing = ("output", "set", "wall_start", "wall_seconds")
+        return {key: value for key, value in found.items() if key not in changing}
+
+    def assert_same(self, one, other):
+        paths = [str(self.folder / outdir / "free.vtkhdf") for outdir in (one, other)]
+        done = subprocess.run([sys.executable, COMPARE, *paths], capture_output=True, text=True, check=False)
+        self.assertIn(done.returncode, (0, 77), done.stdout)
+        self.assertEqual(*((self.folder / outdir / "free.checkpoint").read_bytes() for outdir in (one, other)))
+        self.assertEqual(self.result(one), self.result(other))
+
+    def test_files_are_those_of_one_process(self):
+        self.assertEqual(self.run_on(0, "one")[0], 0)
+        for n in (1, 2, 3, 4, 7):
+            code, _, errors = self.run_on(n, f"ranks{n}")
+            self.assertEqual(code, 0, errors)
+            self.assert_same("one", f"ranks{n}")
+
+    def test_a_run_ends_at_rest_as_that_of_one_process(self):
+        self.assertEqual(self.run_on(0, "one", deck="plate.nml")[0], 0)
+        code, _, errors = self.run_on(3, "ranks", deck="plate.nml")
+        self.assertEqual(code, 0, errors)
+        self.assert_same("one", "ranks")
+
+    def test_any_number_of_ranks_goes_on(self):
+        self.assertEqual(self.run_on(0, "one")[0], 0)
+        for k, n in enumerate((3, 0, 2)):
+            code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 2) * 1e-4}")
+            self.assertEqual(code, 0, errors)
+            self.assertEqual("resumed" in log, k > 0)
+        self.assert_same("one", "parts")
+
+    def test_what_fails_fails_on_all_in_one_line(self):
+        settings = ("--set", "solver.method='verlet'", "--set", "solver.fixed_step=1e-4")
+        code, _, errors = self.run_on(0, "one", *settings)
+        self.assertEqual(code, 4)
+        there, _, heard = self.run_on(3, "ranks", *settings)
+        self.assertEqual(there, 4)
+        self.assertEqual([line for line in heard.splitlines() if line.startswith("free.nml")], errors.splitlines())
+
+    def test_after_the_death_of_a_rank_the_same_command_goes_on(self):
+        long = ("--set", "run.t_end=1.5e-3", "--checkpoint-interval", "0.05")
+        self.assertEqual(self.run_on(0, "one", *long)[0], 0)
+        with subprocess.Popen(self.command(2, "ranks", *long), cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
+            checkpoint = self.folder / "ranks" / "free.checkpoint"
+            while not checkpoint.exists() and run.poll() is None:
+                time.sleep(0.02)
+            for victim in children(run.pid)[-1:]:
+                os.kill(victim, signal.SIGKILL)
+            self.assertNotEqual(run.wait(timeout=10), 0)
+        code, _, errors = self.run_on(3, "ranks", *long)
+        self.assertEqual(code, 0, errors)
+        self.assert_same("one", "ranks")
+
+
+def children(parent):
+    """Processes of dem_batch that mpirun has started."""
+    path = pathlib.Path("/proc", str(parent), "task", str(parent), "children")
+    return [int(pid) for pid in path.read_text(encoding="ascii").split()]
+
+
 if __name__ == "__main__":
     MPIRUN, DEM_BATCH = sys.argv[1:3]
     DECK = str(pathlib.Path(sys.argv[3], "rectangle.nml").resolve())
     DEM_BATCH = str(pathlib.Path(DEM_BATCH).resolve())
-    sys.argv[1:] = []
+    COMPARE = sys.argv[4]
+    sys.argv[1:] = sys.argv[5:]
     unittest.main()

@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* libdem_mpi stands beside libdem, and has the functions that are declared here again: src/mpi/mpi_program.h. */
+#include "rank_group.h"
+
+#include <dlfcn.h>
+#include <stdio.h>
+
+#include "schema.h"
+
+static const char library[] = "libdem_mpi.so.2";
+
+/* A function of the library. ISO C has no conversion from the address of an object. */
+static bool find(const rank_group *g, const char *name, void *function)
+{
+    void *const found = dlsym(g->library, name);
+    *(void **)function = found;
+    return found != NULL;
+}
+
+bool rank_group_begin(rank_group *g, char why[RANK_GROUP_REASON])
+{
+    void *(*begin)(int *rank, int *size) = NULL;
+    *g = (rank_group){.library = dlopen(library, RTLD_NOW | RTLD_GLOBAL)};
+    if (g->library == NULL || !find(g, "dem_private_program_begin", (void *)&begin) ||
+        !find(g, "dem_private_program_lead", (void *)&g->lead) ||
+        !find(g, "dem_private_program_end", (void *)&g->end)) {
+        const char *reason = dlerror();
+        (void)snprintf(why, RANK_GROUP_REASON, "%s", reason != NULL ? reason : library);
+        return false;
+    }
+    g->self = begin(&g->rank, &g->size);
+    if (g->self == NULL) (void)snprintf(why, RANK_GROUP_REASON, "%s has another version, or no memory", library);
+    return g->self != NULL;
+}
+
+dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem_options *options,
+                           const dem_checkpoint *checkpoint)
+{
+    return g->lead(g->self, whole, options, checkpoint);
+}
+
+static bool has_rigid(const dem_lattice *l)
+{
+    for (dem_index i = 0; l->flags != NULL && i < l->n_nodes; i++)
+        if (l->flags[i] & DEM_NODE_RIGID) return true;
+    return false;
+}
+
+bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors)
+{
+    const schema_deck *groups = &d->groups;
+    const dem_lattice *l = &d->lattice;
+    const schema_instance *body = schema_get(groups, "body", 0), *contact = schema_get(groups, "contact", 0);
+    const bool breaks = l->strength != NULL || l->critical_stretch != NULL || l->compressive_strength != NULL;
+    const struct {
+        bool is_there;
+        const schema_instance *group;
+        const char *key, *what;
+    } all[] = {
+        {d->n_obstacles > 0, schema_get(groups, "obstacle", 0), "points", "obstacles: there is an &obstacle"},
+        {has_rigid(l), body, "rigid", "rigid bodies: 'rigid' in &body"},
+        {d->options.bodies != DEM_BODIES_NONE && !has_rigid(l), contact, "bodies",
+         "bodies that touch: 'bodies' in &contact has to be 'none'"},
+        {breaks, body, "material", "what breaks: 'fracture' in &material, or limits in a lattice file"},
+    };
+    bool can = true;
+    for (size_t k = 0; k < sizeof all / sizeof *all && can; k++) {
+        if (!all[k].is_there) continue;
+        namelist_errors_add(errors, schema_place(all[k].group, all[k].key), "%d ranks cannot share %s", g->size,
+                            all[k].what);
+        can = false;
+    }
+    return can;
+}
+
+int rank_group_end(rank_group *g, int code)
+{
+    return (int)g->end(g->self, code);
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The processes that mpirun or srun has started, as the ranks of one run: rank 0 reads, writes and logs, and the others
+ * take part in its simulations. MPI is loaded only then, with libdem_mpi. */
+#ifndef DEM_RANK_GROUP_H
+#define DEM_RANK_GROUP_H
+
+#include <stdbool.h>
+
+#include <dem/dem.h>
+
+#include "namelist_errors.h"
+#include "deck.h"
+
+enum { RANK_GROUP_REASON = 256 };
+
+typedef struct rank_group {
+    int rank, size;
+    void *self, *library;
+    dem_status (*lead)(const void *self, dem_simulation *whole, const dem_options *options,
+                       const dem_checkpoint *checkpoint);
+    dem_index (*end)(void *self, dem_index number);
+} rank_group;
+
+/** Initialises MPI; all processes have to.  \return whether they are ranks; else `why` says what is missing */
+bool rank_group_begin(rank_group *g, char why[RANK_GROUP_REASON]);
+
+/** Lets all ranks make the run of a simulation, which shows it as one of a process alone. On rank 0.
+ *  \param checkpoint  from which the simulation was resumed; NULL: it was not */
+dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem_options *options,
+                           const dem_checkpoint *checkpoint);
+
+/** Lists which keys of a deck ask for what ranks cannot share yet.  \return whether there are none */
+bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors);
+
+/** Ends MPI. On rank 0 when all is done, with an exit code; on the others at once: they take part in all runs of rank 0
+ *  meanwhile.  \return the exit code of rank 0 */
+int rank_group_end(rank_group *g, int code);
+
+#endif

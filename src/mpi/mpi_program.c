@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "mpi/mpi_program.h"
+
+#include <string.h>
+
+#include "mpi/mpi_ranks.h"
+#include "simulation/led_run.h"
+
+void *dem_private_program_begin(int *rank, int *size)
+{
+    int provided;
+    if (strcmp(dem_version(), DEM_VERSION) != 0) return NULL;
+    (void)MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided);
+    ranks *r = mpi_ranks_create(MPI_COMM_WORLD);
+    if (r == NULL) {
+        (void)MPI_Finalize();
+        return NULL;
+    }
+    *rank = r->rank;
+    *size = r->size;
+    return r;
+}
+
+dem_status dem_private_program_lead(const void *group, dem_simulation *whole, const dem_options *options,
+                                    const dem_checkpoint *checkpoint)
+{
+    return dem_private_lead(whole, group, options, checkpoint);
+}
+
+dem_index dem_private_program_end(void *group, dem_index number)
+{
+    ranks *r = group;
+    if (r->rank == 0)
+        dem_private_dismiss(r, number);
+    else
+        number = dem_private_follow(r);
+    r->end(r->self);
+    (void)MPI_Finalize();
+    return number;
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What dem_batch, which knows no MPI, finds in libdem_mpi by name when it needs it. Its own declarations are in
+ * drivers/batch/rank_group.c. No other program may call these. */
+#ifndef DEM_MPI_MPI_PROGRAM_H
+#define DEM_MPI_MPI_PROGRAM_H
+
+#include <dem/dem.h>
+
+/** Initialises MPI, with the ranks of its world. Collective.
+ *  \return what the other functions work on; NULL if memory is short, or libdem has another version, and MPI is over */
+DEM_API void *dem_private_program_begin(int *rank, int *size);
+
+/** Makes a simulation the leader of one that all ranks have a part of: dem_private_lead(). */
+DEM_API dem_status dem_private_program_lead(const void *group, dem_simulation *whole, const dem_options *options,
+                                            const dem_checkpoint *checkpoint);
+
+/** On rank 0, dismisses the others with a number; these take part in its runs until then.  \return that number */
+DEM_API dem_index dem_private_program_end(void *group, dem_index number);
+
+#endif
