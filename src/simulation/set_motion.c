@@ -86,7 +86,8 @@ static dem_status check_surfaces(dem_simulation *s, const double *x)
 /* It takes the queue back to that time. */
 dem_status set_motion_take_seen(dem_simulation *s, dem_state *seen)
 {
-    CHECK(s->model->domain == NULL, DEM_ERROR_ARGUMENT, "a model that ranks share cannot be changed in a run yet");
+    CHECK(s->model->domain == NULL && s->leads == NULL, DEM_ERROR_ARGUMENT,
+          "a model that ranks share cannot be changed in a run yet");
     TRY(dem_simulation_state(s, seen));
     if (s->seen != s->frame) memcpy(s->frame, s->seen, (size_t)state_size(&s->layout) * sizeof *s->frame);
     return DEM_OK;

@@ -17,22 +17,22 @@ SECONDS = 60
 SHORT = ["--set", "run.t_end=1e-4", "--set", "body.spacing=1e-2"]
 # Two bodies, of which one is damped by its springs, one pulled and one held; they overlap, which nothing undoes.
 FREE = """
-&run t_end = 4e-4 /
+&run t_end = 2e-4 /
 &material youngs_modulus = 1e7, poissons_ratio = 0.3, density = 1050, damping_time = 1e-5 /
 &body shape = 'disc', radius = 0.05, spacing = 6e-3, velocity = 1, 2, spin = 30 /
 &body shape = 'rectangle', size = 0.1, 0.04, spacing = 5e-3, position = 0.07, 0, velocity = -5, 0 /
 &boundary body = 1, where = 'side', side = 'left', kind = 'force', force = 1000, 0, ramp = 1e-3 /
 &boundary body = 2, where = 'side', side = 'right', kind = 'velocity', velocity = 0, 1 /
 &contact bodies = 'none' /
-&solver checkpoint_steps = 20 /
-&output name = 'free', frame_interval = 1e-4, peak_every = 3,
+&solver checkpoint_steps = 10 /
+&output name = 'free', frame_interval = 5e-5, peak_every = 3,
     fields = 'displacement', 'velocity', 'stress', 'strain', 'force', 'fragment' /
 &probe name = 'middle', body = 1, place = 0, 0 /
 """
 PLATE = """
 &run t_end = 2e-4, residual = 0.1, gravity = 0, 0 /
 &material youngs_modulus = 210e9, poissons_ratio = 0.3, density = 7850 /
-&body shape = 'rectangle', size = 0.2, 0.1, spacing = 8e-3 /
+&body shape = 'rectangle', size = 0.2, 0.1, spacing = 1.6e-2 /
 &boundary where = 'side', side = 'left' /
 &boundary where = 'side', side = 'right', kind = 'traction', traction = 1e6, 0, ramp = 5e-5 /
 &contact bodies = 'none' /
@@ -89,7 +89,7 @@ class UnderMpirun(unittest.TestCase):
         self.assertEqual(self.run_on(2, DEM_BATCH, "--version"), (0, [], []))
 
 
-class FreeBodies(unittest.TestCase):
+class Runs(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -118,12 +118,17 @@ class FreeBodies(unittest.TestCase):
         self.assertEqual(*((self.folder / outdir / "free.checkpoint").read_bytes() for outdir in (one, other)))
         self.assertEqual(self.result(one), self.result(other))
 
-    def test_files_are_those_of_one_process(self):
+    def check_files(self, *numbers):
         self.assertEqual(self.run_on(0, "one")[0], 0)
-        for n in (1, 2, 3, 4, 7):
+        for n in numbers:
             code, _, errors = self.run_on(n, f"ranks{n}")
             self.assertEqual(code, 0, errors)
             self.assert_same("one", f"ranks{n}")
+
+
+class FreeBodies(Runs):
+    def test_files_are_those_of_one_process(self):
+        self.check_files(2, 7)
 
     def test_a_run_ends_at_rest_as_that_of_one_process(self):
         self.assertEqual(self.run_on(0, "one", deck="plate.nml")[0], 0)
@@ -134,18 +139,23 @@ class FreeBodies(unittest.TestCase):
     def test_any_number_of_ranks_goes_on(self):
         self.assertEqual(self.run_on(0, "one")[0], 0)
         for k, n in enumerate((3, 0, 2)):
-            code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 2) * 1e-4}")
+            code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 2) * 5e-5}")
             self.assertEqual(code, 0, errors)
             self.assertEqual("resumed" in log, k > 0)
         self.assert_same("one", "parts")
 
     def test_what_fails_fails_on_all_in_one_line(self):
-        settings = ("--set", "solver.method='verlet'", "--set", "solver.fixed_step=1e-4")
+        settings = ("--set", "run.t_end=1e-3", "--set", "solver.method='verlet'", "--set", "solver.fixed_step=1e-4")
         code, _, errors = self.run_on(0, "one", *settings)
         self.assertEqual(code, 4)
         there, _, heard = self.run_on(3, "ranks", *settings)
         self.assertEqual(there, 4)
         self.assertEqual([line for line in heard.splitlines() if line.startswith("free.nml")], errors.splitlines())
+
+
+class Longer(Runs):
+    def test_files_are_those_of_one_process(self):
+        self.check_files(1, 3, 4)
 
     def test_after_the_death_of_a_rank_the_same_command_goes_on(self):
         long = ("--set", "run.t_end=1.5e-3", "--checkpoint-interval", "0.05")
