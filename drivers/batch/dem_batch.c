@@ -59,6 +59,11 @@ static exit_code do_as_ranks(const command *c, const launcher *l)
     if (!launcher_knows_all(l) && !c->mpi)
         return refuse_copies(l, "their number is not known; --mpi tells that they are");
     if (!rank_group_begin(&group, why)) return refuse_copies(l, why);
+    if (group.size < l->processes) {
+        (void)snprintf(why, sizeof why, "this MPI knows of %d only: it is not that of the launcher", group.size);
+        (void)rank_group_end(&group, EXIT_USAGE);
+        return refuse_copies(l, why);
+    }
     own.ranks = &group;
     if (group.rank == 0) code = do_cases(&own);
     return (exit_code)rank_group_end(&group, (int)code);
