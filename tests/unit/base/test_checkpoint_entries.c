@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/checkpoint_entries.h"
+#include "harness/rank_threads.h"
 #include "unit/scratch.h"
 
 #define FILE_NAME "test_checkpoint.checkpoint"
@@ -57,6 +58,36 @@ static void check(const dem_checkpoint *checkpoint)
 }
 
 /* ---- entries ---- */
+
+typedef struct sharing {
+    const dem_checkpoint *from;
+    bool is_same[4]; /* of each rank */
+} sharing;
+
+static void share_as_rank(const ranks *r, void *context)
+{
+    sharing *c = context;
+    dem_checkpoint *into = NULL;
+    size_t size[3];
+    const bool is_shared = dem_checkpoint_create(&into) == DEM_OK &&
+                           checkpoint_entries_share(r, r->rank == 0 ? c->from : NULL, into) == DEM_OK;
+    const dem_checkpoint *got = r->rank == 0 ? c->from : into;
+    const char *word = dem_checkpoint_find(got, "word", &size[0]);
+    const void *nothing = dem_checkpoint_find(got, "nothing", &size[1]);
+    const double *numbers = dem_checkpoint_find(got, "numbers", &size[2]);
+    c->is_same[r->rank] = is_shared && word != NULL && size[0] == 5 && memcmp(word, "sprin", 5) == 0 &&
+                          nothing != NULL && size[1] == 0 && size[2] == 8000 && numbers[999] == 1000.0;
+    dem_checkpoint_destroy(into);
+}
+
+TEST(ranks_get_all_entries_of_rank_0)
+{
+    dem_checkpoint *from = make();
+    sharing c = {.from = from};
+    rank_threads_run(4, share_as_rank, &c);
+    for (int k = 0; k < 4; k++) assert_true(c.is_same[k]);
+    dem_checkpoint_destroy(from);
+}
 
 TEST(entries_are_copied_replaced_and_found)
 {

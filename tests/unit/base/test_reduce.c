@@ -11,7 +11,7 @@ enum { MOST_RANKS = 7, N_TERMS = 700, TEXT = 64 };
 
 /* What each rank has found. */
 typedef struct results {
-    double least, largest, with_nan, sum;
+    double least, largest, with_nan, sum, sums[2], reported[2];
     bool any, none;
     dem_index count;
     array_ops_sum squares;
@@ -45,6 +45,11 @@ static void reduce_all(const ranks *r, void *context)
     of->none = reduce_any(r, false);
     of->count = reduce_count(r, r->rank + 1);
     of->sum = reduce_sum(r, &sum);
+    const exact_sum ranks_there = exact_sum_of(1.0);
+    reduce_sums(r, (const exact_sum *[]){&sum, &ranks_there}, 2, of->sums);
+    of->reported[0] = of->reported[1] = (double)NAN;
+    if (r->rank == r->size - 1) of->reported[0] = of->reported[1] = (double)r->size;
+    reduce_report(r, r->rank == r->size - 1, of->reported, 2);
     of->squares = reduce_squares(r, squares);
     of->fine = reduce_status(r, DEM_OK, 0.0);
     const bool fails = r->rank == 1 || r->rank == 2;
@@ -68,6 +73,8 @@ TEST(every_rank_gets_the_same_whatever_the_shares)
             assert_true(all[k].any && !all[k].none);
             assert_int_equal(all[k].count, n * (n + 1) / 2);
             assert_true(all[k].sum == exact_sum_value(&sum));
+            assert_true(all[k].sums[0] == exact_sum_value(&sum) && all[k].sums[1] == (double)n);
+            assert_true(all[k].reported[0] == (double)n && all[k].reported[1] == (double)n);
             assert_memory_equal(&all[k].squares, &squares, sizeof squares);
             assert_int_equal(all[k].fine, DEM_OK);
         }

@@ -51,6 +51,9 @@ TEST(a_rank_alone_tells_of_those_below_it)
     assert_found("PMIX_RANK=0", "PMIX_RANK", 1, false);
     assert_found("PMIX_RANK=1", "PMIX_RANK", 2, true);
     assert_found("PMIX_RANK=2", "PMIX_RANK", 3, false);
+    const launcher one = find_in("PMIX_RANK=2"), known = find_in("PMI_SIZE=2 PMI_RANK=0 PMIX_RANK=0");
+    assert_false(launcher_knows_all(&one));
+    assert_true(launcher_knows_all(&known));
 }
 
 TEST(a_serial_job_is_one_process)
