@@ -398,7 +398,8 @@ static bool builds(job *j)
         return false;
     }
     const dem_status status = build(j);
-    if (status != DEM_ERROR_MODEL || j->model == NULL) return passes(j, status, j->deck.path);
+    const bool is_created = j->simulation != NULL; /* then what fails is to share it out */
+    if (status != DEM_ERROR_MODEL || j->model == NULL || is_created) return passes(j, status, j->deck.path);
     refusal_explain(&errors, &j->deck.groups, j->model, &j->options);
     report_errors(j, EXIT_INVALID, &errors);
     return false;

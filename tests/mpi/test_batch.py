@@ -144,6 +144,15 @@ class FreeBodies(Runs):
             self.assertEqual("resumed" in log, k > 0)
         self.assert_same("one", "parts")
 
+    def test_more_ranks_than_nodes_are_refused_in_one_line(self):
+        (self.folder / "few.nml").write_text("&run t_end = 1e-5 /\n&material youngs_modulus = 1e7, density = 1050 /\n"
+                                             "&body shape = 'rectangle', size = 0.01, 0.01, spacing = 0.01 /\n"
+                                             "&contact bodies = 'none' /\n&output name = 'few' /\n", encoding="ascii")
+        code, _, errors = self.run_on(7, "ranks", deck="few.nml")
+        self.assertEqual((code, (self.folder / "ranks").exists()), (3, False))
+        self.assertEqual([line for line in errors.splitlines() if line.startswith("few.nml")],
+                         ["few.nml: error: 7 ranks are more than the 3 nodes that they are to share"])
+
     def test_what_fails_fails_on_all_in_one_line(self):
         settings = ("--set", "run.t_end=1e-3", "--set", "solver.method='verlet'", "--set", "solver.fixed_step=1e-4")
         code, _, errors = self.run_on(0, "one", *settings)
