@@ -10,7 +10,6 @@
 #include <stdlib.h>
 
 #include "base/grow.h"
-#include "base/reduce.h"
 #include "base/status.h"
 #include "contact/candidate_resolve.h"
 #include "contact/early_reflection.h"
@@ -102,8 +101,7 @@ static dem_status settle_until_done(automaton *c, contact_instant *now)
     c->solved = NAN;
     for (c->idle++; changed; c->idle = changed ? 0 : c->idle) {
         changed = false;
-        TRY(reduce_status(s->scene.model->ranks, settle_all(s, now, &changed), 0.0));
-        changed = reduce_any(s->scene.model->ranks, changed);
+        TRY(settle_all(s, now, &changed));
     }
     CHECK(c->idle <= most, DEM_ERROR_CONTACT, "more than %lld contact events in a row changed nothing, at t = %.9g s",
           (long long)most, now->t);
@@ -151,8 +149,7 @@ dem_status automaton_resolve(automaton *c, double t, double *y, const event_list
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     const dem_index impacts = s->ledger.counts.impacts;
     TRY(settle_until_done(c, &now));
-    if (s->scene.rule.window > 0.0 && reduce_any(s->scene.model->ranks, s->ledger.counts.impacts > impacts))
-        early_reflection(s, &now);
+    if (s->scene.rule.window > 0.0 && s->ledger.counts.impacts > impacts) early_reflection(s, &now);
     project_nodes(s, t, now.x);
     contact_set_solve_all(s, instant_state(&now));
     contact_set_store_all(s);
@@ -173,7 +170,8 @@ static dem_status check_depth(const automaton *c, dem_index k, double t, const d
     const vec2 end = surface_line_at(scene, surface_segment(scene, feature), t).end;
     CHECK(candidate_is_edge(&candidate), DEM_ERROR_MODEL,
           "node %lld at (%g, %g) m starts %g m inside obstacle %lld, deeper than the penetration tolerance of %g m",
-          (long long)candidate.node, spot.a.x, spot.a.y, -gap.distance, obstacle, scene->rule.penetration_tolerance);
+          scene_node(scene, candidate.node), spot.a.x, spot.a.y, -gap.distance, obstacle,
+          scene->rule.penetration_tolerance);
     return status_fail(DEM_ERROR_MODEL,
                        "the vertex at (%g, %g) m of obstacle %lld starts %g m inside the body, deeper than the "
                        "penetration tolerance of %g m",
@@ -193,8 +191,8 @@ static dem_status check_crossing(const automaton *c, dem_index k, double t, cons
     CHECK(at.depth <= scene->rule.penetration_tolerance, DEM_ERROR_MODEL,
           "obstacle %lld starts across the edge between nodes %lld and %lld near (%g, %g) m, %g m deep, more than the "
           "penetration tolerance of %g m",
-          (long long)scene->model->obstacles.segments[at.segment].obstacle, (long long)candidate->node,
-          (long long)candidate->other, edge[0].x, edge[0].y, at.depth, scene->rule.penetration_tolerance);
+          (long long)scene->model->obstacles.segments[at.segment].obstacle, scene_node(scene, candidate->node),
+          scene_node(scene, candidate->other), edge[0].x, edge[0].y, at.depth, scene->rule.penetration_tolerance);
     return DEM_OK;
 }
 
@@ -236,7 +234,7 @@ dem_status automaton_start(automaton *c, double t, double *y, const event_listen
     contact_set *s = &c->set;
     contact_instant now = {t, y, y + state_velocities(scene_layout(&s->scene)), listener, DEM_OK};
     contact_set_look_at_new(s, instant_state(&now));
-    TRY(reduce_status(s->scene.model->ranks, touch_all(s, &now), 0.0));
+    TRY(touch_all(s, &now));
     const dem_status status = automaton_resolve(c, t, y, listener);
     return now.listener_status != DEM_OK ? now.listener_status : status;
 }
@@ -284,16 +282,16 @@ static void add_rates_of(const automaton *c, dem_index k, scene_state state)
     }
 }
 
-/* The sums are exact, so that the order of groups does not matter. Where nothing is closed there is nothing to add. */
+/* The sums are exact, so that the order of groups does not matter. Where nothing is closed there is nothing to add.
+ * Every rank has all contacts. */
 void automaton_add_rates(const automaton *c, double t, const double *y, double *a)
 {
     const scene_state state = automaton_state(c, t, y);
     const contact_forces *r = &c->set.forces;
-    const dem_model *model = c->set.scene.model;
-    if (model->obstacles.n == 0 || !reduce_any(model->ranks, r->n_groups > 0)) return;
+    if (r->n_groups == 0) return;
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) add_rates_of(c, k, state);
-    rate_sums_take(c->set.scene.model->ranks, &c->rates, scene_layout(&c->set.scene), a);
+    rate_sums_take(&ranks_alone, &c->rates, scene_layout(&c->set.scene), a);
 }
 
 /* Forces are those stored at the last accepted step or event; frames are those of the positions given. */

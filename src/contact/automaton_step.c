@@ -7,7 +7,6 @@
  * zero there: together they spare most steps a second search. */
 #include "contact/automaton_step.h"
 
-#include "base/reduce.h"
 #include "contact/event_location.h"
 #include "contact/impact_group.h"
 
@@ -154,7 +153,6 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
     automaton_begin_step(c, p, state);
     for (dem_index a = 0; a < automaton_n_active(c); a++)
         first = fmin(first, automaton_next_change(c, p, automaton_active_candidate(c, a), p->t0, state));
-    first = reduce_min(s->scene.model->ranks, first);
     if (isfinite(first) || p->end < p->t1) c->solved = NAN;
     if (!(first < last)) return false;
     p->end = first;
@@ -193,10 +191,8 @@ bool automaton_project(automaton *c, double t, double *y)
         impact_group_stop(s, group, &now);
         any = true;
     }
-    if (!reduce_any(s->scene.model->ranks, any)) return false;
-    s->projected = reduce_max(s->scene.model->ranks, s->projected);
-    c->solved = NAN;
-    return true;
+    if (any) c->solved = NAN;
+    return any;
 }
 
 /* After a whole step the forces are known from its last evaluation; after a cut one they are solved for. */

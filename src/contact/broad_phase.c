@@ -7,7 +7,6 @@
 #include "contact/broad_phase.h"
 
 #include "base/grow.h"
-#include "base/reduce.h"
 #include "base/status.h"
 
 dem_status broad_phase_reserve(broad_phase *w, dem_index n_candidates)
@@ -31,7 +30,7 @@ double broad_phase_speed(const contact_set *c, const double *v)
         const vec2 vi = vec2_at(v, c->list[k].node);
         square = fmax(square, vec2_dot(vi, vi));
     }
-    return reduce_max(c->scene.model->ranks, sqrt(square)) + surface_speed(&c->scene);
+    return sqrt(square) + surface_speed(&c->scene);
 }
 
 /* A node is no longer behind an obstacle once its distance to it is positive, in front of it or beyond its free end. */

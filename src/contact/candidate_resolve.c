@@ -27,8 +27,8 @@ static dem_status go_behind(contact_set *c, dem_index k, dem_index feature, doub
     const bool at_free_end =
         surface_at_free_end(&c->scene, feature, surface_place(&line, x), impact_target_depth(c, k, now));
     CHECK(at_free_end && c->list[k].behind[0] < 0, DEM_ERROR_CONTACT,
-          "node %lld at (%g, %g) m is %g m inside obstacle %lld at t = %.9g s", (long long)c->list[k].node, x.x, x.y,
-          depth, (long long)obstacle, now->t);
+          "node %lld at (%g, %g) m is %g m inside obstacle %lld at t = %.9g s", scene_node(&c->scene, c->list[k].node),
+          x.x, x.y, depth, (long long)obstacle, now->t);
     contact_set_pass_behind(c, k, obstacle);
     return DEM_OK;
 }
@@ -56,7 +56,7 @@ static dem_status touch_edge(contact_set *c, dem_index k, const contact_gap *gap
           "the vertex at (%g, %g) m of obstacle %lld is %g m inside the body, behind the edge from node %lld to %lld, "
           "at t = %.9g s",
           vertex.x, vertex.y, (long long)surface_obstacle(&c->scene, contact_point_feature(candidate, gap->feature)),
-          -gap->distance, (long long)candidate->node, (long long)candidate->other, now->t);
+          -gap->distance, scene_node(&c->scene, candidate->node), scene_node(&c->scene, candidate->other), now->t);
     return impact_solve(c, k, (impact_target){1, {gap->feature}}, now);
 }
 
@@ -268,14 +268,15 @@ static dem_status count(const contact_set *c, contact_candidate *candidate, cons
     count_up(c, &candidate->storm, now->t);
     CHECK(storm->n <= rule->max_impacts, DEM_ERROR_CONTACT,
           "%s %lld at (%g, %g) m had more than %lld contact events within %g s, at t = %.9g s", kind,
-          (long long)candidate->node, place.x, place.y, (long long)rule->max_impacts, rule->storm_time, now->t);
+          scene_node(&c->scene, candidate->node), place.x, place.y, (long long)rule->max_impacts, rule->storm_time,
+          now->t);
     CHECK(rule->most_in_step == 0 || storm->in_step <= rule->most_in_step, DEM_ERROR_CONTACT,
           "%s %lld at (%g, %g) m had more than %lld contact events in a step, at t = %.9g s", kind,
-          (long long)candidate->node, place.x, place.y, (long long)rule->most_in_step, now->t);
+          scene_node(&c->scene, candidate->node), place.x, place.y, (long long)rule->most_in_step, now->t);
     CHECK(storm->at_once <= most_at_once, DEM_ERROR_CONTACT,
           "%s %lld at (%g, %g) m had more than %d contact events at once, at t = %.9g s: a larger 'rest_speed' may end "
           "them",
-          kind, (long long)candidate->node, place.x, place.y, most_at_once, now->t);
+          kind, scene_node(&c->scene, candidate->node), place.x, place.y, most_at_once, now->t);
     return DEM_OK;
 }
 
@@ -290,8 +291,8 @@ dem_status candidate_count_idle(contact_set *c, dem_index k, const contact_insta
     if (storm->idle_step != c->step) storm->idle_step = c->step, storm->idle = 0;
     CHECK(++storm->idle <= most, DEM_ERROR_CONTACT,
           "%s %lld had more than %lld contact events in a row that changed nothing, at t = %.9g s",
-          candidate_is_edge(candidate) ? "the edge from node" : "node", (long long)candidate->node, (long long)most,
-          now->t);
+          candidate_is_edge(candidate) ? "the edge from node" : "node", scene_node(&c->scene, candidate->node),
+          (long long)most, now->t);
     return DEM_OK;
 }
 

@@ -198,7 +198,7 @@ dem_contact contact_point_describe(const contact_scene *scene, const contact_can
                        .force = point->force,
                        .friction = {point->friction, 0.0}};
     for (int p = 0; p < f.nodes.n; p++) {
-        out.nodes[p] = f.nodes.node[p];
+        out.nodes[p] = model_node(scene->model, f.nodes.node[p]);
         out.weights[p] = f.nodes.weight[p];
     }
     return out;

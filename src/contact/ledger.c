@@ -7,7 +7,6 @@
 
 #include <stdlib.h>
 
-#include "base/reduce.h"
 #include "base/status.h"
 
 /* Both arrays of impulses are one block. */
@@ -38,9 +37,9 @@ void ledger_copy(contact_ledger *to, const contact_ledger *from, dem_index n_obs
     to->counts = from->counts;
 }
 
-void ledger_list_impulses(const contact_ledger *b, const ranks *r, dem_index n_obstacles, double *list)
+void ledger_list_impulses(const contact_ledger *b, dem_index n_obstacles, double *list)
 {
-    for (dem_index k = 0; k < 4 * n_obstacles; k++) list[k] = reduce_sum(r, &b->impulse[k]);
+    for (dem_index k = 0; k < 4 * n_obstacles; k++) list[k] = exact_sum_value(&b->impulse[k]);
 }
 
 void ledger_begin_impulses(contact_ledger *b, dem_index n_obstacles, const double *list)

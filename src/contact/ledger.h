@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sums over contact events: energies, impulses given by the obstacles, counts. They are exact, and so do not depend on
- * the order of events. */
+ * the order of events. Every rank of a model that ranks share has all of them. */
 #ifndef DEM_CONTACT_LEDGER_H
 #define DEM_CONTACT_LEDGER_H
 
 #include "base/exact_sum.h"
-#include "base/ranks.h"
 #include "contact/contact_point.h"
 #include "events/event_listener.h"
 
@@ -46,7 +45,7 @@ static inline void ledger_add_vector(exact_sum sum[2], vec2 term)
 void ledger_add_impulse(contact_ledger *b, dem_index obstacle, vec2 impulse, vec2 tangential);
 
 /** The impulses of all obstacles, and then those of friction, rounded. \param[out] list  [2 n_obstacles][2] N s */
-void ledger_list_impulses(const contact_ledger *b, const ranks *r, dem_index n_obstacles, double *list);
+void ledger_list_impulses(const contact_ledger *b, dem_index n_obstacles, double *list);
 
 /** Begins the sums of impulses anew with such a list. */
 void ledger_begin_impulses(contact_ledger *b, dem_index n_obstacles, const double *list);

@@ -32,6 +32,12 @@ typedef struct contact_scene {
     contact_rule rule;
 } contact_scene;
 
+/** The number of node i in the whole lattice, for messages. */
+static inline long long scene_node(const contact_scene *scene, dem_index i)
+{
+    return (long long)model_node(scene->model, i);
+}
+
 /** By how much free ends of obstacles count as longer, m: a candidate further out than this cannot hit the end. */
 static inline double scene_margin(const contact_scene *scene)
 {

@@ -12,7 +12,6 @@
 #include <stdlib.h>
 
 #include "base/grow.h"
-#include "base/reduce.h"
 #include "base/status.h"
 
 /* ---- set-up ---- */
@@ -24,8 +23,7 @@ dem_status event_queue_create(event_queue *out, const event_queue_parts *parts)
     const state_layout *l = parts->layout;
     const local_forces *f = parts->forces;
     const constraints *c = parts->constraints;
-    *out = (event_queue){.ranks = parts->ranks,
-                         .layout = *l,
+    *out = (event_queue){.layout = *l,
                          .forces = f,
                          .constraints = c,
                          .sources = parts->sources,
@@ -89,6 +87,11 @@ void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f
     q->state = state;
     q->quiet = !q->happens;
     look_ahead(q);
+}
+
+bool event_queue_has_event(const event_queue *q)
+{
+    return !q->quiet && next_of(q).at.t <= q->step->t1;
 }
 
 /* Sources are undone from the last to the first, each of them all events of the step at once. */
@@ -266,21 +269,20 @@ static dem_status settle_end(event_queue *q)
  * events at different places decides about no step. */
 double event_queue_error(const event_queue *q)
 {
-    return isfinite(q->most) && !q->quiet ? sqrt(reduce_sum(q->ranks, &q->error) / q->most) : 0.0;
+    return isfinite(q->most) && !q->quiet ? sqrt(exact_sum_value(&q->error) / q->most) : 0.0;
 }
 
 /* The length for which the events' error, as it would be at the start of a step, is 1: the error is taken to go with
  * its fourth power, which is slower than it does, and so on the safe side. */
 double event_queue_reach(const event_queue *q)
 {
-    const double error = isfinite(q->most) && !q->quiet ? sqrt(reduce_sum(q->ranks, &q->ahead) / q->most) : 0.0;
+    const double error = isfinite(q->most) && !q->quiet ? sqrt(exact_sum_value(&q->ahead) / q->most) : 0.0;
     return error > 1.0 ? (q->step->t1 - q->step->t0) / sqrt(sqrt(error)) : (double)INFINITY;
 }
 
 /* Resolves the events up to t, or goes back to t. In a step without events (quiet) there is nothing to do. Resolution
  * ends at t, or with an event whose error alone exceeds what is allowed: the caller then rejects the step. That the sum
- * exceeds it does not end it, as the sum of a part of the events depends on their order where that is of no account. A
- * failure is reported with its time, so that among several processes the earliest would count. */
+ * exceeds it does not end it, as the sum of a part of the events depends on their order where that is of no account. */
 dem_status event_queue_show(event_queue *q, double t)
 {
     if (q->quiet) return DEM_OK;
@@ -292,10 +294,9 @@ dem_status event_queue_show(event_queue *q, double t)
     due_event due;
     while (status == DEM_OK && (due = next_of(q)).source != NULL && due.at.t <= t && !q->exceeded)
         status = take(q, &due);
-    const bool any = reduce_any(q->ranks, q->n_taken > 0 || status != DEM_OK);
-    if (any) TRY(reduce_status(q->ranks, status, q->now));
+    TRY(status);
     q->now = t;
     if (t < q->step->t1) return DEM_OK;
-    q->quiet = !any;
+    q->quiet = q->n_taken == 0;
     return q->quiet || q->settled ? DEM_OK : settle_end(q);
 }

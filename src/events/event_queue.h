@@ -1,17 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The events of all sources inside one accepted step, in the order of time. Each is resolved where and when it happens,
  * and the rest of the step is corrected for it on a neighbourhood, which may bring further events: the integration of
- * the whole body is never stopped. All of it can be taken back. */
+ * the whole body is never stopped. All of it can be taken back. Ranks that share a model each have all events. */
 #ifndef DEM_EVENTS_EVENT_QUEUE_H
 #define DEM_EVENTS_EVENT_QUEUE_H
 
 #include "base/exact_sum.h"
-#include "base/ranks.h"
 #include "events/local_correction.h"
 #include "events/source_list.h"
 
 typedef struct event_queue {
-    const ranks *ranks;
     state_layout layout;
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */
@@ -24,7 +22,7 @@ typedef struct event_queue {
     double now;               /* s, events until here are resolved */
     bool settled;             /* the end of the step is put right: contacts, derivative */
     bool happens;             /* whether there may be events at all */
-    bool quiet;               /* nothing happens in the step, on any rank */
+    bool quiet;               /* nothing happens in the step */
     exact_sum error;          /* of all local corrections, squared */
     exact_sum ahead;          /* what it would be if the events had come right at the start of the step, squared */
     double most;              /* of `error`; beyond it the step is rejected */
@@ -38,13 +36,12 @@ typedef struct event_queue {
 
 /** What a queue works with, all borrowed. */
 typedef struct event_queue_parts {
-    const ranks *ranks; /* that take the steps */
     const state_layout *layout;
     const local_forces *forces;
     const constraints *constraints; /* NULL: none */
     const source_list *sources;
     local_correction_rule rule;
-    bool happens;    /* whether there may be events of any source, on any rank */
+    bool happens;    /* whether there may be events of any source */
     bool controlled; /* a step is rejected for an error above 1 */
 } event_queue_parts;
 
@@ -56,6 +53,9 @@ void event_queue_destroy(event_queue *q);
  *  change with it; it gets the changed motions, and must stay where it is.
  *  \param state  [2 dim n_rows] scratch */
 void event_queue_start(event_queue *q, dense_output *step, double *y1, double *f1, double *state);
+
+/** Whether there is an event in a step that has just begun. */
+bool event_queue_has_event(const event_queue *q);
 
 /** Resolves the events up to t, and takes back those after it, so that sources and motion are those at t; the end of
  *  the step is complete when t is not before it.

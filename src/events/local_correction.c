@@ -487,11 +487,11 @@ static dem_status leave_quadrature(const local_correction *p, changed_motion *tr
 
 /* The squared error of the change, the difference of both solutions of the pair,
  *   e = h sum of (b_q - d_q) (dv_q, da_q),
- * in the integrator's norm: a mean over all 2 dim n_nodes unknowns of the body, each in units of its tolerance. Nodes
+ * in the integrator's norm: a mean over all 2 dim n_nodes unknowns of the bodies, each in units of its tolerance. Nodes
  * out of reach have no error. */
 static double squared_error(const local_correction *p)
 {
-    const double n_unknowns = 2.0 * (double)components(p, p->near.layout.n_nodes);
+    const double n_unknowns = 2.0 * (double)components(p, p->rule.n_nodes);
     double weights[LOCAL_CORRECTION_STAGES], x_sum = 0.0, v_sum = 0.0;
     for (int q = 0; q < p->table.stages; q++) weights[q] = p->h * (p->table.b[q] - p->table.d[q]);
     for (dem_index j = 0; j < n_moving(p); j++)

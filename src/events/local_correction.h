@@ -19,6 +19,7 @@ enum { LOCAL_CORRECTION_STAGES = 6 };
 typedef struct local_correction_rule {
     int order;                             /* of the method that the step is of */
     double position_error, velocity_error; /* m, m/s: what counts as an error of 1 */
+    dem_index n_nodes;                     /* of all bodies, on any rank: errors are a mean over these */
 } local_correction_rule;
 
 typedef struct local_correction {

@@ -90,20 +90,20 @@ static reaction_sums sum_reaction(const reaction_parts *p, vec2 about)
  * the size of their forces, and M the moment about P, the line of F goes through P + (M/F^2) (F_y, -F_x): there F alone
  * has the moment of all contacts. Taking M about P rather than the origin avoids a loss of digits far from the
  * origin. */
-dem_obstacle_load diagnostics_reaction(const ranks *r, const dem_contact *list, dem_index n, dem_index obstacle,
+dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle,
                                        const rigid_contact *rigid)
 {
     const reaction_parts parts = {list, n, obstacle, rigid};
     const reaction_sums first = sum_reaction(&parts, (vec2){0.0, 0.0});
     dem_obstacle_load load = {0};
     for (dem_index k = 0; k < n; k++) load.n_contacts += list[k].obstacle == obstacle;
-    load.n_contacts = reduce_count(r, load.n_contacts);
-    const double weight = reduce_sum(r, &first.weights);
+    const ranks *r = &ranks_alone; /* all contacts are on every rank */
+    const double weight = exact_sum_value(&first.weights);
     const vec2 sum = sum_of(r, first.resultant), places = sum_of(r, first.places);
     const vec2 mean = weight > 0.0 ? vec2_scale(1.0 / weight, places) : places;
     const reaction_sums about_mean = sum_reaction(&parts, mean);
     /* Without a resultant there is no line of action, and the mean place is given. */
-    const double square = vec2_dot(sum, sum), moment = reduce_sum(r, &about_mean.moments);
+    const double square = vec2_dot(sum, sum), moment = exact_sum_value(&about_mean.moments);
     const vec2 arm = square > 0.0 ? vec2_scale(moment / square, (vec2){sum.y, -sum.x}) : (vec2){0.0, 0.0};
     vec2_put(load.reaction, 0, sum);
     vec2_put(load.point, 0, vec2_add(mean, arm));

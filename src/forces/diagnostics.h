@@ -11,7 +11,7 @@
 dem_energy diagnostics_energy(const forces *f, const survey *s, const double *x, const double *v);
 
 /** Resultant of the contacts that are on an obstacle, where it acts, and their number; no impulses. */
-dem_obstacle_load diagnostics_reaction(const ranks *r, const dem_contact *list, dem_index n, dem_index obstacle,
+dem_obstacle_load diagnostics_reaction(const dem_contact *list, dem_index n, dem_index obstacle,
                                        const rigid_contact *rigid);
 
 /** What a boundary does to its nodes in a state.

@@ -37,4 +37,10 @@ struct dem_model {
     double mass;      /* kg */
 };
 
+/** The number of node i in the whole lattice, of which the model may have a part. */
+static inline dem_index model_node(const dem_model *m, dem_index i)
+{
+    return domain_number(m->domain, i);
+}
+
 #endif

@@ -58,7 +58,7 @@ static dem_status pass_impulses(dem_simulation *s, const checkpoint_entries_way 
     const dem_index n_obstacles = s->model->obstacles.n;
     double *list = calloc(4 * (size_t)n_obstacles + 1, sizeof *list);
     CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for the impulses of a checkpoint");
-    ledger_list_impulses(ledger, s->model->ranks, n_obstacles, list);
+    ledger_list_impulses(ledger, n_obstacles, list);
     const dem_status status = checkpoint_entries_pass(way, "impulses", list, 4 * (size_t)n_obstacles * sizeof *list);
     if (status == DEM_OK && way->from != NULL) ledger_begin_impulses(ledger, n_obstacles, list);
     free(list);

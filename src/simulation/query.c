@@ -211,16 +211,13 @@ static dem_energy energy_of(const dem_simulation *s)
     const state_layout *l = &s->layout;
     measure_energy(s);
     dem_energy e = m->energy;
-    const exact_sum *const sums[] = {&ledger->impact, &s->fracture, &ledger->projection, &ledger->work};
-    double values[4];
-    reduce_sums(s->model->ranks, sums, 4, values);
-    e.impact = values[0];
-    e.fracture = values[1];
+    e.impact = exact_sum_value(&ledger->impact);
+    e.fracture = reduce_sum(s->model->ranks, &s->fracture);
     e.friction += state_total_of(l, y, STATE_FRICTION);
     e.damping = state_total_of(l, y, STATE_DAMPING);
-    e.projection = values[2];
+    e.projection = exact_sum_value(&ledger->projection);
     e.boundary = state_total_of(l, y, STATE_WORK);
-    e.obstacle = values[3];
+    e.obstacle = exact_sum_value(&ledger->work);
     if (state_has_total(l, STATE_OBSTACLE)) e.obstacle += state_total_of(l, y, STATE_OBSTACLE);
     e.ledger =
         e.motion + e.gravity + e.impact + e.friction + e.damping + e.fracture - e.projection - e.boundary - e.obstacle;
@@ -347,7 +344,7 @@ dem_status dem_simulation_fracture(const dem_simulation *s, dem_fracture *out)
     TRY(check_whole("dem_simulation_fracture", s, out));
     const contact_burials *buried = &s->automaton.set.burials;
     TRY(fragments_measure(&s->model->lattice, elements_of(s), &seen));
-    seen.buried = reduce_count(s->model->ranks, buried->n);
+    seen.buried = buried->n;
     seen.buried_node = buried->n > 0 ? buried->node : -1;
     seen.buried_t = buried->t;
     state_copy_row(&s->layout, seen.buried_x, buried->x);
@@ -379,9 +376,10 @@ dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, dou
     TRY(status_check_number("node", node, d != NULL ? d->n_whole : s->model->lattice.n_nodes));
     TRY(stress_prepare(&s->model->stress));
     const double *x = all_seen_of(s);
-    const dem_index i = domain_own_node(d, node);
-    if (i >= 0) node_stress(s->model, s->forces.elements, NODE_STRESS_CARRIED, i, x, own);
-    reduce_report(s->model->ranks, i >= 0, own, 3);
+    const dem_index i = domain_node(d, node);
+    const bool is_here = i >= 0 && domain_owns(d, i);
+    if (is_here) node_stress(s->model, s->forces.elements, NODE_STRESS_CARRIED, i, x, own);
+    reduce_report(s->model->ranks, is_here, own, 3);
     memcpy(stress, own, sizeof own);
     return DEM_OK;
 }
@@ -428,28 +426,18 @@ dem_status dem_simulation_contact_pressures(const dem_simulation *s, double *pre
     return s->surfaces != NULL ? surface_load_pressures(s->surfaces, seen_of(s), pressure) : DEM_OK;
 }
 
-/* Counts of contact events and nodes; `late` counts steps. */
-static dem_counts contact_counts(const dem_simulation *s)
-{
-    dem_counts c = contact_of(s)->set.ledger.counts;
-    if (s->model->obstacles.n == 0) return c;
-    dem_index *const own[] = {&c.impacts, &c.vertex_impacts, &c.releases, &c.slips, &c.sticks, &c.passings, &c.behind};
-    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++) *own[k] = reduce_count(s->model->ranks, *own[k]);
-    return c;
-}
-
 dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 {
     TRY(check_pointers("dem_simulation_counts", s, out));
     if (s->leads != NULL) return led_run_ask(s, ORDER_COUNTS, 0, out);
     const dem_counts of_integrator = integrator_counts(&s->integrator);
-    dem_counts counts = contact_counts(s);
+    dem_counts counts = contact_of(s)->set.ledger.counts;
     counts.steps = of_integrator.steps;
     counts.rejected = of_integrator.rejected;
     counts.evaluations = of_integrator.evaluations;
     counts.retries = of_integrator.retries;
     counts.crossings = s->crossings;
-    counts.events = s->events + (s->in_hand ? reduce_count(s->model->ranks, s->queue.n_taken) : 0);
+    counts.events = s->events + (s->in_hand ? s->queue.n_taken : 0);
     return GIVE(dem_counts, out, &counts);
 }
 
@@ -498,12 +486,11 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
     const double *lasting = state_v(l, seen_of(s), state_impulse(l, obstacle));
     const double *rubbing = state_v(l, seen_of(s), state_friction_impulse(l, obstacle));
     TRY(measure_rigid(s));
-    dem_obstacle_load load = diagnostics_reaction(s->model->ranks, closed, n_closed, obstacle, s->rigid);
+    dem_obstacle_load load = diagnostics_reaction(closed, n_closed, obstacle, s->rigid);
     add_motion(s, obstacle, &load);
     for (int k = 0; k < 2; k++) {
-        load.impulse[k] = reduce_sum(s->model->ranks, &ledger->impulse[2 * obstacle + k]) + lasting[k];
-        load.friction_impulse[k] =
-            reduce_sum(s->model->ranks, &ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];
+        load.impulse[k] = exact_sum_value(&ledger->impulse[2 * obstacle + k]) + lasting[k];
+        load.friction_impulse[k] = exact_sum_value(&ledger->friction_impulse[2 * obstacle + k]) + rubbing[k];
     }
     return GIVE(dem_obstacle_load, out, &load);
 }

@@ -197,7 +197,7 @@ static void begin_roots(double t, const double *y, void *context)
 static double root_function(const dense_output *step, void *context)
 {
     dem_simulation *s = context;
-    return reduce_min(s->model->ranks, automaton_root_function(&s->automaton, step, s->frame));
+    return automaton_root_function(&s->automaton, step, s->frame);
 }
 
 /* Where the folding guard acts, triangles are stiffer than at rest, and surfaces in contact are: by how much, for fixed

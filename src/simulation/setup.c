@@ -90,20 +90,21 @@ static dem_status set_up_sources(dem_simulation *s)
 static dem_status set_up_queue(dem_simulation *s)
 {
     const dem_options *o = &s->options;
+    const domain *d = s->model->domain;
+    const dem_index n_nodes = d != NULL ? d->n_whole : s->layout.n_nodes;
     dem_method_traits method = {.struct_size = sizeof method};
     TRY(dem_method_describe(&method, o->method));
     local_springs_create(&s->local_springs, &s->forces, &s->layout);
     s->local_forces = local_springs_forces(&s->local_springs);
     s->closed_contacts = contact_constraints_of(&s->automaton);
-    return event_queue_create(&s->queue,
-                              &(event_queue_parts){.ranks = s->model->ranks,
-                                                   .layout = &s->layout,
-                                                   .forces = &s->local_forces,
-                                                   .constraints = &s->closed_contacts,
-                                                   .sources = &s->sources,
-                                                   .rule = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale},
-                                                   .happens = s->model->obstacles.n > 0 || run_may_break(s),
-                                                   .controlled = !(o->fixed_step > 0.0)});
+    return event_queue_create(
+        &s->queue, &(event_queue_parts){.layout = &s->layout,
+                                        .forces = &s->local_forces,
+                                        .constraints = &s->closed_contacts,
+                                        .sources = &s->sources,
+                                        .rule = {method.order, o->rtol * o->spacing, o->rtol * o->v_scale, n_nodes},
+                                        .happens = s->model->obstacles.n > 0 || run_may_break(s),
+                                        .controlled = !(o->fixed_step > 0.0)});
 }
 
 /* Nodes of a share: to claim it takes less than a hundredth of any loop over them. */

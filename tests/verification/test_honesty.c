@@ -131,13 +131,12 @@ static estimates take_step(parts *p, double t, double t1, const double *y, const
     const constraints closed = contact_constraints_of(&c);
     assert_ok(contact_source_create(&source, &c));
     assert_ok(source_list_add(&sources, contact_source_events(&source)));
-    assert_ok(event_queue_create(&q, &(event_queue_parts){.ranks = &ranks_alone,
-                                                          .happens = true,
+    assert_ok(event_queue_create(&q, &(event_queue_parts){.happens = true,
                                                           .layout = &p->rule.layout,
                                                           .forces = &near,
                                                           .constraints = &closed,
                                                           .sources = &sources,
-                                                          .rule = {5, one[0], one[1]},
+                                                          .rule = {5, one[0], one[1], p->rule.layout.n_nodes},
                                                           .controlled = true}));
     memcpy(y1, y0, size * sizeof *y1);
     assert_int_equal(gsl_odeiv2_step_apply(gsl, t, t1 - t, y1, error, NULL, NULL, &system), GSL_SUCCESS);

@@ -61,12 +61,11 @@ static void open_rig(rig *r, const dem_lattice *lattice, double eta, double fric
     assert_ok(contact_source_create(&r->contact, &r->c));
     assert_ok(source_list_add(&r->sources, contact_source_events(&r->contact)));
     const double lax[2] = {1.0, 1.0}, *tolerance = error != NULL ? error : lax;
-    assert_ok(event_queue_create(&r->q, &(event_queue_parts){.ranks = &ranks_alone,
-                                                             .layout = look_layout(&r->c),
+    assert_ok(event_queue_create(&r->q, &(event_queue_parts){.layout = look_layout(&r->c),
                                                              .forces = &r->near,
                                                              .constraints = &r->closed,
                                                              .sources = &r->sources,
-                                                             .rule = {4, tolerance[0], tolerance[1]},
+                                                             .rule = {4, tolerance[0], tolerance[1], r->n},
                                                              .happens = true,
                                                              .controlled = error != NULL}));
 }
@@ -148,7 +147,7 @@ static snapshot take_snapshot(rig *r, double t)
     memcpy(s.y1, r->y1, sizeof s.y1);
     memcpy(s.f1, r->f1, sizeof s.f1);
     dense_output_state(&r->dense, t, s.state);
-    ledger_list_impulses(&r->c.set.ledger, &ranks_alone, 1, s.impulse);
+    ledger_list_impulses(&r->c.set.ledger, 1, s.impulse);
     s.energy[0] = exact_sum_value(&r->c.set.ledger.impact);
     s.energy[1] = exact_sum_value(&r->c.set.ledger.projection);
     s.energy[2] = exact_sum_value(&r->c.set.ledger.work);
@@ -421,12 +420,11 @@ static void open_kicked_chain(kicked_chain *s, int dim, const int *axes, const c
     s->sources[1] = kicks_of(8, 0.4, 0.7, jump[1]);
     s->list = (source_list){0};
     for (int k = 0; k < 2; k++) assert_ok(source_list_add(&s->list, kicks_events(&s->sources[k])));
-    assert_ok(event_queue_create(&s->q, &(event_queue_parts){.ranks = &ranks_alone,
-                                                             .layout = &c->layout,
+    assert_ok(event_queue_create(&s->q, &(event_queue_parts){.layout = &c->layout,
                                                              .forces = &c->forces,
                                                              .constraints = held,
                                                              .sources = &s->list,
-                                                             .rule = {5, 1.0, 1.0},
+                                                             .rule = {5, 1.0, 1.0, c->layout.n_nodes},
                                                              .happens = true}));
     event_queue_start(&s->q, &c->step, c->y1, c->f1, c->state);
 }

@@ -199,8 +199,9 @@ static void open_step(step *s, kind k)
     local_springs_create(&s->springs, &s->acting, look_layout(&s->c));
     s->near = local_springs_forces(&s->springs);
     s->closed = contact_constraints_of(&s->c);
-    assert_ok(local_correction_create(&s->correction, look_layout(&s->c), &s->near, &s->closed,
-                                      &(local_correction_rule){5, position_error, velocity_error}));
+    assert_ok(local_correction_create(
+        &s->correction, look_layout(&s->c), &s->near, &s->closed,
+        &(local_correction_rule){5, position_error, velocity_error, look_layout(&s->c)->n_nodes}));
     assert_ok(changed_motion_create(&s->changed, look_layout(&s->c)));
 }
 
@@ -575,8 +576,8 @@ TEST(the_ledger_of_a_node_that_lands_has_closed_forms)
     local_springs_create(&local, &acting, &rule.layout);
     const local_forces forces_near = local_springs_forces(&local);
     const constraints closed = contact_constraints_of(&c);
-    assert_ok(
-        local_correction_create(&near, &rule.layout, &forces_near, &closed, &(local_correction_rule){5, 1.0, 1.0}));
+    assert_ok(local_correction_create(&near, &rule.layout, &forces_near, &closed,
+                                      &(local_correction_rule){5, 1.0, 1.0, rule.layout.n_nodes}));
     assert_ok(changed_motion_create(&tr, &rule.layout));
     y0[1] = 0.5 * g * at * at, y0[10] = v; /* falls on the floor at `at` */
     f0[11] = f1[11] = -g;
@@ -627,8 +628,8 @@ static void errors_of_jump(double h, double *at_end, double *inside)
     local_springs_create(&s.springs, &s.acting, &rule.layout);
     s.near = local_springs_forces(&s.springs);
     assert_ok(automaton_create(&s.c, &s.acting, &rule));
-    assert_ok(
-        local_correction_create(&s.correction, &rule.layout, &s.near, NULL, &(local_correction_rule){5, 1.0, 1.0}));
+    assert_ok(local_correction_create(&s.correction, &rule.layout, &s.near, NULL,
+                                      &(local_correction_rule){5, 1.0, 1.0, s.n}));
     assert_ok(changed_motion_create(&s.changed, &rule.layout));
     s.y0 = zeros(&s), s.f0 = zeros(&s), s.y1 = zeros(&s), s.f1 = zeros(&s);
     s.state = zeros(&s), s.first = zeros(&s), s.last = zeros(&s);
@@ -690,7 +691,8 @@ static void kick_chain(chain_correction *s, int dim, const int *axes, int order)
     assert_ok(changed_motion_create(&s->changed, &c->layout));
     changed_motion_start(&s->changed, chain_step, c->y1, c->f1);
     c->step.changed = &s->changed;
-    assert_ok(local_correction_create(&p, &c->layout, &c->forces, NULL, &(local_correction_rule){order, 1.0, 1.0}));
+    assert_ok(local_correction_create(&p, &c->layout, &c->forces, NULL,
+                                      &(local_correction_rule){order, 1.0, 1.0, c->layout.n_nodes}));
     assert_ok(local_correction_open(&p, &c->step, (neighbourhood_seeds){&seed, 1, false}, 0.25 * chain_step, c->state));
     double *v = c->state + state_velocities(&c->layout) + state_row(&c->layout, seed);
     for (int d = 0; d < dim; d++) v[d] += kick[axes[d]];
@@ -746,8 +748,8 @@ static void break_chain(chain_correction *s, int order, bool by_forces, double e
     chain *c = &s->chain;
     local_correction p;
     double error;
-    const local_correction_rule rule = {order, error_of_one, 1.0};
     chain_open(c, 2, axes, -1, order == 2);
+    const local_correction_rule rule = {order, error_of_one, 1.0, c->layout.n_nodes};
     assert_ok(changed_motion_create(&s->changed, &c->layout));
     changed_motion_start(&s->changed, chain_step, c->y1, c->f1);
     c->step.changed = &s->changed;

@@ -59,8 +59,8 @@ static void same_memory(const dem_simulation *a, const dem_simulation *b)
     assert_int_equal(a->unlooked, b->unlooked);
     assert_memory_equal(&n, &m, sizeof n);
     double impulses[2][4];
-    ledger_list_impulses(&c->ledger, &ranks_alone, 1, impulses[0]);
-    ledger_list_impulses(&d->ledger, &ranks_alone, 1, impulses[1]);
+    ledger_list_impulses(&c->ledger, 1, impulses[0]);
+    ledger_list_impulses(&d->ledger, 1, impulses[1]);
     assert_memory_equal(impulses[0], impulses[1], sizeof impulses[0]);
     assert_memory_equal(&a->overlap.found, &b->overlap.found, sizeof a->overlap.found);
     assert_memory_equal(a->y, b->y, (size_t)state_size(&a->layout) * sizeof *a->y);
