@@ -120,9 +120,9 @@ DEM_API const dem_lattice *dem_model_lattice(const dem_model *model);
 DEM_API const dem_obstacle *dem_model_obstacle(const dem_model *model, dem_index obstacle);
 
 /** Which nodes are here: node i of dem_model_lattice() and of dem_state. Views into the model.
- *  \param[out] n_nodes  here, of a model that ranks share (dem/mpi.h) with the ghosts of other ranks
+ *  \param[out] n_nodes  here, of a model that ranks share (dem/mpi.h) with some nodes of other ranks
  *  \param[out] number   [n_nodes] in the whole lattice, ascending; NULL: all nodes are here
- *  \param[out] is_own   [n_nodes] 1: a node of this rank, 0: a ghost; each node is that of one rank. NULL: all are
+ *  \param[out] is_own   [n_nodes] 1: a node of this rank, 0: of another one; each is that of one rank. NULL: all are
  *  \return DEM_ERROR_ARGUMENT for a NULL */
 DEM_API dem_status dem_model_part(const dem_model *model, dem_index *n_nodes, const dem_index **number,
                                   const unsigned char **is_own);

@@ -3,9 +3,10 @@
  *  the bits of one process, whatever their number. Of the library libdem_mpi, which `pkg-config dem_mpi` knows; libdem
  *  itself has no MPI.
  *
- *  Each rank has a model and a simulation of its part: its own nodes, and as ghosts those of other ranks that a spring
- *  or a triangle joins to one of them (dem_model_part()). What goes on is *collective*: all ranks make the same calls
- *  in the same order, with the same arguments, and wait for each other in them. These are
+ *  Each rank has a model and a simulation of its part: its own nodes, those near what may touch obstacles, whoever owns
+ *  them, and as ghosts those of other ranks that a spring or a triangle joins to one of these (dem_model_part()). What
+ *  goes on is *collective*: all ranks make the same calls in the same order, with the same arguments, and wait for each
+ *  other in them. These are
  *
  *      dem_model_create_mpi(), and dem_model_destroy() of such a model
  *      dem_simulation_create(), dem_simulation_resume(), dem_simulation_observe(), dem_simulation_advance()
@@ -27,8 +28,12 @@
  *  `model` or `simulation` that is NULL: a rank that gets one of these alone should call MPI_Abort(), as the others may
  *  wait for it. Boundaries name nodes of the whole lattice.
  *
- *  Ranks cannot share yet, and refuse: obstacles, bodies that touch, what may break, rigid bodies, external forces,
- *  trajectories, overlaps of bodies and their fragments.
+ *  All ranks have all contacts with obstacles, whose nodes have their numbers in the whole lattice: events, counts of
+ *  them, dem_simulation_contact() and dem_simulation_obstacle() are the same on each, and a rank may ask for these, and
+ *  watch events, by itself.
+ *
+ *  Ranks cannot share yet, and refuse: obstacles whose motion a function computes, bodies that touch each other, what
+ *  may break, rigid bodies, external forces, trajectories, overlaps of bodies and their fragments.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A
@@ -47,9 +52,9 @@ extern "C" {
  *  compact domains of equal size. Each rank gets the model of its domain; lattice and communicator may be freed
  *  afterwards. Collective. While it works every rank has the whole lattice.
  *  \param lattice    the same on all ranks, as are obstacles and n_obstacles
- *  \param obstacles  [n_obstacles] not possible yet
- *  \return as dem_model_create(); DEM_ERROR_ARGUMENT if lattices differ, MPI is not initialised, or libdem has another
- *  version than libdem_mpi; DEM_ERROR_MODEL for what ranks cannot share yet, and more ranks than nodes */
+ *  \param obstacles  [n_obstacles]
+ *  \return as dem_model_create(); DEM_ERROR_ARGUMENT if lattices or obstacles differ, MPI is not initialised, or libdem
+ *  has another version than libdem_mpi; DEM_ERROR_MODEL for what ranks cannot share yet, and more ranks than nodes */
 DEM_API dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, const dem_obstacle *obstacles,
                                         dem_index n_obstacles, MPI_Comm communicator);
 

@@ -1248,9 +1248,9 @@ FUNCTIONS = {  # name: (result, arguments, text)
                                POINTER(POINTER(c_ubyte))],
         """dem_model_part(model, n_nodes, number, is_own)
         Which nodes are here: node i of dem_model_lattice() and of dem_state. Views into the model.
-        n_nodes here, of a model that ranks share (dem/mpi.h) with the ghosts of other ranks
+        n_nodes here, of a model that ranks share (dem/mpi.h) with some nodes of other ranks
         number [n_nodes] in the whole lattice, ascending; NULL: all nodes are here
-        is_own [n_nodes] 1: a node of this rank, 0: a ghost; each node is that of one rank. NULL: all are
+        is_own [n_nodes] 1: a node of this rank, 0: of another one; each is that of one rank. NULL: all are
         Returns DEM_ERROR_ARGUMENT for a NULL"""),
     "dem_model_sizes": (c_int, [POINTER(dem_model), POINTER(dem_model_size)],
         """dem_model_sizes(model, out)"""),

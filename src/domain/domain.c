@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two nodes are next to each other if a spring joins them or a triangle has both: then the force on one may depend on
- * the other. Every rank finds its domain in the whole lattice by itself: what it sends to another rank is what that one
- * expects, in the same order, as both go by the same rule. */
+/* Every rank finds its domain in the whole lattice by itself: what it sends to another rank is what that one expects,
+ * in the same order, as both go by the same rule. Those of its own nodes that are next to common ones go to all ranks.
+ * */
 #include "domain/domain.h"
 
 #include <stdlib.h>
 
 #include "base/sorted.h"
 #include "base/status.h"
+#include "domain/adjacency.h"
 
 /* A node at the end of the domain, and a rank on the other side. */
 typedef struct border {
@@ -32,115 +33,140 @@ static dem_index sort_borders(border *list, dem_index n)
     return kept;
 }
 
-/* Own nodes next to another rank's, with that rank, and ghosts with theirs. Without lists they are only counted. */
+/* A list, or without room only how long it would be. */
+typedef struct borders {
+    dem_index n;
+    border *list;
+} borders;
+
+/* Own nodes that are ghosts of another rank, with that rank, and ghosts with theirs. */
 typedef struct draft {
-    const int32_t *owner;
+    const domain_shares *shares;
     int rank;
-    dem_index n; /* of each list */
-    border *sent, *received;
+    borders sent, received;
 } draft;
 
+static void note(borders *b, int rank, dem_index node)
+{
+    if (b->list != NULL) b->list[b->n] = (border){rank, node};
+    b->n++;
+}
+
+static bool is_common(const domain_shares *s, dem_index i)
+{
+    return s->is_common != NULL && s->is_common[i];
+}
+
+/* Node j is next to node i: it is a ghost where i is integrated and j is not. */
 static void join(draft *d, dem_index i, dem_index j)
 {
-    if (d->owner[i] != d->rank || d->owner[j] == d->rank) return;
-    if (d->sent != NULL) {
-        d->sent[d->n] = (border){d->owner[j], i};
-        d->received[d->n] = (border){d->owner[j], j};
-    }
-    d->n++;
+    const domain_shares *s = d->shares;
+    const bool everywhere = is_common(s, i);
+    const int first = everywhere ? 0 : s->owner[i], end = everywhere ? s->n_ranks : first + 1;
+    if (is_common(s, j)) return;
+    for (int rank = first; rank < end && s->owner[j] == d->rank; rank++)
+        if (rank != d->rank) note(&d->sent, rank, j);
+    if (s->owner[j] != d->rank && first <= d->rank && d->rank < end) note(&d->received, s->owner[j], j);
 }
 
 static void join_all(draft *d, const dem_lattice *l)
 {
-    d->n = 0;
-    for (dem_index k = 0; k < l->n_springs; k++) {
-        join(d, l->ends[2 * k], l->ends[2 * k + 1]);
-        join(d, l->ends[2 * k + 1], l->ends[2 * k]);
-    }
-    for (dem_index k = 0; k < 3 * l->n_triangles; k++) {
-        const dem_index next = k / 3 * 3 + (k + 1) % 3;
-        join(d, l->triangles[k], l->triangles[next]);
-        join(d, l->triangles[next], l->triangles[k]);
+    dem_index pair[2];
+    d->sent.n = d->received.n = 0;
+    for (dem_index k = 0; k < adjacency_pairs(l); k++) {
+        adjacency_pair(l, k, pair);
+        join(d, pair[0], pair[1]);
+        join(d, pair[1], pair[0]);
     }
 }
 
-/* `local` has the number in the domain of each node of the whole lattice; -1: it is not there. */
-static dem_status number_nodes(domain *d, const draft *from, dem_index n_received, dem_index *local)
+static bool is_integrated(const draft *d, dem_index i)
 {
-    for (dem_index i = 0; i < d->n_whole; i++) local[i] = from->owner[i] == from->rank ? 0 : -1;
-    for (dem_index k = 0; k < n_received; k++) local[from->received[k].node] = 0;
+    return d->shares->owner[i] == d->rank || is_common(d->shares, i);
+}
+
+/* `local` has the number in the domain of each node of the whole lattice; -1: it is not there. */
+static dem_status number_nodes(domain *d, const draft *from, dem_index *local)
+{
+    dem_index n_own = 0;
+    for (dem_index i = 0; i < d->n_whole; i++) {
+        local[i] = is_integrated(from, i) ? 0 : -1;
+        n_own += from->shares->owner[i] == from->rank;
+    }
+    CHECK(n_own > 0, DEM_ERROR_MODEL, "rank %d has no node of its own", from->rank);
+    for (dem_index k = 0; k < from->received.n; k++) local[from->received.list[k].node] = 0;
     for (dem_index i = 0; i < d->n_whole; i++)
         if (local[i] == 0) local[i] = d->n_nodes++;
-    CHECK(d->n_nodes > n_received, DEM_ERROR_MODEL, "rank %d has no node of its own", from->rank);
     d->number = malloc((size_t)d->n_nodes * sizeof *d->number);
     d->is_own = malloc((size_t)d->n_nodes);
-    CHECK(d->number && d->is_own, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
+    d->is_ghost = malloc((size_t)d->n_nodes);
+    CHECK(d->number && d->is_own && d->is_ghost, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
+          (long long)d->n_nodes);
     for (dem_index i = 0; i < d->n_whole; i++) {
         if (local[i] < 0) continue;
         d->number[local[i]] = i;
-        d->is_own[local[i]] = from->owner[i] == from->rank;
+        d->is_own[local[i]] = from->shares->owner[i] == from->rank;
+        d->is_ghost[local[i]] = !is_integrated(from, i);
     }
     return DEM_OK;
 }
 
-/* How many of a sorted list, from one on, are of the same rank. */
-static dem_index count_same(const border *list, dem_index n, dem_index from)
+/* How many nodes of a sorted list, from one on, are of a rank. */
+static dem_index count_of(const borders *b, dem_index from, int rank)
 {
     dem_index end = from;
-    while (end < n && list[end].rank == list[from].rank) end++;
+    while (end < b->n && b->list[end].rank == rank) end++;
     return end - from;
 }
 
 static dem_status list_nodes(dem_index **out, const border *list, dem_index n, const dem_index *local)
 {
-    *out = malloc((size_t)n * sizeof **out);
+    *out = malloc(((size_t)n + 1) * sizeof **out);
     CHECK_MEMORY(*out);
     for (dem_index k = 0; k < n; k++) (*out)[k] = local[list[k].node];
     return DEM_OK;
 }
 
-/* Both lists have the same ranks, as nodes next to each other are in both. */
-static dem_status list_neighbours(domain *d, const draft *from, const dem_index n[2], const dem_index *local)
+static dem_status list_neighbours(domain *d, const draft *from, const dem_index *local)
 {
-    int count = 0;
-    for (dem_index p = 0; p < n[0]; p += count_same(from->sent, n[0], p)) count++;
-    d->neighbours = calloc((size_t)count + 1, sizeof *d->neighbours);
+    d->neighbours = calloc((size_t)from->shares->n_ranks, sizeof *d->neighbours);
     CHECK_MEMORY(d->neighbours);
-    for (dem_index p = 0, q = 0; p < n[0];) {
+    dem_index p = 0, q = 0;
+    for (int rank = 0; rank < from->shares->n_ranks; rank++) {
+        const dem_index n_sent = count_of(&from->sent, p, rank), n_received = count_of(&from->received, q, rank);
+        if (n_sent == 0 && n_received == 0) continue;
         domain_neighbour *one = &d->neighbours[d->n_neighbours++];
-        one->rank = from->sent[p].rank;
-        one->n_sent = count_same(from->sent, n[0], p);
-        one->n_received = count_same(from->received, n[1], q);
-        TRY(list_nodes(&one->sent, from->sent + p, one->n_sent, local));
-        TRY(list_nodes(&one->received, from->received + q, one->n_received, local));
-        p += one->n_sent;
-        q += one->n_received;
+        *one = (domain_neighbour){.rank = rank, .n_sent = n_sent, .n_received = n_received};
+        TRY(list_nodes(&one->sent, from->sent.list + p, n_sent, local));
+        TRY(list_nodes(&one->received, from->received.list + q, n_received, local));
+        p += n_sent;
+        q += n_received;
     }
     return DEM_OK;
 }
 
 static dem_status fill(domain *d, draft *from, const dem_lattice *whole, dem_index *local)
 {
+    borders *const both[] = {&from->sent, &from->received};
     join_all(from, whole);
-    from->sent = malloc(((size_t)from->n + 1) * sizeof *from->sent);
-    from->received = malloc(((size_t)from->n + 1) * sizeof *from->received);
-    CHECK(local && from->sent && from->received, DEM_ERROR_MEMORY, "out of memory for the domain of rank %d",
+    for (int k = 0; k < 2; k++) both[k]->list = malloc(((size_t)both[k]->n + 1) * sizeof *both[k]->list);
+    CHECK(local && from->sent.list && from->received.list, DEM_ERROR_MEMORY, "out of memory for the domain of rank %d",
           from->rank);
     join_all(from, whole);
-    const dem_index n[2] = {sort_borders(from->sent, from->n), sort_borders(from->received, from->n)};
-    TRY(number_nodes(d, from, n[1], local));
-    return list_neighbours(d, from, n, local);
+    for (int k = 0; k < 2; k++) both[k]->n = sort_borders(both[k]->list, both[k]->n);
+    TRY(number_nodes(d, from, local));
+    return list_neighbours(d, from, local);
 }
 
-dem_status domain_create(domain *out, const dem_lattice *whole, const int32_t *owner, int rank)
+dem_status domain_create(domain *out, const dem_lattice *whole, const domain_shares *shares, int rank)
 {
     domain d = {.n_whole = whole->n_nodes};
-    draft from = {.owner = owner, .rank = rank};
+    draft from = {.shares = shares, .rank = rank};
     dem_index *local = malloc((size_t)whole->n_nodes * sizeof *local);
     const dem_status status = fill(&d, &from, whole, local);
     free(local);
-    free(from.sent);
-    free(from.received);
+    free(from.sent.list);
+    free(from.received.list);
     if (status == DEM_OK)
         *out = d;
     else
@@ -158,12 +184,13 @@ void domain_free(domain *d)
     free(d->number);
     free(d->spring);
     free(d->is_own);
+    free(d->is_ghost);
     *d = (domain){0};
 }
 
-dem_index domain_own_node(const domain *d, dem_index number)
+dem_index domain_node(const domain *d, dem_index number)
 {
     if (d == NULL) return number;
     const dem_index i = sorted_find(d->number, d->n_nodes, number);
-    return i >= 0 && d->is_own[i] ? i : -1;
+    return i >= 0 && !d->is_ghost[i] ? i : -1;
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The nodes of a lattice that one rank has: its own ones, and as ghosts those of other ranks that are next to one of
- * these, by a spring or a triangle. Both stand together in ascending order of their numbers in the whole lattice, so
- * that whatever goes by the order of nodes, springs or triangles has the order of the whole. */
+/* The nodes of a lattice that one rank has: its own ones; common ones (domain/common_nodes.h), which it integrates too,
+ * whoever owns them; and as ghosts those of other ranks that are next to one of these, by a spring or a triangle. All
+ * stand together in ascending order of their numbers in the whole lattice, so that whatever goes by the order of nodes,
+ * springs or triangles has the order of the whole. */
 #ifndef DEM_DOMAIN_DOMAIN_H
 #define DEM_DOMAIN_DOMAIN_H
 
@@ -9,7 +10,7 @@
 
 #include <dem/dem.h>
 
-/** Another rank that has ghosts of own nodes; it has own nodes that are ghosts here, too. */
+/** Another rank that has ghosts of own nodes, or own nodes that are ghosts here. */
 typedef struct domain_neighbour {
     int rank;
     dem_index n_sent, n_received;
@@ -22,23 +23,36 @@ typedef struct domain {
     dem_index *number;                          /* [n_nodes] in the whole lattice, ascending */
     dem_index n_springs, n_triangles;           /* of the whole lattice, and */
     dem_index n_surface_nodes, n_surface_edges; /* that may touch obstacles */
-    dem_index *spring;     /* [springs of the domain] their numbers in the whole lattice, ascending */
-    unsigned char *is_own; /* [n_nodes] 0: a ghost */
+    dem_index *spring;       /* [springs of the domain] their numbers in the whole lattice, ascending */
+    unsigned char *is_own;   /* [n_nodes] 1: an own node, which counts here */
+    unsigned char *is_ghost; /* [n_nodes] 1: what it does comes from its owner; else it is integrated here */
     int n_neighbours;
     domain_neighbour *neighbours; /* [n_neighbours] by rank */
 } domain;
 
+/** How the nodes of a lattice are shared out. */
+typedef struct domain_shares {
+    int n_ranks;
+    const int32_t *owner;           /* [n_nodes] the rank of each node */
+    const unsigned char *is_common; /* [n_nodes] not 0: all ranks integrate it; NULL: none is */
+} domain_shares;
+
 /** Finds the domain of a rank in a lattice whose node numbers are known to be valid. Free with domain_free().
- *  \param owner  [n_nodes] the rank of each node
  *  \return DEM_ERROR_MODEL if the rank owns no node, DEM_ERROR_MEMORY */
-dem_status domain_create(domain *out, const dem_lattice *whole, const int32_t *owner, int rank);
+dem_status domain_create(domain *out, const dem_lattice *whole, const domain_shares *shares, int rank);
 void domain_free(domain *d);
 
-/** The number in the domain of an own node of this number in the whole lattice; -1: it is not an own one. NULL stands
- *  for the whole lattice. */
-dem_index domain_own_node(const domain *d, dem_index number);
+/** The number in the domain of a node that is integrated here, of this number in the whole lattice; -1: it is not. NULL
+ *  stands for the whole lattice. */
+dem_index domain_node(const domain *d, dem_index number);
 
-/** The nodes from `first` to *end - 1, of n, are all own ones, or all ghosts. NULL stands for the whole lattice.
+/** Whether a node of the domain counts here. */
+static inline bool domain_owns(const domain *d, dem_index i)
+{
+    return d == NULL || d->is_own[i];
+}
+
+/** The nodes from `first` to *end - 1, of n, are all own ones, or none is. NULL stands for the whole lattice.
  *  \return whether they are own ones */
 static inline bool domain_run(const domain *d, dem_index first, dem_index n, dem_index *end)
 {

@@ -98,12 +98,13 @@ static void prescribe(const boundary_conditions *all, const boundary_condition *
                       const boundary_derivative *to)
 {
     const vec2 velocity = velocity_at(all, b, t), acceleration = boundary_conditions_acceleration(all, b, t);
-    for (dem_index k = 0; k < b->n_nodes; k++) {
+    for (dem_index k = 0; k < b->n_all; k++) {
         const dem_index i = b->nodes[k];
         const vec2 before = vec2_at(to->a, i), u = with_components(b, vec2_at(to->f, i), velocity),
                    now = with_components(b, before, acceleration);
         vec2_put(to->f, i, u);
         vec2_put(to->a, i, now);
+        if (k >= b->n_nodes) continue;
         exact_terms_add(to->power, mass[i] * (now.x - before.x) * u.x);
         exact_terms_add(to->power, mass[i] * (now.y - before.y) * u.y);
     }
@@ -126,10 +127,11 @@ static void give(const boundary_conditions *all, const boundary_condition *b, co
                  exact_sum *energy)
 {
     const vec2 velocity = velocity_at(all, b, t);
-    for (dem_index k = 0; k < b->n_nodes; k++) {
+    for (dem_index k = 0; k < b->n_all; k++) {
         const vec2 before = vec2_at(v, b->nodes[k]), now = with_components(b, before, velocity);
-        exact_sum_add(energy, 0.5 * mass[b->nodes[k]] * (vec2_dot(now, now) - vec2_dot(before, before)));
         vec2_put(v, b->nodes[k], now);
+        if (k >= b->n_nodes) continue;
+        exact_sum_add(energy, 0.5 * mass[b->nodes[k]] * (vec2_dot(now, now) - vec2_dot(before, before)));
     }
 }
 
@@ -200,7 +202,7 @@ static dem_status check_node(const bodies *of, const dem_boundary *b, dem_index 
     const long long number = (long long)k, node = (long long)b->nodes[p];
     CHECK(node >= 0 && node < n_nodes, DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is not in 0 to %lld", number, node,
           (long long)(n_nodes - 1));
-    const dem_index i = domain_own_node(of->domain, b->nodes[p]);
+    const dem_index i = domain_node(of->domain, b->nodes[p]);
     if (i < 0) return DEM_OK; /* another rank looks at it */
     CHECK(!(held[i] & NAMED), DEM_ERROR_ARGUMENT, "boundary %lld: node %lld is named twice", number, node);
     CHECK(b->share == NULL || isfinite(b->share[p]), DEM_ERROR_ARGUMENT,
@@ -228,14 +230,26 @@ static dem_status check_all(const bodies *of, const dem_boundary *list, dem_inde
         TRY(check_one(&list[k], k));
         for (dem_index p = 0; p < list[k].n_nodes; p++) TRY(check_node(of, &list[k], k, p, held));
         for (dem_index p = 0; p < list[k].n_nodes; p++) {
-            const dem_index i = domain_own_node(of->domain, list[k].nodes[p]);
+            const dem_index i = domain_node(of->domain, list[k].nodes[p]);
             if (i >= 0) held[i] &= BOTH;
         }
     }
     return DEM_OK;
 }
 
-/* A force without shares is shared equally among all of its nodes, wherever they are. */
+/* Nodes of this rank, or else the common ones of others. A force without shares is shared equally among all of its
+ * nodes, wherever they are. */
+static void copy_nodes(boundary_condition *out, const dem_boundary *from, const domain *d, bool own)
+{
+    for (dem_index p = 0; p < from->n_nodes; p++) {
+        const dem_index i = domain_node(d, from->nodes[p]);
+        if (i < 0 || domain_owns(d, i) != own) continue;
+        const double equal = 1.0 / (double)from->n_nodes;
+        if (out->share != NULL) out->share[out->n_all] = from->share != NULL ? from->share[p] : equal;
+        out->nodes[out->n_all++] = i;
+    }
+}
+
 static dem_status copy(boundary_condition *out, const dem_boundary *from, const domain *d)
 {
     const size_t n = (size_t)from->n_nodes;
@@ -244,29 +258,32 @@ static dem_status copy(boundary_condition *out, const dem_boundary *from, const 
     out->nodes = malloc(n * sizeof *out->nodes);
     CHECK_MEMORY(out->nodes);
     if (from->kind == DEM_BOUNDARY_FORCE) CHECK_MEMORY(out->share = malloc(n * sizeof *out->share));
-    for (size_t p = 0; p < n; p++) {
-        const dem_index i = domain_own_node(d, from->nodes[p]);
-        if (i < 0) continue;
-        if (out->share != NULL) out->share[out->n_nodes] = from->share != NULL ? from->share[p] : 1.0 / (double)n;
-        out->nodes[out->n_nodes++] = i;
-    }
+    copy_nodes(out, from, d, true);
+    out->n_nodes = out->n_all;
+    if (d != NULL) copy_nodes(out, from, d, false);
     return DEM_OK;
 }
 
-/* Makes a linked list of forces for each node. They are entered at the head, so a list has the last condition first. */
+/* Makes a linked list of forces for each node. They are entered at the head, so a list has the last condition first.
+ * Where there are forces at all every rank has lists, so that all go the same way. */
 static dem_status list_pushes(boundary_conditions *b, dem_index n_nodes)
 {
     size_t n = 0;
-    for (dem_index k = 0; k < b->n; k++) n += b->list[k].share != NULL ? (size_t)b->list[k].n_nodes : 0;
-    if (n == 0) return DEM_OK;
+    bool any = false;
+    for (dem_index k = 0; k < b->n; k++) {
+        if (b->list[k].share == NULL) continue;
+        any = true;
+        n += (size_t)b->list[k].n_all;
+    }
+    if (!any) return DEM_OK;
     b->first = malloc((size_t)n_nodes * sizeof *b->first);
-    b->pushes = malloc(n * sizeof *b->pushes);
+    b->pushes = malloc((n + 1) * sizeof *b->pushes);
     CHECK(b->first && b->pushes, DEM_ERROR_MEMORY, "out of memory for %zu forces on nodes", n);
     for (dem_index i = 0; i < n_nodes; i++) b->first[i] = -1;
     /* Entry `at` belongs to node p of condition k; the head of the node's list moves on to it. */
     dem_index at = 0;
     for (dem_index k = 0; k < b->n; k++)
-        for (dem_index p = 0; p < b->list[k].n_nodes && b->list[k].share != NULL; p++, at++) {
+        for (dem_index p = 0; p < b->list[k].n_all && b->list[k].share != NULL; p++, at++) {
             dem_index *first = &b->first[b->list[k].nodes[p]];
             b->pushes[at] = (boundary_condition_share){k, *first, b->list[k].share[p]};
             *first = at;

@@ -16,10 +16,11 @@ typedef struct boundary_condition {
     dem_boundary_kind kind;
     int32_t components;
     vec2 value;
-    double ramp; /* s */
-    dem_index n_nodes;
-    dem_index *nodes; /* [n_nodes] */
-    double *share;    /* [n_nodes] of a force; else NULL */
+    double ramp;       /* s */
+    dem_index n_nodes; /* of this rank */
+    dem_index n_all;   /* with common nodes of other ranks behind them, which do not count here */
+    dem_index *nodes;  /* [n_all] */
+    double *share;     /* [n_all] of a force; else NULL */
 } boundary_condition;
 
 /** A share of a force on a node. The shares on one node are a linked list. */
@@ -38,7 +39,7 @@ typedef struct boundary_conditions {
 } boundary_conditions;
 
 /** Validates and copies. Of a domain (else NULL), nodes are given by their numbers in the whole lattice, and what is
- *  compiled has its own ones only. Free with boundary_conditions_free().
+ *  compiled has those only that are integrated here. Free with boundary_conditions_free().
  *  \return DEM_ERROR_ARGUMENT; or DEM_ERROR_MODEL for a node that is fixed, whose component is prescribed twice, or
  *  that may
  *          touch one of `n_obstacles` obstacles */

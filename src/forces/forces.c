@@ -52,14 +52,14 @@ forces_power forces_node_power(const forces *f, dem_index i, vec2 external, cons
     return power;
 }
 
-/* alpha m v^2 of each node that moves. */
+/* alpha m v^2 of each own node that moves. */
 static void add_drag(const forces *f, const double *v, exact_terms *power)
 {
     const dem_model *model = f->model;
     if (f->mass_damping == 0.0) return;
     for (dem_index i = 0; i < model->lattice.n_nodes; i++) {
         const vec2 vi = vec2_at(v, i);
-        if (model->inverse_mass[i] > 0.0)
+        if (model->inverse_mass[i] > 0.0 && domain_owns(model->domain, i))
             exact_terms_add(power, f->mass_damping * model->lattice.mass[i] * vec2_dot(vi, vi));
     }
 }

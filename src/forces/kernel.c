@@ -323,7 +323,7 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
         sum += accelerate_row(k, f, y, f->elements->damaged[d]);
     for (dem_index p = 0; forces_push(f) && p < f->boundaries->n; p++) {
         const boundary_condition *push = &f->boundaries->list[p];
-        for (dem_index j = 0; push->share != NULL && j < push->n_nodes; j++)
+        for (dem_index j = 0; push->share != NULL && j < push->n_all; j++)
             sum += accelerate_row(k, f, y, push->nodes[j]);
     }
     return sum;

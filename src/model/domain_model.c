@@ -4,14 +4,20 @@
  * whose other triangle belongs to another rank only is none; and the shares of springs in stresses, as a side opposite
  * to an own node may have its other triangle elsewhere. Orders of nodes, springs and triangles are those of the whole,
  * so that sums over a row have the same bits. A ghost has the inverse mass 0: its row is not complete, and what it does
- * comes from its owner. */
+ * comes from its owner.
+ *
+ * Where there are obstacles all ranks have in common what may touch and what the correction of a step for an event
+ * there changes or reads (events/local_correction.c): its rings about the nodes that the event moves, which are among
+ * those that may touch, and the accelerations of the last of these rings. */
 #include "model/domain_model.h"
 
 #include <stdlib.h>
 
 #include "base/reduce.h"
 #include "base/status.h"
+#include "domain/common_nodes.h"
 #include "lattice/lattice.h"
+#include "obstacle/obstacle_set.h"
 
 /* The numbers in the domain of what the whole lattice has; -1: it is not there. */
 typedef struct places {
@@ -109,7 +115,7 @@ static dem_status cut_nodes(dem_model *m, const dem_model *whole)
     m->inverse_mass = lattice_zeros(d->n_nodes, sizeof *m->inverse_mass);
     CHECK_MEMORY(m->inverse_mass);
     for (dem_index i = 0; i < d->n_nodes; i++)
-        m->inverse_mass[i] = d->is_own[i] ? whole->inverse_mass[d->number[i]] : 0.0;
+        m->inverse_mass[i] = d->is_ghost[i] ? 0.0 : whole->inverse_mass[d->number[i]];
     return DEM_OK;
 }
 
@@ -167,26 +173,48 @@ static dem_status cut(dem_model *m, const dem_model *whole, const places *p)
     TRY(cut_surface(m, &whole->lattice, p));
     TRY(cut_stress(m, &whole->stress, p));
     TRY(cut_nodes(m, whole));
+    TRY(obstacles_compile(&m->obstacles, whole->obstacles.list, whole->obstacles.n));
     take_scales(m, whole);
     return DEM_OK;
+}
+
+int domain_model_rings(const dem_lattice *lattice)
+{
+    return lattice->viscosity != NULL ? 7 : 4;
+}
+
+static dem_status create_domain(dem_model *m, const dem_model *whole, const int32_t *owner)
+{
+    const dem_lattice *l = &whole->lattice;
+    unsigned char *is_common = NULL;
+    CHECK_MEMORY(m->domain = calloc(1, sizeof *m->domain));
+    if (whole->obstacles.n > 0) {
+        is_common = lattice_zeros(l->n_nodes, sizeof *is_common);
+        CHECK_MEMORY(is_common);
+        common_nodes_find(l, domain_model_rings(l), is_common);
+    }
+    const domain_shares shares = {m->ranks->size, owner, is_common};
+    const dem_status status = domain_create(m->domain, l, &shares, m->ranks->rank);
+    free(is_common);
+    return status;
 }
 
 static dem_status create(dem_model *m, const dem_model *whole, const int32_t *owner)
 {
     places p = {0};
-    CHECK_MEMORY(m->domain = calloc(1, sizeof *m->domain));
-    TRY(domain_create(m->domain, &whole->lattice, owner, m->ranks->rank));
+    TRY(create_domain(m, whole, owner));
     dem_status status = find_places(&p, m->domain, &whole->lattice);
     if (status == DEM_OK) status = cut(m, whole, &p);
     free_places(&p);
     return status;
 }
 
-/* What events are of, which ranks cannot share yet, and rigid bodies. */
+/* What ranks cannot share yet. A motion that the program computes may differ from rank to rank. */
 static dem_status check(const ranks *r, const dem_model *whole)
 {
     const dem_lattice *l = &whole->lattice;
-    CHECK(whole->obstacles.n == 0, DEM_ERROR_MODEL, "%d ranks cannot share a model with obstacles yet", r->size);
+    CHECK(!whole->obstacles.is_asked, DEM_ERROR_MODEL,
+          "%d ranks cannot share a model with obstacles whose motion a function computes yet", r->size);
     CHECK(whole->rigid.n == 0, DEM_ERROR_MODEL, "%d ranks cannot share a model with rigid bodies yet", r->size);
     CHECK(l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL, DEM_ERROR_MODEL,
           "%d ranks cannot share a model that may break yet", r->size);

@@ -7,10 +7,14 @@
 
 /** Cuts the model of a rank from one of the whole lattice, which may be destroyed afterwards. Own nodes have the
  *  masses, springs, triangles, surface edges and stresses of the whole: where the domain ends there is no boundary.
- *  Nothing accelerates ghosts. Collective. Borrows the ranks. Free with dem_model_destroy().
+ *  Common nodes have the same but for stresses. Nothing accelerates ghosts. Collective. Borrows the ranks. Free with
+ *  dem_model_destroy().
  *  \param owner  [n_nodes] the rank of each node, the same on all ranks
- *  \return DEM_ERROR_MODEL if a rank owns no node, or for a model with obstacles, rigid bodies or strengths, which
- *  several ranks cannot share yet; DEM_ERROR_MEMORY */
+ *  \return DEM_ERROR_MODEL if a rank owns no node, or for a model with rigid bodies, strengths, or obstacles whose
+ *  motion a function computes, which several ranks cannot share yet; DEM_ERROR_MEMORY */
 dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole, const int32_t *owner);
+
+/** How many rings of neighbours about what may touch obstacles ranks have in common. */
+int domain_model_rings(const dem_lattice *lattice);
 
 #endif

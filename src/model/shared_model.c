@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every rank compiles the whole and cuts its part from it (model/domain_model.c). All have to have the same lattice:
- * lists of what they send to each other, and so all that follows, are made of it. Whether they do is seen from a hash
- * of its arrays, as the model holds them. */
+/* Every rank compiles the whole and cuts its part from it (model/domain_model.c). All have to have the same lattice
+ * and obstacles: lists of what they send to each other, and so all that follows, are made of these. Whether they do is
+ * seen from a hash of the arrays, as the model holds them. */
 #include "model/shared_model.h"
 
 #include <stdlib.h>
@@ -28,8 +28,8 @@ static uint64_t hash_on(uint64_t hash, const void *array, size_t size)
     return hash;
 }
 
-/* Of all that a model that is shared has: without limits, by which nothing breaks. */
-static uint64_t hash_of(const dem_lattice *l)
+/* Of all that a lattice that is shared has: without limits, by which nothing breaks. */
+static uint64_t hash_of_lattice(const dem_lattice *l)
 {
     const size_t n = (size_t)l->n_nodes, s = (size_t)l->n_springs, t = (size_t)l->n_triangles, real = sizeof(double);
     const struct {
@@ -47,6 +47,25 @@ static uint64_t hash_of(const dem_lattice *l)
     return hash;
 }
 
+/* Places, laws of impacts and friction, and of the motion. */
+static uint64_t hash_of_obstacle(uint64_t hash, const dem_obstacle *o)
+{
+    const double law[] = {o->restitution, o->friction, (double)o->friction_law, o->ramp};
+    dem_index k = 0;
+    hash = hash_on(hash, o->points, 2 * (size_t)o->n_points * sizeof *o->points);
+    hash = hash_on(hash, law, sizeof law);
+    for (const dem_motion_field *f; (f = dem_motion_field_at(k)) != NULL; k++)
+        hash = hash_on(hash, (const char *)o + f->offset, (size_t)f->n * sizeof(double));
+    return hash;
+}
+
+static uint64_t hash_of(const dem_model *m)
+{
+    uint64_t hash = hash_of_lattice(&m->lattice);
+    for (dem_index k = 0; k < m->obstacles.n; k++) hash = hash_of_obstacle(hash, &m->obstacles.list[k]);
+    return hash;
+}
+
 typedef struct likeness {
     uint64_t hash;
     bool differs;
@@ -59,11 +78,11 @@ static void join_likenesses(void *packet, const void *other)
     own->differs = own->differs || theirs->differs || own->hash != theirs->hash;
 }
 
-static dem_status check_same(const ranks *r, const dem_lattice *l)
+static dem_status check_same(const ranks *r, const dem_model *m)
 {
-    likeness all = {.hash = hash_of(l)};
+    likeness all = {.hash = hash_of(m)};
     r->reduce(r->self, &all, sizeof all, join_likenesses);
-    CHECK(!all.differs, DEM_ERROR_ARGUMENT, "the lattices of the %d ranks differ", r->size);
+    CHECK(!all.differs, DEM_ERROR_ARGUMENT, "the lattices or obstacles of the %d ranks differ", r->size);
     return DEM_OK;
 }
 
@@ -80,7 +99,7 @@ static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_
 
 static dem_status share(dem_model **out, const ranks *r, const dem_model *whole, const int32_t *owner)
 {
-    TRY(check_same(r, &whole->lattice));
+    TRY(check_same(r, whole));
     TRY(domain_model_create(out, r, whole, owner));
     (*out)->ends_ranks = r->end != NULL;
     return DEM_OK;

@@ -17,8 +17,8 @@ typedef struct dem_private_whole {
  *  is the failure of all. The model takes the ranks over and ends them when it is destroyed; after a failure they are
  *  the caller's as before. No program may call this.
  *  \param whole  the same on all ranks
- *  \return as dem_model_create() and domain_model_create(); DEM_ERROR_ARGUMENT if the ranks' lattices differ, or ranks
- *  are more than nodes */
+ *  \return as dem_model_create() and domain_model_create(); DEM_ERROR_ARGUMENT if the ranks' lattices or obstacles
+ *  differ, or ranks are more than nodes */
 DEM_API dem_status dem_private_share_model(dem_model **out, const dem_private_whole *whole, const ranks *r);
 
 #endif

@@ -230,7 +230,8 @@ static dem_status give_up(dem_simulation *s, dem_status status)
 
 /* Finds the contact events in the step just taken. With `local` they are resolved and corrected inside it, to its end.
  * With `exact` it ends at the first: at a root of the integrator (`rooted`), or where the check finds an event before
- * it. Then surfaces of bodies must not have crossed. */
+ * it. Then surfaces of bodies must not have crossed. Ranks have the same events; forces on the last of their common
+ * nodes are computed again where ghosts are at the end of the step. */
 static dem_status find_events(dem_simulation *s, bool rooted)
 {
     double *y1, *f1;
@@ -242,6 +243,7 @@ static dem_status find_events(dem_simulation *s, bool rooted)
     }
     integrator_end(&s->integrator, &y1, &f1);
     event_queue_start(&s->queue, &s->path, y1, f1, s->frame);
+    if (s->model->domain != NULL && event_queue_has_event(&s->queue)) s->shared.fill_ghosts(y1, s);
     TRY(event_queue_show(&s->queue, s->path.t1));
     TRY(breaking_found(s));
     return body_contact_check_step(s);
@@ -357,7 +359,7 @@ static dem_status resolve_event(dem_simulation *s)
 static dem_status release_orphans(dem_simulation *s)
 {
     const event_listener listener = {report_event, s};
-    if (s->model->obstacles.n == 0) return DEM_OK;
+    if (s->automaton.set.n_orphans == 0) return DEM_OK;
     return reduce_status(s->model->ranks, automaton_release_orphans(&s->automaton, s->t, s->y, &listener), 0.0);
 }
 
@@ -402,7 +404,7 @@ static dem_status commit_step(dem_simulation *s)
     body_contact_end_step(s);
     TRY(body_contact_settle(s, s->y));
     if (s->at_event) return resolve_event(s);
-    s->events += (run_had_events(s) ? reduce_count(s->model->ranks, s->queue.n_taken) : 0) + s->at_break;
+    s->events += (run_had_events(s) ? s->queue.n_taken : 0) + s->at_break;
     TRY(go_on_changed(s, moved || failed || paused || s->outgrown || events_moved_rigid(s)));
     dem_status reported = report_own_breaks(s, s->n_broken);
     reported = status_first(reported, release_orphans(s));

@@ -578,6 +578,7 @@ static dem_status arkode_integrator_bound(void *self, double longest)
 static dem_status arkode_integrator_resume(void *self)
 {
     arkode_integrator *I = self;
+    shared_attempt_forget(&I->shared);
     return reset(I);
 }
 

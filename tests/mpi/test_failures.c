@@ -25,11 +25,22 @@ static dem_simulation *start(const dem_model *model, const dem_options *options)
 
 /* ---- models ---- */
 
+static dem_status stay(void *context, double t, dem_pose *pose)
+{
+    (void)context;
+    (void)t;
+    (void)pose;
+    return DEM_OK;
+}
+
 static void refuse_lattices(const dem_lattice *l, bool fails, int n_ranks)
 {
     dem_model *model = NULL;
     const double mass = l->mass[3], points[] = {-1.0, -1.0, 1.0, -1.0};
     const dem_obstacle floor = {.struct_size = sizeof floor, .n_points = 2, .points = points};
+    dem_obstacle moved = floor;
+    moved.motion = stay;
+    moved.most_speed = moved.most_acceleration = 1.0;
     check_refusal(dem_model_create_mpi(&model, fails ? NULL : l, NULL, 0, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
                   "lattice is NULL");
     if (fails) l->mass[3] = -1.0;
@@ -37,10 +48,12 @@ static void refuse_lattices(const dem_lattice *l, bool fails, int n_ranks)
     if (fails) l->mass[3] = nextafter(mass, 1.0);
     if (n_ranks > 1)
         check_refusal(dem_model_create_mpi(&model, l, NULL, 0, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
-                      "the lattices of the ");
+                      "the lattices or obstacles of the ");
     l->mass[3] = mass;
-    check_refusal(dem_model_create_mpi(&model, l, fails ? &floor : NULL, fails, MPI_COMM_WORLD), DEM_ERROR_MODEL,
-                  "obstacles");
+    if (n_ranks > 1)
+        check_refusal(dem_model_create_mpi(&model, l, &floor, fails, MPI_COMM_WORLD), DEM_ERROR_ARGUMENT,
+                      "the lattices or obstacles of the ");
+    check_refusal(dem_model_create_mpi(&model, l, &moved, 1, MPI_COMM_WORLD), DEM_ERROR_MODEL, "motion a function");
     INSIST(model == NULL);
 }
 

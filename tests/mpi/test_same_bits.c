@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks that are processes: positions, velocities, times, lengths of steps and their counts, energies, strains and the
- * loads of boundaries have the bits of one process, which every rank computes beside it. They take checkpoints.
+/* Ranks that are processes: positions, velocities, times, lengths of steps and their counts, events, energies, strains
+ * and the loads of boundaries have the bits of one process, which every rank computes beside it. They take checkpoints.
  * `mpirun -n N test_same_bits`. */
 #include "mpi_body.h"
 
-enum { N_STOPS = 2, N_FRAMES = 3 };
+enum { N_STOPS = 2, N_FRAMES = 3, MOST_EVENTS = 2000 };
 
 /* Of the whole. */
 typedef struct motion {
@@ -22,6 +22,8 @@ typedef struct run {
     int n_seen;
     motion seen[N_STOPS + N_FRAMES]; /* in frames and at stops */
     dem_counts counts;
+    int n_events;
+    dem_event events[MOST_EVENTS];
 } run;
 
 /* ---- a run, of one process or of ranks ---- */
@@ -52,11 +54,20 @@ static dem_status look_at_frame(void *context, const dem_simulation *s)
     return DEM_OK;
 }
 
+static dem_status note_event(void *context, const dem_simulation *s, const dem_event *event)
+{
+    run *r = context;
+    (void)s;
+    INSIST(r->n_events < MOST_EVENTS);
+    r->events[r->n_events++] = *event;
+    return DEM_OK;
+}
+
 static void finish(run *r, const dem_model *model, const dem_options *options)
 {
     dem_simulation *s = NULL;
     const dem_observer observer = {
-        .struct_size = sizeof observer, .context = r, .interval = 1.2e-4, .frame = look_at_frame};
+        .struct_size = sizeof observer, .context = r, .interval = 1.2e-4, .frame = look_at_frame, .event = note_event};
     INSIST(dem_simulation_create(&s, model, options) == DEM_OK && dem_simulation_observe(s, &observer) == DEM_OK);
     for (int k = 1; k <= N_STOPS; k++) {
         INSIST(dem_simulation_advance(s, 1.5e-4 * k) == DEM_OK);
@@ -91,6 +102,8 @@ static void compare(const run *ranks, const run *one, int rank)
         INSIST(rank != 0 || memcmp(ranks->seen[k].v, one->seen[k].v, size) == 0);
     }
     INSIST(memcmp(&ranks->counts, &one->counts, sizeof one->counts) == 0);
+    INSIST(ranks->n_events == one->n_events);
+    INSIST(memcmp(ranks->events, one->events, (size_t)one->n_events * sizeof *one->events) == 0);
     INSIST(one->counts.steps > 5);
 }
 
@@ -110,21 +123,44 @@ static void check_part(const dem_model *model, const dem_lattice *whole)
     INSIST(all == whole->n_nodes);
 }
 
-static void share(const dem_lattice *l, const dem_options *options, int rank)
+static void share(const dem_lattice *l, const dem_obstacle *floor, const dem_options *options, int rank)
 {
     dem_model *model = NULL;
-    const bool is_held = options->n_boundaries > 0;
-    run one = {.n = l->n_nodes, .is_held = is_held}, ranks = one;
-    INSIST(dem_model_create(&model, l, NULL, 0) == DEM_OK);
+    static run one, ranks;
+    one = ranks = (run){.n = l->n_nodes, .is_held = options->n_boundaries > 0};
+    INSIST(dem_model_create(&model, l, floor, floor != NULL) == DEM_OK);
     finish(&one, model, options);
     dem_model_destroy(model);
-    INSIST(dem_model_create_mpi(&model, l, NULL, 0, MPI_COMM_WORLD) == DEM_OK);
+    INSIST(dem_model_create_mpi(&model, l, floor, floor != NULL, MPI_COMM_WORLD) == DEM_OK);
     check_part(model, l);
     finish(&ranks, model, options);
     dem_model_destroy(model);
+    INSIST((one.n_events > 20) == (floor != NULL));
     compare(&ranks, &one, rank);
     free_run(&one);
     free_run(&ranks);
+}
+
+/* A body that falls on a floor of which the edges of the body touch vertices, by both methods of contact. */
+static void fall(int rank)
+{
+    const double points[] = {-0.1, 0.0, -0.004, 0.0005, 0.003, -0.0004, 0.009, 0.0, 0.1, 0.002};
+    const dem_obstacle floor = {
+        .struct_size = sizeof floor, .n_points = 5, .points = points, .restitution = 0.5, .friction = 0.3};
+    dem_lattice l = mpi_body_make(5.0);
+    double lowest = l.x[1];
+    for (dem_index i = 0; i < l.n_nodes; i++) {
+        lowest = fmin(lowest, l.x[2 * i + 1]);
+        l.velocity[2 * i + 1] -= 10.0;
+    }
+    dem_lattice_move(&l, 0.0, (const double[2]){0.0, 6e-4 - lowest});
+    for (int exact = 0; exact < 2; exact++) {
+        dem_options options = dem_options_default();
+        options.checkpoint_steps = 0;
+        options.contact = exact ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
+        share(&l, &floor, &options, rank);
+    }
+    dem_lattice_free(&l);
 }
 
 /* Free, and held at one end and pulled; then every rank has two threads. */
@@ -151,11 +187,12 @@ int main(int argc, char **argv)
             options.boundaries = &pull;
             options.threads = is_held + 1;
             options.thread_nodes = 20;
-            share(&l, &options, t.rank);
+            share(&l, NULL, &options, t.rank);
         }
         free(held);
         dem_lattice_free(&l);
     }
+    fall(t.rank);
     (void)MPI_Finalize();
     return 0;
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scattered.h"
 #include "support.h"
 
 #include "base/checkpoint_entries.h"
@@ -348,16 +349,6 @@ static void assert_same_outcome(const outcome *one, const outcome *whole, const 
     }
 }
 
-/* Tiles of about four spacings, dealt out in turn: every domain has many ends and corners. */
-static void scatter(const dem_lattice *l, int n_ranks, int32_t *owner)
-{
-    for (dem_index i = 0; i < l->n_nodes; i++) {
-        const int column = (int)floor(l->x[2 * i] / (4.1 * spacing)) + 100;
-        const int row = (int)floor(l->x[2 * i + 1] / (4.1 * spacing)) + 100;
-        owner[i] = (column + 3 * row) % n_ranks;
-    }
-}
-
 /* All entries of two checkpoints. */
 static void assert_same_checkpoint(const dem_checkpoint *one, const dem_checkpoint *other)
 {
@@ -410,7 +401,7 @@ static void check_numbers(int body, dem_method method, const int *numbers, size_
     for (size_t k = 0; k < n_numbers; k++) {
         assert_ok(partition_bisect(l, numbers[k], owner));
         share(&s, numbers[k], owner, NULL, &whole);
-        scatter(l, numbers[k], owner);
+        scatter(l, 4.1 * spacing, numbers[k], owner);
         share(&s, numbers[k], owner, NULL, &whole);
     }
     free_outcome(&whole);
@@ -438,7 +429,7 @@ static void check_checkpoints(int body, dem_method method)
     make_outcome(&whole, l);
     assert_ok(run(s.model, &s.options, NULL, &whole));
     assert_non_null(whole.kept);
-    scatter(l, 3, owner);
+    scatter(l, 4.1 * spacing, 3, owner);
     share(&s, 3, owner, NULL, &whole);
     for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
         assert_ok(partition_bisect(l, numbers[k], owner));

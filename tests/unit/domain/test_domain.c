@@ -1,22 +1,29 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* domain.c against the definition: own nodes, and those that a spring or a triangle joins to one. */
+/* domain.c against the definition: own and common nodes, and those that a spring or a triangle joins to one. */
 #include "unit/domain/shared_lattice.h"
 
 #include <string.h>
 
+#include "domain/common_nodes.h"
 #include "domain/domain.h"
 
 enum { N_RANKS = 5 };
 
+static bool is_integrated(const domain_shares *s, int rank, dem_index i)
+{
+    return s->owner[i] == rank || (s->is_common != NULL && s->is_common[i]);
+}
+
 /* Whether a node is in the domain of a rank, by a look at all springs and triangles. */
-static void mark(const dem_lattice *l, const int32_t *owner, int rank, unsigned char *is_there)
+static void mark(const dem_lattice *l, const domain_shares *s, int rank, unsigned char *is_there)
 {
     memset(is_there, 0, (size_t)l->n_nodes);
-    for (dem_index i = 0; i < l->n_nodes; i++) is_there[i] = owner[i] == rank;
+    for (dem_index i = 0; i < l->n_nodes; i++) is_there[i] = is_integrated(s, rank, i);
     for (dem_index k = 0; k < 2 * l->n_springs; k++)
-        if (owner[l->ends[k]] == rank) is_there[l->ends[k ^ 1]] = 1;
+        if (is_integrated(s, rank, l->ends[k])) is_there[l->ends[k ^ 1]] = 1;
     for (dem_index k = 0; k < 3 * l->n_triangles; k++)
-        for (int c = 0; c < 3 && owner[l->triangles[k]] == rank; c++) is_there[l->triangles[k / 3 * 3 + c]] = 1;
+        for (int c = 0; c < 3 && is_integrated(s, rank, l->triangles[k]); c++)
+            is_there[l->triangles[k / 3 * 3 + c]] = 1;
 }
 
 static const domain_neighbour *find(const domain *d, int rank)
@@ -26,16 +33,17 @@ static const domain_neighbour *find(const domain *d, int rank)
     return NULL;
 }
 
-static void assert_nodes_are_right(const domain *d, const dem_lattice *l, const int32_t *owner, int rank)
+static void assert_nodes_are_right(const domain *d, const dem_lattice *l, const domain_shares *s, int rank)
 {
     CLEANUP(free_memory) unsigned char *is_there = malloc((size_t)l->n_nodes);
-    mark(l, owner, rank, is_there);
+    mark(l, s, rank, is_there);
     dem_index n = 0;
     for (dem_index i = 0; i < l->n_nodes; i++) {
-        assert_int_equal(domain_own_node(d, i), owner[i] == rank ? n : -1);
+        assert_int_equal(domain_node(d, i), is_integrated(s, rank, i) ? n : -1);
         if (!is_there[i]) continue;
         assert_true(n < d->n_nodes && d->number[n] == i);
-        assert_int_equal(d->is_own[n], owner[i] == rank);
+        assert_int_equal(d->is_own[n], s->owner[i] == rank);
+        assert_int_equal(d->is_ghost[n], !is_integrated(s, rank, i));
         n++;
     }
     assert_int_equal(d->n_nodes, n);
@@ -50,19 +58,20 @@ static void assert_lists_agree(const domain *from, int sender, const domain *to,
     if (sent == NULL) return;
     assert_int_equal(sent->n_sent, received->n_received);
     for (dem_index k = 0; k < sent->n_sent; k++) {
-        assert_true(from->is_own[sent->sent[k]] && !to->is_own[received->received[k]]);
+        assert_true(from->is_own[sent->sent[k]] && to->is_ghost[received->received[k]]);
         assert_int_equal(from->number[sent->sent[k]], to->number[received->received[k]]);
     }
 }
 
-static void check(const dem_lattice *l, const int32_t *owner)
+static void check(const dem_lattice *l, const int32_t *owner, const unsigned char *is_common)
 {
     domain d[N_RANKS];
-    for (int k = 0; k < N_RANKS; k++) assert_ok(domain_create(&d[k], l, owner, k));
+    const domain_shares shares = {N_RANKS, owner, is_common};
+    for (int k = 0; k < N_RANKS; k++) assert_ok(domain_create(&d[k], l, &shares, k));
     for (int k = 0; k < N_RANKS; k++) {
-        assert_nodes_are_right(&d[k], l, owner, k);
+        assert_nodes_are_right(&d[k], l, &shares, k);
         dem_index n_ghosts = 0, n_received = 0;
-        for (dem_index i = 0; i < d[k].n_nodes; i++) n_ghosts += !d[k].is_own[i];
+        for (dem_index i = 0; i < d[k].n_nodes; i++) n_ghosts += d[k].is_ghost[i];
         for (int q = 0; q < d[k].n_neighbours; q++) n_received += d[k].neighbours[q].n_received;
         assert_int_equal(n_received, n_ghosts);
         for (int q = 0; q < N_RANKS; q++) assert_lists_agree(&d[k], k, &d[q], q);
@@ -74,9 +83,41 @@ TEST(domains_have_own_nodes_and_those_next_to_them)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
-    check(&l, owner);
+    check(&l, owner, NULL);
     for (dem_index i = 0; i < l.n_nodes; i++) owner[i] = (int32_t)(7 * i % N_RANKS);
-    check(&l, owner);
+    check(&l, owner, NULL);
+}
+
+/* As far from what may touch as the rings say, by a look at all springs again and again. */
+static void assert_rings(const dem_lattice *l, int n_rings, const unsigned char *is_common)
+{
+    CLEANUP(free_memory) int *ring = malloc((size_t)l->n_nodes * sizeof *ring);
+    for (dem_index i = 0; i < l->n_nodes; i++) ring[i] = l->flags[i] & DEM_NODE_CONTACT ? 0 : 1000;
+    for (bool changes = true; changes;) {
+        changes = false;
+        for (dem_index k = 0; k < 2 * l->n_springs; k++) {
+            if (ring[l->ends[k]] <= ring[l->ends[k ^ 1]] + 1) continue;
+            ring[l->ends[k]] = ring[l->ends[k ^ 1]] + 1;
+            changes = true;
+        }
+    }
+    for (dem_index i = 0; i < l->n_nodes; i++) assert_int_equal(is_common[i] != 0, ring[i] <= n_rings);
+}
+
+/* With as many rings as make all nodes common there are no ghosts. */
+TEST(common_nodes_are_in_all_domains)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    CLEANUP(free_memory) unsigned char *is_common = malloc((size_t)l.n_nodes);
+    l.flags = calloc((size_t)l.n_nodes, sizeof *l.flags);
+    for (dem_index i = 0; i < l.n_nodes; i++)
+        if (l.x[2 * i + 1] < -0.03) l.flags[i] = DEM_NODE_CONTACT;
+    for (int n_rings = 0; n_rings < 20; n_rings += 3) {
+        common_nodes_find(&l, n_rings, is_common);
+        assert_rings(&l, n_rings, is_common);
+        check(&l, owner, is_common);
+    }
 }
 
 /* A triangle whose corners no spring joins: the force of its area term depends on all three. */
@@ -87,7 +128,7 @@ TEST(corners_of_triangles_are_ghosts_without_springs)
     const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 3, .n_triangles = 1, .x = x, .triangles = corners);
     const int32_t owner[] = {0, 1, 1};
     domain d;
-    assert_ok(domain_create(&d, &l, owner, 0));
+    assert_ok(domain_create(&d, &l, &(domain_shares){2, owner, NULL}, 0));
     assert_int_equal(d.n_nodes, 3);
     assert_int_equal(d.neighbours[0].n_received, 2);
     assert_int_equal(d.neighbours[0].n_sent, 1);
@@ -99,12 +140,12 @@ TEST(a_rank_without_nodes_is_refused)
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
     CLEANUP(free_memory) int32_t *owner = calloc((size_t)l.n_nodes, sizeof *owner);
     domain d;
-    assert_int_equal(domain_create(&d, &l, owner, 1), DEM_ERROR_MODEL);
+    assert_int_equal(domain_create(&d, &l, &(domain_shares){2, owner, NULL}, 1), DEM_ERROR_MODEL);
     assert_string_equal(dem_status_message(), "rank 1 has no node of its own");
 }
 
 TEST(no_domain_is_the_whole_lattice)
 {
-    assert_int_equal(domain_own_node(NULL, 5), 5);
+    assert_int_equal(domain_node(NULL, 5), 5);
     assert_int_equal(domain_number(NULL, 5), 5);
 }

@@ -6,6 +6,7 @@
 
 #include "harness/rank_threads.h"
 #include "model/domain_model.h"
+#include "simulation/private.h"
 
 enum { N_RANKS = 5, TEXT = 200 };
 
@@ -35,9 +36,9 @@ static void assert_same_rows(const dem_model *m, const dem_model *whole)
     const domain *d = m->domain;
     for (dem_index i = 0; i < d->n_nodes; i++) {
         const dem_index of = d->number[i], from = whole->springs.row[of], row = m->springs.row[i];
-        assert_true(m->inverse_mass[i] == (d->is_own[i] ? whole->inverse_mass[of] : 0.0));
+        assert_true(m->inverse_mass[i] == (d->is_ghost[i] ? 0.0 : whole->inverse_mass[of]));
         assert_true(m->stress.volume[i] == whole->stress.volume[of]);
-        if (!d->is_own[i]) continue;
+        if (d->is_ghost[i]) continue;
         assert_int_equal(m->springs.row[i + 1] - row, whole->springs.row[of + 1] - from);
         for (dem_index p = 0; p < m->springs.row[i + 1] - row; p++) {
             assert_int_equal(d->number[m->springs.neighbour[row + p]], whole->springs.neighbour[from + p]);
@@ -79,10 +80,9 @@ static void assert_same_surface(const dem_model *m, const dem_model *whole)
     for (dem_index k = 0; k < m->surface.n_edges; k++) {
         const dem_index a = m->surface.ends[2 * k], b = m->surface.ends[2 * k + 1];
         assert_true(find_edge(&whole->surface, d->number[a], d->number[b]) >= 0);
-        n_own += d->is_own[a];
+        n_own += !d->is_ghost[a];
     }
-    for (dem_index k = 0; k < whole->surface.n_edges; k++)
-        n_whole += domain_own_node(d, whole->surface.ends[2 * k]) >= 0;
+    for (dem_index k = 0; k < whole->surface.n_edges; k++) n_whole += domain_node(d, whole->surface.ends[2 * k]) >= 0;
     assert_int_equal(n_own, n_whole);
     for (dem_index i = 0; i < d->n_nodes; i++)
         assert_int_equal(m->lattice.flags[i], whole->lattice.flags[d->number[i]]);
@@ -110,6 +110,68 @@ TEST(own_nodes_have_what_they_have_in_the_whole)
     destroy(&s);
 }
 
+static const double floor_points[] = {-1.0, -1.0, 1.0, -1.0};
+
+/* All that may touch is on every rank, with the edges in the order of the whole. */
+static void assert_whole_surface(const dem_model *m, const dem_model *whole)
+{
+    const domain *d = m->domain;
+    assert_int_equal(m->surface.n_nodes, whole->surface.n_nodes);
+    assert_int_equal(m->surface.n_edges, whole->surface.n_edges);
+    for (dem_index k = 0; k < whole->surface.n_nodes; k++)
+        assert_int_equal(d->number[m->surface.nodes[k]], whole->surface.nodes[k]);
+    for (dem_index k = 0; k < 2 * whole->surface.n_edges; k++)
+        assert_int_equal(d->number[m->surface.ends[k]], whole->surface.ends[k]);
+    for (dem_index k = 0; k < whole->surface.n_edges; k++) {
+        assert_int_equal(m->surface.next[k], whole->surface.next[k]);
+        assert_int_equal(m->surface.previous[k], whole->surface.previous[k]);
+    }
+}
+
+TEST(what_may_touch_obstacles_is_on_all_ranks)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 1.0);
+    CLEANUP(free_model) dem_model *whole = support_model(&l, &floor, 1);
+    shared s = {.whole = whole, .owner = owner};
+    rank_threads_run(N_RANKS, create, &s);
+    for (int k = 0; k < N_RANKS; k++) {
+        assert_int_equal(s.status[k], DEM_OK);
+        assert_int_equal(s.models[k]->obstacles.n, 1);
+        assert_same_rows(s.models[k], whole);
+        assert_whole_surface(s.models[k], whole);
+    }
+    destroy(&s);
+}
+
+/* The last ring that a correction reads is the last common one, whose accelerations it computes again. */
+TEST(rings_reach_as_far_as_the_correction_for_an_event)
+{
+    static const dem_method methods[] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_VERLET};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 1.0);
+    for (int damped = 0; damped < 2; damped++)
+        for (int m = 0; m < 2; m++) {
+            CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+            l.viscosity = damped ? calloc((size_t)l.n_springs, sizeof *l.viscosity) : NULL;
+            CLEANUP(free_model) dem_model *model = support_model(&l, &floor, 1);
+            dem_options options = dem_options_default();
+            options.method = methods[m];
+            dem_simulation *run = support_simulation(model, &options);
+            const int n_rings = run->queue.correction.near.n_rings, n_common = domain_model_rings(&l);
+            assert_true(m == 0 ? n_rings == n_common : n_rings < n_common);
+            dem_simulation_destroy(run);
+        }
+}
+
+static dem_status stay(void *context, double t, dem_pose *out)
+{
+    (void)context;
+    (void)t;
+    (void)out;
+    return DEM_OK;
+}
+
 static void assert_refused(const dem_lattice *l, const dem_obstacle *o, dem_index n, const char *message)
 {
     CLEANUP(free_memory) int32_t *owner = shared_owners(l, N_RANKS);
@@ -125,9 +187,9 @@ static void assert_refused(const dem_lattice *l, const dem_obstacle *o, dem_inde
 TEST(what_ranks_cannot_share_is_refused)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
-    const double points[] = {-1.0, -1.0, 1.0, -1.0};
-    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = points, .restitution = 1.0);
-    assert_refused(&l, &floor, 1, "5 ranks cannot share a model with obstacles yet");
+    const dem_obstacle moved = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .motion = stay,
+                                     .most_speed = 1.0, .most_acceleration = 1.0);
+    assert_refused(&l, &moved, 1, "5 ranks cannot share a model with obstacles whose motion a function computes yet");
     l.strength = malloc((size_t)l.n_triangles * sizeof *l.strength);
     for (dem_index k = 0; k < l.n_triangles; k++) l.strength[k] = 1e5;
     assert_refused(&l, NULL, 0, "5 ranks cannot share a model that may break yet");

@@ -103,7 +103,7 @@ static void take_mass(dem_lattice *l)
 
 TEST(other_lattices_on_one_rank_are_refused_by_all)
 {
-    const char *differ = "the lattices of the 4 ranks differ";
+    const char *differ = "the lattices or obstacles of the 4 ranks differ";
     assert_refused(nudge, DEM_ERROR_ARGUMENT, differ);
     assert_refused(turn_round, DEM_ERROR_ARGUMENT, differ);
     assert_refused(fix, DEM_ERROR_ARGUMENT, differ);
