@@ -103,7 +103,7 @@ static void open_scene(scene *s, const kind *k, dem_method method, double height
     s->options.method = method;
     s->options.contact = k->contact;
     s->options.mass_damping = k->mass_damping;
-    s->options.checkpoint_steps = 0;
+    s->options.checkpoint_steps = 40;
     s->options.gravity[1] = -9.81;
     if (k->ground == BUMPS || k->ground == SHAKEN) drive(s, &l, k->ground == BUMPS);
 }
@@ -121,6 +121,7 @@ typedef struct view {
     double t, step;
     dem_counts counts;
     double totals[STATE_TOTALS], sums[3]; /* J */
+    dem_energy energy;
     dem_obstacle_load load;
     dem_index n_contacts;
     dem_contact first, last;
@@ -178,6 +179,8 @@ static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int
     to->counts.struct_size = sizeof to->counts;
     dem_status status = dem_simulation_state(s, &state);
     if (status == DEM_OK) status = dem_simulation_counts(s, &to->counts);
+    to->energy.struct_size = sizeof to->energy;
+    if (status == DEM_OK) status = dem_simulation_energy(s, &to->energy);
     if (status != DEM_OK) return status;
     const contact_ledger *ledger = &s->automaton.set.ledger;
     const exact_sum *sums[] = {&ledger->impact, &ledger->projection, &ledger->work};
@@ -335,6 +338,7 @@ static void listen(talk *t, dem_method method, double height)
     scene s;
     const kind k = {.ground = PLANE, .restitution = 0.5};
     open_scene(&s, &k, method, height);
+    s.options.checkpoint_steps = 0;
     const dem_lattice *l = dem_model_lattice(s.model);
     CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
     assert_ok(partition_bisect(l, N_TALKING, owner));
