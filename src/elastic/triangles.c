@@ -125,9 +125,18 @@ double triangles_virial_of(const dem_lattice *l, dem_index k, double rest_area, 
     return A * slope;
 }
 
+/* Whether that is known of all triangles at a node, most often. */
+static bool node_is_slack(const triangles *t, dem_index i, const double *x)
+{
+    bool slack = true;
+    for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) slack &= triangles_are_slack(t, triangles_area(t, i, p, x));
+    return slack;
+}
+
 double triangles_node_virial(const triangles *t, dem_index i, const double *x, double divisor)
 {
     double sum = 0.0;
+    if (node_is_slack(t, i, x)) return 0.0;
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++) {
         const double virial = triangles_virial(t, TRIANGLES_WHOLE, i, p, x); /* most often 0 */
         if (virial != 0.0) sum += virial / divisor;
