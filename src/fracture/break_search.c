@@ -11,6 +11,7 @@
 #include "base/bracket.h"
 #include "base/grow.h"
 #include "base/status.h"
+#include "fracture/stress_nodes.h"
 #include "fracture/utilisation.h"
 
 enum { N_SAMPLES = BREAK_SEARCH_SAMPLES };
@@ -27,7 +28,7 @@ dem_status break_search_create(break_search *out, const dem_model *model, const 
                             ? stress_cache_create(&s.end, model, elements, (dem_index)sqrt(16.0 * (double)n))
                             : status_fail(DEM_ERROR_MEMORY, "out of memory for %lld nodes", (long long)n);
     if (status == DEM_OK) status = stress_cache_create(&s.within, model, elements, NEIGHBOURS);
-    if (status == DEM_OK) status = stress_nodes_create(&s.around, model, elements);
+    if (status == DEM_OK) status = stress_stencil_create(&s.stencil, model, elements);
     if (status == DEM_OK)
         *out = s;
     else
@@ -39,7 +40,7 @@ void break_search_destroy(break_search *s)
 {
     stress_cache_destroy(&s->end);
     stress_cache_destroy(&s->within);
-    stress_nodes_destroy(&s->around);
+    stress_stencil_destroy(s->stencil);
     due_elements_destroy(&s->due);
     free(s->placed);
     free(s->list);
@@ -64,11 +65,30 @@ void break_search_renew(break_search *s, const dem_index *list, dem_index n)
 
 /* ---- utilisations ---- */
 
-/* Nodes that are placed next. */
+enum { MOST_TO_PLACE = 96 };
+
+/* Nodes that are placed together. */
 typedef struct nodes_to_place {
     int n;
-    int32_t list[3 * STRESS_NODES_MOST];
+    int32_t list[MOST_TO_PLACE];
 } nodes_to_place;
+
+static void place(const break_search *s, double t, const nodes_to_place *nodes)
+{
+    dense_output_put_positions(s->step, t, nodes->list, nodes->n, s->state);
+}
+
+/* Lists a node unless it is. If there is no room for more, those that are listed are placed. */
+static inline void list_node(break_search *s, int32_t node, nodes_to_place *nodes)
+{
+    if (nodes->n == MOST_TO_PLACE) {
+        place(s, s->t, nodes);
+        nodes->n = 0;
+    }
+    nodes->list[nodes->n] = node;
+    nodes->n += s->placed[node] != s->look;
+    s->placed[node] = s->look;
+}
 
 static void place_node(void *self, dem_index node)
 {
@@ -78,41 +98,44 @@ static void place_node(void *self, dem_index node)
     s->placed[node] = s->look;
 }
 
-/* Lists the nodes on which the stress at node i depends, unless they have been placed; where they are many it places
- * them. */
-static void list_around(break_search *s, dem_index i, nodes_to_place *next)
+/* Lists a node and its neighbours. */
+static void list_around(break_search *s, dem_index i, nodes_to_place *nodes)
 {
-    const stress_nodes_slot *slot = stress_nodes_find(&s->around, i);
-    if (slot->n > STRESS_NODES_MOST) {
-        stress_nodes_visit(&s->around, i, place_node, s);
-        return;
-    }
-    for (int k = 0; k < slot->n; k++) {
-        next->list[next->n] = slot->list[k];
-        next->n += s->placed[slot->list[k]] != s->look;
-        s->placed[slot->list[k]] = s->look;
-    }
+    const springs *own = &s->model->springs;
+    list_node(s, (int32_t)i, nodes);
+    for (dem_index p = own->row[i]; p < own->row[i + 1]; p++) list_node(s, own->neighbour[p], nodes);
 }
 
 /* Places what the stresses at the corners of a triangle depend on, but for those that are known. */
 static void place_around(break_search *s, const dem_index *corner)
 {
-    nodes_to_place next;
-    next.n = 0;
-    for (int c = 0; c < 3; c++)
-        if (!stress_cache_has(&s->within, corner[c])) list_around(s, corner[c], &next);
-    dense_output_put_positions(s->step, s->t, next.list, next.n, s->state);
+    nodes_to_place nodes;
+    nodes.n = 0;
+    for (int c = 0; c < 3; c++) {
+        if (stress_cache_has(&s->within, corner[c])) continue;
+        if (s->by_neighbours)
+            list_around(s, corner[c], &nodes);
+        else
+            stress_nodes_visit(s->model, s->elements, corner[c], place_node, s);
+    }
+    place(s, s->t, &nodes);
 }
 
-/* Numbers are so short that marks begin anew with them from time to time, which costs less than wider marks would. */
+/* Nothing has been placed. Numbers are so short that marks begin anew with them from time to time, which costs less
+ * than wider marks would. */
+static void forget_places(break_search *s)
+{
+    if (++s->look != 0) return;
+    memset(s->placed, 0, (size_t)s->model->lattice.n_nodes * sizeof *s->placed);
+    s->look = 1;
+}
+
 static void go_to(break_search *s, double t)
 {
     if (t == s->t) return;
     s->t = t;
     stress_cache_begin(&s->within, s->state);
-    if (++s->look != 0) return;
-    memset(s->placed, 0, (size_t)s->model->lattice.n_nodes * sizeof *s->placed);
-    s->look = 1;
+    forget_places(s);
 }
 
 static double utilisation_by(break_search *s, stress_cache *by, dem_index element)
@@ -171,26 +194,71 @@ void break_search_note(break_search *s, dem_index element)
     new->margin[N_SAMPLES] = 1.0 - end;
 }
 
+/* An element that is asked for at many times. */
+typedef struct searched_element {
+    dem_index element;
+    bool is_listed;       /* the stencil has its corners, of which the stresses are what drives it */
+    nodes_to_place nodes; /* on which these depend */
+} searched_element;
+
+/* Whether the corners of a triangle and all their neighbours can be placed together. */
+static bool has_room(const break_search *s, const dem_index *corner)
+{
+    const int32_t *row = s->model->springs.row;
+    dem_index n = 0;
+    for (int c = 0; c < 3; c++) n += 1 + row[corner[c] + 1] - row[corner[c]];
+    return n <= MOST_TO_PLACE;
+}
+
+/* Lists what is needed for its utilisations, if it can be listed. */
+static void list_element(break_search *s, dem_index element, searched_element *out)
+{
+    const dem_lattice *l = &s->model->lattice;
+    out->element = element;
+    out->nodes.n = 0;
+    out->is_listed = false;
+    if (!s->by_neighbours || element >= l->n_triangles || utilisation_by_own_stress(l, element)) return;
+    const dem_index *corner = &l->triangles[3 * element];
+    if (!has_room(s, corner) || stress_stencil_list(s->stencil, corner, 3) < 3) return;
+    out->is_listed = true;
+    s->t = (double)NAN;
+    forget_places(s);
+    for (int c = 0; c < 3; c++) list_around(s, corner[c], &out->nodes);
+}
+
+/* utilisation_at(), to the same bits. */
+static double utilisation_of_searched(break_search *s, const searched_element *e, double t)
+{
+    const stress_stencil_node *corner = s->stencil->node;
+    if (!e->is_listed) return utilisation_at(s, e->element, t);
+    s->t = (double)NAN; /* what was placed at another time is no more */
+    place(s, t, &e->nodes);
+    if (!stress_stencil_find(s->stencil, s->state)) return utilisation_at(s, e->element, t);
+    const utilisation_limits limits = utilisation_limits_of(&s->model->lattice, s->elements, e->element);
+    return utilisation_of_stress(limits, corner[0].stress, corner[1].stress, corner[2].stress);
+}
+
 /* s. The first sample is at `from`, the last one at the end of the step. */
 static double sample_time(const break_search *s, double from, int k)
 {
     return k == N_SAMPLES ? s->step->t1 : from + (s->step->t1 - from) * k / N_SAMPLES;
 }
 
-static double sample(break_search *s, break_candidate *c, double from, int k)
+static void sample(break_search *s, const searched_element *e, break_candidate *c, double from, int k)
 {
-    if (isnan(c->margin[k])) c->margin[k] = 1.0 - utilisation_at(s, c->element, sample_time(s, from, k));
-    return c->margin[k];
+    if (isnan(c->margin[k])) c->margin[k] = 1.0 - utilisation_of_searched(s, e, sample_time(s, from, k));
 }
 
 /* Leaves out what is below its limit at the end of the step, and grows. */
 static void drop_growing(break_search *s, double from)
 {
+    const double t = sample_time(s, from, N_SAMPLES - 1);
     dem_index n = 0;
     for (dem_index j = 0; j < s->n; j++) {
         break_candidate *c = &s->list[j];
         const bool ends_below = c->margin[N_SAMPLES] > 0.0;
-        if (ends_below && !(sample(s, c, from, N_SAMPLES - 1) < c->margin[N_SAMPLES])) continue;
+        if (ends_below) c->margin[N_SAMPLES - 1] = 1.0 - utilisation_at(s, c->element, t);
+        if (ends_below && !(c->margin[N_SAMPLES - 1] < c->margin[N_SAMPLES])) continue;
         s->list[n++] = *c;
     }
     s->n = n;
@@ -215,40 +283,44 @@ static int first_over(const break_candidate *c)
 }
 
 /* Takes the samples in the middle of intervals of two times `stride` where the limit may be reached in these. */
-static void halve(break_search *s, double from, int stride)
+static void halve(break_search *s, const searched_element *e, break_candidate *c, double from, int stride)
 {
-    for (int k = stride; k < N_SAMPLES; k += 2 * stride)
-        for (dem_index j = 0; j < s->n; j++) {
-            break_candidate *c = &s->list[j];
-            const int first = k - stride, last = k + stride, over = first_over(c);
-            if (over <= first || isnan(c->margin[first]) || isnan(c->margin[last])) continue;
-            if (over == last || may_rise_between(c, first, last)) (void)sample(s, c, from, k);
-        }
+    for (int k = stride; k < N_SAMPLES; k += 2 * stride) {
+        const int first = k - stride, last = k + stride, over = first_over(c);
+        if (over <= first || isnan(c->margin[first]) || isnan(c->margin[last])) continue;
+        if (over == last || may_rise_between(c, first, last)) sample(s, e, c, from, k);
+    }
 }
 
 /* The root of 1 - utilisation, above 0 at the sample before and not above 0 at this one; what is at its limit from the
  * start needs no search. */
-static double root(break_search *s, const break_candidate *c, double from, int over)
+static double root(break_search *s, const searched_element *e, const break_candidate *c, double from, int over)
 {
     if (over == 0) return from;
     const double width = dense_output_resolution(s->step);
     bracket b = {
         sample_time(s, from, over - 1), sample_time(s, from, over), c->margin[over - 1], c->margin[over], 0, 0};
     while (b.after - b.before > width) {
-        const double t = bracket_trial(&b, width), margin = 1.0 - utilisation_at(s, c->element, t);
+        const double t = bracket_trial(&b, width), margin = 1.0 - utilisation_of_searched(s, e, t);
         bracket_close(&b, t, margin, margin <= 0.0);
     }
     return b.after;
 }
 
+/* When an element that has been noted is at its limit. */
+static void find_one(break_search *s, break_candidate *c, double from)
+{
+    searched_element e;
+    list_element(s, c->element, &e);
+    sample(s, &e, c, from, 0);
+    for (int stride = N_SAMPLES / 2; stride > 0; stride /= 2) halve(s, &e, c, from, stride);
+    const int over = first_over(c);
+    if (over <= N_SAMPLES) due_elements_set(&s->due, c->element, root(s, &e, c, from, over));
+}
+
 void break_search_find(break_search *s, double from)
 {
     drop_growing(s, from);
-    for (dem_index j = 0; j < s->n; j++) (void)sample(s, &s->list[j], from, 0);
-    for (int stride = N_SAMPLES / 2; stride > 0; stride /= 2) halve(s, from, stride);
-    for (dem_index j = 0; j < s->n; j++) {
-        const int over = first_over(&s->list[j]);
-        if (over <= N_SAMPLES) due_elements_set(&s->due, s->list[j].element, root(s, &s->list[j], from, over));
-    }
+    for (dem_index j = 0; j < s->n; j++) find_one(s, &s->list[j], from);
     s->n = 0;
 }

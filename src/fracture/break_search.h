@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* When in a step elements are at their limits. Those that are asked after together are searched together, time by time:
- * neighbours share the stresses of nodes. */
+/* When in a step elements are at their limits. Whether those that are asked after together grow at the end of the step
+ * is seen of all at once, as neighbours share the stresses of nodes; the others are searched one by one. */
 #ifndef DEM_FRACTURE_BREAK_SEARCH_H
 #define DEM_FRACTURE_BREAK_SEARCH_H
 
 #include "fracture/due_elements.h"
 #include "fracture/stress_cache.h"
-#include "fracture/stress_nodes.h"
+#include "model/stress_stencil.h"
 #include "time/dense_output.h"
 
 enum { BREAK_SEARCH_SAMPLES = 8 };
@@ -22,13 +22,14 @@ typedef struct break_search {
     const dem_model *model;
     const element_state *elements;
     const dense_output *step;
-    double *state;       /* [2 dim n_rows] scratch, not the search's: positions at the present time */
-    stress_cache end;    /* stresses at the end of the step */
-    stress_cache within; /* and at the present time; */
-    stress_nodes around; /* which nodes have to be placed for them */
-    double t;            /* s, that is this one; not a number: none */
-    uint8_t look;        /* its number */
-    uint8_t *placed;     /* [n_nodes] the time at which a node was put into `state` last */
+    double *state;           /* [2 dim n_rows] scratch, not the search's: positions at the present time */
+    stress_cache end;        /* stresses at the end of the step */
+    stress_cache within;     /* and at the present time; */
+    bool by_neighbours;      /* whether a stress depends on its node and the neighbours of that alone */
+    stress_stencil *stencil; /* of the corners of an element that is searched for its time */
+    double t;                /* s, the present time; not a number: none */
+    uint8_t look;            /* its number */
+    uint8_t *placed;         /* [n_nodes] the time at which a node was put into `state` last */
     dem_index n, capacity;
     break_candidate *list; /* [n] those that are searched next */
     due_elements due;      /* those that have been found */
@@ -38,7 +39,8 @@ typedef struct break_search {
  *  is nearer to its limit, and falls, is searched for a time before. */
 #define BREAK_SEARCH_NEAR 0.97
 
-/** Borrows both.  \return DEM_ERROR_MEMORY. Free with break_search_destroy() */
+/** Borrows both. It is not known that stresses depend on neighbours alone.
+ *  \return DEM_ERROR_MEMORY. Free with break_search_destroy() */
 dem_status break_search_create(break_search *out, const dem_model *model, const element_state *elements);
 void break_search_destroy(break_search *s);
 

@@ -25,6 +25,7 @@ static dem_status watch(fracture_source *s)
     const dem_status status = strain_filter_create(&s->filter, s->model, &whole, BREAK_SEARCH_NEAR);
     element_state_destroy(&whole);
     TRY(status);
+    s->search.by_neighbours = s->filter.have_edges;
     TRY(kernel_watch(s->kernel, s->filter.threshold));
     strain_filter_forget_thresholds(&s->filter);
     return DEM_OK;

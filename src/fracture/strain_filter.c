@@ -91,7 +91,9 @@ static void enter_triangles(strain_filter *f, const dem_lattice *l, const elemen
 {
     for (dem_index t = 0; t < l->n_triangles && l->strength != NULL; t++) {
         f->weakest = weaker(f->weakest, limits_of(l, t));
-        if (has_all_edges(l, s, t)) enter_triangle(f, l, s, t, near_limit);
+        const bool has_edges = has_all_edges(l, s, t), is_rigid = l->flags[l->triangles[3 * t]] & DEM_NODE_RIGID;
+        f->have_edges = f->have_edges && (has_edges || is_rigid);
+        if (has_edges) enter_triangle(f, l, s, t, near_limit);
     }
 }
 
@@ -139,7 +141,7 @@ static dem_status fill(strain_filter *f, const dem_lattice *l, const element_sta
 dem_status strain_filter_create(strain_filter *out, const dem_model *model, const element_state *elements,
                                 double near_limit)
 {
-    strain_filter f = {.weakest = unlimited};
+    strain_filter f = {.have_edges = true, .weakest = unlimited};
     const dem_status status = fill(&f, &model->lattice, elements, near_limit);
     if (status == DEM_OK)
         *out = f;

@@ -13,6 +13,7 @@ typedef struct strain_filter {
                                     breaks by such; NULL: forgotten */
     dem_index n_always;
     dem_index *always;          /* [n_always] nodes of which the stress has no bound by strains */
+    bool have_edges;            /* whether all edges of triangles that are not rigid have springs */
     utilisation_limits weakest; /* the least limits of all triangles, whatever the pressure across */
 } strain_filter;
 
