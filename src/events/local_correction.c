@@ -448,13 +448,13 @@ static void put_change_of_slope(const local_correction *p, dem_index j, const mo
         change[c] = held & ((unsigned)DEM_COMPONENT_X << c) ? 0.0 : a[c] + da[c] - per_h * motion->v[1][c];
 }
 
-/* Adds a change to a motion: by a quintic or, where the step has parabolas, by parabolas. Heun's position at the end
- * lacks j h^3/6, with j the rate at which the acceleration grows, as does the position of the step itself. A quintic
- * would close this gap within the step: after an event from which the acceleration grows from 0 like j t its velocity
- * would be 5 j t^2 too small. That is ten times the true j t^2/2, so a contact that begins to slide would turn back at
- * once. */
+/* Writes the sum of a motion and the change into `to`: by a quintic or, where the step has parabolas, by parabolas.
+ * Heun's position at the end lacks j h^3/6, with j the rate at which the acceleration grows, as does the position of
+ * the step itself. A quintic would close this gap within the step: after an event from which the acceleration grows
+ * from 0 like j t its velocity would be 5 j t^2 too small. That is ten times the true j t^2/2, so a contact that begins
+ * to slide would turn back at once. */
 static void add_change_of_node(const local_correction *p, dem_index j, const motion_change *end,
-                               motion_polynomial *motion)
+                               const motion_polynomial *motion, motion_polynomial *to)
 {
     const state_layout *l = &p->near.layout;
     motion_change at = jump_at(p, 0, j), by;
@@ -462,7 +462,7 @@ static void add_change_of_node(const local_correction *p, dem_index j, const mot
     state_subtract_rows(l, by.v, end->v, at.v);
     state_subtract_rows(l, by.a, end->a, at.a);
     if (p->parabolic && j < p->near.nodes.end[reach(p, 0)]) put_change_of_slope(p, j, motion, at.a);
-    (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by);
+    (p->parabolic ? motion_polynomial_add_parabolas : motion_polynomial_add)(motion, p->t + p->h, &at, &by, to);
 }
 
 /* Adds the change of a node to the dense output and to the end of the step. */
@@ -470,8 +470,9 @@ static dem_status leave(const local_correction *p, changed_motion *tr, dem_index
 {
     const motion_change end = jump_at(p, END, j);
     const dem_index node = p->near.nodes.list[j];
-    add_change_of_node(p, j, &end, &p->motions[j]);
-    TRY(changed_motion_set(tr, node, &p->motions[j]));
+    motion_polynomial *to;
+    TRY(changed_motion_take(tr, node, &to));
+    add_change_of_node(p, j, &end, &p->motions[j], to);
     changed_motion_move_end(tr, node, &end);
     return DEM_OK;
 }
@@ -481,7 +482,7 @@ static dem_status leave_quadrature(const local_correction *p, changed_motion *tr
 {
     const dem_index j = p->near.nodes.n + b;
     changed_motion_part part = {p->rows[b], {.from = p->t, .dim = p->near.layout.dim}, jump_at(p, END, j)};
-    add_change_of_node(p, j, &part.end, &part.motion);
+    add_change_of_node(p, j, &part.end, &part.motion, &part.motion);
     return changed_motion_add(tr, &part);
 }
 

@@ -24,6 +24,7 @@ void changed_motion_destroy(changed_motion *tr)
 {
     free(tr->place);
     free(tr->list);
+    free(tr->ways);
     free(tr->parts);
     *tr = (changed_motion){0};
 }
@@ -32,7 +33,7 @@ void changed_motion_destroy(changed_motion *tr)
 static void forget(changed_motion *tr)
 {
     for (dem_index k = 0; k < tr->n; k++) tr->place[tr->list[k].node] = -1;
-    tr->n = tr->n_parts = 0;
+    tr->n = tr->n_ways = tr->n_parts = 0;
 }
 
 void changed_motion_start(changed_motion *tr, double end, double *y1, double *f1)
@@ -68,7 +69,6 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node)
           "out of memory for the contact events of a step");
     changed_motion_node *e = &tr->list[tr->n++];
     e->node = node;
-    e->is_known = false;
     state_copy_row(l, e->x, tr->y1 + at);
     state_copy_row(l, e->v, tr->y1 + v);
     state_copy_row(l, e->u, tr->f1 + at);
@@ -79,18 +79,16 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node)
 /* The first change of a node keeps its end and gives it a place; a later one only replaces the polynomial, which then
  * holds from the later event on. Times before that are not asked for again: events near each other are resolved in the
  * order of time. */
-static dem_status take_place(changed_motion *tr, dem_index node)
+dem_status changed_motion_take(changed_motion *tr, dem_index node, motion_polynomial **out)
 {
-    if (changed_motion_has(tr, node)) return DEM_OK;
-    TRY(changed_motion_keep(tr, node));
-    tr->place[node] = (int32_t)(tr->n - 1);
-    return DEM_OK;
-}
-
-dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_polynomial *motion)
-{
-    TRY(take_place(tr, node));
-    motion_polynomial_copy(&tr->list[tr->place[node]].motion, motion);
+    if (!changed_motion_has(tr, node)) {
+        CHECK(grow_array((void **)&tr->ways, &tr->way_capacity, tr->n_ways + 1, sizeof *tr->ways), DEM_ERROR_MEMORY,
+              "out of memory for the contact events of a step");
+        TRY(changed_motion_keep(tr, node));
+        tr->place[node] = (int32_t)tr->n_ways;
+        tr->ways[tr->n_ways++].is_known = false;
+    }
+    *out = &tr->ways[tr->place[node]].motion;
     return DEM_OK;
 }
 
@@ -142,7 +140,10 @@ dem_status changed_motion_add(changed_motion *tr, const changed_motion_part *par
 {
     CHECK(grow_array((void **)&tr->parts, &tr->part_capacity, tr->n_parts + 1, sizeof *tr->parts), DEM_ERROR_MEMORY,
           "out of memory for the contact events of a step");
-    TRY(take_place(tr, part->row));
+    if (!changed_motion_has(tr, part->row)) {
+        TRY(changed_motion_keep(tr, part->row));
+        tr->place[part->row] = (int32_t)(tr->n - 1);
+    }
     tr->parts[tr->n_parts++] = *part;
     return DEM_OK;
 }
@@ -230,7 +231,8 @@ void motion_polynomial_restart(motion_polynomial *m, double from, double end)
  * and the terms (10 D - 4 V + A/2) u^3 + (-15 D + 7 V - A) u^4 + (6 D - 3 V + A/2) u^5 have just these value, slope and
  * second derivative at u = 1. The velocity's terms are the derivative's, (k + 1) c_(k+1)/h. With h = 0, an event at the
  * very end, only the jump of position and velocity is left. */
-INLINE void add_quintic(motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d)
+INLINE void add_quintic(const motion_polynomial *m, double h, const motion_change *at, const motion_change *by, int d,
+                        motion_polynomial *to)
 {
     const double per_h = h > 0.0 ? 1.0 / h : 0.0;
     const row_pair v0 = h * row_pair_at(at->v, d), a0 = h * h * row_pair_at(at->a, d);
@@ -239,17 +241,20 @@ INLINE void add_quintic(motion_polynomial *m, double h, const motion_change *at,
     const row_pair c[MOTION_TERMS] = {
         row_pair_at(at->x, d),      v0, 0.5 * a0, 10.0 * D - 4.0 * V + 0.5 * A, -15.0 * D + 7.0 * V - A,
         6.0 * D - 3.0 * V + 0.5 * A};
-    for (int k = 0; k < MOTION_TERMS; k++) row_pair_put(m->x[k], d, row_pair_at(m->x[k], d) + c[k]);
+    for (int k = 0; k < MOTION_TERMS; k++) row_pair_put(to->x[k], d, row_pair_at(m->x[k], d) + c[k]);
     for (int k = 0; k < MOTION_SLOPES; k++)
-        row_pair_put(m->v[k], d, row_pair_at(m->v[k], d) + per_h * (k + 1) * c[k + 1]);
-    if (!(h > 0.0)) row_pair_put(m->v[0], d, row_pair_at(m->v[0], d) + row_pair_at(at->v, d));
+        row_pair_put(to->v[k], d, row_pair_at(m->v[k], d) + per_h * (k + 1) * c[k + 1]);
+    if (!(h > 0.0)) row_pair_put(to->v[0], d, row_pair_at(to->v[0], d) + row_pair_at(at->v, d));
 }
 
-void motion_polynomial_add(motion_polynomial *m, double end, const motion_change *at, const motion_change *by)
+void motion_polynomial_add(const motion_polynomial *m, double end, const motion_change *at, const motion_change *by,
+                           motion_polynomial *to)
 {
     const double h = end - m->from;
-    add_quintic(m, h, at, by, 0);
-    if (m->dim > 2) add_quintic(m, h, at, by, 2);
+    to->from = m->from;
+    to->dim = m->dim;
+    add_quintic(m, h, at, by, 0, to);
+    if (m->dim > 2) add_quintic(m, h, at, by, 2, to);
 }
 
 /* The same where the step has parabolas: x + h v u + (dx - h v) u^2 for positions, v + h a u + (dv - h a) u^2 for
@@ -264,9 +269,11 @@ static inline void add_parabola(motion_polynomial *m, double h, const motion_cha
     }
 }
 
-void motion_polynomial_add_parabolas(motion_polynomial *m, double end, const motion_change *at, const motion_change *by)
+void motion_polynomial_add_parabolas(const motion_polynomial *m, double end, const motion_change *at,
+                                     const motion_change *by, motion_polynomial *to)
 {
     const double h = end - m->from;
-    for (int d = 0; d < 2; d++) add_parabola(m, h, at, by, d);
-    if (m->dim > 2) add_parabola(m, h, at, by, 2);
+    if (to != m) motion_polynomial_copy(to, m);
+    for (int d = 0; d < 2; d++) add_parabola(to, h, at, by, d);
+    if (m->dim > 2) add_parabola(to, h, at, by, 2);
 }

@@ -32,11 +32,15 @@ typedef struct motion_change {
 /** A node, or a row of quadratures, that has been changed, and its end of the step before that. */
 typedef struct changed_motion_node {
     dem_index node;
-    motion_polynomial motion; /* of a node, from the last event that has changed it */
     double x[STATE_DIM_MOST], v[STATE_DIM_MOST], u[STATE_DIM_MOST], a[STATE_DIM_MOST];
-    bool is_known;              /* whether its forces have been evaluated in the state at the end, as it is now: */
-    double now[STATE_DIM_MOST]; /* its acceleration by them */
 } changed_motion_node;
+
+/** The motion of a node from the last event on that has changed it. */
+typedef struct changed_motion_way {
+    motion_polynomial motion;
+    double now[STATE_DIM_MOST]; /* its acceleration by forces in the state at the end, as it is now, */
+    bool is_known;              /* if they have been evaluated there */
+} changed_motion_way;
 
 /** What an event adds to a row of quadratures, from its time on and in the end. */
 typedef struct changed_motion_part {
@@ -49,9 +53,11 @@ typedef struct changed_motion {
     state_layout layout;
     double end;      /* s, of the step */
     double *y1, *f1; /* state there and its derivative, the integrator's */
-    int32_t *place;  /* [n_rows] of a node, or a quadrature, in the list, -1: its motion has not changed */
+    int32_t *place;  /* [n_rows] of a node among the ways, of a quadrature in the list, -1: it has not changed */
     dem_index n, capacity;
     changed_motion_node *list; /* [n] those whose motion has changed, and those that are kept */
+    dem_index n_ways, way_capacity;
+    changed_motion_way *ways; /* [n_ways] apart, as those that are kept have none */
     dem_index n_parts, part_capacity;
     changed_motion_part *parts; /* [n_parts] */
 } changed_motion;
@@ -73,11 +79,11 @@ static inline bool changed_motion_has(const changed_motion *tr, dem_index node)
 
 static inline const motion_polynomial *changed_motion_of(const changed_motion *tr, dem_index node)
 {
-    return &tr->list[tr->place[node]].motion;
+    return &tr->ways[tr->place[node]].motion;
 }
 
-/** Makes a motion that of a node from motion->from on. */
-dem_status changed_motion_set(changed_motion *tr, dem_index node, const motion_polynomial *motion);
+/** Where the motion of a node from an event on is to be written, at once; it may have had one before. */
+dem_status changed_motion_take(changed_motion *tr, dem_index node, motion_polynomial **out);
 
 /** Copies the end of the step of a node for changed_motion_undo(), before the caller changes it there without changing
  *  the motion inside the step. */
@@ -87,21 +93,21 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node);
  *  is another one now, of any node. */
 static inline void changed_motion_know(changed_motion *tr, dem_index node, const double *a)
 {
-    changed_motion_node *e = &tr->list[tr->place[node]];
-    e->is_known = true;
-    state_copy_row(&tr->layout, e->now, a);
+    changed_motion_way *way = &tr->ways[tr->place[node]];
+    way->is_known = true;
+    state_copy_row(&tr->layout, way->now, a);
 }
 
 static inline void changed_motion_doubt(changed_motion *tr, dem_index node)
 {
-    if (tr->place[node] >= 0) tr->list[tr->place[node]].is_known = false;
+    if (tr->place[node] >= 0) tr->ways[tr->place[node]].is_known = false;
 }
 
 /** What has been noted; NULL: nothing. */
 static inline const double *changed_motion_known(const changed_motion *tr, dem_index node)
 {
     const dem_index place = tr->place[node];
-    return place >= 0 && tr->list[place].is_known ? tr->list[place].now : NULL;
+    return place >= 0 && tr->ways[place].is_known ? tr->ways[place].now : NULL;
 }
 
 /** Adds a change to the state at the end and its derivative. */
@@ -156,12 +162,14 @@ static inline void motion_polynomial_copy(motion_polynomial *to, const motion_po
 /** Writes the same motion from a later time on. */
 void motion_polynomial_restart(motion_polynomial *m, double from, double end);
 
-/** Adds to a motion the quintic of a change that is `at` its start and grows by `by` until the end. */
-void motion_polynomial_add(motion_polynomial *m, double end, const motion_change *at, const motion_change *by);
+/** Writes the sum of a motion and the quintic of a change that is `at` its start and grows by `by` until the end into
+ *  `to`, which may be the motion. */
+void motion_polynomial_add(const motion_polynomial *m, double end, const motion_change *at, const motion_change *by,
+                           motion_polynomial *to);
 
 /** Adds the parabolas of such a change instead, the way of a dense output that is parabolic: positions through x, v and
  *  the x at the end, velocities through v, a and the v at the end. */
-void motion_polynomial_add_parabolas(motion_polynomial *m, double end, const motion_change *at,
-                                     const motion_change *by);
+void motion_polynomial_add_parabolas(const motion_polynomial *m, double end, const motion_change *at,
+                                     const motion_change *by, motion_polynomial *to);
 
 #endif

@@ -67,6 +67,13 @@ static void open_step(step *s, double end)
     changed_motion_start(&s->changed, end, s->y1, s->f1);
 }
 
+static void set_motion(changed_motion *tr, dem_index node, const motion_polynomial *m)
+{
+    motion_polynomial *to;
+    assert_ok(changed_motion_take(tr, node, &to));
+    *to = *m;
+}
+
 /* That a node has `times` the motion. */
 static void check_motion(const changed_motion *tr, dem_index node, double t, double times)
 {
@@ -87,7 +94,7 @@ TEST_IN_BOTH(a_motion_is_the_polynomial_of_its_coefficients)
     step s;
     open_step(&s, 1.5);
     assert_false(changed_motion_has(&s.changed, 1));
-    assert_ok(changed_motion_set(&s.changed, 1, &whole));
+    set_motion(&s.changed, 1, &whole);
     assert_true(changed_motion_has(&s.changed, 1));
     assert_false(changed_motion_has(&s.changed, 0));
     for (double t = 0.25; t <= 1.5; t += 0.125) check_motion(&s.changed, 1, t, 1.0);
@@ -118,7 +125,7 @@ TEST_IN_BOTH(written_anew_again_and_again_it_stays_the_same)
     open_step(&s, 1.5);
     for (int k = 1; k <= 10; k++) {
         motion_polynomial_restart(&m, 0.25 + 0.1 * k, 1.5);
-        assert_ok(changed_motion_set(&s.changed, 0, &m));
+        set_motion(&s.changed, 0, &m);
         assert_close(changed_motion_of(&s.changed, 0)->from, 0.25 + 0.1 * k, 0.0);
         for (double t = 0.25 + 0.1 * k; t <= 1.5; t += 0.05) {
             double x[dim_most];
@@ -140,11 +147,11 @@ TEST_IN_BOTH(a_bend_is_the_quintic_through_both_ends)
     motion_polynomial m = {.from = from, .dim = dim};
     step s;
     open_step(&s, end);
-    motion_polynomial_add(&m, end, &at, &by);
-    assert_ok(changed_motion_set(&s.changed, 2, &m));
+    motion_polynomial_add(&m, end, &at, &by, &m);
+    set_motion(&s.changed, 2, &m);
     for (double t = from; t <= end; t += 0.0625) check_motion(&s.changed, 2, t, 1.0);
-    motion_polynomial_add(&m, end, &at, &by); /* and adds to what there is */
-    assert_ok(changed_motion_set(&s.changed, 2, &m));
+    motion_polynomial_add(&m, end, &at, &by, &m); /* and adds to what there is */
+    set_motion(&s.changed, 2, &m);
     for (double t = from; t <= end; t += 0.0625) check_motion(&s.changed, 2, t, 2.0);
     changed_motion_destroy(&s.changed);
 }
@@ -158,7 +165,7 @@ TEST_IN_BOTH(parabolas_go_through_what_they_are_given)
                         by = {{5.0, 7.0, 1.0}, {-6.0, 1.0, 4.0}, {1e9, 1e9, 1e9}};
     motion_polynomial m = {.from = from, .dim = dim};
     for (int n = 1; n <= 2; n++) { /* and adds to what there is */
-        motion_polynomial_add_parabolas(&m, end, &at, &by);
+        motion_polynomial_add_parabolas(&m, end, &at, &by, &m);
         for (int c = 0; c < dim; c++)
             for (int q = 0; q <= 2; q++) { /* with h = 2; in the middle x + h v/4 + (change)/4, the same of v with a */
                 const double s = 0.5 * q, x0 = at.x[c], v0 = at.v[c], hv = 2.0 * v0, ha = 2.0 * at.a[c];
@@ -183,8 +190,8 @@ TEST_IN_BOTH(a_node_by_itself_goes_straight_on_after_a_jump)
         motion_polynomial m = {.from = from, .dim = dim};
         step s;
         open_step(&s, end);
-        motion_polynomial_add(&m, end, &at, &by);
-        assert_ok(changed_motion_set(&s.changed, 0, &m));
+        motion_polynomial_add(&m, end, &at, &by, &m);
+        set_motion(&s.changed, 0, &m);
         for (double share = 0.0; share <= 1.0; share += 0.125) {
             const double t = from + share * (end - from);
             double x[dim_most], v[dim_most];
@@ -209,9 +216,9 @@ TEST_IN_BOTH(a_motion_without_length_is_the_state_at_its_time)
     step s;
     motion_polynomial_restart(&m, 1.5, 1.5);
     open_step(&s, 1.5);
-    assert_ok(changed_motion_set(&s.changed, 1, &whole));
-    motion_polynomial_add(&m, 1.5, &at, &by);
-    assert_ok(changed_motion_set(&s.changed, 1, &m));
+    set_motion(&s.changed, 1, &whole);
+    motion_polynomial_add(&m, 1.5, &at, &by, &m);
+    set_motion(&s.changed, 1, &m);
     changed_motion_position(&s.changed, 1.5, 1, x);
     changed_motion_velocity(&s.changed, 1.5, 1, v);
     for (int c = 0; c < dim; c++) {
@@ -230,7 +237,7 @@ TEST_IN_BOTH(the_last_motion_of_a_node_holds)
     for (dem_index node = 0; node < 2; node++) {
         motion_polynomial m = {.dim = dim};
         for (int k = 0; k < n; k++) {
-            assert_ok(changed_motion_set(&s.changed, node, &m));
+            set_motion(&s.changed, node, &m);
             double v[dim_most], later[dim_most];
             changed_motion_velocity(&s.changed, 0.01 * k, node, v);
             changed_motion_velocity(&s.changed, 0.01 * k + 0.005, node, later);
@@ -240,7 +247,7 @@ TEST_IN_BOTH(the_last_motion_of_a_node_holds)
             at.v[dim - 1] = 1.0;
             by.x[dim - 1] = 4.0 - 0.01 * (k + 1);
             motion_polynomial_restart(&m, 0.01 * (k + 1), 4.0);
-            motion_polynomial_add(&m, 4.0, &at, &by);
+            motion_polynomial_add(&m, 4.0, &at, &by, &m);
         }
     }
     assert_int_equal(s.changed.n, 2);
@@ -260,7 +267,7 @@ TEST_IN_BOTH(a_node_can_be_kept_without_a_motion)
     assert_ok(changed_motion_keep(&s.changed, 2));
     assert_false(changed_motion_has(&s.changed, 2));
     changed_motion_move_end(&s.changed, 2, &jump);
-    assert_ok(changed_motion_set(&s.changed, 2, &still));
+    set_motion(&s.changed, 2, &still);
     changed_motion_move_end(&s.changed, 2, &jump);
     assert_ok(changed_motion_keep(&s.changed, 2));
     assert_true(changed_motion_has(&s.changed, 2));
@@ -279,7 +286,7 @@ TEST_IN_BOTH(a_jump_at_the_end_changes_the_state_and_its_derivative)
     step s, before;
     open_step(&s, 1.0);
     before = s;
-    assert_ok(changed_motion_set(&s.changed, 1, &still));
+    set_motion(&s.changed, 1, &still);
     changed_motion_move_end(&s.changed, 1, &jump);
     for (int c = 0; c < dim; c++) {
         before.y1[dim + c] += jump.x[c], before.y1[dim * (n_nodes + 1) + c] += jump.v[c];
@@ -347,7 +354,7 @@ TEST_IN_BOTH(undoing_brings_every_bit_back)
             const double size = pow(10.0, k % 40 - 20);
             const motion_change jump = {
                 {size, -0.3 * size, size}, {1.1 * size, size, -size}, {0.7 * size, -size, 0.1 * size}};
-            assert_ok(changed_motion_set(&s.changed, (2 * k) % n_nodes, &still));
+            set_motion(&s.changed, (2 * k) % n_nodes, &still);
             changed_motion_move_end(&s.changed, (2 * k) % n_nodes, &jump);
         }
         assert_memory_not_equal(s.y1, before.y1, sizeof s.y1);
@@ -366,12 +373,12 @@ TEST_IN_BOTH(the_next_step_knows_nothing_of_the_last_which_stays_as_it_is)
     const motion_polynomial still = {.dim = dim};
     step s, next;
     open_step(&s, 1.0);
-    assert_ok(changed_motion_set(&s.changed, 2, &still));
+    set_motion(&s.changed, 2, &still);
     changed_motion_move_end(&s.changed, 2, &(motion_change){.x = {1.0, 1.0, 1.0}});
     next = s;
     changed_motion_start(&s.changed, 2.0, next.y1, next.f1);
     assert_false(changed_motion_has(&s.changed, 2));
-    assert_ok(changed_motion_set(&s.changed, 0, &still));
+    set_motion(&s.changed, 0, &still);
     changed_motion_undo(&s.changed);
     assert_memory_equal(s.y1, next.y1, sizeof s.y1);
     assert_close(s.y1[2 * dim], 1.0 / (3.0 + 2 * dim) + 1.0, 1e-15);
