@@ -287,14 +287,11 @@ static void open_start(local_correction *p, const dense_output *step, double *y)
 {
     const local_nodes *nodes = &p->near.nodes;
     const local_state s = {p->t, p->x[0], p->v[0], y};
-    for (dem_index j = 0; j < nodes->n; j++) {
+    for (dem_index j = nodes->end[1]; j < nodes->n; j++) {
         state_copy_row(&step->layout, p->x[0] + components(p, j), p->motions[j].x[0]);
         state_copy_row(&step->layout, p->v[0] + components(p, j), p->motions[j].v[0]);
     }
-    for (dem_index j = 0; j < nodes->end[1]; j++) {
-        dense_output_position(step, p->t, nodes->list[j], p->x[0] + components(p, j));
-        dense_output_velocity(step, p->t, nodes->list[j], p->v[0] + components(p, j));
-    }
+    dense_output_put_nodes(step, p->t, nodes->end[1], nodes->list, p->x[0], p->v[0]);
     neighbourhood_put(&p->near, &s, nodes->n, y);
     put_time(p, step, 0, y);
 }

@@ -119,29 +119,27 @@ static inline void put_pair(bool parabolic, const ends *e, const basis *b, dem_i
 }
 
 /* As if no event inside had changed it. */
-static void position_without(const dense_output *p, double t, dem_index i, double *out)
+static void position_by(const dense_output *p, double t, const basis *b, dem_index i, double *out)
 {
     const dem_index k = state_row(&p->layout, i);
+    const ends e = ends_of(p);
     if (t == p->t0) {
         state_copy_row(&p->layout, out, p->y0 + k);
         return;
     }
-    const basis b = basis_at(p, t);
-    const ends e = ends_of(p);
-    put_pair(p->parabolic, &e, &b, k, out);
+    put_pair(p->parabolic, &e, b, k, out);
     if (p->layout.dim > 2) interpolate_third(p, t, k + 2, &out[2], NULL);
 }
 
-static void velocity_without(const dense_output *p, double t, dem_index i, double *out)
+static void velocity_by(const dense_output *p, double t, const basis *b, dem_index i, double *out)
 {
     const dem_index k = state_row(&p->layout, i);
+    const ends e = ends_of(p);
     if (t == p->t0) {
         state_copy_row(&p->layout, out, state_v(&p->layout, p->y0, i));
         return;
     }
-    const basis b = basis_at(p, t);
-    const ends e = ends_of(p);
-    const double first = velocity(p->parabolic, &e, &b, k), second = velocity(p->parabolic, &e, &b, k + 1);
+    const double first = velocity(p->parabolic, &e, b, k), second = velocity(p->parabolic, &e, b, k + 1);
     out[0] = first;
     out[1] = second;
     if (p->layout.dim > 2) interpolate_third(p, t, k + 2, NULL, &out[2]);
@@ -153,7 +151,8 @@ void dense_output_position_inside(const dense_output *p, double t, dem_index i, 
         changed_motion_position(p->changed, t, i, out);
         return;
     }
-    position_without(p, t, i, out);
+    const basis b = basis_at(p, t);
+    position_by(p, t, &b, i, out);
     if (has_changed(p, i)) changed_motion_row_at(p->changed, t, i, out, NULL);
 }
 
@@ -188,8 +187,26 @@ void dense_output_velocity_inside(const dense_output *p, double t, dem_index i, 
         changed_motion_velocity(p->changed, t, i, out);
         return;
     }
-    velocity_without(p, t, i, out);
+    const basis b = basis_at(p, t);
+    velocity_by(p, t, &b, i, out);
     if (has_changed(p, i)) changed_motion_row_at(p->changed, t, i, NULL, out);
+}
+
+/* One basis serves all nodes that no event has changed. */
+void dense_output_put_nodes(const dense_output *p, double t, dem_index n, const dem_index *nodes, double *x, double *v)
+{
+    const basis b = basis_at(p, t);
+    for (dem_index j = 0; j < n; j++, x += p->layout.dim, v += p->layout.dim)
+        if (t == p->t1) {
+            state_copy_row(&p->layout, x, state_x(&p->layout, p->y1, nodes[j]));
+            state_copy_row(&p->layout, v, state_v(&p->layout, p->y1, nodes[j]));
+        } else if (turned(p, nodes[j])) {
+            changed_motion_position(p->changed, t, nodes[j], x);
+            changed_motion_velocity(p->changed, t, nodes[j], v);
+        } else {
+            position_by(p, t, &b, nodes[j], x);
+            velocity_by(p, t, &b, nodes[j], v);
+        }
 }
 
 /* Interpolates all components of x and v, those of the quadratures too, as if no event inside had changed them. */

@@ -44,6 +44,9 @@ static inline void dense_output_velocity(const dense_output *p, double t, dem_in
         dense_output_velocity_inside(p, t, i, out);
 }
 
+/** Both of n nodes, into x, v [n][dim]: in less time. */
+void dense_output_put_nodes(const dense_output *p, double t, dem_index n, const dem_index *nodes, double *x, double *v);
+
 /** Positions of the n nodes of a list at t, to the bits of dense_output_position(), into their rows of x [n_rows][dim]:
  *  of many nodes in less time. */
 void dense_output_put_positions(const dense_output *p, double t, const int32_t *list, int n, double *x);

@@ -140,6 +140,36 @@ TEST(positions_of_a_list_are_those_of_its_nodes_to_the_bit)
 }
 
 /* Rounding of a dozen terms of order 10. */
+/* At both ends, inside, and where an event has changed the motion of a node. */
+TEST(nodes_of_a_list_have_their_positions_and_velocities_to_the_bit)
+{
+    const dem_index list[n_nodes] = {1, 0};
+    for (int turn = 0; turn < 8; turn++) {
+        step s;
+        CLEANUP(changed_motion_destroy) changed_motion changed;
+        motion_polynomial *way;
+        double x[STATE_DIM_MOST * n_nodes], v[STATE_DIM_MOST * n_nodes];
+        const int dim = 2 + turn / 4;
+        make_step(&s, dim, &swing, 1.0, 1.5);
+        s.dense.parabolic = turn % 2 == 1;
+        assert_ok(changed_motion_create(&changed, &s.dense.layout));
+        changed_motion_start(&changed, 1.5, s.y1, s.f1);
+        s.dense.changed = &changed;
+        if (turn % 4 >= 2) {
+            assert_ok(changed_motion_take(&changed, 1, &way));
+            *way = (motion_polynomial){.from = 1.0, .dim = dim, .x = {{0.5, 0.25, 2.0}, {1.0, -1.0, 3.0}}};
+        }
+        for (double t = 1.0; t <= 1.5; t += 0.125) {
+            dense_output_put_nodes(&s.dense, t, n_nodes, list, x, v);
+            for (int j = 0; j < n_nodes; j++) {
+                const node_motion m = motion_at(&s.dense, t, list[j]);
+                assert_memory_equal(x + dim * j, m.x, (size_t)dim * sizeof *x);
+                assert_memory_equal(v + dim * j, m.v, (size_t)dim * sizeof *v);
+            }
+        }
+    }
+}
+
 TEST(motions_of_degree_5_are_exact_with_their_velocities)
 {
     const double starts[3] = {0.0, -0.7, 0.9}, lengths[3] = {1.0, 1.3, 0.25};
