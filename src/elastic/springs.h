@@ -74,9 +74,38 @@ INLINE row_pair springs_pull_two(row_pair stiffness, row_pair rest_length, row_p
     return stiffness * (length - rest_length) / (rest_length * length);
 }
 
+/** Adds to a force on node i, N, those of the springs in slots p and q of its row, which are whole, one after the
+ *  other; p = q: of this one. */
+INLINE row_pair springs_add_two(const springs *s, dem_index i, dem_index p, dem_index q, const double *x,
+                                row_pair force)
+{
+    const dem_index k = s->spring[p], m = s->spring[q];
+    const row_pair xi = row_pair_at(x + 2 * i, 0);
+    const row_pair one = row_pair_at(x + 2 * (dem_index)s->neighbour[p], 0) - xi,
+                   two = row_pair_at(x + 2 * (dem_index)s->neighbour[q], 0) - xi;
+    const row_pair dx = {one[0], two[0]}, dy = {one[1], two[1]}, length = row_pair_sqrt(dx * dx + dy * dy);
+    const row_pair stiffness = {s->stiffness_of[k], s->stiffness_of[m]};
+    const row_pair rest = {s->rest_length_of[k], s->rest_length_of[m]};
+    const row_pair factor = springs_pull_two(stiffness, rest, length);
+    force += factor[0] * one;
+    return p == q ? force : force + factor[1] * two;
+}
+
+/** The sum of (1) over the row of node i, of springs that are whole. */
+static inline vec2 springs_whole_force(const springs *s, dem_index i, const double *x)
+{
+    const dem_index end = s->row[i + 1];
+    row_pair force = {0.0, 0.0};
+    dem_index p = s->row[i];
+    for (; p + 1 < end; p += 2) force = springs_add_two(s, i, p, p + 1, x, force);
+    if (p < end) force = springs_add_two(s, i, p, p, x, force);
+    return (vec2){force[0], force[1]};
+}
+
 /** Force on node i, N: the sum of (1) over its row. Not finite where two neighbours coincide. */
 static inline vec2 springs_force(const springs *s, springs_integrity integrity, dem_index i, const double *x)
 {
+    if (integrity.pushed == NULL) return springs_whole_force(s, i, x);
     const vec2 xi = vec2_at(x, i);
     vec2 force = {0.0, 0.0};
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++) {
