@@ -64,14 +64,32 @@ static dem_status close_ring(neighbourhood *b, int ring)
     return DEM_OK;
 }
 
+/* Whether constraints hold none of the nodes that move. */
+static bool are_free(const neighbourhood *b)
+{
+    const local_nodes *nodes = &b->nodes;
+    for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++)
+        if (constraints_group_at(b->constraints, nodes->list[j]) >= 0) return false;
+    return true;
+}
+
+/* The rings round a node as they were at an event before, if that is known. Groups change from event to event. */
+static bool recall(neighbourhood *b, dem_index node)
+{
+    const local_forces *f = b->forces;
+    b->nodes.n_rings = b->n_rings;
+    if (f->recall == NULL || !f->recall(f->self, node, &b->nodes)) return false;
+    if (are_free(b)) return true;
+    local_nodes_clear(&b->nodes);
+    return false;
+}
+
 /* Rings 0 to n_rings; then the forces list what acts between the nodes found. Before an event closed contacts at the
  * seeds are stopped, which changes velocities. */
-dem_status neighbourhood_gather(neighbourhood *b, neighbourhood_seeds seeds)
+static dem_status find_rings(neighbourhood *b, neighbourhood_seeds seeds)
 {
     const local_forces *f = b->forces;
     local_nodes *nodes = &b->nodes;
-    local_nodes_clear(nodes);
-    b->n_groups = 0;
     for (dem_index j = 0; j < seeds.n; j++) TRY(local_nodes_add(nodes, seeds.list[j]));
     nodes->n_rings = b->n_rings;
     TRY(close_ring(b, 0));
@@ -81,6 +99,18 @@ dem_status neighbourhood_gather(neighbourhood *b, neighbourhood_seeds seeds)
         TRY(close_ring(b, ring));
     }
     return f->gather(f->self, nodes);
+}
+
+dem_status neighbourhood_gather(neighbourhood *b, neighbourhood_seeds seeds)
+{
+    const local_forces *f = b->forces;
+    const bool is_impact = seeds.n == 1 && !seeds.by_forces;
+    local_nodes_clear(&b->nodes);
+    b->n_groups = 0;
+    if (is_impact && recall(b, seeds.list[0])) return DEM_OK;
+    TRY(find_rings(b, seeds));
+    if (is_impact && f->keep != NULL && b->n_groups == 0) f->keep(f->self, seeds.list[0], &b->nodes);
+    return DEM_OK;
 }
 
 /* An event opens and closes contacts only of nodes that are in the neighbourhood already, so nodes and rings stay; only

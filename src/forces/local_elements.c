@@ -15,9 +15,11 @@
 
 void local_elements_destroy(local_elements *e)
 {
-    void *const arrays[LOCAL_ELEMENTS_ARRAYS] = {e->places,      e->bonds,   e->pushed, e->pulled,
-                                                 e->rest_length, e->both,    e->pulls,  e->corners,
-                                                 e->guarded,     e->coupled, e->pushes, e->known};
+    const local_lists *own = &e->own;
+    void *const arrays[LOCAL_ELEMENTS_ARRAYS] = {own->places,       own->bonds,  own->pulls,   own->pushes,
+                                                 own->guarded,      own->pushed, own->pulled,  own->rest_length,
+                                                 own->inverse_mass, own->onset,  own->coupled, e->both,
+                                                 e->coupled_force,  e->corners,  e->known};
     for (int k = 0; k < LOCAL_ELEMENTS_ARRAYS; k++) free(arrays[k]);
     *e = (local_elements){0};
 }
@@ -46,16 +48,27 @@ static slot_counts count_slots(const dem_model *model, const local_nodes *nodes)
 
 #define ROOM(array, n) grow_array((void **)&e->array, room++, n, sizeof *e->array)
 
+/* What is written while forces are evaluated, with room for these elements. */
+static dem_status reserve_scratch(local_elements *e, const local_nodes *nodes, slot_counts n)
+{
+    dem_index *room = e->room + LOCAL_ELEMENTS_LISTS;
+    CHECK(ROOM(both, 4 * n.springs + 4) && ROOM(coupled_force, 3 * n.couplings) && ROOM(corners, n.triangles) &&
+              ROOM(known, 2 * nodes->n),
+          DEM_ERROR_MEMORY, "out of memory for what is near an event");
+    return DEM_OK;
+}
+
 /* No list has more entries than there are slots. */
 static dem_status reserve(local_elements *e, const local_nodes *nodes, slot_counts n)
 {
     dem_index *room = e->room;
-    CHECK(ROOM(places, local_nodes_n_moving(nodes) + 1) && ROOM(bonds, n.springs) && ROOM(pushed, n.springs) &&
-              ROOM(pulled, n.springs) && ROOM(rest_length, n.springs) && ROOM(both, 4 * n.springs + 4) &&
-              ROOM(pulls, n.springs) && ROOM(corners, n.triangles) && ROOM(guarded, n.triangles) &&
-              ROOM(coupled, n.couplings) && ROOM(pushes, n.couplings) && ROOM(known, 2 * nodes->n),
+    CHECK(ROOM(own.places, local_nodes_n_moving(nodes) + 1) && ROOM(own.bonds, n.springs) &&
+              ROOM(own.pulls, n.springs) && ROOM(own.pushes, n.couplings) && ROOM(own.guarded, n.triangles) &&
+              ROOM(own.pushed, n.springs) && ROOM(own.pulled, n.springs) && ROOM(own.rest_length, n.springs) &&
+              ROOM(own.inverse_mass, local_nodes_n_moving(nodes)) && ROOM(own.onset, n.triangles) &&
+              ROOM(own.coupled, n.couplings),
           DEM_ERROR_MEMORY, "out of memory for what is near an event");
-    return DEM_OK;
+    return reserve_scratch(e, nodes, n);
 }
 
 #undef ROOM
@@ -68,19 +81,19 @@ static void add_bond(local_elements *e, local_places *to, dem_index j, int32_t o
     const springs *s = &e->forces->model->springs;
     const springs_integrity integrity = element_state_springs(e->forces->elements);
     const dem_index k = to->bonds++, spring = s->spring[p];
-    e->bonds[k] = (local_bond){2 * (int32_t)j, 2 * other};
-    e->rest_length[k] = s->rest_length_of[spring];
-    e->pushed[k] = e->pulled[k] = s->stiffness_of[spring];
+    e->lists.bonds[k] = (local_bond){2 * (int32_t)j, 2 * other};
+    e->lists.rest_length[k] = s->rest_length_of[spring];
+    e->lists.pushed[k] = e->lists.pulled[k] = s->stiffness_of[spring];
     if (integrity.pushed == NULL) return;
-    e->pushed[k] *= springs_left(integrity, spring, 0.0);
-    e->pulled[k] *= springs_left(integrity, spring, 1.0);
+    e->lists.pushed[k] *= springs_left(integrity, spring, 0.0);
+    e->lists.pulled[k] *= springs_left(integrity, spring, 1.0);
 }
 
 /* The bond that is listed at a node with this one as its second. */
 static dem_index find_bond(const local_elements *e, dem_index first, dem_index second)
 {
-    dem_index k = e->places[first].bonds;
-    while (e->bonds[k].second != 2 * second) k++;
+    dem_index k = e->lists.places[first].bonds;
+    while (e->lists.bonds[k].second != 2 * second) k++;
     return k;
 }
 
@@ -95,9 +108,9 @@ static void add_springs(local_elements *e, local_places *to, const local_nodes *
         const int32_t other = nodes->number[s->neighbour[p]];
         if (springs_is_broken(integrity, s->spring[p])) continue;
         if (other > j) add_bond(e, to, j, other, p);
-        if (!e->by_node) continue;
+        if (!e->lists.by_node) continue;
         const dem_index bond = other > j ? to->bonds - 1 : find_bond(e, other, j);
-        e->pulls[to->pulls++] = (int32_t)(4 * bond + (other < j ? 2 : 0));
+        e->lists.pulls[to->pulls++] = (int32_t)(4 * bond + (other < j ? 2 : 0));
     }
 }
 
@@ -111,15 +124,15 @@ static void add_triangles(local_elements *e, local_places *to, const local_nodes
     for (dem_index p = t->row[i]; p < t->row[i + 1] && t->area_stiffness_of == NULL; p++) {
         const int32_t next = nodes->number[t->next[p]], last = nodes->number[t->last[p]];
         if (next < j || last < j || triangles_broken(t, integrity, p)) continue;
-        e->guarded[to->guarded++] =
-            (local_guarded){{(int32_t)j, next, last}, TRIANGLES_GUARD_ONSET * triangles_rest_area(t, i, p)};
+        e->lists.onset[to->guarded] = TRIANGLES_GUARD_ONSET * triangles_rest_area(t, i, p);
+        e->lists.guarded[to->guarded++] = (local_guarded){{(int32_t)j, next, last}};
     }
 }
 
 static void add_coupled(local_elements *e, local_places *to, const local_nodes *nodes, dem_index k)
 {
     const couplings *c = &e->forces->model->couplings;
-    local_coupled *new = &e->coupled[to->coupled++];
+    local_coupled *new = &e->lists.coupled[to->coupled++];
     new->own = c->list[k];
     new->left = couplings_left(c, element_state_triangles(e->forces->elements), k);
     for (int q = 0; q < 3; q++) new->own.corner[q] = nodes->number[c->list[k].corner[q]];
@@ -128,8 +141,8 @@ static void add_coupled(local_elements *e, local_places *to, const local_nodes *
 /* Which of the coupled triangles that are listed at a node is this one. */
 static dem_index find_coupled(const local_elements *e, dem_index first, dem_index triangle)
 {
-    dem_index k = e->places[first].coupled;
-    while (e->coupled[k].own.triangle != triangle) k++;
+    dem_index k = e->lists.places[first].coupled;
+    while (e->lists.coupled[k].own.triangle != triangle) k++;
     return k;
 }
 
@@ -146,25 +159,42 @@ static void add_couplings(local_elements *e, local_places *to, const local_nodes
             if (nodes->number[own->corner[q]] < first) first = nodes->number[own->corner[q]];
         if (first == j) add_coupled(e, to, nodes, c->slot[p] / 3);
         const dem_index k = first == j ? to->coupled - 1 : find_coupled(e, first, own->triangle);
-        e->pushes[to->pushes++] = (int32_t)(3 * k + c->slot[p] % 3);
+        e->lists.pushes[to->pushes++] = (int32_t)(3 * k + c->slot[p] % 3);
     }
+}
+
+/* Nothing is known of the triangles yet. */
+static void begin(local_elements *e)
+{
+    e->have_corners = false;
+    e->n_known = e->n_slack = 0;
+    e->leeway = (double)INFINITY;
 }
 
 dem_status local_elements_list(local_elements *e, const local_nodes *nodes, bool by_node)
 {
     local_places to = {0};
-    e->by_node = by_node;
-    e->have_corners = false;
-    e->n_known = e->n_slack = 0;
-    e->leeway = (double)INFINITY;
     TRY(reserve(e, nodes, count_slots(e->forces->model, nodes)));
-    e->places[0] = to;
+    e->own.by_node = by_node;
+    e->lists = e->own;
+    begin(e);
+    e->lists.places[0] = to;
     for (dem_index j = 0; j < local_nodes_n_moving(nodes); j++) {
+        e->lists.inverse_mass[j] = e->forces->model->inverse_mass[nodes->list[j]];
         add_springs(e, &to, nodes, j);
         if (by_node) add_triangles(e, &to, nodes, j);
         if (by_node && e->forces->model->couplings.n > 0) add_couplings(e, &to, nodes, j);
-        e->places[j + 1] = to;
+        e->lists.places[j + 1] = to;
     }
+    return DEM_OK;
+}
+
+dem_status local_elements_take(local_elements *e, const local_nodes *nodes, const local_lists *lists)
+{
+    const local_places *end = &lists->places[local_nodes_n_moving(nodes)];
+    TRY(reserve_scratch(e, nodes, (slot_counts){end->bonds, end->corners, end->coupled}));
+    e->lists = *lists;
+    begin(e);
     return DEM_OK;
 }
 
@@ -173,7 +203,7 @@ dem_status local_elements_list(local_elements *e, const local_nodes *nodes, bool
 /* A pull of nothing, behind all bonds: it changes no sum that begins with 0. */
 static int32_t no_pull(local_elements *e, dem_index n)
 {
-    const dem_index pull = 4 * e->places[n].bonds;
+    const dem_index pull = 4 * e->lists.places[n].bonds;
     e->both[pull] = e->both[pull + 1] = 0.0;
     return (int32_t)pull;
 }
@@ -184,8 +214,8 @@ static int32_t pull_of(local_elements *e, dem_index j, dem_index other, dem_inde
     const springs *s = &e->forces->model->springs;
     const springs_integrity integrity = element_state_springs(e->forces->elements);
     const dem_index k = other > j ? find_bond(e, j, other) : find_bond(e, other, j), spring = s->spring[p];
-    e->pushed[k] = springs_left(integrity, spring, 0.0) * s->stiffness_of[spring];
-    e->pulled[k] = springs_left(integrity, spring, 1.0) * s->stiffness_of[spring];
+    e->lists.pushed[k] = springs_left(integrity, spring, 0.0) * s->stiffness_of[spring];
+    e->lists.pulled[k] = springs_left(integrity, spring, 1.0) * s->stiffness_of[spring];
     return (int32_t)(4 * k + (other < j ? 2 : 0));
 }
 
@@ -195,18 +225,19 @@ static void renew_pulls(local_elements *e, const local_nodes *nodes, dem_index j
     const springs *s = &e->forces->model->springs;
     const springs_integrity integrity = element_state_springs(e->forces->elements);
     const dem_index i = nodes->list[j];
-    dem_index to = e->places[j].pulls;
+    int32_t to = e->lists.places[j].pulls;
     for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
         if (!springs_is_broken(integrity, s->spring[p]))
-            e->pulls[to++] = pull_of(e, j, nodes->number[s->neighbour[p]], p);
-    while (to < e->places[j + 1].pulls) e->pulls[to++] = none;
+            e->lists.pulls[to++] = pull_of(e, j, nodes->number[s->neighbour[p]], p);
+    while (to < e->lists.places[j + 1].pulls) e->lists.pulls[to++] = none;
 }
 
 /* Guards of what has broken still count where it is asked whether all are off: if they are not, each triangle is asked
  * by itself. */
 dem_status local_elements_renew(local_elements *e, const local_nodes *nodes)
 {
-    if (!e->by_node || e->forces->model->couplings.n > 0) return local_elements_list(e, nodes, e->by_node);
+    if (e->lists.places != e->own.places || !e->lists.by_node || e->forces->model->couplings.n > 0)
+        return local_elements_list(e, nodes, e->lists.by_node);
     const int32_t none = no_pull(e, local_nodes_n_moving(nodes));
     for (dem_index j = 0; j < nodes->end[0]; j++) renew_pulls(e, nodes, j, none);
     e->have_corners = false;
@@ -234,12 +265,13 @@ static void list_corners(local_elements *e, const local_nodes *nodes)
  * length: times the vector between the ends it is the force on the first one. */
 INLINE void pull_two(local_elements *e, dem_index k, dem_index other, const double *x)
 {
-    const local_bond *bond[2] = {&e->bonds[k], &e->bonds[other]};
+    const local_bond *bond[2] = {&e->lists.bonds[k], &e->lists.bonds[other]};
     const row_pair one = row_pair_at(x + bond[0]->second, 0) - row_pair_at(x + bond[0]->first, 0);
     const row_pair two = row_pair_at(x + bond[1]->second, 0) - row_pair_at(x + bond[1]->first, 0);
     const row_pair dx = {one[0], two[0]}, dy = {one[1], two[1]}, length = row_pair_sqrt(dx * dx + dy * dy);
-    const row_pair rest = {e->rest_length[k], e->rest_length[other]};
-    const row_pair pulled = {e->pulled[k], e->pulled[other]}, pushed = {e->pushed[k], e->pushed[other]};
+    const row_pair rest = {e->lists.rest_length[k], e->lists.rest_length[other]};
+    const row_pair pulled = {e->lists.pulled[k], e->lists.pulled[other]},
+                   pushed = {e->lists.pushed[k], e->lists.pushed[other]};
     const row_pair_bits tension = length > rest;
     const row_pair stiffness = (row_pair)(((row_pair_bits)pulled & tension) | ((row_pair_bits)pushed & ~tension));
     const row_pair factor = springs_pull_two(stiffness, rest, length);
@@ -262,7 +294,7 @@ static void add_up_bonds(const local_elements *e, dem_index n, dem_index n_nodes
 {
     memset(f, 0, 2 * (size_t)n_nodes * sizeof *f);
     for (dem_index k = 0; k < n; k++) {
-        double *first = f + e->bonds[k].first, *second = f + e->bonds[k].second;
+        double *first = f + e->lists.bonds[k].first, *second = f + e->lists.bonds[k].second;
         const row_pair force = row_pair_at(e->both + 4 * k, 0);
         row_pair_put(first, 0, row_pair_at(first, 0) + force);
         row_pair_put(second, 0, row_pair_at(second, 0) - force);
@@ -272,9 +304,9 @@ static void add_up_bonds(const local_elements *e, dem_index n, dem_index n_nodes
 static void push_coupled(local_elements *e, dem_index n, const double *x)
 {
     for (dem_index k = 0; k < n; k++) {
-        local_coupled *c = &e->coupled[k];
+        const local_coupled *c = &e->lists.coupled[k];
         const coupled_edges edges = couplings_edges(&c->own, x);
-        for (int q = 0; q < 3; q++) c->force[q] = couplings_force_at(&edges, c->left, q);
+        for (int q = 0; q < 3; q++) e->coupled_force[3 * k + q] = couplings_force_at(&edges, c->left, q);
     }
 }
 
@@ -293,11 +325,12 @@ static inline double smaller(double a, double b)
 /* How far each coordinate of the corners of a triangle may go without its guard coming on; < 0: it may be on. Where all
  * go by d, its area changes by at most S d + 4 d^2, with S the sum of the sizes of the components of two edges; that is
  * at most 2 S d for d <= S/4. */
-static double leeway_of(const local_guarded *g, const double *x)
+static double leeway_of(const local_elements *e, dem_index k, const double *x)
 {
+    const local_guarded *g = &e->lists.guarded[k];
     const vec2 from = vec2_at(x, g->corner[0]);
     const vec2 u = vec2_sub(vec2_at(x, g->corner[1]), from), w = vec2_sub(vec2_at(x, g->corner[2]), from);
-    const double spare = 0.5 * vec2_cross(u, w) - margin * g->onset;
+    const double spare = 0.5 * vec2_cross(u, w) - margin * e->lists.onset[k];
     const double size = fabs(u.x) + fabs(u.y) + fabs(w.x) + fabs(w.y);
     return spare >= 0.0 ? smaller(0.5 * spare / size, 0.25 * size) : -1.0;
 }
@@ -306,7 +339,7 @@ static double leeway_of(const local_guarded *g, const double *x)
 static void find_leeway(local_elements *e, dem_index n_nodes, dem_index n, const double *x)
 {
     for (; e->n_known < n_nodes; e->n_known++) vec2_put(e->known, e->n_known, vec2_at(x, e->n_known));
-    for (; e->n_slack < n; e->n_slack++) e->leeway = smaller(leeway_of(&e->guarded[e->n_slack], e->known), e->leeway);
+    for (; e->n_slack < n; e->n_slack++) e->leeway = smaller(leeway_of(e, e->n_slack, e->known), e->leeway);
 }
 
 /* Whether no one of n coordinates has gone further than the leeway: no difference has a sign. Where one is not a number
@@ -329,9 +362,9 @@ static bool are_off(const local_elements *e, dem_index n, const double *x)
 {
     bool off = true;
     for (dem_index k = 0; k < n && off; k++) {
-        const local_guarded *g = &e->guarded[k];
+        const local_guarded *g = &e->lists.guarded[k];
         off = vec2_triangle_area(vec2_at(x, g->corner[0]), vec2_at(x, g->corner[1]), vec2_at(x, g->corner[2])) >
-              margin * g->onset;
+              margin * e->lists.onset[k];
     }
     return off;
 }
@@ -340,7 +373,7 @@ static bool are_off(const local_elements *e, dem_index n, const double *x)
  * last time. */
 static bool are_slack(local_elements *e, const local_nodes *nodes, dem_index n_moved, int ring, const double *x)
 {
-    const dem_index n = e->places[nodes->end[ring]].guarded, n_nodes = nodes->end[ring + 1];
+    const dem_index n = e->lists.places[nodes->end[ring]].guarded, n_nodes = nodes->end[ring + 1];
     const dem_index n_other = e->were_near && n_moved < n_nodes ? n_moved : n_nodes;
     if (e->forces->model->triangles.area_stiffness_of != NULL) return false;
     find_leeway(e, n_nodes, n, x);
@@ -352,9 +385,11 @@ static bool are_slack(local_elements *e, const local_nodes *nodes, dem_index n_m
 
 static row_pair force_of_springs(const local_elements *e, dem_index j)
 {
-    const int32_t *pull = e->pulls + e->places[j].pulls, *const end = e->pulls + e->places[j + 1].pulls;
+    const double *both = e->both;
+    const int32_t *pull = e->lists.pulls + e->lists.places[j].pulls, *const end =
+                                                                         e->lists.pulls + e->lists.places[j + 1].pulls;
     row_pair sum = {0.0, 0.0};
-    for (; pull < end; pull++) sum += row_pair_at(e->both + *pull, 0);
+    for (; pull < end; pull++) sum += row_pair_at(both + *pull, 0);
     return sum;
 }
 
@@ -363,8 +398,8 @@ static vec2 force_of_bonds(const local_elements *e, dem_index j)
 {
     const row_pair sum = force_of_springs(e, j);
     vec2 force = {sum[0], sum[1]};
-    for (dem_index p = e->places[j].pushes; p < e->places[j + 1].pushes; p++)
-        force = vec2_add(force, e->coupled[e->pushes[p] / 3].force[e->pushes[p] % 3]);
+    for (dem_index p = e->lists.places[j].pushes; p < e->lists.places[j + 1].pushes; p++)
+        force = vec2_add(force, e->coupled_force[e->lists.pushes[p]]);
     return force;
 }
 
@@ -372,7 +407,7 @@ static vec2 force_of_triangles(const local_elements *e, dem_index j, dem_index i
 {
     const triangles *t = &e->forces->model->triangles;
     const triangles_integrity integrity = element_state_triangles(e->forces->elements);
-    const local_corners *own = e->corners + e->places[j].corners;
+    const local_corners *own = e->corners + e->lists.places[j].corners;
     vec2 force = {0.0, 0.0};
     for (dem_index p = t->row[i]; p < t->row[i + 1]; p++, own++) {
         if (own->next < 0) continue;
@@ -389,14 +424,14 @@ static void add_up_by_node(local_elements *e, const local_nodes *nodes, dem_inde
 {
     const dem_index n = nodes->end[ring];
     if (are_slack(e, nodes, n_moved, ring, x)) {
-        const bool coupled = e->places[n].pushes > 0;
+        const bool coupled = e->lists.places[n].pushes > 0;
         for (dem_index j = 0; j < n && !coupled; j++) row_pair_put(f + 2 * j, 0, force_of_springs(e, j));
         for (dem_index j = 0; j < n && coupled; j++) vec2_put(f, j, force_of_bonds(e, j));
         return;
     }
     if (!e->have_corners) list_corners(e, nodes);
     for (dem_index j = 0; j < n; j++) {
-        const bool none = e->places[j].corners == e->places[j + 1].corners;
+        const bool none = e->lists.places[j].corners == e->lists.places[j + 1].corners;
         const vec2 force = force_of_bonds(e, j), further = force_of_triangles(e, j, nodes->list[j], x);
         vec2_put(f, j, none ? force : vec2_add(force, further));
     }
@@ -408,13 +443,13 @@ void local_elements_push_moved(local_elements *e, const local_nodes *nodes, dem_
                                const double *x, double *f)
 {
     const dem_index n = nodes->end[ring], n_pulling = n_moved < n ? n_moved : n;
-    if (!e->by_node) {
-        pull(e, e->places[n].bonds, x);
-        add_up_bonds(e, e->places[n].bonds, nodes->end[ring + 1], f);
+    if (!e->lists.by_node) {
+        pull(e, e->lists.places[n].bonds, x);
+        add_up_bonds(e, e->lists.places[n].bonds, nodes->end[ring + 1], f);
         return;
     }
-    pull(e, e->places[n_pulling].bonds, x);
-    push_coupled(e, e->places[n_pulling].coupled, x);
+    pull(e, e->lists.places[n_pulling].bonds, x);
+    push_coupled(e, e->lists.places[n_pulling].coupled, x);
     add_up_by_node(e, nodes, n_moved, ring, x, f);
 }
 

@@ -28,7 +28,14 @@ typedef struct local_forces {
     void (*accelerate_one)(const void *self, dem_index node, const double *y, double *a);
     /** Lists what acts between the nodes, for the calls of accelerate() that follow. */
     dem_status (*gather)(void *self, const local_nodes *nodes);
-    /** The same after elements between the nodes of ring 0 have changed. */
+    /** Fills in the rings round one node instead, and lists what acts there, as both were when they were kept. There
+     *  are no nodes yet, but nodes->n_rings is set.
+     *  \return false, and no nodes: nothing is kept, or it may have changed since. NULL: nothing ever is kept */
+    bool (*recall)(void *self, dem_index node, local_nodes *nodes);
+    /** Keeps what has just been gathered of the rings round one node, where it depends on the model alone. NULL where
+     *  recall is. */
+    void (*keep)(void *self, dem_index node, const local_nodes *nodes);
+    /** The same as gather() after elements between the nodes of ring 0 have changed. */
     dem_status (*renew)(void *self, const local_nodes *nodes);
     /** Computes the accelerations a [n][dim] of the nodes of a ring or nearer, in a state that is filled as far as the
      *  next ring. */

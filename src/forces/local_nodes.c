@@ -5,6 +5,7 @@
 #include "forces/local_nodes.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/grow.h"
 #include "base/status.h"
@@ -39,5 +40,18 @@ dem_status local_nodes_append(local_nodes *b, dem_index node)
           "out of memory for what is near an event");
     b->number[node] = (int32_t)b->n;
     b->list[b->n++] = node;
+    return DEM_OK;
+}
+
+dem_status local_nodes_fill(local_nodes *b, dem_index n, const int32_t *list, const dem_index *end)
+{
+    CHECK(grow_array((void **)&b->list, &b->capacity, n, sizeof *b->list), DEM_ERROR_MEMORY,
+          "out of memory for what is near an event");
+    for (dem_index j = 0; j < n; j++) {
+        b->list[j] = list[j];
+        b->number[list[j]] = (int32_t)j;
+    }
+    memcpy(b->end, end, sizeof b->end);
+    b->n = n;
     return DEM_OK;
 }

@@ -24,6 +24,9 @@ void local_nodes_destroy(local_nodes *b);
 
 void local_nodes_clear(local_nodes *b);
 
+/** Makes them these n nodes, with their rings; there are none yet.  \return DEM_ERROR_MEMORY: as it was */
+dem_status local_nodes_fill(local_nodes *b, dem_index n, const int32_t *list, const dem_index *end);
+
 /** Adds a node that is not there. */
 dem_status local_nodes_append(local_nodes *b, dem_index node);
 

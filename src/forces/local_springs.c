@@ -20,6 +20,7 @@ void local_springs_create(local_springs *out, const forces *f, const state_layou
 void local_springs_destroy(local_springs *b)
 {
     local_elements_destroy(&b->elements);
+    local_cache_destroy(&b->cache);
     free(b->rigid);
     *b = (local_springs){0};
 }
@@ -92,6 +93,43 @@ static dem_status local_springs_gather(void *self, const local_nodes *nodes)
     return local_elements_list(&b->elements, nodes, !(apart && forces_are_plain(b->forces)));
 }
 
+/* ---- lists that are kept ---- */
+
+/* Whether lists depend on the model alone: no node is near another surface, and all elements that are listed, each at a
+ * node that moves, are whole. */
+static bool are_untouched(const forces *f, const local_nodes *nodes)
+{
+    for (dem_index j = 0; f->elements != NULL && j < local_nodes_n_moving(nodes); j++)
+        if (f->elements->node[nodes->list[j]]) return false;
+    return are_apart(f, nodes);
+}
+
+/* Damping is not listed, and rigid bodies are found by way of their nodes. */
+static bool keeps_lists(const forces *f)
+{
+    return !forces_couple_velocities(f) && f->model->rigid.n == 0;
+}
+
+static void local_springs_keep(void *self, dem_index node, const local_nodes *nodes)
+{
+    local_springs *b = self;
+    if (keeps_lists(b->forces) && are_untouched(b->forces, nodes))
+        local_cache_keep(&b->cache, node, nodes, &b->elements.lists);
+}
+
+static bool local_springs_recall(void *self, dem_index node, local_nodes *nodes)
+{
+    local_springs *b = self;
+    local_record kept;
+    if (!local_cache_find(&b->cache, node, nodes->n_rings, &kept)) return false;
+    if (local_nodes_fill(nodes, kept.n, kept.list, kept.end) != DEM_OK) return false;
+    b->reads_state = false;
+    b->alone = !forces_push(b->forces);
+    if (are_untouched(b->forces, nodes) && local_elements_take(&b->elements, nodes, &kept.lists) == DEM_OK) return true;
+    local_nodes_clear(nodes);
+    return false;
+}
+
 static dem_status local_springs_renew(void *self, const local_nodes *nodes)
 {
     local_springs *b = self;
@@ -100,13 +138,18 @@ static dem_status local_springs_renew(void *self, const local_nodes *nodes)
 
 /* ---- accelerations ---- */
 
-/* Accelerations of n nodes by forces in a, where elements are all that acts between nodes. Velocities are read where
- * masses are damped. */
-static void accelerate_alone(const forces *f, const local_nodes *nodes, dem_index n, const double *v, double *a)
+/* Accelerations of n nodes by forces in a, where elements are all that acts between nodes; those of
+ * forces_undamped_acceleration() two components at a time, unless masses are damped. Then velocities are read. */
+static void accelerate_alone(const local_springs *b, const local_nodes *nodes, dem_index n, const double *v, double *a)
 {
+    const forces *f = b->forces;
     const bool damped = f->mass_damping > 0.0;
-    for (dem_index j = 0; j < n && !damped; j++)
-        vec2_put(a, j, forces_undamped_acceleration(f, nodes->list[j], vec2_at(a, j)));
+    const double *inverse_mass = b->elements.lists.inverse_mass;
+    const row_pair gravity = row_pair_at(f->gravity, 0), none = {0.0, 0.0};
+    for (dem_index j = 0; j < n && !damped; j++) {
+        const row_pair by_force = gravity + inverse_mass[j] * row_pair_at(a + 2 * j, 0);
+        row_pair_put(a + 2 * j, 0, inverse_mass[j] == 0.0 ? none : by_force);
+    }
     for (dem_index j = 0; j < n && damped; j++)
         vec2_put(a, j, forces_acceleration_by(f, nodes->list[j], vec2_at(a, j), vec2_at(v, j)));
 }
@@ -118,7 +161,7 @@ static void accelerate_listed(local_springs *b, const local_nodes *nodes, int ri
     const forces *f = b->forces;
     const dem_index n = nodes->end[ring];
     local_elements_push(&b->elements, nodes, ring, s->x, a);
-    if (b->alone) accelerate_alone(f, nodes, n, s->v, a);
+    if (b->alone) accelerate_alone(b, nodes, n, s->v, a);
     for (dem_index j = 0; j < n && !b->alone; j++) {
         const dem_index i = nodes->list[j];
         const vec2 own = forces_acceleration_of(f, i, vec2_at(a, j), vec2_at(s->v, j), s->y + b->velocities);
@@ -185,7 +228,7 @@ static void local_springs_accelerate_moved(void *self, const local_nodes *nodes,
 {
     local_springs *b = self;
     local_elements_push_moved(&b->elements, nodes, n_moved, ring, s->x, a);
-    accelerate_alone(b->forces, nodes, nodes->end[ring], s->v, a);
+    accelerate_alone(b, nodes, nodes->end[ring], s->v, a);
 }
 
 static bool local_springs_read_state(const void *self)
@@ -198,7 +241,7 @@ static bool local_springs_are_exact(const void *self)
 {
     const local_springs *b = self;
     const forces *f = b->forces;
-    return b->alone && b->elements.by_node && f->external == NULL && f->model->rigid.n == 0;
+    return b->alone && b->elements.lists.by_node && f->external == NULL && f->model->rigid.n == 0;
 }
 
 /* A single node, with the bits of the sweep over all nodes. */
@@ -243,6 +286,8 @@ local_forces local_springs_forces(local_springs *b)
                           .accelerate_one = local_springs_accelerate_one,
                           .are_exact = local_springs_are_exact,
                           .gather = local_springs_gather,
+                          .recall = local_springs_recall,
+                          .keep = local_springs_keep,
                           .renew = local_springs_renew,
                           .accelerate = local_springs_accelerate,
                           .accelerate_moved = local_springs_accelerate_moved,

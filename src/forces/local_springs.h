@@ -4,16 +4,17 @@
 #ifndef DEM_FORCES_LOCAL_SPRINGS_H
 #define DEM_FORCES_LOCAL_SPRINGS_H
 
-#include "forces/local_elements.h"
+#include "forces/local_cache.h"
 #include "forces/local_forces.h"
 
 typedef struct local_springs {
     const forces *forces;
     local_elements elements; /* near the nodes gathered last */
-    dem_index velocities;    /* where they begin in a state */
-    bool alone;              /* elements are all that acts between these, and nothing is given */
-    bool reads_state;        /* accelerations of these depend on the state of all nodes, too */
-    double *rigid;           /* [n_nodes][2] m/s^2, scratch; NULL until rigid bodies need it */
+    local_cache cache;
+    dem_index velocities; /* where they begin in a state */
+    bool alone;           /* elements are all that acts between these, and nothing is given */
+    bool reads_state;     /* accelerations of these depend on the state of all nodes, too */
+    double *rigid;        /* [n_nodes][2] m/s^2, scratch; NULL until rigid bodies need it */
 } local_springs;
 
 /** Borrows the forces, to which nothing may be added afterwards. Free with local_springs_destroy(). */

@@ -157,6 +157,29 @@ TEST(a_closed_contact_holds_its_node)
     assert_close(r.a[1], 0.0, 0.0);
 }
 
+/* The rings are kept for the next event. A contact that has closed meanwhile is found all the same. */
+TEST(rings_that_are_kept_do_not_hide_a_closed_contact)
+{
+    CLEANUP(close_rig) rig r;
+    open_rig(&r, 4);
+    const dem_index candidate = bottom_candidate(&r), node = r.model->surface.nodes[candidate];
+    local_nodes *nodes = &r.b.nodes;
+    assert_ok(gather(&r, candidate));
+    const dem_index n = nodes->n;
+    local_nodes_clear(nodes);
+    assert_true(r.near.recall(r.near.self, node, nodes));
+    assert_int_equal(nodes->n, n);
+    for (int turn = 0; turn < 2; turn++) {
+        assert_ok(gather(&r, candidate));
+        assert_int_equal(r.b.n_groups, turn);
+        assert_int_equal(nodes->n, n); /* the contact ties no nodes together */
+        if (turn == 0)
+            assert_ok(contact_set_close(&r.c.set, candidate + 1, (contact_point){.feature = 0, .slide = 0}));
+        else
+            check_accelerations(&r);
+    }
+}
+
 /* ---- three dimensions, without contact ---- */
 
 /* Ties nodes 8 and 9 of a chain together: both accelerate as their velocities are. */

@@ -290,6 +290,65 @@ TEST(what_fails_between_the_first_nodes_is_listed_anew)
     check_failing(others[5], element_state_soften, 0.0);
 }
 
+/* ---- what is kept ---- */
+
+/* The rings round a node as they were kept, and its accelerations to the bit. */
+static void check_recalled(rig *r, dem_index node, bool expected)
+{
+    double fresh[2 * 64];
+    const local_state s = {0.0, r->x, r->v, r->y};
+    gather(r, node);
+    const dem_index n = r->nodes.n, size = 2 * local_nodes_n_moving(&r->nodes);
+    dem_index list[64], end[LOCAL_NODES_RINGS];
+    assert_true(n <= 64);
+    memcpy(list, r->nodes.list, (size_t)n * sizeof *list);
+    memcpy(end, r->nodes.end, sizeof end);
+    r->near.accelerate(r->near.self, &r->nodes, RINGS - 1, &s, r->a);
+    memcpy(fresh, r->a, (size_t)size * sizeof *fresh);
+    local_nodes_clear(&r->nodes);
+    assert_int_equal(r->near.recall(r->near.self, node, &r->nodes), expected);
+    assert_int_equal(r->nodes.n, expected ? n : 0);
+    if (!expected) return;
+    assert_memory_equal(r->nodes.list, list, (size_t)n * sizeof *list);
+    assert_memory_equal(r->nodes.end, end, (RINGS + 1) * sizeof *end);
+    for (dem_index j = 0; j < n; j++) assert_int_equal(r->nodes.number[list[j]], j);
+    r->near.accelerate(r->near.self, &r->nodes, RINGS - 1, &s, r->a);
+    assert_memory_equal(r->a, fresh, (size_t)size * sizeof *fresh);
+}
+
+static void keep(rig *r, dem_index node)
+{
+    gather(r, node);
+    r->near.keep(r->near.self, node, &r->nodes);
+}
+
+/* Of two nodes, after the body has moved on; and no longer where an element near has broken or softened. */
+TEST(what_was_listed_is_kept_until_something_near_fails)
+{
+    for (int k = -1; k < N_OTHERS; k++) {
+        const kind of = k < 0 ? plain : others[k];
+        CLEANUP(close_rig) rig r;
+        CLEANUP(element_state_destroy) element_state state;
+        open_rig(&r, of);
+        const dem_index node[2] = {r.layout.n_nodes / 2, 0};
+        const bool listed = of.damping_time == 0.0;
+        for (int q = 0; q < 2; q++) keep(&r, node[q]);
+        for (int q = 0; q < 2; q++) check_recalled(&r, node[q], listed);
+        shake(&r, 0.5 * of.noise);
+        for (int q = 0; q < 2; q++) check_recalled(&r, node[q], listed);
+        check_recalled(&r, node[0] + 1, false);
+        assert_ok(element_state_create(&state, &r.model->lattice, &r.model->springs));
+        r.acting.elements = &state;
+        check_recalled(&r, node[0], listed);
+        const dem_index near = r.model->springs.spring[r.model->springs.row[node[0]]];
+        element_state_break_spring(&state, near);
+        check_recalled(&r, node[0], false);
+        keep(&r, node[0]); /* in vain */
+        check_recalled(&r, node[0], false);
+        check_recalled(&r, node[1], listed);
+    }
+}
+
 /* ---- what is given ---- */
 
 TEST(given_forces_act_beside_those_of_elements)
