@@ -18,6 +18,12 @@ INLINE row_pair row_pair_at(const double *row, int d)
     return d < 2 ? (row_pair){row[d], row[d + 1]} : (row_pair){row[d], 0.0};
 }
 
+/** Both components of a row that begins at a multiple of 16 bytes, as malloc() aligns memory. */
+INLINE row_pair row_pair_aligned(const double *row)
+{
+    return *(const row_pair *)row;
+}
+
 INLINE void row_pair_put(double *row, int d, row_pair a)
 {
     row[d] = a[0];

@@ -328,10 +328,10 @@ static inline double smaller(double a, double b)
 static double leeway_of(const local_elements *e, dem_index k, const double *x)
 {
     const local_guarded *g = &e->lists.guarded[k];
-    const vec2 from = vec2_at(x, g->corner[0]);
-    const vec2 u = vec2_sub(vec2_at(x, g->corner[1]), from), w = vec2_sub(vec2_at(x, g->corner[2]), from);
-    const double spare = 0.5 * vec2_cross(u, w) - margin * e->lists.onset[k];
-    const double size = fabs(u.x) + fabs(u.y) + fabs(w.x) + fabs(w.y);
+    const row_pair from = row_pair_at(x + 2 * g->corner[0], 0);
+    const row_pair u = row_pair_at(x + 2 * g->corner[1], 0) - from, w = row_pair_at(x + 2 * g->corner[2], 0) - from;
+    const row_pair products = u * (row_pair){w[1], w[0]}, sizes = row_pair_absolute(u) + row_pair_absolute(w);
+    const double spare = 0.5 * (products[0] - products[1]) - margin * e->lists.onset[k], size = sizes[0] + sizes[1];
     return spare >= 0.0 ? smaller(0.5 * spare / size, 0.25 * size) : -1.0;
 }
 
@@ -389,7 +389,7 @@ static row_pair force_of_springs(const local_elements *e, dem_index j)
     const int32_t *pull = e->lists.pulls + e->lists.places[j].pulls, *const end =
                                                                          e->lists.pulls + e->lists.places[j + 1].pulls;
     row_pair sum = {0.0, 0.0};
-    for (; pull < end; pull++) sum += row_pair_at(both + *pull, 0);
+    for (; pull < end; pull++) sum += row_pair_aligned(both + *pull);
     return sum;
 }
 
