@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 import weakref
 
@@ -372,6 +373,34 @@ class Callbacks(Case):
             self.assertTrue(0.0 < t < 1e3)
             simulation.advance(t + 1e-5)
             self.assertEqual(simulation.t, t + 1e-5)
+
+    def test_no_interrupt_is_lost_between_functions_of_python(self):
+        """Most come while the library computes, and are seen by the interpreter as the next callback begins."""
+        def force(t, nodes, x, v):
+            return np.zeros_like(x)
+
+        handler = signal.getsignal(signal.SIGINT)
+        with dem.Simulation(disc(spacing=1e-3), floor(), force=force) as simulation:
+            seconds = 4000 * simulation.options.max_step  # of some tenths on the wall
+            for k in range(8):
+                timer = threading.Timer(0.02 + 0.003 * k, lambda: os.kill(os.getpid(), signal.SIGINT))
+                timer.start()
+                with self.assertRaises(KeyboardInterrupt):
+                    simulation.advance(simulation.t + seconds)
+                timer.join()
+        self.assertIs(signal.getsignal(signal.SIGINT), handler)
+
+    def test_an_interrupt_within_a_function_of_python(self):
+        def frame(s):
+            os.kill(os.getpid(), signal.SIGINT)
+            threading.Event().wait(5.0)
+
+        with dem.Simulation(disc(), floor()) as simulation:
+            simulation.observe(frame=frame, interval=1e-3)
+            start = time.monotonic()
+            with self.assertRaises(KeyboardInterrupt):
+                simulation.advance(5e-3)
+            self.assertLess(time.monotonic() - start, 4.0, "the wait was cut short")
 
 
 class Threads(Case):
