@@ -51,10 +51,15 @@ typedef struct case_pool {
 static void be_case(const case_pool *p, size_t k)
 {
     const case_process *own = &p->list[k];
+    host h = *p->command->host;
+    command own_command = *p->command;
+    h.terminal = false;
+    h.part = &p->part[k];
+    own_command.host = &h;
     signals_leave_children();
     const bool good =
         dup2(fileno(own->out.file), STDOUT_FILENO) >= 0 && dup2(fileno(own->err.file), STDERR_FILENO) >= 0;
-    exit(good ? streams_end("dem_batch", job_do(p->command, p->all->paths[k], &p->part[k])) : (int)EXIT_IO);
+    exit(good ? streams_end("dem_batch", job_do(&own_command, p->all->paths[k])) : (int)EXIT_IO);
 }
 
 /* Closes the file.  \return errno, or 0 */
@@ -134,9 +139,10 @@ static void tell_all(const case_pool *p, int number)
 
 static void pass_on(case_pool *p)
 {
-    if (signals_checkpoint()) tell_all(p, SIGUSR1);
-    if (signals_end() == NULL || p->is_end_passed_on) return;
-    tell_all(p, signals_end_number());
+    wishes *asked = p->command->host->wishes;
+    if (wishes_checkpoint(asked)) tell_all(p, SIGUSR1);
+    if (asked->end == 0 || p->is_end_passed_on) return;
+    tell_all(p, asked->end);
     p->is_stopped = p->is_end_passed_on = true;
 }
 
@@ -152,7 +158,7 @@ static void show_line(case_pool *p)
 {
     const size_t n = p->all->n;
     double sum = 0.0;
-    if (!p->command->terminal) return;
+    if (!p->command->host->terminal) return;
     for (size_t k = 0; k < p->n_begun; k++) sum += p->list[k].pid > 0 ? p->part[k] : 1.0;
     clear_line(p);
     p->width = printf("%5.1f %%  %zu of %zu done, %zu running", 100.0 * sum / (double)n, p->n_begun - p->n_running, n,

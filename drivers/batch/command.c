@@ -5,7 +5,6 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "wall_clock.h"
 
@@ -50,13 +49,14 @@ static const action_word action_words[] = {{"--check", COMMAND_CHECK},       {"-
                                            {"--version", COMMAND_VERSION},   {"--help", COMMAND_HELP}};
 static const size_t n_actions = sizeof action_words / sizeof action_words[0];
 
-__attribute__((format(printf, 1, 2))) static bool refuse(const char *format, ...)
+__attribute__((format(printf, 2, 3))) static bool refuse(const command *c, const char *format, ...)
 {
+    FILE *err = c->host->err;
     va_list arguments;
     va_start(arguments, format);
-    (void)fprintf(stderr, "dem_batch: error: ");
-    (void)vfprintf(stderr, format, arguments);
-    (void)fprintf(stderr, "\n%s", usage);
+    (void)fprintf(err, "dem_batch: error: ");
+    (void)vfprintf(err, format, arguments);
+    (void)fprintf(err, "\n%s", usage);
     va_end(arguments);
     return false;
 }
@@ -73,7 +73,7 @@ static const char *word_of(command_action wanted)
 
 static bool parse_outdir(command *c, const char *folder)
 {
-    if (folder == NULL || folder[0] == '\0') return refuse("'--outdir' needs a folder");
+    if (folder == NULL || folder[0] == '\0') return refuse(c, "'--outdir' needs a folder");
     c->outdir = folder;
     return true;
 }
@@ -82,7 +82,7 @@ static bool parse_index(command *c, const char *number)
 {
     const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
     if (n == 0 || n > 9 || number[n] != '\0' || (c->index = strtol(number, NULL, 10)) < 1)
-        return refuse("'--index' needs the number of a deck, from 1%s%s", number == NULL ? "" : ", got ",
+        return refuse(c, "'--index' needs the number of a deck, from 1%s%s", number == NULL ? "" : ", got ",
                       number == NULL ? "" : number);
     return true;
 }
@@ -91,60 +91,60 @@ static bool parse_jobs(command *c, const char *number)
 {
     const size_t n = number == NULL ? 0 : strspn(number, "0123456789");
     if (n == 0 || n > 4 || number[n] != '\0' || (c->jobs = strtol(number, NULL, 10)) < 1)
-        return refuse("'--jobs' needs a number from 1 to 9999%s%s", number == NULL ? "" : ", got ",
+        return refuse(c, "'--jobs' needs a number from 1 to 9999%s%s", number == NULL ? "" : ", got ",
                       number == NULL ? "" : number);
     return true;
 }
 
-static bool parse_seconds(double *out, const char *option, const char *text)
+static bool parse_seconds(const command *c, double *out, const char *option, const char *text)
 {
     char *end = NULL;
     const double seconds = text == NULL ? 0.0 : strtod(text, &end);
     if (text == NULL || end == text || *end != '\0' || !(seconds > 0.0))
-        return refuse("'%s' needs seconds, > 0%s%s", option, text == NULL ? "" : ", got ", text == NULL ? "" : text);
+        return refuse(c, "'%s' needs seconds, > 0%s%s", option, text == NULL ? "" : ", got ", text == NULL ? "" : text);
     *out = seconds;
     return true;
 }
 
 static bool parse_interval(command *c, const char *text)
 {
-    return parse_seconds(&c->checkpoint_interval, "--checkpoint-interval", text);
+    return parse_seconds(c, &c->checkpoint_interval, "--checkpoint-interval", text);
 }
 
 static bool parse_max_wall(command *c, const char *text)
 {
-    return parse_seconds(&c->max_wall, "--max-wall", text);
+    return parse_seconds(c, &c->max_wall, "--max-wall", text);
 }
 
 static bool parse_set(command *c, const char *text)
 {
     if (text == NULL || !setting_parse(&c->settings[c->n_settings], text))
-        return refuse("'--set' needs group.key=value or group(k).key=value%s%s", text == NULL ? "" : ", got ",
+        return refuse(c, "'--set' needs group.key=value or group(k).key=value%s%s", text == NULL ? "" : ", got ",
                       text == NULL ? "" : text);
     c->n_settings++;
     return true;
 }
 
-static bool set_limit(double *limit, const char *option, const char *number, double unit)
+static bool set_limit(const command *c, double *limit, const char *option, const char *number, double unit)
 {
-    return limit_set(limit, number, unit) || refuse("'%s' needs a number above 0%s%s", option,
+    return limit_set(limit, number, unit) || refuse(c, "'%s' needs a number above 0%s%s", option,
                                                     number == NULL ? "" : ", got ", number == NULL ? "" : number);
 }
 
 static bool parse_memory(command *c, const char *number)
 {
     c->memory_given = true;
-    return set_limit(&c->most.memory, "--max-memory", number, 1e9);
+    return set_limit(c, &c->most.memory, "--max-memory", number, 1e9);
 }
 
 static bool parse_steps(command *c, const char *number)
 {
-    return set_limit(&c->most.steps, "--max-steps", number, 1.0);
+    return set_limit(c, &c->most.steps, "--max-steps", number, 1.0);
 }
 
 static bool parse_disk(command *c, const char *number)
 {
-    return set_limit(&c->most.disk, "--max-disk", number, 1e9);
+    return set_limit(c, &c->most.disk, "--max-disk", number, 1e9);
 }
 
 static const struct {
@@ -160,7 +160,7 @@ static bool parse_word(command *c, const char *word)
 {
     for (size_t k = 0; k < n_actions; k++) {
         if (strcmp(word, action_words[k].word) != 0) continue;
-        if (c->action != COMMAND_RUN) return refuse("'%s' does not go with '%s'", word, word_of(c->action));
+        if (c->action != COMMAND_RUN) return refuse(c, "'%s' does not go with '%s'", word, word_of(c->action));
         c->action = action_words[k].action;
         return true;
     }
@@ -178,7 +178,7 @@ static bool parse_word(command *c, const char *word)
         *flags[k].set = true;
         return true;
     }
-    if (word[0] == '-' || word[0] == '\0') return refuse("'%s' is no option", word);
+    if (word[0] == '-' || word[0] == '\0') return refuse(c, "'%s' is no option", word);
     c->decks[c->n_decks++] = word;
     return true;
 }
@@ -192,20 +192,21 @@ static bool parse_all(command *c, char **argv)
         if (!(valued ? options[k].parse(c, *++word) : parse_word(c, *word))) return false;
     }
     const bool needs_deck = c->action == COMMAND_RUN || c->action == COMMAND_CHECK || c->action == COMMAND_ECHO;
-    if (needs_deck && c->n_decks == 0) return refuse("no deck");
-    c->json = c->json || !c->terminal;
+    if (needs_deck && c->n_decks == 0) return refuse(c, "no deck");
+    c->json = c->json || !c->host->terminal;
     if (!c->memory_given) c->most.memory /= (double)c->jobs;
-    if (!needs_deck && c->n_decks > 0) return refuse("'%s' takes no deck, got '%s'", word_of(c->action), c->decks[0]);
+    if (!needs_deck && c->n_decks > 0)
+        return refuse(c, "'%s' takes no deck, got '%s'", word_of(c->action), c->decks[0]);
     return true;
 }
 
-exit_code command_parse(command *c, int argc, char **argv)
+exit_code command_parse(command *c, const host *h, int argc, char **argv)
 {
     const size_t n = (size_t)argc + 1;
-    *c = (command){.action = COMMAND_RUN,
+    *c = (command){.host = h,
+                   .action = COMMAND_RUN,
                    .outdir = ".",
                    .most = limit_default(),
-                   .terminal = isatty(STDOUT_FILENO) == 1,
                    .jobs = 1,
                    .checkpoint_interval = 600.0,
                    .max_wall = (double)INFINITY,
@@ -213,7 +214,7 @@ exit_code command_parse(command *c, int argc, char **argv)
     c->decks = calloc(n, sizeof *c->decks);
     c->settings = calloc(n, sizeof *c->settings);
     if (c->decks != NULL && c->settings != NULL) return parse_all(c, argv + 1) ? EXIT_DONE : EXIT_USAGE;
-    (void)fprintf(stderr, "dem_batch: error: out of memory\n");
+    (void)fprintf(h->err, "dem_batch: error: out of memory\n");
     return EXIT_MEMORY;
 }
 

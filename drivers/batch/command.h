@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "host.h"
 #include "limit.h"
 #include "outcome.h"
 #include "setting.h"
@@ -22,13 +23,13 @@ typedef enum command_action {
 
 /** Texts are those of argv. */
 typedef struct command {
+    const host *host;
     command_action action;
     const char *outdir; /* made when the first output is to be written */
     bool overwrite, resume_anyway, verbose;
     bool serial;                    /* by itself, though a launcher has started several processes */
     bool mpi;                       /* by ranks, whatever the environment says of a launcher */
     const struct rank_group *ranks; /* that make each run; NULL: this process alone does */
-    bool terminal;                  /* standard output is one */
     bool json;                      /* results go to standard output, too: as asked for, or where programs read it */
     long jobs;                      /* cases at once, in processes of their own if more than one */
     limits most;                    /* of each case; disk infinite: what is free */
@@ -41,8 +42,8 @@ typedef struct command {
     setting *settings;  /* [n_settings] */
 } command;
 
-/** What is wrong with it is said on standard error. To be freed in any case. */
-exit_code command_parse(command *c, int argc, char **argv);
+/** What is wrong with it is said to the host, which is kept. To be freed in any case. */
+exit_code command_parse(command *c, const host *h, int argc, char **argv);
 void command_free(command *c);
 
 void command_help(FILE *out);

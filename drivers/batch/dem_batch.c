@@ -1,105 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The batch driver. Exit codes: docs/cluster.md. */
+/* The batch driver as a program. Exit codes: docs/cluster.md. */
+#include <unistd.h>
+
 #include <dem/trajectory.h>
 
+#include "batch.h"
 #include "case_pool.h"
-#include "job.h"
-#include "launcher.h"
-#include "preview.h"
-#include "rank_group.h"
-#include "schema.h"
 #include "signals.h"
 #include "streams.h"
-
-/* One after the other, whatever becomes of each, until one is stopped; the largest code is the worst. */
-static exit_code do_in_turn(const command *c, const cases *all)
-{
-    exit_code worst = EXIT_DONE;
-    for (size_t k = 0; k < all->n; k++) {
-        const exit_code code = worst == EXIT_STOPPED ? job_leave(c, all->paths[k]) : job_do(c, all->paths[k], NULL);
-        if (code > worst) worst = code;
-        (void)fflush(stdout);
-    }
-    return worst;
-}
-
-static exit_code do_cases(const command *c)
-{
-    outcome found = {0};
-    cases all;
-    exit_code worst = EXIT_DONE;
-    if (!cases_find(&all, c, &found))
-        worst = found.code;
-    else
-        worst = c->jobs > 1 ? case_pool_do(c, &all) : do_in_turn(c, &all);
-    cases_free(&all);
-    return worst;
-}
-
-/* Without MPI several processes would each do all of it, and get in each other's way. */
-static exit_code refuse_copies(const launcher *l, const char *why)
-{
-    if (l->reports)
-        (void)fprintf(stderr,
-                      "dem_batch: error: %s says that %ld processes were started, which cannot be ranks (%s): start it "
-                      "without mpirun or srun, or with --serial where each has an output of its own\n",
-                      l->variable != NULL ? l->variable : "--mpi", l->processes, why);
-    launcher_let_report(l);
-    return EXIT_USAGE;
-}
-
-/* Rank 0 does what is asked for, and the others help. */
-static exit_code do_as_ranks(const command *c, const launcher *l)
-{
-    char why[RANK_GROUP_REASON];
-    rank_group group;
-    command own = *c;
-    exit_code code = EXIT_DONE;
-    if (c->jobs > 1) return refuse_copies(l, "with --jobs a process does cases by itself");
-    if (!launcher_knows_all(l) && !c->mpi)
-        return refuse_copies(l, "their number is not known; --mpi tells that they are");
-    if (!rank_group_begin(&group, why)) return refuse_copies(l, why);
-    if (group.size < l->processes) {
-        (void)snprintf(why, sizeof why, "this MPI knows of %d only: it is not that of the launcher", group.size);
-        (void)rank_group_end(&group, EXIT_USAGE);
-        return refuse_copies(l, why);
-    }
-    own.ranks = &group;
-    if (group.rank == 0) code = do_cases(&own);
-    return (exit_code)rank_group_end(&group, (int)code);
-}
-
-static exit_code do_all(const command *c)
-{
-    const launcher l = launcher_find();
-    const bool is_alone = c->action != COMMAND_RUN || c->serial || (l.processes == 1 && !c->mpi);
-    return is_alone ? do_cases(c) : do_as_ranks(c, &l);
-}
-
-static exit_code act(const command *c)
-{
-    char versions[256];
-    switch (c->action) {
-    case COMMAND_TEMPLATE:
-        schema_template(stdout);
-        break;
-    case COMMAND_KEYS:
-        schema_document(stdout);
-        break;
-    case COMMAND_HELP:
-        command_help(stdout);
-        break;
-    case COMMAND_VERSION:
-        preview_versions(versions, sizeof versions);
-        (void)puts(versions);
-        break;
-    case COMMAND_RUN:
-    case COMMAND_CHECK:
-    case COMMAND_ECHO:
-        return do_all(c);
-    }
-    return EXIT_DONE;
-}
 
 int main(int argc, char **argv)
 {
@@ -107,9 +15,10 @@ int main(int argc, char **argv)
     streams_begin();
     signals_catch();
     dem_hdf5_skip_exit();
-    exit_code code = command_parse(&c, argc, argv);
+    const host h = {.out = stdout, .err = stderr, .terminal = isatty(STDOUT_FILENO) == 1, .wishes = signals_wishes()};
+    exit_code code = command_parse(&c, &h, argc, argv);
     if (c.action == COMMAND_RUN) signals_catch_end();
-    if (code == EXIT_DONE) code = act(&c);
+    if (code == EXIT_DONE) code = batch_do(&c, case_pool_do);
     command_free(&c);
     return streams_end("dem_batch", code);
 }

@@ -22,7 +22,6 @@
 #include "relaxation.h"
 #include "report.h"
 #include "result.h"
-#include "signals.h"
 #include "step_report.h"
 #include "wall_clock.h"
 
@@ -206,10 +205,10 @@ static void check_success(job *j)
                      "not at rest at t_end = %g s: the residual is %.3g, %.3g is asked for", d->t_end, rest->reached,
                      d->residual);
     else if (d->residual > 0.0)
-        (void)printf("rest       residual %.3g at %.6g s\n", rest->reached, rest->t);
+        (void)fprintf(j->log.out, "rest       residual %.3g at %.6g s\n", rest->reached, rest->t);
     if (d->options.pause > 0.0)
-        (void)printf("pause      ramps are at %.6g s, they stood still after breaks\n",
-                     dem_simulation_ramp_time(j->simulation));
+        (void)fprintf(j->log.out, "pause      ramps are at %.6g s, they stood still after breaks\n",
+                      dem_simulation_ramp_time(j->simulation));
 }
 
 /* What has no result is kept as it is, for a look and for a later end. */
@@ -304,7 +303,7 @@ static void conclude(job *j)
     if (line == NULL)
         outcome_fail(&j->outcome, EXIT_MEMORY, j->file, "out of memory");
     else if (j->command->json)
-        (void)fputs(line, stdout);
+        (void)fputs(line, j->log.out);
     free(line);
 }
 
@@ -317,7 +316,8 @@ static bool is_done(job *j, const char *reason)
     char *line = result_read_done(path, hash);
     output_beside(path, j->path, ".lock");
     if (line != NULL && j->lock.file < 0) lock_clear(path);
-    if (line != NULL) (void)printf("%s: done already, %s\n%s", j->path, reason, j->command->json ? line : "");
+    if (line != NULL)
+        (void)fprintf(j->log.out, "%s: done already, %s\n%s", j->path, reason, j->command->json ? line : "");
     j->reported = line != NULL;
     free(line);
     return j->reported;
@@ -366,7 +366,7 @@ static bool fits(job *j)
     if (c->action == COMMAND_ECHO)
         j->most.disk = j->most.steps = (double)INFINITY;
     else if (!isfinite(j->most.disk) && !limit_see_disk(&j->most, c->outdir, j->deck.name))
-        (void)fprintf(stderr, "%s: warning: the file system does not say what is free\n", c->outdir);
+        (void)fprintf(c->host->err, "%s: warning: the file system does not say what is free\n", c->outdir);
     return keeps(j, &needed);
 }
 
@@ -448,7 +448,7 @@ static bool make_way(job *j, exit_code code, const char *where, const char *reas
     } else if (!output_set_aside(j->path, why)) {
         outcome_fail(&j->outcome, EXIT_IO, j->path, "%s", why);
     } else {
-        (void)printf("%s: set aside as %s\n", j->path, why);
+        (void)fprintf(j->log.out, "%s: set aside as %s\n", j->path, why);
         checkpoint_file_source_free(&j->source);
         return true;
     }
@@ -572,20 +572,22 @@ static void dismiss(job *j)
 
 static job new_job(const command *c, const char *path)
 {
-    return (job){.command = c,
-                 .file = path,
-                 .log = {.out = stdout, .terminal = isatty(STDOUT_FILENO) == 1, .verbose = c->verbose},
-                 .lock = {.file = -1},
-                 .start = time(NULL),
-                 .wall_start = wall_clock()};
+    const host *h = c->host;
+    return (job){
+        .command = c,
+        .file = path,
+        .log = {.out = h->out, .part = h->part, .wishes = h->wishes, .terminal = h->terminal, .verbose = c->verbose},
+        .outcome = {.err = h->err},
+        .lock = {.file = -1},
+        .start = time(NULL),
+        .wall_start = wall_clock()};
 }
 
-exit_code job_do(const command *c, const char *path, volatile double *part)
+exit_code job_do(const command *c, const char *path)
 {
     job j = new_job(c, path);
-    j.log.part = part;
     const bool good = read_deck(&j);
-    if (good && c->action == COMMAND_ECHO) (void)fputs(j.deck.echo, stdout);
+    if (good && c->action == COMMAND_ECHO) (void)fputs(j.deck.echo, j.log.out);
     if (good && c->action == COMMAND_CHECK) check(&j);
     if (good && c->action == COMMAND_RUN && find_path(&j)) claim_and_run(&j);
     if (c->action == COMMAND_RUN && !j.reported) conclude(&j);

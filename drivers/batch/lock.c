@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,6 +11,38 @@
 #include <unistd.h>
 
 enum { HOST = 256 };
+
+/* Locks of the system are those of a process: they keep out no thread of it, and all of a file go where any descriptor
+ * of it is closed. So a process does not open again what it holds. A process that is forked holds nothing. */
+static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+static lock *ours;
+
+static bool is_ours(const char *path)
+{
+    struct stat named;
+    if (stat(path, &named) != 0) return false;
+    for (const lock *l = ours; l != NULL; l = l->next)
+        if (l->device == named.st_dev && l->inode == named.st_ino && l->process == getpid()) return true;
+    return false;
+}
+
+static void note(lock *l)
+{
+    struct stat taken;
+    if (fstat(l->file, &taken) != 0) return;
+    l->device = taken.st_dev;
+    l->inode = taken.st_ino;
+    l->process = getpid();
+    l->next = ours;
+    ours = l;
+}
+
+static void forget(const lock *l)
+{
+    lock **at = &ours;
+    while (*at != NULL && *at != l) at = &(*at)->next;
+    if (*at != NULL) *at = l->next;
+}
 
 /* Says in the file who holds it: the system knows no more than the process, and not on which machine. */
 static void sign(int file)
@@ -42,7 +75,7 @@ static bool is_unsupported(int error)
     return error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL;
 }
 
-lock_status lock_take(lock *l, const char *path, char *why, size_t size)
+static lock_status take(lock *l, const char *path, char *why, size_t size)
 {
     const struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     (void)snprintf(l->path, sizeof l->path, "%s", path);
@@ -69,6 +102,19 @@ lock_status lock_take(lock *l, const char *path, char *why, size_t size)
     }
 }
 
+lock_status lock_take(lock *l, const char *path, char *why, size_t size)
+{
+    lock_status status = LOCK_TAKEN;
+    (void)pthread_mutex_lock(&turn);
+    if (is_ours(path))
+        (void)snprintf(why, size, "another run of this process is writing this output");
+    else
+        status = take(l, path, why, size);
+    if (status == LOCK_HELD) note(l);
+    (void)pthread_mutex_unlock(&turn);
+    return status;
+}
+
 void lock_clear(const char *path)
 {
     char why[128];
@@ -79,7 +125,10 @@ void lock_clear(const char *path)
 void lock_release(lock *l)
 {
     if (l->file < 0) return;
+    (void)pthread_mutex_lock(&turn);
     (void)unlink(l->path); /* before the lock goes: later the name may be another's */
     (void)close(l->file);
+    forget(l);
+    (void)pthread_mutex_unlock(&turn);
     l->file = -1;
 }

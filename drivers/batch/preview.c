@@ -12,7 +12,6 @@
 #include "loading.h"
 #include "memory.h"
 #include "relaxation.h"
-#include "signals.h"
 #include "step_report.h"
 #include "surface_report.h"
 #include "wall_clock.h"
@@ -227,6 +226,12 @@ static void print_rigid(FILE *out, unsigned flags)
     (void)fprintf(out, "none, it is rigid%s\n", x ? " and moves along x" : (y ? " and moves along y" : ""));
 }
 
+/* A wish for the end ends the measuring after what is being measured. */
+static bool is_wanted(const run_log *log)
+{
+    return log->wishes == NULL || log->wishes->end == 0;
+}
+
 /* As the library measures them, by loading the model. A body that is not listed may still be too fast. */
 static void print_body_constants(run_log *log, const dem_model *model, listed_body body)
 {
@@ -247,7 +252,7 @@ static void print_constants(run_log *log, const deck *d, const dem_model *model)
     FILE *out = log->out;
     const dem_index n_bodies = ask_sizes(model).n_bodies;
     const dem_index n = has_bodies_of_groups(d, n_bodies) ? (dem_index)d->n_bodies : n_bodies;
-    for (dem_index k = 0; k < n && k < most_listed && signals_end() == NULL; k++)
+    for (dem_index k = 0; k < n && k < most_listed && is_wanted(log); k++)
         print_body_constants(log, model, list_body(d, n_bodies, k));
     if (!log->verbose && n > most_in_short)
         (void)fprintf(out, "constants  of %lld more bodies: see --verbose\n", (long long)n - most_in_short);
@@ -265,7 +270,6 @@ static void print_frequency(FILE *out, const dem_model *model)
                       dem_model_omega_max(model) / omega);
 }
 
-/* A signal to end ends the measuring after what is being measured. */
 static void print_measured(run_log *log, const deck *d, const dem_model *model)
 {
     FILE *out = log->out;
@@ -277,7 +281,7 @@ static void print_measured(run_log *log, const deck *d, const dem_model *model)
         return;
     }
     print_constants(log, d, model);
-    if (log->verbose && signals_end() == NULL) print_frequency(out, model);
+    if (log->verbose && is_wanted(log)) print_frequency(out, model);
     if (log->verbose && wall_clock() - start > 1.0)
         (void)fprintf(out, "measured   constants and frequency, in %.1f s\n", wall_clock() - start);
 }

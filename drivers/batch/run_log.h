@@ -6,6 +6,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "wishes.h"
+
 enum {
     RUN_LOG_WARNINGS = 32, /* that are kept; all are printed */
     RUN_LOG_TEXT = 512     /* bytes of one */
@@ -14,7 +16,8 @@ enum {
 /** `out` and what follows up to `verbose` to be set, all else to 0. */
 typedef struct run_log {
     FILE *out;
-    volatile double *part; /* of the run that is done, 0 to 1, for another process; NULL: none asks */
+    volatile double *part; /* of the run that is done, 0 to 1, for whoever asks; NULL: nobody does */
+    const wishes *wishes;  /* NULL: nobody has any */
     bool terminal;         /* progress is rewritten in place */
     bool verbose;          /* details, too */
     bool quiet;            /* warnings are kept, not printed: an earlier process of the run has printed them */

@@ -5,17 +5,17 @@
 #include <stddef.h>
 #include <sys/select.h>
 
-static volatile sig_atomic_t end, wanted; /* end: the signal */
+static wishes noted;
 
 static void note_end(int number)
 {
-    end = number;
+    noted.end = number;
 }
 
 static void note_checkpoint(int number)
 {
     (void)number;
-    wanted = 1;
+    noted.checkpoint = 1;
 }
 
 static void note_child(int number)
@@ -44,30 +44,9 @@ void signals_catch_end(void)
     set(SIGXCPU, note_end);
 }
 
-const char *signals_end(void)
+wishes *signals_wishes(void)
 {
-    switch (end) {
-    case 0:
-        return NULL;
-    case SIGINT:
-        return "SIGINT";
-    case SIGXCPU:
-        return "SIGXCPU";
-    default:
-        return "SIGTERM";
-    }
-}
-
-int signals_end_number(void)
-{
-    return end;
-}
-
-bool signals_checkpoint(void)
-{
-    const bool was = wanted != 0;
-    wanted = 0;
-    return was;
+    return &noted;
 }
 
 static void block_children(int how)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the system asks of a run: handlers only take a note. */
+/* What the system asks of the program: handlers only take a note. */
 #ifndef DEM_SIGNALS_H
 #define DEM_SIGNALS_H
 
-#include <stdbool.h>
+#include "wishes.h"
 
 /** From now on SIGUSR1 asks for a checkpoint. Without a reader of its log a run goes on all the same, and a limit on
  *  file sizes is a full disk. What whoever started the program wants ignored stays so, here and below. */
@@ -12,12 +12,8 @@ void signals_catch(void);
 /** From now on SIGTERM, SIGINT and SIGXCPU ask for the end. What only looks at a deck ends by them at once. */
 void signals_catch_end(void);
 
-/** The name of the signal that asked for the end, and its number; NULL and 0: none has. */
-const char *signals_end(void);
-int signals_end_number(void);
-
-/** Whether a checkpoint was asked for since the last call. */
-bool signals_checkpoint(void);
+/** What they have noted, and note. */
+wishes *signals_wishes(void);
 
 /** From now on signals_wait() returns when a process that this one has begun ends. */
 void signals_catch_children(void);

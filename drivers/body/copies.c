@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "copies.h"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_rng.h>
+
+#include "gsl_errors.h"
 
 static size_t count(const schema_instance *body, int axis)
 {
@@ -81,9 +82,9 @@ static bool scatter(double shift[2], const schema_instance *body, size_t k)
 {
     const double most = schema_real(body, "scatter");
     if (!(most > 0.0)) return true;
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    gsl_errors_return();
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    gsl_set_error_handler(handler);
+    gsl_errors_restore();
     if (rng == NULL) return false;
     gsl_rng_set(rng, (unsigned long)schema_real(body, "seed"));
     for (size_t draws = 0; draws < 2 * k; draws++) (void)gsl_rng_get(rng);

@@ -2,7 +2,6 @@
 #include "outcome.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 static exit_code code_of(dem_status status)
@@ -34,7 +33,7 @@ void outcome_fail(outcome *o, exit_code code, const char *where, const char *for
     const size_t used = n > 0 && (size_t)n < sizeof message ? (size_t)n : 0;
     (void)vsnprintf(message + used, sizeof message - used, format, arguments);
     va_end(arguments);
-    (void)fprintf(stderr, "%s\n", message);
+    (void)fprintf(o->err != NULL ? o->err : stderr, "%s\n", message);
     if (o->code != EXIT_DONE) return;
     o->code = code;
     memcpy(o->message, message, sizeof message);

@@ -3,6 +3,8 @@
 #ifndef DEM_OUTCOME_H
 #define DEM_OUTCOME_H
 
+#include <stdio.h>
+
 #include <dem/status.h>
 
 typedef enum exit_code {
@@ -18,13 +20,14 @@ typedef enum exit_code {
 
 enum { OUTCOME_MESSAGE = 8192 }; /* bytes: a path and the library's message have room */
 
-/** To be set to 0. */
+/** To be set to 0, but for `err`. */
 typedef struct outcome {
+    FILE *err; /* where faults are printed; NULL: standard error */
     exit_code code;
     char message[OUTCOME_MESSAGE]; /* "where: error: what" of the first fault; "" without one */
 } outcome;
 
-/** Prints "where: error: what" to standard error. Of several faults the first is the outcome. */
+/** Prints "where: error: what". Of several faults the first is the outcome. */
 void outcome_fail(outcome *o, exit_code code, const char *where, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

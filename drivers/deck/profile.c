@@ -5,9 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_interp.h>
 #include <gsl/gsl_rng.h>
+
+#include "gsl_errors.h"
 
 static const double reach = 3.0; /* of the kernel in correlation lengths; it has fallen to exp(-18) there */
 
@@ -129,9 +130,9 @@ static dem_status roughen(double *out, const profile_recipe *r)
 dem_status profile_sample(double *out, const profile_recipe *recipe)
 {
     if (!is_sound(recipe)) return DEM_ERROR_ARGUMENT;
-    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the process where memory runs out */
+    gsl_errors_return();
     dem_status status = sample_mean(out, recipe);
     if (status == DEM_OK && recipe->roughness > 0.0) status = roughen(out, recipe);
-    gsl_set_error_handler(handler);
+    gsl_errors_restore();
     return status;
 }

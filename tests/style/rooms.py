@@ -16,7 +16,7 @@ ROOMS = [  # pattern, files that may have it
     (r"\bpthread_create\b|#include <(semaphore|stdatomic)", {"src/base/team.c"}),
     (r'#include [<"]mpi\.h', {"src/mpi/mpi_ranks.h"}),
     (r'#include [<"]hdf5\.h', {"src/output/hdf5_api.h"}),
-    (r'#include [<"]gsl/', {"drivers/body/copies.c", "drivers/deck/profile.c",
+    (r'#include [<"]gsl/', {"drivers/body/copies.c", "drivers/body/gsl_errors.c", "drivers/deck/profile.c",
                           "drivers/batch/preview.c"}),
     (r"#include [<\"]zlib", {"src/base/checkpoint_entries.c", "src/output/deflater.c",
                           "src/output/hdf5_chunks.c"}),

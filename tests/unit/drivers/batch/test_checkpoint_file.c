@@ -122,8 +122,9 @@ TEST_WITH(the_first_is_due_after_30_seconds_at_the_latest, NULL, scratch_sweep)
 {
     static const double interval[2] = {600.0, 2.5}, expected[2] = {30.0, 2.5};
     const checkpoint_source source = {0};
+    const host nobody = {0};
     for (int k = 0; k < 2; k++) {
-        const command c = {.checkpoint_interval = interval[k]};
+        const command c = {.host = &nobody, .checkpoint_interval = interval[k]};
         const double earliest = wall_clock();
         const checkpoint_file started = checkpoint_file_start(&c, output, &mine, &source);
         const double latest = wall_clock();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* lock.c: between processes, which is where such locks are. */
+/* lock.c: between processes, which is where such locks are, and within one. */
 #include "unit/close.h"
 
 #include <stdio.h>
@@ -49,6 +49,21 @@ TEST(only_one_process_holds_it)
     assert_int_not_equal(access(path, F_OK), 0);
     assert_int_equal(status_elsewhere(why), LOCK_HELD);
     lock_release(&l); /* of none is nothing */
+}
+
+/* Nor does the one that is refused let go of it. */
+TEST(only_one_run_of_a_process_holds_it)
+{
+    char why[256];
+    lock l = {.file = -1}, second = {.file = -1};
+    assert_int_equal(lock_take(&l, path, why, sizeof why), LOCK_HELD);
+    assert_int_equal(lock_take(&second, path, why, sizeof why), LOCK_TAKEN);
+    assert_string_equal(why, "another run of this process is writing this output");
+    lock_clear(path);
+    assert_int_equal(status_elsewhere(why), LOCK_TAKEN);
+    lock_release(&l);
+    assert_int_equal(lock_take(&second, path, why, sizeof why), LOCK_HELD);
+    lock_release(&second);
 }
 
 /* A file that a killed process has left behind locks nobody out, whatever is in it. */
