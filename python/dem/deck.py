@@ -1,41 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Decks, the namelist files of dem_batch: written from Python, and run by the program in a process of its own, which
-keeps its signals, its output and its memory apart from Python's."""
+"""Decks, the namelist files of dem_batch: written from Python, and run."""
 import json
-import os
 import pathlib
-import shutil
-import subprocess
+import re
 import tempfile
 
+from . import batch
 from .run import Run
 
 
 class DeckError(Exception):
-    """A deck that was refused, or a run that failed: `code` is the exit code of dem_batch, the message what it said."""
+    """A deck that was refused, or a run that failed: `code` is the exit code of dem_batch, the message what it said to
+    standard error, `log` what it said besides. `line` and `column` are where the deck is wrong; None where it is
+    another fault."""
 
-    def __init__(self, code, message):
+    def __init__(self, code, message, log=""):
         super().__init__(message)
-        self.code = code
+        self.code, self.log = code, log
+        place = re.match(r"[^\n]*?:(\d+):(\d+): error: ", message)
+        self.line, self.column = map(int, place.groups()) if place else (None, None)
 
 
-def _program():
-    """DEM_BATCH, else beside this file, else on the path."""
-    beside = pathlib.Path(__file__).with_name("dem_batch")
-    found = os.environ.get("DEM_BATCH") or (str(beside) if beside.exists() else shutil.which("dem_batch"))
-    if found is None:
-        raise FileNotFoundError("dem_batch is neither on the path nor named by DEM_BATCH")
-    return found
-
-
-def _call(*arguments, **how):
-    folder = str(pathlib.Path(__file__).parent)
-    paths = [folder, *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
-    done = subprocess.run([_program(), *map(str, arguments)], capture_output=True, text=True, check=False,
-                          env=os.environ | {"LD_LIBRARY_PATH": ":".join(paths)}, **how)
-    if done.returncode != 0:
-        raise DeckError(done.returncode, done.stderr.strip() or done.stdout.strip())
-    return done.stdout
+def _checked(code, out, err):
+    if code != 0:
+        raise DeckError(code, err.strip() or out.strip(), out)
+    return out
 
 
 def _value(value):
@@ -62,21 +51,30 @@ def deck(**groups):
             lines.append(f"&{name}\n{''.join(keys)}/\n")
     text = "\n".join(lines)
     with tempfile.TemporaryDirectory() as folder:
-        pathlib.Path(folder, "deck.nml").write_text(text, encoding="utf-8")
-        _call("--echo", "deck.nml", cwd=folder)
+        path = pathlib.Path(folder, "deck.nml")
+        path.write_text(text, encoding="utf-8")
+        code, out, err = batch.call(["--echo", path])
+        _checked(code, out, err.replace(str(path), path.name))
     return text
 
 
-def run(path, settings=None, outdir=".", overwrite=False):
-    """Runs a deck, a file, and returns its Run, whose `result` is what NAME.json has. A run that is done already is
-    read; one that was stopped goes on. Of a script that mpirun has started several times each has to have an outdir, or
-    a deck, of its own.
-    settings: keys and their values, {"solver.rtol": 1e-8, "obstacle(2).friction": 0.3}, which take the deck's place
+def run(path, set=None, outdir=".", overwrite=False, progress=False, process=False):
+    """Runs a deck, a file, and returns its Run: its `result` is what NAME.json has, its `log` what dem_batch prints.
+    A run that is done already is read; one that was stopped goes on. Ctrl-C ends it as it ends dem_batch, with a
+    checkpoint, and comes out as KeyboardInterrupt. Of a script that mpirun has started several times each has to have
+    an outdir, or a deck, of its own.
+    set: keys and their values, {"solver.rtol": 1e-8, "obstacle(2).friction": 0.3}, which take the deck's place
     overwrite: renames the output of another problem that is in the way
+    progress: shows a bar, by tqdm
+    process: lets the program do it in a process of its own, which keeps memory and faults apart from Python's
     Raises DeckError for a deck that is refused, and for a run that fails."""
-    words = [word for key, value in (settings or {}).items() for word in ("--set", f"{key}={_value(value)}")]
-    out = _call("--json", "--serial", "--outdir", outdir, *(["--overwrite"] if overwrite else []), *words, path)
-    result = json.loads(next(line for line in reversed(out.splitlines()) if line.startswith("{")))
-    done = Run(result["output"])
-    done.result = result
+    words = ["--json", "--serial", "--outdir", outdir, *(["--overwrite"] if overwrite else []),
+             *(word for key, value in (set or {}).items() for word in ("--set", f"{key}={_value(value)}")), path]
+    if process and progress:
+        raise ValueError("a process of its own shows no progress")
+    lines = _checked(*(batch.spawn(words) if process else batch.call(words, progress))).splitlines(keepends=True)
+    result = next(line for line in reversed(lines) if line.startswith("{"))
+    lines.remove(result)
+    done = Run(json.loads(result)["output"])
+    done.result, done.log = json.loads(result), "".join(lines)
     return done

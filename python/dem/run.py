@@ -11,8 +11,8 @@ from .library import Record, check, library, make, numbers, pointer, view
 
 class Run:
     """A finished run, or the part of one that goes on: frames and tables, as docs/output.md lists them. What dem.run()
-    has returned has the results of NAME.json as `result`."""
-    result = None
+    has returned has the results of NAME.json as `result`, and what was printed as `log`."""
+    result = log = None
 
     def __init__(self, path):
         self.path = str(path)

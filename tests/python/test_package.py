@@ -6,6 +6,7 @@ import contextlib
 import gc
 import io
 import json
+import locale
 import math
 import os
 import pathlib
@@ -16,6 +17,7 @@ import sys
 import tempfile
 import threading
 import time
+import types
 import unittest
 import weakref
 
@@ -308,11 +310,146 @@ class Decks(Case):
 
     def test_faults_are_those_of_the_program(self):
         wrong = self.DECK | {"run": {"tend": 1.0}}
-        with self.assertRaisesRegex(dem.DeckError, "did you mean 't_end'") as caught:
+        with self.assertRaisesRegex(dem.DeckError, "^deck.nml:2:5: error: .*did you mean 't_end'") as caught:
             dem.deck(**wrong)
-        self.assertEqual(caught.exception.code, 3)
-        with self.assertRaisesRegex(dem.DeckError, "No such file"):
+        self.assertEqual((caught.exception.code, caught.exception.line, caught.exception.column), (3, 2, 5))
+        with self.assertRaisesRegex(dem.DeckError, "No such file") as caught:
             dem.run(self.folder / "none.nml")
+        self.assertIsNone(caught.exception.line)
+        with self.assertRaisesRegex(ValueError, "null"):
+            dem.run(self.folder / "a\0b.nml")
+
+
+class RunsInProcess(Case):
+    """dem.run(): the program's results, and nothing of the process is touched."""
+    def run_disc(self, outdir, t_end=8e-3, **how):
+        return dem.run(INPUTS / "disc.nml", set={"run.t_end": t_end, "body.spacing": 5e-3},
+                       outdir=self.folder / outdir, **how)
+
+    def assert_same(self, run, other):
+        for key in run.result:
+            if key not in ("output", "wall_start", "wall_seconds"):
+                self.assertEqual(run.result[key], other.result[key], key)
+        self.assertEqual(run.times.tobytes(), other.times.tobytes())
+        for frame in range(len(run.times)):
+            self.assertEqual(run.positions(frame).tobytes(), other.positions(frame).tobytes())
+            for name in run.arrays:
+                self.assertEqual(run.array(name, frame).tobytes(), other.array(name, frame).tobytes(), name)
+        for table in run.tables:
+            for name, column in run.table(table).items():
+                self.assertEqual(column.tobytes(), other.table(table)[name].tobytes(), (table, name))
+
+    def interrupt(self):
+        timer = threading.Timer(0.15, lambda: os.kill(os.getpid(), signal.SIGINT))
+        timer.start()
+        self.addCleanup(timer.join)
+
+    def test_a_run_is_that_of_the_program_to_the_bit(self):
+        within, beside = self.run_disc("within"), self.run_disc("beside", process=True)
+        self.assert_same(within, beside)
+        steady = [re.sub(r"beside|within|[\d.]+ s left|\d+ steps/s|wall time.*", "", run.log)
+                  for run in (within, beside)]
+        self.assertEqual(*steady)
+        self.assertIn("lattice    525 nodes", within.log)
+
+    def test_an_interrupt_leaves_a_checkpoint_from_which_it_goes_on(self):
+        handler = signal.getsignal(signal.SIGINT)
+        for process in (False, True):
+            with self.subTest(process=process):
+                out = f"stopped{process}"
+                self.interrupt()
+                with self.assertRaises(KeyboardInterrupt):
+                    self.run_disc(out, 10.0, process=process)
+                self.assertFalse((self.folder / out / "disc.lock").exists())
+                stopped = json.loads((self.folder / out / "disc.json").read_text(encoding="utf-8"))
+                self.assertEqual((stopped["status"], stopped["exit_code"]), ("stopped", 75))
+                later = stopped["t"] + 1e-3
+                rest, whole = self.run_disc(out, later, process=process), self.run_disc(f"whole{process}", later)
+                self.assertIn("resumed    from ", rest.log)
+                self.assertEqual(rest.positions(-1).tobytes(), whole.positions(-1).tobytes())
+        self.assertIs(signal.getsignal(signal.SIGINT), handler)
+
+    def test_what_progress_raises_ends_the_run(self):
+        """With a bar in the place of that of tqdm."""
+        seen = []
+
+        class Bar:
+            def __init__(self, total, initial, **_):
+                self.n = initial
+
+            def update(self, more):
+                self.n += more
+                seen.append(self.n)
+                if self.fails and 0.0 < self.n < 1.0:
+                    raise KeyError("bar")
+
+            def close(self):
+                seen.append("closed")
+
+        module = types.ModuleType("tqdm.auto")
+        module.tqdm = Bar
+        before, sys.modules["tqdm.auto"] = sys.modules.get("tqdm.auto"), module
+        self.addCleanup(sys.modules.__setitem__, "tqdm.auto", before)
+        Bar.fails = False
+        self.run_disc("shown", 0.03, progress=True)
+        self.assertEqual(seen[-2:], [1.0, "closed"])
+        self.assertTrue(any(0.0 < part < 1.0 for part in seen[:-2]) and sorted(seen[:-1]) == seen[:-1])
+        Bar.fails = True
+        with self.assertRaisesRegex(KeyError, "bar"):
+            self.run_disc("failed", 10.0, progress=True)
+        self.assertTrue((self.folder / "failed" / "disc.checkpoint").exists())
+
+    def test_runs_in_threads(self):
+        """Each with an output of its own has its bits; of two with one output the later is refused."""
+        alone, found = self.run_disc("alone", 0.03), {}
+
+        def work(name):
+            found[name] = self.run_disc(name, 0.03)
+
+        threads = [threading.Thread(target=work, args=[name]) for name in ("a", "b")]
+        for thread in threads:
+            thread.start()
+        while not (self.folder / "a" / "disc.lock").exists():
+            time.sleep(0.01)
+        with self.assertRaisesRegex(dem.DeckError, "another run of this process is writing this output") as caught:
+            self.run_disc("a", 0.03)
+        self.assertEqual(caught.exception.code, 7)
+        for thread in threads:
+            thread.join()
+        for run in found.values():
+            self.assert_same(run, alone)
+
+    def test_nothing_of_the_process_is_touched(self):
+        """Standard streams, signals, the folder and the locale, in which numbers may have a comma."""
+        signals = [signal.SIGINT, signal.SIGTERM, signal.SIGUSR1, signal.SIGPIPE, signal.SIGXFSZ, signal.SIGCHLD]
+        before = [signal.getsignal(number) for number in signals], os.getcwd(), self.use_commas()
+        with tempfile.TemporaryFile() as caught:
+            kept = [os.dup(number) for number in (1, 2)]
+            for number in (1, 2):
+                os.dup2(caught.fileno(), number)
+            try:
+                run = self.run_disc("quiet")
+                with self.assertRaises(dem.DeckError):
+                    self.run_disc("none", -1.0)
+            finally:
+                for number, copy in zip((1, 2), kept):
+                    os.dup2(copy, number)
+                    os.close(copy)
+            caught.seek(0)
+            self.assertEqual(caught.read(), b"")
+        after = [signal.getsignal(number) for number in signals], os.getcwd(), locale.setlocale(locale.LC_NUMERIC)
+        self.assertEqual(before, after)
+        self.assertEqual(run.result["t_end"], 8e-3)
+
+    def use_commas(self):
+        """Where the system can make such a locale."""
+        made = subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", str(self.folder / "de_DE.UTF-8")],
+                              capture_output=True, check=False)
+        before = locale.setlocale(locale.LC_NUMERIC)
+        self.addCleanup(locale.setlocale, locale.LC_NUMERIC, before)
+        os.environ["LOCPATH"] = str(self.folder)
+        self.addCleanup(os.environ.pop, "LOCPATH")
+        return locale.setlocale(locale.LC_NUMERIC, "de_DE.UTF-8") if made.returncode == 0 else before
 
 
 class Callbacks(Case):
