@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* One pass over the blocks of a layout: the accelerations of their nodes, free of contact. The arithmetic is the same
- * for every instruction set and consists of IEEE operations alone (no fused ones, no estimates), so that every sweep
- * gives the bits of forces_acceleration(). Nodes outside of blocks, and what is rare, are evaluated in
- * forces/kernel.c. */
+ * for every instruction set and rounds as IEEE operations do, so that every sweep gives the bits of
+ * forces_acceleration(). Nodes outside of blocks, and what is rare, are evaluated in forces/kernel.c. */
 #ifndef DEM_ELASTIC_SWEEP_H
 #define DEM_ELASTIC_SWEEP_H
 
