@@ -421,7 +421,7 @@ static dem_status choose_order(builder *b)
     }
     l->reach = (span + LAYOUT_LANES - 1) / LAYOUT_LANES;
     l->ahead = l->reach + 1; /* other lanes of an entry read up to seven nodes further */
-    for (l->ring_rows = LAYOUT_LANES; l->ring_rows < LAYOUT_LANES * (l->reach + 2);) l->ring_rows *= 2;
+    for (l->ring_rows = LAYOUT_LANES; l->ring_rows < LAYOUT_LANES * (l->reach + 3);) l->ring_rows *= 2;
     b->ring.rows = l->ring_rows;
     return DEM_OK;
 }

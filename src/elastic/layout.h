@@ -70,7 +70,7 @@ typedef struct layout {
     intern couples;        /* [LAYOUT_LANES] of three rest lengths and three couplings, from the lowest corner on */
     dem_index reach;       /* blocks: springs go no further up or down */
     dem_index ahead;       /* blocks: positions are read no further away */
-    dem_index ring_rows;   /* nodes whose forces the ring holds, a power of 2: of `reach` + 2 blocks or more */
+    dem_index ring_rows;   /* nodes whose forces the ring holds, a power of 2: of `reach` + 3 blocks or more */
     dem_index ring_length; /* forces in the ring */
 } layout;
 

@@ -419,40 +419,73 @@ INLINE pairs sum_row(const double *here, const row_block *row, int n)
     return force;
 }
 
-/* Passes over the blocks from `block` on; the one before is described by `before` and has been evaluated. Most are
- * blocks of rows with n springs a node; the others, in which rows end, are done by their entries. What a block does is
- * looked up where it changes. Roots are begun before the block before is completed, and divisions follow behind that,
- * so that the divider is busy meanwhile.
- * \return the first block that is not evaluated: one of rows with another number of springs, or that behind the last */
-INLINE dem_index run_rows(pass *p, dem_index block, laws acting, row_block before, int n)
+/* A block that a pass over rows is at: what it does, if it is one of rows, and the vectors and lengths of its springs
+ * until their forces are in the ring. */
+typedef struct row_step {
+    const row_block *row;
+    bool is_row;
+    pairs d[most_rows];
+    lanes length[most_rows];
+} row_step;
+
+/* Measures the springs of a block; where rows end, their forces are in the ring then. */
+INLINE void begin_step(const pass *p, dem_index block, laws acting, row_step *b, int n)
 {
     const sweep *s = p->sweep;
-    row_block now = before;
-    for (bool was_row = true, is_row = true; block < p->last; block++, was_row = is_row) {
-        const bool same = do_the_same(s->layout, block, block - 1);
-        if (!USUALLY(same)) {
-            const int k = describe_row(s->layout, block, &now);
-            if (has_rows(k) && k != n) return block;
-            is_row = k == n;
-        }
-        pairs d[most_rows];
-        lanes length[most_rows];
-        unsigned strained = 0;
-        drift_ahead(p, block, acting);
-        if (USUALLY(is_row)) {
-            measure_row(s->x + 2 * LAYOUT_LANES * block, &now, n, d, length);
-        } else {
-            clear_row(n, d, length);
-            strained = evaluate_springs(s, block, acting, p->ring);
-        }
-        complete(p, block - 1, acting,
-                 USUALLY(was_row) ? sum_row(ring_at(p, block - 1), &before, n)
-                                  : force_on(s, block - 1, acting, p->ring));
-        if (USUALLY(is_row)) store_row(p, ring_row(p, block), &now, n, d, length);
-        if (is_row && acting.watched) strained = strained_in_row(&s->limit[block], &now, length, n);
-        note_strained(s, block, p->first, acting, strained);
-        if (!same) before = now;
+    unsigned strained = 0;
+    drift_ahead(p, block, acting);
+    if (USUALLY(b->is_row)) {
+        measure_row(s->x + 2 * LAYOUT_LANES * block, b->row, n, b->d, b->length);
+        if (acting.watched) strained = strained_in_row(&s->limit[block], b->row, b->length, n);
+    } else {
+        clear_row(n, b->d, b->length);
+        strained = evaluate_springs(s, block, acting, p->ring);
     }
+    note_strained(s, block, p->first, acting, strained);
+}
+
+INLINE void store_step(const pass *p, dem_index block, const row_step *b, int n)
+{
+    if (USUALLY(b->is_row)) store_row(p, ring_row(p, block), b->row, n, b->d, b->length);
+}
+
+INLINE void end_step(pass *p, dem_index block, laws acting, const row_block *row, bool is_row, int n)
+{
+    complete(p, block, acting,
+             USUALLY(is_row) ? sum_row(ring_at(p, block), row, n) : force_on(p->sweep, block, acting, p->ring));
+}
+
+/* Passes over the blocks from `block` on; the one before is described by `first`, and its forces are in the ring. Most
+ * are blocks of rows with n springs a node; the others, in which rows end, are done by their entries. What a block does
+ * is looked up where it changes. Three blocks are in hand at a time: the roots of one are begun, the quotients and
+ * forces of that before follow, and the one before that is completed; none of these waits for another.
+ * \return the first block that is not evaluated: one of rows with another number of springs, or that behind the last;
+ * the one before it is to be completed */
+INLINE dem_index run_rows(pass *p, dem_index block, laws acting, const row_block *first, int n)
+{
+    enum { in_hand = 4 };
+    row_block known[in_hand];
+    const dem_index begin = block;
+    row_step now = {.row = first, .is_row = true}, before = {.row = first};
+    const row_block *completed = first;
+    bool was_row = true;
+    for (int next = 0; block < p->last; block++) {
+        if (!USUALLY(do_the_same(p->sweep->layout, block, block - 1))) {
+            const int k = describe_row(p->sweep->layout, block, &known[next]);
+            if (has_rows(k) && k != n) break;
+            now.row = &known[next];
+            now.is_row = k == n;
+            next = (next + 1) % in_hand;
+        }
+        begin_step(p, block, acting, &now, n);
+        store_step(p, block - 1, &before, n);
+        if (USUALLY(block > begin)) end_step(p, block - 2, acting, completed, was_row, n);
+        completed = before.row;
+        was_row = block == begin || before.is_row;
+        before = now;
+    }
+    store_step(p, block - 1, &before, n);
+    if (block > begin) end_step(p, block - 2, acting, completed, was_row, n);
     return block;
 }
 
@@ -463,7 +496,7 @@ INLINE dem_index pass_rows(pass *p, dem_index block, laws acting)
     if (acting.damped || acting.coupled || block <= p->first || block >= p->last) return block;
     const int n = describe_row(p->sweep->layout, block - 1, &before);
     if (!has_rows(n)) return block;
-    return n == 3 ? run_rows(p, block, acting, before, 3) : run_rows(p, block, acting, before, 4);
+    return n == 3 ? run_rows(p, block, acting, &before, 3) : run_rows(p, block, acting, &before, 4);
 }
 
 /* ---- all blocks ---- */
