@@ -43,7 +43,7 @@ static void drop(led_run *l)
 
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
 {
-    const dem_private_whole whole = {.lattice = &p->lattice};
+    const dem_private_whole whole = {&p->lattice, p->obstacles, p->n_obstacles};
     TRY(dem_private_share_model(&l->model, &whole, &l->ranks));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
@@ -57,7 +57,7 @@ static dem_status create_part(led_run *l, const shared_problem *p, bool resumes,
 /* Rank 0 has put the problem into the entries. */
 static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, const dem_checkpoint *checkpoint)
 {
-    shared_problem p = {.boundaries = NULL};
+    shared_problem p = {0};
     TRY(checkpoint_entries_share(&l->ranks, entries, entries));
     dem_status status = reduce_status(&l->ranks, shared_problem_get(&p, entries), 0.0);
     if (status == DEM_OK) status = create_part(l, &p, resumes, checkpoint);
@@ -91,6 +91,14 @@ static dem_status lead_step(void *context, const dem_simulation *part)
     (void)part;
     show(l);
     return release(l, observers_step(&l->whole->observers, l->whole));
+}
+
+static dem_status lead_event(void *context, const dem_simulation *part, const dem_event *event)
+{
+    const led_run *l = context;
+    (void)part;
+    show(l);
+    return release(l, observers_event(&l->whole->observers, l->whole, event));
 }
 
 static dem_status lead_frame(void *context, const dem_simulation *part)
@@ -136,6 +144,13 @@ static dem_status follow_step(void *context, const dem_simulation *part)
     return follow_observer(context);
 }
 
+static dem_status follow_event(void *context, const dem_simulation *part, const dem_event *event)
+{
+    (void)part;
+    (void)event;
+    return follow_observer(context);
+}
+
 static dem_status follow_frame(void *context, const dem_simulation *part)
 {
     (void)part;
@@ -154,10 +169,11 @@ static dem_status follow_checkpoint(void *context, const dem_simulation *part, d
 static dem_status observe(led_run *l, const order *o)
 {
     const bool leads = l->whole != NULL;
-    const dem_observer steps = {.struct_size = sizeof steps,
-                                .step = leads ? lead_step : follow_step,
-                                .checkpoint = leads ? lead_checkpoint : follow_checkpoint,
-                                .context = l};
+    dem_observer steps = {.struct_size = sizeof steps,
+                          .step = leads ? lead_step : follow_step,
+                          .checkpoint = leads ? lead_checkpoint : follow_checkpoint,
+                          .context = l};
+    if (o->number != 0) steps.event = leads ? lead_event : follow_event;
     for (int k = 0; k < OBSERVERS_MOST; k++) {
         l->frames[k] = (frame_relay){l, k};
         const dem_observer frame = {.struct_size = sizeof frame,
@@ -239,7 +255,7 @@ static order serve(led_run *l)
 static dem_status attach(led_run *l)
 {
     const observers *a = &l->whole->observers;
-    order o = {.kind = ORDER_OBSERVE};
+    order o = {.kind = ORDER_OBSERVE, .number = observers_want_events(a)};
     for (int k = 0; k < a->n; k++)
         if (a->members[k].observer.frame != NULL) o.intervals[k] = a->members[k].observer.interval;
     o = order_pass(&l->ranks, o);
@@ -261,6 +277,11 @@ dem_status led_run_ask(const dem_simulation *whole, order_kind what, dem_index n
     const led_run *l = whole->leads;
     const order o = order_pass(&l->ranks, (order){.kind = what, .number = number});
     return order_answer(l->part, &o, out);
+}
+
+const dem_simulation *led_run_part(const led_run *l)
+{
+    return l->part;
 }
 
 void led_run_gather(dem_simulation *whole)
@@ -291,7 +312,7 @@ void led_run_destroy(led_run *l)
 static dem_status lead(led_run *l, dem_checkpoint *entries, const dem_options *options,
                        const dem_checkpoint *checkpoint)
 {
-    TRY(shared_problem_put(entries, &l->whole->model->lattice, options));
+    TRY(shared_problem_put(entries, l->whole->model, options));
     (void)order_pass(&l->ranks, (order){.kind = ORDER_CREATE, .number = checkpoint != NULL});
     TRY(reduce_status(&l->ranks, DEM_OK, 0.0));
     return create(l, entries, checkpoint != NULL, checkpoint);

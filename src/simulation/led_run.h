@@ -29,6 +29,9 @@ dem_status led_run_advance(dem_simulation *whole, double t_end);
 /** Asks all parts, and writes what they answer. */
 dem_status led_run_ask(const dem_simulation *whole, order_kind what, dem_index number, void *out);
 
+/** Rank 0's part, which every contact and event is in, as it is in every other one: to be asked without an order. */
+const dem_simulation *led_run_part(const led_run *l);
+
 /** Puts the state that is seen into `frame`. */
 void led_run_gather(dem_simulation *whole);
 

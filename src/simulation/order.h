@@ -10,7 +10,7 @@
 typedef enum order_kind {
     ORDER_GO_ON,   /* from an observer, with a status as `number` */
     ORDER_CREATE,  /* a simulation; number 1: it goes on from a checkpoint */
-    ORDER_OBSERVE, /* it, with frames at these intervals, `number` of them */
+    ORDER_OBSERVE, /* it, with frames at these intervals; number 1: with events, too */
     ORDER_ADVANCE, /* to t */
     ORDER_GATHER,  /* positions and velocities */
     ORDER_ENERGY,

@@ -140,7 +140,8 @@ static bool poses_are_known(const dem_simulation *s)
 static const dem_contact *contacts_of(const dem_simulation *s, dem_index *n)
 {
     const run_measures *m = s->measures;
-    if (!m->has_contacts && poses_are_known(s) && s->leads == NULL) list_contacts(s); /* free bodies have none */
+    if (s->leads != NULL) return contacts_of(led_run_part(s->leads), n);
+    if (!m->has_contacts && poses_are_known(s)) list_contacts(s);
     *n = m->n_contacts;
     return m->contacts;
 }
@@ -478,6 +479,7 @@ static void add_motion(const dem_simulation *s, dem_index obstacle, dem_obstacle
 dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, dem_obstacle_load *out)
 {
     TRY(check_pointers("dem_simulation_obstacle", s, out));
+    if (s->leads != NULL) return dem_simulation_obstacle(led_run_part(s->leads), obstacle, out);
     TRY(status_check_number("obstacle", obstacle, s->model->obstacles.n));
     const contact_ledger *ledger = &contact_of(s)->set.ledger;
     const state_layout *l = &s->layout;

@@ -16,7 +16,7 @@ typedef struct array {
     size_t size;
 } array;
 
-enum { N_ARRAYS = 16, NAME_LENGTH = 32 };
+enum { N_ARRAYS = 16, N_NUMBERS = 4, NAME_LENGTH = 32 };
 
 static void list_arrays(dem_lattice *l, array list[N_ARRAYS])
 {
@@ -56,11 +56,20 @@ static dem_status put_boundary(dem_checkpoint *into, const dem_boundary *b, dem_
     return dem_checkpoint_put(into, name_list(name, "share", number), b->share, n * sizeof *b->share);
 }
 
-dem_status shared_problem_put(dem_checkpoint *into, const dem_lattice *lattice, const dem_options *options)
+static dem_status put_obstacle(dem_checkpoint *into, const dem_obstacle *o, dem_index number)
 {
-    dem_lattice view = *lattice;
+    char name[NAME_LENGTH];
+    TRY(dem_checkpoint_put(into, name_list(name, "obstacle", number), o, sizeof *o));
+    return dem_checkpoint_put(into, name_list(name, "points", number), o->points,
+                              2 * (size_t)o->n_points * sizeof *o->points);
+}
+
+dem_status shared_problem_put(dem_checkpoint *into, const dem_model *model, const dem_options *options)
+{
+    dem_lattice view = model->lattice;
+    const obstacle_set *obstacles = &model->obstacles;
     array list[N_ARRAYS];
-    const dem_index numbers[] = {view.n_nodes, view.n_springs, view.n_triangles};
+    const dem_index numbers[N_NUMBERS] = {view.n_nodes, view.n_springs, view.n_triangles, obstacles->n};
     list_arrays(&view, list);
     TRY(dem_checkpoint_put(into, "numbers", numbers, sizeof numbers));
     TRY(dem_checkpoint_put(into, "options", options, sizeof *options));
@@ -68,6 +77,7 @@ dem_status shared_problem_put(dem_checkpoint *into, const dem_lattice *lattice, 
         const void *data = *(void **)list[k].at;
         if (data != NULL) TRY(dem_checkpoint_put(into, list[k].name, data, list[k].size));
     }
+    for (dem_index k = 0; k < obstacles->n; k++) TRY(put_obstacle(into, &obstacles->list[k], k));
     for (dem_index k = 0; k < options->n_boundaries; k++) TRY(put_boundary(into, &options->boundaries[k], k));
     return DEM_OK;
 }
@@ -82,32 +92,49 @@ static dem_status get_boundary(dem_boundary *out, const dem_checkpoint *from, de
     return DEM_OK;
 }
 
-dem_status shared_problem_get(shared_problem *out, const dem_checkpoint *from)
+static dem_status get_obstacle(dem_obstacle *out, const dem_checkpoint *from, dem_index number)
 {
-    shared_problem p = {.lattice = dem_lattice_empty()};
+    char name[NAME_LENGTH];
+    size_t size;
+    TRY(dem_checkpoint_get(from, name_list(name, "obstacle", number), out, sizeof *out));
+    out->points = dem_checkpoint_find(from, name_list(name, "points", number), &size);
+    return DEM_OK;
+}
+
+static void view_lattice(dem_lattice *l, const dem_checkpoint *from)
+{
     array list[N_ARRAYS];
-    dem_index numbers[3];
-    TRY(dem_checkpoint_get(from, "numbers", numbers, sizeof numbers));
-    TRY(dem_checkpoint_get(from, "options", &p.options, sizeof p.options));
-    p.lattice.n_nodes = numbers[0];
-    p.lattice.n_springs = numbers[1];
-    p.lattice.n_triangles = numbers[2];
-    list_arrays(&p.lattice, list);
+    list_arrays(l, list);
     for (int k = 0; k < N_ARRAYS; k++) {
         size_t size;
         const void *data = dem_checkpoint_find(from, list[k].name, &size);
         *(void **)list[k].at = (void *)(uintptr_t)data; /* which nobody changes */
     }
-    const size_t n = (size_t)p.options.n_boundaries;
-    CHECK_MEMORY(p.boundaries = calloc(n + 1, sizeof *p.boundaries));
-    for (dem_index k = 0; k < p.options.n_boundaries; k++) TRY(get_boundary(&p.boundaries[k], from, k));
-    p.options.boundaries = p.boundaries;
-    *out = p;
+}
+
+dem_status shared_problem_get(shared_problem *out, const dem_checkpoint *from)
+{
+    dem_index numbers[N_NUMBERS];
+    *out = (shared_problem){.lattice = dem_lattice_empty()};
+    TRY(dem_checkpoint_get(from, "numbers", numbers, sizeof numbers));
+    TRY(dem_checkpoint_get(from, "options", &out->options, sizeof out->options));
+    out->lattice.n_nodes = numbers[0];
+    out->lattice.n_springs = numbers[1];
+    out->lattice.n_triangles = numbers[2];
+    out->n_obstacles = numbers[3];
+    view_lattice(&out->lattice, from);
+    out->obstacles = calloc((size_t)out->n_obstacles + 1, sizeof *out->obstacles);
+    out->boundaries = calloc((size_t)out->options.n_boundaries + 1, sizeof *out->boundaries);
+    CHECK(out->obstacles != NULL && out->boundaries != NULL, DEM_ERROR_MEMORY, "out of memory for what ranks share");
+    out->options.boundaries = out->boundaries;
+    for (dem_index k = 0; k < out->n_obstacles; k++) TRY(get_obstacle(&out->obstacles[k], from, k));
+    for (dem_index k = 0; k < out->options.n_boundaries; k++) TRY(get_boundary(&out->boundaries[k], from, k));
     return DEM_OK;
 }
 
 void shared_problem_free(shared_problem *p)
 {
+    free(p->obstacles);
     free(p->boundaries);
     *p = (shared_problem){0};
 }

@@ -8,9 +8,11 @@
 #include "scattered.h"
 #include "support.h"
 
+#include "base/checkpoint_entries.h"
 #include "domain/partition.h"
 #include "harness/rank_threads.h"
 #include "model/domain_model.h"
+#include "simulation/led_run.h"
 #include "simulation/private.h"
 
 enum { MOST_RANKS = 7, N_STOPS = 3, TEXT = 256, FLOOR_POINTS = 61 };
@@ -132,7 +134,11 @@ typedef struct outcome {
     double *x, *v; /* [N_STOPS][n_nodes][2] of the whole */
     dem_index n_nodes, n_events, capacity;
     dem_event *events;
-    char failure[TEXT]; /* empty: none */
+    bool asks;            /* at every event what is seen then, */
+    view *at_events;      /* [n_events] which is here; NULL: it does not */
+    dem_checkpoint *kept; /* the first one with a closed contact; NULL: there was none, or it is not looked for */
+    double kept_t;        /* s */
+    char failure[TEXT];   /* empty: none */
 } outcome;
 
 static void make_outcome(outcome *o, dem_index n)
@@ -147,18 +153,8 @@ static void free_outcome(outcome *o)
     free(o->x);
     free(o->v);
     free(o->events);
-}
-
-static dem_status note_event(void *context, const dem_simulation *s, const dem_event *event)
-{
-    outcome *o = context;
-    (void)s;
-    if (o->n_events == o->capacity) {
-        o->capacity = 2 * o->capacity + 64;
-        o->events = realloc(o->events, (size_t)o->capacity * sizeof *o->events);
-    }
-    o->events[o->n_events++] = *event;
-    return DEM_OK;
+    free(o->at_events);
+    dem_checkpoint_destroy(o->kept);
 }
 
 static dem_status look_at_contacts(const dem_simulation *s, view *to)
@@ -171,10 +167,9 @@ static dem_status look_at_contacts(const dem_simulation *s, view *to)
     return status;
 }
 
-/* Ranks write the rows of their own nodes. */
-static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int stop)
+/* \param[out] x, v  as they are seen */
+static dem_status look_at_all(const dem_simulation *s, view *to, const double **x, const double **v)
 {
-    view *to = &o->stops[stop];
     dem_state state = {.struct_size = sizeof state};
     to->counts.struct_size = sizeof to->counts;
     dem_status status = dem_simulation_state(s, &state);
@@ -182,7 +177,7 @@ static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int
     to->energy.struct_size = sizeof to->energy;
     if (status == DEM_OK) status = dem_simulation_energy(s, &to->energy);
     if (status != DEM_OK) return status;
-    const contact_ledger *ledger = &s->automaton.set.ledger;
+    const contact_ledger *ledger = &(s->leads != NULL ? led_run_part(s->leads) : s)->automaton.set.ledger;
     const exact_sum *sums[] = {&ledger->impact, &ledger->projection, &ledger->work};
     to->t = state.t;
     to->step = state.step;
@@ -191,27 +186,76 @@ static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int
     for (int k = 0; k < STATE_TOTALS; k++)
         if (k != STATE_OBSTACLE || state_has_total(&s->layout, STATE_OBSTACLE))
             to->totals[k] = state_total_of(&s->layout, s->seen, (state_total)k);
-    const dem_index first = 2 * stop * o->n_nodes;
-    for (dem_index i = 0; i < s->layout.n_nodes; i++) {
-        if (d != NULL && !d->is_own[i]) continue;
-        memcpy(o->x + first + 2 * domain_number(d, i), state.x + 2 * i, 2 * sizeof *state.x);
-        memcpy(o->v + first + 2 * domain_number(d, i), state.v + 2 * i, 2 * sizeof *state.v);
-    }
+    *x = state.x;
+    *v = state.v;
     return look_at_contacts(s, to);
 }
 
-static dem_status run(const dem_model *model, const scene *sc, outcome *o)
+/* Ranks write the rows of their own nodes. */
+static dem_status look(const dem_simulation *s, const domain *d, outcome *o, int stop)
+{
+    const dem_index first = 2 * stop * o->n_nodes;
+    const double *x, *v;
+    const dem_status status = look_at_all(s, &o->stops[stop], &x, &v);
+    for (dem_index i = 0; i < s->layout.n_nodes && status == DEM_OK; i++) {
+        if (d != NULL && !d->is_own[i]) continue;
+        memcpy(o->x + first + 2 * domain_number(d, i), x + 2 * i, 2 * sizeof *x);
+        memcpy(o->v + first + 2 * domain_number(d, i), v + 2 * i, 2 * sizeof *v);
+    }
+    return status;
+}
+
+static dem_status note_event(void *context, const dem_simulation *s, const dem_event *event)
+{
+    outcome *o = context;
+    const double *x, *v;
+    if (o->n_events == o->capacity) {
+        o->capacity = 2 * o->capacity + 64;
+        o->events = realloc(o->events, (size_t)o->capacity * sizeof *o->events);
+        if (o->asks) o->at_events = realloc(o->at_events, (size_t)o->capacity * sizeof *o->at_events);
+    }
+    o->events[o->n_events++] = *event;
+    if (!o->asks) return DEM_OK;
+    view *to = memset(&o->at_events[o->n_events - 1], 0, sizeof *to);
+    return look_at_all(s, to, &x, &v);
+}
+
+static dem_status keep_checkpoint(void *context, const dem_simulation *s, dem_checkpoint *checkpoint)
+{
+    outcome *o = context;
+    dem_state state = {.struct_size = sizeof state};
+    const dem_status status = dem_simulation_state(s, &state);
+    if (status != DEM_OK || o->kept != NULL || state.n_contacts == 0) return status;
+    o->kept_t = state.t;
+    assert_ok(dem_checkpoint_create(&o->kept));
+    return checkpoint_entries_copy(o->kept, checkpoint);
+}
+
+/* \param leads  ranks that make the run of rank 0, which has the whole; NULL: it makes its own
+ * \param from   of a checkpoint; NULL: the run begins */
+static dem_status run_led(const dem_model *model, const scene *sc, const ranks *leads, const outcome *from, outcome *o)
 {
     dem_simulation *s = NULL;
-    const dem_observer observer = SIZED(dem_observer, .context = o, .event = note_event);
-    dem_status status = dem_simulation_create(&s, model, &sc->options);
+    const dem_checkpoint *checkpoint = from != NULL ? from->kept : NULL;
+    const dem_observer observer =
+        SIZED(dem_observer, .context = o, .event = note_event, .checkpoint = o->asks ? keep_checkpoint : NULL);
+    dem_status status = from != NULL ? dem_simulation_resume(&s, model, &sc->options, checkpoint)
+                                     : dem_simulation_create(&s, model, &sc->options);
+    if (status == DEM_OK && leads != NULL) status = dem_private_lead(s, leads, &sc->options, checkpoint);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     for (int k = 0; k < N_STOPS && status == DEM_OK; k++) {
-        status = dem_simulation_advance(s, sc->t_end * (k + 1) / N_STOPS);
+        const double t = sc->t_end * (k + 1) / N_STOPS;
+        if (from != NULL && t < from->kept_t) continue;
+        status = dem_simulation_advance(s, t);
         if (status == DEM_OK) status = look(s, model->domain, o, k);
     }
     dem_simulation_destroy(s);
     return status;
+}
+
+static dem_status run(const dem_model *model, const scene *sc, outcome *o)
+{
+    return run_led(model, sc, NULL, NULL, o);
 }
 
 /* Of all ranks. */
@@ -288,6 +332,78 @@ static void check_both(kind k)
             const bool is_short = !is_long && exact + m > 0;
             check(&k, methods[m], is_short ? 1 : 5, is_short ? &three : all);
         }
+    }
+}
+
+/* ---- runs that rank 0 leads ---- */
+
+typedef struct led_scene {
+    const scene *scene;
+    const outcome *from; /* of a checkpoint; NULL: the run begins */
+    outcome *led;
+} led_scene;
+
+static void lead_as_rank(const ranks *r, void *context)
+{
+    const led_scene *c = context;
+    if (r->rank > 0) {
+        assert_int_equal(dem_private_follow(r), 75);
+        return;
+    }
+    if (run_led(c->scene->model, c->scene, r, c->from, c->led) != DEM_OK)
+        (void)snprintf(c->led->failure, TEXT, "%s", dem_status_message());
+    dem_private_dismiss(r, 75);
+}
+
+/* What is seen at events, too. A run that goes on has the last events and stops of one that does not. */
+static void assert_same_led(const outcome *led, const outcome *whole, bool is_resumed)
+{
+    const dem_index before = whole->n_events - led->n_events;
+    assert_string_equal(led->failure, "");
+    assert_true(is_resumed ? before > 0 && led->n_events > 0 : before == 0);
+    for (dem_index k = 0; k < led->n_events; k++) {
+        assert_memory_equal(&led->events[k], &whole->events[before + k], sizeof *whole->events);
+        assert_memory_equal(&led->at_events[k], &whole->at_events[before + k], sizeof *whole->at_events);
+    }
+    for (int k = 0; k < N_STOPS; k++) {
+        const size_t first = 2 * (size_t)k * (size_t)whole->n_nodes, size = 2 * (size_t)whole->n_nodes * sizeof(double);
+        if (is_resumed && whole->stops[k].t < whole->kept_t) continue;
+        assert_memory_equal(&led->stops[k], &whole->stops[k], sizeof led->stops[k]);
+        assert_memory_equal(led->x + first, whole->x + first, size);
+        assert_memory_equal(led->v + first, whole->v + first, size);
+    }
+}
+
+static void lead(const scene *s, int n_ranks, const outcome *from, const outcome *whole)
+{
+    outcome led;
+    make_outcome(&led, whole->n_nodes);
+    led.asks = true;
+    led_scene c = {s, from, &led};
+    rank_threads_run(n_ranks, lead_as_rank, &c);
+    assert_same_led(&led, whole, from != NULL);
+    free_outcome(&led);
+}
+
+static void check_led(kind k)
+{
+    static const int numbers[] = {3, 1, 7};
+    for (int exact = 0; exact < 2; exact++) {
+        scene s;
+        outcome whole;
+        k.contact = exact ? DEM_CONTACT_EXACT : DEM_CONTACT_LOCAL;
+        open_scene(&s, &k, DEM_METHOD_FEHLBERG45, 0.0);
+        s.options.checkpoint_steps = 10;
+        make_outcome(&whole, dem_model_lattice(s.model)->n_nodes);
+        whole.asks = true;
+        assert_ok(run(s.model, &s, &whole));
+        assert_true(whole.n_events > 30 && whole.kept != NULL);
+        for (int q = 0; q < (is_long ? 3 : 1); q++) {
+            lead(&s, numbers[q], NULL, &whole);
+            lead(&s, numbers[q], &whole, &whole);
+        }
+        free_outcome(&whole);
+        close_scene(&s);
     }
 }
 
@@ -499,6 +615,16 @@ TEST(damped_bodies_on_a_shaken_floor_have_the_bits_of_one_process)
 {
     check_both(
         (kind){.ground = SHAKEN, .restitution = 0.3, .friction = 0.5, .damping_time = 5e-6, .mass_damping = 200.0});
+}
+
+TEST(a_led_run_shows_contacts_and_events_of_one_process)
+{
+    check_led((kind){.ground = BUMPS, .restitution = 0.5, .friction = 0.3});
+}
+
+TEST(a_led_run_shows_what_a_shaken_floor_does)
+{
+    check_led((kind){.ground = SHAKEN, .restitution = 0.3, .friction = 0.5});
 }
 
 int main(int argc, char **argv)
