@@ -57,7 +57,6 @@ bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *e
         const schema_instance *group;
         const char *key, *what;
     } all[] = {
-        {d->n_obstacles > 0, schema_get(groups, "obstacle", 0), "points", "obstacles: there is an &obstacle"},
         {has_rigid(l), body, "rigid", "rigid bodies: 'rigid' in &body"},
         {d->options.bodies != DEM_BODIES_NONE && !has_rigid(l), contact, "bodies",
          "bodies that touch: 'bodies' in &contact has to be 'none'"},

@@ -12,7 +12,7 @@ import tempfile
 import time
 import unittest
 
-MPIRUN = DEM_BATCH = DECK = COMPARE = None
+MPIRUN = DEM_BATCH = DECK = INPUTS = COMPARE = None
 SECONDS = 60
 SHORT = ["--set", "run.t_end=1e-4", "--set", "body.spacing=1e-2"]
 # Two bodies, of which one is damped by its springs, one pulled and one held; they overlap, which nothing undoes.
@@ -71,7 +71,7 @@ class UnderMpirun(unittest.TestCase):
                               capture_output=True, text=True, timeout=SECONDS, check=False)
         said = [line for line in done.stderr.splitlines() if "error: 3 ranks" in line]
         self.assertEqual((done.returncode, len(said), list(self.folder.iterdir())), (3, 1, []), done.stderr)
-        self.assertRegex(said[0], "rectangle.nml:[0-9]+:[0-9]+: error: 3 ranks cannot share obstacles")
+        self.assertRegex(said[0], "rectangle.nml:[0-9]+:[0-9]+: error: 3 ranks cannot share bodies that touch")
 
     def test_one_process_is_a_run(self):
         code, said, files = self.run_on(1, DEM_BATCH, *SHORT, DECK)
@@ -162,6 +162,38 @@ class FreeBodies(Runs):
         self.assertEqual([line for line in heard.splitlines() if line.startswith("free.nml")], errors.splitlines())
 
 
+class Obstacles(Runs):
+    SETTINGS = ("--set", "run.t_end=2e-3", "--set", "body.spacing=7e-3", "--set", "contact.bodies=none", "--set",
+                "solver.checkpoint_steps=20", "--set", "output.name=free")
+
+    def run_on(self, n, outdir, *more, deck="falling.nml"):
+        return super().run_on(n, outdir, *self.SETTINGS, *more, deck=deck)
+
+    def take(self, name):
+        text = (INPUTS / f"{name}.nml").read_text(encoding="ascii")
+        (self.folder / "falling.nml").write_text(text, encoding="ascii")
+
+    def test_files_are_those_of_one_process(self):
+        for name, n in (("rectangle", 2), ("disc", 3), ("porous", 7)):
+            with self.subTest(deck=name):
+                self.take(name)
+                self.assertEqual(self.run_on(0, name)[0], 0)
+                self.assertGreater(self.result(name)["events"], 5)
+                code, _, errors = self.run_on(n, f"ranks_{name}")
+                self.assertEqual(code, 0, errors)
+                self.assert_same(name, f"ranks_{name}")
+
+    def test_any_number_of_ranks_goes_on_with_closed_contacts(self):
+        self.take("rectangle")
+        self.assertEqual(self.run_on(0, "one")[0], 0)
+        for k, n in enumerate((3, 0, 2)):
+            code, log, errors = self.run_on(n, "parts", "--set", f"run.t_end={(k + 4) * 2e-3 / 6}")
+            self.assertEqual(code, 0, errors)
+            self.assertEqual("resumed" in log, k > 0)
+            self.assertGreater(self.result("parts")["contacts"], 0)
+        self.assert_same("one", "parts")
+
+
 class Longer(Runs):
     def test_files_are_those_of_one_process(self):
         self.check_files(1, 3, 4)
@@ -190,7 +222,8 @@ def children(parent):
 
 if __name__ == "__main__":
     MPIRUN, DEM_BATCH = sys.argv[1:3]
-    DECK = str(pathlib.Path(sys.argv[3], "rectangle.nml").resolve())
+    INPUTS = pathlib.Path(sys.argv[3]).resolve()
+    DECK = str(INPUTS / "rectangle.nml")
     DEM_BATCH = str(pathlib.Path(DEM_BATCH).resolve())
     COMPARE = sys.argv[4]
     sys.argv[1:] = sys.argv[5:]
