@@ -312,6 +312,9 @@ void led_run_destroy(led_run *l)
 static dem_status lead(led_run *l, dem_checkpoint *entries, const dem_options *options,
                        const dem_checkpoint *checkpoint)
 {
+    /* Whose address means nothing to the others. */
+    CHECK(!l->whole->model->obstacles.is_asked, DEM_ERROR_MODEL,
+          "rank 0 cannot lead a run with obstacles whose motion a function computes");
     TRY(shared_problem_put(entries, l->whole->model, options));
     (void)order_pass(&l->ranks, (order){.kind = ORDER_CREATE, .number = checkpoint != NULL});
     TRY(reduce_status(&l->ranks, DEM_OK, 0.0));

@@ -407,6 +407,35 @@ static void check_led(kind k)
     }
 }
 
+static dem_status stay(void *context, double t, dem_pose *to)
+{
+    (void)context;
+    (void)t;
+    (void)to;
+    return DEM_OK;
+}
+
+TEST(a_run_with_a_motion_by_a_function_is_not_led)
+{
+    scene s;
+    const kind k = {.ground = PLANE};
+    const double points[] = {-0.5, 0.0, 0.5, 0.0};
+    const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = points, .motion = stay, .most_speed = 1.0,
+                                     .most_acceleration = 1.0);
+    open_scene(&s, &k, DEM_METHOD_FEHLBERG45, 0.0);
+    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
+    assert_ok(dem_lattice_append(&l, dem_model_lattice(s.model)));
+    dem_model_destroy(s.model);
+    s.model = support_model(&l, &floor, 1);
+    outcome led;
+    make_outcome(&led, l.n_nodes);
+    led_scene c = {.scene = &s, .led = &led};
+    rank_threads_run(2, lead_as_rank, &c);
+    assert_string_equal(led.failure, "rank 0 cannot lead a run with obstacles whose motion a function computes");
+    free_outcome(&led);
+    close_scene(&s);
+}
+
 /* ---- how often ranks talk ---- */
 
 enum { MOST_STEPS = 2000, N_TALKING = 3 };
