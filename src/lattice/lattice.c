@@ -10,6 +10,7 @@
 #include "base/status.h"
 #include "base/struct_size.h"
 #include "base/vec2.h"
+#include "lattice/lattice_arrays.h"
 #include "lattice/mesh_edges.h"
 
 /* The shortest struct that is accepted ends with `velocity`, the last member of the first version. */
@@ -111,28 +112,7 @@ void dem_lattice_free(dem_lattice *lattice)
     dem_lattice own = empty;
     if (lattice == NULL || !struct_size_fits(&kind, lattice)) return;
     (void)struct_size_read(&kind, &own, lattice);
-    free(own.x);
-    free(own.mass);
-    free(own.ends);
-    free(own.rest_length);
-    free(own.stiffness);
-    free(own.viscosity);
-    free(own.triangles);
-    free(own.guard);
-    free(own.area_stiffness);
-    free(own.thickness);
-    free(own.modulus);
-    free(own.coupling);
-    free(own.strength);
-    free(own.critical_stretch);
-    free(own.softening);
-    free(own.compressive_strength);
-    free(own.confinement);
-    free(own.own_stress);
-    free(own.flags);
-    free(own.body);
-    free(own.position);
-    free(own.velocity);
+    for (int k = 0; k < LATTICE_ARRAYS; k++) free(lattice_array_of(&own, &lattice_arrays[k]));
     lattice_give(lattice, &empty);
 }
 

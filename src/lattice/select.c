@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/status.h"
+#include "lattice/lattice_arrays.h"
 
 /* Moves the items to keep to the front. An array that is NULL stays so. */
 static void pack(void *array, size_t size, dem_index n, const bool *keep)
@@ -33,45 +34,30 @@ static dem_index pack_corners(dem_index *corner, int arity, dem_index n, const d
     return kept;
 }
 
-/* All arrays of nodes; those of springs and triangles follow with their own flags. */
-static void pack_nodes(dem_lattice *lattice, const bool *keep)
+/* All arrays of nodes, springs or triangles, but for node numbers, which have been packed. */
+static void pack_all(dem_lattice *lattice, lattice_items of, const bool *keep)
 {
-    const dem_index n = lattice->n_nodes;
-    pack(lattice->x, 2 * sizeof *lattice->x, n, keep);
-    pack(lattice->mass, sizeof *lattice->mass, n, keep);
-    pack(lattice->flags, sizeof *lattice->flags, n, keep);
-    pack(lattice->body, sizeof *lattice->body, n, keep);
-    pack(lattice->position, 2 * sizeof *lattice->position, n, keep);
-    pack(lattice->velocity, 2 * sizeof *lattice->velocity, n, keep);
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        void *array = lattice_array_of(lattice, a);
+        if (a->of == of && array != lattice->ends && array != lattice->triangles)
+            pack(array, a->size, lattice_count(lattice, of), keep);
+    }
 }
 
 /* `whole` tells the other arrays which springs have stayed. */
 static void pack_springs(dem_lattice *lattice, const dem_index *number, bool *whole)
 {
-    const dem_index n = lattice->n_springs;
-    lattice->n_springs = pack_corners(lattice->ends, 2, n, number, whole);
-    pack(lattice->rest_length, sizeof *lattice->rest_length, n, whole);
-    pack(lattice->stiffness, sizeof *lattice->stiffness, n, whole);
-    pack(lattice->viscosity, sizeof *lattice->viscosity, n, whole);
-    if (lattice_has_limits(lattice)) pack(lattice->critical_stretch, sizeof *lattice->critical_stretch, n, whole);
+    const dem_index n = pack_corners(lattice->ends, 2, lattice->n_springs, number, whole);
+    pack_all(lattice, LATTICE_SPRINGS, whole);
+    lattice->n_springs = n;
 }
 
-/* All arrays that have one entry for each triangle. */
 static void pack_triangles(dem_lattice *lattice, const dem_index *number, bool *whole)
 {
-    const dem_index n = lattice->n_triangles;
-    lattice->n_triangles = pack_corners(lattice->triangles, 3, n, number, whole);
-    pack(lattice->guard, sizeof *lattice->guard, n, whole);
-    pack(lattice->area_stiffness, sizeof *lattice->area_stiffness, n, whole);
-    pack(lattice->thickness, sizeof *lattice->thickness, n, whole);
-    pack(lattice->modulus, sizeof *lattice->modulus, n, whole);
-    if (lattice_has_couplings(lattice)) pack(lattice->coupling, 3 * sizeof *lattice->coupling, n, whole);
-    if (lattice_has_limits(lattice)) pack(lattice->strength, sizeof *lattice->strength, n, whole);
-    if (lattice_has_softening(lattice)) pack(lattice->softening, sizeof *lattice->softening, n, whole);
-    if (lattice_has_own_stress(lattice)) pack(lattice->own_stress, sizeof *lattice->own_stress, n, whole);
-    if (!lattice_has_pressure_limits(lattice)) return;
-    pack(lattice->compressive_strength, sizeof *lattice->compressive_strength, n, whole);
-    pack(lattice->confinement, sizeof *lattice->confinement, n, whole);
+    const dem_index n = pack_corners(lattice->triangles, 3, lattice->n_triangles, number, whole);
+    pack_all(lattice, LATTICE_TRIANGLES, whole);
+    lattice->n_triangles = n;
 }
 
 /* Keeps nodes and, of the triangles among them, those for which wanted[t] != 0; NULL: all. A lattice without nodes is
@@ -96,7 +82,7 @@ static dem_status select_both(dem_lattice *lattice, const bool *keep, const bool
     for (dem_index t = 0; wanted != NULL && t < n_triangles; t++) whole[n_springs + t] = wanted[t] != 0;
     pack_springs(lattice, number, whole);
     pack_triangles(lattice, number, whole + n_springs);
-    pack_nodes(lattice, keep);
+    pack_all(lattice, LATTICE_NODES, keep);
     lattice->n_nodes = n;
 out:
     free(number);

@@ -11,6 +11,7 @@
 #include "base/reduce.h"
 #include "base/status.h"
 #include "domain/partition.h"
+#include "lattice/lattice_arrays.h"
 #include "model/domain_model.h"
 
 /* ---- whether all have the same ---- */
@@ -28,22 +29,14 @@ static uint64_t hash_on(uint64_t hash, const void *array, size_t size)
     return hash;
 }
 
-/* Of all that a lattice that is shared has: without limits, by which nothing breaks. */
 static uint64_t hash_of_lattice(const dem_lattice *l)
 {
-    const size_t n = (size_t)l->n_nodes, s = (size_t)l->n_springs, t = (size_t)l->n_triangles, real = sizeof(double);
-    const struct {
-        const void *array;
-        size_t size;
-    } all[] = {
-        {l->x, 2 * n * real},           {l->mass, n * real},         {l->ends, 2 * s * sizeof *l->ends},
-        {l->rest_length, s * real},     {l->stiffness, s * real},    {l->triangles, 3 * t * sizeof *l->triangles},
-        {l->viscosity, s * real},       {l->guard, t * real},        {l->area_stiffness, t * real},
-        {l->thickness, t * real},       {l->modulus, t * real},      {l->flags, n},
-        {l->body, n * sizeof *l->body}, {l->position, 2 * n * real}, {l->velocity, 2 * n * real},
-        {l->coupling, 3 * t * real}};
+    const uint64_t n = (uint64_t)l->n_nodes, s = (uint64_t)l->n_springs, t = (uint64_t)l->n_triangles;
     uint64_t hash = random_mix(n) ^ random_mix(s + 1) ^ random_mix(t + 2);
-    for (size_t k = 0; k < sizeof all / sizeof *all; k++) hash = hash_on(hash, all[k].array, all[k].size);
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        hash = hash_on(hash, lattice_array_of(l, a), (size_t)lattice_count(l, a->of) * a->size);
+    }
     return hash;
 }
 

@@ -8,37 +8,9 @@
 
 #include "base/checkpoint_entries.h"
 #include "base/status.h"
+#include "lattice/lattice_arrays.h"
 
-/* An array of a lattice: its entry, and where it is. What breaks is not among them, as ranks cannot share it. */
-typedef struct array {
-    const char *name;
-    void *at; /* the pointer to it */
-    size_t size;
-} array;
-
-enum { N_ARRAYS = 16, N_NUMBERS = 4, NAME_LENGTH = 32 };
-
-static void list_arrays(dem_lattice *l, array list[N_ARRAYS])
-{
-    const size_t n = (size_t)l->n_nodes, s = (size_t)l->n_springs, t = (size_t)l->n_triangles, real = sizeof(double);
-    const array all[N_ARRAYS] = {{"x", &l->x, 2 * n * real},
-                                 {"mass", &l->mass, n * real},
-                                 {"ends", &l->ends, 2 * s * sizeof *l->ends},
-                                 {"rest_length", &l->rest_length, s * real},
-                                 {"stiffness", &l->stiffness, s * real},
-                                 {"triangles", &l->triangles, 3 * t * sizeof *l->triangles},
-                                 {"viscosity", &l->viscosity, s * real},
-                                 {"guard", &l->guard, t * real},
-                                 {"area_stiffness", &l->area_stiffness, t * real},
-                                 {"thickness", &l->thickness, t * real},
-                                 {"modulus", &l->modulus, t * real},
-                                 {"flags", &l->flags, n},
-                                 {"body", &l->body, n * sizeof *l->body},
-                                 {"position", &l->position, 2 * n * real},
-                                 {"velocity", &l->velocity, 2 * n * real},
-                                 {"coupling", &l->coupling, 3 * t * real}};
-    for (int k = 0; k < N_ARRAYS; k++) list[k] = all[k];
-}
+enum { N_NUMBERS = 4, NAME_LENGTH = 32 };
 
 static const char *name_list(char name[NAME_LENGTH], const char *what, dem_index boundary)
 {
@@ -66,16 +38,15 @@ static dem_status put_obstacle(dem_checkpoint *into, const dem_obstacle *o, dem_
 
 dem_status shared_problem_put(dem_checkpoint *into, const dem_model *model, const dem_options *options)
 {
-    dem_lattice view = model->lattice;
+    const dem_lattice *l = &model->lattice;
     const obstacle_set *obstacles = &model->obstacles;
-    array list[N_ARRAYS];
-    const dem_index numbers[N_NUMBERS] = {view.n_nodes, view.n_springs, view.n_triangles, obstacles->n};
-    list_arrays(&view, list);
+    const dem_index numbers[N_NUMBERS] = {l->n_nodes, l->n_springs, l->n_triangles, obstacles->n};
     TRY(dem_checkpoint_put(into, "numbers", numbers, sizeof numbers));
     TRY(dem_checkpoint_put(into, "options", options, sizeof *options));
-    for (int k = 0; k < N_ARRAYS; k++) {
-        const void *data = *(void **)list[k].at;
-        if (data != NULL) TRY(dem_checkpoint_put(into, list[k].name, data, list[k].size));
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        const void *items = lattice_array_of(l, a);
+        if (items != NULL) TRY(dem_checkpoint_put(into, a->name, items, (size_t)lattice_count(l, a->of) * a->size));
     }
     for (dem_index k = 0; k < obstacles->n; k++) TRY(put_obstacle(into, &obstacles->list[k], k));
     for (dem_index k = 0; k < options->n_boundaries; k++) TRY(put_boundary(into, &options->boundaries[k], k));
@@ -103,12 +74,10 @@ static dem_status get_obstacle(dem_obstacle *out, const dem_checkpoint *from, de
 
 static void view_lattice(dem_lattice *l, const dem_checkpoint *from)
 {
-    array list[N_ARRAYS];
-    list_arrays(l, list);
-    for (int k = 0; k < N_ARRAYS; k++) {
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
         size_t size;
-        const void *data = dem_checkpoint_find(from, list[k].name, &size);
-        *(void **)list[k].at = (void *)(uintptr_t)data; /* which nobody changes */
+        const void *items = dem_checkpoint_find(from, lattice_arrays[k].name, &size);
+        lattice_array_put(l, &lattice_arrays[k], (void *)(uintptr_t)items); /* which nobody changes */
     }
 }
 

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "lattice/lattice_arrays.h"
+
+#include <stddef.h>
+#include <string.h>
+
+/* An array whose items are `n` numbers. */
+#define OF(kind, member, n)                                                                                            \
+    {                                                                                                                  \
+#member, offsetof(dem_lattice, member), kind, (n) * sizeof *((dem_lattice *)NULL)->member                      \
+    }
+
+const lattice_array lattice_arrays[LATTICE_ARRAYS] = {
+    OF(LATTICE_NODES, x, 2),
+    OF(LATTICE_NODES, mass, 1),
+    OF(LATTICE_NODES, flags, 1),
+    OF(LATTICE_NODES, body, 1),
+    OF(LATTICE_NODES, position, 2),
+    OF(LATTICE_NODES, velocity, 2),
+    OF(LATTICE_SPRINGS, ends, 2),
+    OF(LATTICE_SPRINGS, rest_length, 1),
+    OF(LATTICE_SPRINGS, stiffness, 1),
+    OF(LATTICE_SPRINGS, viscosity, 1),
+    OF(LATTICE_SPRINGS, critical_stretch, 1),
+    OF(LATTICE_TRIANGLES, triangles, 3),
+    OF(LATTICE_TRIANGLES, guard, 1),
+    OF(LATTICE_TRIANGLES, area_stiffness, 1),
+    OF(LATTICE_TRIANGLES, thickness, 1),
+    OF(LATTICE_TRIANGLES, modulus, 1),
+    OF(LATTICE_TRIANGLES, coupling, 3),
+    OF(LATTICE_TRIANGLES, strength, 1),
+    OF(LATTICE_TRIANGLES, softening, 1),
+    OF(LATTICE_TRIANGLES, compressive_strength, 1),
+    OF(LATTICE_TRIANGLES, confinement, 1),
+    OF(LATTICE_TRIANGLES, own_stress, 1),
+};
+
+void *lattice_array_of(const dem_lattice *lattice, const lattice_array *array)
+{
+    void *items = NULL;
+    if (array->offset + sizeof items <= lattice->struct_size)
+        memcpy(&items, (const char *)lattice + array->offset, sizeof items);
+    return items;
+}
+
+void lattice_array_put(dem_lattice *lattice, const lattice_array *array, void *items)
+{
+    memcpy((char *)lattice + array->offset, &items, sizeof items);
+}
+
+dem_index lattice_count(const dem_lattice *lattice, lattice_items of)
+{
+    if (of == LATTICE_NODES) return lattice->n_nodes;
+    return of == LATTICE_SPRINGS ? lattice->n_springs : lattice->n_triangles;
+}

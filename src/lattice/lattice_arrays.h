@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The one list of the arrays of a lattice, for what is done with all of them: freeing, selecting, hashing, sending. */
+#ifndef DEM_LATTICE_LATTICE_ARRAYS_H
+#define DEM_LATTICE_LATTICE_ARRAYS_H
+
+#include <dem/dem.h>
+
+typedef enum lattice_items { LATTICE_NODES, LATTICE_SPRINGS, LATTICE_TRIANGLES } lattice_items;
+
+typedef struct lattice_array {
+    const char *name;
+    size_t offset;    /* of the pointer to it in a dem_lattice */
+    lattice_items of; /* what it has an item for */
+    size_t size;      /* bytes of an item */
+} lattice_array;
+
+enum { LATTICE_ARRAYS = 22 };
+extern const lattice_array lattice_arrays[LATTICE_ARRAYS];
+
+/** An array; NULL: there is none, as in a lattice whose struct is older than it. */
+void *lattice_array_of(const dem_lattice *lattice, const lattice_array *array);
+
+/** Makes this memory that array. The lattice has the struct of this version. */
+void lattice_array_put(dem_lattice *lattice, const lattice_array *array, void *items);
+
+/** How many nodes, springs or triangles a lattice has. */
+dem_index lattice_count(const dem_lattice *lattice, lattice_items of);
+
+#endif
