@@ -40,7 +40,7 @@ typedef struct case_pool {
     size_t n_begun, n_running; /* the first n_begun have begun */
     size_t n_printed;          /* what the first ones print is on standard output */
     bool is_stopped;           /* no more is begun */
-    bool is_end_passed_on;     /* the wish for the end, to all processes */
+    bool is_end_passed_on;     /* the request for the end, to all processes */
     int width;                 /* characters of the line of progress that stands on the terminal */
     exit_code worst;
 } case_pool;
@@ -139,8 +139,8 @@ static void tell_all(const case_pool *p, int number)
 
 static void pass_on(case_pool *p)
 {
-    wishes *asked = p->command->host->wishes;
-    if (wishes_checkpoint(asked)) tell_all(p, SIGUSR1);
+    requests *asked = p->command->host->requests;
+    if (requests_checkpoint(asked)) tell_all(p, SIGUSR1);
     if (asked->end == 0 || p->is_end_passed_on) return;
     tell_all(p, asked->end);
     p->is_stopped = p->is_end_passed_on = true;

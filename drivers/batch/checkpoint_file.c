@@ -115,7 +115,7 @@ checkpoint_file checkpoint_file_start(const command *c, const char *path, const 
 {
     checkpoint_file new = {.deck = d,
                            .source = source,
-                           .wishes = c->host->wishes,
+                           .requests = c->host->requests,
                            .interval = c->checkpoint_interval,
                            .deadline = c->wall_start + c->max_wall,
                            .wall_next = wall_clock() + fmin(c->checkpoint_interval, first_after),
@@ -155,7 +155,7 @@ static dem_status save(checkpoint_file *c, const dem_checkpoint *checkpoint)
 /* Whether the end is asked for. */
 static bool is_ending(checkpoint_file *c, const char **why)
 {
-    *why = wishes_end(c->wishes);
+    *why = requests_end(c->requests);
     const double now = wall_clock();
     if (*why == NULL && now >= c->deadline) *why = "--max-wall";
     if (*why != NULL && c->wall_ending == 0.0) c->wall_ending = now;
@@ -178,7 +178,7 @@ static dem_status on_checkpoint(void *context, const dem_simulation *simulation,
     checkpoint_file *c = context;
     const char *why;
     dem_status status = put_entries(c, simulation, checkpoint);
-    const bool ending = is_ending(c, &why), wanted = wishes_checkpoint(c->wishes);
+    const bool ending = is_ending(c, &why), wanted = requests_checkpoint(c->requests);
     if (status == DEM_OK && (ending || wanted || wall_clock() >= c->wall_next)) status = save(c, checkpoint);
     if (status != DEM_OK || !ending) return status;
     c->ended = why;

@@ -44,7 +44,7 @@ typedef struct checkpoint_file {
     const checkpoint_source *source;
     dem_trajectory *trajectory;
     run_log *log;
-    wishes *wishes;
+    requests *requests;
     double interval;    /* s on the wall between checkpoints */
     double deadline;    /* s on the wall */
     double wall_next;   /* s, from when on the next checkpoint is written */

@@ -7,12 +7,12 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "wishes.h"
+#include "requests.h"
 
 typedef struct host {
     FILE *out, *err;       /* where it prints */
     bool terminal;         /* `out` is one */
-    wishes *wishes;        /* what is asked of it */
+    requests *requests;    /* what is asked of it */
     volatile double *part; /* of a run what is done, 0 to 1, is written there; NULL: nobody asks */
 } host;
 

@@ -6,7 +6,7 @@
 
 #include "batch.h"
 
-_Static_assert(sizeof(wishes) == 2 * sizeof(int), "python/dem/batch.py has it as two of them");
+_Static_assert(sizeof(requests) == 2 * sizeof(int), "python/dem/batch.py has it as two of them");
 
 static exit_code do_words(const host *h, int n, char **words)
 {
@@ -36,13 +36,13 @@ static bool end(FILE *stream)
     return fclose(stream) == 0 && good;
 }
 
-int dem_private_batch(int n, char **words, wishes *asked, volatile double *part, char **printed)
+int dem_private_batch(int n, char **words, requests *asked, volatile double *part, char **printed)
 {
     size_t sizes[2];
     exit_code code = EXIT_MEMORY;
     printed[0] = printed[1] = NULL;
     FILE *out = open_memstream(&printed[0], &sizes[0]), *err = open_memstream(&printed[1], &sizes[1]);
-    const host h = {.out = out, .err = err, .wishes = asked, .part = part};
+    const host h = {.out = out, .err = err, .requests = asked, .part = part};
     if (out != NULL && err != NULL) code = do_in_c(&h, n, words);
     const bool out_whole = out == NULL || end(out), err_whole = err == NULL || end(err);
     return code == EXIT_DONE && !(out_whole && err_whole) ? (int)EXIT_MEMORY : (int)code;

@@ -6,7 +6,7 @@
 
 #include <dem/status.h>
 
-#include "wishes.h"
+#include "requests.h"
 
 /** Does what dem_batch does with these words, in any thread, several at once; cases of one command in turn. Signals,
  *  standard streams, the locale and GSL's handler of errors stay those of the program.
@@ -16,7 +16,7 @@
  *  \param printed   [2] to standard output and standard error, each to be freed with dem_private_batch_free(); NULL
  *                   where memory has run out
  *  \return dem_batch's exit code */
-DEM_API int dem_private_batch(int n, char **words, wishes *asked, volatile double *part, char **printed);
+DEM_API int dem_private_batch(int n, char **words, requests *asked, volatile double *part, char **printed);
 DEM_API void dem_private_batch_free(char *text);
 
 #endif

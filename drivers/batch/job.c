@@ -573,14 +573,17 @@ static void dismiss(job *j)
 static job new_job(const command *c, const char *path)
 {
     const host *h = c->host;
-    return (job){
-        .command = c,
-        .file = path,
-        .log = {.out = h->out, .part = h->part, .wishes = h->wishes, .terminal = h->terminal, .verbose = c->verbose},
-        .outcome = {.err = h->err},
-        .lock = {.file = -1},
-        .start = time(NULL),
-        .wall_start = wall_clock()};
+    return (job){.command = c,
+                 .file = path,
+                 .log = {.out = h->out,
+                         .part = h->part,
+                         .requests = h->requests,
+                         .terminal = h->terminal,
+                         .verbose = c->verbose},
+                 .outcome = {.err = h->err},
+                 .lock = {.file = -1},
+                 .start = time(NULL),
+                 .wall_start = wall_clock()};
 }
 
 exit_code job_do(const command *c, const char *path)

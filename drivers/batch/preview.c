@@ -226,10 +226,10 @@ static void print_rigid(FILE *out, unsigned flags)
     (void)fprintf(out, "none, it is rigid%s\n", x ? " and moves along x" : (y ? " and moves along y" : ""));
 }
 
-/* A wish for the end ends the measuring after what is being measured. */
+/* A request for the end ends the measuring after what is being measured. */
 static bool is_wanted(const run_log *log)
 {
-    return log->wishes == NULL || log->wishes->end == 0;
+    return log->requests == NULL || log->requests->end == 0;
 }
 
 /* As the library measures them, by loading the model. A body that is not listed may still be too fast. */

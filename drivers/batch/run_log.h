@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "wishes.h"
+#include "requests.h"
 
 enum {
     RUN_LOG_WARNINGS = 32, /* that are kept; all are printed */
@@ -16,12 +16,12 @@ enum {
 /** `out` and what follows up to `verbose` to be set, all else to 0. */
 typedef struct run_log {
     FILE *out;
-    volatile double *part; /* of the run that is done, 0 to 1, for whoever asks; NULL: nobody does */
-    const wishes *wishes;  /* NULL: nobody has any */
-    bool terminal;         /* progress is rewritten in place */
-    bool verbose;          /* details, too */
-    bool quiet;            /* warnings are kept, not printed: an earlier process of the run has printed them */
-    bool inside;           /* a line of progress is not ended yet */
+    volatile double *part;    /* of the run that is done, 0 to 1, for whoever asks; NULL: nobody does */
+    const requests *requests; /* NULL: nobody has any */
+    bool terminal;            /* progress is rewritten in place */
+    bool verbose;             /* details, too */
+    bool quiet;               /* warnings are kept, not printed: an earlier process of the run has printed them */
+    bool inside;              /* a line of progress is not ended yet */
     size_t n_warnings;
     char warnings[RUN_LOG_WARNINGS][RUN_LOG_TEXT];
 } run_log;

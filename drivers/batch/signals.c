@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <sys/select.h>
 
-static wishes noted;
+static requests noted;
 
 static void note_end(int number)
 {
@@ -44,7 +44,7 @@ void signals_catch_end(void)
     set(SIGXCPU, note_end);
 }
 
-wishes *signals_wishes(void)
+requests *signals_requests(void)
 {
     return &noted;
 }

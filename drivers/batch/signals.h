@@ -3,7 +3,7 @@
 #ifndef DEM_SIGNALS_H
 #define DEM_SIGNALS_H
 
-#include "wishes.h"
+#include "requests.h"
 
 /** From now on SIGUSR1 asks for a checkpoint. Without a reader of its log a run goes on all the same, and a limit on
  *  file sizes is a full disk. What whoever started the program wants ignored stays so, here and below. */
@@ -13,7 +13,7 @@ void signals_catch(void);
 void signals_catch_end(void);
 
 /** What they have noted, and note. */
-wishes *signals_wishes(void);
+requests *signals_requests(void);
 
 /** From now on signals_wait() returns when a process that this one has begun ends. */
 void signals_catch_children(void);

@@ -16,8 +16,8 @@ NAME = "libdem_batch.so"
 LOOK = 0.1  # s on the wall, from one look at what is done to the next
 
 
-class Wishes(ctypes.Structure):
-    """What is asked of a run while it goes on, as drivers/batch/wishes.h has it."""
+class Requests(ctypes.Structure):
+    """What is asked of a run while it goes on, as drivers/batch/requests.h has it."""
     _fields_ = [("end", c_int), ("checkpoint", c_int)]
 
 
@@ -37,7 +37,7 @@ def load():
     loaded = ctypes.CDLL(find(NAME) or NAME)
     do, free = loaded.dem_private_batch, loaded.dem_private_batch_free
     do.restype = c_int
-    do.argtypes = [c_int, POINTER(c_char_p), POINTER(Wishes), POINTER(c_double), POINTER(c_void_p)]
+    do.argtypes = [c_int, POINTER(c_char_p), POINTER(Requests), POINTER(c_double), POINTER(c_void_p)]
     free.restype, free.argtypes = None, [c_void_p]
     return loaded
 
@@ -50,13 +50,13 @@ class Call:
             raise ValueError("embedded null character")
         self._library = library
         self._words = (c_char_p * (len(words) + 2))(b"dem_batch", *map(os.fsencode, words), None)
-        self._wishes, self._part, self._printed = Wishes(), c_double(), (c_void_p * 2)()
+        self._requests, self._part, self._printed = Requests(), c_double(), (c_void_p * 2)()
         self._ended = threading.Event()
         self.code, self.texts = None, ("", "")
 
     def _work(self):
         try:
-            self.code = self._library.dem_private_batch(len(self._words) - 1, self._words, self._wishes, self._part,
+            self.code = self._library.dem_private_batch(len(self._words) - 1, self._words, self._requests, self._part,
                                                         self._printed)
             self.texts = tuple(ctypes.string_at(text).decode(errors="replace") if text else ""
                                for text in self._printed)
@@ -76,7 +76,7 @@ class Call:
                     show(self._part.value)
                 break
             except BaseException as exception:
-                self._wishes.end = signal.SIGINT
+                self._requests.end = signal.SIGINT
                 show = lambda part: None
                 raised = raised or exception
         if raised is not None:

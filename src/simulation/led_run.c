@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* While a part is advanced its observers on rank 0 call those of the whole, and on other ranks they take orders until
+/* While a part is advanced its observers on rank 0 call those of the whole, and on other ranks they take calls until
  * the leader lets them go on. Of the whole's state only what is asked for is gathered. What an observer returns is the
  * status of all ranks, so that a run stops at once, as that of a process alone. */
 #include "simulation/led_run.h"
@@ -81,7 +81,7 @@ static void show(const led_run *l)
 
 static dem_status release(const led_run *l, dem_status status)
 {
-    (void)order_pass(&l->ranks, (order){.kind = ORDER_GO_ON, .number = (dem_index)status});
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GO_ON, .number = (dem_index)status});
     return status;
 }
 
@@ -129,12 +129,12 @@ static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem
 
 /* ---- followers ---- */
 
-static order serve(led_run *l);
+static rank_call serve(led_run *l);
 
 /* An observer of the leader's, seen from a follower. */
 static dem_status follow_observer(led_run *l)
 {
-    const order last = serve(l);
+    const rank_call last = serve(l);
     return last.number == DEM_OK ? DEM_OK : status_fail((dem_status)last.number, "rank 0 has ended the run");
 }
 
@@ -166,7 +166,7 @@ static dem_status follow_checkpoint(void *context, const dem_simulation *part, d
 
 /* ---- what all ranks do ---- */
 
-static dem_status observe(led_run *l, const order *o)
+static dem_status observe(led_run *l, const rank_call *o)
 {
     const bool leads = l->whole != NULL;
     dem_observer steps = {.struct_size = sizeof steps,
@@ -215,38 +215,38 @@ static void create_follower(led_run *l, bool resumes)
     dem_checkpoint_destroy(entries);
 }
 
-static void obey(led_run *l, const order *o)
+static void take_part(led_run *l, const rank_call *o)
 {
     answer ignored = {.struct_size = sizeof ignored};
     switch (o->kind) {
-    case ORDER_CREATE:
+    case RANK_CALL_CREATE:
         create_follower(l, o->number != 0);
         break;
-    case ORDER_OBSERVE:
+    case RANK_CALL_OBSERVE:
         (void)observe(l, o);
         break;
-    case ORDER_ADVANCE:
+    case RANK_CALL_ADVANCE:
         (void)dem_simulation_advance(l->part, o->t);
         break;
-    case ORDER_GATHER:
+    case RANK_CALL_GATHER:
         (void)gather(l);
         break;
-    case ORDER_DROP:
+    case RANK_CALL_DROP:
         drop(l);
         break;
     default:
-        (void)order_answer(l->part, o, &ignored);
+        (void)rank_call_answer(l->part, o, &ignored);
         break;
     }
 }
 
-/* Takes orders until one lets this rank go on, or ends its work. */
-static order serve(led_run *l)
+/* Takes calls until one lets this rank go on, or ends its work. */
+static rank_call serve(led_run *l)
 {
     for (;;) {
-        const order o = order_pass(&l->ranks, (order){.kind = ORDER_GO_ON});
-        if (o.kind == ORDER_GO_ON || o.kind == ORDER_END) return o;
-        obey(l, &o);
+        const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GO_ON});
+        if (o.kind == RANK_CALL_GO_ON || o.kind == RANK_CALL_END) return o;
+        take_part(l, &o);
     }
 }
 
@@ -255,10 +255,10 @@ static order serve(led_run *l)
 static dem_status attach(led_run *l)
 {
     const observers *a = &l->whole->observers;
-    order o = {.kind = ORDER_OBSERVE, .number = observers_want_events(a)};
+    rank_call o = {.kind = RANK_CALL_OBSERVE, .number = observers_want_events(a)};
     for (int k = 0; k < a->n; k++)
         if (a->members[k].observer.frame != NULL) o.intervals[k] = a->members[k].observer.interval;
-    o = order_pass(&l->ranks, o);
+    o = rank_call_send(&l->ranks, o);
     return observe(l, &o);
 }
 
@@ -266,17 +266,17 @@ dem_status led_run_advance(dem_simulation *whole, double t_end)
 {
     led_run *l = whole->leads;
     if (!l->is_observed) TRY(attach(l));
-    (void)order_pass(&l->ranks, (order){.kind = ORDER_ADVANCE, .t = t_end});
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_ADVANCE, .t = t_end});
     const dem_status status = dem_simulation_advance(l->part, t_end);
     show(l);
     return status;
 }
 
-dem_status led_run_ask(const dem_simulation *whole, order_kind what, dem_index number, void *out)
+dem_status led_run_ask(const dem_simulation *whole, rank_call_kind what, dem_index number, void *out)
 {
     const led_run *l = whole->leads;
-    const order o = order_pass(&l->ranks, (order){.kind = what, .number = number});
-    return order_answer(l->part, &o, out);
+    const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = what, .number = number});
+    return rank_call_answer(l->part, &o, out);
 }
 
 const dem_simulation *led_run_part(const led_run *l)
@@ -287,7 +287,7 @@ const dem_simulation *led_run_part(const led_run *l)
 void led_run_gather(dem_simulation *whole)
 {
     const led_run *l = whole->leads;
-    (void)order_pass(&l->ranks, (order){.kind = ORDER_GATHER});
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GATHER});
     (void)gather(l);
 }
 
@@ -304,7 +304,7 @@ void led_run_look_for_overlaps(dem_simulation *part)
 void led_run_destroy(led_run *l)
 {
     if (l == NULL) return;
-    (void)order_pass(&l->ranks, (order){.kind = ORDER_DROP});
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_DROP});
     drop(l);
     free(l);
 }
@@ -316,7 +316,7 @@ static dem_status lead(led_run *l, dem_checkpoint *entries, const dem_options *o
     CHECK(!l->whole->model->obstacles.is_asked, DEM_ERROR_MODEL,
           "rank 0 cannot lead a run with obstacles whose motion a function computes");
     TRY(shared_problem_put(entries, l->whole->model, options));
-    (void)order_pass(&l->ranks, (order){.kind = ORDER_CREATE, .number = checkpoint != NULL});
+    (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_CREATE, .number = checkpoint != NULL});
     TRY(reduce_status(&l->ranks, DEM_OK, 0.0));
     return create(l, entries, checkpoint != NULL, checkpoint);
 }
@@ -345,12 +345,12 @@ dem_index dem_private_follow(const ranks *r)
 {
     led_run l = {.ranks = *r};
     l.ranks.end = NULL;
-    const order last = serve(&l);
+    const rank_call last = serve(&l);
     drop(&l);
     return last.number;
 }
 
 void dem_private_dismiss(const ranks *r, dem_index number)
 {
-    (void)order_pass(r, (order){.kind = ORDER_END, .number = number});
+    (void)rank_call_send(r, (rank_call){.kind = RANK_CALL_END, .number = number});
 }

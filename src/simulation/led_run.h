@@ -5,7 +5,7 @@
 #ifndef DEM_SIMULATION_LED_RUN_H
 #define DEM_SIMULATION_LED_RUN_H
 
-#include "simulation/order.h"
+#include "simulation/rank_call.h"
 #include "simulation/private.h"
 
 /** Makes a simulation that has not been advanced the leader of one that all ranks have a part of. On rank 0, while the
@@ -28,9 +28,9 @@ DEM_API void dem_private_dismiss(const ranks *r, dem_index number);
 dem_status led_run_advance(dem_simulation *whole, double t_end);
 
 /** Asks all parts, and writes what they answer. */
-dem_status led_run_ask(const dem_simulation *whole, order_kind what, dem_index number, void *out);
+dem_status led_run_ask(const dem_simulation *whole, rank_call_kind what, dem_index number, void *out);
 
-/** Rank 0's part, which every contact and event is in, as it is in every other one: to be asked without an order. */
+/** Rank 0's part, which every contact and event is in, as it is in every other one: to be asked without a call. */
 const dem_simulation *led_run_part(const led_run *l);
 
 /** Puts the state that is seen into `frame`. */

@@ -228,7 +228,7 @@ static dem_energy energy_of(const dem_simulation *s)
 dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 {
     TRY(check_pointers("dem_simulation_energy", s, out));
-    if (s->leads != NULL) return led_run_ask(s, ORDER_ENERGY, 0, out);
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_ENERGY, 0, out);
     const dem_energy seen = energy_of(s);
     return GIVE(dem_energy, out, &seen);
 }
@@ -236,7 +236,7 @@ dem_status dem_simulation_energy(const dem_simulation *s, dem_energy *out)
 dem_status dem_simulation_strain(const dem_simulation *s, dem_strain *out)
 {
     TRY(check_pointers("dem_simulation_strain", s, out));
-    if (s->leads != NULL) return led_run_ask(s, ORDER_STRAIN, 0, out);
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_STRAIN, 0, out);
     return GIVE(dem_strain, out, &survey_of(s)->strain);
 }
 
@@ -283,13 +283,13 @@ static double force_of(const dem_simulation *s, dem_index spring, const double *
 static bool reports_spring(const dem_model *m, dem_index spring)
 {
     const dem_index *ends = &m->lattice.ends[2 * spring];
-    return m->domain == NULL || m->domain->is_own[ends[0] < ends[1] ? ends[0] : ends[1]];
+    return domain_owns(m->domain, ends[0] < ends[1] ? ends[0] : ends[1]);
 }
 
 dem_status dem_simulation_force_at(const dem_simulation *s, dem_index spring, double *out)
 {
     TRY(check_pointers("dem_simulation_force_at", s, out));
-    if (s->leads != NULL) return led_run_ask(s, ORDER_FORCE_AT, spring, out);
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_FORCE_AT, spring, out);
     const dem_lattice *l = &s->model->lattice;
     const domain *d = s->model->domain;
     TRY(status_check_number("spring", spring, d != NULL ? d->n_springs : l->n_springs));
@@ -371,7 +371,7 @@ dem_status dem_simulation_stress(const dem_simulation *s, double *stress)
 dem_status dem_simulation_stress_at(const dem_simulation *s, dem_index node, double *stress)
 {
     TRY(check_pointers("dem_simulation_stress_at", s, stress));
-    if (s->leads != NULL) return led_run_ask(s, ORDER_STRESS_AT, node, stress);
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_STRESS_AT, node, stress);
     const domain *d = s->model->domain;
     double own[3] = {0};
     TRY(status_check_number("node", node, d != NULL ? d->n_whole : s->model->lattice.n_nodes));
@@ -430,7 +430,7 @@ dem_status dem_simulation_contact_pressures(const dem_simulation *s, double *pre
 dem_status dem_simulation_counts(const dem_simulation *s, dem_counts *out)
 {
     TRY(check_pointers("dem_simulation_counts", s, out));
-    if (s->leads != NULL) return led_run_ask(s, ORDER_COUNTS, 0, out);
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_COUNTS, 0, out);
     const dem_counts of_integrator = integrator_counts(&s->integrator);
     dem_counts counts = contact_of(s)->set.ledger.counts;
     counts.steps = of_integrator.steps;
@@ -454,7 +454,7 @@ static void measure_bodies(const dem_simulation *s)
 dem_status dem_simulation_body(const dem_simulation *s, dem_index body, dem_body_motion *out)
 {
     TRY(check_pointers("dem_simulation_body", s, out));
-    if (s->leads != NULL) return led_run_ask(s, ORDER_BODY, body, out);
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_BODY, body, out);
     TRY(status_check_number("body", body, s->model->n_bodies));
     if (!s->measures->has_bodies) measure_bodies(s);
     return GIVE(dem_body_motion, out, &s->bodies[body]);
@@ -500,7 +500,7 @@ dem_status dem_simulation_obstacle(const dem_simulation *s, dem_index obstacle, 
 dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_boundary_load *out)
 {
     TRY(check_pointers("dem_simulation_boundary", s, out));
-    if (s->leads != NULL) return led_run_ask(s, ORDER_BOUNDARY, k, out);
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_BOUNDARY, k, out);
     TRY(status_check_number("boundary", k, s->boundaries.n));
     const boundary_condition *b = &s->boundaries.list[k];
     const double *y = all_seen_of(s), *external = s->held_forces.force;
@@ -523,7 +523,7 @@ double dem_simulation_residual(const dem_simulation *s)
 {
     if (check_pointers("dem_simulation_residual", s, s) != DEM_OK) return (double)NAN;
     double of_parts = 0.0;
-    if (s->leads != NULL) return led_run_ask(s, ORDER_RESIDUAL, 0, &of_parts) == DEM_OK ? of_parts : (double)NAN;
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_RESIDUAL, 0, &of_parts) == DEM_OK ? of_parts : (double)NAN;
     return s->seen == s->y ? query_residual(s) : (double)INFINITY;
 }
 

@@ -24,7 +24,7 @@ void changed_motion_destroy(changed_motion *tr)
 {
     free(tr->place);
     free(tr->list);
-    free(tr->ways);
+    free(tr->interpolants);
     free(tr->parts);
     *tr = (changed_motion){0};
 }
@@ -33,7 +33,7 @@ void changed_motion_destroy(changed_motion *tr)
 static void forget(changed_motion *tr)
 {
     for (dem_index k = 0; k < tr->n; k++) tr->place[tr->list[k].node] = -1;
-    tr->n = tr->n_ways = tr->n_parts = 0;
+    tr->n = tr->n_interpolants = tr->n_parts = 0;
 }
 
 void changed_motion_start(changed_motion *tr, double end, double *y1, double *f1)
@@ -82,13 +82,14 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node)
 dem_status changed_motion_take(changed_motion *tr, dem_index node, motion_polynomial **out)
 {
     if (!changed_motion_has(tr, node)) {
-        CHECK(grow_array((void **)&tr->ways, &tr->way_capacity, tr->n_ways + 1, sizeof *tr->ways), DEM_ERROR_MEMORY,
-              "out of memory for the contact events of a step");
+        CHECK(grow_array((void **)&tr->interpolants, &tr->interpolant_capacity, tr->n_interpolants + 1,
+                         sizeof *tr->interpolants),
+              DEM_ERROR_MEMORY, "out of memory for the contact events of a step");
         TRY(changed_motion_keep(tr, node));
-        tr->place[node] = (int32_t)tr->n_ways;
-        tr->ways[tr->n_ways++].is_known = false;
+        tr->place[node] = (int32_t)tr->n_interpolants;
+        tr->interpolants[tr->n_interpolants++].is_known = false;
     }
-    *out = &tr->ways[tr->place[node]].motion;
+    *out = &tr->interpolants[tr->place[node]].motion;
     return DEM_OK;
 }
 

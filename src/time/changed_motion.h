@@ -36,11 +36,11 @@ typedef struct changed_motion_node {
 } changed_motion_node;
 
 /** The motion of a node from the last event on that has changed it. */
-typedef struct changed_motion_way {
+typedef struct changed_motion_interpolant {
     motion_polynomial motion;
     double now[STATE_DIM_MOST]; /* its acceleration by forces in the state at the end, as it is now, */
     bool is_known;              /* if they have been evaluated there */
-} changed_motion_way;
+} changed_motion_interpolant;
 
 /** What an event adds to a row of quadratures, from its time on and in the end. */
 typedef struct changed_motion_part {
@@ -53,11 +53,11 @@ typedef struct changed_motion {
     state_layout layout;
     double end;      /* s, of the step */
     double *y1, *f1; /* state there and its derivative, the integrator's */
-    int32_t *place;  /* [n_rows] of a node among the ways, of a quadrature in the list, -1: it has not changed */
+    int32_t *place; /* [n_rows] of a node among the interpolants, of a quadrature in the list, -1: it has not changed */
     dem_index n, capacity;
     changed_motion_node *list; /* [n] those whose motion has changed, and those that are kept */
-    dem_index n_ways, way_capacity;
-    changed_motion_way *ways; /* [n_ways] apart, as those that are kept have none */
+    dem_index n_interpolants, interpolant_capacity;
+    changed_motion_interpolant *interpolants; /* [n_interpolants] apart, as those that are kept have none */
     dem_index n_parts, part_capacity;
     changed_motion_part *parts; /* [n_parts] */
 } changed_motion;
@@ -79,7 +79,7 @@ static inline bool changed_motion_has(const changed_motion *tr, dem_index node)
 
 static inline const motion_polynomial *changed_motion_of(const changed_motion *tr, dem_index node)
 {
-    return &tr->ways[tr->place[node]].motion;
+    return &tr->interpolants[tr->place[node]].motion;
 }
 
 /** Where the motion of a node from an event on is to be written, at once; it may have had one before. */
@@ -93,21 +93,21 @@ dem_status changed_motion_keep(changed_motion *tr, dem_index node);
  *  is another one now, of any node. */
 static inline void changed_motion_know(changed_motion *tr, dem_index node, const double *a)
 {
-    changed_motion_way *way = &tr->ways[tr->place[node]];
-    way->is_known = true;
-    state_copy_row(&tr->layout, way->now, a);
+    changed_motion_interpolant *interpolant = &tr->interpolants[tr->place[node]];
+    interpolant->is_known = true;
+    state_copy_row(&tr->layout, interpolant->now, a);
 }
 
 static inline void changed_motion_doubt(changed_motion *tr, dem_index node)
 {
-    if (tr->place[node] >= 0) tr->ways[tr->place[node]].is_known = false;
+    if (tr->place[node] >= 0) tr->interpolants[tr->place[node]].is_known = false;
 }
 
 /** What has been noted; NULL: nothing. */
 static inline const double *changed_motion_known(const changed_motion *tr, dem_index node)
 {
     const dem_index place = tr->place[node];
-    return place >= 0 && tr->ways[place].is_known ? tr->ways[place].now : NULL;
+    return place >= 0 && tr->interpolants[place].is_known ? tr->interpolants[place].now : NULL;
 }
 
 /** Adds a change to the state at the end and its derivative. */

@@ -4,14 +4,14 @@
 
 #include "command.h"
 
-static wishes none;
+static requests none;
 
 TEST(words_come_in_any_order)
 {
     char *words[] = {"dem_batch", "b.nml",   "--set", "run.t_end=1", "--check", "--outdir",    "f",
                      "@list",     "--index", "3",     "--set",       "a(2).b=", "--overwrite", NULL};
     CLEANUP(command_free) command c;
-    const host h = {.out = stdout, .err = stderr, .wishes = &none};
+    const host h = {.out = stdout, .err = stderr, .requests = &none};
     assert_int_equal(command_parse(&c, &h, 13, words), EXIT_DONE);
     assert_int_equal(c.action, COMMAND_CHECK);
     assert_string_equal(c.outdir, "f");
@@ -29,7 +29,7 @@ TEST(without_words_it_runs_here)
 {
     char *words[] = {"dem_batch", "a", NULL};
     CLEANUP(command_free) command c;
-    const host h = {.out = stdout, .err = stderr, .wishes = &none};
+    const host h = {.out = stdout, .err = stderr, .requests = &none};
     assert_int_equal(command_parse(&c, &h, 2, words), EXIT_DONE);
     assert_int_equal(c.action, COMMAND_RUN);
     assert_string_equal(c.outdir, ".");
@@ -41,6 +41,6 @@ TEST(what_is_wrong_is_usage)
 {
     char *words[] = {"dem_batch", "a", "--index", "0", NULL};
     CLEANUP(command_free) command c;
-    const host h = {.out = stdout, .err = stderr, .wishes = &none};
+    const host h = {.out = stdout, .err = stderr, .requests = &none};
     assert_int_equal(command_parse(&c, &h, 4, words), EXIT_USAGE);
 }

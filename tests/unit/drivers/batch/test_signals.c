@@ -8,12 +8,12 @@
 
 TEST(a_checkpoint_is_wanted_once)
 {
-    wishes *noted = signals_wishes();
-    assert_false(wishes_checkpoint(noted));
+    requests *noted = signals_requests();
+    assert_false(requests_checkpoint(noted));
     assert_int_equal(raise(SIGUSR1), 0);
-    assert_true(wishes_checkpoint(noted));
-    assert_false(wishes_checkpoint(noted));
-    assert_null(wishes_end(noted));
+    assert_true(requests_checkpoint(noted));
+    assert_false(requests_checkpoint(noted));
+    assert_null(requests_end(noted));
 }
 
 TEST(the_signal_that_asks_for_the_end_is_named)
@@ -24,7 +24,7 @@ TEST(the_signal_that_asks_for_the_end_is_named)
     } all[] = {{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGXCPU, "SIGXCPU"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         assert_int_equal(raise(all[k].number), 0);
-        assert_string_equal(wishes_end(signals_wishes()), all[k].name);
+        assert_string_equal(requests_end(signals_requests()), all[k].name);
     }
     assert_int_equal(raise(SIGPIPE), 0); /* is survived */
     assert_int_equal(raise(SIGXFSZ), 0);

@@ -1,41 +1,41 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "simulation/order.h"
+#include "simulation/rank_call.h"
 
 #include "base/status.h"
 
 static void join(void *packet, const void *other)
 {
-    if (!((const order *)packet)->is_known) *(order *)packet = *(const order *)other;
+    if (!((const rank_call *)packet)->is_known) *(rank_call *)packet = *(const rank_call *)other;
 }
 
-order order_pass(const ranks *r, order given)
+rank_call rank_call_send(const ranks *r, rank_call given)
 {
     given.is_known = r->rank == 0;
     r->reduce(r->self, &given, sizeof given, join);
     return given;
 }
 
-dem_status order_answer(const dem_simulation *part, const order *what, void *out)
+dem_status rank_call_answer(const dem_simulation *part, const rank_call *what, void *out)
 {
     switch (what->kind) {
-    case ORDER_ENERGY:
+    case RANK_CALL_ENERGY:
         return dem_simulation_energy(part, out);
-    case ORDER_STRAIN:
+    case RANK_CALL_STRAIN:
         return dem_simulation_strain(part, out);
-    case ORDER_COUNTS:
+    case RANK_CALL_COUNTS:
         return dem_simulation_counts(part, out);
-    case ORDER_RESIDUAL:
+    case RANK_CALL_RESIDUAL:
         *(double *)out = dem_simulation_residual(part);
         return DEM_OK;
-    case ORDER_BODY:
+    case RANK_CALL_BODY:
         return dem_simulation_body(part, what->number, out);
-    case ORDER_BOUNDARY:
+    case RANK_CALL_BOUNDARY:
         return dem_simulation_boundary(part, what->number, out);
-    case ORDER_STRESS_AT:
+    case RANK_CALL_STRESS_AT:
         return dem_simulation_stress_at(part, what->number, out);
-    case ORDER_FORCE_AT:
+    case RANK_CALL_FORCE_AT:
         return dem_simulation_force_at(part, what->number, out);
     default:
-        return status_fail(DEM_ERROR_ARGUMENT, "order %d has no answer", (int)what->kind);
+        return status_fail(DEM_ERROR_ARGUMENT, "call %d has no answer", (int)what->kind);
     }
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "wishes.h"
+#include "requests.h"
 
 #include <stddef.h>
 
-const char *wishes_end(const wishes *w)
+const char *requests_end(const requests *w)
 {
     switch (w->end) {
     case 0:
@@ -17,7 +17,7 @@ const char *wishes_end(const wishes *w)
     }
 }
 
-bool wishes_checkpoint(wishes *w)
+bool requests_checkpoint(requests *w)
 {
     const bool was = w->checkpoint != 0;
     w->checkpoint = 0;

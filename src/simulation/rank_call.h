@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Calls that the leader of a run, rank 0, makes on all ranks, of which the others are its followers: what each is to do
+ * with its part. A call is one reduction. */
+#ifndef DEM_SIMULATION_RANK_CALL_H
+#define DEM_SIMULATION_RANK_CALL_H
+
+#include "simulation/observers.h"
+
+#include "base/ranks.h"
+
+typedef enum rank_call_kind {
+    RANK_CALL_GO_ON,   /* from an observer, with a status as `number` */
+    RANK_CALL_CREATE,  /* a simulation; number 1: it goes on from a checkpoint */
+    RANK_CALL_OBSERVE, /* it, with frames at these intervals; number 1: with events, too */
+    RANK_CALL_ADVANCE, /* to t */
+    RANK_CALL_GATHER,  /* positions and velocities */
+    RANK_CALL_ENERGY,
+    RANK_CALL_STRAIN,
+    RANK_CALL_COUNTS,
+    RANK_CALL_RESIDUAL,
+    RANK_CALL_BODY, /* of this number, as the next ones are */
+    RANK_CALL_BOUNDARY,
+    RANK_CALL_STRESS_AT,
+    RANK_CALL_FORCE_AT,
+    RANK_CALL_DROP, /* the simulation */
+    RANK_CALL_END   /* no more calls; `number` is for the program */
+} rank_call_kind;
+
+typedef struct rank_call {
+    bool is_known; /* on rank 0 alone, at first */
+    rank_call_kind kind;
+    double t; /* s */
+    dem_index number;
+    double intervals[OBSERVERS_MOST]; /* s */
+} rank_call;
+
+/** Makes a call, on rank 0; waits for the next one, on the others.  \return the call */
+rank_call rank_call_send(const ranks *r, rank_call given);
+
+/** Measures what a call asks for.
+ *  \param[out] out  the struct that its getter fills, or its numbers */
+dem_status rank_call_answer(const dem_simulation *part, const rank_call *what, void *out);
+
+#endif
