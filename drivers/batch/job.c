@@ -118,14 +118,20 @@ static dem_status begin(job *j)
     return status == DEM_OK ? dem_trajectory_create(&j->trajectory, j->path, j->simulation, &options) : status;
 }
 
-/* Where there are ranks they make the run. */
+/* Where there are ranks they make the run of a simulation. */
 static dem_status share(const job *j, const dem_checkpoint *checkpoint)
 {
     const rank_group *ranks = j->command->ranks;
     return ranks != NULL ? rank_group_lead(ranks, j->simulation, &j->options, checkpoint) : DEM_OK;
 }
 
-/* The counterpart of begin() and of the simulation's creation. */
+static dem_status simulate(job *j)
+{
+    const dem_status status = dem_simulation_create(&j->simulation, j->model, &j->options);
+    return status == DEM_OK ? share(j, NULL) : status;
+}
+
+/* The counterpart of begin() and simulate(). */
 static dem_status resume(job *j)
 {
     const dem_checkpoint *checkpoint = j->source.checkpoint;
@@ -385,8 +391,7 @@ static dem_status build(job *j)
     if (status != DEM_OK) return status;
     j->options = d->options;
     if (d->residual > 0.0 && j->options.mass_damping == 0.0) j->options.mass_damping = relaxation_damping(j->model);
-    status = dem_simulation_create(&j->simulation, j->model, &j->options);
-    return status == DEM_OK ? share(j, NULL) : status;
+    return simulate(j);
 }
 
 static bool builds(job *j)
@@ -495,8 +500,7 @@ static bool begin_anew(job *j)
     dem_simulation_destroy(j->simulation);
     j->peaks = NULL;
     j->simulation = NULL;
-    if (!passes(j, dem_simulation_create(&j->simulation, j->model, &j->options), j->path)) return false;
-    if (!passes(j, share(j, NULL), j->path)) return false;
+    if (!passes(j, simulate(j), j->path)) return false;
     report_end(&j->report); /* of a resumption that has failed */
     start_log(j);
     return passes(j, begin(j), j->path);

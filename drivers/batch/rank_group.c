@@ -62,14 +62,13 @@ bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *e
          "bodies that touch: 'bodies' in &contact has to be 'none'"},
         {breaks, body, "material", "what breaks: 'fracture' in &material, or limits in a lattice file"},
     };
-    bool can = true;
-    for (size_t k = 0; k < sizeof all / sizeof *all && can; k++) {
-        if (!all[k].is_there) continue;
-        namelist_errors_add(errors, schema_place(all[k].group, all[k].key), "%d ranks cannot share %s", g->size,
-                            all[k].what);
-        can = false;
-    }
-    return can;
+    const size_t n = sizeof all / sizeof *all;
+    size_t k = 0;
+    while (k < n && !all[k].is_there) k++;
+    if (k == n) return true;
+    namelist_errors_add(errors, schema_place(all[k].group, all[k].key), "%d ranks cannot share %s", g->size,
+                        all[k].what);
+    return false;
 }
 
 int rank_group_end(rank_group *g, int code)

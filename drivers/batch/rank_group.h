@@ -29,7 +29,7 @@ bool rank_group_begin(rank_group *g, char why[RANK_GROUP_REASON]);
 dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem_options *options,
                            const dem_checkpoint *checkpoint);
 
-/** Lists which keys of a deck ask for what ranks cannot share yet.  \return whether there are none */
+/** Whether ranks can share what a deck asks for; else the first key that they cannot yet is among the errors. */
 bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors);
 
 /** Ends MPI. On rank 0 when all is done, with an exit code; on the others at once: they take part in all runs of rank 0

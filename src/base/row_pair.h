@@ -50,4 +50,11 @@ INLINE row_pair row_pair_sqrt(row_pair a)
     return (row_pair){root[0], root[1]};
 }
 
+/** The lengths of two vectors. */
+INLINE row_pair row_pair_lengths(row_pair one, row_pair two)
+{
+    const row_pair x = {one[0], two[0]}, y = {one[1], two[1]};
+    return row_pair_sqrt(x * x + y * y);
+}
+
 #endif

@@ -83,10 +83,9 @@ INLINE row_pair springs_add_two(const springs *s, dem_index i, dem_index p, dem_
     const row_pair xi = row_pair_at(x + 2 * i, 0);
     const row_pair one = row_pair_at(x + 2 * (dem_index)s->neighbour[p], 0) - xi,
                    two = row_pair_at(x + 2 * (dem_index)s->neighbour[q], 0) - xi;
-    const row_pair dx = {one[0], two[0]}, dy = {one[1], two[1]}, length = row_pair_sqrt(dx * dx + dy * dy);
     const row_pair stiffness = {s->stiffness_of[k], s->stiffness_of[m]};
     const row_pair rest = {s->rest_length_of[k], s->rest_length_of[m]};
-    const row_pair factor = springs_pull_two(stiffness, rest, length);
+    const row_pair factor = springs_pull_two(stiffness, rest, row_pair_lengths(one, two));
     force += factor[0] * one;
     return p == q ? force : force + factor[1] * two;
 }

@@ -463,7 +463,7 @@ INLINE void end_step(pass *p, dem_index block, laws acting, const row_block *row
  * the one before it is to be completed */
 INLINE dem_index run_rows(pass *p, dem_index block, laws acting, const row_block *first, int n)
 {
-    enum { in_hand = 4 };
+    enum { in_hand = 4 }; /* and the next one, which is looked up before the last is completed */
     row_block known[in_hand];
     const dem_index begin = block;
     row_step now = {.row = first, .is_row = true}, before = {.row = first};

@@ -268,7 +268,7 @@ INLINE void pull_two(local_elements *e, dem_index k, dem_index other, const doub
     const local_bond *bond[2] = {&e->lists.bonds[k], &e->lists.bonds[other]};
     const row_pair one = row_pair_at(x + bond[0]->second, 0) - row_pair_at(x + bond[0]->first, 0);
     const row_pair two = row_pair_at(x + bond[1]->second, 0) - row_pair_at(x + bond[1]->first, 0);
-    const row_pair dx = {one[0], two[0]}, dy = {one[1], two[1]}, length = row_pair_sqrt(dx * dx + dy * dy);
+    const row_pair length = row_pair_lengths(one, two);
     const row_pair rest = {e->lists.rest_length[k], e->lists.rest_length[other]};
     const row_pair pulled = {e->lists.pulled[k], e->lists.pulled[other]},
                    pushed = {e->lists.pushed[k], e->lists.pushed[other]};
@@ -386,8 +386,8 @@ static bool are_slack(local_elements *e, const local_nodes *nodes, dem_index n_m
 static row_pair force_of_springs(const local_elements *e, dem_index j)
 {
     const double *both = e->both;
-    const int32_t *pull = e->lists.pulls + e->lists.places[j].pulls, *const end =
-                                                                         e->lists.pulls + e->lists.places[j + 1].pulls;
+    const int32_t *pull = e->lists.pulls + e->lists.places[j].pulls;
+    const int32_t *const end = e->lists.pulls + e->lists.places[j + 1].pulls;
     row_pair sum = {0.0, 0.0};
     for (; pull < end; pull++) sum += row_pair_aligned(both + *pull);
     return sum;

@@ -41,20 +41,15 @@ static const survey_row rows[] = {
 
 enum { RUN_NODES = SURVEY_CHUNK * LAYOUT_LANES };
 
-static bool is_own(const survey *s, dem_index node)
-{
-    return s->model->domain == NULL || s->model->domain->is_own[node];
-}
-
 /* Cuts the own nodes into runs: first counts them, then lists them. */
 static dem_index cut(const dem_model *m, survey_run *runs)
 {
     const dem_lattice *l = &m->lattice;
     dem_index n = 0;
     for (dem_index first = 0, last = 0, end; first < l->n_nodes; first = last) {
-        const bool is_own = domain_run(m->domain, first, l->n_nodes, &end);
+        const bool counts = domain_run(m->domain, first, l->n_nodes, &end);
         while (last < end && l->body[last] == l->body[first] && last - first < RUN_NODES) last++;
-        if (!is_own) continue;
+        if (!counts) continue;
         if (runs != NULL) runs[n] = (survey_run){first, last, l->body[first]};
         n++;
     }
@@ -66,7 +61,7 @@ static void weigh(survey *s)
 {
     const dem_lattice *l = &s->model->lattice;
     for (dem_index i = 0; i < l->n_nodes; i++)
-        if (is_own(s, i)) exact_sum_add(&s->bodies[l->body[i]].kinetic, l->mass[i]);
+        if (domain_owns(s->model->domain, i)) exact_sum_add(&s->bodies[l->body[i]].kinetic, l->mass[i]);
     for (dem_index b = 0; b < s->model->n_bodies; b++) s->mass[b] = reduce_sum(s->model->ranks, &s->bodies[b].kinetic);
 }
 
@@ -101,14 +96,15 @@ static dem_status allocate(survey *s)
     return DEM_OK;
 }
 
-static dem_status find_ghosts(survey *s)
+static dem_status find_others(survey *s)
 {
     const layout *l = &s->model->layout;
     if (s->model->domain == NULL) return DEM_OK;
-    s->ghosts = calloc((size_t)l->n_blocks + 1, sizeof *s->ghosts);
-    CHECK_MEMORY(s->ghosts);
+    s->others = calloc((size_t)l->n_blocks + 1, sizeof *s->others);
+    CHECK_MEMORY(s->others);
     for (dem_index q = 0; q < LAYOUT_LANES * l->n_blocks; q++)
-        if (!is_own(s, layout_node(l, q))) s->ghosts[q / LAYOUT_LANES] |= (uint8_t)(1u << q % LAYOUT_LANES);
+        if (!domain_owns(s->model->domain, layout_node(l, q)))
+            s->others[q / LAYOUT_LANES] |= (uint8_t)(1u << q % LAYOUT_LANES);
     return DEM_OK;
 }
 
@@ -121,7 +117,7 @@ static dem_status set_up(survey *s)
     TRY(allocate(s));
     (void)cut(s->model, s->runs);
     weigh(s);
-    TRY(find_ghosts(s));
+    TRY(find_others(s));
     return find_places(s);
 }
 
@@ -146,7 +142,7 @@ void survey_destroy(survey *s)
 {
     free(s->place);
     free(s->packed);
-    free(s->ghosts);
+    free(s->others);
     free(s->skipped);
     free(s->folded);
     free(s->least);
@@ -280,7 +276,7 @@ static void add_triangles(taking *t, dem_index i, bool passed)
 
 static void add_node(taking *t, dem_index i)
 {
-    if (!is_own(t->s, i)) return;
+    if (!domain_owns(t->s->model->domain, i)) return;
     add_springs(t, i);
     if (t->s->model->couplings.n > 0) add_couplings(t, i);
     add_triangles(t, i, false);
@@ -306,7 +302,7 @@ static bool is_own_triangle(const survey *s, const dem_index *corner)
     dem_index lowest = corner[0];
     for (int q = 1; q < 3; q++)
         if (corner[q] < lowest) lowest = corner[q];
-    return is_own(s, lowest);
+    return domain_owns(s->model->domain, lowest);
 }
 
 /* Triangles that neither area term nor guard acts on are in no layout: then all are looked at by the lattice's list. */
@@ -336,7 +332,7 @@ static void skip_damaged(taking *t)
     const dem_index end = LAYOUT_LANES * t->s->model->layout.n_blocks;
     if (e == NULL || e->n_damaged == 0) return;
     for (dem_index b = 0; b < t->s->model->layout.n_blocks; b++)
-        t->s->skipped[b] = t->s->ghosts != NULL ? t->s->ghosts[b] : 0;
+        t->s->skipped[b] = t->s->others != NULL ? t->s->others[b] : 0;
     for (dem_index d = 0; d < e->n_damaged; d++) {
         const dem_index q = place_of(t, e->damaged[d]);
         if (q < end) t->s->skipped[q / LAYOUT_LANES] |= (uint8_t)(1u << q % LAYOUT_LANES);
@@ -386,7 +382,7 @@ static void measure_share(const void *context, int share, int thread)
     const bool damaged = t->f->elements != NULL && t->f->elements->n_damaged > 0;
     const energy_pass energies = {.layout = &s->model->layout,
                                   .x = s->packed != NULL ? s->packed : t->x,
-                                  .skipped = damaged ? s->skipped : s->ghosts,
+                                  .skipped = damaged ? s->skipped : s->others,
                                   .folded = s->folded,
                                   .least = s->least,
                                   .largest = s->largest};
@@ -444,7 +440,7 @@ static void look_at_group(taking *t, dem_index group)
     const dem_index first = LAYOUT_LANES * ENERGY_PASS_GROUP * group, end = LAYOUT_LANES * l->n_blocks;
     for (dem_index q = first; q < end && q < first + LAYOUT_LANES * ENERGY_PASS_GROUP; q++) {
         const dem_index i = layout_node(l, q);
-        if (!is_own(t->s, i) || element_state_at(t->f->elements, i) != NULL) continue;
+        if (!domain_owns(t->s->model->domain, i) || element_state_at(t->f->elements, i) != NULL) continue;
         for (dem_index p = s->row[i]; p < s->row[i + 1]; p++)
             if (place_of(t, s->neighbour[p]) > q)
                 measure_spring(&t->s->model->lattice, s->spring[p], springs_strain(s, i, p, t->x), &t->extremes);

@@ -29,7 +29,7 @@ typedef struct survey {
     int n_shares;            /* of its loops */
     int32_t *place;          /* [n_nodes] of each node in the layout, and */
     double *packed;          /* [n_nodes][2] positions in its order; both NULL: that of the nodes */
-    uint8_t *ghosts;         /* [n_blocks] nodes of other ranks, as `skipped`; NULL: there are none */
+    uint8_t *others;         /* [n_blocks] nodes of other ranks, as `skipped`; NULL: there are none */
     uint8_t *skipped;        /* [n_blocks] as energy_pass has them, as the next three are */
     uint8_t *folded;         /* [n_blocks] */
     double *least, *largest; /* [n_groups] */
@@ -52,7 +52,7 @@ void survey_destroy(survey *s);
 
 /** Measures a state. Collective.
  *  \param f     gravity, and what is left of elements
- *  \param x, v  [n_nodes][2], ghosts among them */
+ *  \param x, v  [n_nodes][2], those of ghosts and common nodes among them */
 void survey_take(survey *s, const forces *f, const double *x, const double *v);
 
 /** Measures no more than survey_bodies() asks for. */

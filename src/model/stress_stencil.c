@@ -127,19 +127,21 @@ int stress_stencil_list(stress_stencil *p, const dem_index *nodes, dem_index n)
 
 /* ---- stresses ---- */
 
+INLINE void put_virial(stress_stencil_spring *k, double tension, row_pair d)
+{
+    row_pair_put(k->virial, 0, tension * d * d);
+    k->virial[2] = tension * d[0] * d[1];
+}
+
 /* r x f of two springs, which may be the same. */
 INLINE void find_two(stress_stencil_spring *a, stress_stencil_spring *b, const double *x)
 {
     const row_pair one = row_pair_at(x + 2 * a->end[1], 0) - row_pair_at(x + 2 * a->end[0], 0);
     const row_pair two = row_pair_at(x + 2 * b->end[1], 0) - row_pair_at(x + 2 * b->end[0], 0);
-    const row_pair dx = {one[0], two[0]}, dy = {one[1], two[1]}, length = row_pair_sqrt(dx * dx + dy * dy);
     const row_pair rest = {a->rest_length, b->rest_length}, stiffness = {a->stiffness, b->stiffness};
-    const row_pair tension = springs_pull_two(stiffness, rest, length);
-    const row_pair xx = tension * dx * dx, yy = tension * dy * dy, xy = tension * dx * dy;
-    row_pair_put(a->virial, 0, (row_pair){xx[0], yy[0]});
-    row_pair_put(b->virial, 0, (row_pair){xx[1], yy[1]});
-    a->virial[2] = xy[0];
-    b->virial[2] = xy[1];
+    const row_pair tension = springs_pull_two(stiffness, rest, row_pair_lengths(one, two));
+    put_virial(a, tension[0], one);
+    put_virial(b, tension[1], two);
 }
 
 static void find_virials(stress_stencil *p, const double *x)

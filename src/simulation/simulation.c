@@ -465,12 +465,6 @@ static dem_status advance(dem_simulation *s, double t_end)
     return show_inside(s, t_end);
 }
 
-static dem_status end_led(dem_simulation *s, dem_status status)
-{
-    s->advancing = false;
-    return status;
-}
-
 /* A failed force ends the advance in any case, even if a later error has come first. */
 dem_status dem_simulation_advance(dem_simulation *s, double t_end)
 {
@@ -478,8 +472,7 @@ dem_status dem_simulation_advance(dem_simulation *s, double t_end)
     CHECK(isfinite(t_end) && t_end >= s->seen_t, DEM_ERROR_ARGUMENT, "t_end = %g s is before the present time %g s",
           t_end, s->seen_t);
     s->advanced = s->advancing = true;
-    if (s->leads != NULL) return end_led(s, led_run_advance(s, t_end));
-    const dem_status status = advance(s, t_end);
+    const dem_status status = s->leads != NULL ? led_run_advance(s, t_end) : advance(s, t_end);
     s->advancing = false;
     return run_force_failed(s) ? roll_back(s) : status;
 }

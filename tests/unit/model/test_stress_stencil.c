@@ -37,6 +37,14 @@ static dem_lattice make(bool with_cells)
     return l;
 }
 
+static void prepare(dem_model **model, element_state *state, stress_stencil **p, const dem_lattice *l)
+{
+    assert_ok(dem_model_create(model, l, NULL, 0));
+    assert_ok(stress_prepare(&(*model)->stress));
+    assert_ok(element_state_create(state, &(*model)->lattice, &(*model)->springs));
+    assert_ok(stress_stencil_create(p, *model, state));
+}
+
 /* A triangle at an end of it, where others are left. */
 static dem_index at_the_bar(const dem_lattice *l)
 {
@@ -71,10 +79,7 @@ TEST(they_have_the_bits_of_node_stress)
         CLEANUP(free_model) dem_model *model = NULL;
         CLEANUP(element_state_destroy) element_state state;
         stress_stencil *p = NULL;
-        assert_ok(dem_model_create(&model, &l, NULL, 0));
-        assert_ok(stress_prepare(&model->stress));
-        assert_ok(element_state_create(&state, &model->lattice, &model->springs));
-        assert_ok(stress_stencil_create(&p, model, &state));
+        prepare(&model, &state, &p, &l);
         CLEANUP(free_memory) double *x = calloc(2 * (size_t)l.n_nodes, sizeof *x);
         assert_non_null(x);
         for (int turn = 0; turn < 12; turn++) {
@@ -94,10 +99,7 @@ TEST(where_a_guard_may_act_they_are_not_known)
     CLEANUP(free_model) dem_model *model = NULL;
     CLEANUP(element_state_destroy) element_state state;
     stress_stencil *p = NULL;
-    assert_ok(dem_model_create(&model, &l, NULL, 0));
-    assert_ok(stress_prepare(&model->stress));
-    assert_ok(element_state_create(&state, &model->lattice, &model->springs));
-    assert_ok(stress_stencil_create(&p, model, &state));
+    prepare(&model, &state, &p, &l);
     CLEANUP(free_memory) double *x = calloc(2 * (size_t)l.n_nodes, sizeof *x);
     assert_non_null(x);
     const dem_index *corner = &l.triangles[3 * (l.n_triangles / 2)];
