@@ -173,15 +173,16 @@ class Obstacles(Runs):
         text = (INPUTS / f"{name}.nml").read_text(encoding="ascii")
         (self.folder / "falling.nml").write_text(text, encoding="ascii")
 
+    def check_deck(self, name, n):
+        self.take(name)
+        self.assertEqual(self.run_on(0, name)[0], 0)
+        self.assertGreater(self.result(name)["events"], 5)
+        code, _, errors = self.run_on(n, f"ranks_{name}")
+        self.assertEqual(code, 0, errors)
+        self.assert_same(name, f"ranks_{name}")
+
     def test_files_are_those_of_one_process(self):
-        for name, n in (("rectangle", 2), ("disc", 3), ("porous", 7)):
-            with self.subTest(deck=name):
-                self.take(name)
-                self.assertEqual(self.run_on(0, name)[0], 0)
-                self.assertGreater(self.result(name)["events"], 5)
-                code, _, errors = self.run_on(n, f"ranks_{name}")
-                self.assertEqual(code, 0, errors)
-                self.assert_same(name, f"ranks_{name}")
+        self.check_deck("disc", 3)
 
     def test_any_number_of_ranks_goes_on_with_closed_contacts(self):
         self.take("rectangle")
@@ -192,6 +193,12 @@ class Obstacles(Runs):
             self.assertEqual("resumed" in log, k > 0)
             self.assertGreater(self.result("parts")["contacts"], 0)
         self.assert_same("one", "parts")
+
+
+class LongerOnObstacles(Obstacles):
+    def test_files_are_those_of_one_process(self):
+        self.check_deck("rectangle", 2)
+        self.check_deck("porous", 7)
 
 
 class Longer(Runs):
