@@ -17,7 +17,6 @@
 #include "ask.h"
 #include "plate.h"
 
-static const double width = 0.08, height = 0.13, speed[2] = {0.0, -10.0}, tilt = 0.03;
 static const double least_time = 0.5; /* s */
 
 typedef struct law {
@@ -25,21 +24,6 @@ typedef struct law {
 } law;
 
 static const law elastic = {.restitution = 1.0};
-
-/* Its lowest node is a fifth of a spacing above the floor. */
-static dem_lattice make_body(double spacing)
-{
-    const dem_index columns = llround(width / spacing) + 1, rows = llround(height / (spacing * sqrt(3.0) / 2.0)) + 1;
-    dem_lattice body = plate_make(columns, rows, spacing);
-    double lift[2] = {0.0, INFINITY};
-    plate_triangulate(&body, columns);
-    dem_lattice_move(&body, tilt, (const double[2]){0.0, 0.0});
-    for (dem_index i = 0; i < body.n_nodes; i++) lift[1] = fmin(lift[1], body.x[2 * i + 1]);
-    lift[1] = 0.2 * spacing - lift[1];
-    dem_lattice_move(&body, 0.0, lift);
-    ask(dem_lattice_launch(&body, speed));
-    return body;
-}
 
 static dem_model *compile(double spacing, law l)
 {
@@ -49,7 +33,7 @@ static dem_model *compile(double spacing, law l)
                                 .points = points,
                                 .restitution = l.restitution,
                                 .friction = l.friction};
-    dem_lattice body = make_body(spacing);
+    dem_lattice body = plate_make_falling(spacing);
     dem_model *model;
     if (l.damping_time > 0.0) plate_damp(&body, l.damping_time);
     if (l.guard > 0.0) plate_guard(&body, l.guard);
@@ -136,7 +120,7 @@ int main(int argc, char **argv)
          "lammps FILE");
     const double spacing = atof(argv[1]), t_end = atof(argv[2]);
     if (argc == 4) {
-        dem_lattice body = make_body(spacing);
+        dem_lattice body = plate_make_falling(spacing);
         plate_write_lammps(&body, spacing, 0.05, argv[3]);
         dem_lattice_free(&body);
         return 0;

@@ -95,6 +95,21 @@ void plate_triangulate(dem_lattice *l, dem_index columns)
 }
 
 /* Springs of stiffness k per length have E h = 2 k/sqrt 3. */
+dem_lattice plate_make_falling(double spacing)
+{
+    static const double width = 0.08, height = 0.13, speed[2] = {0.0, -10.0}, tilt = 0.03;
+    const dem_index columns = llround(width / spacing) + 1, rows = llround(height / (spacing * sqrt(3.0) / 2.0)) + 1;
+    dem_lattice body = plate_make(columns, rows, spacing);
+    double lift[2] = {0.0, INFINITY};
+    plate_triangulate(&body, columns);
+    dem_lattice_move(&body, tilt, (const double[2]){0.0, 0.0});
+    for (dem_index i = 0; i < body.n_nodes; i++) lift[1] = fmin(lift[1], body.x[2 * i + 1]);
+    lift[1] = 0.2 * spacing - lift[1];
+    dem_lattice_move(&body, 0.0, lift);
+    ask(dem_lattice_launch(&body, speed));
+    return body;
+}
+
 void plate_guard(dem_lattice *l, double strength)
 {
     l->guard = zeros(l->n_triangles, sizeof *l->guard);

@@ -19,6 +19,10 @@ void plate_triangulate(dem_lattice *l, dem_index columns);
  *  `gap` spacings between them, which run towards each other with this speed each, m/s. */
 dem_lattice plate_make_two(dem_index nodes, double gap, double spacing, double speed);
 
+/** The body of W2: a rectangle of 8 x 13 cm with triangles, tilted by 0.03, which falls at 10 m/s; its lowest node is a
+ *  fifth of a spacing above 0. */
+dem_lattice plate_make_falling(double spacing);
+
 /** Gives every triangle a folding guard, of this strength over E h. */
 void plate_guard(dem_lattice *l, double strength);
 
