@@ -27,6 +27,11 @@ static dem_status contact_each_node(const void *self, dem_index group, dem_statu
     return DEM_OK;
 }
 
+static dem_index contact_groups_at(void *self, const dem_index *nodes, dem_index n, const dem_index **list)
+{
+    return contact_forces_groups_at(&((automaton *)self)->set.forces, nodes, n, list);
+}
+
 static dem_status contact_each_held(const void *self, dem_status (*add)(void *context, dem_index node), void *context)
 {
     const contact_forces *r = &((const automaton *)self)->set.forces;
@@ -74,29 +79,13 @@ static void contact_add_all_rates(const void *self, constraint_state at, double 
 
 /* ---- the end of a step ---- */
 
-/* Whether an event has changed the motion of a group's nodes: the others are as the step has left them. */
-static bool has_moved(const contact_set *c, const changed_motion *changed, dem_index group)
-{
-    const contact_forces *r = &c->forces;
-    for (dem_index m = group; m >= 0; m = r->next[m])
-        if (changed_motion_has(changed, r->candidates[m].node)) return true;
-    return false;
-}
-
-/* At the end of a step, contacts whose nodes events have moved are put back on their surfaces and stopped there, in the
- * order of the groups; the ledger has both as projection and impact. Then all forces are those of the end. */
-static void contact_settle(void *self, const changed_motion *changed)
+/* Contacts are put back on their surfaces and stopped there; the ledger has both as projection and impact. */
+static void contact_settle(void *self, dem_index group, double t, double *y)
 {
     contact_set *c = &((automaton *)self)->set;
-    double *y1 = changed->y1;
-    contact_instant now = {changed->end, y1, y1 + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
-    for (dem_index g = 0; g < c->forces.n_groups; g++) {
-        const dem_index group = c->forces.groups[g];
-        if (!has_moved(c, changed, group)) continue;
-        (void)impact_group_project(c, group, &now);
-        impact_group_stop(c, group, &now);
-    }
-    contact_set_solve_all(c, instant_state(&now));
+    contact_instant now = {t, y, y + state_velocities(scene_layout(&c->scene)), NULL, DEM_OK};
+    (void)impact_group_project(c, group, &now);
+    impact_group_stop(c, group, &now);
 }
 
 constraints contact_constraints_of(automaton *c)
@@ -105,6 +94,7 @@ constraints contact_constraints_of(automaton *c)
                          .group_at = &c->set.forces.at_node,
                          .a = &c->set.forces.a,
                          .each_node = contact_each_node,
+                         .groups_at = contact_groups_at,
                          .each_held = contact_each_held,
                          .solve = contact_solve,
                          .add_rates = contact_add_rates,

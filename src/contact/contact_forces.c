@@ -12,6 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/sorted.h"
 #include "base/status.h"
 
 /* Share of a row's own mobility. A pivot below it means that the other rows hold the contact already: its force is not
@@ -209,6 +210,18 @@ dem_status contact_forces_regroup(contact_forces *r)
         n_collected = collect(r, k, n_collected);
     }
     return group_collected(r, n_collected);
+}
+
+/* Their places in the list of all are put in order. There are two nodes for each candidate at most. */
+dem_index contact_forces_groups_at(contact_forces *r, const dem_index *nodes, dem_index n, const dem_index **list)
+{
+    dem_index n_found = 0;
+    for (dem_index j = 0; j < n; j++)
+        if (r->at_node[nodes[j]] >= 0) r->members[n_found++] = place_of(r, r->at_node[nodes[j]]);
+    n_found = sorted_make(r->members, n_found);
+    for (dem_index g = 0; g < n_found; g++) r->members[g] = r->groups[r->members[g]];
+    *list = r->members;
+    return n_found;
 }
 
 /* ---- one contact by itself ---- */
@@ -500,7 +513,7 @@ dem_status contact_forces_create(contact_forces *out, const contact_scene *scene
     r.group = malloc(n * sizeof *r.group);
     r.next = malloc(n * sizeof *r.next);
     r.at_node = malloc(n_nodes * sizeof *r.at_node);
-    r.members = malloc(n * sizeof *r.members);
+    r.members = malloc(2 * n * sizeof *r.members);
     r.force = calloc(n, sizeof *r.force);
     r.root = malloc(n_nodes * sizeof *r.root);
     r.first = malloc(n_nodes * sizeof *r.first);

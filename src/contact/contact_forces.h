@@ -33,7 +33,7 @@ typedef struct contact_forces {
                                   next[] leads along the boundary through all of a group, which are closed */
     dem_index *group, *next;   /* [n_candidates] of a closed candidate, else -1; the next of its group, or -1 */
     dem_index *at_node;        /* [n_nodes] the group that has closed contacts at a node, or -1 */
-    dem_index *members;        /* [n_candidates] scratch: candidates whose groups are found again, */
+    dem_index *members;        /* [2 n_candidates] scratch: candidates whose groups are found again, */
     group_walk walk;           /* and their order */
     contact_force (*force)[2]; /* [n_candidates] of each closed contact, as last solved for */
     dem_index *root, *first;   /* [n_nodes] scratch: union-find; first row that touches the node */
@@ -55,6 +55,10 @@ dem_status contact_forces_regroup(contact_forces *r);
  *  groups that they leave and join.
  *  \return DEM_ERROR_MEMORY, with the groups as they should be */
 dem_status contact_forces_regroup_some(contact_forces *r, const dem_index *changed, dem_index n);
+
+/** The groups at some nodes, each once and in the order of `groups`, into `list`, which holds until groups are found
+ *  again.  \return how many */
+dem_index contact_forces_groups_at(contact_forces *r, const dem_index *nodes, dem_index n, const dem_index **list);
 
 /** Adds to the free accelerations a [n][2] those by the forces of all closed contacts; fills force. */
 void contact_forces_hold(contact_forces *r, scene_state state, double *a);

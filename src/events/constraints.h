@@ -28,15 +28,18 @@ typedef struct constraints {
     /** Calls `add` for the nodes of a group, for some more than once.  \return what it returns, if not DEM_OK */
     dem_status (*each_node)(const void *self, dem_index group, dem_status (*add)(void *context, dem_index node),
                             void *context);
-    /** The same for the nodes of all groups. */
+    /** The groups at some nodes, each once and in an order of their own, into `list`, which holds until groups change.
+     *  \return how many */
+    dem_index (*groups_at)(void *self, const dem_index *nodes, dem_index n, const dem_index **list);
+    /** Calls `add` for the nodes of all groups. */
     dem_status (*each_held)(const void *self, dem_status (*add)(void *context, dem_index node), void *context);
     /** Solves for the accelerations of a group; of the state its nodes and their neighbours are read. */
     void (*solve)(void *self, dem_index group, constraint_state at);
     /** What a group adds to the rates of quadratures, in a state that it was solved in last. */
     dem_status (*add_rates)(const void *self, dem_index group, constraint_state at, const constraint_rates *to);
-    /** Takes from the end of a step the error that changes of the motion have left in the groups; then solves for all
-     *  of them there. */
-    void (*settle)(void *self, const changed_motion *changed);
+    /** Takes from a state at the end of a step the error that changes of the motion have left in a group: moves its
+     *  nodes. */
+    void (*settle)(void *self, dem_index group, double t, double *y);
     /** The same of all groups at once, into the accelerations a [n_rows][dim] of a derivative. */
     void (*add_all_rates)(const void *self, constraint_state at, double *a);
 } constraints;

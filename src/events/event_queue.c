@@ -217,50 +217,81 @@ static dem_status renew_rates(event_queue *q)
     return DEM_OK;
 }
 
-static dem_status count(void *context, dem_index node)
+/* Lists the nodes whose motion events have changed. */
+static dem_status list_changed(event_queue *q)
 {
-    (void)node;
-    ++*(dem_index *)context;
-    return DEM_OK;
-}
-
-/* Whether constraints hold a node: then the state at the end is not that in which accelerations are known. */
-static bool holds_any(const event_queue *q)
-{
-    dem_index n = 0;
-    if (q->constraints != NULL) (void)q->constraints->each_held(q->constraints->self, count, &n);
-    return n > 0;
-}
-
-/* Computes the derivative at the end of the step again where nodes have changed, at the neighbours of these nodes,
- * whose accelerations depend on them, and at all that constraints hold, since the rates of the quadratures have their
- * forces: it is that of the state to the bit, but for the power of damping and boundaries. The next step can therefore
- * begin without an evaluation of all forces. */
-static dem_status renew_end(event_queue *q)
-{
-    const local_forces *f = q->forces;
     local_nodes *nodes = &q->renewed;
     local_nodes_clear(nodes);
     for (dem_index e = 0; e < q->changed.n; e++)
         if (q->changed.list[e].node < q->layout.n_nodes) TRY(local_nodes_add(nodes, q->changed.list[e].node));
+    return DEM_OK;
+}
+
+/* Accelerations that are known of nodes beside these groups are no longer those of the end of the step. */
+static dem_status doubt_groups(event_queue *q, const dem_index *groups, dem_index n)
+{
+    const constraints *c = q->constraints;
+    local_nodes *nodes = &q->renewed;
+    local_nodes_clear(nodes);
+    for (dem_index g = 0; g < n; g++) TRY(c->each_node(c->self, groups[g], local_nodes_add_to, nodes));
+    TRY(q->forces->add_neighbours(q->forces->self, nodes, 0, nodes->n));
+    for (dem_index j = 0; j < nodes->n; j++) changed_motion_doubt(&q->changed, nodes->list[j]);
+    return DEM_OK;
+}
+
+/* Closed contacts whose nodes events have moved are put back on their surfaces and stopped there, which removes the
+ * error that the corrections have left in them. */
+static dem_status settle_groups(event_queue *q)
+{
+    const constraints *c = q->constraints;
+    const dem_index *groups;
+    if (c == NULL) return DEM_OK;
+    TRY(list_changed(q));
+    const dem_index n = c->groups_at(c->self, q->renewed.list, q->renewed.n, &groups);
+    for (dem_index g = 0; g < n; g++) c->settle(c->self, groups[g], q->step->t1, q->changed.y1);
+    return n > 0 ? doubt_groups(q, groups, n) : DEM_OK;
+}
+
+/* Solves for the groups that have nodes among those to be renewed, and adds their other nodes to these. The forces of
+ * other groups are what they were before the events. Not so by Verlet's method: there the derivative at the end of the
+ * step is that at the velocities v_0 + h a_0, but rates are to have the velocities of the state. */
+static dem_status solve_groups(event_queue *q)
+{
+    const constraints *c = q->constraints;
+    local_nodes *nodes = &q->renewed;
+    const dem_index *groups;
+    if (c == NULL) return DEM_OK;
+    if (q->step->parabolic) TRY(c->each_held(c->self, local_nodes_add_to, nodes));
+    const dem_index n = c->groups_at(c->self, nodes->list, nodes->n, &groups);
+    for (dem_index g = 0; g < n; g++) {
+        c->solve(c->self, groups[g], (constraint_state){q->step->t1, q->changed.y1});
+        TRY(c->each_node(c->self, groups[g], local_nodes_add_to, nodes));
+    }
+    return DEM_OK;
+}
+
+/* Computes the derivative at the end of the step again where nodes have changed, at the neighbours of these nodes,
+ * whose accelerations depend on them, and at all nodes of their groups: it is that of the state to the bit, but for the
+ * power of damping and boundaries. The next step can therefore begin without an evaluation of all forces. */
+static dem_status renew_end(event_queue *q)
+{
+    const local_forces *f = q->forces;
+    local_nodes *nodes = &q->renewed;
+    TRY(list_changed(q));
     const dem_index n_changed = nodes->n;
     TRY(f->add_neighbours(f->self, nodes, 0, n_changed));
-    if (q->constraints != NULL) TRY(q->constraints->each_held(q->constraints->self, local_nodes_add_to, nodes));
+    TRY(solve_groups(q));
     for (dem_index j = n_changed; j < nodes->n; j++) TRY(changed_motion_keep(&q->changed, nodes->list[j]));
-    const bool moved = holds_any(q);
-    for (dem_index j = 0; j < nodes->n; j++) {
-        const dem_index i = nodes->list[j];
-        renew(q, i, moved ? NULL : changed_motion_known(&q->changed, i));
-    }
+    for (dem_index j = 0; j < nodes->n; j++)
+        renew(q, nodes->list[j], changed_motion_known(&q->changed, nodes->list[j]));
     return renew_rates(q);
 }
 
-/* At the end of the step closed contacts are put back on their surfaces and stopped there, which removes the error that
- * the corrections have left in them; then the derivative is computed again. */
+/* Closed contacts first, then the derivative. */
 static dem_status settle_end(event_queue *q)
 {
     changed_motion_end_rows(&q->changed);
-    if (q->constraints != NULL) q->constraints->settle(q->constraints->self, &q->changed);
+    TRY(settle_groups(q));
     q->settled = true;
     return renew_end(q);
 }
