@@ -28,6 +28,20 @@ static inline void rate_sums_add_row(const rate_sums *s, const state_layout *l, 
     for (int d = 0; d < l->dim; d++) rate_sums_add(s, l, state_row(l, row) + d, terms[d]);
 }
 
+/** Adds a block of terms to the rate at an index, or in turns to that and the next one, as exact_sum_take() and
+ *  exact_sum_take_pairs() do. */
+static inline void rate_sums_add_terms(const rate_sums *s, const state_layout *l, dem_index index,
+                                       double terms[EXACT_SUM_BLOCK], int n)
+{
+    exact_sum_take(&s->list[index - state_row(l, state_impulse(l, 0))], terms, n);
+}
+
+static inline void rate_sums_add_pairs(const rate_sums *s, const state_layout *l, dem_index index,
+                                       double terms[EXACT_SUM_BLOCK], int n)
+{
+    exact_sum_take_pairs(&s->list[index - state_row(l, state_impulse(l, 0))], terms, n);
+}
+
 /** Adds the sums of all ranks to the rates among the accelerations a, and empties them. */
 void rate_sums_take(const ranks *r, const rate_sums *s, const state_layout *l, double *a);
 

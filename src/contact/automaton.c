@@ -266,19 +266,37 @@ dem_status automaton_restore(automaton *c, double t, const double *y)
     return DEM_OK;
 }
 
-/* Adds the rates of one candidate's closed contacts: N for impulses, all of them and then those of friction; W for the
- * work of friction and of obstacles. */
-static void add_rates_of(const automaton *c, dem_index k, scene_state state)
+/* What contacts with one obstacle add to its rates and to the totals, collected to be added together. */
+typedef struct rate_terms {
+    dem_index obstacle;
+    int n;                                                    /* contacts */
+    double force[EXACT_SUM_BLOCK], friction[EXACT_SUM_BLOCK]; /* N, [n][2] for impulses: all, and friction's */
+    double power[EXACT_SUM_BLOCK], work[EXACT_SUM_BLOCK];     /* W, [n] that friction takes, obstacles do */
+} rate_terms;
+
+static void add_terms(const automaton *c, rate_terms *of)
 {
     const state_layout *l = scene_layout(&c->set.scene);
+    if (of->n == 0) return;
+    rate_sums_add_pairs(&c->rates, l, state_row(l, state_impulse(l, of->obstacle)), of->force, 2 * of->n);
+    rate_sums_add_pairs(&c->rates, l, state_row(l, state_friction_impulse(l, of->obstacle)), of->friction, 2 * of->n);
+    rate_sums_add_terms(&c->rates, l, state_total_index(l, STATE_FRICTION), of->power, of->n);
+    if (state_has_total(l, STATE_OBSTACLE))
+        rate_sums_add_terms(&c->rates, l, state_total_index(l, STATE_OBSTACLE), of->work, of->n);
+    of->n = 0;
+}
+
+/* Collects the rates of one candidate's closed contacts. */
+static void collect_rates(const automaton *c, dem_index k, scene_state state, rate_terms *terms)
+{
     for (int q = 0; q < c->set.list[k].n_closed; q++) {
         const contact_contribution of = contact_set_contribution(&c->set, k, q, state);
-        rate_sums_add_row(&c->rates, l, state_impulse(l, of.obstacle), (const double[]){of.force.x, of.force.y});
-        rate_sums_add_row(&c->rates, l, state_friction_impulse(l, of.obstacle),
-                          (const double[]){of.friction.x, of.friction.y});
-        rate_sums_add(&c->rates, l, state_total_index(l, STATE_FRICTION), of.power);
-        if (state_has_total(l, STATE_OBSTACLE))
-            rate_sums_add(&c->rates, l, state_total_index(l, STATE_OBSTACLE), of.work);
+        if (of.obstacle != terms->obstacle || terms->n == EXACT_SUM_BLOCK / 2) add_terms(c, terms);
+        terms->obstacle = of.obstacle;
+        vec2_put(terms->force, terms->n, of.force);
+        vec2_put(terms->friction, terms->n, of.friction);
+        terms->power[terms->n] = of.power;
+        terms->work[terms->n++] = of.work;
     }
 }
 
@@ -288,9 +306,13 @@ void automaton_add_rates(const automaton *c, double t, const double *y, double *
 {
     const scene_state state = automaton_state(c, t, y);
     const contact_forces *r = &c->set.forces;
+    rate_terms terms;
+    terms.n = 0;
+    terms.obstacle = -1;
     if (r->n_groups == 0) return;
     for (dem_index g = 0; g < r->n_groups; g++)
-        for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) add_rates_of(c, k, state);
+        for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) collect_rates(c, k, state, &terms);
+    add_terms(c, &terms);
     rate_sums_take(&ranks_alone, &c->rates, scene_layout(&c->set.scene), a);
 }
 
