@@ -39,10 +39,10 @@ static dem_status contact_each_held(const void *self, dem_status (*add)(void *co
     return DEM_OK;
 }
 
-static void contact_solve(void *self, dem_index group, constraint_state at)
+static void contact_solve(void *self, dem_index group, constraint_state at, const constraint_free *known)
 {
     contact_set *c = &((automaton *)self)->set;
-    contact_forces_solve(&c->forces, group, state_of(c, at));
+    contact_forces_solve_free(&c->forces, group, state_of(c, at), known);
 }
 
 /* ---- rates ---- */

@@ -442,15 +442,17 @@ void contact_forces_hold(contact_forces *r, scene_state state, double *a)
 }
 
 /* The free acceleration of a node, once for all contacts that share it. */
-static void set_free(contact_forces *r, dem_index node, scene_state state)
+static void set_free(contact_forces *r, dem_index node, scene_state state, const constraint_free *known)
 {
     if (r->first[node] == 0) return;
     r->first[node] = 0;
-    vec2_put(r->a, node, forces_acceleration(r->scene->forces, node, state.x, state.v));
+    const dem_index number = known != NULL && known->number[node] < known->n ? known->number[node] : -1;
+    vec2_put(r->a, node,
+             number >= 0 ? vec2_at(known->a, number) : forces_acceleration(r->scene->forces, node, state.x, state.v));
 }
 
 /* Free accelerations are computed for the nodes of the group only, once each; `first` marks those that are done. */
-void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
+void contact_forces_solve_free(contact_forces *r, dem_index group, scene_state state, const constraint_free *known)
 {
     for (dem_index k = group; k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
@@ -459,10 +461,15 @@ void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
     }
     for (dem_index k = group; k >= 0; k = r->next[k]) {
         const contact_candidate *candidate = &r->candidates[k];
-        set_free(r, candidate->node, state);
-        if (candidate_is_edge(candidate)) set_free(r, candidate->other, state);
+        set_free(r, candidate->node, state, known);
+        if (candidate_is_edge(candidate)) set_free(r, candidate->other, state, known);
     }
     hold(r, group, &state, r->a);
+}
+
+void contact_forces_solve(contact_forces *r, dem_index group, scene_state state)
+{
+    contact_forces_solve_free(r, group, state, NULL);
 }
 
 /* A node by itself gets the velocity of the obstacle exactly, without the linear system: all of it if it sticks or is

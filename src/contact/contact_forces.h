@@ -7,6 +7,7 @@
 #define DEM_CONTACT_CONTACT_FORCES_H
 
 #include "contact/group_walk.h"
+#include "events/constraints.h"
 
 /** Force of a closed contact on the body, N. */
 typedef struct contact_force {
@@ -65,6 +66,9 @@ void contact_forces_hold(contact_forces *r, scene_state state, double *a);
 
 /** Fills force for the contacts of one group in a state. */
 void contact_forces_solve(contact_forces *r, dem_index group, scene_state state);
+
+/** The same where some free accelerations are known; NULL: none. */
+void contact_forces_solve_free(contact_forces *r, dem_index group, scene_state state, const constraint_free *known);
 
 /** Takes from the velocities v [n][2] of a group's nodes, which are those of the state, what the closed contacts do not
  *  allow; fills force with the impulses that this takes, N s. */

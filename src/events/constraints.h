@@ -20,6 +20,13 @@ typedef struct constraint_state {
     const double *y;
 } constraint_state;
 
+/** Accelerations by forces alone that are known in a state, of some nodes. */
+typedef struct constraint_free {
+    const int32_t *number; /* [n_nodes] of a node among those that have numbers here, or -1 */
+    dem_index n;
+    const double *a; /* [n][dim] m/s^2, of those with numbers below n */
+} constraint_free;
+
 typedef struct constraints {
     void *self;
     /* Addresses of two arrays, which may be allocated again: */
@@ -33,8 +40,10 @@ typedef struct constraints {
     dem_index (*groups_at)(void *self, const dem_index *nodes, dem_index n, const dem_index **list);
     /** Calls `add` for the nodes of all groups. */
     dem_status (*each_held)(const void *self, dem_status (*add)(void *context, dem_index node), void *context);
-    /** Solves for the accelerations of a group; of the state its nodes and their neighbours are read. */
-    void (*solve)(void *self, dem_index group, constraint_state at);
+    /** Solves for the accelerations of a group; of the state its nodes are read and, unless the accelerations by forces
+     *  of all of them are known, their neighbours.
+     *  \param known  NULL: none */
+    void (*solve)(void *self, dem_index group, constraint_state at, const constraint_free *known);
     /** What a group adds to the rates of quadratures, in a state that it was solved in last. */
     dem_status (*add_rates)(const void *self, dem_index group, constraint_state at, const constraint_rates *to);
     /** Takes from a state at the end of a step the error that changes of the motion have left in a group: moves its

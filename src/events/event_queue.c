@@ -264,7 +264,7 @@ static dem_status solve_groups(event_queue *q)
     if (q->step->parabolic) TRY(c->each_held(c->self, local_nodes_add_to, nodes));
     const dem_index n = c->groups_at(c->self, nodes->list, nodes->n, &groups);
     for (dem_index g = 0; g < n; g++) {
-        c->solve(c->self, groups[g], (constraint_state){q->step->t1, q->changed.y1});
+        c->solve(c->self, groups[g], (constraint_state){q->step->t1, q->changed.y1}, NULL);
         TRY(c->each_node(c->self, groups[g], local_nodes_add_to, nodes));
     }
     return DEM_OK;

@@ -144,14 +144,18 @@ void neighbourhood_put(const neighbourhood *b, const local_state *s, dem_index n
 }
 
 /* Replaces the accelerations of nodes in groups by those that the closed contacts allow: each group is solved in the
- * state s->y, which leaves its nodes' accelerations in c->a. */
+ * state s->y, which leaves its nodes' accelerations in c->a. Those by forces have just been evaluated, and serve where
+ * they are those that the group would have evaluated. */
 static void constrain(neighbourhood *b, int ring, const local_state *s, double *a)
 {
     const constraints *c = b->constraints;
     const state_layout *l = &b->layout;
     const dem_index *list = b->nodes.list;
+    const constraint_free known = {b->nodes.number, b->nodes.end[ring], a};
+    const bool are_known = b->forces->are_exact(b->forces->self);
     for (dem_index g = 0; g < b->n_groups; g++)
-        if (b->groups[g].ring <= ring) c->solve(c->self, b->groups[g].group, (constraint_state){s->t, s->y});
+        if (b->groups[g].ring <= ring)
+            c->solve(c->self, b->groups[g].group, (constraint_state){s->t, s->y}, are_known ? &known : NULL);
     for (dem_index j = 0; j < b->nodes.end[ring]; j++)
         if ((*c->group_at)[list[j]] >= 0) state_copy_row(l, a + state_row(l, j), *c->a + state_row(l, list[j]));
 }

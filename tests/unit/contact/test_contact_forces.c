@@ -503,6 +503,26 @@ TEST(forces_and_accelerations_agree_with_a_dense_solution)
     gsl_rng_free(w.rng);
 }
 
+/* The same forces from accelerations that are known, of all nodes or of the first ones, whatever the model says of
+ * them. */
+static void check_known(mix *w, contact_forces *r, const double *expected)
+{
+    const dem_index n_nodes = w->b.model.lattice.n_nodes;
+    const double gravity = w->b.acting.gravity[0];
+    int32_t *number = malloc((size_t)n_nodes * sizeof *number);
+    assert_non_null(number);
+    for (int part = 1; part <= 2; part++) {
+        const constraint_free known = {number, n_nodes / part, w->a};
+        for (dem_index i = 0; i < n_nodes; i++) number[i] = part == 1 || i % 3 > 0 ? (int32_t)i : -1;
+        if (part == 1) w->b.acting.gravity[0] = 100.0;
+        for (dem_index g = 0; g < r->n_groups; g++)
+            contact_forces_solve_free(r, r->groups[g], (scene_state){0.0, w->b.x, w->b.v}, &known);
+        w->b.acting.gravity[0] = gravity;
+        check_forces(w, r, expected);
+    }
+    free(number);
+}
+
 /* The free accelerations of gravity and drag, taken by contact_forces_solve from the model itself. */
 TEST(solving_a_group_starts_from_the_accelerations_of_the_model)
 {
@@ -523,6 +543,7 @@ TEST(solving_a_group_starts_from_the_accelerations_of_the_model)
         for (dem_index g = 0; g < r.n_groups; g++)
             contact_forces_solve(&r, r.groups[g], (scene_state){0.0, w.b.x, w.b.v});
         check_forces(&w, &r, solution + 2 * w.b.model.lattice.n_nodes);
+        check_known(&w, &r, solution + 2 * w.b.model.lattice.n_nodes);
         n_solved++;
     }
     assert_true(n_solved > 100);

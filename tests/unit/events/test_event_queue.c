@@ -519,10 +519,11 @@ static void hold_settle(void *self, dem_index group, double t, double *y)
     y[state_row(h->layout, 1)] += 1e-3;
 }
 
-static void hold_solve(void *self, dem_index group, constraint_state at)
+static void hold_solve(void *self, dem_index group, constraint_state at, const constraint_free *known)
 {
     (void)self;
     (void)at;
+    (void)known;
     assert_int_equal(group, 0);
 }
 

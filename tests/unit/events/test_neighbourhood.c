@@ -198,12 +198,18 @@ static dem_status tie_each_node(const void *self, dem_index group, dem_status (*
     return add(context, 9);
 }
 
-static void tie_solve(void *self, dem_index group, constraint_state at)
+static void tie_solve(void *self, dem_index group, constraint_state at, const constraint_free *known)
 {
     tie *s = self;
     const state_layout *l = &s->of->layout;
     assert_int_equal(group, 3);
-    for (dem_index i = 8; i <= 9; i++) state_copy_row(l, s->a + state_row(l, i), state_v(l, at.y, i));
+    for (dem_index i = 8; i <= 9; i++) {
+        double free[STATE_DIM_MOST];
+        chain_accelerate_one(s->of, i, at.y, free);
+        assert_in_range(known->number[i], 0, known->n - 1);
+        assert_memory_equal(known->a + state_row(l, known->number[i]), free, (size_t)l->dim * sizeof *free);
+        state_copy_row(l, s->a + state_row(l, i), state_v(l, at.y, i));
+    }
 }
 
 static constraints tie_constraints(tie *s, chain *of)
