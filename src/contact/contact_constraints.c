@@ -71,10 +71,13 @@ static dem_status contact_add_rates(const void *self, dem_index group, constrain
     return DEM_OK;
 }
 
-/* As the right-hand side does. */
-static void contact_add_all_rates(const void *self, constraint_state at, double *a)
+/* As the right-hand side does. The forces are then known to be those of the end of the step, unless its rigid bodies
+ * are put back into their shapes. */
+static void contact_add_all_rates(void *self, constraint_state at, double *a)
 {
-    automaton_add_rates(self, at.t, at.y, a);
+    automaton *c = self;
+    automaton_add_rates(c, at.t, at.y, a);
+    if (c->set.scene.model->rigid.n == 0) c->solved = at.t;
 }
 
 /* ---- the end of a step ---- */

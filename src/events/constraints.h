@@ -49,8 +49,9 @@ typedef struct constraints {
     /** Takes from a state at the end of a step the error that changes of the motion have left in a group: moves its
      *  nodes. */
     void (*settle)(void *self, dem_index group, double t, double *y);
-    /** The same of all groups at once, into the accelerations a [n_rows][dim] of a derivative. */
-    void (*add_all_rates)(const void *self, constraint_state at, double *a);
+    /** The same of all groups at once, into the accelerations a [n_rows][dim] of a derivative. All of them have been
+     *  solved in that state. */
+    void (*add_all_rates)(void *self, constraint_state at, double *a);
 } constraints;
 
 /** The group of a node, or -1; without constraints (NULL) there is none. */

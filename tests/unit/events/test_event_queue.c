@@ -536,7 +536,7 @@ static dem_status hold_add_rates(const void *self, dem_index group, constraint_s
     return DEM_OK;
 }
 
-static void hold_add_all_rates(const void *self, constraint_state at, double *a)
+static void hold_add_all_rates(void *self, constraint_state at, double *a)
 {
     (void)self;
     (void)at;
