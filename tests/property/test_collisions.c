@@ -6,83 +6,20 @@
 #include <string.h>
 
 #include "ask.h"
-#include "base/random.h"
 #include "base/vec2.h"
+#include "crowd.h"
 #include "verification/support.h"
 
 static int n_scenes = 200;
 static uint64_t first_seed = 1;
 
-/* A scene, all of which follows from its seed. */
+/* A scene, and what has been seen of it. */
 typedef struct scene {
-    uint64_t seed, state;
-    dem_lattice lattice;
-    dem_options options;
-    bool boxed;
+    crowd crowd;
     bool folded;    /* a triangle has been inside out */
     bool touched;   /* bodies have pushed each other */
     bool *is_inner; /* [n_nodes] whether triangles surround the node */
-    double corners[10];
-    dem_obstacle walls;
-    double speed;
 } scene;
-
-static double draw(scene *s, double from, double to)
-{
-    return from + 0.5 * (to - from) * (1.0 + random_next(&s->state));
-}
-
-static const double step = 0.06; /* m, of the grid on which bodies start */
-
-/* A disc or a rectangle that fits into its cell at any angle, of a spacing and a modulus of its own. */
-static dem_lattice draw_body(scene *s, int column, int row)
-{
-    const double spacing = draw(s, 3e-3, 6e-3);
-    const dem_material material =
-        SIZED(dem_material, .youngs_modulus = 1e7 * pow(10.0, draw(s, -0.7, 0.7)), .poissons_ratio = draw(s, 0.2, 0.4),
-              .density = draw(s, 800.0, 3000.0), .thickness = 1.0, .guard = 0.02);
-    dem_lattice body = dem_lattice_empty();
-    if (draw(s, 0.0, 1.0) < 0.5)
-        assert_ok(dem_lattice_disc(&body, draw(s, 0.014, 0.022), spacing));
-    else
-        assert_ok(dem_lattice_rectangle(&body, draw(s, 0.018, 0.034), draw(s, 0.018, 0.03), spacing));
-    assert_ok(dem_lattice_assemble(&body, &material));
-    dem_lattice_move(&body, draw(s, -3.0, 3.0), (const double[2]){0.0, 0.0});
-    double centre[2] = {0.0, 0.0};
-    for (dem_index k = 0; k < 2 * body.n_nodes; k++) centre[k % 2] += body.x[k] / (double)body.n_nodes;
-    dem_lattice_move(&body, 0.0, (const double[2]){step * column - centre[0], step * row - centre[1]});
-    assert_ok(dem_lattice_launch(&body, (const double[2]){draw(s, -s->speed, s->speed), draw(s, -s->speed, s->speed)}));
-    return body;
-}
-
-/* The box goes by up to 3 m/s, swings by up to 6, turns by up to 4 at its corners, or all of it. With fixed steps,
- * which do not adapt to violent impacts, less: by the same share as the bodies. */
-static void draw_motion(scene *s)
-{
-    const double share = s->speed / 20.0;
-    dem_obstacle *w = &s->walls;
-    for (int c = 0; c < 2 && draw(s, 0.0, 1.0) < 0.7; c++) w->velocity[c] = share * draw(s, -3.0, 3.0);
-    if (draw(s, 0.0, 1.0) < 0.5) {
-        w->frequency = draw(s, 50.0, 300.0);
-        for (int c = 0; c < 2; c++) w->amplitude[c] = share * draw(s, -1.0, 1.0) / w->frequency;
-    }
-    if (draw(s, 0.0, 1.0) < 0.5) {
-        w->spin = share * draw(s, -20.0, 20.0);
-        for (int c = 0; c < 2; c++) w->pivot[c] = draw(s, 0.0, 3.0 * step);
-    }
-    if (draw(s, 0.0, 1.0) < 0.3) w->ramp = draw(s, 0.0, 3e-3);
-}
-
-static void draw_walls(scene *s)
-{
-    const double low = -0.6 * step, high = 4.0 * step;
-    const double corners[10] = {low, low, high, low, high, high, low, high, low, low};
-    const dem_obstacle walls = SIZED(dem_obstacle, .n_points = 5, .points = s->corners);
-    memcpy(s->corners, corners, sizeof corners);
-    s->walls = walls;
-    s->walls.friction = draw(s, 0.0, 1.0) < 0.5 ? 0.0 : draw(s, 0.0, 0.8);
-    s->walls.restitution = draw(s, 0.0, 1.0) < 0.5 ? 0.0 : draw(s, 0.0, 0.9);
-}
 
 /* At an inner node the angles of the triangles sum up to a full turn. */
 static bool *find_inner(const dem_lattice *l)
@@ -99,29 +36,6 @@ static bool *find_inner(const dem_lattice *l)
     for (dem_index i = 0; i < l->n_nodes; i++) is_inner[i] = sum[i] > 2.0 * M_PI - 1e-6;
     free(sum);
     return is_inner;
-}
-
-static void draw_scene(scene *s, uint64_t seed)
-{
-    static const dem_method methods[4] = {DEM_METHOD_FEHLBERG45, DEM_METHOD_FEHLBERG45, DEM_METHOD_DOPRI45,
-                                          DEM_METHOD_VERLET};
-    *s = (scene){.seed = seed, .state = seed * 1000003u, .options = dem_options_default()};
-    s->options.method = methods[(int)draw(s, 0.0, 3.999)];
-    s->speed = s->options.method == DEM_METHOD_VERLET ? 8.0 : 20.0; /* fixed steps do not adapt to violent impacts */
-    const int n = 2 + (int)draw(s, 0.0, 10.999), columns = (int)ceil(sqrt(n));
-    s->lattice = draw_body(s, 0, 0);
-    for (int k = 1; k < n; k++) {
-        CLEANUP(dem_lattice_free) dem_lattice next = draw_body(s, k % columns, k / columns);
-        assert_ok(dem_lattice_append(&s->lattice, &next));
-    }
-    s->boxed = draw(s, 0.0, 1.0) < 0.6;
-    draw_walls(s);
-    s->options.contact = draw(s, 0.0, 1.0) < 0.8 ? DEM_CONTACT_LOCAL : DEM_CONTACT_EXACT;
-    s->options.bodies = draw(s, 0.0, 1.0) < 0.8 ? DEM_BODIES_ALL : DEM_BODIES_OTHERS;
-    if (!s->boxed) s->options.gravity[1] = 0.0;
-    if (draw(s, 0.0, 1.0) < 0.6) draw_motion(s);
-    if (draw(s, 0.0, 1.0) < 0.5) s->options.contact_friction = draw(s, 0.05, 1.0);
-    s->is_inner = find_inner(&s->lattice);
 }
 
 static double momentum(const dem_lattice *l, const double *v, int c, double *scale)
@@ -169,15 +83,15 @@ static bool is_in_triangle(const double *x, const dem_index *corners, const doub
 /* No node is in a triangle of another body, by a look at all of them. */
 static void check_between(const scene *s, double t, const double *x)
 {
-    const dem_lattice *l = &s->lattice;
+    const dem_lattice *l = &s->crowd.lattice;
     for (int32_t body = 0; body <= l->body[l->n_nodes - 1]; body++) {
         const box around = box_of_body(l, x, body);
         for (dem_index i = 0; i < l->n_nodes; i++) {
             if (l->body[i] == body || !is_in_box(&around, &x[2 * i])) continue;
             for (dem_index k = 0; k < l->n_triangles; k++)
                 if (l->body[l->triangles[3 * k]] == body && is_in_triangle(x, &l->triangles[3 * k], &x[2 * i]))
-                    fail_msg("seed %llu: node %lld in triangle %lld of body %d at %g s", (unsigned long long)s->seed,
-                             (long long)i, (long long)k, (int)body, t);
+                    fail_msg("seed %llu: node %lld in triangle %lld of body %d at %g s",
+                             (unsigned long long)s->crowd.seed, (long long)i, (long long)k, (int)body, t);
         }
     }
 }
@@ -188,15 +102,15 @@ static void check_walls(const scene *s, const dem_simulation *simulation, const 
 {
     const double most = 5e-6 * dem_model_spacing(dem_simulation_model(simulation));
     double p[10];
-    assert_ok(dem_obstacle_points(&s->walls, state->t, p));
+    assert_ok(dem_obstacle_points(&s->crowd.walls, state->t, p));
     for (int k = 0; k < 4; k++) {
         const double along[2] = {p[2 * k + 2] - p[2 * k], p[2 * k + 3] - p[2 * k + 1]};
-        for (dem_index i = 0; i < s->lattice.n_nodes; i++) {
+        for (dem_index i = 0; i < s->crowd.lattice.n_nodes; i++) {
             const double r[2] = {state->x[2 * i] - p[2 * k], state->x[2 * i + 1] - p[2 * k + 1]};
             const double depth = (along[1] * r[0] - along[0] * r[1]) / hypot(along[0], along[1]);
             if (depth > most && !(s->folded && s->is_inner[i]))
-                fail_msg("seed %llu: node %lld is %g m in wall %d at %g s", (unsigned long long)s->seed, (long long)i,
-                         depth, k, state->t);
+                fail_msg("seed %llu: node %lld is %g m in wall %d at %g s", (unsigned long long)s->crowd.seed,
+                         (long long)i, depth, k, state->t);
         }
     }
 }
@@ -206,17 +120,17 @@ static void check_walls(const scene *s, const dem_simulation *simulation, const 
  * times: 3.5e-12 was the most. deck_judge.py has the bounds of single bodies. */
 static void check_momentum(const scene *s, const dem_simulation *simulation, const dem_state *state)
 {
-    const double tolerance = s->boxed && s->options.contact == DEM_CONTACT_EXACT ? 1e-11 : 1e-12;
+    const double tolerance = s->crowd.boxed && s->crowd.options.contact == DEM_CONTACT_EXACT ? 1e-11 : 1e-12;
     const double mass = dem_model_mass(dem_simulation_model(simulation));
-    const dem_obstacle_load load = s->boxed ? ask_obstacle(simulation, 0) : (dem_obstacle_load){0};
+    const dem_obstacle_load load = s->crowd.boxed ? ask_obstacle(simulation, 0) : (dem_obstacle_load){0};
     for (int c = 0; c < 2; c++) {
         double scale = 0.0;
-        const double before = momentum(&s->lattice, s->lattice.velocity, c, &scale);
-        const double after = momentum(&s->lattice, state->v, c, &scale);
-        const double given = load.impulse[c] + mass * s->options.gravity[c] * state->t;
+        const double before = momentum(&s->crowd.lattice, s->crowd.lattice.velocity, c, &scale);
+        const double after = momentum(&s->crowd.lattice, state->v, c, &scale);
+        const double given = load.impulse[c] + mass * s->crowd.options.gravity[c] * state->t;
         if (!(fabs(after - before - given) < tolerance * scale))
-            fail_msg("seed %llu: momentum off by %g of %g at %g s", (unsigned long long)s->seed, after - before - given,
-                     scale, state->t);
+            fail_msg("seed %llu: momentum off by %g of %g at %g s", (unsigned long long)s->crowd.seed,
+                     after - before - given, scale, state->t);
     }
 }
 
@@ -230,9 +144,9 @@ static dem_status look(void *context, const dem_simulation *simulation)
     s->touched = s->touched || ask_energy(simulation).contact > 0.0;
     check_between(s, state.t, state.x);
     check_momentum(s, simulation, &state);
-    if (s->boxed) check_walls(s, simulation, &state);
-    if (s->options.bodies == DEM_BODIES_ALL && !s->folded && ask_overlap(simulation).now > 0)
-        fail_msg("seed %llu: a body overlaps itself at %g s", (unsigned long long)s->seed, state.t);
+    if (s->crowd.boxed) check_walls(s, simulation, &state);
+    if (s->crowd.options.bodies == DEM_BODIES_ALL && !s->folded && ask_overlap(simulation).now > 0)
+        fail_msg("seed %llu: a body overlaps itself at %g s", (unsigned long long)s->crowd.seed, state.t);
     return DEM_OK;
 }
 
@@ -240,10 +154,12 @@ static dem_status look(void *context, const dem_simulation *simulation)
  * Returns whether bodies have touched. */
 static bool check_scene(uint64_t seed)
 {
-    scene s;
+    scene s = {.touched = false};
     CLEANUP(support_close) support_run run;
-    draw_scene(&s, seed);
-    support_open(&run, &s.lattice, s.boxed ? &s.walls : NULL, s.boxed ? 1 : 0, &s.options);
+    crowd_draw(&s.crowd, seed);
+    s.is_inner = find_inner(&s.crowd.lattice);
+    support_open(&run, &s.crowd.lattice, s.crowd.boxed ? &s.crowd.walls : NULL, s.crowd.boxed ? 1 : 0,
+                 &s.crowd.options);
     const dem_observer observer = {.struct_size = sizeof(dem_observer), .step = look, .context = &s};
     assert_ok(dem_simulation_observe(run.simulation, &observer));
     const dem_energy start = ask_energy(run.simulation);
@@ -252,7 +168,7 @@ static bool check_scene(uint64_t seed)
     const double closure = fabs(end.ledger - start.ledger) / fmax(start.kinetic, end.motion);
     if (status != DEM_OK) fail_msg("seed %llu: %s", (unsigned long long)seed, dem_status_message());
     if (!(closure < 1e-3)) fail_msg("seed %llu: closure %g", (unsigned long long)seed, closure);
-    dem_lattice_free(&s.lattice);
+    dem_lattice_free(&s.crowd.lattice);
     free(s.is_inner);
     return s.touched;
 }
