@@ -39,35 +39,13 @@ dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem
     return g->lead(g->self, whole, options, checkpoint);
 }
 
-static bool has_rigid(const dem_lattice *l)
-{
-    for (dem_index i = 0; l->flags != NULL && i < l->n_nodes; i++)
-        if (l->flags[i] & DEM_NODE_RIGID) return true;
-    return false;
-}
-
 bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors)
 {
-    const schema_deck *groups = &d->groups;
     const dem_lattice *l = &d->lattice;
-    const schema_instance *body = schema_get(groups, "body", 0), *contact = schema_get(groups, "contact", 0);
-    const bool breaks = l->strength != NULL || l->critical_stretch != NULL || l->compressive_strength != NULL;
-    const struct {
-        bool is_there;
-        const schema_instance *group;
-        const char *key, *what;
-    } all[] = {
-        {has_rigid(l), body, "rigid", "rigid bodies: 'rigid' in &body"},
-        {d->options.bodies != DEM_BODIES_NONE && !has_rigid(l), contact, "bodies",
-         "bodies that touch: 'bodies' in &contact has to be 'none'"},
-        {breaks, body, "material", "what breaks: 'fracture' in &material, or limits in a lattice file"},
-    };
-    const size_t n = sizeof all / sizeof *all;
-    size_t k = 0;
-    while (k < n && !all[k].is_there) k++;
-    if (k == n) return true;
-    namelist_errors_add(errors, schema_place(all[k].group, all[k].key), "%d ranks cannot share %s", g->size,
-                        all[k].what);
+    if (l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL) return true;
+    namelist_errors_add(errors, schema_place(schema_get(&d->groups, "body", 0), "material"),
+                        "%d ranks cannot share what breaks: 'fracture' in &material, or limits in a lattice file",
+                        g->size);
     return false;
 }
 

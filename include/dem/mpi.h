@@ -3,8 +3,9 @@
  *  the bits of one process, whatever their number. Of the library libdem_mpi, which `pkg-config dem_mpi` knows; libdem
  *  itself has no MPI.
  *
- *  Each rank has a model and a simulation of its part: its own nodes, those near what may touch obstacles, whoever owns
- *  them, and as ghosts those of other ranks that a spring or a triangle joins to one of these (dem_model_part()). What
+ *  Each rank has a model and a simulation of its part: its own nodes; those near what may touch obstacles, on surfaces
+ *  of bodies that may touch each other, and of rigid bodies, whoever owns them; and as ghosts those of other ranks that
+ *  a spring or a triangle joins to one of these (dem_model_part()). What
  *  goes on is *collective*: all ranks make the same calls in the same order, with the same arguments, and wait for each
  *  other in them. These are
  *
@@ -28,12 +29,12 @@
  *  `model` or `simulation` that is NULL: a rank that gets one of these alone should call MPI_Abort(), as the others may
  *  wait for it. Boundaries name nodes of the whole lattice.
  *
- *  All ranks have all contacts with obstacles, whose nodes have their numbers in the whole lattice: events, counts of
- *  them, dem_simulation_contact() and dem_simulation_obstacle() are the same on each, and a rank may ask for these, and
- *  watch events, by itself.
+ *  All ranks have all contacts, whose nodes have their numbers in the whole lattice: events, counts of them, contacts,
+ *  loads of obstacles, dem_simulation_surfaces() and dem_simulation_pair() are the same on each, and a rank may ask for
+ *  these, for contact forces and pressures of its part, and watch events, by itself.
  *
- *  Ranks cannot share yet, and refuse: obstacles whose motion a function computes, bodies that touch each other, what
- *  may break, rigid bodies, external forces, trajectories, overlaps of bodies and their fragments.
+ *  Ranks cannot share yet, and refuse: obstacles whose motion a function computes, what may break, external forces, a
+ *  body alone without obstacles that touches itself, trajectories, overlaps of bodies and their fragments.
  *
  *  MPI is initialised and finalised by the program: models are created after the one and destroyed before the other.
  *  All calls come from one thread, that of MPI_Init() or MPI_Init_thread() unless MPI has MPI_THREAD_SERIALIZED. A

@@ -5,7 +5,6 @@
 
 #include <stdlib.h>
 
-#include "base/reduce.h"
 #include "base/status.h"
 
 dem_status rate_sums_create(rate_sums *out, int dim, dem_index n_obstacles)
@@ -22,11 +21,11 @@ void rate_sums_free(rate_sums *s)
     s->list = NULL;
 }
 
-void rate_sums_take(const ranks *r, const rate_sums *s, const state_layout *l, double *a)
+void rate_sums_take(const rate_sums *s, const state_layout *l, double *a)
 {
     const dem_index first = state_row(l, state_impulse(l, 0)), n = l->dim * state_n_quadratures(l);
     for (dem_index k = 0; k < n; k++) {
-        a[first + k] += reduce_sum(r, &s->list[k]);
+        a[first + k] += exact_sum_value(&s->list[k]);
         exact_sum_clear(&s->list[k]);
     }
 }

@@ -5,7 +5,6 @@
 #define DEM_BASE_RATE_SUMS_H
 
 #include "base/exact_sum.h"
-#include "base/ranks.h"
 #include "base/state.h"
 
 typedef struct rate_sums {
@@ -42,7 +41,7 @@ static inline void rate_sums_add_pairs(const rate_sums *s, const state_layout *l
     exact_sum_take_pairs(&s->list[index - state_row(l, state_impulse(l, 0))], terms, n);
 }
 
-/** Adds the sums of all ranks to the rates among the accelerations a, and empties them. */
-void rate_sums_take(const ranks *r, const rate_sums *s, const state_layout *l, double *a);
+/** Adds the sums to the rates among the accelerations a, and empties them. Every rank has all terms. */
+void rate_sums_take(const rate_sums *s, const state_layout *l, double *a);
 
 #endif

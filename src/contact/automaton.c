@@ -313,7 +313,7 @@ void automaton_add_rates(const automaton *c, double t, const double *y, double *
     for (dem_index g = 0; g < r->n_groups; g++)
         for (dem_index k = r->groups[g]; k >= 0; k = r->next[k]) collect_rates(c, k, state, &terms);
     add_terms(c, &terms);
-    rate_sums_take(&ranks_alone, &c->rates, scene_layout(&c->set.scene), a);
+    rate_sums_take(&c->rates, scene_layout(&c->set.scene), a);
 }
 
 /* Forces are those stored at the last accepted step or event; frames are those of the positions given. */

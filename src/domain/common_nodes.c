@@ -10,10 +10,9 @@ static void mark_next(unsigned char *mark, int ring, const dem_index pair[2])
         if (mark[pair[e]] == ring + 1 && mark[pair[1 - e]] == 0) mark[pair[1 - e]] = (unsigned char)(ring + 2);
 }
 
-void common_nodes_find(const dem_lattice *lattice, int n_rings, unsigned char *is_common)
+void common_nodes_add_rings(const dem_lattice *lattice, int n_rings, unsigned char *is_common)
 {
     dem_index pair[2];
-    for (dem_index i = 0; i < lattice->n_nodes; i++) is_common[i] = (lattice->flags[i] & DEM_NODE_CONTACT) != 0;
     for (int ring = 0; ring < n_rings; ring++)
         for (dem_index k = 0; k < adjacency_pairs(lattice); k++) {
             adjacency_pair(lattice, k, pair);

@@ -240,7 +240,8 @@ static void add_rigid_springs(taking *t)
     const dem_lattice *l = &t->s->model->lattice;
     if (t->s->model->rigid.n == 0) return;
     for (dem_index k = 0; k < l->n_springs; k++)
-        if (rigid_nodes_have(l, l->ends[2 * k])) add_spring(t, k, springs_strain_of(l, k, t->x));
+        if (rigid_nodes_have(l, l->ends[2 * k]) && domain_owns(t->s->model->domain, ends_of(l, k).low))
+            add_spring(t, k, springs_strain_of(l, k, t->x));
 }
 
 static void add_couplings(taking *t, dem_index i)

@@ -6,9 +6,15 @@
  * so that sums over a row have the same bits. A ghost has the inverse mass 0: its row is not complete, and what it does
  * comes from its owner.
  *
- * Where there are obstacles all ranks have in common what may touch and what the correction of a step for an event
- * there changes or reads (events/local_correction.c): its rings about the nodes that the event moves, which are among
- * those that may touch, and the accelerations of the last of these rings. */
+ * All ranks have in common
+ * - where there are obstacles what may touch them;
+ * - where bodies touch each other, or themselves, all nodes of their surfaces, with the boundary of the whole and the
+ *   sums over its bodies by which the laws of surfaces are chosen;
+ * - rigid bodies, whose motion follows from sums over them;
+ * - where there are obstacles what the correction of a step for an event there changes or reads, too
+ *   (events/local_correction.c): its rings about the nodes that the event moves, which are among those that may touch,
+ *   and the accelerations of the last of these rings. From one surface to another that it touches a ring goes to nodes
+ *   that are on surfaces, and begins anew there. */
 #include "model/domain_model.h"
 
 #include <stdlib.h>
@@ -68,21 +74,36 @@ static dem_status cut_lattice(dem_model *m, const dem_lattice *whole, const plac
     return status;
 }
 
-/* The sides of the whole's boundary whose triangles are in the domain. */
-static dem_status cut_surface(dem_model *m, const dem_lattice *whole, const places *p)
+/* Leaves of the whole's boundary the sides whose triangles are in the domain. */
+static void cut_boundary(mesh_boundary *b, const dem_model *m, const places *p)
 {
-    mesh_boundary boundary;
-    TRY(mesh_boundary_create(&boundary, whole, NULL));
     dem_index kept = 0;
-    for (dem_index k = 0; k < boundary.n; k++) {
-        const mesh_boundary_edge *e = &boundary.list[k];
+    for (dem_index k = 0; k < b->n; k++) {
+        const mesh_boundary_edge *e = &b->list[k];
         if (p->triangle[e->triangle] < 0) continue;
-        boundary.list[kept++] = (mesh_boundary_edge){p->node[e->lower], p->node[e->upper], p->triangle[e->triangle]};
+        b->list[kept++] = (mesh_boundary_edge){p->node[e->lower], p->node[e->upper], p->triangle[e->triangle]};
     }
-    boundary.n = kept;
-    const dem_status status = surface_compile_boundary(&m->surface, &m->lattice, &boundary, SURFACE_TOUCHING);
-    mesh_boundary_free(&boundary);
-    return status;
+    b->n = kept;
+    b->lattice = &m->lattice;
+    free(b->outer); /* of nodes of the whole */
+    b->outer = NULL;
+}
+
+/* Where bodies touch each other the boundary is kept, with their sums: it has all sides then. */
+static dem_status cut_surface(dem_model *m, const dem_lattice *whole, const places *p, bool touching)
+{
+    touching_bodies *bodies = calloc(1, sizeof *bodies);
+    CHECK_MEMORY(bodies);
+    m->touching = bodies; /* freed with the model */
+    TRY(touching_bodies_create(bodies, whole));
+    cut_boundary(&bodies->boundary, m, p);
+    bodies->domain = m->domain;
+    TRY(surface_compile_boundary(&m->surface, &m->lattice, &bodies->boundary, SURFACE_TOUCHING));
+    if (touching) return DEM_OK;
+    touching_bodies_free(bodies);
+    free(bodies);
+    m->touching = NULL;
+    return DEM_OK;
 }
 
 /* The rows of own nodes; those of ghosts are empty. */
@@ -161,7 +182,7 @@ static void take_scales(dem_model *m, const dem_model *whole)
     m->mass = whole->mass;
 }
 
-static dem_status cut(dem_model *m, const dem_model *whole, const places *p)
+static dem_status cut(dem_model *m, const dem_model *whole, const places *p, bool touching)
 {
     TRY(cut_lattice(m, &whole->lattice, p));
     TRY(springs_compile(&m->springs, &m->lattice));
@@ -170,7 +191,8 @@ static dem_status cut(dem_model *m, const dem_model *whole, const places *p)
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
     TRY(list_springs(m, &whole->lattice, p));
     TRY(cut_layout(m, &whole->layout, p));
-    TRY(cut_surface(m, &whole->lattice, p));
+    TRY(cut_surface(m, &whole->lattice, p, touching));
+    TRY(rigid_bodies_cut(&m->rigid, &whole->rigid, p->node, m->lattice.n_nodes));
     TRY(cut_stress(m, &whole->stress, p));
     TRY(cut_nodes(m, whole));
     TRY(obstacles_compile(&m->obstacles, whole->obstacles.list, whole->obstacles.n));
@@ -183,28 +205,45 @@ int domain_model_rings(const dem_lattice *lattice)
     return lattice->viscosity != NULL ? 7 : 4;
 }
 
-static dem_status create_domain(dem_model *m, const dem_model *whole, const int32_t *owner)
+static dem_status mark_surfaces(const dem_lattice *l, unsigned char *is_common)
+{
+    mesh_boundary boundary;
+    TRY(mesh_boundary_create(&boundary, l, NULL));
+    mesh_boundary_mark(&boundary, is_common, 1);
+    mesh_boundary_free(&boundary);
+    return DEM_OK;
+}
+
+/* Without obstacles there are no events, and so no rings. */
+static dem_status find_common(const dem_model *whole, bool touching, unsigned char *is_common)
 {
     const dem_lattice *l = &whole->lattice;
-    unsigned char *is_common = NULL;
-    CHECK_MEMORY(m->domain = calloc(1, sizeof *m->domain));
-    if (whole->obstacles.n > 0) {
-        is_common = lattice_zeros(l->n_nodes, sizeof *is_common);
-        CHECK_MEMORY(is_common);
-        common_nodes_find(l, domain_model_rings(l), is_common);
-    }
-    const domain_shares shares = {m->ranks->size, owner, is_common};
-    const dem_status status = domain_create(m->domain, l, &shares, m->ranks->rank);
+    const bool has_events = whole->obstacles.n > 0;
+    for (dem_index i = 0; i < l->n_nodes; i++)
+        is_common[i] = (has_events && l->flags[i] & DEM_NODE_CONTACT) || l->flags[i] & DEM_NODE_RIGID;
+    if (touching) TRY(mark_surfaces(l, is_common));
+    if (has_events) common_nodes_add_rings(l, domain_model_rings(l), is_common);
+    return DEM_OK;
+}
+
+static dem_status create_domain(dem_model *m, const dem_model *whole, const domain_model_shares *s)
+{
+    unsigned char *is_common = lattice_zeros(whole->lattice.n_nodes, sizeof *is_common);
+    m->domain = calloc(1, sizeof *m->domain);
+    dem_status status = is_common != NULL && m->domain != NULL ? find_common(whole, s->touching, is_common)
+                                                               : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    const domain_shares shares = {m->ranks->size, s->owner, is_common};
+    if (status == DEM_OK) status = domain_create(m->domain, &whole->lattice, &shares, m->ranks->rank);
     free(is_common);
     return status;
 }
 
-static dem_status create(dem_model *m, const dem_model *whole, const int32_t *owner)
+static dem_status create(dem_model *m, const dem_model *whole, const domain_model_shares *s)
 {
     places p = {0};
-    TRY(create_domain(m, whole, owner));
+    TRY(create_domain(m, whole, s));
     dem_status status = find_places(&p, m->domain, &whole->lattice);
-    if (status == DEM_OK) status = cut(m, whole, &p);
+    if (status == DEM_OK) status = cut(m, whole, &p, s->touching);
     free_places(&p);
     return status;
 }
@@ -215,19 +254,19 @@ static dem_status check(const ranks *r, const dem_model *whole)
     const dem_lattice *l = &whole->lattice;
     CHECK(!whole->obstacles.is_asked, DEM_ERROR_MODEL,
           "%d ranks cannot share a model with obstacles whose motion a function computes yet", r->size);
-    CHECK(whole->rigid.n == 0, DEM_ERROR_MODEL, "%d ranks cannot share a model with rigid bodies yet", r->size);
     CHECK(l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL, DEM_ERROR_MODEL,
           "%d ranks cannot share a model that may break yet", r->size);
     return DEM_OK;
 }
 
-dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole, const int32_t *owner)
+dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole,
+                               const domain_model_shares *shares)
 {
     TRY(reduce_status(r, check(r, whole), 0.0));
     dem_model *m = calloc(1, sizeof *m);
     CHECK_MEMORY(m);
     m->ranks = r;
-    const dem_status status = reduce_status(r, create(m, whole, owner), 0.0);
+    const dem_status status = reduce_status(r, create(m, whole, shares), 0.0);
     if (status == DEM_OK)
         *out = m;
     else

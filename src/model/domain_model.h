@@ -5,14 +5,20 @@
 
 #include "model/model.h"
 
+/** How a model is shared out, the same on all ranks. */
+typedef struct domain_model_shares {
+    const int32_t *owner; /* [n_nodes] the rank of each node */
+    bool touching;        /* whether bodies may touch each other, or themselves: all ranks have their surfaces then */
+} domain_model_shares;
+
 /** Cuts the model of a rank from one of the whole lattice, which may be destroyed afterwards. Own nodes have the
  *  masses, springs, triangles, surface edges and stresses of the whole: where the domain ends there is no boundary.
- *  Common nodes have the same but for stresses. Nothing accelerates ghosts. Collective. Borrows the ranks. Free with
- *  dem_model_destroy().
- *  \param owner  [n_nodes] the rank of each node, the same on all ranks
- *  \return DEM_ERROR_MODEL if a rank owns no node, or for a model with rigid bodies, strengths, or obstacles whose
- *  motion a function computes, which several ranks cannot share yet; DEM_ERROR_MEMORY */
-dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole, const int32_t *owner);
+ *  Common nodes have the same but for stresses; rigid bodies have no others. Nothing accelerates ghosts. Collective.
+ *  Borrows the ranks. Free with dem_model_destroy().
+ *  \return DEM_ERROR_MODEL if a rank owns no node, or for a model with strengths, or obstacles whose motion a function
+ *  computes, which several ranks cannot share yet; DEM_ERROR_MEMORY */
+dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole,
+                               const domain_model_shares *shares);
 
 /** How many rings of neighbours about what may touch obstacles ranks have in common. */
 int domain_model_rings(const dem_lattice *lattice);

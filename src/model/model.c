@@ -317,6 +317,8 @@ void dem_model_destroy(dem_model *model)
     stress_free(&model->stress);
     obstacles_free(&model->obstacles);
     rigid_bodies_free(&model->rigid);
+    if (model->touching != NULL) touching_bodies_free(model->touching);
+    free(model->touching);
     if (model->domain != NULL) domain_free(model->domain);
     free(model->domain);
     free(model->inverse_mass);

@@ -13,13 +13,15 @@
 #include "model/rigid_bodies.h"
 #include "model/stress.h"
 #include "model/surface.h"
+#include "model/touching_bodies.h"
 #include "obstacle/obstacle.h"
 
 struct dem_model {
-    const ranks *ranks;  /* that share it */
-    bool ends_ranks;     /* whether their table ends with the model */
-    domain *domain;      /* of this one; NULL: all nodes are here */
-    dem_lattice lattice; /* own copy; flags, body, position and velocity always filled */
+    const ranks *ranks;        /* that share it */
+    bool ends_ranks;           /* whether their table ends with the model */
+    domain *domain;            /* of this one; NULL: all nodes are here */
+    touching_bodies *touching; /* of the domain, if bodies may touch each other in it; else NULL */
+    dem_lattice lattice;       /* own copy; flags, body, position and velocity always filled */
     springs springs;
     csr_view *csr; /* of the springs, for programs */
     triangles triangles;

@@ -324,6 +324,41 @@ dem_status rigid_bodies_compile(rigid_bodies *out, const dem_lattice *lattice)
     return status;
 }
 
+static void cut_bodies(rigid_bodies *r, const rigid_bodies *whole, const dem_index *number)
+{
+    for (dem_index k = 0; k < whole->n_nodes; k++) {
+        r->nodes[k] = number[whole->nodes[k]];
+        r->of_node[r->nodes[k]] = whole->of_node[whole->nodes[k]];
+    }
+    for (; r->n < whole->n; r->n++) {
+        const rigid_body *of = &whole->list[r->n];
+        rigid_body *b = &r->list[r->n];
+        *b = *of;
+        b->nodes = r->nodes + (of->nodes - whole->nodes);
+        b->masses = r->masses + (of->masses - whole->masses);
+        b->shape = r->shapes + (of->shape - whole->shapes);
+        b->middle = number[of->middle];
+    }
+}
+
+dem_status rigid_bodies_cut(rigid_bodies *out, const rigid_bodies *whole, const dem_index *number, dem_index n_nodes)
+{
+    rigid_bodies r = {0};
+    *out = r;
+    if (whole->n == 0) return DEM_OK;
+    const dem_status status = allocate(&r, whole->n, whole->n_nodes, n_nodes);
+    if (status == DEM_OK) {
+        for (dem_index i = 0; i < n_nodes; i++) r.of_node[i] = -1;
+        memcpy(r.masses, whole->masses, (size_t)whole->n_nodes * sizeof *r.masses);
+        memcpy(r.shapes, whole->shapes, 2 * (size_t)whole->n_nodes * sizeof *r.shapes);
+        cut_bodies(&r, whole, number);
+        *out = r;
+    } else {
+        rigid_bodies_free(&r);
+    }
+    return status;
+}
+
 void rigid_bodies_free(rigid_bodies *r)
 {
     free(r->list);

@@ -33,6 +33,11 @@ typedef struct rigid_bodies {
 dem_status rigid_bodies_compile(rigid_bodies *out, const dem_lattice *lattice);
 void rigid_bodies_free(rigid_bodies *r);
 
+/** Copies the rigid bodies of a whole lattice to a part of n_nodes nodes that has all of their nodes.
+ *  \param number  [nodes of the whole] in the part
+ *  \return DEM_ERROR_MEMORY. Free with rigid_bodies_free(). */
+dem_status rigid_bodies_cut(rigid_bodies *out, const rigid_bodies *whole, const dem_index *number, dem_index n_nodes);
+
 /** The rigid body of a node; NULL if there is none. */
 static inline const rigid_body *rigid_bodies_at(const rigid_bodies *r, dem_index node)
 {

@@ -90,10 +90,16 @@ static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_
     return partition_bisect(&(*whole)->lattice, n_ranks, *owner);
 }
 
-static dem_status share(dem_model **out, const ranks *r, const dem_model *whole, const int32_t *owner)
+static bool may_touch(const dem_model *whole, dem_private_touching touching)
+{
+    if (touching == DEM_PRIVATE_TOUCHING_UNKNOWN) return whole->n_bodies > 1 || whole->obstacles.n > 0;
+    return touching == DEM_PRIVATE_TOUCHING_SOME;
+}
+
+static dem_status share(dem_model **out, const ranks *r, const dem_model *whole, const domain_model_shares *shares)
 {
     TRY(check_same(r, whole));
-    TRY(domain_model_create(out, r, whole, owner));
+    TRY(domain_model_create(out, r, whole, shares));
     (*out)->ends_ranks = r->end != NULL;
     return DEM_OK;
 }
@@ -103,7 +109,8 @@ dem_status dem_private_share_model(dem_model **out, const dem_private_whole *who
     dem_model *compiled = NULL;
     int32_t *owner = NULL;
     dem_status status = reduce_status(r, prepare(&compiled, &owner, whole, r->size), 0.0);
-    if (status == DEM_OK) status = share(out, r, compiled, owner);
+    if (status == DEM_OK)
+        status = share(out, r, compiled, &(domain_model_shares){owner, may_touch(compiled, whole->touching)});
     dem_model_destroy(compiled);
     free(owner);
     return status;

@@ -6,11 +6,20 @@
 
 #include "model/model.h"
 
+/** Whether bodies touch each other, or themselves, in simulations of a model: all ranks have their surfaces then. */
+typedef enum dem_private_touching {
+    DEM_PRIVATE_TOUCHING_UNKNOWN, /* they may if there are several, or obstacles, for which all ranks have most of the
+                                     surfaces anyway; one body in free space does not touch itself */
+    DEM_PRIVATE_TOUCHING_NONE,
+    DEM_PRIVATE_TOUCHING_SOME
+} dem_private_touching;
+
 /** A lattice and obstacles, as dem_model_create() takes them. */
 typedef struct dem_private_whole {
     const dem_lattice *lattice;
     const dem_obstacle *obstacles; /* [n_obstacles] */
     dem_index n_obstacles;
+    dem_private_touching touching;
 } dem_private_whole;
 
 /** Shares the nodes out among ranks, each of which gets the model of its part. Collective: whatever fails on one rank

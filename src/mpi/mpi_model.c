@@ -32,7 +32,7 @@ dem_status dem_model_create_mpi(dem_model **out, const dem_lattice *lattice, con
     TRY(check(out, communicator));
     ranks *r = mpi_ranks_create(communicator);
     if (r == NULL) return dem_private_fail(DEM_ERROR_MEMORY, "out of memory for the ranks of a communicator");
-    const dem_private_whole whole = {lattice, obstacles, n_obstacles};
+    const dem_private_whole whole = {.lattice = lattice, .obstacles = obstacles, .n_obstacles = n_obstacles};
     const dem_status status = dem_private_share_model(out, &whole, r);
     if (status != DEM_OK) r->end(r->self);
     return status;

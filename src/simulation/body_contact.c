@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Contact of bodies with each other in the time loop. A step is only taken if no node has crossed an edge in it: the
  * potential has no bound, so that a crossing is always a step that was too long. The force itself is part of the
- * right-hand side (forces/forces.h); the pairs and their potential are in src/surface_contact. */
+ * right-hand side (forces/forces.h); the pairs and their potential are in src/surface_contact. Ranks that share a model
+ * have all surfaces, and each finds what a process alone does without asking another one. */
 #include "simulation/body_contact.h"
 
 #include <stdio.h>
@@ -20,7 +21,8 @@ dem_status body_contact_create(dem_simulation *s)
                                        .thickness = o->contact_thickness,
                                        .stiffness = o->contact_stiffness,
                                        .friction = o->contact_friction,
-                                       .body_friction = o->body_friction};
+                                       .body_friction = o->body_friction,
+                                       .part = s->model->touching};
     CHECK(o->n_body_frictions == 0 || o->n_body_frictions == s->model->n_bodies, DEM_ERROR_ARGUMENT,
           "body_friction is of %lld bodies, but there are %lld", (long long)o->n_body_frictions,
           (long long)s->model->n_bodies);
@@ -115,9 +117,10 @@ static dem_status refuse_crossing(const dem_simulation *s, const surface_crossin
     return status_fail(DEM_ERROR_CONTACT,
                        "node %lld of body %d crosses the edge between nodes %lld and %lld of body %d near (%g, %g) m, "
                        "t = %.9g s%s",
-                       (long long)node, body[node], (long long)nodes[CONTACT_PAIR_FIRST],
-                       (long long)nodes[CONTACT_PAIR_SECOND], body[nodes[CONTACT_PAIR_FIRST]], x[0], x[1],
-                       time_of(s, crossing->part), remedy(s));
+                       (long long)model_node(s->model, node), body[node],
+                       (long long)model_node(s->model, nodes[CONTACT_PAIR_FIRST]),
+                       (long long)model_node(s->model, nodes[CONTACT_PAIR_SECOND]), body[nodes[CONTACT_PAIR_FIRST]],
+                       x[0], x[1], time_of(s, crossing->part), remedy(s));
 }
 
 /* Whether rigid bodies have crossed obstacles in the step. */
@@ -183,11 +186,22 @@ void body_contact_forget(dem_simulation *s)
     for (dem_index k = 0; s->rigid != NULL && k < s->rigid->n; k++) anchor_set_clear(&s->rigid->list[k].anchors);
 }
 
-static dem_status save_anchors(const anchor_set *anchors, const char *name, dem_checkpoint *checkpoint)
+static dem_status make_records(anchor_record **out, dem_index n)
 {
-    anchor_record *list = malloc((size_t)(anchors->now.n + 1) * sizeof *list);
-    CHECK(list != NULL, DEM_ERROR_MEMORY, "out of memory for %lld anchors", (long long)anchors->now.n);
-    for (dem_index k = 0; k < anchors->now.n; k++) list[k] = anchor_set_record(anchors, k);
+    *out = malloc((size_t)(n + 1) * sizeof **out);
+    CHECK(*out != NULL, DEM_ERROR_MEMORY, "out of memory for %lld anchors", (long long)n);
+    return DEM_OK;
+}
+
+/* \param d  in which nodes have their numbers, as in a checkpoint they have those of the whole; NULL: they are none */
+static dem_status save_anchors(const anchor_set *anchors, const domain *d, const char *name, dem_checkpoint *checkpoint)
+{
+    anchor_record *list;
+    TRY(make_records(&list, anchors->now.n));
+    for (dem_index k = 0; k < anchors->now.n; k++) {
+        list[k] = anchor_set_record(anchors, k);
+        list[k].node = domain_number(d, list[k].node);
+    }
     const dem_status status = dem_checkpoint_put(checkpoint, name, list, (size_t)anchors->now.n * sizeof *list);
     free(list);
     return status;
@@ -237,9 +251,10 @@ dem_status body_contact_save(const dem_simulation *s, dem_checkpoint *checkpoint
 {
     char name[NAME_LENGTH];
     if (s->surfaces != NULL && s->forces.elements != NULL) TRY(save_fillings(&s->surfaces->surface, checkpoint));
-    if (surface_contact_has_friction(s->surfaces)) TRY(save_anchors(&s->surfaces->anchors, of_bodies, checkpoint));
+    if (surface_contact_has_friction(s->surfaces))
+        TRY(save_anchors(&s->surfaces->anchors, s->model->domain, of_bodies, checkpoint));
     for (dem_index k = 0; rigid_contact_has_friction(s->rigid) && k < s->rigid->n; k++)
-        TRY(save_anchors(&s->rigid->list[k].anchors, name_entry(k, name), checkpoint));
+        TRY(save_anchors(&s->rigid->list[k].anchors, NULL, name_entry(k, name), checkpoint));
     return DEM_OK;
 }
 
@@ -258,8 +273,17 @@ static dem_status restore_fillings(surface_contact *of, const dem_checkpoint *ch
 static dem_status restore_bodies(dem_simulation *s, const dem_checkpoint *checkpoint, const double *y)
 {
     saved_anchors saved;
+    anchor_record *list;
     TRY(find_anchors(checkpoint, of_bodies, &saved));
-    return saved.list != NULL ? surface_contact_restore(s->surfaces, saved.list, saved.n, y) : DEM_OK;
+    if (saved.list == NULL) return DEM_OK;
+    TRY(make_records(&list, saved.n));
+    for (dem_index k = 0; k < saved.n; k++) {
+        list[k] = saved.list[k];
+        list[k].node = domain_node(s->model->domain, list[k].node);
+    }
+    const dem_status status = surface_contact_restore(s->surfaces, list, saved.n, y);
+    free(list);
+    return status;
 }
 
 static dem_status restore_rigid(dem_simulation *s, dem_index k, const dem_checkpoint *checkpoint, const double *y)
@@ -286,17 +310,16 @@ dem_surfaces body_contact_surfaces(const dem_simulation *s, const double *x)
     if (s->surfaces == NULL) return (dem_surfaces){.gap_min = INFINITY, .gap_share = INFINITY};
     const contact_surface *of = &s->surfaces->surface;
     const surface_gaps gaps = surface_contact_gaps(s->surfaces, x);
-    const double nearest = reduce_min(s->model->ranks, gaps.least_share);
-    return (dem_surfaces){.gap_min = reduce_min(s->model->ranks, gaps.least),
-                          .gap_share = nearest,
+    return (dem_surfaces){.gap_min = gaps.least,
+                          .gap_share = gaps.least_share,
                           .thickness_min = of->least.thickness,
                           .thickness_max = of->most.thickness,
-                          .pushing = reduce_count(s->model->ranks, gaps.pushing),
-                          .n_edges = reduce_count(s->model->ranks, of->surface.n_edges),
-                          .left_out = reduce_count(s->model->ranks, s->surfaces->n_left_out),
+                          .pushing = gaps.pushing,
+                          .n_edges = of->surface.n_edges,
+                          .left_out = s->surfaces->n_left_out,
                           .modulus_min = of->least.modulus,
                           .modulus_max = of->most.modulus,
-                          .pressure_share = nearest < 1.0 ? contact_potential_pressure(nearest) : 0.0,
+                          .pressure_share = gaps.least_share < 1.0 ? contact_potential_pressure(gaps.least_share) : 0.0,
                           .friction_min = of->least.friction,
                           .friction_max = of->most.friction};
 }

@@ -43,7 +43,9 @@ static void drop(led_run *l)
 
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
 {
-    const dem_private_whole whole = {&p->lattice, p->obstacles, p->n_obstacles};
+    const bool touching = p->options.bodies != DEM_BODIES_NONE;
+    const dem_private_whole whole = {&p->lattice, p->obstacles, p->n_obstacles,
+                                     touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE};
     TRY(dem_private_share_model(&l->model, &whole, &l->ranks));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
@@ -282,6 +284,21 @@ dem_status led_run_ask(const dem_simulation *whole, rank_call_kind what, dem_ind
 const dem_simulation *led_run_part(const led_run *l)
 {
     return l->part;
+}
+
+dem_status led_run_spread(const dem_simulation *whole, led_run_getter *get, int n_components, double *out)
+{
+    const dem_simulation *part = whole->leads->part;
+    const domain *d = part->model->domain;
+    const size_t row = (size_t)n_components * sizeof *out;
+    double *here = malloc((size_t)d->n_nodes * row);
+    CHECK_MEMORY(here);
+    const dem_status status = get(part, here);
+    memset(out, 0, (size_t)d->n_whole * row);
+    for (dem_index i = 0; i < d->n_nodes && status == DEM_OK; i++)
+        memcpy(out + n_components * d->number[i], here + n_components * i, row);
+    free(here);
+    return status;
 }
 
 void led_run_gather(dem_simulation *whole)

@@ -33,6 +33,10 @@ dem_status led_run_ask(const dem_simulation *whole, rank_call_kind what, dem_ind
 /** Rank 0's part, which every contact and event is in, as it is in every other one: to be asked without a call. */
 const dem_simulation *led_run_part(const led_run *l);
 
+/** Fills an array [nodes of the whole][n_components] with what a getter says of the nodes of that part, and 0. */
+typedef dem_status led_run_getter(const dem_simulation *part, double *out);
+dem_status led_run_spread(const dem_simulation *whole, led_run_getter *get, int n_components, double *out);
+
 /** Puts the state that is seen into `frame`. */
 void led_run_gather(dem_simulation *whole);
 

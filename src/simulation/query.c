@@ -394,6 +394,7 @@ dem_status dem_simulation_overlap(const dem_simulation *s, dem_overlap *out)
 dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 {
     TRY(check_pointers("dem_simulation_surfaces", s, out));
+    if (s->leads != NULL) return dem_simulation_surfaces(led_run_part(s->leads), out);
     run_measures *m = s->measures;
     if (!m->has_surfaces) m->surfaces = body_contact_surfaces(s, s->surfaces != NULL ? seen_of(s) : NULL);
     m->has_surfaces = true;
@@ -404,6 +405,7 @@ dem_status dem_simulation_surfaces(const dem_simulation *s, dem_surfaces *out)
 dem_status dem_simulation_pair(const dem_simulation *s, dem_index pair, dem_pair *out)
 {
     TRY(check_pointers("dem_simulation_pair", s, out));
+    if (s->leads != NULL) return dem_simulation_pair(led_run_part(s->leads), pair, out);
     const double *x = seen_of(s);
     if (!s->measures->has_pairs) TRY(body_contact_list((dem_simulation *)s, x));
     s->measures->has_pairs = true;
@@ -415,6 +417,7 @@ dem_status dem_simulation_pair(const dem_simulation *s, dem_index pair, dem_pair
 dem_status dem_simulation_contact_forces(const dem_simulation *s, double *force)
 {
     TRY(check_pointers("dem_simulation_contact_forces", s, force));
+    if (s->leads != NULL) return led_run_spread(s, dem_simulation_contact_forces, s->layout.dim, force);
     memset(force, 0, (size_t)(s->layout.dim * s->model->lattice.n_nodes) * sizeof *force);
     if (s->surfaces != NULL) surface_load_forces(s->surfaces, seen_of(s), force);
     return DEM_OK;
@@ -423,6 +426,7 @@ dem_status dem_simulation_contact_forces(const dem_simulation *s, double *force)
 dem_status dem_simulation_contact_pressures(const dem_simulation *s, double *pressure)
 {
     TRY(check_pointers("dem_simulation_contact_pressures", s, pressure));
+    if (s->leads != NULL) return led_run_spread(s, dem_simulation_contact_pressures, 1, pressure);
     memset(pressure, 0, (size_t)s->model->lattice.n_nodes * sizeof *pressure);
     return s->surfaces != NULL ? surface_load_pressures(s->surfaces, seen_of(s), pressure) : DEM_OK;
 }

@@ -44,10 +44,10 @@ static dem_status check_rigid(const dem_simulation *s, const double *x, const do
         const dem_index deviating = rigid_body_deviating(&r->list[k], x, v);
         CHECK(misplaced < 0, DEM_ERROR_ARGUMENT,
               "the place (%g, %g) of node %lld deforms its body %lld, which is rigid", x[2 * misplaced],
-              x[2 * misplaced + 1], (long long)misplaced, (long long)r->list[k].number);
+              x[2 * misplaced + 1], (long long)model_node(s->model, misplaced), (long long)r->list[k].number);
         CHECK(deviating < 0, DEM_ERROR_ARGUMENT,
               "the velocity (%g, %g) of node %lld is not that of a rigid motion of its body %lld%s", v[2 * deviating],
-              v[2 * deviating + 1], (long long)deviating, (long long)r->list[k].number,
+              v[2 * deviating + 1], (long long)model_node(s->model, deviating), (long long)r->list[k].number,
               r->list[k].guide != DEM_GUIDE_NONE ? " along its guide" : "");
     }
     return DEM_OK;

@@ -123,7 +123,9 @@ static dem_status check_shared(const dem_simulation *s)
 {
     const dem_options *o = &s->options;
     if (s->model->domain == NULL) return DEM_OK;
-    CHECK(o->bodies == DEM_BODIES_NONE, DEM_ERROR_ARGUMENT, "bodies that ranks share do not touch each other yet");
+    CHECK(o->bodies == DEM_BODIES_NONE || s->model->touching != NULL, DEM_ERROR_ARGUMENT,
+          "bodies touch in a model of which ranks share no surfaces: a body alone without obstacles does not touch "
+          "itself yet");
     CHECK(o->force == NULL, DEM_ERROR_ARGUMENT, "there is no external force on a model that ranks share yet");
     return DEM_OK;
 }

@@ -43,6 +43,9 @@ dem_status shared_problem_put(dem_checkpoint *into, const dem_model *model, cons
     const dem_index numbers[N_NUMBERS] = {l->n_nodes, l->n_springs, l->n_triangles, obstacles->n};
     TRY(dem_checkpoint_put(into, "numbers", numbers, sizeof numbers));
     TRY(dem_checkpoint_put(into, "options", options, sizeof *options));
+    if (options->body_friction != NULL)
+        TRY(dem_checkpoint_put(into, "body friction", options->body_friction,
+                               (size_t)options->n_body_frictions * sizeof *options->body_friction));
     for (int k = 0; k < LATTICE_ARRAYS; k++) {
         const lattice_array *a = &lattice_arrays[k];
         const void *items = lattice_array_of(l, a);
@@ -84,6 +87,7 @@ static void view_lattice(dem_lattice *l, const dem_checkpoint *from)
 dem_status shared_problem_get(shared_problem *out, const dem_checkpoint *from)
 {
     dem_index numbers[N_NUMBERS];
+    size_t size;
     *out = (shared_problem){.lattice = dem_lattice_empty()};
     TRY(dem_checkpoint_get(from, "numbers", numbers, sizeof numbers));
     TRY(dem_checkpoint_get(from, "options", &out->options, sizeof out->options));
@@ -96,6 +100,7 @@ dem_status shared_problem_get(shared_problem *out, const dem_checkpoint *from)
     out->boundaries = calloc((size_t)out->options.n_boundaries + 1, sizeof *out->boundaries);
     CHECK(out->obstacles != NULL && out->boundaries != NULL, DEM_ERROR_MEMORY, "out of memory for what ranks share");
     out->options.boundaries = out->boundaries;
+    out->options.body_friction = dem_checkpoint_find(from, "body friction", &size);
     for (dem_index k = 0; k < out->n_obstacles; k++) TRY(get_obstacle(&out->obstacles[k], from, k));
     for (dem_index k = 0; k < out->options.n_boundaries; k++) TRY(get_boundary(&out->boundaries[k], from, k));
     return DEM_OK;

@@ -14,19 +14,11 @@
 static const double usual_thickness = 0.2;    /* of the mean edge of a body */
 static const double largest_thickness = 0.45; /* of its shortest edge, if nothing is asked for */
 
-/* Sums over a body. */
-typedef struct body_sums {
-    double length, shortest, springs, area; /* m, m, N m, m^2 */
-    dem_index n_edges;
-} body_sums;
-
-static dem_index body_count(const dem_lattice *l)
-{
-    dem_index n = 0;
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if (l->body[i] >= n) n = l->body[i] + 1;
-    return n;
-}
+/* The boundary edges of a body. */
+typedef struct body_edges {
+    double length, shortest; /* m, of all, and of one */
+    dem_index n;
+} body_edges;
 
 /* Notes the triangle as that of its side behind a corner, if that side is an edge of the surface. */
 static void note_triangle(contact_surface *c, dem_index triangle, int side)
@@ -173,20 +165,11 @@ static dem_status find_outline(contact_surface *out, const mesh_boundary *bounda
     return DEM_OK;
 }
 
-static dem_status find_first_outline(contact_surface *out)
-{
-    mesh_boundary boundary;
-    TRY(mesh_boundary_create(&boundary, out->lattice, NULL));
-    const dem_status status = find_outline(out, &boundary, NULL);
-    if (status == DEM_OK) fill(out, NULL, NULL);
-    mesh_boundary_free(&boundary);
-    return status;
-}
-
 dem_status contact_surface_break(contact_surface *out, const contact_surface *c, const mesh_boundary *boundary,
                                  const unsigned char *broken, const double *x)
 {
     contact_surface next = {.lattice = c->lattice,
+                            .part = c->part,
                             .n_bodies = c->n_bodies,
                             .laws = c->laws,
                             .least = c->least,
@@ -240,36 +223,30 @@ dem_status contact_surface_squeeze(contact_surface *c, const squeezed_filling *l
     return DEM_OK;
 }
 
-static void sum_up(contact_surface *c, body_sums *sums, dem_index n_bodies)
+/* ---- laws ---- */
+
+static void sum_up(contact_surface *c, body_edges *of)
 {
-    const dem_lattice *l = c->lattice;
-    for (dem_index b = 0; b < n_bodies; b++) sums[b].shortest = INFINITY;
+    for (dem_index b = 0; b < c->n_bodies; b++) of[b].shortest = INFINITY;
     for (dem_index e = 0; e < c->surface.n_edges; e++) {
-        body_sums *sum = &sums[contact_surface_body(c, contact_surface_first(c, e))];
-        sum->length += c->length[e];
-        sum->shortest = fmin(sum->shortest, c->length[e]);
-        sum->n_edges++;
+        body_edges *edges = &of[contact_surface_body(c, contact_surface_first(c, e))];
+        edges->length += c->length[e];
+        edges->shortest = fmin(edges->shortest, c->length[e]);
+        edges->n++;
         c->mean_length += c->length[e] / (double)c->surface.n_edges;
-    }
-    for (dem_index k = 0; k < l->n_springs; k++)
-        sums[l->body[l->ends[2 * k]]].springs += l->stiffness[k] * l->rest_length[k];
-    for (dem_index k = 0; k < l->n_triangles; k++) {
-        const dem_index *corner = &l->triangles[3 * k];
-        sums[l->body[corner[0]]].area +=
-            vec2_triangle_area(vec2_at(l->x, corner[0]), vec2_at(l->x, corner[1]), vec2_at(l->x, corner[2]));
     }
 }
 
-static dem_status choose_law(contact_surface *c, dem_index body, const body_sums *sum, double thickness,
-                             double stiffness)
+static dem_status choose_law(contact_surface *c, dem_index body, const body_edges *edges, double thickness,
+                             double modulus)
 {
-    CHECK(sum->n_edges > 0, DEM_ERROR_MODEL, "body %lld has no triangles, and so no surface that could touch bodies",
+    CHECK(edges->n > 0, DEM_ERROR_MODEL, "body %lld has no triangles, and so no surface that could touch bodies",
           (long long)body);
-    const double usual = fmin(usual_thickness * sum->length / (double)sum->n_edges, largest_thickness * sum->shortest);
-    const surface_law law = {thickness > 0.0 ? thickness : usual, stiffness * sum->springs / (3.0 * sum->area), 0.0};
-    CHECK(law.thickness < 0.5 * sum->shortest, DEM_ERROR_MODEL,
+    const double usual = fmin(usual_thickness * edges->length / (double)edges->n, largest_thickness * edges->shortest);
+    const surface_law law = {thickness > 0.0 ? thickness : usual, modulus, 0.0};
+    CHECK(law.thickness < 0.5 * edges->shortest, DEM_ERROR_MODEL,
           "the contact thickness of %g m is not below half of the shortest boundary edge of body %lld, %g m",
-          law.thickness, (long long)body, sum->shortest);
+          law.thickness, (long long)body, edges->shortest);
     c->laws[body] = law;
     return DEM_OK;
 }
@@ -285,31 +262,52 @@ static void compare_laws(contact_surface *c)
     }
 }
 
-static dem_status choose_laws(contact_surface *c, dem_index n_bodies, double thickness, double stiffness)
+static dem_status choose_laws(contact_surface *c, const body_content *content, double thickness, double stiffness)
 {
-    body_sums *sums = calloc((size_t)n_bodies, sizeof *sums);
-    CHECK_MEMORY(sums);
+    body_edges *edges = calloc((size_t)c->n_bodies, sizeof *edges);
+    CHECK_MEMORY(edges);
     dem_status status = DEM_OK;
-    sum_up(c, sums, n_bodies);
-    for (dem_index b = 0; b < n_bodies && status == DEM_OK; b++)
-        status = choose_law(c, b, &sums[b], thickness, stiffness);
-    free(sums);
+    sum_up(c, edges);
+    for (dem_index b = 0; b < c->n_bodies && status == DEM_OK; b++)
+        status = choose_law(c, b, &edges[b], thickness, stiffness * content[b].springs / (3.0 * content[b].area));
+    free(edges);
     compare_laws(c);
     return status;
 }
 
-dem_status contact_surface_compile(contact_surface *out, const dem_lattice *lattice, double thickness, double stiffness)
+static dem_status compile(contact_surface *out, contact_surface c, const touching_bodies *bodies, double thickness,
+                          double stiffness)
 {
-    contact_surface c = {.lattice = lattice, .n_bodies = body_count(lattice)};
+    c.n_bodies = bodies->n_bodies;
     c.laws = calloc((size_t)c.n_bodies + 1, sizeof *c.laws);
     CHECK_MEMORY(c.laws);
-    dem_status status = find_first_outline(&c);
-    if (status == DEM_OK) status = choose_laws(&c, c.n_bodies, thickness, stiffness);
+    dem_status status = find_outline(&c, &bodies->boundary, NULL);
+    if (status == DEM_OK) {
+        fill(&c, NULL, NULL);
+        status = choose_laws(&c, bodies->bodies, thickness, stiffness);
+    }
     if (status == DEM_OK)
         *out = c;
     else
         contact_surface_free(&c);
     return status;
+}
+
+dem_status contact_surface_compile(contact_surface *out, const dem_lattice *lattice, double thickness, double stiffness)
+{
+    touching_bodies bodies;
+    TRY(touching_bodies_create(&bodies, lattice));
+    const contact_surface c = {.lattice = lattice};
+    const dem_status status = compile(out, c, &bodies, thickness, stiffness);
+    touching_bodies_free(&bodies);
+    return status;
+}
+
+dem_status contact_surface_compile_part(contact_surface *out, const dem_lattice *lattice, const touching_bodies *bodies,
+                                        double thickness, double stiffness)
+{
+    const contact_surface c = {.lattice = lattice, .part = bodies};
+    return compile(out, c, bodies, thickness, stiffness);
 }
 
 void contact_surface_free(contact_surface *c)

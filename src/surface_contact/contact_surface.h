@@ -8,6 +8,7 @@
 
 #include "base/vec2.h"
 #include "model/surface.h"
+#include "model/touching_bodies.h"
 
 /** What a body's surface pushes with. */
 typedef struct surface_law {
@@ -26,13 +27,14 @@ static inline surface_law surface_law_smaller(surface_law a, surface_law b)
 
 typedef struct contact_surface {
     const dem_lattice *lattice;
-    surface surface;     /* whole */
-    dem_index n_nodes;   /* on edges */
-    dem_index *nodes;    /* [n_nodes] their numbers in the lattice, ascending */
-    double *half_length; /* [n_nodes] m, half of what a node has of the surface at rest */
-    dem_index *corner;   /* [n_edges] the third corner of the triangle of each edge */
-    double *length;      /* [n_edges] m, at rest */
-    double *plate;       /* [n_edges] m, thickness of the triangle of each edge */
+    const touching_bodies *part; /* by which a part of a lattice has the surface of the whole; NULL: it is the whole */
+    surface surface;             /* whole */
+    dem_index n_nodes;           /* on edges */
+    dem_index *nodes;            /* [n_nodes] their numbers in the lattice, ascending */
+    double *half_length;         /* [n_nodes] m, half of what a node has of the surface at rest */
+    dem_index *corner;           /* [n_edges] the third corner of the triangle of each edge */
+    double *length;              /* [n_edges] m, at rest */
+    double *plate;               /* [n_edges] m, thickness of the triangle of each edge */
     dem_index *opposite; /* [n_edges] the third corner of the broken triangle on the other side of each edge; -1: none,
                             or that corner is on no surface */
     double *filled; /* [n_edges] m, how far that corner and the edge were apart when the triangle broke, at most its
@@ -51,6 +53,11 @@ typedef struct contact_surface {
 dem_status contact_surface_compile(contact_surface *out, const dem_lattice *lattice, double thickness,
                                    double stiffness);
 void contact_surface_free(contact_surface *c);
+
+/** The same of the lattice that a rank has a part of, in which are all nodes of the surface: with the bits, and the
+ *  order of edges and nodes, of the whole. Borrows the bodies. */
+dem_status contact_surface_compile_part(contact_surface *out, const dem_lattice *lattice, const touching_bodies *bodies,
+                                        double thickness, double stiffness);
 
 /** Makes in `out` the surface that c becomes where triangles break: that of those that are whole, of which this is the
  *  boundary, as contact_surface_compile() finds it in a lattice without the others, in the same order.
@@ -113,6 +120,12 @@ static inline dem_index contact_surface_first(const contact_surface *c, dem_inde
 static inline dem_index contact_surface_second(const contact_surface *c, dem_index edge)
 {
     return c->surface.ends[2 * edge + 1];
+}
+
+/** The number of a node in the whole lattice, for messages and reports. */
+static inline dem_index contact_surface_number(const contact_surface *c, dem_index node)
+{
+    return touching_bodies_node(c->part, node);
 }
 
 /** The body of a node. */

@@ -154,8 +154,9 @@ static dem_status search_along(pair_list *l, dem_index edge, const double *x, co
     const double most = largest_stretch * c->length[edge], length = vec2_norm(t);
     if (length <= fmin(l->cells.side, most)) return search_piece(l, &e, a, b, filter);
     CHECK(length <= most, DEM_ERROR_INTEGRATOR,
-          "the boundary edge between nodes %lld and %lld is %g m long, %g times its length at rest", (long long)first,
-          (long long)second, length, length / c->length[edge]);
+          "the boundary edge between nodes %lld and %lld is %g m long, %g times its length at rest",
+          (long long)contact_surface_number(c, first), (long long)contact_surface_number(c, second), length,
+          length / c->length[edge]);
     const double n_pieces = ceil(length / l->cells.side);
     for (double k = 0.0; k < n_pieces; k++)
         TRY(search_piece(l, &e, vec2_along(a, k / n_pieces, t), vec2_along(a, (k + 1.0) / n_pieces, t), filter));

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Goes through the rigid bodies. What an obstacle does is what its vertices do: the forces on them, as on the ends of
- * edges that push, turned round, and the power of these at the velocities of the vertices. */
+ * edges that push, turned round, and the power of these at the velocities of the vertices. Ranks that share a model
+ * have all rigid bodies, and sum up what is here each by itself. */
 #include "surface_contact/rigid_contact.h"
 
 #include <stdlib.h>
 
-#include "base/reduce.h"
 #include "base/status.h"
 
 static dem_status set_up(rigid_contact *c, const contact_surface *of)
@@ -109,7 +109,7 @@ double rigid_contact_power(const rigid_contact *c, dem_index obstacle)
             if (o->obstacle[v] == obstacle)
                 exact_sum_add(&sum, vec2_dot(rigid_contact_force(&c->list[b], q), obstacle_surface_velocity(o, v)));
         }
-    return reduce_sum(c->model->ranks, &sum);
+    return exact_sum_value(&sum);
 }
 
 static void add_row(const rigid_contact *c, const state_layout *l, dem_index row, vec2 term)
@@ -152,12 +152,12 @@ void rigid_contact_add_rates(const rigid_contact *c, const state_layout *l, cons
 {
     dem_index n_near = 0;
     for (dem_index b = 0; b < c->n; b++) n_near += c->list[b].n_near;
-    if (!reduce_any(c->model->ranks, n_near > 0)) return;
+    if (n_near == 0) return;
     for (dem_index b = 0; b < c->n; b++) {
         add_rates_of(c, &c->list[b], l);
         if (rigid_contact_has_friction(c)) add_friction_of(c, &c->list[b], l, v);
     }
-    rate_sums_take(c->model->ranks, &c->rates, l, a);
+    rate_sums_take(&c->rates, l, a);
 }
 
 /* ---- friction ---- */
@@ -182,7 +182,7 @@ double rigid_contact_stored(rigid_contact *c, double t, const double *x)
     if (follow(c, t, x) != DEM_OK) return (double)NAN;
     for (dem_index k = 0; k < c->n; k++)
         anchor_set_add_energy(&c->list[k].anchors, &c->list[k].pairs, c->list[k].places, &sum);
-    return reduce_sum(c->model->ranks, &sum);
+    return exact_sum_value(&sum);
 }
 
 /* ---- energy and stiffness ---- */
@@ -192,7 +192,7 @@ double rigid_contact_energy(rigid_contact *c, double t, const double *x)
     exact_sum sum = {0};
     if (follow(c, t, x) != DEM_OK) return (double)NAN;
     for (dem_index k = 0; k < c->n; k++) rigid_pairs_add_energy(&c->list[k], &sum);
-    return reduce_sum(c->model->ranks, &sum);
+    return exact_sum_value(&sum);
 }
 
 double rigid_contact_stiffening(rigid_contact *c, double t, const double *x)

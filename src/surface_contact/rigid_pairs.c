@@ -130,7 +130,7 @@ static dem_status create_friction(rigid_pairs *p)
 dem_status rigid_pairs_create(rigid_pairs *out, const contact_surface *of, dem_index body,
                               const obstacle_surface *obstacles)
 {
-    *out = (rigid_pairs){.obstacles = obstacles, .body = body, .law = of->laws[body]};
+    *out = (rigid_pairs){.obstacles = obstacles, .part = of->part, .body = body, .law = of->laws[body]};
     out->margin = usual_margin * of->mean_length;
     count(out, of);
     TRY(allocate(out));
@@ -435,8 +435,9 @@ static dem_status check_edge(const rigid_pairs *p, const surface_edge *of_obstac
         CHECK(!vec2_segments_cross(a, at(p, edge->second), c, d), DEM_ERROR_MODEL,
               "body %lld, which is rigid, crosses obstacle %lld at the start: by its edge between nodes %lld and %lld, "
               "at (%g, %g) m",
-              (long long)p->body, (long long)o->obstacle[of_obstacle->first], (long long)p->nodes[edge->first],
-              (long long)p->nodes[edge->second], a.x, a.y);
+              (long long)p->body, (long long)o->obstacle[of_obstacle->first],
+              (long long)touching_bodies_node(p->part, p->nodes[edge->first]),
+              (long long)touching_bodies_node(p->part, p->nodes[edge->second]), a.x, a.y);
     }
     return DEM_OK;
 }

@@ -11,7 +11,8 @@
 
 typedef struct rigid_pairs {
     const obstacle_surface *obstacles;
-    dem_index body; /* number of the body */
+    const touching_bodies *part; /* as contact_surface */
+    dem_index body;              /* number of the body */
     surface_law law;
     double margin; /* m */
     dem_index n_nodes, n_edges;

@@ -50,10 +50,16 @@ static anchor_surfaces surfaces_of(const contact_surface *s)
 
 /* ---- creation ---- */
 
+static dem_status compile_surface(contact_surface *out, const dem_lattice *lattice, const surface_contact_rule *rule)
+{
+    if (rule->part == NULL) return contact_surface_compile(out, lattice, rule->thickness, rule->stiffness);
+    return contact_surface_compile_part(out, lattice, rule->part, rule->thickness, rule->stiffness);
+}
+
 static dem_status set_up(surface_contact *c, const dem_lattice *lattice, const surface_contact_rule *rule)
 {
     const double margin = rule->margin > 0.0 ? rule->margin : usual_margin;
-    TRY(contact_surface_compile(&c->surface, lattice, rule->thickness, rule->stiffness));
+    TRY(compile_surface(&c->surface, lattice, rule));
     TRY(compact_pairs_create(&c->compact, lattice->n_nodes));
     TRY(pair_rows_create(&c->near, lattice->n_nodes));
     c->near_margin = near_margin * c->surface.mean_length;

@@ -22,6 +22,7 @@ typedef struct surface_contact_rule {
     double margin;               /* of the list over the mean edge; 0: the usual one */
     double friction;             /* coefficient of all bodies, */
     const double *body_friction; /* or [n_bodies] of each; NULL: that of all */
+    const touching_bodies *part; /* of a lattice that is a part, borrowed; NULL: it is the whole */
 } surface_contact_rule;
 
 typedef struct surface_contact {

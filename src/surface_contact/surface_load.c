@@ -102,15 +102,16 @@ dem_pair surface_load_pair(const surface_load *l, dem_index k, const contact_sur
     const friction_pattern pattern = friction_pattern_make(&push, x);
     const vec2 force = contact_push_on(&push, CONTACT_PAIR_NODE);
     const vec2 friction = vec2_scale(-entry->ratio, pattern.at[CONTACT_PAIR_NODE]);
-    return (dem_pair){.node = node,
-                      .edge = {first, p->nodes[CONTACT_PAIR_SECOND]},
-                      .body = contact_surface_body(of, node),
-                      .other_body = contact_surface_body(of, first),
-                      .x = {foot.x, foot.y},
-                      .normal = {way.x / gap, way.y / gap},
-                      .gap = gap,
-                      .thickness = p->thickness,
-                      .force = {force.x, force.y},
-                      .friction = {friction.x, friction.y},
-                      .slides = entry->slides};
+    return (dem_pair){
+        .node = contact_surface_number(of, node),
+        .edge = {contact_surface_number(of, first), contact_surface_number(of, p->nodes[CONTACT_PAIR_SECOND])},
+        .body = contact_surface_body(of, node),
+        .other_body = contact_surface_body(of, first),
+        .x = {foot.x, foot.y},
+        .normal = {way.x / gap, way.y / gap},
+        .gap = gap,
+        .thickness = p->thickness,
+        .force = {force.x, force.y},
+        .friction = {friction.x, friction.y},
+        .slides = entry->slides};
 }

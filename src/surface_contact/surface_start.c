@@ -51,9 +51,10 @@ static dem_status refuse(const contact_surface *s, const double *x, const two_ed
     return status_fail(DEM_ERROR_MODEL,
                        "node %lld of body %lld at (%g, %g) m is %g m inside body %lld, behind its edge between nodes "
                        "%lld and %lld: surfaces must not cross at the start",
-                       (long long)node, (long long)contact_surface_body(s, node), x[2 * node], x[2 * node + 1],
-                       depth_of(x, way[0], way[1], node), (long long)contact_surface_body(s, way[0]), (long long)way[0],
-                       (long long)way[1]);
+                       (long long)contact_surface_number(s, node), (long long)contact_surface_body(s, node),
+                       x[2 * node], x[2 * node + 1], depth_of(x, way[0], way[1], node),
+                       (long long)contact_surface_body(s, way[0]), (long long)contact_surface_number(s, way[0]),
+                       (long long)contact_surface_number(s, way[1]));
 }
 
 static double length_of(const contact_surface *s, const double *x, dem_index edge)
@@ -103,6 +104,7 @@ static dem_status check_crossings(const surface_contact *c, const double *x, dou
 static dem_status check_distances(const surface_contact *c, const double *x)
 {
     const pair_rows *r = &c->candidates.pairs;
+    const contact_surface *s = &c->surface;
     for (dem_index k = 0; k < r->n; k++) {
         const contact_pair *p = &r->list[k];
         const dem_index node = p->nodes[CONTACT_PAIR_NODE], a = p->nodes[CONTACT_PAIR_FIRST];
@@ -111,9 +113,9 @@ static dem_status check_distances(const surface_contact *c, const double *x)
         CHECK(p->fills || gap >= least_distance * p->thickness, DEM_ERROR_MODEL,
               "node %lld of body %lld at (%g, %g) m is %g m from the edge between nodes %lld and %lld of body %lld: "
               "surfaces must be %g m apart at the start, a twentieth of the contact thickness",
-              (long long)node, (long long)contact_surface_body(&c->surface, node), x[2 * node], x[2 * node + 1], gap,
-              (long long)a, (long long)b, (long long)contact_surface_body(&c->surface, a),
-              least_distance * p->thickness);
+              (long long)contact_surface_number(s, node), (long long)contact_surface_body(s, node), x[2 * node],
+              x[2 * node + 1], gap, (long long)contact_surface_number(s, a), (long long)contact_surface_number(s, b),
+              (long long)contact_surface_body(s, a), least_distance * p->thickness);
     }
     return DEM_OK;
 }

@@ -39,6 +39,20 @@ PLATE = """
 &solver method = 'verlet', checkpoint_steps = 50 /
 &output name = 'free', frame_interval = 1 /
 """
+# A rigid hammer on a guide hits a ring on a floor, and a disc hits it from the side: with friction of all with all.
+TOUCHING = """
+&run t_end = 1.2e-3 /
+&material name = 'soft', youngs_modulus = 1e7, density = 1050, friction = 0.4 /
+&material name = 'hard', youngs_modulus = 1e9, density = 2000, friction = 0.3 /
+&body shape = 'ring', radius = 0.04, inner_radius = 0.02, spacing = 6e-3, position = 0, 0.0403, velocity = 0, -4,
+    material = 'soft' /
+&body shape = 'rectangle', size = 0.05, 0.02, spacing = 6e-3, position = 0, 0.082, velocity = 0, -9,
+    rigid = .true., guide = 'y', material = 'hard' /
+&body shape = 'disc', radius = 0.02, spacing = 6e-3, position = -0.061, 0.035, velocity = 9, 0, material = 'soft' /
+&obstacle points = -0.2, 0, 0.2, 0, friction = 0.3 /
+&solver checkpoint_steps = 20 /
+&output name = 'free', frame_interval = 1e-4, fields = 'displacement', 'stress', 'contact' /
+"""
 
 
 class UnderMpirun(unittest.TestCase):
@@ -67,11 +81,12 @@ class UnderMpirun(unittest.TestCase):
         self.assertRegex(said[0], "2 processes.*--jobs")
 
     def test_what_ranks_cannot_share_is_refused_before_anything_is_written(self):
-        done = subprocess.run([MPIRUN, "-n", "3", DEM_BATCH, DECK], cwd=self.folder, stdin=subprocess.DEVNULL,
+        deck = str(INPUTS / "brittle_disc.nml")
+        done = subprocess.run([MPIRUN, "-n", "3", DEM_BATCH, deck], cwd=self.folder, stdin=subprocess.DEVNULL,
                               capture_output=True, text=True, timeout=SECONDS, check=False)
         said = [line for line in done.stderr.splitlines() if "error: 3 ranks" in line]
         self.assertEqual((done.returncode, len(said), list(self.folder.iterdir())), (3, 1, []), done.stderr)
-        self.assertRegex(said[0], "rectangle.nml:[0-9]+:[0-9]+: error: 3 ranks cannot share bodies that touch")
+        self.assertRegex(said[0], "brittle_disc.nml:[0-9]+:[0-9]+: error: 3 ranks cannot share what breaks")
 
     def test_one_process_is_a_run(self):
         code, said, files = self.run_on(1, DEM_BATCH, *SHORT, DECK)
@@ -96,6 +111,7 @@ class Runs(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         (self.folder / "free.nml").write_text(FREE, encoding="ascii")
         (self.folder / "plate.nml").write_text(PLATE, encoding="ascii")
+        (self.folder / "touching.nml").write_text(TOUCHING, encoding="ascii")
 
     def command(self, n, outdir, *more, deck="free.nml"):
         launcher = [] if n == 0 else [MPIRUN, "-n", str(n)]
@@ -163,7 +179,7 @@ class FreeBodies(Runs):
 
 
 class Obstacles(Runs):
-    SETTINGS = ("--set", "run.t_end=2e-3", "--set", "body.spacing=7e-3", "--set", "contact.bodies=none", "--set",
+    SETTINGS = ("--set", "run.t_end=2e-3", "--set", "body.spacing=7e-3", "--set",
                 "solver.checkpoint_steps=20", "--set", "output.name=free")
 
     def run_on(self, n, outdir, *more, deck="falling.nml"):
@@ -193,6 +209,32 @@ class Obstacles(Runs):
             self.assertEqual("resumed" in log, k > 0)
             self.assertGreater(self.result("parts")["contacts"], 0)
         self.assert_same("one", "parts")
+
+
+class Touching(Runs):
+    def test_any_number_of_ranks_goes_on_with_surfaces_that_push(self):
+        self.assertEqual(self.run_on(0, "one", deck="touching.nml")[0], 0)
+        for k, n in enumerate((3, 0, 2)):
+            settings = ("--set", f"run.t_end={(k + 2) * 3e-4}")
+            code, log, errors = self.run_on(n, "parts", *settings, deck="touching.nml")
+            self.assertEqual(code, 0, errors)
+            self.assertEqual("resumed" in log, k > 0)
+            self.assertGreater(self.result("parts")["pairs"], 0)
+        self.assert_same("one", "parts")
+
+
+class LongerTouching(Runs):
+    NAMED = ("--set", "output.name=free")
+
+    def test_files_are_those_of_one_process(self):
+        for name, t_end in (("two_discs", 2e-3), ("hammer", 2e-3), ("rectangle", 2e-3)):
+            deck = str(INPUTS / f"{name}.nml")
+            settings = (*self.NAMED, "--set", f"run.t_end={t_end}")
+            self.assertEqual(self.run_on(0, name, *settings, deck=deck)[0], 0)
+            for n in (2, 7):
+                code, _, errors = self.run_on(n, f"{name}{n}", *settings, deck=deck)
+                self.assertEqual(code, 0, errors)
+                self.assert_same(name, f"{name}{n}")
 
 
 class LongerOnObstacles(Obstacles):

@@ -326,7 +326,7 @@ static void run_rank(const ranks *r, void *context)
     shared_run *c = context;
     dem_model *model = NULL;
     outcome *o = &c->outcomes[r->rank];
-    dem_status status = domain_model_create(&model, r, c->scene->model, c->owner);
+    dem_status status = domain_model_create(&model, r, c->scene->model, &(domain_model_shares){.owner = c->owner});
     if (status == DEM_OK) status = run(model, &c->scene->options, c->from, o);
     if (status != DEM_OK) (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
     dem_model_destroy(model);
@@ -526,7 +526,7 @@ static void talk_as_rank(const ranks *r, void *context)
     talk other = *(talk *)context, *t = r->rank == 0 ? context : &other;
     dem_model *model = NULL;
     t->ranks = r;
-    dem_status status = domain_model_create(&model, r, t->scene->model, t->owner);
+    dem_status status = domain_model_create(&model, r, t->scene->model, &(domain_model_shares){.owner = t->owner});
     if (status == DEM_OK) status = talk_through(t, model);
     if (status != DEM_OK) (void)snprintf(t->failure, TEXT, "%s", dem_status_message());
     dem_model_destroy(model);
@@ -622,7 +622,7 @@ static void try_rank(const ranks *r, void *context)
 {
     refusal *c = context;
     dem_model *model = NULL;
-    dem_status status = domain_model_create(&model, r, c->scene->model, c->owner);
+    dem_status status = domain_model_create(&model, r, c->scene->model, &(domain_model_shares){.owner = c->owner});
     if (status == DEM_OK) status = try_run(model, c, r->rank);
     c->status[r->rank] = status;
     (void)snprintf(c->messages[r->rank], TEXT, "%s", status != DEM_OK ? dem_status_message() : "");
@@ -715,13 +715,21 @@ TEST(an_observer_of_one_rank_stops_all)
     close_scene(&s);
 }
 
+static dem_status push(void *context, const dem_force_query *query, double *force)
+{
+    (void)context;
+    (void)query;
+    (void)force;
+    return DEM_OK;
+}
+
 TEST(what_ranks_cannot_do_yet_is_refused)
 {
     scene s;
     open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
-    s.options.bodies = DEM_BODIES_ALL;
-    const refusal no_touch = refuse(&s, -1, NULL);
-    assert_string_equal(no_touch.messages[1], "bodies that ranks share do not touch each other yet");
+    s.options.force = push;
+    const refusal no_force = refuse(&s, -1, NULL);
+    assert_string_equal(no_force.messages[1], "there is no external force on a model that ranks share yet");
     close_scene(&s);
 }
 

@@ -270,7 +270,7 @@ static void run_rank(const ranks *r, void *context)
     shared_run *c = context;
     dem_model *model = NULL;
     outcome *o = &c->outcomes[r->rank];
-    dem_status status = domain_model_create(&model, r, c->scene->model, c->owner);
+    dem_status status = domain_model_create(&model, r, c->scene->model, &(domain_model_shares){.owner = c->owner});
     if (status == DEM_OK) status = run(model, c->scene, o);
     if (status != DEM_OK) (void)snprintf(o->failure, TEXT, "%s", dem_status_message());
     dem_model_destroy(model);
@@ -467,7 +467,7 @@ static void talk_as_rank(const ranks *r, void *context)
     dem_simulation *s = NULL;
     const dem_observer observer = SIZED(dem_observer, .context = t, .step = note_calls);
     t->ranks = r;
-    dem_status status = domain_model_create(&model, r, t->scene->model, t->owner);
+    dem_status status = domain_model_create(&model, r, t->scene->model, &(domain_model_shares){.owner = t->owner});
     if (status == DEM_OK) status = dem_simulation_create(&s, model, &t->scene->options);
     if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
     if (status == DEM_OK) status = dem_simulation_advance(s, t->scene->t_end);
@@ -560,7 +560,7 @@ static void stop_rank(const ranks *r, void *context)
 {
     stopped_run *c = context;
     dem_model *model = NULL;
-    dem_status status = domain_model_create(&model, r, c->scene->model, c->owner);
+    dem_status status = domain_model_create(&model, r, c->scene->model, &(domain_model_shares){.owner = c->owner});
     if (status == DEM_OK) status = run_until_stopped(model, c, r->rank);
     c->status[r->rank] = status;
     (void)snprintf(c->messages[r->rank], TEXT, "%s", status != DEM_OK ? dem_status_message() : "");

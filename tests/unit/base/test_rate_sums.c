@@ -27,10 +27,10 @@ TEST_IN_BOTH(terms_are_added_in_any_order_and_taken_once)
             rate_sums_add_row(&s, &l, row, (const double[]){term, 2.0 * term, 0.0});
             rate_sums_add(&s, &l, total, term);
         }
-        rate_sums_take(&ranks_alone, &s, &l, a);
+        rate_sums_take(&s, &l, a);
         assert_close(a[state_row(&l, row)], 4.125, 0.0);
         assert_close(a[total], 3.125, 0.0);
-        rate_sums_take(&ranks_alone, &s, &l, a);
+        rate_sums_take(&s, &l, a);
         assert_close(a[total], 3.125, 0.0);
     }
     assert_close(a[state_row(&l, row) + 1], 4.0 * 6.25, 0.0);
@@ -57,7 +57,7 @@ TEST(blocks_of_terms_count_with_those_one_by_one)
     }
     rate_sums_add_pairs(&s, &l, row, pairs, 100);
     rate_sums_add_terms(&s, &l, total, terms, 50);
-    rate_sums_take(&ranks_alone, &s, &l, a);
+    rate_sums_take(&s, &l, a);
     assert_close(a[row], 49.0 * 0.125, 0.0);
     assert_close(a[row + 1], 49.0 * 3.0, 0.0);
     assert_close(a[total], 49.0 * 0.5, 0.0);

@@ -14,6 +14,7 @@ enum { N_RANKS = 5, TEXT = 200 };
 typedef struct shared {
     const dem_model *whole;
     const int32_t *owner;
+    bool touching;
     dem_model *models[N_RANKS];
     dem_status status[N_RANKS];
     char messages[N_RANKS][TEXT];
@@ -22,7 +23,8 @@ typedef struct shared {
 static void create(const ranks *r, void *context)
 {
     shared *s = context;
-    s->status[r->rank] = domain_model_create(&s->models[r->rank], r, s->whole, s->owner);
+    s->status[r->rank] =
+        domain_model_create(&s->models[r->rank], r, s->whole, &(domain_model_shares){s->owner, s->touching});
     if (s->status[r->rank] != DEM_OK) (void)strncpy(s->messages[r->rank], dem_status_message(), TEXT - 1);
 }
 
@@ -143,6 +145,86 @@ TEST(what_may_touch_obstacles_is_on_all_ranks)
         assert_whole_surface(s.models[k], whole);
     }
     destroy(&s);
+}
+
+/* ---- bodies that touch ---- */
+
+/* A soft disc, and a rigid one beside it. */
+static dem_lattice make_two(void)
+{
+    dem_lattice l = shared_disc();
+    CLEANUP(dem_lattice_free) dem_lattice other = shared_disc();
+    assert_ok(dem_lattice_stiffen(&other, DEM_GUIDE_Y));
+    dem_lattice_move(&other, 0.2, (const double[2]){0.09, 0.01});
+    assert_ok(dem_lattice_append(&l, &other));
+    return l;
+}
+
+static void assert_same_bodies(const dem_model *m, const touching_bodies *whole)
+{
+    const touching_bodies *own = m->touching;
+    assert_ptr_equal(own->domain, m->domain);
+    assert_int_equal(own->n_bodies, whole->n_bodies);
+    assert_memory_equal(own->bodies, whole->bodies, (size_t)whole->n_bodies * sizeof *whole->bodies);
+    assert_int_equal(own->boundary.n, whole->boundary.n);
+    for (dem_index k = 0; k < whole->boundary.n; k++) {
+        const mesh_boundary_edge *here = &own->boundary.list[k], *there = &whole->boundary.list[k];
+        const dem_index *corner = &m->lattice.triangles[3 * here->triangle];
+        assert_int_equal(touching_bodies_node(own, here->lower), there->lower);
+        assert_int_equal(touching_bodies_node(own, here->upper), there->upper);
+        assert_false(m->domain->is_ghost[here->lower] || m->domain->is_ghost[here->upper]);
+        for (int c = 0; c < 3; c++)
+            assert_int_equal(m->domain->number[corner[c]], whole->boundary.lattice->triangles[3 * there->triangle + c]);
+    }
+}
+
+static void assert_same_rigid(const dem_model *m, const dem_model *whole)
+{
+    const rigid_body *here = &m->rigid.list[0], *there = &whole->rigid.list[0];
+    assert_int_equal(m->rigid.n, 1);
+    assert_int_equal(here->number, 1);
+    assert_int_equal(here->guide, DEM_GUIDE_Y);
+    assert_int_equal(here->n_nodes, there->n_nodes);
+    assert_int_equal(m->domain->number[here->middle], there->middle);
+    assert_true(here->mass == there->mass && here->inertia == there->inertia);
+    assert_memory_equal(here->masses, there->masses, (size_t)there->n_nodes * sizeof *there->masses);
+    assert_memory_equal(here->shape, there->shape, 2 * (size_t)there->n_nodes * sizeof *there->shape);
+    for (dem_index k = 0; k < there->n_nodes; k++) {
+        assert_int_equal(m->domain->number[here->nodes[k]], there->nodes[k]);
+        assert_false(m->domain->is_ghost[here->nodes[k]]);
+    }
+    for (dem_index i = 0; i < m->lattice.n_nodes; i++)
+        assert_int_equal(rigid_bodies_at(&m->rigid, i) != NULL, m->lattice.body[i] == 1);
+}
+
+/* And nothing else where there is no obstacle: the soft body has other nodes inside. */
+static void assert_only_these(const dem_model *m, const dem_model *whole)
+{
+    const domain *d = m->domain;
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        if (!d->is_own[i] && !d->is_ghost[i])
+            assert_true(m->lattice.body[i] == 1 || (whole->lattice.flags[d->number[i]] & DEM_NODE_CONTACT));
+}
+
+TEST(surfaces_and_rigid_bodies_are_on_all_ranks)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = make_two();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
+    CLEANUP(touching_bodies_free) touching_bodies bodies;
+    assert_ok(touching_bodies_create(&bodies, &whole->lattice));
+    for (int touching = 0; touching < 2; touching++) {
+        shared s = {.whole = whole, .owner = owner, .touching = touching};
+        rank_threads_run(N_RANKS, create, &s);
+        for (int k = 0; k < N_RANKS; k++) {
+            assert_int_equal(s.status[k], DEM_OK);
+            assert_same_rigid(s.models[k], whole);
+            assert_only_these(s.models[k], whole);
+            assert_int_equal(s.models[k]->touching != NULL, touching);
+            if (touching) assert_same_bodies(s.models[k], &bodies);
+        }
+        destroy(&s);
+    }
 }
 
 /* The last ring that a correction reads is the last common one, whose accelerations it computes again. */

@@ -129,6 +129,29 @@ TEST(ranks_end_with_their_model)
     assert_int_equal(ends, 1);
 }
 
+/* One body, or two. */
+static bool has_surfaces(int n_bodies, dem_private_touching touching)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(dem_lattice_free) dem_lattice other = shared_disc();
+    dem_lattice_move(&other, 0.0, (const double[2]){0.1, 0.0});
+    if (n_bodies > 1) assert_ok(dem_lattice_append(&l, &other));
+    dem_model *model = NULL;
+    assert_ok(dem_private_share_model(&model, &(dem_private_whole){.lattice = &l, .touching = touching}, &ranks_alone));
+    const bool has = model->touching != NULL;
+    dem_model_destroy(model);
+    return has;
+}
+
+TEST(surfaces_are_shared_where_bodies_may_touch)
+{
+    for (int n = 1; n <= 2; n++) {
+        assert_int_equal(has_surfaces(n, DEM_PRIVATE_TOUCHING_UNKNOWN), n == 2);
+        assert_false(has_surfaces(n, DEM_PRIVATE_TOUCHING_NONE));
+        assert_true(has_surfaces(n, DEM_PRIVATE_TOUCHING_SOME));
+    }
+}
+
 TEST(a_process_alone_has_all_nodes)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();

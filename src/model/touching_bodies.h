@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the surfaces of bodies in contact with each other depend on beside their nodes: the boundary of their triangles,
+ * and sums over each body. A rank that has a part of a lattice cannot see either in its part. */
+#ifndef DEM_MODEL_TOUCHING_BODIES_H
+#define DEM_MODEL_TOUCHING_BODIES_H
+
+#include "domain/domain.h"
+#include "model/mesh_boundary.h"
+
+/** Sums over a body. */
+typedef struct body_content {
+    double springs; /* N m, of stiffness times rest length */
+    double area;    /* m^2, of its triangles */
+} body_content;
+
+typedef struct touching_bodies {
+    const domain *domain;   /* in which nodes and triangles have their numbers; NULL: the whole lattice */
+    mesh_boundary boundary; /* of all bodies, when all is whole */
+    dem_index n_bodies;
+    body_content *bodies; /* [n_bodies] */
+} touching_bodies;
+
+/** Finds them in a whole lattice with bodies, which is borrowed. Free with touching_bodies_free().
+ *  \return DEM_ERROR_MEMORY */
+dem_status touching_bodies_create(touching_bodies *out, const dem_lattice *lattice);
+void touching_bodies_free(touching_bodies *o);
+
+/** The number in the whole lattice of node i of the lattice with these bodies; NULL stands for the whole. */
+static inline dem_index touching_bodies_node(const touching_bodies *o, dem_index i)
+{
+    return o != NULL ? domain_number(o->domain, i) : i;
+}
+
+#endif
