@@ -292,9 +292,11 @@ INLINE void kick(const pass *p, const sweep_fused_step *step, dem_index block, p
 /* The positions that a block is the first to read. Those at both ends of the pass are there already. */
 INLINE void drift_ahead(const pass *p, dem_index block, laws acting)
 {
-    const dem_index ahead = p->sweep->layout->ahead;
-    if (acting.fused && block >= p->first && block + ahead < p->last - ahead)
-        drift(p, p->sweep->fused_step, block + ahead);
+    const sweep *s = p->sweep;
+    const dem_index ahead = s->layout->ahead;
+    if (acting.fused && block >= p->first && block + ahead < p->last - ahead &&
+        (USUALLY(s->drifted == NULL) || !s->drifted[block + ahead]))
+        drift(p, s->fused_step, block + ahead);
 }
 
 /* What follows from the forces of springs on the nodes of a block. */

@@ -36,7 +36,7 @@ static dem_status allocate(kernel *k)
     CHECK(k->rings && k->guarded && k->sums && (k->packed || l->order == NULL), DEM_ERROR_MEMORY,
           "out of memory for the forces of %zu nodes", n);
     for (size_t q = 0; q < n && k->packed != NULL; q++) k->packed[q] = k->model->inverse_mass[l->order[q]];
-    return DEM_OK;
+    return border_blocks_create(&k->border, k->model->domain, l->n_blocks);
 }
 
 /* Each share evaluates again what reaches into it from below. There are more shares than threads only where that is at
@@ -77,6 +77,7 @@ void kernel_destroy(kernel *k)
     free(k->guarded);
     free(k->sums);
     free(k->packed);
+    border_blocks_free(&k->border);
     free(k->limit);
     free(k->strained);
     trimmed_layout_destroy(&k->trimmed);
@@ -166,8 +167,9 @@ const layout *kernel_layout(const kernel *k, const element_state *e)
 /* A loop over nodes or blocks that is divided into shares. */
 typedef struct loop {
     const kernel *kernel;
-    const sweep *sweep; /* over blocks; or */
-    const double *from; /* [n_nodes][2] to be put in another order */
+    const sweep *sweep;           /* over blocks; */
+    const sweep_fused_step *step; /* to be begun; or */
+    const double *from;           /* [n_nodes][2] to be put in another order */
     double *to;
 } loop;
 
@@ -242,11 +244,12 @@ static void drift(const kernel *k, const sweep_fused_step *p, dem_index first, d
 }
 
 /* Drifts those ends of a share of blocks that other shares read, and nodes in no block. It is done for all shares
- * before any of them is swept. The sweep drifts the middle of a share by itself, just ahead of where it reads. */
+ * before any of them is swept. The sweep drifts the middle of a share by itself, just ahead of where it reads, but for
+ * the border with other ranks. */
 static void drift_ends(const void *context, int share, int thread)
 {
     const kernel *k = ((const loop *)context)->kernel;
-    const sweep_fused_step *p = ((const loop *)context)->sweep->fused_step;
+    const sweep_fused_step *p = ((const loop *)context)->step;
     const layout *l = &k->model->layout;
     const stretch b = stretch_of(k, share);
     (void)thread;
@@ -256,13 +259,29 @@ static void drift_ends(const void *context, int share, int thread)
     drift(k, p, LAYOUT_LANES * high, share + 1 < k->n_shares ? LAYOUT_LANES * b.last : l->n_nodes);
 }
 
-/* Drifts a node again in a fused step, since the sweep has already added its kick to the velocity. */
-static void drift_again(const kernel *k, const kernel_state *y, dem_index i)
+void kernel_begin_step(const kernel *k, const sweep_fused_step *step)
 {
-    if (y->fused_step != NULL) drift(k, y->fused_step, i, i + 1);
+    run(&(loop){.kernel = k, .step = step}, drift_ends);
+    for (dem_index j = 0; j < k->border.n; j++) {
+        const dem_index first = LAYOUT_LANES * k->border.list[j];
+        drift(k, step, first, first + LAYOUT_LANES);
+    }
 }
 
-/* Puts an acceleration in place of what the sweep has left there. In a fused step the node, drifted again, is kicked.
+/* Extrapolates the velocity of a node again in a fused step, since the sweep has already added its kick. Its place is
+ * known, and that of a ghost has not come by a drift. */
+static void drift_again(const kernel *k, const kernel_state *y, dem_index i)
+{
+    const sweep_fused_step *p = y->fused_step;
+    if (p == NULL) return;
+    const dem_index at = vec2_row(i);
+    const double *const start[3] = {p->x0 + at, p->v0 + at, p->a0 + at};
+    double place[2];
+    k->ops->drift(place, p->v1 + at, start, p->h, vec2_row(1));
+}
+
+/* Puts an acceleration in place of what the sweep has left there. In a fused step the node, extrapolated again, is
+ * kicked.
  * \return what it adds to the sum of the sweep */
 static double put_row(const kernel *k, const kernel_state *y, dem_index i, vec2 a)
 {
@@ -329,8 +348,8 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
     return sum;
 }
 
-/* a += f/m with the forces f of other surfaces, on the nodes that feel any. Positions in a fused step are known by now,
- * and a drift leaves them as they are. */
+/* a += f/m with the forces f of other surfaces, on the nodes that feel any. Positions in a fused step are known by
+ * now. */
 static double push_surfaces(const kernel *k, const forces *f, const kernel_state *y)
 {
     const compact_pairs *c = &f->surfaces->compact;
@@ -379,7 +398,7 @@ bool kernel_can_fuse(const kernel *k, const forces *f)
            f->model->rigid.n == 0;
 }
 
-/* Drift the ends (fused step), pack if nodes are renumbered, sweep, unpack, then the rows and the external force.
+/* Pack if nodes are renumbered, sweep, unpack, then the rows and the external force.
  * Packed velocities are needed for damping only. */
 double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
 {
@@ -397,9 +416,9 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y)
                .guarded = k->guarded,
                .limit = y->fused_step != NULL ? k->limit : NULL,
                .strained = k->strained,
-               .fused_step = y->fused_step};
+               .fused_step = y->fused_step,
+               .drifted = k->border.is_in};
     k->watched = s.limit != NULL ? y->x : NULL;
-    if (y->fused_step != NULL) run(&(loop){.kernel = k, .sweep = &s}, drift_ends);
     /* The sweep knows the layout's order only. `packed` has 1/m first, x from n on, v from 3 n on and a from 5 n on. */
     if (k->packed != NULL) {
         pack(k, y->x, k->packed + n);

@@ -10,6 +10,7 @@
 #include "base/team.h"
 #include "elastic/sweep.h"
 #include "elastic/trimmed_layout.h"
+#include "forces/border_blocks.h"
 #include "forces/forces.h"
 
 typedef struct kernel {
@@ -32,8 +33,9 @@ typedef struct kernel {
     trimmed_layout trimmed; /* what sweeps read where something has broken or softened, */
     dem_index n_trimmed;    /* if elements have done so as often; -1: there is none */
     dem_index n_beside, beside_capacity;
-    dem_index *beside; /* [n_beside] scratch: nodes beside elements, some more than once */
-    double *packed;    /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
+    dem_index *beside;    /* [n_beside] scratch: nodes beside elements, some more than once */
+    border_blocks border; /* of a model that ranks share */
+    double *packed;       /* [7 n_nodes] inverse masses, x, v and a in the layout's order; NULL: that of the nodes */
 } kernel;
 
 /** Borrows the model, and the team that its loops run in.  \return DEM_ERROR_ARGUMENT for a kernel that this machine
@@ -69,7 +71,8 @@ typedef struct kernel_state {
     const double *x, *v;
     double *u;                          /* velocities, as v; NULL: not wanted */
     double *a;                          /* accelerations, free of contact */
-    const sweep_fused_step *fused_step; /* NULL: none. Else x and v are its x1 and v1, which are filled as well */
+    const sweep_fused_step *fused_step; /* NULL: none. Else x and v are its x1 and v1, which are filled as well, and
+                                           kernel_begin_step() has begun it */
 } kernel_state;
 
 /** Whether the sweep evaluates all blocks as their elements are, so that no nodes are evaluated one by one since an
@@ -79,6 +82,10 @@ const layout *kernel_layout(const kernel *k, const element_state *elements);
 
 /** Whether accelerations depend on nothing but positions, so that a fused step is possible. */
 bool kernel_can_fuse(const kernel *k, const forces *f);
+
+/** Begins a fused step: fills x1 where more than one share of the sweep reads it, and at the border with other ranks.
+ *  Ghosts get their places from these then, before kernel_accelerate(). */
+void kernel_begin_step(const kernel *k, const sweep_fused_step *step);
 
 /** Fills u and a. With a fused step it also fills x1 and v1, with the bits of a drift before and a kick after.
  *  \return a sum that is not finite if a component of u or a is not; where no body is rigid it bounds the accelerations

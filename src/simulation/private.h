@@ -119,6 +119,12 @@ struct dem_simulation {
     observers observers;
 };
 
+/* Whether other ranks have some of the nodes: a team of one steps as a process alone does. */
+static inline bool run_is_shared(const dem_simulation *s)
+{
+    return s->model->ranks->size > 1;
+}
+
 /* Whether a function of the caller has failed on this rank: the external force, or the motion of an obstacle. */
 static inline bool run_own_force_failed(const dem_simulation *s)
 {

@@ -137,7 +137,8 @@ static int derivative(double t, const double *y, double *u, double *a, void *con
 
 /* A whole step of Verlet's method as one sweep, where nothing but springs, triangles and weight acts and no contact is
  * closed: accelerations then depend on positions alone. automaton_constrain() has no group to solve here; it only marks
- * the forces of contacts as those of another state.  \return -1 if it is not possible, else as derivative() */
+ * the forces of contacts as those of another state. Ranks exchange ghosts once, as in a step in parts: they need not
+ * all take the same way.  \return -1 if it is not possible, else as derivative() */
 static int take_fused_step(const ode_fused_step *step, void *context)
 {
     dem_simulation *s = context;
@@ -145,8 +146,9 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     const sweep_fused_step nodes = {
         .h = step->h, .x0 = step->y0, .v0 = step->y0 + n, .a0 = step->f0 + n, .x1 = step->y1, .v1 = step->y1 + n};
     const kernel_state y = {.x = nodes.x1, .v = nodes.v1, .a = step->f1 + n, .fused_step = &nodes};
-    if (reduce_any(s->model->ranks, !kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0))
-        return -1;
+    if (!kernel_can_fuse(&s->kernel, &s->forces) || s->automaton.set.forces.n_groups > 0) return -1;
+    kernel_begin_step(&s->kernel, &nodes);
+    if (run_is_shared(s)) fill_ghosts(step->y1, s);
     const double sum = kernel_accelerate(&s->kernel, &s->forces, &y);
     body_contact_take_accelerations(s, sum);
     automaton_constrain(&s->automaton, step->t1, y.x, y.a);
@@ -159,14 +161,13 @@ static int take_fused_step(const ode_fused_step *step, void *context)
 static bool has_bands(int n_stages, void *context)
 {
     dem_simulation *s = context;
-    if (reduce_any(s->model->ranks, s->automaton.set.forces.n_groups > 0)) return false;
-    return !reduce_any(s->model->ranks, !band_is_possible(&s->kernel, &s->forces, s->y, n_stages));
+    return s->automaton.set.forces.n_groups == 0 && band_is_possible(&s->kernel, &s->forces, s->y, n_stages);
 }
 
 static bool bands_hold(int n_stages, void *context)
 {
     const dem_simulation *s = context;
-    return !reduce_any(s->model->ranks, !band_was_possible(&s->forces, n_stages));
+    return band_was_possible(&s->forces, n_stages);
 }
 
 static double band_derivative(const ode_band *b, void *context)
@@ -208,14 +209,14 @@ static double stiffening(const double *y, bool is_known, void *context)
     return body_contact_stiffening(s, kernel_stiffening(&s->kernel, &s->forces, y), y, is_known);
 }
 
-/* Steps of bands, and fused ones, compute what is next to ghosts before these are known: ranks that share a model take
- * none. Root functions are watched with `exact` only, and where there is something to touch. What counts as an error of
- * 1 is rtol times the spacing for a position, and rtol v_scale for a velocity (docs/method.md, Integration in time). */
+/* Steps of bands compute what is next to ghosts before these are known: ranks that share a model take none. Root
+ * functions are watched with `exact` only, and where there is something to touch. What counts as an error of 1 is rtol
+ * times the spacing for a position, and rtol v_scale for a velocity (docs/method.md, Integration in time). */
 ode_problem right_hand_side_problem(dem_simulation *s)
 {
     const dem_model *model = s->model;
     const dem_options *o = &s->options;
-    const bool rooted = model->obstacles.n > 0 && !run_is_local(s), shared = model->domain != NULL;
+    const bool rooted = model->obstacles.n > 0 && !run_is_local(s), shared = run_is_shared(s);
     return (ode_problem){
         .layout = s->layout,
         .domain = shared ? &s->shared : NULL,
@@ -226,7 +227,7 @@ ode_problem right_hand_side_problem(dem_simulation *s)
         .has_bands = shared ? NULL : has_bands,
         .bands_hold = bands_hold,
         .band_derivative = band_derivative,
-        .fused_step = s->boundaries.n == 0 && !shared ? take_fused_step : NULL,
+        .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
         .begin_roots = rooted ? begin_roots : NULL,
         .root_function = rooted ? root_function : NULL,
         .stiffening = model->lattice.guard != NULL || s->surfaces != NULL || s->rigid != NULL ? stiffening : NULL,

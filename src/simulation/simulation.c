@@ -146,7 +146,7 @@ static dem_status report_step(dem_simulation *s)
 {
     TRY(show_state(s));
     const dem_status status = observers_step(&s->observers, s);
-    if (s->model->domain == NULL || s->is_led) return status; /* which all ranks have alike */
+    if (!run_is_shared(s) || s->is_led) return status; /* which all ranks have alike */
     note_stop(&s->stop, status);
     return DEM_OK;
 }
@@ -243,7 +243,7 @@ static dem_status find_events(dem_simulation *s, bool rooted)
     }
     integrator_end(&s->integrator, &y1, &f1);
     event_queue_start(&s->queue, &s->path, y1, f1, s->frame);
-    if (s->model->domain != NULL && event_queue_has_event(&s->queue)) s->shared.fill_ghosts(y1, s);
+    if (run_is_shared(s) && event_queue_has_event(&s->queue)) s->shared.fill_ghosts(y1, s);
     TRY(event_queue_show(&s->queue, s->path.t1));
     TRY(breaking_found(s));
     return body_contact_check_step(s);

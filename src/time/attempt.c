@@ -23,19 +23,33 @@ static void clear(const ode_problem *p, double *u, double *accelerations)
     memset(accelerations, 0, size);
 }
 
-int attempt_evaluate(attempt *a, double t, const double *y, double *u, double *accelerations)
+/* Notes the flag of another evaluation.  \return that of attempt_evaluate() */
+static int note(attempt *a, int flag, double *u, double *accelerations)
 {
-    const ode_problem *p = a->problem;
-    int flag = 0;
-    if (a->failed == ATTEMPT_NONE || p->domain == NULL) flag = p->derivative(t, y, u, accelerations, p->context);
     if (flag != 0) {
         a->failed = a->n;
         a->refused = flag > 1;
     }
     a->n++;
-    if (p->domain == NULL) return flag;
-    if (a->failed != ATTEMPT_NONE) clear(p, u, accelerations);
+    if (a->problem->domain == NULL) return flag;
+    if (a->failed != ATTEMPT_NONE) clear(a->problem, u, accelerations);
     return 0;
+}
+
+int attempt_evaluate(attempt *a, double t, const double *y, double *u, double *accelerations)
+{
+    const ode_problem *p = a->problem;
+    int flag = 0;
+    if (a->failed == ATTEMPT_NONE || p->domain == NULL) flag = p->derivative(t, y, u, accelerations, p->context);
+    return note(a, flag, u, accelerations);
+}
+
+int attempt_take_fused_step(attempt *a, const ode_fused_step *step)
+{
+    const ode_problem *p = a->problem;
+    if (p->fused_step == NULL || a->failed != ATTEMPT_NONE) return -1;
+    const int flag = p->fused_step(step, p->context);
+    return flag < 0 ? flag : note(a, flag, NULL, step->f1 + state_velocities(&p->layout));
 }
 
 attempt_end attempt_own_end(const attempt *a, const double *end)

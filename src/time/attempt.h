@@ -37,6 +37,10 @@ void attempt_begin(attempt *a, const ode_problem *problem);
  *  \return 0, or what the derivative returns if the attempt is over with it: ranks go on to its end */
 int attempt_evaluate(attempt *a, double t, const double *y, double *u, double *accelerations);
 
+/** Takes a step of Verlet's method at once, with the evaluation at its end.
+ *  \return as attempt_evaluate(); -1 if that is not possible from this state, and nothing has been done */
+int attempt_take_fused_step(attempt *a, const ode_fused_step *step);
+
 /** What this rank has to tell at the end of an attempt. With fixed steps that is also how stiff the bodies are there.
  *  \param end  the state, of which the last evaluation was; not read with error control */
 attempt_end attempt_own_end(const attempt *a, const double *end);

@@ -37,7 +37,7 @@ typedef struct ode_domain {
     const ranks *ranks;
     state_layout whole;          /* of a state with all nodes */
     const unsigned char *is_own; /* [n_nodes] 0: a ghost, whose error is that of another rank */
-    /** Puts into y what other ranks have of it. Called before every derivative. */
+    /** Puts into y what other ranks have of it. Called before every derivative; a fused step does so itself. */
     void (*fill_ghosts)(double *y, void *context);
     /** Sets the message of a derivative that has failed. Collective.
      *  \param is_first  whether the last failure of this rank is one of those that a single process would have met
@@ -58,8 +58,8 @@ typedef struct ode_problem {
      *  mend; or 2 if nothing may. Ranks need not agree. */
     int (*derivative)(double t, const double *y, double *u, double *a, void *context);
     /** Takes the step of all nodes at once, and fills the rates of the quadratures, whose positions and velocities at
-     *  its end are given: with the bits of kick, drift, derivative and kick in turn. Returns as `derivative`, or -1 if
-     *  it cannot from this state. NULL: it never can. */
+     *  its end are given: with the bits of kick, drift, fill_ghosts, derivative and kick in turn. Returns as
+     *  `derivative`, or -1 if it cannot from this state, which ranks need not agree about. NULL: it never can. */
     int (*fused_step)(const ode_fused_step *step, void *context);
     dem_index band_rows; /* rows of a band, but the last: a multiple of a cache line; 0: there are no bands */
     size_t band_scratch; /* numbers, 0 at the start */

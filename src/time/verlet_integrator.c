@@ -224,9 +224,8 @@ static int take_fused_step(verlet_integrator *V, double h)
     const ode_fused_step step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
     const dem_index n_real = state_row(&p->layout, p->layout.n_nodes);
     const stretch quadratures = {n_real, state_velocities(&p->layout) - n_real};
-    if (p->fused_step == NULL) return -1;
     drift_stretch(V, h, quadratures);
-    const int flag = p->fused_step(&step, p->context);
+    const int flag = attempt_take_fused_step(&V->attempt, &step);
     if (flag < 0) return flag;
     V->counts.evaluations++;
     kick_stretch(V, h, quadratures);

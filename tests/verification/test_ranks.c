@@ -15,6 +15,7 @@
 #include "model/domain_model.h"
 #include "simulation/led_run.h"
 #include "simulation/private.h"
+#include "simulation/right_hand_side.h"
 
 enum { MOST_RANKS = 7, N_BODIES = 4, STRIP = N_BODIES, N_METHODS = 4, N_STOPS = 2, TEXT = 256 };
 
@@ -363,6 +364,16 @@ static void assert_same_checkpoint(const dem_checkpoint *one, const dem_checkpoi
     }
 }
 
+/* One exchange for each evaluation; a team of one steps as a process alone does, without any. That at the end of a step
+ * of Fehlberg's is made even if the step is rejected; the first fixed step of ARKODE's asks the guard for its length
+ * before there is one. */
+static dem_index exchanges_of(const dem_options *options, int n_ranks, const dem_counts *counts)
+{
+    const dem_index ahead = options->method == DEM_METHOD_FEHLBERG45 ? counts->rejected : 0;
+    return n_ranks > 1 ? counts->evaluations + ahead + (options->method == DEM_METHOD_RK4) : 0;
+}
+
+/* Who measures needs an exchange. */
 static void share(const scene *s, int n_ranks, const int32_t *owner, const dem_checkpoint *from, const outcome *whole)
 {
     const dem_lattice *l = dem_model_lattice(s->model);
@@ -376,13 +387,8 @@ static void share(const scene *s, int n_ranks, const int32_t *owner, const dem_c
         assert_same_outcome(&all[k], whole, l, from != NULL);
     }
     if (whole->kept != NULL && from == NULL) assert_same_checkpoint(all[0].kept, whole->kept);
-    /* One exchange for each evaluation. That at the end of a step of Fehlberg's is made even if the step is rejected;
-     * the first fixed step of ARKODE's asks the guard for its length before there is one. Who measures needs one. */
-    const dem_counts *counts = &whole->counts[N_STOPS - 1];
-    const dem_index ahead = s->options.method == DEM_METHOD_FEHLBERG45 ? counts->rejected : 0;
     if (s->options.checkpoint_steps == 0)
-        assert_int_equal(c.calls.exchanges,
-                         counts->evaluations + ahead + (s->options.method == DEM_METHOD_RK4) + N_LOOKS);
+        assert_int_equal(c.calls.exchanges, N_LOOKS + exchanges_of(&s->options, n_ranks, &whole->counts[N_STOPS - 1]));
     free_outcome(&all[0]);
 }
 
@@ -579,6 +585,62 @@ TEST(an_attempt_that_is_rejected_needs_two_reductions_at_most)
     close_scene(&s);
 }
 
+/* ---- by which way steps are taken ---- */
+
+/* Of a run by some ranks. */
+typedef struct way {
+    const scene *scene;
+    const int32_t *owner;
+    bool is_shared, has_bands, may_fuse, fuses; /* of rank 0's problem; whether it has taken a step in one sweep */
+    dem_status status;
+} way;
+
+/* A step from the state at which the simulation is, whose accelerations, as of an integrator, are 0. */
+static bool take_fused_step(const ode_problem *p, double *y)
+{
+    const size_t n = (size_t)state_size(&p->layout);
+    CLEANUP(free_memory) double *f0 = calloc(n, sizeof *f0), *y1 = calloc(n, sizeof *y1), *f1 = calloc(n, sizeof *f1);
+    const ode_fused_step step = {.t1 = p->max_step, .h = p->max_step, .y0 = y, .f0 = f0, .y1 = y1, .f1 = f1};
+    return f0 != NULL && y1 != NULL && f1 != NULL && p->fused_step(&step, p->context) == 0;
+}
+
+static void find_way(const ranks *r, void *context)
+{
+    way other = *(way *)context, *w = r->rank == 0 ? context : &other;
+    dem_model *model = NULL;
+    dem_simulation *s = NULL;
+    w->status = domain_model_create(&model, r, w->scene->model, &(domain_model_shares){.owner = w->owner});
+    if (w->status == DEM_OK) w->status = dem_simulation_create(&s, model, &w->scene->options);
+    if (w->status == DEM_OK) {
+        const ode_problem p = right_hand_side_problem(s);
+        w->is_shared = p.domain != NULL;
+        w->has_bands = p.has_bands != NULL;
+        w->may_fuse = p.fused_step != NULL;
+        w->fuses = w->may_fuse && take_fused_step(&p, s->y);
+    }
+    dem_simulation_destroy(s);
+    dem_model_destroy(model);
+}
+
+/* One alone goes by the bands of a wave, too; several would need ghosts of each stage. */
+TEST(a_team_of_one_steps_as_a_process_alone_and_any_ranks_take_fused_steps)
+{
+    scene s;
+    open_scene(&s, 3, DEM_METHOD_VERLET);
+    const dem_lattice *l = dem_model_lattice(s.model);
+    CLEANUP(free_memory) int32_t *owner = malloc((size_t)l->n_nodes * sizeof *owner);
+    for (int n = 1; n <= 3; n += 2) {
+        way w = {.scene = &s, .owner = owner};
+        scatter(l, 4.1 * spacing, n, owner);
+        rank_threads_run(n, find_way, &w);
+        assert_ok(w.status);
+        assert_int_equal(w.is_shared, n > 1);
+        assert_int_equal(w.has_bands, n == 1);
+        assert_true(w.may_fuse && w.fuses);
+    }
+    close_scene(&s);
+}
+
 /* ---- failures ---- */
 
 /* What each rank says. */
@@ -641,16 +703,11 @@ static refusal refuse(const scene *s, int stops, const dem_checkpoint *from)
     return c;
 }
 
-/* Two neighbours at one place have no direction of their force: every rank gives up as one process does. */
-TEST(a_force_that_is_not_finite_ends_the_run_of_all_ranks)
+/* Every rank gives up as one process does, after as many steps. */
+static void check_failure(const dem_lattice *l, dem_method method)
 {
-    scene s;
-    open_scene(&s, 0, DEM_METHOD_FEHLBERG45);
-    CLEANUP(dem_lattice_free) dem_lattice l = dem_lattice_empty();
-    assert_ok(dem_lattice_append(&l, dem_model_lattice(s.model)));
-    memcpy(l.position + 2 * l.ends[0], l.position + 2 * l.ends[1], 2 * sizeof *l.position);
-    close_scene(&s);
-    s = (scene){.model = support_model(&l, NULL, 0), .options = dem_options_default()};
+    scene s = {.model = support_model(l, NULL, 0), .options = dem_options_default()};
+    s.options.method = method;
     s.options.checkpoint_steps = 0;
     refusal whole = {.scene = &s, .stops = -1};
     const dem_status expected = try_run(s.model, &whole, 0);
@@ -661,8 +718,28 @@ TEST(a_force_that_is_not_finite_ends_the_run_of_all_ranks)
     for (int k = 0; k < 4; k++) {
         assert_int_equal(c.status[k], expected);
         assert_string_equal(c.messages[k], message);
+        assert_int_equal(c.n_steps[k], whole.n_steps[0]);
     }
     close_scene(&s);
+}
+
+/* Two neighbours at one place have no direction of their force. */
+TEST(a_force_that_is_not_finite_ends_the_run_of_all_ranks)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = make_lattice(0);
+    support_start(&l, l.x, NULL);
+    memcpy(l.position + 2 * l.ends[0], l.position + 2 * l.ends[1], 2 * sizeof *l.position);
+    check_failure(&l, DEM_METHOD_FEHLBERG45);
+    check_failure(&l, DEM_METHOD_VERLET);
+}
+
+/* The force is finite where the step begins; at its end one node is so far away that the square of a length is not.
+ * Verlet's step is a single sweep, which fails. */
+TEST(a_step_at_whose_end_a_force_is_not_finite_ends_the_run_of_all_ranks)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = make_lattice(3);
+    l.velocity[77] = 1e200;
+    check_failure(&l, DEM_METHOD_VERLET);
 }
 
 /* A boundary names a node of one rank twice. */

@@ -127,6 +127,7 @@ static void check_fused_step(scene *s, const forces *load, const trial *of)
     }
     const sweep_fused_step fused = {h, s->x, s->v, a0, x1, v1};
     const kernel_state y = {.x = x1, .v = v1, .a = s->a, .fused_step = &fused};
+    kernel_begin_step(&k, &fused);
     assert_true(isfinite(kernel_accelerate(&k, load, &y)));
     for (dem_index c = 0; c < n; c++) assert_close(x1[c], s->x[c] + h * (s->v[c] + 0.5 * h * a0[c]), 0.0);
     for (dem_index c = 0; c < n; c++) {
@@ -774,6 +775,7 @@ static void visit_after_step(kernel *k, const scene *s, const forces *load, kern
     const sweep_fused_step fused = {0.0, s->x, s->v, none, x1, v1};
     const kernel_state y = {.x = x1, .v = v1, .a = s->a, .fused_step = &fused};
     assert_non_null(none);
+    kernel_begin_step(k, &fused);
     (void)kernel_accelerate(k, load, &y);
     k->sweep_strain = NULL;
     kernel_visit_strained(k, load->elements, x1, visit, context);
