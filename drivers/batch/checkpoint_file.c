@@ -164,9 +164,9 @@ static bool is_ending(checkpoint_file *c, const char **why)
 
 static dem_status put_entries(const checkpoint_file *c, const dem_simulation *simulation, dem_checkpoint *checkpoint)
 {
-    const dem_state state = ask_state(simulation);
+    const double t = ask_progress(simulation).t;
     const char *lineage = c->source->lineage != NULL ? c->source->lineage : c->versions;
-    dem_status status = dem_checkpoint_put(checkpoint, time_entry, &state.t, sizeof state.t);
+    dem_status status = dem_checkpoint_put(checkpoint, time_entry, &t, sizeof t);
     if (status == DEM_OK)
         status = dem_checkpoint_put(checkpoint, course_entry, c->deck->course, strlen(c->deck->course) + 1);
     if (status == DEM_OK) status = dem_checkpoint_put(checkpoint, lineage_entry, lineage, strlen(lineage) + 1);

@@ -230,8 +230,8 @@ static void finish(job *j)
 static void stop(job *j)
 {
     const checkpoint_file *c = &j->checkpoint;
-    const dem_state state = ask_state(j->simulation);
-    run_log_tell(&j->log, "stopped    at %.6g s by %s; the same command goes on from %s\n", state.t, c->ended,
+    const double t = ask_progress(j->simulation).t;
+    run_log_tell(&j->log, "stopped    at %.6g s by %s; the same command goes on from %s\n", t, c->ended,
                  c->t_written >= 0.0 ? c->path : "the beginning");
     outcome_set(&j->outcome, EXIT_STOPPED, "%s: stopped by %s", j->deck.path, c->ended);
 }

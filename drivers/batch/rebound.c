@@ -38,16 +38,18 @@ double rebound_rising_speed(const dem_simulation *simulation)
 }
 
 /* Of the bodies as one, rad/s. */
-static double spin_of(const dem_lattice *l, const dem_state *state, const double v[2])
+static double spin_of(const dem_simulation *simulation, const double v[2])
 {
+    const dem_lattice *l = dem_model_lattice(dem_simulation_model(simulation));
+    const dem_state state = ask_state(simulation);
     double mass = 0.0, centre[2] = {0.0, 0.0}, angular = 0.0, inertia = 0.0;
     for (dem_index i = 0; i < l->n_nodes; i++) {
         mass += l->mass[i];
-        for (int c = 0; c < 2; c++) centre[c] += l->mass[i] * state->x[2 * i + c];
+        for (int c = 0; c < 2; c++) centre[c] += l->mass[i] * state.x[2 * i + c];
     }
     for (dem_index i = 0; i < l->n_nodes; i++) {
-        const double x = state->x[2 * i] - centre[0] / mass, y = state->x[2 * i + 1] - centre[1] / mass;
-        angular += l->mass[i] * (x * (state->v[2 * i + 1] - v[1]) - y * (state->v[2 * i] - v[0]));
+        const double x = state.x[2 * i] - centre[0] / mass, y = state.x[2 * i + 1] - centre[1] / mass;
+        angular += l->mass[i] * (x * (state.v[2 * i + 1] - v[1]) - y * (state.v[2 * i] - v[0]));
         inertia += l->mass[i] * (x * x + y * y);
     }
     return inertia > 0.0 ? angular / inertia : 0.0;
@@ -120,31 +122,31 @@ void rebound_note(rebound *r, const dem_simulation *simulation, const dem_event 
 }
 
 /* What of the step now ended had a lasting contact, to within the gaps that open and close in it. */
-static double touching_in(const rebound *r, const dem_state *state)
+static double touching_in(const rebound *r, const dem_progress *now)
 {
     const double begin = r->n_contacts > 0 ? r->t : r->opened;
-    const double end = state->n_contacts > 0 ? state->t : r->closed;
+    const double end = now->n_contacts > 0 ? now->t : r->closed;
     return begin >= 0.0 && end > begin ? end - begin : 0.0;
 }
 
-static void follow_reaction(rebound *r, const dem_simulation *simulation, const dem_state *state)
+static void follow_reaction(rebound *r, const dem_simulation *simulation, const dem_progress *now)
 {
     double sum[2] = {0.0, 0.0};
-    for (dem_index k = 0; k < state->n_contacts; k++) {
+    for (dem_index k = 0; k < now->n_contacts; k++) {
         const dem_contact c = ask_contact(simulation, k);
         sum[0] += c.force * c.normal[0] + c.friction[0] * c.normal[1];
         sum[1] += c.force * c.normal[1] - c.friction[0] * c.normal[0];
     }
     if (hypot(sum[0], sum[1]) <= hypot(r->reaction[0], r->reaction[1])) return;
     memcpy(r->reaction, sum, sizeof sum);
-    r->reaction_t = state->t;
+    r->reaction_t = now->t;
 }
 
 /* Where contacts last, that of the largest force is the one touched last. */
-static void follow_normal(rebound *r, const dem_simulation *simulation, const dem_state *state)
+static void follow_normal(rebound *r, const dem_simulation *simulation, const dem_progress *now)
 {
     dem_contact most = ask_contact(simulation, 0);
-    for (dem_index k = 1; k < state->n_contacts; k++) {
+    for (dem_index k = 1; k < now->n_contacts; k++) {
         const dem_contact c = ask_contact(simulation, k);
         if (c.force > most.force) most = c;
     }
@@ -153,15 +155,14 @@ static void follow_normal(rebound *r, const dem_simulation *simulation, const de
     r->obstacle = most.obstacle;
 }
 
-static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_state *state,
-                            const mean_motion *now)
+static void follow_velocity(rebound *r, const dem_simulation *simulation, const dem_progress *now,
+                            const mean_motion *mean)
 {
     const dem_options options = ask_options(simulation);
-    const double since = state->t - r->last; /* for which the bodies have been in free flight again */
-    if (state->n_contacts == 0)
-        r->spin = spin_of(dem_model_lattice(dem_simulation_model(simulation)), state, now->velocity);
-    for (int c = 0; c < 2; c++) r->velocity[c] = now->velocity[c] - options.gravity[c] * since;
-    r->speed = now->rising + hypot(options.gravity[0], options.gravity[1]) * since;
+    const double since = now->t - r->last; /* for which the bodies have been in free flight again */
+    if (now->n_contacts == 0) r->spin = spin_of(simulation, mean->velocity);
+    for (int c = 0; c < 2; c++) r->velocity[c] = mean->velocity[c] - options.gravity[c] * since;
+    r->speed = mean->rising + hypot(options.gravity[0], options.gravity[1]) * since;
 }
 
 /* Asked for only where nothing touches any more: each obstacle looks through all contacts. */
@@ -175,22 +176,22 @@ static void follow_impulse(rebound *r, const dem_simulation *simulation)
     }
 }
 
-void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_state *state)
+void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_progress *now)
 {
     const dem_index impacts = ask_counts(simulation).impacts;
-    const bool contact = state->n_contacts > 0 || r->n_contacts > 0 || impacts > r->n_impacts;
-    const mean_motion now = measure(simulation);
-    if (state->n_contacts > 0) r->last = state->t;
-    if (state->n_contacts > 0) follow_normal(r, simulation, state);
-    r->touching += touching_in(r, state);
-    follow_reaction(r, simulation, state);
-    if (contact) follow_velocity(r, simulation, state, &now);
-    if (contact && state->n_contacts == 0) follow_impulse(r, simulation);
-    memcpy(r->before, now.velocity, sizeof r->before);
+    const bool contact = now->n_contacts > 0 || r->n_contacts > 0 || impacts > r->n_impacts;
+    const mean_motion mean = measure(simulation);
+    if (now->n_contacts > 0) r->last = now->t;
+    if (now->n_contacts > 0) follow_normal(r, simulation, now);
+    r->touching += touching_in(r, now);
+    follow_reaction(r, simulation, now);
+    if (contact) follow_velocity(r, simulation, now, &mean);
+    if (contact && now->n_contacts == 0) follow_impulse(r, simulation);
+    memcpy(r->before, mean.velocity, sizeof r->before);
     r->started = true;
-    r->t = state->t;
+    r->t = now->t;
     r->opened = r->closed = -1.0;
-    r->n_contacts = state->n_contacts;
+    r->n_contacts = now->n_contacts;
     r->n_impacts = impacts;
 }
 

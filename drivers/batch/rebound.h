@@ -41,7 +41,7 @@ typedef struct rebound {
 void rebound_note(rebound *r, const dem_simulation *simulation, const dem_event *event);
 
 /** To be called at t = 0 and after every accepted step. */
-void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_state *state);
+void rebound_follow(rebound *r, const dem_simulation *simulation, const dem_progress *now);
 
 /** Whether the last bounce is over, so that there is a velocity after it. */
 bool rebound_is_over(const rebound *r);

@@ -61,7 +61,7 @@ static dem_status look(void *context, const dem_simulation *simulation)
     if (isinf(residual)) return DEM_OK;
     r->steps = 0;
     r->reached = residual;
-    r->t = ask_state(simulation).t;
+    r->t = ask_progress(simulation).t;
     r->done = residual <= r->residual;
     return r->done ? DEM_STOPPED : DEM_OK;
 }

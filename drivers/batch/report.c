@@ -20,15 +20,15 @@ static const char entry[] = "report", touched_entry[] = "report.touched"; /* of 
 
 /* ---- following a run ---- */
 
-static void follow_energy(report *r, const dem_simulation *simulation, const dem_state *state)
+static void follow_energy(report *r, const dem_simulation *simulation, const dem_progress *now)
 {
     const dem_energy e = ask_energy(simulation);
-    if (state->t == 0.0) r->so_far.energy_start = e.ledger;
+    if (now->t == 0.0) r->so_far.energy_start = e.ledger;
     r->so_far.energy_max = fmax(r->so_far.energy_max, e.motion);
     const double share = r->so_far.energy_max > 0.0 ? (e.elastic + e.area + e.guard) / r->so_far.energy_max : 0.0;
     if (share <= r->so_far.elastic_share_max) return;
     r->so_far.elastic_share_max = share;
-    r->so_far.elastic_share_t = state->t;
+    r->so_far.elastic_share_t = now->t;
 }
 
 static void follow_strain(report *r, const dem_simulation *simulation, double t)
@@ -117,15 +117,15 @@ static double ledger_rounding(dem_energy e)
 
 /* While a load grows from nothing the largest energy so far is no measure yet: the first steps of a ramp may be off by
  * all of the 1e-20 J that there are. */
-static void watch_ledger(report *r, const dem_simulation *simulation, const dem_state *state)
+static void watch_ledger(report *r, const dem_simulation *simulation, const dem_progress *now)
 {
     const dem_energy e = ask_energy(simulation);
     const double closure = report_closure(r, e);
-    if (r->so_far.warned || state->t < r->settled || !(fabs(closure) > r->closure)) return;
+    if (r->so_far.warned || now->t < r->settled || !(fabs(closure) > r->closure)) return;
     if (fabs(e.ledger - r->so_far.energy_start) <= ledger_rounding(e)) return;
     r->so_far.warned = true;
     r->so_far.warned_closure = closure;
-    r->so_far.warned_t = state->t;
+    r->so_far.warned_t = now->t;
     warn_ledger(r, simulation);
 }
 
@@ -147,35 +147,35 @@ static bool is_due(const report *r, double now, double t)
 }
 
 /* What there is until its end. */
-static void print_way(const report *r, const dem_simulation *simulation, const dem_state *state)
+static void print_way(const report *r, const dem_simulation *simulation, const dem_progress *now)
 {
     const double ramp = dem_simulation_ramp_time(simulation);
     if (r->rest == NULL)
-        (void)fprintf(r->log->out, "%5.1f %%", 100.0 * fmin(1.0, state->t / r->t_end));
+        (void)fprintf(r->log->out, "%5.1f %%", 100.0 * fmin(1.0, now->t / r->t_end));
     else if (isfinite(r->rest->reached))
         (void)fprintf(r->log->out, "residual %.1e, at rest below %.1e", r->rest->reached, r->rest->residual);
-    else if (ramp < state->t)
+    else if (ramp < now->t)
         (void)fprintf(r->log->out, "pauses, loads are at %.2e of %.2e s", ramp, r->settled);
     else
         (void)fprintf(r->log->out, "loads grow until %.2e s", r->settled);
 }
 
-static void show_progress(report *r, const dem_simulation *simulation, const dem_state *state)
+static void show_progress(report *r, const dem_simulation *simulation, const dem_progress *now)
 {
-    const double now = wall_clock(), spent = now - r->wall_start;
-    if (r->log->part != NULL) *r->log->part = fmin(1.0, state->t / r->t_end);
-    if (!is_due(r, now, state->t)) return;
+    const double wall = wall_clock(), spent = wall - r->wall_start;
+    if (r->log->part != NULL) *r->log->part = fmin(1.0, now->t / r->t_end);
+    if (!is_due(r, wall, now->t)) return;
     const dem_counts counts = ask_counts(simulation);
-    r->wall_shown = now;
-    r->t_shown = state->t;
+    r->wall_shown = wall;
+    r->t_shown = now->t;
     r->log->inside = r->log->terminal;
     if (r->log->terminal) (void)fprintf(r->log->out, "\r");
-    print_way(r, simulation, state);
-    (void)fprintf(r->log->out, "  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s", state->t,
-                  (long long)counts.steps, (long long)state->n_contacts, report_closure(r, ask_energy(simulation)),
+    print_way(r, simulation, now);
+    (void)fprintf(r->log->out, "  t %.4e s  step %lld  contacts %lld  energy error %+.1e  %.0f steps/s", now->t,
+                  (long long)counts.steps, (long long)now->n_contacts, report_closure(r, ask_energy(simulation)),
                   (double)(counts.steps - r->steps_start) / fmax(spent, 1e-9));
     if (r->rest == NULL)
-        (void)fprintf(r->log->out, "  %.0f s left", spent * (r->t_end - state->t) / (state->t - r->t_start));
+        (void)fprintf(r->log->out, "  %.0f s left", spent * (r->t_end - now->t) / (now->t - r->t_start));
     (void)fprintf(r->log->out, r->log->terminal ? "   " : "\n");
     (void)fflush(r->log->out);
 }
@@ -183,21 +183,21 @@ static void show_progress(report *r, const dem_simulation *simulation, const dem
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
     report *r = context;
-    const dem_state state = ask_state(simulation);
+    const dem_progress now = ask_progress(simulation);
     /* At all nodes and springs at the steps that have a row in the history. */
-    const bool looks = dem_history_row_due(r->deck->history_interval, r->so_far.looked_t, state.t);
-    if (looks) follow_energy(r, simulation, &state);
-    if (looks) follow_strain(r, simulation, state.t);
-    step_report_follow(&r->so_far.step_report, simulation, &state);
-    if (surface_report_follow(&r->so_far.surface_report, simulation, state.t))
+    const bool looks = dem_history_row_due(r->deck->history_interval, r->so_far.looked_t, now.t);
+    if (looks) follow_energy(r, simulation, &now);
+    if (looks) follow_strain(r, simulation, now.t);
+    step_report_follow(&r->so_far.step_report, simulation, &now);
+    if (surface_report_follow(&r->so_far.surface_report, simulation, now.t))
         surface_report_warn(&r->so_far.surface_report, r->log);
-    rebound_follow(&r->so_far.rebound, simulation, &state);
+    rebound_follow(&r->so_far.rebound, simulation, &now);
     fracture_report_follow(&r->so_far.fracture_report, simulation);
     if (looks) surface_report_look(&r->so_far.surface_report, simulation);
-    if (looks) watch_ledger(r, simulation, &state);
-    if (looks) r->so_far.looked_t = state.t;
+    if (looks) watch_ledger(r, simulation, &now);
+    if (looks) r->so_far.looked_t = now.t;
     watch_overlap(r, simulation);
-    show_progress(r, simulation, &state);
+    show_progress(r, simulation, &now);
     return DEM_OK;
 }
 
@@ -242,8 +242,7 @@ static dem_status resume_touched(report *r, const dem_checkpoint *checkpoint, de
 
 dem_status report_resume(report *r, const dem_checkpoint *checkpoint, const dem_simulation *simulation)
 {
-    const dem_state state = ask_state(simulation);
-    r->t_start = r->t_shown = state.t;
+    r->t_start = r->t_shown = ask_progress(simulation).t;
     r->steps_start = ask_counts(simulation).steps;
     dem_status status = dem_checkpoint_get(checkpoint, entry, &r->so_far, sizeof r->so_far);
     if (status == DEM_OK) status = resume_touched(r, checkpoint, count_nodes(simulation));

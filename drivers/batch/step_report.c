@@ -79,29 +79,12 @@ void step_report_print_details(FILE *out, const dem_simulation *simulation)
                   o.v_scale * o.max_step / o.spacing);
 }
 
-/* The largest |v_x| + |v_y|. Eight nodes at a time, which do not wait for each other: then compilers use vectors. */
-static double fastest_of(const double *v, dem_index n)
+void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_progress *now)
 {
-    enum { SIDE_BY_SIDE = 8 };
-    double most[SIDE_BY_SIDE] = {0.0}, largest = 0.0;
-    dem_index i = 0;
-    for (; i + SIDE_BY_SIDE <= n; i += SIDE_BY_SIDE)
-        for (int k = 0; k < SIDE_BY_SIDE; k++) {
-            const double speed = fabs(v[2 * (i + k)]) + fabs(v[2 * (i + k) + 1]);
-            most[k] = speed > most[k] ? speed : most[k];
-        }
-    for (int k = 0; k < SIDE_BY_SIDE; k++) largest = most[k] > largest ? most[k] : largest;
-    for (; i < n; i++) largest = fmax(largest, fabs(v[2 * i]) + fabs(v[2 * i + 1]));
-    return largest;
-}
-
-void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_state *state)
-{
-    const dem_index n = ask_sizes(dem_simulation_model(simulation)).n_nodes;
-    const double value = fastest_of(state->v, n) * state->step / ask_options(simulation).spacing; /* (6) */
+    const double value = dem_simulation_fastest(simulation) * now->step / ask_options(simulation).spacing; /* (6) */
     if (value <= p->largest) return;
     p->largest = value;
-    p->t = state->t;
+    p->t = now->t;
 }
 
 void step_report_print_largest(FILE *out, const step_report *p)

@@ -32,7 +32,7 @@ void step_report_print_details(FILE *out, const dem_simulation *simulation);
 bool step_report_is_long(const dem_simulation *simulation, char *why);
 
 /** To be called after every accepted step. */
-void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_state *state);
+void step_report_follow(step_report *p, const dem_simulation *simulation, const dem_progress *now);
 
 void step_report_print_largest(FILE *out, const step_report *p);
 

@@ -39,6 +39,11 @@ static inline dem_state ask_state(const dem_simulation *simulation)
     ASK(dem_state, dem_simulation_state(simulation, &out));
 }
 
+static inline dem_progress ask_progress(const dem_simulation *simulation)
+{
+    ASK(dem_progress, dem_simulation_progress(simulation, &out));
+}
+
 static inline dem_energy ask_energy(const dem_simulation *simulation)
 {
     ASK(dem_energy, dem_simulation_energy(simulation, &out));

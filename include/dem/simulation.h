@@ -230,6 +230,14 @@ typedef struct dem_state {
     dem_index n_contacts; /**< closed now: dem_simulation_contact() */
 } dem_state;
 
+/** How far a run is. */
+typedef struct dem_progress {
+    size_t struct_size;   /**< to be set to sizeof(dem_progress) */
+    double t;             /**< s */
+    double step;          /**< s, length of the last accepted step */
+    dem_index n_contacts; /**< closed now: dem_simulation_contact() */
+} dem_progress;
+
 /** Mean motion of a body. */
 typedef struct dem_body_motion {
     size_t struct_size;         /**< to be set to sizeof(dem_body_motion) */
@@ -420,6 +428,9 @@ DEM_API const dem_checkpoint *dem_simulation_checkpoint(const dem_simulation *si
 /** What is seen of the motion now. */
 DEM_API dem_status dem_simulation_state(const dem_simulation *simulation, dem_state *out);
 
+/** The same without positions and velocities. */
+DEM_API dem_status dem_simulation_progress(const dem_simulation *simulation, dem_progress *out);
+
 /** The motion that is seen of all nodes, on rank 0 where ranks share the model (dem/mpi.h); then all ranks call it.
  *  \param[out] x  [nodes of the whole lattice][dim] m; not looked at on other ranks than 0
  *  \param[out] v  the same, m/s
@@ -512,6 +523,9 @@ DEM_API dem_status dem_simulation_obstacle(const dem_simulation *simulation, dem
 /** \param boundary  0 <= boundary < n_boundaries */
 DEM_API dem_status dem_simulation_boundary(const dem_simulation *simulation, dem_index boundary,
                                            dem_boundary_load *out);
+
+/** The largest |v_x| + |v_y| of a node, m/s. */
+DEM_API double dem_simulation_fastest(const dem_simulation *simulation);
 
 /** How far from equilibrium: the largest force on a node that may move, without drag and with what contacts give, over
  *  the largest force of a spring; 0 where there is neither. Known after an accepted step without contact event, else

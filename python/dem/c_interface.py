@@ -566,6 +566,15 @@ class dem_state(SizedStructure):
                 ("v", POINTER(c_double)), ("n_contacts", c_int64)]
 
 
+class dem_progress(SizedStructure):
+    """How far a run is.
+    struct_size: to be set to sizeof(dem_progress)
+    t: s
+    step: s, length of the last accepted step
+    n_contacts: closed now: dem_simulation_contact()"""
+    _fields_ = [("struct_size", c_size_t), ("t", c_double), ("step", c_double), ("n_contacts", c_int64)]
+
+
 class dem_body_motion(SizedStructure):
     """Mean motion of a body.
     struct_size: to be set to sizeof(dem_body_motion)
@@ -1352,6 +1361,9 @@ FUNCTIONS = {  # name: (result, arguments, text)
     "dem_simulation_state": (c_int, [POINTER(dem_simulation), POINTER(dem_state)],
         """dem_simulation_state(simulation, out)
         What is seen of the motion now."""),
+    "dem_simulation_progress": (c_int, [POINTER(dem_simulation), POINTER(dem_progress)],
+        """dem_simulation_progress(simulation, out)
+        The same without positions and velocities."""),
     "dem_simulation_gather": (c_int, [POINTER(dem_simulation), POINTER(c_double), POINTER(c_double)],
         """dem_simulation_gather(simulation, x, v)
         The motion that is seen of all nodes, on rank 0 where ranks share the model (dem/mpi.h); then all ranks call
@@ -1456,6 +1468,9 @@ FUNCTIONS = {  # name: (result, arguments, text)
         """dem_simulation_boundary(simulation, boundary, out)
 
         boundary 0 <= boundary < n_boundaries"""),
+    "dem_simulation_fastest": (c_double, [POINTER(dem_simulation)],
+        """dem_simulation_fastest(simulation)
+        The largest |v_x| + |v_y| of a node, m/s."""),
     "dem_simulation_residual": (c_double, [POINTER(dem_simulation)],
         """dem_simulation_residual(simulation)
         How far from equilibrium: the largest force on a node that may move, without drag and with what contacts

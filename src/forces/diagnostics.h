@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What is measured on a state besides what survey.h measures of all nodes: energy of contact, reactions of obstacles
- * and boundary conditions, residual. */
+ * and boundary conditions, residual, the largest speed. */
 #ifndef DEM_FORCES_DIAGNOSTICS_H
 #define DEM_FORCES_DIAGNOSTICS_H
 
@@ -22,5 +22,8 @@ dem_boundary_load diagnostics_boundary(const forces *f, const boundary_condition
 /** Largest force without drag on a node that may move, from accelerations a and velocities v at positions x, over the
  *  largest force of a spring. */
 double diagnostics_residual(const forces *f, const double *x, const double *v, const double *a);
+
+/** The largest |v_x| + |v_y|, of velocities v [n][2]. */
+double diagnostics_fastest(const dem_model *model, const double *v);
 
 #endif

@@ -646,6 +646,12 @@ module dem_c
     integer(dem_index) :: n_contacts = 0
   end type
 
+  type, bind(c) :: dem_progress
+    integer(c_size_t) :: struct_size = 32
+    real(c_double) :: t = 0, step = 0
+    integer(dem_index) :: n_contacts = 0
+  end type
+
   type, bind(c) :: dem_body_motion
     integer(c_size_t) :: struct_size = 88
     real(c_double) :: mass = 0, centre(3) = 0, velocity(3) = 0, angular_momentum(3) = 0
@@ -787,6 +793,12 @@ module dem_c
       import
       type(c_ptr), value :: simulation
       type(dem_state), intent(inout) :: out
+    end function
+
+    integer(dem_status) function dem_simulation_progress(simulation, out) bind(c)
+      import
+      type(c_ptr), value :: simulation
+      type(dem_progress), intent(inout) :: out
     end function
 
     integer(dem_status) function dem_simulation_gather(simulation, x, v) bind(c)
@@ -932,6 +944,11 @@ module dem_c
       type(c_ptr), value :: simulation
       integer(dem_index), value :: boundary
       type(dem_boundary_load), intent(inout) :: out
+    end function
+
+    real(c_double) function dem_simulation_fastest(simulation) bind(c)
+      import
+      type(c_ptr), value :: simulation
     end function
 
     real(c_double) function dem_simulation_residual(simulation) bind(c)

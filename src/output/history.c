@@ -87,7 +87,7 @@ enum { N_COLUMNS = sizeof columns / sizeof columns[0], OF_FRACTURE = 7 };
 
 /* Columns about the run: first all reals, then all counts, as `columns` lists them. Returns the cell behind, as the
  * others do. */
-static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, const dem_state *state,
+static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, const dem_progress *now,
                            const dem_energy *e, double closure)
 {
     dem_strain s = {.struct_size = sizeof s};
@@ -98,14 +98,13 @@ static table_cell *put_run(table_cell *cell, const dem_simulation *simulation, c
     (void)dem_simulation_counts(simulation, &n);
     (void)dem_simulation_overlap(simulation, &overlap);
     (void)dem_simulation_surfaces(simulation, &surfaces);
-    const double reals[] = {state->t,   state->step, e->kinetic,    e->elastic,  e->area,
-                            e->guard,   e->contact,  e->gravity,    e->impact,   e->friction,
-                            e->damping, e->fracture, e->projection, e->boundary, e->obstacle,
-                            closure,    s.min,       s.max,         s.area_min,  surfaces.gap_min};
+    const double reals[] = {now->t,      now->step, e->kinetic,  e->elastic, e->area,     e->guard,        e->contact,
+                            e->gravity,  e->impact, e->friction, e->damping, e->fracture, e->projection,   e->boundary,
+                            e->obstacle, closure,   s.min,       s.max,      s.area_min,  surfaces.gap_min};
     const dem_index counts[] = {
-        s.guarded, s.inverted, overlap.now, state->n_contacts, surfaces.pushing, n.impacts,   n.vertex_impacts,
-        n.early,   n.closings, n.releases,  n.slips,           n.sticks,         n.passings,  n.late,
-        n.behind,  n.events,   n.steps,     n.rejected,        n.retries,        n.crossings, n.evaluations};
+        s.guarded, s.inverted, overlap.now, now->n_contacts, surfaces.pushing, n.impacts,   n.vertex_impacts,
+        n.early,   n.closings, n.releases,  n.slips,         n.sticks,         n.passings,  n.late,
+        n.behind,  n.events,   n.steps,     n.rejected,      n.retries,        n.crossings, n.evaluations};
     cell = table_put_reals(cell, reals, sizeof reals / sizeof reals[0]);
     return table_put_wholes(cell, counts, sizeof counts / sizeof counts[0]);
 }
@@ -217,20 +216,20 @@ bool dem_history_row_due(double interval, double before, double t)
 
 dem_status history_record(history *h, const dem_simulation *simulation)
 {
-    dem_state state = {.struct_size = sizeof state};
-    (void)dem_simulation_state(simulation, &state);
-    if (!dem_history_row_due(h->interval, h->last, state.t)) return DEM_OK;
+    dem_progress now = {.struct_size = sizeof now};
+    (void)dem_simulation_progress(simulation, &now);
+    if (!dem_history_row_due(h->interval, h->last, now.t)) return DEM_OK;
     TRY(measure_fracture(h, simulation));
     dem_energy energy = {.struct_size = sizeof energy};
     (void)dem_simulation_energy(simulation, &energy);
     const double closure = close_ledger(h, &energy);
     table_cell *cell = table_add(&h->table);
-    cell = put_run(cell, simulation, &state, &energy, closure);
+    cell = put_run(cell, simulation, &now, &energy, closure);
     cell = put_bodies(cell, simulation, (dem_index)h->table.count[BODIES]);
     cell = put_obstacles(cell, simulation, (dem_index)h->table.count[OBSTACLES]);
     cell = put_boundaries(cell, simulation, (dem_index)h->table.count[BOUNDARIES]);
     if (h->breaks) put_fracture(cell, &h->fracture);
-    h->last = state.t;
+    h->last = now.t;
     return DEM_OK;
 }
 

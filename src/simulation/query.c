@@ -180,6 +180,14 @@ dem_status dem_simulation_state(const dem_simulation *s, dem_state *out)
     return GIVE(dem_state, out, &seen);
 }
 
+dem_status dem_simulation_progress(const dem_simulation *s, dem_progress *out)
+{
+    TRY(check_pointers("dem_simulation_progress", s, out));
+    dem_progress seen = {.t = s->seen_t, .step = s->step};
+    (void)contacts_of(s, &seen.n_contacts);
+    return GIVE(dem_progress, out, &seen);
+}
+
 static dem_status check_gathered(const dem_simulation *s, const double *x, const double *v)
 {
     CHECK(s->model->ranks->rank != 0 || (x != NULL && v != NULL), DEM_ERROR_ARGUMENT,
@@ -512,6 +520,14 @@ dem_status dem_simulation_boundary(const dem_simulation *s, dem_index k, dem_bou
     const bool known = b->kind == DEM_BOUNDARY_FORCE || external == NULL || s->measures->has_held_forces;
     if (!known) load.force[0] = load.force[1] = (double)NAN;
     return GIVE(dem_boundary_load, out, &load);
+}
+
+double dem_simulation_fastest(const dem_simulation *s)
+{
+    if (check_pointers("dem_simulation_fastest", s, s) != DEM_OK) return (double)NAN;
+    double of_parts = 0.0;
+    if (s->leads != NULL) return led_run_ask(s, RANK_CALL_FASTEST, 0, &of_parts) == DEM_OK ? of_parts : (double)NAN;
+    return diagnostics_fastest(s->model, seen_of(s) + state_velocities(&s->layout));
 }
 
 double query_residual(const dem_simulation *s)

@@ -24,6 +24,9 @@ dem_status rank_call_answer(const dem_simulation *part, const rank_call *what, v
         return dem_simulation_strain(part, out);
     case RANK_CALL_COUNTS:
         return dem_simulation_counts(part, out);
+    case RANK_CALL_FASTEST:
+        *(double *)out = dem_simulation_fastest(part);
+        return DEM_OK;
     case RANK_CALL_RESIDUAL:
         *(double *)out = dem_simulation_residual(part);
         return DEM_OK;

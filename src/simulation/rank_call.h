@@ -17,6 +17,7 @@ typedef enum rank_call_kind {
     RANK_CALL_ENERGY,
     RANK_CALL_STRAIN,
     RANK_CALL_COUNTS,
+    RANK_CALL_FASTEST,
     RANK_CALL_RESIDUAL,
     RANK_CALL_BODY, /* of this number, as the next ones are */
     RANK_CALL_BOUNDARY,

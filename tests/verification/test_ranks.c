@@ -494,6 +494,76 @@ static void check_led(int body, dem_method method)
 
 enum { MOST_STEPS = 2000 };
 
+/* A run that rank 0 leads, and which it watches. */
+typedef struct watched {
+    const scene *scene;
+    dem_status (*ask)(const dem_simulation *s); /* after each step */
+    dem_status status;
+    double v[2]; /* m/s, the largest |v_x| + |v_y| at the end: as it is reported, and of all nodes */
+    int exchanges;
+} watched;
+
+static dem_status ask_nothing(const dem_simulation *s)
+{
+    return s != NULL ? DEM_OK : DEM_ERROR_ARGUMENT;
+}
+
+/* What the log looks at. */
+static dem_status ask_how_far(const dem_simulation *s)
+{
+    dem_progress now = {.struct_size = sizeof now};
+    return dem_simulation_fastest(s) > 0.0 ? dem_simulation_progress(s, &now) : DEM_ERROR_ARGUMENT;
+}
+
+static dem_status ask_step(void *context, const dem_simulation *s)
+{
+    return ((const watched *)context)->ask(s);
+}
+
+static dem_status watch(watched *w, const ranks *r)
+{
+    dem_simulation *s = NULL;
+    dem_state state = {.struct_size = sizeof state};
+    const dem_observer observer = SIZED(dem_observer, .context = w, .step = ask_step);
+    dem_status status = dem_simulation_create(&s, w->scene->model, &w->scene->options);
+    if (status == DEM_OK) status = dem_private_lead(s, r, &w->scene->options, NULL);
+    if (status == DEM_OK) status = dem_simulation_observe(s, &observer);
+    if (status == DEM_OK) status = dem_simulation_advance(s, 1e-4);
+    w->exchanges = rank_threads_count(r).exchanges;
+    w->v[0] = dem_simulation_fastest(s);
+    if (status == DEM_OK) status = dem_simulation_state(s, &state);
+    for (dem_index i = 0; status == DEM_OK && i < dem_model_lattice(w->scene->model)->n_nodes; i++)
+        w->v[1] = fmax(w->v[1], fabs(state.v[2 * i]) + fabs(state.v[2 * i + 1]));
+    dem_simulation_destroy(s);
+    return status;
+}
+
+static void watch_as_rank(const ranks *r, void *context)
+{
+    watched *w = context;
+    if (r->rank > 0) {
+        (void)dem_private_follow(r);
+        return;
+    }
+    w->status = watch(w, r);
+    dem_private_dismiss(r, 0);
+}
+
+/* Rows of all nodes would take exchanges. */
+TEST(a_leader_that_asks_how_far_the_run_is_gathers_nothing)
+{
+    scene s;
+    open_scene(&s, 0, DEM_METHOD_VERLET);
+    watched silent = {.scene = &s, .ask = ask_nothing}, curious = {.scene = &s, .ask = ask_how_far};
+    rank_threads_run(3, watch_as_rank, &silent);
+    rank_threads_run(3, watch_as_rank, &curious);
+    assert_ok(silent.status);
+    assert_ok(curious.status);
+    assert_int_equal(curious.exchanges, silent.exchanges);
+    assert_close(curious.v[0], curious.v[1], 0.0);
+    close_scene(&s);
+}
+
 /* One rank's run, and its calls up to the end of each step. */
 typedef struct talk {
     const scene *scene;

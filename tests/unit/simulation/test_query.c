@@ -53,6 +53,7 @@ typedef struct getter {
         return function(simulation == NULL ? NULL : dem_simulation_model(simulation), out);                            \
     }
 PLAIN(dem_simulation_state, dem_state)
+PLAIN(dem_simulation_progress, dem_progress)
 PLAIN(dem_simulation_energy, dem_energy)
 PLAIN(dem_simulation_strain, dem_strain)
 PLAIN(dem_simulation_overlap, dem_overlap)
@@ -74,7 +75,7 @@ static const getter getters[] = {
     ENTRY(dem_overlap, false),      ENTRY(dem_counts, false),     ENTRY(dem_options, false),
     ENTRY(dem_contact, true),       ENTRY(dem_body_motion, true), ENTRY(dem_obstacle_load, true),
     ENTRY(dem_boundary_load, true), ENTRY(dem_surfaces, false),   ENTRY(dem_model_size, false),
-    ENTRY(dem_csr, false)};
+    ENTRY(dem_csr, false),          ENTRY(dem_progress, false)};
 enum { n_getters = sizeof getters / sizeof getters[0], largest = 4096 };
 
 /* A node that rests on the floor, and a boundary that loads it. */
@@ -183,6 +184,7 @@ TEST(arrays_that_are_null_and_a_node_that_is_not_there_are_refused)
     assert_close(stress[0], 7.0, 0.0);
     assert_true(isnan(dem_simulation_residual(NULL)));
     assert_true(isnan(dem_simulation_ramp_time(NULL)));
+    assert_true(isnan(dem_simulation_fastest(NULL)));
     assert_null(dem_simulation_model(NULL));
     assert_null(dem_simulation_checkpoint(NULL));
     dem_simulation_destroy(simulation);
@@ -309,6 +311,8 @@ static void look_at_all(const dem_simulation *s)
     double place[4], velocity[4];
     assert_ok(dem_simulation_state(s, &now));
     for (dem_index k = 0; k < now.n_contacts; k++) (void)ask_contact(s, k);
+    const dem_progress there = ask_progress(s);
+    assert_true(there.t == now.t && there.step == now.step && there.n_contacts == now.n_contacts);
     assert_ok(dem_simulation_gather(s, place, velocity));
     assert_memory_equal(place, now.x, sizeof place);
     assert_memory_equal(velocity, now.v, sizeof velocity);
@@ -329,6 +333,9 @@ static void look_at_all(const dem_simulation *s)
     (void)ask_body(s, 0);
     (void)ask_obstacle(s, 0);
     (void)ask_boundary(s, 0);
+    double fastest = 0.0;
+    for (int i = 0; i < 2; i++) fastest = fmax(fastest, fabs(now.v[2 * i]) + fabs(now.v[2 * i + 1]));
+    assert_close(dem_simulation_fastest(s), fastest, 0.0);
     (void)dem_simulation_residual(s);
     (void)dem_simulation_ramp_time(s);
     (void)dem_simulation_checkpoint(s);

@@ -12,9 +12,9 @@ static char text[4096];
 
 static dem_status step(void *context, const dem_simulation *simulation)
 {
-    dem_state state = {.struct_size = sizeof state};
-    assert_ok(dem_simulation_state(simulation, &state));
-    rebound_follow(context, simulation, &state);
+    dem_progress now = {.struct_size = sizeof now};
+    assert_ok(dem_simulation_progress(simulation, &now));
+    rebound_follow(context, simulation, &now);
     return DEM_OK;
 }
 

@@ -126,9 +126,9 @@ TEST(without_springs_nothing_bounds_the_step)
 
 static dem_status follow(void *context, const dem_simulation *simulation)
 {
-    dem_state state = {.struct_size = sizeof state};
-    dem_simulation_state(simulation, &state);
-    step_report_follow(context, simulation, &state);
+    dem_progress now = {.struct_size = sizeof now};
+    dem_simulation_progress(simulation, &now);
+    step_report_follow(context, simulation, &now);
     return DEM_OK;
 }
 
