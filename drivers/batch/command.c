@@ -34,7 +34,7 @@ static const char usage[] =
     "  --resume-anyway        go on from a checkpoint of another version: not to the same bits\n"
     "  --mpi                  run as ranks of MPI; under mpirun or srun with several processes this is so anyway\n"
     "  --serial               run under mpirun or srun: each process by itself, with an output of its own\n"
-    "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT and SIGXCPU end as --max-wall does\n"
+    "signals: SIGUSR1 writes a checkpoint; SIGTERM, SIGINT, SIGXCPU and SIGUSR2 end as --max-wall does\n"
     "exit codes: 0 done, 2 usage, 3 deck invalid, 4 numerics failed, 5 input or output, also over --max-disk,\n"
     "            6 out of memory, or over --max-memory or --max-steps, 7 the output belongs to another problem or\n"
     "            process, 75 stopped, run me again; of several decks the largest\n";

@@ -17,9 +17,9 @@ static bool find(const rank_group *g, const char *name, void *function)
     return found != NULL;
 }
 
-bool rank_group_begin(rank_group *g, char why[RANK_GROUP_REASON])
+bool rank_group_begin(rank_group *g, requests *noted, char why[RANK_GROUP_REASON])
 {
-    void *(*begin)(int *rank, int *size) = NULL;
+    void *(*begin)(int *rank, int *size, volatile sig_atomic_t *const *requests) = NULL;
     *g = (rank_group){.library = dlopen(library, RTLD_NOW | RTLD_GLOBAL)};
     if (g->library == NULL || !find(g, "dem_private_program_begin", (void *)&begin) ||
         !find(g, "dem_private_program_lead", (void *)&g->lead) ||
@@ -28,7 +28,8 @@ bool rank_group_begin(rank_group *g, char why[RANK_GROUP_REASON])
         (void)snprintf(why, RANK_GROUP_REASON, "%s", reason != NULL ? reason : library);
         return false;
     }
-    g->self = begin(&g->rank, &g->size);
+    volatile sig_atomic_t *const both[] = {&noted->end, &noted->checkpoint};
+    g->self = begin(&g->rank, &g->size, both);
     if (g->self == NULL) (void)snprintf(why, RANK_GROUP_REASON, "%s has another version, or no memory", library);
     return g->self != NULL;
 }

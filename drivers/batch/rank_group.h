@@ -10,6 +10,7 @@
 
 #include "namelist_errors.h"
 #include "deck.h"
+#include "requests.h"
 
 enum { RANK_GROUP_REASON = 256 };
 
@@ -21,8 +22,10 @@ typedef struct rank_group {
     dem_index (*end)(void *self, dem_index number);
 } rank_group;
 
-/** Initialises MPI; all processes have to.  \return whether they are ranks; else `why` says what is missing */
-bool rank_group_begin(rank_group *g, char why[RANK_GROUP_REASON]);
+/** Initialises MPI; all processes have to.
+ *  \param noted  what is asked of this process, and, while rank 0 leads a run, on rank 0 what is of any; outlives them
+ *  \return whether they are ranks; else `why` says what is missing */
+bool rank_group_begin(rank_group *g, requests *noted, char why[RANK_GROUP_REASON]);
 
 /** Lets all ranks make the run of a simulation, which shows it as one of a process alone. On rank 0.
  *  \param checkpoint  from which the simulation was resumed; NULL: it was not */

@@ -12,6 +12,8 @@ const char *requests_end(const requests *w)
         return "SIGINT";
     case SIGXCPU:
         return "SIGXCPU";
+    case SIGUSR2:
+        return "SIGUSR2";
     default:
         return "SIGTERM";
     }

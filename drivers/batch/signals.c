@@ -42,6 +42,7 @@ void signals_catch_end(void)
     set(SIGTERM, note_end);
     set(SIGINT, note_end);
     set(SIGXCPU, note_end);
+    set(SIGUSR2, note_end);
 }
 
 requests *signals_requests(void)

@@ -9,7 +9,7 @@
  *  file sizes is a full disk. What whoever started the program wants ignored stays so, here and below. */
 void signals_catch(void);
 
-/** From now on SIGTERM, SIGINT and SIGXCPU ask for the end. What only looks at a deck ends by them at once. */
+/** From now on SIGTERM, SIGINT, SIGXCPU and SIGUSR2 ask for the end. What only looks at a deck ends by them at once. */
 void signals_catch_end(void);
 
 /** What they have noted, and note. */

@@ -6,6 +6,7 @@
 #ifndef DEM_BASE_RANKS_H
 #define DEM_BASE_RANKS_H
 
+#include <signal.h>
 #include <stddef.h>
 
 /** Joins a packet to another one of the same kind: commutative and associative to the bit, so that no order of ranks
@@ -19,6 +20,9 @@ typedef struct ranks_message {
     void *bytes; /* [size] */
 } ranks_message;
 
+/** What may be asked of a run from outside: its end, and a checkpoint. */
+enum { RANKS_REQUESTS = 2 };
+
 typedef struct ranks {
     void *self;     /* what the functions work on */
     int rank, size; /* this one, 0 <= rank < size, and how many there are */
@@ -28,6 +32,9 @@ typedef struct ranks {
     void (*exchange)(void *self, int n, const ranks_message *sent, const ranks_message *received);
     /** Frees the table, of which nothing is used afterwards. NULL where nobody but its maker ends it. */
     void (*end)(void *self);
+    /** Numbers in which signal handlers of this rank note what is asked; 0: nothing. What another rank has there rank 0
+     *  gets by the next call that it makes on all (simulation/rank_call.h). NULL where nobody asks. */
+    volatile sig_atomic_t *requests[RANKS_REQUESTS];
 } ranks;
 
 enum { RANKS_PACKET_MOST = 8192 };

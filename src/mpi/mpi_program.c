@@ -6,7 +6,7 @@
 #include "mpi/mpi_ranks.h"
 #include "simulation/led_run.h"
 
-void *dem_private_program_begin(int *rank, int *size)
+void *dem_private_program_begin(int *rank, int *size, volatile sig_atomic_t *const *requests)
 {
     int provided;
     if (strcmp(dem_version(), DEM_VERSION) != 0) return NULL;
@@ -16,6 +16,7 @@ void *dem_private_program_begin(int *rank, int *size)
         (void)MPI_Finalize();
         return NULL;
     }
+    for (int k = 0; k < RANKS_REQUESTS; k++) r->requests[k] = requests[k];
     *rank = r->rank;
     *size = r->size;
     return r;

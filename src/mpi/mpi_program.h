@@ -4,11 +4,15 @@
 #ifndef DEM_MPI_MPI_PROGRAM_H
 #define DEM_MPI_MPI_PROGRAM_H
 
+#include <signal.h>
+
 #include <dem/dem.h>
 
 /** Initialises MPI, with the ranks of its world. Collective.
+ *  \param requests  [2] where this rank's signal handlers note that the end and that a checkpoint is asked for; rank 0
+ *  gets there what any rank is asked for
  *  \return what the other functions work on; NULL if memory is short, or libdem has another version, and MPI is over */
-DEM_API void *dem_private_program_begin(int *rank, int *size);
+DEM_API void *dem_private_program_begin(int *rank, int *size, volatile sig_atomic_t *const *requests);
 
 /** Makes a simulation the leader of one that all ranks have a part of: dem_private_lead(). */
 DEM_API dem_status dem_private_program_lead(const void *group, dem_simulation *whole, const dem_options *options,

@@ -3,16 +3,46 @@
 
 #include "base/status.h"
 
-static void join(void *packet, const void *other)
+/* From rank 0 the call, from the others what is asked of them. */
+typedef struct packet {
+    bool is_known; /* the call, on rank 0 at first */
+    rank_call call;
+    int requests[RANKS_REQUESTS];
+} packet;
+
+static void join(void *both, const void *other)
 {
-    if (!((const rank_call *)packet)->is_known) *(rank_call *)packet = *(const rank_call *)other;
+    packet *own = both;
+    const packet *theirs = other;
+    if (!own->is_known && theirs->is_known) own->call = theirs->call;
+    own->is_known = own->is_known || theirs->is_known;
+    for (int k = 0; k < RANKS_REQUESTS; k++)
+        if (theirs->requests[k] > own->requests[k]) own->requests[k] = theirs->requests[k];
+}
+
+/* Takes what is asked of a rank but rank 0, which is reported once. */
+static void take_requests(const ranks *r, int *requests)
+{
+    for (int k = 0; k < RANKS_REQUESTS && r->rank > 0; k++) {
+        volatile sig_atomic_t *noted = r->requests[k];
+        requests[k] = noted != NULL ? *noted : 0;
+        if (requests[k] != 0) *noted = 0;
+    }
+}
+
+static void note_requests(const ranks *r, const int *requests)
+{
+    for (int k = 0; k < RANKS_REQUESTS && r->rank == 0; k++)
+        if (requests[k] != 0 && r->requests[k] != NULL) *r->requests[k] = requests[k];
 }
 
 rank_call rank_call_send(const ranks *r, rank_call given)
 {
-    given.is_known = r->rank == 0;
-    r->reduce(r->self, &given, sizeof given, join);
-    return given;
+    packet all = {.is_known = r->rank == 0, .call = given};
+    take_requests(r, all.requests);
+    r->reduce(r->self, &all, sizeof all, join);
+    note_requests(r, all.requests);
+    return all.call;
 }
 
 dem_status rank_call_answer(const dem_simulation *part, const rank_call *what, void *out)

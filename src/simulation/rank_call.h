@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Calls that the leader of a run, rank 0, makes on all ranks, of which the others are its followers: what each is to do
- * with its part. A call is one reduction. */
+ * with its part. A call is one reduction, which takes along what is asked of the others by signals. */
 #ifndef DEM_SIMULATION_RANK_CALL_H
 #define DEM_SIMULATION_RANK_CALL_H
 
@@ -28,7 +28,6 @@ typedef enum rank_call_kind {
 } rank_call_kind;
 
 typedef struct rank_call {
-    bool is_known; /* on rank 0 alone, at first */
     rank_call_kind kind;
     double t; /* s */
     dem_index number;

@@ -20,7 +20,7 @@ import tempfile
 
 PAGE, ROOT, *PROGRAMS = (pathlib.Path(word).resolve() for word in sys.argv[1:])
 SECONDS = 300  # more than any block takes, under a sanitizer too
-OPTIONAL = ("gmsh", "jq", "ffmpeg", "dem_plot")  # what a machine may lack
+OPTIONAL = ("gmsh", "jq", "ffmpeg", "dem_plot", "mpirun", "srun")  # what a machine may lack
 COARSE = {} if PAGE.name == "README.md" else {"rectangle": "1e-2", "disc": "1e-2", "porous": "7e-3",
                                               "brittle_disc": "5e-3"}  # spacings
 LOG = r"(?m)^(?:contact|rebound|normal)  .*$"  # lines of a log
@@ -31,12 +31,15 @@ DROP = """&run t_end = 1e-4 /
 &obstacle points = -1, 0, 1, 0 /
 &output name = '{}' /
 """
+# What queues give their jobs; and leave for Open MPI to start ranks as root, which others do not look at.
+JOB = {"SLURM_ARRAY_TASK_ID": "17", "SLURM_ARRAY_JOB_ID": "1", "SLURM_JOB_ID": "1", "PBS_O_WORKDIR": ".",
+       "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 # What a page needs beside inputs/ and the decks: runs whose files it reads.
 RUNS = {"pictures.md": ("disc", "porous"), "dem_plot.1": ("rectangle", "two_discs", "brittle_disc"), "dem_export.1": ("rectangle",)}
 
 
 def make_decks(folder):
-    for name in ("a", "b", "drop"):
+    for name in ("a", "b", "deck", "drop"):
         (folder / f"{name}.nml").write_text(DROP.format(name), encoding="utf-8")
     (folder / "decks").mkdir()
     for k in range(17):
@@ -131,7 +134,7 @@ def run(language, block, folder):
     script.write_text(block, encoding="utf-8")
     command = [sys.executable, script] if language == "python" else ["bash", "-eu", script, "params.in", "results.out"]
     path = os.pathsep.join([str(folder / "build/drivers"), os.environ["PATH"]])
-    variables = {**os.environ, "PATH": path, "SLURM_ARRAY_TASK_ID": "17", "SLURM_ARRAY_JOB_ID": "1"}
+    variables = {**os.environ, **JOB, "PATH": path}
     return subprocess.run(command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=SECONDS,
                           check=False, env=variables)
 

@@ -263,6 +263,83 @@ class Longer(Runs):
         self.assert_same("one", "ranks")
 
 
+class Asked(Runs):
+    """A run that signals are sent to: whatever rank gets them, they have the effect that they have on a process alone."""
+    LONG = ("--set", "run.t_end=1.5e-3")
+    RANKS = 3
+
+    def start(self, outdir):
+        run = subprocess.Popen(self.command(self.RANKS, outdir, *self.LONG), cwd=self.folder, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.communicate)
+        self.addCleanup(run.kill)
+        self.read_to(run, "output ")
+        return run
+
+    def read_to(self, run, word):
+        for line in run.stdout:
+            if word in line:
+                return
+        self.fail(f"there is no '{word}' in the log, but {run.stderr.read()}")
+
+    def rank_of(self, run, rank):
+        """The process of a rank."""
+        ranks = [pid for pid in children(run.pid) if number_of(pid) == rank]
+        self.assertEqual(len(ranks), 1)
+        return ranks[0]
+
+    def check_stop(self, run, by):
+        out, err = run.communicate(timeout=SECONDS)
+        self.assertEqual((run.returncode, [line for line in err.splitlines() if line.startswith("dem_batch")]), (75, []))
+        self.assertRegex(out, rf"\nstopped    at \S+ s by {by}; the same command goes on from \S+/free.checkpoint\n")
+
+    def check_end(self, n, *outdirs):
+        """The same command, on n ranks, ends as a run that nothing happened to."""
+        self.assertEqual(self.run_on(0, "one", *self.LONG)[0], 0)
+        for outdir in outdirs:
+            self.assertEqual(self.run_on(n, outdir, *self.LONG)[0], 0)
+            self.assert_same("one", outdir)
+
+
+class Signals(Asked):
+    def test_any_rank_is_asked_for_a_checkpoint_and_mpirun_for_the_end(self):
+        run = self.start("ranks")
+        os.kill(self.rank_of(run, 2), signal.SIGUSR1)
+        self.read_to(run, "checkpoint t ")
+        run.send_signal(signal.SIGUSR2)
+        self.check_stop(run, "SIGUSR2")
+        self.check_end(0, "ranks")
+
+
+class LongerSignals(Asked):
+    def test_any_rank_is_asked_for_the_end(self):
+        names = ("SIGTERM", "SIGINT", "SIGXCPU", "SIGUSR2")
+        for name in names:
+            for rank in range(self.RANKS):
+                with self.subTest(name, rank=rank):
+                    run = self.start(f"{name}{rank}")
+                    os.kill(self.rank_of(run, rank), signal.Signals[name])
+                    self.check_stop(run, name)
+        self.check_end(2, *(f"{name}{rank}" for rank, name in zip((2, 1, 2, 1), names)))
+
+    def test_mpirun_passes_on_a_request_for_a_checkpoint(self):
+        run = self.start("ranks")
+        run.send_signal(signal.SIGUSR1)
+        self.read_to(run, "checkpoint t ")
+        run.send_signal(signal.SIGUSR2)
+        self.check_stop(run, "SIGUSR2")
+
+
+def number_of(pid):
+    """Its rank; -1: it is none."""
+    try:
+        names = pathlib.Path("/proc", str(pid), "environ").read_bytes().split(b"\0")
+    except OSError:
+        return -1
+    ranks = [int(name.split(b"=")[1]) for name in names if name.startswith((b"OMPI_COMM_WORLD_RANK=", b"PMI_RANK="))]
+    return ranks[0] if ranks else -1
+
+
 def children(parent):
     """Processes of dem_batch that mpirun has started."""
     path = pathlib.Path("/proc", str(parent), "task", str(parent), "children")

@@ -21,7 +21,7 @@ TEST(the_signal_that_asks_for_the_end_is_named)
     static const struct {
         int number;
         const char *name;
-    } all[] = {{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGXCPU, "SIGXCPU"}};
+    } all[] = {{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGXCPU, "SIGXCPU"}, {SIGUSR2, "SIGUSR2"}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         assert_int_equal(raise(all[k].number), 0);
         assert_string_equal(requests_end(signals_requests()), all[k].name);
