@@ -69,7 +69,7 @@ static exit_code do_as_ranks(const command *c, const launcher *l, batch_pool poo
 static exit_code do_all(const command *c, batch_pool pool)
 {
     const launcher l = launcher_find();
-    const bool is_alone = c->action != COMMAND_RUN || c->serial || (l.processes == 1 && !c->mpi);
+    const bool is_alone = c->serial || (l.processes == 1 && !c->mpi);
     return is_alone ? do_cases(c, pool) : do_as_ranks(c, &l, pool);
 }
 

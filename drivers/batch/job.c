@@ -236,12 +236,20 @@ static void stop(job *j)
     outcome_set(&j->outcome, EXIT_STOPPED, "%s: stopped by %s", j->deck.path, c->ended);
 }
 
+static void print_preview(job *j, const char *output)
+{
+    const rank_group *ranks = j->command->ranks;
+    preview_print(&j->log, &j->deck, j->simulation, output);
+    if (ranks != NULL) rank_group_print(ranks, j->simulation, j->log.out);
+    (void)fflush(j->log.out);
+}
+
 static void run(job *j)
 {
     j->checkpoint.trajectory = j->trajectory;
     j->checkpoint.log = &j->log;
     j->report.peaks = j->peaks;
-    preview_print(&j->log, &j->deck, j->simulation, j->path);
+    print_preview(j, j->path);
     if (j->source.checkpoint != NULL) {
         report_warn_again(&j->report, j->simulation);
         run_log_tell(&j->log, "resumed    from %.6g s, %s\n", j->source.t, j->checkpoint.path);
@@ -536,7 +544,7 @@ static void claim_and_run(job *j)
 
 static void check(job *j)
 {
-    if (builds(j) && ends(j) && check_folder(j)) preview_print(&j->log, &j->deck, j->simulation, NULL);
+    if (builds(j) && ends(j) && check_folder(j)) print_preview(j, NULL);
 }
 
 static bool succeeded(job *j, deck_status status, namelist_errors *errors)

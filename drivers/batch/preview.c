@@ -521,5 +521,4 @@ void preview_print(run_log *log, const deck *d, const dem_simulation *simulation
     doubts_of_overlap(log, simulation);
     if (log->verbose) print_details(log->out, d, simulation);
     print_output(log->out, output, &needed);
-    (void)fflush(log->out);
 }

@@ -23,6 +23,7 @@ bool rank_group_begin(rank_group *g, requests *noted, char why[RANK_GROUP_REASON
     *g = (rank_group){.library = dlopen(library, RTLD_NOW | RTLD_GLOBAL)};
     if (g->library == NULL || !find(g, "dem_private_program_begin", (void *)&begin) ||
         !find(g, "dem_private_program_lead", (void *)&g->lead) ||
+        !find(g, "dem_private_program_shares", (void *)&g->shares) ||
         !find(g, "dem_private_program_end", (void *)&g->end)) {
         const char *reason = dlerror();
         (void)snprintf(why, RANK_GROUP_REASON, "%s", reason != NULL ? reason : library);
@@ -38,6 +39,21 @@ dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem
                            const dem_checkpoint *checkpoint)
 {
     return g->lead(g->self, whole, options, checkpoint);
+}
+
+void rank_group_print(const rank_group *g, const dem_simulation *whole, FILE *out)
+{
+    enum { OWN, GHOSTS, COMMON, MEMORY, ALL };
+    static const char *const what[] = {[OWN] = "own nodes", [GHOSTS] = "ghosts", [COMMON] = "common nodes of others"};
+    double least[ALL], most[ALL];
+    g->shares(whole, least, most);
+    (void)fprintf(out, "ranks      %d:", g->size);
+    for (int k = OWN; k <= COMMON; k++) {
+        (void)fprintf(out, "%s %.0f", k == OWN ? "" : ",", least[k]);
+        if (most[k] > least[k]) (void)fprintf(out, " to %.0f", most[k]);
+        (void)fprintf(out, " %s", what[k]);
+    }
+    (void)fprintf(out, "; memory so far %.4g to %.4g MB\n", 1e-6 * least[MEMORY], 1e-6 * most[MEMORY]);
 }
 
 bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors)

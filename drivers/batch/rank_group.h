@@ -5,6 +5,7 @@
 #define DEM_RANK_GROUP_H
 
 #include <stdbool.h>
+#include <stdio.h>
 
 #include <dem/dem.h>
 
@@ -19,6 +20,7 @@ typedef struct rank_group {
     void *self, *library;
     dem_status (*lead)(const void *self, dem_simulation *whole, const dem_options *options,
                        const dem_checkpoint *checkpoint);
+    void (*shares)(const dem_simulation *whole, double *least, double *most);
     dem_index (*end)(void *self, dem_index number);
 } rank_group;
 
@@ -31,6 +33,10 @@ bool rank_group_begin(rank_group *g, requests *noted, char why[RANK_GROUP_REASON
  *  \param checkpoint  from which the simulation was resumed; NULL: it was not */
 dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem_options *options,
                            const dem_checkpoint *checkpoint);
+
+/** Prints how many nodes the ranks have of a run that rank 0 leads, and what memory they take, the least and the most.
+ *  On rank 0. */
+void rank_group_print(const rank_group *g, const dem_simulation *whole, FILE *out);
 
 /** Whether ranks can share what a deck asks for; else the first key that they cannot yet is among the errors. */
 bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors);

@@ -28,6 +28,11 @@ dem_status dem_private_program_lead(const void *group, dem_simulation *whole, co
     return dem_private_lead(whole, group, options, checkpoint);
 }
 
+void dem_private_program_shares(const dem_simulation *whole, double *least, double *most)
+{
+    dem_private_shares(whole, least, most);
+}
+
 dem_index dem_private_program_end(void *group, dem_index number)
 {
     ranks *r = group;

@@ -18,6 +18,9 @@ DEM_API void *dem_private_program_begin(int *rank, int *size, volatile sig_atomi
 DEM_API dem_status dem_private_program_lead(const void *group, dem_simulation *whole, const dem_options *options,
                                             const dem_checkpoint *checkpoint);
 
+/** What the ranks have of a simulation that rank 0 leads: dem_private_shares(). */
+DEM_API void dem_private_program_shares(const dem_simulation *whole, double *least, double *most);
+
 /** On rank 0, dismisses the others with a number; these take part in its runs until then.  \return that number */
 DEM_API dem_index dem_private_program_end(void *group, dem_index number);
 

@@ -12,6 +12,7 @@
 #include "base/status.h"
 #include "domain/gather.h"
 #include "model/shared_model.h"
+#include "simulation/rank_shares.h"
 #include "simulation/shared_problem.h"
 
 /* A frame of one of the whole's observers. */
@@ -206,6 +207,7 @@ typedef union answer {
     dem_counts counts;
     dem_body_motion body;
     dem_boundary_load load;
+    rank_shares shares;
     double numbers[6];
 } answer;
 
@@ -356,6 +358,14 @@ dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_opt
         free(l);
     }
     return status;
+}
+
+void dem_private_shares(const dem_simulation *whole, double *least, double *most)
+{
+    rank_shares s;
+    (void)led_run_ask(whole, RANK_CALL_SHARES, 0, &s);
+    memcpy(least, s.least, sizeof s.least);
+    memcpy(most, s.most, sizeof s.most);
 }
 
 dem_index dem_private_follow(const ranks *r)

@@ -18,6 +18,10 @@
 DEM_API dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_options *options,
                                     const dem_checkpoint *checkpoint);
 
+/** Measures what the ranks of a run that rank 0 leads have of it. On rank 0. No program may call this.
+ *  \param[out] least, most  [4] of one rank, in the order of simulation/rank_shares.h */
+DEM_API void dem_private_shares(const dem_simulation *whole, double *least, double *most);
+
 /** Takes part in the runs of the leader, on the other ranks, until it dismisses them.  \return its number */
 DEM_API dem_index dem_private_follow(const ranks *r);
 

@@ -2,6 +2,7 @@
 #include "simulation/rank_call.h"
 
 #include "base/status.h"
+#include "simulation/rank_shares.h"
 
 /* From rank 0 the call, from the others what is asked of them. */
 typedef struct packet {
@@ -68,6 +69,9 @@ dem_status rank_call_answer(const dem_simulation *part, const rank_call *what, v
         return dem_simulation_stress_at(part, what->number, out);
     case RANK_CALL_FORCE_AT:
         return dem_simulation_force_at(part, what->number, out);
+    case RANK_CALL_SHARES:
+        rank_shares_measure(out, part);
+        return DEM_OK;
     default:
         return status_fail(DEM_ERROR_ARGUMENT, "call %d has no answer", (int)what->kind);
     }

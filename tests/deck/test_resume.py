@@ -268,7 +268,7 @@ class Signals(Case):
         self.call(0, outdir="whole")
         seconds = self.result("whole")["wall_seconds"]
         chance = random.Random(1)
-        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGXCPU):
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGXCPU, signal.SIGUSR2):
             with self.subTest(number):
                 for k in range(50):
                     process = self.start(outdir=number.name)

@@ -5,6 +5,7 @@ those of one process."""
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -99,8 +100,22 @@ class UnderMpirun(unittest.TestCase):
         self.assertEqual((code, said), (0, []))
         self.assertEqual([name for name in files if name.endswith(".json")], ["r0.json", "r1.json"])
 
-    def test_what_writes_nothing_goes_on(self):
-        self.assertEqual(self.run_on(2, DEM_BATCH, "--check", *SHORT, DECK), (0, [], []))
+    def test_a_deck_is_checked_once_and_what_each_rank_has_of_it_is_said(self):
+        done = subprocess.run([MPIRUN, "-n", "3", DEM_BATCH, "--check", "--set", "contact.bodies=none", *SHORT, DECK],
+                              cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                              timeout=SECONDS, check=False)
+        self.assertEqual((done.returncode, list(self.folder.iterdir())), (0, []), done.stderr)
+        nodes = int(re.search(r"^lattice +(\d+) nodes", done.stdout, re.M)[1])
+        said = re.findall(r"^ranks +3: (\d+)(?: to (\d+))? own nodes, (\d+)(?: to (\d+))? ghosts, (\d+)(?: to (\d+))? "
+                          r"common nodes of others; memory so far (\S+) to (\S+) MB$", done.stdout, re.M)
+        self.assertEqual(len(said), 1, done.stdout)
+        own, most_own, ghosts, most_ghosts, common, most_common, least, most = (float(n or "nan") for n in said[0])
+        self.assertEqual((own, most_own if nodes % 3 else own), (nodes // 3, -(-nodes // 3)))
+        self.assertLessEqual(own + max(ghosts, most_ghosts), nodes)
+        self.assertGreater(max(common, most_common), 0)  # near the obstacle
+        self.assertTrue(1 < least <= most < 1000)
+
+    def test_what_only_prints_is_done_by_each_process(self):
         self.assertEqual(self.run_on(2, DEM_BATCH, "--version"), (0, [], []))
 
 
