@@ -55,7 +55,7 @@ static exit_code do_as_ranks(const command *c, const launcher *l, batch_pool poo
     if (c->jobs > 1) return refuse_copies(c, l, "with --jobs a process does cases by itself");
     if (!launcher_knows_all(l) && !c->mpi)
         return refuse_copies(c, l, "their number is not known; --mpi tells that they are");
-    if (!rank_group_begin(&group, c->host->requests, why)) return refuse_copies(c, l, why);
+    if (!rank_group_begin(&group, c->host, why)) return refuse_copies(c, l, why);
     if (group.size < l->processes) {
         (void)snprintf(why, sizeof why, "this MPI knows of %d only: it is not that of the launcher", group.size);
         (void)rank_group_end(&group, EXIT_USAGE);

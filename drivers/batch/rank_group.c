@@ -5,6 +5,7 @@
 #include <dlfcn.h>
 #include <stdio.h>
 
+#include "outcome.h"
 #include "schema.h"
 
 static const char library[] = "libdem_mpi.so.2";
@@ -17,20 +18,30 @@ static bool find(const rank_group *g, const char *name, void *function)
     return found != NULL;
 }
 
-bool rank_group_begin(rank_group *g, requests *noted, char why[RANK_GROUP_REASON])
+static void end_all(void *group)
 {
-    void *(*begin)(int *rank, int *size, volatile sig_atomic_t *const *requests) = NULL;
-    *g = (rank_group){.library = dlopen(library, RTLD_NOW | RTLD_GLOBAL)};
+    const rank_group *g = group;
+    (void)fprintf(g->host->err, "dem_batch: error: rank %d: %s\n", g->rank, dem_status_message());
+    (void)fflush(g->host->err);
+    g->abort(EXIT_MEMORY);
+}
+
+bool rank_group_begin(rank_group *g, const host *h, char why[RANK_GROUP_REASON])
+{
+    void *(*begin)(int *rank, int *size, volatile sig_atomic_t *const *requests, void (*lacks_memory)(void *program),
+                   void *program) = NULL;
+    *g = (rank_group){.host = h, .library = dlopen(library, RTLD_NOW | RTLD_GLOBAL)};
     if (g->library == NULL || !find(g, "dem_private_program_begin", (void *)&begin) ||
         !find(g, "dem_private_program_lead", (void *)&g->lead) ||
         !find(g, "dem_private_program_shares", (void *)&g->shares) ||
+        !find(g, "dem_private_program_abort", (void *)&g->abort) ||
         !find(g, "dem_private_program_end", (void *)&g->end)) {
         const char *reason = dlerror();
         (void)snprintf(why, RANK_GROUP_REASON, "%s", reason != NULL ? reason : library);
         return false;
     }
-    volatile sig_atomic_t *const both[] = {&noted->end, &noted->checkpoint};
-    g->self = begin(&g->rank, &g->size, both);
+    volatile sig_atomic_t *const both[] = {&h->requests->end, &h->requests->checkpoint};
+    g->self = begin(&g->rank, &g->size, both, end_all, g);
     if (g->self == NULL) (void)snprintf(why, RANK_GROUP_REASON, "%s has another version, or no memory", library);
     return g->self != NULL;
 }

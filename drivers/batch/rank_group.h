@@ -11,23 +11,26 @@
 
 #include "namelist_errors.h"
 #include "deck.h"
-#include "requests.h"
+#include "host.h"
 
 enum { RANK_GROUP_REASON = 256 };
 
+/** A rank that runs out of memory while others wait for it says so in a line, and ends all, with EXIT_MEMORY. */
 typedef struct rank_group {
     int rank, size;
+    const host *host;
     void *self, *library;
     dem_status (*lead)(const void *self, dem_simulation *whole, const dem_options *options,
                        const dem_checkpoint *checkpoint);
     void (*shares)(const dem_simulation *whole, double *least, double *most);
+    void (*abort)(int code);
     dem_index (*end)(void *self, dem_index number);
 } rank_group;
 
 /** Initialises MPI; all processes have to.
- *  \param noted  what is asked of this process, and, while rank 0 leads a run, on rank 0 what is of any; outlives them
+ *  \param h  outlives them; while rank 0 leads a run its requests there are what is asked of any rank
  *  \return whether they are ranks; else `why` says what is missing */
-bool rank_group_begin(rank_group *g, requests *noted, char why[RANK_GROUP_REASON]);
+bool rank_group_begin(rank_group *g, const host *h, char why[RANK_GROUP_REASON]);
 
 /** Lets all ranks make the run of a simulation, which shows it as one of a process alone. On rank 0.
  *  \param checkpoint  from which the simulation was resumed; NULL: it was not */

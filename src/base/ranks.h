@@ -35,6 +35,10 @@ typedef struct ranks {
     /** Numbers in which signal handlers of this rank note what is asked; 0: nothing. What another rank has there rank 0
      *  gets by the next call that it makes on all (simulation/rank_call.h). NULL where nobody asks. */
     volatile sig_atomic_t *requests[RANKS_REQUESTS];
+    /** Ends all ranks of a program where this one is out of memory, dem_status_message() saying for what: it could not
+     *  report that to others, which wait for something else. NULL: the program sees to it (dem/mpi.h). */
+    void (*lacks_memory)(void *program);
+    void *program;
 } ranks;
 
 enum { RANKS_PACKET_MOST = 8192 };

@@ -154,5 +154,5 @@ dem_status reduce_status(const ranks *r, dem_status own, double key)
     char text[STATUS_MESSAGE_SIZE] = "";
     if (first.rank == r->rank) (void)strcpy(text, dem_status_message());
     r->reduce(r->self, text, sizeof text, join_texts);
-    return status_fail(first.status, "%s", text);
+    return status_repeat(first.status, text);
 }

@@ -10,6 +10,12 @@
 /* It stays until the next failure of the thread. */
 static _Thread_local char last_message[STATUS_MESSAGE_SIZE];
 
+/* Who has to know of a lack of memory at once. */
+static _Thread_local struct {
+    void (*lacks_memory)(void *context);
+    void *context;
+} watcher;
+
 const char *dem_version(void)
 {
     return DEM_VERSION;
@@ -57,7 +63,20 @@ dem_status status_fail(dem_status status, const char *format, ...)
     va_start(arguments, format);
     (void)vsnprintf(last_message, sizeof last_message, format, arguments);
     va_end(arguments);
+    if (status == DEM_ERROR_MEMORY && watcher.lacks_memory != NULL) watcher.lacks_memory(watcher.context);
     return status;
+}
+
+dem_status status_repeat(dem_status status, const char *message)
+{
+    (void)snprintf(last_message, sizeof last_message, "%s", message);
+    return status;
+}
+
+void status_watch_memory(void (*lacks_memory)(void *context), void *context)
+{
+    watcher.lacks_memory = lacks_memory;
+    watcher.context = context;
 }
 
 dem_status dem_private_fail(dem_status status, const char *message)

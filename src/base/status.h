@@ -36,8 +36,15 @@ enum { STATUS_MESSAGE_SIZE = 512 };
 /** Stores a message for this thread, as printf would write it, and returns `status`. */
 dem_status status_fail(dem_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/** The same of a message that is there, for libdem_mpi, which is a library of its own and has the same version. No
- *  program may call this. */
+/** The same of a failure that is not of this thread: another rank has reported it. */
+dem_status status_repeat(dem_status status, const char *message);
+
+/** From now on status_fail() calls this function for each lack of memory in this thread, its message stored. NULL: it
+ *  calls none, as at first. */
+void status_watch_memory(void (*lacks_memory)(void *context), void *context);
+
+/** As status_fail(), of a message that is there, for libdem_mpi: a library of its own, which has the same version.
+ *  No program may call this. */
 DEM_API dem_status dem_private_fail(dem_status status, const char *message);
 
 #endif

@@ -6,7 +6,8 @@
 #include "mpi/mpi_ranks.h"
 #include "simulation/led_run.h"
 
-void *dem_private_program_begin(int *rank, int *size, volatile sig_atomic_t *const *requests)
+void *dem_private_program_begin(int *rank, int *size, volatile sig_atomic_t *const *requests,
+                                void (*lacks_memory)(void *program), void *program)
 {
     int provided;
     if (strcmp(dem_version(), DEM_VERSION) != 0) return NULL;
@@ -17,9 +18,16 @@ void *dem_private_program_begin(int *rank, int *size, volatile sig_atomic_t *con
         return NULL;
     }
     for (int k = 0; k < RANKS_REQUESTS; k++) r->requests[k] = requests[k];
+    r->lacks_memory = lacks_memory;
+    r->program = program;
     *rank = r->rank;
     *size = r->size;
     return r;
+}
+
+void dem_private_program_abort(int code)
+{
+    (void)MPI_Abort(MPI_COMM_WORLD, code);
 }
 
 dem_status dem_private_program_lead(const void *group, dem_simulation *whole, const dem_options *options,

@@ -11,8 +11,13 @@
 /** Initialises MPI, with the ranks of its world. Collective.
  *  \param requests  [2] where this rank's signal handlers note that the end and that a checkpoint is asked for; rank 0
  *  gets there what any rank is asked for
+ *  \param lacks_memory  called for a rank that is out of memory while others wait for it: has to end all of them
  *  \return what the other functions work on; NULL if memory is short, or libdem has another version, and MPI is over */
-DEM_API void *dem_private_program_begin(int *rank, int *size, volatile sig_atomic_t *const *requests);
+DEM_API void *dem_private_program_begin(int *rank, int *size, volatile sig_atomic_t *const *requests,
+                                        void (*lacks_memory)(void *program), void *program);
+
+/** Ends all ranks at once, with this exit code. */
+DEM_API void dem_private_program_abort(int code);
 
 /** Makes a simulation the leader of one that all ranks have a part of: dem_private_lead(). */
 DEM_API dem_status dem_private_program_lead(const void *group, dem_simulation *whole, const dem_options *options,

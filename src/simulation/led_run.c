@@ -31,6 +31,19 @@ struct led_run {
     frame_relay frames[OBSERVERS_MOST];
 };
 
+/* ---- a lack of memory ---- */
+
+/* From here to leave() all ranks work together: one that is out of memory cannot report it and go on. */
+static void enter(const led_run *l)
+{
+    status_watch_memory(l->ranks.lacks_memory, l->ranks.program);
+}
+
+static void leave(void)
+{
+    status_watch_memory(NULL, NULL);
+}
+
 /* ---- parts ---- */
 
 static void drop(led_run *l)
@@ -61,9 +74,11 @@ static dem_status create_part(led_run *l, const shared_problem *p, bool resumes,
 static dem_status create(led_run *l, dem_checkpoint *entries, bool resumes, const dem_checkpoint *checkpoint)
 {
     shared_problem p = {0};
-    TRY(checkpoint_entries_share(&l->ranks, entries, entries));
-    dem_status status = reduce_status(&l->ranks, shared_problem_get(&p, entries), 0.0);
+    enter(l);
+    dem_status status = checkpoint_entries_share(&l->ranks, entries, entries);
+    if (status == DEM_OK) status = reduce_status(&l->ranks, shared_problem_get(&p, entries), 0.0);
     if (status == DEM_OK) status = create_part(l, &p, resumes, checkpoint);
+    leave();
     shared_problem_free(&p);
     if (status != DEM_OK) drop(l);
     return status;
@@ -82,34 +97,41 @@ static void show(const led_run *l)
     *whole->measures = (run_measures){.has_events = true};
 }
 
+/* Rank 0 is by itself while it calls its observers. */
+static const led_run *hold(const led_run *l)
+{
+    leave();
+    show(l);
+    return l;
+}
+
 static dem_status release(const led_run *l, dem_status status)
 {
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GO_ON, .number = (dem_index)status});
+    enter(l);
     return status;
 }
 
 static dem_status lead_step(void *context, const dem_simulation *part)
 {
-    const led_run *l = context;
+    const led_run *l = hold(context);
     (void)part;
-    show(l);
     return release(l, observers_step(&l->whole->observers, l->whole));
 }
 
 static dem_status lead_event(void *context, const dem_simulation *part, const dem_event *event)
 {
-    const led_run *l = context;
+    const led_run *l = hold(context);
     (void)part;
-    show(l);
     return release(l, observers_event(&l->whole->observers, l->whole, event));
 }
 
 static dem_status lead_frame(void *context, const dem_simulation *part)
 {
     const frame_relay *f = context;
+    const led_run *l = hold(f->run);
     (void)part;
-    show(f->run);
-    return release(f->run, observers_frame(&f->run->whole->observers, f->observer, f->run->whole));
+    return release(l, observers_frame(&l->whole->observers, f->observer, l->whole));
 }
 
 /* The whole's is that of the part, which has gathered all nodes, but for overlaps, which only the whole looks for. */
@@ -124,9 +146,8 @@ static dem_status take_checkpoint(dem_simulation *whole, const dem_checkpoint *f
 
 static dem_status lead_checkpoint(void *context, const dem_simulation *part, dem_checkpoint *checkpoint)
 {
-    const led_run *l = context;
+    const led_run *l = hold(context);
     (void)part;
-    show(l);
     return release(l, take_checkpoint(l->whole, checkpoint));
 }
 
@@ -138,7 +159,8 @@ static rank_call serve(led_run *l);
 static dem_status follow_observer(led_run *l)
 {
     const rank_call last = serve(l);
-    return last.number == DEM_OK ? DEM_OK : status_fail((dem_status)last.number, "rank 0 has ended the run");
+    enter(l);
+    return last.number == DEM_OK ? DEM_OK : status_repeat((dem_status)last.number, "rank 0 has ended the run");
 }
 
 static dem_status follow_step(void *context, const dem_simulation *part)
@@ -222,6 +244,7 @@ static void create_follower(led_run *l, bool resumes)
 static void take_part(led_run *l, const rank_call *o)
 {
     answer ignored = {.struct_size = sizeof ignored};
+    enter(l);
     switch (o->kind) {
     case RANK_CALL_CREATE:
         create_follower(l, o->number != 0);
@@ -242,6 +265,7 @@ static void take_part(led_run *l, const rank_call *o)
         (void)rank_call_answer(l->part, o, &ignored);
         break;
     }
+    leave();
 }
 
 /* Takes calls until one lets this rank go on, or ends its work. */
@@ -263,7 +287,10 @@ static dem_status attach(led_run *l)
     for (int k = 0; k < a->n; k++)
         if (a->members[k].observer.frame != NULL) o.intervals[k] = a->members[k].observer.interval;
     o = rank_call_send(&l->ranks, o);
-    return observe(l, &o);
+    enter(l);
+    const dem_status status = observe(l, &o);
+    leave();
+    return status;
 }
 
 dem_status led_run_advance(dem_simulation *whole, double t_end)
@@ -271,7 +298,9 @@ dem_status led_run_advance(dem_simulation *whole, double t_end)
     led_run *l = whole->leads;
     if (!l->is_observed) TRY(attach(l));
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_ADVANCE, .t = t_end});
+    enter(l);
     const dem_status status = dem_simulation_advance(l->part, t_end);
+    leave();
     show(l);
     return status;
 }
@@ -280,7 +309,10 @@ dem_status led_run_ask(const dem_simulation *whole, rank_call_kind what, dem_ind
 {
     const led_run *l = whole->leads;
     const rank_call o = rank_call_send(&l->ranks, (rank_call){.kind = what, .number = number});
-    return rank_call_answer(l->part, &o, out);
+    enter(l);
+    const dem_status status = rank_call_answer(l->part, &o, out);
+    leave();
+    return status;
 }
 
 const dem_simulation *led_run_part(const led_run *l)
@@ -307,7 +339,9 @@ void led_run_gather(dem_simulation *whole)
 {
     const led_run *l = whole->leads;
     (void)rank_call_send(&l->ranks, (rank_call){.kind = RANK_CALL_GATHER});
+    enter(l);
     (void)gather(l);
+    leave();
 }
 
 void led_run_look_for_overlaps(dem_simulation *part)

@@ -120,6 +120,8 @@ class UnderMpirun(unittest.TestCase):
 
 
 class Runs(unittest.TestCase):
+    within = ()  # words by which mpirun starts each process of dem_batch
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -129,7 +131,7 @@ class Runs(unittest.TestCase):
         (self.folder / "touching.nml").write_text(TOUCHING, encoding="ascii")
 
     def command(self, n, outdir, *more, deck="free.nml"):
-        launcher = [] if n == 0 else [MPIRUN, "-n", str(n)]
+        launcher = [] if n == 0 else [MPIRUN, "-n", str(n), *self.within]
         return [*launcher, DEM_BATCH, *([] if n == 0 else ["--mpi"]), "--outdir", outdir, *more, deck]
 
     def run_on(self, n, outdir, *more, deck="free.nml"):
@@ -361,11 +363,15 @@ def children(parent):
     return [int(pid) for pid in path.read_text(encoding="ascii").split()]
 
 
-if __name__ == "__main__":
-    MPIRUN, DEM_BATCH = sys.argv[1:3]
-    INPUTS = pathlib.Path(sys.argv[3]).resolve()
+def begin(mpirun, dem_batch, inputs, compare):
+    """Has to be called before any of the tests here, or of a class that is derived from theirs."""
+    global MPIRUN, DEM_BATCH, DECK, INPUTS, COMPARE
+    MPIRUN, DEM_BATCH, COMPARE = mpirun, str(pathlib.Path(dem_batch).resolve()), compare
+    INPUTS = pathlib.Path(inputs).resolve()
     DECK = str(INPUTS / "rectangle.nml")
-    DEM_BATCH = str(pathlib.Path(DEM_BATCH).resolve())
-    COMPARE = sys.argv[4]
+
+
+if __name__ == "__main__":
+    begin(*sys.argv[1:5])
     sys.argv[1:] = sys.argv[5:]
     unittest.main()

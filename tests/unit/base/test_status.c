@@ -102,3 +102,24 @@ TEST(the_version_is_the_one_of_the_build)
 {
     assert_string_equal(dem_version(), DEM_VERSION);
 }
+
+static void count(void *context)
+{
+    ++*(int *)context;
+}
+
+TEST(a_lack_of_memory_is_seen_at_once_by_who_watches)
+{
+    int times = 0;
+    status_watch_memory(count, &times);
+    assert_int_equal(status_fail(DEM_ERROR_MODEL, "%s", "a mass"), DEM_ERROR_MODEL);
+    assert_int_equal(status_repeat(DEM_ERROR_MEMORY, "no %d"), DEM_ERROR_MEMORY); /* of another rank */
+    assert_string_equal(dem_status_message(), "no %d");
+    assert_int_equal(times, 0);
+    assert_int_equal(status_fail(DEM_ERROR_MEMORY, "no %d", 3), DEM_ERROR_MEMORY);
+    assert_string_equal(dem_status_message(), "no 3");
+    assert_int_equal(times, 1);
+    status_watch_memory(NULL, NULL);
+    assert_int_equal(status_fail(DEM_ERROR_MEMORY, "no %d", 4), DEM_ERROR_MEMORY);
+    assert_int_equal(times, 1);
+}
