@@ -178,6 +178,18 @@ class Options(Case):
             self.assertEqual((done.returncode, done.stdout, self.files()), (2, "", set()))
             self.assertRegex(done.stderr, f"^{line}$")
 
+    def test_mpi_is_loaded_only_where_it_is_asked_for(self):
+        self.put(coarse())
+        with tempfile.TemporaryDirectory() as broken:
+            (pathlib.Path(broken) / "libdem_mpi.so.2").write_text("no library", encoding="ascii")
+            # A script that sbatch has started, which srun has not.
+            environment = {**os.environ, "LD_LIBRARY_PATH": broken, "SLURM_NTASKS": "8", "SLURM_PROCID": "0"}
+            for options, code, line in (([], 0, ""), (["--mpi"], 2, r"dem_batch: error: --mpi .*libdem_mpi\.so\.2.*\n")):
+                done = subprocess.run([DEM_BATCH, "--check", *options, "deck.nml"], cwd=self.folder, capture_output=True,
+                                      text=True, timeout=SECONDS, check=False, env=environment)
+                self.assertEqual((done.returncode, self.files()), (code, set()), done.stderr)
+                self.assertRegex(done.stderr, f"^{line}$")
+
 
 class Check(Case):
     def test_the_header_is_printed_and_nothing_written(self):
