@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What fails on one rank ends all: `test_failing.py LACKING MPIRUN DEM_BATCH INPUTS_FOLDER COMPARE [NAMES]`, LACKING being
-lacking.c as a library. There is one line with what has failed, one exit code, no rank waits for another for long, and the
-same command then goes on to the data of a run that nothing happened to."""
+"""What fails on one rank ends all: `test_failing.py LACKING MPIRUN DEM_BATCH INPUTS_FOLDER COMPARE [NAMES]`, LACKING
+being lacking.c as a library. There is one line with what has failed, one exit code, no rank waits for another for long,
+and the same command then goes on to the data of a run that nothing happened to."""
 import pathlib
 import random
 import resource
