@@ -52,6 +52,16 @@ dem_status rank_group_lead(const rank_group *g, dem_simulation *whole, const dem
     return g->lead(g->self, whole, options, checkpoint);
 }
 
+bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors)
+{
+    const dem_lattice *l = &d->lattice;
+    if (l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL) return true;
+    namelist_errors_add(errors, schema_place(schema_get(&d->groups, "body", 0), "material"),
+                        "%d ranks cannot share what breaks: 'fracture' in &material, or limits in a lattice file",
+                        g->size);
+    return false;
+}
+
 void rank_group_print(const rank_group *g, const dem_simulation *whole, FILE *out)
 {
     enum { OWN, GHOSTS, COMMON, MEMORY, ALL };
@@ -65,16 +75,6 @@ void rank_group_print(const rank_group *g, const dem_simulation *whole, FILE *ou
         (void)fprintf(out, " %s", what[k]);
     }
     (void)fprintf(out, "; memory so far %.4g to %.4g MB\n", 1e-6 * least[MEMORY], 1e-6 * most[MEMORY]);
-}
-
-bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *errors)
-{
-    const dem_lattice *l = &d->lattice;
-    if (l->strength == NULL && l->critical_stretch == NULL && l->compressive_strength == NULL) return true;
-    namelist_errors_add(errors, schema_place(schema_get(&d->groups, "body", 0), "material"),
-                        "%d ranks cannot share what breaks: 'fracture' in &material, or limits in a lattice file",
-                        g->size);
-    return false;
 }
 
 int rank_group_end(rank_group *g, int code)
