@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes python/dem/c_interface.py, the C interface of include/dem for ctypes: `bindings.py SOURCE_ROOT`.
-With `--check` it only says whether that file is what it would write."""
+"""Writes python/dem/c_interface.py, the C interface of include/dem for ctypes, and python/dem/records.py, what the
+package gives and takes of it: `bindings.py SOURCE_ROOT`. With `--check` it only says whether they are what it would
+write."""
 import difflib
+import os.path
 import pathlib
 import re
 import sys
@@ -23,14 +25,44 @@ those of the headers: shapes, units, ranges, errors, ownership. Programs use the
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_int, c_int32, c_int64,
                     c_size_t, c_ubyte, c_uint32, c_uint64, c_void_p, sizeof)
 from enum import IntEnum
+from typing import Any
 
 
 class SizedStructure(Structure):
     """Begins with its size, by which the library knows what a struct of a program holds."""
 
-    def __init__(self, **values):
+    def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=sizeof(type(self)), **values)
 '''
+RECORDS_HEAD = '''\
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the package gives and takes of the structs of the library, with types: records of one instant, and keywords of
+materials, obstacles and options. Written by python/bindings.py from the headers in include/dem; units and ranges are in
+the texts of c_interface."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import c_interface as c
+from .library import Record
+
+Vector = Sequence[float] | NDArray[Any]  # of two components, or of three with 0
+'''
+# class: struct, of numbers that the package returns
+RECORDS = {"BodyMotion": "dem_body_motion", "BoundaryLoad": "dem_boundary_load", "Break": "dem_break",
+           "Constants": "dem_constants", "Contact": "dem_contact", "Counts": "dem_counts", "Energy": "dem_energy",
+           "Event": "dem_event", "Fracture": "dem_fracture", "ModelSize": "dem_model_size",
+           "ObstacleLaws": "dem_obstacle", "ObstacleLoad": "dem_obstacle_load", "Options": "dem_options",
+           "Overlap": "dem_overlap", "Pair": "dem_pair", "ShapeReport": "dem_shape_report",
+           "Strain": "dem_strain", "Surfaces": "dem_surfaces"}
+# class: struct, of numbers that the package takes by their names
+KEYWORDS = {"MaterialKeywords": "dem_material", "ObstacleKeywords": "dem_obstacle", "OptionsKeywords": "dem_options",
+            "TrajectoryKeywords": "dem_trajectory_options"}
+BY_ITSELF = {"frame_interval", "fields"}  # arguments that the package has beside the keywords
 
 
 def plain(comment):
@@ -146,7 +178,7 @@ class Writer:
             self.write_defaults(name, texts.defaults[name])
 
     def write_defaults(self, name, assignments):
-        self.lines += ["", "", f"def {name}_default():", f'    """A {name} with its defaults."""',
+        self.lines += ["", "", f"def {name}_default() -> {name}:", f'    """A {name} with its defaults."""',
                        f"    value = {name}()"]
         for member, given in assignments:
             if not given.startswith("sizeof"):
@@ -162,7 +194,7 @@ class Writer:
 
     def write_functions(self):
         """name: (result, arguments, text)."""
-        self.lines += ["", "", "FUNCTIONS = {  # name: (result, arguments, text)"]
+        self.lines += ["", "", "FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text"]
         for header in self.headers:
             for name, function in header.functions.items():
                 result = function.result
@@ -209,11 +241,66 @@ class Writer:
         return all(order.index(name) < order.index(struct) for name in needed)
 
 
-path = ROOT / "python" / "dem" / "c_interface.py"
-text = Writer(read_headers(ROOT / "include" / "dem")).module()
-if sys.argv[2:] != ["--check"]:
+def enumerators(constants):
+    """The names that the package takes: 'strain' of DEM_PLANE_STRAIN."""
+    prefix = os.path.commonprefix(list(constants)).rpartition("_")[0] + "_"
+    return [name.removeprefix(prefix).lower() for name in constants]
+
+
+class Records:
+    """The types of Python of what structs have."""
+
+    def __init__(self, headers):
+        self.enums = {name: constants for header in headers for name, constants in header.enums}
+        self.structs = {name: members for header in headers for name, members in header.structs.items()}
+        self.callbacks = {name for header in headers for name in header.callbacks}
+
+    def number(self, kind):
+        if kind in ("double", "bool"):
+            return {"double": "float"}.get(kind, kind)
+        return "int" if kind in NUMBERS or kind in self.enums else "Any"
+
+    def given(self, item):
+        """The type of what a record has."""
+        if item.stars or item.type in self.callbacks:
+            return "Any"
+        kind = self.number(item.type)
+        return kind if not item.shape else f"NDArray[{'np.float64' if kind == 'float' else 'Any'}]"
+
+    def taken(self, item):
+        """The type of what is taken by a name."""
+        if item.type in self.enums:
+            return f"Literal{enumerators(self.enums[item.type])} | int".replace("'", '"')
+        return "Vector" if item.shape else self.number(item.type)
+
+    def is_taken(self, item):
+        """Not a pointer, nor what belongs to one."""
+        is_length = item.name == "struct_size" or item.name.startswith("n_")
+        return not (item.stars or item.type in self.callbacks or is_length or item.name in BY_ITSELF)
+
+    def module(self):
+        lines = RECORDS_HEAD.splitlines()
+        for name, struct in RECORDS.items():
+            lines += ["", "", f"class {name}(Record):", f"    struct = c.{struct}"]
+            members = [item for item in self.structs[struct] if item.name != "struct_size"]
+            lines += [f"    {item.name}: {self.given(item)}" for item in members]
+        for name, struct in KEYWORDS.items():
+            lines += ["", "", f"class {name}(TypedDict, total=False):", f'    """See c_interface.{struct}."""']
+            for item in filter(self.is_taken, self.structs[struct]):
+                lines += textwrap.wrap(f"    {item.name}: {self.taken(item)}", MAX_LINE, subsequent_indent=" " * 8)
+        return "\n".join(lines) + "\n"
+
+
+def difference(path, text):
+    old = path.read_text(encoding="utf-8") if path.exists() else ""
+    return "\n".join(difflib.unified_diff(old.splitlines(), text.splitlines(), path.name, "headers", lineterm=""))
+
+
+known = read_headers(ROOT / "include" / "dem")
+files = {ROOT / "python" / "dem" / f"{name}.py": writer(known).module()
+         for name, writer in (("c_interface", Writer), ("records", Records))}
+if sys.argv[2:] == ["--check"]:
+    changed = "\n".join(filter(None, (difference(path, text) for path, text in files.items())))
+    sys.exit(f"{changed}\nrun python/bindings.py" if changed else 0)
+for path, text in files.items():
     path.write_text(text, encoding="utf-8")
-    sys.exit()
-old = path.read_text(encoding="utf-8") if path.exists() else ""
-difference = "\n".join(difflib.unified_diff(old.splitlines(), text.splitlines(), path.name, "headers", lineterm=""))
-sys.exit(f"{difference}\nrun python/bindings.py" if difference else 0)

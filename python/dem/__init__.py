@@ -12,16 +12,16 @@
 
 Units are SI. c_interface has the library's own functions, as its headers declare them."""
 from . import library
+from .run import Run, read  # before deck, whose run() takes the name of this module
 from .deck import DeckError, deck, run
 from .lattice import Lattice, Material
 from .library import ArgumentError, ContactError, Error, FileError, IntegratorError, ModelError
 from .obstacle import Obstacle, box
-from .run import Run, read
 from .shape import Outline, Shape, crossed, inside
 from .simulation import STOP, Boundary, Simulation, von_mises
 
 __version__ = library.library.dem_version().decode()
 
 __all__ = ["ArgumentError", "Boundary", "ContactError", "DeckError", "Error", "FileError", "IntegratorError", "Lattice",
-           "Material", "ModelError", "Obstacle", "Outline", "Run", "STOP", "Shape", "Simulation", "box", "crossed", "deck", "inside",
-           "read", "run", "von_mises"]
+           "Material", "ModelError", "Obstacle", "Outline", "Run", "STOP", "Shape", "Simulation", "box", "crossed",
+           "deck", "inside", "read", "run", "von_mises"]

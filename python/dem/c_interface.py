@@ -4,12 +4,13 @@ those of the headers: shapes, units, ranges, errors, ownership. Programs use the
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_int, c_int32, c_int64,
                     c_size_t, c_ubyte, c_uint32, c_uint64, c_void_p, sizeof)
 from enum import IntEnum
+from typing import Any
 
 
 class SizedStructure(Structure):
     """Begins with its size, by which the library knows what a struct of a program holds."""
 
-    def __init__(self, **values):
+    def __init__(self, **values: Any) -> None:
         super().__init__(struct_size=sizeof(type(self)), **values)
 
 
@@ -174,7 +175,7 @@ class dem_lattice(SizedStructure):
                 ("confinement", POINTER(c_double)), ("own_stress", POINTER(c_ubyte))]
 
 
-def dem_lattice_default():
+def dem_lattice_default() -> dem_lattice:
     """A dem_lattice with its defaults."""
     value = dem_lattice()
     value.dim = 2
@@ -471,7 +472,7 @@ class dem_options(SizedStructure):
                 ("pause", c_double), ("thread_nodes", c_int64)]
 
 
-def dem_options_default():
+def dem_options_default() -> dem_options:
     """A dem_options with its defaults."""
     value = dem_options()
     value.gravity[1] = -9.81
@@ -1005,7 +1006,7 @@ class dem_trajectory_options(SizedStructure):
                 ("fragments", c_bool), ("history_interval", c_double), ("stays_open", c_bool)]
 
 
-def dem_trajectory_options_default():
+def dem_trajectory_options_default() -> dem_trajectory_options:
     """A dem_trajectory_options with its defaults."""
     value = dem_trajectory_options()
     value.deflate = 1
@@ -1014,7 +1015,7 @@ def dem_trajectory_options_default():
     return value
 
 
-FUNCTIONS = {  # name: (result, arguments, text)
+FUNCTIONS: dict[str, tuple[Any, list[Any], str]] = {  # result, arguments, text
     "dem_status_name": (c_char_p, [c_int],
         """dem_status_name(status)
         "DEM_OK", "DEM_STOPPED" ...; NULL for a number that is none of them."""),

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Decks, the namelist files of dem_batch: written from Python, and run."""
+from __future__ import annotations
+
 import json
+import os
 import pathlib
 import re
 import tempfile
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from . import batch
 from .run import Run
@@ -14,20 +19,21 @@ class DeckError(Exception):
     standard error, `log` what it said besides. `line` and `column` are where the deck is wrong; None where it is
     another fault."""
 
-    def __init__(self, code, message, log=""):
+    def __init__(self, code: int, message: str, log: str = "") -> None:
         super().__init__(message)
         self.code, self.log = code, log
         place = re.match(r"[^\n]*?:(\d+):(\d+): error: ", message)
-        self.line, self.column = map(int, place.groups()) if place else (None, None)
+        self.line = int(place[1]) if place else None
+        self.column = int(place[2]) if place else None
 
 
-def _checked(code, out, err):
+def _checked(code: int, out: str, err: str) -> str:
     if code != 0:
         raise DeckError(code, err.strip() or out.strip(), out)
     return out
 
 
-def _value(value):
+def _value(value: Any) -> str:
     """As a namelist has it."""
     if isinstance(value, bool):
         return ".true." if value else ".false."
@@ -40,13 +46,13 @@ def _value(value):
     return repr(value) if isinstance(value, int) else repr(float(value))
 
 
-def deck(**groups):
+def deck(**groups: Mapping[str, Any] | Sequence[Mapping[str, Any]]) -> str:
     """The text of a deck: groups by their names, each with its keys, or a list of such, as bodies and obstacles are:
     dem.deck(run={"t_end": 0.02}, body=[{...}, {...}], obstacle={"points": [(-1, 0), (1, 0)]}, ...). The program has
     looked at it: raises DeckError with the key that is wrong."""
     lines = []
     for name, given in groups.items():
-        for group in given if isinstance(given, (list, tuple)) else [given]:
+        for group in [given] if isinstance(given, Mapping) else given:
             keys = [f"    {key} = {_value(value)}\n" for key, value in group.items() if value is not None]
             lines.append(f"&{name}\n{''.join(keys)}/\n")
     text = "\n".join(lines)
@@ -58,7 +64,8 @@ def deck(**groups):
     return text
 
 
-def run(path, set=None, outdir=".", overwrite=False, progress=False, process=False):
+def run(path: str | os.PathLike[str], set: Mapping[str, Any] | None = None, outdir: str | os.PathLike[str] = ".",
+        overwrite: bool = False, progress: bool = False, process: bool = False) -> Run:
     """Runs a deck, a file, and returns its Run: its `result` is what NAME.json has, its `log` what dem_batch prints.
     A run that is done already is read; one that was stopped goes on. Ctrl-C ends it as it ends dem_batch, with a
     checkpoint, and comes out as KeyboardInterrupt. Of a script that mpirun has started several times each has to have
@@ -68,7 +75,7 @@ def run(path, set=None, outdir=".", overwrite=False, progress=False, process=Fal
     progress: shows a bar, by tqdm
     process: lets the program do it in a process of its own, which keeps memory and faults apart from Python's
     Raises DeckError for a deck that is refused, and for a run that fails."""
-    words = ["--json", "--serial", "--outdir", outdir, *(["--overwrite"] if overwrite else []),
+    words: list[Any] = ["--json", "--serial", "--outdir", outdir, *(["--overwrite"] if overwrite else []),
              *(word for key, value in (set or {}).items() for word in ("--set", f"{key}={_value(value)}")), path]
     if process and progress:
         raise ValueError("a process of its own shows no progress")

@@ -1,13 +1,23 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The shared library: where it is, what its statuses become, and its memory as arrays of NumPy."""
+from __future__ import annotations
+
 import ctypes
 import os
 import pathlib
+from collections.abc import Callable, Mapping
 from ctypes import POINTER, byref, c_double
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from . import c_interface as c
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+Enumeration = tuple[type[Any], str]  # and the prefix of its names
 
 NAME = "libdem.so.2"  # with the generation of the library
 
@@ -15,7 +25,7 @@ NAME = "libdem.so.2"  # with the generation of the library
 class Error(Exception):
     """A call of the library has failed: `status` is a dem_status, the message is the library's."""
 
-    def __init__(self, status, message):
+    def __init__(self, status: int, message: str) -> None:
         super().__init__(message)
         self.status = c.dem_status(status)
 
@@ -39,22 +49,23 @@ class ContactError(Error, ArithmeticError):
 class FileError(Error, OSError):
     """A file cannot be read or written."""
 
-    def __str__(self):
-        return self.args[0]
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
-ERRORS = {c.dem_status.DEM_ERROR_ARGUMENT: ArgumentError, c.dem_status.DEM_ERROR_MODEL: ModelError,
-          c.dem_status.DEM_ERROR_INTEGRATOR: IntegratorError, c.dem_status.DEM_ERROR_CONTACT: ContactError,
-          c.dem_status.DEM_ERROR_IO: FileError}
+ERRORS: dict[int, type[Error]] = {
+    c.dem_status.DEM_ERROR_ARGUMENT: ArgumentError, c.dem_status.DEM_ERROR_MODEL: ModelError,
+    c.dem_status.DEM_ERROR_INTEGRATOR: IntegratorError, c.dem_status.DEM_ERROR_CONTACT: ContactError,
+    c.dem_status.DEM_ERROR_IO: FileError}
 
 
-def find():
+def find() -> str:
     """The path of the library: DEM_LIBRARY, else beside this file, else wherever the loader looks."""
     beside = pathlib.Path(__file__).with_name(NAME)
     return os.environ.get("DEM_LIBRARY") or (str(beside) if beside.exists() else NAME)
 
 
-def load():
+def load() -> ctypes.CDLL:
     """The library with the types of all functions. The interpreter is free while one of them runs."""
     found = ctypes.CDLL(find())
     for name, (result, arguments, text) in c.FUNCTIONS.items():
@@ -66,7 +77,7 @@ def load():
 library = load()
 
 
-def check(status):
+def check(status: int) -> int:
     """Raises what a status means; DEM_STOPPED passes."""
     if status < 0:
         message = library.dem_status_message().decode(errors="replace")
@@ -80,21 +91,22 @@ class Handle:
     """An object of the library that only it knows. It ends when nobody needs it any more: views of its memory keep it,
     and it keeps the handles that it needs itself."""
 
-    def __init__(self, pointer, destroy, *needs):
+    def __init__(self, pointer: Any, destroy: Callable[[Any], Any], *needs: Handle) -> None:
         self.pointer, self.needs, self._destroy = pointer, needs, destroy
 
-    def __del__(self):
+    def __del__(self) -> None:
         self._destroy(self.pointer)
 
 
-def make(kind, create, destroy, *arguments, needs=()):
+def make(kind: Any, create: Callable[..., int], destroy: Callable[[Any], Any], *arguments: Any,
+         needs: tuple[Handle, ...] = ()) -> Handle:
     """A handle of what create(byref(out), *arguments) makes."""
     out = POINTER(kind)()
     check(create(byref(out), *arguments))
     return Handle(out, destroy, *needs)
 
 
-def view(pointer, shape, owner, writable=False):
+def view(pointer: Any, shape: tuple[int, ...], owner: object, writable: bool = False) -> Any:
     """Memory of the library as an array, which keeps its owner alive; None for NULL."""
     if not pointer:
         return None
@@ -108,7 +120,8 @@ def view(pointer, shape, owner, writable=False):
     return array
 
 
-def numbers(values, shape=None, dtype=np.float64):
+def numbers(values: ArrayLike, shape: tuple[int | None, ...] | None = None,
+            dtype: DTypeLike = np.float64) -> NDArray[Any]:
     """An array as C has it, of a shape in which None is any extent; raises ValueError for another."""
     array = np.ascontiguousarray(values, dtype)
     if shape is not None and (array.ndim != len(shape) or
@@ -118,12 +131,12 @@ def numbers(values, shape=None, dtype=np.float64):
     return array
 
 
-def pointer(array, kind=c_double):
+def pointer(array: NDArray[Any] | None, kind: Any = c_double) -> Any:
     """To the numbers of an array, or NULL for None. The array must live as long as C uses it."""
     return None if array is None else array.ctypes.data_as(POINTER(kind))
 
 
-def enumerator(kind, value, prefix):
+def enumerator(kind: type[Any], value: str | int, prefix: str) -> Any:
     """A value of an enumeration by its name without the prefix, in any case: 'strain' of DEM_PLANE_."""
     if not isinstance(value, str):
         return kind(value)
@@ -134,16 +147,20 @@ def enumerator(kind, value, prefix):
         raise ValueError(f"'{value}' is none of {names}") from None
 
 
-def fill(struct, values, enumerations):
+Struct = TypeVar("Struct", bound=ctypes.Structure)
+
+
+def fill(struct: Struct, values: Mapping[str, Any], enumerations: Mapping[str, Enumeration]) -> Struct:
     """Sets fields of a struct by their names; vectors may have two components.
     enumerations: of fields that may be given by a name, the enumeration and its prefix."""
-    fields = {name: kind for name, kind in struct._fields_ if name != "struct_size"}
+    fields: dict[str, Any] = {name: kind for name, kind, *_ in struct._fields_ if name != "struct_size"}
     for name, value in values.items():
         if name not in fields:
             known = ", ".join(fields)
             raise TypeError(f"{type(struct).__name__} has no '{name}', but {known}")
         if name in enumerations:
-            value = enumerator(*[enumerations[name][0], value, enumerations[name][1]])
+            kind, prefix = enumerations[name]
+            value = enumerator(kind, value, prefix)
         if hasattr(fields[name], "_length_"):
             setattr(struct, name, fields[name](*value))
         else:
@@ -152,21 +169,28 @@ def fill(struct, values, enumerations):
 
 
 class Record:
-    """Numbers of one instant, by their names in the C interface; vectors are arrays."""
+    """Numbers of one instant, by their names in the C interface; vectors are arrays. Each struct has a class in
+    records, with its text."""
+    struct: ClassVar[type[ctypes.Structure]]
 
-    def __init__(self, struct):
-        for name, kind in struct._fields_:
+    def __init_subclass__(cls) -> None:
+        cls.__doc__ = cls.struct.__doc__
+
+    def __init__(self, struct: ctypes.Structure) -> None:
+        for name, kind, *_ in struct._fields_:
             if name != "struct_size":
                 value = getattr(struct, name)
                 setattr(self, name, np.array(value) if hasattr(kind, "_length_") else value)
-        self.__doc__ = type(struct).__doc__
 
-    def __repr__(self):
-        return f"Record({', '.join(f'{name}={value}' for name, value in vars(self).items() if name != '__doc__')})"
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in vars(self).items())})"
 
 
-def ask(function, kind, *arguments):
-    """What a function writes into a struct of this kind."""
-    out = kind()
+Made = TypeVar("Made", bound=Record)
+
+
+def ask(function: Callable[..., int], kind: type[Made], *arguments: Any) -> Made:
+    """What a function writes into the struct of such a record."""
+    out = kind.struct()
     check(function(*arguments, byref(out)))
-    return Record(out)
+    return kind(out)

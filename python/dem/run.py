@@ -1,69 +1,81 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A run read back from its file."""
+from __future__ import annotations
+
+import os
 from ctypes import byref, c_int64, c_ubyte
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import c_interface as c
 from .lattice import Lattice
-from .library import Record, check, library, make, numbers, pointer, view
+from .library import Bools, Floats, check, library, make, numbers, pointer, view
+from .records import ObstacleLaws
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
 
 
 class Run:
     """A finished run, or the part of one that goes on: frames and tables, as docs/output.md lists them. What dem.run()
     has returned has the results of NAME.json as `result`, and what was printed as `log`."""
-    result = log = None
+    result: dict[str, Any] | Any = None  # Any: None where the file was there already
+    log: str | Any = None
 
-    def __init__(self, path):
+    def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = str(path)
         self._handle = make(c.dem_reader, library.dem_reader_open, library.dem_reader_close, self.path.encode())
         self._c = self._handle.pointer
         n = c_int64()
         arrays = library.dem_reader_arrays(self._c, byref(n))
-        self._arrays = {arrays[k].name.decode(): arrays[k] for k in range(n.value)}
+        self._arrays: dict[str, Any] = {arrays[k].name.decode(): arrays[k] for k in range(n.value)}
         columns = library.dem_reader_columns(self._c, byref(n))
-        self._tables = {}
+        self._tables: dict[str, dict[str, Any]] = {}
         for k in range(n.value):
             self._tables.setdefault(columns[k].table.decode(), {})[columns[k].name.decode()] = columns[k]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Run('{self.path}', {len(self.times)} frames)"
 
     @property
-    def times(self):
+    def times(self) -> Floats:
         """Of the frames, s; a view."""
         n = c_int64()
         times = library.dem_reader_times(self._c, byref(n))
-        return view(times, (n.value,), self._handle)
+        found: Floats = view(times, (n.value,), self._handle)
+        return found
 
     @property
-    def lattice(self):
+    def lattice(self) -> Lattice:
         """At rest; its arrays are views."""
         return Lattice.borrowed(library.dem_reader_lattice(self._c), self._handle)
 
     @property
-    def arrays(self):
+    def arrays(self) -> list[str]:
         """Names of what frames show."""
         return list(self._arrays)
 
     @property
-    def tables(self):
+    def tables(self) -> dict[str, list[str]]:
         """Names of the tables, and of their columns."""
         return {name: list(columns) for name, columns in self._tables.items()}
 
-    def _frame(self, frame):
+    def _frame(self, frame: int) -> int:
         n = len(self.times)
         if not -n <= frame < n:
             raise IndexError(f"frame {frame} of {n}")
         return frame % n
 
-    def positions(self, frame):
+    def positions(self, frame: int) -> Floats:
         """[n_nodes][2] m. Frames count from 0, or from -1 backwards."""
         x = np.empty((self.lattice.n_nodes, 2))
         check(library.dem_reader_positions(self._c, self._frame(frame), pointer(x)))
         return x
 
-    def array(self, name, frame=-1):
+    def array(self, name: str, frame: int = -1) -> Floats:
         """What a frame shows of nodes or springs, [n] or [n][components]; tensors are xx yy zz xy yz xz."""
         array, lattice = self._arrays[name], self.lattice
         n = lattice.n_springs if array.of_springs else lattice.n_nodes
@@ -71,13 +83,13 @@ class Run:
         check(library.dem_reader_read(self._c, byref(array), self._frame(frame), pointer(values)))
         return values[:, 0] if array.components == 1 else values
 
-    def broken_triangles(self, frame=-1):
+    def broken_triangles(self, frame: int = -1) -> Bools:
         """[n_triangles] bool"""
         out = np.empty(self.lattice.n_triangles, np.uint8)
         check(library.dem_reader_broken_triangles(self._c, self._frame(frame), pointer(out, c_ubyte)))
         return out.astype(bool)
 
-    def table(self, name):
+    def table(self, name: str) -> dict[str, Floats]:
         """Its columns by name: [rows], or [rows][items][components] without those that are one."""
         columns = {}
         for column, what in self._tables[name].items():
@@ -88,16 +100,16 @@ class Run:
         return columns
 
     @property
-    def history(self):
+    def history(self) -> dict[str, Floats]:
         """The table of all steps."""
         return self.table("history")
 
     @property
-    def events(self):
+    def events(self) -> dict[str, Floats]:
         """The table of contact events."""
         return self.table("events")
 
-    def pandas(self, name):
+    def pandas(self, name: str) -> DataFrame:
         """A table as a DataFrame of pandas; of vectors each component is a column, 'velocity.0', ..."""
         import pandas  # only who asks for it needs it
         flat = {}
@@ -110,29 +122,30 @@ class Run:
         return pandas.DataFrame(flat)
 
     @property
-    def n_obstacles(self):
-        return library.dem_reader_n_obstacles(self._c)
+    def n_obstacles(self) -> int:
+        return int(library.dem_reader_n_obstacles(self._c))
 
-    def obstacle(self, number=0):
+    def obstacle(self, number: int = 0) -> ObstacleLaws:
         """As it was given: its laws and how it moves, by the names of dem_obstacle."""
-        return Record(self._obstacle(number))
+        return ObstacleLaws(self._obstacle(number))
 
-    def obstacle_points(self, number, t):
+    def obstacle_points(self, number: int, t: float) -> Floats:
         """Where an obstacle is at t, [n_points][2] m."""
         obstacle = self._obstacle(number)
         points = np.empty((obstacle.n_points, 2))
         check(library.dem_obstacle_points(byref(obstacle), t, pointer(points)))
         return points
 
-    def _obstacle(self, number):
+    def _obstacle(self, number: int) -> c.dem_obstacle:
         obstacle = library.dem_reader_obstacle(self._c, number)
         if not obstacle:
             raise IndexError(f"obstacle {number} of {self.n_obstacles}")
-        return obstacle.contents
+        contents: c.dem_obstacle = obstacle.contents
+        return contents
 
     # ---- pictures, by matplotlib ----
 
-    def plot(self, frame=-1, colour="von_mises", ax=None):
+    def plot(self, frame: int = -1, colour: str = "von_mises", ax: Axes | None = None) -> Axes:
         """Draws a frame: triangles that are whole, coloured by an array of the nodes, and obstacles.
         Returns the axes."""
         from matplotlib import pyplot  # only who draws needs it
@@ -140,7 +153,7 @@ class Run:
         self._draw(ax, self._frame(frame), colour)
         return ax
 
-    def _draw(self, ax, frame, colour):
+    def _draw(self, ax: Axes, frame: int, colour: str) -> None:
         x, lattice = self.positions(frame), self.lattice
         for number in range(self.n_obstacles):
             ax.plot(*self.obstacle_points(number, self.times[frame]).T, color="0.3", linewidth=2)
@@ -149,13 +162,14 @@ class Run:
             raise ValueError(f"'{colour}' is no number of nodes")
         if lattice.n_triangles > 0:
             whole = numbers(lattice.triangles, dtype=np.int64)[~self.broken_triangles(frame)]
-            ax.tripcolor(*x.T, whole, values, shading="gouraud")
+            ax.tripcolor(x[:, 0], x[:, 1], values, triangles=whole, shading="gouraud")
         else:
-            ax.scatter(*x.T, c=values, s=4)
+            ax.scatter(x[:, 0], x[:, 1], c=values, s=4)
         ax.set_aspect("equal")
         ax.set_title(f"{self.times[frame]:.4g} s, {colour}")
 
-    def animate(self, path=None, colour="von_mises", fps=15):
+    def animate(self, path: str | os.PathLike[str] | None = None, colour: str = "von_mises",
+                fps: int = 15) -> FuncAnimation:
         """A film of all frames, a FuncAnimation, which is saved to a file by its name."""
         from matplotlib import animation, pyplot
         figure = pyplot.figure()
@@ -165,7 +179,7 @@ class Run:
         low, high = np.min(corners, axis=0), np.max(corners, axis=0)
         margin = 0.1 * (high - low).max()
 
-        def draw(frame):
+        def draw(frame: int) -> None:
             ax.clear()
             self._draw(ax, frame, colour)
             ax.set_xlim(low[0] - margin, high[0] + margin)
@@ -177,6 +191,6 @@ class Run:
         return film
 
 
-def read(path):
+def read(path: str | os.PathLike[str]) -> Run:
     """Opens NAME.vtkhdf."""
     return Run(path)

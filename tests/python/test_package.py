@@ -65,6 +65,10 @@ class Lattices(Case):
         gc.collect()
         self.assertTrue(np.isfinite(np.frombuffer(x.tobytes())).all(), "a view keeps the memory")
 
+    def test_every_array_of_a_lattice_has_its_type(self):
+        declared = set(dem.Lattice.__annotations__) - {"n_nodes", "n_springs", "n_triangles"}
+        self.assertEqual(declared, set(dem.lattice.ARRAYS))
+
     def test_a_lattice_of_arrays_is_that_of_the_library(self):
         made = disc()
         again = dem.Lattice.of_arrays(made.x, triangles=dem.Lattice.disc(0.02, 5e-3).triangles)

@@ -30,3 +30,4 @@ with tempfile.TemporaryDirectory() as folder:
     print(out, end="")
     assert abs(float(speed) + 1.0) < 1e-9, speed
     assert pathlib.Path(library) == pathlib.Path(folder, "dem", "libdem.so.2"), library
+    assert pathlib.Path(folder, "dem", "py.typed").exists(), "its types are hidden"
