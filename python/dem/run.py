@@ -11,6 +11,7 @@ import numpy as np
 from . import c_interface as c
 from .lattice import Lattice
 from .library import Bools, Floats, check, library, make, numbers, pointer, view
+from .picture import box_of, draw, limits_of
 from .records import ObstacleLaws
 
 if TYPE_CHECKING:
@@ -146,27 +147,35 @@ class Run:
     # ---- pictures, by matplotlib ----
 
     def plot(self, frame: int = -1, colour: str = "von_mises", ax: Axes | None = None) -> Axes:
-        """Draws a frame: triangles that are whole, coloured by an array of the nodes, and obstacles.
-        Returns the axes."""
+        """Draws a frame as dem_plot does: triangles that are whole, coloured by an array of the nodes, and obstacles.
+        Returns the axes, which have a scale of the colours unless they were given."""
         from matplotlib import pyplot  # only who draws needs it
-        ax = pyplot.figure().add_subplot() if ax is None else ax
-        self._draw(ax, self._frame(frame), colour)
+        given, number = ax, self._frame(frame)
+        ax = pyplot.figure().add_subplot() if given is None else given
+        drawn = self._draw(ax, number, colour, limits_of(self._numbers(colour, number)))
+        self._look(ax, box_of(self.positions(number)))
+        if given is None:
+            ax.figure.colorbar(drawn, ax=ax, label=colour)
         return ax
 
-    def _draw(self, ax: Axes, frame: int, colour: str) -> None:
-        x, lattice = self.positions(frame), self.lattice
-        for number in range(self.n_obstacles):
-            ax.plot(*self.obstacle_points(number, self.times[frame]).T, color="0.3", linewidth=2)
+    def _numbers(self, colour: str, frame: int) -> Floats:
         values = self.array(colour, frame)
-        if values.ndim != 1 or len(values) != lattice.n_nodes:
+        if values.ndim != 1 or len(values) != self.lattice.n_nodes:
             raise ValueError(f"'{colour}' is no number of nodes")
-        if lattice.n_triangles > 0:
-            whole = numbers(lattice.triangles, dtype=np.int64)[~self.broken_triangles(frame)]
-            ax.tripcolor(x[:, 0], x[:, 1], values, triangles=whole, shading="gouraud")
-        else:
-            ax.scatter(x[:, 0], x[:, 1], c=values, s=4)
-        ax.set_aspect("equal")
+        return values
+
+    def _draw(self, ax: Axes, frame: int, colour: str, limits: tuple[float, float]) -> Any:
+        whole = np.empty((0, 3), np.int64)
+        if self.lattice.n_triangles > 0:
+            whole = numbers(self.lattice.triangles, dtype=np.int64)[~self.broken_triangles(frame)]
+        obstacles = [self.obstacle_points(number, self.times[frame]) for number in range(self.n_obstacles)]
         ax.set_title(f"{self.times[frame]:.4g} s, {colour}")
+        return draw(ax, self.positions(frame), whole, self._numbers(colour, frame), limits, obstacles)
+
+    @staticmethod
+    def _look(ax: Axes, box: tuple[Floats, Floats]) -> None:
+        ax.set_xlim(box[0][0], box[1][0])
+        ax.set_ylim(box[0][1], box[1][1])
 
     def animate(self, path: str | os.PathLike[str] | None = None, colour: str = "von_mises",
                 fps: int = 15) -> FuncAnimation:
@@ -174,18 +183,17 @@ class Run:
         from matplotlib import animation, pyplot
         figure = pyplot.figure()
         ax = figure.add_subplot()
-        corners = [function(axis=0) for k in range(len(self.times)) for function in
-                   (self.positions(k).min, self.positions(k).max)]
-        low, high = np.min(corners, axis=0), np.max(corners, axis=0)
-        margin = 0.1 * (high - low).max()
+        frames = range(len(self.times))
+        box = box_of(np.concatenate([self.positions(frame) for frame in frames]))
+        limits = limits_of(np.concatenate([self._numbers(colour, frame) for frame in frames]))
+        figure.colorbar(self._draw(ax, 0, colour, limits), ax=ax, label=colour)
 
-        def draw(frame: int) -> None:
+        def show(frame: int) -> None:
             ax.clear()
-            self._draw(ax, frame, colour)
-            ax.set_xlim(low[0] - margin, high[0] + margin)
-            ax.set_ylim(low[1] - margin, high[1] + margin)
+            self._draw(ax, frame, colour, limits)
+            self._look(ax, box)
 
-        film = animation.FuncAnimation(figure, draw, frames=len(self.times), interval=1000.0 / fps)
+        film = animation.FuncAnimation(figure, show, frames=len(self.times), interval=1000.0 / fps)
         if path is not None:
             film.save(str(path), fps=fps)
         return film

@@ -656,6 +656,38 @@ class Files(Case):
         self.assertGreater((self.folder / "a.png").stat().st_size, 5000)
         self.assertGreater((self.folder / "a.gif").stat().st_size, 5000)
 
+    def test_colours_are_those_of_dem_plot(self):
+        """By its own numbers. Those of its scale's ends as its pictures have them, for what is made of the numbers."""
+        text = (INPUTS.parent / "drivers" / "plot" / "palette.c").read_text(encoding="utf-8")
+        rows = re.search(r"\[DIVERGING\] = \{(\{.*?\})\},.*?\[SEQUENTIAL\] =\s*\{(\{.*?\})\}", text, re.S)
+        for row, stops, ends in zip(rows.groups(), (dem.picture.DIVERGING, dem.picture.SEQUENTIAL),
+                                    (((0, 71, 143), (138, 28, 16)), ((236, 222, 144), (42, 36, 92)))):
+            kept = [tuple(map(int, stop.split(","))) for stop in re.findall(r"\{([^{}]*)\}", row)]
+            self.assertEqual(kept, list(stops))
+            made = np.round(255 * dem.picture.palette(stops)([0.0, 1.0])[:, :3]).astype(int)
+            np.testing.assert_array_equal(made, ends)
+
+    def test_the_solid_side_of_obstacles_is_filled(self):
+        """Of a floor what is below, of a box what is outside, of a block what is inside."""
+        import matplotlib
+        matplotlib.use("Agg")
+        from matplotlib import pyplot
+        block = [(-0.02, 0.0), (-0.02, 0.01), (0.02, 0.01), (0.02, 0.0), (-0.02, 0.0)]
+        for obstacle, solid, free in ((floor(), (0.0, -0.01), (0.025, 0.02)),
+                                      (dem.Obstacle(block), (0.0, 5e-3), (0.0, -5e-3)),
+                                      (dem.box(-0.022, -0.001, 0.022, 0.2), (0.0, -5e-3), (0.021, 0.0))):
+            path = self.folder / f"{len(obstacle.points)}{solid}.vtkhdf"
+            with dem.Simulation(disc(height=0.04), obstacle) as simulation, simulation.record(path, 1e-4):
+                simulation.advance(1e-4)
+            ax = dem.read(path).plot(0)
+            ax.set(xlim=(-0.03, 0.03), ylim=(-0.02, 0.06))
+            ax.figure.canvas.draw()
+            image = np.asarray(ax.figure.canvas.buffer_rgba())[::-1]
+            for place, colour in ((solid, (67, 67, 69)), (free, (255, 255, 255))):
+                column, row = np.round(ax.transData.transform(place)).astype(int)
+                self.assertEqual(tuple(map(int, image[row, column, :3])), colour, (len(obstacle.points), place))
+            pyplot.close(ax.figure)
+
 
 if __name__ == "__main__":
     DEM_BATCH = pathlib.Path(sys.argv.pop(1)).resolve()
