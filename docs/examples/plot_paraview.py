@@ -7,7 +7,7 @@ ParaView 5.12 or newer, and a display: `xvfb-run -a pvpython ...` without one.""
 import os
 import sys
 
-from paraview import simple
+from paraview import servermanager, simple
 
 if len(sys.argv) < 3:
     sys.exit(__doc__)
@@ -30,7 +30,9 @@ shown = simple.Show(bodies, view, Ambient=1, Diffuse=0)  # colours as they are, 
 if "von_mises" in bodies.PointData.keys():
     simple.ColorBy(shown, ("POINTS", "von_mises"))
     colours = simple.GetColorTransferFunction("von_mises")
-    colours.ApplyPreset("Viridis (matplotlib)", True)
+    presets = servermanager.vtkSMTransferFunctionPresets.GetInstance()
+    names = map(presets.GetPresetName, range(presets.GetNumberOfPresets()))
+    colours.ApplyPreset(next(name for name in names if name.startswith("Viridis")), True)  # "(matplotlib)" before 6
     shown.RescaleTransferFunctionToDataRange(False, True)
     bar = simple.GetScalarBar(colours, view)
     bar.Title, bar.ComponentTitle, bar.TitleColor, bar.LabelColor = "von Mises, Pa", "", [0, 0, 0], [0, 0, 0]
