@@ -54,9 +54,11 @@ typedef struct sweep {
     uint8_t *strained;         /* [n_blocks] a bit for each node with a spring, of those that it evaluates, strained
                                    more */
     const sweep_fused_step
-        *fused_step;        /* NULL: none. Else x is its x1, which the sweep fills before it reads it, but for
-                                   layout->ahead blocks at both ends; and its v1, after the accelerations */
-    const uint8_t *drifted; /* [n_blocks] of a fused step, 1: x1 is there already; NULL: of no others than those */
+        *fused_step;        /* NULL: none. Else x is its x1, which the sweep fills before it reads it, from the block
+                               layout->ahead behind its first one on; and its v1, after the accelerations */
+    dem_index drift_end;    /* of a fused step, the block that ends where the sweep fills x: x is there from this one
+                               on, and */
+    const uint8_t *drifted; /* [n_blocks] 1: in this block; NULL: in no other */
 } sweep;
 
 /** Sweeps the blocks `first` to `last` - 1. Strains may be asked after in a fused step.

@@ -236,7 +236,7 @@ INLINE pairs force_on(const sweep *s, dem_index block, laws acting, const double
 /* A pass over the blocks `first` to `last` - 1: what is the same for all of them, and what is added up. */
 typedef struct pass {
     const sweep *sweep;
-    dem_index first, last;
+    dem_index first, last, drift_end;
     double *ring;
     pairs gravity, h, half_h, sum;
 } pass;
@@ -244,9 +244,11 @@ typedef struct pass {
 INLINE pass begin_pass(const sweep *s, dem_index first, dem_index last, double *ring)
 {
     const double h = s->fused_step != NULL ? s->fused_step->h : 0.0;
+    const dem_index ahead_of_last = last + s->layout->ahead;
     return (pass){s,
                   first,
                   last,
+                  s->drift_end < ahead_of_last ? s->drift_end : ahead_of_last,
                   ring,
                   pairs_both(s->gravity.x, s->gravity.y),
                   pairs_both(h, h),
@@ -289,12 +291,14 @@ INLINE void kick(const pass *p, const sweep_fused_step *step, dem_index block, p
     pairs_store(step->v1 + at, pairs_add(extrapolated, pairs_mul(p->half_h, pairs_sub(a1, a0))));
 }
 
-/* The positions that a block is the first to read. Those at both ends of the pass are there already. */
+/* The positions that a block is the first to read. Those at the beginning of the pass, behind its drift_end, and in
+ * blocks of the border, are
+ * there already. */
 INLINE void drift_ahead(const pass *p, dem_index block, laws acting)
 {
     const sweep *s = p->sweep;
     const dem_index ahead = s->layout->ahead;
-    if (acting.fused && block >= p->first && block + ahead < p->last - ahead &&
+    if (acting.fused && block >= p->first && block + ahead < p->drift_end &&
         (USUALLY(s->drifted == NULL) || !s->drifted[block + ahead]))
         drift(p, s->fused_step, block + ahead);
 }

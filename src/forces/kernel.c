@@ -223,7 +223,9 @@ static void sweep_share(const void *context, int share, int thread)
     const kernel *k = p->kernel;
     const stretch b = stretch_of(k, share);
     double *ring = k->rings + (size_t)thread * k->ring_size;
-    k->sums[share] = b.first < b.last ? k->sweep(p->sweep, b.first, b.last, ring) : 0.0;
+    sweep s = *p->sweep;
+    s.drift_end = b.last - s.layout->ahead;
+    k->sums[share] = b.first < b.last ? k->sweep(&s, b.first, b.last, ring) : 0.0;
 }
 
 /* The sum tells whether all accelerations are finite, and bounds them: its bits are of no consequence. */
@@ -235,8 +237,7 @@ static double sweep_blocks(const kernel *k, const sweep *s)
     return sum;
 }
 
-/* Verlet's drift of the nodes `first` to `last` - 1. */
-static void drift(const kernel *k, const sweep_fused_step *p, dem_index first, dem_index last)
+void kernel_drift(const kernel *k, const sweep_fused_step *p, dem_index first, dem_index last)
 {
     const dem_index at = vec2_row(first);
     const double *const start[3] = {p->x0 + at, p->v0 + at, p->a0 + at};
@@ -255,8 +256,8 @@ static void drift_ends(const void *context, int share, int thread)
     (void)thread;
     const dem_index low = b.first + l->ahead < b.last ? b.first + l->ahead : b.last;
     const dem_index high = b.last - l->ahead > low ? b.last - l->ahead : low;
-    drift(k, p, LAYOUT_LANES * b.first, LAYOUT_LANES * low);
-    drift(k, p, LAYOUT_LANES * high, share + 1 < k->n_shares ? LAYOUT_LANES * b.last : l->n_nodes);
+    kernel_drift(k, p, LAYOUT_LANES * b.first, LAYOUT_LANES * low);
+    kernel_drift(k, p, LAYOUT_LANES * high, share + 1 < k->n_shares ? LAYOUT_LANES * b.last : l->n_nodes);
 }
 
 void kernel_begin_step(const kernel *k, const sweep_fused_step *step)
@@ -264,7 +265,7 @@ void kernel_begin_step(const kernel *k, const sweep_fused_step *step)
     run(&(loop){.kernel = k, .step = step}, drift_ends);
     for (dem_index j = 0; j < k->border.n; j++) {
         const dem_index first = LAYOUT_LANES * k->border.list[j];
-        drift(k, step, first, first + LAYOUT_LANES);
+        kernel_drift(k, step, first, first + LAYOUT_LANES);
     }
 }
 
@@ -292,7 +293,7 @@ static double put_row(const kernel *k, const kernel_state *y, dem_index i, vec2 
     return sweep_term(a);
 }
 
-static double accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
+double kernel_accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
 {
     drift_again(k, y, i);
     return put_row(k, y, i, forces_body_acceleration(f, i, y->x, y->v));
@@ -335,15 +336,15 @@ static double accelerate_rest(const kernel *k, const forces *f, const kernel_sta
     const layout *l = &k->model->layout;
     double sum = 0.0;
     for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
-        sum += accelerate_row(k, f, y, layout_node(l, q));
+        sum += kernel_accelerate_row(k, f, y, layout_node(l, q));
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
-        sum += accelerate_row(k, f, y, layout_node(l, q));
+        sum += kernel_accelerate_row(k, f, y, layout_node(l, q));
     for (dem_index d = 0; f->elements != NULL && !is_trimmed(k, f->elements) && d < f->elements->n_damaged; d++)
-        sum += accelerate_row(k, f, y, f->elements->damaged[d]);
+        sum += kernel_accelerate_row(k, f, y, f->elements->damaged[d]);
     for (dem_index p = 0; forces_push(f) && p < f->boundaries->n; p++) {
         const boundary_condition *push = &f->boundaries->list[p];
         for (dem_index j = 0; push->share != NULL && j < push->n_all; j++)
-            sum += accelerate_row(k, f, y, push->nodes[j]);
+            sum += kernel_accelerate_row(k, f, y, push->nodes[j]);
     }
     return sum;
 }
@@ -591,8 +592,7 @@ static void guard_share(const void *context, int share, int thread)
     p->kernel->sweep_guard(p->sweep, b.first, b.last);
 }
 
-/* What the guard adds at most to omega^2 at the node at place q, 1/s^2. */
-static double guard_bound(const kernel *k, const forces *f, const double *x, dem_index q)
+double kernel_guard_bound(const kernel *k, const forces *f, const double *x, dem_index q)
 {
     const layout *l = &k->model->layout;
     const dem_index i = layout_node(l, q);
@@ -600,8 +600,8 @@ static double guard_bound(const kernel *k, const forces *f, const double *x, dem
            k->model->inverse_mass[i];
 }
 
-/* The frequency is at most sqrt(omega_max^2 + the largest guard_bound()): returned in units of omega_max. The sweep is
- * used only to find the nodes on which the guard acts. */
+/* The frequency is at most sqrt(omega_max^2 + the largest kernel_guard_bound()): returned in units of omega_max. The
+ * sweep is used only to find the nodes on which the guard acts. */
 double kernel_stiffening(kernel *k, const forces *f, const double *x)
 {
     const layout *l = &k->model->layout;
@@ -616,7 +616,8 @@ double kernel_stiffening(kernel *k, const forces *f, const double *x)
                      .guarded = k->guarded};
     run(&(loop){.kernel = k, .sweep = &s}, guard_share);
     for (dem_index q = next_guarded(k, 0); q < LAYOUT_LANES * l->n_blocks; q = next_guarded(k, q + 1))
-        added = fmax(added, guard_bound(k, f, x, q));
-    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++) added = fmax(added, guard_bound(k, f, x, q));
+        added = fmax(added, kernel_guard_bound(k, f, x, q));
+    for (dem_index q = LAYOUT_LANES * l->n_blocks; q < l->n_nodes; q++)
+        added = fmax(added, kernel_guard_bound(k, f, x, q));
     return sqrt(1.0 + added / (omega * omega));
 }

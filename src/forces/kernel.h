@@ -92,6 +92,16 @@ void kernel_begin_step(const kernel *k, const sweep_fused_step *step);
  *  a by sweep_largest() */
 double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y);
 
+/** Drifts the nodes `first` to `last` - 1 of a fused step. */
+void kernel_drift(const kernel *k, const sweep_fused_step *p, dem_index first, dem_index last);
+
+/** The same as kernel_accelerate() for a node alone, after a sweep or in place of it: of u nothing.
+ *  \return what it adds to the sum */
+double kernel_accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i);
+
+/** What the guard adds at most to omega^2 at the node at place q, 1/s^2. */
+double kernel_guard_bound(const kernel *k, const forces *f, const double *x, dem_index q);
+
 /** Bound of the highest frequency at positions x in units of that about the rest shape, >= 1: omega_max^2 and the most
  *  that the folding guard adds to it. */
 double kernel_stiffening(kernel *k, const forces *f, const double *x);
