@@ -14,13 +14,18 @@
  * would be the same. */
 static const double lowest_value = -1e30;
 
-/* Bound of how far any candidate goes in the step, m: twice the way of the fastest at either end of the step. The speed
- * at its beginning is that of the last update of the broad phase. */
+/* Bound of how far any candidate goes in a step of this length, m: twice the way of the fastest at either end. */
+static double furthest_by(double h, double speed0, double speed1)
+{
+    return 2.0 * h * fmax(speed0, speed1);
+}
+
+/* The speed at the beginning of a step is that of the last update of the broad phase. */
 static double furthest(const automaton *c, const dense_output *p)
 {
     if (broad_phase_is_idle(&c->broad_phase, &c->set)) return 0.0;
-    return 2.0 * (p->t1 - p->t0) *
-           fmax(c->broad_phase.speed, broad_phase_speed(&c->set, automaton_state(c, p->t1, p->y1).v));
+    return furthest_by(p->t1 - p->t0, c->broad_phase.speed,
+                       broad_phase_speed(&c->set, automaton_state(c, p->t1, p->y1).v));
 }
 
 /* The state at the end of a step, as far as the forces of a group depend on it: that of the integrator if the step is
@@ -205,4 +210,48 @@ void automaton_end_step(automaton *c, const dense_output *p, const double *y)
     contact_set_store_all(s);
     contact_set_look_at_new(s, state);
     broad_phase_update(&c->broad_phase, s, state);
+}
+
+/* ---- free flight ---- */
+
+/* Nothing is near, and nothing has to be measured at the end of the present step. */
+static bool is_free(const automaton *c)
+{
+    const contact_set *s = &c->set;
+    return s->forces.n_groups == 0 && s->n_orphans == 0 && !s->has_new && s->ledger.counts.behind == 0 &&
+           c->broad_phase.n == 0;
+}
+
+bool automaton_may_fly(const automaton *c, double time)
+{
+    const double speed = c->broad_phase.speed;
+    return is_free(c) && !broad_phase_covers_all(&c->broad_phase,
+                                                 furthest_by(time, speed, speed) + broad_phase_reach(&c->set, speed));
+}
+
+/* At the end of each step the broad phase would find nothing to measure. */
+static bool go_by(const automaton *c, broad_phase *w, double h, double speed, double *way)
+{
+    *way = furthest_by(h, w->speed, speed);
+    if (broad_phase_covers_all(w, *way)) return false;
+    w->travelled += *way;
+    w->speed = speed;
+    return !broad_phase_covers_all(w, broad_phase_reach(&c->set, speed));
+}
+
+bool automaton_fly(automaton *c, const automaton_flight *flight)
+{
+    const bool idle = broad_phase_is_idle(&c->broad_phase, &c->set);
+    broad_phase w = c->broad_phase;
+    double way = 0.0;
+    if (!is_free(c)) return false;
+    for (int k = 0; k < flight->n && !idle; k++) {
+        const double speed = sqrt(flight->square[k]) + surface_speed(&c->set.scene);
+        if (!go_by(c, &w, flight->t[k + 1] - flight->t[k], speed, &way)) return false;
+    }
+    c->broad_phase = w;
+    c->way = way;
+    c->all = c->quiet = false;
+    c->solved = flight->t[flight->n];
+    return true;
 }

@@ -55,6 +55,20 @@ bool automaton_check_step(automaton *c, dense_output *p, bool rooted, double *st
  *  \return whether there were any */
 bool automaton_project(automaton *c, double t, double *y);
 
+/** Steps in which no contact is closed and no candidate comes near anything, one after the other. */
+typedef struct automaton_flight {
+    int n;
+    const double *t;      /* [n + 1] s, their start and their ends */
+    const double *square; /* [n] m^2/s^2, of the highest speed of the nodes of the surface at each end */
+} automaton_flight;
+
+/** Whether steps for so long, s, may well be of this kind. */
+bool automaton_may_fly(const automaton *c, double time);
+
+/** Follows such steps as automaton_begin_step() and automaton_end_step() do for each.
+ *  \return false if they are not: nothing has changed then */
+bool automaton_fly(automaton *c, const automaton_flight *flight);
+
 /** Follows an accepted step that ends at y: refreshes the forces, and measures clearances again. */
 void automaton_end_step(automaton *c, const dense_output *p, const double *y);
 

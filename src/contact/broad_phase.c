@@ -89,14 +89,13 @@ void broad_phase_list(broad_phase *w, const contact_set *c)
     for (dem_index k = 0; k < c->n; k++) list_one(w, &c->list[k], k);
 }
 
-/* `reach` is how far the longest step takes a candidate at the present speed, and a quarter more. It only chooses which
- * candidates are active: if a step may have taken them further, broad_phase_covers_all() says so, and all are
- * checked. */
+/* `reach` only chooses which candidates are active: if a step may have taken them further, broad_phase_covers_all()
+ * says so, and all are checked. */
 void broad_phase_update(broad_phase *w, contact_set *c, scene_state state)
 {
     if (broad_phase_is_idle(w, c)) return;
     w->speed = broad_phase_speed(c, state.v);
-    const double reach = 1.25 * c->scene.rule.max_step * w->speed;
+    const double reach = broad_phase_reach(c, w->speed);
     w->n = 0;
     w->earliest = (double)INFINITY;
     for (dem_index k = 0; k < c->surface->n_nodes && c->ledger.counts.behind > 0; k++)

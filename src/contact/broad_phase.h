@@ -27,6 +27,12 @@ static inline bool broad_phase_is_idle(const broad_phase *w, const contact_set *
 /** Largest speed of the nodes that may touch plus that of the obstacles, m/s. */
 double broad_phase_speed(const contact_set *c, const double *v);
 
+/** How far the longest step takes a candidate at this speed, m, and a quarter more. */
+static inline double broad_phase_reach(const contact_set *c, double speed)
+{
+    return 1.25 * c->scene.rule.max_step * speed;
+}
+
 /** Measures again, before a step from a state, the clearance of those candidates that may have used it up. A node found
  *  inside an obstacle that it cannot have touched has gone round a free end, and is marked as behind it; one that has
  *  come back is unmarked. */

@@ -292,8 +292,7 @@ INLINE void kick(const pass *p, const sweep_fused_step *step, dem_index block, p
 }
 
 /* The positions that a block is the first to read. Those at the beginning of the pass, behind its drift_end, and in
- * blocks of the border, are
- * there already. */
+ * drifted blocks are there already. */
 INLINE void drift_ahead(const pass *p, dem_index block, laws acting)
 {
     const sweep *s = p->sweep;

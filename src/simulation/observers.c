@@ -55,6 +55,13 @@ dem_status observers_event(const observers *a, const dem_simulation *simulation,
     return status;
 }
 
+bool observers_want_steps(const observers *a)
+{
+    for (int k = 0; k < a->n; k++)
+        if (a->members[k].observer.step != NULL) return true;
+    return false;
+}
+
 bool observers_want_breaks(const observers *a)
 {
     for (int k = 0; k < a->n; k++)

@@ -24,6 +24,7 @@ typedef struct observers {
 dem_status observers_add(observers *a, const dem_observer *observer, double shown_until);
 
 bool observers_want_events(const observers *a);
+bool observers_want_steps(const observers *a);
 bool observers_want_breaks(const observers *a);
 
 /** Call every observer of this rank; the first status other than DEM_OK is returned. */

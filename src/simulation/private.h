@@ -15,6 +15,7 @@
 #include "forces/kernel.h"
 #include "forces/local_springs.h"
 #include "forces/rigid_motion.h"
+#include "forces/step_wave.h"
 #include "forces/stress_field.h"
 #include "forces/survey.h"
 #include "fracture/fracture_source.h"
@@ -42,6 +43,14 @@ typedef struct run_stop {
 } run_stop;
 
 typedef struct led_run led_run;
+
+/* What steps need that nobody sees. */
+typedef struct run_unseen {
+    step_wave *wave;     /* NULL: there are none */
+    dem_index n_surface; /* nodes of the surface that may touch obstacles; */
+    dem_index *surface;  /* [n_surface] ascending */
+    int wait, last_wait; /* steps until they are tried again, and how many those were after the last failure */
+} run_unseen;
 
 /** Flags say where a run is:
  *  - not `started`: the contacts of the initial motion, or of one that was set, have still to be taken up;
@@ -117,6 +126,7 @@ struct dem_simulation {
     dem_index n_inside, n_reported; /* events inside the step in hand; those of them that observers know */
     dem_index n_broken, n_known;    /* breaks, likewise */
     observers observers;
+    run_unseen unseen;
 };
 
 /* Whether other ranks have some of the nodes: a team of one steps as a process alone does. */

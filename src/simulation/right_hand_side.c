@@ -156,6 +156,41 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     return judge(s, step->t1, y.x, y.a, sum);
 }
 
+/* The quadratures of a fused step of which nothing but the time goes on. */
+static void take_quadratures(const dem_simulation *s, const ode_fused_step *step)
+{
+    const state_layout *l = &s->layout;
+    const dem_index at = state_row(l, l->n_nodes), n = state_velocities(l), size = n - at;
+    const double *const start[3] = {step->y0 + at, step->y0 + n + at, step->f0 + n + at};
+    s->kernel.ops->drift(step->y1 + at, step->y1 + n + at, start, step->h, size);
+    begin_rates(l, step->f1 + n);
+    s->kernel.ops->kick(step->y1 + n + at, step->f0 + n + at, step->f1 + n + at, step->h, size);
+}
+
+/* Several of them, which unseen_steps_take() asks for where they may well be possible. */
+static bool take_fused_steps(const ode_fused_step *steps, int n, void *context)
+{
+    dem_simulation *s = context;
+    const dem_index v = state_velocities(&s->layout);
+    step_wave_steps wave = {.n = n, .watched = s->unseen.surface, .n_watched = s->unseen.n_surface};
+    double t[ODE_FUSED_STEPS + 1] = {s->t};
+    for (int k = 0; k < n; k++) {
+        const ode_fused_step *p = &steps[k];
+        wave.step[k] =
+            (sweep_fused_step){.h = p->h, .x0 = p->y0, .v0 = p->y0 + v, .a0 = p->f0 + v, .x1 = p->y1, .v1 = p->y1 + v};
+        wave.a[k] = p->f1 + v;
+        t[k + 1] = p->t1;
+    }
+    if (!step_wave_run(s->unseen.wave, &s->forces, &wave)) return false;
+    if (!automaton_fly(&s->automaton, &(automaton_flight){n, t, wave.square})) return false;
+    for (int k = 0; k < n; k++) take_quadratures(s, &steps[k]);
+    s->step = t[n] - t[n - 1];
+    s->t = t[n];
+    return true;
+}
+
+_Static_assert((int)ODE_FUSED_STEPS == (int)STEP_WAVE_MOST, "the integrator takes as many steps at once as a wave has");
+
 /* Whether springs, triangles and weight are all that acts, and no contact is closed: then no node depends on others
  * than its neighbours, and no rate on the whole state. */
 static bool has_bands(int n_stages, void *context)
@@ -228,6 +263,7 @@ ode_problem right_hand_side_problem(dem_simulation *s)
         .bands_hold = bands_hold,
         .band_derivative = band_derivative,
         .fused_step = s->boundaries.n == 0 ? take_fused_step : NULL,
+        .fused_steps = s->unseen.wave != NULL ? take_fused_steps : NULL,
         .begin_roots = rooted ? begin_roots : NULL,
         .root_function = rooted ? root_function : NULL,
         .stiffening = model->lattice.guard != NULL || s->surfaces != NULL || s->rigid != NULL ? stiffening : NULL,

@@ -20,6 +20,7 @@
 #include "simulation/query.h"
 #include "simulation/right_hand_side.h"
 #include "simulation/shared_checkpoint.h"
+#include "simulation/unseen_steps.h"
 
 static dem_status allocate(dem_simulation *s)
 {
@@ -171,6 +172,7 @@ static dem_status set_up(dem_simulation *s)
     TRY(reduce_status(s->model->ranks, automaton_check_start(&s->automaton, 0.0, s->y), 0.0));
     TRY(set_up_sources(s));
     if (run_is_local(s)) TRY(set_up_queue(s));
+    TRY(unseen_steps_create(s));
     const ode_problem problem = right_hand_side_problem(s);
     TRY(integrator_create(&s->integrator, &problem, 0.0, s->y));
     s->y = integrator_state(&s->integrator);
@@ -251,6 +253,7 @@ void dem_simulation_destroy(dem_simulation *s)
     if (s == NULL) return;
     led_run_destroy(s->leads);
     integrator_destroy(&s->integrator);
+    unseen_steps_destroy(s);
     kernel_destroy(&s->kernel);
     event_queue_destroy(&s->queue);
     source_list_destroy(&s->sources);

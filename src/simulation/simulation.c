@@ -19,6 +19,7 @@
 #include "simulation/pausing.h"
 #include "simulation/query.h"
 #include "simulation/shared_checkpoint.h"
+#include "simulation/unseen_steps.h"
 
 enum {
     between_looks = 16,       /* accepted steps, for overlaps */
@@ -306,9 +307,18 @@ static void look_for_overlaps(dem_simulation *s)
     s->unlooked = 0;
 }
 
-static bool is_look_due(const dem_simulation *s)
+/* Steps until the next look. */
+static int left_to_look(const dem_simulation *s)
 {
-    return s->unlooked >= (s->options.bodies == DEM_BODIES_ALL ? between_rare_looks : between_looks);
+    return (s->options.bodies == DEM_BODIES_ALL ? between_rare_looks : between_looks) - s->unlooked;
+}
+
+/* Steps whose end is the state now. */
+static void count_steps(dem_simulation *s, int n)
+{
+    s->since_checkpoint += n;
+    s->unlooked += n;
+    if (left_to_look(s) <= 0) look_for_overlaps(s);
 }
 
 /* Makes the end of the step the state of the integrator, in which rigid bodies have their shapes. After a whole step
@@ -339,9 +349,7 @@ static bool settle_step(dem_simulation *s)
     s->step = p->end - s->t;
     s->t = p->end;
     s->in_hand = false;
-    s->since_checkpoint++;
-    s->unlooked++;
-    if (is_look_due(s)) look_for_overlaps(s);
+    count_steps(s, 1);
     return moved;
 }
 
@@ -448,6 +456,17 @@ static dem_status take_checkpoint(dem_simulation *s)
     return reduce_status(s->model->ranks, observers_checkpoint(&s->observers, s, s->checkpoint), 0.0);
 }
 
+/* Takes several steps at once, between which nobody looks at anything, if there are as many before the next checkpoint,
+ * frame, look, or t_end.  \return whether it has */
+static bool take_unseen(dem_simulation *s, double t_end)
+{
+    const dem_index every = s->options.checkpoint_steps,
+                    left = every > 0 ? every - s->since_checkpoint : left_to_look(s);
+    const int n = unseen_steps_take(s, left < left_to_look(s) ? (int)left : left_to_look(s), t_end);
+    if (n > 0) count_steps(s, n);
+    return n > 0;
+}
+
 /* Steps until t_end falls into the step in hand; then shows the state there. The next advance may find the step in
  * hand. */
 static dem_status advance(dem_simulation *s, double t_end)
@@ -455,6 +474,10 @@ static dem_status advance(dem_simulation *s, double t_end)
     if (!s->started) TRY(start(s));
     for (;;) {
         if (!s->in_hand && wants_checkpoint(s)) TRY(take_checkpoint(s));
+        if (!s->in_hand && take_unseen(s, t_end)) {
+            TRY(show_state(s));
+            continue;
+        }
         const dem_status taken = s->in_hand ? DEM_OK : take_step(s);
         TRY(status_first(take_stop(s), taken));
         TRY(stop_if_force_failed(s, report_frames(s, t_end)));

@@ -26,6 +26,11 @@ dem_status integrator_step(integrator *e, dense_output *step, bool *rooted)
     return e->ops->step(e->self, step, rooted);
 }
 
+bool integrator_take_unseen(integrator *e, int n)
+{
+    return e->ops->take_unseen != NULL && e->ops->take_unseen(e->self, n);
+}
+
 void integrator_end(integrator *e, double **y1, double **f1)
 {
     e->ops->end(e->self, y1, f1);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Takes the steps of every method: by ARKODE for Runge-Kutta methods, or by velocity Verlet. The order of calls for one
  * step is step (as often as it is taken back with redo), then settle, and after events resume or restart:
+ * - take_unseen takes several at once, and settles them;
  * - settle accepts the step, whole or cut short at its event;
  * - resume goes on from the end of a whole step whose state and derivative the caller has changed: no evaluation is
  *   lost;
@@ -23,6 +24,10 @@ void integrator_destroy(integrator *e);
 /** Takes one accepted step, or goes to the first root within it (`*rooted`). The step refers to arrays of the
  *  integrator, which hold until its next call. After DEM_ERROR_INTEGRATOR the last accepted state is still in force. */
 dem_status integrator_step(integrator *e, dense_output *step, bool *rooted);
+
+/** Takes n steps, at most ODE_FUSED_STEPS, of which nobody sees any, without roots, and settles them: the state is as
+ *  if each had been taken by itself.  \return false if it cannot: nothing has changed then */
+bool integrator_take_unseen(integrator *e, int n);
 
 /** The end of the step just taken, [2 dim n_rows], and its derivative: events inside the step change both before it is
  *  settled. */

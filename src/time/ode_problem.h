@@ -18,6 +18,8 @@ typedef struct ode_fused_step {
     double *y1, *f1;
 } ode_fused_step;
 
+enum { ODE_FUSED_STEPS = 16 }; /* at once, at most */
+
 /** Consecutive rows of a state whose derivative is evaluated while no more is known of the state than the bands beside
  *  it: bands are so long that positions further away have no part in it. x, v and a are where row 0 of the state would
  *  be, but hold, of x, this band and those beside it, and of v and a this band alone. */
@@ -61,6 +63,10 @@ typedef struct ode_problem {
      *  its end are given: with the bits of kick, drift, fill_ghosts, derivative and kick in turn. Returns as
      *  `derivative`, or -1 if it cannot from this state, which ranks need not agree about. NULL: it never can. */
     int (*fused_step)(const ode_fused_step *step, void *context);
+    /** Takes so many steps at once, each from the end of the one before, with the quadratures, to the bits of one after
+     *  the other. y1 and f1 may be the same arrays at every other step, and are those of no start.
+     *  \return false if it cannot: y1 and f1 are undefined then, and nothing else has changed. NULL: it never can */
+    bool (*fused_steps)(const ode_fused_step *steps, int n, void *context);
     dem_index band_rows; /* rows of a band, but the last: a multiple of a cache line; 0: there are no bands */
     size_t band_scratch; /* numbers, 0 at the start */
     /** Begins a step from the present state with so many stages besides it: whether their derivatives may be evaluated

@@ -24,7 +24,8 @@
 typedef struct verlet_integrator {
     ode_problem problem;
     void *block;
-    double *y0, *f0, *y1, *f1, *state; /* [2 dim n_rows] ends of the step with derivatives; a state inside */
+    double *y0, *f0, *y1, *f1, *state; /* [2 dim n_rows] ends of the step with derivatives; a state inside, */
+    double *f_state;                   /* and its derivative, likewise, where steps are taken at once */
     double t, t1;                      /* s, of y0, y1 */
     bool has_f0;                       /* f0 is that of y0 */
     bool at_end;                       /* the dense output was handed out: y1 is the start of the next step */
@@ -36,7 +37,7 @@ typedef struct verlet_integrator {
 static dem_status allocate(verlet_integrator *V)
 {
     const size_t n = (size_t)state_size(&V->problem.layout);
-    double *arrays = aligned_zeros_in(&V->block, 5 * n);
+    double *arrays = aligned_zeros_in(&V->block, (V->problem.fused_steps != NULL ? 6 : 5) * n);
     CHECK(arrays != NULL, DEM_ERROR_MEMORY, "out of memory for the state of %lld nodes",
           (long long)V->problem.layout.n_nodes);
     V->y0 = arrays;
@@ -44,6 +45,7 @@ static dem_status allocate(verlet_integrator *V)
     V->y1 = arrays + 2 * n;
     V->f1 = arrays + 3 * n;
     V->state = arrays + 4 * n;
+    V->f_state = arrays + 5 * n;
     return DEM_OK;
 }
 
@@ -316,6 +318,46 @@ static dem_status verlet_integrator_step(void *self, dense_output *step, bool *r
     return DEM_OK;
 }
 
+/* Evaluates the derivative at the start if need be. Where that fails the step by itself does, and counts it. */
+static bool knows_start(verlet_integrator *V)
+{
+    if (V->has_f0) return true;
+    V->has_f0 = evaluate(V, V->t, V->y0, V->f0) == 0;
+    V->counts.evaluations -= !V->has_f0;
+    return V->has_f0;
+}
+
+/* Ends of steps are in turn the state inside and the end, last that. */
+static bool verlet_integrator_take_unseen(void *self, int n)
+{
+    verlet_integrator *V = self;
+    const ode_problem *p = &V->problem;
+    ode_fused_step steps[ODE_FUSED_STEPS];
+    go_on(V);
+    if (p->fused_steps == NULL || p->root_function != NULL) return false;
+    attempt_begin(&V->attempt, p);
+    if (!knows_start(V) || attempt_fixed_step(&V->attempt, V->y0, !V->resumed) < p->fixed_step) return false;
+    double t = V->t;
+    for (int k = 0; k < n; k++) {
+        const bool at_end = (n - 1 - k) % 2 == 0;
+        t += p->fixed_step;
+        steps[k] = (ode_fused_step){.t1 = t,
+                                    .h = p->fixed_step,
+                                    .y0 = k > 0 ? steps[k - 1].y1 : V->y0,
+                                    .f0 = k > 0 ? steps[k - 1].f1 : V->f0,
+                                    .y1 = at_end ? V->y1 : V->state,
+                                    .f1 = at_end ? V->f1 : V->f_state};
+    }
+    if (!p->fused_steps(steps, n, p->context)) return false;
+    V->counts.steps += n;
+    V->counts.evaluations += n;
+    V->t1 = t;
+    V->at_end = true;
+    V->resumed = false;
+    go_on(V);
+    return true;
+}
+
 static dem_counts verlet_integrator_counts(const void *self)
 {
     const verlet_integrator *V = self;
@@ -348,6 +390,7 @@ static double verlet_integrator_next_step(const void *self)
 const integrator_ops verlet_integrator_ops = {.create = verlet_integrator_create,
                                               .destroy = verlet_integrator_destroy,
                                               .step = verlet_integrator_step,
+                                              .take_unseen = verlet_integrator_take_unseen,
                                               .end = verlet_integrator_end,
                                               .settle = verlet_integrator_settle,
                                               .state = verlet_integrator_state,

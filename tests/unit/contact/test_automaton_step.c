@@ -233,3 +233,30 @@ TEST(what_goes_round_a_free_end_at_a_distance_is_behind_it)
     assert_int_equal(s.c.set.ledger.counts.behind, 1);
     assert_int_equal(s.n_events, 0);
 }
+
+/* ---- free flight ---- */
+
+/* 1 m above the floor: travelled are 2 h times the higher of both speeds, and the longest step of 0.01 s takes the node
+ * further by 1.25 h times the speed. */
+TEST(a_flight_is_followed_unless_something_comes_near)
+{
+    CLEANUP(scene_close) scene s;
+    open_scene(&s, 1, &half, 1);
+    scene_put(&s, 0, -3.0, 1.0, 0.0, -2.0);
+    assert_ok(automaton_restore(&s.c, 0.0, s.y));
+    assert_true(automaton_may_fly(&s.c, 0.02));
+    assert_false(automaton_may_fly(&s.c, 0.245)); /* 0.98 m, and 0.025 */
+    const double t[3] = {0.0, 0.01, 0.02}, near[2] = {4.0, 31.0 * 31.0}, slow[2] = {4.0, 9.0};
+    const broad_phase before = s.c.broad_phase;
+    assert_false(automaton_fly(&s.c, &(automaton_flight){2, t, near})); /* 0.04 m and 0.62, and 0.39 */
+    assert_memory_equal(&s.c.broad_phase, &before, sizeof before);
+    assert_true(automaton_fly(&s.c, &(automaton_flight){2, t, slow}));
+    assert_close(s.c.broad_phase.travelled, 0.04 + 0.06, 1e-15);
+    assert_close(s.c.broad_phase.speed, 3.0, 0.0);
+    assert_close(s.c.way, 0.06, 1e-15);
+    assert_close(s.c.solved, 0.02, 0.0);
+    scene_put(&s, 0, -3.0, 0.01, 0.0, -2.0);
+    assert_ok(automaton_restore(&s.c, 0.0, s.y));
+    assert_false(automaton_may_fly(&s.c, 0.0));
+    assert_false(automaton_fly(&s.c, &(automaton_flight){2, t, slow}));
+}

@@ -179,6 +179,61 @@ TEST(a_step_in_one_pass_is_that_in_parts)
     }
 }
 
+/* Several fused steps, but none if one begins below 0; the book is drifted and kicked here. */
+static bool fuse_several_above(const ode_fused_step *steps, int n, void *context)
+{
+    for (int k = 0; k < n; k++) {
+        const ode_fused_step *s = &steps[k];
+        const double half_h = 0.5 * s->h;
+        for (int c = 2; c < 4; c++) {
+            const double half = s->y0[4 + c] + half_h * s->f0[4 + c];
+            s->y1[c] = s->y0[c] + s->h * half;
+            s->y1[4 + c] = half + half_h * s->f0[4 + c];
+        }
+        if (fused_from_above(s, context) != 0) return false;
+        for (int c = 2; c < 4; c++) s->y1[4 + c] += half_h * (s->f1[4 + c] - s->f0[4 + c]);
+    }
+    return true;
+}
+
+/* Steps until they are refused, which changes nothing, and then by themselves. */
+TEST(steps_at_once_are_those_in_turn)
+{
+    const double start[8] = {0.4, 1.0, 7.0, -7.0, -0.3, 2.0, 3.0, 5.0}, h = 0.05;
+    for (int n = 1; n <= 8; n++) {
+        world worlds[2] = {plain, plain};
+        integrator V[2];
+        int taken = 0;
+        bool rooted;
+        for (int k = 0; k < 2; k++) {
+            const ode_problem problem = {.method = DEM_METHOD_VERLET,
+                                         .layout = {.dim = 2, .n_nodes = 1, .n_rows = 2},
+                                         .ops = &array_ops_portable,
+                                         .derivative = move_with_book,
+                                         .fused_steps = fuse_several_above,
+                                         .context = &worlds[k],
+                                         .fixed_step = h};
+            assert_ok(integrator_create(&V[k], &problem, 0.0, start));
+        }
+        for (; integrator_take_unseen(&V[1], n); taken++)
+            assert_int_equal(integrator_counts(&V[1]).steps, n * (taken + 1));
+        assert_true(taken > 0);
+        for (int k = 0; k < 2; k++) {
+            dense_output p;
+            for (int step = 0; step < (k == 0 ? n * taken : 0) + 2; step++) {
+                assert_ok(integrator_step(&V[k], &p, &rooted));
+                integrator_settle(&V[k], &p);
+            }
+            assert_true(k == 0 || p.t0 > 0.2);
+        }
+        assert_memory_equal(integrator_state(&V[0]), integrator_state(&V[1]), sizeof start);
+        const dem_counts a = integrator_counts(&V[0]), b = integrator_counts(&V[1]);
+        assert_memory_equal(&a, &b, sizeof a);
+        integrator_destroy(&V[0]);
+        integrator_destroy(&V[1]);
+    }
+}
+
 /* ---- its laws ---- */
 
 /* With damping too, whose velocity is extrapolated: halving the step quarters the difference, to what the next order

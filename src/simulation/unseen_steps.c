@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Whatever could make a difference keeps steps single: observers of steps, forces that depend on more than the
+ * positions of neighbours, contacts closed or near, surfaces of bodies that may touch each other, elements that may
+ * break or have done so. If it turns out afterwards that the guard acts or something came near, they are taken once
+ * more, one by one. */
+#include "simulation/unseen_steps.h"
+
+#include <stdlib.h>
+
+#include "base/sorted.h"
+#include "contact/automaton_step.h"
+
+enum {
+    LEAST_NODES = 250000, /* of fewer the third cache has all arrays of a step */
+    FEWEST = 3,           /* steps that are worth it */
+    SHORT_WAIT = 16,      /* steps, after the first failure in a row, */
+    LONG_WAIT = 1024      /* and after many */
+};
+
+static dem_status list_surface(dem_simulation *s)
+{
+    const contact_set *c = &s->automaton.set;
+    const dem_index n = c->surface->n_nodes;
+    s->unseen.surface = malloc(((size_t)n + 1) * sizeof *s->unseen.surface);
+    CHECK(s->unseen.surface != NULL, DEM_ERROR_MEMORY, "out of memory for %lld contact candidates", (long long)n);
+    for (dem_index k = 0; k < n; k++) s->unseen.surface[k] = c->list[k].node;
+    qsort(s->unseen.surface, (size_t)n, sizeof *s->unseen.surface, sorted_compare);
+    s->unseen.n_surface = n;
+    return DEM_OK;
+}
+
+/* With `exact` the whole body stops at roots, which are found among all candidates that are near. */
+dem_status unseen_steps_create(dem_simulation *s)
+{
+    const bool fixed = s->options.method == DEM_METHOD_VERLET && s->options.fixed_step > 0.0;
+    const bool alone = s->model->domain == NULL && s->surfaces == NULL && s->rigid == NULL && s->external == NULL &&
+                       s->boundaries.n == 0 && !s->model->obstacles.is_asked;
+    if (!fixed || !alone || s->layout.n_nodes < LEAST_NODES || run_may_break(s) || !run_is_local(s) ||
+        !kernel_can_fuse(&s->kernel, &s->forces))
+        return DEM_OK;
+    s->unseen.wave = step_wave_create(&s->kernel);
+    return s->unseen.wave != NULL && s->model->obstacles.n > 0 ? list_surface(s) : DEM_OK;
+}
+
+void unseen_steps_destroy(dem_simulation *s)
+{
+    step_wave_free(s->unseen.wave);
+    free(s->unseen.surface);
+}
+
+/* How many steps end before t_end and before the next frame; `most` if there are more. */
+static int count_free(const dem_simulation *s, int most, double t_end)
+{
+    double t = s->t, due;
+    for (int n = 0; n < most; n++) {
+        t += s->options.fixed_step;
+        if (t > t_end || observers_due(&s->observers, t, t_end, &due) >= 0) return n;
+    }
+    return most;
+}
+
+static int fail(run_unseen *u)
+{
+    u->wait = u->last_wait = u->last_wait == 0 ? SHORT_WAIT : (u->last_wait < LONG_WAIT ? 2 : 1) * u->last_wait;
+    return 0;
+}
+
+int unseen_steps_take(dem_simulation *s, int most, double t_end)
+{
+    run_unseen *u = &s->unseen;
+    if (u->wave == NULL || observers_want_steps(&s->observers) || s->forces.elements != NULL) return 0;
+    const int n = count_free(s, most < ODE_FUSED_STEPS ? most : ODE_FUSED_STEPS, t_end);
+    if (n < FEWEST || !automaton_may_fly(&s->automaton, n * s->options.fixed_step)) return 0;
+    if (u->wait > 0) return u->wait--, 0;
+    if (!integrator_take_unseen(&s->integrator, n)) return fail(u);
+    u->last_wait = 0;
+    s->y = integrator_state(&s->integrator);
+    return n;
+}
