@@ -339,17 +339,12 @@ static void of_meshes_without_rows(void **state)
 }
 
 /* Where their own stress lets triangles soften irregular meshes take less than what is asked, and cracks keep to what
- * is left of rows: 16 seeds took 0.831 to 0.957 of it, 0.878 +- 0.009 in the mean. Found: 2.63 (3.08). */
-TEST(a_crack_takes_about_the_fracture_energy_by_the_stress_of_elements)
-{
-    const band_case list[] = {{1.0, softened_by_own(6.0), false, {0.0, 0.25, true, 1}, 1.5, 0.20, OWN, third}};
-    check(list, sizeof list / sizeof *list);
-}
-
-/* Found: 3.02, 3.06 (3.08), 5.77 (5.96); 14.5, -3.5, 14.5 degrees off straight. */
+ * is left of rows: 16 seeds took 0.831 to 0.957 of it, 0.878 +- 0.009 in the mean. Found: 2.63, 3.02, 3.06 (3.08), 5.77
+ * (5.96); -0.5, 14.5, -3.5, 14.5 degrees off straight. */
 static void of_own_stress(void **state)
 {
-    const band_case list[] = {{1.0, softened_by_own(6.0), false, {15.0, 0.25, true, 1}, 17.0, 0.13, OWN, third},
+    const band_case list[] = {{1.0, softened_by_own(6.0), false, {0.0, 0.25, true, 1}, 1.5, 0.20, OWN, third},
+                              {1.0, softened_by_own(6.0), false, {15.0, 0.25, true, 1}, 17.0, 0.13, OWN, third},
                               {1.0, softened_by_own(6.0), false, {30.0, 0.25, true, 1}, 17.0, 0.13, OWN, third},
                               {1.0, softened_by_own(12.0), false, {15.0, 0.25, true, 1}, 17.0, 0.13, OWN, third}};
     (void)state;
