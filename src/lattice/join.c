@@ -32,15 +32,6 @@ static dem_status join_numbers(double **out, const double *a, dem_index n, const
     return DEM_OK;
 }
 
-/* Bodies are numbered from 0; a lattice without numbers is one body. */
-static dem_index count_bodies(const dem_lattice *lattice)
-{
-    int32_t last = 0;
-    for (dem_index i = 0; lattice->body != NULL && i < lattice->n_nodes; i++)
-        if (lattice->body[i] > last) last = lattice->body[i];
-    return lattice->n_nodes > 0 ? last + 1 : 0;
-}
-
 /* The flags of a lattice, or those that their absence stands for. */
 static dem_status copy_flags(unsigned char *flags, const dem_lattice *lattice)
 {
@@ -63,11 +54,11 @@ static dem_status join_flags(dem_lattice *out, const dem_lattice *a, const dem_l
 /* Two lattices make two bodies or more. Where one of them has no nodes, no numbers are needed. */
 static dem_status join_bodies(dem_lattice *out, const dem_lattice *a, const dem_lattice *b)
 {
-    const dem_index n = a->n_nodes, shift = count_bodies(a);
+    const dem_index n = a->n_nodes, shift = lattice_count_bodies(a);
     if (b->n_nodes == 0 && a->body == NULL) return DEM_OK;
     if (n == 0 && b->body == NULL) return DEM_OK;
     /* The bodies of the second lattice get the numbers after those of the first. */
-    CHECK(shift + count_bodies(b) <= INT32_MAX, DEM_ERROR_MODEL, "more than %ld bodies", (long)INT32_MAX);
+    CHECK(shift + lattice_count_bodies(b) <= INT32_MAX, DEM_ERROR_MODEL, "more than %ld bodies", (long)INT32_MAX);
     out->body = join(a->body, n, b->body, b->n_nodes, sizeof *out->body);
     CHECK_MEMORY(out->body);
     for (dem_index i = n; i < n + b->n_nodes; i++) out->body[i] += (int32_t)shift;

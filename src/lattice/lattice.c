@@ -229,6 +229,14 @@ static dem_status make_flags(dem_lattice *lattice)
     return DEM_OK;
 }
 
+dem_index lattice_count_bodies(const dem_lattice *lattice)
+{
+    int32_t last = 0;
+    for (dem_index i = 0; lattice->body != NULL && i < lattice->n_nodes; i++)
+        if (lattice->body[i] > last) last = lattice->body[i];
+    return lattice->n_nodes > 0 ? last + 1 : 0;
+}
+
 dem_status dem_lattice_exclude(dem_lattice *lattice, const dem_index *nodes, dem_index n)
 {
     TRY(check_list(lattice, nodes, n));

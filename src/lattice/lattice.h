@@ -45,6 +45,9 @@ static inline bool lattice_is_positive(double value)
     return isfinite(value) && value > 0.0;
 }
 
+/** How many bodies there are: they are numbered from 0, and a lattice without numbers is one. */
+dem_index lattice_count_bodies(const dem_lattice *lattice);
+
 /* An array of n items that are all zero; it has memory for n = 0, too. NULL if there is no memory. */
 void *lattice_zeros(dem_index n, size_t size);
 

@@ -180,8 +180,8 @@ static dem_status compile_nodes(dem_model *m)
     for (dem_index i = 0; i < l->n_nodes; i++) {
         const int fixed = l->flags[i] & DEM_NODE_FIXED;
         m->inverse_mass[i] = fixed ? 0.0 : 1.0 / l->mass[i];
-        if (l->body[i] >= m->n_bodies) m->n_bodies = l->body[i] + 1;
     }
+    m->n_bodies = lattice_count_bodies(l);
     return DEM_OK;
 }
 

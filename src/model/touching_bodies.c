@@ -5,18 +5,11 @@
 
 #include "base/status.h"
 #include "base/vec2.h"
-
-static dem_index count_bodies(const dem_lattice *l)
-{
-    dem_index n = 0;
-    for (dem_index i = 0; i < l->n_nodes; i++)
-        if (l->body[i] >= n) n = l->body[i] + 1;
-    return n;
-}
+#include "lattice/lattice.h"
 
 static dem_status sum_up(touching_bodies *o, const dem_lattice *l)
 {
-    o->n_bodies = count_bodies(l);
+    o->n_bodies = lattice_count_bodies(l);
     o->bodies = calloc((size_t)o->n_bodies + 1, sizeof *o->bodies);
     CHECK_MEMORY(o->bodies);
     for (dem_index k = 0; k < l->n_springs; k++)
