@@ -156,18 +156,8 @@ static int take_fused_step(const ode_fused_step *step, void *context)
     return judge(s, step->t1, y.x, y.a, sum);
 }
 
-/* The quadratures of a fused step of which nothing but the time goes on. */
-static void take_quadratures(const dem_simulation *s, const ode_fused_step *step)
-{
-    const state_layout *l = &s->layout;
-    const dem_index at = state_row(l, l->n_nodes), n = state_velocities(l), size = n - at;
-    const double *const start[3] = {step->y0 + at, step->y0 + n + at, step->f0 + n + at};
-    s->kernel.ops->drift(step->y1 + at, step->y1 + n + at, start, step->h, size);
-    begin_rates(l, step->f1 + n);
-    s->kernel.ops->kick(step->y1 + n + at, step->f0 + n + at, step->f1 + n + at, step->h, size);
-}
-
-/* Several of them, which unseen_steps_take() asks for where they may well be possible. */
+/* Several of them, which unseen_steps_take() asks for where they may well be possible. Of the quadratures only the time
+ * goes on. */
 static bool take_fused_steps(const ode_fused_step *steps, int n, void *context)
 {
     dem_simulation *s = context;
@@ -183,9 +173,7 @@ static bool take_fused_steps(const ode_fused_step *steps, int n, void *context)
     }
     if (!step_wave_run(s->unseen.wave, &s->forces, &wave)) return false;
     if (!automaton_fly(&s->automaton, &(automaton_flight){n, t, wave.square})) return false;
-    for (int k = 0; k < n; k++) take_quadratures(s, &steps[k]);
-    s->step = t[n] - t[n - 1];
-    s->t = t[n];
+    for (int k = 0; k < n; k++) begin_rates(&s->layout, steps[k].f1 + v);
     return true;
 }
 

@@ -12,7 +12,7 @@
 
 enum {
     LEAST_NODES = 250000, /* of fewer the third cache has all arrays of a step */
-    FEWEST = 3,           /* steps that are worth it */
+    FEWEST = 3,           /* steps that are worth it, and more than one */
     SHORT_WAIT = 16,      /* steps, after the first failure in a row, */
     LONG_WAIT = 1024      /* and after many */
 };
@@ -59,10 +59,18 @@ static int count_free(const dem_simulation *s, int most, double t_end)
     return most;
 }
 
-static int fail(run_unseen *u)
+/* Steps are single for a while, longer after each failure in a row. */
+static void wait(run_unseen *u)
 {
-    u->wait = u->last_wait = u->last_wait == 0 ? SHORT_WAIT : (u->last_wait < LONG_WAIT ? 2 : 1) * u->last_wait;
-    return 0;
+    const int next = u->last_wait > 0 ? 2 * u->last_wait : SHORT_WAIT;
+    u->wait = u->last_wait = next < LONG_WAIT ? next : LONG_WAIT;
+}
+
+static bool is_waiting(run_unseen *u)
+{
+    if (u->wait == 0) return false;
+    u->wait--;
+    return true;
 }
 
 int unseen_steps_take(dem_simulation *s, int most, double t_end)
@@ -71,9 +79,15 @@ int unseen_steps_take(dem_simulation *s, int most, double t_end)
     if (u->wave == NULL || observers_want_steps(&s->observers) || s->forces.elements != NULL) return 0;
     const int n = count_free(s, most < ODE_FUSED_STEPS ? most : ODE_FUSED_STEPS, t_end);
     if (n < FEWEST || !automaton_may_fly(&s->automaton, n * s->options.fixed_step)) return 0;
-    if (u->wait > 0) return u->wait--, 0;
-    if (!integrator_take_unseen(&s->integrator, n)) return fail(u);
+    if (is_waiting(u)) return 0;
+    double ends[ODE_FUSED_STEPS];
+    if (!integrator_take_unseen(&s->integrator, n, ends)) {
+        wait(u);
+        return 0;
+    }
     u->last_wait = 0;
     s->y = integrator_state(&s->integrator);
+    s->step = ends[n - 1] - ends[n - 2];
+    s->t = ends[n - 1];
     return n;
 }

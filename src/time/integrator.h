@@ -25,9 +25,11 @@ void integrator_destroy(integrator *e);
  *  integrator, which hold until its next call. After DEM_ERROR_INTEGRATOR the last accepted state is still in force. */
 dem_status integrator_step(integrator *e, dense_output *step, bool *rooted);
 
-/** Takes n steps, at most ODE_FUSED_STEPS, of which nobody sees any, without roots, and settles them: the state is as
- *  if each had been taken by itself.  \return false if it cannot: nothing has changed then */
-bool integrator_take_unseen(integrator *e, int n);
+/** Takes n steps, 1 to ODE_FUSED_STEPS, of which nobody sees any, without roots, and settles them: the state is as if
+ *  each had been taken by itself.
+ *  \param[out] ends  [n] s, when they end
+ *  \return false if it cannot: nothing has changed then */
+bool integrator_take_unseen(integrator *e, int n, double *ends);
 
 /** The end of the step just taken, [2 dim n_rows], and its derivative: events inside the step change both before it is
  *  settled. */

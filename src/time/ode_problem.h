@@ -63,8 +63,9 @@ typedef struct ode_problem {
      *  its end are given: with the bits of kick, drift, fill_ghosts, derivative and kick in turn. Returns as
      *  `derivative`, or -1 if it cannot from this state, which ranks need not agree about. NULL: it never can. */
     int (*fused_step)(const ode_fused_step *step, void *context);
-    /** Takes so many steps at once, each from the end of the one before, with the quadratures, to the bits of one after
-     *  the other. y1 and f1 may be the same arrays at every other step, and are those of no start.
+    /** Takes so many steps at once, each from the end of the one before, to the bits of one after the other, where the
+     *  rates of the quadratures are the same at every end: fills these, too. y1 and f1 may be the same arrays at every
+     *  other step, and are those of no start.
      *  \return false if it cannot: y1 and f1 are undefined then, and nothing else has changed. NULL: it never can */
     bool (*fused_steps)(const ode_fused_step *steps, int n, void *context);
     dem_index band_rows; /* rows of a band, but the last: a multiple of a cache line; 0: there are no bands */

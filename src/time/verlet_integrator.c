@@ -165,30 +165,37 @@ typedef struct stretch {
 } stretch;
 
 /* x1 = x0 + h (v0 + h/2 a0), and v1 = v0 + h a0, the extrapolated velocity. */
-static void drift_stretch(const verlet_integrator *V, double h, stretch s)
+static void drift_stretch(const ode_problem *p, const ode_fused_step *step, stretch s)
 {
-    const dem_index n = state_velocities(&V->problem.layout);
-    const double *const start[3] = {V->y0 + s.at, V->y0 + n + s.at, V->f0 + n + s.at};
-    V->problem.ops->drift(V->y1 + s.at, V->y1 + n + s.at, start, h, s.size);
+    const dem_index n = state_velocities(&p->layout);
+    const double *const start[3] = {step->y0 + s.at, step->y0 + n + s.at, step->f0 + n + s.at};
+    p->ops->drift(step->y1 + s.at, step->y1 + n + s.at, start, step->h, s.size);
 }
 
 /* v1 += h/2 (a1 - a0): of the extrapolated v0 + h a0 this makes v' + h/2 a1. */
-static void kick_stretch(const verlet_integrator *V, double h, stretch s)
+static void kick_stretch(const ode_problem *p, const ode_fused_step *step, stretch s)
 {
-    const dem_index at = state_velocities(&V->problem.layout) + s.at;
-    V->problem.ops->kick(V->y1 + at, V->f0 + at, V->f1 + at, h, s.size);
+    const dem_index at = state_velocities(&p->layout) + s.at;
+    p->ops->kick(step->y1 + at, step->f0 + at, step->f1 + at, step->h, s.size);
+}
+
+/* They are behind the nodes and the padding. */
+static stretch quadratures_of(const state_layout *l)
+{
+    const dem_index at = state_row(l, l->n_nodes);
+    return (stretch){at, state_velocities(l) - at};
 }
 
 /* Drift or kick of all nodes in shares. */
 typedef struct part {
-    const verlet_integrator *V;
-    double h;
+    const ode_problem *problem;
+    const ode_fused_step *step;
     int n_shares;
 } part;
 
 static stretch stretch_of(const part *p, int share)
 {
-    const dem_index n = state_velocities(&p->V->problem.layout), at = team_share(n, p->n_shares, share);
+    const dem_index n = state_velocities(&p->problem->layout), at = team_share(n, p->n_shares, share);
     return (stretch){at, team_share(n, p->n_shares, share + 1) - at};
 }
 
@@ -196,14 +203,14 @@ static void drift_share(const void *context, int share, int thread)
 {
     const part *p = context;
     (void)thread;
-    drift_stretch(p->V, p->h, stretch_of(p, share));
+    drift_stretch(p->problem, p->step, stretch_of(p, share));
 }
 
 static void kick_share(const void *context, int share, int thread)
 {
     const part *p = context;
     (void)thread;
-    kick_stretch(p->V, p->h, stretch_of(p, share));
+    kick_stretch(p->problem, p->step, stretch_of(p, share));
 }
 
 /* The same where motions are prescribed. A component whose x' in the derivative differs from its extrapolated velocity
@@ -218,19 +225,17 @@ static void kick_free(verlet_integrator *V, double h)
 }
 
 /* The whole step as one sweep over the nodes, if the state allows it (docs/algorithms.md, Verlet in one pass); the
- * quadratures, which are behind the nodes and the padding, are drifted before it and kicked after it.
+ * quadratures are drifted before it and kicked after it.
  *   \return 0, another flag of the derivative on failure, or -1 if the sweep is not possible */
-static int take_fused_step(verlet_integrator *V, double h)
+static int take_fused_step(verlet_integrator *V, const ode_fused_step *step)
 {
     const ode_problem *p = &V->problem;
-    const ode_fused_step step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
-    const dem_index n_real = state_row(&p->layout, p->layout.n_nodes);
-    const stretch quadratures = {n_real, state_velocities(&p->layout) - n_real};
-    drift_stretch(V, h, quadratures);
-    const int flag = attempt_take_fused_step(&V->attempt, &step);
+    const stretch quadratures = quadratures_of(&p->layout);
+    drift_stretch(p, step, quadratures);
+    const int flag = attempt_take_fused_step(&V->attempt, step);
     if (flag < 0) return flag;
     V->counts.evaluations++;
-    kick_stretch(V, h, quadratures);
+    kick_stretch(p, step, quadratures);
     return flag;
 }
 
@@ -238,10 +243,11 @@ static int take_fused_step(verlet_integrator *V, double h)
 static int kick_drift_kick(verlet_integrator *V, double h)
 {
     V->t1 = V->t + h;
-    const int flag = take_fused_step(V, h);
+    const ode_fused_step step = {.t1 = V->t1, .h = h, .y0 = V->y0, .f0 = V->f0, .y1 = V->y1, .f1 = V->f1};
+    const int flag = take_fused_step(V, &step);
     if (flag >= 0) return flag;
     team *const t = V->problem.team;
-    const part p = {V, h, team_shares(t, V->problem.layout.n_nodes)};
+    const part p = {&V->problem, &step, team_shares(t, V->problem.layout.n_nodes)};
     team_run(t, p.n_shares, drift_share, &p);
     if (evaluate(V, V->t1, V->y1, V->f1) != 0) return -1;
     if (V->problem.prescribes)
@@ -328,7 +334,24 @@ static bool knows_start(verlet_integrator *V)
 }
 
 /* Ends of steps are in turn the state inside and the end, last that. */
-static bool verlet_integrator_take_unseen(void *self, int n)
+static void lay_out(const verlet_integrator *V, ode_fused_step *steps, int n)
+{
+    const double h = V->problem.fixed_step;
+    ode_fused_step before = {.t1 = V->t, .y1 = V->y0, .f1 = V->f0};
+    for (int k = 0; k < n; k++) {
+        const bool at_end = (n - 1 - k) % 2 == 0;
+        steps[k] = (ode_fused_step){.t1 = before.t1 + h,
+                                    .h = h,
+                                    .y0 = before.y1,
+                                    .f0 = before.f1,
+                                    .y1 = at_end ? V->y1 : V->state,
+                                    .f1 = at_end ? V->f1 : V->f_state};
+        before = steps[k];
+    }
+}
+
+/* Quadratures come after all steps, as their rates are the same at every end. */
+static bool verlet_integrator_take_unseen(void *self, int n, double *ends)
 {
     verlet_integrator *V = self;
     const ode_problem *p = &V->problem;
@@ -337,21 +360,16 @@ static bool verlet_integrator_take_unseen(void *self, int n)
     if (p->fused_steps == NULL || p->root_function != NULL) return false;
     attempt_begin(&V->attempt, p);
     if (!knows_start(V) || attempt_fixed_step(&V->attempt, V->y0, !V->resumed) < p->fixed_step) return false;
-    double t = V->t;
-    for (int k = 0; k < n; k++) {
-        const bool at_end = (n - 1 - k) % 2 == 0;
-        t += p->fixed_step;
-        steps[k] = (ode_fused_step){.t1 = t,
-                                    .h = p->fixed_step,
-                                    .y0 = k > 0 ? steps[k - 1].y1 : V->y0,
-                                    .f0 = k > 0 ? steps[k - 1].f1 : V->f0,
-                                    .y1 = at_end ? V->y1 : V->state,
-                                    .f1 = at_end ? V->f1 : V->f_state};
-    }
+    lay_out(V, steps, n);
     if (!p->fused_steps(steps, n, p->context)) return false;
+    for (int k = 0; k < n; k++) {
+        drift_stretch(p, &steps[k], quadratures_of(&p->layout));
+        kick_stretch(p, &steps[k], quadratures_of(&p->layout));
+        ends[k] = steps[k].t1;
+    }
     V->counts.steps += n;
     V->counts.evaluations += n;
-    V->t1 = t;
+    V->t1 = ends[n - 1];
     V->at_end = true;
     V->resumed = false;
     go_on(V);
