@@ -89,13 +89,18 @@ static void cut_boundary(mesh_boundary *b, const dem_model *m, const places *p)
     b->outer = NULL;
 }
 
-/* Where bodies touch each other the boundary is kept, with their sums: it has all sides then. */
-static dem_status cut_surface(dem_model *m, const dem_lattice *whole, const places *p, bool touching)
+/* Those of the whole so far. The model has them from the start, so that they end with it. */
+static dem_status find_touching(dem_model *m, const dem_lattice *whole)
 {
-    touching_bodies *bodies = calloc(1, sizeof *bodies);
-    CHECK_MEMORY(bodies);
-    m->touching = bodies; /* freed with the model */
-    TRY(touching_bodies_create(bodies, whole));
+    m->touching = calloc(1, sizeof *m->touching);
+    CHECK_MEMORY(m->touching);
+    return touching_bodies_create(m->touching, whole);
+}
+
+/* Where bodies touch each other the boundary is kept, with their sums: it has all sides then. */
+static dem_status cut_surface(dem_model *m, const places *p, bool touching)
+{
+    touching_bodies *bodies = m->touching;
     cut_boundary(&bodies->boundary, m, p);
     bodies->domain = m->domain;
     TRY(surface_compile_boundary(&m->surface, &m->lattice, &bodies->boundary, SURFACE_TOUCHING));
@@ -191,7 +196,7 @@ static dem_status cut(dem_model *m, const dem_model *whole, const places *p, boo
     TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
     TRY(list_springs(m, &whole->lattice, p));
     TRY(cut_layout(m, &whole->layout, p));
-    TRY(cut_surface(m, &whole->lattice, p, touching));
+    TRY(cut_surface(m, p, touching));
     TRY(rigid_bodies_cut(&m->rigid, &whole->rigid, p->node, m->lattice.n_nodes));
     TRY(cut_stress(m, &whole->stress, p));
     TRY(cut_nodes(m, whole));
@@ -205,35 +210,27 @@ int domain_model_rings(const dem_lattice *lattice)
     return lattice->viscosity != NULL ? 7 : 4;
 }
 
-static dem_status mark_surfaces(const dem_lattice *l, unsigned char *is_common)
-{
-    mesh_boundary boundary;
-    TRY(mesh_boundary_create(&boundary, l, NULL));
-    mesh_boundary_mark(&boundary, is_common, 1);
-    mesh_boundary_free(&boundary);
-    return DEM_OK;
-}
-
-/* Without obstacles there are no events, and so no rings. */
-static dem_status find_common(const dem_model *whole, bool touching, unsigned char *is_common)
+/* \param boundary  of surfaces that may touch each other; NULL: none do. Without obstacles there are no events, and so
+ *  no rings */
+static void find_common(const dem_model *whole, const mesh_boundary *boundary, unsigned char *is_common)
 {
     const dem_lattice *l = &whole->lattice;
     const bool has_events = whole->obstacles.n > 0;
     for (dem_index i = 0; i < l->n_nodes; i++)
         is_common[i] = (has_events && l->flags[i] & DEM_NODE_CONTACT) || l->flags[i] & DEM_NODE_RIGID;
-    if (touching) TRY(mark_surfaces(l, is_common));
+    if (boundary != NULL) mesh_boundary_mark(boundary, is_common, 1);
     if (has_events) common_nodes_add_rings(l, domain_model_rings(l), is_common);
-    return DEM_OK;
 }
 
 static dem_status create_domain(dem_model *m, const dem_model *whole, const domain_model_shares *s)
 {
-    unsigned char *is_common = lattice_zeros(whole->lattice.n_nodes, sizeof *is_common);
     m->domain = calloc(1, sizeof *m->domain);
-    dem_status status = is_common != NULL && m->domain != NULL ? find_common(whole, s->touching, is_common)
-                                                               : status_fail(DEM_ERROR_MEMORY, "out of memory");
+    CHECK_MEMORY(m->domain);
+    unsigned char *is_common = lattice_zeros(whole->lattice.n_nodes, sizeof *is_common);
+    CHECK_MEMORY(is_common);
+    find_common(whole, s->touching ? &m->touching->boundary : NULL, is_common);
     const domain_shares shares = {m->ranks->size, s->owner, is_common};
-    if (status == DEM_OK) status = domain_create(m->domain, &whole->lattice, &shares, m->ranks->rank);
+    const dem_status status = domain_create(m->domain, &whole->lattice, &shares, m->ranks->rank);
     free(is_common);
     return status;
 }
@@ -241,6 +238,7 @@ static dem_status create_domain(dem_model *m, const dem_model *whole, const doma
 static dem_status create(dem_model *m, const dem_model *whole, const domain_model_shares *s)
 {
     places p = {0};
+    TRY(find_touching(m, &whole->lattice));
     TRY(create_domain(m, whole, s));
     dem_status status = find_places(&p, m->domain, &whole->lattice);
     if (status == DEM_OK) status = cut(m, whole, &p, s->touching);
