@@ -64,7 +64,7 @@ bool rank_group_can_share(const rank_group *g, const deck *d, namelist_errors *e
 
 void rank_group_print(const rank_group *g, const dem_simulation *whole, FILE *out)
 {
-    enum { OWN, GHOSTS, COMMON, MEMORY, ALL };
+    enum { OWN, GHOSTS, COMMON, MEMORY, ALL }; /* as dem_private_program_shares() has them */
     static const char *const what[] = {[OWN] = "own nodes", [GHOSTS] = "ghosts", [COMMON] = "common nodes of others"};
     double least[ALL], most[ALL];
     g->shares(whole, least, most);

@@ -229,8 +229,8 @@ bool automaton_may_fly(const automaton *c, double time)
                                                  furthest_by(time, speed, speed) + broad_phase_reach(&c->set, speed));
 }
 
-/* At the end of each step the broad phase would find nothing to measure. */
-static bool go_by(const automaton *c, broad_phase *w, double h, double speed, double *way)
+/* Follows a step, if at its end the broad phase would find nothing to measure. */
+static bool pass_step(const automaton *c, broad_phase *w, double h, double speed, double *way)
 {
     *way = furthest_by(h, w->speed, speed);
     if (broad_phase_covers_all(w, *way)) return false;
@@ -247,7 +247,7 @@ bool automaton_fly(automaton *c, const automaton_flight *flight)
     if (!is_free(c)) return false;
     for (int k = 0; k < flight->n && !idle; k++) {
         const double speed = sqrt(flight->square[k]) + surface_speed(&c->set.scene);
-        if (!go_by(c, &w, flight->t[k + 1] - flight->t[k], speed, &way)) return false;
+        if (!pass_step(c, &w, flight->t[k + 1] - flight->t[k], speed, &way)) return false;
     }
     c->broad_phase = w;
     c->way = way;

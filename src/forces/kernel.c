@@ -271,7 +271,7 @@ void kernel_begin_step(const kernel *k, const sweep_fused_step *step)
 
 /* Extrapolates the velocity of a node again in a fused step, since the sweep has already added its kick. Its place is
  * known, and that of a ghost has not come by a drift. */
-static void drift_again(const kernel *k, const kernel_state *y, dem_index i)
+static void extrapolate_again(const kernel *k, const kernel_state *y, dem_index i)
 {
     const sweep_fused_step *p = y->fused_step;
     if (p == NULL) return;
@@ -295,7 +295,7 @@ static double put_row(const kernel *k, const kernel_state *y, dem_index i, vec2 
 
 double kernel_accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i)
 {
-    drift_again(k, y, i);
+    extrapolate_again(k, y, i);
     return put_row(k, y, i, forces_body_acceleration(f, i, y->x, y->v));
 }
 
@@ -360,7 +360,7 @@ static double push_surfaces(const kernel *k, const forces *f, const kernel_state
         const dem_index i = c->nodes[j];
         const vec2 force = vec2_at(c->force, j);
         if (!surface_contact_acts(force)) continue;
-        drift_again(k, y, i);
+        extrapolate_again(k, y, i);
         sum += put_row(k, y, i, forces_with(f, i, vec2_at(y->a, i), force));
     }
     return sum;

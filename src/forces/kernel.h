@@ -95,7 +95,7 @@ double kernel_accelerate(kernel *k, const forces *f, const kernel_state *y);
 /** Drifts the nodes `first` to `last` - 1 of a fused step. */
 void kernel_drift(const kernel *k, const sweep_fused_step *p, dem_index first, dem_index last);
 
-/** The same as kernel_accelerate() for a node alone, after a sweep or in place of it: of u nothing.
+/** Fills a of one node, and its v1 with a fused step, as kernel_accelerate() does; the node has been drifted.
  *  \return what it adds to the sum */
 double kernel_accelerate_row(const kernel *k, const forces *f, const kernel_state *y, dem_index i);
 

@@ -23,7 +23,8 @@ DEM_API void dem_private_program_abort(int code);
 DEM_API dem_status dem_private_program_lead(const void *group, dem_simulation *whole, const dem_options *options,
                                             const dem_checkpoint *checkpoint);
 
-/** What the ranks have of a simulation that rank 0 leads: dem_private_shares(). */
+/** What the ranks have of a simulation that rank 0 leads, by dem_private_shares().
+ *  \param[out] least, most  [4] of one rank: own nodes, ghosts, common nodes of others, and bytes of memory so far */
 DEM_API void dem_private_program_shares(const dem_simulation *whole, double *least, double *most);
 
 /** On rank 0, dismisses the others with a number; these take part in its runs until then.  \return that number */
