@@ -5,7 +5,7 @@
 
 #include <dem/dem.h>
 
-typedef enum lattice_items { LATTICE_NODES, LATTICE_SPRINGS, LATTICE_TRIANGLES } lattice_items;
+typedef enum lattice_items { LATTICE_NODES, LATTICE_SPRINGS, LATTICE_TRIANGLES, LATTICE_ITEMS } lattice_items;
 
 typedef struct lattice_array {
     const char *name;

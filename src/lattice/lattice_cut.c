@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "lattice/lattice_cut.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/status.h"
+
+static dem_status copy(dem_lattice *out, const dem_lattice *whole, const lattice_array *a, const lattice_cut *cut)
+{
+    const char *from = lattice_array_of(whole, a);
+    if (from == NULL) return DEM_OK;
+    char *to = malloc((size_t)cut->n[a->of] * a->size + 1);
+    CHECK(to != NULL, DEM_ERROR_MEMORY, "out of memory for a part of %lld nodes", (long long)cut->n[LATTICE_NODES]);
+    lattice_array_put(out, a, to);
+    for (dem_index k = 0; k < cut->n[a->of]; k++)
+        memcpy(to + (size_t)k * a->size, from + (size_t)cut->numbers[a->of][k] * a->size, a->size);
+    return DEM_OK;
+}
+
+static void renumber(dem_index *corner, dem_index n, const dem_index *node)
+{
+    for (dem_index k = 0; k < n; k++) corner[k] = node[corner[k]];
+}
+
+dem_status lattice_cut_create(dem_lattice *out, const dem_lattice *whole, const lattice_cut *cut)
+{
+    dem_lattice l = dem_lattice_empty();
+    dem_status status = DEM_OK;
+    l.dim = whole->dim;
+    for (int k = 0; k < LATTICE_ARRAYS && status == DEM_OK; k++) status = copy(&l, whole, &lattice_arrays[k], cut);
+    if (status != DEM_OK) {
+        dem_lattice_free(&l);
+        return status;
+    }
+    l.n_nodes = cut->n[LATTICE_NODES];
+    l.n_springs = cut->n[LATTICE_SPRINGS];
+    l.n_triangles = cut->n[LATTICE_TRIANGLES];
+    renumber(l.ends, 2 * l.n_springs, cut->node);
+    renumber(l.triangles, 3 * l.n_triangles, cut->node);
+    *out = l;
+    return DEM_OK;
+}
