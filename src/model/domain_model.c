@@ -18,191 +18,91 @@
 #include "model/domain_model.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/reduce.h"
+#include "base/sorted.h"
 #include "base/status.h"
 #include "domain/common_nodes.h"
 #include "lattice/lattice.h"
+#include "lattice/lattice_cut.h"
+#include "model/domain_message.h"
 #include "obstacle/obstacle_set.h"
 
-/* The numbers in the domain of what the whole lattice has; -1: it is not there. */
+/* Which of the whole lattice is in the domain; `spring` is the domain's list. */
 typedef struct places {
-    dem_index *node, *spring, *triangle;
+    dem_index *node; /* [nodes of the whole] their numbers in the domain; -1: not there */
+    dem_index n_springs, n_triangles;
+    dem_index *spring, *triangle; /* [n] that are there, by their numbers in the whole, ascending */
 } places;
 
 static void free_places(places *p)
 {
     free(p->node);
-    free(p->spring);
     free(p->triangle);
 }
 
-/* Numbers the tuples of which the domain has all corners, as dem_lattice_select() keeps them. */
-static void number_tuples(const dem_index *corner, int arity, dem_index n, const dem_index *node, dem_index *number)
+/* Lists the tuples of which the domain has all corners, or without a list only counts them. */
+static dem_index list_tuples(const dem_index *corner, int arity, dem_index n, const dem_index *node, dem_index *list)
 {
     dem_index kept = 0;
     for (dem_index k = 0; k < n; k++) {
         bool is_there = true;
         for (int c = 0; c < arity; c++) is_there = is_there && node[corner[arity * k + c]] >= 0;
-        number[k] = is_there ? kept++ : -1;
+        if (is_there && list != NULL) list[kept] = k;
+        kept += is_there;
     }
+    return kept;
 }
 
-static dem_status find_places(places *p, const domain *d, const dem_lattice *whole)
+static dem_status find_places(places *p, domain *d, const dem_lattice *whole)
 {
     p->node = lattice_zeros(whole->n_nodes, sizeof *p->node);
-    p->spring = lattice_zeros(whole->n_springs, sizeof *p->spring);
-    p->triangle = lattice_zeros(whole->n_triangles, sizeof *p->triangle);
-    CHECK(p->node && p->spring && p->triangle, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
-          (long long)d->n_nodes);
+    CHECK(p->node, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes", (long long)d->n_nodes);
     for (dem_index i = 0; i < whole->n_nodes; i++) p->node[i] = -1;
     for (dem_index i = 0; i < d->n_nodes; i++) p->node[d->number[i]] = i;
-    number_tuples(whole->ends, 2, whole->n_springs, p->node, p->spring);
-    number_tuples(whole->triangles, 3, whole->n_triangles, p->node, p->triangle);
+    p->n_springs = list_tuples(whole->ends, 2, whole->n_springs, p->node, NULL);
+    p->n_triangles = list_tuples(whole->triangles, 3, whole->n_triangles, p->node, NULL);
+    p->spring = d->spring = lattice_zeros(p->n_springs, sizeof *p->spring);
+    p->triangle = lattice_zeros(p->n_triangles, sizeof *p->triangle);
+    CHECK(p->spring && p->triangle, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
+          (long long)d->n_nodes);
+    (void)list_tuples(whole->ends, 2, whole->n_springs, p->node, p->spring);
+    (void)list_tuples(whole->triangles, 3, whole->n_triangles, p->node, p->triangle);
     return DEM_OK;
+}
+
+static dem_index spring_of(const places *p, dem_index number)
+{
+    return sorted_find(p->spring, p->n_springs, number);
+}
+
+static dem_index triangle_of(const places *p, dem_index number)
+{
+    return sorted_find(p->triangle, p->n_triangles, number);
 }
 
 static dem_status cut_lattice(dem_model *m, const dem_lattice *whole, const places *p)
 {
-    m->lattice = dem_lattice_empty();
-    TRY(dem_lattice_append(&m->lattice, whole));
-    bool *keep = lattice_zeros(whole->n_nodes, sizeof *keep);
-    CHECK_MEMORY(keep);
-    for (dem_index i = 0; i < whole->n_nodes; i++) keep[i] = p->node[i] >= 0;
-    const dem_status status = dem_lattice_select(&m->lattice, keep);
-    free(keep);
-    return status;
+    const lattice_cut list = {.n = {m->domain->n_nodes, p->n_springs, p->n_triangles},
+                              .numbers = {m->domain->number, p->spring, p->triangle},
+                              .node = p->node};
+    return lattice_cut_create(&m->lattice, whole, &list);
 }
 
-/* Leaves of the whole's boundary the sides whose triangles are in the domain. */
-static void cut_boundary(mesh_boundary *b, const dem_model *m, const places *p)
-{
-    dem_index kept = 0;
-    for (dem_index k = 0; k < b->n; k++) {
-        const mesh_boundary_edge *e = &b->list[k];
-        if (p->triangle[e->triangle] < 0) continue;
-        b->list[kept++] = (mesh_boundary_edge){p->node[e->lower], p->node[e->upper], p->triangle[e->triangle]};
-    }
-    b->n = kept;
-    b->lattice = &m->lattice;
-    free(b->outer); /* of nodes of the whole */
-    b->outer = NULL;
-}
+/* ---- what is found of the whole once ---- */
 
-/* Those of the whole so far. The model has them from the start, so that they end with it. */
-static dem_status find_touching(dem_model *m, const dem_lattice *whole)
-{
-    m->touching = calloc(1, sizeof *m->touching);
-    CHECK_MEMORY(m->touching);
-    return touching_bodies_create(m->touching, whole);
-}
+typedef struct whole_lattice {
+    const dem_model *model;
+    const domain_model_shares *shares;
+    touching_bodies bodies;
+    unsigned char *is_common; /* [n_nodes] */
+} whole_lattice;
 
-/* Where bodies touch each other the boundary is kept, with their sums: it has all sides then. */
-static dem_status cut_surface(dem_model *m, const places *p, bool touching)
+static void close_whole(whole_lattice *w)
 {
-    touching_bodies *bodies = m->touching;
-    cut_boundary(&bodies->boundary, m, p);
-    bodies->domain = m->domain;
-    TRY(surface_compile_boundary(&m->surface, &m->lattice, &bodies->boundary, SURFACE_TOUCHING));
-    if (touching) return DEM_OK;
-    touching_bodies_free(bodies);
-    free(bodies);
-    m->touching = NULL;
-    return DEM_OK;
-}
-
-/* The rows of own nodes; those of ghosts are empty. */
-static dem_status cut_stress(dem_model *m, const stress_map *whole, const places *p)
-{
-    const domain *d = m->domain;
-    const stress_rows *from = whole->rows;
-    dem_index n = 0;
-    TRY(stress_prepare(whole));
-    for (dem_index i = 0; i < d->n_nodes; i++)
-        if (d->is_own[i]) n += from->row[d->number[i] + 1] - from->row[d->number[i]];
-    TRY(stress_create(&m->stress, d->n_nodes, n, &m->couplings));
-    stress_rows *to = m->stress.rows;
-    n = 0;
-    for (dem_index i = 0; i < d->n_nodes; i++) {
-        const dem_index of = d->number[i];
-        m->stress.volume[i] = whole->volume[of];
-        for (dem_index q = from->row[of]; d->is_own[i] && q < from->row[of + 1]; q++) {
-            to->spring[n] = (int32_t)p->spring[from->spring[q]];
-            to->share[n++] = from->share[q];
-        }
-        to->row[i + 1] = (int32_t)n;
-    }
-    return DEM_OK;
-}
-
-static dem_status cut_nodes(dem_model *m, const dem_model *whole)
-{
-    const domain *d = m->domain;
-    m->inverse_mass = lattice_zeros(d->n_nodes, sizeof *m->inverse_mass);
-    CHECK_MEMORY(m->inverse_mass);
-    for (dem_index i = 0; i < d->n_nodes; i++)
-        m->inverse_mass[i] = d->is_ghost[i] ? 0.0 : whole->inverse_mass[d->number[i]];
-    return DEM_OK;
-}
-
-/* The numbers of springs in the whole lattice. */
-static dem_status list_springs(dem_model *m, const dem_lattice *whole, const places *p)
-{
-    domain *d = m->domain;
-    d->spring = malloc(((size_t)m->lattice.n_springs + 1) * sizeof *d->spring);
-    CHECK_MEMORY(d->spring);
-    for (dem_index k = 0; k < whole->n_springs; k++)
-        if (p->spring[k] >= 0) d->spring[p->spring[k]] = k;
-    return DEM_OK;
-}
-
-/* Nodes stand in the order of the whole's layout, so that all ranks and a process alone see an element from the same of
- * its nodes, the lowest in this order: areas have other bits from another corner. */
-static dem_status cut_layout(dem_model *m, const layout *whole, const places *p)
-{
-    const domain *d = m->domain;
-    int32_t *order = NULL;
-    dem_index n = 0;
-    if (whole->order != NULL) {
-        order = malloc((size_t)d->n_nodes * sizeof *order);
-        CHECK_MEMORY(order);
-        for (dem_index q = 0; q < d->n_whole; q++)
-            if (p->node[whole->order[q]] >= 0) order[n++] = (int32_t)p->node[whole->order[q]];
-    }
-    const dem_status status = layout_compile_part(&m->layout, &m->springs, &m->triangles, &m->couplings, order);
-    free(order);
-    return status;
-}
-
-static void take_scales(dem_model *m, const dem_model *whole)
-{
-    m->domain->n_springs = whole->lattice.n_springs;
-    m->domain->n_triangles = whole->lattice.n_triangles;
-    m->domain->n_surface_nodes = whole->surface.n_nodes;
-    m->domain->n_surface_edges = whole->surface.n_edges;
-    m->edges_are_springs = whole->edges_are_springs;
-    m->n_bodies = whole->n_bodies;
-    m->spacing = whole->spacing;
-    m->omega_max = whole->omega_max;
-    m->mass = whole->mass;
-}
-
-static dem_status cut(dem_model *m, const dem_model *whole, const places *p, bool touching)
-{
-    TRY(cut_lattice(m, &whole->lattice, p));
-    TRY(springs_compile(&m->springs, &m->lattice));
-    TRY(csr_view_create(&m->csr, &m->springs));
-    TRY(triangles_compile(&m->triangles, &m->lattice));
-    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
-    TRY(list_springs(m, &whole->lattice, p));
-    TRY(cut_layout(m, &whole->layout, p));
-    TRY(cut_surface(m, p, touching));
-    TRY(rigid_bodies_cut(&m->rigid, &whole->rigid, p->node, m->lattice.n_nodes));
-    TRY(cut_stress(m, &whole->stress, p));
-    TRY(cut_nodes(m, whole));
-    TRY(obstacles_compile(&m->obstacles, whole->obstacles.list, whole->obstacles.n));
-    take_scales(m, whole);
-    return DEM_OK;
+    touching_bodies_free(&w->bodies);
+    free(w->is_common);
 }
 
 int domain_model_rings(const dem_lattice *lattice)
@@ -222,28 +122,179 @@ static void find_common(const dem_model *whole, const mesh_boundary *boundary, u
     if (has_events) common_nodes_add_rings(l, domain_model_rings(l), is_common);
 }
 
-static dem_status create_domain(dem_model *m, const dem_model *whole, const domain_model_shares *s)
+static dem_status open_whole(whole_lattice *w, const dem_model *model, const domain_model_shares *shares)
 {
+    *w = (whole_lattice){.model = model, .shares = shares};
+    TRY(touching_bodies_create(&w->bodies, &model->lattice));
+    w->is_common = lattice_zeros(model->lattice.n_nodes, sizeof *w->is_common);
+    CHECK_MEMORY(w->is_common);
+    find_common(model, shares->touching ? &w->bodies.boundary : NULL, w->is_common);
+    return DEM_OK;
+}
+
+/* ---- what is cut ---- */
+
+/* The sides of the whole's boundary whose triangles are in the domain.  \return how many there are */
+static dem_index cut_boundary(const mesh_boundary *whole, const places *p, mesh_boundary_edge *list)
+{
+    dem_index n = 0;
+    for (dem_index k = 0; k < whole->n; k++) {
+        const mesh_boundary_edge *e = &whole->list[k];
+        const dem_index triangle = triangle_of(p, e->triangle);
+        if (triangle < 0) continue;
+        if (list != NULL) list[n] = (mesh_boundary_edge){p->node[e->lower], p->node[e->upper], triangle};
+        n++;
+    }
+    return n;
+}
+
+/* The model has them from the start, so that they end with it. Where bodies touch each other the boundary has all sides
+ * of the whole. */
+static dem_status cut_touching(dem_model *m, const touching_bodies *whole, const places *p)
+{
+    touching_bodies *o = m->touching = calloc(1, sizeof *o);
+    CHECK_MEMORY(o);
+    o->domain = m->domain;
+    o->n_bodies = whole->n_bodies;
+    o->boundary.lattice = &m->lattice;
+    o->boundary.n = cut_boundary(&whole->boundary, p, NULL);
+    o->boundary.list = malloc(((size_t)o->boundary.n + 1) * sizeof *o->boundary.list);
+    o->bodies = malloc(((size_t)o->n_bodies + 1) * sizeof *o->bodies);
+    CHECK(o->boundary.list && o->bodies, DEM_ERROR_MEMORY, "out of memory for %lld boundary edges",
+          (long long)o->boundary.n);
+    (void)cut_boundary(&whole->boundary, p, o->boundary.list);
+    memcpy(o->bodies, whole->bodies, (size_t)o->n_bodies * sizeof *o->bodies);
+    return DEM_OK;
+}
+
+/* The rows of own nodes; those of ghosts are empty. */
+static dem_status cut_stress(dem_model *m, const stress_map *whole, const places *p)
+{
+    const domain *d = m->domain;
+    const stress_rows *from = whole->rows;
+    dem_index n = 0;
+    TRY(stress_prepare(whole));
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        if (d->is_own[i]) n += from->row[d->number[i] + 1] - from->row[d->number[i]];
+    TRY(stress_create(&m->stress, d->n_nodes, n, &m->couplings));
+    stress_rows *to = m->stress.rows;
+    n = 0;
+    for (dem_index i = 0; i < d->n_nodes; i++) {
+        const dem_index of = d->number[i];
+        m->stress.volume[i] = whole->volume[of];
+        for (dem_index q = from->row[of]; d->is_own[i] && q < from->row[of + 1]; q++) {
+            to->spring[n] = (int32_t)spring_of(p, from->spring[q]);
+            to->share[n++] = from->share[q];
+        }
+        to->row[i + 1] = (int32_t)n;
+    }
+    return DEM_OK;
+}
+
+static dem_status cut_nodes(dem_model *m, const dem_model *whole)
+{
+    const domain *d = m->domain;
+    m->inverse_mass = lattice_zeros(d->n_nodes, sizeof *m->inverse_mass);
+    CHECK_MEMORY(m->inverse_mass);
+    for (dem_index i = 0; i < d->n_nodes; i++)
+        m->inverse_mass[i] = d->is_ghost[i] ? 0.0 : whole->inverse_mass[d->number[i]];
+    return DEM_OK;
+}
+
+/* Nodes stand in the order of the whole's layout, so that all ranks and a process alone see an element from the same of
+ * its nodes, the lowest in this order: areas have other bits from another corner. */
+static dem_status cut_order(domain_cut *c, const layout *whole, const places *p)
+{
+    const domain *d = c->model->domain;
+    dem_index n = 0;
+    if (whole->order == NULL) return DEM_OK;
+    c->order = malloc((size_t)d->n_nodes * sizeof *c->order);
+    CHECK_MEMORY(c->order);
+    for (dem_index q = 0; q < d->n_whole; q++)
+        if (p->node[whole->order[q]] >= 0) c->order[n++] = (int32_t)p->node[whole->order[q]];
+    return DEM_OK;
+}
+
+static void take_scales(dem_model *m, const dem_model *whole)
+{
+    m->domain->n_springs = whole->lattice.n_springs;
+    m->domain->n_triangles = whole->lattice.n_triangles;
+    m->domain->n_surface_nodes = whole->surface.n_nodes;
+    m->domain->n_surface_edges = whole->surface.n_edges;
+    m->edges_are_springs = whole->edges_are_springs;
+    m->n_bodies = whole->n_bodies;
+    m->spacing = whole->spacing;
+    m->omega_max = whole->omega_max;
+    m->mass = whole->mass;
+}
+
+static dem_status cut_parts(domain_cut *c, const whole_lattice *w, const places *p)
+{
+    dem_model *m = c->model;
+    const dem_model *whole = w->model;
+    TRY(cut_lattice(m, &whole->lattice, p));
+    TRY(cut_order(c, &whole->layout, p));
+    TRY(cut_touching(m, &w->bodies, p));
+    TRY(rigid_bodies_cut(&m->rigid, &whole->rigid, p->node, m->lattice.n_nodes));
+    TRY(cut_stress(m, &whole->stress, p));
+    TRY(cut_nodes(m, whole));
+    take_scales(m, whole);
+    return DEM_OK;
+}
+
+/* For a rank, which need not be this one. */
+static dem_status cut(domain_cut *c, const whole_lattice *w, int n_ranks, int rank)
+{
+    dem_model *m = c->model;
+    places p = {0};
+    const domain_shares shares = {n_ranks, w->shares->owner, w->is_common};
     m->domain = calloc(1, sizeof *m->domain);
     CHECK_MEMORY(m->domain);
-    unsigned char *is_common = lattice_zeros(whole->lattice.n_nodes, sizeof *is_common);
-    CHECK_MEMORY(is_common);
-    find_common(whole, s->touching ? &m->touching->boundary : NULL, is_common);
-    const domain_shares shares = {m->ranks->size, s->owner, is_common};
-    const dem_status status = domain_create(m->domain, &whole->lattice, &shares, m->ranks->rank);
-    free(is_common);
+    TRY(domain_create(m->domain, &w->model->lattice, &shares, rank));
+    dem_status status = find_places(&p, m->domain, &w->model->lattice);
+    if (status == DEM_OK) status = cut_parts(c, w, &p);
+    free_places(&p);
     return status;
 }
 
-static dem_status create(dem_model *m, const dem_model *whole, const domain_model_shares *s)
+static dem_status open_cut(domain_cut *c)
 {
-    places p = {0};
-    TRY(find_touching(m, &whole->lattice));
-    TRY(create_domain(m, whole, s));
-    dem_status status = find_places(&p, m->domain, &whole->lattice);
-    if (status == DEM_OK) status = cut(m, whole, &p, s->touching);
-    free_places(&p);
-    return status;
+    c->order = NULL;
+    c->model = calloc(1, sizeof *c->model);
+    CHECK_MEMORY(c->model);
+    return DEM_OK;
+}
+
+/* Ends what has been cut, but for the model, where that is wanted. */
+static void close_cut(domain_cut *c, bool keeps_model)
+{
+    free(c->order);
+    if (!keeps_model) dem_model_destroy(c->model);
+}
+
+/* ---- what is compiled of it ---- */
+
+/* The boundary is kept where bodies touch each other. */
+static dem_status compile_surface(dem_model *m, bool touching)
+{
+    TRY(surface_compile_boundary(&m->surface, &m->lattice, &m->touching->boundary, SURFACE_TOUCHING));
+    if (touching) return DEM_OK;
+    touching_bodies_free(m->touching);
+    free(m->touching);
+    m->touching = NULL;
+    return DEM_OK;
+}
+
+static dem_status compile(const domain_cut *c, const dem_obstacle *obstacles, dem_index n_obstacles, bool touching)
+{
+    dem_model *m = c->model;
+    TRY(springs_compile(&m->springs, &m->lattice));
+    TRY(csr_view_create(&m->csr, &m->springs));
+    TRY(triangles_compile(&m->triangles, &m->lattice));
+    TRY(couplings_compile(&m->couplings, &m->lattice, &m->springs));
+    TRY(layout_compile_part(&m->layout, &m->springs, &m->triangles, &m->couplings, c->order));
+    TRY(compile_surface(m, touching));
+    return obstacles_compile(&m->obstacles, obstacles, n_obstacles);
 }
 
 /* What ranks cannot share yet. A motion that the program computes may differ from rank to rank. */
@@ -257,17 +308,78 @@ static dem_status check(const ranks *r, const dem_model *whole)
     return DEM_OK;
 }
 
+/* Hands the model over if all ranks have theirs. */
+static dem_status finish(dem_model **out, const ranks *r, domain_cut *c, dem_status own)
+{
+    const dem_status status = reduce_status(r, own, 0.0);
+    if (status == DEM_OK) {
+        c->model->ranks = r;
+        *out = c->model;
+    }
+    close_cut(c, status == DEM_OK);
+    return status;
+}
+
+/* Each rank cuts its own. */
+static dem_status create(domain_cut *c, const ranks *r, const dem_model *model, const domain_model_shares *shares)
+{
+    whole_lattice w;
+    dem_status status = open_whole(&w, model, shares);
+    if (status == DEM_OK) status = open_cut(c);
+    if (status == DEM_OK) status = cut(c, &w, r->size, r->rank);
+    close_whole(&w);
+    TRY(status);
+    return compile(c, model->obstacles.list, model->obstacles.n, shares->touching);
+}
+
 dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole,
                                const domain_model_shares *shares)
 {
+    domain_cut c = {0};
     TRY(reduce_status(r, check(r, whole), 0.0));
-    dem_model *m = calloc(1, sizeof *m);
-    CHECK_MEMORY(m);
-    m->ranks = r;
-    const dem_status status = reduce_status(r, create(m, whole, shares), 0.0);
-    if (status == DEM_OK)
-        *out = m;
-    else
-        dem_model_destroy(m);
+    return finish(out, r, &c, create(&c, r, whole, shares));
+}
+
+/* ---- from the whole that rank 0 has ---- */
+
+/* What rank 0 has cut for another one ends as soon as it is sent. */
+static dem_status deal_one(domain_cut *own, const ranks *r, const whole_lattice *w, int to)
+{
+    domain_cut other = {0}, *const c = r->rank == 0 ? &other : own;
+    const bool takes_part = r->rank == 0 || r->rank == to;
+    dem_status status = takes_part ? open_cut(c) : DEM_OK;
+    if (status == DEM_OK && r->rank == 0) status = cut(c, w, r->size, to);
+    status = reduce_status(r, status, 0.0);
+    if (status == DEM_OK) status = domain_message_send(r, to, takes_part ? c : NULL);
+    close_cut(&other, false);
     return status;
+}
+
+/* One after the other, so that rank 0 has one domain at a time, and its own last. */
+static dem_status deal_all(domain_cut *own, const ranks *r, const whole_lattice *w)
+{
+    for (int to = 1; to < r->size; to++) TRY(deal_one(own, r, w, to));
+    if (r->rank > 0) return DEM_OK;
+    TRY(open_cut(own));
+    return cut(own, w, r->size, 0);
+}
+
+static dem_status deal(domain_cut *own, const ranks *r, const dem_model *model, const domain_model_shares *shares)
+{
+    whole_lattice w = {0};
+    dem_status status = r->rank == 0 ? open_whole(&w, model, shares) : DEM_OK;
+    status = reduce_status(r, status, 0.0);
+    if (status == DEM_OK) status = deal_all(own, r, &w);
+    close_whole(&w);
+    return status;
+}
+
+dem_status domain_model_deal(dem_model **out, const ranks *r, const dem_model *whole, const domain_model_shares *shares,
+                             const dem_obstacle *obstacles, dem_index n_obstacles)
+{
+    domain_cut c = {0};
+    TRY(reduce_status(r, r->rank == 0 ? check(r, whole) : DEM_OK, 0.0));
+    dem_status status = deal(&c, r, whole, shares);
+    if (status == DEM_OK) status = compile(&c, obstacles, n_obstacles, shares->touching);
+    return finish(out, r, &c, status);
 }

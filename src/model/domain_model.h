@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The model of a domain, as one rank has it: cut from the model of the whole lattice. */
+/* The model of a domain, as one rank has it: cut from the model of the whole lattice, by the rank itself or by rank
+ * 0. */
 #ifndef DEM_MODEL_DOMAIN_MODEL_H
 #define DEM_MODEL_DOMAIN_MODEL_H
 
@@ -19,6 +20,14 @@ typedef struct domain_model_shares {
  *  computes, which several ranks cannot share yet; DEM_ERROR_MEMORY */
 dem_status domain_model_create(dem_model **out, const ranks *r, const dem_model *whole,
                                const domain_model_shares *shares);
+
+/** The same where rank 0 alone has the whole: it cuts the domains of all ranks, one after the other, and sends them.
+ *  Obstacles are given, as another rank has no model of the whole that they would be in.
+ *  \param whole   on rank 0; not looked at elsewhere
+ *  \param shares  likewise its owners
+ *  \param obstacles  [n_obstacles] the same on all ranks */
+dem_status domain_model_deal(dem_model **out, const ranks *r, const dem_model *whole, const domain_model_shares *shares,
+                             const dem_obstacle *obstacles, dem_index n_obstacles);
 
 /** How many rings of neighbours about what may touch obstacles ranks have in common. */
 int domain_model_rings(const dem_lattice *lattice);

@@ -324,6 +324,17 @@ dem_status rigid_bodies_compile(rigid_bodies *out, const dem_lattice *lattice)
     return status;
 }
 
+void rigid_bodies_link(rigid_bodies *r)
+{
+    dem_index first = 0;
+    for (dem_index b = 0; b < r->n; b++) {
+        r->list[b].nodes = r->nodes + first;
+        r->list[b].masses = r->masses + first;
+        r->list[b].shape = r->shapes + 2 * first;
+        first += r->list[b].n_nodes;
+    }
+}
+
 static void cut_bodies(rigid_bodies *r, const rigid_bodies *whole, const dem_index *number)
 {
     for (dem_index k = 0; k < whole->n_nodes; k++) {
@@ -331,14 +342,10 @@ static void cut_bodies(rigid_bodies *r, const rigid_bodies *whole, const dem_ind
         r->of_node[r->nodes[k]] = whole->of_node[whole->nodes[k]];
     }
     for (; r->n < whole->n; r->n++) {
-        const rigid_body *of = &whole->list[r->n];
-        rigid_body *b = &r->list[r->n];
-        *b = *of;
-        b->nodes = r->nodes + (of->nodes - whole->nodes);
-        b->masses = r->masses + (of->masses - whole->masses);
-        b->shape = r->shapes + (of->shape - whole->shapes);
-        b->middle = number[of->middle];
+        r->list[r->n] = whole->list[r->n];
+        r->list[r->n].middle = number[whole->list[r->n].middle];
     }
+    rigid_bodies_link(r);
 }
 
 dem_status rigid_bodies_cut(rigid_bodies *out, const rigid_bodies *whole, const dem_index *number, dem_index n_nodes)

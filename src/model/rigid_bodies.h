@@ -38,6 +38,9 @@ void rigid_bodies_free(rigid_bodies *r);
  *  \return DEM_ERROR_MEMORY. Free with rigid_bodies_free(). */
 dem_status rigid_bodies_cut(rigid_bodies *out, const rigid_bodies *whole, const dem_index *number, dem_index n_nodes);
 
+/** Points each body of the list to what it has in the arrays of all. */
+void rigid_bodies_link(rigid_bodies *r);
+
 /** The rigid body of a node; NULL if there is none. */
 static inline const rigid_body *rigid_bodies_at(const rigid_bodies *r, dem_index node)
 {

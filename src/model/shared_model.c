@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every rank compiles the whole and cuts its part from it (model/domain_model.c). All have to have the same lattice
+/* Every rank compiles the whole and cuts its part from it (model/domain_model.c), unless rank 0 has it and cuts the
+ * parts of all. Where all have it they have to have the same lattice
  * and obstacles: lists of what they send to each other, and so all that follows, are made of these. Whether they do is
  * seen from a hash of the arrays, as the model holds them. */
 #include "model/shared_model.h"
@@ -81,13 +82,18 @@ static dem_status check_same(const ranks *r, const dem_model *m)
 
 /* ---- public ---- */
 
+static dem_status find_owners(int32_t **owner, const dem_lattice *whole, int n_ranks)
+{
+    *owner = malloc((size_t)whole->n_nodes * sizeof **owner);
+    CHECK_MEMORY(*owner);
+    return partition_bisect(whole, n_ranks, *owner);
+}
+
 /* What a rank does by itself. */
 static dem_status prepare(dem_model **whole, int32_t **owner, const dem_private_whole *of, int n_ranks)
 {
     TRY(dem_model_create(whole, of->lattice, of->obstacles, of->n_obstacles));
-    *owner = malloc((size_t)of->lattice->n_nodes * sizeof **owner);
-    CHECK_MEMORY(*owner);
-    return partition_bisect(&(*whole)->lattice, n_ranks, *owner);
+    return find_owners(owner, &(*whole)->lattice, n_ranks);
 }
 
 static bool may_touch(const dem_model *whole, dem_private_touching touching)
@@ -113,5 +119,19 @@ dem_status dem_private_share_model(dem_model **out, const dem_private_whole *who
         status = share(out, r, compiled, &(domain_model_shares){owner, may_touch(compiled, whole->touching)});
     dem_model_destroy(compiled);
     free(owner);
+    return status;
+}
+
+dem_status shared_model_deal(dem_model **out, const dem_model *whole, const dem_private_whole *about, const ranks *r)
+{
+    int32_t *owner = NULL;
+    const bool touching = about->touching == DEM_PRIVATE_TOUCHING_SOME;
+    dem_status status = r->rank == 0 ? find_owners(&owner, &whole->lattice, r->size) : DEM_OK;
+    status = reduce_status(r, status, 0.0);
+    if (status == DEM_OK)
+        status = domain_model_deal(out, r, whole, &(domain_model_shares){owner, touching}, about->obstacles,
+                                   about->n_obstacles);
+    free(owner);
+    if (status == DEM_OK) (*out)->ends_ranks = r->end != NULL;
     return status;
 }

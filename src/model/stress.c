@@ -170,20 +170,28 @@ dem_status stress_compile(stress_map *out, const dem_lattice *lattice, const spr
     return status;
 }
 
+dem_status stress_create_empty(stress_map *out, const couplings *c)
+{
+    stress_map map = {.couplings = c};
+    TRY(create_rows(&map, NULL, NULL));
+    map.rows->made.is_made = true;
+    *out = map;
+    return DEM_OK;
+}
+
 static dem_status allocate(stress_map *map, dem_index n_nodes, dem_index n_shares)
 {
     map->volume = lattice_zeros(n_nodes, sizeof *map->volume);
-    CHECK(map->volume, DEM_ERROR_MEMORY, "out of memory for the volumes of %lld nodes", (long long)n_nodes);
-    TRY(create_rows(map, NULL, NULL));
     map->rows->row = lattice_zeros(n_nodes + 1, sizeof *map->rows->row);
-    CHECK(map->rows->row, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes", (long long)n_nodes);
-    map->rows->made.is_made = true;
+    CHECK(map->volume && map->rows->row, DEM_ERROR_MEMORY, "out of memory for the stresses of %lld nodes",
+          (long long)n_nodes);
     return allocate_shares(map->rows, n_nodes, n_shares);
 }
 
 dem_status stress_create(stress_map *out, dem_index n_nodes, dem_index n_shares, const couplings *c)
 {
-    stress_map map = {.couplings = c};
+    stress_map map;
+    TRY(stress_create_empty(&map, c));
     const dem_status status = allocate(&map, n_nodes, n_shares);
     if (status == DEM_OK)
         *out = map;

@@ -58,9 +58,9 @@ static void drop(led_run *l)
 static dem_status create_part(led_run *l, const shared_problem *p, bool resumes, const dem_checkpoint *checkpoint)
 {
     const bool touching = p->options.bodies != DEM_BODIES_NONE;
-    const dem_private_whole whole = {&p->lattice, p->obstacles, p->n_obstacles,
+    const dem_private_whole about = {NULL, p->obstacles, p->n_obstacles,
                                      touching ? DEM_PRIVATE_TOUCHING_SOME : DEM_PRIVATE_TOUCHING_NONE};
-    TRY(dem_private_share_model(&l->model, &whole, &l->ranks));
+    TRY(shared_model_deal(&l->model, l->whole != NULL ? l->whole->model : NULL, &about, &l->ranks));
     if (resumes)
         TRY(dem_simulation_resume(&l->part, l->model, &p->options, checkpoint));
     else

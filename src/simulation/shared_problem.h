@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A lattice, its obstacles and the options of a run, as named bytes that rank 0 sends to the others. */
+/* The obstacles and the options of a run, as named bytes that rank 0 sends to all others. */
 #ifndef DEM_SIMULATION_SHARED_PROBLEM_H
 #define DEM_SIMULATION_SHARED_PROBLEM_H
 
 #include "model/model.h"
 
 typedef struct shared_problem {
-    dem_lattice lattice; /* its arrays are views */
     dem_index n_obstacles;
     dem_obstacle *obstacles; /* [n_obstacles] whose points are views */
     dem_options options;

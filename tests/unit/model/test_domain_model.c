@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* domain_model.c: a rank's model has of its own nodes what the model of the whole has. */
+/* domain_model.c, domain_message.c: a rank's model has of its own nodes what the model of the whole has, whether each
+ * rank has that one or rank 0 alone. */
 #include "unit/domain/shared_lattice.h"
 
 #include <string.h>
@@ -14,7 +15,7 @@ enum { N_RANKS = 5, TEXT = 200 };
 typedef struct shared {
     const dem_model *whole;
     const int32_t *owner;
-    bool touching;
+    bool touching, deals; /* whether bodies may touch; whether rank 0 alone has the whole */
     dem_model *models[N_RANKS];
     dem_status status[N_RANKS];
     char messages[N_RANKS][TEXT];
@@ -23,8 +24,12 @@ typedef struct shared {
 static void create(const ranks *r, void *context)
 {
     shared *s = context;
+    const dem_model *whole = s->deals && r->rank > 0 ? NULL : s->whole;
+    const domain_model_shares shares = {whole != NULL ? s->owner : NULL, s->touching};
+    dem_model **out = &s->models[r->rank];
     s->status[r->rank] =
-        domain_model_create(&s->models[r->rank], r, s->whole, &(domain_model_shares){s->owner, s->touching});
+        s->deals ? domain_model_deal(out, r, whole, &shares, s->whole->obstacles.list, s->whole->obstacles.n)
+                 : domain_model_create(out, r, whole, &shares);
     if (s->status[r->rank] != DEM_OK) (void)strncpy(s->messages[r->rank], dem_status_message(), TEXT - 1);
 }
 
@@ -90,6 +95,15 @@ static void assert_same_surface(const dem_model *m, const dem_model *whole)
         assert_int_equal(m->lattice.flags[i], whole->lattice.flags[d->number[i]]);
 }
 
+static void assert_same_model(const dem_model *m, const dem_model *whole, const double *x)
+{
+    assert_same_rows(m, whole);
+    assert_same_stresses(m, whole, x);
+    assert_same_surface(m, whole);
+    assert_true(m->omega_max == whole->omega_max && m->spacing == whole->spacing && m->mass == whole->mass);
+    assert_int_equal(m->n_bodies, whole->n_bodies);
+}
+
 TEST(own_nodes_have_what_they_have_in_the_whole)
 {
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
@@ -97,19 +111,49 @@ TEST(own_nodes_have_what_they_have_in_the_whole)
     CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
     CLEANUP(free_memory) double *x = malloc(2 * (size_t)l.n_nodes * sizeof *x);
     for (dem_index k = 0; k < 2 * l.n_nodes; k++) x[k] = l.x[k] * (1.0 + 0.01 * sin((double)k));
-    shared s = {.whole = whole, .owner = owner};
-    rank_threads_run(N_RANKS, create, &s);
     assert_ok(stress_prepare(&whole->stress));
-    for (int k = 0; k < N_RANKS; k++) {
-        const dem_model *m = s.models[k];
-        assert_int_equal(s.status[k], DEM_OK);
-        assert_same_rows(m, whole);
-        assert_same_stresses(m, whole, x);
-        assert_same_surface(m, whole);
-        assert_true(m->omega_max == whole->omega_max && m->spacing == whole->spacing && m->mass == whole->mass);
-        assert_int_equal(m->n_bodies, whole->n_bodies);
+    for (int deals = 0; deals < 2; deals++) {
+        shared s = {.whole = whole, .owner = owner, .deals = deals};
+        rank_threads_run(N_RANKS, create, &s);
+        for (int k = 0; k < N_RANKS; k++) {
+            assert_int_equal(s.status[k], DEM_OK);
+            assert_same_model(s.models[k], whole, x);
+        }
+        destroy(&s);
     }
-    destroy(&s);
+}
+
+static bool same_neighbour(const domain_neighbour *a, const domain_neighbour *b)
+{
+    return a->rank == b->rank && a->n_sent == b->n_sent && a->n_received == b->n_received &&
+           memcmp(a->sent, b->sent, (size_t)a->n_sent * sizeof *a->sent) == 0 &&
+           memcmp(a->received, b->received, (size_t)a->n_received * sizeof *a->received) == 0;
+}
+
+/* All ranks list the same for each other, whoever has cut their domains. */
+TEST(a_domain_that_is_sent_is_the_one_that_is_cut)
+{
+    CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
+    CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
+    CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
+    shared cut = {.whole = whole, .owner = owner}, dealt = {.whole = whole, .owner = owner, .deals = true};
+    rank_threads_run(N_RANKS, create, &cut);
+    rank_threads_run(N_RANKS, create, &dealt);
+    for (int k = 0; k < N_RANKS; k++) {
+        const domain *a = cut.models[k]->domain, *b = dealt.models[k]->domain;
+        assert_int_equal(a->n_nodes, b->n_nodes);
+        assert_int_equal(cut.models[k]->lattice.n_springs, dealt.models[k]->lattice.n_springs);
+        assert_memory_equal(a->number, b->number, (size_t)a->n_nodes * sizeof *a->number);
+        assert_memory_equal(a->is_own, b->is_own, (size_t)a->n_nodes);
+        assert_memory_equal(a->is_ghost, b->is_ghost, (size_t)a->n_nodes);
+        assert_memory_equal(a->spring, b->spring, (size_t)cut.models[k]->lattice.n_springs * sizeof *a->spring);
+        assert_int_equal(a->n_neighbours, b->n_neighbours);
+        for (int n = 0; n < a->n_neighbours; n++) assert_true(same_neighbour(&a->neighbours[n], &b->neighbours[n]));
+        assert_int_equal(a->n_whole, l.n_nodes);
+        assert_int_equal(b->n_whole, l.n_nodes);
+    }
+    destroy(&cut);
+    destroy(&dealt);
 }
 
 static const double floor_points[] = {-1.0, -1.0, 1.0, -1.0};
@@ -136,15 +180,17 @@ TEST(what_may_touch_obstacles_is_on_all_ranks)
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS);
     const dem_obstacle floor = SIZED(dem_obstacle, .n_points = 2, .points = floor_points, .restitution = 1.0);
     CLEANUP(free_model) dem_model *whole = support_model(&l, &floor, 1);
-    shared s = {.whole = whole, .owner = owner};
-    rank_threads_run(N_RANKS, create, &s);
-    for (int k = 0; k < N_RANKS; k++) {
-        assert_int_equal(s.status[k], DEM_OK);
-        assert_int_equal(s.models[k]->obstacles.n, 1);
-        assert_same_rows(s.models[k], whole);
-        assert_whole_surface(s.models[k], whole);
+    for (int deals = 0; deals < 2; deals++) {
+        shared s = {.whole = whole, .owner = owner, .deals = deals};
+        rank_threads_run(N_RANKS, create, &s);
+        for (int k = 0; k < N_RANKS; k++) {
+            assert_int_equal(s.status[k], DEM_OK);
+            assert_int_equal(s.models[k]->obstacles.n, 1);
+            assert_same_rows(s.models[k], whole);
+            assert_whole_surface(s.models[k], whole);
+        }
+        destroy(&s);
     }
-    destroy(&s);
 }
 
 /* ---- bodies that touch ---- */
@@ -213,8 +259,9 @@ TEST(surfaces_and_rigid_bodies_are_on_all_ranks)
     CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
     CLEANUP(touching_bodies_free) touching_bodies bodies;
     assert_ok(touching_bodies_create(&bodies, &whole->lattice));
-    for (int touching = 0; touching < 2; touching++) {
-        shared s = {.whole = whole, .owner = owner, .touching = touching};
+    for (int way = 0; way < 4; way++) {
+        const bool touching = way % 2;
+        shared s = {.whole = whole, .owner = owner, .touching = touching, .deals = way / 2};
         rank_threads_run(N_RANKS, create, &s);
         for (int k = 0; k < N_RANKS; k++) {
             assert_int_equal(s.status[k], DEM_OK);
@@ -258,11 +305,13 @@ static void assert_refused(const dem_lattice *l, const dem_obstacle *o, dem_inde
 {
     CLEANUP(free_memory) int32_t *owner = shared_owners(l, N_RANKS);
     CLEANUP(free_model) dem_model *whole = support_model(l, o, n);
-    shared s = {.whole = whole, .owner = owner};
-    rank_threads_run(N_RANKS, create, &s);
-    for (int k = 0; k < N_RANKS; k++) {
-        assert_int_equal(s.status[k], DEM_ERROR_MODEL);
-        assert_string_equal(s.messages[k], message);
+    for (int deals = 0; deals < 2; deals++) {
+        shared s = {.whole = whole, .owner = owner, .deals = deals};
+        rank_threads_run(N_RANKS, create, &s);
+        for (int k = 0; k < N_RANKS; k++) {
+            assert_int_equal(s.status[k], DEM_ERROR_MODEL);
+            assert_string_equal(s.messages[k], message);
+        }
     }
 }
 
@@ -283,10 +332,12 @@ TEST(a_failure_of_one_rank_is_that_of_all)
     CLEANUP(dem_lattice_free) dem_lattice l = shared_disc();
     CLEANUP(free_memory) int32_t *owner = shared_owners(&l, N_RANKS - 1);
     CLEANUP(free_model) dem_model *whole = support_model(&l, NULL, 0);
-    shared s = {.whole = whole, .owner = owner};
-    rank_threads_run(N_RANKS, create, &s);
-    for (int k = 0; k < N_RANKS; k++) {
-        assert_null(s.models[k]);
-        assert_string_equal(s.messages[k], "rank 4 has no node of its own");
+    for (int deals = 0; deals < 2; deals++) {
+        shared s = {.whole = whole, .owner = owner, .deals = deals};
+        rank_threads_run(N_RANKS, create, &s);
+        for (int k = 0; k < N_RANKS; k++) {
+            assert_null(s.models[k]);
+            assert_string_equal(s.messages[k], "rank 4 has no node of its own");
+        }
     }
 }

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Numbers come first, for the rank that waits to make what has the arrays; then the arrays, and last the lists of nodes
+ * that are exchanged with each neighbour. All ranks are the same program on machines of one kind, so that structs are
+ * sent as they are; what points anywhere is put in place again. */
+#include "model/domain_message.h"
+
+#include <stdlib.h>
+
+#include "base/parcel.h"
+#include "base/reduce.h"
+#include "base/status.h"
+#include "lattice/lattice_arrays.h"
+
+/* The numbers of a cut. */
+typedef struct head {
+    domain domain;               /* without its arrays */
+    dem_index n[LATTICE_ITEMS];  /* of the lattice */
+    dem_index n_edges, n_bodies; /* of the boundary, and of the sums over bodies */
+    dem_index n_shares;          /* of springs in stresses */
+    dem_index n_rigid, n_rigid_nodes;
+    bool edges_are_springs;
+    dem_index n_model_bodies;
+    double spacing, omega_max, mass;
+} head;
+
+static head head_of(const dem_model *m)
+{
+    head h = {.domain = *m->domain,
+              .n = {m->lattice.n_nodes, m->lattice.n_springs, m->lattice.n_triangles},
+              .n_edges = m->touching->boundary.n,
+              .n_bodies = m->touching->n_bodies,
+              .n_shares = m->stress.rows->row[m->lattice.n_nodes],
+              .n_rigid = m->rigid.n,
+              .n_rigid_nodes = m->rigid.n_nodes,
+              .edges_are_springs = m->edges_are_springs,
+              .n_model_bodies = m->n_bodies,
+              .spacing = m->spacing,
+              .omega_max = m->omega_max,
+              .mass = m->mass};
+    h.domain.number = h.domain.spring = NULL;
+    h.domain.is_own = h.domain.is_ghost = NULL;
+    h.domain.neighbours = NULL;
+    return h;
+}
+
+static dem_status make_parts(dem_model *m, const head *h)
+{
+    m->domain = calloc(1, sizeof *m->domain);
+    m->touching = calloc(1, sizeof *m->touching);
+    CHECK(m->domain && m->touching, DEM_ERROR_MEMORY, "out of memory for a domain of %lld nodes",
+          (long long)h->n[LATTICE_NODES]);
+    return stress_create_empty(&m->stress, &m->couplings);
+}
+
+/* There are no neighbours before there is a list of them. */
+static void take_head(dem_model *m, const head *h)
+{
+    *m->domain = h->domain;
+    m->domain->n_neighbours = 0;
+    m->lattice = dem_lattice_empty();
+    m->lattice.n_nodes = h->n[LATTICE_NODES];
+    m->lattice.n_springs = h->n[LATTICE_SPRINGS];
+    m->lattice.n_triangles = h->n[LATTICE_TRIANGLES];
+    m->touching->boundary.lattice = &m->lattice;
+    m->touching->boundary.n = h->n_edges;
+    m->touching->domain = m->domain;
+    m->touching->n_bodies = h->n_bodies;
+    m->rigid.n = h->n_rigid;
+    m->rigid.n_nodes = h->n_rigid_nodes;
+    m->edges_are_springs = h->edges_are_springs;
+    m->n_bodies = h->n_model_bodies;
+    m->spacing = h->spacing;
+    m->omega_max = h->omega_max;
+    m->mass = h->mass;
+}
+
+static dem_status prepare(dem_model *m, const head *h)
+{
+    TRY(make_parts(m, h));
+    take_head(m, h);
+    return DEM_OK;
+}
+
+static void list_lattice(parcel *p, dem_lattice *l)
+{
+    for (int k = 0; k < LATTICE_ARRAYS; k++) {
+        const lattice_array *a = &lattice_arrays[k];
+        parcel_add(p, (char *)l + a->offset, (size_t)lattice_count(l, a->of) * a->size);
+    }
+}
+
+static void list_domain(parcel *p, domain *d, const head *h)
+{
+    const size_t n = (size_t)d->n_nodes;
+    parcel_add(p, &d->number, n * sizeof *d->number);
+    parcel_add(p, &d->spring, (size_t)h->n[LATTICE_SPRINGS] * sizeof *d->spring);
+    parcel_add(p, &d->is_own, n);
+    parcel_add(p, &d->is_ghost, n);
+    parcel_add(p, &d->neighbours, (size_t)h->domain.n_neighbours * sizeof *d->neighbours);
+}
+
+static void list_rigid(parcel *p, rigid_bodies *r, dem_index n_nodes)
+{
+    const size_t n = (size_t)r->n_nodes;
+    parcel_add(p, &r->list, (size_t)r->n * sizeof *r->list);
+    parcel_add(p, &r->of_node, (size_t)n_nodes * sizeof *r->of_node);
+    parcel_add(p, &r->nodes, n * sizeof *r->nodes);
+    parcel_add(p, &r->masses, n * sizeof *r->masses);
+    parcel_add(p, &r->shapes, 2 * n * sizeof *r->shapes);
+}
+
+static void list_touching(parcel *p, touching_bodies *o)
+{
+    parcel_add(p, &o->boundary.list, (size_t)o->boundary.n * sizeof *o->boundary.list);
+    parcel_add(p, &o->bodies, (size_t)o->n_bodies * sizeof *o->bodies);
+}
+
+static void list_stress(parcel *p, stress_map *s, const head *h)
+{
+    const size_t n = (size_t)h->n[LATTICE_NODES], shares = (size_t)h->n_shares;
+    stress_rows *rows = s->rows;
+    parcel_add(p, &s->volume, n * sizeof *s->volume);
+    parcel_add(p, &rows->row, (n + 1) * sizeof *rows->row);
+    parcel_add(p, &rows->spring, shares * sizeof *rows->spring);
+    parcel_add(p, &rows->share, shares * sizeof *rows->share);
+}
+
+static void list_arrays(parcel *p, domain_cut *c, const head *h)
+{
+    dem_model *m = c->model;
+    const size_t n = (size_t)h->n[LATTICE_NODES];
+    list_lattice(p, &m->lattice);
+    list_domain(p, m->domain, h);
+    list_touching(p, m->touching);
+    list_rigid(p, &m->rigid, m->lattice.n_nodes);
+    list_stress(p, &m->stress, h);
+    parcel_add(p, &m->inverse_mass, n * sizeof *m->inverse_mass);
+    parcel_add(p, &c->order, n * sizeof *c->order);
+}
+
+static void list_neighbours(parcel *p, domain *d)
+{
+    for (int k = 0; k < d->n_neighbours; k++) {
+        domain_neighbour *one = &d->neighbours[k];
+        parcel_add(p, &one->sent, (size_t)one->n_sent * sizeof *one->sent);
+        parcel_add(p, &one->received, (size_t)one->n_received * sizeof *one->received);
+    }
+}
+
+/* On the rank that waits: what points anywhere. */
+static void link_parts(dem_model *m, const head *h)
+{
+    domain *d = m->domain;
+    for (int k = 0; k < h->domain.n_neighbours; k++) d->neighbours[k].sent = d->neighbours[k].received = NULL;
+    d->n_neighbours = h->domain.n_neighbours;
+    rigid_bodies_link(&m->rigid);
+}
+
+static dem_status send_arrays(const ranks *r, int to, domain_cut *c, const head *h)
+{
+    parcel arrays = {0}, neighbours = {0};
+    if (c != NULL) list_arrays(&arrays, c, h);
+    TRY(parcel_send(r, to, &arrays));
+    if (r->rank == to) link_parts(c->model, h);
+    if (c != NULL) list_neighbours(&neighbours, c->model->domain);
+    return parcel_send(r, to, &neighbours);
+}
+
+dem_status domain_message_send(const ranks *r, int to, domain_cut *c)
+{
+    head h = {0};
+    if (r->rank == 0) h = head_of(c->model);
+    parcel_pass(r, to, &h, sizeof h);
+    TRY(reduce_status(r, r->rank == to ? prepare(c->model, &h) : DEM_OK, 0.0));
+    return send_arrays(r, to, c, &h);
+}
