@@ -46,6 +46,7 @@ void automaton_destroy(automaton *c)
     rate_sums_free(&c->rates);
     broad_phase_destroy(&c->broad_phase);
     contact_set_destroy(&c->set);
+    *c = (automaton){0};
 }
 
 /* Room comes first: behind it nothing can fail but the set's own memory, and then nothing has changed. */

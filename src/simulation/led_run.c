@@ -14,6 +14,7 @@
 #include "model/shared_model.h"
 #include "simulation/rank_shares.h"
 #include "simulation/shared_problem.h"
+#include "simulation/step_parts.h"
 
 /* A frame of one of the whole's observers. */
 typedef struct frame_relay {
@@ -382,6 +383,7 @@ dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_opt
     CHECK_MEMORY(l);
     *l = (led_run){.ranks = *r, .whole = whole};
     l->ranks.end = NULL;
+    step_parts_destroy(whole); /* before there is memory for parts */
     dem_status status = dem_checkpoint_create(&entries);
     if (status == DEM_OK) status = lead(l, entries, options, checkpoint);
     dem_checkpoint_destroy(entries);

@@ -20,6 +20,7 @@
 #include "simulation/query.h"
 #include "simulation/right_hand_side.h"
 #include "simulation/shared_checkpoint.h"
+#include "simulation/step_parts.h"
 #include "simulation/unseen_steps.h"
 
 static dem_status allocate(dem_simulation *s)
@@ -252,14 +253,7 @@ void dem_simulation_destroy(dem_simulation *s)
 {
     if (s == NULL) return;
     led_run_destroy(s->leads);
-    integrator_destroy(&s->integrator);
-    unseen_steps_destroy(s);
-    kernel_destroy(&s->kernel);
-    event_queue_destroy(&s->queue);
-    source_list_destroy(&s->sources);
-    contact_source_destroy(&s->contact_events);
-    local_springs_destroy(&s->local_springs);
-    automaton_destroy(&s->automaton);
+    step_parts_destroy(s);
     breaking_destroy(s);
     boundary_conditions_free(&s->boundaries);
     rigid_contact_destroy(s->rigid);
@@ -269,10 +263,8 @@ void dem_simulation_destroy(dem_simulation *s)
     held_forces_destroy(&s->held_forces);
     halo_destroy(&s->halo);
     overlap_destroy(&s->overlap);
-    free(s->initial);
     free(s->frame);
     free(s->measures);
-    if (s->survey != NULL) survey_destroy(s->survey);
     if (s->field != NULL) stress_field_destroy(s->field);
     free(s->field);
     free(s->survey);
@@ -289,5 +281,6 @@ dem_status dem_simulation_observe(dem_simulation *s, const dem_observer *observe
     CHECK(s != NULL && observer != NULL, DEM_ERROR_ARGUMENT, "dem_simulation_observe: %s is NULL",
           s == NULL ? "simulation" : "observer");
     CHECK(!s->advanced, DEM_ERROR_ARGUMENT, "observers come before the first advance");
-    return observers_add(&s->observers, observer, integrator_counts(&s->integrator).steps > 0 ? s->t : -1.0);
+    const dem_simulation *steps = s->leads != NULL ? led_run_part(s->leads) : s;
+    return observers_add(&s->observers, observer, integrator_counts(&steps->integrator).steps > 0 ? s->t : -1.0);
 }

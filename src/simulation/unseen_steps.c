@@ -46,6 +46,7 @@ void unseen_steps_destroy(dem_simulation *s)
 {
     step_wave_free(s->unseen.wave);
     free(s->unseen.surface);
+    s->unseen = (run_unseen){0};
 }
 
 /* How many steps end before t_end and before the next frame; `most` if there are more. */
