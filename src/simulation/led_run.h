@@ -13,8 +13,9 @@
  *  \param r           outlives the simulation
  *  \param options     with which the simulation was created
  *  \param checkpoint  from which it was resumed; NULL: it was not
- *  \return as domain_model_create() and dem_simulation_create(); then it leads nobody, and may be destroyed.
- *  Likewise after DEM_ERROR_MODEL, where a function computes the motion of an obstacle */
+ *  \return as domain_model_create() and dem_simulation_create(); then it leads nobody, and has to be destroyed, as what
+ *  it would have been advanced with is gone (simulation/step_parts.h). Likewise after DEM_ERROR_MODEL, where a function
+ *  computes the motion of an obstacle */
 DEM_API dem_status dem_private_lead(dem_simulation *whole, const ranks *r, const dem_options *options,
                                     const dem_checkpoint *checkpoint);
 
