@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every rank finds its domain in the whole lattice by itself: what it sends to another rank is what that one expects,
- * in the same order, as both go by the same rule. Own nodes that are next to common ones go to all ranks. */
+/* Each domain is found in the whole lattice without the others: what its rank sends to another one is what that one
+ * expects, in the same order, as both go by the same rule. Own nodes that are next to common ones go to all ranks. */
 #include "domain/domain.h"
 
 #include <stdlib.h>

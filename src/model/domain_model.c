@@ -4,7 +4,8 @@
  * whose other triangle belongs to another rank only is none; and the shares of springs in stresses, as a side opposite
  * to an own node may have its other triangle elsewhere. Orders of nodes, springs and triangles are those of the whole,
  * so that sums over a row have the same bits. A ghost has the inverse mass 0: its row is not complete, and what it does
- * comes from its owner.
+ * comes from its owner. All that is taken from the whole, with the lattice, is the cut of a domain, which may be made
+ * on rank 0 and sent (model/domain_message.h); the rest is compiled from it alone.
  *
  * All ranks have in common
  * - where there are obstacles what may touch them;
