@@ -37,6 +37,21 @@ TEST(ties_go_by_number)
     assert_memory_equal(owner, expected, sizeof owner);
 }
 
+/* Each rank has a node, though one weighs as much as all. */
+TEST(shares_have_equal_weights_and_every_rank_a_node)
+{
+    double x[12] = {0.0};
+    for (int i = 0; i < 6; i++) x[2 * i] = i;
+    const dem_lattice l = SIZED(dem_lattice, .dim = 2, .n_nodes = 6, .x = x);
+    const double light_first[6] = {1.0, 1.0, 1.0, 1.0, 2.0, 2.0}, heavy_last[6] = {0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+    const int32_t halves[6] = {0, 0, 0, 0, 1, 1}, thirds[6] = {0, 0, 0, 0, 1, 2};
+    int32_t owner[6];
+    assert_ok(partition_bisect_weighted(&l, light_first, 2, owner));
+    assert_memory_equal(owner, halves, sizeof owner);
+    assert_ok(partition_bisect_weighted(&l, heavy_last, 3, owner));
+    assert_memory_equal(owner, thirds, sizeof owner);
+}
+
 TEST(more_ranks_than_nodes_are_refused)
 {
     double x[4] = {0.0, 0.0, 1.0, 0.0};
